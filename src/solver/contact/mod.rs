@@ -1,0 +1,256 @@
+//! What is asked: the operating point in SI units, its Hertzian scales, its Moes numbers, and every conversion between them.
+//!
+//! This is the only place where SI quantities meet dimensionless ones; the rest of the solver is scale-free.
+
+mod film_formulas;
+mod moes;
+
+pub use film_formulas::{
+    FilmFormula, FilmPrediction, dowson_higginson_minimum, dowson_toyoda_central, moes_line_central, moes_line_film,
+};
+pub use moes::{MoesRequest, si_from_moes};
+
+use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
+
+/// Highest Hertzian pressure \[Pa\] that is still called a real contact; beyond it results carry a warning.
+pub const PLAUSIBLE_HERTZ_PRESSURE_PA: f64 = 3.2e9;
+
+/// The shape of the contact: an infinitely long line or a circular point contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
+pub enum ContactKind {
+    /// Line contact: loads in N/m, unknowns along X only.
+    #[default]
+    Line,
+    /// Circular point contact: loads in N.
+    Point,
+}
+
+/// Why an operating point is refused. Each message names the quantity, its value and what would be accepted.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ContactError {
+    /// A quantity is NaN, infinite, or outside its valid range.
+    #[error("{quantity} is {value}{unit}, but must be a finite number between {min:e} and {max:e}{unit}")]
+    OutOfRange {
+        /// Name of the quantity as the field calls it.
+        quantity: &'static str,
+        /// The value given.
+        value: f64,
+        /// Unit with a leading space, or empty.
+        unit: &'static str,
+        /// Smallest accepted value.
+        min: f64,
+        /// Largest accepted value.
+        max: f64,
+    },
+    /// More quantities were fixed than M and L leave free.
+    #[error("M and L leave two quantities to follow, but {given} are all given; leave out at least one of them")]
+    Overdetermined {
+        /// The given quantities.
+        given: &'static str,
+    },
+}
+
+/// One operating point in SI units. Valid when [`OperatingPoint::check`] accepts it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OperatingPoint {
+    /// Line or point contact.
+    pub kind: ContactKind,
+    /// Reduced radius of curvature R \[m\], (2.3).
+    pub radius_m: f64,
+    /// Mean entrainment speed u_m \[m/s\], (2.1).
+    pub speed_m_per_s: f64,
+    /// Load w: \[N/m\] for a line, \[N\] for a point contact, (2.9).
+    pub load: f64,
+    /// Reduced modulus E′ \[Pa\], (2.5).
+    pub modulus_pa: f64,
+    /// Viscosity at ambient pressure η₀ \[Pa·s\].
+    pub viscosity_pa_s: f64,
+    /// Pressure–viscosity coefficient α \[1/Pa\].
+    pub alpha_per_pa: f64,
+}
+
+/// Scales of the dry Hertzian contact, (2.21).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Hertz {
+    /// Half width (line) or radius (point) a \[m\].
+    pub half_width_m: f64,
+    /// Maximum pressure p_H \[Pa\].
+    pub pressure_pa: f64,
+}
+
+/// Moes numbers of load and lubricant, (3.19) and (3.22).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Moes {
+    /// Load number M \[-\].
+    pub m: f64,
+    /// Lubricant number L \[-\].
+    pub l: f64,
+}
+
+/// Accepted ranges of the SI quantities: name, unit, smallest, largest. Wider than any contact, narrow enough to keep numbers sane.
+const RANGES: [(&str, &str, f64, f64); 6] = [
+    ("radius", " m", 1e-6, 1e3),
+    ("speed", " m/s", 1e-9, 1e4),
+    ("load", " N (or N/m)", 1e-6, 1e10),
+    ("modulus", " Pa", 1e5, 1e14),
+    ("viscosity", " Pa·s", 1e-6, 1e4),
+    ("alpha", " 1/Pa", 1e-12, 1e-5),
+];
+
+impl OperatingPoint {
+    /// Table 2.1 of the dissertation: a rolling line contact, M = 40, L = 10.
+    pub const TABLE_2_1: Self = Self {
+        kind: ContactKind::Line,
+        radius_m: 0.0225,
+        speed_m_per_s: 5.0365,
+        load: 646_110.0,
+        modulus_pa: 287.8e9,
+        viscosity_pa_s: 0.004,
+        alpha_per_pa: 22e-9,
+    };
+
+    /// The six SI quantities in the order radius, speed, load, modulus, viscosity, alpha.
+    pub fn quantities(&self) -> [f64; 6] {
+        [self.radius_m, self.speed_m_per_s, self.load, self.modulus_pa, self.viscosity_pa_s, self.alpha_per_pa]
+    }
+
+    /// Refuses values that are not finite, not positive, or outside any sense.
+    pub fn check(&self) -> Result<(), ContactError> {
+        for (value, (quantity, unit, min, max)) in self.quantities().into_iter().zip(RANGES) {
+            if !(value.is_finite() && value >= min && value <= max) {
+                return Err(ContactError::OutOfRange { quantity, value, unit, min, max });
+            }
+        }
+        let moes = self.moes();
+        for (quantity, value, min, max) in [("Moes number M", moes.m, 0.05, 1e5), ("Moes number L", moes.l, 1e-3, 1e3)]
+        {
+            if !(value.is_finite() && value >= min && value <= max) {
+                return Err(ContactError::OutOfRange { quantity, value, unit: "", min, max });
+            }
+        }
+        Ok(())
+    }
+
+    /// Hertzian half width and pressure, (2.21).
+    pub fn hertz(&self) -> Hertz {
+        let (w, r, e) = (self.load, self.radius_m, self.modulus_pa);
+        match self.kind {
+            ContactKind::Line => {
+                Hertz { half_width_m: (8.0 * w * r / (e * PI)).sqrt(), pressure_pa: (w * e / (2.0 * PI * r)).sqrt() }
+            }
+            ContactKind::Point => Hertz {
+                half_width_m: (1.5 * w * r / e).cbrt(),
+                pressure_pa: (1.5 * w * e * e / (PI * PI * PI * r * r)).cbrt(),
+            },
+        }
+    }
+
+    /// Dimensionless speed 2U = 2 η₀ u_m / (E′ R), the group under both Moes numbers.
+    pub fn speed_group(&self) -> f64 {
+        2.0 * self.viscosity_pa_s * self.speed_m_per_s / (self.modulus_pa * self.radius_m)
+    }
+
+    /// Moes numbers, (3.19) for a line and (3.22) for a point contact.
+    pub fn moes(&self) -> Moes {
+        let u = self.speed_group();
+        let (e, r) = (self.modulus_pa, self.radius_m);
+        let m = match self.kind {
+            ContactKind::Line => self.load / (e * r * u.sqrt()),
+            ContactKind::Point => self.load / (e * r * r * u.powf(0.75)),
+        };
+        Moes { m, l: self.alpha_per_pa * e * u.powf(0.25) }
+    }
+
+    /// λ̄ = 12 u_m η₀ R² / (p_H a³), the only number left in the scaled Reynolds equation (2.23).
+    pub fn lambda_bar(&self) -> f64 {
+        let hertz = self.hertz();
+        12.0 * self.speed_m_per_s * self.viscosity_pa_s * self.radius_m.powi(2)
+            / (hertz.pressure_pa * hertz.half_width_m.powi(3))
+    }
+
+    /// Film thickness scale a²/R \[m\], so that h = (a²/R) H, (2.22).
+    pub fn film_scale_m(&self) -> f64 {
+        self.hertz().half_width_m.powi(2) / self.radius_m
+    }
+
+    /// α p_H \[-\], the exponent that decides how stiff the lubricant becomes in the contact.
+    pub fn alpha_hertz(&self) -> f64 {
+        self.alpha_per_pa * self.hertz().pressure_pa
+    }
+}
+
+/// Reduced modulus E′ \[Pa\] of two bodies, (2.5). Young's moduli in Pa, Poisson ratios in \[0, 0.5\].
+pub fn reduced_modulus(e1: f64, nu1: f64, e2: f64, nu2: f64) -> Result<f64, ContactError> {
+    for (quantity, value) in [("Young's modulus e1", e1), ("Young's modulus e2", e2)] {
+        if !(value.is_finite() && (1e5..=1e14).contains(&value)) {
+            return Err(ContactError::OutOfRange { quantity, value, unit: " Pa", min: 1e5, max: 1e14 });
+        }
+    }
+    for (quantity, value) in [("Poisson ratio nu1", nu1), ("Poisson ratio nu2", nu2)] {
+        if !(0.0..=0.5).contains(&value) {
+            return Err(ContactError::OutOfRange { quantity, value, unit: "", min: 0.0, max: 0.5 });
+        }
+    }
+    Ok(2.0 / ((1.0 - nu1 * nu1) / e1 + (1.0 - nu2 * nu2) / e2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn close(a: f64, b: f64, relative: f64) {
+        assert!((a / b - 1.0).abs() < relative, "{a} against {b}");
+    }
+
+    #[test]
+    fn table_2_1_has_the_moes_numbers_the_dissertation_prints() {
+        let moes = OperatingPoint::TABLE_2_1.moes();
+        close(moes.m, 40.0, 1e-5);
+        close(moes.l, 10.0, 1e-5);
+        let hertz = OperatingPoint::TABLE_2_1.hertz();
+        close(hertz.pressure_pa, 1146878557.184226, 1e-12);
+        close(hertz.half_width_m, 0.0003586486106552479, 1e-12);
+        close(OperatingPoint::TABLE_2_1.lambda_bar(), 0.002313184217737941, 1e-12);
+    }
+
+    #[test]
+    fn hertz_pressure_carries_the_load() {
+        let line = OperatingPoint::TABLE_2_1;
+        let h = line.hertz();
+        close(h.pressure_pa * h.half_width_m * PI / 2.0, line.load, 1e-12);
+        let point = OperatingPoint { kind: ContactKind::Point, load: 50.0, radius_m: 0.01, ..line };
+        let h = point.hertz();
+        close(h.pressure_pa * h.half_width_m.powi(2) * 2.0 * PI / 3.0, point.load, 1e-12);
+    }
+
+    #[test]
+    fn alpha_hertz_is_the_moes_combination_whatever_the_realisation() {
+        for kind in [ContactKind::Line, ContactKind::Point] {
+            let load = if kind == ContactKind::Line { 3e5 } else { 60.0 };
+            let point = OperatingPoint { kind, load, ..OperatingPoint::TABLE_2_1 };
+            let Moes { m, l } = point.moes();
+            let expected = match kind {
+                ContactKind::Line => l * (m / (2.0 * PI)).sqrt(),
+                ContactKind::Point => l * (1.5 * m / PI.powi(3)).cbrt(),
+            };
+            close(point.alpha_hertz(), expected, 1e-12);
+        }
+    }
+
+    #[test]
+    fn equal_steel_bodies_give_the_textbook_modulus() {
+        close(reduced_modulus(210e9, 0.3, 210e9, 0.3).unwrap(), 210e9 / 0.91, 1e-12);
+        assert!(reduced_modulus(210e9, 0.7, 210e9, 0.3).is_err());
+    }
+
+    #[test]
+    fn nonsense_is_refused_with_a_sentence() {
+        for bad in [f64::NAN, f64::INFINITY, 0.0, -1.0] {
+            let point = OperatingPoint { radius_m: bad, ..OperatingPoint::TABLE_2_1 };
+            let message = point.check().unwrap_err().to_string();
+            assert!(message.starts_with("radius is"), "{message}");
+        }
+        assert!(OperatingPoint::TABLE_2_1.check().is_ok());
+    }
+}

@@ -1,0 +1,178 @@
+//! From Moes numbers back to SI: which quantity follows when M and L are given.
+
+use super::{ContactError, ContactKind, OperatingPoint};
+
+/// M and L with whatever SI quantities are fixed; the others follow or take the default realisation.
+///
+/// Default realisation, line: R 3 mm, E′ 231 GPa, η₀ 0.01 Pa·s, α = 5/GPa · L^0.463, u_m from L, w from M.
+/// Point: R 10 mm and α = 5/GPa · (L/1.7)^0.655.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct MoesRequest {
+    /// Line or point contact.
+    pub kind: ContactKind,
+    /// Load number M.
+    pub m: f64,
+    /// Lubricant number L.
+    pub l: f64,
+    /// Fixed radius \[m\].
+    pub radius_m: Option<f64>,
+    /// Fixed speed \[m/s\].
+    pub speed_m_per_s: Option<f64>,
+    /// Fixed load \[N/m\] or \[N\].
+    pub load: Option<f64>,
+    /// Fixed reduced modulus \[Pa\].
+    pub modulus_pa: Option<f64>,
+    /// Fixed ambient viscosity \[Pa·s\].
+    pub viscosity_pa_s: Option<f64>,
+    /// Fixed pressure–viscosity coefficient \[1/Pa\].
+    pub alpha_per_pa: Option<f64>,
+}
+
+impl MoesRequest {
+    /// M and L of a contact, everything else left to the default realisation.
+    pub fn new(kind: ContactKind, m: f64, l: f64) -> Self {
+        Self { kind, m, l, ..Self::default() }
+    }
+
+    fn default_radius(&self) -> f64 {
+        match self.kind {
+            ContactKind::Line => 3e-3,
+            ContactKind::Point => 10e-3,
+        }
+    }
+
+    fn default_alpha(&self) -> f64 {
+        match self.kind {
+            ContactKind::Line => 5e-9 * self.l.powf(0.463),
+            ContactKind::Point => 5e-9 * (self.l / 1.7).powf(0.655),
+        }
+    }
+}
+
+/// The operating point with the requested Moes numbers (inverse of (3.19), (3.22)).
+///
+/// Followers, by what is fixed: nothing of speed, load, radius → speed from L, load from M. Speed fixed → α from L. Load fixed →
+/// radius from M. Load and speed fixed → radius from M, α from L. Load and radius fixed → speed from M, α from L.
+///
+/// # Errors
+/// When more is fixed than M and L leave free, or the result is outside any sense.
+pub fn si_from_moes(request: &MoesRequest) -> Result<OperatingPoint, ContactError> {
+    let MoesRequest { kind, m, l, .. } = *request;
+    for (quantity, value, min, max) in [("Moes number M", m, 0.05, 1e5), ("Moes number L", l, 1e-3, 1e3)] {
+        if !(value.is_finite() && value >= min && value <= max) {
+            return Err(ContactError::OutOfRange { quantity, value, unit: "", min, max });
+        }
+    }
+    let e = request.modulus_pa.unwrap_or(231e9);
+    let eta = request.viscosity_pa_s.unwrap_or(0.01);
+    let radius_default = request.default_radius();
+    // The load is E′ R^d u^q M with the speed group u = 2 η₀ u_m / (E′ R).
+    let (d, q): (f64, f64) = match kind {
+        ContactKind::Line => (1.0, 0.5),
+        ContactKind::Point => (2.0, 0.75),
+    };
+    let group_of_alpha = |alpha: f64| (l / (alpha * e)).powi(4);
+    let alpha_of_group = |group: f64| l / (e * group.powf(0.25));
+    let overdetermined = |given: &'static str| Err(ContactError::Overdetermined { given });
+    let (radius, group, alpha) = match (request.radius_m, request.speed_m_per_s, request.load, request.alpha_per_pa) {
+        (radius, None, None, alpha) => {
+            let alpha = alpha.unwrap_or_else(|| request.default_alpha());
+            (radius.unwrap_or(radius_default), group_of_alpha(alpha), alpha)
+        }
+        (radius, Some(speed), None, None) => {
+            let radius = radius.unwrap_or(radius_default);
+            let group = 2.0 * eta * speed / (e * radius);
+            (radius, group, alpha_of_group(group))
+        }
+        (None, Some(speed), None, Some(alpha)) => {
+            let group = group_of_alpha(alpha);
+            (2.0 * eta * speed / (e * group), group, alpha)
+        }
+        (None, None, Some(load), alpha) => {
+            let alpha = alpha.unwrap_or_else(|| request.default_alpha());
+            let group = group_of_alpha(alpha);
+            ((load / (e * m * group.powf(q))).powf(1.0 / d), group, alpha)
+        }
+        (Some(radius), None, Some(load), None) => {
+            let group = (load / (e * radius.powf(d) * m)).powf(1.0 / q);
+            (radius, group, alpha_of_group(group))
+        }
+        (None, Some(speed), Some(load), None) => {
+            // w = E′ R^(d−q) (2 η₀ u / E′)^q M
+            let radius = (load / (e * m * (2.0 * eta * speed / e).powf(q))).powf(1.0 / (d - q));
+            let group = 2.0 * eta * speed / (e * radius);
+            (radius, group, alpha_of_group(group))
+        }
+        (Some(_), Some(_), Some(_), _) => return overdetermined("radius, speed and load"),
+        (Some(_), Some(_), None, Some(_)) => return overdetermined("radius, speed and alpha"),
+        (Some(_), None, Some(_), Some(_)) => return overdetermined("radius, load and alpha"),
+        (None, Some(_), Some(_), Some(_)) => return overdetermined("speed, load and alpha"),
+    };
+    let point = OperatingPoint {
+        kind,
+        radius_m: radius,
+        speed_m_per_s: group * e * radius / (2.0 * eta),
+        load: request.load.unwrap_or(e * radius.powf(d) * group.powf(q) * m),
+        modulus_pa: e,
+        viscosity_pa_s: eta,
+        alpha_per_pa: alpha,
+    };
+    point.check()?;
+    Ok(point)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_choice_of_followers_returns_the_requested_numbers() {
+        for kind in [ContactKind::Line, ContactKind::Point] {
+            let (load, m) = if kind == ContactKind::Line { (2e5, 40.0) } else { (60.0, 200.0) };
+            let base = MoesRequest::new(kind, m, 8.0);
+            for request in [
+                base,
+                MoesRequest { radius_m: Some(0.02), ..base },
+                MoesRequest { speed_m_per_s: Some(2.0), ..base },
+                MoesRequest { alpha_per_pa: Some(2e-8), ..base },
+                MoesRequest { load: Some(load), ..base },
+                MoesRequest { load: Some(load), speed_m_per_s: Some(1.0), ..base },
+                MoesRequest { load: Some(load), radius_m: Some(0.01), ..base },
+                MoesRequest { speed_m_per_s: Some(1.5), alpha_per_pa: Some(1e-8), ..base },
+                MoesRequest { modulus_pa: Some(1e11), viscosity_pa_s: Some(0.04), ..base },
+            ] {
+                let point = si_from_moes(&request).unwrap();
+                let moes = point.moes();
+                assert!((moes.m / request.m - 1.0).abs() < 1e-10, "{request:?}");
+                assert!((moes.l / request.l - 1.0).abs() < 1e-10, "{request:?}");
+                for (given, got) in [
+                    (request.radius_m, point.radius_m),
+                    (request.speed_m_per_s, point.speed_m_per_s),
+                    (request.load, point.load),
+                    (request.alpha_per_pa, point.alpha_per_pa),
+                ] {
+                    assert!(given.is_none_or(|g| (g / got - 1.0).abs() < 1e-10), "{request:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_default_realisation_is_the_one_of_the_design() {
+        let point = si_from_moes(&MoesRequest::new(ContactKind::Line, 40.0, 10.0)).unwrap();
+        assert_eq!((point.radius_m, point.modulus_pa, point.viscosity_pa_s), (3e-3, 231e9, 0.01));
+        assert!((point.alpha_per_pa - 5e-9 * 10f64.powf(0.463)).abs() < 1e-20);
+    }
+
+    #[test]
+    fn fixing_too_much_is_refused() {
+        let request = MoesRequest {
+            radius_m: Some(0.01),
+            speed_m_per_s: Some(1.0),
+            load: Some(1e5),
+            ..MoesRequest::new(ContactKind::Line, 40.0, 10.0)
+        };
+        assert!(si_from_moes(&request).unwrap_err().to_string().contains("radius, speed and load"));
+        assert!(si_from_moes(&MoesRequest::new(ContactKind::Line, f64::NAN, 10.0)).is_err());
+    }
+}

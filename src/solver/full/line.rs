@@ -1,0 +1,353 @@
+//! Newton's method for the stationary line contact on any grid: rows, Jacobian products, preconditioner, damping, stopping.
+
+use super::band::BandLu;
+use super::gmres::Gmres;
+use super::solution::{Problem, Report, Termination};
+use crate::solver::elasticity::Scratch;
+use crate::solver::grid::{FIRST_UNKNOWN, LineGrid, dot};
+use crate::solver::observer::{NewtonStep, Observer};
+use crate::solver::reynolds::{CENTER, Node, PENALTY, row};
+
+/// Nodes of a line row: two upstream, its own, one downstream.
+const LINE_STENCIL: usize = 4;
+
+/// Settings of a full solve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SolveOptions {
+    /// Stop on ‖Δz‖/‖z‖ below this, z = (P, H₀).
+    pub tolerance: f64,
+    /// Newton steps per attempt.
+    pub max_newton: usize,
+    /// Krylov iterations per Newton step.
+    pub max_krylov: usize,
+    /// Half-bandwidth of the kernel kept in the preconditioner.
+    pub kernel_band: usize,
+    /// Penalty factor γ̄ of (2.36).
+    pub penalty: f64,
+}
+
+impl Default for SolveOptions {
+    fn default() -> Self {
+        Self { tolerance: 1e-10, max_newton: 80, max_krylov: 80, kernel_band: 6, penalty: PENALTY }
+    }
+}
+
+/// The discrete system of one problem on one grid, with its state and all work space.
+pub struct LineSystem {
+    /// The grid.
+    pub grid: LineGrid,
+    /// P, node array.
+    pub pressure: Vec<f64>,
+    /// H, node array.
+    pub film: Vec<f64>,
+    /// H₀.
+    pub h_0: f64,
+    deformation: Vec<f64>,
+    nodes: Vec<Node>,
+    /// f_p at the unknowns.
+    pub residual: Vec<f64>,
+    /// ∂f/∂P and ∂f/∂H per row.
+    pub d_p: Vec<[f64; LINE_STENCIL]>,
+    /// ∂f/∂H per row.
+    pub d_h: Vec<[f64; LINE_STENCIL]>,
+    scaling: Vec<f64>,
+    step: Vec<f64>,
+    step_deformation: Vec<f64>,
+    preconditioner: Preconditioner,
+    krylov: Gmres,
+    fft: Scratch,
+    field: Vec<f64>,
+    rhs: Vec<f64>,
+    update: Vec<f64>,
+}
+
+#[derive(Default)]
+struct Preconditioner {
+    band: BandLu,
+    /// Band⁻¹ applied to the H₀ column.
+    column: Vec<f64>,
+    /// wᵀ column.
+    schur: f64,
+    kernel: Vec<f64>,
+    kernel_band: usize,
+}
+
+impl LineSystem {
+    /// A system on a grid, with all work space; the state is zero until it is set.
+    pub fn new(grid: LineGrid) -> Self {
+        let (n, u) = (grid.len(), grid.unknowns());
+        Self {
+            pressure: vec![0.0; n],
+            film: vec![0.0; n],
+            h_0: 0.0,
+            deformation: vec![0.0; n],
+            nodes: vec![Node::default(); n],
+            residual: vec![0.0; u],
+            d_p: vec![[0.0; LINE_STENCIL]; u],
+            d_h: vec![[0.0; LINE_STENCIL]; u],
+            scaling: vec![1.0; u],
+            step: vec![0.0; n],
+            step_deformation: vec![0.0; n],
+            preconditioner: Preconditioner::default(),
+            krylov: Gmres::default(),
+            fft: Scratch::default(),
+            field: vec![0.0; n],
+            rhs: vec![0.0; u + 1],
+            update: vec![0.0; u + 1],
+            grid,
+        }
+    }
+
+    /// Sets the pressure (node array), scaled to carry the load exactly, and recomputes the deformation.
+    pub fn set_pressure(&mut self, problem: &Problem, pressure: &[f64]) {
+        let n = self.grid.len();
+        self.pressure.copy_from_slice(pressure);
+        for i in [0, 1, n - 1] {
+            self.pressure[i] = 0.0;
+        }
+        let carried = dot(&self.grid.weights, &self.pressure);
+        let factor = problem.load / carried;
+        if factor.is_finite() && factor > 0.0 {
+            self.pressure.iter_mut().for_each(|p| *p *= factor);
+        }
+        self.grid.deform(&self.pressure, &mut self.deformation, &mut self.fft);
+    }
+
+    /// Sets H₀ and the film.
+    pub fn set_h_0(&mut self, h_0: f64) {
+        self.h_0 = h_0;
+        for ((h, x), d) in self.film.iter_mut().zip(&self.grid.x).zip(&self.deformation) {
+            *h = h_0 + 0.5 * x * x + d;
+        }
+    }
+
+    /// Sets H₀ so that the film at X = 0 is `film`.
+    pub fn set_central_film(&mut self, film: f64) {
+        self.set_h_0(0.0);
+        let at_zero = self.grid.at(&self.film, 0.0);
+        self.set_h_0(film - at_zero);
+    }
+
+    /// Evaluates all rows at the current state: residual and, with `derivatives`, the Jacobian bands. Returns the residual norm.
+    pub fn evaluate(&mut self, problem: &Problem, penalty: f64, derivatives: bool) -> f64 {
+        for ((node, &p), &h) in self.nodes.iter_mut().zip(&self.pressure).zip(&self.film) {
+            *node = Node::new(&problem.fluid, problem.inverse_lambda, p, h);
+        }
+        let mut sum = 0.0;
+        for (k, geometry) in self.grid.rows.iter().enumerate() {
+            let nodes = &self.nodes[k..k + LINE_STENCIL];
+            let here = &nodes[CENTER];
+            let r = row(geometry, penalty, [&nodes[0], &nodes[1], here, &nodes[3], here, here]);
+            self.residual[k] = r.value;
+            sum += self.grid.weights[k + FIRST_UNKNOWN] * r.value * r.value;
+            if derivatives {
+                self.d_p[k] = [r.d_p[0], r.d_p[1], r.d_p[2], r.d_p[3]];
+                self.d_h[k] = [r.d_h[0], r.d_h[1], r.d_h[2], r.d_h[3]];
+            }
+        }
+        sum.sqrt()
+    }
+
+    /// Newton's method from the current state.
+    pub fn newton(
+        &mut self,
+        problem: &Problem,
+        options: &SolveOptions,
+        observer: &mut dyn Observer,
+        report: &mut Report,
+    ) {
+        let mut residual = self.evaluate(problem, options.penalty, true);
+        let mut previous = f64::NAN;
+        report.termination = Termination::IterationLimit;
+        let mut forcing: f64 = 0.05;
+        for _ in 0..options.max_newton {
+            if observer.cancelled() {
+                report.termination = Termination::Cancelled;
+                break;
+            }
+            report.residuals.push(residual);
+            if previous.is_finite() {
+                // Eisenstat & Walker's second choice: no more linear accuracy than the nonlinear problem can use.
+                forcing = (0.9 * (residual / previous).powi(2)).clamp(1e-5, 0.05);
+            }
+            previous = residual;
+            let linear = self.solve_linear(options, forcing);
+            report.linear_iterations += linear;
+            report.newton_iterations += 1;
+            let (taken, accepted) = self.damped_step(problem, options, residual);
+            residual = accepted;
+            report.steps.push(taken);
+            observer.newton_step(&NewtonStep { iteration: report.newton_iterations, residual: previous, step: taken });
+            if !(residual.is_finite() && taken.is_finite()) || residual > 1e12 {
+                report.termination = Termination::Diverged;
+                break;
+            }
+            if taken < options.tolerance {
+                report.termination = Termination::Converged;
+                break;
+            }
+        }
+        report.residual_norm = residual;
+    }
+
+    /// Takes the Newton step with backtracking on the residual (to 1/64, then accepts); the film may lose 90 % per step at most.
+    /// Returns ‖Δz‖/‖z‖ and the new residual.
+    fn damped_step(&mut self, problem: &Problem, options: &SolveOptions, before: f64) -> (f64, f64) {
+        let u = self.grid.unknowns();
+        let dh_0 = self.update[u];
+        self.step[FIRST_UNKNOWN..FIRST_UNKNOWN + u].copy_from_slice(&self.update[..u]);
+        self.grid.deform(&self.step, &mut self.step_deformation, &mut self.fft);
+        let mut longest: f64 = 1.0;
+        for (h, d) in self.film.iter().zip(&self.step_deformation) {
+            let change = d + dh_0;
+            if change < -0.9 * h {
+                longest = longest.min(-0.9 * h / change);
+            }
+        }
+        let size = (dot(&self.step, &self.step) + dh_0 * dh_0).sqrt();
+        let (start_h_0, mut factor, mut taken) = (self.h_0, longest, 0.0);
+        let mut residual;
+        loop {
+            let delta = factor - taken;
+            for (p, s) in self.pressure.iter_mut().zip(&self.step) {
+                *p += delta * s;
+            }
+            for (d, s) in self.deformation.iter_mut().zip(&self.step_deformation) {
+                *d += delta * s;
+            }
+            taken = factor;
+            self.set_h_0(start_h_0 + factor * dh_0);
+            residual = self.evaluate(problem, options.penalty, true);
+            let norm = (dot(&self.pressure, &self.pressure) + self.h_0 * self.h_0).sqrt();
+            let relative = factor * size / norm;
+            if residual < before * (1.0 - 1e-4 * factor) || factor <= longest / 64.0 || relative < 1e-7 {
+                // A full, fresh deformation now and then would change nothing: the increments are exact to rounding.
+                return (relative, residual);
+            }
+            factor *= 0.5;
+        }
+    }
+
+    /// Takes a step whose entry i (the last is ΔH₀) is `update(i)`, damped as Newton's; returns ‖Δz‖/‖z‖ and the new residual.
+    pub fn take_step(
+        &mut self,
+        problem: &Problem,
+        options: &SolveOptions,
+        before: f64,
+        update: impl Fn(usize) -> f64,
+    ) -> (f64, f64) {
+        for (i, u) in self.update.iter_mut().enumerate() {
+            *u = update(i);
+        }
+        self.damped_step(problem, options, before)
+    }
+
+    /// Solves the linearised system for `update` = (ΔP, ΔH₀). Returns the Krylov iterations.
+    fn solve_linear(&mut self, options: &SolveOptions, tolerance: f64) -> usize {
+        let u = self.grid.unknowns();
+        let diagonal = self.grid.kernel_entry(self.grid.len() / 2, self.grid.len() / 2);
+        for ((s, a), b) in self.scaling.iter_mut().zip(&self.d_p).zip(&self.d_h) {
+            *s = 1.0 / (a[CENTER].abs() + b[CENTER].abs() * diagonal);
+        }
+        self.preconditioner.build(&self.grid, options.kernel_band, &self.d_p, &self.d_h, &self.scaling);
+        for ((r, f), s) in self.rhs.iter_mut().zip(&self.residual).zip(&self.scaling) {
+            *r = -f * s;
+        }
+        // The load holds exactly from the start and every step keeps it, because the preconditioner's load row is exact.
+        self.rhs[u] = 0.0;
+        let Self { krylov, grid, fft, field, step_deformation, d_p, d_h, scaling, preconditioner, rhs, update, .. } =
+            self;
+        let outcome = krylov.solve(
+            rhs,
+            update,
+            tolerance,
+            options.max_krylov,
+            |v, out| {
+                field[FIRST_UNKNOWN..FIRST_UNKNOWN + u].copy_from_slice(&v[..u]);
+                grid.deform(field, step_deformation, fft);
+                for (k, out) in out[..u].iter_mut().enumerate() {
+                    let (a, b) = (&d_p[k], &d_h[k]);
+                    let mut sum = 0.0;
+                    for m in 0..LINE_STENCIL {
+                        sum += a[m] * field[k + m] + b[m] * (step_deformation[k + m] + v[u]);
+                    }
+                    *out = sum * scaling[k];
+                }
+                out[u] = dot(&grid.weights, field);
+            },
+            |v| preconditioner.apply(grid, v),
+        );
+        outcome.iterations
+    }
+}
+
+impl Preconditioner {
+    /// Assembles and factorises A + trunc(B K), rows scaled, and the H₀ column.
+    fn build(
+        &mut self,
+        grid: &LineGrid,
+        band: usize,
+        d_p: &[[f64; LINE_STENCIL]],
+        d_h: &[[f64; LINE_STENCIL]],
+        scaling: &[f64],
+    ) {
+        let u = grid.unknowns();
+        let n = grid.len();
+        let width = 2 * band + 1;
+        // Kernel entries near the diagonal, kept between Newton steps: node i against nodes i − band−2 … i + band+2.
+        let stored = width + 4;
+        if self.kernel.len() != n * stored || self.kernel_band != band {
+            self.kernel.clear();
+            self.kernel.resize(n * stored, 0.0);
+            self.kernel_band = band;
+            for i in 0..n {
+                for c in 0..stored {
+                    let j = i + c;
+                    if j >= band + 2 && j - band - 2 < n {
+                        self.kernel[i * stored + c] = grid.kernel_entry(i, j - band - 2);
+                    }
+                }
+            }
+        }
+        self.band.reset(u, band, band);
+        for k in 0..u {
+            let (a, b, s) = (&d_p[k], &d_h[k], scaling[k]);
+            let row = self.band.row_mut(k);
+            for m in 0..LINE_STENCIL {
+                // Node k + m against column node k + 2 + d, d = −band…band: offset 2 − m + d from its own diagonal.
+                let from = (k + m) * stored + (4 - m);
+                let kernel = &self.kernel[from..from + width];
+                let weight = s * b[m];
+                for (r, kernel) in row.iter_mut().zip(kernel) {
+                    *r += weight * kernel;
+                }
+                if (m + band).checked_sub(CENTER).is_some_and(|c| c < width) {
+                    row[m + band - CENTER] += s * a[m];
+                }
+            }
+            for (c, r) in row[..width].iter_mut().enumerate() {
+                if k + c < band || k + c - band >= u {
+                    *r = 0.0;
+                }
+            }
+        }
+        self.band.factorise();
+        self.column.clear();
+        self.column.extend(d_h.iter().zip(scaling).map(|(b, s)| s * b.iter().sum::<f64>()));
+        self.band.solve(&mut self.column);
+        self.schur = dot(&grid.weights[FIRST_UNKNOWN..FIRST_UNKNOWN + u], &self.column);
+    }
+
+    /// v ← M⁻¹ v for the bordered preconditioner.
+    fn apply(&self, grid: &LineGrid, v: &mut [f64]) {
+        let u = grid.unknowns();
+        let (head, last) = v.split_at_mut(u);
+        self.band.solve(head);
+        let carried = dot(&grid.weights[FIRST_UNKNOWN..FIRST_UNKNOWN + u], head);
+        let dh_0 = if self.schur == 0.0 { 0.0 } else { (carried - last[0]) / self.schur };
+        for (v, c) in head.iter_mut().zip(&self.column) {
+            *v -= dh_0 * c;
+        }
+        last[0] = dh_0;
+    }
+}

@@ -1,0 +1,12 @@
+//! The full-order system: unknowns (P, H₀), deformation condensed, solved by Newton's method with a preconditioned Krylov solver.
+
+mod band;
+pub mod dense;
+mod gmres;
+mod line;
+mod solution;
+mod start;
+
+pub use line::{LineSystem, SolveOptions};
+pub use solution::{Problem, Report, Scalars, Solution, SolveError, Termination, Traction};
+pub use start::{FullSolver, Start};

@@ -1,0 +1,266 @@
+//! Where Newton starts, and what is tried when it fails: retries with other films, then continuation from an easier contact.
+
+use super::line::{LineSystem, SolveOptions};
+use super::solution::{Problem, Report, Solution, SolveError, Termination, scalars_of};
+use crate::solver::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, moes_line_film, si_from_moes};
+use crate::solver::grid::{GridSpec, LineGrid, ReferenceGrid};
+use crate::solver::lubricant::Lubricant;
+use crate::solver::observer::Observer;
+use std::sync::Arc;
+
+/// The start of a full solve.
+#[derive(Clone, Copy, Debug)]
+pub enum Start<'a> {
+    /// Hertzian pressure and twice Moes' film.
+    Cold,
+    /// Any solution, also of another contact or on another grid.
+    From(&'a Solution),
+}
+
+/// Solves line contacts on one reference grid; keeps the grid and the work space between solves.
+pub struct FullSolver {
+    reference: Arc<ReferenceGrid>,
+    system: Option<LineSystem>,
+    /// Settings of every solve.
+    pub options: SolveOptions,
+}
+
+/// Films tried by a cold start, in units of Moes' formula.
+const COLD_FILMS: [f64; 3] = [2.0, 1.2, 4.0];
+
+impl FullSolver {
+    /// A solver on the grid of a specification.
+    ///
+    /// # Errors
+    /// When the specification is refused.
+    pub fn new(spec: GridSpec) -> Result<Self, SolveError> {
+        Ok(Self::on(spec.build()?))
+    }
+
+    /// A solver on a reference grid that exists already.
+    pub fn on(reference: Arc<ReferenceGrid>) -> Self {
+        Self { reference, system: None, options: SolveOptions::default() }
+    }
+
+    /// The reference grid.
+    pub fn reference(&self) -> &Arc<ReferenceGrid> {
+        &self.reference
+    }
+
+    /// Solves one contact. A failed start is followed by others and at last by continuation from an easier contact; the solution's report
+    /// says how it ended. A solution that has not converged holds the last state and must not be shown as a result.
+    ///
+    /// # Errors
+    /// When the operating point or the lubricant is refused.
+    pub fn solve(
+        &mut self,
+        point: &OperatingPoint,
+        lubricant: Lubricant,
+        start: Start<'_>,
+        observer: &mut dyn Observer,
+    ) -> Result<Solution, SolveError> {
+        let problem = Problem::new(point, lubricant)?;
+        let mut report = empty_report();
+        if let Start::From(former) = start {
+            self.attempt(&problem, Start::From(former), 0.0, observer, &mut report);
+        }
+        for film in COLD_FILMS {
+            if ended(&report) {
+                break;
+            }
+            self.attempt(&problem, Start::Cold, film, observer, &mut report);
+        }
+        if !ended(&report) {
+            self.continuation(&problem, observer, &mut report);
+        }
+        Ok(self.solution(problem, report))
+    }
+
+    /// A cold solve from the first start only, as `bench` and the convergence tests want it.
+    ///
+    /// # Errors
+    /// When the operating point or the lubricant is refused.
+    pub fn solve_once(
+        &mut self,
+        point: &OperatingPoint,
+        lubricant: Lubricant,
+        start: Start<'_>,
+        observer: &mut dyn Observer,
+    ) -> Result<Solution, SolveError> {
+        let problem = Problem::new(point, lubricant)?;
+        let mut report = empty_report();
+        self.attempt(&problem, start, COLD_FILMS[0], observer, &mut report);
+        Ok(self.solution(problem, report))
+    }
+
+    /// The system prepared at a cold start, for whoever iterates it in another way (the dense baseline).
+    ///
+    /// # Errors
+    /// When the operating point or the lubricant is refused.
+    pub fn cold_system(
+        &mut self,
+        point: &OperatingPoint,
+        lubricant: Lubricant,
+    ) -> Result<(LineSystem, Problem), SolveError> {
+        let problem = Problem::new(point, lubricant)?;
+        let mut system = LineSystem::new(self.reference.for_contact(problem.moes));
+        cold_state(&mut system, &problem, COLD_FILMS[0]);
+        Ok((system, problem))
+    }
+
+    fn attempt(
+        &mut self,
+        problem: &Problem,
+        start: Start<'_>,
+        film: f64,
+        observer: &mut dyn Observer,
+        report: &mut Report,
+    ) {
+        report.attempts += 1;
+        let grid = self.reference.for_contact(problem.moes);
+        // A grid with another scale has other coefficients; without registration the system is reused as it is.
+        let mut system = match self.system.take() {
+            Some(system) if system.grid.scale == grid.scale => system,
+            _ => LineSystem::new(grid),
+        };
+        match start {
+            Start::Cold => cold_state(&mut system, problem, film),
+            Start::From(former) => warm_state(&mut system, problem, former),
+        }
+        system.newton(problem, &self.options, observer, report);
+        self.system = Some(system);
+    }
+
+    /// Walks from an easier contact (larger M, moderate L) to the wanted one in steps that shrink on failure.
+    fn continuation(&mut self, problem: &Problem, observer: &mut dyn Observer, report: &mut Report) {
+        let target = problem.moes;
+        let easy = Moes { m: target.m.clamp(15.0, 60.0), l: target.l.clamp(2.0, 8.0) };
+        let point_at = |t: f64| {
+            let m = (easy.m.ln() * (1.0 - t) + target.m.ln() * t).exp();
+            let l = easy.l * (1.0 - t) + target.l * t;
+            let request = MoesRequest {
+                radius_m: Some(problem.point.radius_m),
+                modulus_pa: Some(problem.point.modulus_pa),
+                viscosity_pa_s: Some(problem.point.viscosity_pa_s),
+                alpha_per_pa: Some(problem.point.alpha_per_pa),
+                ..MoesRequest::new(ContactKind::Line, m, l)
+            };
+            si_from_moes(&request).ok().and_then(|p| Problem::new(&p, problem.lubricant).ok())
+        };
+        let Some(first) = point_at(0.0) else { return };
+        self.attempt(&first, Start::Cold, COLD_FILMS[0], observer, report);
+        if report.termination != Termination::Converged {
+            return;
+        }
+        let (mut t, mut stride) = (0.0, 0.25f64);
+        let mut last = self.solution(first, empty_report());
+        while t < 1.0 && stride > 1e-3 {
+            let next = (t + stride).min(1.0);
+            let wanted = if next >= 1.0 { Some(*problem) } else { point_at(next) };
+            let Some(wanted) = wanted else { return };
+            self.attempt(&wanted, Start::From(&last), 0.0, observer, report);
+            match report.termination {
+                Termination::Cancelled => return,
+                Termination::Converged => {
+                    t = next;
+                    last = self.solution(wanted, empty_report());
+                    stride *= 1.5;
+                }
+                _ => stride *= 0.4,
+            }
+        }
+        if t < 1.0 && report.termination == Termination::Converged {
+            report.termination = Termination::IterationLimit;
+        }
+    }
+
+    fn solution(&mut self, problem: Problem, report: Report) -> Solution {
+        let grid = self.reference.for_contact(problem.moes);
+        let system = match self.system.take() {
+            Some(system) => system,
+            None => LineSystem::new(grid),
+        };
+        let solution = Solution {
+            problem,
+            grid: self.reference.spec,
+            grid_scale: system.grid.scale,
+            x: system.grid.x.clone(),
+            pressure: system.pressure.clone(),
+            film: system.film.clone(),
+            scalars: scalars_of(&system.grid, &problem, &system.pressure, &system.film, system.h_0),
+            report,
+        };
+        self.system = Some(system);
+        solution
+    }
+}
+
+fn empty_report() -> Report {
+    Report {
+        termination: Termination::IterationLimit,
+        newton_iterations: 0,
+        linear_iterations: 0,
+        attempts: 0,
+        residuals: Vec::new(),
+        steps: Vec::new(),
+        residual_norm: f64::NAN,
+    }
+}
+
+fn ended(report: &Report) -> bool {
+    report.attempts > 0 && matches!(report.termination, Termination::Converged | Termination::Cancelled)
+}
+
+/// Hertzian pressure and H(0) = `film` × Moes' formula.
+fn cold_state(system: &mut LineSystem, problem: &Problem, film: f64) {
+    let hertz: Vec<f64> = system.grid.x.iter().map(|x| (1.0 - x * x).max(0.0).sqrt()).collect();
+    system.set_pressure(problem, &hertz);
+    system.set_central_film(film * moes_film(problem));
+}
+
+/// Moes' film in the solver's scaling: H = (h/R) (R/a)².
+fn moes_film(problem: &Problem) -> f64 {
+    let moes = problem.moes;
+    // (h/R)(2U)^(−1/2) with a²/R² = 8 w/(π E′ R) = 8 M (2U)^(1/2)/π.
+    moes_line_film(moes) * std::f64::consts::PI / (8.0 * moes.m)
+}
+
+/// A former solution on this grid: pressure interpolated over the registered coordinate, central film scaled by Moes' formula.
+fn warm_state(system: &mut LineSystem, problem: &Problem, former: &Solution) {
+    let grid = &system.grid;
+    let pressure = if former.x.len() == grid.len() && former.grid == grid.reference.spec {
+        former.pressure.clone()
+    } else {
+        interpolate(former, grid)
+    };
+    let ratio = moes_film(problem) / moes_film(&former.problem);
+    let same = former.problem == *problem;
+    system.set_pressure(problem, &pressure);
+    if same && former.grid == system.grid.reference.spec {
+        system.set_h_0(former.scalars.h_0);
+    } else {
+        system.set_central_film(former.scalars.h_c * ratio);
+    }
+    // A film that touches anywhere would be no start: lift it.
+    let lowest = system.film.iter().copied().fold(f64::INFINITY, f64::min);
+    let floor = 0.2 * former.scalars.h_min * ratio;
+    if lowest < floor {
+        system.set_h_0(system.h_0 + floor - lowest);
+    }
+}
+
+/// Pressure of another grid's solution at this grid's nodes, linearly, zero outside.
+fn interpolate(former: &Solution, grid: &LineGrid) -> Vec<f64> {
+    let (x, p) = (&former.x, &former.pressure);
+    grid.x
+        .iter()
+        .map(|&at| {
+            let k = x.partition_point(|&v| v < at);
+            if k < 2 || k >= x.len() {
+                return 0.0;
+            }
+            let t = (at - x[k - 1]) / (x[k] - x[k - 1]);
+            (1.0 - t) * p[k - 1] + t * p[k]
+        })
+        .collect()
+}

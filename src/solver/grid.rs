@@ -1,0 +1,364 @@
+//! The computational domain of a line contact: uniform as in the dissertation, or graded towards the ends of the Hertzian zone.
+//!
+//! A grid is a *reference* grid in ξ, built once with its elastic kernel, and an affine map X = −1 + (ξ + 1) s. For s = 1 they are the
+//! same. Registration chooses s so that the pressure spike always sits at ξ = 1 (`NUMERICS` 5.2): the contacts of a whole range
+//! of M and L then look alike to a reduced basis, and one fine patch of nodes serves all their spikes.
+//!
+//! Node arrays everywhere in the solver have one extra leading node: index 0 lies outside the inlet (the upwind stencil of the first
+//! unknown reaches it), index 1 is the inlet, the last index the outlet. P vanishes at all three.
+
+use super::contact::Moes;
+use super::elasticity::Flexibility;
+use super::reynolds::RowGeometry;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Index of the inlet node in node arrays.
+pub const INLET: usize = 1;
+/// Index of the first unknown pressure in node arrays.
+pub const FIRST_UNKNOWN: usize = 2;
+/// Largest number of nodes a graded grid may have: its kernel is stored dense.
+pub const MAX_GRADED_NODES: usize = 4001;
+/// Largest number of nodes a uniform grid may have.
+pub const MAX_UNIFORM_NODES: usize = 200_001;
+
+/// A description of a line grid, as scenes and the command line give it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum GridSpec {
+    /// Equidistant nodes from the inlet to the outlet, both ends counted; kernel (2.39).
+    Uniform {
+        /// Spacing ΔX.
+        dx: f64,
+        /// Inlet and outlet.
+        domain: (f64, f64),
+    },
+    /// Nodes graded towards X = ±1, kernel of hat functions, registered by the pressure spike when `registered`.
+    Graded {
+        /// Number of nodes, both ends counted.
+        nodes: usize,
+        /// Inlet and outlet in the reference coordinate ξ.
+        domain: (f64, f64),
+        /// Whether the spike is mapped to ξ = 1.
+        registered: bool,
+    },
+}
+
+/// Why a grid is refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum GridError {
+    /// The domain does not hold the contact.
+    #[error(
+        "the domain {from}…{to} cuts the contact; its inlet must lie between −200 and −1.5 and its outlet between 1.2 and 20"
+    )]
+    Domain {
+        /// Inlet.
+        from: f64,
+        /// Outlet.
+        to: f64,
+    },
+    /// Too few or too many nodes.
+    #[error("the grid would have {nodes} nodes; between {min} and {max} are accepted")]
+    Size {
+        /// Nodes asked for.
+        nodes: f64,
+        /// Fewest accepted.
+        min: usize,
+        /// Most accepted.
+        max: usize,
+    },
+}
+
+impl GridSpec {
+    /// The dissertation's grid: 1201 nodes from −4 to 2.
+    pub const DISSERTATION: Self = Self::Uniform { dx: 0.005, domain: (-4.0, 2.0) };
+
+    /// The explorer's default: 720 registered nodes from ξ = −8 (wider for light loads, where the inlet film is long).
+    pub fn graded_for(moes: Moes) -> Self {
+        let (nodes, inlet) = if moes.m < 9.0 {
+            (760, -20.0)
+        } else if moes.m < 40.0 {
+            (720, -9.0)
+        } else {
+            (720, -6.0)
+        };
+        Self::Graded { nodes, domain: (inlet, GRADED_OUTLET), registered: true }
+    }
+
+    /// Builds the reference grid and its kernel; the costly part, done once per specification.
+    ///
+    /// # Errors
+    /// When the domain cuts the contact or the number of nodes is out of range.
+    pub fn build(&self) -> Result<Arc<ReferenceGrid>, GridError> {
+        let (from, to) = match *self {
+            Self::Uniform { domain, .. } | Self::Graded { domain, .. } => domain,
+        };
+        if !((-200.0..=-1.5).contains(&from) && (1.2..=20.0).contains(&to)) {
+            return Err(GridError::Domain { from, to });
+        }
+        let xi = match *self {
+            Self::Uniform { dx, .. } => {
+                let cells = ((to - from) / dx).round();
+                if !(cells.is_finite() && dx > 0.0 && cells >= 60.0 && cells < MAX_UNIFORM_NODES as f64) {
+                    return Err(GridError::Size { nodes: cells + 1.0, min: 61, max: MAX_UNIFORM_NODES });
+                }
+                let cells = cells as usize;
+                let step = (to - from) / cells as f64;
+                (0..cells + 2).map(|i| from + (i as f64 - 1.0) * step).collect()
+            }
+            Self::Graded { nodes, .. } => {
+                if !(61..=MAX_GRADED_NODES).contains(&nodes) {
+                    return Err(GridError::Size { nodes: nodes as f64, min: 61, max: MAX_GRADED_NODES });
+                }
+                graded_nodes(nodes, from, to)
+            }
+        };
+        let flexibility = match self {
+            Self::Uniform { .. } => Flexibility::uniform(xi[1] - xi[0], xi.len()),
+            Self::Graded { .. } => Flexibility::graded(&xi),
+        };
+        Ok(Arc::new(ReferenceGrid { spec: *self, weights: node_weights(&xi), xi, flexibility }))
+    }
+}
+
+/// Outlet of the default graded grids in ξ.
+pub const GRADED_OUTLET: f64 = 1.9;
+
+/// A reference grid with its elastic kernel; shared by all the grids mapped from it.
+#[derive(Debug)]
+pub struct ReferenceGrid {
+    /// What it was built from.
+    pub spec: GridSpec,
+    /// Node abscissae ξ with the leading outside node.
+    pub xi: Vec<f64>,
+    /// Quadrature weights (cell sizes) in ξ; zero at the three nodes where P vanishes.
+    pub weights: Vec<f64>,
+    /// Deformation of every node by every pressure, in ξ.
+    pub flexibility: Flexibility,
+}
+
+/// A grid for one contact: a reference grid under the map X = −1 + (ξ + 1) s.
+#[derive(Clone, Debug)]
+pub struct LineGrid {
+    /// The reference grid.
+    pub reference: Arc<ReferenceGrid>,
+    /// The scale s of the map; 1 without registration.
+    pub scale: f64,
+    /// Node abscissae X with the leading outside node.
+    pub x: Vec<f64>,
+    /// Quadrature weights in X.
+    pub weights: Vec<f64>,
+    /// Difference coefficients of the rows at the unknowns; entry k belongs to node k + [`FIRST_UNKNOWN`].
+    pub rows: Vec<RowGeometry>,
+}
+
+impl ReferenceGrid {
+    /// The grid for a contact: registered by its Moes numbers where the specification says so.
+    pub fn for_contact(self: &Arc<Self>, moes: Moes) -> LineGrid {
+        let scale = match self.spec {
+            GridSpec::Graded { registered: true, .. } => registration_scale(moes),
+            _ => 1.0,
+        };
+        self.scaled(scale)
+    }
+
+    /// The grid under the map with scale s.
+    pub fn scaled(self: &Arc<Self>, scale: f64) -> LineGrid {
+        let x: Vec<f64> = self.xi.iter().map(|xi| -1.0 + (xi + 1.0) * scale).collect();
+        let weights = self.weights.iter().map(|w| w * scale).collect();
+        let rows = x.windows(4).map(|w| RowGeometry::new([w[0], w[1], w[2], w[3]], None)).collect();
+        LineGrid { reference: Arc::clone(self), scale, x, weights, rows }
+    }
+}
+
+impl LineGrid {
+    /// Number of entries of node arrays: nodes of the grid plus the one outside.
+    pub fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    /// Never true: every grid has at least 61 nodes.
+    pub fn is_empty(&self) -> bool {
+        self.x.is_empty()
+    }
+
+    /// Number of unknown pressures.
+    pub fn unknowns(&self) -> usize {
+        self.x.len() - 3
+    }
+
+    /// Deformation δ = K P at every node, (2.37). Both slices are node arrays.
+    pub fn deform(&self, pressure: &[f64], deformation: &mut [f64], scratch: &mut super::elasticity::Scratch) {
+        self.reference.flexibility.apply(pressure, deformation, scratch);
+        if self.scale != 1.0 {
+            let shift = self.kernel_shift() * dot(&self.reference.weights, pressure);
+            for d in deformation.iter_mut() {
+                *d = self.scale * *d + shift;
+            }
+        }
+    }
+
+    /// −s ln s / π: what the logarithmic kernel gains under the map, times ∫P dξ.
+    pub fn kernel_shift(&self) -> f64 {
+        if self.scale == 1.0 { 0.0 } else { -self.scale * self.scale.ln() / std::f64::consts::PI }
+    }
+
+    /// One entry of K: deformation of node `i` by unit pressure at node `j`.
+    pub fn kernel_entry(&self, i: usize, j: usize) -> f64 {
+        self.scale * self.reference.flexibility.entry(i, j) + self.kernel_shift() * self.reference.weights[j]
+    }
+
+    /// Weights and first index of the cubic (4-point Lagrange) interpolation at X; a single unit weight where X is a node.
+    pub fn interpolation(&self, x: f64) -> (usize, [f64; 4]) {
+        let n = self.x.len();
+        let upper = self.x.partition_point(|&node| node < x).clamp(2, n - 2);
+        let first = (upper - 2).max(INLET).min(n - 4);
+        let nodes = &self.x[first..first + 4];
+        if let Some(k) = nodes.iter().position(|&node| (node - x).abs() < 1e-10) {
+            return (first, std::array::from_fn(|i| if i == k { 1.0 } else { 0.0 }));
+        }
+        let weight =
+            |k: usize| (0..4).filter(|&j| j != k).map(|j| (x - nodes[j]) / (nodes[k] - nodes[j])).product::<f64>();
+        (first, std::array::from_fn(weight))
+    }
+
+    /// Value of a node array at X by cubic interpolation.
+    pub fn at(&self, values: &[f64], x: f64) -> f64 {
+        let (first, weights) = self.interpolation(x);
+        weights.iter().zip(&values[first..]).map(|(w, v)| w * v).sum()
+    }
+}
+
+/// Cell sizes of the unknowns' nodes, zero elsewhere.
+fn node_weights(xi: &[f64]) -> Vec<f64> {
+    let n = xi.len();
+    (0..n).map(|i| if (FIRST_UNKNOWN..n - 1).contains(&i) { 0.5 * (xi[i + 1] - xi[i - 1]) } else { 0.0 }).collect()
+}
+
+/// Wanted relative spacing at ξ: fine at ±1, moderate inside, growing with the distance into the inlet.
+fn wanted_spacing(xi: f64) -> f64 {
+    let bump = |center: f64, depth: f64, width: f64| depth / (1.0 + ((xi - center) / width).powi(2));
+    let base = 0.016 / (1.0 + bump(-1.0, 2.2, 0.10) + bump(1.0, 5.0, 0.06) + bump(0.93, 2.0, 0.2));
+    let inlet = (-1.15 - xi).max(0.0);
+    let outlet = (xi - 1.25).max(0.0);
+    base + 0.028 * inlet * inlet / (inlet + 0.5) + 0.03 * outlet
+}
+
+/// `nodes` abscissae (and the outside one) that equidistribute 1/spacing.
+fn graded_nodes(nodes: usize, from: f64, to: f64) -> Vec<f64> {
+    let samples = 40 * nodes;
+    let step = (to - from) / samples as f64;
+    let mut cumulative = Vec::with_capacity(samples + 1);
+    cumulative.push(0.0);
+    let mut total = 0.0;
+    for i in 0..samples {
+        let left = from + i as f64 * step;
+        // Simpson's rule on each sample keeps the mapping smooth.
+        total += step / 6.0
+            * (1.0 / wanted_spacing(left)
+                + 4.0 / wanted_spacing(left + 0.5 * step)
+                + 1.0 / wanted_spacing(left + step));
+        cumulative.push(total);
+    }
+    let mut x = Vec::with_capacity(nodes + 1);
+    x.push(0.0);
+    for i in 0..nodes {
+        let target = total * i as f64 / (nodes - 1) as f64;
+        let k = cumulative.partition_point(|&c| c < target).clamp(1, samples) - 1;
+        // Newton from the linear guess within the sample: spacing is smooth, two steps reach rounding.
+        let mut xi = from + step * (k as f64 + (target - cumulative[k]) / (cumulative[k + 1] - cumulative[k]));
+        for _ in 0..2 {
+            let left = from + k as f64 * step;
+            let width = xi - left;
+            let here = cumulative[k]
+                + width / 6.0
+                    * (1.0 / wanted_spacing(left)
+                        + 4.0 / wanted_spacing(left + 0.5 * width)
+                        + 1.0 / wanted_spacing(xi));
+            xi += (target - here) * wanted_spacing(xi);
+        }
+        x.push(xi);
+    }
+    x[1] = from;
+    x[nodes] = to;
+    x[0] = 2.0 * x[1] - x[2];
+    x
+}
+
+/// Scale s = (1 + X_s)/2 of the registration map, X_s the position of the pressure spike.
+///
+/// X_s is a smooth fit in (ln M, L) to the spike positions of full solutions (Roelands, Dowson–Higginson, default realisation),
+/// measured with `examples` of the training module; where no spike exists it simply continues. Only smoothness matters to the
+/// method: s moves nodes, never the equations.
+pub fn registration_scale(moes: Moes) -> f64 {
+    0.5 * (1.0 + spike_position(moes))
+}
+
+/// Fitted position X_s of the pressure spike, in (0.55, 1).
+pub fn spike_position(Moes { m, l }: Moes) -> f64 {
+    let m = m.clamp(1.5, 1000.0);
+    let l = l.clamp(0.5, 25.0);
+    // The spike retreats from X = 1 by an amount that falls with load and grows with L.
+    let retreat = SPIKE_FACTOR * l.powf(SPIKE_L) * m.powf(-SPIKE_M);
+    1.0 / (1.0 + retreat)
+}
+
+const SPIKE_FACTOR: f64 = 1.35;
+const SPIKE_L: f64 = 0.5;
+const SPIKE_M: f64 = 0.95;
+
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_dissertations_grid_has_1201_nodes_with_both_ends() {
+        let grid = GridSpec::DISSERTATION.build().unwrap().scaled(1.0);
+        assert_eq!(grid.len() - 1, 1201);
+        assert_eq!(grid.unknowns(), 1199);
+        assert!((grid.x[INLET] + 4.0).abs() < 1e-12 && (grid.x[1201] - 2.0).abs() < 1e-12);
+        assert!((grid.weights.iter().sum::<f64>() - 1199.0 * 0.005).abs() < 1e-12);
+    }
+
+    #[test]
+    fn graded_nodes_increase_smoothly_and_are_fine_where_the_pressure_turns() {
+        let grid = GridSpec::Graded { nodes: 720, domain: (-8.0, 1.9), registered: false }.build().unwrap();
+        let xi = &grid.xi;
+        let steps: Vec<f64> = xi.windows(2).map(|w| w[1] - w[0]).collect();
+        assert!(steps.iter().all(|&h| h > 0.0));
+        assert!(steps.windows(2).skip(1).all(|w| (w[1] / w[0] - 1.0).abs() < 0.12));
+        let spacing_at = |x: f64| steps[xi.partition_point(|&v| v < x) - 1];
+        assert!(spacing_at(1.0) < 0.35 * spacing_at(0.0) && spacing_at(-1.0) < 0.6 * spacing_at(0.0));
+    }
+
+    #[test]
+    fn interpolation_is_exact_for_cubics_and_at_nodes() {
+        let grid = GridSpec::Graded { nodes: 300, domain: (-8.0, 1.9), registered: true }
+            .build()
+            .unwrap()
+            .for_contact(Moes { m: 20.0, l: 8.0 });
+        let cubic = |x: f64| 1.0 + x * (0.5 + x * (-0.3 + x * 0.1));
+        let values: Vec<f64> = grid.x.iter().map(|&x| cubic(x)).collect();
+        for x in [-0.4, 0.0, 0.77, grid.x[40], grid.x[INLET]] {
+            assert!((grid.at(&values, x) - cubic(x)).abs() < 1e-11);
+        }
+    }
+
+    #[test]
+    fn bad_grids_are_refused_with_a_sentence() {
+        for spec in [
+            GridSpec::Uniform { dx: 0.005, domain: (-0.5, 2.0) },
+            GridSpec::Uniform { dx: f64::NAN, domain: (-4.0, 2.0) },
+            GridSpec::Uniform { dx: 0.0, domain: (-4.0, 2.0) },
+            GridSpec::Uniform { dx: 1e-9, domain: (-4.0, 2.0) },
+            GridSpec::Graded { nodes: 10, domain: (-8.0, 2.0), registered: true },
+            GridSpec::Graded { nodes: 500, domain: (f64::NAN, 2.0), registered: true },
+        ] {
+            assert!(spec.build().is_err(), "{spec:?}");
+        }
+    }
+}

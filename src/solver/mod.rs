@@ -1,0 +1,11 @@
+//! The core: pure mathematics and physics of elastohydrodynamic contacts. It knows no screen, file, clock or terminal.
+
+pub mod contact;
+pub mod elasticity;
+pub mod full;
+pub mod grid;
+pub mod lubricant;
+pub mod observer;
+pub mod reduced;
+pub mod reynolds;
+pub mod training;
