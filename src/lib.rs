@@ -3,3 +3,5 @@
 //! * [`solver`] is the core: contact, lubricant, grid, Reynolds row, full and reduced systems, training.
 
 pub mod solver;
+
+pub mod harness;

@@ -1,0 +1,3 @@
+//! Headless work around the solver.
+
+pub mod model_file;
