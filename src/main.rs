@@ -1,1 +1,5 @@
-fn main() {}
+//! Parses the command line and hands over.
+
+fn main() -> std::process::ExitCode {
+    ehl_explorer::cli::main()
+}
