@@ -13,5 +13,3 @@ pub mod cli;
 pub mod harness;
 pub mod scene;
 pub mod solver;
-
-pub mod harness;

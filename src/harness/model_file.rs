@@ -3,12 +3,13 @@
 //! Layout: magic (8 bytes), version (u32), payload length (u64), XXH3 hash of the payload (u64), all little-endian, then the payload in postcard's
 //! encoding. K V_p is not stored: it is recomputed when a model is read.
 
+use crate::scene::atomic_file::{self, WriteError};
 use crate::solver::grid::{GridError, GridSpec};
 use crate::solver::reduced::{Domain, PodBasis, ReducedModel, SampledRows, Sampling, Snapshot, Window};
 use faer::Mat;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use std::io::{Read, Write};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use xxhash_rust::xxh3::xxh3_64;
@@ -25,14 +26,17 @@ static EMBEDDED: &[u8] = include_bytes!("../../assets/line.rom");
 /// Why a model file is refused. Nothing is lost by it.
 #[derive(Debug, thiserror::Error)]
 pub enum ModelFileError {
-    /// Reading or writing failed.
-    #[error("{path}: {source}")]
+    /// Reading failed.
+    #[error("cannot read {}: {source}", path.display())]
     Io {
         /// The file.
         path: PathBuf,
         /// What the system said.
         source: std::io::Error,
     },
+    /// Writing failed.
+    #[error(transparent)]
+    Write(#[from] WriteError),
     /// Not a model file at all.
     #[error("this is not a reduced model file (.rom); train one with `ehl-explorer train SCENE.ron --out FILE.rom`")]
     Foreign,
@@ -201,24 +205,12 @@ pub fn read(path: &Path) -> Result<ReducedModel, ModelFileError> {
     from_bytes(&bytes)
 }
 
-/// Writes a model file: beside the target first, then renamed, so that a failure leaves what was there.
+/// Writes a model file as a whole or not at all.
 ///
 /// # Errors
 /// When the file cannot be written.
 pub fn write(model: &ReducedModel, path: &Path) -> Result<(), ModelFileError> {
-    let io = |source| ModelFileError::Io { path: path.to_owned(), source };
-    let bytes = to_bytes(model)?;
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(".part");
-    let part = path.with_file_name(name);
-    let written = std::fs::File::create(&part).and_then(|mut f| {
-        f.write_all(&bytes)?;
-        f.sync_all()
-    });
-    written.and_then(|()| std::fs::rename(&part, path)).map_err(|source| {
-        let _ = std::fs::remove_file(&part);
-        io(source)
-    })
+    Ok(atomic_file::replace(path, &to_bytes(model)?)?)
 }
 
 /// The content of a model file.
@@ -352,6 +344,6 @@ mod tests {
     fn an_unwritable_target_is_one_sentence() {
         let model = embedded().unwrap();
         let error = write(&model, Path::new("/nonexistent-folder/model.rom")).unwrap_err().to_string();
-        assert!(error.starts_with("/nonexistent-folder/model.rom"), "{error}");
+        assert!(error.contains("/nonexistent-folder/model.rom"), "{error}");
     }
 }
