@@ -89,10 +89,10 @@ pub struct PointOptions {
     #[arg(long, allow_negative_numbers = true)]
     pub alpha: Option<f64>,
     /// Moes' load number M; what is not given of the SI quantities follows or takes its default
-    #[arg(long, allow_negative_numbers = true, requires = "moes_l")]
+    #[arg(long, allow_negative_numbers = true)]
     pub moes_m: Option<f64>,
     /// Moes' lubricant number L
-    #[arg(long, allow_negative_numbers = true, requires = "moes_m")]
+    #[arg(long, allow_negative_numbers = true)]
     pub moes_l: Option<f64>,
     /// Named lubricant: a set of laws, which --density and --pressure-viscosity override
     #[arg(long, value_name = "NAME", value_parser = by_name, long_help = lubricant_help())]

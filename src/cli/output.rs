@@ -28,17 +28,18 @@ pub fn complain(sentence: &str) {
     let _ = writeln!(io::stderr(), "ehl-explorer: {}", line.join(" "));
 }
 
-/// Shows progress on standard error: on a terminal one changing line, else one line per stage.
+/// Shows progress on standard error: on a terminal one changing line, else, where wanted, one line per stage.
 pub struct ProgressLine {
     terminal: bool,
+    stages: bool,
     state: Mutex<(String, Instant)>,
 }
 
 impl ProgressLine {
-    /// A quiet start.
-    pub fn new() -> Self {
+    /// A quiet start; with `stages` a line per stage where standard error is no terminal.
+    pub fn new(stages: bool) -> Self {
         let past = Instant::now().checked_sub(Duration::from_secs(1)).unwrap_or_else(Instant::now);
-        Self { terminal: io::stderr().is_terminal(), state: Mutex::new((String::new(), past)) }
+        Self { terminal: io::stderr().is_terminal(), stages, state: Mutex::new((String::new(), past)) }
     }
 
     /// Clears the line.
@@ -59,7 +60,7 @@ impl TrainingObserver for ProgressLine {
         let Progress { stage, done, total } = progress;
         if self.terminal {
             let _ = write!(io::stderr(), "\r\x1b[K{stage}: {done} of {total}");
-        } else if new_stage {
+        } else if new_stage && self.stages {
             let _ = writeln!(io::stderr(), "{stage} ({total})");
         }
         *state = (stage, Instant::now());

@@ -3,6 +3,7 @@
 use super::Verdict;
 use super::failure::Failure;
 use super::output::{self, ProgressLine};
+use crate::harness::table::Number;
 use crate::harness::{SceneOutcome, Workbench, run_scene};
 use crate::scene::atomic_file::{self, WriteError};
 use crate::scene::{Method, Scene};
@@ -34,7 +35,7 @@ pub fn run(args: &RunArgs) -> Result<Verdict, Failure> {
     }
     let mut verdict = Verdict::Done;
     for (path, scene) in args.scenes.iter().zip(&scenes) {
-        let progress = ProgressLine::new();
+        let progress = ProgressLine::new(false);
         let base = path.parent().unwrap_or(Path::new(""));
         let outcome = run_scene(scene, &mut Workbench::new(base), &progress);
         progress.finish();
@@ -82,12 +83,12 @@ fn describe(outcome: &SceneOutcome) -> String {
     }
     if outcome.verdicts.is_empty() {
         for value in &outcome.values {
-            let _ = writeln!(text, "         {:<26} {:<8} {}", value.name, method(&value.method), value.value);
+            let _ = writeln!(text, "         {:<26} {:<8} {}", value.name, method(&value.method), Number(value.value));
         }
     }
     for verdict in &outcome.verdicts {
         let word = if verdict.holds { "ok   " } else { "SHORT" };
-        let value = verdict.value.map_or("no such value".to_owned(), |value| value.to_string());
+        let value = verdict.value.map_or("no such value".to_owned(), |value| Number(value).to_string());
         let (name, wanted) = (&verdict.name, &verdict.wanted);
         let _ = writeln!(text, "  {word}  {name:<26} {:<8} {value} (wanted {wanted})", method(&verdict.method));
     }

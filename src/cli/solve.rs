@@ -26,8 +26,14 @@ pub struct SolveArgs {
 pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
     let (request, method) = args.point.request()?;
     let answer = Workbench::new("").answer(&request, &method, None, &())?;
-    if let (Some(path), Some(solution)) = (&args.profiles, answer.result()) {
-        atomic_file::replace(path, profile_table("profiles", solution).to_csv().as_bytes())?;
+    match (&args.profiles, answer.result()) {
+        (Some(path), Some(solution)) => {
+            atomic_file::replace(path, profile_table("profiles", solution).to_csv().as_bytes())?;
+        }
+        (Some(path), None) => {
+            output::complain(&format!("{} is not written: the solve did not converge", path.display()));
+        }
+        (None, _) => {}
     }
     let report = PointReport::from(&answer);
     if args.json {

@@ -96,7 +96,7 @@ pub fn run(args: &SweepArgs) -> Result<Verdict, Failure> {
     let names: Vec<&str> = args.varied.iter().map(|v| v.name.as_str()).collect();
     let mut table = Table::new("sweep", &[names.as_slice(), &COLUMNS].concat());
     let mut workbench = Workbench::new("");
-    let progress = ProgressLine::new();
+    let progress = ProgressLine::new(false);
     let (mut former, mut failures) = (None, 0);
     let total = requests.len();
     for (i, (values, request, method)) in requests.into_iter().enumerate() {

@@ -33,7 +33,7 @@ pub fn run(args: &TrainArgs) -> Result<Verdict, Failure> {
             args.out.display()
         )));
     }
-    let progress = ProgressLine::new();
+    let progress = ProgressLine::new(true);
     let trained = train(&spec, &progress);
     progress.finish();
     let model = trained.map_err(HarnessError::from)?;

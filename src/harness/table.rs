@@ -40,7 +40,8 @@ impl Table {
 }
 
 /// A number in its shortest exact form, with an exponent where it is very small or large.
-struct Number(f64);
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Number(pub f64);
 
 impl std::fmt::Display for Number {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {

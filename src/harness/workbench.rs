@@ -3,12 +3,12 @@
 use super::error::HarnessError;
 use super::model_file;
 use crate::scene::{Grid, Method, ModelSource, Scene, Study};
-use crate::solver::contact::{OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
+use crate::solver::contact::{Moes, OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
 use crate::solver::full::{FullSolver, Problem, Solution, Start};
 use crate::solver::grid::{GridSpec, ReferenceGrid};
 use crate::solver::lubricant::Lubricant;
 use crate::solver::observer::Observer;
-use crate::solver::reduced::{Online, ReducedError, ReducedModel, ReducedOptions, Trust};
+use crate::solver::reduced::{Online, ReducedError, ReducedModel, ReducedOptions, Trust, Window};
 use crate::solver::training::{TrainingObserver, train};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -185,7 +185,7 @@ impl Workbench {
             Some(spec) => (spec, None),
             None => {
                 let model = self.model(&request.grid_model, observer)?;
-                let window = &model.windows[model.window_for(moes)];
+                let window = window_of(&model, moes)?;
                 (window.grid.spec, Some(Arc::clone(&window.grid)))
             }
         };
@@ -266,7 +266,7 @@ impl Workbench {
         let clock = Instant::now();
         let solved = online.solve(&problem.point, request.lubricant);
         let wall_s = clock.elapsed().as_secs_f64();
-        let window = &model.windows[solved.as_ref().map_or_else(|_| model.window_for(problem.moes), |s| s.window)];
+        let window = window_of(&model, problem.moes)?;
         let trust = model.trust(problem);
         let mut warnings = Vec::new();
         if let Trust::Outside(reason) = &trust {
@@ -305,6 +305,12 @@ impl Workbench {
             solution,
         })
     }
+}
+
+/// The window of a model that serves a contact.
+fn window_of(model: &ReducedModel, moes: Moes) -> Result<&Window, HarnessError> {
+    let none = || HarnessError::Study(format!("the reduced model `{}` holds no window", model.title));
+    model.windows.get(model.window_for(moes)).ok_or_else(none)
 }
 
 impl Answer {

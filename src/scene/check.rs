@@ -4,9 +4,9 @@ use super::{Axis, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Ste
 use crate::solver::training::{Plan, Range, TrainingSpec};
 
 /// Most points of a sweep, a trajectory or a formula comparison.
-pub const MAX_POINTS: usize = 1_000_000;
+pub const MAX_POINTS: usize = 100_000;
 /// Most random tests.
-pub const MAX_TESTS: usize = 10_000_000;
+pub const MAX_TESTS: usize = 1_000_000;
 
 type Checked = Result<(), SceneError>;
 

@@ -212,6 +212,7 @@ impl At {
                 Ok(point)
             }
             Self::Moes { m, l, radius, speed, load, modulus, viscosity, alpha } => {
+                check_given(kind, [radius, speed, load, modulus, viscosity, alpha])?;
                 let request = MoesRequest {
                     kind,
                     m,
@@ -226,6 +227,18 @@ impl At {
                 si_from_moes(&request)
             }
         }
+    }
+}
+
+/// Refuses a given quantity by its own name, before others follow from it.
+fn check_given(kind: ContactKind, given: [Option<f64>; 6]) -> Result<(), ContactError> {
+    let known = OperatingPoint::TABLE_2_1.quantities();
+    let [radius, speed, load, modulus, viscosity, alpha]: [f64; 6] =
+        std::array::from_fn(|i| given[i].unwrap_or(known[i]));
+    match (At::Si { radius, speed, load, modulus, viscosity, alpha }).point(kind) {
+        // The mixture of given and known quantities need not make sense as a contact.
+        Err(ContactError::OutOfRange { quantity, .. }) if quantity.starts_with("Moes") => Ok(()),
+        result => result.map(|_| ()),
     }
 }
 

@@ -294,7 +294,8 @@ mod tests {
     #[test]
     fn the_trajectory_starts_in_the_middle_and_stays_in_the_box() {
         let range = QuantityBox::TABLE_3_1;
-        assert_eq!(range.trajectory(0.0).quantities(), [3e-3, 5.5, 3e5, 231e9, 0.01, 12.5e-9]);
+        let middle = [3e-3, 5.5, 3e5, 231e9, 0.01, 12.5e-9];
+        assert!(range.trajectory(0.0).quantities().iter().zip(middle).all(|(q, m)| (q / m - 1.0).abs() < 1e-14));
         for i in 0..=1000 {
             let point = range.trajectory(i as f64 / 500.0);
             assert!((2e-3..=4e-3).contains(&point.radius_m) && (1e5..=5e5).contains(&point.load));
