@@ -16,7 +16,7 @@ pub use expectation::{Expectation, Within};
 pub use study::{Axis, Formula, QuantityBox, Steps, Study, TestRange, Variable};
 
 use crate::solver::contact::{ContactError, ContactKind, Moes, MoesRequest, OperatingPoint, si_from_moes};
-use crate::solver::grid::{GRADED_OUTLET, GridSpec};
+use crate::solver::grid::GridSpec;
 use crate::solver::lubricant::Lubricant;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -261,11 +261,6 @@ impl Grid {
             Self::GradedNodes { nodes, domain, registered } => Some(GridSpec::Graded { nodes, domain, registered }),
             Self::Model => None,
         }
-    }
-
-    /// A registered graded grid from `inlet` to the default outlet, both in ξ.
-    pub fn graded_from(nodes: usize, inlet: f64) -> Self {
-        Self::GradedNodes { nodes, domain: (inlet, GRADED_OUTLET), registered: true }
     }
 
     /// The word that stands for it in results.
