@@ -104,3 +104,15 @@ fn scenes_of_the_tables_hold_the_same_numbers() {
         assert_eq!(expected.value, Some(reference.h_c), "{name}");
     }
 }
+
+#[test]
+fn a_step_that_damping_made_small_is_no_convergence() {
+    // Films below what these grids resolve: each once ended as "converged" with a residual above 1.
+    let mut uniform = FullSolver::new(GridSpec::DISSERTATION).unwrap();
+    for (m, l) in [(5132.0, 2.5), (5751.0, 0.0222), (61.27, 0.4045), (11436.8, 0.0146), (42000.0, 0.6)] {
+        let point = ehl_explorer::scene::At::moes(m, l).point(ContactKind::Line).unwrap();
+        let solution = uniform.solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+        let sound = solution.scalars.h_min > 0.0 && solution.report.residual_norm < 1e-6;
+        assert!(!solution.converged() || sound, "M {m}, L {l}: residual {}", solution.report.residual_norm);
+    }
+}

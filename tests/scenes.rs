@@ -29,9 +29,8 @@ fn run(name: &str) -> SceneOutcome {
 
 fn assert_passes(name: &str) {
     let outcome = run(name);
-    for verdict in outcome.verdicts.iter().filter(|verdict| !verdict.holds) {
-        panic!("{name}: {} is {:?}, wanted {}", verdict.name, verdict.value, verdict.wanted);
-    }
+    let short: Vec<_> = outcome.verdicts.iter().filter(|verdict| !verdict.holds).collect();
+    assert!(short.is_empty(), "{name}: {short:?}");
     assert!(outcome.converged && outcome.passed(), "{name}: {:?}", outcome.warnings);
 }
 

@@ -55,37 +55,37 @@ pub struct PointOptions {
     /// How it is solved
     #[arg(long, value_enum, default_value = "full")]
     pub method: MethodName,
-    /// Reduced model to use [default: the embedded one]
+    /// Reduced model to use (default: the embedded one)
     #[arg(long, value_name = "FILE")]
     pub rom: Option<PathBuf>,
-    /// Reduced radius R [m]
+    /// Reduced radius R in m
     #[arg(long, allow_negative_numbers = true)]
     pub radius: Option<f64>,
-    /// Mean entrainment speed u_m [m/s]
+    /// Mean entrainment speed u_m in m/s
     #[arg(long, allow_negative_numbers = true)]
     pub speed: Option<f64>,
-    /// Load w [N/m]
+    /// Load w in N/m
     #[arg(long, allow_negative_numbers = true)]
     pub load: Option<f64>,
-    /// Reduced modulus E′ [Pa], or --e1 --nu1 --e2 --nu2
+    /// Reduced modulus E′ in Pa, or --e1 --nu1 --e2 --nu2
     #[arg(long, allow_negative_numbers = true)]
     pub modulus: Option<f64>,
-    /// Young's modulus of body 1 [Pa]
+    /// Young's modulus of body 1 in Pa
     #[arg(long, allow_negative_numbers = true)]
     pub e1: Option<f64>,
     /// Poisson ratio of body 1
     #[arg(long, allow_negative_numbers = true)]
     pub nu1: Option<f64>,
-    /// Young's modulus of body 2 [Pa]
+    /// Young's modulus of body 2 in Pa
     #[arg(long, allow_negative_numbers = true)]
     pub e2: Option<f64>,
     /// Poisson ratio of body 2
     #[arg(long, allow_negative_numbers = true)]
     pub nu2: Option<f64>,
-    /// Viscosity at ambient pressure η₀ [Pa·s]
+    /// Viscosity at ambient pressure η₀ in Pa·s
     #[arg(long, allow_negative_numbers = true)]
     pub viscosity: Option<f64>,
-    /// Pressure–viscosity coefficient α [1/Pa]
+    /// Pressure–viscosity coefficient α in 1/Pa
     #[arg(long, allow_negative_numbers = true)]
     pub alpha: Option<f64>,
     /// Moes' load number M; what is not given of the SI quantities follows or takes its default
@@ -97,10 +97,10 @@ pub struct PointOptions {
     /// Named lubricant: a set of laws, which --density and --pressure-viscosity override
     #[arg(long, value_name = "NAME", value_parser = by_name, long_help = lubricant_help())]
     pub lubricant: Option<Lubricant>,
-    /// Density law: dowson-higginson or incompressible [default: dowson-higginson]
+    /// Density law: dowson-higginson or incompressible (default: dowson-higginson)
     #[arg(long, value_name = "LAW", value_parser = density)]
     pub density: Option<DensityLaw>,
-    /// Viscosity law: roelands or barus [default: roelands]
+    /// Viscosity law: roelands or barus (default: roelands)
     #[arg(long, value_name = "LAW", value_parser = pressure_viscosity)]
     pub pressure_viscosity: Option<ViscosityLaw>,
     /// Slide-to-roll ratio; moves only the traction of a Newtonian fluid
@@ -109,16 +109,16 @@ pub struct PointOptions {
     /// Newtonian plateau ratio; 1 is a Newtonian fluid
     #[arg(long, allow_negative_numbers = true, default_value_t = 1.0)]
     pub npr: f64,
-    /// Grid of a full solution [default: the dissertation's uniform one]
+    /// Grid of a full solution (default: the dissertation's uniform one)
     #[arg(long, value_enum)]
     pub grid: Option<GridName>,
-    /// Spacing ΔX of a uniform grid [default: 0.005]
+    /// Spacing ΔX of a uniform grid (default: 0.005)
     #[arg(long, allow_negative_numbers = true)]
     pub dx: Option<f64>,
     /// Spacing ΔY (point contact)
     #[arg(long, allow_negative_numbers = true)]
     pub dy: Option<f64>,
-    /// Inlet and outlet [default: -4,2 on a uniform grid]; of a graded grid in its reference coordinate
+    /// Inlet and outlet (default: -4,2 on a uniform grid); of a graded grid in its reference coordinate
     #[arg(long, value_name = "X0,X1[,Y0]", allow_hyphen_values = true, value_parser = domain)]
     pub domain: Option<Domain>,
     /// Cavitation model

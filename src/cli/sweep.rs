@@ -14,12 +14,12 @@ use std::path::PathBuf;
 /// Options of `sweep`.
 #[derive(Debug, Args)]
 pub struct SweepArgs {
-    /// What is varied: NAME=FROM:TO:N[:log], once or twice; NAME is a numeric option of solve, as in moes-m or speed
+    /// What is varied, once or twice, with :log for a constant ratio; NAME is a numeric option, as moes-m or speed
     #[arg(value_name = "NAME=FROM:TO:N[:log]", required = true, num_args = 1..=2, value_parser = varied)]
     varied: Vec<Varied>,
     #[command(flatten)]
     point: PointOptions,
-    /// Write the table as CSV [default: print it]
+    /// Write the table as CSV (default: print it)
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
     /// Print one JSON object per point

@@ -3,7 +3,7 @@
 //! * [`Workbench`] solves single contacts by any method and keeps grids, work space and models between solves.
 //! * [`PointReport`] is one result as the command line prints it; its flattened names are what expectations refer to.
 //! * [`run_scene`] answers a scene's question; each study has a module of its own.
-//! * [`bench`] is the speed table, [`model_file`] the `.rom` format, [`table`] tables and CSV.
+//! * [`mod@bench`] is the speed table, [`model_file`] the `.rom` format, [`table`] tables and CSV.
 //!
 //! Wall time is measured here and nowhere below.
 

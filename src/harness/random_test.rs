@@ -56,7 +56,7 @@ pub(super) fn run(
     );
     let mut untrained = 0;
     for (i, point) in points.iter().enumerate() {
-        if i % REPORT_EVERY == 0 {
+        if i.is_multiple_of(REPORT_EVERY) {
             step(observer, "random tests", i, points.len())?;
         }
         let request = Request { point: *point, ..template.clone() };
@@ -129,7 +129,7 @@ fn full_films(
                 let solver = solvers[k].get_or_insert_with(|| FullSolver::on(model.windows[k].grid.clone()));
                 let solution = solver.solve(point, lubricant, Start::Cold, &mut Cancel(observer))?;
                 let so_far = done.fetch_add(1, Ordering::Relaxed) + 1;
-                if so_far % REPORT_EVERY == 0 {
+                if so_far.is_multiple_of(REPORT_EVERY) {
                     let stage = "full solutions to compare with".to_owned();
                     observer.progress(Progress { stage, done: so_far, total: points.len() });
                 }

@@ -31,6 +31,13 @@ const COLUMNS: [&str; 15] = [
     "wall_s",
 ];
 
+/// Contacts one after the other: the name of the table, what is varied, and for each contact the varied values.
+struct Path<'a> {
+    name: &'a str,
+    varied: &'a [&'a str],
+    points: &'a [(Vec<f64>, OperatingPoint)],
+}
+
 /// Runs a scene's sweep.
 pub(super) fn sweep(
     scene: &Scene,
@@ -54,7 +61,7 @@ pub(super) fn sweep(
         points.push((values, at.point(scene.contact)?));
     }
     let names: Vec<&str> = over.iter().map(|axis| axis.vary.name()).collect();
-    along("sweep", &names, &points, scene, methods, workbench, observer, outcome)
+    along(&Path { name: "sweep", varied: &names, points: &points }, scene, methods, workbench, observer, outcome)
 }
 
 /// Runs the test trajectory.
@@ -74,7 +81,7 @@ pub(super) fn trajectory(
         point.check()?;
         points.push((vec![c], point));
     }
-    along("trajectory", &["c"], &points, scene, methods, workbench, observer, outcome)
+    along(&Path { name: "trajectory", varied: &["c"], points: &points }, scene, methods, workbench, observer, outcome)
 }
 
 /// Sets one quantity of an operating point.
@@ -112,17 +119,15 @@ fn set(at: &mut At, variable: Variable, value: f64) -> Result<(), HarnessError> 
 }
 
 /// Solves all points by all methods: table, failures, and the reduced methods' errors against the first full one.
-#[allow(clippy::too_many_arguments)]
 fn along(
-    name: &str,
-    varied: &[&str],
-    points: &[(Vec<f64>, OperatingPoint)],
+    path: &Path<'_>,
     scene: &Scene,
     methods: &[Method],
     workbench: &mut Workbench,
     observer: &dyn TrainingObserver,
     outcome: &mut SceneOutcome,
 ) -> Result<(), HarnessError> {
+    let &Path { name, varied, points } = path;
     let template = request_of(scene)?;
     let mut columns: Vec<String> = varied.iter().map(|&v| v.to_owned()).collect();
     columns.extend(["M", "L", "radius", "speed", "load", "alpha", "p_h_pa"].map(str::to_owned));
