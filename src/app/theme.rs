@@ -1,0 +1,164 @@
+//! Every colour, stroke and text style of the explorer. Quantities keep their hue everywhere (Okabe–Ito), reduced is the thick
+//! line, full the thin one of the same hue, pinned curves fade.
+
+use egui::text::{LayoutJob, TextFormat};
+use egui::{Align, Color32, Context, CornerRadius, FontId, Stroke, TextStyle, Theme, Ui, Visuals};
+
+/// Width of a live curve.
+pub const LIVE_WIDTH: f32 = 2.6;
+/// Width of a full solution drawn over a reduced one.
+pub const FULL_WIDTH: f32 = 1.2;
+/// Width of reference and pinned curves.
+pub const THIN_WIDTH: f32 = 1.2;
+
+/// The colours of one theme.
+#[derive(Clone, Copy, Debug)]
+pub struct Palette {
+    /// Pressure.
+    pub pressure: Color32,
+    /// Film thickness.
+    pub film: Color32,
+    /// Deformation.
+    pub deformation: Color32,
+    /// Hertz and published formulas, always dashed.
+    pub reference: Color32,
+    /// What can be dragged, what is selected.
+    pub accent: Color32,
+    /// A result that has been verified.
+    pub verified: Color32,
+    /// A warning: right to know, nothing broken.
+    pub warning: Color32,
+    /// Something is wrong.
+    pub wrong: Color32,
+    /// Quiet text and outlines.
+    pub quiet: Color32,
+    /// Shade of the cavitated zone.
+    pub cavitated: Color32,
+    /// Shades of the regimes: rigid-isoviscous, elastic-isoviscous, rigid-piezoviscous, elastic-piezoviscous.
+    pub regimes: [Color32; 4],
+}
+
+impl Palette {
+    /// Colours for what is on the screen now.
+    pub fn of(ui: &Ui) -> Self {
+        Self::for_visuals(ui.visuals())
+    }
+
+    /// Colours for the visuals of a theme.
+    pub fn for_visuals(visuals: &Visuals) -> Self {
+        if visuals.dark_mode {
+            Self {
+                pressure: Color32::from_rgb(0xF0, 0x7A, 0x28),
+                film: Color32::from_rgb(0x3C, 0x9F, 0xDE),
+                deformation: Color32::from_rgb(0x1F, 0xB8, 0x8C),
+                reference: Color32::from_gray(0x93),
+                accent: Color32::from_rgb(0xA3, 0x8F, 0xF5),
+                verified: Color32::from_rgb(0x6F, 0xC0, 0x8B),
+                warning: Color32::from_rgb(0xE6, 0xB4, 0x50),
+                wrong: Color32::from_rgb(0xF2, 0x6D, 0x6D),
+                quiet: Color32::from_gray(0x9A),
+                cavitated: Color32::from_white_alpha(10),
+                regimes: [
+                    Color32::from_rgb(0x2B, 0x2E, 0x33),
+                    Color32::from_rgb(0x23, 0x35, 0x42),
+                    Color32::from_rgb(0x3B, 0x33, 0x26),
+                    Color32::from_rgb(0x2A, 0x3A, 0x30),
+                ],
+            }
+        } else {
+            Self {
+                pressure: Color32::from_rgb(0xD5, 0x5E, 0x00),
+                film: Color32::from_rgb(0x00, 0x72, 0xB2),
+                deformation: Color32::from_rgb(0x00, 0x9E, 0x73),
+                reference: Color32::from_gray(0x78),
+                accent: Color32::from_rgb(0x62, 0x4C, 0xC0),
+                verified: Color32::from_rgb(0x2E, 0x7D, 0x4F),
+                warning: Color32::from_rgb(0x9A, 0x68, 0x00),
+                wrong: Color32::from_rgb(0xB8, 0x23, 0x23),
+                quiet: Color32::from_gray(0x6A),
+                cavitated: Color32::from_black_alpha(10),
+                regimes: [
+                    Color32::from_rgb(0xEE, 0xEE, 0xF0),
+                    Color32::from_rgb(0xDF, 0xEC, 0xF5),
+                    Color32::from_rgb(0xF7, 0xEC, 0xDC),
+                    Color32::from_rgb(0xE2, 0xF0, 0xE6),
+                ],
+            }
+        }
+    }
+}
+
+/// Sets both themes' styles; done once at the start.
+pub fn install(ctx: &Context) {
+    for theme in [Theme::Light, Theme::Dark] {
+        ctx.style_mut_of(theme, |style| {
+            let visuals = &mut style.visuals;
+            let palette = Palette::for_visuals(visuals);
+            if theme == Theme::Light {
+                visuals.panel_fill = Color32::from_rgb(0xF7, 0xF7, 0xF8);
+                visuals.window_fill = Color32::from_rgb(0xFC, 0xFC, 0xFC);
+                visuals.extreme_bg_color = Color32::WHITE;
+                visuals.faint_bg_color = Color32::from_rgb(0xF0, 0xF0, 0xF2);
+                visuals.override_text_color = Some(Color32::from_gray(0x24));
+            } else {
+                visuals.panel_fill = Color32::from_rgb(0x1E, 0x1F, 0x22);
+                visuals.window_fill = Color32::from_rgb(0x26, 0x27, 0x2B);
+                visuals.extreme_bg_color = Color32::from_rgb(0x16, 0x17, 0x1A);
+                visuals.faint_bg_color = Color32::from_rgb(0x26, 0x27, 0x2B);
+                visuals.override_text_color = Some(Color32::from_gray(0xDE));
+            }
+            visuals.weak_text_color = Some(palette.quiet);
+            visuals.warn_fg_color = palette.warning;
+            visuals.error_fg_color = palette.wrong;
+            visuals.hyperlink_color = palette.accent;
+            visuals.selection.bg_fill = palette.accent.gamma_multiply(if visuals.dark_mode { 0.45 } else { 0.30 });
+            visuals.selection.stroke = Stroke::new(1.0, palette.accent);
+            visuals.slider_trailing_fill = true;
+            visuals.window_corner_radius = CornerRadius::same(6);
+            style.spacing.item_spacing = egui::vec2(8.0, 5.0);
+            style.spacing.button_padding = egui::vec2(8.0, 3.0);
+            style.spacing.slider_width = 150.0;
+            style.spacing.interact_size.y = 22.0;
+            style.spacing.tooltip_width = 380.0;
+            style.text_styles.insert(TextStyle::Small, FontId::proportional(11.0));
+            style.text_styles.insert(TextStyle::Body, FontId::proportional(13.5));
+            style.text_styles.insert(TextStyle::Button, FontId::proportional(13.5));
+            style.text_styles.insert(TextStyle::Heading, FontId::proportional(15.5));
+            style.animation_time = 0.06;
+        });
+    }
+}
+
+/// A symbol as the literature sets it: slanted letter, upright subscript.
+pub fn symbol(ui: &Ui, base: &str, subscript: &str) -> LayoutJob {
+    let mut job = LayoutJob::default();
+    append_symbol(&mut job, ui, base, subscript);
+    job
+}
+
+/// A name followed by its symbol, for the rows of panels: "Load number *M*".
+pub fn name_and_symbol(ui: &Ui, name: &str, base: &str, subscript: &str) -> LayoutJob {
+    let font_id = TextStyle::Body.resolve(ui.style());
+    let color = ui.visuals().text_color();
+    let mut job = LayoutJob::default();
+    job.append(&format!("{name} "), 0.0, TextFormat { font_id, color, ..TextFormat::default() });
+    append_symbol(&mut job, ui, base, subscript);
+    job
+}
+
+fn append_symbol(job: &mut LayoutJob, ui: &Ui, base: &str, subscript: &str) {
+    let size = TextStyle::Body.resolve(ui.style()).size;
+    let color = ui.visuals().text_color();
+    let italics = base.starts_with(|c: char| c.is_ascii_alphabetic());
+    let format = TextFormat { font_id: FontId::proportional(size), color, italics, ..TextFormat::default() };
+    job.append(base, 0.0, format.clone());
+    if !subscript.is_empty() {
+        let font_id = FontId::proportional(size * 0.74);
+        job.append(subscript, 0.5, TextFormat { font_id, italics: false, valign: Align::BOTTOM, ..format });
+    }
+}
+
+/// A curve that stands back behind the live one.
+pub fn faded(color: Color32, strength: f32) -> Color32 {
+    color.gamma_multiply(strength)
+}
