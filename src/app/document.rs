@@ -90,9 +90,6 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// All six.
-    pub const ALL: [Self; 6] = [Self::Radius, Self::Speed, Self::Load, Self::Modulus, Self::Viscosity, Self::Alpha];
-
     fn of(self, point: &mut OperatingPoint) -> &mut f64 {
         match self {
             Self::Radius => &mut point.radius_m,

@@ -24,14 +24,10 @@ pub enum Origin {
 /// A solution, what it belongs to, and its curves.
 #[derive(Clone)]
 pub struct Picture {
-    /// Counts up, so that caches know a new picture.
-    pub serial: u64,
     /// What it was computed for.
     pub key: Key,
     /// How.
     pub origin: Origin,
-    /// Seconds of the solve alone.
-    pub wall_s: f64,
     /// The solution.
     pub solution: Arc<Solution>,
     /// P against X.
@@ -48,12 +44,10 @@ pub struct Picture {
 
 impl Picture {
     /// Prepares a converged solution for drawing.
-    pub fn new(serial: u64, key: Key, origin: Origin, wall_s: f64, solution: Arc<Solution>) -> Self {
+    pub fn new(key: Key, origin: Origin, solution: Arc<Solution>) -> Self {
         Self {
-            serial,
             key,
             origin,
-            wall_s,
             pressure: solution.profile().map(|(x, p, _)| PlotPoint::new(x, p)).collect(),
             film: solution.profile().map(|(x, _, h)| PlotPoint::new(x, h)).collect(),
             traction: solution.traction(),
@@ -90,8 +84,6 @@ pub fn value_at(curve: &[PlotPoint], x: f64) -> Option<f64> {
 /// What separates a picture from the full solution of the same contact.
 #[derive(Clone)]
 pub struct Comparison {
-    /// Serial numbers of the picture and the full solution.
-    pub serials: (u64, u64),
     /// Relative error of H_c.
     pub h_c: f64,
     /// Relative error of H_min.
@@ -113,7 +105,6 @@ impl Comparison {
         };
         let pressure = difference(&picture.pressure, &full.pressure, 1.0);
         Self {
-            serials: (picture.serial, full.serial),
             h_c: a.h_c / b.h_c - 1.0,
             h_min: a.h_min / b.h_min - 1.0,
             max_dp: pressure.iter().map(|p| p.y.abs()).fold(0.0, f64::max),

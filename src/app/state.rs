@@ -105,7 +105,6 @@ pub struct State {
     wanted_options: Option<ReducedOptions>,
     changed_at: f64,
     verify_due: bool,
-    next_serial: u64,
     next_pin: usize,
 }
 
@@ -140,7 +139,6 @@ impl State {
             wanted_options: None,
             changed_at: 0.0,
             verify_due: false,
-            next_serial: 1,
             next_pin: 1,
         }
     }
@@ -206,7 +204,7 @@ impl State {
             Outcome::Solved(solution, wall_s) if solution.converged() => {
                 self.full_wall_s = Some(wall_s);
                 self.last_report = Some((job.key, solution.report.clone()));
-                let picture = self.picture_of(job.key, Origin::Full, wall_s, Arc::from(solution));
+                let picture = Picture::new(job.key, Origin::Full, Arc::from(solution));
                 if job.key == self.key() {
                     self.failure = None;
                 }
@@ -227,7 +225,7 @@ impl State {
             Outcome::Solved(solution, wall_s) if solution.converged() => {
                 self.full_wall_s = Some(wall_s);
                 self.last_report = Some((job.key, solution.report.clone()));
-                self.full = Some(self.picture_of(job.key, Origin::Full, wall_s, Arc::from(solution)));
+                self.full = Some(Picture::new(job.key, Origin::Full, Arc::from(solution)));
                 self.verify_failure = None;
                 self.compare();
             }
@@ -238,12 +236,6 @@ impl State {
                 }
             }
         }
-    }
-
-    fn picture_of(&mut self, key: Key, origin: Origin, wall_s: f64, solution: Arc<Solution>) -> Picture {
-        let serial = self.next_serial;
-        self.next_serial += 1;
-        Picture::new(serial, key, origin, wall_s, solution)
     }
 
     fn compare(&mut self) {
@@ -308,7 +300,7 @@ impl State {
                     iterations: reduced.iterations,
                     window: reduced.window,
                 };
-                self.picture = Some(self.picture_of(key, origin, wall_s, Arc::new(fields)));
+                self.picture = Some(Picture::new(key, origin, Arc::new(fields)));
                 true
             }
             Err(error) => {

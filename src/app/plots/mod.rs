@@ -3,7 +3,9 @@
 pub mod accuracy;
 pub mod badge;
 pub mod basis;
+mod formulas;
 pub mod profiles;
+mod regime_chart;
 pub mod regimes;
 
 use super::state::State;
