@@ -8,5 +8,5 @@ mod solution;
 mod start;
 
 pub use line::{LineSystem, SolveOptions};
-pub use solution::{Problem, Report, Scalars, Solution, SolveError, Termination, Traction};
+pub use solution::{Problem, Report, Scalars, Solution, SolveError, Termination, Traction, scalars_of};
 pub use start::{FullSolver, Start};

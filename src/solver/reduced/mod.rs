@@ -1,7 +1,15 @@
 //! Reduced models: POD bases, row sampling, reduced operators and the online Newton iteration without large-scale work.
+//!
+//! State (p̃, H₀); deformation and load are linear and condensed (`DESIGN`, idea 2). Everything lives in the reference coordinate ξ; the
+//! registration scale s enters the online phase as a number: X = −1 + (ξ + 1)s, H = H₀ − ½ ln s + X²/2 + s (K V_p p̃).
 
 mod model;
 mod online;
+mod operators;
+mod pod;
+mod sampling;
 
-pub use model::{Domain, PodBasis, ReducedModel, Sampling, Snapshot, Trust, Window};
+pub use model::{Domain, ReducedModel, Snapshot, Trust, Window, deformation_weights, distance, flex};
 pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution};
+pub use pod::PodBasis;
+pub use sampling::{RowSnapshots, SampledRows, Sampling, all_rows, greedy, is_finite, q_deim};

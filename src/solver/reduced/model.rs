@@ -1,8 +1,10 @@
 //! What a reduced model is made of.
 
+use super::pod::PodBasis;
+use super::sampling::{SampledRows, Sampling};
 use crate::solver::contact::{Moes, OperatingPoint};
 use crate::solver::full::Problem;
-use crate::solver::grid::ReferenceGrid;
+use crate::solver::grid::{FIRST_UNKNOWN, ReferenceGrid};
 use crate::solver::lubricant::Lubricant;
 use faer::Mat;
 use serde::{Deserialize, Serialize};
@@ -34,27 +36,6 @@ pub enum Trust {
     Outside(String),
 }
 
-/// How the rows of the reduced system are sampled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
-pub enum Sampling {
-    /// Every row: no sampling error, large-scale cost.
-    All,
-    /// The dissertation's greedy of Fig. 2.9 with the rows of V_p themselves.
-    Greedy,
-    /// Q-DEIM with its fixed reconstruction.
-    #[default]
-    QDeim,
-}
-
-/// A POD basis with all its singular values.
-#[derive(Clone, Debug)]
-pub struct PodBasis {
-    /// One mode per column over the node array, orthonormal under the grid's weights.
-    pub modes: Mat<f64>,
-    /// All singular values of the snapshots, also of modes that were not kept.
-    pub singular_values: Vec<f64>,
-}
-
 /// A training solution as the model keeps it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
@@ -77,12 +58,16 @@ pub struct Window {
     pub grid: Arc<ReferenceGrid>,
     /// Pressure basis.
     pub pressure: PodBasis,
-    /// Deformation basis.
+    /// Deformation basis (of K P in the reference coordinate ξ).
     pub deformation: PodBasis,
+    /// K V_p in ξ over the node array: the exact deformation operator.
+    pub flexed: Mat<f64>,
     /// How rows were sampled.
     pub sampling: Sampling,
     /// Sampled rows as indices of unknowns (node index minus 2), ascending.
     pub sampled_rows: Vec<usize>,
+    /// G with Vᵀ W f ≈ G f_I, modes × rows.
+    pub reconstruction: Mat<f64>,
     /// Training solutions.
     pub snapshots: Vec<Snapshot>,
 }
@@ -100,17 +85,63 @@ pub struct ReducedModel {
     pub log: Vec<String>,
 }
 
-impl PodBasis {
-    /// Loss of information when only the first `k` modes are kept, (2.90).
-    pub fn loss(&self, k: usize) -> f64 {
-        let total: f64 = self.singular_values.iter().sum();
-        self.singular_values.iter().skip(k).sum::<f64>() / total
+/// The dissertation's distance of two contacts, (3.20).
+pub fn distance(a: Moes, b: Moes) -> f64 {
+    (a.m - b.m).powi(2) / (a.m * a.m + b.m * b.m) + 0.001 * (a.l - b.l).powi(2)
+}
+
+/// Weights under which deformations are decomposed: the cell sizes, with the neighbour's at the three nodes that carry no pressure.
+pub fn deformation_weights(grid: &ReferenceGrid) -> Vec<f64> {
+    let n = grid.weights.len();
+    (0..n).map(|i| grid.weights[i.clamp(FIRST_UNKNOWN, n - 2)]).collect()
+}
+
+impl Window {
+    /// Assembles a window from its bases; K V_p is computed here, so that it need not be stored.
+    pub fn new(
+        m: (f64, f64),
+        grid: Arc<ReferenceGrid>,
+        pressure: PodBasis,
+        deformation: PodBasis,
+        snapshots: Vec<Snapshot>,
+        sampling: Sampling,
+        rows: SampledRows,
+    ) -> Self {
+        let flexed = flex(&grid, &pressure.modes);
+        let SampledRows { rows: sampled_rows, reconstruction } = rows;
+        Self { m, grid, pressure, deformation, flexed, sampling, sampled_rows, reconstruction, snapshots }
     }
 
-    /// Fewest modes whose loss does not exceed `loss`, (2.92), at least one and at most all that are kept.
-    pub fn modes_for(&self, loss: f64) -> usize {
-        (1..=self.modes.ncols()).find(|&k| self.loss(k) <= loss).unwrap_or(self.modes.ncols())
+    /// Replaces the sampled rows.
+    pub fn set_rows(&mut self, sampling: Sampling, rows: SampledRows) {
+        self.sampling = sampling;
+        self.sampled_rows = rows.rows;
+        self.reconstruction = rows.reconstruction;
     }
+
+    /// The nearest training solution by (3.20).
+    pub fn nearest(&self, moes: Moes) -> Option<(&Snapshot, f64)> {
+        self.snapshots.iter().map(|s| (s, distance(moes, s.point.moes()))).min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+}
+
+/// K applied to every column, in the reference coordinate.
+pub fn flex(grid: &ReferenceGrid, columns: &Mat<f64>) -> Mat<f64> {
+    let n = columns.nrows();
+    let mut out = Mat::zeros(n, columns.ncols());
+    let mut scratch = crate::solver::elasticity::Scratch::default();
+    let mut input = vec![0.0; n];
+    let mut output = vec![0.0; n];
+    for j in 0..columns.ncols() {
+        for (i, v) in input.iter_mut().enumerate() {
+            *v = columns[(i, j)];
+        }
+        grid.flexibility.apply(&input, &mut output, &mut scratch);
+        for (i, v) in output.iter().enumerate() {
+            out[(i, j)] = *v;
+        }
+    }
+    out
 }
 
 impl ReducedModel {

@@ -1,9 +1,14 @@
-//! The online phase: Newton's method in the reduced coordinates.
+//! The online phase: which window, which start, and back to fields.
 
-use super::model::{ReducedModel, Trust};
-use crate::solver::contact::OperatingPoint;
-use crate::solver::full::{Scalars, Solution, SolveError};
+use super::model::{ReducedModel, Snapshot, Trust, Window, distance};
+use super::operators::{OnlineOutcome, Operators, RowObserver};
+use crate::solver::contact::{Moes, OperatingPoint, moes_line_film};
+use crate::solver::full::{Problem, Report, Scalars, Solution, SolveError, Termination, scalars_of};
+use crate::solver::grid::{GridSpec, LineGrid, registration_scale};
 use crate::solver::lubricant::Lubricant;
+use crate::solver::reynolds::PENALTY;
+use faer::linalg::matmul::matmul;
+use faer::{Accum, ColMut, ColRef, Par};
 use std::sync::Arc;
 
 /// Why a reduced solve gives no result.
@@ -12,6 +17,9 @@ pub enum ReducedError {
     /// The problem itself is refused.
     #[error(transparent)]
     Problem(#[from] SolveError),
+    /// The model holds no window.
+    #[error("the reduced model holds no bases")]
+    Empty,
     /// Newton's iteration did not converge.
     #[error(
         "the reduced model did not converge in {iterations} iterations (last step {step:.1e}); use the full solver here"
@@ -31,20 +39,22 @@ pub struct ReducedOptions {
     pub pressure_modes: Option<usize>,
     /// Use the dissertation's V_δ V_δᵀ K V_p with this many deformation modes instead of the exact K V_p.
     pub deformation_modes: Option<usize>,
-    /// Stop on ‖Δp̃‖/‖p̃‖ below this.
+    /// Stop on ‖Δp̃‖/‖p̃‖ below this. Newton converges quadratically: the error left is the square of it.
     pub tolerance: f64,
     /// Newton steps at most.
     pub max_newton: usize,
+    /// Penalty factor γ̄ of (2.36).
+    pub penalty: f64,
 }
 
 impl Default for ReducedOptions {
     fn default() -> Self {
-        Self { pressure_modes: None, deformation_modes: None, tolerance: 1e-6, max_newton: 40 }
+        Self { pressure_modes: None, deformation_modes: None, tolerance: 1e-6, max_newton: 40, penalty: PENALTY }
     }
 }
 
 /// What the online phase returns: small numbers only; fields are reconstructed on request.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ReducedSolution {
     /// The operating point it belongs to.
     pub point: OperatingPoint,
@@ -58,7 +68,7 @@ pub struct ReducedSolution {
     pub h_0: f64,
     /// Newton steps.
     pub iterations: usize,
-    /// e_f^I, (3.15).
+    /// e_f^I, (3.15), in the L2 norm over X restricted to the sampled rows.
     pub residual_estimate: f64,
     /// Whether the model was trained for the point.
     pub trust: Trust,
@@ -69,12 +79,30 @@ pub struct Online {
     /// The model.
     pub model: Arc<ReducedModel>,
     options: ReducedOptions,
+    windows: Vec<Operators>,
+    previous: Option<Previous>,
+}
+
+/// The last converged solution: the start while somebody drags.
+struct Previous {
+    window: usize,
+    moes: Moes,
+    coefficients: Vec<f64>,
+    h_c: f64,
 }
 
 impl Online {
     /// Prepares the operators.
     pub fn new(model: Arc<ReducedModel>, options: ReducedOptions) -> Self {
-        Self { model, options }
+        let windows = model
+            .windows
+            .iter()
+            .map(|w| {
+                let modes = options.pressure_modes.unwrap_or(usize::MAX);
+                Operators::new(w, modes, options.deformation_modes)
+            })
+            .collect();
+        Self { model, options, windows, previous: None }
     }
 
     /// The settings in force.
@@ -82,27 +110,272 @@ impl Online {
         &self.options
     }
 
-    /// Solves a contact: from the previous solution of this object where that is near, else from the nearest snapshot by (3.20).
+    /// Forgets the previous solution, so that the next solve starts from the nearest snapshot.
+    pub fn forget(&mut self) {
+        self.previous = None;
+    }
+
+    /// Solves a contact: from the previous solution of this object where that is nearer, else from the nearest snapshot by (3.20).
     ///
     /// # Errors
     /// When the point is refused or Newton does not converge.
-    pub fn solve(&mut self, _point: &OperatingPoint, _lubricant: Lubricant) -> Result<ReducedSolution, ReducedError> {
-        Err(ReducedError::NotConverged { iterations: 0, step: f64::NAN })
+    pub fn solve(&mut self, point: &OperatingPoint, lubricant: Lubricant) -> Result<ReducedSolution, ReducedError> {
+        self.solve_observed(point, lubricant, None)
+    }
+
+    /// [`Online::solve`] showing every iterate's sampled rows, for the training.
+    pub(crate) fn solve_observed(
+        &mut self,
+        point: &OperatingPoint,
+        lubricant: Lubricant,
+        mut observer: Option<RowObserver<'_>>,
+    ) -> Result<ReducedSolution, ReducedError> {
+        let problem = Problem::new(point, lubricant)?;
+        let index = self.model.window_for(problem.moes);
+        let model = Arc::clone(&self.model);
+        let (Some(window), Some(operators)) = (model.windows.get(index), self.windows.get_mut(index)) else {
+            return Err(ReducedError::Empty);
+        };
+        let moes = problem.moes;
+        // Candidates for the start: the previous solution if it is nearer than every snapshot, then the snapshots by distance.
+        let mut starts: Vec<(f64, &[f64], f64, Moes)> = window
+            .snapshots
+            .iter()
+            .map(|s| {
+                let m = s.point.moes();
+                (distance(moes, m), &s.coefficients[..], s.h_c, m)
+            })
+            .collect();
+        let tried = 3.min(starts.len());
+        if tried > 0 {
+            starts.select_nth_unstable_by(tried - 1, |a, b| a.0.total_cmp(&b.0));
+            starts.truncate(tried);
+            starts.sort_by(|a, b| a.0.total_cmp(&b.0));
+        }
+        if let Some(previous) = self.previous.as_ref().filter(|p| p.window == index) {
+            let d = distance(moes, previous.moes);
+            if starts.first().is_none_or(|s| d < s.0) {
+                starts.insert(0, (d, &previous.coefficients, previous.h_c, previous.moes));
+            }
+        }
+        let mut last = ReducedError::Empty;
+        for (_, start, h_c, start_moes) in &starts {
+            let film = h_c * film_number(moes) / film_number(*start_moes);
+            match attempt(window, operators, &problem, start, film, &self.options, &mut observer) {
+                Ok(found) => return Ok(self.keep(&problem, index, found)),
+                Err(error) => last = error,
+            }
+        }
+        // The last resort: walk from the nearest snapshot's operating point to this one.
+        let walked = window
+            .nearest(moes)
+            .and_then(|(snapshot, _)| walk(window, operators, &problem, snapshot, &self.options, &mut observer));
+        match walked {
+            Some(found) => Ok(self.keep(&problem, index, found)),
+            None => {
+                self.previous = None;
+                Err(last)
+            }
+        }
+    }
+
+    /// Remembers a solution as the next start and returns it.
+    fn keep(&mut self, problem: &Problem, window: usize, found: Found) -> ReducedSolution {
+        let Found { coefficients, h_0, h_c, iterations, residual } = found;
+        let previous = Previous { window, moes: problem.moes, coefficients: coefficients.clone(), h_c };
+        self.previous = Some(previous);
+        ReducedSolution {
+            point: problem.point,
+            lubricant: problem.lubricant,
+            window,
+            coefficients,
+            h_0,
+            iterations,
+            residual_estimate: residual,
+            trust: self.model.trust(problem),
+        }
     }
 
     /// Fields and scalars of a reduced solution, on the window's grid; `report.newton_iterations` holds the online iterations.
     ///
     /// # Errors
-    /// When the solution's point is refused.
-    pub fn reconstruct(&mut self, _solution: &ReducedSolution) -> Result<Solution, ReducedError> {
-        Err(ReducedError::NotConverged { iterations: 0, step: f64::NAN })
+    /// When the solution's point is refused or it belongs to another model.
+    pub fn reconstruct(&self, solution: &ReducedSolution) -> Result<Solution, ReducedError> {
+        let (problem, grid, pressure, film) = self.fields(solution)?;
+        Ok(Solution {
+            problem,
+            grid: grid.reference.spec,
+            grid_scale: grid.scale,
+            scalars: scalars_of(&grid, &problem, &pressure, &film, solution.h_0),
+            x: grid.x,
+            pressure,
+            film,
+            report: Report {
+                termination: Termination::Converged,
+                newton_iterations: solution.iterations,
+                linear_iterations: 0,
+                attempts: 1,
+                residuals: Vec::new(),
+                steps: Vec::new(),
+                residual_norm: solution.residual_estimate,
+            },
+        })
     }
 
-    /// Scalars only, without reconstructing the fields.
+    /// Scalars only.
     ///
     /// # Errors
-    /// When the solution's point is refused.
-    pub fn scalars(&mut self, _solution: &ReducedSolution) -> Result<Scalars, ReducedError> {
-        Err(ReducedError::NotConverged { iterations: 0, step: f64::NAN })
+    /// When the solution's point is refused or it belongs to another model.
+    pub fn scalars(&self, solution: &ReducedSolution) -> Result<Scalars, ReducedError> {
+        let (problem, grid, pressure, film) = self.fields(solution)?;
+        Ok(scalars_of(&grid, &problem, &pressure, &film, solution.h_0))
     }
+
+    fn fields(&self, solution: &ReducedSolution) -> Result<(Problem, LineGrid, Vec<f64>, Vec<f64>), ReducedError> {
+        let problem = Problem::new(&solution.point, solution.lubricant)?;
+        let (Some(window), Some(operators)) =
+            (self.model.windows.get(solution.window), self.windows.get(solution.window))
+        else {
+            return Err(ReducedError::Empty);
+        };
+        let modes = solution.coefficients.len();
+        if modes > window.pressure.modes.ncols() || modes != operators.modes {
+            return Err(ReducedError::Empty);
+        }
+        let grid = window.grid.for_contact(problem.moes);
+        let multiply = |matrix: faer::MatRef<'_, f64>| {
+            let mut out = vec![0.0; matrix.nrows()];
+            matmul(
+                ColMut::from_slice_mut(&mut out).as_mat_mut(),
+                Accum::Replace,
+                matrix,
+                ColRef::from_slice(&solution.coefficients).as_mat(),
+                1.0,
+                Par::Seq,
+            );
+            out
+        };
+        let pressure = multiply(window.pressure.modes.get(.., ..modes));
+        let mut film = multiply(operators.deformation.as_ref());
+        let offset = solution.h_0 - 0.5 * grid.scale.ln();
+        for (h, x) in film.iter_mut().zip(&grid.x) {
+            *h = offset + 0.5 * x * x + grid.scale * *h;
+        }
+        Ok((problem, grid, pressure, film))
+    }
+}
+
+/// A converged online iteration.
+struct Found {
+    coefficients: Vec<f64>,
+    h_0: f64,
+    h_c: f64,
+    iterations: usize,
+    residual: f64,
+}
+
+/// Newton from given coefficients with the film `film` at X = 0.
+fn attempt(
+    window: &Window,
+    operators: &mut Operators,
+    problem: &Problem,
+    start: &[f64],
+    film: f64,
+    options: &ReducedOptions,
+    observer: &mut Option<RowObserver<'_>>,
+) -> Result<Found, ReducedError> {
+    let scale = scale_of(window.grid.spec, problem.moes);
+    let zero = interpolation_at_zero(window, scale);
+    let mut coefficients = start[..operators.modes].to_vec();
+    operators.carry_load(problem, scale, &mut coefficients);
+    // H(0) = H₀ − ½ ln s + s δ(0).
+    let lift = |operators: &Operators, coefficients: &[f64]| -> f64 {
+        let sag: f64 = zero.iter().map(|(node, w)| w * row_dot(&operators.deformation, *node, coefficients)).sum();
+        scale * sag - 0.5 * scale.ln()
+    };
+    let mut h_0 = film - lift(operators, &coefficients);
+    let watch = observer.as_mut().map(|o| &mut **o as RowObserver<'_>);
+    let outcome = operators.newton(problem, scale, &window.grid.xi, &mut coefficients, &mut h_0, options, watch);
+    let h_c = h_0 + lift(operators, &coefficients);
+    if outcome.converged && h_c > 0.0 {
+        let OnlineOutcome { iterations, residual, .. } = outcome;
+        Ok(Found { coefficients, h_0, h_c, iterations, residual })
+    } else {
+        Err(ReducedError::NotConverged { iterations: outcome.iterations, step: outcome.step })
+    }
+}
+
+/// Continuation in the logarithms of the SI quantities from a snapshot's point, with steps that shrink on failure.
+fn walk(
+    window: &Window,
+    operators: &mut Operators,
+    target: &Problem,
+    snapshot: &Snapshot,
+    options: &ReducedOptions,
+    observer: &mut Option<RowObserver<'_>>,
+) -> Option<Found> {
+    let (from, to) = (snapshot.point.quantities(), target.point.quantities());
+    let at = |t: f64| {
+        let q: [f64; 6] = std::array::from_fn(|i| from[i] * (to[i] / from[i]).powf(t));
+        let point = OperatingPoint {
+            kind: target.point.kind,
+            radius_m: q[0],
+            speed_m_per_s: q[1],
+            load: q[2],
+            modulus_pa: q[3],
+            viscosity_pa_s: q[4],
+            alpha_per_pa: q[5],
+        };
+        Problem::new(&point, target.lubricant).ok()
+    };
+    let (mut t, mut stride) = (0.0, 0.25);
+    let (mut coefficients, mut h_c, mut moes) = (snapshot.coefficients.clone(), snapshot.h_c, snapshot.point.moes());
+    let mut iterations = 0;
+    while stride > 0.01 {
+        let next = f64::min(t + stride, 1.0);
+        let problem = if next >= 1.0 { *target } else { at(next)? };
+        let film = h_c * film_number(problem.moes) / film_number(moes);
+        match attempt(window, operators, &problem, &coefficients, film, options, observer) {
+            Ok(found) => {
+                iterations += found.iterations;
+                if next >= 1.0 {
+                    return Some(Found { iterations, ..found });
+                }
+                (t, stride) = (next, 1.5 * stride);
+                (coefficients, h_c, moes) = (found.coefficients, found.h_c, problem.moes);
+            }
+            Err(_) => stride *= 0.4,
+        }
+    }
+    None
+}
+
+/// Moes' film in the solver's scaling up to a constant.
+fn film_number(moes: Moes) -> f64 {
+    moes_line_film(moes) / moes.m
+}
+
+/// The registration scale of a grid specification for a contact.
+fn scale_of(spec: GridSpec, moes: Moes) -> f64 {
+    match spec {
+        GridSpec::Graded { registered: true, .. } => registration_scale(moes),
+        _ => 1.0,
+    }
+}
+
+/// Nodes and weights that give the value at X = 0 on a window's grid under scale s (cubic interpolation in ξ).
+fn interpolation_at_zero(window: &Window, scale: f64) -> [(usize, f64); 4] {
+    let xi = &window.grid.xi;
+    let at = 1.0 / scale - 1.0;
+    let upper = xi.partition_point(|&v| v < at).clamp(3, xi.len() - 2);
+    let first = upper - 2;
+    std::array::from_fn(|k| {
+        let weight =
+            (0..4).filter(|&j| j != k).map(|j| (at - xi[first + j]) / (xi[first + k] - xi[first + j])).product();
+        (first + k, weight)
+    })
+}
+
+fn row_dot(matrix: &faer::Mat<f64>, row: usize, x: &[f64]) -> f64 {
+    x.iter().enumerate().map(|(k, v)| matrix[(row, k)] * v).sum()
 }

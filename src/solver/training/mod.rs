@@ -1,7 +1,15 @@
 //! Making reduced models: sampling plans, snapshots in parallel, bases, row sampling.
+//!
+//! The same specification gives the same model: everything random comes from its seed, and parallel work is collected in order.
+
+mod build;
+mod plan;
+
+pub use build::train;
+pub use plan::{farthest_points, grid_points, random_points, test_point};
 
 use super::lubricant::Lubricant;
-use super::reduced::{ReducedModel, Sampling};
+use super::reduced::Sampling;
 use serde::{Deserialize, Serialize};
 
 /// Where the training solutions are taken.
@@ -119,15 +127,28 @@ pub enum TrainingError {
     /// The specification is refused.
     #[error("{0}")]
     Specification(String),
+    /// A full solution the plan asks for could not be had.
+    #[error(
+        "the full solver did not converge at M = {m:.4}, L = {l:.4}; leave that corner out of the range or refine the grid"
+    )]
+    NotConverged {
+        /// Load number of the point.
+        m: f64,
+        /// Lubricant number of the point.
+        l: f64,
+    },
+    /// A grid or a point is refused.
+    #[error(transparent)]
+    Solve(#[from] super::full::SolveError),
+    /// Linear algebra gave up (non-finite snapshots).
+    #[error("the snapshots of the window M {from}…{to} could not be decomposed")]
+    Decomposition {
+        /// Lower end of the window.
+        from: f64,
+        /// Upper end of the window.
+        to: f64,
+    },
     /// The observer asked to stop.
     #[error("the training was cancelled")]
     Cancelled,
-}
-
-/// Trains a model: full solutions on all cores, then bases, sampling and operators.
-///
-/// # Errors
-/// When the specification is refused or the observer cancels.
-pub fn train(_spec: &TrainingSpec, _observer: &dyn TrainingObserver) -> Result<ReducedModel, TrainingError> {
-    Err(TrainingError::Cancelled)
 }

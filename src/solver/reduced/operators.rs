@@ -1,0 +1,332 @@
+//! The reduced operators of one window for a chosen truncation, and the Newton iteration on them. Nothing here is of large scale, and
+//! nothing is allocated inside an iteration.
+
+use super::model::{Window, deformation_weights};
+use crate::solver::full::Problem;
+use crate::solver::grid::FIRST_UNKNOWN;
+use crate::solver::reynolds::{Node, RowGeometry, row};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::lu::partial_pivoting::{factor, solve};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, ColMut, ColRef, Conj, Mat, MatMut, MatRef, Par};
+
+/// Nodes of a line row.
+const LINE_STENCIL: usize = 4;
+
+/// How an online Newton iteration ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct OnlineOutcome {
+    pub converged: bool,
+    pub iterations: usize,
+    pub step: f64,
+    /// e_f^I, (3.15), with rows weighted by √w.
+    pub residual: f64,
+}
+
+/// Sees each iterate: f_I and J V Δz̃ on the sampled rows.
+pub(crate) type RowObserver<'a> = &'a mut dyn FnMut(&[f64], &[f64]);
+
+pub(crate) struct Operators {
+    pub modes: usize,
+    /// Indices of the nodes the sampled rows depend on.
+    support: Vec<usize>,
+    stencil: Vec<[usize; LINE_STENCIL]>,
+    geometry: Vec<RowGeometry>,
+    row_weights: Vec<f64>,
+    /// V_p on the support, then K V_p on it: row-major, 2·support × modes.
+    state_rows: Vec<f64>,
+    /// G, row-major modes × rows.
+    reconstruction: Mat<f64>,
+    /// wᵀ V_p.
+    load_row: Vec<f64>,
+    /// K V_p or V_δ V_δᵀ W K V_p over the whole node array, for reconstruction.
+    pub deformation: Mat<f64>,
+    /// E_δ of (3.13) with δ̃ condensed: what V_δ cannot represent of K V_p, as a quadratic form; empty for the exact operator.
+    deformation_error: Option<Mat<f64>>,
+    scratch: Scratch,
+}
+
+struct Scratch {
+    fields: Vec<f64>,
+    step_fields: Vec<f64>,
+    nodes: Vec<Node>,
+    values: Vec<f64>,
+    jacobian_rows: Vec<f64>,
+    film_column: Vec<f64>,
+    reduced: Mat<f64>,
+    rhs: Vec<f64>,
+    perm: Vec<usize>,
+    perm_inverse: Vec<usize>,
+    memory: MemBuffer,
+    coefficients_now: Vec<f64>,
+    product: Vec<f64>,
+}
+
+impl Operators {
+    /// Operators with the first `modes` pressure modes and, if given, the first `deformation_modes` deformation modes.
+    pub fn new(window: &Window, modes: usize, deformation_modes: Option<usize>) -> Self {
+        let modes = modes.clamp(1, window.pressure.modes.ncols());
+        let reference = &window.grid;
+        let basis = window.pressure.modes.get(.., ..modes);
+        let exact = window.flexed.get(.., ..modes);
+        let (deformation, deformation_error) = match deformation_modes {
+            None => (exact.to_owned(), None),
+            Some(k) => {
+                let k = k.clamp(1, window.deformation.modes.ncols());
+                let weights = deformation_weights(reference);
+                let v = window.deformation.modes.get(.., ..k);
+                let weighted = Mat::from_fn(v.nrows(), k, |i, j| weights[i] * v[(i, j)]);
+                let projected: Mat<f64> = v * (weighted.transpose() * exact);
+                let missing =
+                    Mat::from_fn(v.nrows(), modes, |i, j| weights[i].sqrt() * (exact[(i, j)] - projected[(i, j)]));
+                let error: Mat<f64> = missing.transpose() * &missing;
+                (projected, Some(error))
+            }
+        };
+        let rows = &window.sampled_rows;
+        let mut support: Vec<usize> = rows.iter().flat_map(|r| *r..*r + LINE_STENCIL).collect();
+        support.sort_unstable();
+        support.dedup();
+        let stencil = rows.iter().map(|r| std::array::from_fn(|m| support.partition_point(|&s| s < r + m))).collect();
+        let xi = &reference.xi;
+        let geometry = rows.iter().map(|&r| RowGeometry::new([xi[r], xi[r + 1], xi[r + 2], xi[r + 3]], None)).collect();
+        let mut state_rows = Vec::with_capacity(2 * support.len() * modes);
+        for &node in &support {
+            state_rows.extend((0..modes).map(|k| basis[(node, k)]));
+        }
+        for &node in &support {
+            state_rows.extend((0..modes).map(|k| deformation[(node, k)]));
+        }
+        let load_row =
+            (0..modes).map(|k| reference.weights.iter().enumerate().map(|(i, w)| w * basis[(i, k)]).sum()).collect();
+        let (n, s) = (rows.len(), support.len());
+        let size = modes + 1;
+        let memory = factor::lu_in_place_scratch::<usize, f64>(size, size, Par::Seq, faer::Spec::default())
+            .or(solve::solve_in_place_scratch::<usize, f64>(size, 1, Par::Seq));
+        Self {
+            modes,
+            stencil,
+            geometry,
+            row_weights: rows.iter().map(|r| reference.weights[r + FIRST_UNKNOWN]).collect(),
+            state_rows,
+            reconstruction: window.reconstruction.get(..modes, ..).to_owned(),
+            load_row,
+            deformation,
+            deformation_error,
+            scratch: Scratch {
+                fields: vec![0.0; 2 * s],
+                step_fields: vec![0.0; 2 * s],
+                nodes: vec![Node::default(); s],
+                values: vec![0.0; n],
+                jacobian_rows: vec![0.0; n * modes],
+                film_column: vec![0.0; n],
+                reduced: Mat::zeros(size, size),
+                rhs: vec![0.0; size],
+                perm: vec![0; size],
+                perm_inverse: vec![0; size],
+                memory: MemBuffer::new(memory),
+                coefficients_now: vec![0.0; modes],
+                product: vec![0.0; n],
+            },
+            support,
+        }
+    }
+
+    /// Newton's method on (p̃, H₀) for a grid scale s, damped by the largest pressure change.
+    pub fn newton(
+        &mut self,
+        problem: &Problem,
+        scale: f64,
+        xi: &[f64],
+        coefficients: &mut [f64],
+        h_0: &mut f64,
+        settings: &super::online::ReducedOptions,
+        mut observer: Option<RowObserver<'_>>,
+    ) -> OnlineOutcome {
+        let mut outcome = OnlineOutcome { converged: false, iterations: 0, step: f64::NAN, residual: f64::NAN };
+        for iteration in 1..=settings.max_newton {
+            self.evaluate(problem, scale, xi, coefficients, *h_0, settings.penalty, true);
+            if !self.linear_step(problem, scale, coefficients) {
+                return outcome;
+            }
+            outcome.iterations = iteration;
+            if let Some(observer) = observer.as_mut() {
+                self.jacobian_times_step();
+                observer(&self.scratch.values, &self.scratch.product);
+            }
+            let omega = self.damping(scale);
+            let (mut change, mut size) = (0.0, 0.0);
+            for (c, d) in coefficients.iter_mut().zip(&self.scratch.rhs) {
+                *c += omega * d;
+                change += d * d;
+                size += *c * *c;
+            }
+            *h_0 += omega * self.scratch.rhs[self.modes];
+            outcome.step = (change / size).sqrt();
+            if !outcome.step.is_finite() {
+                return outcome;
+            }
+            if omega == 1.0 && outcome.step < settings.tolerance {
+                outcome.converged = true;
+                break;
+            }
+        }
+        outcome.residual = self.evaluate(problem, scale, xi, coefficients, *h_0, settings.penalty, false);
+        // A converged iteration with an absurd residual has found garbage.
+        outcome.converged &= outcome.residual.is_finite() && outcome.residual < 1e3;
+        outcome
+    }
+
+    /// Evaluates the sampled rows; returns e_f^I.
+    fn evaluate(
+        &mut self,
+        problem: &Problem,
+        scale: f64,
+        xi: &[f64],
+        coefficients: &[f64],
+        h_0: f64,
+        penalty: f64,
+        derivatives: bool,
+    ) -> f64 {
+        let s = &mut self.scratch;
+        s.coefficients_now.copy_from_slice(coefficients);
+        product(&self.state_rows, self.modes, coefficients, &mut s.fields);
+        let (pressure, deformation) = s.fields.split_at(self.support.len());
+        let offset = h_0 - 0.5 * scale.ln();
+        for (k, (node, &index)) in s.nodes.iter_mut().zip(&self.support).enumerate() {
+            let x = -1.0 + (xi[index] + 1.0) * scale;
+            let film = offset + 0.5 * x * x + scale * deformation[k];
+            *node = Node::new(&problem.fluid, problem.inverse_lambda, pressure[k], film);
+        }
+        let (first, second) = (1.0 / scale, 1.0 / (scale * scale));
+        let (v, d) = self.state_rows.split_at(self.support.len() * self.modes);
+        let mut sum = 0.0;
+        for (r, (stencil, geometry)) in self.stencil.iter().zip(&self.geometry).enumerate() {
+            let geometry = RowGeometry {
+                upwind: geometry.upwind.map(|w| w * first),
+                west: geometry.west * second,
+                east: geometry.east * second,
+                south_north: 0.0,
+            };
+            let center = &s.nodes[stencil[2]];
+            let nodes = [&s.nodes[stencil[0]], &s.nodes[stencil[1]], center, &s.nodes[stencil[3]], center, center];
+            let out = row(&geometry, penalty, nodes);
+            s.values[r] = out.value;
+            sum += self.row_weights[r] * scale * out.value * out.value;
+            if derivatives {
+                let target = &mut s.jacobian_rows[r * self.modes..(r + 1) * self.modes];
+                target.fill(0.0);
+                for (m, &node) in stencil.iter().enumerate() {
+                    let (a, b) = (out.d_p[m], scale * out.d_h[m]);
+                    let range = node * self.modes..(node + 1) * self.modes;
+                    for ((t, v), d) in target.iter_mut().zip(&v[range.clone()]).zip(&d[range]) {
+                        *t += a * v + b * d;
+                    }
+                }
+                s.film_column[r] = out.d_h[..LINE_STENCIL].iter().sum();
+            }
+        }
+        if let Some(error) = &self.deformation_error {
+            let c = ColRef::from_slice(coefficients);
+            sum += scale * (c.transpose() * (error * c)).max(0.0);
+        }
+        let carried: f64 = self.load_row.iter().zip(coefficients).map(|(l, c)| l * c).sum();
+        sum += (scale * carried - problem.load).powi(2);
+        sum.sqrt()
+    }
+
+    /// Solves the reduced linear system; the step is left in `scratch.rhs`. False when it is singular.
+    fn linear_step(&mut self, problem: &Problem, scale: f64, coefficients: &[f64]) -> bool {
+        let modes = self.modes;
+        let s = &mut self.scratch;
+        let rows = s.values.len();
+        let jacobian = MatRef::from_row_major_slice(&s.jacobian_rows, rows, modes);
+        let g = self.reconstruction.as_ref();
+        matmul(s.reduced.get_mut(..modes, ..modes), Accum::Replace, g, jacobian, 1.0, Par::Seq);
+        matmul(
+            s.reduced.get_mut(..modes, modes..),
+            Accum::Replace,
+            g,
+            ColRef::from_slice(&s.film_column).as_mat(),
+            1.0,
+            Par::Seq,
+        );
+        matmul(
+            ColMut::from_slice_mut(&mut s.rhs[..modes]).as_mat_mut(),
+            Accum::Replace,
+            g,
+            ColRef::from_slice(&s.values).as_mat(),
+            -1.0,
+            Par::Seq,
+        );
+        let mut carried = 0.0;
+        for (k, (l, c)) in self.load_row.iter().zip(coefficients).enumerate() {
+            s.reduced[(modes, k)] = scale * l;
+            carried += scale * l * c;
+        }
+        s.reduced[(modes, modes)] = 0.0;
+        s.rhs[modes] = problem.load - carried;
+        let stack = MemStack::new(&mut s.memory);
+        let (_, perm) = factor::lu_in_place(
+            s.reduced.as_mut(),
+            &mut s.perm,
+            &mut s.perm_inverse,
+            Par::Seq,
+            stack,
+            faer::Spec::default(),
+        );
+        let lu = s.reduced.as_ref();
+        let rhs = MatMut::from_column_major_slice_mut(&mut s.rhs, modes + 1, 1);
+        solve::solve_in_place_with_conj(lu, lu, perm, Conj::No, rhs, Par::Seq, stack);
+        s.rhs.iter().all(|v| v.is_finite())
+    }
+
+    /// ω = min(1, 0.3/max|ΔP|), and no sampled film loses more than 70 %.
+    fn damping(&mut self, scale: f64) -> f64 {
+        let s = &mut self.scratch;
+        product(&self.state_rows, self.modes, &s.rhs[..self.modes], &mut s.step_fields);
+        let (pressure, deformation) = s.step_fields.split_at(self.support.len());
+        let largest = pressure.iter().fold(0.0f64, |a, b| a.max(b.abs()));
+        let mut omega = if largest > 0.3 { 0.3 / largest } else { 1.0 };
+        let dh_0 = s.rhs[self.modes];
+        for (node, d) in s.nodes.iter().zip(deformation) {
+            let film = node.flow / node.flow_h;
+            let change = dh_0 + scale * d;
+            if change < -0.7 * film && film > 0.0 {
+                omega = omega.min(-0.7 * film / change);
+            }
+        }
+        omega
+    }
+
+    /// J V Δz̃ on the sampled rows, for the row snapshots.
+    fn jacobian_times_step(&mut self) {
+        let s = &mut self.scratch;
+        let dh_0 = s.rhs[self.modes];
+        for (r, out) in s.product.iter_mut().enumerate() {
+            let row = &s.jacobian_rows[r * self.modes..(r + 1) * self.modes];
+            *out = s.film_column[r] * dh_0 + row.iter().zip(&s.rhs).map(|(a, b)| a * b).sum::<f64>();
+        }
+    }
+
+    /// Scales coefficients so that they carry the load on a grid of scale s.
+    pub fn carry_load(&self, problem: &Problem, scale: f64, coefficients: &mut [f64]) {
+        let carried: f64 = self.load_row.iter().zip(coefficients.iter()).map(|(l, c)| l * c).sum();
+        let factor = problem.load / (scale * carried);
+        if factor.is_finite() && factor > 0.0 {
+            coefficients.iter_mut().for_each(|c| *c *= factor);
+        }
+    }
+}
+
+/// out = A x for a row-major A.
+fn product(rows: &[f64], columns: usize, x: &[f64], out: &mut [f64]) {
+    matmul(
+        ColMut::from_slice_mut(out).as_mat_mut(),
+        Accum::Replace,
+        MatRef::from_row_major_slice(rows, rows.len() / columns, columns),
+        ColRef::from_slice(x).as_mat(),
+        1.0,
+        Par::Seq,
+    );
+}

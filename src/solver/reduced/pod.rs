@@ -1,0 +1,101 @@
+//! Proper orthogonal decomposition under quadrature weights, (2.88)–(2.95).
+
+use faer::linalg::solvers::Svd;
+use faer::{Mat, MatRef};
+
+/// A POD basis with all its singular values.
+#[derive(Clone, Debug)]
+pub struct PodBasis {
+    /// One mode per column over the node array, orthonormal under the grid's weights: Vᵀ W V = I.
+    pub modes: Mat<f64>,
+    /// All singular values of the snapshots, also of modes that were not kept.
+    pub singular_values: Vec<f64>,
+}
+
+impl PodBasis {
+    /// Decomposes snapshots (one per column, node arrays) under the weights and keeps the modes up to a loss of information.
+    /// Nodes with zero weight get zero modes. Returns `None` when the decomposition fails (non-finite snapshots).
+    pub fn new(snapshots: MatRef<'_, f64>, weights: &[f64], loss: f64) -> Option<Self> {
+        let (nodes, columns) = (snapshots.nrows(), snapshots.ncols());
+        if snapshots.row_iter().flat_map(|r| r.iter()).any(|v| !v.is_finite()) {
+            return None;
+        }
+        let scaled = Mat::from_fn(nodes, columns, |i, j| weights[i].sqrt() * snapshots[(i, j)]);
+        let svd = Svd::new_thin(scaled.as_ref()).ok()?;
+        let singular_values: Vec<f64> = svd.S().column_vector().iter().copied().collect();
+        let mut basis = Self { modes: Mat::zeros(nodes, 0), singular_values };
+        let keep = basis.modes_within(loss, basis.singular_values.len());
+        let left = svd.U();
+        basis.modes =
+            Mat::from_fn(nodes, keep, |i, j| if weights[i] > 0.0 { left[(i, j)] / weights[i].sqrt() } else { 0.0 });
+        Some(basis)
+    }
+
+    /// Loss of information when only the first `k` modes are kept, (2.90).
+    pub fn loss(&self, k: usize) -> f64 {
+        let total: f64 = self.singular_values.iter().sum();
+        self.singular_values.iter().skip(k).sum::<f64>() / total
+    }
+
+    /// Fewest modes whose loss does not exceed `loss`, (2.92), at least one and at most all that are kept.
+    pub fn modes_for(&self, loss: f64) -> usize {
+        self.modes_within(loss, self.modes.ncols())
+    }
+
+    fn modes_within(&self, loss: f64, available: usize) -> usize {
+        let total: f64 = self.singular_values.iter().sum();
+        let mut rest = total;
+        for (k, sigma) in self.singular_values.iter().take(available).enumerate() {
+            rest -= sigma;
+            if rest <= loss * total {
+                return k + 1;
+            }
+        }
+        available.max(1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn modes_are_orthonormal_under_the_weights_and_reproduce_the_snapshots() {
+        let weights: Vec<f64> = (0..30).map(|i| 0.01 + 0.002 * f64::from(i)).collect();
+        let snapshots = Mat::from_fn(30, 6, |i, j| ((i + 1) as f64 * (j + 1) as f64 * 0.07).sin());
+        let basis = PodBasis::new(snapshots.as_ref(), &weights, 0.0).unwrap();
+        let product = |a: usize, b: usize| -> f64 {
+            (0..30).map(|i| weights[i] * basis.modes[(i, a)] * basis.modes[(i, b)]).sum()
+        };
+        for a in 0..basis.modes.ncols() {
+            for b in 0..basis.modes.ncols() {
+                assert!((product(a, b) - f64::from(u8::from(a == b))).abs() < 1e-10);
+            }
+        }
+        for j in 0..6 {
+            let coefficients: Vec<f64> = (0..basis.modes.ncols())
+                .map(|k| (0..30).map(|i| weights[i] * basis.modes[(i, k)] * snapshots[(i, j)]).sum())
+                .collect();
+            for i in 0..30 {
+                let rebuilt: f64 = coefficients.iter().enumerate().map(|(k, c)| c * basis.modes[(i, k)]).sum();
+                assert!((rebuilt - snapshots[(i, j)]).abs() < 1e-10);
+            }
+        }
+    }
+
+    #[test]
+    fn loss_of_information_is_the_dissertations() {
+        let basis = PodBasis { modes: Mat::zeros(5, 3), singular_values: vec![8.0, 1.0, 0.9, 0.1] };
+        assert!((basis.loss(0) - 1.0).abs() < 1e-15 && basis.loss(4) < 1e-15);
+        assert!((basis.loss(1) - 0.2).abs() < 1e-15);
+        assert_eq!(basis.modes_for(0.2 + 1e-12), 1);
+        assert_eq!(basis.modes_for(0.05), 3);
+        assert_eq!(basis.modes_for(0.0), 3, "no more than what is kept");
+    }
+
+    #[test]
+    fn non_finite_snapshots_are_refused() {
+        let snapshots = Mat::from_fn(4, 2, |i, j| if i == 2 && j == 1 { f64::NAN } else { 1.0 });
+        assert!(PodBasis::new(snapshots.as_ref(), &[1.0; 4], 0.0).is_none());
+    }
+}

@@ -1,0 +1,176 @@
+//! Which rows of the Reynolds equation the online phase evaluates, and how the projected residual follows from them.
+//!
+//! Every method returns rows I and a matrix G (modes × rows) with Vᵀ W f ≈ G f_I, so that the online phase does not know which one was
+//! used. A goal-oriented cubature (`NUMERICS` 5.4) will be one more variant with G = V_Iᵀ diag(w).
+
+use super::pod::PodBasis;
+use crate::solver::grid::FIRST_UNKNOWN;
+use faer::linalg::solvers::{ColPivQr, PartialPivLu, Solve, Svd};
+use faer::{Mat, MatRef};
+use serde::{Deserialize, Serialize};
+
+/// How the rows of the reduced system are sampled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
+pub enum Sampling {
+    /// Every row: no sampling error, large-scale cost.
+    All,
+    /// The dissertation's greedy of Fig. 2.9 with the rows of V_p themselves, (2.106).
+    Greedy,
+    /// Q-DEIM with its fixed reconstruction V_pᵀ Φ_J (Φ_J,I)⁻¹: pivoted QR picks the rows.
+    #[default]
+    QDeim,
+}
+
+/// Sampled rows (unknown indices, ascending) and the matrix G.
+#[derive(Clone, Debug)]
+pub struct SampledRows {
+    /// Row indices.
+    pub rows: Vec<usize>,
+    /// G, modes × rows.
+    pub reconstruction: Mat<f64>,
+}
+
+/// Residual and Jacobian snapshots (2.108), (2.109) over the unknowns, one per column, rows scaled by √w.
+#[derive(Clone, Debug, Default)]
+pub struct RowSnapshots {
+    /// f_p at the iterates.
+    pub residual: Vec<Vec<f64>>,
+    /// J V Δz̃ at the iterates (the Δ is missing in (2.109)'s print).
+    pub jacobian: Vec<Vec<f64>>,
+}
+
+/// Every row with its quadrature weight.
+pub fn all_rows(basis: &PodBasis, weights: &[f64]) -> SampledRows {
+    let unknowns = weights.len() - 3;
+    rows_of_basis(basis, weights, (0..unknowns).collect())
+}
+
+/// G = V_Iᵀ W_I for given rows.
+fn rows_of_basis(basis: &PodBasis, weights: &[f64], rows: Vec<usize>) -> SampledRows {
+    let reconstruction = Mat::from_fn(basis.modes.ncols(), rows.len(), |k, r| {
+        let node = rows[r] + FIRST_UNKNOWN;
+        weights[node] * basis.modes[(node, k)]
+    });
+    SampledRows { rows, reconstruction }
+}
+
+/// Leading left singular vectors of snapshots.
+fn leading_modes(snapshots: &[Vec<f64>], count: usize) -> Option<Mat<f64>> {
+    let n = snapshots.first()?.len();
+    let matrix = Mat::from_fn(n, snapshots.len(), |i, j| snapshots[j][i]);
+    let svd = Svd::new_thin(matrix.as_ref()).ok()?;
+    let count = count.min(svd.U().ncols());
+    Some(svd.U().get(.., ..count).to_owned())
+}
+
+/// The dissertation's greedy selection, Fig. 2.9, on the POD bases of residual and Jacobian snapshots.
+pub fn greedy(basis: &PodBasis, weights: &[f64], snapshots: &RowSnapshots, count: usize) -> Option<SampledRows> {
+    let residual = leading_modes(&snapshots.residual, count)?;
+    let jacobian = leading_modes(&snapshots.jacobian, count)?;
+    let count = count.min(residual.ncols()).min(jacobian.ncols());
+    let n = residual.nrows();
+    let mut rows: Vec<usize> = Vec::with_capacity(count);
+    let mut taken = vec![false; n];
+    for mode in 0..count {
+        let parts = [interpolation_error(&residual, &rows, mode), interpolation_error(&jacobian, &rows, mode)];
+        let size = |j: usize| parts[0][j].powi(2) + parts[1][j].powi(2);
+        let next = (0..n).filter(|&j| !taken[j]).max_by(|&a, &b| size(a).total_cmp(&size(b)))?;
+        taken[next] = true;
+        rows.push(next);
+    }
+    rows.sort_unstable();
+    Some(rows_of_basis(basis, weights, rows))
+}
+
+/// What of column `mode` its interpolation through the former columns at the chosen rows leaves.
+fn interpolation_error(modes: &Mat<f64>, rows: &[usize], mode: usize) -> Vec<f64> {
+    let n = modes.nrows();
+    let mut error: Vec<f64> = (0..n).map(|i| modes[(i, mode)]).collect();
+    if rows.is_empty() {
+        return error;
+    }
+    let m = rows.len();
+    let system = Mat::from_fn(m, m, |r, c| modes[(rows[r], c)]);
+    let rhs = Mat::from_fn(m, 1, |r, _| modes[(rows[r], mode)]);
+    let coefficients = PartialPivLu::new(system.as_ref()).solve(&rhs);
+    for (i, e) in error.iter_mut().enumerate() {
+        *e -= (0..m).map(|c| modes[(i, c)] * coefficients[(c, 0)]).sum::<f64>();
+    }
+    error
+}
+
+/// Q-DEIM on the Jacobian snapshots: as many rows as POD modes Φ, found by QR with column pivoting of Φᵀ (Drmač & Gugercin 2016).
+pub fn q_deim(basis: &PodBasis, weights: &[f64], snapshots: &RowSnapshots, count: usize) -> Option<SampledRows> {
+    let phi = leading_modes(&snapshots.jacobian, count)?;
+    let count = phi.ncols();
+    let unknowns = phi.nrows();
+    let qr = ColPivQr::new(phi.transpose());
+    let (forward, _) = qr.P().arrays();
+    let mut rows: Vec<usize> = forward[..count].to_vec();
+    rows.sort_unstable();
+    // The snapshots are scaled by √w: so are the test functions, and G undoes it on the sampled values.
+    let test = Mat::from_fn(unknowns, basis.modes.ncols(), |i, k| {
+        weights[i + FIRST_UNKNOWN].sqrt() * basis.modes[(i + FIRST_UNKNOWN, k)]
+    });
+    let projected: Mat<f64> = phi.transpose() * &test;
+    let sampled = Mat::from_fn(count, count, |r, c| phi[(rows[r], c)]);
+    // G′ = projectedᵀ Φ_I⁻¹, so Φ_Iᵀ G′ᵀ = projected.
+    let solution = PartialPivLu::new(sampled.transpose()).solve(&projected);
+    let reconstruction =
+        Mat::from_fn(basis.modes.ncols(), count, |k, r| solution[(r, k)] * weights[rows[r] + FIRST_UNKNOWN].sqrt());
+    Some(SampledRows { rows, reconstruction })
+}
+
+/// Whether a matrix has only finite entries.
+pub fn is_finite(matrix: MatRef<'_, f64>) -> bool {
+    matrix.col_iter().all(|c| c.iter().all(|v| v.is_finite()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn example() -> (PodBasis, Vec<f64>, RowSnapshots) {
+        let unknowns = 40;
+        let weights: Vec<f64> =
+            (0..unknowns + 3).map(|i| if i < 2 || i == unknowns + 2 { 0.0 } else { 0.05 + 0.001 * i as f64 }).collect();
+        let modes = Mat::from_fn(unknowns + 3, 4, |i, k| ((i * (k + 1)) as f64 * 0.11).cos());
+        let basis = PodBasis { modes, singular_values: vec![1.0; 4] };
+        // Snapshots from a six-dimensional space.
+        let column = |j: usize| {
+            (0..unknowns)
+                .map(|i| (0..6).map(|q| ((j * 7 + q) as f64).sin() * ((i * (q + 2)) as f64 * 0.07).sin()).sum())
+                .collect()
+        };
+        let snapshots =
+            RowSnapshots { residual: (0..20).map(column).collect(), jacobian: (5..30).map(column).collect() };
+        (basis, weights, snapshots)
+    }
+
+    #[test]
+    fn q_deim_reconstructs_what_the_snapshots_span_exactly() {
+        let (basis, weights, snapshots) = example();
+        let sampled = q_deim(&basis, &weights, &snapshots, 6).unwrap();
+        assert_eq!(sampled.rows.len(), 6);
+        let all = all_rows(&basis, &weights);
+        for column in &snapshots.jacobian {
+            // A residual f whose √w-scaled values lie in the snapshot space.
+            let f: Vec<f64> = column.iter().enumerate().map(|(i, v)| v / weights[i + 2].sqrt()).collect();
+            for k in 0..4 {
+                let exact: f64 = f.iter().enumerate().map(|(i, f)| all.reconstruction[(k, i)] * f).sum();
+                let from_rows: f64 =
+                    sampled.rows.iter().enumerate().map(|(r, &i)| sampled.reconstruction[(k, r)] * f[i]).sum();
+                assert!((exact - from_rows).abs() < 1e-9 * (1.0 + exact.abs()));
+            }
+        }
+    }
+
+    #[test]
+    fn greedy_takes_distinct_rows() {
+        let (basis, weights, snapshots) = example();
+        let sampled = greedy(&basis, &weights, &snapshots, 6).unwrap();
+        let mut rows = sampled.rows.clone();
+        rows.dedup();
+        assert_eq!(rows.len(), 6);
+    }
+}
