@@ -135,13 +135,13 @@ impl Command {
 
     /// The commands whose keys were pressed in this frame.
     pub fn pressed(ctx: &Context) -> Vec<Self> {
+        // A text field keeps its own undo, and Escape must still leave it.
+        let typing = ctx.text_edit_focused();
+        let left_to_fields = [Self::Undo, Self::Redo, Self::Cancel];
         Self::ALL
             .into_iter()
-            .filter(|command| {
-                // Escape must still leave a text field or close a menu.
-                let free = *command != Self::Cancel || !ctx.egui_wants_keyboard_input();
-                free && command.shortcut().is_some_and(|s| ctx.input_mut(|i| i.consume_shortcut(&s)))
-            })
+            .filter(|command| !(typing && left_to_fields.contains(command)))
+            .filter(|command| command.shortcut().is_some_and(|s| ctx.input_mut(|i| i.consume_shortcut(&s))))
             .collect()
     }
 }

@@ -6,7 +6,7 @@ use super::files::Files;
 use super::jobs::{GridChoice, JobKind, Jobs, Key, Outcome, Request, Running};
 use super::picture::{Comparison, Origin, Picture};
 use super::plots::{basis::BasisView, regimes::RegimeChart};
-use crate::solver::full::{Problem, Report, Solution};
+use crate::solver::full::{Problem, Report};
 use crate::solver::grid::GridSpec;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
 use egui::Context;
@@ -58,6 +58,17 @@ pub struct Failure {
     pub report: Option<Report>,
 }
 
+/// Why the full solver draws the picture.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PassedOver {
+    /// There is no reduced model.
+    NoModel,
+    /// It was not trained for this contact; a sentence says why.
+    Outside(String),
+    /// It did not converge; a sentence says how.
+    Failed(String),
+}
+
 /// The state of the window.
 pub struct State {
     /// What is edited.
@@ -88,7 +99,7 @@ pub struct State {
     /// Why the verification gave nothing.
     pub verify_failure: Option<Failure>,
     /// Why the reduced model was passed over.
-    pub passed_over: Option<String>,
+    pub passed_over: Option<PassedOver>,
     /// Pinned curves.
     pub pins: Vec<Pin>,
     /// Seconds of the last reduced and full solves.
@@ -279,8 +290,8 @@ impl State {
     /// Tries the reduced model; `false` when the full solver has to take over.
     fn refresh_reduced(&mut self, key: Key, options: ReducedOptions) -> bool {
         self.passed_over = match self.trust() {
-            None => Some("no reduced model is loaded".to_owned()),
-            Some(Trust::Outside(why)) => Some(why),
+            None => Some(PassedOver::NoModel),
+            Some(Trust::Outside(why)) => Some(PassedOver::Outside(why)),
             Some(Trust::Trained) => None,
         };
         let (None, Some(model)) = (&self.passed_over, &self.model) else { return false };
@@ -304,7 +315,7 @@ impl State {
                 true
             }
             Err(error) => {
-                self.passed_over = Some(error.to_string());
+                self.passed_over = Some(PassedOver::Failed(error.to_string()));
                 false
             }
         }

@@ -132,23 +132,33 @@ pub fn install(ctx: &Context) {
 /// A symbol as the literature sets it: slanted letter, upright subscript.
 pub fn symbol(ui: &Ui, base: &str, subscript: &str) -> LayoutJob {
     let mut job = LayoutJob::default();
-    append_symbol(&mut job, ui, base, subscript);
+    append_symbol(&mut job, TextStyle::Body.resolve(ui.style()).size, ui.visuals().text_color(), base, subscript);
     job
 }
 
 /// A name followed by its symbol, for the rows of panels: "Load number *M*".
 pub fn name_and_symbol(ui: &Ui, name: &str, base: &str, subscript: &str) -> LayoutJob {
-    let font_id = TextStyle::Body.resolve(ui.style());
-    let color = ui.visuals().text_color();
+    let mark = if subscript.is_empty() { format!("{{{base}}}") } else { format!("{{{base}_{subscript}}}") };
+    rich(&format!("{name} {mark}"), TextStyle::Body.resolve(ui.style()).size, ui.visuals().text_color())
+}
+
+/// Text with symbols in braces: `Pressure {P} = {p}/{p_H}`.
+pub fn rich(text: &str, size: f32, color: Color32) -> LayoutJob {
     let mut job = LayoutJob::default();
-    job.append(&format!("{name} "), 0.0, TextFormat { font_id, color, ..TextFormat::default() });
-    append_symbol(&mut job, ui, base, subscript);
+    let plain = TextFormat { font_id: FontId::proportional(size), color, ..TextFormat::default() };
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once('{') {
+        job.append(before, 0.0, plain.clone());
+        let (inside, behind) = after.split_once('}').unwrap_or((after, ""));
+        let (base, subscript) = inside.split_once('_').unwrap_or((inside, ""));
+        append_symbol(&mut job, size, color, base, subscript);
+        rest = behind;
+    }
+    job.append(rest, 0.0, plain);
     job
 }
 
-fn append_symbol(job: &mut LayoutJob, ui: &Ui, base: &str, subscript: &str) {
-    let size = TextStyle::Body.resolve(ui.style()).size;
-    let color = ui.visuals().text_color();
+fn append_symbol(job: &mut LayoutJob, size: f32, color: Color32, base: &str, subscript: &str) {
     let italics = base.starts_with(|c: char| c.is_ascii_alphabetic());
     let format = TextFormat { font_id: FontId::proportional(size), color, italics, ..TextFormat::default() };
     job.append(base, 0.0, format.clone());

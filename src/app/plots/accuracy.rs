@@ -12,12 +12,10 @@ use egui_plot::{Corner, GridMark, Legend, Line, MarkerShape, Plot, Points};
 /// The tab.
 pub fn ui(ui: &mut Ui, state: &mut State) {
     let ctx = ui.ctx().clone();
-    let running: Option<Report> = None;
     let Some((key, report)) = &state.last_report else {
         ui.centered_and_justified(|ui| ui.weak("No full solve has finished yet"));
         return;
     };
-    let report = running.as_ref().unwrap_or(report);
     let moes = key.point.moes();
     let current = *key == state.key();
     let mut export_now = false;

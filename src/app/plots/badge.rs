@@ -2,8 +2,8 @@
 
 use crate::app::numbers;
 use crate::app::picture::Origin;
-use crate::app::state::State;
-use crate::app::theme::Palette;
+use crate::app::state::{PassedOver, State};
+use crate::app::theme::{Palette, rich};
 use egui::{Color32, CornerRadius, Frame, Margin, RichText, Stroke, Ui};
 
 /// What the badge says.
@@ -43,9 +43,15 @@ pub fn verdict(state: &State) -> Verdict {
         return make("Computing", String::new(), "The first picture is on its way".to_owned(), Kind::Neutral);
     };
     match (picture.origin, &state.passed_over) {
-        (Origin::Full, Some(why)) if state.model.is_some() => make(
+        (Origin::Full, Some(PassedOver::Outside(why))) => make(
             "Outside the reduced model",
-            format!("full solver, {why}"),
+            format!("full solution: {why}"),
+            "The picture is a converged full solution; a reduced model never extrapolates here".to_owned(),
+            Kind::Warning,
+        ),
+        (Origin::Full, Some(PassedOver::Failed(why))) => make(
+            "Reduced model failed",
+            "full solution".to_owned(),
             format!("{why}. The picture is a converged full solution"),
             Kind::Warning,
         ),
@@ -61,7 +67,7 @@ pub fn verdict(state: &State) -> Verdict {
                 Some(c) if state.full_is_current() => make(
                     "Verified",
                     format!(
-                        "H_c {}, H_min {}, max |ΔP| {}",
+                        "{{H_c}} {}, {{H_min}} {}, max |Δ{{P}}| {}",
                         numbers::percent(c.h_c),
                         numbers::percent(c.h_min),
                         numbers::digits(c.max_dp, 2)
@@ -104,7 +110,7 @@ pub fn ui(ui: &mut Ui, state: &State) {
             ui.label(RichText::new(&verdict.title).strong().color(color));
             if !verdict.detail.is_empty() {
                 let plain: Color32 = ui.visuals().text_color();
-                ui.label(RichText::new(&verdict.detail).color(plain));
+                ui.label(rich(&verdict.detail, 13.0, plain));
             }
         })
         .response;

@@ -7,8 +7,8 @@ use crate::app::files::Purpose;
 use crate::app::numbers;
 use crate::app::picture::{Comparison, Origin, Picture, value_at};
 use crate::app::state::{Pin, State};
-use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, faded};
-use egui::{Align2, Color32, Id, RichText, Ui, Vec2b};
+use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, faded, rich};
+use egui::{Align2, Color32, Id, Ui, Vec2b};
 use egui_plot::{
     Corner, HoverPosition, Legend, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points, Span,
     Text,
@@ -84,11 +84,17 @@ fn pins_ui(ui: &mut Ui, state: &mut State) {
     }
     let mut removed = None;
     ui.horizontal_wrapped(|ui| {
+        let color = ui.visuals().text_color();
         for (k, pin) in state.pins.iter().enumerate() {
-            let scalars = &pin.picture.solution.scalars;
-            let text = format!("{}   H_c {}", pin_name(pin), numbers::significant(scalars.h_c));
-            let button = egui::Button::new(RichText::new(text).small()).frame(false);
-            ui.add(button).on_hover_text(export::describe(&pin.picture));
+            let moes = pin.picture.key.point.moes();
+            let text = format!(
+                "Pin {}: {{M}} {}, {{L}} {}, {{H_c}} {}",
+                pin.number,
+                numbers::significant(moes.m),
+                numbers::significant(moes.l),
+                numbers::significant(pin.picture.solution.scalars.h_c)
+            );
+            ui.label(rich(&text, 12.5, color)).on_hover_text(export::describe(&pin.picture));
             let response = ui.small_button("×").on_hover_text("Remove this pin");
             if crate::app::controls::named(ui, response, &format!("Remove pin {}", pin.number)).clicked() {
                 removed = Some(k);
@@ -128,12 +134,12 @@ impl Scene<'_> {
 /// A plot of the stack: shared X axis and cursor.
 fn stacked<'a>(ui: &Ui, id: &str, height: f32, label: &str) -> Plot<'a> {
     let group = Id::unique("profiles");
-    let size = egui::TextStyle::Small.resolve(ui.style()).size;
+    let color = ui.visuals().text_color();
     Plot::new(id)
         .height(height)
         .link_axis(group, Vec2b::new(true, false))
         .link_cursor(group, Vec2b::new(true, false))
-        .y_axis_label(RichText::new(label).size(size + 1.0))
+        .y_axis_label(rich(label, 12.5, color))
         .y_axis_min_width(46.0)
         .allow_scroll(false)
         .set_margin_fraction(egui::vec2(0.0, 0.0))
@@ -176,19 +182,13 @@ fn curve<'a>(name: String, points: &'a [PlotPoint], color: Color32, width: f32) 
     Line::new(name, PlotPoints::Borrowed(points)).color(color).width(width)
 }
 
-fn mark(plot: &mut PlotUi<'_>, at: (f64, f64), text: &str, color: Color32, anchor: Align2) {
-    let point = Points::new("", vec![[at.0, at.1]]).shape(MarkerShape::Circle).radius(3.5).color(color).filled(true);
-    plot.points(point.id(text).allow_hover(false));
-    let label = RichText::new(text).size(12.0).color(color);
-    let position = PlotPoint::new(at.0, at.1);
-    let shift = if anchor == Align2::CENTER_TOP || anchor == Align2::LEFT_TOP { "\n" } else { "" };
-    let padded = if shift.is_empty() { format!("{}  ", label.text()) } else { label.text().to_owned() };
-    plot.text(
-        Text::new("", position, RichText::new(format!(" {padded}")).size(12.0).color(color))
-            .anchor(anchor)
-            .id(format!("{text} label"))
-            .allow_hover(false),
-    );
+/// A dot with its name; the name stands clear of the curve by a leading space or line.
+fn mark(plot: &mut PlotUi<'_>, at: (f64, f64), name: &'static str, color: Color32, anchor: Align2) {
+    let dot = Points::new("", vec![[at.0, at.1]]).id(name).shape(MarkerShape::Circle).radius(3.5).color(color);
+    plot.points(dot.allow_hover(false));
+    let lead = if anchor == Align2::LEFT_BOTTOM { "  " } else { "\n" };
+    let label = Text::new("", PlotPoint::new(at.0, at.1), rich(&format!("{lead}{name}"), 13.0, color));
+    plot.text(label.anchor(anchor).id((name, "label")).allow_hover(false));
 }
 
 fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, height: f32) {
@@ -196,7 +196,7 @@ fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, height: f32) {
     let picture = scene.picture;
     let scalars = picture.solution.scalars;
     let top = scene.pins.iter().map(|p| p.picture.solution.scalars.p_max).fold(scalars.p_max.max(1.0), f64::max);
-    stacked(ui, "pressure", height, "Pressure P = p/p_H")
+    stacked(ui, "pressure", height, "Pressure {P} = {p}/{p_H}")
         .default_x_bounds(X_RANGE.0, X_RANGE.1)
         .default_y_bounds(-0.04 * top, numbers::round_up(1.12 * top))
         .label_formatter(hover(picture))
@@ -239,10 +239,10 @@ fn film_plot(ui: &mut Ui, scene: &Scene<'_>, height: f32) {
     let picture = scene.picture;
     let scalars = picture.solution.scalars;
     let top = scene.pins.iter().map(|p| p.picture.solution.scalars.h_c).fold(scalars.h_c, f64::max);
-    stacked(ui, "film", height, "Film H = hR/a²")
+    stacked(ui, "film", height, "Film {H} = {h}{R}/{a}²")
         .default_x_bounds(X_RANGE.0, X_RANGE.1)
         .default_y_bounds(0.0, numbers::round_up(4.0 * top))
-        .x_axis_label(RichText::new("X = x/a").size(12.0))
+        .x_axis_label(rich("{X} = {x}/{a}", 12.5, ui.visuals().text_color()))
         .label_formatter(hover(picture))
         .show(ui, |plot| {
             fit(plot, scene.fit);
@@ -257,8 +257,8 @@ fn film_plot(ui: &mut Ui, scene: &Scene<'_>, height: f32) {
                 let color = scene.over(&palette, palette.film);
                 plot.line(curve(full_name(scene), &full.film, color, FULL_WIDTH).id("full film"));
             }
-            mark(plot, (0.0, scalars.h_c), "H_c", live, Align2::LEFT_BOTTOM);
-            mark(plot, (scalars.x_h_min, scalars.h_min), "H_min", live, Align2::CENTER_TOP);
+            mark(plot, (0.0, scalars.h_c), "{H_c}", live, Align2::LEFT_BOTTOM);
+            mark(plot, (scalars.x_h_min, scalars.h_min), "{H_min}", live, Align2::CENTER_TOP);
         });
 }
 

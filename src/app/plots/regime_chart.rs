@@ -2,7 +2,9 @@
 
 use crate::app::export;
 use crate::app::theme::Palette;
-use crate::solver::contact::{ContactKind, Moes, MoesRequest, PLAUSIBLE_HERTZ_PRESSURE_PA, moes_line_film, si_from_moes};
+use crate::solver::contact::{
+    ContactKind, Moes, MoesRequest, PLAUSIBLE_HERTZ_PRESSURE_PA, moes_line_film, si_from_moes,
+};
 use crate::solver::reduced::Domain;
 use egui::ColorImage;
 use egui_plot::PlotPoint;
@@ -100,17 +102,17 @@ impl ChartLines {
         let row = |p: &PlotPoint, kind: f64, value: Option<f64>| {
             vec![Some(10f64.powf(p.x)), Some(10f64.powf(p.y)), Some(kind), value]
         };
-        let contours = self
-            .contours
+        let contours =
+            self.contours.iter().flat_map(|(name, points)| points.iter().map(move |p| row(p, 0.0, name.parse().ok())));
+        let boundaries = self
+            .boundaries
             .iter()
-            .flat_map(|(name, points)| points.iter().map(move |p| row(p, 0.0, name.parse().ok())));
-        let boundaries =
-            self.boundaries.iter().enumerate().flat_map(|(k, points)| points.iter().map(move |p| row(p, 1.0, Some(k as f64))));
+            .enumerate()
+            .flat_map(|(k, points)| points.iter().map(move |p| row(p, 1.0, Some(k as f64))));
         let limit = self.pressure_limit.iter().map(|p| row(p, 2.0, None));
         let trained = self.trained.iter().flatten().map(|p| row(p, 3.0, None));
         let snapshots = snapshots.iter().map(|p| row(p, 4.0, None));
-        let comment =
-            "kind 0: contour of Moes' film number (value); 1: regime boundary; 2: p_H 3.2 GPa; 3: trained range; 4: snapshot";
+        let comment = "kind 0: contour of Moes' film number (value); 1: regime boundary; 2: p_H 3.2 GPa; 3: trained range; 4: snapshot";
         export::csv(
             &[comment.to_owned()],
             &["M", "L", "kind", "value"],
@@ -123,7 +125,11 @@ impl ChartLines {
 fn boundaries() -> Vec<Vec<PlotPoint>> {
     let mut found: Vec<((Regime, Regime), Vec<PlotPoint>)> = Vec::new();
     let mut add = |a: Regime, b: Regime, p: PlotPoint| {
-        let pair = if Regime::ALL.iter().position(|r| *r == a) < Regime::ALL.iter().position(|r| *r == b) { (a, b) } else { (b, a) };
+        let pair = if Regime::ALL.iter().position(|r| *r == a) < Regime::ALL.iter().position(|r| *r == b) {
+            (a, b)
+        } else {
+            (b, a)
+        };
         match found.iter_mut().find(|f| f.0 == pair) {
             Some((_, points)) => points.push(p),
             None => found.push((pair, vec![p])),
@@ -140,7 +146,8 @@ fn boundaries() -> Vec<Vec<PlotPoint>> {
                 }
             };
             for step in 0..SAMPLES - 1 {
-                let (mut low, mut high) = (step as f64 / (SAMPLES - 1) as f64, (step + 1) as f64 / (SAMPLES - 1) as f64);
+                let (mut low, mut high) =
+                    (step as f64 / (SAMPLES - 1) as f64, (step + 1) as f64 / (SAMPLES - 1) as f64);
                 let (a, b) = (Regime::of(place(low)), Regime::of(place(high)));
                 if a == b {
                     continue;

@@ -1,17 +1,17 @@
 //! The M–L chart: which asymptote of Moes' formula rules where, what the reduced model was trained for, and the current contact,
 //! which can be dragged. Beside it the published film formulas.
 
-use super::accuracy::decade;
 use super::formulas;
-use super::regime_chart::{ChartLines, M_AXIS, L_AXIS, Regime, shading};
-use crate::app::export;
+use super::regime_chart::{ChartLines, L_AXIS, M_AXIS, Regime, shading};
 use crate::app::files::Purpose;
 use crate::app::numbers;
 use crate::app::state::State;
 use crate::app::theme::{Palette, faded};
 use crate::solver::contact::Moes;
 use egui::{Align2, RichText, TextureHandle, Ui, Vec2b};
-use egui_plot::{GridInput, GridMark, Line, LineStyle, MarkerShape, Plot, PlotImage, PlotPoint, PlotPoints, PlotUi, Points, Text};
+use egui_plot::{
+    GridInput, GridMark, Line, LineStyle, MarkerShape, Plot, PlotImage, PlotPoint, PlotPoints, PlotUi, Points, Text,
+};
 
 /// How near (in screen points) the pointer must be to take the contact along.
 const GRAB_RADIUS: f32 = 18.0;
@@ -140,7 +140,9 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
                 plot.line(line.color(faded(palette.film, 0.55)).width(1.0).style(LineStyle::dotted_dense()));
                 if let Some(end) = points.iter().rev().find(|p| p.x < M_AXIS.1.log10() - 0.04) {
                     let text = RichText::new(name).size(10.5).color(palette.film);
-                    plot.text(Text::new("", *end, text).anchor(Align2::RIGHT_BOTTOM).id(("contour", name)).allow_hover(false));
+                    plot.text(
+                        Text::new("", *end, text).anchor(Align2::RIGHT_BOTTOM).id(("contour", name)).allow_hover(false),
+                    );
                 }
             }
             for (k, points) in lines.boundaries.iter().enumerate() {
@@ -151,7 +153,8 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
                 let text = RichText::new(regime.name()).size(12.0).color(palette.quiet).italics();
                 plot.text(Text::new("", *place, text).id(("regime", regime.name())).allow_hover(false));
             }
-            let limit = Line::new("p_H = 3.2 GPa in the default realisation", PlotPoints::Borrowed(&lines.pressure_limit));
+            let limit =
+                Line::new("p_H = 3.2 GPa in the default realisation", PlotPoints::Borrowed(&lines.pressure_limit));
             plot.line(limit.color(palette.warning).width(1.4).style(LineStyle::dashed_loose()));
             if let Some(end) = lines.pressure_limit.first() {
                 let text = RichText::new("p_H = 3.2 GPa").size(11.0).color(palette.warning);
@@ -169,7 +172,9 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
             let current = [at(here).x, at(here).y];
             let ring = Points::new("", vec![current]).id("ring").color(palette.accent).radius(9.0).filled(false);
             plot.points(ring.shape(MarkerShape::Circle).allow_hover(false));
-            plot.points(Points::new("", vec![current]).id("current").color(palette.accent).radius(5.0).allow_hover(false));
+            plot.points(
+                Points::new("", vec![current]).id("current").color(palette.accent).radius(5.0).allow_hover(false),
+            );
         });
     let transform = response.transform;
     let response = crate::app::controls::named(ui, response.response, "Chart of M and L");
