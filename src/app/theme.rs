@@ -32,6 +32,8 @@ pub struct Palette {
     pub wrong: Color32,
     /// Quiet text and outlines.
     pub quiet: Color32,
+    /// Grid lines of plots.
+    pub grid: Color32,
     /// Shade of the cavitated zone.
     pub cavitated: Color32,
     /// Shades of the regimes: rigid-isoviscous, elastic-isoviscous, rigid-piezoviscous, elastic-piezoviscous.
@@ -57,6 +59,7 @@ impl Palette {
                 warning: Color32::from_rgb(0xE6, 0xB4, 0x50),
                 wrong: Color32::from_rgb(0xF2, 0x6D, 0x6D),
                 quiet: Color32::from_gray(0x9A),
+                grid: Color32::from_white_alpha(34),
                 cavitated: Color32::from_white_alpha(10),
                 regimes: [
                     Color32::from_rgb(0x2B, 0x2E, 0x33),
@@ -76,6 +79,7 @@ impl Palette {
                 warning: Color32::from_rgb(0x9A, 0x68, 0x00),
                 wrong: Color32::from_rgb(0xB8, 0x23, 0x23),
                 quiet: Color32::from_gray(0x6A),
+                grid: Color32::from_black_alpha(44),
                 cavitated: Color32::from_black_alpha(10),
                 regimes: [
                     Color32::from_rgb(0xEE, 0xEE, 0xF0),
@@ -123,7 +127,7 @@ pub fn install(ctx: &Context) {
             style.text_styles.insert(TextStyle::Small, FontId::proportional(11.0));
             style.text_styles.insert(TextStyle::Body, FontId::proportional(13.5));
             style.text_styles.insert(TextStyle::Button, FontId::proportional(13.5));
-            style.text_styles.insert(TextStyle::Heading, FontId::proportional(15.5));
+            style.text_styles.insert(TextStyle::Heading, FontId::proportional(16.0));
             style.animation_time = 0.06;
         });
     }

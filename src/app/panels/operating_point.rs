@@ -25,7 +25,7 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
     heading(ui, "Operating point");
     let moes = state.document.point.moes();
     let trained = state.model.as_ref().map(|m| (m.domain.m, m.domain.l));
-    let width = (ui.available_width() - 150.0).clamp(70.0, 420.0);
+    let width = (ui.available_width() - 132.0).clamp(70.0, 420.0);
     let mut wanted = None;
     Grid::new("moes numbers").num_columns(3).spacing([8.0, 6.0]).show(ui, |ui| {
         explained(ui, symbol(ui, "M", ""), M_TIP);
@@ -162,8 +162,8 @@ const ROWS: [Row; 6] = [
     },
     Row {
         quantity: Quantity::Modulus,
-        name: "Modulus E′",
-        symbol: ("E′", ""),
+        name: "Modulus E'",
+        symbol: ("E'", ""),
         unit: "GPa",
         scale: 1e9,
         tooltip: "Reduced modulus, 2/E′ = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂ (2.5)",
@@ -194,8 +194,7 @@ fn si_ui(ui: &mut Ui, state: &mut State) {
             let name = row.name.split(' ').next().unwrap_or(row.name);
             explained(ui, name_and_symbol(ui, name, row.symbol.0, row.symbol.1), row.tooltip);
             let value = row.quantity.get(&state.document.point) / row.scale;
-            let width = (ui.available_width() - 62.0).clamp(70.0, 110.0);
-            if let Some(value) = number_field(ui, &mut state.entries, row.name, value, width, row.tooltip) {
+            if let Some(value) = number_field(ui, &mut state.entries, row.name, value, 84.0, row.tooltip) {
                 changed = Some((row, value * row.scale));
             }
             ui.label(row.unit);

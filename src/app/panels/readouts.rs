@@ -55,7 +55,7 @@ pub fn ui(ui: &mut Ui, state: &State) {
             ui,
             symbol(ui, "µ", ""),
             if srr == 0.0 { "0".to_owned() } else { numbers::significant(picture.traction.per_srr * srr) },
-            format!("SRR {}", numbers::digits(srr, 3)),
+            format!("at SRR {}", numbers::digits(srr, 3)),
             palette.quiet,
             None,
             "Traction coefficient (3.41): mean shear stress on the surfaces over the load. \

@@ -1,13 +1,14 @@
 //! How the last full solve converged, and what the reduced model's error is here.
 
+use super::axes;
 use crate::app::export;
 use crate::app::files::Purpose;
 use crate::app::numbers;
 use crate::app::state::State;
 use crate::app::theme::Palette;
 use crate::solver::full::Report;
-use egui::{Grid, RichText, Ui};
-use egui_plot::{Corner, GridMark, Legend, Line, MarkerShape, Plot, Points};
+use egui::{Grid, Ui};
+use egui_plot::{Corner, Legend, Line, MarkerShape, Points};
 
 /// The tab.
 pub fn ui(ui: &mut Ui, state: &mut State) {
@@ -66,17 +67,6 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
     }
 }
 
-/// Formats a decade of a transformed axis.
-pub fn decade(mark: GridMark) -> String {
-    if (mark.value - mark.value.round()).abs() > 1e-6 {
-        return String::new();
-    }
-    match mark.value.round() as i32 {
-        e @ -2..=4 => numbers::digits(10f64.powi(e), 1),
-        e => format!("1e{e}").replace('-', "−"),
-    }
-}
-
 fn residual_plot(ui: &mut Ui, report: &Report, current: bool) {
     let palette = Palette::of(ui);
     let log = |values: &[f64]| -> Vec<[f64; 2]> {
@@ -84,14 +74,11 @@ fn residual_plot(ui: &mut Ui, report: &Report, current: bool) {
     };
     let series = [("Residual", &report.residuals, palette.accent), ("Relative step", &report.steps, palette.reference)];
     let height = (ui.available_height() - 4.0).max(120.0);
-    Plot::new("residuals")
-        .height(height)
+    axes::plot(ui, "residuals", height, "Newton step", "2-norm")
         .legend(Legend::default().position(Corner::RightTop).follow_insertion_order(true))
-        .x_axis_label(RichText::new("Newton step").size(12.0))
-        .y_axis_label(RichText::new("2-norm").size(12.0))
-        .y_axis_formatter(|mark, _| decade(mark))
-        .y_axis_min_width(46.0)
-        .allow_scroll(false)
+        .y_grid_spacer(axes::decade_marks)
+        .y_axis_formatter(|mark, _| axes::decade_label(mark))
+        .auto_bounds(egui::Vec2b::TRUE)
         .show(ui, |plot| {
             for (name, values, color) in series {
                 let color = if current { color } else { palette.reference };

@@ -1,6 +1,6 @@
 //! The reduced basis: how fast the singular values fall, what the tolerances keep, what the modes look like, where rows are sampled.
 
-use super::accuracy::decade;
+use super::axes;
 use crate::app::export;
 use crate::app::files::Purpose;
 use crate::app::numbers;
@@ -8,7 +8,7 @@ use crate::app::state::State;
 use crate::app::theme::Palette;
 use crate::solver::grid::FIRST_UNKNOWN;
 use crate::solver::reduced::{PodBasis, ReducedModel, Window};
-use egui::{Color32, ComboBox, Id, RichText, Ui, Vec2b};
+use egui::{Color32, ComboBox, Ui};
 use egui_plot::{Corner, HLine, Legend, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, Points, VLine};
 use std::sync::Arc;
 
@@ -136,14 +136,13 @@ fn toolbar(ui: &mut Ui, state: &mut State, model: &ReducedModel, at: usize, wind
     ui.horizontal_wrapped(|ui| {
         super::badge::ui(ui, state);
         ui.label(format!(
-            "Window {} of {}, M {}…{}: {} of {} pressure modes, {} snapshots",
+            "Window {} of {}, M {}…{}, {} of {} modes",
             at + 1,
             model.windows.len(),
             numbers::digits(window.m.0, 3),
             numbers::digits(window.m.1, 3),
             options.pressure_modes.unwrap_or(window.pressure.modes.ncols()),
-            window.pressure.modes.ncols(),
-            window.snapshots.len()
+            window.pressure.modes.ncols()
         ));
         let truncated = state.document.pressure_loss.is_some() || state.document.deformation_loss.is_some();
         if ui.add_enabled(truncated, egui::Button::new("Keep all modes")).clicked() {
@@ -174,15 +173,11 @@ fn csv(window: &Window) -> String {
     export::csv(&[comment], &header, (0..count).map(row))
 }
 
-fn log_plot<'a>(id: &str, height: f32, label: &str) -> Plot<'a> {
-    Plot::new(id)
-        .height(height)
+fn log_plot<'a>(ui: &Ui, id: &str, height: f32, title: &str) -> Plot<'a> {
+    axes::plot(ui, id, height, "Modes {k}", title)
         .legend(Legend::default().position(Corner::RightTop).follow_insertion_order(true).background_alpha(0.6))
-        .x_axis_label(RichText::new("Modes k").size(12.0))
-        .y_axis_label(RichText::new(label).size(12.0))
-        .y_axis_formatter(|mark, _| decade(mark))
-        .y_axis_min_width(46.0)
-        .allow_scroll(false)
+        .y_grid_spacer(axes::decade_marks)
+        .y_axis_formatter(|mark, _| axes::decade_label(mark))
         .label_formatter(|at| match at {
             egui_plot::HoverPosition::NearDataPoint { plot_name, position, .. } => {
                 Some(format!("{plot_name}\nk = {:.0}\n{}", position.x, numbers::digits(10f64.powf(position.y), 3)))
@@ -196,8 +191,14 @@ fn loss_plot(ui: &mut Ui, state: &mut State, window: &Window, height: f32) {
     let Some(curves) = &state.basis.curves else { return };
     let projected = state.document.projected_deformation;
     // Without a tolerance every mode is kept: the line rests at the loss of the kept modes.
-    let resting = |basis: &PodBasis| basis.loss(basis.modes.ncols()).max(1e-14).log10();
-    let tolerance = |loss: Option<f64>, field: Field| loss.map_or_else(|| resting(field.of(window)), f64::log10);
+    let resting = |field: Field| {
+        let curve = match field {
+            Field::Pressure => &curves.loss[0],
+            Field::Deformation => &curves.loss[1],
+        };
+        curve.get(field.of(window).modes.ncols().saturating_sub(1)).or(curve.last()).map_or(LEAST_LOG_LOSS, |p| p.y)
+    };
+    let tolerance = |loss: Option<f64>, field: Field| loss.map_or_else(|| resting(field), f64::log10);
     let mut lines = vec![(Field::Pressure, tolerance(state.document.pressure_loss, Field::Pressure))];
     if projected {
         lines.push((Field::Deformation, tolerance(state.document.deformation_loss, Field::Deformation)));
@@ -205,10 +206,8 @@ fn loss_plot(ui: &mut Ui, state: &mut State, window: &Window, height: f32) {
     let options = state.reduced_options();
     let dragging = state.basis.dragging;
     let fit = state.fit_plots;
-    let shown = log_plot("loss", height, "Loss of information").allow_drag(dragging.is_none()).show(ui, |plot| {
-        if fit {
-            plot.set_auto_bounds(Vec2b::TRUE);
-        }
+    let shown = log_plot(ui, "loss", height, "Loss of information").allow_drag(dragging.is_none()).show(ui, |plot| {
+        axes::fit(plot, fit);
         for (field, points) in [Field::Pressure, Field::Deformation].into_iter().zip(&curves.loss) {
             let color = field.color(&palette);
             plot.line(Line::new(field.name(), PlotPoints::Borrowed(points)).color(color).width(1.8));
@@ -257,10 +256,8 @@ fn singular_plot(ui: &mut Ui, state: &State, height: f32) {
     let palette = Palette::of(ui);
     let Some(curves) = &state.basis.curves else { return };
     let fit = state.fit_plots;
-    log_plot("singular values", height, "Singular value σ/σ₁").show(ui, |plot| {
-        if fit {
-            plot.set_auto_bounds(Vec2b::TRUE);
-        }
+    log_plot(ui, "singular values", height, "Singular value {σ}/{σ_1}").show(ui, |plot| {
+        axes::fit(plot, fit);
         for (field, points) in [Field::Pressure, Field::Deformation].into_iter().zip(&curves.singular) {
             let color = field.color(&palette);
             plot.line(Line::new(field.name(), PlotPoints::Borrowed(points)).color(color).width(1.4));
@@ -304,18 +301,11 @@ fn mode_plot(ui: &mut Ui, state: &mut State, window: &Window, height: f32) {
     }
     let color = field.color(&palette);
     let fit = state.fit_plots;
-    Plot::new(Id::unique("modes"))
-        .height((height - 30.0).max(90.0))
+    axes::plot(ui, "modes", (height - 30.0).max(90.0), "Reference coordinate {ξ}", "Mode, scaled to 1")
         .legend(Legend::default().position(Corner::LeftTop).follow_insertion_order(true).background_alpha(0.6))
-        .x_axis_label(RichText::new("Reference coordinate ξ").size(12.0))
-        .y_axis_label(RichText::new("Mode").size(12.0))
-        .y_axis_min_width(46.0)
-        .allow_scroll(false)
         .default_x_bounds(-2.2, 1.6)
         .show(ui, |plot| {
-            if fit {
-                plot.set_auto_bounds(Vec2b::TRUE);
-            }
+            axes::fit(plot, fit);
             for (_, k, points) in curves.modes.iter().filter(|m| m.0 == field && (first..last).contains(&m.1)) {
                 let fade = 1.0 - 0.24 * (k - first) as f32;
                 let line = Line::new(format!("Mode {}", k + 1), PlotPoints::Borrowed(points));

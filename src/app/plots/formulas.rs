@@ -12,11 +12,11 @@ pub fn ui(ui: &mut Ui, state: &State) {
     let picture = state.picture.as_ref().filter(|_| state.picture_is_current());
     let central = picture.map(|p| p.central_film_m());
     let minimum = picture.map(|p| p.minimum_film_m());
-    Grid::new("formulas").num_columns(4).spacing([14.0, 5.0]).striped(true).show(ui, |ui| {
+    Grid::new("formulas").num_columns(4).spacing([10.0, 5.0]).striped(true).show(ui, |ui| {
         ui.weak("Formula");
         ui.weak("Of");
         ui.weak("Film");
-        ui.weak("Against here").on_hover_text("Formula over this contact's film, minus one");
+        ui.weak("Against").on_hover_text("Formula over this contact's film, minus one");
         ui.end_row();
         for formula in FilmFormula::LINE {
             let prediction = formula.predict(&state.document.point);

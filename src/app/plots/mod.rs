@@ -1,6 +1,7 @@
 //! The tabs, each a question with its picture.
 
 pub mod accuracy;
+mod axes;
 pub mod badge;
 pub mod basis;
 mod formulas;
@@ -60,7 +61,7 @@ pub struct Tabs<'a> {
 
 impl Behavior<Tab> for Tabs<'_> {
     fn pane_ui(&mut self, ui: &mut Ui, _tile_id: TileId, tab: &mut Tab) -> UiResponse {
-        egui::Frame::new().inner_margin(egui::Margin::symmetric(10, 8)).show(ui, |ui| {
+        egui::Frame::new().fill(ui.visuals().panel_fill).inner_margin(egui::Margin::symmetric(10, 8)).show(ui, |ui| {
             ui.set_min_size(ui.available_size());
             match tab {
                 Tab::Profiles => profiles::ui(ui, self.state),

@@ -1,5 +1,6 @@
 //! Pressure and film against X, one above the other on a shared axis; the difference to the full solution below on request.
 
+use super::axes;
 use crate::app::command::Command;
 use crate::app::controls::warning_ui;
 use crate::app::export;
@@ -132,24 +133,13 @@ impl Scene<'_> {
 }
 
 /// A plot of the stack: shared X axis and cursor.
-fn stacked<'a>(ui: &Ui, id: &str, height: f32, label: &str) -> Plot<'a> {
+fn stacked<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> Plot<'a> {
     let group = Id::unique("profiles");
-    let color = ui.visuals().text_color();
-    Plot::new(id)
-        .height(height)
+    axes::plot(ui, id, height, x_title, y_title)
         .link_axis(group, Vec2b::new(true, false))
         .link_cursor(group, Vec2b::new(true, false))
-        .y_axis_label(rich(label, 12.5, color))
-        .y_axis_min_width(46.0)
-        .allow_scroll(false)
         .set_margin_fraction(egui::vec2(0.0, 0.0))
         .legend(Legend::default().position(Corner::LeftTop).follow_insertion_order(true).background_alpha(0.6))
-}
-
-fn fit(plot: &mut PlotUi<'_>, wanted: bool) {
-    if wanted {
-        plot.set_auto_bounds(Vec2b::TRUE);
-    }
 }
 
 fn hover(picture: &Picture) -> impl Fn(&HoverPosition<'_>) -> Option<String> + '_ {
@@ -179,7 +169,7 @@ fn cavitated(plot: &mut PlotUi<'_>, picture: &Picture, palette: &Palette) {
 }
 
 fn curve<'a>(name: String, points: &'a [PlotPoint], color: Color32, width: f32) -> Line<'a> {
-    Line::new(name, PlotPoints::Borrowed(points)).color(color).width(width)
+    Line::new(name, PlotPoints::Borrowed(points)).color(color).width(width).allow_band(false)
 }
 
 /// A dot with its name; the name stands clear of the curve by a leading space or line.
@@ -196,12 +186,12 @@ fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, height: f32) {
     let picture = scene.picture;
     let scalars = picture.solution.scalars;
     let top = scene.pins.iter().map(|p| p.picture.solution.scalars.p_max).fold(scalars.p_max.max(1.0), f64::max);
-    stacked(ui, "pressure", height, "Pressure {P} = {p}/{p_H}")
+    stacked(ui, "pressure", height, "", "Pressure {P} = {p}/{p_H}")
         .default_x_bounds(X_RANGE.0, X_RANGE.1)
         .default_y_bounds(-0.04 * top, numbers::round_up(1.12 * top))
         .label_formatter(hover(picture))
         .show(ui, |plot| {
-            fit(plot, scene.fit);
+            axes::fit(plot, scene.fit);
             cavitated(plot, picture, &palette);
             let hertz: PlotPoints<'_> =
                 PlotPoints::from_explicit_callback(|x| (1.0 - x * x).max(0.0).sqrt(), -1.0..=1.0, 160);
@@ -239,13 +229,12 @@ fn film_plot(ui: &mut Ui, scene: &Scene<'_>, height: f32) {
     let picture = scene.picture;
     let scalars = picture.solution.scalars;
     let top = scene.pins.iter().map(|p| p.picture.solution.scalars.h_c).fold(scalars.h_c, f64::max);
-    stacked(ui, "film", height, "Film {H} = {h}{R}/{a}²")
+    stacked(ui, "film", height, "{X} = {x}/{a}", "Film {H} = {h}{R}/{a}²")
         .default_x_bounds(X_RANGE.0, X_RANGE.1)
         .default_y_bounds(0.0, numbers::round_up(4.0 * top))
-        .x_axis_label(rich("{X} = {x}/{a}", 12.5, ui.visuals().text_color()))
         .label_formatter(hover(picture))
         .show(ui, |plot| {
-            fit(plot, scene.fit);
+            axes::fit(plot, scene.fit);
             cavitated(plot, picture, &palette);
             for pin in scene.pins {
                 plot.line(curve(pin_name(pin), &pin.picture.film, faded(palette.film, 0.45), THIN_WIDTH));
@@ -264,8 +253,8 @@ fn film_plot(ui: &mut Ui, scene: &Scene<'_>, height: f32) {
 
 fn difference_plot(ui: &mut Ui, comparison: &Comparison, wanted: bool, height: f32) {
     let palette = Palette::of(ui);
-    stacked(ui, "difference", height, "Reduced − full").auto_bounds(Vec2b::TRUE).show(ui, |plot| {
-        fit(plot, wanted);
+    stacked(ui, "difference", height, "", "Reduced − full").auto_bounds(Vec2b::TRUE).show(ui, |plot| {
+        axes::fit(plot, wanted);
         plot.line(curve("ΔP".to_owned(), &comparison.pressure, palette.pressure, 1.4));
         plot.line(curve("ΔH/H_c".to_owned(), &comparison.film, palette.film, 1.4));
     });

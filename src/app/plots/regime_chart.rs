@@ -10,7 +10,7 @@ use egui::ColorImage;
 use egui_plot::PlotPoint;
 
 /// M at the ends of the chart.
-pub const M_AXIS: (f64, f64) = (0.5, 1500.0);
+pub const M_AXIS: (f64, f64) = (0.4, 1500.0);
 /// L at the ends of the chart.
 pub const L_AXIS: (f64, f64) = (0.2, 32.0);
 /// Film numbers of the contours.
@@ -49,10 +49,10 @@ impl Regime {
     /// For people.
     pub fn name(self) -> &'static str {
         match self {
-            Self::RigidIsoviscous => "rigid, isoviscous",
-            Self::ElasticIsoviscous => "elastic, isoviscous",
-            Self::RigidPiezoviscous => "rigid, piezoviscous",
-            Self::ElasticPiezoviscous => "elastic, piezoviscous",
+            Self::RigidIsoviscous => "rigid,\nisoviscous",
+            Self::ElasticIsoviscous => "elastic,\nisoviscous",
+            Self::RigidPiezoviscous => "rigid,\npiezoviscous",
+            Self::ElasticPiezoviscous => "elastic,\npiezoviscous",
         }
     }
 

@@ -1,17 +1,16 @@
 //! The M–L chart: which asymptote of Moes' formula rules where, what the reduced model was trained for, and the current contact,
 //! which can be dragged. Beside it the published film formulas.
 
+use super::axes;
 use super::formulas;
 use super::regime_chart::{ChartLines, L_AXIS, M_AXIS, Regime, shading};
 use crate::app::files::Purpose;
 use crate::app::numbers;
 use crate::app::state::State;
-use crate::app::theme::{Palette, faded};
+use crate::app::theme::{Palette, faded, rich};
 use crate::solver::contact::Moes;
-use egui::{Align2, RichText, TextureHandle, Ui, Vec2b};
-use egui_plot::{
-    GridInput, GridMark, Line, LineStyle, MarkerShape, Plot, PlotImage, PlotPoint, PlotPoints, PlotUi, Points, Text,
-};
+use egui::{Align2, RichText, TextureHandle, Ui};
+use egui_plot::{Line, LineStyle, MarkerShape, PlotImage, PlotPoint, PlotPoints, PlotUi, Points, Text};
 
 /// How near (in screen points) the pointer must be to take the contact along.
 const GRAB_RADIUS: f32 = 18.0;
@@ -31,7 +30,7 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
     let wide = ui.available_width() > 760.0;
     if wide {
         ui.horizontal_top(|ui| {
-            let table = 330.0;
+            let table = 350.0;
             let width = ui.available_width() - table - 14.0;
             ui.vertical(|ui| {
                 ui.set_width(width);
@@ -45,30 +44,6 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
         chart(ui, state, height);
         formulas::ui(ui, state);
     }
-}
-
-/// Marks of a logarithmic axis whose values are log10: decades strong, 2…9 faint.
-fn log_marks(input: GridInput) -> Vec<GridMark> {
-    let (low, high) = input.bounds;
-    if !(low.is_finite() && high.is_finite()) || high - low > 30.0 {
-        return Vec::new();
-    }
-    let mut marks = Vec::new();
-    for exponent in (low.floor() as i32)..=(high.ceil() as i32) {
-        for digit in 1..10 {
-            let step_size = if digit == 1 { 1.0 } else { 0.12 };
-            marks.push(GridMark { value: f64::from(exponent) + f64::from(digit).log10(), step_size });
-        }
-    }
-    marks
-}
-
-/// 1, 2, 5, 10, 20, 50 … of a logarithmic axis.
-fn log_label(mark: GridMark) -> String {
-    let value = 10f64.powf(mark.value);
-    let leading = value / 10f64.powf(value.log10().floor() + 1e-9);
-    let near = |d: f64| (leading / d - 1.0).abs() < 1e-6 || (leading / (10.0 * d) - 1.0).abs() < 1e-6;
-    if near(1.0) || near(2.0) || near(5.0) { numbers::digits(value, 1) } else { String::new() }
 }
 
 fn chart(ui: &mut Ui, state: &mut State, height: f32) {
@@ -88,7 +63,8 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
     }
     let mut toolbar_export = false;
     ui.horizontal_wrapped(|ui| {
-        ui.weak("Drag the contact across the chart. Contours: Moes’ film number, (h/R)(2U)^(−1/2).");
+        let hint = "Drag the contact across the chart. Contours are Moes’ film number ({h}/{R})/√(2{U})";
+        ui.label(rich(hint, 12.5, palette.quiet));
         toolbar_export = ui.button("Export CSV…").on_hover_text("Contours, boundaries and snapshots").clicked();
     });
     if let Some(message) = &state.regimes.message {
@@ -98,22 +74,17 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
     let grabbed = state.regimes.dragging;
     let fit = state.fit_plots;
     let pins: Vec<[f64; 2]> = state.pins.iter().map(|p| at(p.picture.key.point.moes())).map(|p| [p.x, p.y]).collect();
-    let label = |text: &str| RichText::new(text).size(12.0);
     let chart_height = (height - 34.0).max(160.0);
     let texture = state.regimes.texture.as_ref().map(|t| t.1.id());
     let snapshots = state.regimes.snapshots.as_ref().map(|s| s.1.as_slice()).unwrap_or_default();
-    let response = Plot::new("regimes")
-        .height(chart_height)
+    let response = axes::plot(ui, "regimes", chart_height, "Load number {M}", "Lubricant number {L}")
         .default_x_bounds(M_AXIS.0.log10(), M_AXIS.1.log10())
         .default_y_bounds(L_AXIS.0.log10(), L_AXIS.1.log10())
         .allow_drag(!grabbed)
-        .allow_scroll(false)
-        .x_grid_spacer(log_marks)
-        .y_grid_spacer(log_marks)
-        .x_axis_formatter(|mark, _| log_label(mark))
-        .y_axis_formatter(|mark, _| log_label(mark))
-        .x_axis_label(label("Load number M"))
-        .y_axis_label(label("Lubricant number L"))
+        .x_grid_spacer(axes::log_marks)
+        .y_grid_spacer(axes::log_marks)
+        .x_axis_formatter(|mark, _| axes::log_label(mark))
+        .y_axis_formatter(|mark, _| axes::log_label(mark))
         .y_axis_min_width(34.0)
         .label_formatter(|hover| {
             let at = match hover {
@@ -125,13 +96,11 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
                 "M {}   L {}\n{}",
                 numbers::significant(moes.m),
                 numbers::significant(moes.l),
-                Regime::of(moes).name()
+                Regime::of(moes).name().replace('\n', " ")
             ))
         })
         .show(ui, |plot| {
-            if fit {
-                plot.set_auto_bounds(Vec2b::TRUE);
-            }
+            axes::fit(plot, fit);
             if let Some(texture) = texture {
                 image(plot, texture);
             }
