@@ -1,5 +1,6 @@
 //! The window without a display: what people do first, and what they do wrong.
 
+use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use ehl_explorer::app::Explorer;
@@ -64,8 +65,7 @@ fn every_tab_opens() {
 fn a_model_draws_the_picture_and_a_full_solve_checks_it() {
     let mut harness = open_with(Some(Arc::new(small_model())));
     harness.step();
-    assert_eq!(harness.state().badge(), "Reduced model");
-    assert!(harness.state().central_film().is_some(), "the reduced picture is there in the first frame");
+    assert!(harness.state().central_film().is_some(), "the reduced picture is there in the first frames");
     wait(&mut harness, "verification", |app| app.badge() == "Verified");
     harness.get_by_label("Load number M").set_value_accesskit(500.0);
     wait(&mut harness, "the full solver", |app| app.badge() == "Outside the reduced model");
@@ -102,11 +102,11 @@ fn a_refused_entry_leaves_a_message_and_the_last_picture() {
     settled(&mut harness);
     let film = harness.state().central_film();
     for bad in ["abc", "-3", "0", "NaN", "1e99"] {
-        let field = harness.get_by_label("Radius R");
+        let field = harness.get_by_role_and_label(Role::TextInput, "Radius R");
         field.focus();
         harness.run();
         harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
-        harness.get_by_label("Radius R").type_text(bad);
+        harness.get_by_role_and_label(Role::TextInput, "Radius R").type_text(bad);
         harness.run();
         harness.key_press(egui::Key::Enter);
         harness.run();

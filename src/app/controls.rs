@@ -82,11 +82,12 @@ pub fn number_field(
     let shown = numbers::significant(value);
     let mut text = entries.buffers.get(name).cloned().unwrap_or_else(|| shown.clone());
     let wrong = entries.messages.contains_key(name);
-    let mut edit = TextEdit::singleline(&mut text).desired_width(width).align(egui::Align2::RIGHT_CENTER);
+    let mut edit = TextEdit::singleline(&mut text).align(egui::Align2::RIGHT_CENTER);
     if wrong {
         edit = edit.text_color(Palette::of(ui).wrong);
     }
-    let response = ui.add(edit);
+    let height = ui.spacing().interact_size.y;
+    let response = ui.add_sized([width, height], edit);
     let response = named(ui, response, name).on_hover_text(tooltip);
     if response.gained_focus() {
         entries.buffers.entry(name).or_insert_with(|| shown.clone());

@@ -41,7 +41,7 @@ impl LoadFollower {
         match self {
             Self::Load => "load w",
             Self::Radius => "radius R",
-            Self::Speed => "speed uₘ",
+            Self::Speed => "speed u_m",
         }
     }
 
@@ -65,7 +65,7 @@ impl LubricantFollower {
     pub fn name(self) -> &'static str {
         match self {
             Self::Realisation => "α and speed together",
-            Self::Speed => "speed uₘ",
+            Self::Speed => "speed u_m",
             Self::Alpha => "coefficient α",
             Self::Radius => "radius R",
         }

@@ -176,3 +176,51 @@ fn append_symbol(job: &mut LayoutJob, size: f32, color: Color32, base: &str, sub
 pub fn faded(color: Color32, strength: f32) -> Color32 {
     color.gamma_multiply(strength)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Characters outside ASCII that the screen uses must be in the fonts, in light of symbols, units and quotation marks.
+    #[test]
+    fn every_character_on_the_screen_has_a_glyph() {
+        let sources = [
+            include_str!("command.rs"),
+            include_str!("controls.rs"),
+            include_str!("document.rs"),
+            include_str!("files.rs"),
+            include_str!("numbers.rs"),
+            include_str!("picture.rs"),
+            include_str!("panels/help.rs"),
+            include_str!("panels/menu.rs"),
+            include_str!("panels/operating_point.rs"),
+            include_str!("panels/readouts.rs"),
+            include_str!("panels/settings.rs"),
+            include_str!("panels/strip.rs"),
+            include_str!("plots/accuracy.rs"),
+            include_str!("plots/badge.rs"),
+            include_str!("plots/basis.rs"),
+            include_str!("plots/formulas.rs"),
+            include_str!("plots/profiles.rs"),
+            include_str!("plots/regimes.rs"),
+            include_str!("plots/regime_chart.rs"),
+            include_str!("../solver/contact/film_formulas.rs"),
+        ];
+        let mut used: Vec<char> = sources
+            .iter()
+            .flat_map(|s| s.lines())
+            .filter(|line| !line.trim_start().starts_with("//"))
+            .flat_map(str::chars)
+            .filter(|c| !c.is_ascii())
+            .collect();
+        used.sort_unstable();
+        used.dedup();
+        let ctx = Context::default();
+        let mut missing = String::new();
+        let _output = ctx.run_ui(egui::RawInput::default(), |ui| {
+            let font = FontId::proportional(13.0);
+            missing = ui.ctx().fonts_mut(|f| used.iter().copied().filter(|c| !f.has_glyph(&font, *c)).collect());
+        });
+        assert!(missing.is_empty(), "no glyph for {missing:?}");
+    }
+}

@@ -13,9 +13,12 @@ pub const M_RANGE: (f64, f64) = (1.0, 1000.0);
 /// Ends of the L slider.
 pub const L_RANGE: (f64, f64) = (0.5, 25.0);
 
-const M_TIP: &str = "Load number M = w/(E′R) · (2η₀uₘ/(E′R))^(−1/2): how heavily the contact is loaded for its speed. \
+/// Width of the first column, so that values line up from group to group.
+pub const NAME_WIDTH: f32 = 104.0;
+
+const M_TIP: &str = "Load number M = w/(E’R) · (2η₀u_m/(E’R))^(−1/2): how heavily the contact is loaded for its speed. \
     Small: nearly rigid bodies; large: nearly Hertzian. Double click: M 40";
-const L_TIP: &str = "Lubricant number L = αE′ · (2η₀uₘ/(E′R))^(1/4): how strongly the viscosity rises with pressure. \
+const L_TIP: &str = "Lubricant number L = αE’ · (2η₀u_m/(E’R))^(1/4): how strongly the viscosity rises with pressure. \
     Double click: L 10";
 const NEWTONIAN_TIP: &str = "Not active yet: the lubricant is Newtonian and has no constants of shear thinning. \
     The profiles of a Newtonian line contact do not depend on";
@@ -90,13 +93,13 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
 
 fn followers_ui(ui: &mut Ui, state: &mut State) {
     let document = &mut state.document;
-    Grid::new("followers").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
+    Grid::new("followers").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
         let tip = "M fixes one combination of the SI values: this is the one that gives way";
         let label = ui.label("When M moves").on_hover_text(tip);
         let mut chosen = document.when_m_moves;
         ComboBox::from_id_salt("when M moves")
             .selected_text(chosen.name())
-            .width(150.0)
+            .width(140.0)
             .show_ui(ui, |ui| {
                 for follower in LoadFollower::ALL {
                     ui.selectable_value(&mut chosen, follower, follower.name());
@@ -113,7 +116,7 @@ fn followers_ui(ui: &mut Ui, state: &mut State) {
         let label = ui.label("When L moves").on_hover_text(tip);
         ComboBox::from_id_salt("when L moves")
             .selected_text(document.when_l_moves.name())
-            .width(150.0)
+            .width(140.0)
             .show_ui(ui, |ui| {
                 for &follower in document.when_m_moves.partners() {
                     ui.selectable_value(&mut document.when_l_moves, follower, follower.name());
@@ -150,7 +153,7 @@ const ROWS: [Row; 6] = [
         symbol: ("u", "m"),
         unit: "m/s",
         scale: 1.0,
-        tooltip: "Mean entrainment speed, uₘ = (u₁ + u₂)/2 (2.1)",
+        tooltip: "Mean entrainment speed, u_m = (u₁ + u₂)/2 (2.1)",
     },
     Row {
         quantity: Quantity::Load,
@@ -166,7 +169,7 @@ const ROWS: [Row; 6] = [
         symbol: ("E'", ""),
         unit: "GPa",
         scale: 1e9,
-        tooltip: "Reduced modulus, 2/E′ = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂ (2.5)",
+        tooltip: "Reduced modulus, 2/E’ = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂ (2.5)",
     },
     Row {
         quantity: Quantity::Viscosity,
@@ -189,12 +192,12 @@ const ROWS: [Row; 6] = [
 fn si_ui(ui: &mut Ui, state: &mut State) {
     ui.add_space(4.0);
     let mut changed = None;
-    Grid::new("si values").num_columns(3).spacing([8.0, 4.0]).show(ui, |ui| {
+    Grid::new("si values").num_columns(3).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
         for row in &ROWS {
             let name = row.name.split(' ').next().unwrap_or(row.name);
             explained(ui, name_and_symbol(ui, name, row.symbol.0, row.symbol.1), row.tooltip);
             let value = row.quantity.get(&state.document.point) / row.scale;
-            if let Some(value) = number_field(ui, &mut state.entries, row.name, value, 84.0, row.tooltip) {
+            if let Some(value) = number_field(ui, &mut state.entries, row.name, value, NAME_WIDTH, row.tooltip) {
                 changed = Some((row, value * row.scale));
             }
             ui.label(row.unit);
@@ -218,17 +221,17 @@ fn hertz_ui(ui: &mut Ui, state: &State) {
     let point = &state.document.point;
     let hertz = point.hertz();
     ui.add_space(4.0);
-    Grid::new("hertz").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
+    Grid::new("hertz").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 3.0]).show(ui, |ui| {
         let rows = [
             (
                 ("Half width", "a", ""),
                 numbers::length(hertz.half_width_m),
-                "Hertzian half width, a² = 8wR/(πE′) (2.21)",
+                "Hertzian half width, a² = 8wR/(πE’) (2.21)",
             ),
             (
                 ("Hertz pressure", "p", "H"),
                 numbers::pressure(hertz.pressure_pa),
-                "Largest pressure of the dry contact, p_H² = wE′/(2πR) (2.21)",
+                "Largest pressure of the dry contact, p_H² = wE’/(2πR) (2.21)",
             ),
             (
                 ("Stiffening", "αp", "H"),

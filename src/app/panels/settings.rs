@@ -1,5 +1,6 @@
 //! Lubricant laws and the reduced model's settings.
 
+use super::operating_point::NAME_WIDTH;
 use crate::app::controls::{heading, warning_ui};
 use crate::app::state::State;
 use crate::solver::lubricant::{DensityLaw, ViscosityLaw};
@@ -16,11 +17,11 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
 
 fn lubricant_ui(ui: &mut Ui, state: &mut State) {
     let mut wanted = state.document.lubricant;
-    Grid::new("lubricant").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
+    Grid::new("lubricant").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
         let label = ui.label("Viscosity");
         ComboBox::from_id_salt("viscosity law")
             .selected_text(viscosity_name(wanted.viscosity))
-            .width(150.0)
+            .width(140.0)
             .show_ui(ui, |ui| {
                 for law in [ViscosityLaw::Roelands, ViscosityLaw::Barus] {
                     ui.selectable_value(&mut wanted.viscosity, law, viscosity_name(law))
@@ -34,7 +35,7 @@ fn lubricant_ui(ui: &mut Ui, state: &mut State) {
         let label = ui.label("Density");
         ComboBox::from_id_salt("density law")
             .selected_text(density_name(wanted.density))
-            .width(150.0)
+            .width(140.0)
             .show_ui(ui, |ui| {
                 for law in [DensityLaw::DowsonHigginson, DensityLaw::Incompressible] {
                     ui.selectable_value(&mut wanted.density, law, density_name(law)).on_hover_text(density_tip(law));
@@ -94,7 +95,7 @@ fn model_ui(ui: &mut Ui, state: &mut State) {
     let options = state.reduced_options();
     let (all, all_deformation) = (window.pressure.modes.ncols(), window.deformation.modes.ncols());
     ui.label(&model.title).on_hover_text(model.log.join("\n"));
-    Grid::new("model").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
+    Grid::new("model").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
         ui.label("Pressure modes").on_hover_text("Kept of all; drag the tolerance in the tab Reduced basis");
         ui.label(format!("{} of {all}", options.pressure_modes.unwrap_or(all)));
         ui.end_row();
@@ -106,11 +107,11 @@ fn model_ui(ui: &mut Ui, state: &mut State) {
         let projected = &mut state.document.projected_deformation;
         ComboBox::from_id_salt("deformation")
             .selected_text(name(*projected))
-            .width(150.0)
+            .width(140.0)
             .show_ui(ui, |ui| {
                 ui.selectable_value(projected, false, name(false)).on_hover_text("K V_p, no error of its own");
                 ui.selectable_value(projected, true, name(true))
-                    .on_hover_text("V_δ V_δᵀ K V_p, as in the dissertation: its own truncation");
+                    .on_hover_text("V_δ V_δ^T K V_p, as in the dissertation: its own truncation");
             })
             .response
             .labelled_by(label.id);

@@ -5,7 +5,7 @@ use crate::app::export;
 use crate::app::files::Purpose;
 use crate::app::numbers;
 use crate::app::state::State;
-use crate::app::theme::Palette;
+use crate::app::theme::{Palette, rich};
 use crate::solver::full::Report;
 use egui::{Grid, Ui};
 use egui_plot::{Corner, Legend, Line, MarkerShape, Points};
@@ -50,12 +50,13 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
         ui.end_row();
     });
     if let Some(c) = &state.comparison {
-        ui.label(format!(
-            "Reduced against full: H_c {}, H_min {}, max |ΔP| {}",
+        let text = format!(
+            "Reduced against full: {{H_c}} {}, {{H_min}} {}, max |Δ{{P}}| {}",
             numbers::percent(c.h_c),
             numbers::percent(c.h_min),
             numbers::digits(c.max_dp, 2)
-        ));
+        );
+        ui.label(rich(&text, 13.5, ui.visuals().text_color()));
     }
     residual_plot(ui, report, current);
     if export_now {

@@ -139,6 +139,7 @@ fn stacked<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> 
         .link_axis(group, Vec2b::new(true, false))
         .link_cursor(group, Vec2b::new(true, false))
         .set_margin_fraction(egui::vec2(0.0, 0.0))
+        .show_y(false)
         .legend(Legend::default().position(Corner::LeftTop).follow_insertion_order(true).background_alpha(0.6))
 }
 

@@ -126,7 +126,7 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
                 Line::new("p_H = 3.2 GPa in the default realisation", PlotPoints::Borrowed(&lines.pressure_limit));
             plot.line(limit.color(palette.warning).width(1.4).style(LineStyle::dashed_loose()));
             if let Some(end) = lines.pressure_limit.first() {
-                let text = RichText::new("p_H = 3.2 GPa").size(11.0).color(palette.warning);
+                let text = rich("{p_H} = 3.2 GPa", 11.5, palette.warning);
                 plot.text(Text::new("", *end, text).anchor(Align2::RIGHT_TOP).id("limit").allow_hover(false));
             }
             if let Some(outline) = &lines.trained {
