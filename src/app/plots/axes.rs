@@ -27,9 +27,11 @@ pub fn plot<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) ->
     plot
 }
 
-/// Fits a plot to its data where `wanted`; zooming and panning ends it, a double click brings it back.
+/// Fits a plot to its data where `wanted` and when it is seen first; zooming and panning ends it, a double click brings it back.
 pub fn fit(plot: &mut PlotUi<'_>, wanted: bool) {
-    if wanted {
+    let id = plot.response().id.with("seen");
+    let seen = plot.ctx().data_mut(|d| std::mem::replace(d.get_temp_mut_or_default::<bool>(id), true));
+    if wanted || !seen {
         plot.set_auto_bounds(Vec2b::TRUE);
     }
 }
