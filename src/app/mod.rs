@@ -1,11 +1,228 @@
-//! The explorer on the screen.
+//! The explorer: a window in which a contact is dragged and answers at once.
+//!
+//! [`Explorer`] is the whole window as a function of an [`egui::Ui`]; [`run`] puts it into a native one.
 
+mod command;
+mod controls;
+mod document;
+mod export;
+mod files;
+mod jobs;
+mod model_source;
+mod numbers;
+mod panels;
+mod picture;
+mod plots;
+mod session;
+mod state;
+mod theme;
+
+use crate::solver::contact::Moes;
+use crate::solver::reduced::ReducedModel;
+use command::Command;
+use document::Document;
+use egui::{CentralPanel, Context, Panel, ScrollArea, Ui, ViewportCommand};
+use egui_tiles::Tree;
+use files::{Pending, Purpose};
+use jobs::JobKind;
+use panels::help::Help;
+use plots::{Tab, Tabs};
+use state::State;
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Instant;
 
-/// Opens the explorer, on a scene or on the last session.
+/// Opens the window, on a scene or on the last session, and returns when it is closed.
 ///
 /// # Errors
-/// With one sentence when no window can be opened.
-pub fn run(_scene: Option<PathBuf>) -> Result<(), String> {
-    Err("this build has no window; use the commands solve, sweep, run, train, bench and info".to_owned())
+/// One sentence when the scene cannot be read or there is no display.
+pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
+    let mut explorer = Explorer::new(model_source::load_model());
+    if let Some(path) = &scene {
+        explorer.state.open_path(path);
+        if let Some(Err(message)) = explorer.state.files.notice.take() {
+            return Err(message);
+        }
+    }
+    let options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_app_id("ehl-explorer")
+            .with_title("EHL Explorer")
+            .with_inner_size([1280.0, 800.0])
+            .with_min_inner_size([900.0, 560.0]),
+        renderer: eframe::Renderer::Glow,
+        ..eframe::NativeOptions::default()
+    };
+    let restore = scene.is_none();
+    eframe::run_native(
+        "ehl-explorer",
+        options,
+        Box::new(move |creation| {
+            if let Some(storage) = creation.storage {
+                session::restore(&mut explorer, storage, restore);
+            }
+            Ok(Box::new(explorer))
+        }),
+    )
+    .map_err(|error| {
+        format!(
+            "no window can be opened here ({error}); without a display use the headless commands \
+             `ehl-explorer solve`, `ehl-explorer run` or `ehl-explorer bench`"
+        )
+    })
+}
+
+/// The window.
+pub struct Explorer {
+    state: State,
+    tree: Tree<Tab>,
+    help: Help,
+    frame_s: f64,
+    installed: bool,
+}
+
+impl Explorer {
+    /// A window with a reduced model, or without one: the full solver then draws every picture.
+    pub fn new(model: Option<Arc<ReducedModel>>) -> Self {
+        Self {
+            state: State::new(Document::default(), model),
+            tree: plots::default_tree(),
+            help: Help::default(),
+            frame_s: 0.0,
+            installed: false,
+        }
+    }
+
+    /// Leaves the system's file dialogs alone; the path fields remain. For tests.
+    pub fn without_system_dialogs(mut self) -> Self {
+        self.state.files.native_dialogs = false;
+        self
+    }
+
+    /// One frame.
+    pub fn ui(&mut self, ui: &mut Ui) {
+        let begin = Instant::now();
+        let ctx = ui.ctx().clone();
+        if !self.installed {
+            self.installed = true;
+            theme::install(&ctx);
+            ctx.set_theme(self.state.view.theme);
+            ctx.set_zoom_factor(self.state.view.zoom);
+        }
+        self.state.receive();
+        let mut chosen = if self.state.files.asks() { Vec::new() } else { Command::pressed(&ctx) };
+        Panel::top("menu").show(ui, |ui| panels::menu::ui(ui, &mut self.state, &mut chosen));
+        Panel::bottom("jobs").show(ui, |ui| panels::strip::ui(ui, &self.state, self.frame_s, &mut chosen));
+        Panel::left("sliders").default_size(312.0).size_range(250.0..=520.0).show(ui, |ui| {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                panels::operating_point::ui(ui, &mut self.state);
+                panels::settings::ui(ui, &mut self.state);
+                ui.add_space(8.0);
+            });
+        });
+        // The picture follows within this frame: the panels that change the document are drawn before the plots.
+        self.state.refresh(&ctx);
+        Panel::bottom("readouts").show(ui, |ui| panels::readouts::ui(ui, &self.state));
+        CentralPanel::no_frame().show(ui, |ui| {
+            self.tree.ui(&mut Tabs { state: &mut self.state }, ui);
+        });
+        self.state.files_ui(ui);
+        panels::help::ui(&ctx, &mut self.help);
+        self.state.settle(&ctx);
+        for command in chosen {
+            self.execute(&ctx, command);
+        }
+        // What a plot or a command changed shows in the next frame.
+        if !self.state.is_answered() {
+            ctx.request_repaint();
+        }
+        self.frame_s = begin.elapsed().as_secs_f64();
+    }
+
+    fn execute(&mut self, ctx: &Context, command: Command) {
+        let state = &mut self.state;
+        match command {
+            Command::New => state.request(ctx, Pending::New),
+            Command::Open => state.request(ctx, Pending::OpenDialog),
+            Command::Save => state.save(ctx),
+            Command::SaveAs => state.ask_path(ctx, Purpose::Save),
+            Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+            Command::Undo => state.history.undo(&mut state.document),
+            Command::Redo => state.history.redo(&mut state.document),
+            Command::CopyReadouts => ctx.copy_text(export::readouts_table(state)),
+            Command::Pin => state.pin(),
+            Command::Unpin => state.pins.clear(),
+            Command::FitPlots => state.fit_plots = true,
+            Command::LightTheme => self.set_theme(ctx, egui::ThemePreference::Light),
+            Command::DarkTheme => self.set_theme(ctx, egui::ThemePreference::Dark),
+            Command::SystemTheme => self.set_theme(ctx, egui::ThemePreference::System),
+            Command::LargerText => self.set_zoom(ctx, self.state.view.zoom * 1.1),
+            Command::SmallerText => self.set_zoom(ctx, self.state.view.zoom / 1.1),
+            Command::NormalText => self.set_zoom(ctx, 1.0),
+            Command::ResetLayout => {
+                self.tree = plots::default_tree();
+                self.state.fit_plots = true;
+                ctx.memory_mut(|m| m.data.clear());
+            }
+            Command::Verify => state.verify(ctx),
+            Command::Cancel => state.jobs.cancel_all(),
+            Command::Keyboard => self.help.keyboard = true,
+            Command::About => self.help.about = true,
+        }
+        ctx.request_repaint();
+    }
+
+    fn set_theme(&mut self, ctx: &Context, theme: egui::ThemePreference) {
+        self.state.view.theme = theme;
+        ctx.set_theme(theme);
+    }
+
+    fn set_zoom(&mut self, ctx: &Context, zoom: f32) {
+        self.state.view.zoom = zoom.clamp(0.6, 3.0);
+        ctx.set_zoom_factor(self.state.view.zoom);
+    }
+
+    /// M and L of the sliders.
+    pub fn moes(&self) -> Moes {
+        self.state.document.point.moes()
+    }
+
+    /// The load of the sliders \[N/m\].
+    pub fn load_n_per_m(&self) -> f64 {
+        self.state.document.point.load
+    }
+
+    /// H_c of the picture, when it belongs to the sliders.
+    pub fn central_film(&self) -> Option<f64> {
+        self.state.picture.as_ref().filter(|_| self.state.picture_is_current()).map(|p| p.solution.scalars.h_c)
+    }
+
+    /// The first words of the trust badge.
+    pub fn badge(&self) -> String {
+        plots::badge::verdict(&self.state).title
+    }
+
+    /// Whether a computation runs or waits.
+    pub fn busy(&self) -> bool {
+        self.state.jobs.busy(JobKind::Live) || self.state.jobs.busy(JobKind::Verify)
+    }
+
+    /// Seconds that the last frame took to build.
+    pub fn frame_s(&self) -> f64 {
+        self.frame_s
+    }
+}
+
+impl eframe::App for Explorer {
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        Self::ui(self, ui);
+    }
+
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        session::save(self, storage);
+    }
+
+    fn auto_save_interval(&self) -> std::time::Duration {
+        std::time::Duration::from_secs(10)
+    }
 }

@@ -1,0 +1,186 @@
+//! Widgets the panels share: a typed number with its message, a logarithmic slider with marked range, names for screen readers.
+
+use super::numbers;
+use super::theme::Palette;
+use egui::text::LayoutJob;
+use egui::{Key, Response, RichText, Slider, SliderClamping, TextEdit, Ui, pos2};
+use std::collections::HashMap;
+use std::ops::RangeInclusive;
+
+/// Text fields being edited and messages about what was refused, by the name of the field.
+#[derive(Default)]
+pub struct Entries {
+    buffers: HashMap<&'static str, String>,
+    messages: HashMap<&'static str, String>,
+}
+
+impl Entries {
+    /// Records why an entry was refused, or that it was accepted.
+    pub fn answer(&mut self, name: &'static str, result: Result<(), String>) {
+        match result {
+            Ok(()) => {
+                self.messages.remove(name);
+                self.buffers.remove(name);
+            }
+            Err(message) => {
+                self.messages.insert(name, message);
+            }
+        }
+    }
+
+    /// The message about a field.
+    pub fn message(&self, name: &str) -> Option<&str> {
+        self.messages.get(name).map(String::as_str)
+    }
+
+    /// Shows the message about a field, if there is one.
+    pub fn message_ui(&self, ui: &mut Ui, name: &str) {
+        if let Some(message) = self.messages.get(name) {
+            message_ui(ui, message);
+        }
+    }
+}
+
+/// A sentence about something that is wrong, beside what it is about.
+pub fn message_ui(ui: &mut Ui, message: &str) {
+    let color = Palette::of(ui).wrong;
+    ui.label(RichText::new(sentence(message)).small().color(color));
+}
+
+/// A sentence about something worth knowing.
+pub fn warning_ui(ui: &mut Ui, message: &str) {
+    let color = Palette::of(ui).warning;
+    ui.label(RichText::new(sentence(message)).small().color(color));
+}
+
+/// First letter large, a full stop at the end.
+pub fn sentence(text: &str) -> String {
+    let mut chars = text.trim().chars();
+    let mut out: String = chars.next().map(|c| c.to_uppercase().collect()).unwrap_or_default();
+    out.extend(chars);
+    if !out.ends_with(['.', '!', '?']) {
+        out.push('.');
+    }
+    out
+}
+
+/// Gives a widget the name that screen readers (and tests) know it by.
+pub fn named(ui: &Ui, response: Response, name: &str) -> Response {
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_label(name));
+    response
+}
+
+/// A number that is typed. Returns it when it was entered and is a number; arrow keys step by one percent.
+pub fn number_field(
+    ui: &mut Ui,
+    entries: &mut Entries,
+    name: &'static str,
+    value: f64,
+    width: f32,
+    tooltip: &str,
+) -> Option<f64> {
+    let shown = numbers::significant(value);
+    let mut text = entries.buffers.get(name).cloned().unwrap_or_else(|| shown.clone());
+    let wrong = entries.messages.contains_key(name);
+    let mut edit = TextEdit::singleline(&mut text).align(egui::Align2::RIGHT_CENTER);
+    if wrong {
+        edit = edit.text_color(Palette::of(ui).wrong);
+    }
+    let height = ui.spacing().interact_size.y;
+    let response = ui.add_sized([width, height], edit);
+    let response = named(ui, response, name).on_hover_text(tooltip);
+    if response.gained_focus() {
+        entries.buffers.entry(name).or_insert_with(|| shown.clone());
+    }
+    if response.changed() {
+        entries.buffers.insert(name, text.clone());
+    }
+    if response.has_focus() {
+        let (up, down, large) = ui.input_mut(|i| {
+            let large = i.modifiers.shift;
+            (
+                i.count_and_consume_key(i.modifiers, Key::ArrowUp),
+                i.count_and_consume_key(i.modifiers, Key::ArrowDown),
+                large,
+            )
+        });
+        let steps = up as f64 - down as f64;
+        if steps != 0.0 {
+            entries.buffers.remove(name);
+            entries.messages.remove(name);
+            let ratio: f64 = if large { 1.1 } else { 1.01 };
+            return Some(value * ratio.powf(steps));
+        }
+    }
+    if response.lost_focus() {
+        let typed = entries.buffers.get(name).cloned().unwrap_or(text);
+        if ui.input(|i| i.key_pressed(Key::Escape)) || typed == shown {
+            entries.buffers.remove(name);
+            entries.messages.remove(name);
+            return None;
+        }
+        match numbers::parse(&typed) {
+            Ok(number) => return Some(number),
+            Err(message) => entries.answer(name, Err(message)),
+        }
+    }
+    None
+}
+
+/// What a labelled slider needs to know.
+pub struct LogSlider<'a> {
+    /// Accessible name; the typed entry is called the same with " value" appended.
+    pub name: &'a str,
+    /// Ends of the slider.
+    pub range: RangeInclusive<f64>,
+    /// The trained range, marked under the rail.
+    pub marked: Option<(f64, f64)>,
+    /// What a double click goes to.
+    pub home: f64,
+    /// What the quantity is.
+    pub tooltip: &'a str,
+}
+
+impl LogSlider<'_> {
+    /// Shows the slider; returns the new value when it was moved.
+    pub fn show(&self, ui: &mut Ui, value: f64, width: f32) -> Option<f64> {
+        let mut moved = value;
+        ui.spacing_mut().slider_width = width;
+        let response = ui.add(
+            Slider::new(&mut moved, self.range.clone())
+                .logarithmic(true)
+                .clamping(SliderClamping::Never)
+                .smart_aim(false)
+                .show_value(false),
+        );
+        let rect = response.rect;
+        let response = named(ui, response, self.name).on_hover_text(self.tooltip);
+        if let Some((low, high)) = self.marked {
+            let radius = rect.height() / 2.5;
+            let at = |v: f64| {
+                let (a, b) = (self.range.start().ln(), self.range.end().ln());
+                let t = ((v.max(1e-12).ln() - a) / (b - a)).clamp(0.0, 1.0) as f32;
+                rect.left() + radius + t * (rect.width() - 2.0 * radius)
+            };
+            let y = rect.bottom() - 1.0;
+            let color = Palette::of(ui).accent.gamma_multiply(0.8);
+            ui.painter().line_segment([pos2(at(low), y), pos2(at(high), y)], egui::Stroke::new(2.0, color));
+        }
+        let double = ui.input(|i| i.pointer.button_double_clicked(egui::PointerButton::Primary));
+        if double && response.hovered() {
+            return Some(self.home);
+        }
+        (response.changed() && moved != value).then_some(moved)
+    }
+}
+
+/// A heading of a group in a panel.
+pub fn heading(ui: &mut Ui, text: &str) {
+    ui.add_space(4.0);
+    ui.label(RichText::new(text).strong().size(14.5));
+}
+
+/// A label made of a laid-out name, explained on hover.
+pub fn explained(ui: &mut Ui, job: LayoutJob, tooltip: &str) -> Response {
+    ui.label(job).on_hover_text(tooltip)
+}

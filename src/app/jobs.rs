@@ -1,0 +1,361 @@
+//! Work that takes longer than a frame: one worker thread, newest request first, cancellable, and unable to take the window down.
+
+use crate::solver::contact::OperatingPoint;
+use crate::solver::full::{FullSolver, Solution, Start};
+use crate::solver::grid::{GridSpec, ReferenceGrid};
+use crate::solver::lubricant::Lubricant;
+use crate::solver::observer::{NewtonStep, Observer};
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// What a result belongs to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Key {
+    /// The operating point.
+    pub point: OperatingPoint,
+    /// The laws.
+    pub lubricant: Lubricant,
+}
+
+/// What a full solve is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JobKind {
+    /// The live picture where no reduced model serves.
+    Live,
+    /// The check of a picture.
+    Verify,
+}
+
+impl JobKind {
+    /// For people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Live => "Full solve for the picture",
+            Self::Verify => "Verification by a full solve",
+        }
+    }
+}
+
+/// The grid of a solve: one that exists, or one to build.
+#[derive(Clone, Debug)]
+pub enum GridChoice {
+    /// A reduced model's own grid.
+    Existing(Arc<ReferenceGrid>),
+    /// A specification.
+    Spec(GridSpec),
+}
+
+/// A full solve that is wanted.
+#[derive(Clone)]
+pub struct Request {
+    /// What for.
+    pub kind: JobKind,
+    /// What to solve.
+    pub key: Key,
+    /// On which grid.
+    pub grid: GridChoice,
+    /// A solution to start from.
+    pub start: Option<Arc<Solution>>,
+}
+
+/// What comes back.
+pub enum Outcome {
+    /// A solution (it says itself whether it converged) and the seconds of the solve alone.
+    Solved(Box<Solution>, f64),
+    /// A sentence why there is none.
+    Failed(String),
+}
+
+/// A job as the strip at the bottom shows it.
+pub struct Running {
+    /// Its number.
+    pub id: u64,
+    /// What it was asked for.
+    pub kind: JobKind,
+    /// The parameters it is for.
+    pub key: Key,
+    /// Newton steps so far.
+    pub steps: Vec<NewtonStep>,
+    /// When it was handed over.
+    pub since: Instant,
+    cancel: Arc<AtomicBool>,
+}
+
+impl Running {
+    /// Asks the job to stop.
+    pub fn cancel(&self) {
+        self.cancel.store(true, Ordering::Relaxed);
+    }
+}
+
+struct Job {
+    id: u64,
+    request: Request,
+    cancel: Arc<AtomicBool>,
+    ctx: egui::Context,
+}
+
+enum Event {
+    Step(u64, NewtonStep),
+    Finished(u64, Outcome),
+}
+
+#[derive(Default)]
+struct Queue {
+    live: Option<Job>,
+    verify: Option<Job>,
+    closed: bool,
+}
+
+#[derive(Default)]
+struct Shared {
+    queue: Mutex<Queue>,
+    wake: Condvar,
+}
+
+impl Shared {
+    fn lock(&self) -> MutexGuard<'_, Queue> {
+        // A poisoned queue still holds whole jobs: every change to it is one assignment.
+        self.queue.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The worker and what it has to do.
+pub struct Jobs {
+    shared: Arc<Shared>,
+    events: Receiver<Event>,
+    running: Vec<Running>,
+    next_id: u64,
+}
+
+impl Default for Jobs {
+    fn default() -> Self {
+        let shared = Arc::new(Shared::default());
+        let (sender, events) = channel();
+        let theirs = Arc::clone(&shared);
+        // Where no thread can be had, jobs stay queued and the window says that they wait.
+        let _handle = std::thread::Builder::new().name("solver".into()).spawn(move || work(&theirs, &sender));
+        Self { shared, events, running: Vec::new(), next_id: 1 }
+    }
+}
+
+impl Drop for Jobs {
+    fn drop(&mut self) {
+        self.cancel_all();
+        self.shared.lock().closed = true;
+        self.shared.wake.notify_all();
+    }
+}
+
+/// A live solve that ran longer than this is given up for a newer one.
+const LIVE_PATIENCE: Duration = Duration::from_millis(80);
+
+impl Jobs {
+    /// Hands a solve over. It replaces one of the same kind that has not started; a verification of other parameters stops.
+    pub fn submit(&mut self, ctx: &egui::Context, request: Request) {
+        for job in &self.running {
+            let obsolete = match job.kind {
+                JobKind::Verify => job.key != request.key || request.kind == JobKind::Verify,
+                JobKind::Live => job.key != request.key && job.since.elapsed() > LIVE_PATIENCE,
+            };
+            if obsolete {
+                job.cancel();
+            }
+        }
+        let (id, cancel) = (self.next_id, Arc::new(AtomicBool::new(false)));
+        self.next_id += 1;
+        let (kind, key) = (request.kind, request.key);
+        let job = Job { id, request, cancel: Arc::clone(&cancel), ctx: ctx.clone() };
+        let replaced = {
+            let mut queue = self.shared.lock();
+            match kind {
+                JobKind::Live => queue.live.replace(job),
+                JobKind::Verify => queue.verify.replace(job),
+            }
+        };
+        if let Some(old) = replaced {
+            self.running.retain(|r| r.id != old.id);
+        }
+        self.running.push(Running { id, kind, key, steps: Vec::new(), since: Instant::now(), cancel });
+        self.shared.wake.notify_one();
+    }
+
+    /// What has finished since the last call, with what it was for.
+    pub fn poll(&mut self) -> Vec<(Running, Outcome)> {
+        let mut finished = Vec::new();
+        while let Ok(event) = self.events.try_recv() {
+            match event {
+                Event::Step(id, step) => {
+                    if let Some(job) = self.running.iter_mut().find(|r| r.id == id) {
+                        job.steps.push(step);
+                    }
+                }
+                Event::Finished(id, outcome) => {
+                    if let Some(at) = self.running.iter().position(|r| r.id == id) {
+                        finished.push((self.running.remove(at), outcome));
+                    }
+                }
+            }
+        }
+        finished
+    }
+
+    /// Everything that waits or runs.
+    pub fn running(&self) -> &[Running] {
+        &self.running
+    }
+
+    /// Whether a job of a kind waits or runs.
+    pub fn busy(&self, kind: JobKind) -> bool {
+        self.running.iter().any(|r| r.kind == kind)
+    }
+
+    /// Stops everything.
+    pub fn cancel_all(&self) {
+        for job in &self.running {
+            job.cancel();
+        }
+    }
+}
+
+/// The worker's loop: the live picture goes before verifications.
+fn work(shared: &Shared, events: &Sender<Event>) {
+    let mut solvers: Vec<FullSolver> = Vec::new();
+    loop {
+        let job = {
+            let mut queue = shared.lock();
+            loop {
+                if queue.closed {
+                    return;
+                }
+                if let Some(job) = queue.live.take().or_else(|| queue.verify.take()) {
+                    break job;
+                }
+                queue = shared.wake.wait(queue).unwrap_or_else(PoisonError::into_inner);
+            }
+        };
+        let outcome = match guarded(|| solve(&mut solvers, &job, events)) {
+            Ok(outcome) => outcome,
+            Err(message) => {
+                // A solver that panicked may hold half a state.
+                solvers.clear();
+                Outcome::Failed(message)
+            }
+        };
+        if events.send(Event::Finished(job.id, outcome)).is_err() {
+            return;
+        }
+        job.ctx.request_repaint();
+    }
+}
+
+/// Runs something that may panic and turns the panic into a sentence.
+fn guarded<T>(run: impl FnOnce() -> T) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(run)).map_err(|payload| {
+        format!(
+            "the solver stopped unexpectedly ({}); the window and your work are not affected",
+            panic_text(&*payload)
+        )
+    })
+}
+
+fn panic_text(payload: &(dyn Any + Send)) -> String {
+    payload
+        .downcast_ref::<&str>()
+        .map(|s| (*s).to_owned())
+        .or_else(|| payload.downcast_ref::<String>().cloned())
+        .unwrap_or_else(|| "no reason given".to_owned())
+}
+
+/// Grids kept between solves.
+const KEPT_SOLVERS: usize = 4;
+
+fn solve(solvers: &mut Vec<FullSolver>, job: &Job, events: &Sender<Event>) -> Outcome {
+    let request = &job.request;
+    let spec = match &request.grid {
+        GridChoice::Existing(reference) => reference.spec,
+        GridChoice::Spec(spec) => *spec,
+    };
+    let at = match solvers.iter().position(|s| s.reference().spec == spec) {
+        Some(at) => at,
+        None => {
+            let solver = match &request.grid {
+                GridChoice::Existing(reference) => FullSolver::on(Arc::clone(reference)),
+                GridChoice::Spec(spec) => match FullSolver::new(*spec) {
+                    Ok(solver) => solver,
+                    Err(error) => return Outcome::Failed(error.to_string()),
+                },
+            };
+            if solvers.len() >= KEPT_SOLVERS {
+                solvers.remove(0);
+            }
+            solvers.push(solver);
+            solvers.len() - 1
+        }
+    };
+    let Some(solver) = solvers.get_mut(at) else { return Outcome::Failed("no solver".to_owned()) };
+    let start = request.start.as_deref().map_or(Start::Cold, Start::From);
+    let mut observer = Reporter { job, events, last_repaint: Instant::now() };
+    let begin = Instant::now();
+    match solver.solve(&request.key.point, request.key.lubricant, start, &mut observer) {
+        Ok(solution) => Outcome::Solved(Box::new(solution), begin.elapsed().as_secs_f64()),
+        Err(error) => Outcome::Failed(error.to_string()),
+    }
+}
+
+/// Passes Newton steps on, repainting at most every 50 ms.
+struct Reporter<'a> {
+    job: &'a Job,
+    events: &'a Sender<Event>,
+    last_repaint: Instant,
+}
+
+impl Observer for Reporter<'_> {
+    fn newton_step(&mut self, step: &NewtonStep) {
+        if self.events.send(Event::Step(self.job.id, *step)).is_ok()
+            && self.last_repaint.elapsed() > Duration::from_millis(50)
+        {
+            self.last_repaint = Instant::now();
+            self.job.ctx.request_repaint();
+        }
+    }
+
+    fn cancelled(&self) -> bool {
+        self.job.cancel.load(Ordering::Relaxed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_becomes_a_sentence() {
+        let message = guarded(|| -> i32 { panic!("index 7") }).unwrap_err();
+        assert!(message.contains("index 7"), "{message}");
+    }
+
+    #[test]
+    fn a_job_comes_back_with_what_it_was_for() {
+        let mut jobs = Jobs::default();
+        let key = Key { point: OperatingPoint::TABLE_2_1, lubricant: Lubricant::default() };
+        let grid = GridChoice::Spec(GridSpec::graded_for(key.point.moes()));
+        jobs.submit(&egui::Context::default(), Request { kind: JobKind::Verify, key, grid, start: None });
+        let begin = Instant::now();
+        loop {
+            if let Some((job, outcome)) = jobs.poll().pop() {
+                assert_eq!(job.key, key);
+                assert!(!job.steps.is_empty());
+                assert!(matches!(outcome, Outcome::Solved(solution, _) if solution.converged()));
+                break;
+            }
+            assert!(begin.elapsed() < Duration::from_secs(20));
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        assert!(jobs.running().is_empty());
+    }
+}

@@ -1,0 +1,143 @@
+//! Numbers as people read them: four significant digits, a thin space before the unit, and typed numbers back again.
+
+/// Thin space between a number and its unit.
+pub const THIN: char = '\u{2009}';
+
+/// Four significant digits; powers of ten only where plain digits would hide the number.
+pub fn significant(value: f64) -> String {
+    digits(value, 4)
+}
+
+/// A number of significant digits.
+pub fn digits(value: f64, count: usize) -> String {
+    if !value.is_finite() {
+        return "–".to_owned();
+    }
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let count = count.max(1);
+    let exponent = value.abs().log10().floor() as i32;
+    let text = if (-4..=5).contains(&exponent) {
+        let decimals = (count as i32 - 1 - exponent).max(0) as usize;
+        format!("{value:.decimals$}")
+    } else {
+        format!("{value:.*e}", count - 1)
+    };
+    text.replace('-', "−")
+}
+
+/// A number and its unit.
+pub fn quantity(value: f64, unit: &str) -> String {
+    if unit.is_empty() { significant(value) } else { format!("{}{THIN}{unit}", significant(value)) }
+}
+
+/// A pressure in Pa, shown in GPa or MPa.
+pub fn pressure(pascal: f64) -> String {
+    if pascal.abs() >= 1e8 { quantity(pascal * 1e-9, "GPa") } else { quantity(pascal * 1e-6, "MPa") }
+}
+
+/// A length in m, shown in mm, µm or nm.
+pub fn length(metre: f64) -> String {
+    let size = metre.abs();
+    if size >= 1e-3 {
+        quantity(metre * 1e3, "mm")
+    } else if size >= 1e-7 || size == 0.0 {
+        quantity(metre * 1e6, "µm")
+    } else {
+        quantity(metre * 1e9, "nm")
+    }
+}
+
+/// A time in s, shown in µs, ms or s.
+pub fn duration(second: f64) -> String {
+    let short = |value: f64, unit: &str| format!("{}{THIN}{unit}", digits(value, 3));
+    if second >= 1.0 {
+        short(second, "s")
+    } else if second >= 1e-3 {
+        short(second * 1e3, "ms")
+    } else {
+        short(second * 1e6, "µs")
+    }
+}
+
+/// A relative deviation with its sign, in percent.
+pub fn percent(relative: f64) -> String {
+    let text = format!("{}{THIN}%", digits(100.0 * relative, 3));
+    if relative > 0.0 { format!("+{text}") } else { text }
+}
+
+/// A typed number: decimal point or comma, any minus sign, exponents.
+///
+/// # Errors
+/// A sentence that repeats what was typed.
+pub fn parse(text: &str) -> Result<f64, String> {
+    let plain: String = text
+        .trim()
+        .chars()
+        .filter(|c| !c.is_whitespace())
+        .map(|c| match c {
+            ',' => '.',
+            '−' | '–' => '-',
+            other => other,
+        })
+        .collect();
+    if plain.is_empty() {
+        return Err("a number is needed here".to_owned());
+    }
+    match plain.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => Err(format!("“{}” is no number; write it like 12.5 or 2.2e3", text.trim())),
+    }
+}
+
+/// The next number from a short list of round ones (1, 1.2, 1.5, 2, …) that is not below `value`: keeps axes still while values move.
+pub fn round_up(value: f64) -> f64 {
+    if !(value.is_finite() && value > 0.0) {
+        return 1.0;
+    }
+    let decade = 10f64.powf(value.log10().floor());
+    let mantissa = value / decade;
+    let step = [1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0].into_iter().find(|s| *s >= mantissa - 1e-9);
+    decade * step.unwrap_or(10.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn four_significant_digits_everywhere() {
+        for (value, text) in [
+            (0.039972, "0.03997"),
+            (12.3456, "12.35"),
+            (-1.0, "−1.000"),
+            (123456.0, "123456"),
+            (1.5e-7, "1.500e−7"),
+            (0.0, "0"),
+            (f64::NAN, "–"),
+        ] {
+            assert_eq!(significant(value), text);
+        }
+        assert_eq!(pressure(1.1469e9), "1.147\u{2009}GPa");
+        assert_eq!(length(2.28e-7), "0.2280\u{2009}µm");
+    }
+
+    #[test]
+    fn typed_numbers_forgive_commas_and_dashes_but_not_words() {
+        assert_eq!(parse(" 12,5 "), Ok(12.5));
+        assert_eq!(parse("−2.2e3"), Ok(-2200.0));
+        for bad in ["", "abc", "nan", "inf", "1 2 x"] {
+            assert!(parse(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn axis_ends_are_round_and_never_below() {
+        for value in [0.013, 0.9, 1.0, 1.21, 7.9, 9.5] {
+            let end = round_up(value);
+            assert!(end >= value && end <= 1.7 * value, "{value} {end}");
+        }
+        assert_eq!(round_up(f64::NAN), 1.0);
+    }
+}

@@ -1,0 +1,8 @@
+//! The panels around the tabs.
+
+pub mod help;
+pub mod menu;
+pub mod operating_point;
+pub mod readouts;
+pub mod settings;
+pub mod strip;

@@ -1,0 +1,251 @@
+//! M, L, SRR and NPR, the same state in SI units, and the Hertzian contact behind it.
+
+use crate::app::controls::{LogSlider, explained, heading, named, number_field, warning_ui};
+use crate::app::document::{HOME, LoadFollower, Quantity};
+use crate::app::numbers;
+use crate::app::state::State;
+use crate::app::theme::{name_and_symbol, symbol};
+use crate::solver::contact::{Moes, PLAUSIBLE_HERTZ_PRESSURE_PA};
+use egui::{ComboBox, Grid, Slider, Ui};
+
+/// Ends of the M slider.
+pub const M_RANGE: (f64, f64) = (1.0, 1000.0);
+/// Ends of the L slider.
+pub const L_RANGE: (f64, f64) = (0.5, 25.0);
+
+/// Width of the first column, so that values line up from group to group.
+pub const NAME_WIDTH: f32 = 104.0;
+
+const M_TIP: &str = "Load number M = w/(E’R) · (2η₀u_m/(E’R))^(−1/2): how heavily the contact is loaded for its speed. \
+    Small: nearly rigid bodies; large: nearly Hertzian. Double click: M 40";
+const L_TIP: &str = "Lubricant number L = αE’ · (2η₀u_m/(E’R))^(1/4): how strongly the viscosity rises with pressure. \
+    Double click: L 10";
+const NEWTONIAN_TIP: &str = "Not active yet: the lubricant is Newtonian and has no constants of shear thinning. \
+    The profiles of a Newtonian line contact do not depend on";
+
+/// The panel's first group.
+pub fn ui(ui: &mut Ui, state: &mut State) {
+    heading(ui, "Operating point");
+    let moes = state.document.point.moes();
+    let trained = state.model.as_ref().map(|m| (m.domain.m, m.domain.l));
+    let width = (ui.available_width() - 132.0).clamp(70.0, 420.0);
+    let mut wanted = None;
+    Grid::new("moes numbers").num_columns(3).spacing([8.0, 6.0]).show(ui, |ui| {
+        explained(ui, symbol(ui, "M", ""), M_TIP);
+        let slider = LogSlider {
+            name: "Load number M",
+            range: M_RANGE.0..=M_RANGE.1,
+            marked: trained.map(|t| t.0),
+            home: HOME.m,
+            tooltip: M_TIP,
+        };
+        if let Some(m) = slider.show(ui, moes.m, width) {
+            wanted = Some(("M", Moes { m, l: moes.l }));
+        }
+        if let Some(m) = number_field(ui, &mut state.entries, "M value", moes.m, 62.0, M_TIP) {
+            wanted = Some(("M value", Moes { m, l: moes.l }));
+        }
+        ui.end_row();
+        explained(ui, symbol(ui, "L", ""), L_TIP);
+        let slider = LogSlider {
+            name: "Lubricant number L",
+            range: L_RANGE.0..=L_RANGE.1,
+            marked: trained.map(|t| t.1),
+            home: HOME.l,
+            tooltip: L_TIP,
+        };
+        if let Some(l) = slider.show(ui, moes.l, width) {
+            wanted = Some(("L", Moes { m: moes.m, l }));
+        }
+        if let Some(l) = number_field(ui, &mut state.entries, "L value", moes.l, 62.0, L_TIP) {
+            wanted = Some(("L value", Moes { m: moes.m, l }));
+        }
+        ui.end_row();
+        for (label, name, range, value) in [
+            ("SRR", "Slide-to-roll ratio SRR", 0.0..=2.0, &mut state.document.slide_to_roll_ratio),
+            ("NPR", "Newtonian plateau ratio NPR", 0.0..=1.0, &mut state.document.newtonian_plateau_ratio),
+        ] {
+            let tip = format!("{NEWTONIAN_TIP} {label}");
+            ui.add_enabled_ui(false, |ui| ui.label(label)).response.on_hover_text(&tip);
+            ui.spacing_mut().slider_width = width;
+            let response = ui.add_enabled(false, Slider::new(value, range).show_value(false));
+            named(ui, response, name).on_disabled_hover_text(&tip);
+            ui.weak("not active").on_hover_text(&tip);
+            ui.end_row();
+        }
+    });
+    if let Some((field, moes)) = wanted {
+        let result = state.document.set_moes(moes);
+        if result.is_ok() {
+            for other in ["M", "L", "M value", "L value"] {
+                state.entries.answer(other, Ok(()));
+            }
+        }
+        state.entries.answer(field, result);
+    }
+    for field in ["M", "L", "M value", "L value"] {
+        state.entries.message_ui(ui, field);
+    }
+    followers_ui(ui, state);
+    si_ui(ui, state);
+    hertz_ui(ui, state);
+}
+
+fn followers_ui(ui: &mut Ui, state: &mut State) {
+    let document = &mut state.document;
+    Grid::new("followers").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
+        let tip = "M fixes one combination of the SI values: this is the one that gives way";
+        let label = ui.label("When M moves").on_hover_text(tip);
+        let mut chosen = document.when_m_moves;
+        ComboBox::from_id_salt("when M moves")
+            .selected_text(chosen.name())
+            .width(140.0)
+            .show_ui(ui, |ui| {
+                for follower in LoadFollower::ALL {
+                    ui.selectable_value(&mut chosen, follower, follower.name());
+                }
+            })
+            .response
+            .labelled_by(label.id);
+        if chosen != document.when_m_moves {
+            document.set_load_follower(chosen);
+        }
+        ui.end_row();
+        let tip = "L fixes another one. “α and speed together” keeps to α = 5/GPa · L^0.463, \
+            along which the reduced model is trained";
+        let label = ui.label("When L moves").on_hover_text(tip);
+        ComboBox::from_id_salt("when L moves")
+            .selected_text(document.when_l_moves.name())
+            .width(140.0)
+            .show_ui(ui, |ui| {
+                for &follower in document.when_m_moves.partners() {
+                    ui.selectable_value(&mut document.when_l_moves, follower, follower.name());
+                }
+            })
+            .response
+            .labelled_by(label.id);
+        ui.end_row();
+    });
+}
+
+struct Row {
+    quantity: Quantity,
+    name: &'static str,
+    symbol: (&'static str, &'static str),
+    unit: &'static str,
+    /// SI units per shown unit.
+    scale: f64,
+    tooltip: &'static str,
+}
+
+const ROWS: [Row; 6] = [
+    Row {
+        quantity: Quantity::Radius,
+        name: "Radius R",
+        symbol: ("R", ""),
+        unit: "mm",
+        scale: 1e-3,
+        tooltip: "Reduced radius of curvature, 1/R = 1/R₁ + 1/R₂ (2.3)",
+    },
+    Row {
+        quantity: Quantity::Speed,
+        name: "Speed u_m",
+        symbol: ("u", "m"),
+        unit: "m/s",
+        scale: 1.0,
+        tooltip: "Mean entrainment speed, u_m = (u₁ + u₂)/2 (2.1)",
+    },
+    Row {
+        quantity: Quantity::Load,
+        name: "Load w",
+        symbol: ("w", ""),
+        unit: "kN/m",
+        scale: 1e3,
+        tooltip: "Load per unit length of the line contact (2.9)",
+    },
+    Row {
+        quantity: Quantity::Modulus,
+        name: "Modulus E'",
+        symbol: ("E'", ""),
+        unit: "GPa",
+        scale: 1e9,
+        tooltip: "Reduced modulus, 2/E’ = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂ (2.5)",
+    },
+    Row {
+        quantity: Quantity::Viscosity,
+        name: "Viscosity η₀",
+        symbol: ("η", "0"),
+        unit: "mPa·s",
+        scale: 1e-3,
+        tooltip: "Viscosity at ambient pressure",
+    },
+    Row {
+        quantity: Quantity::Alpha,
+        name: "Coefficient α",
+        symbol: ("α", ""),
+        unit: "1/GPa",
+        scale: 1e-9,
+        tooltip: "Pressure–viscosity coefficient, the slope of ln η at ambient pressure",
+    },
+];
+
+fn si_ui(ui: &mut Ui, state: &mut State) {
+    ui.add_space(4.0);
+    let mut changed = None;
+    Grid::new("si values").num_columns(3).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
+        for row in &ROWS {
+            let name = row.name.split(' ').next().unwrap_or(row.name);
+            explained(ui, name_and_symbol(ui, name, row.symbol.0, row.symbol.1), row.tooltip);
+            let value = row.quantity.get(&state.document.point) / row.scale;
+            if let Some(value) = number_field(ui, &mut state.entries, row.name, value, NAME_WIDTH, row.tooltip) {
+                changed = Some((row, value * row.scale));
+            }
+            ui.label(row.unit);
+            ui.end_row();
+            if state.entries.message(row.name).is_some() {
+                // The message takes the width of the panel, below the row it is about.
+                ui.end_row();
+            }
+        }
+    });
+    if let Some((row, value)) = changed {
+        let result = state.document.set_quantity(row.quantity, value);
+        state.entries.answer(row.name, result);
+    }
+    for row in &ROWS {
+        state.entries.message_ui(ui, row.name);
+    }
+}
+
+fn hertz_ui(ui: &mut Ui, state: &State) {
+    let point = &state.document.point;
+    let hertz = point.hertz();
+    ui.add_space(4.0);
+    Grid::new("hertz").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 3.0]).show(ui, |ui| {
+        let rows = [
+            (
+                ("Half width", "a", ""),
+                numbers::length(hertz.half_width_m),
+                "Hertzian half width, a² = 8wR/(πE’) (2.21)",
+            ),
+            (
+                ("Hertz pressure", "p", "H"),
+                numbers::pressure(hertz.pressure_pa),
+                "Largest pressure of the dry contact, p_H² = wE’/(2πR) (2.21)",
+            ),
+            (
+                ("Stiffening", "αp", "H"),
+                numbers::significant(point.alpha_hertz()),
+                "α p_H = L √(M/2π): the exponent of Barus’ law at the Hertzian pressure",
+            ),
+        ];
+        for ((name, base, subscript), value, tip) in rows {
+            explained(ui, name_and_symbol(ui, name, base, subscript), tip);
+            ui.label(value).on_hover_text(tip);
+            ui.end_row();
+        }
+    });
+    if hertz.pressure_pa > PLAUSIBLE_HERTZ_PRESSURE_PA {
+        warning_ui(ui, "Beyond a Hertz pressure of 3.2 GPa steel yields: this is no real contact");
+    }
+}

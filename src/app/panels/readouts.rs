@@ -1,0 +1,86 @@
+//! The read-outs under the plots: what the contact amounts to, and how it differs from the last pin.
+
+use crate::app::numbers;
+use crate::app::picture::Picture;
+use crate::app::state::State;
+use crate::app::theme::{Palette, symbol};
+use egui::{RichText, Ui, text::LayoutJob};
+
+/// The read-outs.
+pub fn ui(ui: &mut Ui, state: &State) {
+    let Some(picture) = &state.picture else {
+        ui.weak("The first picture is being computed");
+        return;
+    };
+    let stale = state.picture_is_stale(ui.input(|i| i.time));
+    let pin = state.pins.last();
+    let palette = Palette::of(ui);
+    let srr = state.document.slide_to_roll_ratio;
+    let scalars = |p: &Picture| p.solution.scalars;
+    let delta = |f: &dyn Fn(&Picture) -> f64| pin.map(|pin| f(picture) / f(&pin.picture) - 1.0);
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 26.0;
+        if stale {
+            ui.disable();
+        }
+        let s = scalars(picture);
+        cell(
+            ui,
+            symbol(ui, "H", "c"),
+            numbers::significant(s.h_c),
+            numbers::length(picture.central_film_m()),
+            palette.film,
+            delta(&|p| p.central_film_m()),
+            "Central film thickness, H = hR/a² at X = 0 (2.22)",
+        );
+        cell(
+            ui,
+            symbol(ui, "H", "min"),
+            numbers::significant(s.h_min),
+            numbers::length(picture.minimum_film_m()),
+            palette.film,
+            delta(&|p| p.minimum_film_m()),
+            "Smallest film thickness of the contact zone",
+        );
+        cell(
+            ui,
+            symbol(ui, "P", "max"),
+            numbers::significant(s.p_max),
+            numbers::pressure(picture.largest_pressure_pa()),
+            palette.pressure,
+            delta(&|p| p.largest_pressure_pa()),
+            "Largest pressure, P = p/p_H (2.22)",
+        );
+        cell(
+            ui,
+            symbol(ui, "µ", ""),
+            if srr == 0.0 { "0".to_owned() } else { numbers::significant(picture.traction.per_srr * srr) },
+            format!("at SRR {}", numbers::digits(srr, 3)),
+            palette.quiet,
+            None,
+            "Traction coefficient (3.41): mean shear stress on the surfaces over the load. \
+             Without sliding there is none; SRR becomes active with shear-thinning lubricants",
+        );
+    });
+}
+
+fn cell(
+    ui: &mut Ui,
+    name: LayoutJob,
+    value: String,
+    unit: String,
+    color: egui::Color32,
+    delta: Option<f64>,
+    tip: &str,
+) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 7.0;
+        ui.label(name).on_hover_text(tip);
+        ui.label(RichText::new(value).size(16.0).strong().color(color)).on_hover_text(tip);
+        ui.label(RichText::new(unit)).on_hover_text(tip);
+        if let Some(delta) = delta {
+            ui.label(RichText::new(format!("Δ {}", numbers::percent(delta))).small().weak())
+                .on_hover_text("Relative to the last pinned curve, in SI units");
+        }
+    });
+}

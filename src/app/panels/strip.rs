@@ -1,0 +1,49 @@
+//! The jobs strip: what runs, how far it is, Cancel; and what a solve costs.
+
+use crate::app::command::Command;
+use crate::app::numbers;
+use crate::app::state::State;
+use crate::app::theme::Palette;
+use egui::{Align, Layout, RichText, Ui};
+
+/// The strip at the bottom.
+pub fn ui(ui: &mut Ui, state: &State, frame_s: f64, chosen: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        // A solve of a few milliseconds is no news: the strip would only flicker.
+        let slow = state.jobs.running().iter().find(|j| j.since.elapsed().as_millis() > 120);
+        match slow {
+            Some(job) => {
+                ui.label(job.kind.name());
+                let step = job.steps.last().map_or_else(String::new, |s| {
+                    format!("Newton step {}, residual {}", s.iteration, numbers::digits(s.residual, 2))
+                });
+                ui.weak(step);
+                ui.weak(numbers::duration(job.since.elapsed().as_secs_f64()));
+                if ui.small_button("Cancel").clicked() {
+                    chosen.push(Command::Cancel);
+                }
+            }
+            None => {
+                let idle = ui.weak("Ready");
+                if let Some(failure) = state.failure.as_ref().or(state.verify_failure.as_ref()) {
+                    let color = Palette::of(ui).wrong;
+                    ui.label(RichText::new(&failure.message).small().color(color));
+                } else {
+                    idle.on_hover_text("Nothing runs");
+                }
+            }
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let time = |seconds: Option<f64>| seconds.map_or_else(|| "–".to_owned(), numbers::duration);
+            ui.weak(format!("full {}", time(state.full_wall_s))).on_hover_text(format!(
+                "Time of the last full solve. Drawing the window takes {}",
+                numbers::duration(frame_s)
+            ));
+            if state.model.is_some() {
+                ui.weak(format!("reduced {}", time(state.reduced_wall_s)))
+                    .on_hover_text("Time of the last reduced solve");
+            }
+            ui.weak("Time per solve");
+        });
+    });
+}

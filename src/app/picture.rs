@@ -1,0 +1,115 @@
+//! What the plots draw: a solution with its curves ready for the screen, and how two of them compare.
+
+use super::jobs::Key;
+use crate::solver::full::{Solution, Traction};
+use egui_plot::PlotPoint;
+use std::sync::Arc;
+
+/// How a picture was obtained.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Origin {
+    /// By the reduced model.
+    Reduced {
+        /// e_f^I, (3.15).
+        residual_estimate: f64,
+        /// Newton steps.
+        iterations: usize,
+        /// Window that served it.
+        window: usize,
+    },
+    /// By the full solver.
+    Full,
+}
+
+/// A solution, what it belongs to, and its curves.
+#[derive(Clone)]
+pub struct Picture {
+    /// What it was computed for.
+    pub key: Key,
+    /// How.
+    pub origin: Origin,
+    /// The solution.
+    pub solution: Arc<Solution>,
+    /// P against X.
+    pub pressure: Vec<PlotPoint>,
+    /// H against X.
+    pub film: Vec<PlotPoint>,
+    /// Newtonian traction.
+    pub traction: Traction,
+    /// Where the film ruptures.
+    pub rupture: Option<f64>,
+    /// The pressure spike.
+    pub spike: Option<(f64, f64)>,
+}
+
+impl Picture {
+    /// Prepares a converged solution for drawing.
+    pub fn new(key: Key, origin: Origin, solution: Arc<Solution>) -> Self {
+        Self {
+            key,
+            origin,
+            pressure: solution.profile().map(|(x, p, _)| PlotPoint::new(x, p)).collect(),
+            film: solution.profile().map(|(x, _, h)| PlotPoint::new(x, h)).collect(),
+            traction: solution.traction(),
+            rupture: solution.rupture(),
+            spike: solution.spike(),
+            solution,
+        }
+    }
+
+    /// Central film in m.
+    pub fn central_film_m(&self) -> f64 {
+        self.solution.scalars.h_c * self.key.point.film_scale_m()
+    }
+
+    /// Minimum film in m.
+    pub fn minimum_film_m(&self) -> f64 {
+        self.solution.scalars.h_min * self.key.point.film_scale_m()
+    }
+
+    /// Largest pressure in Pa.
+    pub fn largest_pressure_pa(&self) -> f64 {
+        self.solution.scalars.p_max * self.key.point.hertz().pressure_pa
+    }
+}
+
+/// Value of a curve at x, linearly between its points; `None` outside.
+pub fn value_at(curve: &[PlotPoint], x: f64) -> Option<f64> {
+    let at = curve.partition_point(|p| p.x < x);
+    let (left, right) = (curve.get(at.checked_sub(1)?)?, curve.get(at)?);
+    let t = if right.x > left.x { (x - left.x) / (right.x - left.x) } else { 0.0 };
+    Some((1.0 - t) * left.y + t * right.y)
+}
+
+/// What separates a picture from the full solution of the same contact.
+#[derive(Clone)]
+pub struct Comparison {
+    /// Relative error of H_c.
+    pub h_c: f64,
+    /// Relative error of H_min.
+    pub h_min: f64,
+    /// Largest |ΔP|.
+    pub max_dp: f64,
+    /// ΔP against X.
+    pub pressure: Vec<PlotPoint>,
+    /// ΔH/H_c against X.
+    pub film: Vec<PlotPoint>,
+}
+
+impl Comparison {
+    /// A picture against the truth.
+    pub fn new(picture: &Picture, full: &Picture) -> Self {
+        let (a, b) = (&picture.solution.scalars, &full.solution.scalars);
+        let difference = |mine: &[PlotPoint], theirs: &[PlotPoint], scale: f64| -> Vec<PlotPoint> {
+            mine.iter().filter_map(|p| value_at(theirs, p.x).map(|v| PlotPoint::new(p.x, (p.y - v) / scale))).collect()
+        };
+        let pressure = difference(&picture.pressure, &full.pressure, 1.0);
+        Self {
+            h_c: a.h_c / b.h_c - 1.0,
+            h_min: a.h_min / b.h_min - 1.0,
+            max_dp: pressure.iter().map(|p| p.y.abs()).fold(0.0, f64::max),
+            film: difference(&picture.film, &full.film, b.h_c),
+            pressure,
+        }
+    }
+}

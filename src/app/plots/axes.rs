@@ -1,0 +1,99 @@
+//! What all plots have in common: quiet grid, round ticks, logarithmic axes as transformed data.
+
+use crate::app::numbers;
+use crate::app::theme::{Palette, rich};
+use egui::{Ui, Vec2b};
+use egui_plot::{GridInput, GridMark, Plot, PlotUi};
+
+/// Size of axis titles.
+pub const TITLE_SIZE: f32 = 12.5;
+
+/// A plot in the explorer's manner with axis titles that may hold symbols (see [`rich`]); an empty title is left out.
+pub fn plot<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> Plot<'a> {
+    let color = ui.visuals().text_color();
+    let mut plot = Plot::new(id)
+        .height(height)
+        .grid_color(Palette::of(ui).grid)
+        .allow_scroll(false)
+        .y_axis_min_width(54.0)
+        .x_grid_spacer(|input| round_marks(input, 9.0))
+        .y_grid_spacer(|input| round_marks(input, 6.0))
+        .x_axis_formatter(|mark, _| tick(mark.value))
+        .y_axis_formatter(|mark, _| tick(mark.value))
+        .y_axis_label(rich(y_title, TITLE_SIZE, color));
+    if !x_title.is_empty() {
+        plot = plot.x_axis_label(rich(x_title, TITLE_SIZE, color));
+    }
+    plot
+}
+
+/// Fits a plot to its data where `wanted` and when it is seen first; zooming and panning ends it, a double click brings it back.
+pub fn fit(plot: &mut PlotUi<'_>, wanted: bool) {
+    let id = plot.response().id.with("seen");
+    let seen = plot.ctx().data_mut(|d| std::mem::replace(d.get_temp_mut_or_default::<bool>(id), true));
+    if wanted || !seen {
+        plot.set_auto_bounds(Vec2b::TRUE);
+    }
+}
+
+fn tick(value: f64) -> String {
+    let rounded = (value * 1e9).round() / 1e9;
+    if rounded == 0.0 { "0".to_owned() } else { format!("{rounded}").replace('-', "−") }
+}
+
+/// Marks at 1, 2 or 5 times a power of ten, about `target` of them, with four faint ones between.
+pub fn round_marks(input: GridInput, target: f64) -> Vec<GridMark> {
+    let (low, high) = input.bounds;
+    let wanted = (high - low) / target;
+    if !(wanted.is_finite() && wanted > 0.0) {
+        return Vec::new();
+    }
+    let decade = 10f64.powf(wanted.log10().floor());
+    let step = [1.0, 2.0, 5.0, 10.0].into_iter().find(|s| s * decade >= wanted).unwrap_or(10.0) * decade;
+    let (first, last) = ((low / step).ceil() as i64, (high / step).floor() as i64);
+    (first..=last).map(|k| GridMark { value: k as f64 * step, step_size: step }).collect()
+}
+
+/// Marks of an axis that shows log10 of its values: decades, thinned where there are many.
+pub fn decade_marks(input: GridInput) -> Vec<GridMark> {
+    let (low, high) = input.bounds;
+    if !(low.is_finite() && high.is_finite() && high > low && high - low < 400.0) {
+        return Vec::new();
+    }
+    let stride = ((high - low) / 8.0).ceil().max(1.0);
+    let (first, last) = ((low / stride).ceil() as i64, (high / stride).floor() as i64);
+    (first..=last).map(|k| GridMark { value: k as f64 * stride, step_size: stride }).collect()
+}
+
+/// Label of a decade.
+pub fn decade_label(mark: GridMark) -> String {
+    match mark.value.round() as i32 {
+        e @ -3..=4 => tick(10f64.powi(e)),
+        e => format!("1e{e}").replace('-', "−"),
+    }
+}
+
+/// Marks of a logarithmic axis over few decades: decades strong, 2…9 faint.
+pub fn log_marks(input: GridInput) -> Vec<GridMark> {
+    let (low, high) = input.bounds;
+    if !(low.is_finite() && high.is_finite()) || high - low > 12.0 {
+        return Vec::new();
+    }
+    let decades = (low.floor() as i32)..=(high.ceil() as i32);
+    decades
+        .flat_map(|e| (1..10).map(move |digit| (e, digit)))
+        .map(|(e, digit)| GridMark {
+            value: f64::from(e) + f64::from(digit).log10(),
+            step_size: if digit == 1 { 1.0 } else { 0.12 },
+        })
+        .filter(|mark| (low..=high).contains(&mark.value))
+        .collect()
+}
+
+/// Label at 1, 2, 5, 10, 20, 50 … of such an axis.
+pub fn log_label(mark: GridMark) -> String {
+    let value = 10f64.powf(mark.value);
+    let leading = value / 10f64.powf((mark.value + 1e-9).floor());
+    let near = |d: f64| (leading / d - 1.0).abs() < 1e-6;
+    if near(1.0) || near(2.0) || near(5.0) { numbers::digits(value, 1) } else { String::new() }
+}

@@ -1,0 +1,118 @@
+//! The trust badge: how far the picture can be believed, in a glance.
+
+use crate::app::numbers;
+use crate::app::picture::Origin;
+use crate::app::state::{PassedOver, State};
+use crate::app::theme::{Palette, rich};
+use egui::{Color32, CornerRadius, Frame, Margin, RichText, Stroke, Ui};
+
+/// What the badge says.
+pub struct Verdict {
+    /// Its first words.
+    pub title: String,
+    /// What follows.
+    pub detail: String,
+    /// Why, on hover.
+    pub why: String,
+    kind: Kind,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Neutral,
+    Verified,
+    Warning,
+    Wrong,
+}
+
+/// What can be said of the picture.
+pub fn verdict(state: &State) -> Verdict {
+    let make = |title: &str, detail: String, why: String, kind| Verdict { title: title.to_owned(), detail, why, kind };
+    if let Some(failure) = &state.failure {
+        let got = failure.report.as_ref().map_or_else(String::new, |r| {
+            format!("{} Newton steps, residual {}", r.newton_iterations, numbers::digits(r.residual_norm, 2))
+        });
+        return make(
+            "No solution here",
+            got,
+            format!("{}. The last valid picture stays, in grey", failure.message),
+            Kind::Wrong,
+        );
+    }
+    let Some(picture) = &state.picture else {
+        return make("Computing", String::new(), "The first picture is on its way".to_owned(), Kind::Neutral);
+    };
+    match (picture.origin, &state.passed_over) {
+        (Origin::Full, Some(PassedOver::Outside(why))) => make(
+            "Outside the reduced model",
+            format!("full solution: {why}"),
+            "The picture is a converged full solution; a reduced model never extrapolates here".to_owned(),
+            Kind::Warning,
+        ),
+        (Origin::Full, Some(PassedOver::Failed(why))) => make(
+            "Reduced model failed",
+            "full solution".to_owned(),
+            format!("{why}. The picture is a converged full solution"),
+            Kind::Warning,
+        ),
+        (Origin::Full, _) => make(
+            "Verified",
+            "full solution".to_owned(),
+            "No reduced model is loaded: the picture itself is a converged full solution".to_owned(),
+            Kind::Verified,
+        ),
+        (Origin::Reduced { residual_estimate, iterations, window }, _) => {
+            let how = format!("{iterations} reduced Newton steps in window {}", window + 1);
+            match &state.comparison {
+                Some(c) if state.full_is_current() => make(
+                    "Verified",
+                    format!(
+                        "{{H_c}} {}, {{H_min}} {}, max |Δ{{P}}| {}",
+                        numbers::percent(c.h_c),
+                        numbers::percent(c.h_min),
+                        numbers::digits(c.max_dp, 2)
+                    ),
+                    format!("True errors against a full solution on the same grid. {how}"),
+                    Kind::Verified,
+                ),
+                _ => {
+                    let detail = format!("estimated error {}", numbers::digits(residual_estimate, 2));
+                    let why = match &state.verify_failure {
+                        Some(failure) => format!("{}. {how}", failure.message),
+                        None => format!("e_f of (3.15), the residual of the sampled rows. A full solve follows. {how}"),
+                    };
+                    let kind = if state.verify_failure.is_some() { Kind::Warning } else { Kind::Neutral };
+                    make("Reduced model", detail, why, kind)
+                }
+            }
+        }
+    }
+}
+
+/// The badge.
+pub fn ui(ui: &mut Ui, state: &State) {
+    let verdict = verdict(state);
+    let palette = Palette::of(ui);
+    let color = match verdict.kind {
+        Kind::Neutral => palette.quiet,
+        Kind::Verified => palette.verified,
+        Kind::Warning => palette.warning,
+        Kind::Wrong => palette.wrong,
+    };
+    let frame = Frame::new()
+        .fill(color.gamma_multiply(if ui.visuals().dark_mode { 0.22 } else { 0.13 }))
+        .stroke(Stroke::new(1.0, color.gamma_multiply(0.6)))
+        .corner_radius(CornerRadius::same(10))
+        .inner_margin(Margin::symmetric(10, 2));
+    let response = frame
+        .show(ui, |ui| {
+            ui.spacing_mut().item_spacing.x = 6.0;
+            ui.label(RichText::new(&verdict.title).strong().color(color));
+            if !verdict.detail.is_empty() {
+                let plain: Color32 = ui.visuals().text_color();
+                ui.label(rich(&verdict.detail, 13.0, plain));
+            }
+        })
+        .response;
+    response.on_hover_text(&verdict.why);
+}

@@ -1,0 +1,99 @@
+//! The tabs, each a question with its picture.
+
+pub mod accuracy;
+mod axes;
+pub mod badge;
+pub mod basis;
+mod formulas;
+pub mod profiles;
+mod regime_chart;
+pub mod regimes;
+
+use super::state::State;
+use egui::Ui;
+use egui_tiles::{Behavior, Tile, TileId, Tiles, Tree, UiResponse};
+use serde::{Deserialize, Serialize};
+
+/// A tab.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Tab {
+    /// Pressure and film.
+    Profiles,
+    /// The M–L chart.
+    Regimes,
+    /// Singular values, modes, sampled rows.
+    Basis,
+    /// Residuals and errors.
+    Accuracy,
+}
+
+impl Tab {
+    /// All tabs in their order.
+    pub const ALL: [Self; 4] = [Self::Profiles, Self::Regimes, Self::Basis, Self::Accuracy];
+
+    /// Title.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Profiles => "Profiles",
+            Self::Regimes => "Regimes",
+            Self::Basis => "Reduced basis",
+            Self::Accuracy => "Accuracy",
+        }
+    }
+}
+
+/// The tabs as they are at first.
+pub fn default_tree() -> Tree<Tab> {
+    Tree::new_tabs(egui::Id::unique("tabs"), Tab::ALL.to_vec())
+}
+
+/// Whether a restored layout still has every tab exactly once.
+pub fn is_complete(tree: &Tree<Tab>) -> bool {
+    Tab::ALL.iter().all(|tab| tree.tiles.tiles().filter(|t| matches!(t, Tile::Pane(p) if p == tab)).count() == 1)
+        && tree.root().is_some()
+}
+
+/// Draws the tabs.
+pub struct Tabs<'a> {
+    /// What they show.
+    pub state: &'a mut State,
+}
+
+impl Behavior<Tab> for Tabs<'_> {
+    fn pane_ui(&mut self, ui: &mut Ui, _tile_id: TileId, tab: &mut Tab) -> UiResponse {
+        egui::Frame::new().fill(ui.visuals().panel_fill).inner_margin(egui::Margin::symmetric(10, 8)).show(ui, |ui| {
+            ui.set_min_size(ui.available_size());
+            match tab {
+                Tab::Profiles => profiles::ui(ui, self.state),
+                Tab::Regimes => regimes::ui(ui, self.state),
+                Tab::Basis => basis::ui(ui, self.state),
+                Tab::Accuracy => accuracy::ui(ui, self.state),
+            }
+        });
+        UiResponse::None
+    }
+
+    fn tab_title_for_pane(&mut self, tab: &Tab) -> egui::WidgetText {
+        tab.title().into()
+    }
+
+    fn tab_bar_height(&self, _style: &egui::Style) -> f32 {
+        30.0
+    }
+
+    fn tab_title_spacing(&self, _visuals: &egui::Visuals) -> f32 {
+        14.0
+    }
+
+    fn tab_bar_color(&self, visuals: &egui::Visuals) -> egui::Color32 {
+        visuals.faint_bg_color
+    }
+
+    fn is_tab_closable(&self, _tiles: &Tiles<Tab>, _tile_id: TileId) -> bool {
+        false
+    }
+
+    fn simplification_options(&self) -> egui_tiles::SimplificationOptions {
+        egui_tiles::SimplificationOptions { all_panes_must_have_tabs: true, ..Default::default() }
+    }
+}

@@ -1,0 +1,262 @@
+//! Pressure and film against X, one above the other on a shared axis; the difference to the full solution below on request.
+
+use super::axes;
+use crate::app::command::Command;
+use crate::app::controls::warning_ui;
+use crate::app::export;
+use crate::app::files::Purpose;
+use crate::app::numbers;
+use crate::app::picture::{Comparison, Origin, Picture, value_at};
+use crate::app::state::{Pin, State};
+use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, faded, rich};
+use egui::{Align2, Color32, Id, Ui, Vec2b};
+use egui_plot::{
+    Corner, HoverPosition, Legend, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points, Span,
+    Text,
+};
+
+/// X range at first: the contact with its inlet and outlet.
+const X_RANGE: (f64, f64) = (-2.2, 1.6);
+
+/// The tab.
+pub fn ui(ui: &mut Ui, state: &mut State) {
+    toolbar(ui, state);
+    pins_ui(ui, state);
+    let stale = state.picture_is_stale(ui.input(|i| i.time));
+    if stale && let Some(picture) = &state.picture {
+        let moes = picture.key.point.moes();
+        let note = format!(
+            "The picture belongs to M {}, L {}, not to the sliders",
+            numbers::significant(moes.m),
+            numbers::significant(moes.l)
+        );
+        warning_ui(ui, &note);
+    }
+    let Some(picture) = &state.picture else {
+        ui.centered_and_justified(|ui| ui.weak("The first picture is being computed"));
+        return;
+    };
+    let reduced = picture.origin != Origin::Full;
+    let full = state.full.as_ref().filter(|_| state.view.overlay && reduced);
+    let comparison = state.comparison.as_ref().filter(|_| state.view.difference);
+    let parts = if comparison.is_some() { 2.6 } else { 2.0 };
+    let unit = (ui.available_height() - 6.0) / parts;
+    let scene =
+        Scene { picture, full, pins: &state.pins, stale, full_stale: !state.full_is_current(), fit: state.fit_plots };
+    pressure_plot(ui, &scene, unit);
+    film_plot(ui, &scene, unit);
+    if let Some(comparison) = comparison {
+        difference_plot(ui, comparison, state.fit_plots, 0.6 * unit);
+    }
+}
+
+fn toolbar(ui: &mut Ui, state: &mut State) {
+    let ctx = ui.ctx().clone();
+    ui.horizontal_wrapped(|ui| {
+        super::badge::ui(ui, state);
+        if ui.button("Pin curve").on_hover_text("Keep this curve and its parameters for comparison (Ctrl+D)").clicked()
+        {
+            state.pin();
+        }
+        let reduced = state.picture.as_ref().is_some_and(|p| p.origin != Origin::Full);
+        let why = "The picture is the full solution itself";
+        ui.add_enabled_ui(reduced, |ui| {
+            ui.checkbox(&mut state.view.overlay, "Full solution")
+                .on_hover_text("Draw the full solution over the reduced one")
+                .on_disabled_hover_text(why);
+            ui.checkbox(&mut state.view.difference, "Difference")
+                .on_hover_text("Reduced minus full, on an axis of its own")
+                .on_disabled_hover_text(why);
+        });
+        if ui.button(Command::Verify.name()).on_hover_text("Solve this contact in full now (F5)").clicked() {
+            state.verify(&ctx);
+        }
+        if ui.button("Export CSV…").on_hover_text("Profiles with their SI twins, all of the domain").clicked()
+            && let Some(text) = export::profiles(state)
+        {
+            state.ask_path(&ctx, Purpose::Csv { text });
+        }
+    });
+}
+
+fn pins_ui(ui: &mut Ui, state: &mut State) {
+    if state.pins.is_empty() {
+        return;
+    }
+    let mut removed = None;
+    ui.horizontal_wrapped(|ui| {
+        let color = ui.visuals().text_color();
+        for (k, pin) in state.pins.iter().enumerate() {
+            let moes = pin.picture.key.point.moes();
+            let text = format!(
+                "Pin {}: {{M}} {}, {{L}} {}, {{H_c}} {}",
+                pin.number,
+                numbers::significant(moes.m),
+                numbers::significant(moes.l),
+                numbers::significant(pin.picture.solution.scalars.h_c)
+            );
+            ui.label(rich(&text, 12.5, color)).on_hover_text(export::describe(&pin.picture));
+            let response = ui.small_button("×").on_hover_text("Remove this pin");
+            if crate::app::controls::named(ui, response, &format!("Remove pin {}", pin.number)).clicked() {
+                removed = Some(k);
+            }
+            ui.add_space(8.0);
+        }
+    });
+    if let Some(k) = removed {
+        state.pins.remove(k);
+    }
+}
+
+fn pin_name(pin: &Pin) -> String {
+    let moes = pin.picture.key.point.moes();
+    format!("Pin {}: M {}, L {}", pin.number, numbers::significant(moes.m), numbers::significant(moes.l))
+}
+
+struct Scene<'a> {
+    picture: &'a Picture,
+    full: Option<&'a Picture>,
+    pins: &'a [Pin],
+    stale: bool,
+    full_stale: bool,
+    fit: bool,
+}
+
+impl Scene<'_> {
+    fn live(&self, palette: &Palette, color: Color32) -> Color32 {
+        if self.stale { palette.reference } else { color }
+    }
+
+    fn over(&self, palette: &Palette, color: Color32) -> Color32 {
+        if self.full_stale { palette.reference } else { faded(color, 0.75) }
+    }
+}
+
+/// A plot of the stack: shared X axis and cursor.
+fn stacked<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> Plot<'a> {
+    let group = Id::unique("profiles");
+    axes::plot(ui, id, height, x_title, y_title)
+        .link_axis(group, Vec2b::new(true, false))
+        .link_cursor(group, Vec2b::new(true, false))
+        .set_margin_fraction(egui::vec2(0.0, 0.0))
+        .show_y(false)
+        .legend(Legend::default().position(Corner::LeftTop).follow_insertion_order(true).background_alpha(0.6))
+}
+
+fn hover(picture: &Picture) -> impl Fn(&HoverPosition<'_>) -> Option<String> + '_ {
+    move |at| {
+        let x = match at {
+            HoverPosition::NearDataPoint { position, .. } | HoverPosition::Elsewhere { position } => position.x,
+        };
+        let (p, h) = (value_at(&picture.pressure, x)?, value_at(&picture.film, x)?);
+        let point = &picture.key.point;
+        let hertz = point.hertz();
+        Some(format!(
+            "X = {}   ({})\nP = {}   ({})\nH = {}   ({})",
+            numbers::digits(x, 4),
+            numbers::length(x * hertz.half_width_m),
+            numbers::significant(p),
+            numbers::pressure(p * hertz.pressure_pa),
+            numbers::significant(h),
+            numbers::length(h * point.film_scale_m())
+        ))
+    }
+}
+
+fn cavitated(plot: &mut PlotUi<'_>, picture: &Picture, palette: &Palette) {
+    if let (Some(from), Some(end)) = (picture.rupture, picture.pressure.last()) {
+        plot.span(Span::new("", from..=end.x.max(from)).fill(palette.cavitated).border_width(0.0));
+    }
+}
+
+fn curve<'a>(name: String, points: &'a [PlotPoint], color: Color32, width: f32) -> Line<'a> {
+    Line::new(name, PlotPoints::Borrowed(points)).color(color).width(width).allow_band(false)
+}
+
+/// A dot with its name; the name stands clear of the curve by a leading space or line.
+fn mark(plot: &mut PlotUi<'_>, at: (f64, f64), name: &'static str, color: Color32, anchor: Align2) {
+    let dot = Points::new("", vec![[at.0, at.1]]).id(name).shape(MarkerShape::Circle).radius(3.5).color(color);
+    plot.points(dot.allow_hover(false));
+    let lead = if anchor == Align2::LEFT_BOTTOM { "  " } else { "\n" };
+    let label = Text::new("", PlotPoint::new(at.0, at.1), rich(&format!("{lead}{name}"), 13.0, color));
+    plot.text(label.anchor(anchor).id((name, "label")).allow_hover(false));
+}
+
+fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, height: f32) {
+    let palette = Palette::of(ui);
+    let picture = scene.picture;
+    let scalars = picture.solution.scalars;
+    let top = scene.pins.iter().map(|p| p.picture.solution.scalars.p_max).fold(scalars.p_max.max(1.0), f64::max);
+    stacked(ui, "pressure", height, "", "Pressure {P} = {p}/{p_H}")
+        .default_x_bounds(X_RANGE.0, X_RANGE.1)
+        .default_y_bounds(-0.04 * top, numbers::round_up(1.12 * top))
+        .label_formatter(hover(picture))
+        .show(ui, |plot| {
+            axes::fit(plot, scene.fit);
+            cavitated(plot, picture, &palette);
+            let hertz: PlotPoints<'_> =
+                PlotPoints::from_explicit_callback(|x| (1.0 - x * x).max(0.0).sqrt(), -1.0..=1.0, 160);
+            plot.line(
+                Line::new("Hertz", hertz).color(palette.reference).width(THIN_WIDTH).style(LineStyle::dashed_dense()),
+            );
+            for pin in scene.pins {
+                plot.line(curve(pin_name(pin), &pin.picture.pressure, faded(palette.pressure, 0.45), THIN_WIDTH));
+            }
+            let live = scene.live(&palette, palette.pressure);
+            let name = if picture.origin == Origin::Full { "Full solution" } else { "Reduced model" };
+            plot.line(curve(name.to_owned(), &picture.pressure, live, LIVE_WIDTH).id("live pressure"));
+            if let Some(full) = scene.full {
+                let color = scene.over(&palette, palette.pressure);
+                plot.line(curve(full_name(scene), &full.pressure, color, FULL_WIDTH).id("full pressure"));
+            }
+            if let Some(spike) = picture.spike.filter(|s| s.0 < scalars.x_p_max - 1e-9 || s.0 > 0.5) {
+                mark(plot, spike, "spike", live, Align2::LEFT_BOTTOM);
+            }
+        });
+}
+
+fn full_name(scene: &Scene<'_>) -> String {
+    match scene.full {
+        Some(full) if scene.full_stale => {
+            let moes = full.key.point.moes();
+            format!("Full, of M {}, L {}", numbers::significant(moes.m), numbers::significant(moes.l))
+        }
+        _ => "Full solution".to_owned(),
+    }
+}
+
+fn film_plot(ui: &mut Ui, scene: &Scene<'_>, height: f32) {
+    let palette = Palette::of(ui);
+    let picture = scene.picture;
+    let scalars = picture.solution.scalars;
+    let top = scene.pins.iter().map(|p| p.picture.solution.scalars.h_c).fold(scalars.h_c, f64::max);
+    stacked(ui, "film", height, "{X} = {x}/{a}", "Film {H} = {h}{R}/{a}²")
+        .default_x_bounds(X_RANGE.0, X_RANGE.1)
+        .default_y_bounds(0.0, numbers::round_up(4.0 * top))
+        .label_formatter(hover(picture))
+        .show(ui, |plot| {
+            axes::fit(plot, scene.fit);
+            cavitated(plot, picture, &palette);
+            for pin in scene.pins {
+                plot.line(curve(pin_name(pin), &pin.picture.film, faded(palette.film, 0.45), THIN_WIDTH));
+            }
+            let live = scene.live(&palette, palette.film);
+            let name = if picture.origin == Origin::Full { "Full solution" } else { "Reduced model" };
+            plot.line(curve(name.to_owned(), &picture.film, live, LIVE_WIDTH).id("live film"));
+            if let Some(full) = scene.full {
+                let color = scene.over(&palette, palette.film);
+                plot.line(curve(full_name(scene), &full.film, color, FULL_WIDTH).id("full film"));
+            }
+            mark(plot, (0.0, scalars.h_c), "{H_c}", live, Align2::LEFT_BOTTOM);
+            mark(plot, (scalars.x_h_min, scalars.h_min), "{H_min}", live, Align2::CENTER_TOP);
+        });
+}
+
+fn difference_plot(ui: &mut Ui, comparison: &Comparison, wanted: bool, height: f32) {
+    let palette = Palette::of(ui);
+    stacked(ui, "difference", height, "", "Reduced − full").auto_bounds(Vec2b::TRUE).show(ui, |plot| {
+        axes::fit(plot, wanted);
+        plot.line(curve("ΔP".to_owned(), &comparison.pressure, palette.pressure, 1.4));
+        plot.line(curve("ΔH/H_c".to_owned(), &comparison.film, palette.film, 1.4));
+    });
+}

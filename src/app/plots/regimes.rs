@@ -1,0 +1,191 @@
+//! The M–L chart: which asymptote of Moes' formula rules where, what the reduced model was trained for, and the current contact,
+//! which can be dragged. Beside it the published film formulas.
+
+use super::axes;
+use super::formulas;
+use super::regime_chart::{ChartLines, L_AXIS, M_AXIS, Regime, shading};
+use crate::app::files::Purpose;
+use crate::app::numbers;
+use crate::app::state::State;
+use crate::app::theme::{Palette, faded, rich};
+use crate::solver::contact::Moes;
+use egui::{Align2, RichText, TextureHandle, Ui};
+use egui_plot::{Line, LineStyle, MarkerShape, PlotImage, PlotPoint, PlotPoints, PlotUi, Points, Text};
+
+/// How near (in screen points) the pointer must be to take the contact along.
+const GRAB_RADIUS: f32 = 18.0;
+
+/// What the chart keeps between frames: its shading as a picture and all lines, made once.
+#[derive(Default)]
+pub struct RegimeChart {
+    texture: Option<(bool, TextureHandle)>,
+    lines: Option<ChartLines>,
+    snapshots: Option<(usize, Vec<PlotPoint>)>,
+    dragging: bool,
+    message: Option<String>,
+}
+
+/// The tab.
+pub fn ui(ui: &mut Ui, state: &mut State) {
+    let wide = ui.available_width() > 760.0;
+    if wide {
+        ui.horizontal_top(|ui| {
+            let table = 350.0;
+            let width = ui.available_width() - table - 14.0;
+            ui.vertical(|ui| {
+                ui.set_width(width);
+                chart(ui, state, ui.available_height());
+            });
+            ui.add_space(6.0);
+            ui.vertical(|ui| formulas::ui(ui, state));
+        });
+    } else {
+        let height = (ui.available_height() - 190.0).max(220.0);
+        chart(ui, state, height);
+        formulas::ui(ui, state);
+    }
+}
+
+fn chart(ui: &mut Ui, state: &mut State, height: f32) {
+    let ctx = ui.ctx().clone();
+    let palette = Palette::of(ui);
+    let dark = ui.visuals().dark_mode;
+    if state.regimes.texture.as_ref().is_none_or(|t| t.0 != dark) {
+        let texture = ctx.load_texture("regimes", shading(&palette), egui::TextureOptions::LINEAR);
+        state.regimes.texture = Some((dark, texture));
+    }
+    let model = state.model.clone();
+    let lines = state.regimes.lines.get_or_insert_with(|| ChartLines::new(model.as_deref().map(|m| &m.domain)));
+    let count = model.as_ref().map_or(0, |m| m.windows.iter().map(|w| w.snapshots.len()).sum());
+    if state.regimes.snapshots.as_ref().is_none_or(|s| s.0 != count) {
+        let points = model.iter().flat_map(|m| &m.windows).flat_map(|w| &w.snapshots);
+        state.regimes.snapshots = Some((count, points.map(|s| at(s.point.moes())).collect()));
+    }
+    let mut toolbar_export = false;
+    ui.horizontal_wrapped(|ui| {
+        let hint = "Drag the contact across the chart. Contours are Moes’ film number ({h}/{R})/√(2{U})";
+        ui.label(rich(hint, 12.5, palette.quiet));
+        toolbar_export = ui.button("Export CSV…").on_hover_text("Contours, boundaries and snapshots").clicked();
+    });
+    if let Some(message) = &state.regimes.message {
+        crate::app::controls::message_ui(ui, message);
+    }
+    let here = state.document.point.moes();
+    let grabbed = state.regimes.dragging;
+    let fit = state.fit_plots;
+    let pins: Vec<[f64; 2]> = state.pins.iter().map(|p| at(p.picture.key.point.moes())).map(|p| [p.x, p.y]).collect();
+    let chart_height = (height - 34.0).max(160.0);
+    let texture = state.regimes.texture.as_ref().map(|t| t.1.id());
+    let snapshots = state.regimes.snapshots.as_ref().map(|s| s.1.as_slice()).unwrap_or_default();
+    let response = axes::plot(ui, "regimes", chart_height, "Load number {M}", "Lubricant number {L}")
+        .default_x_bounds(M_AXIS.0.log10(), M_AXIS.1.log10())
+        .default_y_bounds(L_AXIS.0.log10(), L_AXIS.1.log10())
+        .allow_drag(!grabbed)
+        .x_grid_spacer(axes::log_marks)
+        .y_grid_spacer(axes::log_marks)
+        .x_axis_formatter(|mark, _| axes::log_label(mark))
+        .y_axis_formatter(|mark, _| axes::log_label(mark))
+        .y_axis_min_width(34.0)
+        .label_formatter(|hover| {
+            let at = match hover {
+                egui_plot::HoverPosition::NearDataPoint { position, .. }
+                | egui_plot::HoverPosition::Elsewhere { position } => position,
+            };
+            let moes = Moes { m: 10f64.powf(at.x), l: 10f64.powf(at.y) };
+            Some(format!(
+                "M {}   L {}\n{}",
+                numbers::significant(moes.m),
+                numbers::significant(moes.l),
+                Regime::of(moes).name().replace('\n', " ")
+            ))
+        })
+        .show(ui, |plot| {
+            axes::fit(plot, fit);
+            if let Some(texture) = texture {
+                image(plot, texture);
+            }
+            for (name, points) in &lines.contours {
+                let line = Line::new(name.clone(), PlotPoints::Borrowed(points));
+                plot.line(line.color(faded(palette.film, 0.55)).width(1.0).style(LineStyle::dotted_dense()));
+                if let Some(end) = points.iter().rev().find(|p| p.x < M_AXIS.1.log10() - 0.04) {
+                    let text = RichText::new(name).size(10.5).color(palette.film);
+                    plot.text(
+                        Text::new("", *end, text).anchor(Align2::RIGHT_BOTTOM).id(("contour", name)).allow_hover(false),
+                    );
+                }
+            }
+            for (k, points) in lines.boundaries.iter().enumerate() {
+                let line = Line::new("", PlotPoints::Borrowed(points)).id(("boundary", k));
+                plot.line(line.color(palette.quiet).width(1.2).allow_hover(false));
+            }
+            for (regime, place) in &lines.names {
+                let text = RichText::new(regime.name()).size(12.0).color(palette.quiet).italics();
+                plot.text(Text::new("", *place, text).id(("regime", regime.name())).allow_hover(false));
+            }
+            let limit =
+                Line::new("p_H = 3.2 GPa in the default realisation", PlotPoints::Borrowed(&lines.pressure_limit));
+            plot.line(limit.color(palette.warning).width(1.4).style(LineStyle::dashed_loose()));
+            if let Some(end) = lines.pressure_limit.first() {
+                let text = rich("{p_H} = 3.2 GPa", 11.5, palette.warning);
+                plot.text(Text::new("", *end, text).anchor(Align2::RIGHT_TOP).id("limit").allow_hover(false));
+            }
+            if let Some(outline) = &lines.trained {
+                plot.line(Line::new("Trained range", PlotPoints::Borrowed(outline)).color(palette.accent).width(1.8));
+            }
+            plot.points(
+                Points::new("Snapshots", PlotPoints::Borrowed(snapshots)).color(faded(palette.accent, 0.7)).radius(1.8),
+            );
+            plot.points(
+                Points::new("Pinned", pins).color(palette.quiet).radius(4.5).filled(false).shape(MarkerShape::Circle),
+            );
+            let current = [at(here).x, at(here).y];
+            let ring = Points::new("", vec![current]).id("ring").color(palette.accent).radius(9.0).filled(false);
+            plot.points(ring.shape(MarkerShape::Circle).allow_hover(false));
+            plot.points(
+                Points::new("", vec![current]).id("current").color(palette.accent).radius(5.0).allow_hover(false),
+            );
+        });
+    let transform = response.transform;
+    let response = crate::app::controls::named(ui, response.response, "Chart of M and L");
+    let spot = transform.position_from_point(&at(here));
+    let near = |p: egui::Pos2| p.distance(spot) < GRAB_RADIUS;
+    let over = response.hover_pos().is_some_and(near) || state.regimes.dragging;
+    if over {
+        ctx.set_cursor_icon(egui::CursorIcon::Grab);
+    }
+    // Taking hold before the drag begins keeps the chart itself still.
+    if ui.input(|i| i.pointer.primary_pressed()) && response.hover_pos().is_some_and(near) {
+        state.regimes.dragging = true;
+    }
+    if !ui.input(|i| i.pointer.primary_down()) {
+        state.regimes.dragging = false;
+    }
+    if state.regimes.dragging
+        && let Some(pointer) = ui.input(|i| i.pointer.latest_pos())
+        && ui.input(|i| i.pointer.is_moving())
+    {
+        let value = transform.value_from_position(pointer);
+        let m = 10f64.powf(value.x.clamp(M_AXIS.0.log10(), M_AXIS.1.log10()));
+        let l = 10f64.powf(value.y.clamp(L_AXIS.0.log10(), L_AXIS.1.log10()));
+        state.regimes.message = state.document.set_moes(Moes { m, l }).err();
+    }
+    if toolbar_export && let Some(lines) = &state.regimes.lines {
+        let text = lines.csv(snapshots_of(state));
+        state.ask_path(&ctx, Purpose::Csv { text });
+    }
+}
+
+fn snapshots_of(state: &State) -> &[PlotPoint] {
+    state.regimes.snapshots.as_ref().map(|s| s.1.as_slice()).unwrap_or_default()
+}
+
+fn at(moes: Moes) -> PlotPoint {
+    PlotPoint::new(moes.m.log10(), moes.l.log10())
+}
+
+fn image(plot: &mut PlotUi<'_>, texture: egui::TextureId) {
+    let (x, y) = ((M_AXIS.0.log10(), M_AXIS.1.log10()), (L_AXIS.0.log10(), L_AXIS.1.log10()));
+    let center = PlotPoint::new(0.5 * (x.0 + x.1), 0.5 * (y.0 + y.1));
+    let size = egui::vec2((x.1 - x.0) as f32, (y.1 - y.0) as f32);
+    plot.image(PlotImage::new("", texture, center, size).id("shading").allow_hover(false));
+}

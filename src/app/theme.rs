@@ -1,0 +1,226 @@
+//! Every colour, stroke and text style of the explorer. Quantities keep their hue everywhere (Okabe–Ito), reduced is the thick
+//! line, full the thin one of the same hue, pinned curves fade.
+
+use egui::text::{LayoutJob, TextFormat};
+use egui::{Align, Color32, Context, CornerRadius, FontId, Stroke, TextStyle, Theme, Ui, Visuals};
+
+/// Width of a live curve.
+pub const LIVE_WIDTH: f32 = 2.6;
+/// Width of a full solution drawn over a reduced one.
+pub const FULL_WIDTH: f32 = 1.2;
+/// Width of reference and pinned curves.
+pub const THIN_WIDTH: f32 = 1.2;
+
+/// The colours of one theme.
+#[derive(Clone, Copy, Debug)]
+pub struct Palette {
+    /// Pressure.
+    pub pressure: Color32,
+    /// Film thickness.
+    pub film: Color32,
+    /// Deformation.
+    pub deformation: Color32,
+    /// Hertz and published formulas, always dashed.
+    pub reference: Color32,
+    /// What can be dragged, what is selected.
+    pub accent: Color32,
+    /// A result that has been verified.
+    pub verified: Color32,
+    /// A warning: right to know, nothing broken.
+    pub warning: Color32,
+    /// Something is wrong.
+    pub wrong: Color32,
+    /// Quiet text and outlines.
+    pub quiet: Color32,
+    /// Grid lines of plots.
+    pub grid: Color32,
+    /// Shade of the cavitated zone.
+    pub cavitated: Color32,
+    /// Shades of the regimes: rigid-isoviscous, elastic-isoviscous, rigid-piezoviscous, elastic-piezoviscous.
+    pub regimes: [Color32; 4],
+}
+
+impl Palette {
+    /// Colours for what is on the screen now.
+    pub fn of(ui: &Ui) -> Self {
+        Self::for_visuals(ui.visuals())
+    }
+
+    /// Colours for the visuals of a theme.
+    pub fn for_visuals(visuals: &Visuals) -> Self {
+        if visuals.dark_mode {
+            Self {
+                pressure: Color32::from_rgb(0xF0, 0x7A, 0x28),
+                film: Color32::from_rgb(0x3C, 0x9F, 0xDE),
+                deformation: Color32::from_rgb(0x1F, 0xB8, 0x8C),
+                reference: Color32::from_gray(0x93),
+                accent: Color32::from_rgb(0xA3, 0x8F, 0xF5),
+                verified: Color32::from_rgb(0x6F, 0xC0, 0x8B),
+                warning: Color32::from_rgb(0xE6, 0xB4, 0x50),
+                wrong: Color32::from_rgb(0xF2, 0x6D, 0x6D),
+                quiet: Color32::from_gray(0x9A),
+                grid: Color32::from_white_alpha(34),
+                cavitated: Color32::from_white_alpha(10),
+                regimes: [
+                    Color32::from_rgb(0x2B, 0x2E, 0x33),
+                    Color32::from_rgb(0x23, 0x35, 0x42),
+                    Color32::from_rgb(0x3B, 0x33, 0x26),
+                    Color32::from_rgb(0x2A, 0x3A, 0x30),
+                ],
+            }
+        } else {
+            Self {
+                pressure: Color32::from_rgb(0xD5, 0x5E, 0x00),
+                film: Color32::from_rgb(0x00, 0x72, 0xB2),
+                deformation: Color32::from_rgb(0x00, 0x9E, 0x73),
+                reference: Color32::from_gray(0x78),
+                accent: Color32::from_rgb(0x62, 0x4C, 0xC0),
+                verified: Color32::from_rgb(0x2E, 0x7D, 0x4F),
+                warning: Color32::from_rgb(0x9A, 0x68, 0x00),
+                wrong: Color32::from_rgb(0xB8, 0x23, 0x23),
+                quiet: Color32::from_gray(0x6A),
+                grid: Color32::from_black_alpha(44),
+                cavitated: Color32::from_black_alpha(10),
+                regimes: [
+                    Color32::from_rgb(0xEE, 0xEE, 0xF0),
+                    Color32::from_rgb(0xDF, 0xEC, 0xF5),
+                    Color32::from_rgb(0xF7, 0xEC, 0xDC),
+                    Color32::from_rgb(0xE2, 0xF0, 0xE6),
+                ],
+            }
+        }
+    }
+}
+
+/// Sets both themes' styles; done once at the start.
+pub fn install(ctx: &Context) {
+    for theme in [Theme::Light, Theme::Dark] {
+        ctx.style_mut_of(theme, |style| {
+            let visuals = &mut style.visuals;
+            let palette = Palette::for_visuals(visuals);
+            if theme == Theme::Light {
+                visuals.panel_fill = Color32::from_rgb(0xF7, 0xF7, 0xF8);
+                visuals.window_fill = Color32::from_rgb(0xFC, 0xFC, 0xFC);
+                visuals.extreme_bg_color = Color32::WHITE;
+                visuals.faint_bg_color = Color32::from_rgb(0xF0, 0xF0, 0xF2);
+                visuals.override_text_color = Some(Color32::from_gray(0x24));
+            } else {
+                visuals.panel_fill = Color32::from_rgb(0x1E, 0x1F, 0x22);
+                visuals.window_fill = Color32::from_rgb(0x26, 0x27, 0x2B);
+                visuals.extreme_bg_color = Color32::from_rgb(0x16, 0x17, 0x1A);
+                visuals.faint_bg_color = Color32::from_rgb(0x26, 0x27, 0x2B);
+                visuals.override_text_color = Some(Color32::from_gray(0xDE));
+            }
+            visuals.weak_text_color = Some(palette.quiet);
+            visuals.warn_fg_color = palette.warning;
+            visuals.error_fg_color = palette.wrong;
+            visuals.hyperlink_color = palette.accent;
+            visuals.selection.bg_fill = palette.accent.gamma_multiply(if visuals.dark_mode { 0.45 } else { 0.30 });
+            visuals.selection.stroke = Stroke::new(1.0, palette.accent);
+            visuals.slider_trailing_fill = true;
+            visuals.window_corner_radius = CornerRadius::same(6);
+            style.spacing.item_spacing = egui::vec2(8.0, 5.0);
+            style.spacing.button_padding = egui::vec2(8.0, 3.0);
+            style.spacing.slider_width = 150.0;
+            style.spacing.interact_size.y = 22.0;
+            style.spacing.tooltip_width = 380.0;
+            style.text_styles.insert(TextStyle::Small, FontId::proportional(11.0));
+            style.text_styles.insert(TextStyle::Body, FontId::proportional(13.5));
+            style.text_styles.insert(TextStyle::Button, FontId::proportional(13.5));
+            style.text_styles.insert(TextStyle::Heading, FontId::proportional(16.0));
+            style.animation_time = 0.06;
+        });
+    }
+}
+
+/// A symbol as the literature sets it: slanted letter, upright subscript.
+pub fn symbol(ui: &Ui, base: &str, subscript: &str) -> LayoutJob {
+    let mut job = LayoutJob::default();
+    append_symbol(&mut job, TextStyle::Body.resolve(ui.style()).size, ui.visuals().text_color(), base, subscript);
+    job
+}
+
+/// A name followed by its symbol, for the rows of panels: "Load number *M*".
+pub fn name_and_symbol(ui: &Ui, name: &str, base: &str, subscript: &str) -> LayoutJob {
+    let mark = if subscript.is_empty() { format!("{{{base}}}") } else { format!("{{{base}_{subscript}}}") };
+    rich(&format!("{name} {mark}"), TextStyle::Body.resolve(ui.style()).size, ui.visuals().text_color())
+}
+
+/// Text with symbols in braces: `Pressure {P} = {p}/{p_H}`.
+pub fn rich(text: &str, size: f32, color: Color32) -> LayoutJob {
+    let mut job = LayoutJob::default();
+    let plain = TextFormat { font_id: FontId::proportional(size), color, ..TextFormat::default() };
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once('{') {
+        job.append(before, 0.0, plain.clone());
+        let (inside, behind) = after.split_once('}').unwrap_or((after, ""));
+        let (base, subscript) = inside.split_once('_').unwrap_or((inside, ""));
+        append_symbol(&mut job, size, color, base, subscript);
+        rest = behind;
+    }
+    job.append(rest, 0.0, plain);
+    job
+}
+
+fn append_symbol(job: &mut LayoutJob, size: f32, color: Color32, base: &str, subscript: &str) {
+    let italics = base.starts_with(|c: char| c.is_ascii_alphabetic());
+    let format = TextFormat { font_id: FontId::proportional(size), color, italics, ..TextFormat::default() };
+    job.append(base, 0.0, format.clone());
+    if !subscript.is_empty() {
+        let font_id = FontId::proportional(size * 0.74);
+        job.append(subscript, 0.5, TextFormat { font_id, italics: false, valign: Align::BOTTOM, ..format });
+    }
+}
+
+/// A curve that stands back behind the live one.
+pub fn faded(color: Color32, strength: f32) -> Color32 {
+    color.gamma_multiply(strength)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Characters outside ASCII that the screen uses must be in the fonts, in light of symbols, units and quotation marks.
+    #[test]
+    fn every_character_on_the_screen_has_a_glyph() {
+        let sources = [
+            include_str!("command.rs"),
+            include_str!("controls.rs"),
+            include_str!("document.rs"),
+            include_str!("files.rs"),
+            include_str!("numbers.rs"),
+            include_str!("picture.rs"),
+            include_str!("panels/help.rs"),
+            include_str!("panels/menu.rs"),
+            include_str!("panels/operating_point.rs"),
+            include_str!("panels/readouts.rs"),
+            include_str!("panels/settings.rs"),
+            include_str!("panels/strip.rs"),
+            include_str!("plots/accuracy.rs"),
+            include_str!("plots/badge.rs"),
+            include_str!("plots/basis.rs"),
+            include_str!("plots/formulas.rs"),
+            include_str!("plots/profiles.rs"),
+            include_str!("plots/regimes.rs"),
+            include_str!("plots/regime_chart.rs"),
+            include_str!("../solver/contact/film_formulas.rs"),
+        ];
+        let mut used: Vec<char> = sources
+            .iter()
+            .flat_map(|s| s.lines())
+            .filter(|line| !line.trim_start().starts_with("//"))
+            .flat_map(str::chars)
+            .filter(|c| !c.is_ascii())
+            .collect();
+        used.sort_unstable();
+        used.dedup();
+        let ctx = Context::default();
+        let mut missing = String::new();
+        let _output = ctx.run_ui(egui::RawInput::default(), |ui| {
+            let font = FontId::proportional(13.0);
+            missing = ui.ctx().fonts_mut(|f| used.iter().copied().filter(|c| !f.has_glyph(&font, *c)).collect());
+        });
+        assert!(missing.is_empty(), "no glyph for {missing:?}");
+    }
+}
