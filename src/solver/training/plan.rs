@@ -98,7 +98,7 @@ pub fn farthest_points(range: &Range, m: (f64, f64), count: usize, rng: &mut Rng
     let corners = (0..16u8).filter_map(|c| range.at(std::array::from_fn(|k| f64::from(c >> k & 1))));
     pool.extend(corners.filter(|p| (m.0..=m.1).contains(&p.moes().m)));
     let coordinates: Vec<_> = pool.iter().map(|p| (p.moes(), p.alpha_per_pa.ln())).collect();
-    let alpha_weight = if matches!(range, Range::Box { .. }) { 0.0 } else { ALPHA_WEIGHT };
+    let alpha_weight = if matches!(range, Range::Box { .. }) { 0.005 } else { ALPHA_WEIGHT };
     let mut nearest = vec![f64::INFINITY; pool.len()];
     let mut chosen = Vec::with_capacity(count);
     let mut next = (0..pool.len()).min_by(|&a, &b| coordinates[a].0.m.total_cmp(&coordinates[b].0.m));
