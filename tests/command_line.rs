@@ -122,6 +122,27 @@ fn srr_moves_only_the_traction_and_beyond_3_2_gpa_there_is_a_warning() {
 }
 
 #[test]
+fn a_reduced_solve_says_what_served_it_and_whether_it_was_trained() {
+    let object = json(&program(&["solve", "--json", "--moes-m", "40", "--moes-l", "10", "--method", "reduced"]));
+    assert_eq!((&object["method"], &object["converged"]), (&"reduced".into(), &true.into()));
+    assert_eq!(object["grid"]["kind"], "model");
+    let reduced = &object["reduced"];
+    assert_eq!(reduced["trained"], true);
+    let modes = reduced["basis_p"].as_u64().unwrap();
+    assert_eq!(object["grid"]["dofs"].as_u64().unwrap(), modes + 1);
+    assert!(reduced["sampled_rows"].as_u64().unwrap() >= modes && reduced["basis_delta"].as_u64().unwrap() > 0);
+    assert!(reduced["residual_estimate"].as_f64().unwrap() > 0.0);
+    assert!(object.get("linear_iterations").is_none() && object.get("warning").is_none());
+    let full = json(&program(&["solve", "--json", "--moes-m", "40", "--moes-l", "10", "--grid", "model"]));
+    assert_eq!(full["grid"]["nx"], object["grid"]["nx"]);
+    assert!((object["H_c"].as_f64().unwrap() / full["H_c"].as_f64().unwrap() - 1.0).abs() < 1e-3);
+    // Another oil than it was trained for is solved, but says so.
+    let other = json(&program(&[&["solve", "--json", "--method", "reduced"], &TABLE_2_1[..]].concat()));
+    assert_eq!(other["reduced"]["trained"], false);
+    assert!(other["warning"].as_str().unwrap().contains("viscosity"));
+}
+
+#[test]
 fn bad_points_are_refused_with_one_sentence() {
     for bad in ["nan", "inf", "0", "-1", "1e30"] {
         for option in ["--radius", "--speed", "--load", "--modulus", "--viscosity", "--alpha"] {

@@ -97,6 +97,11 @@ fn the_embedded_model_agrees_with_full_solutions() {
 }
 
 #[test]
+fn the_reduced_model_of_table_3_1_follows_the_trajectory() {
+    assert_passes("fig_3_7_trajectory");
+}
+
+#[test]
 fn a_model_file_that_is_missing_is_named() {
     let mut scene = Scene::at_moes(40.0, 10.0);
     scene.study =

@@ -56,10 +56,11 @@ impl Expectation {
     pub fn wanted(&self) -> String {
         let value = self.value.map_or_else(|| "?".to_owned(), |v| format!("{v}"));
         match self.within {
-            Within::Relative(tolerance) => format!("{value} within {tolerance:e} of itself"),
+            Within::Relative(0.0) | Within::Absolute(0.0) => value,
+            Within::Relative(tolerance) => format!("{value}, relative error at most {tolerance:e}"),
             Within::Absolute(tolerance) => format!("{value} ± {tolerance:e}"),
-            Within::AtMost(limit) => format!("at most {limit}"),
-            Within::AtLeast(limit) => format!("at least {limit}"),
+            Within::AtMost(limit) => format!("at most {limit:?}"),
+            Within::AtLeast(limit) => format!("at least {limit:?}"),
             Within::Between(low, high) => format!("between {low} and {high}"),
         }
     }

@@ -259,7 +259,7 @@ impl LineSystem {
         self.rhs[u] = 0.0;
         let Self { krylov, grid, fft, field, step_deformation, d_p, d_h, scaling, preconditioner, rhs, update, .. } =
             self;
-        let outcome = krylov.solve(
+        krylov.solve(
             rhs,
             update,
             tolerance,
@@ -278,8 +278,7 @@ impl LineSystem {
                 out[u] = dot(&grid.weights, field);
             },
             |v| preconditioner.apply(grid, v),
-        );
-        outcome
+        )
     }
 }
 
