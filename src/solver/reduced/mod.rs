@@ -8,6 +8,7 @@ mod online;
 mod operators;
 mod pod;
 mod sampling;
+mod start;
 
 pub use model::{Domain, ReducedModel, Snapshot, Trust, Window, deformation_weights, distance, flex};
 pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution};

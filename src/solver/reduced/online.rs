@@ -1,8 +1,9 @@
 //! The online phase: which window, which start, and back to fields.
 
 use super::model::{ReducedModel, Snapshot, Trust, Window, distance};
-use super::operators::{OnlineOutcome, Operators, RowObserver};
-use crate::solver::contact::{Moes, OperatingPoint, moes_line_film};
+use super::operators::{Case, OnlineOutcome, Operators, RowObserver, Stop};
+use super::start::{self, Guess, film_number};
+use crate::solver::contact::{Moes, OperatingPoint};
 use crate::solver::full::{Problem, Report, Scalars, Solution, SolveError, Termination, scalars_of};
 use crate::solver::grid::{GridSpec, LineGrid, registration_scale};
 use crate::solver::lubricant::Lubricant;
@@ -10,6 +11,12 @@ use crate::solver::reynolds::PENALTY;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Par};
 use std::sync::Arc;
+
+/// Newton steps before another start is tried: good starts need 4, and what needs more than 12 mostly never gets there.
+const FIRST_ATTEMPTS: usize = 12;
+
+/// How near by (3.20) the previous solution must be to be preferred to an interpolation.
+const DRAG_DISTANCE: f64 = 1e-3;
 
 /// Why a reduced solve gives no result.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -49,7 +56,7 @@ pub struct ReducedOptions {
 
 impl Default for ReducedOptions {
     fn default() -> Self {
-        Self { pressure_modes: None, deformation_modes: None, tolerance: 1e-6, max_newton: 40, penalty: PENALTY }
+        Self { pressure_modes: None, deformation_modes: None, tolerance: 1e-5, max_newton: 40, penalty: PENALTY }
     }
 }
 
@@ -115,7 +122,8 @@ impl Online {
         self.previous = None;
     }
 
-    /// Solves a contact: from the previous solution of this object where that is nearer, else from the nearest snapshot by (3.20).
+    /// Solves a contact: from the previous solution of this object where that is near, else from the snapshots around
+    /// the point, else from the nearest one by (3.20), else by continuation from that one.
     ///
     /// # Errors
     /// When the point is refused or Newton does not converge.
@@ -137,31 +145,19 @@ impl Online {
             return Err(ReducedError::Empty);
         };
         let moes = problem.moes;
-        // Candidates for the start: the previous solution if it is nearer than every snapshot, then the snapshots by distance.
-        let mut starts: Vec<(f64, &[f64], f64, Moes)> = window
-            .snapshots
-            .iter()
-            .map(|s| {
-                let m = s.point.moes();
-                (distance(moes, m), &s.coefficients[..], s.h_c, m)
-            })
-            .collect();
-        let tried = 3.min(starts.len());
-        if tried > 0 {
-            starts.select_nth_unstable_by(tried - 1, |a, b| a.0.total_cmp(&b.0));
-            starts.truncate(tried);
-            starts.sort_by(|a, b| a.0.total_cmp(&b.0));
-        }
-        if let Some(previous) = self.previous.as_ref().filter(|p| p.window == index) {
-            let d = distance(moes, previous.moes);
-            if starts.first().is_none_or(|s| d < s.0) {
-                starts.insert(0, (d, &previous.coefficients, previous.h_c, previous.moes));
-            }
-        }
+        // The previous solution while somebody drags, else an interpolation, else the nearest snapshot.
+        let previous =
+            self.previous.as_ref().filter(|p| p.window == index && distance(moes, p.moes) < DRAG_DISTANCE).map(|p| {
+                Guess { coefficients: p.coefficients.clone(), h_c: p.h_c * film_number(moes) / film_number(p.moes) }
+            });
         let mut last = ReducedError::Empty;
-        for (_, start, h_c, start_moes) in &starts {
-            let film = h_c * film_number(moes) / film_number(*start_moes);
-            match attempt(window, operators, &problem, start, film, &self.options, &mut observer) {
+        let starts: [&dyn Fn() -> Option<Guess>; 3] =
+            [&|| previous.as_ref().map(Guess::clone), &|| start::interpolated(window, point), &|| {
+                start::nearest(window, moes)
+            }];
+        for guess in starts {
+            let Some(guess) = guess() else { continue };
+            match attempt(window, operators, &problem, &guess, FIRST_ATTEMPTS, &self.options, &mut observer) {
                 Ok(found) => return Ok(self.keep(&problem, index, found)),
                 Err(error) => last = error,
             }
@@ -274,28 +270,30 @@ struct Found {
     residual: f64,
 }
 
-/// Newton from given coefficients with the film `film` at X = 0.
+/// Newton from a guess, within `limit` steps and the options' own limit.
 fn attempt(
     window: &Window,
     operators: &mut Operators,
     problem: &Problem,
-    start: &[f64],
-    film: f64,
+    start: &Guess,
+    limit: usize,
     options: &ReducedOptions,
     observer: &mut Option<RowObserver<'_>>,
 ) -> Result<Found, ReducedError> {
     let scale = scale_of(window.grid.spec, problem.moes);
     let zero = interpolation_at_zero(window, scale);
-    let mut coefficients = start[..operators.modes].to_vec();
+    let mut coefficients = start.coefficients[..operators.modes].to_vec();
     operators.carry_load(problem, scale, &mut coefficients);
     // H(0) = H₀ − ½ ln s + s δ(0).
     let lift = |operators: &Operators, coefficients: &[f64]| -> f64 {
         let sag: f64 = zero.iter().map(|(node, w)| w * row_dot(&operators.deformation, *node, coefficients)).sum();
         scale * sag - 0.5 * scale.ln()
     };
-    let mut h_0 = film - lift(operators, &coefficients);
+    let mut h_0 = start.h_c - lift(operators, &coefficients);
     let watch = observer.as_mut().map(|o| &mut **o as RowObserver<'_>);
-    let outcome = operators.newton(problem, scale, &window.grid.xi, &mut coefficients, &mut h_0, options, watch);
+    let case = Case { problem, scale, xi: &window.grid.xi, penalty: options.penalty };
+    let stop = Stop { tolerance: options.tolerance, max_newton: options.max_newton.min(limit) };
+    let outcome = operators.newton(&case, &mut coefficients, &mut h_0, stop, watch);
     let h_c = h_0 + lift(operators, &coefficients);
     if outcome.converged && h_c > 0.0 {
         let OnlineOutcome { iterations, residual, .. } = outcome;
@@ -329,30 +327,28 @@ fn walk(
         Problem::new(&point, target.lubricant).ok()
     };
     let (mut t, mut stride) = (0.0, 0.25);
-    let (mut coefficients, mut h_c, mut moes) = (snapshot.coefficients.clone(), snapshot.h_c, snapshot.point.moes());
+    let mut guess = Guess { coefficients: snapshot.coefficients.clone(), h_c: snapshot.h_c };
+    let mut moes = snapshot.point.moes();
     let mut iterations = 0;
     while stride > 0.01 {
         let next = f64::min(t + stride, 1.0);
         let problem = if next >= 1.0 { *target } else { at(next)? };
-        let film = h_c * film_number(problem.moes) / film_number(moes);
-        match attempt(window, operators, &problem, &coefficients, film, options, observer) {
+        let h_c = guess.h_c * film_number(problem.moes) / film_number(moes);
+        let start = Guess { h_c, ..guess.clone() };
+        match attempt(window, operators, &problem, &start, usize::MAX, options, observer) {
             Ok(found) => {
                 iterations += found.iterations;
                 if next >= 1.0 {
                     return Some(Found { iterations, ..found });
                 }
                 (t, stride) = (next, 1.5 * stride);
-                (coefficients, h_c, moes) = (found.coefficients, found.h_c, problem.moes);
+                guess = Guess { coefficients: found.coefficients, h_c: found.h_c };
+                moes = problem.moes;
             }
             Err(_) => stride *= 0.4,
         }
     }
     None
-}
-
-/// Moes' film in the solver's scaling up to a constant.
-fn film_number(moes: Moes) -> f64 {
-    moes_line_film(moes) / moes.m
 }
 
 /// The registration scale of a grid specification for a contact.

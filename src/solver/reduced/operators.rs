@@ -23,6 +23,25 @@ pub(crate) struct OnlineOutcome {
     pub residual: f64,
 }
 
+/// One contact as the reduced operators see it.
+#[derive(Clone, Copy)]
+pub(crate) struct Case<'a> {
+    pub problem: &'a Problem,
+    /// Registration scale s.
+    pub scale: f64,
+    /// Nodes of the window's reference grid.
+    pub xi: &'a [f64],
+    /// Penalty factor γ̄.
+    pub penalty: f64,
+}
+
+/// When an online iteration stops.
+#[derive(Clone, Copy)]
+pub(crate) struct Stop {
+    pub tolerance: f64,
+    pub max_newton: usize,
+}
+
 /// Sees each iterate: f_I and J V Δz̃ on the sampled rows.
 pub(crate) type RowObserver<'a> = &'a mut dyn FnMut(&[f64], &[f64]);
 
@@ -58,7 +77,6 @@ struct Scratch {
     perm: Vec<usize>,
     perm_inverse: Vec<usize>,
     memory: MemBuffer,
-    coefficients_now: Vec<f64>,
     product: Vec<f64>,
 }
 
@@ -125,28 +143,25 @@ impl Operators {
                 perm: vec![0; size],
                 perm_inverse: vec![0; size],
                 memory: MemBuffer::new(memory),
-                coefficients_now: vec![0.0; modes],
                 product: vec![0.0; n],
             },
             support,
         }
     }
 
-    /// Newton's method on (p̃, H₀) for a grid scale s, damped by the largest pressure change.
+    /// Newton's method on (p̃, H₀) for one case, damped by the largest pressure change.
     pub fn newton(
         &mut self,
-        problem: &Problem,
-        scale: f64,
-        xi: &[f64],
+        case: &Case<'_>,
         coefficients: &mut [f64],
         h_0: &mut f64,
-        settings: &super::online::ReducedOptions,
+        stop: Stop,
         mut observer: Option<RowObserver<'_>>,
     ) -> OnlineOutcome {
         let mut outcome = OnlineOutcome { converged: false, iterations: 0, step: f64::NAN, residual: f64::NAN };
-        for iteration in 1..=settings.max_newton {
-            self.evaluate(problem, scale, xi, coefficients, *h_0, settings.penalty, true);
-            if !self.linear_step(problem, scale, coefficients) {
+        for iteration in 1..=stop.max_newton {
+            self.evaluate(case, coefficients, *h_0, true);
+            if !self.linear_step(case.problem, case.scale, coefficients) {
                 return outcome;
             }
             outcome.iterations = iteration;
@@ -154,7 +169,7 @@ impl Operators {
                 self.jacobian_times_step();
                 observer(&self.scratch.values, &self.scratch.product);
             }
-            let omega = self.damping(scale);
+            let omega = self.damping(case.scale);
             let (mut change, mut size) = (0.0, 0.0);
             for (c, d) in coefficients.iter_mut().zip(&self.scratch.rhs) {
                 *c += omega * d;
@@ -166,30 +181,21 @@ impl Operators {
             if !outcome.step.is_finite() {
                 return outcome;
             }
-            if omega == 1.0 && outcome.step < settings.tolerance {
+            if omega == 1.0 && outcome.step < stop.tolerance {
                 outcome.converged = true;
                 break;
             }
         }
-        outcome.residual = self.evaluate(problem, scale, xi, coefficients, *h_0, settings.penalty, false);
+        outcome.residual = self.evaluate(case, coefficients, *h_0, false);
         // A converged iteration with an absurd residual has found garbage.
         outcome.converged &= outcome.residual.is_finite() && outcome.residual < 1e3;
         outcome
     }
 
     /// Evaluates the sampled rows; returns e_f^I.
-    fn evaluate(
-        &mut self,
-        problem: &Problem,
-        scale: f64,
-        xi: &[f64],
-        coefficients: &[f64],
-        h_0: f64,
-        penalty: f64,
-        derivatives: bool,
-    ) -> f64 {
+    fn evaluate(&mut self, case: &Case<'_>, coefficients: &[f64], h_0: f64, derivatives: bool) -> f64 {
+        let Case { problem, scale, xi, penalty } = *case;
         let s = &mut self.scratch;
-        s.coefficients_now.copy_from_slice(coefficients);
         product(&self.state_rows, self.modes, coefficients, &mut s.fields);
         let (pressure, deformation) = s.fields.split_at(self.support.len());
         let offset = h_0 - 0.5 * scale.ln();
