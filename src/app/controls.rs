@@ -15,6 +15,12 @@ pub struct Entries {
 }
 
 impl Entries {
+    /// Forgets what was typed and refused: the values have moved on.
+    pub fn clear(&mut self) {
+        self.buffers.clear();
+        self.messages.clear();
+    }
+
     /// Records why an entry was refused, or that it was accepted.
     pub fn answer(&mut self, name: &'static str, result: Result<(), String>) {
         match result {
@@ -180,7 +186,18 @@ pub fn heading(ui: &mut Ui, text: &str) {
     ui.label(RichText::new(text).strong().size(14.5));
 }
 
+/// Width of the column of names, so that values line up from group to group.
+pub const NAME_WIDTH: f32 = 104.0;
+
 /// A label made of a laid-out name, explained on hover.
 pub fn explained(ui: &mut Ui, job: LayoutJob, tooltip: &str) -> Response {
     ui.label(job).on_hover_text(tooltip)
+}
+
+/// The name of a row, as wide in every group.
+pub fn row_name(ui: &mut Ui, job: LayoutJob, tooltip: &str) {
+    ui.horizontal(|ui| {
+        ui.set_min_width(NAME_WIDTH);
+        explained(ui, job, tooltip);
+    });
 }

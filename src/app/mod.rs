@@ -147,8 +147,14 @@ impl Explorer {
             Command::Save => state.save(ctx),
             Command::SaveAs => state.ask_path(ctx, Purpose::Save),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
-            Command::Undo => state.history.undo(&mut state.document),
-            Command::Redo => state.history.redo(&mut state.document),
+            Command::Undo => {
+                state.history.undo(&mut state.document);
+                state.entries.clear();
+            }
+            Command::Redo => {
+                state.history.redo(&mut state.document);
+                state.entries.clear();
+            }
             Command::CopyReadouts => ctx.copy_text(export::readouts_table(state)),
             Command::Pin => state.pin(),
             Command::Unpin => state.pins.clear(),

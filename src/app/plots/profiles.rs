@@ -9,7 +9,7 @@ use crate::app::numbers;
 use crate::app::picture::{Comparison, Origin, Picture, value_at};
 use crate::app::state::{Pin, State};
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, faded, rich};
-use egui::{Align2, Color32, Id, Ui, Vec2b};
+use egui::{Align2, Checkbox, Color32, Id, Ui, Vec2b};
 use egui_plot::{
     Corner, HoverPosition, Legend, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points, Span,
     Text,
@@ -60,14 +60,13 @@ fn toolbar(ui: &mut Ui, state: &mut State) {
         }
         let reduced = state.picture.as_ref().is_some_and(|p| p.origin != Origin::Full);
         let why = "The picture is the full solution itself";
-        ui.add_enabled_ui(reduced, |ui| {
-            ui.checkbox(&mut state.view.overlay, "Full solution")
-                .on_hover_text("Draw the full solution over the reduced one")
-                .on_disabled_hover_text(why);
-            ui.checkbox(&mut state.view.difference, "Difference")
-                .on_hover_text("Reduced minus full, on an axis of its own")
-                .on_disabled_hover_text(why);
-        });
+        let switches = [
+            ("Full solution", "Draw the full solution over the reduced one", &mut state.view.overlay),
+            ("Difference", "Reduced minus full, on an axis of its own", &mut state.view.difference),
+        ];
+        for (name, tip, on) in switches {
+            ui.add_enabled(reduced, Checkbox::new(on, name)).on_hover_text(tip).on_disabled_hover_text(why);
+        }
         if ui.button(Command::Verify.name()).on_hover_text("Solve this contact in full now (F5)").clicked() {
             state.verify(&ctx);
         }
@@ -128,7 +127,7 @@ impl Scene<'_> {
     }
 
     fn over(&self, palette: &Palette, color: Color32) -> Color32 {
-        if self.full_stale { palette.reference } else { faded(color, 0.75) }
+        if self.full_stale { palette.reference } else { palette.over(color) }
     }
 }
 
