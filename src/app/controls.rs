@@ -34,11 +34,6 @@ impl Entries {
         }
     }
 
-    /// The message about a field.
-    pub fn message(&self, name: &str) -> Option<&str> {
-        self.messages.get(name).map(String::as_str)
-    }
-
     /// Shows the message about a field, if there is one.
     pub fn message_ui(&self, ui: &mut Ui, name: &str) {
         if let Some(message) = self.messages.get(name) {
@@ -59,11 +54,16 @@ pub fn warning_ui(ui: &mut Ui, message: &str) {
     ui.label(RichText::new(sentence(message)).small().color(color));
 }
 
-/// First letter large, a full stop at the end.
+/// First letter large (unless it is a symbol), a full stop at the end.
 pub fn sentence(text: &str) -> String {
-    let mut chars = text.trim().chars();
-    let mut out: String = chars.next().map(|c| c.to_uppercase().collect()).unwrap_or_default();
-    out.extend(chars);
+    let text = text.trim();
+    let mut chars = text.chars();
+    let first = chars.next();
+    let is_word = chars.clone().next().is_some_and(char::is_alphabetic);
+    let mut out = match first {
+        Some(letter) if is_word => letter.to_uppercase().chain(chars).collect(),
+        _ => text.to_owned(),
+    };
     if !out.ends_with(['.', '!', '?']) {
         out.push('.');
     }

@@ -278,10 +278,10 @@ impl History {
         *self = Self { committed: Some(document.clone()), ..Self::default() };
     }
 
-    /// Records the document when it differs from the last recorded one.
-    pub fn commit(&mut self, document: &Document) {
+    /// Records the document when it differs from the last recorded one, and tells whether it did.
+    pub fn commit(&mut self, document: &Document) -> bool {
         match &self.committed {
-            Some(last) if last == document => {}
+            Some(last) if last == document => return false,
             Some(last) => {
                 self.undo.push(last.clone());
                 if self.undo.len() > HISTORY_LIMIT {
@@ -292,6 +292,7 @@ impl History {
             }
             None => self.committed = Some(document.clone()),
         }
+        true
     }
 
     /// The document before the last edit.

@@ -229,6 +229,6 @@ impl eframe::App for Explorer {
     }
 
     fn auto_save_interval(&self) -> std::time::Duration {
-        std::time::Duration::from_secs(10)
+        std::time::Duration::from_secs(state::AUTO_SAVE_S)
     }
 }

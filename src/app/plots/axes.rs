@@ -15,7 +15,7 @@ pub fn plot<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) ->
         .height(height)
         .grid_color(Palette::of(ui).grid)
         .allow_scroll(false)
-        .y_axis_min_width(54.0)
+        .y_axis_min_width(62.0)
         .x_grid_spacer(|input| round_marks(input, 9.0))
         .y_grid_spacer(|input| round_marks(input, 6.0))
         .x_axis_formatter(|mark, _| tick(mark.value))

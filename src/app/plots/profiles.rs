@@ -253,9 +253,12 @@ fn film_plot(ui: &mut Ui, scene: &Scene<'_>, height: f32) {
 
 fn difference_plot(ui: &mut Ui, comparison: &Comparison, wanted: bool, height: f32) {
     let palette = Palette::of(ui);
-    stacked(ui, "difference", height, "", "Reduced − full").auto_bounds(Vec2b::TRUE).show(ui, |plot| {
-        axes::fit(plot, wanted);
-        plot.line(curve("ΔP".to_owned(), &comparison.pressure, palette.pressure, 1.4));
-        plot.line(curve("ΔH/H_c".to_owned(), &comparison.film, palette.film, 1.4));
-    });
+    stacked(ui, "difference", height, "", "Reduced − full")
+        .default_x_bounds(X_RANGE.0, X_RANGE.1)
+        .set_margin_fraction(egui::vec2(0.0, 0.08))
+        .show(ui, |plot| {
+            axes::fit(plot, wanted);
+            plot.line(curve("ΔP".to_owned(), &comparison.pressure, palette.pressure, 1.4));
+            plot.line(curve("ΔH/H_c".to_owned(), &comparison.film, palette.film, 1.4));
+        });
 }
