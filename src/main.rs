@@ -1,13 +1,5 @@
-//! Opens the explorer.
+//! Parses the command line and hands over.
 
-use std::process::ExitCode;
-
-fn main() -> ExitCode {
-    match ehl_explorer::app::run(None) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(message) => {
-            eprintln!("{message}");
-            ExitCode::from(2)
-        }
-    }
+fn main() -> std::process::ExitCode {
+    ehl_explorer::cli::main()
 }

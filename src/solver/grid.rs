@@ -73,16 +73,12 @@ impl GridSpec {
     /// The dissertation's grid: 1201 nodes from −4 to 2.
     pub const DISSERTATION: Self = Self::Uniform { dx: 0.005, domain: (-4.0, 2.0) };
 
-    /// The explorer's default: 560 to 600 registered nodes; the lighter the load, the longer the inlet.
-    pub fn graded_for(moes: Moes) -> Self {
-        let (nodes, domain) = if moes.m < 9.0 {
-            (600, (-20.0, 3.2))
-        } else if moes.m < 40.0 {
-            (560, (-9.0, 2.2))
-        } else {
-            (560, (-6.0, 1.9))
-        };
-        Self::Graded { nodes, domain, registered: true }
+    /// The explorer's default for every contact: 632 registered nodes, fine at ξ = ±1, with an inlet long enough for M = 2.
+    pub const EXPLORER: Self = Self::Graded { nodes: 632, domain: (-20.0, 3.2), registered: true };
+
+    /// The explorer's default.
+    pub fn graded_for(_moes: Moes) -> Self {
+        Self::EXPLORER
     }
 
     /// Builds the reference grid and its kernel; the costly part, done once per specification.
@@ -243,44 +239,41 @@ fn wanted_spacing(xi: f64) -> f64 {
     base + 0.028 * inlet * inlet / (inlet + 0.5) + 0.03 * outlet
 }
 
-/// `nodes` abscissae (and the outside one) that equidistribute 1/spacing.
+/// `nodes` abscissae (and the outside one) that equidistribute 1/spacing, with one node exactly at ξ = 1 where registration puts the spike:
+/// grids of equal resolution then share their nodes in the contact, whatever their inlets. The ends move by half a cell at most.
 fn graded_nodes(nodes: usize, from: f64, to: f64) -> Vec<f64> {
+    // ∫ dξ/spacing by Simpson's rule on fine samples; all later steps are exact to rounding.
+    let count = |a: f64, b: f64| {
+        let middle = 0.5 * (a + b);
+        (b - a) / 6.0 * (1.0 / wanted_spacing(a) + 4.0 / wanted_spacing(middle) + 1.0 / wanted_spacing(b))
+    };
     let samples = 40 * nodes;
     let step = (to - from) / samples as f64;
-    let mut cumulative = Vec::with_capacity(samples + 1);
-    cumulative.push(0.0);
-    let mut total = 0.0;
-    for i in 0..samples {
-        let left = from + i as f64 * step;
-        // Simpson's rule on each sample keeps the mapping smooth.
-        total += step / 6.0
-            * (1.0 / wanted_spacing(left)
-                + 4.0 / wanted_spacing(left + 0.5 * step)
-                + 1.0 / wanted_spacing(left + step));
-        cumulative.push(total);
-    }
-    let mut x = Vec::with_capacity(nodes + 1);
-    x.push(0.0);
-    for i in 0..nodes {
-        let target = total * i as f64 / (nodes - 1) as f64;
-        let k = cumulative.partition_point(|&c| c < target).clamp(1, samples) - 1;
-        // Newton from the linear guess within the sample: spacing is smooth, two steps reach rounding.
-        let mut xi = from + step * (k as f64 + (target - cumulative[k]) / (cumulative[k + 1] - cumulative[k]));
-        for _ in 0..2 {
-            let left = from + k as f64 * step;
-            let width = xi - left;
-            let here = cumulative[k]
-                + width / 6.0
-                    * (1.0 / wanted_spacing(left)
-                        + 4.0 / wanted_spacing(left + 0.5 * width)
-                        + 1.0 / wanted_spacing(xi));
-            xi += (target - here) * wanted_spacing(xi);
+    let at = |i: usize| from + i as f64 * step;
+    let total: f64 = (0..samples).map(|i| count(at(i), at(i + 1))).sum();
+    let before: f64 = {
+        let cells = ((1.0 - from) / step).floor() as usize;
+        (0..cells).map(|i| count(at(i), at(i + 1))).sum::<f64>() + count(at(cells), 1.0)
+    };
+    let per_node = total / (nodes - 1) as f64;
+    // March from the anchor both ways; each node solves count(previous, node) = per_node by Newton's method.
+    let next = |x: f64, sign: f64| {
+        let mut y = x + sign * per_node * wanted_spacing(x);
+        for _ in 0..4 {
+            y -= (count(x, y) - sign * per_node) * wanted_spacing(y);
         }
-        x.push(xi);
+        y
+    };
+    let upstream = ((before / per_node).round() as usize).clamp(2, nodes - 3);
+    let mut x = vec![0.0; nodes + 1];
+    let anchor = upstream + 1;
+    x[anchor] = 1.0;
+    for i in (0..anchor).rev() {
+        x[i] = next(x[i + 1], -1.0);
     }
-    x[1] = from;
-    x[nodes] = to;
-    x[0] = 2.0 * x[1] - x[2];
+    for i in anchor + 1..=nodes {
+        x[i] = next(x[i - 1], 1.0);
+    }
     x
 }
 

@@ -70,7 +70,7 @@ impl Gmres {
             let next = dot(&self.product, &self.product).sqrt();
             for (i, &(c, s)) in self.rotations.iter().enumerate() {
                 let (a, b) = (column[i], column[i + 1]);
-                (column[i], column[i + 1]) = if i + 1 <= k { (c * a + s * b, c * b - s * a) } else { (a, b) };
+                (column[i], column[i + 1]) = if i < k { (c * a + s * b, c * b - s * a) } else { (a, b) };
             }
             let length = column[k].hypot(next);
             let (c, s) = if length > 0.0 { (column[k] / length, next / length) } else { (1.0, 0.0) };

@@ -1,7 +1,7 @@
 //! Newton's method for the stationary line contact on any grid: rows, Jacobian products, preconditioner, damping, stopping.
 
 use super::band::BandLu;
-use super::gmres::Gmres;
+use super::gmres::{Gmres, LinearOutcome};
 use super::solution::{Problem, Report, Termination};
 use crate::solver::elasticity::Scratch;
 use crate::solver::grid::{FIRST_UNKNOWN, LineGrid, dot};
@@ -172,7 +172,8 @@ impl LineSystem {
             }
             previous = residual;
             let linear = self.solve_linear(options, forcing);
-            report.linear_iterations += linear;
+            report.linear_iterations += linear.iterations;
+            let solved = linear.relative_residual < 0.5;
             report.newton_iterations += 1;
             let (taken, accepted) = self.damped_step(problem, options, residual);
             residual = accepted;
@@ -182,8 +183,9 @@ impl LineSystem {
                 report.termination = Termination::Diverged;
                 break;
             }
-            if taken < options.tolerance {
-                report.termination = Termination::Converged;
+            if taken < options.tolerance && solved {
+                let separated = self.film.iter().all(|&h| h > 0.0);
+                report.termination = if separated { Termination::Converged } else { Termination::Diverged };
                 break;
             }
         }
@@ -191,7 +193,7 @@ impl LineSystem {
     }
 
     /// Takes the Newton step with backtracking on the residual (to 1/64, then accepts); the film may lose 90 % per step at most.
-    /// Returns ‖Δz‖/‖z‖ and the new residual.
+    /// Returns ‖Δz‖/‖z‖ of the undamped step, so that damping never looks like convergence, and the new residual.
     fn damped_step(&mut self, problem: &Problem, options: &SolveOptions, before: f64) -> (f64, f64) {
         let u = self.grid.unknowns();
         let dh_0 = self.update[u];
@@ -200,7 +202,7 @@ impl LineSystem {
         let mut longest: f64 = 1.0;
         for (h, d) in self.film.iter().zip(&self.step_deformation) {
             let change = d + dh_0;
-            if change < -0.9 * h {
+            if *h > 0.0 && change < -0.9 * h {
                 longest = longest.min(-0.9 * h / change);
             }
         }
@@ -222,13 +224,13 @@ impl LineSystem {
             let relative = factor * size / norm;
             if residual < before * (1.0 - 1e-4 * factor) || factor <= longest / 64.0 || relative < 1e-7 {
                 // A full, fresh deformation now and then would change nothing: the increments are exact to rounding.
-                return (relative, residual);
+                return (size / norm, residual);
             }
             factor *= 0.5;
         }
     }
 
-    /// Takes a step whose entry i (the last is ΔH₀) is `update(i)`, damped as Newton's; returns ‖Δz‖/‖z‖ and the new residual.
+    /// Takes a step whose entry i (the last is ΔH₀) is `update(i)`, damped as Newton's; returns ‖Δz‖/‖z‖ (undamped) and the new residual.
     pub fn take_step(
         &mut self,
         problem: &Problem,
@@ -242,8 +244,8 @@ impl LineSystem {
         self.damped_step(problem, options, before)
     }
 
-    /// Solves the linearised system for `update` = (ΔP, ΔH₀). Returns the Krylov iterations.
-    fn solve_linear(&mut self, options: &SolveOptions, tolerance: f64) -> usize {
+    /// Solves the linearised system for `update` = (ΔP, ΔH₀). Returns how the linear solver ended.
+    fn solve_linear(&mut self, options: &SolveOptions, tolerance: f64) -> LinearOutcome {
         let u = self.grid.unknowns();
         let diagonal = self.grid.kernel_entry(self.grid.len() / 2, self.grid.len() / 2);
         for ((s, a), b) in self.scaling.iter_mut().zip(&self.d_p).zip(&self.d_h) {
@@ -277,7 +279,7 @@ impl LineSystem {
             },
             |v| preconditioner.apply(grid, v),
         );
-        outcome.iterations
+        outcome
     }
 }
 

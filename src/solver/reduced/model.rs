@@ -3,6 +3,7 @@
 use super::pod::PodBasis;
 use super::sampling::{SampledRows, Sampling};
 use crate::solver::contact::{Moes, OperatingPoint};
+use crate::solver::elasticity::{Flexibility, Scratch};
 use crate::solver::full::Problem;
 use crate::solver::grid::{FIRST_UNKNOWN, ReferenceGrid};
 use crate::solver::lubricant::Lubricant;
@@ -81,6 +82,8 @@ pub struct ReducedModel {
     pub domain: Domain,
     /// Local models by ascending M.
     pub windows: Vec<Window>,
+    /// The scene it was trained by, as text; empty for a model that was never saved.
+    pub scene: String,
     /// What the training did, one sentence per line.
     pub log: Vec<String>,
 }
@@ -128,8 +131,11 @@ impl Window {
 /// K applied to every column, in the reference coordinate.
 pub fn flex(grid: &ReferenceGrid, columns: &Mat<f64>) -> Mat<f64> {
     let n = columns.nrows();
+    if let Flexibility::Dense(kernel) = &grid.flexibility {
+        return kernel * columns;
+    }
     let mut out = Mat::zeros(n, columns.ncols());
-    let mut scratch = crate::solver::elasticity::Scratch::default();
+    let mut scratch = Scratch::default();
     let mut input = vec![0.0; n];
     let mut output = vec![0.0; n];
     for j in 0..columns.ncols() {

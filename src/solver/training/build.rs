@@ -52,7 +52,7 @@ pub fn train(spec: &TrainingSpec, observer: &dyn TrainingObserver) -> Result<Red
         ));
         windows.push(trained);
     }
-    Ok(ReducedModel { title: spec.title.clone(), domain: domain(spec), windows, log })
+    Ok(ReducedModel { title: spec.title.clone(), domain: domain(spec), windows, scene: String::new(), log })
 }
 
 fn check(spec: &TrainingSpec) -> Result<(), TrainingError> {
@@ -227,6 +227,7 @@ fn sample_rows(
         title: String::new(),
         domain: domain(spec),
         windows: vec![window.clone()],
+        scene: String::new(),
         log: Vec::new(),
     });
     let points = random_points(&spec.range, reach, ROW_SNAPSHOT_SOLVES, rng);

@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 
 /// Where the training solutions are taken.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub enum Plan {
     /// Farthest point by (3.16) with the distance (3.20).
     FarthestPoint {
@@ -29,6 +30,7 @@ pub enum Plan {
 
 /// What a model is trained for.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub enum Range {
     /// A box of SI quantities, (3.16): R \[m\], u_m \[m/s\], w \[N/m\], α \[1/Pa\] at fixed E′ and η₀. Table 3.1.
     Box {

@@ -6,7 +6,9 @@ use crate::solver::reduced::distance;
 use fastrand::Rng;
 use std::f64::consts::PI;
 
-/// Weight of (ln α ratio)² beside (3.20) when points are spread: α changes H_c by a few per cent at equal M and L.
+/// Weight of (ln α ratio)² beside (3.20) when points of a range in (M, L, α) are spread: α changes H_c by a few per cent at equal M
+/// and L. Boxes of SI quantities use (3.20) alone, as the dissertation does: there a weight took 3 of 120 points too many from M and L
+/// and cost failures at low M and high L.
 const ALPHA_WEIGHT: f64 = 0.02;
 
 impl Range {
@@ -91,8 +93,12 @@ pub fn random_points(range: &Range, m: (f64, f64), count: usize, rng: &mut Rng) 
 
 /// Farthest-point sampling (3.16): every next point of a random pool is the one farthest from all chosen ones.
 pub fn farthest_points(range: &Range, m: (f64, f64), count: usize, rng: &mut Rng) -> Vec<OperatingPoint> {
-    let pool = random_points(range, m, (40 * count).max(2000), rng);
+    let mut pool = random_points(range, m, (40 * count).max(2000), rng);
+    // The corners of the range are its extremes, and a random pool never quite reaches them.
+    let corners = (0..16u8).filter_map(|c| range.at(std::array::from_fn(|k| f64::from(c >> k & 1))));
+    pool.extend(corners.filter(|p| (m.0..=m.1).contains(&p.moes().m)));
     let coordinates: Vec<_> = pool.iter().map(|p| (p.moes(), p.alpha_per_pa.ln())).collect();
+    let alpha_weight = if matches!(range, Range::Box { .. }) { 0.0 } else { ALPHA_WEIGHT };
     let mut nearest = vec![f64::INFINITY; pool.len()];
     let mut chosen = Vec::with_capacity(count);
     let mut next = (0..pool.len()).min_by(|&a, &b| coordinates[a].0.m.total_cmp(&coordinates[b].0.m));
@@ -103,7 +109,7 @@ pub fn farthest_points(range: &Range, m: (f64, f64), count: usize, rng: &mut Rng
         }
         let (moes, log_alpha) = coordinates[index];
         for (best, (other, other_alpha)) in nearest.iter_mut().zip(&coordinates) {
-            let d = distance(moes, *other) + ALPHA_WEIGHT * (log_alpha - other_alpha).powi(2);
+            let d = distance(moes, *other) + alpha_weight * (log_alpha - other_alpha).powi(2);
             *best = best.min(d);
         }
         next = (0..pool.len()).max_by(|&a, &b| nearest[a].total_cmp(&nearest[b])).filter(|&i| nearest[i] > 0.0);

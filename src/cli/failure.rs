@@ -1,0 +1,49 @@
+//! Why a command gives no result, each as one sentence.
+
+use crate::harness::HarnessError;
+use crate::scene::SceneFileError;
+use crate::scene::atomic_file::WriteError;
+
+/// Why a command stops.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    /// The request is wrong.
+    #[error("{0}")]
+    Request(String),
+    /// The harness refuses it.
+    #[error(transparent)]
+    Harness(HarnessError),
+    /// Somebody stopped it.
+    #[error("the run was stopped before it was done")]
+    Stopped,
+    /// Whoever read standard output left; nobody is there to be told.
+    #[error("nobody reads standard output any more")]
+    ReaderLeft,
+    /// Standard output cannot be written.
+    #[error("cannot write to standard output: {0}")]
+    Output(std::io::Error),
+}
+
+impl From<HarnessError> for Failure {
+    fn from(error: HarnessError) -> Self {
+        if error.cancelled() { Self::Stopped } else { Self::Harness(error) }
+    }
+}
+
+impl From<SceneFileError> for Failure {
+    fn from(error: SceneFileError) -> Self {
+        Self::Harness(error.into())
+    }
+}
+
+impl From<WriteError> for Failure {
+    fn from(error: WriteError) -> Self {
+        Self::Harness(error.into())
+    }
+}
+
+impl From<std::io::Error> for Failure {
+    fn from(error: std::io::Error) -> Self {
+        if error.kind() == std::io::ErrorKind::BrokenPipe { Self::ReaderLeft } else { Self::Output(error) }
+    }
+}

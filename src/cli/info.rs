@@ -1,0 +1,57 @@
+//! `info`: what a reduced model holds.
+
+use super::failure::Failure;
+use super::{Verdict, output};
+use crate::harness::{HarnessError, model_file};
+use crate::solver::grid::GridSpec;
+use crate::solver::reduced::ReducedModel;
+use std::fmt::Write;
+use std::path::Path;
+
+/// Runs the command.
+pub fn run(path: &Path) -> Result<Verdict, Failure> {
+    let model = model_file::read(path).map_err(|reason| HarnessError::Model { path: path.to_owned(), reason })?;
+    output::print(&describe(&model))?;
+    Ok(Verdict::Done)
+}
+
+/// The model for people.
+pub fn describe(model: &ReducedModel) -> String {
+    let mut text = format!("{}\n", model.title);
+    let d = &model.domain;
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "  M {}…{}, L {}…{}", d.m.0, d.m.1, d.l.0, d.l.1);
+    let _ = writeln!(
+        text,
+        "  α {:.3}…{:.3} /GPa, p_H up to {:.3} GPa, η₀ {} Pa·s",
+        d.alpha_per_pa.0 * 1e9,
+        d.alpha_per_pa.1 * 1e9,
+        d.max_hertz_pressure_pa / 1e9,
+        d.viscosity_pa_s
+    );
+    let _ = writeln!(text, "  density {:?}, viscosity {:?}", d.lubricant.density, d.lubricant.viscosity);
+    for window in &model.windows {
+        let grid = match window.grid.spec {
+            GridSpec::Uniform { dx, domain } => format!("uniform, dx {dx}, {}…{}", domain.0, domain.1),
+            GridSpec::Graded { nodes, domain, registered } => {
+                let registered = if registered { ", registered" } else { "" };
+                format!("graded, {nodes} nodes, ξ {}…{}{registered}", domain.0, domain.1)
+            }
+        };
+        let _ = writeln!(
+            text,
+            "  window M {}…{}: {grid}; {} snapshots, {} pressure modes, {} deformation modes, {} sampled rows ({:?})",
+            window.m.0,
+            window.m.1,
+            window.snapshots.len(),
+            window.pressure.modes.ncols(),
+            window.deformation.modes.ncols(),
+            window.sampled_rows.len(),
+            window.sampling
+        );
+    }
+    for line in &model.log {
+        let _ = writeln!(text, "  {line}");
+    }
+    text
+}

@@ -1,0 +1,115 @@
+//! The commands. Each turns options into a request for the harness and its answer into text, JSON or files.
+//!
+//! Exit codes: 0 done and converged; 1 ran, but did not converge or an expectation fell short; 2 the request is wrong, with one
+//! sentence on standard error.
+
+mod bench;
+mod failure;
+mod info;
+mod options;
+mod output;
+mod run;
+mod solve;
+mod sweep;
+mod train;
+
+use clap::error::ErrorKind;
+use clap::{Args, Parser, Subcommand};
+use failure::Failure;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// What a command that ran has to say by its exit code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Exit code 0.
+    Done,
+    /// Exit code 1: did not converge, or an expectation fell short.
+    FellShort,
+}
+
+/// Elastohydrodynamic contacts: full solutions and reduced models, on the screen and headless.
+#[derive(Debug, Parser)]
+#[command(name = "ehl-explorer", version, args_conflicts_with_subcommands = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    /// Open the explorer on this scene (default: on the last session)
+    #[arg(value_name = "SCENE.ron")]
+    scene: Option<PathBuf>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Solve one operating point
+    Solve(solve::SolveArgs),
+    /// Solve along one or two varied options, each point starting from its neighbour
+    Sweep(sweep::SweepArgs),
+    /// Run scenes and hold them against their expectations; exit 1 if any falls short
+    Run(run::RunArgs),
+    /// Train a reduced model as a scene describes
+    Train(train::TrainArgs),
+    /// Measure the speed table: full and reduced side by side
+    Bench(bench::BenchArgs),
+    /// Show what a reduced model holds
+    Info(InfoArgs),
+}
+
+#[derive(Debug, Args)]
+struct InfoArgs {
+    /// The reduced model
+    #[arg(value_name = "FILE.rom")]
+    file: PathBuf,
+}
+
+/// The program: parses the command line, runs the command, returns its exit code.
+pub fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) => {
+            return finish(output::print(&error.render().to_string()).map(|()| Verdict::Done));
+        }
+        Err(error) => return finish(Err(usage(&error))),
+    };
+    finish(match cli.command {
+        Some(Command::Solve(args)) => solve::run(&args),
+        Some(Command::Sweep(args)) => sweep::run(&args),
+        Some(Command::Run(args)) => run::run(&args),
+        Some(Command::Train(args)) => train::run(&args),
+        Some(Command::Bench(args)) => bench::run(&args),
+        Some(Command::Info(args)) => info::run(&args.file),
+        None => explore(cli.scene),
+    })
+}
+
+fn finish(result: Result<Verdict, Failure>) -> ExitCode {
+    match result {
+        Ok(Verdict::Done) | Err(Failure::ReaderLeft) => ExitCode::SUCCESS,
+        Ok(Verdict::FellShort) => ExitCode::from(1),
+        Err(failure) => {
+            output::complain(&failure.to_string());
+            ExitCode::from(if matches!(failure, Failure::Stopped) { 1 } else { 2 })
+        }
+    }
+}
+
+/// Opens the explorer; a scene is read here first, so that a wrong one is refused before a window opens.
+fn explore(scene: Option<PathBuf>) -> Result<Verdict, Failure> {
+    if let Some(path) = &scene {
+        crate::scene::Scene::read(path).map_err(|error| {
+            let looks_like_command = path.extension().is_none() && !path.exists();
+            let hint = if looks_like_command { "; commands are solve, sweep, run, train, bench and info" } else { "" };
+            Failure::Request(format!("{error}{hint}"))
+        })?;
+    }
+    crate::app::run(scene).map(|()| Verdict::Done).map_err(Failure::Request)
+}
+
+/// The first paragraph of clap's message, on one line.
+fn usage(error: &clap::Error) -> Failure {
+    let text = error.render().to_string();
+    let paragraph: Vec<&str> = text.lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
+    let sentence = paragraph.join(" ");
+    let sentence = sentence.strip_prefix("error: ").unwrap_or(&sentence);
+    Failure::Request(format!("{sentence}; --help lists what is accepted"))
+}

@@ -1,0 +1,347 @@
+//! The options of an operating point and how it is solved, shared by `solve` and `sweep`.
+
+use super::failure::Failure;
+use crate::harness::Request;
+use crate::scene::named_lubricant::{NAMED, by_name};
+use crate::scene::{At, Grid, Method, ModelSource};
+use crate::solver::contact::{ContactKind, OperatingPoint, reduced_modulus};
+use crate::solver::grid::GridSpec;
+use crate::solver::lubricant::{DensityLaw, Lubricant, ViscosityLaw};
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// Line or point contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ContactName {
+    /// Line contact, loads in N/m.
+    Line,
+    /// Circular point contact, loads in N.
+    Point,
+}
+
+/// Full or reduced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum MethodName {
+    /// The full system.
+    Full,
+    /// A reduced model.
+    Reduced,
+}
+
+/// Kinds of grids.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum GridName {
+    /// Equidistant nodes.
+    Uniform,
+    /// The explorer's default.
+    Graded,
+    /// The reduced model's own.
+    Model,
+}
+
+/// Cavitation models.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum CavitationName {
+    /// The penalty term of (2.36).
+    Penalty,
+}
+
+/// An operating point and how it is solved. SI units throughout.
+#[derive(Clone, Debug, Args)]
+pub struct PointOptions {
+    /// Shape of the contact
+    #[arg(long, value_enum, default_value = "line")]
+    pub contact: ContactName,
+    /// How it is solved
+    #[arg(long, value_enum, default_value = "full")]
+    pub method: MethodName,
+    /// Reduced model to use (default: the embedded one)
+    #[arg(long, value_name = "FILE")]
+    pub rom: Option<PathBuf>,
+    /// Reduced radius R in m
+    #[arg(long, allow_negative_numbers = true)]
+    pub radius: Option<f64>,
+    /// Mean entrainment speed u_m in m/s
+    #[arg(long, allow_negative_numbers = true)]
+    pub speed: Option<f64>,
+    /// Load w in N/m
+    #[arg(long, allow_negative_numbers = true)]
+    pub load: Option<f64>,
+    /// Reduced modulus E′ in Pa, or --e1 --nu1 --e2 --nu2
+    #[arg(long, allow_negative_numbers = true)]
+    pub modulus: Option<f64>,
+    /// Young's modulus of body 1 in Pa
+    #[arg(long, allow_negative_numbers = true)]
+    pub e1: Option<f64>,
+    /// Poisson ratio of body 1
+    #[arg(long, allow_negative_numbers = true)]
+    pub nu1: Option<f64>,
+    /// Young's modulus of body 2 in Pa
+    #[arg(long, allow_negative_numbers = true)]
+    pub e2: Option<f64>,
+    /// Poisson ratio of body 2
+    #[arg(long, allow_negative_numbers = true)]
+    pub nu2: Option<f64>,
+    /// Viscosity at ambient pressure η₀ in Pa·s
+    #[arg(long, allow_negative_numbers = true)]
+    pub viscosity: Option<f64>,
+    /// Pressure–viscosity coefficient α in 1/Pa
+    #[arg(long, allow_negative_numbers = true)]
+    pub alpha: Option<f64>,
+    /// Moes' load number M; what is not given of the SI quantities follows or takes its default
+    #[arg(long, allow_negative_numbers = true)]
+    pub moes_m: Option<f64>,
+    /// Moes' lubricant number L
+    #[arg(long, allow_negative_numbers = true)]
+    pub moes_l: Option<f64>,
+    /// Named lubricant: a set of laws, which --density and --pressure-viscosity override
+    #[arg(long, value_name = "NAME", value_parser = by_name, long_help = lubricant_help())]
+    pub lubricant: Option<Lubricant>,
+    /// Density law: dowson-higginson or incompressible (default: dowson-higginson)
+    #[arg(long, value_name = "LAW", value_parser = density)]
+    pub density: Option<DensityLaw>,
+    /// Viscosity law: roelands or barus (default: roelands)
+    #[arg(long, value_name = "LAW", value_parser = pressure_viscosity)]
+    pub pressure_viscosity: Option<ViscosityLaw>,
+    /// Slide-to-roll ratio; moves only the traction of a Newtonian fluid
+    #[arg(long, allow_negative_numbers = true, default_value_t = 0.0)]
+    pub srr: f64,
+    /// Newtonian plateau ratio; 1 is a Newtonian fluid
+    #[arg(long, allow_negative_numbers = true, default_value_t = 1.0)]
+    pub npr: f64,
+    /// Grid of a full solution (default: the dissertation's uniform one)
+    #[arg(long, value_enum)]
+    pub grid: Option<GridName>,
+    /// Spacing ΔX of a uniform grid (default: 0.005)
+    #[arg(long, allow_negative_numbers = true)]
+    pub dx: Option<f64>,
+    /// Spacing ΔY (point contact)
+    #[arg(long, allow_negative_numbers = true)]
+    pub dy: Option<f64>,
+    /// Inlet and outlet (default: -4,2 on a uniform grid); of a graded grid in its reference coordinate
+    #[arg(long, value_name = "X0,X1[,Y0]", allow_hyphen_values = true, value_parser = domain)]
+    pub domain: Option<Domain>,
+    /// Cavitation model
+    #[arg(long, value_enum, value_name = "MODEL", default_value = "penalty")]
+    pub cavitation: CavitationName,
+}
+
+/// Ends of the computational domain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Domain {
+    x: (f64, f64),
+    y: Option<f64>,
+}
+
+fn lubricant_help() -> String {
+    let list = NAMED.map(|lubricant| format!("  {}: {}", lubricant.name, lubricant.about)).join("\n");
+    format!("Named lubricant: a set of laws, which --density and --pressure-viscosity override:\n{list}")
+}
+
+fn density(word: &str) -> Result<DensityLaw, String> {
+    match word {
+        "dowson-higginson" => Ok(DensityLaw::DowsonHigginson),
+        "incompressible" => Ok(DensityLaw::Incompressible),
+        "tait" => {
+            Err("Tait's law comes with shear-thinning, which this version does not have; accepted are dowson-higginson, incompressible".to_owned())
+        }
+        _ => Err("accepted are dowson-higginson, incompressible".to_owned()),
+    }
+}
+
+fn pressure_viscosity(word: &str) -> Result<ViscosityLaw, String> {
+    match word {
+        "roelands" => Ok(ViscosityLaw::Roelands),
+        "barus" => Ok(ViscosityLaw::Barus),
+        "doolittle" => Err(
+            "Doolittle's law comes with shear-thinning, which this version does not have; accepted are roelands, barus"
+                .to_owned(),
+        ),
+        _ => Err("accepted are roelands, barus".to_owned()),
+    }
+}
+
+fn domain(text: &str) -> Result<Domain, String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse::<f64>()).collect();
+    match numbers.as_deref() {
+        Ok(&[from, to]) => Ok(Domain { x: (from, to), y: None }),
+        Ok(&[from, to, side]) => Ok(Domain { x: (from, to), y: Some(side) }),
+        _ => Err("two numbers with a comma between them are accepted, as in --domain=-4,2".to_owned()),
+    }
+}
+
+fn refuse<T>(sentence: impl Into<String>) -> Result<T, Failure> {
+    Err(Failure::Request(sentence.into()))
+}
+
+impl PointOptions {
+    /// Names of the numeric options that a sweep can vary, without the leading dashes.
+    pub const VARIABLES: [&str; 14] = [
+        "moes-m",
+        "moes-l",
+        "radius",
+        "speed",
+        "load",
+        "modulus",
+        "viscosity",
+        "alpha",
+        "e1",
+        "nu1",
+        "e2",
+        "nu2",
+        "srr",
+        "dx",
+    ];
+
+    /// Sets a numeric option by name; `m` and `l` are short for `moes-m` and `moes-l`.
+    ///
+    /// # Errors
+    /// With the accepted names.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<(), Failure> {
+        let place = match name {
+            "moes-m" | "m" | "M" => &mut self.moes_m,
+            "moes-l" | "l" | "L" => &mut self.moes_l,
+            "radius" => &mut self.radius,
+            "speed" => &mut self.speed,
+            "load" => &mut self.load,
+            "modulus" => &mut self.modulus,
+            "viscosity" => &mut self.viscosity,
+            "alpha" => &mut self.alpha,
+            "e1" => &mut self.e1,
+            "nu1" => &mut self.nu1,
+            "e2" => &mut self.e2,
+            "nu2" => &mut self.nu2,
+            "dx" => &mut self.dx,
+            "srr" => {
+                self.srr = value;
+                return Ok(());
+            }
+            _ => {
+                let accepted = Self::VARIABLES.join(", ");
+                return refuse(format!("`{name}` cannot be varied; accepted are {accepted}"));
+            }
+        };
+        *place = Some(value);
+        Ok(())
+    }
+
+    /// The request and the method that the options describe.
+    ///
+    /// # Errors
+    /// When they contradict each other or a value is outside any sense.
+    pub fn request(&self) -> Result<(Request, Method), Failure> {
+        if self.contact == ContactName::Point {
+            return refuse("--contact point is not part of this version; use --contact line");
+        }
+        if !(self.srr.is_finite() && self.srr.abs() <= 10.0) {
+            return refuse(format!("--srr is {}, but must be a finite number between -10 and 10", self.srr));
+        }
+        if self.npr != 1.0 {
+            return refuse(format!(
+                "--npr is {}, but the lubricant has no shear constants; only 1 (Newtonian) is accepted",
+                self.npr
+            ));
+        }
+        let method = self.method()?;
+        let point = self.point()?;
+        let grid = self.grid(&method, &point)?;
+        let mut lubricant = self.lubricant.unwrap_or_default();
+        lubricant.density = self.density.unwrap_or(lubricant.density);
+        lubricant.viscosity = self.pressure_viscosity.unwrap_or(lubricant.viscosity);
+        let grid_model = self.model_source();
+        Ok((Request { point, lubricant, grid, grid_model, srr: self.srr }, method))
+    }
+
+    fn model_source(&self) -> ModelSource {
+        self.rom.clone().map_or(ModelSource::Embedded, ModelSource::File)
+    }
+
+    fn method(&self) -> Result<Method, Failure> {
+        match self.method {
+            MethodName::Full if self.rom.is_some() && self.grid != Some(GridName::Model) => refuse(
+                "--rom has no effect here; add --method reduced, or --grid model for a full solution on the model's grid",
+            ),
+            MethodName::Full => Ok(Method::Full),
+            MethodName::Reduced => Ok(Method::Reduced { model: self.model_source() }),
+        }
+    }
+
+    fn modulus(&self) -> Result<Option<f64>, Failure> {
+        match (self.modulus, self.e1, self.nu1, self.e2, self.nu2) {
+            (modulus, None, None, None, None) => Ok(modulus),
+            (None, Some(e1), Some(nu1), Some(e2), Some(nu2)) => {
+                reduced_modulus(e1, nu1, e2, nu2).map(Some).map_err(|error| Failure::Request(error.to_string()))
+            }
+            (Some(_), ..) => refuse("--modulus and --e1 --nu1 --e2 --nu2 say the same thing; give one of both"),
+            _ => refuse("two bodies need all of --e1, --nu1, --e2 and --nu2"),
+        }
+    }
+
+    fn point(&self) -> Result<OperatingPoint, Failure> {
+        let modulus = self.modulus()?;
+        let (radius, speed, load) = (self.radius, self.speed, self.load);
+        let (viscosity, alpha) = (self.viscosity, self.alpha);
+        let at = match (self.moes_m, self.moes_l) {
+            (Some(m), Some(l)) => At::Moes { m, l, radius, speed, load, modulus, viscosity, alpha },
+            (None, None) => {
+                let required = [
+                    ("--radius", radius),
+                    ("--speed", speed),
+                    ("--load", load),
+                    ("--modulus", modulus),
+                    ("--viscosity", viscosity),
+                    ("--alpha", alpha),
+                ];
+                let missing: Vec<&str> = required.iter().filter(|(_, v)| v.is_none()).map(|&(name, _)| name).collect();
+                if let (Some(radius), Some(speed), Some(load), Some(modulus), Some(viscosity), Some(alpha)) =
+                    (radius, speed, load, modulus, viscosity, alpha)
+                {
+                    At::Si { radius, speed, load, modulus, viscosity, alpha }
+                } else {
+                    let missing = missing.join(", ");
+                    return refuse(format!(
+                        "the operating point is incomplete: give {missing} too, or --moes-m and --moes-l instead"
+                    ));
+                }
+            }
+            _ => return refuse("--moes-m and --moes-l belong together; give both"),
+        };
+        at.point(ContactKind::Line).map_err(|error| Failure::Request(error.to_string()))
+    }
+
+    fn grid(&self, method: &Method, point: &OperatingPoint) -> Result<Grid, Failure> {
+        if self.dy.is_some() || self.domain.is_some_and(|domain| domain.y.is_some()) {
+            return refuse("a line contact has no Y: leave out --dy and the third number of --domain");
+        }
+        if *method != Method::Full {
+            let own = "a reduced model brings its own grid";
+            if self.dx.is_some() || self.domain.is_some() {
+                return refuse(format!("{own}: leave out --dx and --domain with --method reduced"));
+            }
+            if self.grid.is_some_and(|grid| grid != GridName::Model) {
+                return refuse(format!("{own}: with --method reduced only --grid model is accepted"));
+            }
+            return Ok(Grid::Model);
+        }
+        let ends = self.domain.map(|domain| domain.x);
+        let grid = match self.grid {
+            None | Some(GridName::Uniform) => {
+                Grid::Uniform { dx: self.dx.unwrap_or(0.005), domain: ends.unwrap_or((-4.0, 2.0)) }
+            }
+            Some(GridName::Graded | GridName::Model) if self.dx.is_some() => {
+                return refuse("--dx belongs to the uniform grid; leave it out or use --grid uniform");
+            }
+            Some(GridName::Model) if ends.is_some() => {
+                return refuse("--domain belongs to uniform and graded grids; leave it out with --grid model");
+            }
+            Some(GridName::Model) => Grid::Model,
+            Some(GridName::Graded) => match (ends, GridSpec::graded_for(point.moes())) {
+                (Some(domain), GridSpec::Graded { nodes, registered, .. }) => {
+                    Grid::GradedNodes { nodes, domain, registered }
+                }
+                _ => Grid::Graded,
+            },
+        };
+        Ok(grid)
+    }
+}

@@ -1,0 +1,68 @@
+//! Standard output and standard error without panics: a reader that leaves ends the program quietly.
+
+use super::failure::Failure;
+use crate::solver::training::{Progress, TrainingObserver};
+use serde::Serialize;
+use std::io::{self, IsTerminal, Write};
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+/// Prints text as it is.
+pub fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    out.write_all(text.as_bytes())?;
+    Ok(out.flush()?)
+}
+
+/// Prints one JSON object on one line.
+pub fn print_json(value: &impl Serialize) -> Result<(), Failure> {
+    let mut text = serde_json::to_string(value).map_err(io::Error::from)?;
+    text.push('\n');
+    print(&text)
+}
+
+/// Says one sentence on standard error.
+pub fn complain(sentence: &str) {
+    let line: Vec<&str> = sentence.split_whitespace().collect();
+    // If standard error is gone too there is no one to tell.
+    let _ = writeln!(io::stderr(), "ehl-explorer: {}", line.join(" "));
+}
+
+/// Shows progress on standard error: on a terminal one changing line, else, where wanted, one line per stage.
+pub struct ProgressLine {
+    terminal: bool,
+    stages: bool,
+    state: Mutex<(String, Instant)>,
+}
+
+impl ProgressLine {
+    /// A quiet start; with `stages` a line per stage where standard error is no terminal.
+    pub fn new(stages: bool) -> Self {
+        let past = Instant::now().checked_sub(Duration::from_secs(1)).unwrap_or_else(Instant::now);
+        Self { terminal: io::stderr().is_terminal(), stages, state: Mutex::new((String::new(), past)) }
+    }
+
+    /// Clears the line.
+    pub fn finish(&self) {
+        if self.terminal {
+            let _ = write!(io::stderr(), "\r\x1b[K");
+        }
+    }
+}
+
+impl TrainingObserver for ProgressLine {
+    fn progress(&self, progress: Progress) {
+        let Ok(mut state) = self.state.lock() else { return };
+        let new_stage = state.0 != progress.stage;
+        if !new_stage && state.1.elapsed() < Duration::from_millis(100) {
+            return;
+        }
+        let Progress { stage, done, total } = progress;
+        if self.terminal {
+            let _ = write!(io::stderr(), "\r\x1b[K{stage}: {done} of {total}");
+        } else if new_stage && self.stages {
+            let _ = writeln!(io::stderr(), "{stage} ({total})");
+        }
+        *state = (stage, Instant::now());
+    }
+}

@@ -1,0 +1,99 @@
+//! `run`: scenes, held against their expectations.
+
+use super::Verdict;
+use super::failure::Failure;
+use super::output::{self, ProgressLine};
+use crate::harness::table::Number;
+use crate::harness::{SceneOutcome, Workbench, run_scene};
+use crate::scene::atomic_file::{self, WriteError};
+use crate::scene::{Method, Scene};
+use clap::Args;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// Options of `run`.
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    /// The scenes
+    #[arg(value_name = "SCENE.ron", required = true)]
+    scenes: Vec<PathBuf>,
+    /// Write every scene's outcome (JSON) and tables (CSV) into this folder
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print one JSON object per scene
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command: all scenes are read before the first is run.
+pub fn run(args: &RunArgs) -> Result<Verdict, Failure> {
+    let scenes = args.scenes.iter().map(|path| Scene::read(path)).collect::<Result<Vec<_>, _>>()?;
+    if let Some(folder) = &args.out {
+        std::fs::create_dir_all(folder)
+            .map_err(|reason| WriteError { path: folder.clone(), reason })
+            .map_err(Failure::from)?;
+    }
+    let mut verdict = Verdict::Done;
+    for (path, scene) in args.scenes.iter().zip(&scenes) {
+        let progress = ProgressLine::new(false);
+        let base = path.parent().unwrap_or(Path::new(""));
+        let outcome = run_scene(scene, &mut Workbench::new(base), &progress);
+        progress.finish();
+        let outcome = outcome?;
+        if !outcome.passed() {
+            verdict = Verdict::FellShort;
+        }
+        if let Some(folder) = &args.out {
+            write(&outcome, folder, &stem(path, &args.scenes))?;
+        }
+        if args.json {
+            output::print_json(&outcome.to_json())?;
+        } else {
+            output::print(&describe(&outcome))?;
+        }
+    }
+    Ok(verdict)
+}
+
+/// The scene's name for its outputs; with a number where two scenes of the run share it.
+fn stem(path: &Path, all: &[PathBuf]) -> String {
+    let name = |path: &Path| path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+    let own = name(path);
+    let before = all.iter().take_while(|other| other.as_path() != path).filter(|other| name(other) == own).count();
+    if before == 0 { own } else { format!("{own}_{}", before + 1) }
+}
+
+fn write(outcome: &SceneOutcome, folder: &Path, stem: &str) -> Result<(), Failure> {
+    let mut text = serde_json::to_string_pretty(&outcome.to_json()).map_err(std::io::Error::from)?;
+    text.push('\n');
+    atomic_file::replace(&folder.join(format!("{stem}.json")), text.as_bytes())?;
+    for table in &outcome.tables {
+        atomic_file::replace(&folder.join(format!("{stem}.{}.csv", table.name)), table.to_csv().as_bytes())?;
+    }
+    Ok(())
+}
+
+/// The outcome for people.
+fn describe(outcome: &SceneOutcome) -> String {
+    let mut text = format!("{} ({:.2} s)\n", outcome.title, outcome.wall_s);
+    let method = |method: &Option<Method>| method.as_ref().map_or("", Method::name);
+    // Writing to a string cannot fail.
+    for warning in &outcome.warnings {
+        let _ = writeln!(text, "  note   {warning}");
+    }
+    if outcome.verdicts.is_empty() {
+        for value in &outcome.values {
+            let _ = writeln!(text, "         {:<26} {:<8} {}", value.name, method(&value.method), Number(value.value));
+        }
+    }
+    for verdict in &outcome.verdicts {
+        let word = if verdict.holds { "ok   " } else { "SHORT" };
+        let value = verdict.value.map_or("no such value".to_owned(), |value| Number(value).to_string());
+        let (name, wanted) = (&verdict.name, &verdict.wanted);
+        let _ = writeln!(text, "  {word}  {name:<26} {:<8} {value} (wanted {wanted})", method(&verdict.method));
+    }
+    if !outcome.converged {
+        let _ = writeln!(text, "  note   some solves did not converge");
+    }
+    text
+}

@@ -1,0 +1,108 @@
+//! `solve`: one operating point.
+
+use super::failure::Failure;
+use super::options::PointOptions;
+use super::{Verdict, output};
+use crate::harness::{PointReport, Workbench, profile_table};
+use crate::scene::atomic_file;
+use clap::Args;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// Options of `solve`.
+#[derive(Debug, Args)]
+pub struct SolveArgs {
+    #[command(flatten)]
+    point: PointOptions,
+    /// Write the profiles as CSV: X, Y, P, H and their SI twins
+    #[arg(long, value_name = "FILE.csv")]
+    profiles: Option<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command.
+pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
+    let (request, method) = args.point.request()?;
+    let answer = Workbench::new("").answer(&request, &method, None, &())?;
+    match (&args.profiles, answer.result()) {
+        (Some(path), Some(solution)) => {
+            atomic_file::replace(path, profile_table("profiles", solution).to_csv().as_bytes())?;
+        }
+        (Some(path), None) => {
+            output::complain(&format!("{} is not written: the solve did not converge", path.display()));
+        }
+        (None, _) => {}
+    }
+    let report = PointReport::from(&answer);
+    if args.json {
+        output::print_json(&report)?;
+    } else {
+        output::print(&describe(&report))?;
+    }
+    Ok(if answer.converged { Verdict::Done } else { Verdict::FellShort })
+}
+
+/// The report for people.
+fn describe(report: &PointReport) -> String {
+    let mut text = String::new();
+    let mut line = |name: &str, value: String| {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{name:<18} {value}");
+    };
+    let (si, grid) = (&report.si, &report.grid);
+    line("method", format!("{}, {} contact", report.method, report.contact));
+    line("converged", if report.converged { "yes" } else { "no" }.to_owned());
+    if let Some(warning) = &report.warning {
+        line("warning", warning.clone());
+    }
+    line("R", format!("{:.6e} m", si.radius));
+    line("u_m", format!("{:.6e} m/s", si.speed));
+    line("w", format!("{:.6e} N/m", si.load));
+    line("E′", format!("{:.6e} Pa", si.modulus));
+    line("η₀", format!("{:.6e} Pa·s", si.viscosity));
+    line("α", format!("{:.6e} 1/Pa", si.alpha));
+    line("M, L", format!("{:.6}, {:.6}", report.moes.m, report.moes.l));
+    line("Hertz", format!("a {:.6e} m, p_H {:.6e} Pa", report.hertz.a_m, report.hertz.p_h_pa));
+    line("grid", format!("{}, {} nodes, {} unknowns", grid.kind, grid.nx, grid.dofs));
+    let s = &report.scalars;
+    let numbers = [
+        ("H_c", s.h_c),
+        ("H_min", s.h_min),
+        ("X of H_min", s.x_h_min),
+        ("P_c", s.p_c),
+        ("P_max", s.p_max),
+        ("X of P_max", s.x_p_max),
+        ("H_0", s.h_0),
+    ];
+    for (name, value) in numbers {
+        if let Some(value) = value {
+            line(name, format!("{value:.9}"));
+        }
+    }
+    let small = [
+        ("h_c [m]", s.h_c_m),
+        ("h_min [m]", s.h_min_m),
+        ("traction", s.traction),
+        ("load residual", s.load_residual),
+        ("residual norm", report.residual_norm),
+    ];
+    for (name, value) in small {
+        if let Some(value) = value {
+            line(name, format!("{value:.6e}"));
+        }
+    }
+    let linear = report.linear_iterations.map_or(String::new(), |n| format!(", {n} linear"));
+    line("iterations", format!("{} Newton{linear}", report.newton_iterations));
+    if let Some(reduced) = &report.reduced {
+        let (p, delta, rows) = (reduced.basis_p, reduced.basis_delta, reduced.sampled_rows);
+        line("reduced", format!("{p} pressure modes, {delta} deformation modes, {rows} sampled rows"));
+        line("trained here", if reduced.trained { "yes" } else { "no" }.to_owned());
+        if let Some(estimate) = reduced.residual_estimate {
+            line("estimate e_f", format!("{estimate:.3e}"));
+        }
+    }
+    line("time", format!("{:.3} ms", report.wall_s * 1e3));
+    text
+}

@@ -1,0 +1,178 @@
+//! The speed table: full and reduced side by side, against a dense Newton measured in the same run.
+
+use super::error::HarnessError;
+use super::sampling::random_points;
+use super::statistics::{median, percentile};
+use crate::scene::{QuantityBox, TestRange};
+use crate::solver::contact::{Moes, OperatingPoint};
+use crate::solver::full::dense::{dense_kernel, dense_newton};
+use crate::solver::full::{FullSolver, Solution, SolveOptions, Start};
+use crate::solver::grid::GridSpec;
+use crate::solver::lubricant::Lubricant;
+use crate::solver::reduced::{Online, ReducedOptions};
+use serde::Serialize;
+use std::time::{Duration, Instant};
+
+/// What all rows are compared with: Newton with a dense LU per step on the same 1201 nodes, as the dissertation has it.
+pub const BASELINE: &str = "line/dense-newton";
+
+/// The dense baseline may take this long; at least three runs are made whatever they take.
+const BASELINE_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(10)];
+/// Each other row stops drawing further points after this.
+const ROW_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(8)];
+/// Points of the full rows and of the reduced row.
+const FULL_POINTS: [usize; 2] = [400, 120];
+const REDUCED_POINTS: [usize; 2] = [10_000, 2_000];
+const BASELINE_POINTS: [usize; 2] = [40, 12];
+const SEED: u64 = 2026;
+
+/// One line of the table.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    /// `line/full/cold` and so on.
+    pub name: &'static str,
+    /// Median \[s\].
+    pub median_s: f64,
+    /// 99th percentile \[s\].
+    pub p99_s: f64,
+    /// Solves measured.
+    pub runs: usize,
+    /// What the ratio refers to.
+    pub baseline: &'static str,
+    /// Median of the baseline over this median: how many times faster.
+    pub ratio: f64,
+}
+
+/// The table, and what a reader must know about it.
+#[derive(Clone, Debug, PartialEq, Serialize, Default)]
+pub struct Bench {
+    /// The lines.
+    pub rows: Vec<Row>,
+    /// Lines that are missing and why; solves that did not converge.
+    #[serde(skip)]
+    pub notes: Vec<String>,
+}
+
+/// Measures the table over random points of Table 3.1's box, the same points for every row.
+///
+/// `quick` takes fewer points and ends within 40 s.
+///
+/// # Errors
+/// When a solver refuses a point of the box, which it never should.
+pub fn run(quick: bool) -> Result<Bench, HarnessError> {
+    let size = usize::from(quick);
+    let points = random_points(&TestRange::Box(QuantityBox::TABLE_3_1), REDUCED_POINTS[size], SEED);
+    let lubricant = Lubricant::default();
+    let mut solver = FullSolver::new(GridSpec::DISSERTATION)?;
+    let mut bench = Bench::default();
+
+    let mut dense = Timing::new(BASELINE, BASELINE_BUDGET[size]);
+    let kernel = dense_kernel(&solver.reference().scaled(1.0));
+    let options = SolveOptions::default();
+    for point in &points[..BASELINE_POINTS[size]] {
+        if dense.spent() && dense.seconds.len() >= 3 {
+            break;
+        }
+        let clock = Instant::now();
+        let (mut system, problem) = solver.cold_system(point, lubricant)?;
+        let steps = dense_newton(&mut system, &problem, &options, &kernel);
+        dense.record(clock, steps < options.max_newton);
+    }
+
+    let mut cold = Timing::new("line/full/cold", ROW_BUDGET[size]);
+    let mut solutions: Vec<Solution> = Vec::new();
+    for point in &points[..FULL_POINTS[size]] {
+        if cold.spent() {
+            break;
+        }
+        let clock = Instant::now();
+        let solution = solver.solve(point, lubricant, Start::Cold, &mut ())?;
+        cold.record(clock, solution.converged());
+        if solution.converged() {
+            solutions.push(solution);
+        }
+    }
+
+    let mut warm = Timing::new("line/full/warm", ROW_BUDGET[size]);
+    for (k, own) in solutions.iter().enumerate() {
+        let Some(start) = nearest_other(&solutions, k) else { break };
+        if warm.spent() {
+            break;
+        }
+        let clock = Instant::now();
+        let solution = solver.solve(&own.problem.point, lubricant, Start::From(start), &mut ())?;
+        warm.record(clock, solution.converged());
+    }
+
+    let mut rows = vec![dense, cold, warm];
+    match super::embedded_model() {
+        Ok(model) => {
+            rows.push(reduced_row(&mut Online::new(model, ReducedOptions::default()), &points, ROW_BUDGET[size]));
+        }
+        Err(reason) => bench.notes.push(format!("line/reduced is missing: {reason}")),
+    }
+    let baseline = median(&rows[0].seconds);
+    for timing in rows {
+        if timing.failures > 0 {
+            bench.notes.push(format!("{}: {} solves did not converge", timing.name, timing.failures));
+        }
+        let median_s = median(&timing.seconds);
+        bench.rows.push(Row {
+            name: timing.name,
+            median_s,
+            p99_s: percentile(&timing.seconds, 0.99),
+            runs: timing.seconds.len(),
+            baseline: BASELINE,
+            ratio: baseline / median_s,
+        });
+    }
+    Ok(bench)
+}
+
+fn reduced_row(online: &mut Online, points: &[OperatingPoint], budget: Duration) -> Timing {
+    let mut timing = Timing::new("line/reduced", budget);
+    for point in points {
+        if timing.spent() {
+            break;
+        }
+        let clock = Instant::now();
+        let solved = online.solve(point, Lubricant::default()).and_then(|solution| online.scalars(&solution));
+        timing.record(clock, solved.is_ok());
+    }
+    timing
+}
+
+/// The solution nearest to number `k` by (3.20), other than itself.
+fn nearest_other(solutions: &[Solution], k: usize) -> Option<&Solution> {
+    let here = solutions[k].problem.moes;
+    let others = solutions.iter().enumerate().filter(|&(i, _)| i != k).map(|(_, solution)| solution);
+    others.min_by(|a, b| distance(here, a.problem.moes).total_cmp(&distance(here, b.problem.moes)))
+}
+
+/// (3.20).
+fn distance(a: Moes, b: Moes) -> f64 {
+    (a.m - b.m).powi(2) / (a.m * a.m + b.m * b.m) + 0.001 * (a.l - b.l).powi(2)
+}
+
+struct Timing {
+    name: &'static str,
+    begun: Instant,
+    budget: Duration,
+    seconds: Vec<f64>,
+    failures: usize,
+}
+
+impl Timing {
+    fn new(name: &'static str, budget: Duration) -> Self {
+        Self { name, begun: Instant::now(), budget, seconds: Vec::new(), failures: 0 }
+    }
+
+    fn spent(&self) -> bool {
+        self.begun.elapsed() > self.budget
+    }
+
+    fn record(&mut self, clock: Instant, converged: bool) {
+        self.seconds.push(clock.elapsed().as_secs_f64());
+        self.failures += usize::from(!converged);
+    }
+}

@@ -1,0 +1,45 @@
+//! Headless experiments: runs scenes, compares with their expectations, writes tables, CSV and JSON, measures speed.
+//!
+//! * [`Workbench`] solves single contacts by any method and keeps grids, work space and models between solves.
+//! * [`PointReport`] is one result as the command line prints it; its flattened names are what expectations refer to.
+//! * [`run_scene`] answers a scene's question; each study has a module of its own.
+//! * [`mod@bench`] is the speed table, [`model_file`] the `.rom` format, [`table`] tables and CSV.
+//!
+//! Wall time is measured here and nowhere below.
+
+pub mod bench;
+mod error;
+mod formula_comparison;
+mod grid_study;
+pub mod model_file;
+mod outcome;
+mod random_test;
+mod report;
+mod run;
+mod sampling;
+mod series;
+mod statistics;
+pub mod table;
+mod training_study;
+mod workbench;
+
+pub use error::HarnessError;
+pub use outcome::{NamedValue, SceneOutcome, Verdict};
+pub use report::{GridReport, HertzReport, MoesReport, PointReport, ReducedReport, SiReport, profile_table};
+pub use run::run_scene;
+pub use sampling::{Random, random_points};
+pub use statistics::{median, percentile};
+pub use table::Table;
+pub use workbench::{Answer, ReducedFacts, Request, Workbench};
+
+use crate::solver::reduced::ReducedModel;
+use model_file::ModelFileError;
+use std::sync::Arc;
+
+/// The reduced model in the program; read once, then shared.
+///
+/// # Errors
+/// When the program holds none, or a damaged one.
+pub fn embedded_model() -> Result<Arc<ReducedModel>, ModelFileError> {
+    model_file::embedded()
+}

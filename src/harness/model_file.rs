@@ -1,0 +1,349 @@
+//! Reduced model files (`.rom`): a checked header, then bases, rows, operators, snapshots and the training scene.
+//!
+//! Layout: magic (8 bytes), version (u32), payload length (u64), XXH3 hash of the payload (u64), all little-endian, then the payload in postcard's
+//! encoding. K V_p is not stored: it is recomputed when a model is read.
+
+use crate::scene::atomic_file::{self, WriteError};
+use crate::solver::grid::{GridError, GridSpec};
+use crate::solver::reduced::{Domain, PodBasis, ReducedModel, SampledRows, Sampling, Snapshot, Window};
+use faer::Mat;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use xxhash_rust::xxh3::xxh3_64;
+
+const MAGIC: &[u8; 8] = b"EHLROM\r\n";
+const VERSION: u32 = 1;
+const HEADER: usize = 28;
+/// Largest payload that is read; real models have a few MB.
+const MAX_PAYLOAD: u64 = 512 << 20;
+
+/// The model that is part of the program, trained by `scenes/embedded_model.ron`.
+static EMBEDDED: &[u8] = include_bytes!("../../assets/line.rom");
+
+/// Why a model file is refused. Nothing is lost by it.
+#[derive(Debug, thiserror::Error)]
+pub enum ModelFileError {
+    /// Reading failed.
+    #[error("cannot read {}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// Writing failed.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// Not a model file at all.
+    #[error("this is not a reduced model file (.rom); train one with `ehl-explorer train SCENE.ron --out FILE.rom`")]
+    Foreign,
+    /// Written by a newer program.
+    #[error(
+        "the model file has version {found}, but this program reads up to version {VERSION}; use a newer program or train it again"
+    )]
+    Newer {
+        /// Its version.
+        found: u32,
+    },
+    /// Cut off.
+    #[error("the model file is cut off: {found} of {wanted} bytes are there; copy it again or train it again")]
+    Truncated {
+        /// Bytes that are there.
+        found: u64,
+        /// Bytes that the header announces.
+        wanted: u64,
+    },
+    /// Larger than any model.
+    #[error("the model file announces {bytes} bytes, more than any model has; it is damaged")]
+    TooLarge {
+        /// Bytes announced.
+        bytes: u64,
+    },
+    /// The content does not fit its hash or itself.
+    #[error("the model file is damaged ({what}); copy it again or train it again")]
+    Damaged {
+        /// What does not fit.
+        what: &'static str,
+    },
+    /// Its grid is refused.
+    #[error("the model file's grid is refused: {0}")]
+    Grid(#[from] GridError),
+}
+
+#[derive(Serialize, Deserialize)]
+struct StoredModel {
+    title: String,
+    domain: Domain,
+    windows: Vec<StoredWindow>,
+    scene: String,
+    log: Vec<String>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct StoredWindow {
+    m: (f64, f64),
+    grid: GridSpec,
+    pressure: StoredBasis,
+    deformation: StoredBasis,
+    sampling: Sampling,
+    sampled_rows: Vec<usize>,
+    reconstruction: StoredMatrix,
+    snapshots: Vec<Snapshot>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct StoredBasis {
+    modes: StoredMatrix,
+    singular_values: Vec<f64>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct StoredMatrix {
+    rows: usize,
+    columns: usize,
+    values: Vec<f64>,
+}
+
+impl StoredMatrix {
+    fn from_mat(matrix: &Mat<f64>) -> Self {
+        let values = matrix.col_iter().flat_map(|c| c.iter().copied()).collect();
+        Self { rows: matrix.nrows(), columns: matrix.ncols(), values }
+    }
+
+    fn into_mat(self, what: &'static str) -> Result<Mat<f64>, ModelFileError> {
+        let fits = self.rows.checked_mul(self.columns) == Some(self.values.len());
+        if !fits || self.values.iter().any(|v| !v.is_finite()) {
+            return Err(ModelFileError::Damaged { what });
+        }
+        Ok(Mat::from_fn(self.rows, self.columns, |i, j| self.values[j * self.rows + i]))
+    }
+}
+
+impl StoredBasis {
+    fn from_basis(basis: &PodBasis) -> Self {
+        Self { modes: StoredMatrix::from_mat(&basis.modes), singular_values: basis.singular_values.clone() }
+    }
+
+    fn into_basis(self, what: &'static str) -> Result<PodBasis, ModelFileError> {
+        if self.singular_values.iter().any(|v| !v.is_finite()) || self.singular_values.len() < self.modes.columns {
+            return Err(ModelFileError::Damaged { what });
+        }
+        Ok(PodBasis { modes: self.modes.into_mat(what)?, singular_values: self.singular_values })
+    }
+}
+
+impl StoredWindow {
+    fn into_window(self) -> Result<Window, ModelFileError> {
+        let grid = self.grid.build()?;
+        let nodes = grid.xi.len();
+        let pressure = self.pressure.into_basis("pressure basis")?;
+        let deformation = self.deformation.into_basis("deformation basis")?;
+        let reconstruction = self.reconstruction.into_mat("sampled rows")?;
+        let modes = pressure.modes.ncols();
+        let damaged = |what| Err(ModelFileError::Damaged { what });
+        if modes == 0
+            || pressure.modes.nrows() != nodes
+            || deformation.modes.nrows() != nodes
+            || deformation.modes.ncols() == 0
+        {
+            return damaged("bases of another grid");
+        }
+        let rows_fit = self.sampled_rows.windows(2).all(|w| w[0] < w[1])
+            && self.sampled_rows.last().is_some_and(|&r| r + 3 < nodes)
+            && reconstruction.ncols() == self.sampled_rows.len()
+            && reconstruction.nrows() == modes;
+        if !rows_fit {
+            return damaged("sampled rows");
+        }
+        let snapshots_fit = self.snapshots.iter().all(|s| {
+            s.point.check().is_ok()
+                && s.coefficients.len() == modes
+                && s.coefficients.iter().chain([&s.h_0, &s.h_c]).all(|v| v.is_finite())
+        });
+        if self.snapshots.is_empty() || !snapshots_fit {
+            return damaged("snapshots");
+        }
+        let rows = SampledRows { rows: self.sampled_rows, reconstruction };
+        Ok(Window::new(self.m, grid, pressure, deformation, self.snapshots, self.sampling, rows))
+    }
+}
+
+/// The model that is part of the program.
+///
+/// # Errors
+/// When the program was built with a damaged asset.
+pub fn embedded() -> Result<Arc<ReducedModel>, ModelFileError> {
+    from_bytes(EMBEDDED).map(Arc::new)
+}
+
+/// Reads a model file. Its announced size is checked before anything is allocated.
+///
+/// # Errors
+/// When the file cannot be read, is foreign, newer, cut off or damaged.
+pub fn read(path: &Path) -> Result<ReducedModel, ModelFileError> {
+    let io = |source| ModelFileError::Io { path: path.to_owned(), source };
+    let mut file = std::fs::File::open(path).map_err(io)?;
+    let length = file.metadata().map_err(io)?.len();
+    let mut head = [0u8; HEADER];
+    let mut filled = 0;
+    while filled < HEADER {
+        match file.read(&mut head[filled..]).map_err(io)? {
+            0 => break,
+            n => filled += n,
+        }
+    }
+    let announced = payload_length(&head[..filled])?;
+    let found = length.saturating_sub(HEADER as u64);
+    if found < announced {
+        return Err(ModelFileError::Truncated { found: length, wanted: announced + HEADER as u64 });
+    }
+    let mut bytes = head.to_vec();
+    file.take(announced).read_to_end(&mut bytes).map_err(io)?;
+    from_bytes(&bytes)
+}
+
+/// Writes a model file as a whole or not at all.
+///
+/// # Errors
+/// When the file cannot be written.
+pub fn write(model: &ReducedModel, path: &Path) -> Result<(), ModelFileError> {
+    Ok(atomic_file::replace(path, &to_bytes(model)?)?)
+}
+
+/// The content of a model file.
+///
+/// # Errors
+/// When the model cannot be encoded.
+pub fn to_bytes(model: &ReducedModel) -> Result<Vec<u8>, ModelFileError> {
+    let stored = StoredModel {
+        title: model.title.clone(),
+        domain: model.domain.clone(),
+        windows: model
+            .windows
+            .iter()
+            .map(|w| StoredWindow {
+                m: w.m,
+                grid: w.grid.spec,
+                pressure: StoredBasis::from_basis(&w.pressure),
+                deformation: StoredBasis::from_basis(&w.deformation),
+                sampling: w.sampling,
+                sampled_rows: w.sampled_rows.clone(),
+                reconstruction: StoredMatrix::from_mat(&w.reconstruction),
+                snapshots: w.snapshots.clone(),
+            })
+            .collect(),
+        scene: model.scene.clone(),
+        log: model.log.clone(),
+    };
+    let payload = postcard::to_allocvec(&stored).map_err(|_| ModelFileError::Damaged { what: "encoding" })?;
+    let mut bytes = Vec::with_capacity(HEADER + payload.len());
+    bytes.extend_from_slice(MAGIC);
+    bytes.extend_from_slice(&VERSION.to_le_bytes());
+    bytes.extend_from_slice(&(payload.len() as u64).to_le_bytes());
+    bytes.extend_from_slice(&xxh3_64(&payload).to_le_bytes());
+    bytes.extend_from_slice(&payload);
+    Ok(bytes)
+}
+
+/// A model from the content of a file.
+///
+/// # Errors
+/// As [`read`].
+pub fn from_bytes(bytes: &[u8]) -> Result<ReducedModel, ModelFileError> {
+    let announced = payload_length(bytes)?;
+    let payload = &bytes[HEADER..];
+    if (payload.len() as u64) < announced {
+        let wanted = announced + HEADER as u64;
+        return Err(ModelFileError::Truncated { found: bytes.len() as u64, wanted });
+    }
+    let payload = &payload[..announced as usize];
+    let hash = u64_at(bytes, 20).unwrap_or_default();
+    if xxh3_64(payload) != hash {
+        return Err(ModelFileError::Damaged { what: "its content does not match its hash" });
+    }
+    let stored: StoredModel =
+        postcard::from_bytes(payload).map_err(|_| ModelFileError::Damaged { what: "its content cannot be decoded" })?;
+    let windows: Vec<Window> =
+        stored.windows.into_par_iter().map(StoredWindow::into_window).collect::<Result<_, _>>()?;
+    if windows.is_empty() {
+        return Err(ModelFileError::Damaged { what: "no windows" });
+    }
+    let StoredModel { title, domain, scene, log, .. } = StoredModel { windows: Vec::new(), ..stored };
+    Ok(ReducedModel { title, domain, windows, scene, log })
+}
+
+/// Checks magic, version and announced size.
+fn payload_length(bytes: &[u8]) -> Result<u64, ModelFileError> {
+    if !bytes.starts_with(MAGIC) {
+        return Err(ModelFileError::Foreign);
+    }
+    let cut = ModelFileError::Truncated { found: bytes.len() as u64, wanted: HEADER as u64 };
+    if bytes.len() < HEADER {
+        return Err(cut);
+    }
+    let version = u64_at(bytes, 8).unwrap_or_default() as u32;
+    if version > VERSION {
+        return Err(ModelFileError::Newer { found: version });
+    }
+    let announced = u64_at(bytes, 12).unwrap_or_default();
+    if announced > MAX_PAYLOAD {
+        return Err(ModelFileError::TooLarge { bytes: announced });
+    }
+    Ok(announced)
+}
+
+fn u64_at(bytes: &[u8], at: usize) -> Option<u64> {
+    bytes.get(at..at + 8)?.try_into().ok().map(u64::from_le_bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_embedded_model_is_intact_small_and_survives_a_round_trip() {
+        assert!(EMBEDDED.len() < 6_000_000, "{} bytes", EMBEDDED.len());
+        let model = embedded().unwrap();
+        assert_eq!(to_bytes(&model).unwrap(), EMBEDDED);
+    }
+
+    #[test]
+    fn damage_is_named_and_never_panics() {
+        assert!(matches!(from_bytes(b"PNG something else entirely"), Err(ModelFileError::Foreign)));
+        assert!(matches!(from_bytes(&[]), Err(ModelFileError::Foreign)));
+        assert!(matches!(from_bytes(&EMBEDDED[..10]), Err(ModelFileError::Truncated { .. })));
+        assert!(matches!(from_bytes(&EMBEDDED[..EMBEDDED.len() - 9]), Err(ModelFileError::Truncated { .. })));
+        let mut flipped = EMBEDDED.to_vec();
+        let middle = flipped.len() / 2;
+        flipped[middle] ^= 0x40;
+        assert!(matches!(from_bytes(&flipped), Err(ModelFileError::Damaged { .. })));
+        let mut huge = EMBEDDED.to_vec();
+        huge[12..20].copy_from_slice(&u64::MAX.to_le_bytes());
+        assert!(matches!(from_bytes(&huge), Err(ModelFileError::TooLarge { .. })));
+        let mut newer = EMBEDDED.to_vec();
+        newer[8] = 99;
+        assert!(from_bytes(&newer).unwrap_err().to_string().contains("99"));
+    }
+
+    #[test]
+    fn a_payload_that_lies_about_its_shapes_is_refused_even_with_a_right_hash() {
+        let model = embedded().unwrap();
+        let mut wrong = (*model).clone();
+        wrong.windows[0].sampled_rows[0] = 1_000_000;
+        wrong.windows[0].sampled_rows.sort_unstable();
+        assert!(matches!(from_bytes(&to_bytes(&wrong).unwrap()), Err(ModelFileError::Damaged { .. })));
+        let mut wrong = (*model).clone();
+        wrong.windows[1].snapshots[0].h_c = f64::NAN;
+        assert!(from_bytes(&to_bytes(&wrong).unwrap()).is_err());
+    }
+
+    #[test]
+    fn an_unwritable_target_is_one_sentence() {
+        let model = embedded().unwrap();
+        let error = write(&model, Path::new("/nonexistent-folder/model.rom")).unwrap_err().to_string();
+        assert!(error.contains("/nonexistent-folder/model.rom"), "{error}");
+    }
+}

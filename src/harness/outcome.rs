@@ -1,0 +1,130 @@
+//! What a scene gave: values by name and method, verdicts, tables.
+
+use super::table::Table;
+use crate::scene::{Method, Scene};
+use serde_json::{Value, json};
+
+/// A value with its name and the method it belongs to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedValue {
+    /// Name, as expectations use it.
+    pub name: String,
+    /// The method, where it belongs to one.
+    pub method: Option<Method>,
+    /// The value.
+    pub value: f64,
+}
+
+/// One expectation held against the answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// Name of the value.
+    pub name: String,
+    /// The method, where one was named.
+    pub method: Option<Method>,
+    /// The answer; none where the scene gave no such value.
+    pub value: Option<f64>,
+    /// What was wanted, in words.
+    pub wanted: String,
+    /// Where the expectation comes from.
+    pub from: String,
+    /// Whether it holds.
+    pub holds: bool,
+}
+
+/// A scene's answer.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SceneOutcome {
+    /// The scene's title.
+    pub title: String,
+    /// The scene's source.
+    pub source: String,
+    /// Seconds of the whole run.
+    pub wall_s: f64,
+    /// Whether every solve converged that was meant to.
+    pub converged: bool,
+    /// All values.
+    pub values: Vec<NamedValue>,
+    /// All expectations.
+    pub verdicts: Vec<Verdict>,
+    /// Tables of the study.
+    pub tables: Vec<Table>,
+    /// What a reader must know.
+    pub warnings: Vec<String>,
+}
+
+impl SceneOutcome {
+    /// Nothing yet.
+    pub(super) fn of(scene: &Scene) -> Self {
+        Self { title: scene.title.clone(), source: scene.source.clone(), converged: true, ..Self::default() }
+    }
+
+    pub(super) fn push(&mut self, name: impl Into<String>, method: Option<&Method>, value: f64) {
+        self.values.push(NamedValue { name: name.into(), method: method.cloned(), value });
+    }
+
+    /// The value of a name: of the method where one is given, else the first of that name.
+    pub fn value(&self, name: &str, method: Option<&Method>) -> Option<f64> {
+        let fits = |v: &&NamedValue| v.name == name && method.is_none_or(|m| v.method.as_ref() == Some(m));
+        self.values.iter().find(fits).map(|v| v.value)
+    }
+
+    /// Holds the scene's expectations against the values.
+    pub(super) fn judge(&mut self, scene: &Scene) {
+        self.verdicts = scene
+            .expect
+            .iter()
+            .map(|expectation| {
+                let value = self.value(&expectation.name, expectation.method.as_ref());
+                Verdict {
+                    name: expectation.name.clone(),
+                    method: expectation.method.clone(),
+                    value,
+                    wanted: expectation.wanted(),
+                    from: expectation.from.clone(),
+                    holds: value.is_some_and(|answer| expectation.within.holds(expectation.value, answer)),
+                }
+            })
+            .collect();
+    }
+
+    /// Whether every expectation holds, and, where there is none, every solve converged.
+    pub fn passed(&self) -> bool {
+        self.verdicts.iter().all(|verdict| verdict.holds) && (self.converged || !self.verdicts.is_empty())
+    }
+
+    /// The object of `run --json`.
+    pub fn to_json(&self) -> Value {
+        let number = |value: f64| if value.is_finite() { json!(value) } else { Value::Null };
+        let with_method = |mut object: Value, method: &Option<Method>| {
+            if let (Some(fields), Some(method)) = (object.as_object_mut(), method) {
+                fields.insert("method".to_owned(), json!(method.name()));
+            }
+            object
+        };
+        let expectations: Vec<Value> = self
+            .verdicts
+            .iter()
+            .map(|v| {
+                let verdict = if v.holds { "ok" } else { "short" };
+                let value = v.value.map_or(Value::Null, number);
+                let object =
+                    json!({"name": v.name, "value": value, "wanted": v.wanted, "verdict": verdict, "from": v.from});
+                with_method(object, &v.method)
+            })
+            .collect();
+        let values: Vec<Value> = self
+            .values
+            .iter()
+            .map(|v| with_method(json!({"name": v.name, "value": number(v.value)}), &v.method))
+            .collect();
+        let mut object = json!({
+            "title": self.title, "source": self.source, "wall_s": self.wall_s, "converged": self.converged,
+            "passed": self.passed(), "expectations": expectations, "values": values,
+        });
+        if let (Some(fields), false) = (object.as_object_mut(), self.warnings.is_empty()) {
+            fields.insert("warning".to_owned(), json!(self.warnings.join("; ")));
+        }
+        object
+    }
+}

@@ -1,0 +1,140 @@
+//! Random points (3.17): failures, speed, and errors against full solutions.
+
+use super::error::HarnessError;
+use super::outcome::SceneOutcome;
+use super::run::{request_of, step};
+use super::sampling::random_points;
+use super::statistics::{median, percentile};
+use super::table::Table;
+use super::workbench::{Cancel, Request, Workbench};
+use crate::scene::{Method, Scene, TestRange};
+use crate::solver::full::{FullSolver, Start};
+use crate::solver::lubricant::Lubricant;
+use crate::solver::reduced::ReducedModel;
+use crate::solver::training::{Progress, TrainingObserver};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// What is tested.
+pub(super) struct RandomTest<'a> {
+    /// Where points are drawn.
+    pub range: &'a TestRange,
+    /// How many.
+    pub tests: usize,
+    /// Seed of the points.
+    pub seed: u64,
+    /// The tested method.
+    pub method: &'a Method,
+    /// How many are compared with full solutions.
+    pub compare: usize,
+}
+
+/// Solves without telling the observer, every so many.
+const REPORT_EVERY: usize = 32;
+
+/// Runs the test. Times are those of single solves, one after the other.
+pub(super) fn run(
+    scene: &Scene,
+    test: &RandomTest<'_>,
+    workbench: &mut Workbench,
+    observer: &dyn TrainingObserver,
+    outcome: &mut SceneOutcome,
+) -> Result<(), HarnessError> {
+    let points = random_points(test.range, test.tests, test.seed);
+    if points.len() < test.tests {
+        return Err(HarnessError::Study(format!(
+            "`study.range` holds hardly any point below its largest Hertzian pressure; only {} of {} were found",
+            points.len(),
+            test.tests
+        )));
+    }
+    let template = request_of(scene)?;
+    let of = Some(test.method);
+    let mut table = Table::new(
+        "random",
+        &["M", "L", "alpha", "p_h_pa", "converged", "H_c", "newton_iterations", "wall_s", "H_c_full"],
+    );
+    let mut untrained = 0;
+    for (i, point) in points.iter().enumerate() {
+        if i.is_multiple_of(REPORT_EVERY) {
+            step(observer, "random tests", i, points.len())?;
+        }
+        let request = Request { point: *point, ..template.clone() };
+        let answer = workbench.answer(&request, test.method, None, observer)?;
+        untrained += usize::from(answer.reduced.as_ref().is_some_and(|facts| !facts.trained));
+        let h_c = answer.result().map_or(f64::NAN, |solution| solution.scalars.h_c);
+        let moes = point.moes();
+        table.rows.push(vec![
+            moes.m,
+            moes.l,
+            point.alpha_per_pa,
+            point.hertz().pressure_pa,
+            f64::from(u8::from(answer.converged)),
+            h_c,
+            answer.newton_iterations as f64,
+            answer.wall_s,
+            f64::NAN,
+        ]);
+    }
+    let column = |k: usize| table.rows.iter().map(|row| row[k]).collect::<Vec<f64>>();
+    let (converged, newton, seconds) = (column(4), column(6), column(7));
+    let failures = converged.iter().filter(|&&c| c == 0.0).count();
+    outcome.converged &= failures == 0;
+    outcome.push("tests", of, points.len() as f64);
+    outcome.push("failures", of, failures as f64);
+    outcome.push("newton_median", of, median(&newton));
+    outcome.push("newton_max", of, percentile(&newton, 1.0));
+    outcome.push("median_s", of, median(&seconds));
+    outcome.push("p99_s", of, percentile(&seconds, 0.99));
+    if let Some(source) = test.method.model() {
+        outcome.push("untrained", of, untrained as f64);
+        let model = workbench.model(source, observer)?;
+        let films = full_films(&model, &points[..test.compare], scene.lubricant, observer)?;
+        let mut errors = Vec::with_capacity(films.len());
+        let mut full_failures = 0;
+        for (row, film) in table.rows.iter_mut().zip(films) {
+            full_failures += usize::from(film.is_none());
+            row[8] = film.unwrap_or(f64::NAN);
+            errors.extend(Some((row[5] / row[8] - 1.0).abs()).filter(|error| error.is_finite()));
+        }
+        if test.compare > 0 {
+            outcome.push("compared", of, errors.len() as f64);
+            outcome.push("full_failures", of, full_failures as f64);
+            outcome.push("H_c_error_median", of, median(&errors));
+            outcome.push("H_c_error_p95", of, percentile(&errors, 0.95));
+            outcome.push("H_c_error_max", of, percentile(&errors, 1.0));
+        }
+    }
+    outcome.tables.push(table);
+    Ok(())
+}
+
+/// Central films of cold full solutions on the model's own grids, on all cores: cold, so that no reduced solution can lead them to its root.
+fn full_films(
+    model: &ReducedModel,
+    points: &[crate::solver::contact::OperatingPoint],
+    lubricant: Lubricant,
+    observer: &dyn TrainingObserver,
+) -> Result<Vec<Option<f64>>, HarnessError> {
+    let done = AtomicUsize::new(0);
+    points
+        .par_iter()
+        .map_init(
+            || (0..model.windows.len()).map(|_| None::<FullSolver>).collect::<Vec<_>>(),
+            |solvers, point| {
+                if observer.cancelled() {
+                    return Err(HarnessError::Cancelled);
+                }
+                let k = model.window_for(point.moes());
+                let solver = solvers[k].get_or_insert_with(|| FullSolver::on(model.windows[k].grid.clone()));
+                let solution = solver.solve(point, lubricant, Start::Cold, &mut Cancel(observer))?;
+                let so_far = done.fetch_add(1, Ordering::Relaxed) + 1;
+                if so_far.is_multiple_of(REPORT_EVERY) {
+                    let stage = "full solutions to compare with".to_owned();
+                    observer.progress(Progress { stage, done: so_far, total: points.len() });
+                }
+                Ok(solution.converged().then_some(solution.scalars.h_c))
+            },
+        )
+        .collect()
+}

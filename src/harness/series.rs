@@ -1,0 +1,212 @@
+//! Contacts along a path: sweeps and the test trajectory (3.21), each solve from its neighbour.
+
+use super::error::HarnessError;
+use super::outcome::SceneOutcome;
+use super::report::PointReport;
+use super::run::{request_of, step};
+use super::statistics::{median, percentile};
+use super::table::Table;
+use super::workbench::{Request, Workbench};
+use crate::scene::{At, Axis, Method, QuantityBox, Scene, Variable};
+use crate::solver::contact::{OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
+use crate::solver::full::Solution;
+use crate::solver::training::TrainingObserver;
+
+/// Values of each method in the table of a series.
+const COLUMNS: [&str; 15] = [
+    "converged",
+    "H_c",
+    "H_min",
+    "X_H_min",
+    "P_c",
+    "P_max",
+    "X_P_max",
+    "H_0",
+    "h_c_m",
+    "h_min_m",
+    "load_residual",
+    "newton_iterations",
+    "linear_iterations",
+    "reduced.residual_estimate",
+    "wall_s",
+];
+
+/// Contacts one after the other: the name of the table, what is varied, and for each contact the varied values.
+struct Path<'a> {
+    name: &'a str,
+    varied: &'a [&'a str],
+    points: &'a [(Vec<f64>, OperatingPoint)],
+}
+
+/// Runs a scene's sweep.
+pub(super) fn sweep(
+    scene: &Scene,
+    over: &[Axis],
+    methods: &[Method],
+    workbench: &mut Workbench,
+    observer: &dyn TrainingObserver,
+    outcome: &mut SceneOutcome,
+) -> Result<(), HarnessError> {
+    let mut varied: Vec<Vec<f64>> = vec![Vec::new()];
+    for axis in over {
+        let values = axis.values.values();
+        varied = varied.iter().flat_map(|head| values.iter().map(move |&v| [head.as_slice(), &[v]].concat())).collect();
+    }
+    let mut points = Vec::with_capacity(varied.len());
+    for values in varied {
+        let mut at = scene.at;
+        for (axis, &value) in over.iter().zip(&values) {
+            set(&mut at, axis.vary, value)?;
+        }
+        points.push((values, at.point(scene.contact)?));
+    }
+    let names: Vec<&str> = over.iter().map(|axis| axis.vary.name()).collect();
+    along(&Path { name: "sweep", varied: &names, points: &points }, scene, methods, workbench, observer, outcome)
+}
+
+/// Runs the test trajectory.
+pub(super) fn trajectory(
+    scene: &Scene,
+    range: &QuantityBox,
+    count: usize,
+    methods: &[Method],
+    workbench: &mut Workbench,
+    observer: &dyn TrainingObserver,
+    outcome: &mut SceneOutcome,
+) -> Result<(), HarnessError> {
+    let mut points = Vec::with_capacity(count);
+    for i in 0..count {
+        let c = 2.0 * i as f64 / (count - 1) as f64;
+        let point = range.trajectory(c);
+        point.check()?;
+        points.push((vec![c], point));
+    }
+    along(&Path { name: "trajectory", varied: &["c"], points: &points }, scene, methods, workbench, observer, outcome)
+}
+
+/// Sets one quantity of an operating point.
+fn set(at: &mut At, variable: Variable, value: f64) -> Result<(), HarnessError> {
+    match at {
+        At::Si { radius, speed, load, modulus, viscosity, alpha } => {
+            let place = match variable {
+                Variable::Radius => radius,
+                Variable::Speed => speed,
+                Variable::Load => load,
+                Variable::Modulus => modulus,
+                Variable::Viscosity => viscosity,
+                Variable::Alpha => alpha,
+                Variable::M | Variable::L => {
+                    return Err(HarnessError::Study(format!(
+                        "{} can only be varied where `at` is Moes(…), which says what follows",
+                        variable.name()
+                    )));
+                }
+            };
+            *place = value;
+        }
+        At::Moes { m, l, radius, speed, load, modulus, viscosity, alpha } => match variable {
+            Variable::M => *m = value,
+            Variable::L => *l = value,
+            Variable::Radius => *radius = Some(value),
+            Variable::Speed => *speed = Some(value),
+            Variable::Load => *load = Some(value),
+            Variable::Modulus => *modulus = Some(value),
+            Variable::Viscosity => *viscosity = Some(value),
+            Variable::Alpha => *alpha = Some(value),
+        },
+    }
+    Ok(())
+}
+
+/// Solves all points by all methods: table, failures, and the reduced methods' errors against the first full one.
+fn along(
+    path: &Path<'_>,
+    scene: &Scene,
+    methods: &[Method],
+    workbench: &mut Workbench,
+    observer: &dyn TrainingObserver,
+    outcome: &mut SceneOutcome,
+) -> Result<(), HarnessError> {
+    let &Path { name, varied, points } = path;
+    let template = request_of(scene)?;
+    let mut columns: Vec<String> = varied.iter().map(|&v| v.to_owned()).collect();
+    columns.extend(["M", "L", "radius", "speed", "load", "alpha", "p_h_pa"].map(str::to_owned));
+    let tags: Vec<String> = (0..methods.len()).map(|k| tag(methods, k)).collect();
+    columns.extend(tags.iter().flat_map(|tag| COLUMNS.iter().map(move |column| format!("{tag}.{column}"))));
+    let mut table = Table { name: name.to_owned(), columns, rows: Vec::with_capacity(points.len()) };
+    let mut tallies = vec![Tally::default(); methods.len()];
+    let mut former: Vec<Option<Solution>> = vec![None; methods.len()];
+    let full = methods.iter().position(|method| *method == Method::Full);
+    for (i, (values, point)) in points.iter().enumerate() {
+        step(observer, name, i, points.len())?;
+        let request = Request { point: *point, ..template.clone() };
+        let (moes, p_h) = (point.moes(), point.hertz().pressure_pa);
+        let mut row = values.clone();
+        row.extend([moes.m, moes.l, point.radius_m, point.speed_m_per_s, point.load, point.alpha_per_pa, p_h]);
+        let mut films = vec![f64::NAN; methods.len()];
+        for (k, method) in methods.iter().enumerate() {
+            let answer = workbench.answer(&request, method, former[k].as_ref(), observer)?;
+            let named = PointReport::from(&answer).values();
+            let value = |name: &str| named.iter().find(|(n, _)| n == name).map_or(f64::NAN, |(_, v)| *v);
+            row.extend(COLUMNS.iter().map(|column| value(column)));
+            films[k] = value("H_c");
+            let tally = &mut tallies[k];
+            if !answer.converged {
+                if p_h <= PLAUSIBLE_HERTZ_PRESSURE_PA { tally.failures += 1 } else { tally.failures_beyond += 1 }
+            }
+            tally.newton.push(answer.newton_iterations as f64);
+            tally.seconds.push(answer.wall_s);
+            if answer.converged {
+                former[k] = answer.solution;
+            }
+        }
+        if let Some(full) = full {
+            for (tally, film) in tallies.iter_mut().zip(&films) {
+                tally.errors.extend(Some((film / films[full] - 1.0).abs()).filter(|error| error.is_finite()));
+            }
+        }
+        table.rows.push(row);
+    }
+    outcome.push("points", None, points.len() as f64);
+    for (method, tally) in methods.iter().zip(&tallies) {
+        tally.report(method, full.is_some(), outcome);
+    }
+    outcome.tables.push(table);
+    Ok(())
+}
+
+/// `full`, `reduced`, and with a number where a kind occurs again.
+fn tag(methods: &[Method], k: usize) -> String {
+    let name = methods[k].name();
+    match methods[..k].iter().filter(|method| method.name() == name).count() {
+        0 => name.to_owned(),
+        again => format!("{name}{}", again + 1),
+    }
+}
+
+#[derive(Clone, Debug, Default)]
+struct Tally {
+    failures: usize,
+    failures_beyond: usize,
+    newton: Vec<f64>,
+    seconds: Vec<f64>,
+    errors: Vec<f64>,
+}
+
+impl Tally {
+    fn report(&self, method: &Method, compared: bool, outcome: &mut SceneOutcome) {
+        let of = Some(method);
+        outcome.converged &= self.failures == 0;
+        outcome.push("failures", of, self.failures as f64);
+        outcome.push("failures_beyond", of, self.failures_beyond as f64);
+        outcome.push("newton_median", of, median(&self.newton));
+        outcome.push("newton_max", of, percentile(&self.newton, 1.0));
+        outcome.push("median_s", of, median(&self.seconds));
+        outcome.push("p99_s", of, percentile(&self.seconds, 0.99));
+        if compared && *method != Method::Full {
+            outcome.push("H_c_error_median", of, median(&self.errors));
+            outcome.push("H_c_error_p95", of, percentile(&self.errors, 0.95));
+            outcome.push("H_c_error_max", of, percentile(&self.errors, 1.0));
+        }
+    }
+}

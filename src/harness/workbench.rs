@@ -1,0 +1,328 @@
+//! Solving single contacts by any method, with everything that can be kept between solves.
+
+use super::error::HarnessError;
+use super::model_file;
+use crate::scene::{Grid, Method, ModelSource, Scene, Study};
+use crate::solver::contact::{Moes, OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
+use crate::solver::full::{FullSolver, Problem, Solution, Start};
+use crate::solver::grid::{GridSpec, ReferenceGrid};
+use crate::solver::lubricant::Lubricant;
+use crate::solver::observer::Observer;
+use crate::solver::reduced::{Online, ReducedError, ReducedModel, ReducedOptions, Trust, Window};
+use crate::solver::training::{TrainingObserver, train};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Newtonian traction coefficients beyond this are no physics: real oils yield or thin long before.
+const PLAUSIBLE_TRACTION: f64 = 0.2;
+
+/// What is to be solved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Request {
+    /// The operating point.
+    pub point: OperatingPoint,
+    /// The lubricant's laws.
+    pub lubricant: Lubricant,
+    /// Grid of a full solution.
+    pub grid: Grid,
+    /// The model that [`Grid::Model`] means.
+    pub grid_model: ModelSource,
+    /// Slide-to-roll ratio.
+    pub srr: f64,
+}
+
+/// What came of it.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// What was asked.
+    pub request: Request,
+    /// How it was solved.
+    pub method: Method,
+    /// Fields and scalars; for a full solve that did not converge the last state, for such a reduced solve nothing.
+    pub solution: Option<Solution>,
+    /// Whether the solution is one.
+    pub converged: bool,
+    /// What a reader must know, one sentence each.
+    pub warnings: Vec<String>,
+    /// Nodes of the grid, both ends counted.
+    pub nodes: usize,
+    /// Unknowns that were iterated on.
+    pub dofs: usize,
+    /// Newton steps.
+    pub newton_iterations: usize,
+    /// Krylov iterations of a full solve.
+    pub linear_iterations: Option<usize>,
+    /// Seconds of the solve alone.
+    pub wall_s: f64,
+    /// What only a reduced solve has.
+    pub reduced: Option<ReducedFacts>,
+}
+
+/// What a reduced solve adds to its answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReducedFacts {
+    /// Pressure modes.
+    pub basis_p: usize,
+    /// Deformation modes.
+    pub basis_delta: usize,
+    /// Sampled rows.
+    pub sampled_rows: usize,
+    /// Whether the model was trained for the point.
+    pub trained: bool,
+    /// e_f^I, (3.15); none without convergence.
+    pub residual_estimate: Option<f64>,
+}
+
+/// Grids, solvers and models, made when first needed and kept.
+pub struct Workbench {
+    base: PathBuf,
+    solvers: Vec<FullSolver>,
+    models: Vec<(ModelSource, Arc<ReducedModel>)>,
+    online: Vec<(ModelSource, Online)>,
+}
+
+/// Full solvers kept at a time; the oldest goes first.
+const KEPT_SOLVERS: usize = 6;
+
+/// Lets a solve see that the run as a whole was cancelled.
+pub(super) struct Cancel<'a>(pub &'a dyn TrainingObserver);
+
+impl Observer for Cancel<'_> {
+    fn cancelled(&self) -> bool {
+        self.0.cancelled()
+    }
+}
+
+impl Workbench {
+    /// An empty workbench; relative paths of models refer to the folder `base`.
+    pub fn new(base: impl Into<PathBuf>) -> Self {
+        Self { base: base.into(), solvers: Vec::new(), models: Vec::new(), online: Vec::new() }
+    }
+
+    /// Puts a model in place of what its source would give.
+    pub fn insert_model(&mut self, source: ModelSource, model: Arc<ReducedModel>) {
+        self.models.retain(|(kept, _)| *kept != source);
+        self.online.retain(|(kept, _)| *kept != source);
+        self.models.push((source, model));
+    }
+
+    /// The reduced model of a source: read, or trained, once.
+    ///
+    /// # Errors
+    /// When it cannot be read or trained.
+    pub fn model(
+        &mut self,
+        source: &ModelSource,
+        observer: &dyn TrainingObserver,
+    ) -> Result<Arc<ReducedModel>, HarnessError> {
+        if let Some((_, model)) = self.models.iter().find(|(kept, _)| kept == source) {
+            return Ok(Arc::clone(model));
+        }
+        let model = match source {
+            ModelSource::Embedded => super::embedded_model().map_err(HarnessError::Embedded)?,
+            ModelSource::File(path) => {
+                let path = self.base.join(path);
+                Arc::new(model_file::read(&path).map_err(|reason| HarnessError::Model { path, reason })?)
+            }
+            ModelSource::Trained(path) => {
+                let path = self.base.join(path);
+                let Study::Training(spec) = Scene::read(&path)?.study else {
+                    return Err(HarnessError::NoTraining { path });
+                };
+                Arc::new(train(&spec, observer)?)
+            }
+        };
+        self.models.push((source.clone(), Arc::clone(&model)));
+        Ok(model)
+    }
+
+    /// Solves a contact; `start` is a solution nearby, where there is one.
+    ///
+    /// # Errors
+    /// When the request is refused or cancelled. Not converging is an answer.
+    pub fn answer(
+        &mut self,
+        request: &Request,
+        method: &Method,
+        start: Option<&Solution>,
+        observer: &dyn TrainingObserver,
+    ) -> Result<Answer, HarnessError> {
+        let problem = Problem::new(&request.point, request.lubricant)?;
+        if observer.cancelled() {
+            return Err(HarnessError::Cancelled);
+        }
+        let mut answer = match method {
+            Method::Full => self.full(request, &problem, start, observer)?,
+            Method::Reduced { model } => self.reduced(request, &problem, model, observer)?,
+        };
+        let p_h = request.point.hertz().pressure_pa;
+        if p_h > PLAUSIBLE_HERTZ_PRESSURE_PA {
+            answer
+                .warnings
+                .push(format!("the Hertzian pressure of {:.3} GPa exceeds 3.2 GPa: no real contact", p_h / 1e9));
+        }
+        let traction = answer.traction().unwrap_or(0.0).abs();
+        if traction > PLAUSIBLE_TRACTION {
+            answer.warnings.push(format!(
+                "a Newtonian traction coefficient of {traction:.3e} is unphysical at this pressure: the fluid would shear-thin or yield"
+            ));
+        }
+        Ok(answer)
+    }
+
+    /// The full solver for a request's grid.
+    ///
+    /// # Errors
+    /// When the grid is refused or its model cannot be had.
+    pub fn full_solver(
+        &mut self,
+        request: &Request,
+        observer: &dyn TrainingObserver,
+    ) -> Result<&mut FullSolver, HarnessError> {
+        let moes = request.point.moes();
+        let (spec, ready): (GridSpec, Option<Arc<ReferenceGrid>>) = match request.grid.spec(moes) {
+            Some(spec) => (spec, None),
+            None => {
+                let model = self.model(&request.grid_model, observer)?;
+                let window = window_of(&model, moes)?;
+                (window.grid.spec, Some(Arc::clone(&window.grid)))
+            }
+        };
+        let place = match self.solvers.iter().position(|solver| solver.reference().spec == spec) {
+            Some(place) => place,
+            None => {
+                let solver = match ready {
+                    Some(grid) => FullSolver::on(grid),
+                    None => FullSolver::new(spec)?,
+                };
+                if self.solvers.len() == KEPT_SOLVERS {
+                    self.solvers.remove(0);
+                }
+                self.solvers.push(solver);
+                self.solvers.len() - 1
+            }
+        };
+        Ok(&mut self.solvers[place])
+    }
+
+    fn full(
+        &mut self,
+        request: &Request,
+        problem: &Problem,
+        start: Option<&Solution>,
+        observer: &dyn TrainingObserver,
+    ) -> Result<Answer, HarnessError> {
+        let solver = self.full_solver(request, observer)?;
+        let start = start.map_or(Start::Cold, Start::From);
+        let clock = Instant::now();
+        let solution = solver.solve(&problem.point, request.lubricant, start, &mut Cancel(observer))?;
+        let wall_s = clock.elapsed().as_secs_f64();
+        if observer.cancelled() {
+            return Err(HarnessError::Cancelled);
+        }
+        let report = &solution.report;
+        let mut warnings = Vec::new();
+        if !solution.converged() {
+            warnings.push(format!(
+                "the full solver {} ({} Newton steps in {} attempts, residual {:.1e})",
+                report.termination.describe(),
+                report.newton_iterations,
+                report.attempts,
+                report.residual_norm
+            ));
+        }
+        Ok(Answer {
+            request: request.clone(),
+            method: Method::Full,
+            converged: solution.converged(),
+            warnings,
+            nodes: solution.x.len() - 1,
+            dofs: solution.x.len() - 2,
+            newton_iterations: report.newton_iterations,
+            linear_iterations: Some(report.linear_iterations),
+            wall_s,
+            reduced: None,
+            solution: Some(solution),
+        })
+    }
+
+    fn reduced(
+        &mut self,
+        request: &Request,
+        problem: &Problem,
+        source: &ModelSource,
+        observer: &dyn TrainingObserver,
+    ) -> Result<Answer, HarnessError> {
+        let model = self.model(source, observer)?;
+        let place = match self.online.iter().position(|(kept, _)| kept == source) {
+            Some(place) => place,
+            None => {
+                self.online.push((source.clone(), Online::new(Arc::clone(&model), ReducedOptions::default())));
+                self.online.len() - 1
+            }
+        };
+        let online = &mut self.online[place].1;
+        let clock = Instant::now();
+        let solved = online.solve(&problem.point, request.lubricant);
+        let wall_s = clock.elapsed().as_secs_f64();
+        let window = window_of(&model, problem.moes)?;
+        let trust = model.trust(problem);
+        let mut warnings = Vec::new();
+        if let Trust::Outside(reason) = &trust {
+            warnings.push(reason.clone());
+        }
+        let mut facts = ReducedFacts {
+            basis_p: window.pressure.modes.ncols(),
+            basis_delta: window.deformation.modes.ncols(),
+            sampled_rows: window.sampled_rows.len(),
+            trained: trust == Trust::Trained,
+            residual_estimate: None,
+        };
+        let (solution, newton_iterations) = match solved {
+            Ok(solved) => {
+                facts.residual_estimate = Some(solved.residual_estimate);
+                facts.basis_p = solved.coefficients.len();
+                (Some(online.reconstruct(&solved)?), solved.iterations)
+            }
+            Err(error @ ReducedError::NotConverged { iterations, .. }) => {
+                warnings.push(error.to_string());
+                (None, iterations)
+            }
+            Err(refused) => return Err(refused.into()),
+        };
+        Ok(Answer {
+            request: request.clone(),
+            method: Method::Reduced { model: source.clone() },
+            converged: solution.is_some(),
+            warnings,
+            nodes: window.grid.xi.len() - 1,
+            dofs: facts.basis_p + 1,
+            newton_iterations,
+            linear_iterations: None,
+            wall_s,
+            reduced: Some(facts),
+            solution,
+        })
+    }
+}
+
+/// The window of a model that serves a contact.
+fn window_of(model: &ReducedModel, moes: Moes) -> Result<&Window, HarnessError> {
+    let none = || HarnessError::Study(format!("the reduced model `{}` holds no window", model.title));
+    model.windows.get(model.window_for(moes)).ok_or_else(none)
+}
+
+impl Answer {
+    /// The solution, if it may be shown as a result.
+    pub fn result(&self) -> Option<&Solution> {
+        self.solution.as_ref().filter(|_| self.converged)
+    }
+
+    /// Traction coefficient (3.41) at the request's slide-to-roll ratio.
+    pub fn traction(&self) -> Option<f64> {
+        let srr = self.request.srr;
+        // Without sliding there is none, whatever the viscosity.
+        self.result().map(|solution| if srr == 0.0 { 0.0 } else { solution.traction().per_srr * srr })
+    }
+}

@@ -1,0 +1,231 @@
+//! The door: every number of a scene is finite and sane before anything is computed from it.
+
+use super::{Axis, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, Within};
+use crate::solver::training::{Plan, Range, TrainingSpec};
+
+/// Most points of a sweep, a trajectory or a formula comparison.
+pub const MAX_POINTS: usize = 100_000;
+/// Most random tests.
+pub const MAX_TESTS: usize = 1_000_000;
+
+type Checked = Result<(), SceneError>;
+
+fn refuse(field: impl Into<String>, problem: impl Into<String>) -> SceneError {
+    SceneError::Field { field: field.into(), problem: problem.into() }
+}
+
+fn number(field: &str, value: f64, low: f64, high: f64) -> Checked {
+    if (low..=high).contains(&value) {
+        return Ok(());
+    }
+    Err(refuse(field, format!("is {value}, but must be a finite number between {low:e} and {high:e}")))
+}
+
+fn count(field: &str, value: usize, low: usize, high: usize) -> Checked {
+    if (low..=high).contains(&value) {
+        return Ok(());
+    }
+    Err(refuse(field, format!("is {value}, but must lie between {low} and {high}")))
+}
+
+fn interval(field: &str, (from, to): (f64, f64), low: f64, high: f64) -> Checked {
+    number(&format!("{field}.0"), from, low, high)?;
+    number(&format!("{field}.1"), to, low, high)?;
+    if from > to {
+        return Err(refuse(field, format!("runs from {from} down to {to}; write the smaller value first")));
+    }
+    Ok(())
+}
+
+fn methods(field: &str, methods: &[Method]) -> Checked {
+    count(&format!("{field} (how many)"), methods.len(), 1, 16)
+}
+
+impl Scene {
+    /// Refuses values that are not finite or make no sense, naming the field.
+    ///
+    /// # Errors
+    /// With the first such field.
+    pub fn check(&self) -> Result<(), SceneError> {
+        self.point()?;
+        grid(&self.grid)?;
+        study(self)?;
+        self.expect.iter().enumerate().try_for_each(|(i, entry)| expectation(i, entry))
+    }
+}
+
+fn grid(grid: &Grid) -> Checked {
+    let domain = |(from, to): (f64, f64)| {
+        number("grid.domain.0", from, -200.0, -1.5)?;
+        number("grid.domain.1", to, 1.2, 20.0)
+    };
+    match *grid {
+        Grid::Uniform { dx, domain: ends } => {
+            number("grid.dx", dx, 1e-4, 0.2)?;
+            domain(ends)
+        }
+        Grid::GradedNodes { nodes, domain: ends, .. } => {
+            count("grid.nodes", nodes, 61, crate::solver::grid::MAX_GRADED_NODES)?;
+            domain(ends)
+        }
+        Grid::Graded | Grid::Model => Ok(()),
+    }
+}
+
+fn study(scene: &Scene) -> Checked {
+    match &scene.study {
+        Study::Point { methods: list } => methods("study.methods", list),
+        Study::Sweep { over, methods: list } => {
+            methods("study.methods", list)?;
+            count("study.over (how many)", over.len(), 1, 2)?;
+            over.iter().try_for_each(axis)?;
+            let points = over.iter().map(|axis| axis.values.len()).try_fold(1usize, usize::checked_mul);
+            count("study.over (points)", points.unwrap_or(usize::MAX), 1, MAX_POINTS)
+        }
+        Study::Trajectory { range, points, methods: list } => {
+            methods("study.methods", list)?;
+            count("study.points", *points, 2, MAX_POINTS)?;
+            quantity_box("study.range", range)
+        }
+        Study::RandomTest { range, tests, compare, .. } => {
+            count("study.tests", *tests, 1, MAX_TESTS)?;
+            count("study.compare", *compare, 0, *tests)?;
+            test_range(range)
+        }
+        Study::GridStudy { dx } => {
+            count("study.dx (how many)", dx.len(), 3, 12)?;
+            dx.iter().try_for_each(|&dx| number("study.dx", dx, 1e-4, 0.2))?;
+            let ratio = dx[0] / dx[1];
+            if !(ratio > 1.05 && dx.windows(2).all(|w| (w[0] / w[1] / ratio - 1.0).abs() < 1e-6)) {
+                return Err(refuse("study.dx", "must fall by one constant factor, as 0.02, 0.01, 0.005 do"));
+            }
+            match scene.grid {
+                Grid::Uniform { .. } => Ok(()),
+                _ => Err(refuse("grid", "must be Uniform for a grid study, which takes its domain from it")),
+            }
+        }
+        Study::Training(spec) => training(spec),
+        Study::FormulaComparison { m, l, .. } => {
+            count("study.m (how many)", m.len(), 1, 1000)?;
+            count("study.l (how many)", l.len(), 1, 1000)?;
+            m.iter().try_for_each(|&m| number("study.m", m, 0.05, 1e5))?;
+            l.iter().try_for_each(|&l| number("study.l", l, 1e-3, 1e3))
+        }
+    }
+}
+
+fn axis(axis: &Axis) -> Checked {
+    let field = format!("study.over.{}", axis.vary.name());
+    let limit = |value: f64| number(&field, value, f64::MIN_POSITIVE, 1e15);
+    count(&format!("{field} (values)"), axis.values.len(), 1, MAX_POINTS)?;
+    match &axis.values {
+        Steps::Linear { from, to, .. } | Steps::Log { from, to, .. } => {
+            limit(*from)?;
+            limit(*to)
+        }
+        Steps::List(values) => values.iter().try_for_each(|&value| limit(value)),
+    }
+}
+
+fn quantity_box(field: &str, range: &QuantityBox) -> Checked {
+    for (name, ends, low, high) in [
+        ("radius", range.radius, 1e-6, 1e3),
+        ("speed", range.speed, 1e-9, 1e4),
+        ("load", range.load, 1e-6, 1e10),
+        ("alpha", range.alpha, 1e-12, 1e-5),
+    ] {
+        interval(&format!("{field}.{name}"), ends, low, high)?;
+    }
+    number(&format!("{field}.modulus"), range.modulus, 1e5, 1e14)?;
+    number(&format!("{field}.viscosity"), range.viscosity, 1e-6, 1e4)
+}
+
+fn moes_range(field: &str, m: (f64, f64), l: (f64, f64), pressure: f64) -> Checked {
+    interval(&format!("{field}.m"), m, 0.05, 1e5)?;
+    interval(&format!("{field}.l"), l, 1e-3, 1e3)?;
+    number(&format!("{field}.max_hertz_pressure"), pressure, 1e5, 1e12)
+}
+
+fn test_range(range: &TestRange) -> Checked {
+    match range {
+        TestRange::Box(range) => quantity_box("study.range", range),
+        TestRange::Realisation { m, l, max_hertz_pressure } => moes_range("study.range", *m, *l, *max_hertz_pressure),
+        TestRange::Moes { m, l, alpha, max_hertz_pressure, viscosity } => {
+            moes_range("study.range", *m, *l, *max_hertz_pressure)?;
+            interval("study.range.alpha", *alpha, 1e-12, 1e-5)?;
+            number("study.range.viscosity", *viscosity, 1e-6, 1e4)
+        }
+    }
+}
+
+fn training(spec: &TrainingSpec) -> Checked {
+    match spec.range {
+        Range::Box { radius, speed, load, alpha, modulus, viscosity } => {
+            quantity_box("study.range", &QuantityBox { radius, speed, load, alpha, modulus, viscosity })?;
+        }
+        Range::Moes { m, l, alpha, max_hertz_pressure, viscosity } => {
+            test_range(&TestRange::Moes { m, l, alpha, max_hertz_pressure, viscosity })?;
+        }
+    }
+    match &spec.plan {
+        Plan::FarthestPoint { snapshots } => count("study.plan.snapshots", *snapshots, 2, 100_000)?,
+        Plan::Grid { nodes } => {
+            let total = nodes.iter().try_fold(1usize, |product, &n| product.checked_mul(n)).unwrap_or(usize::MAX);
+            count("study.plan.nodes (product)", total, 2, 100_000)?;
+        }
+    }
+    count("study.windows (how many)", spec.windows.len(), 1, 64)?;
+    for window in &spec.windows {
+        interval("study.windows.m", window.m, 1e-3, 1e6)?;
+    }
+    number("study.pressure_loss", spec.pressure_loss, 1e-15, 0.5)?;
+    number("study.deformation_loss", spec.deformation_loss, 1e-15, 0.5)?;
+    number("study.rows_per_mode", spec.rows_per_mode, 1.0, 100.0)
+}
+
+fn expectation(index: usize, entry: &Expectation) -> Checked {
+    let field = format!("expect.{index} ({})", entry.name);
+    let limits: &[f64] = match &entry.within {
+        Within::Relative(v) | Within::Absolute(v) => {
+            if entry.value.is_none() {
+                return Err(refuse(field, "needs a `value` to be compared with"));
+            }
+            number(&format!("{field}.within"), *v, 0.0, f64::MAX)?;
+            &[]
+        }
+        Within::AtMost(v) | Within::AtLeast(v) => &[*v],
+        Within::Between(low, high) => &[*low, *high],
+    };
+    let all = limits.iter().copied().chain(entry.value);
+    all.into_iter().try_for_each(|value| number(&field, value, -f64::MAX, f64::MAX))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::At;
+    use super::*;
+
+    #[test]
+    fn numbers_that_make_no_sense_are_refused_by_name() {
+        let good = Scene::at_moes(40.0, 10.0);
+        good.check().unwrap();
+        let message = |scene: Scene| scene.check().unwrap_err().to_string();
+        assert!(message(Scene { at: At::moes(f64::NAN, 10.0), ..good.clone() }).contains("Moes number M"));
+        let bad_grid = Grid::Uniform { dx: f64::INFINITY, domain: (-4.0, 2.0) };
+        assert!(message(Scene { grid: bad_grid, ..good.clone() }).contains("grid.dx"));
+        assert!(message(Scene { study: Study::Point { methods: vec![] }, ..good.clone() }).contains("methods"));
+        let huge = Study::Sweep {
+            over: vec![Axis {
+                vary: super::super::Variable::M,
+                values: Steps::Log { from: 1.0, to: 9.0, n: usize::MAX },
+            }],
+            methods: vec![Method::Full],
+        };
+        assert!(message(Scene { study: huge, ..good.clone() }).contains("study.over.M"));
+        let range = QuantityBox { load: (2.0, f64::NAN), ..QuantityBox::TABLE_3_1 };
+        let study = Study::Trajectory { range, points: 10, methods: vec![Method::Full] };
+        assert!(message(Scene { study, ..good.clone() }).contains("study.range.load.1"));
+        let study = Study::GridStudy { dx: vec![0.02, 0.01, 0.004] };
+        assert!(message(Scene { study, ..good }).contains("constant factor"));
+    }
+}

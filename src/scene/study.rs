@@ -1,0 +1,312 @@
+//! The questions a scene can ask.
+
+use super::{Method, ModelSource};
+use crate::solver::contact::{ContactKind, FilmFormula, OperatingPoint};
+use crate::solver::training::TrainingSpec;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
+
+/// What is asked of a scene's contact.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Study {
+    /// The contact itself.
+    Point {
+        /// How it is solved.
+        methods: Vec<Method>,
+    },
+    /// The contact along one or two varied quantities, the last one fastest; each solve starts from its neighbour.
+    Sweep {
+        /// What is varied.
+        over: Vec<Axis>,
+        /// How each point is solved.
+        methods: Vec<Method>,
+    },
+    /// The test trajectory (3.21) through a box, 0 ≤ c ≤ 2.
+    Trajectory {
+        /// The box.
+        range: QuantityBox,
+        /// Equidistant values of c, both ends counted.
+        points: usize,
+        /// How each point is solved.
+        methods: Vec<Method>,
+    },
+    /// Random points (3.17): how often a method fails, how fast it is, and how far a reduced model lies from full solutions.
+    RandomTest {
+        /// Where the points are drawn.
+        range: TestRange,
+        /// How many.
+        tests: usize,
+        /// Seed of the random numbers: the same seed gives the same points.
+        seed: u64,
+        /// What is tested; a full method starts cold.
+        method: Method,
+        /// Full solutions on the model's own grid are compared at this many of the points.
+        #[serde(default)]
+        compare: usize,
+    },
+    /// The contact on ever finer uniform grids over the scene's domain: observed order and extrapolated value.
+    GridStudy {
+        /// Spacings ΔX, falling by one constant factor; at least three.
+        dx: Vec<f64>,
+    },
+    /// Training of a reduced model.
+    Training(TrainingSpec),
+    /// Full solutions against a published film formula at all pairs of M and L in the default realisation.
+    FormulaComparison {
+        /// The formula.
+        formula: Formula,
+        /// Load numbers.
+        m: Vec<f64>,
+        /// Lubricant numbers.
+        l: Vec<f64>,
+    },
+}
+
+/// One varied quantity.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Axis {
+    /// What is varied.
+    pub vary: Variable,
+    /// Its values.
+    pub values: Steps,
+}
+
+/// A quantity that a sweep can vary.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Variable {
+    /// Load number M; needs an operating point given by Moes numbers.
+    M,
+    /// Lubricant number L; needs an operating point given by Moes numbers.
+    L,
+    /// Reduced radius \[m\].
+    Radius,
+    /// Entrainment speed \[m/s\].
+    Speed,
+    /// Load \[N/m\].
+    Load,
+    /// Reduced modulus \[Pa\].
+    Modulus,
+    /// Viscosity \[Pa·s\].
+    Viscosity,
+    /// Pressure–viscosity coefficient \[1/Pa\].
+    Alpha,
+}
+
+/// Values of a varied quantity.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Steps {
+    /// Equidistant, both ends counted.
+    Linear {
+        /// First value.
+        from: f64,
+        /// Last value.
+        to: f64,
+        /// How many.
+        n: usize,
+    },
+    /// With a constant ratio, both ends counted.
+    Log {
+        /// First value.
+        from: f64,
+        /// Last value.
+        to: f64,
+        /// How many.
+        n: usize,
+    },
+    /// As listed.
+    List(Vec<f64>),
+}
+
+/// Intervals of R, u_m, w and α at fixed E′ and η₀, as Table 3.1 gives them.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct QuantityBox {
+    /// Radius \[m\].
+    pub radius: (f64, f64),
+    /// Speed \[m/s\].
+    pub speed: (f64, f64),
+    /// Load \[N/m\].
+    pub load: (f64, f64),
+    /// Pressure–viscosity coefficient \[1/Pa\].
+    pub alpha: (f64, f64),
+    /// Reduced modulus \[Pa\].
+    pub modulus: f64,
+    /// Viscosity at ambient pressure \[Pa·s\].
+    pub viscosity: f64,
+}
+
+/// Where random points are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum TestRange {
+    /// A box of SI quantities, (3.17) in each.
+    Box(QuantityBox),
+    /// M and L in the default realisation, (3.17) in ln M and L; points beyond the pressure are drawn again.
+    Realisation {
+        /// Load number.
+        m: (f64, f64),
+        /// Lubricant number.
+        l: (f64, f64),
+        /// Largest Hertzian pressure \[Pa\].
+        max_hertz_pressure: f64,
+    },
+    /// M, L and α at R = 3 mm and E′ = 231 GPa, (3.17) in ln M, L and α; points beyond the pressure are drawn again.
+    Moes {
+        /// Load number.
+        m: (f64, f64),
+        /// Lubricant number.
+        l: (f64, f64),
+        /// Pressure–viscosity coefficient \[1/Pa\].
+        alpha: (f64, f64),
+        /// Largest Hertzian pressure \[Pa\].
+        max_hertz_pressure: f64,
+        /// Viscosity at ambient pressure \[Pa·s\].
+        viscosity: f64,
+    },
+}
+
+/// A published film formula.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Formula {
+    /// Moes, central film.
+    Moes,
+    /// Dowson & Higginson, minimum film.
+    DowsonHigginson,
+    /// Dowson & Toyoda, central film.
+    DowsonToyoda,
+}
+
+impl Study {
+    /// The methods it uses, in order.
+    pub fn methods(&self) -> &[Method] {
+        match self {
+            Self::Point { methods } | Self::Sweep { methods, .. } | Self::Trajectory { methods, .. } => methods,
+            Self::RandomTest { method, .. } => std::slice::from_ref(method),
+            Self::GridStudy { .. } | Self::Training(_) | Self::FormulaComparison { .. } => &[],
+        }
+    }
+
+    /// The reduced model whose grid [`Grid::Model`](super::Grid::Model) means: the first one used, else the embedded one.
+    pub fn grid_model(&self) -> ModelSource {
+        self.methods().iter().find_map(Method::model).cloned().unwrap_or_default()
+    }
+}
+
+impl Variable {
+    /// The word that stands for it in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::M => "M",
+            Self::L => "L",
+            Self::Radius => "radius",
+            Self::Speed => "speed",
+            Self::Load => "load",
+            Self::Modulus => "modulus",
+            Self::Viscosity => "viscosity",
+            Self::Alpha => "alpha",
+        }
+    }
+}
+
+impl Steps {
+    /// How many values there are.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Linear { n, .. } | Self::Log { n, .. } => *n,
+            Self::List(values) => values.len(),
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The values; both ends are hit exactly.
+    pub fn values(&self) -> Vec<f64> {
+        let spaced = |from: f64, to: f64, n: usize, at: &dyn Fn(f64) -> f64| {
+            (0..n)
+                .map(|i| match i {
+                    0 => from,
+                    i if i + 1 == n => to,
+                    i => at(i as f64 / (n - 1) as f64),
+                })
+                .collect()
+        };
+        match *self {
+            Self::Linear { from, to, n } => spaced(from, to, n, &|t| from + (to - from) * t),
+            Self::Log { from, to, n } => spaced(from, to, n, &|t| from * (to / from).powf(t)),
+            Self::List(ref values) => values.clone(),
+        }
+    }
+}
+
+impl QuantityBox {
+    /// Table 3.1 of the dissertation.
+    pub const TABLE_3_1: Self = Self {
+        radius: (2e-3, 4e-3),
+        speed: (1.0, 10.0),
+        load: (1e5, 5e5),
+        alpha: (5e-9, 20e-9),
+        modulus: 231e9,
+        viscosity: 0.01,
+    };
+
+    /// The point at fractions (0…1) of radius, speed, load and alpha.
+    pub fn at(&self, [radius, speed, load, alpha]: [f64; 4]) -> OperatingPoint {
+        let between = |(low, high): (f64, f64), t: f64| low + (high - low) * t;
+        OperatingPoint {
+            kind: ContactKind::Line,
+            radius_m: between(self.radius, radius),
+            speed_m_per_s: between(self.speed, speed),
+            load: between(self.load, load),
+            modulus_pa: self.modulus,
+            viscosity_pa_s: self.viscosity,
+            alpha_per_pa: between(self.alpha, alpha),
+        }
+    }
+
+    /// The point of the test trajectory (3.21) at the running parameter c.
+    pub fn trajectory(&self, c: f64) -> OperatingPoint {
+        let wave = |halves: f64| 0.5 + 0.5 * (halves * PI * c).sin();
+        self.at([wave(3.0), wave(4.0), wave(5.0), wave(2.0)])
+    }
+}
+
+impl Formula {
+    /// The solver's name for it.
+    pub fn film_formula(self) -> FilmFormula {
+        match self {
+            Self::Moes => FilmFormula::MoesLine,
+            Self::DowsonHigginson => FilmFormula::DowsonHigginson,
+            Self::DowsonToyoda => FilmFormula::DowsonToyoda,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_trajectory_starts_in_the_middle_and_stays_in_the_box() {
+        let range = QuantityBox::TABLE_3_1;
+        let middle = [3e-3, 5.5, 3e5, 231e9, 0.01, 12.5e-9];
+        assert!(range.trajectory(0.0).quantities().iter().zip(middle).all(|(q, m)| (q / m - 1.0).abs() < 1e-14));
+        for i in 0..=1000 {
+            let point = range.trajectory(i as f64 / 500.0);
+            assert!((2e-3..=4e-3).contains(&point.radius_m) && (1e5..=5e5).contains(&point.load));
+        }
+    }
+
+    #[test]
+    fn steps_hit_both_ends() {
+        assert_eq!(Steps::Linear { from: 1.0, to: 2.0, n: 3 }.values(), [1.0, 1.5, 2.0]);
+        let log = Steps::Log { from: 1.0, to: 100.0, n: 3 }.values();
+        assert!(log[0] == 1.0 && (log[1] - 10.0).abs() < 1e-12 && log[2] == 100.0);
+        assert_eq!(Steps::Linear { from: 7.0, to: 9.0, n: 1 }.values(), [7.0]);
+    }
+}

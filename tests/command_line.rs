@@ -1,0 +1,296 @@
+//! The built program as a user meets it: JSON contract, exit codes, sentences.
+
+use serde_json::Value;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+const TABLE_2_1: [&str; 12] = [
+    "--radius",
+    "0.0225",
+    "--speed",
+    "5.0365",
+    "--load",
+    "646110",
+    "--modulus",
+    "287.8e9",
+    "--viscosity",
+    "0.004",
+    "--alpha",
+    "22e-9",
+];
+
+fn program(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_ehl-explorer")).args(arguments).output().unwrap()
+}
+
+fn scratch(name: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("ehl-command-line-{}-{name}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn json(output: &Output) -> Value {
+    let text = String::from_utf8(output.stdout.clone()).unwrap();
+    assert_eq!(text.lines().count(), 1, "{text}");
+    serde_json::from_str(&text).unwrap()
+}
+
+/// Exit code 2, nothing on standard output, one sentence on standard error that holds `words`.
+fn assert_refused(arguments: &[&str], words: &str) {
+    let output = program(arguments);
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {error}");
+    assert!(output.stdout.is_empty(), "{arguments:?}");
+    assert_eq!(error.lines().count(), 1, "{arguments:?}: {error}");
+    assert!(!error.contains("panicked"), "{arguments:?}: {error}");
+    assert!(error.contains(words), "{arguments:?}: {error}");
+}
+
+#[test]
+fn solve_json_has_the_fields_of_the_contract_and_no_others() {
+    let output = program(&[&["solve", "--json"], &TABLE_2_1[..]].concat());
+    assert_eq!(output.status.code(), Some(0));
+    assert!(output.stderr.is_empty());
+    let object = json(&output);
+    let mut names: Vec<&str> = object.as_object().unwrap().keys().map(String::as_str).collect();
+    let mut wanted = vec![
+        "contact",
+        "method",
+        "converged",
+        "si",
+        "moes",
+        "hertz",
+        "grid",
+        "H_c",
+        "H_min",
+        "X_H_min",
+        "P_c",
+        "P_max",
+        "X_P_max",
+        "H_0",
+        "h_c_m",
+        "h_min_m",
+        "traction",
+        "load_residual",
+        "residual_norm",
+        "newton_iterations",
+        "linear_iterations",
+        "wall_s",
+    ];
+    names.sort_unstable();
+    wanted.sort_unstable();
+    assert_eq!(names, wanted);
+    assert_eq!(object["si"]["radius"], 0.0225);
+    assert_eq!(object["contact"], "line");
+    assert_eq!(object["grid"]["kind"], "uniform");
+    assert_eq!(object["grid"]["nx"], 1201);
+    assert_eq!(object["grid"]["ny"], 1);
+    assert_eq!(object["grid"]["dofs"], 1200);
+    assert!((object["moes"]["M"].as_f64().unwrap() - 40.0).abs() < 1e-3);
+    assert!((object["hertz"]["p_h_pa"].as_f64().unwrap() / 1.1469e9 - 1.0).abs() < 1e-4);
+    let h_c = object["H_c"].as_f64().unwrap();
+    assert!((h_c / 0.039_972_008_944 - 1.0).abs() < 1e-6);
+    let scale = object["hertz"]["a_m"].as_f64().unwrap().powi(2) / 0.0225;
+    assert!((object["h_c_m"].as_f64().unwrap() / (h_c * scale) - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn moes_numbers_two_bodies_and_overrides_are_printed_back() {
+    let object = json(&program(&["solve", "--json", "--moes-m", "40", "--moes-l", "10", "--grid", "graded"]));
+    assert_eq!(object["grid"]["kind"], "graded");
+    assert_eq!(object["si"]["radius"], 0.003);
+    assert!((object["moes"]["L"].as_f64().unwrap() - 10.0).abs() < 1e-9);
+    let bodies = ["--e1", "206e9", "--nu1", "0.3", "--e2", "206e9", "--nu2", "0.3"];
+    let object = json(&program(
+        &[&["solve", "--json", "--moes-m", "40", "--moes-l", "5", "--load", "2e5"], &bodies[..]].concat(),
+    ));
+    assert!((object["si"]["modulus"].as_f64().unwrap() / 226.373_626e9 - 1.0).abs() < 1e-6);
+    assert_eq!(object["si"]["load"], 2e5);
+}
+
+#[test]
+fn srr_moves_only_the_traction_and_beyond_3_2_gpa_there_is_a_warning() {
+    let point = ["solve", "--json", "--moes-m", "10", "--moes-l", "3"];
+    let still = json(&program(&point));
+    let sliding = json(&program(&[&point[..], &["--srr", "-0.5"]].concat()));
+    assert_eq!(still["traction"], 0.0);
+    assert!(sliding["traction"].as_f64().unwrap() < 0.0);
+    assert_eq!(still["H_c"], sliding["H_c"]);
+    assert!(still.get("warning").is_none());
+    let heavy = json(&program(&["solve", "--json", "--moes-m", "300", "--moes-l", "10", "--grid", "graded"]));
+    assert!(heavy["warning"].as_str().unwrap().contains("3.2 GPa"));
+}
+
+#[test]
+fn bad_points_are_refused_with_one_sentence() {
+    for bad in ["nan", "inf", "0", "-1", "1e30"] {
+        for option in ["--radius", "--speed", "--load", "--modulus", "--viscosity", "--alpha"] {
+            let mut arguments: Vec<&str> = [&["solve"], &TABLE_2_1[..]].concat();
+            let place = arguments.iter().position(|&a| a == option).unwrap();
+            arguments[place + 1] = bad;
+            assert_refused(&arguments, option.trim_start_matches('-'));
+        }
+        assert_refused(&["solve", "--moes-m", "40", "--moes-l", "10", "--viscosity", bad], "viscosity");
+        assert_refused(&["solve", "--moes-m", bad, "--moes-l", "10"], "Moes number M");
+        assert_refused(&["solve", "--moes-m", "10", "--moes-l", bad], "Moes number L");
+    }
+}
+
+#[test]
+fn bad_options_are_refused_with_one_sentence() {
+    let moes = ["solve", "--moes-m", "40", "--moes-l", "10"];
+    for (more, words) in [
+        (&["--contact", "point"][..], "point"),
+        (&["--cavitation", "elrod"], "penalty"),
+        (&["--density", "tait"], "shear-thinning"),
+        (&["--pressure-viscosity", "doolittle"], "shear-thinning"),
+        (&["--density", "foam"], "dowson-higginson"),
+        (&["--lubricant", "squalane-pip"], "shear-thinning"),
+        (&["--lubricant", "honey"], "roelands-oil"),
+        (&["--npr", "0.2"], "--npr"),
+        (&["--srr", "nan"], "--srr"),
+        (&["--dy", "0.1"], "--dy"),
+        (&["--domain=-4,2,-2"], "--domain"),
+        (&["--domain=4"], "--domain"),
+        (&["--domain=-1,2"], "domain"),
+        (&["--domain=nan,2"], "domain"),
+        (&["--dx", "0"], "nodes"),
+        (&["--dx", "nan"], "nodes"),
+        (&["--dx", "1e-9"], "nodes"),
+        (&["--grid", "graded", "--dx", "0.01"], "--dx"),
+        (&["--grid", "hexagonal"], "uniform"),
+        (&["--method", "reduced", "--dx", "0.01"], "--dx"),
+        (&["--method", "reduced", "--grid", "uniform"], "--grid model"),
+        (&["--rom", "x.rom"], "--rom"),
+        (&["--method", "reduced", "--rom", "no/such.rom"], "no/such.rom"),
+        (&["--e1", "2e11"], "--nu1"),
+        (&["--speed", "1", "--load", "1e5", "--radius", "0.01"], "radius, speed and load"),
+        (&["--profiles", "/no/such/folder/p.csv"], "/no/such/folder/p.csv"),
+        (&["--wings", "2"], "--wings"),
+        (&["--speed", "fast"], "fast"),
+    ] {
+        assert_refused(&[&moes[..], more].concat(), words);
+    }
+    assert_refused(&["solve"], "--radius");
+    assert_refused(&["solve", "--moes-m", "3"], "--moes-l");
+    assert_refused(&[&["solve"], &TABLE_2_1[..10]].concat(), "--alpha");
+    assert_refused(&["fly"], "commands are solve");
+    assert_refused(&["run"], "SCENE.ron");
+    assert_refused(&["info", "no/such.rom"], "no/such.rom");
+}
+
+#[test]
+fn bad_scenes_are_refused_with_one_sentence() {
+    let folder = scratch("bad-scenes");
+    let write = |name: &str, text: &str| {
+        let path = folder.join(name);
+        std::fs::write(&path, text).unwrap();
+        path.to_string_lossy().into_owned()
+    };
+    let unknown = write("unknown.ron", "Scene(\n  version: 1,\n  titel: \"x\",\n  study: Point(methods: [Full]),\n)");
+    assert_refused(&["run", &unknown], "line 3");
+    assert_refused(&[&unknown], "line 3");
+    let newer = write("newer.ron", "Scene(version: 99, title: \"x\", dream: Deep(3))");
+    assert_refused(&["run", &newer], "99");
+    let nan =
+        write("nan.ron", "Scene(version: 1, title: \"x\", at: Moes(m: NaN, l: 1), study: Point(methods: [Full]))");
+    assert_refused(&["run", &nan], "Moes number M");
+    assert_refused(&["run", "no/such/scene.ron"], "no/such/scene.ron");
+    let binary = folder.join("binary.ron");
+    std::fs::write(&binary, [0u8, 159, 146, 150]).unwrap();
+    assert_refused(&["run", &binary.to_string_lossy()], "UTF-8");
+    let good = write("good.ron", "Scene(version: 1, title: \"x\", study: Point(methods: [Full]))");
+    assert_refused(&["run", &good, "--out", "/proc/none"], "/proc/none");
+    assert_refused(&["train", &good, "--out", "x.rom"], "Training");
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn run_gives_one_object_per_scene_and_exit_1_when_an_expectation_falls_short() {
+    let folder = scratch("run");
+    let scene = |name: &str, value: &str| {
+        let text = format!(
+            "Scene(version: 1, title: \"{name}\", at: Moes(m: 20, l: 5), grid: Graded, study: Point(methods: [Full]), \
+             expect: [(name: \"moes.M\", value: {value}, within: Relative(1e-6), from: \"itself\")])"
+        );
+        let path = folder.join(format!("{name}.ron"));
+        std::fs::write(&path, text).unwrap();
+        path.to_string_lossy().into_owned()
+    };
+    let (good, bad) = (scene("good", "20"), scene("bad", "21"));
+    let out = folder.join("out");
+    let output = program(&["run", &good, "--json", "--out", &out.to_string_lossy()]);
+    assert_eq!(output.status.code(), Some(0));
+    let object = json(&output);
+    assert_eq!(object["title"], "good");
+    assert_eq!(object["expectations"][0]["verdict"], "ok");
+    assert!(object["wall_s"].as_f64().unwrap() > 0.0);
+    let profile = std::fs::read_to_string(out.join("good.profile_full.csv")).unwrap();
+    assert!(profile.starts_with("X,Y,P,H,x_m,y_m,p_pa,h_m\n") && profile.lines().count() > 500);
+    assert!(out.join("good.json").is_file());
+    let output = program(&["run", &good, &bad, "--json"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(String::from_utf8(output.stdout).unwrap().lines().count(), 2);
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn sweep_writes_a_table() {
+    let folder = scratch("sweep");
+    let csv = folder.join("sweep.csv");
+    let csv_name = csv.to_string_lossy();
+    let grid = ["--grid", "uniform", "--dx", "0.02", "--csv", &csv_name];
+    let output =
+        program(&[&["sweep", "m=10:40:3:log", "l=3:6:2", "--moes-m", "1", "--moes-l", "1"], &grid[..]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = std::fs::read_to_string(&csv).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines.len(), 7);
+    assert!(lines[0].starts_with("m,l,si.radius"));
+    assert!(lines[3].starts_with("20") && lines[6].starts_with("40,6,"));
+    // Both Moes numbers may come from the sweep alone.
+    let output = program(&["sweep", "m=10:40:2", "--moes-l", "5", "--dx", "0.02"]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(String::from_utf8(output.stdout).unwrap().lines().count(), 3);
+    for (range, words) in [
+        ("m", "NAME=FROM:TO:N"),
+        ("m=1:2", "NAME=FROM:TO:N"),
+        ("m=1:nan:3", "finite"),
+        ("m=-1:2:3:log", "positive"),
+        ("m=1:2:99999999", "100000"),
+        ("mass=1:2:3", "moes-m"),
+        ("m=-5:2:3", "Moes number M"),
+    ] {
+        assert_refused(&["sweep", range, "--moes-l", "5"], words);
+    }
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn help_names_every_command_and_lubricant() {
+    let text = |arguments: &[&str]| {
+        let output = program(arguments);
+        assert_eq!(output.status.code(), Some(0));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let help = text(&["--help"]);
+    assert!(["solve", "sweep", "run", "train", "bench", "info"].iter().all(|command| help.contains(command)));
+    let help = text(&["solve", "--help"]);
+    assert!(help.contains("roelands-oil") && help.contains("barus-oil"));
+    assert!(text(&["--version"]).contains(env!("CARGO_PKG_VERSION")));
+}
+
+#[test]
+#[cfg(unix)]
+fn a_reader_that_leaves_early_is_no_panic() {
+    use std::process::Stdio;
+    let mut child = Command::new(env!("CARGO_BIN_EXE_ehl-explorer"))
+        .args(["sweep", "m=10:40:40", "--moes-l", "5", "--dx", "0.02", "--json"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert!(!String::from_utf8_lossy(&output.stderr).contains("panicked"));
+}

@@ -1,0 +1,120 @@
+//! The embedded reduced model against full solutions on its own grid, across window edges, and as a dragged slider meets it.
+
+use ehl_explorer::harness::model_file::embedded;
+use ehl_explorer::solver::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
+use ehl_explorer::solver::full::{FullSolver, Solution, Start};
+use ehl_explorer::solver::lubricant::Lubricant;
+use ehl_explorer::solver::reduced::{Online, ReducedOptions, Trust};
+use std::sync::Arc;
+
+fn at(m: f64, l: f64) -> OperatingPoint {
+    si_from_moes(&MoesRequest::new(ContactKind::Line, m, l)).unwrap()
+}
+
+fn online() -> Online {
+    Online::new(embedded().unwrap(), ReducedOptions::default())
+}
+
+/// Greatest difference of two pressures, the second interpolated linearly at the nodes of the first.
+fn pressure_difference(a: &Solution, b: &Solution) -> f64 {
+    let other = |x: f64| {
+        let k = b.x.partition_point(|&v| v < x);
+        if k == 0 || k == b.x.len() {
+            return 0.0;
+        }
+        let t = (x - b.x[k - 1]) / (b.x[k] - b.x[k - 1]);
+        (1.0 - t) * b.pressure[k - 1] + t * b.pressure[k]
+    };
+    a.x.iter().zip(&a.pressure).map(|(&x, p)| (p - other(x)).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn film_and_pressure_do_not_jump_across_a_windows_edge() {
+    let mut online = online();
+    let model = Arc::clone(&online.model);
+    for edge in model.windows[..model.windows.len() - 1].iter().map(|w| w.m.1) {
+        for l in [1.0, 2.5, 5.0, 8.0, 12.0, 16.0, 20.0] {
+            let (below, above) = (at(edge * (1.0 - 1e-9), l), at(edge * (1.0 + 1e-9), l));
+            let below = online.solve(&below, Lubricant::default()).unwrap();
+            let above = online.solve(&above, Lubricant::default()).unwrap();
+            assert_ne!(below.window, above.window);
+            let (below, above) = (online.reconstruct(&below).unwrap(), online.reconstruct(&above).unwrap());
+            let jump = (below.scalars.h_c / above.scalars.h_c - 1.0).abs();
+            assert!(jump < 1e-3, "H_c jumps by {jump:.1e} at M = {edge}, L = {l}");
+            let jump = pressure_difference(&below, &above);
+            assert!(jump < 0.01, "P jumps by {jump:.1e} at M = {edge}, L = {l}");
+        }
+    }
+}
+
+#[test]
+fn corners_of_the_range_agree_with_full_solutions() {
+    let mut online = online();
+    for (m, l) in
+        [(2.0, 1.0), (2.0, 20.0), (500.0, 1.0), (500.0, 2.8), (63.0, 20.0), (8.9, 20.0), (9.1, 1.0), (39.0, 10.0)]
+    {
+        let point = at(m, l);
+        let reduced = online.solve(&point, Lubricant::default()).unwrap();
+        assert_eq!(reduced.trust, Trust::Trained, "M = {m}, L = {l}");
+        let picture = online.reconstruct(&reduced).unwrap();
+        let mut solver = FullSolver::on(Arc::clone(&online.model.windows[reduced.window].grid));
+        let full = solver.solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+        assert!(full.converged());
+        let error = (picture.scalars.h_c / full.scalars.h_c - 1.0).abs();
+        // The film of M = 500 is 7e-4 thick: pressures must be right to 1e-5 there.
+        let bound = if m > 300.0 { 3e-3 } else { 5e-4 };
+        assert!(error < bound, "H_c differs by {error:.1e} at M = {m}, L = {l}");
+        assert!(picture.scalars.load_residual < 1e-12);
+        assert!((picture.scalars.h_0 - full.scalars.h_0).abs() < 1e-3);
+    }
+}
+
+#[test]
+fn dragging_gives_the_same_picture_as_jumping() {
+    let (mut dragged, mut fresh) = (online(), online());
+    let mut iterations = 0;
+    for k in 0..120 {
+        let point = at(3.0 * 1.04f64.powi(k), 4.0 + 0.1 * f64::from(k));
+        let a = dragged.solve(&point, Lubricant::default()).unwrap();
+        fresh.forget();
+        let b = fresh.solve(&point, Lubricant::default()).unwrap();
+        iterations += a.iterations;
+        let (a, b) = (dragged.scalars(&a).unwrap(), fresh.scalars(&b).unwrap());
+        assert!((a.h_c / b.h_c - 1.0).abs() < 1e-8);
+    }
+    assert!(iterations <= 120 * 5, "{iterations} iterations for 120 pictures");
+}
+
+#[test]
+fn outside_its_range_the_model_still_solves_the_given_point_and_says_that_it_was_not_trained_there() {
+    let mut online = online();
+    let point = OperatingPoint { viscosity_pa_s: 0.02, ..at(40.0, 10.0) };
+    let solved = online.solve(&point, Lubricant::default()).unwrap();
+    let Trust::Outside(why) = &solved.trust else { panic!("must not claim to be trained") };
+    assert!(why.contains("viscosity"), "{why}");
+    assert_eq!(solved.point, point);
+    let heavy = at(200.0, 20.0);
+    if let Ok(solved) = online.solve(&heavy, Lubricant::default()) {
+        assert!(matches!(solved.trust, Trust::Outside(why) if why.contains("p_H")));
+    }
+}
+
+#[test]
+fn fewer_modes_need_no_training_and_lose_accuracy_gradually() {
+    let model = embedded().unwrap();
+    let point = at(20.0, 8.0);
+    let film = |modes, deformation| {
+        let options =
+            ReducedOptions { pressure_modes: modes, deformation_modes: deformation, ..ReducedOptions::default() };
+        let mut online = Online::new(Arc::clone(&model), options);
+        let solved = online.solve(&point, Lubricant::default()).unwrap();
+        online.scalars(&solved).unwrap().h_c
+    };
+    let exact = film(None, None);
+    let error = |modes, deformation| (film(modes, deformation) / exact - 1.0).abs();
+    assert!(error(Some(70), None) < 1e-3);
+    assert!(error(Some(45), None) < 5e-2);
+    assert!(error(Some(45), None) > error(Some(80), None));
+    // The dissertation's V_δ V_δᵀ K V_p is the same solution when V_δ keeps enough.
+    assert!(error(None, Some(60)) < 1e-3);
+}

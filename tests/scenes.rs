@@ -1,0 +1,106 @@
+//! Every scene of the repository: it parses, survives writing, and the quick ones give what they expect.
+
+use ehl_explorer::harness::{SceneOutcome, Workbench, run_scene};
+use ehl_explorer::scene::{Method, ModelSource, Scene, Study};
+use std::path::{Path, PathBuf};
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes")
+}
+
+fn all() -> Vec<(String, Scene)> {
+    let mut scenes: Vec<(String, Scene)> = std::fs::read_dir(folder())
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "ron"))
+        .map(|path| {
+            let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+            (name, Scene::read(&path).unwrap_or_else(|error| panic!("{error}")))
+        })
+        .collect();
+    scenes.sort_by(|a, b| a.0.cmp(&b.0));
+    scenes
+}
+
+fn run(name: &str) -> SceneOutcome {
+    let scene = Scene::read(&folder().join(format!("{name}.ron"))).unwrap();
+    run_scene(&scene, &mut Workbench::new(folder()), &()).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+fn assert_passes(name: &str) {
+    let outcome = run(name);
+    let short: Vec<_> = outcome.verdicts.iter().filter(|verdict| !verdict.holds).collect();
+    assert!(short.is_empty(), "{name}: {short:?}");
+    assert!(outcome.converged && outcome.passed(), "{name}: {:?}", outcome.warnings);
+}
+
+#[test]
+fn every_scene_survives_writing() {
+    let scenes = all();
+    assert!(scenes.len() >= 17);
+    for (name, scene) in scenes {
+        let text = scene.to_ron().unwrap();
+        assert_eq!(Scene::from_ron(&text).unwrap_or_else(|error| panic!("{name}: {error}\n{text}")), scene, "{name}");
+    }
+}
+
+#[test]
+fn scenes_that_need_no_model_give_what_they_expect() {
+    let needs_model = |method: &Method| method.model().is_some();
+    let mut run_count = 0;
+    for (name, scene) in all() {
+        let quick = matches!(scene.study, Study::Point { .. } | Study::GridStudy { .. });
+        if quick && !scene.study.methods().iter().any(needs_model) {
+            assert_passes(&name);
+            run_count += 1;
+        }
+    }
+    assert!(run_count >= 9);
+}
+
+#[test]
+fn full_solutions_lie_within_5_percent_of_moes_formula() {
+    assert_passes("formula_comparison");
+}
+
+#[test]
+fn the_whole_plane_of_m_and_l_converges() {
+    assert_passes("convergence_default_realisation");
+}
+
+#[test]
+fn cold_solves_converge_at_random_points_of_table_3_1() {
+    let mut scene = Scene::read(&folder().join("convergence_table_3_1.ron")).unwrap();
+    if let Study::RandomTest { tests, .. } = &mut scene.study {
+        *tests = 150;
+    }
+    let outcome = run_scene(&scene, &mut Workbench::new(folder()), &()).unwrap();
+    // Times are the business of `bench`; a test only counts.
+    assert_eq!(outcome.value("failures", None), Some(0.0));
+    assert!(outcome.value("newton_max", None).unwrap() <= 60.0);
+}
+
+#[test]
+fn the_first_look_shows_a_trained_contact() {
+    assert_passes("first_look");
+}
+
+#[test]
+fn the_embedded_model_agrees_with_full_solutions() {
+    let mut scene = Scene::read(&folder().join("random_test_embedded.ron")).unwrap();
+    if let Study::RandomTest { tests, compare, .. } = &mut scene.study {
+        (*tests, *compare) = (500, 60);
+    }
+    let outcome = run_scene(&scene, &mut Workbench::new(folder()), &()).unwrap();
+    assert_eq!(outcome.value("failures", None), Some(0.0));
+    assert!(outcome.value("H_c_error_max", None).unwrap() <= 2e-2);
+}
+
+#[test]
+fn a_model_file_that_is_missing_is_named() {
+    let mut scene = Scene::at_moes(40.0, 10.0);
+    scene.study =
+        Study::Point { methods: vec![Method::Reduced { model: ModelSource::File("no/such/file.rom".into()) }] };
+    let error = run_scene(&scene, &mut Workbench::new(""), &()).unwrap_err().to_string();
+    assert!(error.contains("no/such/file.rom"), "{error}");
+}
