@@ -65,8 +65,10 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
         }),
     )
     .map_err(|error| {
+        let error = error.to_string();
+        let reason = error.rsplit(": ").next().unwrap_or(&error).trim_end_matches('.');
         format!(
-            "no window can be opened here ({error}); without a display use the headless commands \
+            "no window can be opened here ({reason}); without a display use the headless commands \
              `ehl-explorer solve`, `ehl-explorer run` or `ehl-explorer bench`"
         )
     })
