@@ -15,6 +15,12 @@ pub struct Entries {
 }
 
 impl Entries {
+    /// Forgets what was typed and refused: the values have moved on.
+    pub fn clear(&mut self) {
+        self.buffers.clear();
+        self.messages.clear();
+    }
+
     /// Records why an entry was refused, or that it was accepted.
     pub fn answer(&mut self, name: &'static str, result: Result<(), String>) {
         match result {
@@ -26,11 +32,6 @@ impl Entries {
                 self.messages.insert(name, message);
             }
         }
-    }
-
-    /// The message about a field.
-    pub fn message(&self, name: &str) -> Option<&str> {
-        self.messages.get(name).map(String::as_str)
     }
 
     /// Shows the message about a field, if there is one.
@@ -53,11 +54,16 @@ pub fn warning_ui(ui: &mut Ui, message: &str) {
     ui.label(RichText::new(sentence(message)).small().color(color));
 }
 
-/// First letter large, a full stop at the end.
+/// First letter large (unless it is a symbol), a full stop at the end.
 pub fn sentence(text: &str) -> String {
-    let mut chars = text.trim().chars();
-    let mut out: String = chars.next().map(|c| c.to_uppercase().collect()).unwrap_or_default();
-    out.extend(chars);
+    let text = text.trim();
+    let mut chars = text.chars();
+    let first = chars.next();
+    let is_word = chars.clone().next().is_some_and(char::is_alphabetic);
+    let mut out = match first {
+        Some(letter) if is_word => letter.to_uppercase().chain(chars).collect(),
+        _ => text.to_owned(),
+    };
     if !out.ends_with(['.', '!', '?']) {
         out.push('.');
     }
@@ -180,7 +186,18 @@ pub fn heading(ui: &mut Ui, text: &str) {
     ui.label(RichText::new(text).strong().size(14.5));
 }
 
+/// Width of the column of names, so that values line up from group to group.
+pub const NAME_WIDTH: f32 = 104.0;
+
 /// A label made of a laid-out name, explained on hover.
 pub fn explained(ui: &mut Ui, job: LayoutJob, tooltip: &str) -> Response {
     ui.label(job).on_hover_text(tooltip)
+}
+
+/// The name of a row, as wide in every group.
+pub fn row_name(ui: &mut Ui, job: LayoutJob, tooltip: &str) {
+    ui.horizontal(|ui| {
+        ui.set_min_width(NAME_WIDTH);
+        explained(ui, job, tooltip);
+    });
 }

@@ -1,6 +1,7 @@
 //! What the user edits and what a file holds: the operating point, what follows when M or L moves, the lubricant, the truncation.
 //! Undo and redo are snapshots of it.
 
+use crate::scene::{At, Scene};
 use crate::solver::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::full::Problem;
 use crate::solver::lubricant::Lubricant;
@@ -131,6 +132,8 @@ pub struct Document {
     pub slide_to_roll_ratio: f64,
     /// Newtonian plateau ratio NPR.
     pub newtonian_plateau_ratio: f64,
+    /// The scene it was opened from: its study and expectations are kept for saving.
+    pub scene: Option<Scene>,
 }
 
 /// M and L that a new document and a double click on a slider go to.
@@ -150,6 +153,7 @@ impl Default for Document {
             projected_deformation: false,
             slide_to_roll_ratio: 0.0,
             newtonian_plateau_ratio: 1.0,
+            scene: None,
         }
     }
 }
@@ -243,7 +247,41 @@ impl Document {
     }
 }
 
-/// Reads a document.
+/// The document of a scene; everything the explorer does not edit stays with it.
+///
+/// # Errors
+/// A sentence with line and column, or what was refused.
+pub fn document_from_scene(text: &str) -> Result<Document, String> {
+    let scene = Scene::from_ron(text).map_err(|e| e.to_string())?;
+    let point = scene.point().map_err(|e| e.to_string())?;
+    let document = Document {
+        title: scene.title.clone(),
+        point,
+        lubricant: scene.lubricant,
+        scene: Some(scene),
+        ..Document::default()
+    };
+    document.check()?;
+    Ok(document)
+}
+
+/// A document as a scene. What was opened and not changed is written as it was.
+///
+/// # Errors
+/// A sentence; in practice never.
+pub fn document_to_scene(document: &Document) -> Result<String, String> {
+    let moes = document.point.moes();
+    let mut scene = document.scene.clone().unwrap_or_else(|| Scene::at_moes(moes.m, moes.l));
+    scene.title.clone_from(&document.title);
+    scene.lubricant = document.lubricant;
+    if scene.point() != Ok(document.point) {
+        let [radius, speed, load, modulus, viscosity, alpha] = document.point.quantities();
+        scene.at = At::Si { radius, speed, load, modulus, viscosity, alpha };
+    }
+    scene.to_ron().map_err(|e| e.to_string())
+}
+
+/// Reads a document, as sessions hold it.
 ///
 /// # Errors
 /// A sentence with line and column, or what was refused.
@@ -253,7 +291,7 @@ pub fn document_from_text(text: &str) -> Result<Document, String> {
     Ok(document)
 }
 
-/// Writes a document.
+/// Writes a document with everything a session keeps.
 ///
 /// # Errors
 /// A sentence; in practice never.
@@ -278,10 +316,10 @@ impl History {
         *self = Self { committed: Some(document.clone()), ..Self::default() };
     }
 
-    /// Records the document when it differs from the last recorded one.
-    pub fn commit(&mut self, document: &Document) {
+    /// Records the document when it differs from the last recorded one, and tells whether it did.
+    pub fn commit(&mut self, document: &Document) -> bool {
         match &self.committed {
-            Some(last) if last == document => {}
+            Some(last) if last == document => return false,
             Some(last) => {
                 self.undo.push(last.clone());
                 if self.undo.len() > HISTORY_LIMIT {
@@ -292,6 +330,7 @@ impl History {
             }
             None => self.committed = Some(document.clone()),
         }
+        true
     }
 
     /// The document before the last edit.
@@ -346,6 +385,20 @@ mod tests {
         assert_eq!(document_from_text(&document_to_text(&document).unwrap()).unwrap(), document);
         assert!(document_from_text("(titel: \"x\")").unwrap_err().contains("titel"));
         assert!(document_from_text("(pressure_loss: Some(2.0))").is_err());
+    }
+
+    #[test]
+    fn a_scene_keeps_what_the_explorer_does_not_edit() {
+        let text = include_str!("../../scenes/table_2_1.ron");
+        let mut document = document_from_scene(text).unwrap();
+        let before = Scene::from_ron(text).unwrap();
+        assert_eq!(Scene::from_ron(&document_to_scene(&document).unwrap()).unwrap(), before);
+        document.set_moes(Moes { m: 55.0, l: 8.0 }).unwrap();
+        let after = Scene::from_ron(&document_to_scene(&document).unwrap()).unwrap();
+        assert_eq!((after.study, after.expect), (before.study, before.expect));
+        assert_eq!(after.at, document_from_scene(&document_to_scene(&document).unwrap()).unwrap().scene.unwrap().at);
+        let session = document_from_text(&document_to_text(&document).unwrap()).unwrap();
+        assert_eq!(session, document);
     }
 
     #[test]

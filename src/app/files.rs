@@ -1,7 +1,7 @@
 //! Opening, saving and exporting: never blocks the window, never overwrites what the user did not name, never loses work unasked.
 
 use super::controls::message_ui;
-use super::document::{Document, document_from_text, document_to_text};
+use super::document::{Document, document_from_scene, document_to_scene};
 use super::state::State;
 use egui::{Context, Id, Modal, RichText, TextEdit, Ui, ViewportCommand};
 use std::io::Write as _;
@@ -161,7 +161,7 @@ impl State {
     }
 
     fn save_to(&mut self, path: &Path) -> Result<(), String> {
-        let text = document_to_text(&self.document)?;
+        let text = document_to_scene(&self.document)?;
         write_atomically(path, &text)?;
         self.files.saved = self.document.clone();
         self.files.path = Some(path.to_owned());
@@ -390,7 +390,7 @@ fn read_scene(path: &Path) -> Result<Document, String> {
         return Err(format!("{shown} is no scene: a file of at most 8 MB is expected"));
     }
     let text = std::fs::read_to_string(path).map_err(|e| format!("{shown} cannot be read: {e}"))?;
-    document_from_text(&text).map_err(|e| format!("{shown}: {e}"))
+    document_from_scene(&text).map_err(|e| format!("{shown}: {e}"))
 }
 
 /// Writes the whole file or leaves what was there.

@@ -65,8 +65,10 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
         }),
     )
     .map_err(|error| {
+        let error = error.to_string();
+        let reason = error.rsplit(": ").next().unwrap_or(&error).trim_end_matches('.');
         format!(
-            "no window can be opened here ({error}); without a display use the headless commands \
+            "no window can be opened here ({reason}); without a display use the headless commands \
              `ehl-explorer solve`, `ehl-explorer run` or `ehl-explorer bench`"
         )
     })
@@ -147,8 +149,14 @@ impl Explorer {
             Command::Save => state.save(ctx),
             Command::SaveAs => state.ask_path(ctx, Purpose::Save),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
-            Command::Undo => state.history.undo(&mut state.document),
-            Command::Redo => state.history.redo(&mut state.document),
+            Command::Undo => {
+                state.history.undo(&mut state.document);
+                state.entries.clear();
+            }
+            Command::Redo => {
+                state.history.redo(&mut state.document);
+                state.entries.clear();
+            }
             Command::CopyReadouts => ctx.copy_text(export::readouts_table(state)),
             Command::Pin => state.pin(),
             Command::Unpin => state.pins.clear(),
@@ -223,6 +231,6 @@ impl eframe::App for Explorer {
     }
 
     fn auto_save_interval(&self) -> std::time::Duration {
-        std::time::Duration::from_secs(10)
+        std::time::Duration::from_secs(state::AUTO_SAVE_S)
     }
 }

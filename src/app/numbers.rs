@@ -17,12 +17,14 @@ pub fn digits(value: f64, count: usize) -> String {
         return "0".to_owned();
     }
     let count = count.max(1);
-    let exponent = value.abs().log10().floor() as i32;
+    // The exponent after rounding: 9.99999 is 10.00, not 10.000.
+    let scientific = format!("{value:.*e}", count - 1);
+    let exponent = scientific.rsplit('e').next().and_then(|e| e.parse::<i32>().ok()).unwrap_or(0);
     let text = if (-4..=5).contains(&exponent) {
         let decimals = (count as i32 - 1 - exponent).max(0) as usize;
         format!("{value:.decimals$}")
     } else {
-        format!("{value:.*e}", count - 1)
+        scientific
     };
     text.replace('-', "−")
 }
@@ -111,6 +113,7 @@ mod tests {
         for (value, text) in [
             (0.039972, "0.03997"),
             (12.3456, "12.35"),
+            (9.999_99, "10.00"),
             (-1.0, "−1.000"),
             (123456.0, "123456"),
             (1.5e-7, "1.500e−7"),

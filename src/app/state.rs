@@ -16,6 +16,8 @@ use std::time::Instant;
 
 /// Seconds of rest after which a verification starts by itself.
 pub const REST_S: f64 = 0.25;
+/// Seconds between two writes of the session.
+pub const AUTO_SAVE_S: u64 = 10;
 /// Curves that can be pinned at once.
 pub const MOST_PINS: usize = 8;
 
@@ -340,8 +342,9 @@ impl State {
     /// Starts the verification when the sliders have rested, and records finished gestures. Called last in every frame.
     pub fn settle(&mut self, ctx: &Context) {
         let gesture = ctx.input(|i| i.pointer.any_down());
-        if !gesture {
-            self.history.commit(&self.document);
+        if !gesture && self.history.commit(&self.document) {
+            // The session is written with the next frame after its interval: see to it that there is one.
+            ctx.request_repaint_after_secs(AUTO_SAVE_S as f32 + 1.0);
         }
         if self.verify_due {
             let rest = ctx.input(|i| i.time) - self.changed_at;

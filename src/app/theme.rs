@@ -5,15 +5,16 @@ use egui::text::{LayoutJob, TextFormat};
 use egui::{Align, Color32, Context, CornerRadius, FontId, Stroke, TextStyle, Theme, Ui, Visuals};
 
 /// Width of a live curve.
-pub const LIVE_WIDTH: f32 = 2.6;
+pub const LIVE_WIDTH: f32 = 3.0;
 /// Width of a full solution drawn over a reduced one.
-pub const FULL_WIDTH: f32 = 1.2;
+pub const FULL_WIDTH: f32 = 1.1;
 /// Width of reference and pinned curves.
 pub const THIN_WIDTH: f32 = 1.2;
 
 /// The colours of one theme.
 #[derive(Clone, Copy, Debug)]
 pub struct Palette {
+    dark: bool,
     /// Pressure.
     pub pressure: Color32,
     /// Film thickness.
@@ -41,6 +42,11 @@ pub struct Palette {
 }
 
 impl Palette {
+    /// The shade of a quantity's hue that shows on top of its thick line: lighter on dark, darker on light.
+    pub fn over(&self, color: Color32) -> Color32 {
+        color.lerp_to_gamma(if self.dark { Color32::WHITE } else { Color32::BLACK }, 0.62)
+    }
+
     /// Colours for what is on the screen now.
     pub fn of(ui: &Ui) -> Self {
         Self::for_visuals(ui.visuals())
@@ -50,6 +56,7 @@ impl Palette {
     pub fn for_visuals(visuals: &Visuals) -> Self {
         if visuals.dark_mode {
             Self {
+                dark: true,
                 pressure: Color32::from_rgb(0xF0, 0x7A, 0x28),
                 film: Color32::from_rgb(0x3C, 0x9F, 0xDE),
                 deformation: Color32::from_rgb(0x1F, 0xB8, 0x8C),
@@ -70,6 +77,7 @@ impl Palette {
             }
         } else {
             Self {
+                dark: false,
                 pressure: Color32::from_rgb(0xD5, 0x5E, 0x00),
                 film: Color32::from_rgb(0x00, 0x72, 0xB2),
                 deformation: Color32::from_rgb(0x00, 0x9E, 0x73),

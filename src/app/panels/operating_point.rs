@@ -1,6 +1,6 @@
 //! M, L, SRR and NPR, the same state in SI units, and the Hertzian contact behind it.
 
-use crate::app::controls::{LogSlider, explained, heading, named, number_field, warning_ui};
+use crate::app::controls::{LogSlider, NAME_WIDTH, explained, heading, named, number_field, row_name, warning_ui};
 use crate::app::document::{HOME, LoadFollower, Quantity};
 use crate::app::numbers;
 use crate::app::state::State;
@@ -12,9 +12,6 @@ use egui::{ComboBox, Grid, Slider, Ui};
 pub const M_RANGE: (f64, f64) = (1.0, 1000.0);
 /// Ends of the L slider.
 pub const L_RANGE: (f64, f64) = (0.5, 25.0);
-
-/// Width of the first column, so that values line up from group to group.
-pub const NAME_WIDTH: f32 = 104.0;
 
 const M_TIP: &str = "Load number M = w/(E’R) · (2η₀u_m/(E’R))^(−1/2): how heavily the contact is loaded for its speed. \
     Small: nearly rigid bodies; large: nearly Hertzian. Double click: M 40";
@@ -77,9 +74,7 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
     if let Some((field, moes)) = wanted {
         let result = state.document.set_moes(moes);
         if result.is_ok() {
-            for other in ["M", "L", "M value", "L value"] {
-                state.entries.answer(other, Ok(()));
-            }
+            state.entries.clear();
         }
         state.entries.answer(field, result);
     }
@@ -192,28 +187,24 @@ const ROWS: [Row; 6] = [
 fn si_ui(ui: &mut Ui, state: &mut State) {
     ui.add_space(4.0);
     let mut changed = None;
-    Grid::new("si values").num_columns(3).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
-        for row in &ROWS {
+    for row in &ROWS {
+        ui.horizontal(|ui| {
             let name = row.name.split(' ').next().unwrap_or(row.name);
-            explained(ui, name_and_symbol(ui, name, row.symbol.0, row.symbol.1), row.tooltip);
+            row_name(ui, name_and_symbol(ui, name, row.symbol.0, row.symbol.1), row.tooltip);
             let value = row.quantity.get(&state.document.point) / row.scale;
-            if let Some(value) = number_field(ui, &mut state.entries, row.name, value, NAME_WIDTH, row.tooltip) {
+            if let Some(value) = number_field(ui, &mut state.entries, row.name, value, 96.0, row.tooltip) {
                 changed = Some((row, value * row.scale));
             }
             ui.label(row.unit);
-            ui.end_row();
-            if state.entries.message(row.name).is_some() {
-                // The message takes the width of the panel, below the row it is about.
-                ui.end_row();
-            }
-        }
-    });
+        });
+        state.entries.message_ui(ui, row.name);
+    }
     if let Some((row, value)) = changed {
         let result = state.document.set_quantity(row.quantity, value);
+        if result.is_ok() {
+            state.entries.clear();
+        }
         state.entries.answer(row.name, result);
-    }
-    for row in &ROWS {
-        state.entries.message_ui(ui, row.name);
     }
 }
 

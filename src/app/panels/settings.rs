@@ -1,7 +1,6 @@
 //! Lubricant laws and the reduced model's settings.
 
-use super::operating_point::NAME_WIDTH;
-use crate::app::controls::{heading, warning_ui};
+use crate::app::controls::{NAME_WIDTH, heading, warning_ui};
 use crate::app::state::State;
 use crate::solver::lubricant::{DensityLaw, ViscosityLaw};
 use crate::solver::reduced::Trust;

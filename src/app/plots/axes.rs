@@ -15,7 +15,7 @@ pub fn plot<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) ->
         .height(height)
         .grid_color(Palette::of(ui).grid)
         .allow_scroll(false)
-        .y_axis_min_width(54.0)
+        .y_axis_min_width(62.0)
         .x_grid_spacer(|input| round_marks(input, 9.0))
         .y_grid_spacer(|input| round_marks(input, 6.0))
         .x_axis_formatter(|mark, _| tick(mark.value))
@@ -37,8 +37,13 @@ pub fn fit(plot: &mut PlotUi<'_>, wanted: bool) {
 }
 
 fn tick(value: f64) -> String {
-    let rounded = (value * 1e9).round() / 1e9;
-    if rounded == 0.0 { "0".to_owned() } else { format!("{rounded}").replace('-', "−") }
+    let rounded = (value * 1e12).round() / 1e12;
+    let text = match rounded.abs() {
+        0.0 => return "0".to_owned(),
+        size if size < 1e-3 => format!("{:e}", format!("{rounded:.3e}").parse().unwrap_or(rounded)),
+        _ => format!("{}", (rounded * 1e9).round() / 1e9),
+    };
+    text.replace('-', "−")
 }
 
 /// Marks at 1, 2 or 5 times a power of ten, about `target` of them, with four faint ones between.

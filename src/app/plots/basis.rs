@@ -241,7 +241,7 @@ fn loss_plot(ui: &mut Ui, state: &mut State, window: &Window, height: f32) {
         state.basis.dragging = None;
     }
     if let (Some(field), Some(pointer)) = (state.basis.dragging, ui.input(|i| i.pointer.latest_pos()))
-        && ui.input(|i| i.pointer.is_moving())
+        && ui.input(|i| i.pointer.press_origin()).is_some_and(|origin| origin.distance(pointer) > 1.0)
     {
         let level = transform.value_from_position(pointer).y.clamp(LEAST_LOG_LOSS, -0.3);
         let loss = Some(10f64.powf(level));

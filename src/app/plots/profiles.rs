@@ -9,7 +9,7 @@ use crate::app::numbers;
 use crate::app::picture::{Comparison, Origin, Picture, value_at};
 use crate::app::state::{Pin, State};
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, faded, rich};
-use egui::{Align2, Color32, Id, Ui, Vec2b};
+use egui::{Align2, Checkbox, Color32, Id, Ui, Vec2b};
 use egui_plot::{
     Corner, HoverPosition, Legend, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points, Span,
     Text,
@@ -60,14 +60,13 @@ fn toolbar(ui: &mut Ui, state: &mut State) {
         }
         let reduced = state.picture.as_ref().is_some_and(|p| p.origin != Origin::Full);
         let why = "The picture is the full solution itself";
-        ui.add_enabled_ui(reduced, |ui| {
-            ui.checkbox(&mut state.view.overlay, "Full solution")
-                .on_hover_text("Draw the full solution over the reduced one")
-                .on_disabled_hover_text(why);
-            ui.checkbox(&mut state.view.difference, "Difference")
-                .on_hover_text("Reduced minus full, on an axis of its own")
-                .on_disabled_hover_text(why);
-        });
+        let switches = [
+            ("Full solution", "Draw the full solution over the reduced one", &mut state.view.overlay),
+            ("Difference", "Reduced minus full, on an axis of its own", &mut state.view.difference),
+        ];
+        for (name, tip, on) in switches {
+            ui.add_enabled(reduced, Checkbox::new(on, name)).on_hover_text(tip).on_disabled_hover_text(why);
+        }
         if ui.button(Command::Verify.name()).on_hover_text("Solve this contact in full now (F5)").clicked() {
             state.verify(&ctx);
         }
@@ -128,7 +127,7 @@ impl Scene<'_> {
     }
 
     fn over(&self, palette: &Palette, color: Color32) -> Color32 {
-        if self.full_stale { palette.reference } else { faded(color, 0.75) }
+        if self.full_stale { palette.reference } else { palette.over(color) }
     }
 }
 
@@ -254,9 +253,12 @@ fn film_plot(ui: &mut Ui, scene: &Scene<'_>, height: f32) {
 
 fn difference_plot(ui: &mut Ui, comparison: &Comparison, wanted: bool, height: f32) {
     let palette = Palette::of(ui);
-    stacked(ui, "difference", height, "", "Reduced − full").auto_bounds(Vec2b::TRUE).show(ui, |plot| {
-        axes::fit(plot, wanted);
-        plot.line(curve("ΔP".to_owned(), &comparison.pressure, palette.pressure, 1.4));
-        plot.line(curve("ΔH/H_c".to_owned(), &comparison.film, palette.film, 1.4));
-    });
+    stacked(ui, "difference", height, "", "Reduced − full")
+        .default_x_bounds(X_RANGE.0, X_RANGE.1)
+        .set_margin_fraction(egui::vec2(0.0, 0.08))
+        .show(ui, |plot| {
+            axes::fit(plot, wanted);
+            plot.line(curve("ΔP".to_owned(), &comparison.pressure, palette.pressure, 1.4));
+            plot.line(curve("ΔH/H_c".to_owned(), &comparison.film, palette.film, 1.4));
+        });
 }

@@ -162,7 +162,7 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
     }
     if state.regimes.dragging
         && let Some(pointer) = ui.input(|i| i.pointer.latest_pos())
-        && ui.input(|i| i.pointer.is_moving())
+        && ui.input(|i| i.pointer.press_origin()).is_some_and(|origin| origin.distance(pointer) > 1.0)
     {
         let value = transform.value_from_position(pointer);
         let m = 10f64.powf(value.x.clamp(M_AXIS.0.log10(), M_AXIS.1.log10()));
