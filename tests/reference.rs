@@ -62,7 +62,7 @@ fn full_solutions_agree_with_independent_ones_to_1e_6() {
 fn a_warm_start_from_another_contact_and_grid_gives_the_same_solution() {
     let references = references();
     let mut uniform = FullSolver::new(GridSpec::DISSERTATION).unwrap();
-    let mut graded = FullSolver::new(GridSpec::graded_for(references[1].point.moes())).unwrap();
+    let mut graded = FullSolver::new(GridSpec::EXPLORER).unwrap();
     let start = graded.solve(&references[1].point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
     let solution = uniform.solve(&references[0].point, Lubricant::default(), Start::From(&start), &mut ()).unwrap();
     assert!(solution.converged());
@@ -73,7 +73,7 @@ fn a_warm_start_from_another_contact_and_grid_gives_the_same_solution() {
 fn a_heavy_load_tends_to_hertz() {
     let deviation = |m: f64| {
         let point = ehl_explorer::scene::At::moes(m, 2.0).point(ContactKind::Line).unwrap();
-        let mut solver = FullSolver::new(GridSpec::graded_for(point.moes())).unwrap();
+        let mut solver = FullSolver::new(GridSpec::EXPLORER).unwrap();
         let solution = solver.solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
         assert!(solution.converged());
         let inside = solution.profile().filter(|(x, ..)| x.abs() < 0.8);

@@ -343,7 +343,7 @@ mod tests {
     fn a_job_comes_back_with_what_it_was_for() {
         let mut jobs = Jobs::default();
         let key = Key { point: OperatingPoint::TABLE_2_1, lubricant: Lubricant::default() };
-        let grid = GridChoice::Spec(GridSpec::graded_for(key.point.moes()));
+        let grid = GridChoice::Spec(GridSpec::EXPLORER);
         jobs.submit(&egui::Context::default(), Request { kind: JobKind::Verify, key, grid, start: None });
         let begin = Instant::now();
         loop {

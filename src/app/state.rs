@@ -329,7 +329,7 @@ impl State {
         let window = self.model.as_ref().and_then(|m| m.windows.get(m.window_for(moes)));
         let grid = match window {
             Some(window) => GridChoice::Existing(Arc::clone(&window.grid)),
-            None => GridChoice::Spec(GridSpec::graded_for(moes)),
+            None => GridChoice::Spec(GridSpec::EXPLORER),
         };
         let start = match kind {
             JobKind::Live => self.picture.as_ref().map(|p| Arc::clone(&p.solution)),

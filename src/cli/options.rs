@@ -244,7 +244,7 @@ impl PointOptions {
         }
         let method = self.method()?;
         let point = self.point()?;
-        let grid = self.grid(&method, &point)?;
+        let grid = self.grid(&method)?;
         let mut lubricant = self.lubricant.unwrap_or_default();
         lubricant.density = self.density.unwrap_or(lubricant.density);
         lubricant.viscosity = self.pressure_viscosity.unwrap_or(lubricant.viscosity);
@@ -309,7 +309,7 @@ impl PointOptions {
         at.point(ContactKind::Line).map_err(|error| Failure::Request(error.to_string()))
     }
 
-    fn grid(&self, method: &Method, point: &OperatingPoint) -> Result<Grid, Failure> {
+    fn grid(&self, method: &Method) -> Result<Grid, Failure> {
         if self.dy.is_some() || self.domain.is_some_and(|domain| domain.y.is_some()) {
             return refuse("a line contact has no Y: leave out --dy and the third number of --domain");
         }
@@ -335,7 +335,7 @@ impl PointOptions {
                 return refuse("--domain belongs to uniform and graded grids; leave it out with --grid model");
             }
             Some(GridName::Model) => Grid::Model,
-            Some(GridName::Graded) => match (ends, GridSpec::graded_for(point.moes())) {
+            Some(GridName::Graded) => match (ends, GridSpec::EXPLORER) {
                 (Some(domain), GridSpec::Graded { nodes, registered, .. }) => {
                     Grid::GradedNodes { nodes, domain, registered }
                 }

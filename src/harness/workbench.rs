@@ -181,7 +181,7 @@ impl Workbench {
         observer: &dyn TrainingObserver,
     ) -> Result<&mut FullSolver, HarnessError> {
         let moes = request.point.moes();
-        let (spec, ready): (GridSpec, Option<Arc<ReferenceGrid>>) = match request.grid.spec(moes) {
+        let (spec, ready): (GridSpec, Option<Arc<ReferenceGrid>>) = match request.grid.spec() {
             Some(spec) => (spec, None),
             None => {
                 let model = self.model(&request.grid_model, observer)?;

@@ -15,7 +15,7 @@ pub use document::{SceneError, SceneFileError};
 pub use expectation::{Expectation, Within};
 pub use study::{Axis, Formula, QuantityBox, Steps, Study, TestRange, Variable};
 
-use crate::solver::contact::{ContactError, ContactKind, Moes, MoesRequest, OperatingPoint, si_from_moes};
+use crate::solver::contact::{ContactError, ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::grid::GridSpec;
 use crate::solver::lubricant::Lubricant;
 use serde::{Deserialize, Serialize};
@@ -254,10 +254,10 @@ impl Grid {
     pub const DISSERTATION: Self = Self::Uniform { dx: 0.005, domain: (-4.0, 2.0) };
 
     /// The solver's specification for a contact; `None` where a reduced model's grid is wanted.
-    pub fn spec(&self, moes: Moes) -> Option<GridSpec> {
+    pub fn spec(&self) -> Option<GridSpec> {
         match *self {
             Self::Uniform { dx, domain } => Some(GridSpec::Uniform { dx, domain }),
-            Self::Graded => Some(GridSpec::graded_for(moes)),
+            Self::Graded => Some(GridSpec::EXPLORER),
             Self::GradedNodes { nodes, domain, registered } => Some(GridSpec::Graded { nodes, domain, registered }),
             Self::Model => None,
         }

@@ -76,11 +76,6 @@ impl GridSpec {
     /// The explorer's default for every contact: 632 registered nodes, fine at ξ = ±1, with an inlet long enough for M = 2.
     pub const EXPLORER: Self = Self::Graded { nodes: 632, domain: (-20.0, 3.2), registered: true };
 
-    /// The explorer's default.
-    pub fn graded_for(_moes: Moes) -> Self {
-        Self::EXPLORER
-    }
-
     /// Builds the reference grid and its kernel; the costly part, done once per specification.
     ///
     /// # Errors

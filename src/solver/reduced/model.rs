@@ -184,14 +184,53 @@ impl Domain {
         ];
         for (name, value, (low, high), scale, unit) in checks {
             if value < low * (1.0 - 1e-6) || value > high * (1.0 + 1e-6) {
-                return Trust::Outside(format!(
-                    "{name} = {:.4}{unit} lies outside the trained range {:.4}…{:.4}{unit}",
-                    value * scale,
-                    low * scale,
-                    high * scale
-                ));
+                let range = if low > 0.0 {
+                    format!("outside the trained range {}…{}{unit}", digits(low * scale), digits(high * scale))
+                } else {
+                    format!("above the trained {}{unit}", digits(high * scale))
+                };
+                return Trust::Outside(format!("{name} = {}{unit} lies {range}", digits(value * scale)));
             }
         }
         Trust::Trained
+    }
+}
+
+/// Four significant digits without trailing zeros.
+fn digits(value: f64) -> String {
+    let decimals = (3 - value.abs().log10().floor() as i32).clamp(0, 12) as usize;
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::contact::{ContactKind, MoesRequest, si_from_moes};
+
+    #[test]
+    fn what_lies_outside_is_said_with_sensible_digits() {
+        let domain = Domain {
+            m: (2.0, 500.0),
+            l: (1.0, 21.2),
+            alpha_per_pa: (5e-9, 20e-9),
+            max_hertz_pressure_pa: 3.2e9,
+            viscosity_pa_s: 0.01,
+            lubricant: Lubricant::default(),
+        };
+        let trust = |m, l| {
+            let point = si_from_moes(&MoesRequest::new(ContactKind::Line, m, l)).unwrap();
+            domain.trust(&Problem::new(&point, Lubricant::default()).unwrap())
+        };
+        assert_eq!(trust(40.0, 10.0), Trust::Trained);
+        assert_eq!(trust(1.0, 10.0), Trust::Outside("M = 1 lies outside the trained range 2…500".to_owned()));
+        let Trust::Outside(why) = trust(200.0, 15.0) else { panic!("beyond the pressure limit") };
+        assert!(why.starts_with("p_H = 4.8") && why.ends_with("GPa lies above the trained 3.2 GPa"), "{why}");
+    }
+
+    #[test]
+    fn the_distance_is_the_dissertations() {
+        let d = distance(Moes { m: 10.0, l: 5.0 }, Moes { m: 20.0, l: 8.0 });
+        assert!((d - (100.0 / 500.0 + 0.009)).abs() < 1e-15);
     }
 }

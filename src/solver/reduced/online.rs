@@ -10,6 +10,7 @@ use crate::solver::lubricant::Lubricant;
 use crate::solver::reynolds::PENALTY;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Par};
+use std::cell::OnceCell;
 use std::sync::Arc;
 
 /// Newton steps before another start is tried: good starts need 4, and what needs more than 12 mostly never gets there.
@@ -86,7 +87,8 @@ pub struct Online {
     /// The model.
     pub model: Arc<ReducedModel>,
     options: ReducedOptions,
-    windows: Vec<Operators>,
+    /// Operators of each window, made when it is first needed.
+    windows: Vec<OnceCell<Operators>>,
     previous: Option<Previous>,
 }
 
@@ -99,16 +101,9 @@ struct Previous {
 }
 
 impl Online {
-    /// Prepares the operators.
+    /// A solver for the model; operators are prepared per window when first needed.
     pub fn new(model: Arc<ReducedModel>, options: ReducedOptions) -> Self {
-        let windows = model
-            .windows
-            .iter()
-            .map(|w| {
-                let modes = options.pressure_modes.unwrap_or(usize::MAX);
-                Operators::new(w, modes, options.deformation_modes)
-            })
-            .collect();
+        let windows = model.windows.iter().map(|_| OnceCell::new()).collect();
         Self { model, options, windows, previous: None }
     }
 
@@ -141,9 +136,11 @@ impl Online {
         let problem = Problem::new(point, lubricant)?;
         let index = self.model.window_for(problem.moes);
         let model = Arc::clone(&self.model);
-        let (Some(window), Some(operators)) = (model.windows.get(index), self.windows.get_mut(index)) else {
+        let (Some(window), Some(cell)) = (model.windows.get(index), self.windows.get_mut(index)) else {
             return Err(ReducedError::Empty);
         };
+        cell.get_or_init(|| operators_of(window, &self.options));
+        let Some(operators) = cell.get_mut() else { return Err(ReducedError::Empty) };
         let moes = problem.moes;
         // The previous solution while somebody drags, else an interpolation, else the nearest snapshot.
         let previous =
@@ -152,9 +149,7 @@ impl Online {
             });
         let mut last = ReducedError::Empty;
         let starts: [&dyn Fn() -> Option<Guess>; 3] =
-            [&|| previous.as_ref().map(Guess::clone), &|| start::interpolated(window, point), &|| {
-                start::nearest(window, moes)
-            }];
+            [&|| previous.clone(), &|| start::interpolated(window, point), &|| start::nearest(window, moes)];
         for guess in starts {
             let Some(guess) = guess() else { continue };
             match attempt(window, operators, &problem, &guess, FIRST_ATTEMPTS, &self.options, &mut observer) {
@@ -229,11 +224,11 @@ impl Online {
 
     fn fields(&self, solution: &ReducedSolution) -> Result<(Problem, LineGrid, Vec<f64>, Vec<f64>), ReducedError> {
         let problem = Problem::new(&solution.point, solution.lubricant)?;
-        let (Some(window), Some(operators)) =
-            (self.model.windows.get(solution.window), self.windows.get(solution.window))
+        let (Some(window), Some(cell)) = (self.model.windows.get(solution.window), self.windows.get(solution.window))
         else {
             return Err(ReducedError::Empty);
         };
+        let operators = cell.get_or_init(|| operators_of(window, &self.options));
         let modes = solution.coefficients.len();
         if modes > window.pressure.modes.ncols() || modes != operators.modes {
             return Err(ReducedError::Empty);
@@ -259,6 +254,10 @@ impl Online {
         }
         Ok((problem, grid, pressure, film))
     }
+}
+
+fn operators_of(window: &Window, options: &ReducedOptions) -> Operators {
+    Operators::new(window, options.pressure_modes.unwrap_or(usize::MAX), options.deformation_modes)
 }
 
 /// A converged online iteration.
