@@ -6,6 +6,8 @@ mod gmres;
 mod line;
 mod solution;
 mod start;
+#[cfg(test)]
+mod tests;
 
 pub use line::{LineSystem, SolveOptions};
 pub use solution::{Problem, Report, Scalars, Solution, SolveError, Termination, Traction, scalars_of};

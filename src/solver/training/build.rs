@@ -66,6 +66,14 @@ fn check(spec: &TrainingSpec) -> Result<(), TrainingError> {
     {
         return refuse("windows must be non-empty intervals of M in ascending order".to_owned());
     }
+    let range = domain(spec).m;
+    if let Some(w) = spec.windows.iter().find(|w| w.m.1 < range.0 || w.m.0 > range.1) {
+        let (from, to) = w.m;
+        return refuse(format!(
+            "the window M {from}…{to} lies outside the range, whose M is {:.4}…{:.4}",
+            range.0, range.1
+        ));
+    }
     for (name, loss) in [("pressure_loss", spec.pressure_loss), ("deformation_loss", spec.deformation_loss)] {
         if !(0.0..1.0).contains(&loss) {
             return refuse(format!("{name} is {loss}, but must be at least 0 and below 1"));

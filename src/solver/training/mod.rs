@@ -4,6 +4,8 @@
 
 mod build;
 mod plan;
+#[cfg(test)]
+mod tests;
 
 pub use build::train;
 pub use plan::{farthest_points, grid_points, random_points, test_point};

@@ -1,0 +1,198 @@
+//! Behaviour of full solves: derivatives, limits, symmetry of units, starts, cancellation, and how much work they take.
+
+use super::line::LineSystem;
+use super::*;
+use crate::solver::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
+use crate::solver::grid::{FIRST_UNKNOWN, GridSpec};
+use crate::solver::lubricant::{DensityLaw, Lubricant, ViscosityLaw};
+use crate::solver::observer::{NewtonStep, Observer};
+use std::sync::atomic::AtomicBool;
+
+const COARSE: GridSpec = GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) };
+
+fn at(m: f64, l: f64) -> OperatingPoint {
+    si_from_moes(&MoesRequest::new(ContactKind::Line, m, l)).unwrap()
+}
+
+fn solve(spec: GridSpec, point: &OperatingPoint) -> Solution {
+    let mut solver = FullSolver::new(spec).unwrap();
+    solver.solve(point, Lubricant::default(), Start::Cold, &mut ()).unwrap()
+}
+
+#[test]
+fn jacobian_bands_with_the_kernel_are_the_derivative_of_the_residual() {
+    let problem = Problem::new(&OperatingPoint::TABLE_2_1, Lubricant::default()).unwrap();
+    for spec in [COARSE, GridSpec::Graded { nodes: 160, domain: (-6.0, 1.9), registered: true }] {
+        let grid = spec.build().unwrap().for_contact(problem.moes);
+        let mut system = LineSystem::new(grid.clone());
+        let hertz: Vec<f64> =
+            grid.x.iter().map(|x| 0.9 * (1.0 - x * x).max(0.0).sqrt() + 0.02 * (-x * x).exp()).collect();
+        system.set_pressure(&problem, &hertz);
+        system.set_central_film(0.06);
+        system.evaluate(&problem, 1e6, true);
+        let (d_p, d_h) = (system.d_p.clone(), system.d_h.clone());
+        // A smooth direction in (P, H₀), with the deformation it causes.
+        let direction: Vec<f64> = grid.x.iter().map(|x| (3.0 * x).sin() * (1.0 - (x / 1.5).powi(2)).max(0.0)).collect();
+        let mut deformation = vec![0.0; grid.len()];
+        grid.deform(&direction, &mut deformation, &mut Default::default());
+        let (base, film) = (system.pressure.clone(), system.film.clone());
+        let step = 1e-7;
+        let mut residual_at = |t: f64| {
+            for i in 0..grid.len() {
+                system.pressure[i] = base[i] + t * direction[i];
+                system.film[i] = film[i] + t * (deformation[i] + 0.3);
+            }
+            system.evaluate(&problem, 1e6, false);
+            system.residual.clone()
+        };
+        let (up, down) = (residual_at(step), residual_at(-step));
+        let scale = d_p.iter().zip(&d_h).map(|(a, b)| a[2].abs() + b[2].abs()).fold(0.0, f64::max);
+        for k in 0..grid.unknowns() {
+            let exact: f64 =
+                (0..4).map(|m| d_p[k][m] * direction[k + m] + d_h[k][m] * (deformation[k + m] + 0.3)).sum();
+            let difference = (up[k] - down[k]) / (2.0 * step);
+            assert!((exact - difference).abs() < 1e-6 * scale, "row {k}: {exact} against {difference}");
+        }
+    }
+}
+
+#[test]
+fn krylov_and_dense_newton_find_the_same_solution() {
+    let point = at(20.0, 8.0);
+    let krylov = solve(COARSE, &point);
+    let mut solver = FullSolver::new(COARSE).unwrap();
+    let (mut system, problem) = solver.cold_system(&point, Lubricant::default()).unwrap();
+    let kernel = dense::dense_kernel(&system.grid);
+    dense::dense_newton(&mut system, &problem, &SolveOptions::default(), &kernel);
+    for (a, b) in system.pressure.iter().zip(&krylov.pressure) {
+        assert!((a - b).abs() < 1e-8);
+    }
+    assert!((system.h_0 - krylov.scalars.h_0).abs() < 1e-9);
+}
+
+#[test]
+fn heavy_load_tends_to_hertz_and_light_load_to_the_rigid_solution() {
+    let deviation = |m: f64| {
+        let s = solve(GridSpec::EXPLORER, &at(m, 5.0));
+        s.x.iter()
+            .zip(&s.pressure)
+            .filter(|(x, _)| x.abs() < 0.9)
+            .map(|(x, p)| (p - (1.0 - x * x).sqrt()).abs())
+            .fold(0.0, f64::max)
+    };
+    let (light, middle, heavy) = (deviation(5.0), deviation(30.0), deviation(280.0));
+    assert!(heavy < middle && middle < light && heavy < 0.02, "{light} {middle} {heavy}");
+    // Rigid and isoviscous: Martin's analytic solution, h₀/R = 4.896 η₀u_m/w, which is H = 2.448/M (Moes' fit rounds it up to 3/M).
+    let rigid = Lubricant { density: DensityLaw::Incompressible, viscosity: ViscosityLaw::Barus };
+    let point =
+        si_from_moes(&MoesRequest { alpha_per_pa: Some(1e-11), ..MoesRequest::new(ContactKind::Line, 0.3, 0.01) })
+            .unwrap();
+    let grid = GridSpec::Graded { nodes: 800, domain: (-150.0, 15.0), registered: false };
+    let s = FullSolver::new(grid).unwrap().solve(&point, rigid, Start::Cold, &mut ()).unwrap();
+    assert!(s.converged(), "{:?}", s.report.termination);
+    let film_number = s.scalars.h_c * point.film_scale_m() / point.radius_m / point.speed_group().sqrt();
+    let martin = 2.448 / 0.3;
+    assert!((film_number / martin - 1.0).abs() < 0.06, "{film_number} against {martin}");
+}
+
+#[test]
+fn only_the_dimensionless_groups_matter_to_an_incompressible_barus_fluid() {
+    let laws = Lubricant { density: DensityLaw::Incompressible, viscosity: ViscosityLaw::Barus };
+    let film = |request: MoesRequest| {
+        let point = si_from_moes(&request).unwrap();
+        let s = FullSolver::new(COARSE).unwrap().solve(&point, laws, Start::Cold, &mut ()).unwrap();
+        assert!(s.converged());
+        s.scalars.h_c
+    };
+    let base = MoesRequest::new(ContactKind::Line, 20.0, 6.0);
+    let reference = film(base);
+    for request in [
+        MoesRequest { radius_m: Some(0.05), ..base },
+        MoesRequest { modulus_pa: Some(5e10), viscosity_pa_s: Some(0.2), ..base },
+        MoesRequest { alpha_per_pa: Some(3e-8), ..base },
+    ] {
+        assert!((film(request) / reference - 1.0).abs() < 1e-9, "{request:?}");
+    }
+}
+
+#[test]
+fn a_warm_start_is_much_cheaper_than_a_cold_one_also_from_another_grid() {
+    let mut solver = FullSolver::new(GridSpec::DISSERTATION).unwrap();
+    let point = at(30.0, 8.0);
+    let cold = solver.solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+    assert!(cold.report.newton_iterations <= 30 && cold.report.linear_iterations <= 250, "{:?}", cold.report);
+    let near = solver.solve(&at(32.0, 8.3), Lubricant::default(), Start::From(&cold), &mut ()).unwrap();
+    assert!(near.converged() && near.report.newton_iterations <= 12, "{}", near.report.newton_iterations);
+    let again = solver.solve(&point, Lubricant::default(), Start::From(&cold), &mut ()).unwrap();
+    assert!(again.report.newton_iterations <= 2, "{}", again.report.newton_iterations);
+    let graded = solve(GridSpec::EXPLORER, &point);
+    let from_other = solver.solve(&point, Lubricant::default(), Start::From(&graded), &mut ()).unwrap();
+    assert!(from_other.converged() && from_other.report.attempts == 1);
+    assert!((from_other.scalars.h_c / cold.scalars.h_c - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn the_load_is_carried_exactly_and_the_residual_vanishes() {
+    for (m, l) in [(3.0, 10.0), (40.0, 10.0), (300.0, 4.0)] {
+        let s = solve(GridSpec::EXPLORER, &at(m, l));
+        assert!(s.converged() && s.scalars.load_residual < 1e-12 && s.report.residual_norm < 1e-8);
+        assert!(s.film.iter().all(|&h| h > 0.0));
+        assert!(s.pressure.iter().all(|&p| p > -1e-4), "the penalty keeps pressures from going negative");
+    }
+}
+
+#[test]
+fn the_explorers_grid_is_within_its_stated_error() {
+    for (m, l, bar) in [(5.0, 5.0, 3e-3), (50.0, 5.0, 3e-3), (165.0, 5.0, 3e-3), (500.0, 2.5, 1e-2)] {
+        let GridSpec::Graded { nodes, domain, .. } = GridSpec::EXPLORER else { panic!("graded") };
+        let film = |nodes| solve(GridSpec::Graded { nodes, domain, registered: true }, &at(m, l)).scalars.h_c;
+        let (normal, fine) = (film(nodes), film(2 * nodes - 1));
+        let extrapolated = fine + (fine - normal) / 3.0;
+        let error = (normal / extrapolated - 1.0).abs();
+        assert!(error < bar, "M = {m}: {error:.1e}");
+    }
+}
+
+#[test]
+fn what_does_not_converge_says_so() {
+    let mut solver = FullSolver::new(GridSpec::DISSERTATION).unwrap();
+    solver.options.max_newton = 3;
+    let s = solver.solve(&at(40.0, 10.0), Lubricant::default(), Start::Cold, &mut ()).unwrap();
+    assert!(!s.converged());
+    assert!(s.report.termination.describe().contains("try"));
+}
+
+#[test]
+fn cancelling_stops_after_the_step_under_way() {
+    struct After(usize, usize);
+    impl Observer for After {
+        fn newton_step(&mut self, _: &NewtonStep) {
+            self.1 += 1;
+        }
+        fn cancelled(&self) -> bool {
+            self.1 >= self.0
+        }
+    }
+    let mut solver = FullSolver::new(GridSpec::DISSERTATION).unwrap();
+    let mut after = After(2, 0);
+    let s = solver.solve(&at(40.0, 10.0), Lubricant::default(), Start::Cold, &mut after).unwrap();
+    assert_eq!((s.report.termination, after.1), (Termination::Cancelled, 2));
+    let flag = AtomicBool::new(true);
+    let s = solver.solve(&at(40.0, 10.0), Lubricant::default(), Start::Cold, &mut &flag).unwrap();
+    assert_eq!(s.report.newton_iterations, 0);
+}
+
+#[test]
+fn newtonian_traction_is_the_integral_of_the_shear_stress() {
+    // Nearly isoviscous and rigid: traction ≈ η u ∫ dx/h / w per unit SRR; compare with a direct sum in SI units.
+    let s = solve(GridSpec::DISSERTATION, &at(10.0, 2.5));
+    let point = s.problem.point;
+    let (a, scale) = (point.hertz().half_width_m, point.film_scale_m());
+    let mut force = 0.0;
+    for i in FIRST_UNKNOWN..s.x.len() {
+        let eta = |k: usize| point.viscosity_pa_s * s.problem.fluid.at(s.pressure[k].max(0.0)).viscosity;
+        let stress = |k: usize| eta(k) * point.speed_m_per_s / (s.film[k] * scale);
+        force += 0.5 * (stress(i - 1) + stress(i)) * a * (s.x[i] - s.x[i - 1]);
+    }
+    assert!((s.traction().per_srr / (force / point.load) - 1.0).abs() < 1e-9);
+}
