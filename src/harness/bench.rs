@@ -4,12 +4,12 @@ use super::error::HarnessError;
 use super::sampling::random_points;
 use super::statistics::{median, percentile};
 use crate::scene::{QuantityBox, TestRange};
-use crate::solver::contact::{Moes, OperatingPoint};
+use crate::solver::contact::OperatingPoint;
 use crate::solver::full::dense::{dense_kernel, dense_newton};
 use crate::solver::full::{FullSolver, Solution, SolveOptions, Start};
 use crate::solver::grid::GridSpec;
 use crate::solver::lubricant::Lubricant;
-use crate::solver::reduced::{Online, ReducedOptions};
+use crate::solver::reduced::{Online, ReducedOptions, distance};
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
@@ -147,11 +147,6 @@ fn nearest_other(solutions: &[Solution], k: usize) -> Option<&Solution> {
     let here = solutions[k].problem.moes;
     let others = solutions.iter().enumerate().filter(|&(i, _)| i != k).map(|(_, solution)| solution);
     others.min_by(|a, b| distance(here, a.problem.moes).total_cmp(&distance(here, b.problem.moes)))
-}
-
-/// (3.20).
-fn distance(a: Moes, b: Moes) -> f64 {
-    (a.m - b.m).powi(2) / (a.m * a.m + b.m * b.m) + 0.001 * (a.l - b.l).powi(2)
 }
 
 struct Timing {

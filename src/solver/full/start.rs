@@ -76,23 +76,6 @@ impl FullSolver {
         Ok(self.solution(problem, report))
     }
 
-    /// A cold solve from the first start only, as `bench` and the convergence tests want it.
-    ///
-    /// # Errors
-    /// When the operating point or the lubricant is refused.
-    pub fn solve_once(
-        &mut self,
-        point: &OperatingPoint,
-        lubricant: Lubricant,
-        start: Start<'_>,
-        observer: &mut dyn Observer,
-    ) -> Result<Solution, SolveError> {
-        let problem = Problem::new(point, lubricant)?;
-        let mut report = empty_report();
-        self.attempt(&problem, start, COLD_FILMS[0], observer, &mut report);
-        Ok(self.solution(problem, report))
-    }
-
     /// The system prepared at a cold start, for whoever iterates it in another way (the dense baseline).
     ///
     /// # Errors
