@@ -359,7 +359,7 @@ fn scale_of(spec: GridSpec, moes: Moes) -> f64 {
 }
 
 /// Nodes and weights that give the value at X = 0 on a window's grid under scale s (cubic interpolation in ξ).
-fn interpolation_at_zero(window: &Window, scale: f64) -> [(usize, f64); 4] {
+pub(crate) fn interpolation_at_zero(window: &Window, scale: f64) -> [(usize, f64); 4] {
     let xi = &window.grid.xi;
     let at = 1.0 / scale - 1.0;
     let upper = xi.partition_point(|&v| v < at).clamp(3, xi.len() - 2);

@@ -42,8 +42,26 @@ pub(crate) struct Stop {
     pub max_newton: usize,
 }
 
-/// Sees each iterate: f_I and J V Δz̃ on the sampled rows.
-pub(crate) type RowObserver<'a> = &'a mut dyn FnMut(&[f64], &[f64]);
+/// One online iterate, as the training sees it.
+pub(crate) struct Iterate<'a> {
+    /// f_I on the sampled rows.
+    pub residual: &'a [f64],
+    /// J V Δz̃ on the sampled rows.
+    pub jacobian_step: &'a [f64],
+    /// The reduced Jacobian, load row included.
+    pub jacobian: MatRef<'a, f64>,
+    /// (Δp̃, ΔH₀).
+    pub step: &'a [f64],
+    /// p̃ before the step.
+    pub coefficients: &'a [f64],
+    /// H₀ before the step.
+    pub h_0: f64,
+    /// Registration scale s.
+    pub scale: f64,
+}
+
+/// Sees each iterate.
+pub(crate) type RowObserver<'a> = &'a mut dyn FnMut(&Iterate<'_>);
 
 pub(crate) struct Operators {
     pub modes: usize,
@@ -73,6 +91,7 @@ struct Scratch {
     jacobian_rows: Vec<f64>,
     film_column: Vec<f64>,
     reduced: Mat<f64>,
+    jacobian: Mat<f64>,
     rhs: Vec<f64>,
     perm: Vec<usize>,
     perm_inverse: Vec<usize>,
@@ -139,6 +158,7 @@ impl Operators {
                 jacobian_rows: vec![0.0; n * modes],
                 film_column: vec![0.0; n],
                 reduced: Mat::zeros(size, size),
+                jacobian: Mat::zeros(size, size),
                 rhs: vec![0.0; size],
                 perm: vec![0; size],
                 perm_inverse: vec![0; size],
@@ -161,13 +181,22 @@ impl Operators {
         let mut outcome = OnlineOutcome { converged: false, iterations: 0, step: f64::NAN, residual: f64::NAN };
         for iteration in 1..=stop.max_newton {
             self.evaluate(case, coefficients, *h_0, true);
-            if !self.linear_step(case.problem, case.scale, coefficients) {
+            if !self.linear_step(case.problem, case.scale, coefficients, observer.is_some()) {
                 return outcome;
             }
             outcome.iterations = iteration;
             if let Some(observer) = observer.as_mut() {
                 self.jacobian_times_step();
-                observer(&self.scratch.values, &self.scratch.product);
+                let s = &self.scratch;
+                observer(&Iterate {
+                    residual: &s.values,
+                    jacobian_step: &s.product,
+                    jacobian: s.jacobian.as_ref(),
+                    step: &s.rhs,
+                    coefficients,
+                    h_0: *h_0,
+                    scale: case.scale,
+                });
             }
             let omega = self.damping(case.scale);
             let (mut change, mut size) = (0.0, 0.0);
@@ -242,7 +271,8 @@ impl Operators {
     }
 
     /// Solves the reduced linear system; the step is left in `scratch.rhs`. False when it is singular.
-    fn linear_step(&mut self, problem: &Problem, scale: f64, coefficients: &[f64]) -> bool {
+    /// `keep` keeps a copy of the reduced Jacobian for an observer.
+    fn linear_step(&mut self, problem: &Problem, scale: f64, coefficients: &[f64], keep: bool) -> bool {
         let modes = self.modes;
         let s = &mut self.scratch;
         let rows = s.values.len();
@@ -272,6 +302,9 @@ impl Operators {
         }
         s.reduced[(modes, modes)] = 0.0;
         s.rhs[modes] = problem.load - carried;
+        if keep {
+            s.jacobian.copy_from(&s.reduced);
+        }
         let stack = MemStack::new(&mut s.memory);
         let (_, perm) = factor::lu_in_place(
             s.reduced.as_mut(),

@@ -1,7 +1,7 @@
 //! Which rows of the Reynolds equation the online phase evaluates, and how the projected residual follows from them.
 //!
 //! Every method returns rows I and a matrix G (modes × rows) with Vᵀ W f ≈ G f_I, so that the online phase does not know which one was
-//! used. A goal-oriented cubature (`NUMERICS` 5.4) will be one more variant with G = V_Iᵀ diag(w).
+//! used.
 
 use super::pod::PodBasis;
 use crate::solver::grid::FIRST_UNKNOWN;
@@ -19,6 +19,8 @@ pub enum Sampling {
     /// Q-DEIM with its fixed reconstruction V_pᵀ Φ_J (Φ_J,I)⁻¹: pivoted QR picks the rows.
     #[default]
     QDeim,
+    /// Goal-oriented cubature: rows with non-negative weights that reproduce the Newton steps, G = V_Iᵀ diag(w).
+    Cubature,
 }
 
 /// Sampled rows (unknown indices, ascending) and the matrix G.

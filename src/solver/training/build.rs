@@ -1,14 +1,14 @@
 //! From a specification to a model: snapshots, bases, row snapshots, sampled rows.
 
-use super::plan::{farthest_points, grid_points, random_points};
+use super::plan::{farthest_points, grid_points};
+use super::rows::sample_rows;
 use super::{Plan, Progress, Range, TrainingError, TrainingObserver, TrainingSpec, WindowSpec};
-use crate::solver::contact::{ContactKind, OperatingPoint};
+use crate::solver::contact::OperatingPoint;
 use crate::solver::full::{FullSolver, Solution, Start};
-use crate::solver::grid::{FIRST_UNKNOWN, ReferenceGrid};
+use crate::solver::grid::ReferenceGrid;
 use crate::solver::observer::Observer;
 use crate::solver::reduced::{
-    Domain, Online, PodBasis, ReducedModel, ReducedOptions, RowSnapshots, SampledRows, Sampling, Snapshot, Window,
-    all_rows, deformation_weights, flex, greedy, is_finite, q_deim,
+    Domain, PodBasis, ReducedModel, Sampling, Snapshot, Window, all_rows, deformation_weights, flex,
 };
 use faer::Mat;
 use fastrand::Rng;
@@ -18,8 +18,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Training reaches beyond a window's ends by this factor in M, so that its edge is not a corner.
 const OVERLAP: f64 = 1.221_402_758_160_17;
-/// Random parameters at which the row snapshots are collected (reduced solves only).
-const ROW_SNAPSHOT_SOLVES: usize = 160;
 
 struct Cancel<'a>(&'a dyn TrainingObserver);
 
@@ -159,7 +157,14 @@ fn train_window(
     let rows = all_rows(&pressure, &grid.weights);
     let mut model = Window::new(window.m, grid, pressure, deformation, snapshots, Sampling::All, rows);
     if spec.sampling != Sampling::All {
-        let sampled = sample_rows(spec, &model, reach, rng, observer)?.ok_or_else(failed)?;
+        let exact = Arc::new(ReducedModel {
+            title: String::new(),
+            domain: domain(spec),
+            windows: vec![model.clone()],
+            scene: String::new(),
+            log: Vec::new(),
+        });
+        let sampled = sample_rows(spec, &exact, reach, rng, observer)?.ok_or_else(failed)?;
         model.set_rows(spec.sampling, sampled);
     }
     Ok(model)
@@ -221,80 +226,4 @@ fn bases(
         })
         .collect();
     Some((pressure, deformation, snapshots))
-}
-
-/// Runs the all-rows reduced model at random parameters, collects every iterate's rows, and samples.
-fn sample_rows(
-    spec: &TrainingSpec,
-    window: &Window,
-    reach: (f64, f64),
-    rng: &mut Rng,
-    observer: &dyn TrainingObserver,
-) -> Result<Option<SampledRows>, TrainingError> {
-    let exact = Arc::new(ReducedModel {
-        title: String::new(),
-        domain: domain(spec),
-        windows: vec![window.clone()],
-        scene: String::new(),
-        log: Vec::new(),
-    });
-    let points = random_points(&spec.range, reach, ROW_SNAPSHOT_SOLVES, rng);
-    let stage = format!("Row snapshots, M {}…{}", window.m.0, window.m.1);
-    let done = AtomicUsize::new(0);
-    let roots: Vec<f64> =
-        window.grid.weights[FIRST_UNKNOWN..window.grid.weights.len() - 1].iter().map(|w| w.sqrt()).collect();
-    let collected: Vec<RowSnapshots> = points
-        .par_iter()
-        .filter(|p| p.kind == ContactKind::Line)
-        .map_init(
-            || Online::new(Arc::clone(&exact), ReducedOptions::default()),
-            |online, point| {
-                if observer.cancelled() {
-                    return Err(TrainingError::Cancelled);
-                }
-                let mut rows = RowSnapshots::default();
-                let scaled = |v: &[f64]| v.iter().zip(&roots).map(|(v, r)| v * r).collect::<Vec<_>>();
-                let mut keep = |f: &[f64], j: &[f64]| {
-                    rows.residual.push(scaled(f));
-                    rows.jacobian.push(scaled(j));
-                };
-                online.forget();
-                let solved = online.solve_observed(point, spec.lubricant, Some(&mut keep));
-                let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-                observer.progress(Progress { stage: stage.clone(), done, total: points.len() });
-                // A diverged iteration teaches nothing about the rows a good one meets.
-                if solved.is_err() {
-                    return Ok(RowSnapshots::default());
-                }
-                normalise(&mut rows.residual);
-                normalise(&mut rows.jacobian);
-                Ok(rows)
-            },
-        )
-        .collect::<Result<_, _>>()?;
-    let mut rows = RowSnapshots::default();
-    for part in collected {
-        rows.residual.extend(part.residual);
-        rows.jacobian.extend(part.jacobian);
-    }
-    observer.progress(Progress { stage: "Row sampling".to_owned(), done: 0, total: 1 });
-    let count =
-        ((window.pressure.modes.ncols() as f64 * spec.rows_per_mode).round() as usize).min(window.grid.xi.len() - 3);
-    let sampled = match spec.sampling {
-        Sampling::QDeim => q_deim(&window.pressure, &window.grid.weights, &rows, count),
-        Sampling::Greedy => greedy(&window.pressure, &window.grid.weights, &rows, count),
-        Sampling::All => Some(all_rows(&window.pressure, &window.grid.weights)),
-    };
-    Ok(sampled.filter(|s| is_finite(s.reconstruction.as_ref())))
-}
-
-/// Scales the snapshots of one solve by the largest of them.
-fn normalise(snapshots: &mut [Vec<f64>]) {
-    let norm = |v: &Vec<f64>| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let largest = snapshots.iter().map(norm).fold(0.0, f64::max);
-    if largest > 0.0 {
-        for v in snapshots.iter_mut().flatten() {
-            *v /= largest;
-        }
-    }
 }

@@ -4,6 +4,7 @@
 
 mod build;
 mod plan;
+mod rows;
 #[cfg(test)]
 mod tests;
 

@@ -43,7 +43,7 @@ fn the_same_specification_gives_the_same_model() {
 
 #[test]
 fn every_sampling_reproduces_the_training_solutions() {
-    for sampling in [Sampling::All, Sampling::QDeim, Sampling::Greedy] {
+    for sampling in [Sampling::All, Sampling::QDeim, Sampling::Cubature, Sampling::Greedy] {
         let model = Arc::new(train(&small(sampling), &()).unwrap());
         let window = &model.windows[0];
         if sampling != Sampling::All {
