@@ -1,0 +1,205 @@
+//! The README keeps its promises: its commands run or at least parse, its files exist, its tables are complete.
+
+use ehl_explorer::scene::{Scene, Study};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// Options whose value is a file or folder to be written.
+const WRITTEN: [&str; 3] = ["--csv", "--profiles", "--out"];
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn readme() -> String {
+    std::fs::read_to_string(root().join("README.md")).unwrap()
+}
+
+/// The command lines in fenced `sh` blocks, comments dropped and continued lines joined, and those within the text.
+fn commands() -> Vec<Vec<String>> {
+    let mut commands = Vec::new();
+    let (mut inside, mut pending) = (false, String::new());
+    for line in readme().lines() {
+        if line.starts_with("```") {
+            assert!(pending.is_empty(), "a block ends in the middle of `{pending}`");
+            inside = line == "```sh";
+            continue;
+        }
+        if !inside {
+            let spans = line.split('`').skip(1).step_by(2);
+            let calls = spans.filter(|span| span.starts_with("cargo ") || span.starts_with("ehl-explorer "));
+            commands.extend(calls.map(|span| span.split_whitespace().map(str::to_owned).collect()));
+            continue;
+        }
+        let line = line.split(" #").next().unwrap_or_default().trim();
+        if line.is_empty() || line.starts_with('#') {
+            continue;
+        }
+        assert!(!line.contains(['"', '\'', '|', '$']), "this test splits at spaces only: {line}");
+        if let Some(start) = line.strip_suffix('\\') {
+            pending.push_str(start);
+            continue;
+        }
+        commands.push((std::mem::take(&mut pending) + line).split_whitespace().map(str::to_owned).collect());
+    }
+    commands
+}
+
+/// The arguments of this program in each command line that calls it; the others must be `cargo`'s.
+fn own_commands() -> Vec<Vec<String>> {
+    let prefixes: [&[&str]; 2] = [&["ehl-explorer"], &["cargo", "run", "--release", "--"]];
+    let own = |words: &Vec<String>| {
+        let prefix =
+            prefixes.iter().find(|prefix| words.iter().zip(**prefix).filter(|(a, b)| a == b).count() == prefix.len());
+        match prefix {
+            Some(prefix) => Some(words[prefix.len()..].to_vec()),
+            None => {
+                assert!(matches!(words[0].as_str(), "cargo" | "git" | "cd"), "an unknown program: {words:?}");
+                None
+            }
+        }
+    };
+    commands().iter().filter_map(own).collect()
+}
+
+fn program<S: AsRef<std::ffi::OsStr>>(arguments: &[S]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_ehl-explorer")).args(arguments).current_dir(root()).output().unwrap()
+}
+
+fn assert_done(arguments: &[String], output: &Output) {
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{}: {error}", arguments.join(" "));
+}
+
+fn scene_files(arguments: &[String]) -> Vec<(PathBuf, Scene)> {
+    let is_scene = |argument: &&String| Path::new(argument).extension().is_some_and(|extension| extension == "ron");
+    let read = |argument: &String| {
+        let path = root().join(argument);
+        let scene = Scene::read(&path).unwrap_or_else(|error| panic!("{error}"));
+        (path, scene)
+    };
+    arguments.iter().filter(is_scene).map(read).collect()
+}
+
+/// Asking for help after the other arguments is refused when one of them is unknown, and runs nothing.
+fn assert_parses(arguments: &[String]) {
+    assert_done(arguments, &program(&[arguments, &["--help".to_owned()]].concat()));
+}
+
+fn is_quick(scene: &Scene) -> bool {
+    matches!(scene.study, Study::Point { .. } | Study::GridStudy { .. } | Study::FormulaComparison { .. })
+}
+
+#[test]
+fn every_command_runs_or_at_least_parses() {
+    let folder = std::env::temp_dir().join(format!("ehl-readme-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let mut seen = BTreeSet::new();
+    // Models that an earlier line has trained are not there: nothing is trained here.
+    let mut trained: Vec<String> = Vec::new();
+    for mut arguments in own_commands() {
+        let scenes = scene_files(&arguments);
+        let command = arguments.first().cloned().unwrap_or_default();
+        let executed = match command.as_str() {
+            "solve" | "sweep" => !arguments.iter().any(|argument| trained.contains(argument)),
+            "info" => !trained.contains(&arguments[1]),
+            "run" => scenes.iter().all(|(_, scene)| is_quick(scene)),
+            "train" => {
+                assert!(scenes.len() == 1 && matches!(scenes[0].1.study, Study::Training(_)), "{arguments:?}");
+                trained.extend(arguments.iter().skip_while(|a| *a != "--out").nth(1).cloned());
+                false
+            }
+            "bench" => false,
+            // Opening the explorer needs a display: that the scene can be read is all that is seen here.
+            _ => {
+                assert_eq!(arguments.len(), scenes.len(), "{arguments:?}");
+                continue;
+            }
+        };
+        seen.insert(command);
+        assert_parses(&arguments);
+        if !executed {
+            continue;
+        }
+        let mut written = Vec::new();
+        for k in 1..arguments.len() {
+            if WRITTEN.contains(&arguments[k - 1].as_str()) {
+                let path = folder.join(&arguments[k]);
+                arguments[k] = path.to_string_lossy().into_owned();
+                written.push(path);
+            }
+        }
+        let output = program(&arguments);
+        assert_done(&arguments, &output);
+        assert!(!output.stdout.is_empty() || !written.is_empty(), "{arguments:?} says nothing");
+        assert!(written.iter().all(|path| path.exists()), "{arguments:?} writes nothing");
+    }
+    std::fs::remove_dir_all(&folder).unwrap();
+    let all = ["bench", "info", "run", "solve", "sweep", "train"];
+    assert!(all.iter().all(|command| seen.contains(*command)), "commands without an example: seen are {seen:?}");
+}
+
+#[test]
+fn unknown_options_do_not_pass_as_parsed() {
+    for bad in [["bench", "--slow", "--help"], ["train", "--wings", "--help"]] {
+        assert_eq!(program(&bad).status.code(), Some(2), "{bad:?}");
+    }
+}
+
+#[test]
+fn tests_that_are_named_exist() {
+    let mut count = 0;
+    for words in commands().iter().filter(|words| words.starts_with(&["cargo".to_owned(), "test".to_owned()])) {
+        let Some(k) = words.iter().position(|word| word == "--test") else { continue };
+        let path = root().join("tests").join(format!("{}.rs", words[k + 1]));
+        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        if let Some(filter) = words.get(k + 2).filter(|word| !word.starts_with('-')) {
+            assert!(text.contains(&format!("fn {filter}")), "{} has no test {filter}", path.display());
+        }
+        count += 1;
+    }
+    assert!(count > 0);
+}
+
+#[test]
+fn files_that_are_named_exist_and_every_scene_is_named() {
+    let text = readme();
+    let words = text.split(|c: char| c.is_whitespace() || "`()[],;|".contains(c));
+    for word in words.map(|word| word.trim_end_matches(['.', ':'])) {
+        let ours = ["scenes/", "assets/", "tests/", "src/"].iter().any(|folder| word.starts_with(folder));
+        assert!(!ours || word.contains('*') || root().join(word).exists(), "{word} does not exist");
+    }
+    for entry in std::fs::read_dir(root().join("scenes")).unwrap() {
+        let name = entry.unwrap().file_name().to_string_lossy().into_owned();
+        assert!(text.contains(&name), "the README's list of scenes lacks {name}");
+    }
+    for name in ["LICENSE-MIT", "LICENSE-APACHE"] {
+        assert!(text.contains(name) && root().join(name).is_file(), "{name}");
+    }
+}
+
+#[test]
+fn every_direct_dependency_is_explained() {
+    let manifest = std::fs::read_to_string(root().join("Cargo.toml")).unwrap();
+    let mut section = "";
+    let mut dependencies = BTreeSet::new();
+    for line in manifest.lines() {
+        if line.starts_with('[') {
+            section = line;
+        } else if section.ends_with("dependencies]") {
+            dependencies.extend(line.split_once('=').map(|(name, _)| name.trim().to_owned()));
+        }
+    }
+    assert!(dependencies.len() > 10, "{dependencies:?}");
+    let text = readme();
+    let table =
+        text.split("\n## ").find(|section| section.starts_with("Dependencies")).expect("a section Dependencies");
+    let rows: BTreeSet<String> = table
+        .lines()
+        .filter_map(|line| line.strip_prefix("| `")?.split_once('`'))
+        .inspect(|(name, reason)| assert!(reason.len() > 20, "{name} has no reason"))
+        .map(|(name, _)| name.to_owned())
+        .collect();
+    assert_eq!(rows, dependencies, "README (left) and Cargo.toml (right) name other dependencies");
+}
