@@ -153,7 +153,7 @@ fn an_unwritable_path_is_a_sentence() {
     harness.get_by_label("Path of the file").type_text("/no/such/folder/contact.ron");
     harness.run();
     click(&mut harness, "Save");
-    assert!(harness.query_by_label_contains("cannot be written").is_some());
+    assert!(harness.query_by_label_contains("Cannot write").is_some());
 }
 
 #[test]

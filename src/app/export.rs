@@ -77,7 +77,7 @@ pub fn readouts(state: &State) -> Vec<(&'static str, String, String)> {
     let Some(picture) = &state.picture else { return Vec::new() };
     let (scalars, scale, p_h) =
         (&picture.solution.scalars, picture.key.point.film_scale_m(), picture.key.point.hertz().pressure_pa);
-    let mu = picture.traction.per_srr * state.document.slide_to_roll_ratio;
+    let mu = picture.traction.per_srr * state.document.view.slide_to_roll_ratio;
     vec![
         ("H_c", numbers::significant(scalars.h_c), numbers::length(scalars.h_c * scale)),
         ("H_min", numbers::significant(scalars.h_min), numbers::length(scalars.h_min * scale)),

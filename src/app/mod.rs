@@ -108,8 +108,8 @@ impl Explorer {
         if !self.installed {
             self.installed = true;
             theme::install(&ctx);
-            ctx.set_theme(self.state.view.theme);
-            ctx.set_zoom_factor(self.state.view.zoom);
+            ctx.set_theme(self.state.display.theme);
+            ctx.set_zoom_factor(self.state.display.zoom);
         }
         self.state.receive();
         let mut chosen = if self.state.files.asks() { Vec::new() } else { Command::pressed(&ctx) };
@@ -164,8 +164,8 @@ impl Explorer {
             Command::LightTheme => self.set_theme(ctx, egui::ThemePreference::Light),
             Command::DarkTheme => self.set_theme(ctx, egui::ThemePreference::Dark),
             Command::SystemTheme => self.set_theme(ctx, egui::ThemePreference::System),
-            Command::LargerText => self.set_zoom(ctx, self.state.view.zoom * 1.1),
-            Command::SmallerText => self.set_zoom(ctx, self.state.view.zoom / 1.1),
+            Command::LargerText => self.set_zoom(ctx, self.state.display.zoom * 1.1),
+            Command::SmallerText => self.set_zoom(ctx, self.state.display.zoom / 1.1),
             Command::NormalText => self.set_zoom(ctx, 1.0),
             Command::ResetLayout => {
                 self.tree = plots::default_tree();
@@ -181,13 +181,13 @@ impl Explorer {
     }
 
     fn set_theme(&mut self, ctx: &Context, theme: egui::ThemePreference) {
-        self.state.view.theme = theme;
+        self.state.display.theme = theme;
         ctx.set_theme(theme);
     }
 
     fn set_zoom(&mut self, ctx: &Context, zoom: f32) {
-        self.state.view.zoom = zoom.clamp(0.6, 3.0);
-        ctx.set_zoom_factor(self.state.view.zoom);
+        self.state.display.zoom = zoom.clamp(0.6, 3.0);
+        ctx.set_zoom_factor(self.state.display.zoom);
     }
 
     /// M and L of the sliders.

@@ -1,10 +1,11 @@
 //! M, L, SRR and NPR, the same state in SI units, and the Hertzian contact behind it.
 
 use crate::app::controls::{LogSlider, NAME_WIDTH, explained, heading, named, number_field, row_name, warning_ui};
-use crate::app::document::{HOME, LoadFollower, Quantity};
+use crate::app::document::{HOME, Quantity};
 use crate::app::numbers;
 use crate::app::state::State;
 use crate::app::theme::{name_and_symbol, symbol};
+use crate::scene::LoadFollower;
 use crate::solver::contact::{Moes, PLAUSIBLE_HERTZ_PRESSURE_PA};
 use egui::{ComboBox, Grid, Slider, Ui};
 
@@ -59,8 +60,8 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
         }
         ui.end_row();
         for (label, name, range, value) in [
-            ("SRR", "Slide-to-roll ratio SRR", 0.0..=2.0, &mut state.document.slide_to_roll_ratio),
-            ("NPR", "Newtonian plateau ratio NPR", 0.0..=1.0, &mut state.document.newtonian_plateau_ratio),
+            ("SRR", "Slide-to-roll ratio SRR", 0.0..=2.0, &mut state.document.view.slide_to_roll_ratio),
+            ("NPR", "Newtonian plateau ratio NPR", 0.0..=1.0, &mut state.document.view.newtonian_plateau_ratio),
         ] {
             let tip = format!("{NEWTONIAN_TIP} {label}");
             ui.add_enabled_ui(false, |ui| ui.label(label)).response.on_hover_text(&tip);
@@ -91,7 +92,7 @@ fn followers_ui(ui: &mut Ui, state: &mut State) {
     Grid::new("followers").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
         let tip = "M fixes one combination of the SI values: this is the one that gives way";
         let label = ui.label("When M moves").on_hover_text(tip);
-        let mut chosen = document.when_m_moves;
+        let mut chosen = document.view.when_m_moves;
         ComboBox::from_id_salt("when M moves")
             .selected_text(chosen.name())
             .width(140.0)
@@ -102,7 +103,7 @@ fn followers_ui(ui: &mut Ui, state: &mut State) {
             })
             .response
             .labelled_by(label.id);
-        if chosen != document.when_m_moves {
+        if chosen != document.view.when_m_moves {
             document.set_load_follower(chosen);
         }
         ui.end_row();
@@ -110,11 +111,11 @@ fn followers_ui(ui: &mut Ui, state: &mut State) {
             along which the reduced model is trained";
         let label = ui.label("When L moves").on_hover_text(tip);
         ComboBox::from_id_salt("when L moves")
-            .selected_text(document.when_l_moves.name())
+            .selected_text(document.view.when_l_moves.name())
             .width(140.0)
             .show_ui(ui, |ui| {
-                for &follower in document.when_m_moves.partners() {
-                    ui.selectable_value(&mut document.when_l_moves, follower, follower.name());
+                for &follower in document.view.when_m_moves.partners() {
+                    ui.selectable_value(&mut document.view.when_l_moves, follower, follower.name());
                 }
             })
             .response

@@ -103,7 +103,7 @@ fn model_ui(ui: &mut Ui, state: &mut State) {
         ui.end_row();
         let label = ui.label("Deformation");
         let name = |projected: bool| if projected { "through its basis" } else { "exact" };
-        let projected = &mut state.document.projected_deformation;
+        let projected = &mut state.document.view.projected_deformation;
         ComboBox::from_id_salt("deformation")
             .selected_text(name(*projected))
             .width(140.0)
@@ -115,7 +115,7 @@ fn model_ui(ui: &mut Ui, state: &mut State) {
             .response
             .labelled_by(label.id);
         ui.end_row();
-        if state.document.projected_deformation {
+        if state.document.view.projected_deformation {
             ui.label("Deformation modes");
             ui.label(format!("{} of {all_deformation}", options.deformation_modes.unwrap_or(all_deformation)));
             ui.end_row();

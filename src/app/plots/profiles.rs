@@ -37,8 +37,8 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
         return;
     };
     let reduced = picture.origin != Origin::Full;
-    let full = state.full.as_ref().filter(|_| state.view.overlay && reduced);
-    let comparison = state.comparison.as_ref().filter(|_| state.view.difference);
+    let full = state.full.as_ref().filter(|_| state.display.overlay && reduced);
+    let comparison = state.comparison.as_ref().filter(|_| state.display.difference);
     let parts = if comparison.is_some() { 2.6 } else { 2.0 };
     let unit = (ui.available_height() - 6.0) / parts;
     let scene =
@@ -61,8 +61,8 @@ fn toolbar(ui: &mut Ui, state: &mut State) {
         let reduced = state.picture.as_ref().is_some_and(|p| p.origin != Origin::Full);
         let why = "The picture is the full solution itself";
         let switches = [
-            ("Full solution", "Draw the full solution over the reduced one", &mut state.view.overlay),
-            ("Difference", "Reduced minus full, on an axis of its own", &mut state.view.difference),
+            ("Full solution", "Draw the full solution over the reduced one", &mut state.display.overlay),
+            ("Difference", "Reduced minus full, on an axis of its own", &mut state.display.difference),
         ];
         for (name, tip, on) in switches {
             ui.add_enabled(reduced, Checkbox::new(on, name)).on_hover_text(tip).on_disabled_hover_text(why);
