@@ -8,8 +8,10 @@ use crate::app::state::State;
 use crate::app::theme::Palette;
 use crate::solver::grid::FIRST_UNKNOWN;
 use crate::solver::reduced::{PodBasis, ReducedModel, Window};
-use egui::{Color32, ComboBox, Ui};
-use egui_plot::{Corner, HLine, Legend, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, Points, VLine};
+use egui::{Align2, Color32, ComboBox, RichText, Ui};
+use egui_plot::{
+    Corner, HLine, Legend, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, Points, Text, VLine,
+};
 use std::sync::Arc;
 
 /// How near (in screen points) the pointer must be to take a tolerance along.
@@ -217,6 +219,11 @@ fn loss_plot(ui: &mut Ui, state: &mut State, window: &Window, height: f32) {
             let width = if dragging == Some(*field) { 2.6 } else { 1.4 };
             let line = HLine::new("", *level).id(("tolerance", field.name()));
             plot.hline(line.color(color).width(width).style(LineStyle::dashed_dense()).allow_hover(false));
+            let bounds = plot.plot_bounds();
+            let place = PlotPoint::new(bounds.min()[0] + 0.02 * bounds.width(), *level);
+            let text = RichText::new(format!("tolerance {}", numbers::digits(10f64.powf(*level), 1))).size(11.0);
+            let label = Text::new("", place, text.color(color)).anchor(Align2::LEFT_BOTTOM);
+            plot.text(label.id(("tolerance label", field.name())).allow_hover(false));
         }
         if let Some(kept) = options.pressure_modes {
             let line = VLine::new("", kept as f64).id("kept").color(palette.pressure).width(1.0);
