@@ -83,7 +83,7 @@ pub fn described(ui: &Ui, response: Response, description: &str) -> Response {
 }
 
 /// Width of the boxes to choose from, so that they line up.
-const CHOICE_WIDTH: f32 = 160.0;
+const CHOICE_WIDTH: f32 = 164.0;
 
 /// A row with a name and a box to choose from; every option has a name and says on hover what it means.
 pub fn choice<T: Copy + PartialEq>(
@@ -200,7 +200,8 @@ impl LogSlider<'_> {
                 .show_value(false),
         );
         let rect = response.rect;
-        let response = named(ui, response, self.name).on_hover_text(self.tooltip);
+        // No tooltip here: it would cover what the slider moves. The symbol before it explains.
+        let response = described(ui, named(ui, response, self.name), self.tooltip);
         if let Some((low, high)) = self.marked {
             let radius = rect.height() / 2.5;
             let at = |v: f64| {

@@ -28,7 +28,7 @@ use jobs::JobKind;
 use panels::help::Help;
 use plots::{Tab, Tabs};
 use state::State;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -39,10 +39,7 @@ use std::time::Instant;
 pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
     let mut explorer = Explorer::new(model_source::load_model());
     if let Some(path) = &scene {
-        explorer.state.open_path(path);
-        if let Some(Err(message)) = explorer.state.files.notice.take() {
-            return Err(message);
-        }
+        explorer.open_scene(path)?;
     }
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
@@ -208,6 +205,19 @@ impl Explorer {
     /// The first words of the trust badge.
     pub fn badge(&self) -> String {
         plots::badge::verdict(&self.state).title
+    }
+
+    /// What the trust badge says after its first words; symbols stand in braces.
+    pub fn badge_detail(&self) -> String {
+        plots::badge::verdict(&self.state).detail
+    }
+
+    /// Opens a scene, as File → Open does.
+    ///
+    /// # Errors
+    /// A sentence when it cannot be read; what is on the screen stays.
+    pub fn open_scene(&mut self, path: &Path) -> Result<(), String> {
+        self.state.open_path(path)
     }
 
     /// Whether a computation runs or waits.

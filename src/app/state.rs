@@ -217,10 +217,13 @@ impl State {
             Outcome::Solved(solution, wall_s) if solution.converged() => {
                 self.full_wall_s = Some(wall_s);
                 self.last_report = Some((job.key, solution.report.clone()));
-                let picture = Picture::new(job.key, Origin::Full, Arc::from(solution));
                 if job.key == self.key() {
                     self.failure = None;
+                } else if self.picture_is_current() {
+                    // The sliders have moved back to where the reduced model answers at once: this solution comes too late.
+                    return;
                 }
+                let picture = Picture::new(job.key, Origin::Full, Arc::from(solution));
                 self.full = Some(picture.clone());
                 self.picture = Some(picture);
                 self.comparison = None;

@@ -4,7 +4,7 @@ mod path_window;
 
 use super::document::Document;
 use super::state::State;
-use crate::scene::{Scene, SceneFileError};
+use crate::scene::Scene;
 use egui::{Context, Id, Modal, Ui, ViewportCommand};
 use path_window::PathWindow;
 use std::path::{Path, PathBuf};
@@ -111,7 +111,11 @@ impl State {
                 self.files.notice = None;
             }
             Pending::OpenDialog => self.ask_path(ctx, Purpose::Open),
-            Pending::Open(path) => self.open_path(&path),
+            Pending::Open(path) => {
+                if let Err(message) = self.open_path(&path) {
+                    self.files.notice = Some(Err(message));
+                }
+            }
             Pending::Quit => {
                 self.files.quit = true;
                 ctx.send_viewport_cmd(ViewportCommand::Close);
@@ -119,19 +123,19 @@ impl State {
         }
     }
 
-    /// Opens a scene. What is on the screen stays when it cannot be read.
-    pub fn open_path(&mut self, path: &Path) {
-        let read = Scene::read(path).map_err(|e| e.to_string());
-        match read.and_then(|scene| Document::of_scene(scene).map_err(|e| format!("{}: {e}", path.display()))) {
-            Ok(document) => {
-                self.replace_document(document);
-                self.files.saved = self.document.clone();
-                self.files.path = Some(path.to_owned());
-                self.remember(path);
-                self.files.notice = Some(Ok(format!("Opened {}", path.display())));
-            }
-            Err(message) => self.files.notice = Some(Err(message)),
-        }
+    /// Opens a scene.
+    ///
+    /// # Errors
+    /// A sentence when it cannot be read; what is on the screen stays.
+    pub fn open_path(&mut self, path: &Path) -> Result<(), String> {
+        let scene = Scene::read(path).map_err(|e| e.to_string())?;
+        let document = Document::of_scene(scene).map_err(|e| format!("{}: {e}", path.display()))?;
+        self.replace_document(document);
+        self.files.saved = self.document.clone();
+        self.files.path = Some(path.to_owned());
+        self.remember(path);
+        self.files.notice = Some(Ok(format!("Opened {}", path.display())));
+        Ok(())
     }
 
     /// Saves to the known path or asks for one.
@@ -147,7 +151,7 @@ impl State {
     }
 
     fn save_to(&mut self, path: &Path) -> Result<(), String> {
-        self.document.to_scene().write(path).map_err(|e: SceneFileError| e.to_string())?;
+        self.document.to_scene().write(path).map_err(|e| e.to_string())?;
         self.files.saved = self.document.clone();
         self.files.path = Some(path.to_owned());
         self.remember(path);

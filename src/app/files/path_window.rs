@@ -127,16 +127,7 @@ impl State {
             return;
         }
         let result = match window.purpose.clone() {
-            Purpose::Open => {
-                self.open_path(&path);
-                match self.files.notice.take() {
-                    Some(Err(message)) => Err(message),
-                    other => {
-                        self.files.notice = other;
-                        Ok(())
-                    }
-                }
-            }
+            Purpose::Open => self.open_path(&path),
             Purpose::Save => self.save_to(&path),
             Purpose::Csv { text } => atomic_file::replace(&path, text.as_bytes())
                 .map_err(|e| e.to_string())

@@ -59,6 +59,12 @@ pub fn verdict(state: &State) -> Verdict {
             format!("{}. The full solver draws the picture instead", sentence(why).trim_end_matches('.')),
             Kind::Warning,
         ),
+        (Origin::Full, _) if !state.picture_is_current() => make(
+            "Computing",
+            full.to_owned(),
+            "The picture shown belongs to the sliders as they were a moment ago".to_owned(),
+            Kind::Neutral,
+        ),
         (Origin::Full, _) => make(
             "Verified",
             full.to_owned(),

@@ -219,8 +219,7 @@ fn loss_plot(ui: &mut Ui, state: &mut State, window: &Window, height: f32) {
             let width = if dragging == Some(*field) { 2.6 } else { 1.4 };
             let line = HLine::new("", *level).id(("tolerance", field.name()));
             plot.hline(line.color(color).width(width).style(LineStyle::dashed_dense()).allow_hover(false));
-            let bounds = plot.plot_bounds();
-            let place = PlotPoint::new(bounds.min()[0] + 0.02 * bounds.width(), *level);
+            let place = PlotPoint::new(1.0, *level);
             let text = RichText::new(format!("tolerance {}", numbers::digits(10f64.powf(*level), 1))).size(11.0);
             let label = Text::new("", place, text.color(color)).anchor(Align2::LEFT_BOTTOM);
             plot.text(label.id(("tolerance label", field.name())).allow_hover(false));

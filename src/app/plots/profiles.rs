@@ -190,8 +190,12 @@ fn curve<'a>(name: String, points: &'a [PlotPoint], color: Color32, width: f32) 
 fn mark(plot: &mut PlotUi<'_>, at: (f64, f64), name: &'static str, color: Color32, anchor: Align2) {
     let dot = Points::new("", vec![[at.0, at.1]]).id(name).shape(MarkerShape::Circle).radius(3.5).color(color);
     plot.points(dot.allow_hover(false));
-    let lead = if anchor == Align2::LEFT_BOTTOM { "  " } else { "\n" };
-    let label = Text::new("", PlotPoint::new(at.0, at.1), rich(&format!("{lead}{name}"), 13.0, color));
+    let text = match anchor {
+        Align2::CENTER_TOP => format!("\n{name}"),
+        Align2::RIGHT_BOTTOM => format!("{name}  "),
+        _ => format!("  {name}"),
+    };
+    let label = Text::new("", PlotPoint::new(at.0, at.1), rich(&text, 13.0, color));
     plot.text(label.anchor(anchor).id((name, "label")).allow_hover(false));
 }
 
@@ -242,7 +246,11 @@ fn film_plot(ui: &mut Ui, scene: &Scene<'_>, height: f32) {
             cavitated(plot, picture, &palette);
             let live = scene.curves(plot, &palette, palette.film, |picture| &picture.film);
             mark(plot, (0.0, scalars.h_c), "{H_c}", live, Align2::LEFT_BOTTOM);
-            mark(plot, (scalars.x_h_min, scalars.h_min), "{H_min}", live, Align2::CENTER_TOP);
+            // Below the curve, unless the axis would cut the name off.
+            let below = plot.transform().position_from_point(&PlotPoint::new(0.0, scalars.h_min)).y + 34.0;
+            let room = below < plot.response().rect.bottom();
+            let anchor = if room { Align2::CENTER_TOP } else { Align2::RIGHT_BOTTOM };
+            mark(plot, (scalars.x_h_min, scalars.h_min), "{H_min}", live, anchor);
         });
 }
 
