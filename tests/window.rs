@@ -204,8 +204,8 @@ fn a_dragged_frame_of_the_embedded_model_is_cheap() {
         .collect();
     times.sort_by(f64::total_cmp);
     println!("dragging: median {:.2} ms, worst {:.2} ms", 1e3 * times[60], 1e3 * times[119]);
-    // Four milliseconds are the aim; machines that do other work at the same time get some more.
-    let bar = if cfg!(debug_assertions) { 0.5 } else { 0.008 };
+    // Four milliseconds are allowed in release; debug builds are many times slower.
+    let bar = if cfg!(debug_assertions) { 0.5 } else { 0.004 };
     assert!(times[60] < bar, "a frame takes {} s", times[60]);
 }
 

@@ -52,3 +52,52 @@ pub fn restore(explorer: &mut Explorer, storage: &dyn Storage, with_document: bo
         state.replace_document(document);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::contact::Moes;
+    use std::collections::HashMap;
+
+    #[derive(Default)]
+    struct Memory(HashMap<String, String>);
+
+    impl Storage for Memory {
+        fn get_string(&self, key: &str) -> Option<String> {
+            self.0.get(key).cloned()
+        }
+
+        fn set_string(&mut self, key: &str, value: String) {
+            self.0.insert(key.to_owned(), value);
+        }
+
+        fn remove_string(&mut self, key: &str) {
+            self.0.remove(key);
+        }
+
+        fn flush(&mut self) {}
+    }
+
+    #[test]
+    fn a_session_comes_back_with_its_unsaved_changes_and_its_truncation() {
+        let mut explorer = Explorer::new(None);
+        let document = &mut explorer.state.document;
+        document.set_moes(Moes { m: 55.0, l: 8.0 }).unwrap();
+        document.view.pressure_loss = Some(1e-6);
+        let (point, view) = (document.point, document.view);
+        let mut storage = Memory::default();
+        save(&explorer, &mut storage);
+        let mut again = Explorer::new(None);
+        restore(&mut again, &storage, true);
+        assert_eq!((again.state.document.point, again.state.document.view), (point, view));
+        assert!(again.state.dirty(), "what was not saved is still unsaved");
+        explorer.state.files.set_saved(explorer.state.document.clone());
+        save(&explorer, &mut storage);
+        restore(&mut again, &storage, true);
+        assert!(!again.state.dirty());
+        storage.set_string(KEY, "(damaged".to_owned());
+        let mut fresh = Explorer::new(None);
+        restore(&mut fresh, &storage, true);
+        assert_eq!(fresh.state.document, Document::default());
+    }
+}

@@ -221,7 +221,7 @@ fn loss_plot(ui: &mut Ui, state: &mut State, window: &Window, height: f32) {
             plot.hline(line.color(color).width(width).style(LineStyle::dashed_dense()).allow_hover(false));
             let place = PlotPoint::new(1.0, *level);
             let text = RichText::new(format!("tolerance {}", numbers::digits(10f64.powf(*level), 1))).size(11.0);
-            let label = Text::new("", place, text.color(color)).anchor(Align2::LEFT_BOTTOM);
+            let label = Text::new("", place, text.color(color)).anchor(Align2::LEFT_TOP);
             plot.text(label.id(("tolerance label", field.name())).allow_hover(false));
         }
         if let Some(kept) = options.pressure_modes {
