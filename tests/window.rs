@@ -2,8 +2,9 @@
 
 use egui::accesskit::Role;
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
+use ehl_explorer::harness::model_file;
 use ehl_explorer::solver::contact::PLAUSIBLE_HERTZ_PRESSURE_PA;
 use ehl_explorer::solver::grid::GridSpec;
 use ehl_explorer::solver::lubricant::Lubricant;
@@ -68,7 +69,10 @@ fn a_model_draws_the_picture_and_a_full_solve_checks_it() {
     assert!(harness.state().central_film().is_some(), "the reduced picture is there in the first frames");
     wait(&mut harness, "verification", |app| app.badge() == "Verified");
     harness.get_by_label("Load number M").set_value_accesskit(500.0);
-    wait(&mut harness, "the full solver", |app| app.badge() == "Outside the reduced model");
+    wait(&mut harness, "the full solver", |app| app.badge() == "Outside the reduced model" && !app.busy());
+    harness.get_by_label("Load number M").set_value_accesskit(500.0 / 1.01);
+    harness.step();
+    // A live solve that comes back after the sliders have returned to the model must not replace its picture.
     harness.get_by_label("Load number M").set_value_accesskit(50.0);
     wait(&mut harness, "the reduced model", |app| app.badge() == "Verified");
     settled(&mut harness);
@@ -125,9 +129,9 @@ fn pinning_comparing_and_exporting_survive() {
     harness.get_by_label("Lubricant number L").set_value_accesskit(5.0);
     harness.run();
     settled(&mut harness);
+    click(&mut harness, "Pin curve");
     click(&mut harness, "Remove pin 1");
-    let folder = std::env::temp_dir().join(format!("ehl-explorer-window-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
+    let folder = temporary("export");
     let path = folder.join("profiles.csv");
     click(&mut harness, "Export CSV…");
     let field = harness.get_by_label("Path of the file");
@@ -138,7 +142,10 @@ fn pinning_comparing_and_exporting_survive() {
     harness.run();
     click(&mut harness, "Export");
     let text = std::fs::read_to_string(&path).unwrap();
-    assert!(text.lines().nth(2).unwrap().starts_with("X,P,H,x_m,p_pa,h_m"), "{}", &text[..200]);
+    let head: Vec<&str> = text.lines().take(4).collect();
+    assert!(head[2].starts_with("# pin2: M ") && head[2].contains("; L "), "{head:?}");
+    assert_eq!(head[3], "X,P,H,x_m,p_pa,h_m,pin2.X,pin2.P,pin2.H,pin2.x_m,pin2.p_pa,pin2.h_m");
+    assert!(text.lines().skip(4).all(|line| line.split(',').count() == 12));
     assert!(text.lines().count() > 500);
     std::fs::remove_dir_all(&folder).unwrap();
 }
@@ -153,7 +160,7 @@ fn an_unwritable_path_is_a_sentence() {
     harness.get_by_label("Path of the file").type_text("/no/such/folder/contact.ron");
     harness.run();
     click(&mut harness, "Save");
-    assert!(harness.query_by_label_contains("cannot be written").is_some());
+    assert!(harness.query_by_label_contains("Cannot write").is_some());
 }
 
 #[test]
@@ -183,21 +190,140 @@ fn a_frame_is_cheap() {
 }
 
 #[test]
-fn a_dragged_frame_is_cheap() {
-    let mut harness = open_with(Some(Arc::new(small_model())));
+fn a_dragged_frame_of_the_embedded_model_is_cheap() {
+    let mut harness = open_embedded();
     settled(&mut harness);
-    let mut times: Vec<f64> = (0..60)
+    let mut times: Vec<f64> = (0..120)
         .map(|k| {
-            harness.get_by_label("Load number M").set_value_accesskit(30.0 + f64::from(k));
+            // Through the windows of the model, from nearly rigid to nearly Hertzian.
+            harness.get_by_label("Load number M").set_value_accesskit(5.0 * 1.027f64.powi(k));
             harness.step();
             assert!(harness.state().central_film().is_some(), "the picture follows within the frame");
             harness.state().frame_s()
         })
         .collect();
     times.sort_by(f64::total_cmp);
-    println!("dragging: median {:.2} ms, worst {:.2} ms", 1e3 * times[30], 1e3 * times[59]);
-    let bar = if cfg!(debug_assertions) { 0.5 } else { 0.012 };
-    assert!(times[30] < bar, "a frame takes {} s", times[30]);
+    println!("dragging: median {:.2} ms, worst {:.2} ms", 1e3 * times[60], 1e3 * times[119]);
+    // Four milliseconds are allowed in release; debug builds are many times slower.
+    let bar = if cfg!(debug_assertions) { 0.5 } else { 0.004 };
+    assert!(times[60] < bar, "a frame takes {} s", times[60]);
+}
+
+#[test]
+fn the_first_picture_is_there_within_a_second() {
+    let begin = Instant::now();
+    let model = model_file::embedded().unwrap();
+    let loaded = begin.elapsed();
+    let mut harness = open_with(Some(model));
+    harness.step();
+    assert!(harness.state().central_film().is_some(), "the first frame has a picture");
+    let all = begin.elapsed();
+    println!("model read in {loaded:.0?}, first frame with a picture after {all:.0?}");
+    let bar = if cfg!(debug_assertions) { 30.0 } else { 1.0 };
+    assert!(all.as_secs_f64() < bar, "{all:?}");
+}
+
+#[test]
+fn the_badge_estimates_first_and_knows_later() {
+    let mut harness = open_embedded();
+    harness.step();
+    assert_eq!(harness.state().badge(), "Reduced model");
+    assert!(harness.state().badge_detail().starts_with("uncalibrated estimate"), "{}", harness.state().badge_detail());
+    wait(&mut harness, "verification", |app| app.badge() == "Verified");
+    let detail = harness.state().badge_detail();
+    assert!(detail.contains("Δ{H_c}") && detail.contains('%') && !detail.contains("e−7"), "{detail}");
+}
+
+#[test]
+fn far_outside_the_model_the_full_solver_takes_over_visibly() {
+    let mut harness = open_embedded();
+    settled(&mut harness);
+    harness.get_by_label("Load number M").set_value_accesskit(1000.0);
+    harness.step();
+    assert_eq!(harness.state().badge(), "Outside the reduced model");
+    harness.get_by_label("Lubricant number L").set_value_accesskit(25.0);
+    harness.step();
+    assert_eq!(harness.state().badge(), "Outside the reduced model");
+    wait(&mut harness, "the full solver", |app| !app.busy());
+    harness.run();
+    // Either a converged full solution, or a sentence and the former picture; never a reduced result.
+    match harness.state().badge().as_str() {
+        "Outside the reduced model" => assert!(harness.state().central_film().is_some()),
+        "No solution here" => assert!(harness.state().central_film().is_none()),
+        other => panic!("{other}"),
+    }
+    assert!(harness.query_by_label_contains("full solver draws").is_some());
+}
+
+#[test]
+fn a_reduced_solve_that_fails_hands_over_to_the_full_solver() {
+    // One mode cannot carry the load: the reduced equations have no solution.
+    let text = "Scene(version: 1, title: \"t\", at: Moes(m: 400.0, l: 3.0), study: Point(methods: [Full]), \
+        view: (pressure_loss: 0.9))";
+    let folder = temporary("failing");
+    let path = folder.join("failing.ron");
+    std::fs::write(&path, text).unwrap();
+    let mut harness = open_embedded();
+    settled(&mut harness);
+    harness.state_mut().open_scene(&path).unwrap();
+    harness.step();
+    wait(&mut harness, "the full solver", |app| app.central_film().is_some() && !app.busy());
+    harness.run();
+    assert_eq!(harness.state().badge(), "Reduced model failed");
+    assert_eq!(harness.state().badge_detail(), "full solution");
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn what_is_not_active_says_why_to_everybody() {
+    let mut harness = open();
+    settled(&mut harness);
+    for (name, word) in [("Slide-to-roll ratio SRR", "sliding"), ("Newtonian plateau ratio NPR", "plateau")] {
+        let node = harness.get_by_label(name).accesskit_node();
+        let why = node.description().unwrap_or_default();
+        assert!(why.starts_with("Not active yet: the lubricant is Newtonian") && why.contains(word), "{name}: {why}");
+        assert!(node.is_disabled());
+    }
+}
+
+#[test]
+fn a_whole_drag_is_one_step_back() {
+    let mut harness = open();
+    settled(&mut harness);
+    let before = harness.state().load_n_per_m();
+    let rail = harness.get_by_label("Load number M").rect();
+    let at = |t: f32| egui::pos2(rail.left() + t * rail.width(), rail.center().y);
+    harness.hover_at(at(0.5));
+    harness.step();
+    harness.drag_at(at(0.5));
+    harness.step();
+    let mut passed = Vec::new();
+    for k in 1..=12 {
+        harness.hover_at(at(0.5 + 0.02 * k as f32));
+        harness.step();
+        passed.push(harness.state().load_n_per_m());
+    }
+    harness.drop_at(at(0.74));
+    harness.step();
+    assert!(passed.windows(2).all(|w| w[0] < w[1]), "{passed:?}");
+    let after = harness.state().load_n_per_m();
+    assert!(after > 2.0 * before, "{before} to {after}");
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    harness.run_steps(2);
+    assert!((harness.state().load_n_per_m() / before - 1.0).abs() < 1e-12, "one step back is the whole drag");
+    harness.key_press_modifiers(egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::Z);
+    harness.run_steps(2);
+    assert!((harness.state().load_n_per_m() / after - 1.0).abs() < 1e-12);
+}
+
+fn temporary(name: &str) -> std::path::PathBuf {
+    let folder = std::env::temp_dir().join(format!("ehl-explorer-{name}-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn open_embedded() -> Harness<'static, Explorer> {
+    open_with(Some(model_file::embedded().unwrap()))
 }
 
 /// A model of the middle of the sliders: enough for every view of a model.

@@ -3,7 +3,7 @@
 use super::numbers;
 use super::theme::Palette;
 use egui::text::LayoutJob;
-use egui::{Key, Response, RichText, Slider, SliderClamping, TextEdit, Ui, pos2};
+use egui::{ComboBox, Key, Response, RichText, Slider, SliderClamping, TextEdit, Ui, WidgetText, pos2};
 use std::collections::HashMap;
 use std::ops::RangeInclusive;
 
@@ -74,6 +74,46 @@ pub fn sentence(text: &str) -> String {
 pub fn named(ui: &Ui, response: Response, name: &str) -> Response {
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_label(name));
     response
+}
+
+/// What a screen reader says after the name: a tooltip is out of its reach.
+pub fn described(ui: &Ui, response: Response, description: &str) -> Response {
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(description));
+    response
+}
+
+/// Width of the boxes to choose from, so that they line up.
+const CHOICE_WIDTH: f32 = 164.0;
+
+/// A row with a name and a box to choose from; every option has a name and says on hover what it means.
+pub fn choice<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    name: impl Into<WidgetText>,
+    tooltip: &str,
+    value: &mut T,
+    options: &[T],
+    describe: impl Fn(T) -> (&'static str, &'static str),
+) {
+    let label = ui.label(name).on_hover_text(tooltip);
+    let (chosen, meaning) = describe(*value);
+    let response = ComboBox::from_id_salt(label.id)
+        .selected_text(chosen)
+        .width(CHOICE_WIDTH)
+        .show_ui(ui, |ui| {
+            for &option in options {
+                let (name, meaning) = describe(option);
+                let response = ui.selectable_value(value, option, name);
+                if !meaning.is_empty() {
+                    response.on_hover_text(meaning);
+                }
+            }
+        })
+        .response
+        .labelled_by(label.id);
+    if !meaning.is_empty() {
+        response.on_hover_text(meaning);
+    }
+    ui.end_row();
 }
 
 /// A number that is typed. Returns it when it was entered and is a number; arrow keys step by one percent.
@@ -160,7 +200,8 @@ impl LogSlider<'_> {
                 .show_value(false),
         );
         let rect = response.rect;
-        let response = named(ui, response, self.name).on_hover_text(self.tooltip);
+        // No tooltip here: it would cover what the slider moves. The symbol before it explains.
+        let response = described(ui, named(ui, response, self.name), self.tooltip);
         if let Some((low, high)) = self.marked {
             let radius = rect.height() / 2.5;
             let at = |v: f64| {
@@ -187,7 +228,7 @@ pub fn heading(ui: &mut Ui, text: &str) {
 }
 
 /// Width of the column of names, so that values line up from group to group.
-pub const NAME_WIDTH: f32 = 104.0;
+pub const NAME_WIDTH: f32 = 110.0;
 
 /// A label made of a laid-out name, explained on hover.
 pub fn explained(ui: &mut Ui, job: LayoutJob, tooltip: &str) -> Response {

@@ -1,77 +1,10 @@
 //! What the user edits and what a file holds: the operating point, what follows when M or L moves, the lubricant, the truncation.
 //! Undo and redo are snapshots of it.
 
-use crate::scene::{At, Scene};
+use crate::scene::{At, LoadFollower, LubricantFollower, Scene, View};
 use crate::solver::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::full::Problem;
 use crate::solver::lubricant::Lubricant;
-use serde::{Deserialize, Serialize};
-
-/// The quantity that follows when M moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
-pub enum LoadFollower {
-    /// Load w.
-    #[default]
-    Load,
-    /// Radius R.
-    Radius,
-    /// Speed u_m (α then follows L).
-    Speed,
-}
-
-/// The quantity that follows when L moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
-pub enum LubricantFollower {
-    /// α = 5/GPa · L^0.463 and the speed: the default realisation, along which the embedded model is trained.
-    #[default]
-    Realisation,
-    /// Speed u_m at constant α.
-    Speed,
-    /// α at constant speed.
-    Alpha,
-    /// Radius R at constant speed and α.
-    Radius,
-}
-
-impl LoadFollower {
-    /// All choices.
-    pub const ALL: [Self; 3] = [Self::Load, Self::Radius, Self::Speed];
-
-    /// For people.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Load => "load w",
-            Self::Radius => "radius R",
-            Self::Speed => "speed u_m",
-        }
-    }
-
-    /// The choices for L that leave exactly M and L to follow.
-    pub fn partners(self) -> &'static [LubricantFollower] {
-        match self {
-            Self::Load => &[
-                LubricantFollower::Realisation,
-                LubricantFollower::Speed,
-                LubricantFollower::Alpha,
-                LubricantFollower::Radius,
-            ],
-            Self::Radius => &[LubricantFollower::Realisation, LubricantFollower::Speed, LubricantFollower::Alpha],
-            Self::Speed => &[LubricantFollower::Alpha],
-        }
-    }
-}
-
-impl LubricantFollower {
-    /// For people.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Realisation => "α and speed together",
-            Self::Speed => "speed u_m",
-            Self::Alpha => "coefficient α",
-            Self::Radius => "radius R",
-        }
-    }
-}
 
 /// One of the six SI quantities, in the order of [`OperatingPoint::quantities`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -109,29 +42,16 @@ impl Quantity {
 }
 
 /// The experiment on the screen. Its point is always a valid one: edits that are refused leave it as it was.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Document {
     /// Title for people.
     pub title: String,
     /// The operating point.
     pub point: OperatingPoint,
-    /// What follows when M moves.
-    pub when_m_moves: LoadFollower,
-    /// What follows when L moves.
-    pub when_l_moves: LubricantFollower,
     /// Laws of the lubricant.
     pub lubricant: Lubricant,
-    /// Loss of information the pressure basis may neglect; `None` keeps every mode.
-    pub pressure_loss: Option<f64>,
-    /// Loss of information the deformation basis may neglect; `None` keeps every mode.
-    pub deformation_loss: Option<f64>,
-    /// Deformation of the reduced model through V_δ (the dissertation's) instead of exactly.
-    pub projected_deformation: bool,
-    /// Slide-to-roll ratio SRR.
-    pub slide_to_roll_ratio: f64,
-    /// Newtonian plateau ratio NPR.
-    pub newtonian_plateau_ratio: f64,
+    /// What follows when M or L moves, the truncation, SRR and NPR.
+    pub view: View,
     /// The scene it was opened from: its study and expectations are kept for saving.
     pub scene: Option<Scene>,
 }
@@ -145,14 +65,8 @@ impl Default for Document {
         Self {
             title: "Line contact".to_owned(),
             point: si_from_moes(&request).unwrap_or(OperatingPoint::TABLE_2_1),
-            when_m_moves: LoadFollower::default(),
-            when_l_moves: LubricantFollower::default(),
             lubricant: Lubricant::default(),
-            pressure_loss: None,
-            deformation_loss: None,
-            projected_deformation: false,
-            slide_to_roll_ratio: 0.0,
-            newtonian_plateau_ratio: 1.0,
+            view: View::default(),
             scene: None,
         }
     }
@@ -170,7 +84,7 @@ impl Document {
             viscosity_pa_s: Some(here.viscosity_pa_s),
             ..MoesRequest::new(here.kind, wanted.m, wanted.l)
         };
-        let (radius, speed, load, alpha) = match (self.when_m_moves, self.when_l_moves) {
+        let (radius, speed, load, alpha) = match (self.view.when_m_moves, self.view.when_l_moves) {
             (LoadFollower::Load, LubricantFollower::Realisation) => (true, false, false, false),
             (LoadFollower::Load, LubricantFollower::Speed) => (true, false, false, true),
             (LoadFollower::Load, LubricantFollower::Alpha) => (true, true, false, false),
@@ -210,11 +124,11 @@ impl Document {
 
     /// Chooses what follows M; what follows L changes along where both cannot be had together.
     pub fn set_load_follower(&mut self, follower: LoadFollower) {
-        self.when_m_moves = follower;
+        self.view.when_m_moves = follower;
         if let Some(first) = follower.partners().first()
-            && !follower.partners().contains(&self.when_l_moves)
+            && !follower.partners().contains(&self.view.when_l_moves)
         {
-            self.when_l_moves = *first;
+            self.view.when_l_moves = *first;
         }
     }
 
@@ -224,79 +138,52 @@ impl Document {
         Ok(())
     }
 
-    /// Refuses a document whose values make no sense, as files may hold them.
-    fn check(&self) -> Result<(), String> {
-        Problem::new(&self.point, self.lubricant).map_err(|e| e.to_string())?;
-        for (name, loss) in [("pressure_loss", self.pressure_loss), ("deformation_loss", self.deformation_loss)] {
-            if loss.is_some_and(|v| !(v > 0.0 && v < 1.0)) {
-                return Err(format!("{name} must lie between 0 and 1"));
-            }
-        }
-        for (name, value) in [
-            ("slide_to_roll_ratio", self.slide_to_roll_ratio),
-            ("newtonian_plateau_ratio", self.newtonian_plateau_ratio),
-        ] {
-            if !value.is_finite() {
-                return Err(format!("{name} must be a finite number"));
-            }
-        }
-        if !self.when_m_moves.partners().contains(&self.when_l_moves) {
-            return Err("when_m_moves and when_l_moves cannot be combined like this".to_owned());
-        }
-        Ok(())
+    /// The document of a scene; everything the explorer does not edit stays with it.
+    ///
+    /// # Errors
+    /// A sentence that names what the explorer cannot solve.
+    pub fn of_scene(scene: Scene) -> Result<Self, String> {
+        let point = scene.point().map_err(|e| e.to_string())?;
+        Problem::new(&point, scene.lubricant).map_err(|e| e.to_string())?;
+        Ok(Self {
+            title: scene.title.clone(),
+            point,
+            lubricant: scene.lubricant,
+            view: scene.view.unwrap_or_default(),
+            scene: Some(scene),
+        })
     }
-}
 
-/// The document of a scene; everything the explorer does not edit stays with it.
-///
-/// # Errors
-/// A sentence with line and column, or what was refused.
-pub fn document_from_scene(text: &str) -> Result<Document, String> {
-    let scene = Scene::from_ron(text).map_err(|e| e.to_string())?;
-    let point = scene.point().map_err(|e| e.to_string())?;
-    let document = Document {
-        title: scene.title.clone(),
-        point,
-        lubricant: scene.lubricant,
-        scene: Some(scene),
-        ..Document::default()
-    };
-    document.check()?;
-    Ok(document)
-}
-
-/// A document as a scene. What was opened and not changed is written as it was.
-///
-/// # Errors
-/// A sentence; in practice never.
-pub fn document_to_scene(document: &Document) -> Result<String, String> {
-    let moes = document.point.moes();
-    let mut scene = document.scene.clone().unwrap_or_else(|| Scene::at_moes(moes.m, moes.l));
-    scene.title.clone_from(&document.title);
-    scene.lubricant = document.lubricant;
-    if scene.point() != Ok(document.point) {
-        let [radius, speed, load, modulus, viscosity, alpha] = document.point.quantities();
-        scene.at = At::Si { radius, speed, load, modulus, viscosity, alpha };
+    /// The document as a scene. What was opened and not changed is written as it was.
+    pub fn to_scene(&self) -> Scene {
+        let moes = self.point.moes();
+        let mut scene = self.scene.clone().unwrap_or_else(|| Scene::at_moes(moes.m, moes.l));
+        scene.title.clone_from(&self.title);
+        scene.lubricant = self.lubricant;
+        if scene.point() != Ok(self.point) {
+            scene.at = At::from(self.point);
+        }
+        if scene.view.unwrap_or_default() != self.view {
+            scene.view = Some(self.view);
+        }
+        scene
     }
-    scene.to_ron().map_err(|e| e.to_string())
-}
 
-/// Reads a document, as sessions hold it.
-///
-/// # Errors
-/// A sentence with line and column, or what was refused.
-pub fn document_from_text(text: &str) -> Result<Document, String> {
-    let document: Document = ron::from_str(text).map_err(|e| format!("this is no scene: {e}"))?;
-    document.check()?;
-    Ok(document)
-}
+    /// Reads a document from the text of a scene.
+    ///
+    /// # Errors
+    /// A sentence with line and column, or what was refused.
+    pub fn from_ron(text: &str) -> Result<Self, String> {
+        Self::of_scene(Scene::from_ron(text).map_err(|e| e.to_string())?)
+    }
 
-/// Writes a document with everything a session keeps.
-///
-/// # Errors
-/// A sentence; in practice never.
-pub fn document_to_text(document: &Document) -> Result<String, String> {
-    ron::ser::to_string_pretty(document, ron::ser::PrettyConfig::default()).map_err(|e| e.to_string())
+    /// Writes the document as the text of a scene.
+    ///
+    /// # Errors
+    /// A sentence; in practice never.
+    pub fn to_ron(&self) -> Result<String, String> {
+        self.to_scene().to_ron().map_err(|e| e.to_string())
+    }
 }
 
 /// Undo and redo as snapshots. An edit is a whole gesture: it is recorded when the pointer is released.
@@ -369,8 +256,8 @@ mod tests {
     fn every_pair_of_followers_reaches_the_wanted_numbers_and_keeps_the_rest() {
         for m_follower in LoadFollower::ALL {
             for &l_follower in m_follower.partners() {
-                let mut document =
-                    Document { when_m_moves: m_follower, when_l_moves: l_follower, ..Document::default() };
+                let view = View { when_m_moves: m_follower, when_l_moves: l_follower, ..View::default() };
+                let mut document = Document { view, ..Document::default() };
                 document.set_moes(Moes { m: 55.0, l: 8.0 }).unwrap();
                 let moes = document.point.moes();
                 assert!((moes.m / 55.0 - 1.0).abs() < 1e-9 && (moes.l / 8.0 - 1.0).abs() < 1e-9);
@@ -380,25 +267,33 @@ mod tests {
     }
 
     #[test]
-    fn text_returns_the_same_document_and_refuses_what_it_does_not_know() {
-        let document = Document { title: "a".into(), pressure_loss: Some(1e-6), ..Document::default() };
-        assert_eq!(document_from_text(&document_to_text(&document).unwrap()).unwrap(), document);
-        assert!(document_from_text("(titel: \"x\")").unwrap_err().contains("titel"));
-        assert!(document_from_text("(pressure_loss: Some(2.0))").is_err());
+    fn saving_and_opening_again_loses_nothing() {
+        let view = View { pressure_loss: Some(1e-6), slide_to_roll_ratio: 0.2, ..View::default() };
+        let mut document = Document { title: "a".into(), view, ..Document::default() };
+        document.set_load_follower(LoadFollower::Speed);
+        document.set_quantity(Quantity::Radius, 0.0123).unwrap();
+        let text = document.to_ron().unwrap();
+        let again = Document::from_ron(&text).unwrap();
+        assert_eq!((&again.title, again.point, again.view), (&document.title, document.point, document.view));
+        assert_eq!(again.to_ron().unwrap(), text);
+        assert!(Document::from_ron(&text.replace("title", "titel")).unwrap_err().contains("titel"));
+        assert!(Document::from_ron(&text.replace("pressure_loss: ", "pressure_loss: -")).is_err(), "{text}");
     }
 
     #[test]
     fn a_scene_keeps_what_the_explorer_does_not_edit() {
-        let text = include_str!("../../scenes/table_2_1.ron");
-        let mut document = document_from_scene(text).unwrap();
-        let before = Scene::from_ron(text).unwrap();
-        assert_eq!(Scene::from_ron(&document_to_scene(&document).unwrap()).unwrap(), before);
+        let before = Scene::from_ron(include_str!("../../scenes/table_2_1.ron")).unwrap();
+        assert_eq!(before.view, None);
+        let mut document = Document::of_scene(before.clone()).unwrap();
+        assert_eq!(document.to_scene(), before);
         document.set_moes(Moes { m: 55.0, l: 8.0 }).unwrap();
-        let after = Scene::from_ron(&document_to_scene(&document).unwrap()).unwrap();
-        assert_eq!((after.study, after.expect), (before.study, before.expect));
-        assert_eq!(after.at, document_from_scene(&document_to_scene(&document).unwrap()).unwrap().scene.unwrap().at);
-        let session = document_from_text(&document_to_text(&document).unwrap()).unwrap();
-        assert_eq!(session, document);
+        let after = document.to_scene();
+        assert_eq!((&after.study, &after.expect, after.view), (&before.study, &before.expect, None));
+        assert_eq!(Document::of_scene(after).unwrap().point, document.point);
+        document.view.projected_deformation = true;
+        assert_eq!(document.to_scene().view, Some(document.view));
+        document.view.projected_deformation = false;
+        assert_eq!(document.to_scene().view, None);
     }
 
     #[test]

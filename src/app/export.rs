@@ -48,28 +48,52 @@ pub fn describe(picture: &Picture) -> String {
     )
 }
 
-/// Profiles with their SI twins, and the full solution beside a reduced one where both belong together.
+/// One row of a picture's profile with its SI twins.
+fn profile_row(picture: &Picture, (x, p, film): (f64, f64, f64)) -> [Option<f64>; 6] {
+    let (hertz, film_scale) = (picture.key.point.hertz(), picture.key.point.film_scale_m());
+    [x, p, film, x * hertz.half_width_m, p * hertz.pressure_pa, film * film_scale].map(Some)
+}
+
+/// Profiles with their SI twins, the full solution beside a reduced one where both belong together, and every pinned curve on
+/// its own nodes in columns of its own.
 pub fn profiles(state: &State) -> Option<String> {
+    const COLUMNS: [&str; 6] = ["X", "P", "H", "x_m", "p_pa", "h_m"];
     let picture = state.picture.as_ref()?;
-    let (a, p_h, h) = (
-        picture.key.point.hertz().half_width_m,
-        picture.key.point.hertz().pressure_pa,
-        picture.key.point.film_scale_m(),
-    );
     let full = state.comparison.as_ref().and(state.full.as_ref());
-    let mut header = vec!["X", "P", "H", "x_m", "p_pa", "h_m"];
+    let mut comments = vec![describe(picture), picture.origin.describe()];
+    let mut header: Vec<String> = COLUMNS.map(str::to_owned).to_vec();
     if full.is_some() {
-        header.extend(["P_full", "H_full"]);
+        header.extend(["P_full", "H_full"].map(str::to_owned));
     }
-    let rows = picture.solution.profile().map(|(x, p, film)| {
-        let mut row = vec![Some(x), Some(p), Some(film), Some(x * a), Some(p * p_h), Some(film * h)];
-        if let Some(full) = full {
-            row.push(value_at(&full.pressure, x));
-            row.push(value_at(&full.film, x));
-        }
+    for pin in &state.pins {
+        comments.push(format!("pin{}: {}; {}", pin.number, describe(&pin.picture), pin.picture.origin.describe()));
+        header.extend(COLUMNS.map(|column| format!("pin{}.{column}", pin.number)));
+    }
+    let live_width = COLUMNS.len() + if full.is_some() { 2 } else { 0 };
+    let live: Vec<Vec<Option<f64>>> = picture
+        .solution
+        .profile()
+        .map(|node| {
+            let mut row = profile_row(picture, node).to_vec();
+            if let Some(full) = full {
+                row.extend([value_at(&full.pressure, node.0), value_at(&full.film, node.0)]);
+            }
+            row
+        })
+        .collect();
+    let pinned: Vec<Vec<[Option<f64>; 6]>> = state
+        .pins
+        .iter()
+        .map(|pin| pin.picture.solution.profile().map(|node| profile_row(&pin.picture, node)).collect())
+        .collect();
+    let rows = pinned.iter().map(Vec::len).fold(live.len(), usize::max);
+    let row = |k: usize| {
+        let mut row = live.get(k).cloned().unwrap_or_else(|| vec![None; live_width]);
+        row.extend(pinned.iter().flat_map(|pin| pin.get(k).copied().unwrap_or_default()));
         row
-    });
-    Some(csv(&[describe(picture), format!("{:?}", picture.origin)], &header, rows))
+    };
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    Some(csv(&comments, &header, (0..rows).map(row)))
 }
 
 /// The rows of the read-outs: name, dimensionless value, value with unit.
@@ -77,7 +101,7 @@ pub fn readouts(state: &State) -> Vec<(&'static str, String, String)> {
     let Some(picture) = &state.picture else { return Vec::new() };
     let (scalars, scale, p_h) =
         (&picture.solution.scalars, picture.key.point.film_scale_m(), picture.key.point.hertz().pressure_pa);
-    let mu = picture.traction.per_srr * state.document.slide_to_roll_ratio;
+    let mu = picture.traction.per_srr * state.document.view.slide_to_roll_ratio;
     vec![
         ("H_c", numbers::significant(scalars.h_c), numbers::length(scalars.h_c * scale)),
         ("H_min", numbers::significant(scalars.h_min), numbers::length(scalars.h_min * scale)),

@@ -28,7 +28,7 @@ use jobs::JobKind;
 use panels::help::Help;
 use plots::{Tab, Tabs};
 use state::State;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -39,10 +39,7 @@ use std::time::Instant;
 pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
     let mut explorer = Explorer::new(model_source::load_model());
     if let Some(path) = &scene {
-        explorer.state.open_path(path);
-        if let Some(Err(message)) = explorer.state.files.notice.take() {
-            return Err(message);
-        }
+        explorer.open_scene(path)?;
     }
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
@@ -108,8 +105,8 @@ impl Explorer {
         if !self.installed {
             self.installed = true;
             theme::install(&ctx);
-            ctx.set_theme(self.state.view.theme);
-            ctx.set_zoom_factor(self.state.view.zoom);
+            ctx.set_theme(self.state.display.theme);
+            ctx.set_zoom_factor(self.state.display.zoom);
         }
         self.state.receive();
         let mut chosen = if self.state.files.asks() { Vec::new() } else { Command::pressed(&ctx) };
@@ -164,8 +161,8 @@ impl Explorer {
             Command::LightTheme => self.set_theme(ctx, egui::ThemePreference::Light),
             Command::DarkTheme => self.set_theme(ctx, egui::ThemePreference::Dark),
             Command::SystemTheme => self.set_theme(ctx, egui::ThemePreference::System),
-            Command::LargerText => self.set_zoom(ctx, self.state.view.zoom * 1.1),
-            Command::SmallerText => self.set_zoom(ctx, self.state.view.zoom / 1.1),
+            Command::LargerText => self.set_zoom(ctx, self.state.display.zoom * 1.1),
+            Command::SmallerText => self.set_zoom(ctx, self.state.display.zoom / 1.1),
             Command::NormalText => self.set_zoom(ctx, 1.0),
             Command::ResetLayout => {
                 self.tree = plots::default_tree();
@@ -181,13 +178,13 @@ impl Explorer {
     }
 
     fn set_theme(&mut self, ctx: &Context, theme: egui::ThemePreference) {
-        self.state.view.theme = theme;
+        self.state.display.theme = theme;
         ctx.set_theme(theme);
     }
 
     fn set_zoom(&mut self, ctx: &Context, zoom: f32) {
-        self.state.view.zoom = zoom.clamp(0.6, 3.0);
-        ctx.set_zoom_factor(self.state.view.zoom);
+        self.state.display.zoom = zoom.clamp(0.6, 3.0);
+        ctx.set_zoom_factor(self.state.display.zoom);
     }
 
     /// M and L of the sliders.
@@ -208,6 +205,19 @@ impl Explorer {
     /// The first words of the trust badge.
     pub fn badge(&self) -> String {
         plots::badge::verdict(&self.state).title
+    }
+
+    /// What the trust badge says after its first words; symbols stand in braces.
+    pub fn badge_detail(&self) -> String {
+        plots::badge::verdict(&self.state).detail
+    }
+
+    /// Opens a scene, as File → Open does.
+    ///
+    /// # Errors
+    /// A sentence when it cannot be read; what is on the screen stays.
+    pub fn open_scene(&mut self, path: &Path) -> Result<(), String> {
+        self.state.open_path(path)
     }
 
     /// Whether a computation runs or waits.

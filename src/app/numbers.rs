@@ -1,5 +1,7 @@
 //! Numbers as people read them: four significant digits, a thin space before the unit, and typed numbers back again.
 
+use crate::solver::contact::Moes;
+
 /// Thin space between a number and its unit.
 pub const THIN: char = '\u{2009}';
 
@@ -69,6 +71,29 @@ pub fn percent(relative: f64) -> String {
     if relative > 0.0 { format!("+{text}") } else { text }
 }
 
+/// The size of a relative error in percent: two digits, at most four decimals, and never a power of ten.
+pub fn error_percent(relative: f64) -> String {
+    let percent = 100.0 * relative.abs();
+    if !percent.is_finite() {
+        return "–".to_owned();
+    }
+    if percent < 1e-4 {
+        return format!("<{THIN}0.0001{THIN}%");
+    }
+    let decimals = (1.0 - percent.log10().floor()).clamp(0.0, 4.0) as usize;
+    format!("{percent:.decimals$}{THIN}%")
+}
+
+/// The size of a small deviation or residual: two digits, one where a power of ten is needed.
+pub fn small(value: f64) -> String {
+    digits(value.abs(), if value.abs() < 1e-4 { 1 } else { 2 })
+}
+
+/// M and L of a contact.
+pub fn moes(Moes { m, l }: Moes) -> String {
+    format!("M {}, L {}", significant(m), significant(l))
+}
+
 /// A typed number: decimal point or comma, any minus sign, exponents.
 ///
 /// # Errors
@@ -124,6 +149,22 @@ mod tests {
         }
         assert_eq!(pressure(1.1469e9), "1.147\u{2009}GPa");
         assert_eq!(length(2.28e-7), "0.2280\u{2009}µm");
+    }
+
+    #[test]
+    fn errors_are_said_in_digits_that_mean_something() {
+        for (relative, text) in [
+            (-7.31e-6, "0.0007 %"),
+            (3.13e-9, "< 0.0001 %"),
+            (0.0, "< 0.0001 %"),
+            (0.0123, "1.2 %"),
+            (-0.251, "25 %"),
+            (4.7e-4, "0.047 %"),
+            (f64::NAN, "–"),
+        ] {
+            assert_eq!(error_percent(relative), text.replace(' ', &THIN.to_string()));
+        }
+        assert_eq!((small(4.8e-6), small(-0.0123)), ("5e−6".to_owned(), "0.012".to_owned()));
     }
 
     #[test]

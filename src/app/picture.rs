@@ -1,6 +1,7 @@
 //! What the plots draw: a solution with its curves ready for the screen, and how two of them compare.
 
 use super::jobs::Key;
+use super::numbers;
 use crate::solver::full::{Solution, Traction};
 use egui_plot::PlotPoint;
 use std::sync::Arc;
@@ -19,6 +20,19 @@ pub enum Origin {
     },
     /// By the full solver.
     Full,
+}
+
+impl Origin {
+    /// For the heads of tables.
+    pub fn describe(&self) -> String {
+        match self {
+            Self::Full => "full solution".to_owned(),
+            Self::Reduced { residual_estimate, iterations, window } => format!(
+                "reduced model, window {}, {iterations} Newton steps, uncalibrated residual estimate {residual_estimate:e}",
+                window + 1
+            ),
+        }
+    }
 }
 
 /// A solution, what it belongs to, and its curves.
@@ -97,6 +111,16 @@ pub struct Comparison {
 }
 
 impl Comparison {
+    /// The errors in a line, with symbols in braces.
+    pub fn describe(&self) -> String {
+        format!(
+            "Δ{{H_c}} {}, Δ{{H_min}} {}, max |Δ{{P}}| {}",
+            numbers::error_percent(self.h_c),
+            numbers::error_percent(self.h_min),
+            numbers::small(self.max_dp)
+        )
+    }
+
     /// A picture against the truth.
     pub fn new(picture: &Picture, full: &Picture) -> Self {
         let (a, b) = (&picture.solution.scalars, &full.solution.scalars);

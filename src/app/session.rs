@@ -1,8 +1,8 @@
 //! The last session: what is written as the program runs, so that a crash costs ten seconds at most.
 
-use super::document::{document_from_text, document_to_text};
+use super::document::Document;
 use super::plots::{self, Tab};
-use super::state::View;
+use super::state::Display;
 use super::{Explorer, state::State};
 use eframe::Storage;
 use egui_tiles::Tree;
@@ -17,38 +17,87 @@ struct Session {
     saved: String,
     path: Option<PathBuf>,
     recent: Vec<PathBuf>,
-    view: View,
+    display: Display,
     tree: Tree<Tab>,
 }
 
 /// Writes the session.
 pub fn save(explorer: &Explorer, storage: &mut dyn Storage) {
     let state = &explorer.state;
-    if let (Ok(document), Ok(saved)) = (document_to_text(&state.document), document_to_text(state.files.saved())) {
+    if let (Ok(document), Ok(saved)) = (state.document.to_ron(), state.files.saved().to_ron()) {
         let session = Session {
             document,
             saved,
             path: state.files.path.clone(),
             recent: state.files.recent.clone(),
-            view: state.view.clone(),
+            display: state.display.clone(),
             tree: explorer.tree.clone(),
         };
         eframe::set_value(storage, KEY, &session);
     }
 }
 
-/// Restores the view, and the document too when `with_document`. What cannot be read is left at its default.
+/// Restores how things are shown, and the document too when `with_document`. What cannot be read is left at its default.
 pub fn restore(explorer: &mut Explorer, storage: &dyn Storage, with_document: bool) {
     let Some(session) = eframe::get_value::<Session>(storage, KEY) else { return };
     let state: &mut State = &mut explorer.state;
-    state.view = session.view;
+    state.display = session.display;
     state.files.recent = session.recent;
     if plots::is_complete(&session.tree) {
         explorer.tree = session.tree;
     }
-    if with_document && let Ok(document) = document_from_text(&session.document) {
-        state.files.set_saved(document_from_text(&session.saved).unwrap_or_else(|_| document.clone()));
+    if with_document && let Ok(document) = Document::from_ron(&session.document) {
+        state.files.set_saved(Document::from_ron(&session.saved).unwrap_or_else(|_| document.clone()));
         state.files.path = session.path;
         state.replace_document(document);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::contact::Moes;
+    use std::collections::HashMap;
+
+    #[derive(Default)]
+    struct Memory(HashMap<String, String>);
+
+    impl Storage for Memory {
+        fn get_string(&self, key: &str) -> Option<String> {
+            self.0.get(key).cloned()
+        }
+
+        fn set_string(&mut self, key: &str, value: String) {
+            self.0.insert(key.to_owned(), value);
+        }
+
+        fn remove_string(&mut self, key: &str) {
+            self.0.remove(key);
+        }
+
+        fn flush(&mut self) {}
+    }
+
+    #[test]
+    fn a_session_comes_back_with_its_unsaved_changes_and_its_truncation() {
+        let mut explorer = Explorer::new(None);
+        let document = &mut explorer.state.document;
+        document.set_moes(Moes { m: 55.0, l: 8.0 }).unwrap();
+        document.view.pressure_loss = Some(1e-6);
+        let (point, view) = (document.point, document.view);
+        let mut storage = Memory::default();
+        save(&explorer, &mut storage);
+        let mut again = Explorer::new(None);
+        restore(&mut again, &storage, true);
+        assert_eq!((again.state.document.point, again.state.document.view), (point, view));
+        assert!(again.state.dirty(), "what was not saved is still unsaved");
+        explorer.state.files.set_saved(explorer.state.document.clone());
+        save(&explorer, &mut storage);
+        restore(&mut again, &storage, true);
+        assert!(!again.state.dirty());
+        storage.set_string(KEY, "(damaged".to_owned());
+        let mut fresh = Explorer::new(None);
+        restore(&mut fresh, &storage, true);
+        assert_eq!(fresh.state.document, Document::default());
     }
 }

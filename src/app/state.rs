@@ -24,7 +24,7 @@ pub const MOST_PINS: usize = 8;
 /// How things are shown; not part of the document.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct View {
+pub struct Display {
     /// Draw the full solution over the reduced one.
     pub overlay: bool,
     /// Draw the difference below.
@@ -35,7 +35,7 @@ pub struct View {
     pub zoom: f32,
 }
 
-impl Default for View {
+impl Default for Display {
     fn default() -> Self {
         Self { overlay: false, difference: false, theme: egui::ThemePreference::System, zoom: 1.0 }
     }
@@ -80,7 +80,7 @@ pub struct State {
     /// Opening, saving, exporting.
     pub files: Files,
     /// How things are shown.
-    pub view: View,
+    pub display: Display,
     /// The worker.
     pub jobs: Jobs,
     /// Text fields being edited and their messages.
@@ -130,7 +130,7 @@ impl State {
             files: Files::new(&document),
             document,
             history,
-            view: View::default(),
+            display: Display::default(),
             jobs: Jobs::default(),
             entries: Entries::default(),
             model,
@@ -193,9 +193,9 @@ impl State {
         if let Some(model) = &self.model
             && let Some(window) = model.windows.get(model.window_for(self.document.point.moes()))
         {
-            options.pressure_modes = self.document.pressure_loss.map(|loss| window.pressure.modes_for(loss));
-            if self.document.projected_deformation {
-                let loss = self.document.deformation_loss.unwrap_or(0.0);
+            options.pressure_modes = self.document.view.pressure_loss.map(|loss| window.pressure.modes_for(loss));
+            if self.document.view.projected_deformation {
+                let loss = self.document.view.deformation_loss.unwrap_or(0.0);
                 options.deformation_modes = Some(window.deformation.modes_for(loss));
             }
         }
@@ -217,10 +217,13 @@ impl State {
             Outcome::Solved(solution, wall_s) if solution.converged() => {
                 self.full_wall_s = Some(wall_s);
                 self.last_report = Some((job.key, solution.report.clone()));
-                let picture = Picture::new(job.key, Origin::Full, Arc::from(solution));
                 if job.key == self.key() {
                     self.failure = None;
+                } else if self.picture_is_current() {
+                    // The sliders have moved back to where the reduced model answers at once: this solution comes too late.
+                    return;
                 }
+                let picture = Picture::new(job.key, Origin::Full, Arc::from(solution));
                 self.full = Some(picture.clone());
                 self.picture = Some(picture);
                 self.comparison = None;

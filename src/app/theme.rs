@@ -196,7 +196,8 @@ mod tests {
             include_str!("command.rs"),
             include_str!("controls.rs"),
             include_str!("document.rs"),
-            include_str!("files.rs"),
+            include_str!("files/mod.rs"),
+            include_str!("files/path_window.rs"),
             include_str!("numbers.rs"),
             include_str!("picture.rs"),
             include_str!("panels/help.rs"),
@@ -212,6 +213,7 @@ mod tests {
             include_str!("plots/profiles.rs"),
             include_str!("plots/regimes.rs"),
             include_str!("plots/regime_chart.rs"),
+            include_str!("../scene/view.rs"),
             include_str!("../solver/contact/film_formulas.rs"),
         ];
         let mut used: Vec<char> = sources

@@ -4,7 +4,7 @@
 //! encoding. K V_p is not stored: it is recomputed when a model is read.
 
 use crate::scene::atomic_file::{self, WriteError};
-use crate::solver::grid::{GridError, GridSpec};
+use crate::solver::grid::{GridError, GridSpec, ReferenceGrid};
 use crate::solver::reduced::{Domain, PodBasis, ReducedModel, SampledRows, Sampling, Snapshot, Window};
 use faer::Mat;
 use rayon::prelude::*;
@@ -136,8 +136,7 @@ impl StoredBasis {
 }
 
 impl StoredWindow {
-    fn into_window(self) -> Result<Window, ModelFileError> {
-        let grid = self.grid.build()?;
+    fn into_window(self, grid: Arc<ReferenceGrid>) -> Result<Window, ModelFileError> {
         let nodes = grid.xi.len();
         let pressure = self.pressure.into_basis("pressure basis")?;
         let deformation = self.deformation.into_basis("deformation basis")?;
@@ -266,13 +265,27 @@ pub fn from_bytes(bytes: &[u8]) -> Result<ReducedModel, ModelFileError> {
     }
     let stored: StoredModel =
         postcard::from_bytes(payload).map_err(|_| ModelFileError::Damaged { what: "its content cannot be decoded" })?;
+    let grids = grids(&stored.windows)?;
     let windows: Vec<Window> =
-        stored.windows.into_par_iter().map(StoredWindow::into_window).collect::<Result<_, _>>()?;
+        stored.windows.into_par_iter().zip(grids).map(|(w, grid)| w.into_window(grid)).collect::<Result<_, _>>()?;
     if windows.is_empty() {
         return Err(ModelFileError::Damaged { what: "no windows" });
     }
     let StoredModel { title, domain, scene, log, .. } = StoredModel { windows: Vec::new(), ..stored };
     Ok(ReducedModel { title, domain, windows, scene, log })
+}
+
+/// The grid of each window. Building one is the costly part of reading a model, so equal ones are built once.
+fn grids(windows: &[StoredWindow]) -> Result<Vec<Arc<ReferenceGrid>>, ModelFileError> {
+    let mut grids: Vec<Arc<ReferenceGrid>> = Vec::with_capacity(windows.len());
+    for window in windows {
+        let grid = match grids.iter().find(|grid| grid.spec == window.grid) {
+            Some(built) => Arc::clone(built),
+            None => window.grid.build()?,
+        };
+        grids.push(grid);
+    }
+    Ok(grids)
 }
 
 /// Checks magic, version and announced size.

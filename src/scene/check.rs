@@ -1,6 +1,6 @@
 //! The door: every number of a scene is finite and sane before anything is computed from it.
 
-use super::{Axis, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, Within};
+use super::{Axis, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, View, Within};
 use crate::solver::training::{Plan, Range, TrainingSpec};
 
 /// Most points of a sweep, a trajectory or a formula comparison.
@@ -50,6 +50,7 @@ impl Scene {
         self.point()?;
         grid(&self.grid)?;
         study(self)?;
+        self.view.iter().try_for_each(view)?;
         self.expect.iter().enumerate().try_for_each(|(i, entry)| expectation(i, entry))
     }
 }
@@ -181,6 +182,21 @@ fn training(spec: &TrainingSpec) -> Checked {
     number("study.pressure_loss", spec.pressure_loss, 1e-15, 0.5)?;
     number("study.deformation_loss", spec.deformation_loss, 1e-15, 0.5)?;
     number("study.rows_per_mode", spec.rows_per_mode, 1.0, 100.0)
+}
+
+fn view(view: &View) -> Checked {
+    for (field, loss) in [("pressure_loss", view.pressure_loss), ("deformation_loss", view.deformation_loss)] {
+        loss.iter().try_for_each(|&loss| number(&format!("view.{field}"), loss, 1e-16, 0.99))?;
+    }
+    number("view.slide_to_roll_ratio", view.slide_to_roll_ratio, -100.0, 100.0)?;
+    number("view.newtonian_plateau_ratio", view.newtonian_plateau_ratio, 0.0, 1.0)?;
+    if !view.when_m_moves.partners().contains(&view.when_l_moves) {
+        let partners = view.when_m_moves.partners().iter().map(|p| format!("{p:?}")).collect::<Vec<_>>().join(", ");
+        let problem =
+            format!("cannot be {:?} when M moves {:?}; write {partners}", view.when_l_moves, view.when_m_moves);
+        return Err(refuse("view.when_l_moves", problem));
+    }
+    Ok(())
 }
 
 fn expectation(index: usize, entry: &Expectation) -> Checked {

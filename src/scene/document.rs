@@ -6,6 +6,8 @@ use ron::Options;
 use ron::extensions::Extensions;
 use ron::ser::PrettyConfig;
 use serde::Deserialize;
+use std::fs::File;
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 /// Largest scene file that is read \[bytes\].
@@ -127,14 +129,16 @@ impl Scene {
     /// When the file cannot be read or is no valid scene; the message names the file.
     pub fn read(path: &Path) -> Result<Self, SceneFileError> {
         let unreadable = |reason: String| SceneFileError::Read { path: path.to_owned(), reason };
-        let metadata = std::fs::metadata(path).map_err(|error| unreadable(error.to_string()))?;
-        if metadata.is_dir() {
+        if path.is_dir() {
             return Err(unreadable("it is a folder".to_owned()));
         }
-        if metadata.len() > MAX_BYTES {
-            return Err(unreadable(format!("it has {} bytes, a scene has at most {MAX_BYTES}", metadata.len())));
+        let mut bytes = Vec::new();
+        // Devices and pipes announce no length: what is read is limited instead.
+        let read = File::open(path).and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes));
+        read.map_err(|error| unreadable(error.to_string()))?;
+        if bytes.len() as u64 > MAX_BYTES {
+            return Err(unreadable(format!("it is larger than {MAX_BYTES} bytes, which no scene is")));
         }
-        let bytes = std::fs::read(path).map_err(|error| unreadable(error.to_string()))?;
         let text = String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8 text".to_owned()))?;
         Self::from_ron(&text).map_err(|reason| SceneFileError::Scene { path: path.to_owned(), reason })
     }

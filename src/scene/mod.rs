@@ -1,8 +1,8 @@
 //! The experiment as a document: one contact, one question about it, and what is expected of the answer.
 //!
 //! A [`Scene`] is plain data. The explorer builds, changes and saves it; the harness runs it; [`document`] reads and writes it as RON
-//! with line and column in every error; [`check`] refuses values that make no sense, naming the field. How the screen shows
-//! a scene is not part of it.
+//! with line and column in every error; [`check`] refuses values that make no sense, naming the field. What the explorer needs
+//! beyond the experiment to open a scene as it was saved stands in its [`View`]; windows, themes and zoom are not part of it.
 
 pub mod atomic_file;
 pub mod check;
@@ -10,10 +10,12 @@ pub mod document;
 mod expectation;
 pub mod named_lubricant;
 mod study;
+mod view;
 
 pub use document::{SceneError, SceneFileError};
 pub use expectation::{Expectation, Within};
 pub use study::{Axis, Formula, QuantityBox, Steps, Study, TestRange, Variable};
+pub use view::{LoadFollower, LubricantFollower, View};
 
 use crate::solver::contact::{ContactError, ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::grid::GridSpec;
@@ -52,6 +54,9 @@ pub struct Scene {
     /// What the answer should be.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub expect: Vec<Expectation>,
+    /// What the explorer keeps with it; results do not depend on it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub view: Option<View>,
 }
 
 /// An operating point, in SI units or by its Moes numbers.
@@ -167,6 +172,7 @@ impl Scene {
             grid: Grid::Graded,
             study: Study::Point { methods: vec![Method::Full, Method::EMBEDDED] },
             expect: Vec::new(),
+            view: None,
         }
     }
 

@@ -1,12 +1,15 @@
 //! M, L, SRR and NPR, the same state in SI units, and the Hertzian contact behind it.
 
-use crate::app::controls::{LogSlider, NAME_WIDTH, explained, heading, named, number_field, row_name, warning_ui};
-use crate::app::document::{HOME, LoadFollower, Quantity};
+use crate::app::controls::{
+    LogSlider, NAME_WIDTH, choice, described, explained, heading, named, number_field, row_name, warning_ui,
+};
+use crate::app::document::{HOME, Quantity};
 use crate::app::numbers;
 use crate::app::state::State;
 use crate::app::theme::{name_and_symbol, symbol};
+use crate::scene::LoadFollower;
 use crate::solver::contact::{Moes, PLAUSIBLE_HERTZ_PRESSURE_PA};
-use egui::{ComboBox, Grid, Slider, Ui};
+use egui::{Grid, Slider, Ui};
 
 /// Ends of the M slider.
 pub const M_RANGE: (f64, f64) = (1.0, 1000.0);
@@ -17,8 +20,10 @@ const M_TIP: &str = "Load number M = w/(E’R) · (2η₀u_m/(E’R))^(−1/2): 
     Small: nearly rigid bodies; large: nearly Hertzian. Double click: M 40";
 const L_TIP: &str = "Lubricant number L = αE’ · (2η₀u_m/(E’R))^(1/4): how strongly the viscosity rises with pressure. \
     Double click: L 10";
-const NEWTONIAN_TIP: &str = "Not active yet: the lubricant is Newtonian and has no constants of shear thinning. \
-    The profiles of a Newtonian line contact do not depend on";
+const SRR_TIP: &str = "Not active yet: the lubricant is Newtonian, so sliding changes neither pressure nor film. \
+    The slide-to-roll ratio SRR becomes active with shear-thinning lubricants";
+const NPR_TIP: &str = "Not active yet: the lubricant is Newtonian, which is a Newtonian plateau ratio NPR of 1. \
+    Smaller ratios become active with shear-thinning lubricants";
 
 /// The panel's first group.
 pub fn ui(ui: &mut Ui, state: &mut State) {
@@ -28,46 +33,32 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
     let width = (ui.available_width() - 132.0).clamp(70.0, 420.0);
     let mut wanted = None;
     Grid::new("moes numbers").num_columns(3).spacing([8.0, 6.0]).show(ui, |ui| {
-        explained(ui, symbol(ui, "M", ""), M_TIP);
-        let slider = LogSlider {
-            name: "Load number M",
-            range: M_RANGE.0..=M_RANGE.1,
-            marked: trained.map(|t| t.0),
-            home: HOME.m,
-            tooltip: M_TIP,
-        };
-        if let Some(m) = slider.show(ui, moes.m, width) {
-            wanted = Some(("M", Moes { m, l: moes.l }));
+        let rows = [
+            ("M", "Load number M", "M value", M_RANGE, trained.map(|t| t.0), HOME.m, moes.m, M_TIP),
+            ("L", "Lubricant number L", "L value", L_RANGE, trained.map(|t| t.1), HOME.l, moes.l, L_TIP),
+        ];
+        for (base, name, value_name, range, marked, home, value, tooltip) in rows {
+            explained(ui, symbol(ui, base, ""), tooltip);
+            let slider = LogSlider { name, range: range.0..=range.1, marked, home, tooltip };
+            let moved = slider.show(ui, value, width).map(|v| (base, v));
+            let typed = number_field(ui, &mut state.entries, value_name, value, 62.0, tooltip).map(|v| (value_name, v));
+            if let Some((field, value)) = moved.or(typed) {
+                let numbers = if base == "M" { Moes { m: value, ..moes } } else { Moes { l: value, ..moes } };
+                wanted = Some((field, numbers));
+            }
+            ui.end_row();
         }
-        if let Some(m) = number_field(ui, &mut state.entries, "M value", moes.m, 62.0, M_TIP) {
-            wanted = Some(("M value", Moes { m, l: moes.l }));
-        }
-        ui.end_row();
-        explained(ui, symbol(ui, "L", ""), L_TIP);
-        let slider = LogSlider {
-            name: "Lubricant number L",
-            range: L_RANGE.0..=L_RANGE.1,
-            marked: trained.map(|t| t.1),
-            home: HOME.l,
-            tooltip: L_TIP,
-        };
-        if let Some(l) = slider.show(ui, moes.l, width) {
-            wanted = Some(("L", Moes { m: moes.m, l }));
-        }
-        if let Some(l) = number_field(ui, &mut state.entries, "L value", moes.l, 62.0, L_TIP) {
-            wanted = Some(("L value", Moes { m: moes.m, l }));
-        }
-        ui.end_row();
-        for (label, name, range, value) in [
-            ("SRR", "Slide-to-roll ratio SRR", 0.0..=2.0, &mut state.document.slide_to_roll_ratio),
-            ("NPR", "Newtonian plateau ratio NPR", 0.0..=1.0, &mut state.document.newtonian_plateau_ratio),
+        let view = &mut state.document.view;
+        for (label, name, range, value, tip) in [
+            ("SRR", "Slide-to-roll ratio SRR", 0.0..=2.0, &mut view.slide_to_roll_ratio, SRR_TIP),
+            ("NPR", "Newtonian plateau ratio NPR", 0.0..=1.0, &mut view.newtonian_plateau_ratio, NPR_TIP),
         ] {
-            let tip = format!("{NEWTONIAN_TIP} {label}");
-            ui.add_enabled_ui(false, |ui| ui.label(label)).response.on_hover_text(&tip);
+            ui.add_enabled(false, egui::Label::new(label)).on_disabled_hover_text(tip);
             ui.spacing_mut().slider_width = width;
             let response = ui.add_enabled(false, Slider::new(value, range).show_value(false));
-            named(ui, response, name).on_disabled_hover_text(&tip);
-            ui.weak("not active").on_hover_text(&tip);
+            let response = described(ui, named(ui, response, name), tip);
+            response.on_disabled_hover_text(tip);
+            ui.weak("not active").on_hover_text(tip);
             ui.end_row();
         }
     });
@@ -90,36 +81,15 @@ fn followers_ui(ui: &mut Ui, state: &mut State) {
     let document = &mut state.document;
     Grid::new("followers").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
         let tip = "M fixes one combination of the SI values: this is the one that gives way";
-        let label = ui.label("When M moves").on_hover_text(tip);
-        let mut chosen = document.when_m_moves;
-        ComboBox::from_id_salt("when M moves")
-            .selected_text(chosen.name())
-            .width(140.0)
-            .show_ui(ui, |ui| {
-                for follower in LoadFollower::ALL {
-                    ui.selectable_value(&mut chosen, follower, follower.name());
-                }
-            })
-            .response
-            .labelled_by(label.id);
-        if chosen != document.when_m_moves {
+        let mut chosen = document.view.when_m_moves;
+        choice(ui, "When M moves", tip, &mut chosen, &LoadFollower::ALL, |f| (f.name(), ""));
+        if chosen != document.view.when_m_moves {
             document.set_load_follower(chosen);
         }
-        ui.end_row();
         let tip = "L fixes another one. “α and speed together” keeps to α = 5/GPa · L^0.463, \
             along which the reduced model is trained";
-        let label = ui.label("When L moves").on_hover_text(tip);
-        ComboBox::from_id_salt("when L moves")
-            .selected_text(document.when_l_moves.name())
-            .width(140.0)
-            .show_ui(ui, |ui| {
-                for &follower in document.when_m_moves.partners() {
-                    ui.selectable_value(&mut document.when_l_moves, follower, follower.name());
-                }
-            })
-            .response
-            .labelled_by(label.id);
-        ui.end_row();
+        let partners = document.view.when_m_moves.partners();
+        choice(ui, "When L moves", tip, &mut document.view.when_l_moves, partners, |f| (f.name(), ""));
     });
 }
 

@@ -15,7 +15,7 @@ pub fn ui(ui: &mut Ui, state: &State) {
     let stale = state.picture_is_stale(ui.input(|i| i.time));
     let pin = state.pins.last();
     let palette = Palette::of(ui);
-    let srr = state.document.slide_to_roll_ratio;
+    let srr = state.document.view.slide_to_roll_ratio;
     let scalars = |p: &Picture| p.solution.scalars;
     let delta = |f: &dyn Fn(&Picture) -> f64| pin.map(|pin| f(picture) / f(&pin.picture) - 1.0);
     ui.horizontal_wrapped(|ui| {

@@ -1,5 +1,7 @@
 //! The trust badge: how far the picture can be believed, in a glance.
 
+use crate::app::controls::{described, named, sentence};
+use crate::app::jobs::JobKind;
 use crate::app::numbers;
 use crate::app::picture::Origin;
 use crate::app::state::{PassedOver, State};
@@ -42,22 +44,30 @@ pub fn verdict(state: &State) -> Verdict {
     let Some(picture) = &state.picture else {
         return make("Computing", String::new(), "The first picture is on its way".to_owned(), Kind::Neutral);
     };
+    let waits = state.jobs.busy(JobKind::Live);
+    let full = if waits && !state.picture_is_current() { "full solver at work" } else { "full solution" };
     match (picture.origin, &state.passed_over) {
-        (Origin::Full, Some(PassedOver::Outside(why))) => make(
+        (_, Some(PassedOver::Outside(why))) => make(
             "Outside the reduced model",
-            format!("full solution: {why}"),
+            format!("{full}: {why}"),
             "The picture is a converged full solution; a reduced model never extrapolates here".to_owned(),
             Kind::Warning,
         ),
-        (Origin::Full, Some(PassedOver::Failed(why))) => make(
+        (_, Some(PassedOver::Failed(why))) => make(
             "Reduced model failed",
-            "full solution".to_owned(),
-            format!("{why}. The picture is a converged full solution"),
+            full.to_owned(),
+            format!("{}. The full solver draws the picture instead", sentence(why).trim_end_matches('.')),
             Kind::Warning,
+        ),
+        (Origin::Full, _) if !state.picture_is_current() => make(
+            "Computing",
+            full.to_owned(),
+            "The picture shown belongs to the sliders as they were a moment ago".to_owned(),
+            Kind::Neutral,
         ),
         (Origin::Full, _) => make(
             "Verified",
-            "full solution".to_owned(),
+            full.to_owned(),
             "No reduced model is loaded: the picture itself is a converged full solution".to_owned(),
             Kind::Verified,
         ),
@@ -66,23 +76,20 @@ pub fn verdict(state: &State) -> Verdict {
             match &state.comparison {
                 Some(c) if state.full_is_current() => make(
                     "Verified",
-                    format!(
-                        "{{H_c}} {}, {{H_min}} {}, max |Δ{{P}}| {}",
-                        numbers::percent(c.h_c),
-                        numbers::percent(c.h_min),
-                        numbers::digits(c.max_dp, 2)
-                    ),
+                    c.describe(),
                     format!("True errors against a full solution on the same grid. {how}"),
                     Kind::Verified,
                 ),
                 _ => {
-                    let detail = format!("estimated error {}", numbers::digits(residual_estimate, 2));
-                    let why = match &state.verify_failure {
-                        Some(failure) => format!("{}. {how}", failure.message),
-                        None => format!("e_f of (3.15), the residual of the sampled rows. A full solve follows. {how}"),
+                    let detail = format!("uncalibrated estimate {{e_f}} {}", numbers::small(residual_estimate));
+                    let meaning = "e_f of (3.15) is the residual of the sampled rows: it says whether the reduced \
+                        equations are met, not how large the error of the film is";
+                    let next = match &state.verify_failure {
+                        Some(failure) => failure.message.trim_end_matches('.'),
+                        None => "True errors follow with the full solve",
                     };
                     let kind = if state.verify_failure.is_some() { Kind::Warning } else { Kind::Neutral };
-                    make("Reduced model", detail, why, kind)
+                    make("Reduced model", detail, format!("{meaning}. {next}. {how}"), kind)
                 }
             }
         }
@@ -114,5 +121,6 @@ pub fn ui(ui: &mut Ui, state: &State) {
             }
         })
         .response;
-    response.on_hover_text(&verdict.why);
+    let response = described(ui, named(ui, response, "Trust in the picture"), &sentence(&verdict.why));
+    response.on_hover_text(sentence(&verdict.why));
 }

@@ -8,8 +8,10 @@ use crate::app::state::State;
 use crate::app::theme::Palette;
 use crate::solver::grid::FIRST_UNKNOWN;
 use crate::solver::reduced::{PodBasis, ReducedModel, Window};
-use egui::{Color32, ComboBox, Ui};
-use egui_plot::{Corner, HLine, Legend, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, Points, VLine};
+use egui::{Align2, Color32, ComboBox, RichText, Ui};
+use egui_plot::{
+    Corner, HLine, Legend, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, Points, Text, VLine,
+};
 use std::sync::Arc;
 
 /// How near (in screen points) the pointer must be to take a tolerance along.
@@ -144,10 +146,10 @@ fn toolbar(ui: &mut Ui, state: &mut State, model: &ReducedModel, at: usize, wind
             options.pressure_modes.unwrap_or(window.pressure.modes.ncols()),
             window.pressure.modes.ncols()
         ));
-        let truncated = state.document.pressure_loss.is_some() || state.document.deformation_loss.is_some();
+        let truncated = state.document.view.pressure_loss.is_some() || state.document.view.deformation_loss.is_some();
         if ui.add_enabled(truncated, egui::Button::new("Keep all modes")).clicked() {
-            state.document.pressure_loss = None;
-            state.document.deformation_loss = None;
+            state.document.view.pressure_loss = None;
+            state.document.view.deformation_loss = None;
         }
         if ui.button("Export CSV…").on_hover_text("Singular values and loss of information").clicked() {
             let text = csv(window);
@@ -189,7 +191,7 @@ fn log_plot<'a>(ui: &Ui, id: &str, height: f32, title: &str) -> Plot<'a> {
 fn loss_plot(ui: &mut Ui, state: &mut State, window: &Window, height: f32) {
     let palette = Palette::of(ui);
     let Some(curves) = &state.basis.curves else { return };
-    let projected = state.document.projected_deformation;
+    let projected = state.document.view.projected_deformation;
     // Without a tolerance every mode is kept: the line rests at the loss of the kept modes.
     let resting = |field: Field| {
         let curve = match field {
@@ -199,9 +201,9 @@ fn loss_plot(ui: &mut Ui, state: &mut State, window: &Window, height: f32) {
         curve.get(field.of(window).modes.ncols().saturating_sub(1)).or(curve.last()).map_or(LEAST_LOG_LOSS, |p| p.y)
     };
     let tolerance = |loss: Option<f64>, field: Field| loss.map_or_else(|| resting(field), f64::log10);
-    let mut lines = vec![(Field::Pressure, tolerance(state.document.pressure_loss, Field::Pressure))];
+    let mut lines = vec![(Field::Pressure, tolerance(state.document.view.pressure_loss, Field::Pressure))];
     if projected {
-        lines.push((Field::Deformation, tolerance(state.document.deformation_loss, Field::Deformation)));
+        lines.push((Field::Deformation, tolerance(state.document.view.deformation_loss, Field::Deformation)));
     }
     let options = state.reduced_options();
     let dragging = state.basis.dragging;
@@ -217,6 +219,10 @@ fn loss_plot(ui: &mut Ui, state: &mut State, window: &Window, height: f32) {
             let width = if dragging == Some(*field) { 2.6 } else { 1.4 };
             let line = HLine::new("", *level).id(("tolerance", field.name()));
             plot.hline(line.color(color).width(width).style(LineStyle::dashed_dense()).allow_hover(false));
+            let place = PlotPoint::new(1.0, *level);
+            let text = RichText::new(format!("tolerance {}", numbers::digits(10f64.powf(*level), 1))).size(11.0);
+            let label = Text::new("", place, text.color(color)).anchor(Align2::LEFT_TOP);
+            plot.text(label.id(("tolerance label", field.name())).allow_hover(false));
         }
         if let Some(kept) = options.pressure_modes {
             let line = VLine::new("", kept as f64).id("kept").color(palette.pressure).width(1.0);
@@ -246,8 +252,8 @@ fn loss_plot(ui: &mut Ui, state: &mut State, window: &Window, height: f32) {
         let level = transform.value_from_position(pointer).y.clamp(LEAST_LOG_LOSS, -0.3);
         let loss = Some(10f64.powf(level));
         match field {
-            Field::Pressure => state.document.pressure_loss = loss,
-            Field::Deformation => state.document.deformation_loss = loss,
+            Field::Pressure => state.document.view.pressure_loss = loss,
+            Field::Deformation => state.document.view.deformation_loss = loss,
         }
     }
 }

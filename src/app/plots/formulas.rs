@@ -16,7 +16,7 @@ pub fn ui(ui: &mut Ui, state: &State) {
         ui.weak("Formula");
         ui.weak("Of");
         ui.weak("Film");
-        ui.weak("Against").on_hover_text("Formula over this contact's film, minus one");
+        ui.weak("Deviation").on_hover_text("Formula over this contact's film, minus one");
         ui.end_row();
         for formula in FilmFormula::LINE {
             let prediction = formula.predict(&state.document.point);

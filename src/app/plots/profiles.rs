@@ -24,12 +24,7 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
     pins_ui(ui, state);
     let stale = state.picture_is_stale(ui.input(|i| i.time));
     if stale && let Some(picture) = &state.picture {
-        let moes = picture.key.point.moes();
-        let note = format!(
-            "The picture belongs to M {}, L {}, not to the sliders",
-            numbers::significant(moes.m),
-            numbers::significant(moes.l)
-        );
+        let note = format!("The picture belongs to {}, not to the sliders", numbers::moes(picture.key.point.moes()));
         warning_ui(ui, &note);
     }
     let Some(picture) = &state.picture else {
@@ -37,8 +32,8 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
         return;
     };
     let reduced = picture.origin != Origin::Full;
-    let full = state.full.as_ref().filter(|_| state.view.overlay && reduced);
-    let comparison = state.comparison.as_ref().filter(|_| state.view.difference);
+    let full = state.full.as_ref().filter(|_| state.display.overlay && reduced);
+    let comparison = state.comparison.as_ref().filter(|_| state.display.difference);
     let parts = if comparison.is_some() { 2.6 } else { 2.0 };
     let unit = (ui.available_height() - 6.0) / parts;
     let scene =
@@ -61,8 +56,8 @@ fn toolbar(ui: &mut Ui, state: &mut State) {
         let reduced = state.picture.as_ref().is_some_and(|p| p.origin != Origin::Full);
         let why = "The picture is the full solution itself";
         let switches = [
-            ("Full solution", "Draw the full solution over the reduced one", &mut state.view.overlay),
-            ("Difference", "Reduced minus full, on an axis of its own", &mut state.view.difference),
+            ("Full solution", "Draw the full solution over the reduced one", &mut state.display.overlay),
+            ("Difference", "Reduced minus full, on an axis of its own", &mut state.display.difference),
         ];
         for (name, tip, on) in switches {
             ui.add_enabled(reduced, Checkbox::new(on, name)).on_hover_text(tip).on_disabled_hover_text(why);
@@ -70,7 +65,10 @@ fn toolbar(ui: &mut Ui, state: &mut State) {
         if ui.button(Command::Verify.name()).on_hover_text("Solve this contact in full now (F5)").clicked() {
             state.verify(&ctx);
         }
-        if ui.button("Export CSV…").on_hover_text("Profiles with their SI twins, all of the domain").clicked()
+        if ui
+            .button("Export CSV…")
+            .on_hover_text("Live, full and pinned profiles with their SI twins, all of the domain")
+            .clicked()
             && let Some(text) = export::profiles(state)
         {
             state.ask_path(&ctx, Purpose::Csv { text });
@@ -108,8 +106,7 @@ fn pins_ui(ui: &mut Ui, state: &mut State) {
 }
 
 fn pin_name(pin: &Pin) -> String {
-    let moes = pin.picture.key.point.moes();
-    format!("Pin {}: M {}, L {}", pin.number, numbers::significant(moes.m), numbers::significant(moes.l))
+    format!("Pin {}: {}", pin.number, numbers::moes(pin.picture.key.point.moes()))
 }
 
 struct Scene<'a> {
@@ -121,13 +118,26 @@ struct Scene<'a> {
     fit: bool,
 }
 
-impl Scene<'_> {
-    fn live(&self, palette: &Palette, color: Color32) -> Color32 {
-        if self.stale { palette.reference } else { color }
-    }
-
-    fn over(&self, palette: &Palette, color: Color32) -> Color32 {
-        if self.full_stale { palette.reference } else { palette.over(color) }
+impl<'a> Scene<'a> {
+    /// Pinned, live and full curves of one quantity; returns the colour of the live one.
+    fn curves(
+        &self,
+        plot: &mut PlotUi<'a>,
+        palette: &Palette,
+        color: Color32,
+        of: impl Fn(&'a Picture) -> &'a [PlotPoint],
+    ) -> Color32 {
+        for pin in self.pins {
+            plot.line(curve(pin_name(pin), of(&pin.picture), faded(color, 0.45), THIN_WIDTH));
+        }
+        let live = if self.stale { palette.reference } else { color };
+        let name = if self.picture.origin == Origin::Full { "Full solution" } else { "Reduced model" };
+        plot.line(curve(name.to_owned(), of(self.picture), live, LIVE_WIDTH).id("live"));
+        if let Some(full) = self.full {
+            let over = if self.full_stale { palette.reference } else { palette.over(color) };
+            plot.line(curve(full_name(self), of(full), over, FULL_WIDTH).id("full"));
+        }
+        live
     }
 }
 
@@ -139,7 +149,11 @@ fn stacked<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> 
         .link_cursor(group, Vec2b::new(true, false))
         .set_margin_fraction(egui::vec2(0.0, 0.0))
         .show_y(false)
-        .legend(Legend::default().position(Corner::LeftTop).follow_insertion_order(true).background_alpha(0.6))
+        .legend(legend(Corner::LeftTop))
+}
+
+fn legend(corner: Corner) -> Legend {
+    Legend::default().position(corner).follow_insertion_order(true).background_alpha(0.6)
 }
 
 fn hover(picture: &Picture) -> impl Fn(&HoverPosition<'_>) -> Option<String> + '_ {
@@ -176,8 +190,12 @@ fn curve<'a>(name: String, points: &'a [PlotPoint], color: Color32, width: f32) 
 fn mark(plot: &mut PlotUi<'_>, at: (f64, f64), name: &'static str, color: Color32, anchor: Align2) {
     let dot = Points::new("", vec![[at.0, at.1]]).id(name).shape(MarkerShape::Circle).radius(3.5).color(color);
     plot.points(dot.allow_hover(false));
-    let lead = if anchor == Align2::LEFT_BOTTOM { "  " } else { "\n" };
-    let label = Text::new("", PlotPoint::new(at.0, at.1), rich(&format!("{lead}{name}"), 13.0, color));
+    let text = match anchor {
+        Align2::CENTER_TOP => format!("\n{name}"),
+        Align2::RIGHT_BOTTOM => format!("{name}  "),
+        _ => format!("  {name}"),
+    };
+    let label = Text::new("", PlotPoint::new(at.0, at.1), rich(&text, 13.0, color));
     plot.text(label.anchor(anchor).id((name, "label")).allow_hover(false));
 }
 
@@ -198,16 +216,7 @@ fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, height: f32) {
             plot.line(
                 Line::new("Hertz", hertz).color(palette.reference).width(THIN_WIDTH).style(LineStyle::dashed_dense()),
             );
-            for pin in scene.pins {
-                plot.line(curve(pin_name(pin), &pin.picture.pressure, faded(palette.pressure, 0.45), THIN_WIDTH));
-            }
-            let live = scene.live(&palette, palette.pressure);
-            let name = if picture.origin == Origin::Full { "Full solution" } else { "Reduced model" };
-            plot.line(curve(name.to_owned(), &picture.pressure, live, LIVE_WIDTH).id("live pressure"));
-            if let Some(full) = scene.full {
-                let color = scene.over(&palette, palette.pressure);
-                plot.line(curve(full_name(scene), &full.pressure, color, FULL_WIDTH).id("full pressure"));
-            }
+            let live = scene.curves(plot, &palette, palette.pressure, |picture| &picture.pressure);
             if let Some(spike) = picture.spike.filter(|s| s.0 < scalars.x_p_max - 1e-9 || s.0 > 0.5) {
                 mark(plot, spike, "spike", live, Align2::LEFT_BOTTOM);
             }
@@ -216,10 +225,7 @@ fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, height: f32) {
 
 fn full_name(scene: &Scene<'_>) -> String {
     match scene.full {
-        Some(full) if scene.full_stale => {
-            let moes = full.key.point.moes();
-            format!("Full, of M {}, L {}", numbers::significant(moes.m), numbers::significant(moes.l))
-        }
+        Some(full) if scene.full_stale => format!("Full, of {}", numbers::moes(full.key.point.moes())),
         _ => "Full solution".to_owned(),
     }
 }
@@ -232,22 +238,19 @@ fn film_plot(ui: &mut Ui, scene: &Scene<'_>, height: f32) {
     stacked(ui, "film", height, "{X} = {x}/{a}", "Film {H} = {h}{R}/{a}²")
         .default_x_bounds(X_RANGE.0, X_RANGE.1)
         .default_y_bounds(0.0, numbers::round_up(4.0 * top))
+        // The inlet's film comes down from the top left.
+        .legend(legend(Corner::LeftBottom))
         .label_formatter(hover(picture))
         .show(ui, |plot| {
             axes::fit(plot, scene.fit);
             cavitated(plot, picture, &palette);
-            for pin in scene.pins {
-                plot.line(curve(pin_name(pin), &pin.picture.film, faded(palette.film, 0.45), THIN_WIDTH));
-            }
-            let live = scene.live(&palette, palette.film);
-            let name = if picture.origin == Origin::Full { "Full solution" } else { "Reduced model" };
-            plot.line(curve(name.to_owned(), &picture.film, live, LIVE_WIDTH).id("live film"));
-            if let Some(full) = scene.full {
-                let color = scene.over(&palette, palette.film);
-                plot.line(curve(full_name(scene), &full.film, color, FULL_WIDTH).id("full film"));
-            }
+            let live = scene.curves(plot, &palette, palette.film, |picture| &picture.film);
             mark(plot, (0.0, scalars.h_c), "{H_c}", live, Align2::LEFT_BOTTOM);
-            mark(plot, (scalars.x_h_min, scalars.h_min), "{H_min}", live, Align2::CENTER_TOP);
+            // Below the curve, unless the axis would cut the name off.
+            let below = plot.transform().position_from_point(&PlotPoint::new(0.0, scalars.h_min)).y + 34.0;
+            let room = below < plot.response().rect.bottom();
+            let anchor = if room { Align2::CENTER_TOP } else { Align2::RIGHT_BOTTOM };
+            mark(plot, (scalars.x_h_min, scalars.h_min), "{H_min}", live, anchor);
         });
 }
 

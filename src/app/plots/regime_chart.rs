@@ -202,7 +202,7 @@ fn contour(film: f64) -> Vec<PlotPoint> {
 
 /// Places for the regimes' names, clear of the contacts that matter most.
 fn names() -> Vec<(Regime, PlotPoint)> {
-    let places = [(0.7, 0.6), (30.0, 0.5), (1.9, 14.0), (480.0, 22.0)];
+    let places = [(0.62, 0.6), (30.0, 0.5), (0.95, 14.0), (480.0, 22.0)];
     Regime::ALL.into_iter().zip(places).map(|(regime, (m, l))| (regime, point(m, l))).collect()
 }
 

@@ -131,6 +131,13 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
             }
             if let Some(outline) = &lines.trained {
                 plot.line(Line::new("Trained range", PlotPoints::Borrowed(outline)).color(palette.accent).width(1.8));
+                // Outside the outline, at its lower left corner.
+                let low = |a: &PlotPoint, b: &PlotPoint| (a.x + a.y).total_cmp(&(b.x + b.y));
+                if let Some(corner) = outline.iter().min_by(|a, b| low(a, b)) {
+                    let text = RichText::new("trained range").size(11.0).color(palette.accent);
+                    let label = Text::new("", *corner, text).anchor(Align2::LEFT_TOP);
+                    plot.text(label.id("trained label").allow_hover(false));
+                }
             }
             plot.points(
                 Points::new("Snapshots", PlotPoints::Borrowed(snapshots)).color(faded(palette.accent, 0.7)).radius(1.8),

@@ -1,0 +1,213 @@
+//! Opening, saving and exporting: never blocks the window, never overwrites what the user did not name, never loses work unasked.
+
+mod path_window;
+
+use super::document::Document;
+use super::state::State;
+use crate::scene::Scene;
+use egui::{Context, Id, Modal, Ui, ViewportCommand};
+use path_window::PathWindow;
+use std::path::{Path, PathBuf};
+
+/// Recent files kept.
+const MOST_RECENT: usize = 8;
+/// What a path is asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Purpose {
+    /// Open a scene.
+    Open,
+    /// Save the scene.
+    Save,
+    /// Write a table.
+    Csv {
+        /// Its content.
+        text: String,
+    },
+}
+
+/// What waits for the answer about unsaved changes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pending {
+    /// A fresh document.
+    New,
+    /// The dialog to open a scene.
+    OpenDialog,
+    /// A certain scene.
+    Open(PathBuf),
+    /// The end.
+    Quit,
+}
+
+/// What the window knows about files.
+pub struct Files {
+    /// Where the document was opened from or saved to.
+    pub path: Option<PathBuf>,
+    /// Recently used scenes, newest first.
+    pub recent: Vec<PathBuf>,
+    /// A sentence about the last file action: what was done, or what went wrong.
+    pub notice: Option<Result<String, String>>,
+    /// Whether the system's file dialog is tried.
+    pub native_dialogs: bool,
+    saved: Document,
+    window: Option<PathWindow>,
+    pending: Option<Pending>,
+    after_save: Option<Pending>,
+    quit: bool,
+}
+
+impl Files {
+    /// Nothing opened, nothing to lose.
+    pub fn new(document: &Document) -> Self {
+        Self {
+            path: None,
+            recent: Vec::new(),
+            notice: None,
+            native_dialogs: true,
+            saved: document.clone(),
+            window: None,
+            pending: None,
+            after_save: None,
+            quit: false,
+        }
+    }
+
+    /// Declares what is on disk, as a restored session does.
+    pub fn set_saved(&mut self, saved: Document) {
+        self.saved = saved;
+    }
+
+    /// What is on disk.
+    pub fn saved(&self) -> &Document {
+        &self.saved
+    }
+
+    /// Whether a window of this module is open.
+    pub fn asks(&self) -> bool {
+        self.window.is_some() || self.pending.is_some()
+    }
+}
+
+impl State {
+    /// Whether there is something to lose.
+    pub fn dirty(&self) -> bool {
+        self.document != *self.files.saved()
+    }
+
+    /// Does something that ends the present document, after asking when there is something to lose.
+    pub fn request(&mut self, ctx: &Context, pending: Pending) {
+        if self.dirty() {
+            self.files.pending = Some(pending);
+        } else {
+            self.proceed(ctx, pending);
+        }
+    }
+
+    fn proceed(&mut self, ctx: &Context, pending: Pending) {
+        match pending {
+            Pending::New => {
+                self.replace_document(Document::default());
+                self.files.saved = self.document.clone();
+                self.files.path = None;
+                self.files.notice = None;
+            }
+            Pending::OpenDialog => self.ask_path(ctx, Purpose::Open),
+            Pending::Open(path) => {
+                if let Err(message) = self.open_path(&path) {
+                    self.files.notice = Some(Err(message));
+                }
+            }
+            Pending::Quit => {
+                self.files.quit = true;
+                ctx.send_viewport_cmd(ViewportCommand::Close);
+            }
+        }
+    }
+
+    /// Opens a scene.
+    ///
+    /// # Errors
+    /// A sentence when it cannot be read; what is on the screen stays.
+    pub fn open_path(&mut self, path: &Path) -> Result<(), String> {
+        let scene = Scene::read(path).map_err(|e| e.to_string())?;
+        let document = Document::of_scene(scene).map_err(|e| format!("{}: {e}", path.display()))?;
+        self.replace_document(document);
+        self.files.saved = self.document.clone();
+        self.files.path = Some(path.to_owned());
+        self.remember(path);
+        self.files.notice = Some(Ok(format!("Opened {}", path.display())));
+        Ok(())
+    }
+
+    /// Saves to the known path or asks for one.
+    pub fn save(&mut self, ctx: &Context) {
+        match self.files.path.clone() {
+            Some(path) => {
+                if let Err(message) = self.save_to(&path) {
+                    self.files.notice = Some(Err(message));
+                }
+            }
+            None => self.ask_path(ctx, Purpose::Save),
+        }
+    }
+
+    fn save_to(&mut self, path: &Path) -> Result<(), String> {
+        self.document.to_scene().write(path).map_err(|e| e.to_string())?;
+        self.files.saved = self.document.clone();
+        self.files.path = Some(path.to_owned());
+        self.remember(path);
+        self.files.notice = Some(Ok(format!("Saved {}", path.display())));
+        Ok(())
+    }
+
+    fn remember(&mut self, path: &Path) {
+        self.files.recent.retain(|p| p != path);
+        self.files.recent.insert(0, path.to_owned());
+        self.files.recent.truncate(MOST_RECENT);
+    }
+
+    /// The windows of this module, dropped files, and the question before closing.
+    pub fn files_ui(&mut self, ui: &mut Ui) {
+        let ctx = ui.ctx().clone();
+        let dropped: Vec<PathBuf> = ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_path_buf()).collect());
+        if let Some(path) = dropped.into_iter().next() {
+            self.request(&ctx, Pending::Open(path));
+        }
+        if ctx.input(|i| i.viewport().close_requested()) && self.dirty() && !self.files.quit {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.files.pending = Some(Pending::Quit);
+        }
+        self.browse_answer(&ctx);
+        self.path_window_ui(&ctx);
+        self.unsaved_ui(&ctx);
+    }
+
+    fn unsaved_ui(&mut self, ctx: &Context) {
+        let Some(pending) = self.files.pending.clone() else { return };
+        let (mut save, mut discard, mut cancel) = (false, false, false);
+        let response = Modal::new(Id::unique("unsaved changes")).show(ctx, |ui| {
+            ui.set_width(380.0);
+            ui.heading("Save the changes?");
+            ui.label("The operating point or its settings have changed since they were last saved.");
+            ui.add_space(6.0);
+            ui.horizontal(|ui| {
+                save = ui.button("Save…").clicked();
+                discard = ui.button("Discard changes").clicked();
+                cancel = ui.button("Cancel").clicked();
+            });
+        });
+        if discard {
+            self.files.pending = None;
+            self.proceed(ctx, pending);
+        } else if save {
+            self.files.pending = None;
+            self.save(ctx);
+            if self.files.window.is_some() {
+                self.files.after_save = Some(pending);
+            } else if !self.dirty() {
+                self.proceed(ctx, pending);
+            }
+        } else if cancel || response.should_close() {
+            self.files.pending = None;
+        }
+    }
+}

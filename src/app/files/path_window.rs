@@ -1,0 +1,177 @@
+//! The window that asks for a path: a text field that always works, beside the system's own dialog where there is one.
+
+use super::Purpose;
+use crate::app::controls::message_ui;
+use crate::app::state::State;
+use crate::scene::atomic_file;
+use egui::{Context, Id, Modal, RichText, TextEdit};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::time::{Duration, Instant};
+
+/// A system dialog that is gone sooner than this was never there.
+const NO_DIALOG: Duration = Duration::from_millis(700);
+
+/// What the window knows.
+pub(super) struct PathWindow {
+    purpose: Purpose,
+    path: String,
+    message: Option<String>,
+    overwrite: Option<PathBuf>,
+    browse: Option<(Receiver<Option<PathBuf>>, Instant)>,
+    fresh: bool,
+}
+
+impl State {
+    /// Asks for a path, by the system's dialog and by a text field for where there is none.
+    pub fn ask_path(&mut self, ctx: &Context, purpose: Purpose) {
+        let suggestion = match &purpose {
+            Purpose::Open => String::new(),
+            Purpose::Save => self.files.path.as_deref().unwrap_or(Path::new("contact.ron")).display().to_string(),
+            Purpose::Csv { .. } => "profiles.csv".to_owned(),
+        };
+        let browse = self.files.native_dialogs.then(|| (browse(ctx, &purpose, &suggestion), Instant::now()));
+        self.files.window =
+            Some(PathWindow { purpose, path: suggestion, message: None, overwrite: None, browse, fresh: true });
+    }
+
+    pub(super) fn browse_answer(&mut self, ctx: &Context) {
+        let Some(window) = &mut self.files.window else { return };
+        let Some((receiver, since)) = &window.browse else { return };
+        let answer = match receiver.try_recv() {
+            Ok(answer) => answer,
+            Err(TryRecvError::Empty) => return,
+            Err(TryRecvError::Disconnected) => None,
+        };
+        let at_once = since.elapsed() < NO_DIALOG;
+        window.browse = None;
+        match answer {
+            Some(path) => {
+                // The system's dialog has asked about overwriting already.
+                window.overwrite = Some(path.clone());
+                window.path = path.display().to_string();
+                self.act_on_path(ctx);
+            }
+            None if at_once => {}
+            None => self.files.window = None,
+        }
+    }
+
+    pub(super) fn path_window_ui(&mut self, ctx: &Context) {
+        let Some(window) = &mut self.files.window else { return };
+        let (title, action) = match window.purpose {
+            Purpose::Open => ("Open a scene", "Open"),
+            Purpose::Save => ("Save the scene", "Save"),
+            Purpose::Csv { .. } => ("Export the data as CSV", "Export"),
+        };
+        let waiting = window.browse.is_some();
+        let (mut act, mut close, mut again) = (false, false, false);
+        let response = Modal::new(Id::unique("path window")).show(ctx, |ui| {
+            ui.set_width(440.0);
+            ui.heading(title);
+            let label = ui.label("Path of the file");
+            let edit =
+                ui.add(TextEdit::singleline(&mut window.path).desired_width(f32::INFINITY)).labelled_by(label.id);
+            if std::mem::take(&mut window.fresh) {
+                edit.request_focus();
+            }
+            if edit.changed() {
+                window.overwrite = None;
+                window.message = None;
+            }
+            if edit.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter)) {
+                act = true;
+            }
+            if let Some(message) = &window.message {
+                message_ui(ui, message);
+            }
+            if waiting {
+                ui.label(
+                    RichText::new("The system's file dialog is open; a path typed here does the same.").small().weak(),
+                );
+            }
+            ui.add_space(4.0);
+            ui.horizontal(|ui| {
+                let exists = window.overwrite.is_some() && window.purpose != Purpose::Open;
+                act |= ui.button(if exists { "Replace the file" } else { action }).clicked();
+                if !waiting {
+                    again =
+                        ui.button("Browse…").on_hover_text("The system's file dialog, where there is one").clicked();
+                }
+                close = ui.button("Cancel").clicked();
+            });
+        });
+        if again {
+            let (purpose, path) = (window.purpose.clone(), window.path.clone());
+            window.browse = Some((browse(ctx, &purpose, &path), Instant::now()));
+        }
+        if act {
+            self.act_on_path(ctx);
+        } else if close || response.should_close() {
+            self.files.window = None;
+            self.files.after_save = None;
+        }
+    }
+
+    fn act_on_path(&mut self, ctx: &Context) {
+        let Some(window) = &mut self.files.window else { return };
+        let path = PathBuf::from(window.path.trim());
+        if path.as_os_str().is_empty() {
+            window.message = Some("a path is needed".to_owned());
+            return;
+        }
+        let known = self.files.path.as_deref() == Some(path.as_path()) && window.purpose == Purpose::Save;
+        if window.purpose != Purpose::Open && path.exists() && !known && window.overwrite.as_deref() != Some(&path) {
+            window.message = Some("a file of this name exists; press again to replace it".to_owned());
+            window.overwrite = Some(path);
+            return;
+        }
+        let result = match window.purpose.clone() {
+            Purpose::Open => self.open_path(&path),
+            Purpose::Save => self.save_to(&path),
+            Purpose::Csv { text } => atomic_file::replace(&path, text.as_bytes())
+                .map_err(|e| e.to_string())
+                .map(|()| self.files.notice = Some(Ok(format!("Exported {}", path.display())))),
+        };
+        match (result, &mut self.files.window) {
+            (Ok(()), _) => {
+                self.files.window = None;
+                if let Some(next) = self.files.after_save.take() {
+                    self.proceed(ctx, next);
+                }
+            }
+            (Err(message), Some(window)) => {
+                window.overwrite = None;
+                window.message = Some(message);
+            }
+            (Err(message), None) => self.files.notice = Some(Err(message)),
+        }
+    }
+}
+
+/// The system's dialog in its own thread.
+fn browse(ctx: &Context, purpose: &Purpose, suggestion: &str) -> Receiver<Option<PathBuf>> {
+    let (sender, receiver) = channel();
+    let (ctx, purpose, suggestion) = (ctx.clone(), purpose.clone(), PathBuf::from(suggestion));
+    let run = move || {
+        let name = suggestion.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+        let mut dialog = match purpose {
+            Purpose::Csv { .. } => rfd::FileDialog::new().add_filter("Table", &["csv"]),
+            _ => rfd::FileDialog::new().add_filter("Scene", &["ron"]),
+        };
+        if let Some(folder) = suggestion.parent().filter(|p| p.is_dir()) {
+            dialog = dialog.set_directory(folder);
+        }
+        let answer = match purpose {
+            Purpose::Open => dialog.pick_file(),
+            _ => dialog.set_file_name(name).save_file(),
+        };
+        // The window may be closed by now: then nobody waits for the answer.
+        if sender.send(answer).is_ok() {
+            ctx.request_repaint();
+        }
+    };
+    // Without a thread there is no system dialog: the receiver is disconnected at once and the text field remains.
+    let _handle = std::thread::Builder::new().name("file dialog".into()).spawn(run);
+    receiver
+}

@@ -1,0 +1,171 @@
+//! What the explorer keeps with a scene so that nothing is lost when it is saved and opened again.
+
+use serde::{Deserialize, Serialize};
+
+/// How the explorer edits a scene: what follows when a slider moves, how the reduced model is truncated, and the sliders that a
+/// Newtonian line contact does not answer to. Running a scene without a screen does not use it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct View {
+    /// What follows when M moves.
+    #[serde(skip_serializing_if = "is_default")]
+    pub when_m_moves: LoadFollower,
+    /// What follows when L moves; must be one of [`LoadFollower::partners`].
+    #[serde(skip_serializing_if = "is_default")]
+    pub when_l_moves: LubricantFollower,
+    /// Loss of information the pressure basis may neglect; `None` keeps every mode.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pressure_loss: Option<f64>,
+    /// Loss of information the deformation basis may neglect; `None` keeps every mode.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub deformation_loss: Option<f64>,
+    /// Deformation of the reduced model through V_δ (the dissertation's) instead of exactly.
+    #[serde(skip_serializing_if = "is_default")]
+    pub projected_deformation: bool,
+    /// Slide-to-roll ratio SRR; 0 is pure rolling.
+    #[serde(skip_serializing_if = "is_default")]
+    pub slide_to_roll_ratio: f64,
+    /// Newtonian plateau ratio NPR; 1 is a Newtonian lubricant.
+    #[serde(skip_serializing_if = "is_one")]
+    pub newtonian_plateau_ratio: f64,
+}
+
+/// The quantity that follows when M moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
+pub enum LoadFollower {
+    /// Load w.
+    #[default]
+    Load,
+    /// Radius R.
+    Radius,
+    /// Speed u_m (α then follows L).
+    Speed,
+}
+
+/// The quantity that follows when L moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
+pub enum LubricantFollower {
+    /// α = 5/GPa · L^0.463 and the speed: the default realisation, along which the embedded model is trained.
+    #[default]
+    Realisation,
+    /// Speed u_m at constant α.
+    Speed,
+    /// α at constant speed.
+    Alpha,
+    /// Radius R at constant speed and α.
+    Radius,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self {
+            when_m_moves: LoadFollower::default(),
+            when_l_moves: LubricantFollower::default(),
+            pressure_loss: None,
+            deformation_loss: None,
+            projected_deformation: false,
+            slide_to_roll_ratio: 0.0,
+            newtonian_plateau_ratio: 1.0,
+        }
+    }
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
+// Serde hands fields over by reference.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_one(value: &f64) -> bool {
+    *value == 1.0
+}
+
+impl LoadFollower {
+    /// All choices.
+    pub const ALL: [Self; 3] = [Self::Load, Self::Radius, Self::Speed];
+
+    /// For people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Load => "load w",
+            Self::Radius => "radius R",
+            Self::Speed => "speed u_m",
+        }
+    }
+
+    /// The choices for L that leave exactly M and L to follow.
+    pub fn partners(self) -> &'static [LubricantFollower] {
+        match self {
+            Self::Load => &[
+                LubricantFollower::Realisation,
+                LubricantFollower::Speed,
+                LubricantFollower::Alpha,
+                LubricantFollower::Radius,
+            ],
+            Self::Radius => &[LubricantFollower::Realisation, LubricantFollower::Speed, LubricantFollower::Alpha],
+            Self::Speed => &[LubricantFollower::Alpha],
+        }
+    }
+}
+
+impl LubricantFollower {
+    /// For people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Realisation => "α and speed together",
+            Self::Speed => "speed u_m",
+            Self::Alpha => "coefficient α",
+            Self::Radius => "radius R",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Scene;
+    use super::*;
+
+    fn scene(view: View) -> Scene {
+        Scene { view: Some(view), ..Scene::at_moes(40.0, 10.0) }
+    }
+
+    #[test]
+    fn a_view_survives_writing_and_an_absent_one_stays_absent() {
+        let view = View {
+            when_m_moves: LoadFollower::Radius,
+            when_l_moves: LubricantFollower::Speed,
+            pressure_loss: Some(1.25e-7),
+            deformation_loss: Some(3e-9),
+            projected_deformation: true,
+            slide_to_roll_ratio: 0.3,
+            newtonian_plateau_ratio: 0.1,
+        };
+        for scene in [scene(view), scene(View::default()), Scene::at_moes(40.0, 10.0)] {
+            let text = scene.to_ron().unwrap();
+            assert_eq!(Scene::from_ron(&text).unwrap(), scene, "{text}");
+            assert_eq!(text.contains("view"), scene.view.is_some(), "{text}");
+        }
+        let short = Scene::at_moes(40.0, 10.0)
+            .to_ron()
+            .unwrap()
+            .replace("    study:", "    view: (pressure_loss: 1e-6),\n    study:");
+        let wanted = View { pressure_loss: Some(1e-6), ..View::default() };
+        assert_eq!(Scene::from_ron(&short).unwrap().view, Some(wanted));
+    }
+
+    #[test]
+    fn unknown_fields_and_values_outside_any_sense_are_refused_by_name() {
+        let text = scene(View { slide_to_roll_ratio: 0.3, ..View::default() }).to_ron().unwrap();
+        let error = |text: String| Scene::from_ron(&text).unwrap_err().to_string();
+        assert!(error(text.replace("slide_to_roll_ratio", "slide_to_rol_ratio")).contains("slide_to_rol_ratio"));
+        for bad in ["NaN", "inf", "-inf"] {
+            assert!(error(text.replace("0.3", bad)).contains("view.slide_to_roll_ratio"), "{bad}");
+        }
+        let message = |view: View| scene(view).check().unwrap_err().to_string();
+        let base = View::default();
+        assert!(message(View { pressure_loss: Some(f64::NAN), ..base }).contains("view.pressure_loss"));
+        assert!(message(View { deformation_loss: Some(2.0), ..base }).contains("view.deformation_loss"));
+        assert!(message(View { newtonian_plateau_ratio: 1.5, ..base }).contains("view.newtonian_plateau_ratio"));
+        assert!(message(View { when_m_moves: LoadFollower::Speed, ..base }).contains("view.when_l_moves"));
+    }
+}
