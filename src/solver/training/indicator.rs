@@ -1,0 +1,116 @@
+//! How good a reduced solution is, judged without the full one (3.1.2).
+
+use super::build::alone;
+use super::{TrainingError, TrainingObserver, TrainingSpec};
+use crate::solver::contact::OperatingPoint;
+use crate::solver::full::{LineSystem, Problem, Report, Scalars, SolveOptions, Termination, scalars_of};
+use crate::solver::lubricant::Lubricant;
+use crate::solver::reduced::{Online, ReducedOptions, Window};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Full Newton steps of [`Indicator::Correction`].
+const CORRECTIONS: usize = 2;
+
+/// By what a training judges an approximation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
+pub enum Indicator {
+    /// e_f^I of (3.15), the dissertation's: no large-scale work at all.
+    #[default]
+    Residual,
+    /// By how much two Newton steps of the full system, taken from the reduced solution, change the film: the larger of
+    /// |ΔH_c/H_c| and ½|ΔH_min/H_min|. A tolerance on it is one on what people read off.
+    Correction,
+}
+
+/// Reduced solvers of a model under training, one per thread.
+pub(super) struct Judges<'a> {
+    indicator: Indicator,
+    lubricant: Lubricant,
+    window: &'a Window,
+    online: Vec<Online>,
+    observer: &'a dyn TrainingObserver,
+}
+
+impl<'a> Judges<'a> {
+    pub fn new(
+        indicator: Indicator,
+        spec: &TrainingSpec,
+        window: &'a Window,
+        observer: &'a dyn TrainingObserver,
+    ) -> Self {
+        let model = Arc::new(alone(spec, window));
+        let online = (0..rayon::current_num_threads())
+            .map(|_| Online::new(Arc::clone(&model), ReducedOptions::default()))
+            .collect();
+        Self { indicator, lubricant: spec.lubricant, window, online, observer }
+    }
+
+    /// The indicator at each point, infinite where the reduced model fails. Every solve starts afresh, so that neither order
+    /// nor threads matter.
+    pub fn judge(&mut self, points: &[OperatingPoint]) -> Result<Vec<f64>, TrainingError> {
+        let Self { indicator, lubricant, window, online, observer } = self;
+        let threads = online.len();
+        let parts: Vec<Vec<f64>> = online
+            .par_iter_mut()
+            .enumerate()
+            .map(|(t, online)| {
+                points
+                    .iter()
+                    .skip(t)
+                    .step_by(threads)
+                    .map(|point| {
+                        if observer.cancelled() {
+                            return Err(TrainingError::Cancelled);
+                        }
+                        Ok(error_at(*indicator, online, window, point, *lubricant).unwrap_or(f64::INFINITY))
+                    })
+                    .collect()
+            })
+            .collect::<Result<_, _>>()?;
+        Ok((0..points.len()).map(|i| parts[i % threads][i / threads]).collect())
+    }
+}
+
+/// The indicator of one reduced solve, `None` when it fails.
+fn error_at(
+    indicator: Indicator,
+    online: &mut Online,
+    window: &Window,
+    point: &OperatingPoint,
+    lubricant: Lubricant,
+) -> Option<f64> {
+    online.forget();
+    let solved = online.solve(point, lubricant).ok()?;
+    let error = match indicator {
+        Indicator::Residual => solved.residual_estimate,
+        Indicator::Correction => {
+            let solution = online.reconstruct(&solved).ok()?;
+            let corrected = correct(&solution.problem, window, &solution.pressure, solution.scalars.h_c);
+            let change = |from: f64, to: f64| (from / to - 1.0).abs();
+            let (before, after) = (solution.scalars, corrected);
+            change(before.h_c, after.h_c).max(0.5 * change(before.h_min, after.h_min))
+        }
+    };
+    error.is_finite().then_some(error)
+}
+
+/// Scalars after full Newton steps from a pressure and a central film.
+fn correct(problem: &Problem, window: &Window, pressure: &[f64], h_c: f64) -> Scalars {
+    let mut system = LineSystem::new(window.grid.for_contact(problem.moes));
+    system.set_pressure(problem, pressure);
+    system.set_central_film(h_c);
+    let mut report = Report {
+        termination: Termination::IterationLimit,
+        newton_iterations: 0,
+        linear_iterations: 0,
+        attempts: 1,
+        residuals: Vec::new(),
+        steps: Vec::new(),
+        residual_norm: f64::NAN,
+    };
+    let options = SolveOptions { max_newton: CORRECTIONS, ..SolveOptions::default() };
+    system.newton(problem, &options, &mut (), &mut report);
+    scalars_of(&system.grid, problem, &system.pressure, &system.film, system.h_0)
+}
