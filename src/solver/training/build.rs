@@ -113,6 +113,15 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
     }
 }
 
+/// Linear algebra splits its sums by the threads it finds: on one thread a model is the same to the last bit on every machine size.
+fn on_one_thread<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
+        Ok(pool) => pool.install(work),
+        // Without another thread the work is done here, equal to rounding.
+        Err(_) => work(),
+    }
+}
+
 /// Everything one window is made with.
 pub(super) struct Shop<'a> {
     pub spec: &'a TrainingSpec,
@@ -210,9 +219,12 @@ impl<'a> Shop<'a> {
         }
         observer.progress(Progress { stage: format!("Bases, M {}…{}", window.m.0, window.m.1), done: 0, total: 1 });
         let failed = || TrainingError::Decomposition { from: window.m.0, to: window.m.1 };
-        let (pressure, deformation, snapshots) = bases(spec, grid, solutions).ok_or_else(failed)?;
-        let rows = all_rows(&pressure, &grid.weights);
-        let mut model = Window::new(window.m, Arc::clone(grid), pressure, deformation, snapshots, Sampling::All, rows);
+        let mut model = on_one_thread(|| {
+            let (pressure, deformation, snapshots) = bases(spec, grid, solutions)?;
+            let rows = all_rows(&pressure, &grid.weights);
+            Some(Window::new(window.m, Arc::clone(grid), pressure, deformation, snapshots, Sampling::All, rows))
+        })
+        .ok_or_else(failed)?;
         if spec.sampling != Sampling::All {
             let sampled = sample_rows(spec, &model, *reach, rng, *observer)?.ok_or_else(failed)?;
             model.set_rows(spec.sampling, sampled);
@@ -303,11 +315,11 @@ fn sample_rows(
     observer.progress(Progress { stage: "Row sampling".to_owned(), done: 0, total: 1 });
     let count =
         ((window.pressure.modes.ncols() as f64 * spec.rows_per_mode).round() as usize).min(window.grid.xi.len() - 3);
-    let sampled = match spec.sampling {
+    let sampled = on_one_thread(|| match spec.sampling {
         Sampling::QDeim => q_deim(&window.pressure, &window.grid.weights, &rows, count),
         Sampling::Greedy => greedy(&window.pressure, &window.grid.weights, &rows, count),
         Sampling::All => Some(all_rows(&window.pressure, &window.grid.weights)),
-    };
+    });
     Ok(sampled.filter(|s| is_finite(s.reconstruction.as_ref())))
 }
 

@@ -8,6 +8,8 @@ pub mod distance;
 mod indicator;
 mod plan;
 mod state;
+#[cfg(test)]
+mod tests;
 
 pub use adaptive::Search;
 pub use build::train;
