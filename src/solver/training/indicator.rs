@@ -1,4 +1,19 @@
 //! How good a reduced solution is, judged without the full one (3.1.2).
+//!
+//! Measured (Table 3.1's box, pre-computed snapshots, loss 1e-7, 200 random points): Spearman's rank correlation with the true
+//! relative errors against full solutions on the same grid.
+//!
+//! | grid, snapshots | e_f^I: e_P, H_c, H_min | e_f^I/H_c: H_c | two Newton steps: H_c, H_min | 90 % of the modes: H_c |
+//! |---|---|---|---|---|
+//! | graded, 60 | 0.60, 0.25, 0.16 | 0.75 | 0.53, 0.62 | 0.42 |
+//! | graded, 80 | 0.89, 0.54, 0.75 | 0.71 | 0.90, 0.90 | 0.43 |
+//! | graded, 100 | 0.88, 0.69, 0.73 | 0.65 | 0.99, 0.99 | 0.34 |
+//! | graded, 120 | 0.75, 0.76, 0.77 | 0.70 | 0.98, 1.00 | 0.36 |
+//! | uniform, 100 (loss 1e-6) | 0.95, 0.63, 0.53 | 0.69 | 0.73, 0.71 | 0.20 |
+//!
+//! The residual ranks pressures (e_P: the unweighted 2-norm of the pressure error at the nodes), not films. The change under Newton
+//! steps of the full system ranks films once the model is fair; while it is poor the steps are damped and say only that it is poor.
+//! It costs 0.6 ms per point on the graded grid, beside 0.5 ms of the reduced solve: large-scale work, though no full solution.
 
 use super::build::alone;
 use super::{TrainingError, TrainingObserver, TrainingSpec};
