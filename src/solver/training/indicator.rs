@@ -13,7 +13,8 @@
 //!
 //! The residual ranks pressures (e_P: the unweighted 2-norm of the pressure error at the nodes), not films. The change under Newton
 //! steps of the full system ranks films once the model is fair; while it is poor the steps are damped and say only that it is poor.
-//! It costs 0.6 ms per point on the graded grid, beside 0.5 ms of the reduced solve: large-scale work, though no full solution.
+//! It is large-scale work, though no full solution: one step took 0.6 ms on the graded grid beside 0.3–0.6 ms of the reduced solve; two were
+//! timed only on a busy machine (2–3 times the reduced solve).
 
 use super::build::alone;
 use super::{TrainingError, TrainingObserver, TrainingSpec};
