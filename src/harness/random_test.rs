@@ -52,7 +52,19 @@ pub(super) fn run(
     let of = Some(test.method);
     let mut table = Table::new(
         "random",
-        &["M", "L", "alpha", "p_h_pa", "converged", "H_c", "newton_iterations", "wall_s", "H_c_full"],
+        &[
+            "M",
+            "L",
+            "alpha",
+            "p_h_pa",
+            "converged",
+            "H_c",
+            "newton_iterations",
+            "wall_s",
+            "H_c_full",
+            "H_min",
+            "H_min_full",
+        ],
     );
     let mut untrained = 0;
     for (i, point) in points.iter().enumerate() {
@@ -62,7 +74,7 @@ pub(super) fn run(
         let request = Request { point: *point, ..template.clone() };
         let answer = workbench.answer(&request, test.method, None, observer)?;
         untrained += usize::from(answer.reduced.as_ref().is_some_and(|facts| !facts.trained));
-        let h_c = answer.result().map_or(f64::NAN, |solution| solution.scalars.h_c);
+        let scalars = answer.result().map(|solution| solution.scalars);
         let moes = point.moes();
         table.rows.push(vec![
             moes.m,
@@ -70,9 +82,11 @@ pub(super) fn run(
             point.alpha_per_pa,
             point.hertz().pressure_pa,
             f64::from(u8::from(answer.converged)),
-            h_c,
+            scalars.map_or(f64::NAN, |s| s.h_c),
             answer.newton_iterations as f64,
             answer.wall_s,
+            f64::NAN,
+            scalars.map_or(f64::NAN, |s| s.h_min),
             f64::NAN,
         ]);
     }
@@ -82,6 +96,7 @@ pub(super) fn run(
     outcome.converged &= failures == 0;
     outcome.push("tests", of, points.len() as f64);
     outcome.push("failures", of, failures as f64);
+    outcome.push("failure_percent", of, 100.0 * failures as f64 / points.len() as f64);
     outcome.push("newton_median", of, median(&newton));
     outcome.push("newton_max", of, percentile(&newton, 1.0));
     outcome.push("median_s", of, median(&seconds));
@@ -90,32 +105,36 @@ pub(super) fn run(
         outcome.push("untrained", of, untrained as f64);
         let model = workbench.model(source, observer)?;
         let films = full_films(&model, &points[..test.compare], scene.lubricant, observer)?;
-        let mut errors = Vec::with_capacity(films.len());
+        let mut errors: [Vec<f64>; 2] = Default::default();
         let mut full_failures = 0;
         for (row, film) in table.rows.iter_mut().zip(films) {
             full_failures += usize::from(film.is_none());
-            row[8] = film.unwrap_or(f64::NAN);
-            errors.extend(Some((row[5] / row[8] - 1.0).abs()).filter(|error| error.is_finite()));
+            (row[8], row[10]) = film.unwrap_or((f64::NAN, f64::NAN));
+            for (errors, (reduced, full)) in errors.iter_mut().zip([(row[5], row[8]), (row[9], row[10])]) {
+                errors.extend(Some((reduced / full - 1.0).abs()).filter(|error| error.is_finite()));
+            }
         }
         if test.compare > 0 {
-            outcome.push("compared", of, errors.len() as f64);
+            outcome.push("compared", of, errors[0].len() as f64);
             outcome.push("full_failures", of, full_failures as f64);
-            outcome.push("H_c_error_median", of, median(&errors));
-            outcome.push("H_c_error_p95", of, percentile(&errors, 0.95));
-            outcome.push("H_c_error_max", of, percentile(&errors, 1.0));
+            for (name, errors) in ["H_c", "H_min"].iter().zip(&errors) {
+                outcome.push(format!("{name}_error_median"), of, median(errors));
+                outcome.push(format!("{name}_error_p95"), of, percentile(errors, 0.95));
+                outcome.push(format!("{name}_error_max"), of, percentile(errors, 1.0));
+            }
         }
     }
     outcome.tables.push(table);
     Ok(())
 }
 
-/// Central films of cold full solutions on the model's own grids, on all cores: cold, so that no reduced solution can lead them to its root.
+/// Central and smallest films of cold full solutions on the model's own grids, on all cores: cold, so that no reduced solution can lead them to its root.
 fn full_films(
     model: &ReducedModel,
     points: &[crate::solver::contact::OperatingPoint],
     lubricant: Lubricant,
     observer: &dyn TrainingObserver,
-) -> Result<Vec<Option<f64>>, HarnessError> {
+) -> Result<Vec<Option<(f64, f64)>>, HarnessError> {
     let done = AtomicUsize::new(0);
     points
         .par_iter()
@@ -133,7 +152,7 @@ fn full_films(
                     let stage = "full solutions to compare with".to_owned();
                     observer.progress(Progress { stage, done: so_far, total: points.len() });
                 }
-                Ok(solution.converged().then_some(solution.scalars.h_c))
+                Ok(solution.converged().then_some((solution.scalars.h_c, solution.scalars.h_min)))
             },
         )
         .collect()

@@ -174,6 +174,23 @@ fn training(spec: &TrainingSpec) -> Checked {
             let total = nodes.iter().try_fold(1usize, |product, &n| product.checked_mul(n)).unwrap_or(usize::MAX);
             count("study.plan.nodes (product)", total, 2, 100_000)?;
         }
+        Plan::Adaptive { start, tolerances, successes, local_sigma, local_successes, vicinity, limit, .. } => {
+            count("study.plan.start", *start, 4, 5000)?;
+            count("study.plan.limit", *limit, *start, 5000)?;
+            count("study.plan.tolerances (how many)", tolerances.len(), 1, 32)?;
+            tolerances.iter().try_for_each(|&t| number("study.plan.tolerances", t, 1e-12, 1e12))?;
+            count("study.plan.successes", *successes, 1, MAX_POINTS)?;
+            number("study.plan.local_sigma", *local_sigma, 1e-6, 1.0)?;
+            count("study.plan.local_successes", *local_successes, 0, MAX_POINTS)?;
+            count("study.plan.vicinity", *vicinity, 0, 10_000)?;
+        }
+        Plan::WorstOfPool { start, pool, per_round, tolerance, limit, .. } => {
+            count("study.plan.start", *start, 4, 5000)?;
+            count("study.plan.limit", *limit, *start, 5000)?;
+            count("study.plan.pool", *pool, 1, MAX_POINTS)?;
+            count("study.plan.per_round", *per_round, 1, *pool)?;
+            number("study.plan.tolerance", *tolerance, 1e-12, 1e12)?;
+        }
     }
     count("study.windows (how many)", spec.windows.len(), 1, 64)?;
     for window in &spec.windows {

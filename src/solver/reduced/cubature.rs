@@ -8,8 +8,9 @@
 use super::pod::PodBasis;
 use super::sampling::SampledRows;
 use crate::solver::grid::FIRST_UNKNOWN;
+use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::{Llt, Solve};
-use faer::{Mat, Side};
+use faer::{Accum, Mat, Par, Side};
 
 /// Rows the forward greedy collects before pruning, relative to the target.
 const OVERSHOOT: f64 = 1.5;
@@ -32,7 +33,7 @@ impl GoalEquations {
 
     /// Adds equations: one per row of `block`, one column per candidate.
     pub fn add(&mut self, block: &Mat<f64>) {
-        self.gram += block.transpose() * block;
+        matmul(self.gram.as_mut(), Accum::Add, block.transpose(), block.as_ref(), 1.0, Par::Seq);
         self.count += block.nrows();
     }
 

@@ -1,10 +1,11 @@
 //! From a specification to a model: snapshots, bases, row snapshots, sampled rows.
 
-use super::plan::{farthest_points, grid_points};
+use super::plan::grid_points;
 use super::rows::sample_rows;
+use super::state::{Solved, TrainingState, train_resumable};
 use super::{Plan, Progress, Range, TrainingError, TrainingObserver, TrainingSpec, WindowSpec};
 use crate::solver::contact::OperatingPoint;
-use crate::solver::full::{FullSolver, Solution, Start};
+use crate::solver::full::{FullSolver, Start};
 use crate::solver::grid::ReferenceGrid;
 use crate::solver::observer::Observer;
 use crate::solver::reduced::{
@@ -16,10 +17,7 @@ use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Training reaches beyond a window's ends by this factor in M, so that its edge is not a corner.
-const OVERLAP: f64 = 1.221_402_758_160_17;
-
-struct Cancel<'a>(&'a dyn TrainingObserver);
+pub(super) struct Cancel<'a>(pub &'a dyn TrainingObserver);
 
 impl Observer for Cancel<'_> {
     fn cancelled(&self) -> bool {
@@ -32,28 +30,10 @@ impl Observer for Cancel<'_> {
 /// # Errors
 /// When the specification is refused, a full solve fails, or the observer cancels.
 pub fn train(spec: &TrainingSpec, observer: &dyn TrainingObserver) -> Result<ReducedModel, TrainingError> {
-    check(spec)?;
-    let mut rng = Rng::with_seed(spec.seed);
-    let mut windows = Vec::with_capacity(spec.windows.len());
-    let mut log = Vec::new();
-    for window in &spec.windows {
-        let trained = train_window(spec, window, &mut rng, observer)?;
-        log.push(format!(
-            "M {}…{}: {} full solutions, {} pressure and {} deformation modes, {} of {} rows",
-            window.m.0,
-            window.m.1,
-            trained.snapshots.len(),
-            trained.pressure.modes.ncols(),
-            trained.deformation.modes.ncols(),
-            trained.sampled_rows.len(),
-            trained.grid.xi.len() - 3,
-        ));
-        windows.push(trained);
-    }
-    Ok(ReducedModel { title: spec.title.clone(), domain: domain(spec), windows, scene: String::new(), log })
+    train_resumable(&mut TrainingState::new(spec.clone()), observer)
 }
 
-fn check(spec: &TrainingSpec) -> Result<(), TrainingError> {
+pub(super) fn check(spec: &TrainingSpec) -> Result<(), TrainingError> {
     spec.range.check()?;
     let refuse = |sentence: String| Err(TrainingError::Specification(sentence));
     if spec.windows.is_empty() {
@@ -80,8 +60,8 @@ fn check(spec: &TrainingSpec) -> Result<(), TrainingError> {
     if !(1.0..=20.0).contains(&spec.rows_per_mode) {
         return refuse(format!("rows_per_mode is {}, but must lie between 1 and 20", spec.rows_per_mode));
     }
-    match spec.plan {
-        Plan::FarthestPoint { snapshots } if !(4..=5000).contains(&snapshots) => {
+    match &spec.plan {
+        Plan::FarthestPoint { snapshots } if !(4..=5000).contains(snapshots) => {
             refuse(format!("the plan asks for {snapshots} snapshots; between 4 and 5000 are accepted"))
         }
         Plan::Grid { nodes } if nodes.iter().product::<usize>() < 4 || nodes.iter().any(|n| *n > 100) => {
@@ -90,12 +70,28 @@ fn check(spec: &TrainingSpec) -> Result<(), TrainingError> {
         Plan::Grid { .. } if !matches!(spec.range, Range::Box { .. }) => {
             refuse("the grid plan of Table 3.2 needs a box of SI quantities".to_owned())
         }
+        Plan::Adaptive { start, tolerances, local_sigma, limit, .. } => {
+            super::adaptive::check(*start, tolerances, *limit)?;
+            if local_sigma.is_finite() && *local_sigma > 0.0 && *local_sigma <= 1.0 {
+                return Ok(());
+            }
+            refuse(format!("local_sigma is {local_sigma}, but must be positive and at most 1 (the width of the range)"))
+        }
+        Plan::WorstOfPool { start, tolerance, pool, per_round, limit, .. } => {
+            super::adaptive::check(*start, &[*tolerance], *limit)?;
+            if *per_round > 0 && per_round <= pool && *pool <= 100_000 {
+                return Ok(());
+            }
+            refuse(format!(
+                "per_round is {per_round} of a pool of {pool}; at least 1, at most the pool of up to 100000"
+            ))
+        }
         _ => Ok(()),
     }
 }
 
 /// What the model declares to be trained for.
-fn domain(spec: &TrainingSpec) -> Domain {
+pub(super) fn domain(spec: &TrainingSpec) -> Domain {
     match spec.range {
         Range::Moes { m, l, alpha, max_hertz_pressure, viscosity } => Domain {
             m,
@@ -122,92 +118,132 @@ fn domain(spec: &TrainingSpec) -> Domain {
     }
 }
 
-fn train_window(
-    spec: &TrainingSpec,
-    window: &WindowSpec,
-    rng: &mut Rng,
-    observer: &dyn TrainingObserver,
-) -> Result<Window, TrainingError> {
-    let grid = window.grid.build().map_err(crate::solver::full::SolveError::from)?;
-    let first = spec.windows.first().is_some_and(|w| w.m == window.m);
-    let last = spec.windows.last().is_some_and(|w| w.m == window.m);
-    let reach =
-        (if first { 0.0 } else { window.m.0 / OVERLAP }, if last { f64::INFINITY } else { window.m.1 * OVERLAP });
-    let points = match spec.plan {
-        Plan::FarthestPoint { snapshots } => farthest_points(&spec.range, reach, snapshots, rng),
-        Plan::Grid { nodes } => {
-            let mut points = grid_points(&spec.range, nodes);
-            points.retain(|p| (reach.0..=reach.1).contains(&p.moes().m));
-            points
-        }
-    };
-    if points.len() < 4 {
-        return Err(TrainingError::Specification(format!(
-            "the window M {}…{} holds {} training points of the range; it needs at least 4",
-            window.m.0,
-            window.m.1,
-            points.len()
-        )));
+/// Linear algebra splits its sums by the threads it finds: on one thread a model is the same to the last bit on every machine size.
+pub(super) fn on_one_thread<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
+        Ok(pool) => pool.install(work),
+        // Without another thread the work is done here, equal to rounding.
+        Err(_) => work(),
     }
-    let stage = format!("Full solutions, M {}…{}", window.m.0, window.m.1);
-    let solutions = solve_all(spec, &grid, &points, &stage, observer)?;
-    observer.progress(Progress { stage: format!("Bases, M {}…{}", window.m.0, window.m.1), done: 0, total: 1 });
-    let failed = || TrainingError::Decomposition { from: window.m.0, to: window.m.1 };
-    let (pressure, deformation, snapshots) = bases(spec, &grid, &solutions).ok_or_else(failed)?;
-    let rows = all_rows(&pressure, &grid.weights);
-    let mut model = Window::new(window.m, grid, pressure, deformation, snapshots, Sampling::All, rows);
-    if spec.sampling != Sampling::All {
-        let exact = Arc::new(ReducedModel {
-            title: String::new(),
-            domain: domain(spec),
-            windows: vec![model.clone()],
-            scene: String::new(),
-            log: Vec::new(),
-        });
-        let sampled = sample_rows(spec, &exact, reach, rng, observer)?.ok_or_else(failed)?;
-        model.set_rows(spec.sampling, sampled);
-    }
-    Ok(model)
 }
 
-/// Full solutions at all points, in parallel, in order.
-fn solve_all(
-    spec: &TrainingSpec,
-    grid: &Arc<ReferenceGrid>,
-    points: &[OperatingPoint],
-    stage: &str,
-    observer: &dyn TrainingObserver,
-) -> Result<Vec<Solution>, TrainingError> {
-    let done = AtomicUsize::new(0);
-    points
-        .par_iter()
-        .map_init(
-            || FullSolver::on(Arc::clone(grid)),
-            |solver, point| {
-                if observer.cancelled() {
-                    return Err(TrainingError::Cancelled);
+/// Everything one window is made with.
+pub(super) struct Shop<'a> {
+    pub spec: &'a TrainingSpec,
+    pub window: &'a WindowSpec,
+    pub grid: Arc<ReferenceGrid>,
+    /// Range of M from which it is trained.
+    pub reach: (f64, f64),
+    pub observer: &'a dyn TrainingObserver,
+}
+
+/// Full solutions between two checkpoints.
+const SOLVED_AT_ONCE: usize = 16;
+
+impl<'a> Shop<'a> {
+    pub fn new(
+        spec: &'a TrainingSpec,
+        k: usize,
+        reach: (f64, f64),
+        observer: &'a dyn TrainingObserver,
+    ) -> Result<Self, TrainingError> {
+        let window = &spec.windows[k];
+        let grid = window.grid.build().map_err(crate::solver::full::SolveError::from)?;
+        Ok(Self { spec, window, grid, reach, observer })
+    }
+
+    pub fn too_few(&self, count: usize) -> TrainingError {
+        let (from, to) = self.window.m;
+        TrainingError::Specification(format!(
+            "the window M {from}…{to} holds {count} training points of the range; it needs at least 4"
+        ))
+    }
+
+    /// Full solutions at all pending points of window `k`, in parallel, in order. What was finished stays finished.
+    pub fn solve_pending(&self, state: &mut TrainingState, k: usize) -> Result<(), TrainingError> {
+        while !state.windows[k].pending.is_empty() {
+            let own = &mut state.windows[k];
+            let before = own.solved.len();
+            let total = before + own.pending.len();
+            let results = self.solve_all(&own.pending[..own.pending.len().min(SOLVED_AT_ONCE)], before, total);
+            let mut finished = Vec::new();
+            let mut first_error = None;
+            for result in results {
+                match result {
+                    Ok(solved) => finished.push(solved),
+                    Err(error) => first_error = first_error.or(Some(error)),
                 }
-                let solution = solver.solve(point, spec.lubricant, Start::Cold, &mut Cancel(observer))?;
-                let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-                observer.progress(Progress { stage: stage.to_owned(), done, total: points.len() });
-                if solution.converged() {
-                    Ok(solution)
-                } else if observer.cancelled() {
-                    Err(TrainingError::Cancelled)
-                } else {
-                    let moes = point.moes();
-                    Err(TrainingError::NotConverged { m: moes.m, l: moes.l })
-                }
-            },
-        )
-        .collect()
+            }
+            own.keep(finished);
+            self.observer.checkpoint(state);
+            if let Some(error) = first_error {
+                return Err(error);
+            }
+        }
+        Ok(())
+    }
+
+    fn solve_all(
+        &self,
+        points: &[(usize, OperatingPoint)],
+        before: usize,
+        total: usize,
+    ) -> Vec<Result<Solved, TrainingError>> {
+        let (spec, observer) = (self.spec, self.observer);
+        let stage = format!("Full solutions, M {}…{}", self.window.m.0, self.window.m.1);
+        let done = AtomicUsize::new(before);
+        points
+            .par_iter()
+            .map_init(
+                || FullSolver::on(Arc::clone(&self.grid)),
+                |solver, (place, point)| {
+                    if observer.cancelled() {
+                        return Err(TrainingError::Cancelled);
+                    }
+                    let solution = solver.solve(point, spec.lubricant, Start::Cold, &mut Cancel(observer))?;
+                    let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+                    observer.progress(Progress { stage: stage.clone(), done, total });
+                    if solution.converged() {
+                        Ok(Solved::new(*place, solution))
+                    } else if observer.cancelled() {
+                        Err(TrainingError::Cancelled)
+                    } else {
+                        let moes = point.moes();
+                        Err(TrainingError::NotConverged { m: moes.m, l: moes.l })
+                    }
+                },
+            )
+            .collect()
+    }
+
+    /// Bases, row sampling and operators of given solutions.
+    pub fn assemble(&self, solutions: &[Solved], rng: &mut Rng) -> Result<Window, TrainingError> {
+        let Self { spec, window, grid, reach, observer } = self;
+        if solutions.len() < 4 {
+            return Err(self.too_few(solutions.len()));
+        }
+        observer.progress(Progress { stage: format!("Bases, M {}…{}", window.m.0, window.m.1), done: 0, total: 1 });
+        let failed = || TrainingError::Decomposition { from: window.m.0, to: window.m.1 };
+        let mut model = on_one_thread(|| {
+            let (pressure, deformation, snapshots) = bases(spec, grid, solutions)?;
+            let rows = all_rows(&pressure, &grid.weights);
+            Some(Window::new(window.m, Arc::clone(grid), pressure, deformation, snapshots, Sampling::All, rows))
+        })
+        .ok_or_else(failed)?;
+        if spec.sampling != Sampling::All {
+            let sampled =
+                sample_rows(spec, &Arc::new(alone(spec, &model)), *reach, rng, *observer)?.ok_or_else(failed)?;
+            model.set_rows(spec.sampling, sampled);
+        }
+        Ok(model)
+    }
 }
 
 /// POD of pressures and deformations, and the snapshots in the pressure basis.
 fn bases(
     spec: &TrainingSpec,
     grid: &ReferenceGrid,
-    solutions: &[Solution],
+    solutions: &[Solved],
 ) -> Option<(PodBasis, PodBasis, Vec<Snapshot>)> {
     let nodes = grid.xi.len();
     let pressures = Mat::from_fn(nodes, solutions.len(), |i, j| solutions[j].pressure[i]);
@@ -217,13 +253,19 @@ fn bases(
     let snapshots = solutions
         .iter()
         .map(|s| Snapshot {
-            point: s.problem.point,
+            point: s.point,
             coefficients: (0..pressure.modes.ncols())
                 .map(|k| (0..nodes).map(|i| grid.weights[i] * pressure.modes[(i, k)] * s.pressure[i]).sum())
                 .collect(),
-            h_0: s.scalars.h_0,
-            h_c: s.scalars.h_c,
+            h_0: s.h_0,
+            h_c: s.h_c,
         })
         .collect();
     Some((pressure, deformation, snapshots))
+}
+
+/// A model of one window only.
+pub(super) fn alone(spec: &TrainingSpec, window: &Window) -> ReducedModel {
+    let (windows, domain) = (vec![window.clone()], domain(spec));
+    ReducedModel { title: String::new(), domain, windows, scene: String::new(), log: Vec::new() }
 }

@@ -2,14 +2,23 @@
 //!
 //! The same specification gives the same model: everything random comes from its seed, and parallel work is collected in order.
 
+mod adaptive;
 mod build;
+pub mod distance;
+mod indicator;
 mod plan;
+#[cfg(test)]
+mod resume_tests;
 mod rows;
+mod state;
 #[cfg(test)]
 mod tests;
 
+pub use adaptive::Search;
 pub use build::train;
-pub use plan::{farthest_points, grid_points, random_points, test_point};
+pub use indicator::Indicator;
+pub use plan::{farthest_points, grid_points, local_point, random_points, test_point};
+pub use state::{Solved, TrainingState, WindowState, train_resumable};
 
 use super::lubricant::Lubricant;
 use super::reduced::Sampling;
@@ -29,6 +38,49 @@ pub enum Plan {
         /// Nodes along radius, speed, load and alpha.
         nodes: [usize; 4],
     },
+    /// The automatic algorithm of section 3.1.3, Fig. 3.2 (numbers of full solutions are per window).
+    Adaptive {
+        /// Pre-computed solutions by (3.16).
+        start: usize,
+        /// What an approximation is judged by.
+        #[serde(default)]
+        indicator: Indicator,
+        /// Ladder of tolerances on the indicator, descending.
+        tolerances: Vec<f64>,
+        /// Good approximations in a row, global search (3.17), that end a rung of the ladder.
+        successes: usize,
+        /// σ of the local search (3.18), in widths of the range.
+        local_sigma: f64,
+        /// Good approximations in a row that end a local search; 0 leaves it out.
+        local_successes: usize,
+        /// Candidates in the close vicinity (σ/2) of a bad point of which the worst is solved in full; 0 takes the point itself.
+        vicinity: usize,
+        /// Full solutions at most.
+        limit: usize,
+    },
+    /// Greedy: the worst of a pool that is drawn afresh by (3.17) in every round (numbers are per window).
+    WorstOfPool {
+        /// Pre-computed solutions by (3.16).
+        start: usize,
+        /// What an approximation is judged by.
+        #[serde(default)]
+        indicator: Indicator,
+        /// Random points judged per round.
+        pool: usize,
+        /// The worst that are solved in full per round.
+        per_round: usize,
+        /// The training ends with a pool that has no worse point.
+        tolerance: f64,
+        /// Full solutions at most.
+        limit: usize,
+    },
+}
+
+impl Plan {
+    /// Whether it searches for bad approximations.
+    pub fn searches(&self) -> bool {
+        matches!(self, Self::Adaptive { .. } | Self::WorstOfPool { .. })
+    }
 }
 
 /// What a model is trained for.
@@ -118,6 +170,8 @@ pub struct Progress {
 pub trait TrainingObserver: Sync {
     /// Called as work proceeds.
     fn progress(&self, _progress: Progress) {}
+    /// Shown the state whenever full solutions were finished: what a crash must not lose can be written here.
+    fn checkpoint(&self, _state: &TrainingState) {}
     /// Asked between full solutions; `true` stops the training.
     fn cancelled(&self) -> bool {
         false

@@ -73,9 +73,20 @@ impl Range {
     }
 }
 
+/// A random point near another one by (3.18), coordinates in the unit cube: μ = min(max(μ_ref + σN, 0), 1).
+pub fn local_point(reference: [f64; 4], sigma: f64, rng: &mut Rng) -> [f64; 4] {
+    let mut normal = || (-2.0 * (1.0 - rng.f64()).ln()).sqrt() * (2.0 * PI * rng.f64()).cos();
+    reference.map(|v| (v + sigma * normal()).clamp(0.0, 1.0))
+}
+
+/// Coordinates of (3.17) in the unit cube.
+pub(super) fn global_point(rng: &mut Rng) -> [f64; 4] {
+    std::array::from_fn(|_| 0.5 * (1.0 - (PI * rng.f64()).cos()))
+}
+
 /// A random point of a range by (3.17), which pushes towards the boundary; `None` where the range excludes it.
 pub fn test_point(range: &Range, rng: &mut Rng) -> Option<OperatingPoint> {
-    range.at(std::array::from_fn(|_| 0.5 * (1.0 - (PI * rng.f64()).cos())))
+    range.at(global_point(rng))
 }
 
 /// `count` random points of a range with M in a window.

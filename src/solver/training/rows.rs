@@ -1,5 +1,6 @@
 //! Row sampling of a window: the all-rows reduced model runs at random parameters, and what its iterates show decides which rows stay.
 
+use super::build::on_one_thread;
 use super::plan::random_points;
 use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::contact::OperatingPoint;
@@ -8,8 +9,9 @@ use crate::solver::reduced::{
     GoalEquations, Iterate, Online, ReducedModel, ReducedOptions, RowSnapshots, SampledRows, Sampling, Window,
     all_rows, cubature, greedy, interpolation_at_zero, is_finite, q_deim,
 };
-use faer::Mat;
+use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::{PartialPivLu, Solve};
+use faer::{Accum, Mat, Par};
 use fastrand::Rng;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -82,12 +84,12 @@ pub(super) fn sample_rows(
     let count =
         ((window.pressure.modes.ncols() as f64 * spec.rows_per_mode).round() as usize).min(window.grid.xi.len() - 3);
     let (basis, weights) = (&window.pressure, &window.grid.weights);
-    let sampled = match spec.sampling {
+    let sampled = on_one_thread(|| match spec.sampling {
         Sampling::QDeim => q_deim(basis, weights, &rows, count),
         Sampling::Greedy => greedy(basis, weights, &rows, count),
         Sampling::Cubature => cubature(basis, weights, &equations, count),
         Sampling::All => Some(all_rows(basis, weights)),
-    };
+    });
     Ok(sampled.filter(|s| is_finite(s.reconstruction.as_ref())))
 }
 
@@ -176,7 +178,9 @@ fn goal_block(window: &Window, iterate: &Iterate<'_>, rng: &mut Rng) -> Option<M
     let (first, second) = (share / change.max(STEP_FLOOR), share / change);
     let weights = &window.grid.weights;
     // (T V_i) w_i for every row, then times f_i or (J V Δz̃)_i.
-    let tested: Mat<f64> = window.pressure.modes.as_ref() * goals.get(..modes, ..);
+    // On one thread, so that rounding does not depend on how many there are.
+    let mut tested = Mat::<f64>::zeros(window.pressure.modes.nrows(), count);
+    matmul(tested.as_mut(), Accum::Replace, window.pressure.modes.as_ref(), goals.get(..modes, ..), 1.0, Par::Seq);
     Some(Mat::from_fn(2 * count, iterate.residual.len(), |equation, i| {
         let node = i + FIRST_UNKNOWN;
         let test = tested[(node, equation % count)] * weights[node];

