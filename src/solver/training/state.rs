@@ -1,7 +1,8 @@
 //! What a training has done so far: enough to stop after any full solution, go on later, and arrive at the same model.
 
 use super::adaptive::Search;
-use super::build::{Shop, check, domain};
+use super::build::{Shop, alone, check, domain};
+use super::calibrate::calibrate;
 use super::plan::{farthest_points, grid_points};
 use super::{Plan, TrainingError, TrainingObserver, TrainingSpec, WindowSpec};
 use crate::solver::contact::OperatingPoint;
@@ -9,6 +10,7 @@ use crate::solver::full::Solution;
 use crate::solver::reduced::{ReducedModel, Window};
 use fastrand::Rng;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// Training reaches beyond a window's ends by this factor in M, so that its edge is not a corner.
 const OVERLAP: f64 = 1.221_402_758_160_17;
@@ -121,7 +123,10 @@ fn go(state: &mut TrainingState, observer: &dyn TrainingObserver) -> Result<Redu
         if state.windows.len() == k {
             state.windows.push(WindowState::default());
         }
-        let trained = train_window(&spec, k, &mut rng, state, observer)?;
+        let mut trained = train_window(&spec, k, &mut rng, state, observer)?;
+        if spec.evidence > 0 {
+            trained.calibration = calibrate(&spec, &Arc::new(alone(&spec, &trained)), k, observer)?;
+        }
         log.push(format!(
             "M {}…{}: {} full solutions, {} pressure and {} deformation modes, {} of {} rows",
             window.m.0,
@@ -133,6 +138,10 @@ fn go(state: &mut TrainingState, observer: &dyn TrainingObserver) -> Result<Redu
             trained.grid.xi.len() - 3,
         ));
         log.extend(state.windows[k].search.describe(&spec.plan));
+        log.push(match &trained.calibration {
+            Some(c) => format!("errors measured at {} random points by two full Newton steps each", c.evidence()),
+            None => "no error bound: errors were measured at too few points".to_owned(),
+        });
         windows.push(trained);
     }
     Ok(ReducedModel { title: spec.title.clone(), domain: domain(&spec), windows, scene: String::new(), log })
