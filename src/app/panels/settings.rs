@@ -36,6 +36,7 @@ fn viscosity_law(law: ViscosityLaw) -> (&'static str, &'static str) {
             "ln(η/η₀) = (ln η₀ + 9.67)((1 + p/0.196 GPa)^z − 1) (2.12), Roelands 1966; mineral oils to about 1 GPa",
         ),
         ViscosityLaw::Barus => ("Barus", "η = η₀ exp(αp) (2.11), Barus 1893; overestimates above some 0.5 GPa"),
+        ViscosityLaw::Doolittle(_) => ("Doolittle", "from the free volume that Tait's equation leaves (3.39), Doolittle 1951"),
     }
 }
 
@@ -46,6 +47,7 @@ fn density_law(law: DensityLaw) -> (&'static str, &'static str) {
             "ρ/ρ₀ = (0.59 GPa + 1.34p)/(0.59 GPa + p) (2.10), Dowson & Higginson 1966; saturates at 1.34",
         ),
         DensityLaw::Incompressible => ("Incompressible", "ρ = ρ₀"),
+        DensityLaw::Tait(_) => ("Tait", "from the relative volume of Tait's equation (3.37), Dymond & Malhotra 1988"),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::band::BandLu;
 use super::gmres::{Gmres, LinearOutcome};
+use super::shear::ShearState;
 use super::solution::{Problem, Report, Termination};
 use crate::solver::elasticity::Scratch;
 use crate::solver::grid::{FIRST_UNKNOWN, LineGrid, dot};
@@ -27,6 +28,9 @@ pub struct SolveOptions {
     /// Backtracking on the residual ends at this fraction of the step; 1 takes Newton's own steps, which is right beside a solution:
     /// there the penalty makes the residual jump though the step is good.
     pub shortest_step: f64,
+    /// Whether the film integrals of a shear-thinning lubricant count as constants in the Jacobian: cheaper, and as good within rounding
+    /// of the answer, but no longer quadratic.
+    pub frozen_film_integrals: bool,
 }
 
 impl Default for SolveOptions {
@@ -38,6 +42,7 @@ impl Default for SolveOptions {
             kernel_band: 6,
             penalty: PENALTY,
             shortest_step: 1.0 / 64.0,
+            frozen_film_integrals: false,
         }
     }
 }
@@ -54,6 +59,9 @@ pub struct LineSystem {
     pub h_0: f64,
     deformation: Vec<f64>,
     nodes: Vec<Node>,
+    /// What shear-thinning adds; absent for a Newtonian problem.
+    shear: Option<ShearState>,
+    frozen_film_integrals: bool,
     /// f_p at the unknowns.
     pub residual: Vec<f64>,
     /// ∂f/∂P and ∂f/∂H per row.
@@ -92,6 +100,8 @@ impl LineSystem {
             h_0: 0.0,
             deformation: vec![0.0; n],
             nodes: vec![Node::default(); n],
+            shear: None,
+            frozen_film_integrals: false,
             residual: vec![0.0; u],
             d_p: vec![[0.0; LINE_STENCIL]; u],
             d_h: vec![[0.0; LINE_STENCIL]; u],
@@ -140,8 +150,18 @@ impl LineSystem {
 
     /// Evaluates all rows at the current state: residual and, with `derivatives`, the Jacobian bands. Returns the residual norm.
     pub fn evaluate(&mut self, problem: &Problem, penalty: f64, derivatives: bool) -> f64 {
-        for ((node, &p), &h) in self.nodes.iter_mut().zip(&self.pressure).zip(&self.film) {
-            *node = Node::new(&problem.fluid, problem.inverse_lambda, p, h);
+        match &problem.shear {
+            None => {
+                self.shear = None;
+                for ((node, &p), &h) in self.nodes.iter_mut().zip(&self.pressure).zip(&self.film) {
+                    *node = Node::new(&problem.fluid, problem.inverse_lambda, p, h);
+                }
+            }
+            Some(law) => {
+                let shear = self.shear.get_or_insert_with(|| ShearState::new(&self.grid));
+                let fields = (self.pressure.as_slice(), self.film.as_slice());
+                shear.evaluate(problem, law, fields, self.frozen_film_integrals, &mut self.nodes);
+            }
         }
         let mut sum = 0.0;
         for (k, geometry) in self.grid.rows.iter().enumerate() {
@@ -155,6 +175,9 @@ impl LineSystem {
                 self.d_h[k] = [r.d_h[0], r.d_h[1], r.d_h[2], r.d_h[3]];
             }
         }
+        if let Some(shear) = self.shear.as_mut().filter(|_| derivatives) {
+            shear.differentiate(&self.grid);
+        }
         sum.sqrt()
     }
 
@@ -166,6 +189,7 @@ impl LineSystem {
         observer: &mut dyn Observer,
         report: &mut Report,
     ) {
+        self.frozen_film_integrals = options.frozen_film_integrals;
         let mut residual = self.evaluate(problem, options.penalty, true);
         let mut previous = f64::NAN;
         report.termination = Termination::IterationLimit;
@@ -262,13 +286,14 @@ impl LineSystem {
         for ((s, a), b) in self.scaling.iter_mut().zip(&self.d_p).zip(&self.d_h) {
             *s = 1.0 / (a[CENTER].abs() + b[CENTER].abs() * diagonal);
         }
-        self.preconditioner.build(&self.grid, options.kernel_band, &self.d_p, &self.d_h, &self.scaling);
+        let shear = self.shear.as_ref();
+        self.preconditioner.build(&self.grid, options.kernel_band, (&self.d_p, &self.d_h), shear, &self.scaling);
         for ((r, f), s) in self.rhs.iter_mut().zip(&self.residual).zip(&self.scaling) {
             *r = -f * s;
         }
         // The load holds exactly from the start and every step keeps it, because the preconditioner's load row is exact.
         self.rhs[u] = 0.0;
-        let Self { krylov, grid, fft, field, step_deformation, d_p, d_h, scaling, preconditioner, rhs, update, .. } =
+        let Self { krylov, grid, fft, field, step_deformation, d_p, d_h, scaling, preconditioner, rhs, update, shear, .. } =
             self;
         krylov.solve(
             rhs,
@@ -286,6 +311,11 @@ impl LineSystem {
                     }
                     *out = sum * scaling[k];
                 }
+                if let Some(shear) = shear {
+                    for (k, out) in out[..u].iter_mut().enumerate() {
+                        *out += shear.product(k, field) * scaling[k];
+                    }
+                }
                 out[u] = dot(&grid.weights, field);
             },
             |v| preconditioner.apply(grid, v),
@@ -294,13 +324,13 @@ impl LineSystem {
 }
 
 impl Preconditioner {
-    /// Assembles and factorises A + trunc(B K), rows scaled, and the H₀ column.
+    /// Assembles and factorises A + C G + trunc(B K), rows scaled, and the H₀ column; C G is what shear-thinning adds.
     fn build(
         &mut self,
         grid: &LineGrid,
         band: usize,
-        d_p: &[[f64; LINE_STENCIL]],
-        d_h: &[[f64; LINE_STENCIL]],
+        (d_p, d_h): (&[[f64; LINE_STENCIL]], &[[f64; LINE_STENCIL]]),
+        shear: Option<&ShearState>,
         scaling: &[f64],
     ) {
         let u = grid.unknowns();
@@ -335,6 +365,16 @@ impl Preconditioner {
                 }
                 if (m + band).checked_sub(CENTER).is_some_and(|c| c < width) {
                     row[m + band - CENTER] += s * a[m];
+                }
+            }
+            if let Some(shear) = shear {
+                for (m, slope) in shear.slopes[k].iter().enumerate() {
+                    for (c, weight) in shear.gradient.weights[k + m].iter().enumerate() {
+                        // Node k + m + c − 1.
+                        if let Some(r) = (m + c + band).checked_sub(CENTER + 1).and_then(|c| row[..width].get_mut(c)) {
+                            *r += s * slope * weight;
+                        }
+                    }
                 }
             }
             for (c, r) in row[..width].iter_mut().enumerate() {

@@ -4,11 +4,14 @@ mod band;
 pub mod dense;
 mod gmres;
 mod line;
+mod shear;
 mod solution;
 mod start;
+mod traction;
 #[cfg(test)]
 mod tests;
 
 pub use line::{LineSystem, SolveOptions};
 pub use solution::{Problem, Report, Scalars, Solution, SolveError, Termination, Traction, scalars_of};
 pub use start::{FullSolver, Start};
+pub use traction::{PLAUSIBLE_EXPONENT, Shear};

@@ -2,7 +2,7 @@
 
 use crate::solver::contact::{ContactError, ContactKind, Moes, OperatingPoint};
 use crate::solver::grid::{FIRST_UNKNOWN, GridError, GridSpec, LineGrid, dot};
-use crate::solver::lubricant::{Lubricant, LubricantError, ScaledFluid};
+use crate::solver::lubricant::{Lubricant, LubricantError, ScaledFluid, ScaledShear, Sliding};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -30,8 +30,12 @@ pub struct Problem {
     pub point: OperatingPoint,
     /// The laws it was made with.
     pub lubricant: Lubricant,
+    /// The sliding and the plateau it was made with.
+    pub sliding: Sliding,
     /// The laws with their constants.
     pub fluid: ScaledFluid,
+    /// The shear-thinning law with its constants; `None` where the fluid is Newtonian.
+    pub shear: Option<ScaledShear>,
     /// Moes numbers.
     pub moes: Moes,
     /// 1/λ̄ of (2.23).
@@ -41,11 +45,22 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// Checks the point and the lubricant and makes them dimensionless.
+    /// Checks the point and the lubricant and makes them dimensionless: pure rolling, with the lubricant's own plateau ratio.
     ///
     /// # Errors
     /// When either is outside its valid range.
     pub fn new(point: &OperatingPoint, lubricant: Lubricant) -> Result<Self, SolveError> {
+        Self::under_sliding(point, lubricant, Sliding::default())
+    }
+
+    /// The same under sliding. Where α follows from the viscosity law, the problem's point has that α, whatever the given one has.
+    ///
+    /// # Errors
+    /// When the point, the lubricant or the sliding is outside its valid range.
+    pub fn under_sliding(point: &OperatingPoint, lubricant: Lubricant, sliding: Sliding) -> Result<Self, SolveError> {
+        lubricant.check()?;
+        let alpha_per_pa = lubricant.own_coefficient().unwrap_or(point.alpha_per_pa);
+        let point = &OperatingPoint { alpha_per_pa, ..*point };
         point.check()?;
         if point.kind == ContactKind::Point {
             return Err(SolveError::PointContact);
@@ -54,7 +69,9 @@ impl Problem {
         Ok(Self {
             point: *point,
             lubricant,
+            sliding,
             fluid,
+            shear: ScaledShear::new(lubricant.shear, sliding, point)?,
             moes: point.moes(),
             inverse_lambda: 1.0 / point.lambda_bar(),
             load: 0.5 * PI,
@@ -71,6 +88,8 @@ pub enum Termination {
     IterationLimit,
     /// The iterates left every sensible range.
     Diverged,
+    /// The pressures left the range of the viscosity law.
+    OccupiedVolume,
     /// The observer asked to stop.
     Cancelled,
 }
@@ -84,6 +103,9 @@ impl Termination {
                 "stopped at the iteration limit; try a start from a converged neighbour, a finer grid or a longer inlet"
             }
             Self::Diverged => "diverged; try a start from a converged neighbour, a smaller load or a finer grid",
+            Self::OccupiedVolume => {
+                "met pressures at which the lubricant's relative volume falls under its occupied volume, where Doolittle's law ends; use a smaller load or another lubricant"
+            }
             Self::Cancelled => "was cancelled",
         }
     }

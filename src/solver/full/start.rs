@@ -59,7 +59,11 @@ impl FullSolver {
         start: Start<'_>,
         observer: &mut dyn Observer,
     ) -> Result<Solution, SolveError> {
-        let problem = Problem::new(point, lubricant)?;
+        Ok(self.solve_problem(Problem::new(point, lubricant)?, start, observer))
+    }
+
+    /// The same for a problem that exists already, under sliding for instance.
+    pub fn solve_problem(&mut self, problem: Problem, start: Start<'_>, observer: &mut dyn Observer) -> Solution {
         let mut report = empty_report();
         if let Start::From(former) = start {
             self.attempt(&problem, Start::From(former), 0.0, observer, &mut report);
@@ -73,7 +77,16 @@ impl FullSolver {
         if !ended(&report) {
             self.continuation(&problem, observer, &mut report);
         }
-        Ok(self.solution(problem, report))
+        if report.termination == Termination::Converged {
+            let meets = self.system.as_ref().is_some_and(|system| {
+                let largest = problem.fluid.largest_pressure();
+                system.pressure.iter().any(|&p| p >= largest)
+            });
+            if meets {
+                report.termination = Termination::OccupiedVolume;
+            }
+        }
+        self.solution(problem, report)
     }
 
     /// The system prepared at a cold start, for whoever iterates it in another way (the dense baseline).
@@ -128,7 +141,7 @@ impl FullSolver {
                 alpha_per_pa: Some(problem.point.alpha_per_pa),
                 ..MoesRequest::new(ContactKind::Line, m, l)
             };
-            si_from_moes(&request).ok().and_then(|p| Problem::new(&p, problem.lubricant).ok())
+            si_from_moes(&request).ok().and_then(|p| Problem::under_sliding(&p, problem.lubricant, problem.sliding).ok())
         };
         let Some(first) = point_at(0.0) else { return };
         self.attempt(&first, Start::Cold, COLD_FILMS[0], observer, report);

@@ -4,6 +4,14 @@
 //! solver's variable P = p/p_H. Slightly negative pressures (the penalty lets them reach about −1e-5 p_H) use the analytic laws;
 //! below [`CAVITATION_FLOOR_PA`] the laws are held constant so that no Newton iterate can leave their domain.
 
+mod free_volume;
+mod pressure_coefficient;
+mod shear_thinning;
+
+pub use free_volume::{Doolittle, Tait};
+pub use pressure_coefficient::GAUSS_6;
+pub use shear_thinning::{Fluidity, LimitingStress, ScaledShear, ShearLaw, Sliding};
+
 use super::contact::OperatingPoint;
 use serde::{Deserialize, Serialize};
 
@@ -17,27 +25,31 @@ pub const ROELANDS_PRESSURE_PA: f64 = 1.96e8;
 const LOG_VISCOSITY_CEILING: f64 = 250.0;
 
 /// How density depends on pressure.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
 pub enum DensityLaw {
     /// ρ = ρ₀.
     Incompressible,
     /// (2.10), Dowson & Higginson 1966; mineral oils to about 1 GPa, saturates at 1.34 ρ₀.
     #[default]
     DowsonHigginson,
+    /// (3.37), (3.38).
+    Tait(Tait),
 }
 
 /// How viscosity depends on pressure.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
 pub enum ViscosityLaw {
     /// (2.11), Barus 1893: η = η₀ exp(αp); overestimates above some 0.5 GPa.
     Barus,
     /// (2.12), Roelands 1966, with p_Roe = 0.196 GPa and ln η₀ + 9.67 > 0.
     #[default]
     Roelands,
+    /// (3.39); its α is no free constant but follows from it.
+    Doolittle(Doolittle),
 }
 
 /// The laws of a lubricant; its constants η₀ and α belong to the operating point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
 #[serde(deny_unknown_fields)]
 pub struct Lubricant {
     /// Density law.
@@ -46,6 +58,16 @@ pub struct Lubricant {
     /// Viscosity law.
     #[serde(default)]
     pub viscosity: ViscosityLaw,
+    /// How viscosity falls with shear stress.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub shear: ShearLaw,
+    /// The stress that limits traction, where one is known.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub limiting_stress: Option<LimitingStress>,
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 /// Why a lubricant cannot be used at an operating point.
@@ -61,6 +83,39 @@ pub enum LubricantError {
         /// The smallest accepted one \[Pa·s\].
         minimum: f64,
     },
+    /// A constant of a law, or an operating condition, is outside its sense.
+    #[error("{constant} is {value}, but must be a finite number between {min:e} and {max:e}")]
+    Constant {
+        /// What it is.
+        constant: &'static str,
+        /// The value given.
+        value: f64,
+        /// Smallest accepted value.
+        min: f64,
+        /// Largest accepted value.
+        max: f64,
+    },
+    /// The free volume ends under the contact's own pressure.
+    #[error(
+        "at the Hertzian pressure of {:.3} GPa the lubricant's relative volume falls under its occupied volume, where Doolittle's law ends ({:.3} GPa); use a smaller load or another lubricant", pressure / 1e9, largest / 1e9
+    )]
+    OccupiedVolume {
+        /// Hertzian pressure \[Pa\].
+        pressure: f64,
+        /// The law's end \[Pa\].
+        largest: f64,
+    },
+    /// A plateau ratio without a law it could belong to.
+    #[error("the Newtonian plateau ratio is {ratio}, but the lubricant has no shear constants; only 1 (Newtonian) is accepted")]
+    NoShearLaw {
+        /// The ratio given.
+        ratio: f64,
+    },
+}
+
+/// Refuses a constant that is not finite or outside its range.
+fn check_constant(constant: &'static str, value: f64, min: f64, max: f64) -> Result<(), LubricantError> {
+    if (min..=max).contains(&value) { Ok(()) } else { Err(LubricantError::Constant { constant, value, min, max }) }
 }
 
 /// Density and viscosity at one pressure with their derivatives with respect to P.
@@ -99,17 +154,61 @@ impl Lubricant {
             let minimum = (0.05f64 - 9.67).exp();
             return Err(LubricantError::RoelandsViscosity { viscosity: point.viscosity_pa_s, minimum });
         }
+        self.check()?;
+        let pressure = point.hertz().pressure_pa;
+        if let ViscosityLaw::Doolittle(doolittle) = self.viscosity {
+            let largest = doolittle.largest_pressure();
+            if pressure >= largest {
+                return Err(LubricantError::OccupiedVolume { pressure, largest });
+            }
+        }
         Ok(ScaledFluid {
             laws: self,
-            hertz_pressure_pa: point.hertz().pressure_pa,
+            hertz_pressure_pa: pressure,
             alpha_hertz: point.alpha_hertz(),
             roelands_log,
             roelands_exponent: point.alpha_per_pa * ROELANDS_PRESSURE_PA / roelands_log,
         })
     }
+
+    /// Refuses constants for which a law is not defined, naming them.
+    ///
+    /// # Errors
+    /// With the first such constant.
+    pub fn check(&self) -> Result<(), LubricantError> {
+        if let DensityLaw::Tait(tait) = self.density {
+            tait.check()?;
+        }
+        if let ViscosityLaw::Doolittle(doolittle) = self.viscosity {
+            doolittle.check()?;
+        }
+        self.shear.check()?;
+        self.limiting_stress.iter().try_for_each(LimitingStress::check)
+    }
+
+    /// The pressure–viscosity coefficient that follows from the viscosity law itself, α* \[1/Pa\]; `None` where it is a free constant.
+    pub fn own_coefficient(&self) -> Option<f64> {
+        match self.viscosity {
+            ViscosityLaw::Doolittle(doolittle) => Some(doolittle.reciprocal_asymptotic_coefficient()),
+            ViscosityLaw::Barus | ViscosityLaw::Roelands => None,
+        }
+    }
 }
 
 impl ScaledFluid {
+    /// The pressure P at which a law ends; infinite where none does.
+    pub fn largest_pressure(&self) -> f64 {
+        match self.laws.viscosity {
+            ViscosityLaw::Doolittle(doolittle) => doolittle.largest_pressure() / self.hertz_pressure_pa,
+            ViscosityLaw::Barus | ViscosityLaw::Roelands => f64::INFINITY,
+        }
+    }
+
+    /// α* p_H \[-\] with the reciprocal asymptotic isoviscous pressure coefficient of the law in use.
+    pub fn reciprocal_asymptotic_exponent(&self) -> f64 {
+        pressure_coefficient::reciprocal_asymptotic(self.at(0.0).log_viscosity_slope, |p| self.at(p).viscosity.ln())
+    }
+
     /// Density and viscosity at P.
     #[inline]
     pub fn at(&self, pressure: f64) -> FluidState {
@@ -123,6 +222,10 @@ impl ScaledFluid {
                 let denominator = 5.9e8 + p;
                 ((5.9e8 + 1.34 * p) / denominator, 0.34 * 5.9e8 * ph / (denominator * denominator))
             }
+            DensityLaw::Tait(tait) => {
+                let (density, slope) = tait.density(p);
+                (density, slope * ph)
+            }
         };
         let (log_viscosity, log_viscosity_slope) = match self.laws.viscosity {
             ViscosityLaw::Barus => (self.alpha_hertz * p / ph, self.alpha_hertz),
@@ -133,6 +236,10 @@ impl ScaledFluid {
                     self.roelands_log * (power - 1.0),
                     self.roelands_log * self.roelands_exponent * power / base * (ph / ROELANDS_PRESSURE_PA),
                 )
+            }
+            ViscosityLaw::Doolittle(doolittle) => {
+                let (log_viscosity, slope) = doolittle.log_viscosity(p);
+                (log_viscosity, slope * ph)
             }
         };
         let capped = log_viscosity > LOG_VISCOSITY_CEILING;
@@ -153,7 +260,7 @@ mod tests {
         [DensityLaw::Incompressible, DensityLaw::DowsonHigginson].into_iter().flat_map(|density| {
             [ViscosityLaw::Barus, ViscosityLaw::Roelands]
                 .into_iter()
-                .map(move |viscosity| Lubricant { density, viscosity })
+                .map(move |viscosity| Lubricant { density, viscosity, ..Lubricant::default() })
         })
     }
 

@@ -5,7 +5,10 @@
 //! for its sampled ones. The spacing may vary along X: the upwind quotient is (B.4), which is (2.32) on a uniform grid, and the diffusion
 //! term is the flux difference over the cell, which is the dissertation's on a uniform grid.
 
-use super::lubricant::ScaledFluid;
+pub mod film_integrals;
+pub mod generalized;
+
+use super::lubricant::{FluidState, ScaledFluid};
 
 /// Nodes a row depends on.
 pub const STENCIL: usize = 6;
@@ -48,7 +51,12 @@ impl Node {
     /// The node's quantities at pressure P and film thickness H. `inverse_lambda` is 1/λ̄.
     #[inline]
     pub fn new(fluid: &ScaledFluid, inverse_lambda: f64, pressure: f64, film: f64) -> Self {
-        let state = fluid.at(pressure);
+        Self::of_state(&fluid.at(pressure), inverse_lambda, pressure, film)
+    }
+
+    /// The same where the fluid's state is known already.
+    #[inline]
+    pub fn of_state(state: &FluidState, inverse_lambda: f64, pressure: f64, film: f64) -> Self {
         let per_cube = state.density / state.viscosity * inverse_lambda;
         let square = film * film;
         let mobility = per_cube * square * film;
@@ -154,7 +162,7 @@ mod tests {
         let films = [0.13, 0.12, 0.1, 0.095, 0.11, 0.12];
         for density in [DensityLaw::Incompressible, DensityLaw::DowsonHigginson] {
             for viscosity in [ViscosityLaw::Barus, ViscosityLaw::Roelands] {
-                let fluid = Lubricant { density, viscosity }.scaled(&OperatingPoint::TABLE_2_1).unwrap();
+                let fluid = Lubricant { density, viscosity, ..Lubricant::default() }.scaled(&OperatingPoint::TABLE_2_1).unwrap();
                 for center in [0.04, -1e-3] {
                     let pressures = [0.01, 0.02, center, 0.06, 0.03, 0.05];
                     for hy in [None, Some(0.05)] {
@@ -198,7 +206,7 @@ mod tests {
         // Incompressible Barus fluid with smooth P(x), H(x): compare the row with the analytic expression.
         let point = OperatingPoint { alpha_per_pa: 1e-10, ..OperatingPoint::TABLE_2_1 };
         let fluid =
-            Lubricant { density: DensityLaw::Incompressible, viscosity: ViscosityLaw::Barus }.scaled(&point).unwrap();
+            Lubricant { density: DensityLaw::Incompressible, viscosity: ViscosityLaw::Barus, ..Lubricant::default() }.scaled(&point).unwrap();
         let a = point.alpha_hertz();
         let (p, dp, ddp) = (|x: f64| x.sin() + 2.0, |x: f64| x.cos(), |x: f64| -x.sin());
         let (h, dh) = (|x: f64| 1.0 + 0.3 * x * x, |x: f64| 0.6 * x);
