@@ -165,10 +165,10 @@ fn bad_options_are_refused_with_one_sentence() {
     for (more, words) in [
         (&["--contact", "point"][..], "point"),
         (&["--cavitation", "elrod"], "penalty"),
-        (&["--density", "tait"], "shear-thinning"),
-        (&["--pressure-viscosity", "doolittle"], "shear-thinning"),
+        (&["--density", "tait"], "squalane-pip"),
+        (&["--pressure-viscosity", "doolittle"], "pao-650"),
         (&["--density", "foam"], "dowson-higginson"),
-        (&["--lubricant", "squalane-pip"], "shear-thinning"),
+        (&["--lubricant", "squalane-pip", "--alpha", "2e-8"], "viscosity law"),
         (&["--lubricant", "honey"], "roelands-oil"),
         (&["--npr", "0.2"], "--npr"),
         (&["--srr", "nan"], "--srr"),

@@ -4,7 +4,7 @@
 use crate::scene::{At, LoadFollower, LubricantFollower, Scene, View};
 use crate::solver::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::full::Problem;
-use crate::solver::lubricant::Lubricant;
+use crate::solver::lubricant::{Lubricant, ShearLaw};
 
 /// One of the six SI quantities, in the order of [`OperatingPoint::quantities`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -145,6 +145,12 @@ impl Document {
     pub fn of_scene(scene: Scene) -> Result<Self, String> {
         let point = scene.point().map_err(|e| e.to_string())?;
         Problem::new(&point, scene.lubricant).map_err(|e| e.to_string())?;
+        if scene.lubricant.shear != ShearLaw::Newtonian || scene.srr != 0.0 {
+            return Err(
+                "the explorer shows no sliding of shear-thinning lubricants in this version; use `ehl-explorer run`"
+                    .to_owned(),
+            );
+        }
         Ok(Self {
             title: scene.title.clone(),
             point,

@@ -2,11 +2,11 @@
 
 use super::failure::Failure;
 use crate::harness::Request;
-use crate::scene::named_lubricant::{NAMED, by_name};
+use crate::scene::named_lubricant::{NAMED, NamedLubricant, by_name};
 use crate::scene::{At, Grid, Method, ModelSource};
 use crate::solver::contact::{ContactKind, OperatingPoint, reduced_modulus};
 use crate::solver::grid::GridSpec;
-use crate::solver::lubricant::{DensityLaw, Lubricant, ViscosityLaw};
+use crate::solver::lubricant::{DensityLaw, Lubricant, ShearLaw, Sliding, ViscosityLaw};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -82,10 +82,10 @@ pub struct PointOptions {
     /// Poisson ratio of body 2
     #[arg(long, allow_negative_numbers = true)]
     pub nu2: Option<f64>,
-    /// Viscosity at ambient pressure η₀ in Pa·s
+    /// Viscosity at ambient pressure η₀ in Pa·s (default: the named lubricant's, where it has one)
     #[arg(long, allow_negative_numbers = true)]
     pub viscosity: Option<f64>,
-    /// Pressure–viscosity coefficient α in 1/Pa
+    /// Pressure–viscosity coefficient α in 1/Pa; not with a lubricant that determines it
     #[arg(long, allow_negative_numbers = true)]
     pub alpha: Option<f64>,
     /// Moes' load number M; what is not given of the SI quantities follows or takes its default
@@ -96,19 +96,19 @@ pub struct PointOptions {
     pub moes_l: Option<f64>,
     /// Named lubricant: a set of laws, which --density and --pressure-viscosity override
     #[arg(long, value_name = "NAME", value_parser = by_name, long_help = lubricant_help())]
-    pub lubricant: Option<Lubricant>,
+    pub lubricant: Option<NamedLubricant>,
     /// Density law: dowson-higginson or incompressible (default: dowson-higginson)
     #[arg(long, value_name = "LAW", value_parser = density)]
     pub density: Option<DensityLaw>,
     /// Viscosity law: roelands or barus (default: roelands)
     #[arg(long, value_name = "LAW", value_parser = pressure_viscosity)]
     pub pressure_viscosity: Option<ViscosityLaw>,
-    /// Slide-to-roll ratio; moves only the traction of a Newtonian fluid
+    /// Slide-to-roll ratio; of a Newtonian fluid it moves only the traction
     #[arg(long, allow_negative_numbers = true, default_value_t = 0.0)]
     pub srr: f64,
-    /// Newtonian plateau ratio; 1 is a Newtonian fluid
-    #[arg(long, allow_negative_numbers = true, default_value_t = 1.0)]
-    pub npr: f64,
+    /// Newtonian plateau ratio of a shear-thinning lubricant (default: its own); 1 is a Newtonian fluid
+    #[arg(long, allow_negative_numbers = true)]
+    pub npr: Option<f64>,
     /// Grid of a full solution (default: the dissertation's uniform one)
     #[arg(long, value_enum)]
     pub grid: Option<GridName>,
@@ -143,7 +143,7 @@ fn density(word: &str) -> Result<DensityLaw, String> {
         "dowson-higginson" => Ok(DensityLaw::DowsonHigginson),
         "incompressible" => Ok(DensityLaw::Incompressible),
         "tait" => {
-            Err("Tait's law comes with shear-thinning, which this version does not have; accepted are dowson-higginson, incompressible".to_owned())
+            Err("Tait's law needs constants, which come with --lubricant squalane-pip, --lubricant pao-650 or a scene; accepted are dowson-higginson, incompressible".to_owned())
         }
         _ => Err("accepted are dowson-higginson, incompressible".to_owned()),
     }
@@ -154,7 +154,7 @@ fn pressure_viscosity(word: &str) -> Result<ViscosityLaw, String> {
         "roelands" => Ok(ViscosityLaw::Roelands),
         "barus" => Ok(ViscosityLaw::Barus),
         "doolittle" => Err(
-            "Doolittle's law comes with shear-thinning, which this version does not have; accepted are roelands, barus"
+            "Doolittle's law needs constants, which come with --lubricant squalane-pip, --lubricant pao-650 or a scene; accepted are roelands, barus"
                 .to_owned(),
         ),
         _ => Err("accepted are roelands, barus".to_owned()),
@@ -176,7 +176,7 @@ fn refuse<T>(sentence: impl Into<String>) -> Result<T, Failure> {
 
 impl PointOptions {
     /// Names of the numeric options that a sweep can vary, without the leading dashes.
-    pub const VARIABLES: [&str; 14] = [
+    pub const VARIABLES: [&str; 15] = [
         "moes-m",
         "moes-l",
         "radius",
@@ -190,6 +190,7 @@ impl PointOptions {
         "e2",
         "nu2",
         "srr",
+        "npr",
         "dx",
     ];
 
@@ -211,6 +212,7 @@ impl PointOptions {
             "nu1" => &mut self.nu1,
             "e2" => &mut self.e2,
             "nu2" => &mut self.nu2,
+            "npr" => &mut self.npr,
             "dx" => &mut self.dx,
             "srr" => {
                 self.srr = value;
@@ -236,20 +238,25 @@ impl PointOptions {
         if !(self.srr.is_finite() && self.srr.abs() <= 10.0) {
             return refuse(format!("--srr is {}, but must be a finite number between -10 and 10", self.srr));
         }
-        if self.npr != 1.0 {
-            return refuse(format!(
-                "--npr is {}, but the lubricant has no shear constants; only 1 (Newtonian) is accepted",
-                self.npr
-            ));
+        let mut lubricant = self.lubricant.map_or_else(Lubricant::default, |named| named.laws);
+        if let Some(npr) = self.npr {
+            if !(0.0..=1.0).contains(&npr) {
+                return refuse(format!("--npr is {npr}, but must lie between 0 and 1"));
+            }
+            if npr < 1.0 && lubricant.shear == ShearLaw::Newtonian {
+                return refuse(format!(
+                    "--npr is {npr}, but the lubricant has no shear constants; only 1 (Newtonian) is accepted"
+                ));
+            }
         }
-        let method = self.method()?;
-        let point = self.point()?;
-        let grid = self.grid(&method)?;
-        let mut lubricant = self.lubricant.unwrap_or_default();
         lubricant.density = self.density.unwrap_or(lubricant.density);
         lubricant.viscosity = self.pressure_viscosity.unwrap_or(lubricant.viscosity);
+        let method = self.method()?;
+        let point = self.point(&lubricant)?;
+        let grid = self.grid(&method)?;
+        let sliding = Sliding { slide_to_roll_ratio: self.srr, newtonian_plateau_ratio: self.npr };
         let grid_model = self.model_source();
-        Ok((Request { point, lubricant, grid, grid_model, srr: self.srr }, method))
+        Ok((Request { point, lubricant, grid, grid_model, sliding }, method))
     }
 
     fn model_source(&self) -> ModelSource {
@@ -277,10 +284,18 @@ impl PointOptions {
         }
     }
 
-    fn point(&self) -> Result<OperatingPoint, Failure> {
+    fn point(&self, lubricant: &Lubricant) -> Result<OperatingPoint, Failure> {
         let modulus = self.modulus()?;
         let (radius, speed, load) = (self.radius, self.speed, self.load);
-        let (viscosity, alpha) = (self.viscosity, self.alpha);
+        let own_viscosity = self.lubricant.and_then(|named| named.viscosity_pa_s);
+        let viscosity = self.viscosity.or(own_viscosity);
+        let own_alpha = lubricant.own_coefficient();
+        if let (Some(_), Some(own)) = (self.alpha, own_alpha) {
+            return refuse(format!(
+                "--alpha follows from the lubricant's viscosity law ({own:.4e} 1/Pa); leave it out"
+            ));
+        }
+        let alpha = own_alpha.or(self.alpha);
         let at = match (self.moes_m, self.moes_l) {
             (Some(m), Some(l)) => At::Moes { m, l, radius, speed, load, modulus, viscosity, alpha },
             (None, None) => {

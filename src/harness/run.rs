@@ -50,7 +50,7 @@ pub(super) fn request_of(scene: &Scene) -> Result<Request, HarnessError> {
         lubricant: scene.lubricant,
         grid: scene.grid,
         grid_model: scene.study.grid_model(),
-        srr: 0.0,
+        sliding: scene.sliding(),
     })
 }
 

@@ -60,7 +60,7 @@ pub(super) fn sweep(
         for (axis, &value) in over.iter().zip(&values) {
             set(&mut at, axis.vary, value)?;
         }
-        points.push((values, at.point(scene.contact)?));
+        points.push((values, at.with_alpha_of(&scene.lubricant).point(scene.contact)?));
     }
     let names: Vec<&str> = over.iter().map(|axis| axis.vary.name()).collect();
     along(&Path { name: "sweep", varied: &names, points: &points }, scene, methods, workbench, observer, outcome)

@@ -6,7 +6,7 @@ use crate::scene::{Grid, Method, ModelSource, Scene, Study};
 use crate::solver::contact::{Moes, OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
 use crate::solver::full::{FullSolver, Problem, Solution, Start};
 use crate::solver::grid::{GridSpec, ReferenceGrid};
-use crate::solver::lubricant::Lubricant;
+use crate::solver::lubricant::{Lubricant, Sliding};
 use crate::solver::observer::Observer;
 use crate::solver::reduced::{ErrorEstimate, Online, ReducedError, ReducedModel, ReducedOptions, Trust, Window};
 use crate::solver::training::{TrainingObserver, train};
@@ -28,8 +28,8 @@ pub struct Request {
     pub grid: Grid,
     /// The model that [`Grid::Model`] means.
     pub grid_model: ModelSource,
-    /// Slide-to-roll ratio.
-    pub srr: f64,
+    /// Slide-to-roll ratio and Newtonian plateau ratio.
+    pub sliding: Sliding,
 }
 
 /// What came of it.
@@ -150,7 +150,7 @@ impl Workbench {
         start: Option<&Solution>,
         observer: &dyn TrainingObserver,
     ) -> Result<Answer, HarnessError> {
-        let problem = Problem::new(&request.point, request.lubricant)?;
+        let problem = Problem::under_sliding(&request.point, request.lubricant, request.sliding)?;
         if observer.cancelled() {
             return Err(HarnessError::Cancelled);
         }
@@ -164,7 +164,9 @@ impl Workbench {
                 .warnings
                 .push(format!("the Hertzian pressure of {:.3} GPa exceeds 3.2 GPa: no real contact", p_h / 1e9));
         }
-        let traction = answer.traction().unwrap_or(0.0).abs();
+        let warning = answer.result().and_then(Solution::traction_warning);
+        let traction = answer.traction().filter(|_| warning.is_none() && problem.shear.is_none()).unwrap_or(0.0).abs();
+        answer.warnings.extend(warning);
         if traction > PLAUSIBLE_TRACTION {
             answer.warnings.push(format!(
                 "a Newtonian traction coefficient of {traction:.3e} is unphysical at this pressure: the fluid would shear-thin or yield"
@@ -218,7 +220,7 @@ impl Workbench {
         let solver = self.full_solver(request, observer)?;
         let start = start.map_or(Start::Cold, Start::From);
         let clock = Instant::now();
-        let solution = solver.solve(&problem.point, request.lubricant, start, &mut Cancel(observer))?;
+        let solution = solver.solve_problem(*problem, start, &mut Cancel(observer));
         let wall_s = clock.elapsed().as_secs_f64();
         if observer.cancelled() {
             return Err(HarnessError::Cancelled);
@@ -289,7 +291,10 @@ impl Workbench {
                 facts.residual_estimate = Some(solved.residual_estimate);
                 facts.error = solved.error;
                 facts.basis_p = solved.coefficients.len();
-                (Some(online.reconstruct(&solved)?), solved.iterations)
+                let mut solution = online.reconstruct(&solved)?;
+                // A Newtonian film does not feel the sliding, but its traction does.
+                solution.problem = *problem;
+                (Some(solution), solved.iterations)
             }
             Err(error @ ReducedError::NotConverged { iterations, .. }) => {
                 warnings.push(error.to_string());
@@ -325,10 +330,8 @@ impl Answer {
         self.solution.as_ref().filter(|_| self.converged)
     }
 
-    /// Traction coefficient (3.41) at the request's slide-to-roll ratio.
+    /// Traction coefficient (3.41) over the whole domain, at the request's slide-to-roll ratio.
     pub fn traction(&self) -> Option<f64> {
-        let srr = self.request.srr;
-        // Without sliding there is none, whatever the viscosity.
-        self.result().map(|solution| if srr == 0.0 { 0.0 } else { solution.traction().per_srr * srr })
+        self.result().map(Solution::traction_coefficient)
     }
 }

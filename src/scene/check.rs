@@ -1,6 +1,7 @@
 //! The door: every number of a scene is finite and sane before anything is computed from it.
 
 use super::{Axis, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, View, Within};
+use crate::solver::lubricant::{LubricantError, ScaledShear, ShearLaw};
 use crate::solver::training::{Plan, Range, TrainingSpec};
 
 /// Most points of a sweep, a trajectory or a formula comparison.
@@ -47,7 +48,12 @@ impl Scene {
     /// # Errors
     /// With the first such field.
     pub fn check(&self) -> Result<(), SceneError> {
-        self.point()?;
+        let lubricant = |problem: LubricantError| refuse("lubricant", format!("is refused: {problem}"));
+        self.lubricant.check().map_err(lubricant)?;
+        let point = self.point()?;
+        self.lubricant.scaled(&point).map_err(lubricant)?;
+        ScaledShear::new(self.lubricant.shear, self.sliding(), &point)
+            .map_err(|problem| refuse("srr, npr", format!("are refused: {problem}")))?;
         grid(&self.grid)?;
         study(self)?;
         self.view.iter().try_for_each(view)?;
@@ -160,6 +166,12 @@ fn test_range(range: &TestRange) -> Checked {
 }
 
 fn training(spec: &TrainingSpec) -> Checked {
+    if spec.lubricant.shear != ShearLaw::Newtonian {
+        return Err(refuse(
+            "study.lubricant.shear",
+            "must be left out: a reduced model has no shear-thinning in this version",
+        ));
+    }
     match spec.range {
         Range::Box { radius, speed, load, alpha, modulus, viscosity } => {
             quantity_box("study.range", &QuantityBox { radius, speed, load, alpha, modulus, viscosity })?;

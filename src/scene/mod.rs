@@ -19,12 +19,16 @@ pub use view::{LoadFollower, LubricantFollower, View};
 
 use crate::solver::contact::{ContactError, ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::grid::GridSpec;
-use crate::solver::lubricant::Lubricant;
+use crate::solver::lubricant::{Lubricant, Sliding};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// Version of the scene format this program writes, and the newest it reads.
 pub const VERSION: u32 = 1;
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
 
 /// An experiment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -46,6 +50,12 @@ pub struct Scene {
     /// The operating point. Studies that bring their own points (trajectory, random test, training) do not use it.
     #[serde(default)]
     pub at: At,
+    /// Slide-to-roll ratio SRR.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub srr: f64,
+    /// Newtonian plateau ratio NPR of a shear-thinning lubricant, in place of its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub npr: Option<f64>,
     /// Grid of full solutions; a reduced model always uses its own.
     #[serde(default)]
     pub grid: Grid,
@@ -75,7 +85,7 @@ pub enum At {
         modulus: f64,
         /// Viscosity at ambient pressure η₀ \[Pa·s\].
         viscosity: f64,
-        /// Pressure–viscosity coefficient α \[1/Pa\].
+        /// Pressure–viscosity coefficient α \[1/Pa\]; where the viscosity law determines it (Doolittle), its α* counts instead.
         alpha: f64,
     },
     /// Moes numbers; quantities that are given are kept, the rest follows or takes the default realisation.
@@ -169,6 +179,8 @@ impl Scene {
             contact: ContactKind::Line,
             lubricant: Lubricant::default(),
             at: At::moes(m, l),
+            srr: 0.0,
+            npr: None,
             grid: Grid::Graded,
             study: Study::Point { methods: vec![Method::Full, Method::EMBEDDED] },
             expect: Vec::new(),
@@ -181,7 +193,12 @@ impl Scene {
     /// # Errors
     /// When it is outside any sense, or more is fixed than M and L leave free.
     pub fn point(&self) -> Result<OperatingPoint, ContactError> {
-        self.at.point(self.contact)
+        self.at.with_alpha_of(&self.lubricant).point(self.contact)
+    }
+
+    /// The sliding and the plateau ratio.
+    pub fn sliding(&self) -> Sliding {
+        Sliding { slide_to_roll_ratio: self.srr, newtonian_plateau_ratio: self.npr }
     }
 }
 
@@ -196,6 +213,17 @@ impl At {
     /// Moes numbers in the default realisation.
     pub fn moes(m: f64, l: f64) -> Self {
         Self::Moes { m, l, radius: None, speed: None, load: None, modulus: None, viscosity: None, alpha: None }
+    }
+
+    /// The same with the α* of a lubricant whose viscosity law determines it; unchanged for all others.
+    pub fn with_alpha_of(mut self, lubricant: &Lubricant) -> Self {
+        if let Some(own) = lubricant.own_coefficient() {
+            match &mut self {
+                Self::Si { alpha, .. } => *alpha = own,
+                Self::Moes { alpha, .. } => *alpha = Some(own),
+            }
+        }
+        self
     }
 
     /// The operating point in SI units, checked.

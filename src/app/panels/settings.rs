@@ -36,7 +36,9 @@ fn viscosity_law(law: ViscosityLaw) -> (&'static str, &'static str) {
             "ln(η/η₀) = (ln η₀ + 9.67)((1 + p/0.196 GPa)^z − 1) (2.12), Roelands 1966; mineral oils to about 1 GPa",
         ),
         ViscosityLaw::Barus => ("Barus", "η = η₀ exp(αp) (2.11), Barus 1893; overestimates above some 0.5 GPa"),
-        ViscosityLaw::Doolittle(_) => ("Doolittle", "from the free volume that Tait's equation leaves (3.39), Doolittle 1951"),
+        ViscosityLaw::Doolittle(_) => {
+            ("Doolittle", "from the free volume that Tait's equation leaves (3.39), Doolittle 1951")
+        }
     }
 }
 

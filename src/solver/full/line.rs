@@ -293,8 +293,21 @@ impl LineSystem {
         }
         // The load holds exactly from the start and every step keeps it, because the preconditioner's load row is exact.
         self.rhs[u] = 0.0;
-        let Self { krylov, grid, fft, field, step_deformation, d_p, d_h, scaling, preconditioner, rhs, update, shear, .. } =
-            self;
+        let Self {
+            krylov,
+            grid,
+            fft,
+            field,
+            step_deformation,
+            d_p,
+            d_h,
+            scaling,
+            preconditioner,
+            rhs,
+            update,
+            shear,
+            ..
+        } = self;
         krylov.solve(
             rhs,
             update,

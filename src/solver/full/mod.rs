@@ -7,9 +7,9 @@ mod line;
 mod shear;
 mod solution;
 mod start;
-mod traction;
 #[cfg(test)]
 mod tests;
+mod traction;
 
 pub use line::{LineSystem, SolveOptions};
 pub use solution::{Problem, Report, Scalars, Solution, SolveError, Termination, Traction, scalars_of};

@@ -141,7 +141,9 @@ impl FullSolver {
                 alpha_per_pa: Some(problem.point.alpha_per_pa),
                 ..MoesRequest::new(ContactKind::Line, m, l)
             };
-            si_from_moes(&request).ok().and_then(|p| Problem::under_sliding(&p, problem.lubricant, problem.sliding).ok())
+            si_from_moes(&request)
+                .ok()
+                .and_then(|p| Problem::under_sliding(&p, problem.lubricant, problem.sliding).ok())
         };
         let Some(first) = point_at(0.0) else { return };
         self.attempt(&first, Start::Cold, COLD_FILMS[0], observer, report);

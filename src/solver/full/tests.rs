@@ -83,7 +83,8 @@ fn heavy_load_tends_to_hertz_and_light_load_to_the_rigid_solution() {
     let (light, middle, heavy) = (deviation(5.0), deviation(30.0), deviation(280.0));
     assert!(heavy < middle && middle < light && heavy < 0.02, "{light} {middle} {heavy}");
     // Rigid and isoviscous: Martin's analytic solution, h₀/R = 4.896 η₀u_m/w, which is H = 2.448/M (Moes' fit rounds it up to 3/M).
-    let rigid = Lubricant { density: DensityLaw::Incompressible, viscosity: ViscosityLaw::Barus, ..Lubricant::default() };
+    let rigid =
+        Lubricant { density: DensityLaw::Incompressible, viscosity: ViscosityLaw::Barus, ..Lubricant::default() };
     let point =
         si_from_moes(&MoesRequest { alpha_per_pa: Some(1e-11), ..MoesRequest::new(ContactKind::Line, 0.3, 0.01) })
             .unwrap();
@@ -97,7 +98,8 @@ fn heavy_load_tends_to_hertz_and_light_load_to_the_rigid_solution() {
 
 #[test]
 fn only_the_dimensionless_groups_matter_to_an_incompressible_barus_fluid() {
-    let laws = Lubricant { density: DensityLaw::Incompressible, viscosity: ViscosityLaw::Barus, ..Lubricant::default() };
+    let laws =
+        Lubricant { density: DensityLaw::Incompressible, viscosity: ViscosityLaw::Barus, ..Lubricant::default() };
     let film = |request: MoesRequest| {
         let point = si_from_moes(&request).unwrap();
         let s = FullSolver::new(COARSE).unwrap().solve(&point, laws, Start::Cold, &mut ()).unwrap();

@@ -34,7 +34,8 @@ impl Solution {
         let at = |i: usize| {
             let (pressure, film) = (self.pressure[i], self.film[i]);
             let relative_viscosity = fluid.at(pressure.max(0.0)).viscosity;
-            let (across, sliding) = (kappa_1 * film * gradient.at(&self.pressure, i), kappa_2 * relative_viscosity / film);
+            let (across, sliding) =
+                (kappa_1 * film * gradient.at(&self.pressure, i), kappa_2 * relative_viscosity / film);
             let (stress, fluidity) = match &problem.shear {
                 None => (sliding + across * zeta, 1.0),
                 Some(ScaledShear { fluidity, stress_scale_pa: scale, .. }) => {

@@ -91,8 +91,7 @@ impl Doolittle {
 mod tests {
     use super::*;
 
-    const SQUALANE: Doolittle =
-        Doolittle { b: 4.2, r_0: 0.658, volume: Tait { k_0: 1.007837e9, k_0_prime: 11.29 } };
+    const SQUALANE: Doolittle = Doolittle { b: 4.2, r_0: 0.658, volume: Tait { k_0: 1.007837e9, k_0_prime: 11.29 } };
 
     #[test]
     fn slopes_agree_with_finite_differences() {

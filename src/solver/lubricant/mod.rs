@@ -106,7 +106,9 @@ pub enum LubricantError {
         largest: f64,
     },
     /// A plateau ratio without a law it could belong to.
-    #[error("the Newtonian plateau ratio is {ratio}, but the lubricant has no shear constants; only 1 (Newtonian) is accepted")]
+    #[error(
+        "the Newtonian plateau ratio is {ratio}, but the lubricant has no shear constants; only 1 (Newtonian) is accepted"
+    )]
     NoShearLaw {
         /// The ratio given.
         ratio: f64,
@@ -258,9 +260,11 @@ mod tests {
 
     fn all_laws() -> impl Iterator<Item = Lubricant> {
         [DensityLaw::Incompressible, DensityLaw::DowsonHigginson].into_iter().flat_map(|density| {
-            [ViscosityLaw::Barus, ViscosityLaw::Roelands]
-                .into_iter()
-                .map(move |viscosity| Lubricant { density, viscosity, ..Lubricant::default() })
+            [ViscosityLaw::Barus, ViscosityLaw::Roelands].into_iter().map(move |viscosity| Lubricant {
+                density,
+                viscosity,
+                ..Lubricant::default()
+            })
         })
     }
 

@@ -25,8 +25,24 @@ pub struct Domain {
     pub max_hertz_pressure_pa: f64,
     /// Ambient viscosity \[Pa·s\].
     pub viscosity_pa_s: f64,
-    /// Laws of the lubricant.
+    /// Laws of the lubricant, which is Newtonian.
+    #[serde(with = "newtonian_laws")]
     pub lubricant: Lubricant,
+}
+
+/// A reduced model knows no shear-thinning: of its lubricant the file holds the laws of density and viscosity.
+mod newtonian_laws {
+    use crate::solver::lubricant::{DensityLaw, Lubricant, ViscosityLaw};
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(lubricant: &Lubricant, serializer: S) -> Result<S::Ok, S::Error> {
+        (lubricant.density, lubricant.viscosity).serialize(serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Lubricant, D::Error> {
+        let (density, viscosity) = <(DensityLaw, ViscosityLaw)>::deserialize(deserializer)?;
+        Ok(Lubricant { density, viscosity, ..Lubricant::default() })
+    }
 }
 
 /// Whether a model was trained for a problem.

@@ -7,7 +7,7 @@ use super::start::{self, Guess, film_number};
 use crate::solver::contact::{Moes, OperatingPoint};
 use crate::solver::full::{Problem, Report, Scalars, Solution, SolveError, Termination, scalars_of};
 use crate::solver::grid::{GridSpec, LineGrid, registration_scale};
-use crate::solver::lubricant::Lubricant;
+use crate::solver::lubricant::{Lubricant, ShearLaw};
 use crate::solver::reynolds::PENALTY;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Par};
@@ -26,6 +26,9 @@ pub enum ReducedError {
     /// The problem itself is refused.
     #[error(transparent)]
     Problem(#[from] SolveError),
+    /// The lubricant is none the reduced equations describe.
+    #[error("a reduced model has no shear-thinning in this version; use the full solver for this lubricant")]
+    ShearThinning,
     /// The model holds no window.
     #[error("the reduced model holds no bases")]
     Empty,
@@ -145,6 +148,9 @@ impl Online {
         lubricant: Lubricant,
         mut observer: Option<RowObserver<'_>>,
     ) -> Result<ReducedSolution, ReducedError> {
+        if lubricant.shear != ShearLaw::Newtonian {
+            return Err(ReducedError::ShearThinning);
+        }
         let problem = Problem::new(point, lubricant)?;
         let index = self.model.window_for(problem.moes);
         let model = Arc::clone(&self.model);

@@ -12,7 +12,6 @@ use crate::solver::lubricant::{Fluidity, GAUSS_6};
 pub type FilmRule = [(f64, f64)];
 
 /// The production rule: two panels with six Gauss points each. The panels meet at ζ = 0, where the stress of pure rolling has its kink.
-/// Against a rule of 512 points it changes H_c by less than 2e-5 of itself over the range of Table 3.6.
 pub const PRODUCTION_RULE: [(f64, f64); 12] = two_panels();
 
 const fn two_panels() -> [(f64, f64); 12] {
@@ -153,11 +152,7 @@ pub fn film_integrals(law: &Fluidity, rule: &FilmRule, load: FilmLoad) -> FilmIn
     };
     // (3.33)–(3.36): how τ_m answers to each scalar, then the integrals directly and through τ_m.
     let [xx, xy, yy] = moments.stiffness[1];
-    let answers = [
-        times(inverse, [-(g_1 + xx), -xy]),
-        times(inverse, [-xy, -(g_1 + yy)]),
-        [inverse[0], inverse[1]],
-    ];
+    let answers = [times(inverse, [-(g_1 + xx), -xy]), times(inverse, [-xy, -(g_1 + yy)]), [inverse[0], inverse[1]]];
     for (q, answer) in answers.into_iter().enumerate() {
         let change: [f64; 3] = std::array::from_fn(|k| {
             let direct = if q < 2 { moments.slope[k + 1][q] } else { 0.0 };
@@ -300,8 +295,14 @@ mod tests {
                 let one = film_integrals(&law, &PRODUCTION_RULE, load);
                 let other = film_integrals(&law, &PRODUCTION_RULE, FilmLoad { sliding: -load.sliding, ..load });
                 assert!((one.mobility / other.mobility - 1.0).abs() < 1e-12, "{law:?} {load:?}");
-                assert!((one.shift + other.shift).abs() < 1e-12 && one.iterations <= 8, "{law:?} {load:?} {}", one.iterations);
-                assert!((one.mid_stress[0] + other.mid_stress[0]).abs() <= 1e-11 * (one.mid_stress[0].abs() + load.a.abs()));
+                assert!(
+                    (one.shift + other.shift).abs() < 1e-12 && one.iterations <= 8,
+                    "{law:?} {load:?} {}",
+                    one.iterations
+                );
+                assert!(
+                    (one.mid_stress[0] + other.mid_stress[0]).abs() <= 1e-11 * (one.mid_stress[0].abs() + load.a.abs())
+                );
             }
         }
     }
@@ -317,7 +318,10 @@ mod tests {
         for load in loads() {
             let film = film_integrals(&unit, &PRODUCTION_RULE, load);
             assert!((film.mobility - 1.0).abs() < 1e-14 && film.shift.abs() < 1e-15, "{load:?}");
-            assert!((film.mid_stress[0] - load.sliding).abs() <= 1e-14 * (load.sliding.abs() + load.a.abs()), "{load:?}");
+            assert!(
+                (film.mid_stress[0] - load.sliding).abs() <= 1e-14 * (load.sliding.abs() + load.a.abs()),
+                "{load:?}"
+            );
         }
     }
 }

@@ -37,11 +37,8 @@ impl ShearNode {
             // Surfaces that overlap are a passing iterate: there is no film to integrate over.
             return newtonian;
         }
-        let load = FilmLoad {
-            a: shear.gradient * film * gradient,
-            b: 0.0,
-            sliding: shear.sliding * state.viscosity / film,
-        };
+        let load =
+            FilmLoad { a: shear.gradient * film * gradient, b: 0.0, sliding: shear.sliding * state.viscosity / film };
         if load.a == 0.0 && load.sliding == 0.0 {
             return newtonian;
         }
@@ -174,7 +171,11 @@ mod tests {
                 let step = 1e-7;
                 let moved = |by: f64, film: bool| {
                     let (mut p, mut h) = (PRESSURES, FILMS);
-                    if film { h[k] += by } else { p[k] += by }
+                    if film {
+                        h[k] += by
+                    } else {
+                        p[k] += by
+                    }
                     evaluate(&shear, &p, &h).0
                 };
                 for (film, exact) in [(false, &d_p), (true, &d_h)] {
@@ -218,8 +219,8 @@ mod tests {
     fn the_gradient_is_of_second_order_on_any_grid() {
         let gradient = NodalGradient::new(&X);
         let parabola = X.map(|x| 3.0 * x * x - x);
-        for i in 1..7 {
-            assert!((gradient.at(&parabola, i) - (6.0 * X[i] - 1.0)).abs() < 1e-11);
+        for (i, x) in X.iter().enumerate().take(7).skip(1) {
+            assert!((gradient.at(&parabola, i) - (6.0 * x - 1.0)).abs() < 1e-11);
         }
     }
 }

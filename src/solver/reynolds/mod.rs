@@ -162,7 +162,9 @@ mod tests {
         let films = [0.13, 0.12, 0.1, 0.095, 0.11, 0.12];
         for density in [DensityLaw::Incompressible, DensityLaw::DowsonHigginson] {
             for viscosity in [ViscosityLaw::Barus, ViscosityLaw::Roelands] {
-                let fluid = Lubricant { density, viscosity, ..Lubricant::default() }.scaled(&OperatingPoint::TABLE_2_1).unwrap();
+                let fluid = Lubricant { density, viscosity, ..Lubricant::default() }
+                    .scaled(&OperatingPoint::TABLE_2_1)
+                    .unwrap();
                 for center in [0.04, -1e-3] {
                     let pressures = [0.01, 0.02, center, 0.06, 0.03, 0.05];
                     for hy in [None, Some(0.05)] {
@@ -206,7 +208,9 @@ mod tests {
         // Incompressible Barus fluid with smooth P(x), H(x): compare the row with the analytic expression.
         let point = OperatingPoint { alpha_per_pa: 1e-10, ..OperatingPoint::TABLE_2_1 };
         let fluid =
-            Lubricant { density: DensityLaw::Incompressible, viscosity: ViscosityLaw::Barus, ..Lubricant::default() }.scaled(&point).unwrap();
+            Lubricant { density: DensityLaw::Incompressible, viscosity: ViscosityLaw::Barus, ..Lubricant::default() }
+                .scaled(&point)
+                .unwrap();
         let a = point.alpha_hertz();
         let (p, dp, ddp) = (|x: f64| x.sin() + 2.0, |x: f64| x.cos(), |x: f64| -x.sin());
         let (h, dh) = (|x: f64| 1.0 + 0.3 * x * x, |x: f64| 0.6 * x);
