@@ -9,7 +9,10 @@ use std::f64::consts::PI;
 /// What is asked of a scene's contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[expect(clippy::large_enum_variant, reason = "a scene has one study: the size of the largest is the size of the scene")]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a scene has one study: the size of the largest is the size of the scene"
+)]
 pub enum Study {
     /// The contact itself.
     Point {

@@ -59,15 +59,11 @@ pub struct Lubricant {
     #[serde(default)]
     pub viscosity: ViscosityLaw,
     /// How viscosity falls with shear stress.
-    #[serde(default, skip_serializing_if = "is_default")]
+    #[serde(default)]
     pub shear: ShearLaw,
     /// The stress that limits traction, where one is known.
-    #[serde(default, skip_serializing_if = "is_default")]
+    #[serde(default)]
     pub limiting_stress: Option<LimitingStress>,
-}
-
-fn is_default<T: Default + PartialEq>(value: &T) -> bool {
-    *value == T::default()
 }
 
 /// Why a lubricant cannot be used at an operating point.
