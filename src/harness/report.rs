@@ -234,17 +234,15 @@ fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-/// The profile of a solution: X, P, H and their SI twins, shear stress and shear rate at mid-film.
+/// The profile of a solution: X, P, H and their SI twins.
 pub fn profile_table(name: impl Into<String>, solution: &Solution) -> Table {
-    let mut table =
-        Table::new(name, &["X", "Y", "P", "H", "x_m", "y_m", "p_pa", "h_m", "tau_mid_pa", "shear_rate_mid_per_s"]);
+    let mut table = Table::new(name, &["X", "Y", "P", "H", "x_m", "y_m", "p_pa", "h_m"]);
     let hertz = solution.problem.point.hertz();
     let film_scale = solution.problem.point.film_scale_m();
-    // Node arrays begin with one node outside the inlet, which the profile leaves out.
-    let shear = solution.shear_at_height(0.5);
-    table.rows.extend(solution.profile().zip(shear.iter().skip(1)).map(|((x, p, h), shear)| {
-        let si = [x * hertz.half_width_m, 0.0, p * hertz.pressure_pa, h * film_scale];
-        [&[x, 0.0, p, h], si.as_slice(), &[shear.stress_pa, shear.rate_per_s]].concat()
-    }));
+    table.rows.extend(
+        solution
+            .profile()
+            .map(|(x, p, h)| vec![x, 0.0, p, h, x * hertz.half_width_m, 0.0, p * hertz.pressure_pa, h * film_scale]),
+    );
     table
 }
