@@ -8,6 +8,7 @@ use crate::scene::Scene;
 use egui::{Context, Id, Modal, Ui, ViewportCommand};
 use path_window::PathWindow;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Recent files kept.
 const MOST_RECENT: usize = 8;
@@ -18,6 +19,11 @@ pub enum Purpose {
     Open,
     /// Save the scene.
     Save,
+    /// Write a reduced model.
+    Model {
+        /// The content of its file.
+        bytes: Arc<Vec<u8>>,
+    },
     /// Write a table.
     Csv {
         /// Its content.

@@ -3,7 +3,10 @@
 //! The same specification gives the same model: everything random comes from its seed, and parallel work is collected in order.
 
 mod adaptive;
+mod aside;
 mod build;
+#[cfg(test)]
+mod cancel_tests;
 pub mod distance;
 mod indicator;
 mod plan;
@@ -14,14 +17,14 @@ mod state;
 #[cfg(test)]
 mod tests;
 
-pub use adaptive::Search;
+pub use adaptive::{BadPoint, Search};
 pub use build::train;
 pub use indicator::Indicator;
 pub use plan::{farthest_points, grid_points, local_point, random_points, test_point};
 pub use state::{Solved, TrainingState, WindowState, train_resumable};
 
 use super::lubricant::Lubricant;
-use super::reduced::Sampling;
+use super::reduced::{Domain, Sampling};
 use serde::{Deserialize, Serialize};
 
 /// Where the training solutions are taken.
@@ -143,6 +146,21 @@ pub struct TrainingSpec {
     pub rows_per_mode: f64,
     /// Seed of everything random.
     pub seed: u64,
+}
+
+impl TrainingSpec {
+    /// Refuses what no training can be made of, before anything is solved.
+    ///
+    /// # Errors
+    /// A sentence that names the field.
+    pub fn check(&self) -> Result<(), TrainingError> {
+        build::check(self)
+    }
+
+    /// What the model will declare to be trained for.
+    pub fn domain(&self) -> Domain {
+        build::domain(self)
+    }
 }
 
 /// One window of a model.

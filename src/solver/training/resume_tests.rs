@@ -73,7 +73,8 @@ fn essence(model: &ReducedModel) -> Vec<String> {
 }
 
 fn stopped_and_resumed_is_the_same(spec: &TrainingSpec, stops: &[usize]) {
-    let whole = train(spec, &()).unwrap();
+    let mut reference = TrainingState::new(spec.clone());
+    let whole = train_resumable(&mut reference, &()).unwrap();
     for &solutions in stops {
         let stop = StopAt { solutions, stopped: AtomicBool::new(false), written: Mutex::new(None) };
         let mut state = TrainingState::new(spec.clone());
@@ -88,6 +89,7 @@ fn stopped_and_resumed_is_the_same(spec: &TrainingSpec, stops: &[usize]) {
             let resumed = train_resumable(&mut state, &()).unwrap();
             assert!(essence(&resumed) == essence(&whole), "stopped after {solutions}");
             assert!(before.iter().all(|s| state.windows[0].solved.contains(s)));
+            assert!(state == reference, "stopped after {solutions}");
         }
     }
 }
