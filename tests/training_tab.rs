@@ -34,9 +34,8 @@ fn scratch(name: &str) -> PathBuf {
 fn open(folder: &Path, title: &str, plan: &str) -> Harness<'static, Explorer> {
     let path = folder.join("scene.ron");
     std::fs::write(&path, scene(title, plan)).unwrap();
-    let mut explorer = Explorer::new(Some(model_file::embedded().unwrap()))
-        .without_system_dialogs()
-        .keeping_trainings_in(folder);
+    let mut explorer =
+        Explorer::new(Some(model_file::embedded().unwrap())).without_system_dialogs().keeping_trainings_in(folder);
     explorer.open_scene(&path).unwrap();
     let mut harness =
         Harness::builder().with_size([1280.0, 1400.0]).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer);

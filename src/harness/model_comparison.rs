@@ -131,7 +131,8 @@ fn score(
             h_min.push((scalars.h_min / full_h_min - 1.0).abs());
         }
     }
-    let largest = |size: fn(&crate::solver::reduced::Window) -> usize| model.windows.iter().map(size).max().unwrap_or(0);
+    let largest =
+        |size: fn(&crate::solver::reduced::Window) -> usize| model.windows.iter().map(size).max().unwrap_or(0);
     Ok(ModelScore {
         title: model.title.clone(),
         solutions: model.windows.iter().map(|w| w.snapshots.len()).sum(),

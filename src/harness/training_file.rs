@@ -127,10 +127,8 @@ pub fn unfinished(path: &Path, spec: &TrainingSpec) -> Result<Option<TrainingSta
 /// # Errors
 /// When the file cannot be written.
 pub fn write(state: &TrainingState, path: &Path) -> Result<(), TrainingFileError> {
-    let encoded = postcard::to_allocvec(state).map_err(|_| TrainingFileError::Refused {
-        path: path.to_owned(),
-        what: "it cannot be encoded".to_owned(),
-    })?;
+    let encoded = postcard::to_allocvec(state)
+        .map_err(|_| TrainingFileError::Refused { path: path.to_owned(), what: "it cannot be encoded".to_owned() })?;
     Ok(atomic_file::replace(path, &FORMAT.seal(&encoded))?)
 }
 

@@ -143,10 +143,9 @@ impl Training {
         self.chart = Arc::new(Chart::of(&state));
         let solutions = state.solutions();
         self.notices.push(match &ended {
-            Ended::Complete => Notice::Done(format!(
-                "Done with {solutions} full solutions in {}",
-                super::numbers::duration(seconds)
-            )),
+            Ended::Complete => {
+                Notice::Done(format!("Done with {solutions} full solutions in {}", super::numbers::duration(seconds)))
+            }
             Ended::Stopped => Notice::Short(format!("Stopped at {solutions} full solutions, which are kept")),
             Ended::Failed(why) => Notice::Wrong(format!("{why}. The {solutions} full solutions until then are kept")),
         });
@@ -180,7 +179,10 @@ fn missed_tolerances(state: &TrainingState) -> impl Iterator<Item = String> {
 impl State {
     /// The training that the Training tab shows.
     pub fn training_spec(&self) -> Option<&TrainingSpec> {
-        self.document.training.as_ref().or_else(presets::table_3_1)
+        match &self.document.training {
+            Some(spec) => Some(spec),
+            None => presets::table_3_1(),
+        }
     }
 
     /// Starts the training that the tab shows, unless its specification is refused.

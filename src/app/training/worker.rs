@@ -141,8 +141,13 @@ impl Job {
         let live = Arc::new(Mutex::new(live));
         let (stop, abandon) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicBool::new(false)));
         let (sender, outcome) = channel();
-        let watch =
-            Watch { live: Arc::clone(&live), cancel: Arc::clone(&stop), keeper: None, ctx: ctx.clone(), painted: None.into() };
+        let watch = Watch {
+            live: Arc::clone(&live),
+            cancel: Arc::clone(&stop),
+            keeper: None,
+            ctx: ctx.clone(),
+            painted: None.into(),
+        };
         let last = Arc::clone(&abandon);
         // Where no thread can be had the channel closes at once, which ends the job with a sentence.
         let _handle = std::thread::Builder::new().name("training".to_owned()).spawn(move || {

@@ -248,11 +248,7 @@ impl Losses {
 }
 
 /// POD of pressures and deformations, and the snapshots in the pressure basis.
-fn bases(
-    losses: Losses,
-    grid: &ReferenceGrid,
-    solutions: &[Solved],
-) -> Option<(PodBasis, PodBasis, Vec<Snapshot>)> {
+fn bases(losses: Losses, grid: &ReferenceGrid, solutions: &[Solved]) -> Option<(PodBasis, PodBasis, Vec<Snapshot>)> {
     let nodes = grid.xi.len();
     let pressures = Mat::from_fn(nodes, solutions.len(), |i, j| solutions[j].pressure[i]);
     let pressure = PodBasis::new(pressures.as_ref(), &grid.weights, losses.pressure)?;

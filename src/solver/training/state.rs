@@ -124,11 +124,7 @@ pub fn train_resumable(
 }
 
 /// Makes the first `count` windows.
-fn go(
-    state: &mut TrainingState,
-    count: usize,
-    observer: &dyn TrainingObserver,
-) -> Result<ReducedModel, TrainingError> {
+fn go(state: &mut TrainingState, count: usize, observer: &dyn TrainingObserver) -> Result<ReducedModel, TrainingError> {
     let spec = state.spec.clone();
     let mut rng = Rng::with_seed(spec.seed);
     let mut windows = Vec::with_capacity(spec.windows.len());

@@ -6,6 +6,9 @@ use crate::app::training::COMPARED_POINTS;
 use crate::harness::ModelScore;
 use egui::{Grid, Ui};
 
+/// A row: its name, what it is, and what one model has there.
+type Row = (&'static str, &'static str, fn(&ModelScore) -> String);
+
 /// The table, when there is one.
 pub fn ui(ui: &mut Ui, state: &State) {
     let Some(comparison) = &state.training.comparison else { return };
@@ -16,7 +19,7 @@ pub fn ui(ui: &mut Ui, state: &State) {
         comparison.points
     ));
     let errors = "Relative to the full solution";
-    let rows: [(&str, &str, fn(&ModelScore) -> String); 14] = [
+    let rows: [Row; 14] = [
         ("Full solutions", "All windows", |s| s.solutions.to_string()),
         ("Pressure modes", "Largest window", |s| s.modes.to_string()),
         ("Sampled rows", "Largest window", |s| s.rows.to_string()),

@@ -141,7 +141,8 @@ fn short(value: f64) -> String {
     if size != 0.0 && !(1e-2..1e6).contains(&size) {
         let text = format!("{value:.3e}");
         let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-        let mantissa = if mantissa.contains('.') { mantissa.trim_end_matches('0').trim_end_matches('.') } else { mantissa };
+        let mantissa =
+            if mantissa.contains('.') { mantissa.trim_end_matches('0').trim_end_matches('.') } else { mantissa };
         return format!("{mantissa}e{exponent}").replace('-', "−");
     }
     let text = numbers::digits(value, 5);
@@ -201,8 +202,7 @@ fn range_ui(ui: &mut Ui, form: &mut Form, spec: &mut TrainingSpec) {
             form.row(ui, "Viscosity {η_0}", VISCOSITY, viscosity, viscosity_tip);
         }
     }
-    let windows: Vec<String> =
-        spec.windows.iter().map(|w| format!("{}…{}", short(w.m.0), short(w.m.1))).collect();
+    let windows: Vec<String> = spec.windows.iter().map(|w| format!("{}…{}", short(w.m.0), short(w.m.1))).collect();
     let grid = spec.windows.first().map_or_else(String::new, |w| match w.grid {
         GridSpec::Graded { nodes, .. } => format!(", {nodes} graded nodes"),
         GridSpec::Uniform { dx, .. } => format!(", uniform grid of {dx}"),
@@ -214,13 +214,9 @@ fn range_ui(ui: &mut Ui, form: &mut Form, spec: &mut TrainingSpec) {
 fn converted(spec: &TrainingSpec) -> Range {
     let domain = spec.domain();
     match spec.range {
-        Range::Box { alpha, viscosity, .. } => Range::Moes {
-            m: domain.m,
-            l: domain.l,
-            alpha,
-            max_hertz_pressure: domain.max_hertz_pressure_pa,
-            viscosity,
-        },
+        Range::Box { alpha, viscosity, .. } => {
+            Range::Moes { m: domain.m, l: domain.l, alpha, max_hertz_pressure: domain.max_hertz_pressure_pa, viscosity }
+        }
         Range::Moes { alpha, viscosity, .. } => {
             let QuantityBox { radius, speed, load, modulus, .. } = QuantityBox::TABLE_3_1;
             Range::Box { radius, speed, load, alpha, modulus, viscosity }
@@ -309,7 +305,8 @@ fn plan_ui(ui: &mut Ui, form: &mut Form, spec: &mut TrainingSpec) {
             form.count(ui, "How many", snapshots, "Full solutions per window");
         }
         Plan::Grid { nodes } => {
-            for (name, n) in ["Nodes of {R}", "Nodes of {u_m}", "Nodes of {w}", "Nodes of {α}"].into_iter().zip(nodes) {
+            for (name, n) in ["Nodes of {R}", "Nodes of {u_m}", "Nodes of {w}", "Nodes of {α}"].into_iter().zip(nodes)
+            {
                 form.count(ui, name, n, "Points along this quantity; w is spaced logarithmically");
             }
         }
@@ -318,9 +315,19 @@ fn plan_ui(ui: &mut Ui, form: &mut Form, spec: &mut TrainingSpec) {
             form.count(ui, "At most", limit, limit_tip);
             indicator_ui(ui, form, indicator);
             ladder_ui(ui, form, tolerances);
-            form.count(ui, "Good in a row", successes, "Good approximations of the global search (3.17) that end a rung");
+            form.count(
+                ui,
+                "Good in a row",
+                successes,
+                "Good approximations of the global search (3.17) that end a rung",
+            );
             form.row(ui, "Local width {σ}", PLAIN, local_sigma, "Of the local search (3.18), in widths of the range");
-            form.count(ui, "Local good", local_successes, "Good ones in a row that end a local search; 0 leaves it out");
+            form.count(
+                ui,
+                "Local good",
+                local_successes,
+                "Good ones in a row that end a local search; 0 leaves it out",
+            );
             form.count(ui, "Vicinity", vicinity, "Candidates around a bad point of which the worst is solved in full");
         }
         Plan::WorstOfPool { start, indicator, pool, per_round, tolerance, limit } => {
@@ -341,7 +348,9 @@ fn indicator_ui(ui: &mut Ui, form: &mut Form, indicator: &mut Indicator) {
     let before = *indicator;
     let options = [Indicator::Correction, Indicator::Residual];
     choose(ui, "Judged by", "The indicator of a bad approximation", indicator, &options, |indicator| match indicator {
-        Indicator::Correction => ("Newton steps", "What two Newton steps of the full system change of the film, relative"),
+        Indicator::Correction => {
+            ("Newton steps", "What two Newton steps of the full system change of the film, relative")
+        }
         Indicator::Residual => ("Residual", "The residual at the sampled rows, e_f^I (3.15): no large-scale work"),
     });
     if *indicator != before {
@@ -358,12 +367,15 @@ fn ladder_ui(ui: &mut Ui, form: &mut Form, tolerances: &mut Vec<f64>) {
                 form.number(ui, "Tolerances", &format!("Tolerance {}", k + 1), tolerance, 1.0, tip);
             }
             ui.horizontal(|ui| {
-                if named(ui, ui.small_button("+"), "Add a tolerance").on_hover_text("One more, a third of the last").clicked() {
+                let more = ui.small_button("+");
+                let more = named(ui, more, "Add a tolerance").on_hover_text("One more, a third of the last");
+                if more.clicked() {
                     tolerances.push(tolerances.last().map_or(1e-2, |last| last / 3.0));
                     form.changed = Some("Tolerances");
                 }
-                let last = named(ui, ui.small_button("−"), "Remove the last tolerance");
-                if last.on_hover_text("Leave the last out").clicked() {
+                let fewer = ui.small_button("−");
+                let fewer = named(ui, fewer, "Remove the last tolerance").on_hover_text("Leave the last out");
+                if fewer.clicked() {
                     tolerances.pop();
                     form.changed = Some("Tolerances");
                 }

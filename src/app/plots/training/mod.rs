@@ -50,7 +50,8 @@ fn buttons(ui: &mut Ui, state: &mut State) {
     };
     ui.horizontal_wrapped(|ui| {
         if runs {
-            let tip = "Ends the work; a training keeps its full solutions and makes a model of them. Again: no model either";
+            let tip =
+                "Ends the work; a training keeps its full solutions and makes a model of them. Again: no model either";
             if ui.button("Stop").on_hover_text(tip).clicked() {
                 state.training.stop();
             }
@@ -117,7 +118,8 @@ fn status(ui: &mut Ui, state: &mut State) {
     if let Some(made) = &state.training.made {
         let model = &made.model;
         let windows = model.windows.len();
-        let largest = |size: fn(&crate::solver::reduced::Window) -> usize| model.windows.iter().map(size).max().unwrap_or(0);
+        let largest =
+            |size: fn(&crate::solver::reduced::Window) -> usize| model.windows.iter().map(size).max().unwrap_or(0);
         let text = format!(
             "{}, {} pressure modes, {} rows, {} MB",
             if windows == 1 { "One window".to_owned() } else { format!("{windows} windows") },
@@ -144,9 +146,7 @@ fn status(ui: &mut Ui, state: &mut State) {
 fn running(ui: &mut Ui, job: &crate::app::training::Job) {
     let live = job.live();
     let (stage, fraction, count) = match &live.progress {
-        Some(p) => {
-            (p.stage.as_str(), p.done as f32 / p.total.max(1) as f32, format!("{} of {}", p.done, p.total))
-        }
+        Some(p) => (p.stage.as_str(), p.done as f32 / p.total.max(1) as f32, format!("{} of {}", p.done, p.total)),
         None => (job.name, 0.0, String::new()),
     };
     ui.label(if job.stopping() { format!("Stopping. {stage}") } else { stage.to_owned() });
