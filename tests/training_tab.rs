@@ -20,7 +20,7 @@ fn scene(title: &str, plan: &str) -> String {
     )
 }
 
-const TINY: &str = "Adaptive(start: 12, indicator: Correction, tolerances: [1e-2, 1e-7], successes: 16, local_sigma: 0.1, \
+const TINY: &str = "Adaptive(start: 12, indicator: Correction, tolerances: [1e-7], successes: 16, local_sigma: 0.1, \
     local_successes: 8, vicinity: 4, limit: 15)";
 const LONG: &str = "FarthestPoint(snapshots: 5000)";
 
