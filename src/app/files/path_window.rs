@@ -61,7 +61,7 @@ impl State {
     pub(super) fn path_window_ui(&mut self, ctx: &Context) {
         let Some(window) = &mut self.files.window else { return };
         let (title, action) = match window.purpose {
-            Purpose::Open => ("Open a scene", "Open"),
+            Purpose::Open => ("Open a scene or a reduced model", "Open"),
             Purpose::Save => ("Save the scene", "Save"),
             Purpose::Csv { .. } => ("Export the data as CSV", "Export"),
             Purpose::Model { .. } => ("Save the reduced model", "Save"),
@@ -163,7 +163,8 @@ fn browse(ctx: &Context, purpose: &Purpose, suggestion: &str) -> Receiver<Option
         let mut dialog = match purpose {
             Purpose::Csv { .. } => rfd::FileDialog::new().add_filter("Table", &["csv"]),
             Purpose::Model { .. } => rfd::FileDialog::new().add_filter("Reduced model", &["rom"]),
-            _ => rfd::FileDialog::new().add_filter("Scene", &["ron"]),
+            Purpose::Open => rfd::FileDialog::new().add_filter("Scene or reduced model", &["ron", "rom"]),
+            Purpose::Save => rfd::FileDialog::new().add_filter("Scene", &["ron"]),
         };
         if let Some(folder) = suggestion.parent().filter(|p| p.is_dir()) {
             dialog = dialog.set_directory(folder);

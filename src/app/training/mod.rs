@@ -4,12 +4,12 @@ pub mod chart;
 pub mod presets;
 mod worker;
 
-pub use worker::{COMPARED_POINTS, Job, Made};
+pub use worker::{Job, Made};
 
 use super::state::State;
 use crate::harness::{ModelComparison, training_file};
 use crate::solver::reduced::ReducedModel;
-use crate::solver::training::{Plan, TrainingSpec, TrainingState};
+use crate::solver::training::{Plan, TrainingSpec, TrainingState, WindowSpec, WindowState};
 use chart::Chart;
 use egui::Context;
 use std::path::{Path, PathBuf};
@@ -50,6 +50,8 @@ pub struct Training {
     pub comparison: Option<ModelComparison>,
     /// How the last job ended.
     pub notices: Vec<Notice>,
+    /// The title while it is typed.
+    pub title: Option<String>,
     /// A field whose entry was refused, and why.
     pub refused: Option<(&'static str, String)>,
     file: Option<PathBuf>,
@@ -130,9 +132,12 @@ impl Training {
                 self.left_behind = true;
             }
             Ok(Outcome::Found(Ok(None))) => {}
-            Ok(Outcome::Found(Err(message)) | Outcome::Compared(Err(message))) | Err(message) => {
-                self.notices.push(Notice::Wrong(message));
+            Ok(Outcome::Found(Err(message))) => {
+                // Whatever it is, it is not ours to overwrite.
+                self.file = None;
+                self.notices.push(Notice::Wrong(format!("{message}. Until then trainings are not kept on disk")));
             }
+            Ok(Outcome::Compared(Err(message))) | Err(message) => self.notices.push(Notice::Wrong(message)),
             Ok(Outcome::Compared(Ok(comparison))) => self.comparison = Some(comparison),
             Ok(Outcome::Trained(trained)) => self.take(*trained, seconds),
         }
@@ -149,7 +154,9 @@ impl Training {
             Ended::Stopped => Notice::Short(format!("Stopped at {solutions} full solutions, which are kept")),
             Ended::Failed(why) => Notice::Wrong(format!("{why}. The {solutions} full solutions until then are kept")),
         });
-        self.notices.extend(missed_tolerances(&state).filter(|_| ended == Ended::Complete).map(Notice::Short));
+        if ended == Ended::Complete {
+            self.notices.extend(missed_tolerances(&state).into_iter().map(Notice::Short));
+        }
         match made {
             Ok(made) => self.made = Some(made),
             Err(why) => self.notices.push(Notice::Wrong(why)),
@@ -160,20 +167,23 @@ impl Training {
 }
 
 /// Tolerances that a finished search could not meet within its limit.
-fn missed_tolerances(state: &TrainingState) -> impl Iterator<Item = String> {
+fn missed_tolerances(state: &TrainingState) -> Vec<String> {
     let (tolerances, limit) = match &state.spec.plan {
         Plan::Adaptive { tolerances, limit, .. } => (tolerances.as_slice(), *limit),
         Plan::WorstOfPool { tolerance, limit, .. } => (std::slice::from_ref(tolerance), *limit),
         Plan::FarthestPoint { .. } | Plan::Grid { .. } => (&[][..], 0),
     };
-    state.windows.iter().zip(&state.spec.windows).filter_map(move |(state, window)| {
-        let missed = tolerances.get(state.search.rungs.len())?;
-        let (from, to) = window.m;
+    let missed = |(window, spec): (&WindowState, &WindowSpec)| {
+        let missed = tolerances.get(window.search.rungs.len())?;
+        let round = |m: f64| (m * 1e3).round() / 1e3;
         Some(format!(
-            "The tolerance {missed:e} could not be met for M {from:.4}…{to:.4} within the limit of {limit} full solutions; \
-             the model is made of what there is"
+            "The tolerance {missed:e} could not be met for M {}…{} within the limit of {limit} full solutions; \
+             the model is made of what there is",
+            round(spec.m.0),
+            round(spec.m.1)
         ))
-    }).collect::<Vec<_>>().into_iter()
+    };
+    state.windows.iter().zip(&state.spec.windows).filter_map(missed).collect()
 }
 
 impl State {

@@ -16,7 +16,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Random points at which two models are compared.
-pub const COMPARED_POINTS: usize = 200;
+const COMPARED_POINTS: usize = 200;
 /// Seed of those points: the same ones for every pair.
 const COMPARED_SEED: u64 = 31;
 /// Shortest time between two repaints.
@@ -87,7 +87,7 @@ pub struct Live {
     pub most: usize,
     /// Whether there may be fewer.
     pub fewer: bool,
-    /// The last checkpoints with their numbers of full solutions.
+    /// The last checkpoints with their numbers of full solutions, of the slowest part: the search, where there is one.
     pace: VecDeque<(Instant, usize)>,
 }
 
@@ -235,10 +235,13 @@ impl TrainingObserver for Watch {
         }
         let chart = Arc::new(Chart::of(state));
         self.change(|live| {
-            if live.pace.len() == PACE {
-                live.pace.pop_front();
+            // A search retrains for every solution: how fast the first ones came says nothing about it.
+            if live.fewer == chart.solved.last().is_some_and(|dot| dot.searched) {
+                if live.pace.len() == PACE {
+                    live.pace.pop_front();
+                }
+                live.pace.push_back((Instant::now(), chart.solved.len()));
             }
-            live.pace.push_back((Instant::now(), chart.solved.len()));
             live.chart = chart;
         });
     }

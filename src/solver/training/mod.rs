@@ -190,7 +190,7 @@ pub trait TrainingObserver: Sync {
     fn progress(&self, _progress: Progress) {}
     /// Shown the state whenever full solutions were finished: what a crash must not lose can be written here.
     fn checkpoint(&self, _state: &TrainingState) {}
-    /// Asked between full solutions; `true` stops the training.
+    /// Asked every few milliseconds, whatever is being done; `true` stops the training.
     fn cancelled(&self) -> bool {
         false
     }

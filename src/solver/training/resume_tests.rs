@@ -144,6 +144,17 @@ fn a_training_that_is_stopped_still_gives_a_model() {
 }
 
 #[test]
+fn what_was_hardly_begun_is_left_out_of_the_model_and_its_domain() {
+    let mut state = TrainingState::new(small(adaptive(vec![1e-2], 30)));
+    train_resumable(&mut state, &()).unwrap();
+    state.windows[1].solved.truncate(2);
+    let model = state.model(&()).unwrap();
+    assert_eq!((model.windows.len(), model.domain.m.1), (1, 25.0));
+    state.windows[0].solved.truncate(2);
+    assert!(state.model(&()).unwrap_err().to_string().starts_with("4 full solutions are too few"));
+}
+
+#[test]
 fn plans_that_make_no_sense_are_refused_with_a_sentence() {
     let message = |plan| train(&small(plan), &()).unwrap_err().to_string();
     assert!(message(adaptive(vec![], 20)).contains("tolerances"));

@@ -6,14 +6,43 @@ use crate::app::plots::axes;
 use crate::app::state::State;
 use crate::app::theme::{Palette, faded};
 use crate::solver::training::Plan;
-use egui::Ui;
-use egui_plot::{Corner, HLine, Legend, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points};
+use egui::{RichText, Ui};
+use egui_plot::{GridMark, HLine, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points};
+
+/// Width of the axes' numbers: both charts are as wide as each other.
+const AXIS_WIDTH: f32 = 44.0;
+
+/// Marks at whole numbers only.
+fn whole(marks: Vec<GridMark>) -> Vec<GridMark> {
+    marks.into_iter().filter(|mark| mark.value.fract() == 0.0).collect()
+}
+
+/// What the marks mean, above the charts: they leave no corner free.
+pub fn key(ui: &mut Ui, state: &State) {
+    let palette = Palette::of(ui);
+    let chart = &state.training.chart;
+    let searched = chart.solved.iter().filter(|dot| dot.searched).count();
+    let failed = chart.bad.iter().filter(|bad| bad.indicator.is_none()).count();
+    let entries = [
+        (palette.reference, "pre-computed", chart.solved.len() - searched),
+        (palette.accent, "found by the search", searched),
+        (palette.warning, "bad approximations", chart.bad.len() - failed),
+        (palette.wrong, "failed reduced solves", failed),
+    ];
+    ui.horizontal_wrapped(|ui| {
+        for (color, name, count) in entries.into_iter().filter(|entry| entry.2 > 0) {
+            ui.label(RichText::new(format!("{count} {name}")).small().color(color));
+        }
+    });
+}
 
 /// The M–L plane: full solutions by how they were decided on, bad approximations, failed reduced solves, the range.
 pub fn plane(ui: &mut Ui, state: &State, height: f32) {
     let palette = Palette::of(ui);
     let chart = &state.training.chart;
-    let spec = state.training.spec.as_deref().or_else(|| state.training_spec());
+    // What runs, else what would be started.
+    let runs = state.training.spec.as_deref().filter(|_| state.training.job().is_some());
+    let spec = runs.or_else(|| state.training_spec());
     let range = spec.map(|spec| spec.domain());
     let group = |searched: bool| -> Vec<PlotPoint> {
         chart.solved.iter().filter(|dot| dot.searched == searched).map(|dot| dot.at).collect()
@@ -22,10 +51,9 @@ pub fn plane(ui: &mut Ui, state: &State, height: f32) {
         chart.bad.iter().filter(|bad| bad.indicator.is_none() == failed).map(|bad| bad.at).collect()
     };
     let response = axes::plot(ui, "training plane", height, "Load number {M}", "Lubricant number {L}")
-        .legend(Legend::default().position(Corner::LeftTop).follow_insertion_order(true).background_alpha(0.8))
         .x_grid_spacer(axes::log_marks)
         .x_axis_formatter(|mark, _| axes::log_label(mark))
-        .y_axis_min_width(34.0)
+        .y_axis_min_width(AXIS_WIDTH)
         .auto_bounds(egui::Vec2b::TRUE)
         .label_formatter(|hover| {
             let (egui_plot::HoverPosition::NearDataPoint { position: at, .. }
@@ -83,7 +111,8 @@ pub fn indicator(ui: &mut Ui, state: &State, height: f32) {
         chart.bad.iter().filter(|bad| bad.indicator.is_none()).map(|bad| [bad.solutions as f64, top + 0.5]).collect();
     let solved = chart.solved.len() as f64;
     let response = axes::plot(ui, "training indicator", height, "Full solutions", "Indicator")
-        .x_grid_spacer(|input| axes::round_marks(input, 6.0))
+        .x_grid_spacer(|input| whole(axes::round_marks(input, 6.0)))
+        .y_axis_min_width(AXIS_WIDTH)
         .y_grid_spacer(axes::decade_marks)
         .y_axis_formatter(|mark, _| axes::decade_label(mark))
         .auto_bounds(egui::Vec2b::TRUE)

@@ -9,7 +9,7 @@ use crate::scene::QuantityBox;
 use crate::solver::grid::GridSpec;
 use crate::solver::reduced::Sampling;
 use crate::solver::training::{Indicator, Plan, Range, TrainingSpec};
-use egui::{DragValue, Ui};
+use egui::{DragValue, TextEdit, Ui};
 
 /// Width of the column of names.
 const NAMES: f32 = 112.0;
@@ -35,6 +35,7 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
             }
         });
         form.message(ui, "presets");
+        title_ui(ui, &mut state.training.title, &mut spec);
         range_ui(ui, &mut form, &mut spec);
         plan_ui(ui, &mut form, &mut spec);
         reduction_ui(ui, &mut form, &mut spec);
@@ -51,6 +52,21 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
     if !state.document.saves_training() && state.document.training.is_some() {
         ui.weak("The open scene asks another question: it is saved without this training.");
     }
+}
+
+/// The title, taken when it is left: not every letter is an edit to undo.
+fn title_ui(ui: &mut Ui, typed: &mut Option<String>, spec: &mut TrainingSpec) {
+    let tip = "What the model will be called";
+    row(ui, "Title", tip, |ui| {
+        let mut text = typed.take().unwrap_or_else(|| spec.title.clone());
+        let response = ui.add(TextEdit::singleline(&mut text).desired_width(f32::INFINITY));
+        let response = named(ui, response, "Title of the model").on_hover_text(tip);
+        if response.lost_focus() {
+            spec.title = text;
+        } else if response.has_focus() {
+            *typed = Some(text);
+        }
+    });
 }
 
 /// What the fields share.
@@ -138,7 +154,7 @@ fn plain(name: &str) -> String {
 /// A number without trailing zeros, powers of ten where they are shorter.
 fn short(value: f64) -> String {
     let size = value.abs();
-    if size != 0.0 && !(1e-2..1e6).contains(&size) {
+    if size != 0.0 && !(1e-3..1e6).contains(&size) {
         let text = format!("{value:.3e}");
         let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
         let mantissa =

@@ -13,8 +13,6 @@ use egui::{Button, ProgressBar, Response, ScrollArea, Ui};
 
 /// Width of the form.
 const FORM_WIDTH: f32 = 316.0;
-/// Height that the sentences and buttons above the charts need.
-const HEAD_HEIGHT: f32 = 118.0;
 
 /// The tab.
 pub fn ui(ui: &mut Ui, state: &mut State) {
@@ -26,17 +24,18 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
         ui.separator();
         ui.vertical(|ui| {
             ScrollArea::vertical().id_salt("training").auto_shrink(false).show(ui, |ui| {
-                let height = ui.available_height();
+                let (top, height) = (ui.cursor().top(), ui.available_height());
                 buttons(ui, state);
                 status(ui, state);
+                comparison::ui(ui, state);
+                charts::key(ui, state);
                 let searches = state.training.spec.as_ref().is_some_and(|spec| spec.plan.searches());
-                let rest = (height - HEAD_HEIGHT).max(260.0);
-                let lower = if searches { (0.36 * rest).max(110.0) } else { 0.0 };
-                charts::plane(ui, state, (rest - lower).max(180.0));
+                let rest = (height - (ui.cursor().top() - top) - 12.0).max(300.0);
+                let lower = if searches { (0.34 * rest).max(115.0) } else { 0.0 };
+                charts::plane(ui, state, rest - lower);
                 if searches {
                     charts::indicator(ui, state, lower);
                 }
-                comparison::ui(ui, state);
             });
         });
     });
@@ -158,11 +157,17 @@ fn running(ui: &mut Ui, job: &crate::app::training::Job) {
         let left = match live.time_left() {
             Some(seconds) if seconds >= 1.0 && !job.stopping() => {
                 let word = if live.fewer { "at most" } else { "about" };
-                format!("; {word} {} left", numbers::duration(seconds.round()))
+                format!("; {word} {} left", remaining(seconds))
             }
             _ => String::new(),
         };
         let of = if live.fewer { "at most " } else { "" };
         ui.weak(format!("{solved} full solutions of {of}{}{left}", live.most));
     }
+}
+
+/// A time to wait, no more exact than it is known.
+fn remaining(seconds: f64) -> String {
+    let thin = numbers::THIN;
+    if seconds < 90.0 { format!("{seconds:.0}{thin}s") } else { format!("{:.0}{thin}min", seconds / 60.0) }
 }
