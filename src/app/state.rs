@@ -6,6 +6,7 @@ use super::files::Files;
 use super::jobs::{GridChoice, JobKind, Jobs, Key, Outcome, Request, Running};
 use super::picture::{Comparison, Origin, Picture};
 use super::plots::{basis::BasisView, regimes::RegimeChart};
+use super::training::Training;
 use crate::solver::full::{Problem, Report};
 use crate::solver::grid::GridSpec;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
@@ -110,6 +111,8 @@ pub struct State {
     pub full_wall_s: Option<f64>,
     /// State of the Reduced basis tab.
     pub basis: BasisView,
+    /// Trainings.
+    pub training: Training,
     /// What the Regimes tab keeps between frames.
     pub regimes: RegimeChart,
     /// Plots are to be fitted to their data in this frame.
@@ -146,6 +149,7 @@ impl State {
             reduced_wall_s: None,
             full_wall_s: None,
             basis: BasisView::default(),
+            training: Training::default(),
             regimes: RegimeChart::default(),
             fit_plots: true,
             wanted: None,
@@ -179,6 +183,15 @@ impl State {
     /// Whether the full solution belongs to the sliders.
     pub fn full_is_current(&self) -> bool {
         self.full.as_ref().is_some_and(|p| p.key == self.key())
+    }
+
+    /// Puts a reduced model in use, or none: the picture and everything drawn of the model follow.
+    pub fn use_model(&mut self, model: Option<Arc<ReducedModel>>) {
+        self.model = model;
+        self.online = None;
+        self.regimes = RegimeChart::default();
+        self.comparison = None;
+        self.wanted = None;
     }
 
     /// Whether the model was trained for the sliders.

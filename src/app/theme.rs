@@ -213,6 +213,11 @@ mod tests {
             include_str!("plots/profiles.rs"),
             include_str!("plots/regimes.rs"),
             include_str!("plots/regime_chart.rs"),
+            include_str!("plots/training/charts.rs"),
+            include_str!("plots/training/comparison.rs"),
+            include_str!("plots/training/form.rs"),
+            include_str!("plots/training/mod.rs"),
+            include_str!("training/mod.rs"),
             include_str!("../scene/view.rs"),
             include_str!("../solver/contact/film_formulas.rs"),
         ];

@@ -3,14 +3,17 @@
 //! * [`Workbench`] solves single contacts by any method and keeps grids, work space and models between solves.
 //! * [`PointReport`] is one result as the command line prints it; its flattened names are what expectations refer to.
 //! * [`run_scene`] answers a scene's question; each study has a module of its own.
-//! * [`mod@bench`] is the speed table, [`model_file`] the `.rom` format, [`table`] tables and CSV.
+//! * [`mod@bench`] is the speed table, [`model_file`] the `.rom` format, [`training_file`] keeps unfinished trainings, [`table`] tables and
+//!   CSV; [`compare_models`] holds models side by side.
 //!
 //! Wall time is measured here and nowhere below.
 
 pub mod bench;
+mod checked_file;
 mod error;
 mod formula_comparison;
 mod grid_study;
+mod model_comparison;
 pub mod model_file;
 mod outcome;
 mod random_test;
@@ -20,10 +23,12 @@ mod sampling;
 mod series;
 mod statistics;
 pub mod table;
+pub mod training_file;
 mod training_study;
 mod workbench;
 
 pub use error::HarnessError;
+pub use model_comparison::{ModelComparison, ModelScore, Spread, compare_models};
 pub use outcome::{NamedValue, SceneOutcome, Verdict};
 pub use report::{GridReport, HertzReport, MoesReport, PointReport, ReducedReport, SiReport, profile_table};
 pub use run::run_scene;

@@ -129,7 +129,7 @@ pub(super) fn run(
 }
 
 /// Central and smallest films of cold full solutions on the model's own grids, on all cores: cold, so that no reduced solution can lead them to its root.
-fn full_films(
+pub(super) fn full_films(
     model: &ReducedModel,
     points: &[crate::solver::contact::OperatingPoint],
     lubricant: Lubricant,

@@ -23,6 +23,7 @@ pub fn ui(ui: &mut Ui, state: &State, frame_s: f64, chosen: &mut Vec<Command>) {
                     chosen.push(Command::Cancel);
                 }
             }
+            None if state.training.job().is_some() => training_ui(ui, state, chosen),
             None => {
                 let idle = ui.weak("Ready");
                 if let Some(failure) = state.failure.as_ref().or(state.verify_failure.as_ref()) {
@@ -46,4 +47,17 @@ pub fn ui(ui: &mut Ui, state: &State, frame_s: f64, chosen: &mut Vec<Command>) {
             ui.weak("Time per solve");
         });
     });
+}
+
+/// A training at work, in one line.
+fn training_ui(ui: &mut Ui, state: &State, chosen: &mut Vec<Command>) {
+    let Some(job) = state.training.job() else { return };
+    ui.label(job.name);
+    if let Some(progress) = &job.live().progress {
+        ui.weak(format!("{}, {} of {}", progress.stage, progress.done, progress.total));
+    }
+    ui.weak(numbers::duration(job.since.elapsed().as_secs_f64()));
+    if ui.small_button("Cancel").clicked() {
+        chosen.push(Command::Cancel);
+    }
 }

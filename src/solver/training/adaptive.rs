@@ -61,8 +61,23 @@ pub struct Search {
     pub failed: usize,
     /// Full solutions when each rung was done.
     pub rungs: Vec<usize>,
+    /// Bad approximations in the order in which they were found.
+    pub bad: Vec<BadPoint>,
     /// Whether it is over.
     pub finished: bool,
+}
+
+/// A bad approximation that a search came upon and had solved in full.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BadPoint {
+    /// Where.
+    pub point: OperatingPoint,
+    /// What the indicator said; infinite where the reduced solve failed.
+    pub indicator: f64,
+    /// Full solutions of its window when it was found.
+    pub solutions: usize,
+    /// Rung of the ladder of tolerances on which it was found.
+    pub rung: usize,
 }
 
 /// A point with its coordinates in the unit cube.
@@ -197,6 +212,12 @@ fn find_bad(
             next.judged += around.len() - 1;
             // The first of equals, so that failures do not wander.
             let worst = (0..around.len()).rev().max_by(|&a, &b| errors[a].total_cmp(&errors[b])).unwrap_or(0);
+            next.bad.push(BadPoint {
+                point: around[worst].1,
+                indicator: errors[worst],
+                solutions: own.solved.len(),
+                rung: next.rung,
+            });
             next.successes = 0;
             next.local = (*local_successes > 0).then_some((around[worst].0, 0));
             next.random = rng.get_seed();
@@ -242,7 +263,7 @@ fn worst_of_pool(
     let mut order: Vec<usize> = (0..drawn.len()).filter(|&i| errors[i] > *tolerance).collect();
     order.sort_by(|&a, &b| errors[b].total_cmp(&errors[a]));
     let mut chosen: Vec<OperatingPoint> = Vec::new();
-    for (_, candidate) in order.into_iter().map(|i| drawn[i]) {
+    for (candidate, indicator) in order.into_iter().map(|i| (drawn[i].1, errors[i])) {
         if chosen.len() == (*per_round).min(limit - known) {
             break;
         }
@@ -251,6 +272,7 @@ fn worst_of_pool(
         let nearest = window.nearest(moes).map_or(f64::INFINITY, |(_, d)| d);
         if chosen.iter().all(|c| distance(c.moes(), moes) >= nearest) {
             chosen.push(candidate);
+            own.search.bad.push(BadPoint { point: candidate, indicator, solutions: known, rung: own.search.rung });
         }
     }
     if chosen.is_empty() {

@@ -1,8 +1,9 @@
 //! From a specification to a model: snapshots, bases, row snapshots, sampled rows.
 
+use super::aside::aside;
 use super::plan::grid_points;
 use super::rows::sample_rows;
-use super::state::{Solved, TrainingState, train_resumable};
+use super::state::{FEWEST, Solved, TrainingState, train_resumable};
 use super::{Plan, Progress, Range, TrainingError, TrainingObserver, TrainingSpec, WindowSpec};
 use crate::solver::contact::OperatingPoint;
 use crate::solver::full::{FullSolver, Start};
@@ -124,15 +125,6 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
     }
 }
 
-/// Linear algebra splits its sums by the threads it finds: on one thread a model is the same to the last bit on every machine size.
-pub(super) fn on_one_thread<T: Send>(work: impl FnOnce() -> T + Send) -> T {
-    match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
-        Ok(pool) => pool.install(work),
-        // Without another thread the work is done here, equal to rounding.
-        Err(_) => work(),
-    }
-}
-
 /// Everything one window is made with.
 pub(super) struct Shop<'a> {
     pub spec: &'a TrainingSpec,
@@ -154,7 +146,8 @@ impl<'a> Shop<'a> {
         observer: &'a dyn TrainingObserver,
     ) -> Result<Self, TrainingError> {
         let window = &spec.windows[k];
-        let grid = window.grid.build().map_err(crate::solver::full::SolveError::from)?;
+        let wanted = window.grid;
+        let grid = aside(observer, move || wanted.build())?.map_err(crate::solver::full::SolveError::from)?;
         Ok(Self { spec, window, grid, reach, observer })
     }
 
@@ -225,16 +218,18 @@ impl<'a> Shop<'a> {
     /// Bases, row sampling and operators of given solutions.
     pub fn assemble(&self, solutions: &[Solved], rng: &mut Rng) -> Result<Window, TrainingError> {
         let Self { spec, window, grid, reach, observer } = self;
-        if solutions.len() < 4 {
+        if solutions.len() < FEWEST {
             return Err(self.too_few(solutions.len()));
         }
         observer.progress(Progress { stage: format!("Bases, M {}…{}", window.m.0, window.m.1), done: 0, total: 1 });
-        let failed = || TrainingError::Decomposition { from: window.m.0, to: window.m.1 };
-        let mut model = on_one_thread(|| {
-            let (pressure, deformation, snapshots) = bases(spec, grid, solutions)?;
+        let (from, to) = window.m;
+        let failed = || TrainingError::Decomposition { from, to };
+        let (losses, grid, solutions) = (Losses::of(spec), Arc::clone(grid), solutions.to_vec());
+        let mut model = aside(*observer, move || {
+            let (pressure, deformation, snapshots) = bases(losses, &grid, &solutions)?;
             let rows = all_rows(&pressure, &grid.weights);
-            Some(Window::new(window.m, Arc::clone(grid), pressure, deformation, snapshots, Sampling::All, rows))
-        })
+            Some(Window::new((from, to), grid, pressure, deformation, snapshots, Sampling::All, rows))
+        })?
         .ok_or_else(failed)?;
         if spec.sampling != Sampling::All {
             let sampled =
@@ -245,17 +240,25 @@ impl<'a> Shop<'a> {
     }
 }
 
+/// Losses of information that the modes may neglect.
+#[derive(Clone, Copy)]
+struct Losses {
+    pressure: f64,
+    deformation: f64,
+}
+
+impl Losses {
+    fn of(spec: &TrainingSpec) -> Self {
+        Self { pressure: spec.pressure_loss, deformation: spec.deformation_loss }
+    }
+}
+
 /// POD of pressures and deformations, and the snapshots in the pressure basis.
-fn bases(
-    spec: &TrainingSpec,
-    grid: &ReferenceGrid,
-    solutions: &[Solved],
-) -> Option<(PodBasis, PodBasis, Vec<Snapshot>)> {
+fn bases(losses: Losses, grid: &ReferenceGrid, solutions: &[Solved]) -> Option<(PodBasis, PodBasis, Vec<Snapshot>)> {
     let nodes = grid.xi.len();
     let pressures = Mat::from_fn(nodes, solutions.len(), |i, j| solutions[j].pressure[i]);
-    let pressure = PodBasis::new(pressures.as_ref(), &grid.weights, spec.pressure_loss)?;
-    let deformation =
-        PodBasis::new(flex(grid, &pressures).as_ref(), &deformation_weights(grid), spec.deformation_loss)?;
+    let pressure = PodBasis::new(pressures.as_ref(), &grid.weights, losses.pressure)?;
+    let deformation = PodBasis::new(flex(grid, &pressures).as_ref(), &deformation_weights(grid), losses.deformation)?;
     let snapshots = solutions
         .iter()
         .map(|s| Snapshot {

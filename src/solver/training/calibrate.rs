@@ -4,6 +4,7 @@
 //! error. That is evidence for [`Calibration`], and nothing else: no basis sees these points, and they are not full solutions (two steps
 //! from the reduced solution, a cold full solution takes about 15).
 
+use super::aside::aside;
 use super::indicator::measured_errors;
 use super::plan::random_points;
 use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
@@ -53,7 +54,7 @@ pub(super) fn calibrate(
         )
         .collect::<Result<_, _>>()?;
     let evidence: Vec<Evidence> = measured.into_iter().flatten().collect();
-    Ok(super::build::on_one_thread(|| Calibration::fit(&evidence)))
+    aside(observer, move || Calibration::fit(&evidence))
 }
 
 /// The range of M in which window `k` serves: the first and the last one also serve what lies beyond.

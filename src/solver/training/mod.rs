@@ -3,8 +3,11 @@
 //! The same specification gives the same model: everything random comes from its seed, and parallel work is collected in order.
 
 mod adaptive;
+mod aside;
 mod build;
 mod calibrate;
+#[cfg(test)]
+mod cancel_tests;
 pub mod distance;
 mod indicator;
 mod plan;
@@ -15,7 +18,7 @@ mod state;
 #[cfg(test)]
 mod tests;
 
-pub use adaptive::Search;
+pub use adaptive::{BadPoint, Search};
 pub use build::train;
 pub use calibrate::EVIDENCE;
 pub use indicator::Indicator;
@@ -23,7 +26,7 @@ pub use plan::{farthest_points, grid_points, local_point, random_points, test_po
 pub use state::{Solved, TrainingState, WindowState, train_resumable};
 
 use super::lubricant::Lubricant;
-use super::reduced::Sampling;
+use super::reduced::{Domain, Sampling};
 use serde::{Deserialize, Serialize};
 
 /// Where the training solutions are taken.
@@ -154,6 +157,21 @@ fn evidence() -> usize {
     EVIDENCE
 }
 
+impl TrainingSpec {
+    /// Refuses what no training can be made of, before anything is solved.
+    ///
+    /// # Errors
+    /// A sentence that names the field.
+    pub fn check(&self) -> Result<(), TrainingError> {
+        build::check(self)
+    }
+
+    /// What the model will declare to be trained for.
+    pub fn domain(&self) -> Domain {
+        build::domain(self)
+    }
+}
+
 /// One window of a model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -181,7 +199,7 @@ pub trait TrainingObserver: Sync {
     fn progress(&self, _progress: Progress) {}
     /// Shown the state whenever full solutions were finished: what a crash must not lose can be written here.
     fn checkpoint(&self, _state: &TrainingState) {}
-    /// Asked between full solutions; `true` stops the training.
+    /// Asked every few milliseconds, whatever is being done; `true` stops the training.
     fn cancelled(&self) -> bool {
         false
     }

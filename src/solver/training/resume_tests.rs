@@ -76,7 +76,8 @@ fn essence(model: &ReducedModel) -> Vec<String> {
 }
 
 fn stopped_and_resumed_is_the_same(spec: &TrainingSpec, stops: &[usize]) {
-    let whole = train(spec, &()).unwrap();
+    let mut reference = TrainingState::new(spec.clone());
+    let whole = train_resumable(&mut reference, &()).unwrap();
     for &solutions in stops {
         let stop = StopAt { solutions, stopped: AtomicBool::new(false), written: Mutex::new(None) };
         let mut state = TrainingState::new(spec.clone());
@@ -91,6 +92,7 @@ fn stopped_and_resumed_is_the_same(spec: &TrainingSpec, stops: &[usize]) {
             let resumed = train_resumable(&mut state, &()).unwrap();
             assert!(essence(&resumed) == essence(&whole), "stopped after {solutions}");
             assert!(before.iter().all(|s| state.windows[0].solved.contains(s)));
+            assert!(state == reference, "stopped after {solutions}");
         }
     }
 }
@@ -142,6 +144,17 @@ fn a_training_that_is_stopped_still_gives_a_model() {
     assert_eq!(count.0.into_inner(), 0, "no further full solution");
     assert_eq!(model.windows.len(), 1);
     assert_eq!(model.windows[0].snapshots.len(), state.windows[0].solved.len());
+}
+
+#[test]
+fn what_was_hardly_begun_is_left_out_of_the_model_and_its_domain() {
+    let mut state = TrainingState::new(small(adaptive(vec![1e-2], 30)));
+    train_resumable(&mut state, &()).unwrap();
+    state.windows[1].solved.truncate(2);
+    let model = state.model(&()).unwrap();
+    assert_eq!((model.windows.len(), model.domain.m.1), (1, 25.0));
+    state.windows[0].solved.truncate(2);
+    assert!(state.model(&()).unwrap_err().to_string().starts_with("4 full solutions are too few"));
 }
 
 #[test]

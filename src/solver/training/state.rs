@@ -1,6 +1,7 @@
 //! What a training has done so far: enough to stop after any full solution, go on later, and arrive at the same model.
 
 use super::adaptive::Search;
+use super::aside::aside;
 use super::build::{Shop, alone, check, domain};
 use super::calibrate::calibrate;
 use super::plan::{farthest_points, grid_points};
@@ -14,6 +15,9 @@ use std::sync::Arc;
 
 /// Training reaches beyond a window's ends by this factor in M, so that its edge is not a corner.
 const OVERLAP: f64 = 1.221_402_758_160_17;
+
+/// Fewest full solutions that make a window.
+pub(super) const FEWEST: usize = 4;
 
 /// A training with everything it has computed; full solutions are never computed twice.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -71,19 +75,26 @@ impl TrainingState {
         self.windows.iter().map(|w| w.solved.len()).sum()
     }
 
-    /// The model of what there is, without another full solution: what a stopped training is worth.
+    /// The model of what there is, without another full solution: what a stopped training is worth. Its domain ends where the
+    /// windows do that have solutions enough.
     ///
     /// # Errors
-    /// When a window has fewer than four solutions, or the observer cancels.
+    /// When the first window has fewer than four solutions, or the observer cancels.
     pub fn model(&self, observer: &dyn TrainingObserver) -> Result<ReducedModel, TrainingError> {
+        check(&self.spec)?;
         let mut rest = self.clone();
-        rest.spec.windows.truncate(rest.windows.len());
-        check(&rest.spec)?;
         for window in &mut rest.windows {
             window.pending.clear();
             window.search.finished = true;
         }
-        go(&mut rest, observer)
+        let usable = rest.windows.iter().take_while(|w| w.solved.len() >= FEWEST).count();
+        if usable == 0 {
+            return Err(TrainingError::Specification(format!(
+                "{} full solutions are too few for a model; at least {FEWEST} are needed",
+                self.solutions()
+            )));
+        }
+        go(&mut rest, usable, observer)
     }
 }
 
@@ -111,15 +122,16 @@ pub fn train_resumable(
     observer: &dyn TrainingObserver,
 ) -> Result<ReducedModel, TrainingError> {
     check(&state.spec)?;
-    go(state, observer)
+    go(state, state.spec.windows.len(), observer)
 }
 
-fn go(state: &mut TrainingState, observer: &dyn TrainingObserver) -> Result<ReducedModel, TrainingError> {
+/// Makes the first `count` windows.
+fn go(state: &mut TrainingState, count: usize, observer: &dyn TrainingObserver) -> Result<ReducedModel, TrainingError> {
     let spec = state.spec.clone();
     let mut rng = Rng::with_seed(spec.seed);
     let mut windows = Vec::with_capacity(spec.windows.len());
     let mut log = Vec::new();
-    for (k, window) in spec.windows.iter().enumerate() {
+    for (k, window) in spec.windows.iter().take(count).enumerate() {
         if state.windows.len() == k {
             state.windows.push(WindowState::default());
         }
@@ -144,7 +156,13 @@ fn go(state: &mut TrainingState, observer: &dyn TrainingObserver) -> Result<Redu
         });
         windows.push(trained);
     }
-    Ok(ReducedModel { title: spec.title.clone(), domain: domain(&spec), windows, scene: String::new(), log })
+    let mut domain = domain(&spec);
+    if count < spec.windows.len()
+        && let Some(last) = windows.last()
+    {
+        domain.m.1 = domain.m.1.min(last.m.1);
+    }
+    Ok(ReducedModel { title: spec.title.clone(), domain, windows, scene: String::new(), log })
 }
 
 /// The range of M from which a window is trained.
@@ -161,19 +179,29 @@ fn train_window(
     observer: &dyn TrainingObserver,
 ) -> Result<Window, TrainingError> {
     let mut shop = Shop::new(spec, k, reach(&spec.windows, k), observer)?;
+    if state.windows[k].solved.iter().any(|s| s.pressure.len() != shop.grid.xi.len()) {
+        return Err(TrainingError::Specification("the stored full solutions belong to another grid".to_owned()));
+    }
     // Drawn again when resumed, so that the random numbers behind it are the same.
     let points = match spec.plan {
-        Plan::FarthestPoint { snapshots } => farthest_points(&spec.range, shop.reach, snapshots, rng),
         Plan::Grid { nodes } => {
             let mut points = grid_points(&spec.range, nodes);
             points.retain(|p| (shop.reach.0..=shop.reach.1).contains(&p.moes().m));
             points
         }
-        Plan::Adaptive { start, .. } | Plan::WorstOfPool { start, .. } => {
-            farthest_points(&spec.range, shop.reach, start, rng)
+        Plan::FarthestPoint { snapshots: wanted }
+        | Plan::Adaptive { start: wanted, .. }
+        | Plan::WorstOfPool { start: wanted, .. } => {
+            let (range, reach, mut random) = (spec.range.clone(), shop.reach, rng.clone());
+            let (points, random) = aside(observer, move || {
+                let points = farthest_points(&range, reach, wanted, &mut random);
+                (points, random)
+            })?;
+            *rng = random;
+            points
         }
     };
-    if points.len() < 4 {
+    if points.len() < FEWEST {
         return Err(shop.too_few(points.len()));
     }
     let own = &mut state.windows[k];
