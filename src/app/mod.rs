@@ -7,6 +7,7 @@ mod controls;
 mod document;
 mod export;
 mod files;
+mod in_use;
 mod jobs;
 mod model_source;
 mod numbers;
@@ -15,6 +16,7 @@ mod picture;
 mod plots;
 mod session;
 mod state;
+mod task;
 mod theme;
 
 use crate::solver::contact::Moes;
@@ -170,7 +172,10 @@ impl Explorer {
                 ctx.memory_mut(|m| m.data.clear());
             }
             Command::Verify => state.verify(ctx),
-            Command::Cancel => state.jobs.cancel_all(),
+            Command::Cancel => {
+                state.jobs.cancel_all();
+                state.accuracy.stop();
+            }
             Command::Keyboard => self.help.keyboard = true,
             Command::About => self.help.about = true,
         }
@@ -223,6 +228,11 @@ impl Explorer {
     /// Whether a computation runs or waits.
     pub fn busy(&self) -> bool {
         self.state.jobs.busy(JobKind::Live) || self.state.jobs.busy(JobKind::Verify)
+    }
+
+    /// Whether a study of the Accuracy tab runs.
+    pub fn studying(&self) -> bool {
+        self.state.accuracy.standing().is_some()
     }
 
     /// Seconds that the last frame took to build.

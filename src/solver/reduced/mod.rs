@@ -4,6 +4,9 @@
 //! registration scale s enters the online phase as a number: X = −1 + (ξ + 1)s, H = H₀ − ½ ln s + X²/2 + s (K V_p p̃).
 
 mod cubature;
+mod error_split;
+#[cfg(test)]
+mod error_split_tests;
 mod model;
 mod online;
 mod operators;
@@ -12,6 +15,7 @@ mod sampling;
 mod start;
 
 pub use cubature::{GoalEquations, cubature};
+pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
 pub use model::{Domain, ReducedModel, Snapshot, Trust, Window, deformation_weights, distance, flex};
 pub(crate) use online::interpolation_at_zero;
 pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution};
