@@ -1,6 +1,6 @@
 //! The reduced model along the test trajectory (3.21), and its error against full solutions.
 
-use super::bound::{self, bound_of};
+use super::bound::bound_of;
 use super::random_tests::trained_range;
 use super::{Running, count, run_or_stop, stale_note};
 use crate::app::controls::{message_ui, named};
@@ -16,7 +16,7 @@ use crate::solver::contact::OperatingPoint;
 use crate::solver::full::{Problem, Solution, Start};
 use crate::solver::reduced::Trust;
 use crate::solver::training::Range;
-use egui::{Color32, ComboBox, Context, Id, RichText, Ui, Vec2b};
+use egui::{Color32, ComboBox, Context, Id, Ui, Vec2b};
 use egui_plot::{Corner, Legend, Line, LineStyle, PlotUi, VLine};
 use std::f64::consts::PI;
 
@@ -187,9 +187,7 @@ pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
         stale_note(ui, &results.in_use);
     }
     ui.weak(summary(results));
-    if let Some(note) = bound::NOTE {
-        ui.weak(RichText::new(note).small());
-    }
+    super::estimate_note(ui);
     film_plot(ui, results, stale, 0.4 * ui.available_height());
     error_plot(ui, results, stale, (ui.available_height() - 4.0).max(110.0));
     if export_now {

@@ -2,7 +2,7 @@
 
 use super::random_tests::{Results, Test};
 use super::worst::Worst;
-use super::{bound, tests_toolbar, worst};
+use super::{tests_toolbar, worst};
 use crate::app::controls::named;
 use crate::app::export;
 use crate::app::files::Purpose;
@@ -10,7 +10,7 @@ use crate::app::in_use::InUse;
 use crate::app::numbers;
 use crate::app::plots::axes;
 use crate::app::state::State;
-use crate::app::theme::{Palette, sequential};
+use crate::app::theme::{Palette, rich, sequential};
 use crate::solver::contact::{Moes, OperatingPoint};
 use egui::{Color32, Ui};
 use egui_plot::{Corner, HoverPosition, Legend, MarkerShape, PlotPoint, PlotPoints, Points};
@@ -89,7 +89,7 @@ fn class_name(class: usize) -> String {
     match class {
         0 => format!("below {}", power(FIRST)),
         c if c + 1 == CLASSES => format!("{} and more", power(from)),
-        _ => format!("{} to {}", power(from), power(from + 1)),
+        _ => format!("{}…{}", power(from), power(from + 1)),
     }
 }
 
@@ -112,12 +112,13 @@ pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
     ui.horizontal_wrapped(|ui| {
         ui.label("Judged by").on_hover_text("Colours the map and sorts the list");
         ui.selectable_value(&mut map.by, By::Estimate, "error estimate");
-        ui.selectable_value(&mut map.by, By::Truth, "true error of H_c")
+        let truth = rich("true error of {H_c}", 13.5, ui.visuals().text_color());
+        ui.selectable_value(&mut map.by, By::Truth, truth)
             .on_hover_text("Only tests that were compared with full solutions have a colour");
         ui.weak(summary(results));
     });
-    if let (By::Estimate, Some(note)) = (map.by, bound::NOTE) {
-        ui.weak(egui::RichText::new(note).small());
+    if map.by == By::Estimate {
+        super::estimate_note(ui);
     }
     if map.drawn.as_ref().is_none_or(|d| d.of != stamp(results, map.by)) {
         map.drawn = Some(Drawn::new(results, map.by));
@@ -275,7 +276,7 @@ mod tests {
     fn every_error_has_a_class_with_a_name() {
         assert_eq!((class(0.0), class(3e-8), class(3e-7), class(9e-3), class(0.5)), (0, 0, 1, 5, 6));
         assert_eq!(class_name(0), "below 1e−7");
-        assert_eq!(class_name(class(3e-7)), "1e−7 to 1e−6");
+        assert_eq!(class_name(class(3e-7)), "1e−7…1e−6");
         assert_eq!(class_name(6), "1e−2 and more");
     }
 }

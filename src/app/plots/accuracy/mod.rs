@@ -14,6 +14,7 @@ use crate::app::controls::{message_ui, named, warning_ui};
 use crate::app::in_use::InUse;
 use crate::app::state::State;
 use crate::app::task::{Standing, Task};
+use crate::app::theme::{Palette, rich};
 use egui::{Context, DragValue, ProgressBar, Ui};
 use random_tests::{MOST_COMPARED, RandomTests, TESTS};
 
@@ -72,6 +73,7 @@ pub struct AccuracyView {
     split: split::Split,
     tests: RandomTests,
     map: failure_map::Map,
+    truth: Option<truth::Shown>,
     along: along::Along,
 }
 
@@ -179,6 +181,13 @@ fn tests_toolbar(ui: &mut Ui, ctx: &Context, tests: &mut RandomTests, in_use: &I
 /// Says that what is shown was made with another model or truncation.
 fn stale_note(ui: &mut Ui, of: &InUse) {
     warning_ui(ui, &format!("Found with {}; the model or its truncation has changed since", of.describe()));
+}
+
+/// What the estimate must be read with.
+fn estimate_note(ui: &mut Ui) {
+    if let Some(note) = bound::NOTE {
+        ui.label(rich(note, 11.0, Palette::of(ui).quiet));
+    }
 }
 
 /// Says why there is nothing yet.

@@ -1,7 +1,7 @@
 //! Where the error of this contact comes from: basis, projection, sampling and discretisation beside each other.
 
 use super::{Running, run_or_stop, stale_note};
-use crate::app::controls::{message_ui, named, sentence, warning_ui};
+use crate::app::controls::{message_ui, named, sentence, spoken, warning_ui};
 use crate::app::export;
 use crate::app::files::Purpose;
 use crate::app::in_use::InUse;
@@ -18,7 +18,9 @@ use egui_plot::{Bar, BarChart, GridMark, PlotPoint, Text};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Decades that the bars show at most: what is smaller than the rest by more does not matter.
-const DECADES: f64 = 8.0;
+const DECADES: f64 = 7.0;
+/// Width of the rows' names beside the bars.
+const NAMES: f32 = 152.0;
 
 /// The rows of bars and table, from top to bottom: name, explanation.
 const ROWS: [(&str, &str); 6] = [
@@ -195,34 +197,38 @@ fn bars(ui: &mut Ui, split: &ErrorSplit, current: bool) {
     let end = high + 0.32 * (high - low);
     let wide = ui.available_width() > 560.0;
     let room = (ui.available_height() - 190.0).max(150.0);
-    let one = |ui: &mut Ui, k: usize, height: f32| {
+    let one = |ui: &mut Ui, k: usize, height: f32, rows: bool| {
         let (symbol, name, parts) = both[k];
-        bar_plot(ui, (symbol, name), &values(parts), (low, end), height, current);
+        let look = Look { range: (low, end), height, rows, current };
+        bar_plot(ui, (symbol, name), &values(parts), &look);
     };
     if wide {
-        let half = 0.5 * ui.available_width() - 6.0;
+        // The rows' names stand once, on the left.
+        let bars = 0.5 * (ui.available_width() - NAMES - 22.0);
         ui.horizontal_top(|ui| {
-            for k in 0..2 {
+            for (k, width) in [NAMES + bars, bars].into_iter().enumerate() {
                 ui.vertical(|ui| {
-                    ui.set_width(half);
-                    one(ui, k, room);
+                    ui.set_width(width);
+                    one(ui, k, room, k == 0);
                 });
             }
         });
     } else {
-        one(ui, 0, 0.5 * room);
-        one(ui, 1, 0.5 * room);
+        one(ui, 0, 0.5 * room, true);
+        one(ui, 1, 0.5 * room, true);
     }
 }
 
-fn bar_plot(
-    ui: &mut Ui,
-    (symbol, name): (&str, &str),
-    values: &[f64; 6],
-    (low, end): (f64, f64),
+/// How one plot of bars is drawn: its axis (log10), its height, whether rows have their names, whether it is up to date.
+struct Look {
+    range: (f64, f64),
     height: f32,
+    rows: bool,
     current: bool,
-) {
+}
+
+fn bar_plot(ui: &mut Ui, (symbol, name): (&str, &str), values: &[f64; 6], look: &Look) {
+    let &Look { range: (low, end), height, rows, current } = look;
     let palette = Palette::of(ui);
     let title = format!("Relative error of {symbol}");
     let at = |row: usize| -(row as f64);
@@ -245,8 +251,8 @@ fn bar_plot(
         .x_grid_spacer(axes::decade_marks)
         .x_axis_formatter(|mark, _| axes::decade_label(mark))
         .y_grid_spacer(|_| (0..ROWS.len()).map(|k| GridMark { value: -(k as f64), step_size: 1.0 }).collect())
-        .y_axis_formatter(|mark, _| row_name(mark.value))
-        .y_axis_min_width(118.0)
+        .y_axis_formatter(move |mark, _| if rows { row_name(mark.value) } else { String::new() })
+        .y_axis_min_width(if rows { NAMES - 8.0 } else { 6.0 })
         .label_formatter(|_| None)
         .show(ui, |plot| {
             plot.set_plot_bounds_x(low..=end);
@@ -259,7 +265,7 @@ fn bar_plot(
             plot.bar_chart(BarChart::new("", bars.collect()).horizontal().allow_hover(false));
             for (row, value) in values.iter().enumerate() {
                 let x = value.abs().log10().max(low);
-                let text = rich(&format!(" {}", signed(*value)), 12.0, ui_text(&palette, current));
+                let text = rich(&format!(" {}", relative(*value)), 12.0, ui_text(&palette, current));
                 let label = Text::new("", PlotPoint::new(x, at(row)), text).anchor(Align2::LEFT_CENTER);
                 plot.text(label.id(("value", row)).allow_hover(false));
             }
@@ -279,6 +285,12 @@ fn row_name(value: f64) -> String {
         .map_or_else(String::new, |(_, (name, _))| (*name).to_owned())
 }
 
+/// A signed relative error in the units of the axis.
+fn relative(value: f64) -> String {
+    let text = numbers::digits(value, 2);
+    if value > 0.0 { format!("+{text}") } else { text }
+}
+
 /// A signed relative error in percent.
 fn signed(value: f64) -> String {
     let sign = if value < 0.0 { "−" } else { "+" };
@@ -293,7 +305,7 @@ fn table(ui: &mut Ui, split: &ErrorSplit, current: bool) {
     let pressure = [Some(p.basis), Some(p.projection), Some(p.sampling), Some(p.reduction), None, None];
     let (h_c, h_min) = (values(&split.h_c), values(&split.h_min));
     Grid::new("parts").num_columns(4).spacing([22.0, 3.0]).striped(true).show(ui, |ui| {
-        for title in ["Part", "of {H_c}", "of {H_min}", "of {P}: ‖Δ{P}‖/‖{P}‖"] {
+        for title in ["Part", "of {H_c}", "of {H_min}", "of {P}, in the norm"] {
             ui.label(rich(title, 12.5, palette.quiet));
         }
         ui.end_row();
@@ -302,7 +314,7 @@ fn table(ui: &mut Ui, split: &ErrorSplit, current: bool) {
             for (of, value) in [("H_c", h_c[row]), ("H_min", h_min[row])] {
                 let text = signed(value);
                 let label = ui.label(rich(&text, 13.0, color)).on_hover_text(format!("{value:.3e}"));
-                named(ui, label, &format!("{name}, {of}: {text}"));
+                spoken(ui, label, &format!("{name}, {of}: {text}"));
             }
             let text = pressure[row].map_or_else(String::new, numbers::error_percent);
             ui.label(rich(&text, 13.0, color));

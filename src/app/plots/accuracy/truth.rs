@@ -1,8 +1,9 @@
 //! What the error estimate is worth: estimated against true error of H_c wherever both are known.
 
-use super::failure_map::{csv, summary};
-use super::{bound, tests_toolbar};
-use crate::app::controls::named;
+use super::failure_map::{By, csv, stamp, summary};
+use super::random_tests::Results;
+use super::tests_toolbar;
+use crate::app::controls::{named, spoken};
 use crate::app::files::Purpose;
 use crate::app::in_use::InUse;
 use crate::app::numbers;
@@ -10,8 +11,8 @@ use crate::app::plots::axes;
 use crate::app::state::State;
 use crate::app::theme::Palette;
 use crate::harness::{median, rank_correlation};
-use egui::{Grid, RichText, Ui, Vec2b};
-use egui_plot::{Corner, Legend, Line, LineStyle, MarkerShape, Points};
+use egui::{Grid, Ui, Vec2b};
+use egui_plot::{Corner, Legend, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points};
 
 /// Smaller errors are the full solver's own tolerance.
 const FLOOR: f64 = 1e-11;
@@ -42,6 +43,40 @@ impl Worth {
     }
 }
 
+/// What the view shows, made when something changed.
+pub struct Shown {
+    of: (usize, usize, By),
+    worth: Worth,
+    /// (log10 of the truth, log10 of the estimate) where the estimate is not below the truth.
+    holds: Vec<PlotPoint>,
+    /// The same where it is.
+    fails: Vec<PlotPoint>,
+    /// Where the line of perfect estimates begins and ends.
+    line: (f64, f64),
+}
+
+impl Shown {
+    /// `None` without any pair.
+    fn new(results: &Results) -> Option<Self> {
+        let pairs: Vec<(f64, f64)> = results.pairs().collect();
+        if pairs.is_empty() {
+            return None;
+        }
+        let log = |v: f64| v.max(FLOOR).log10();
+        let place = |&(estimate, truth): &(f64, f64)| PlotPoint::new(log(truth), log(estimate));
+        let (holds, fails): (Vec<_>, Vec<_>) = pairs.iter().partition(|(estimate, truth)| estimate >= truth);
+        let truths = pairs.iter().map(|pair| log(pair.1));
+        let (low, high) = truths.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+        Some(Self {
+            of: stamp(results, By::Truth),
+            worth: Worth::of(&pairs),
+            holds: holds.iter().map(place).collect(),
+            fails: fails.iter().map(place).collect(),
+            line: (low.floor(), high.ceil()),
+        })
+    }
+}
+
 /// The view.
 pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
     let ctx = ui.ctx().clone();
@@ -51,16 +86,18 @@ pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
         return;
     };
     ui.weak(summary(results));
-    if let Some(note) = bound::NOTE {
-        ui.weak(RichText::new(note).small());
+    super::estimate_note(ui);
+    let shown = &mut state.accuracy.truth;
+    if shown.as_ref().is_none_or(|s| s.of != stamp(results, By::Truth)) {
+        *shown = Shown::new(results);
     }
-    let pairs: Vec<(f64, f64)> = results.pairs().collect();
-    if pairs.is_empty() {
-        super::nothing_yet(ui, "No test has been compared with a full solution yet");
-        return;
+    match shown {
+        Some(shown) => {
+            worth_ui(ui, &shown.worth);
+            scatter(ui, shown, results.in_use != *in_use);
+        }
+        None => super::nothing_yet(ui, "No test has been compared with a full solution yet"),
     }
-    worth_ui(ui, &Worth::of(&pairs));
-    scatter(ui, &pairs, results.in_use != *in_use);
     if export_now {
         let text = csv(results);
         state.ask_path(&ctx, Purpose::Csv { text });
@@ -93,20 +130,16 @@ fn worth_ui(ui: &mut Ui, worth: &Worth) {
         ui.end_row();
         for (name, value, tip) in &cells {
             let label = ui.strong(value).on_hover_text(*tip);
-            named(ui, label, &format!("{name}: {value}"));
+            spoken(ui, label, &format!("{name}: {value}"));
         }
         ui.end_row();
     });
 }
 
-fn scatter(ui: &mut Ui, pairs: &[(f64, f64)], stale: bool) {
+fn scatter(ui: &mut Ui, shown: &Shown, stale: bool) {
     let palette = Palette::of(ui);
     let grey = |color| if stale { palette.reference } else { color };
-    let place = |&(estimate, truth): &(f64, f64)| [truth.max(FLOOR).log10(), estimate.max(FLOOR).log10()];
-    let (holds, fails): (Vec<_>, Vec<_>) = pairs.iter().partition(|(e, t)| e >= t);
-    let points: Vec<[f64; 2]> = pairs.iter().map(place).collect();
-    let low = points.iter().flatten().copied().fold(f64::INFINITY, f64::min).floor();
-    let high = points.iter().flatten().copied().fold(f64::NEG_INFINITY, f64::max).ceil();
+    let (low, high) = shown.line;
     let height = (ui.available_height() - 4.0).max(150.0);
     let response = axes::plot(ui, "truth", height, "True relative error of {H_c}", "Estimated error of {H_c}")
         .legend(Legend::default().position(Corner::LeftTop).follow_insertion_order(true).background_alpha(0.6))
@@ -124,15 +157,16 @@ fn scatter(ui: &mut Ui, pairs: &[(f64, f64)], stale: bool) {
             egui_plot::HoverPosition::Elsewhere { .. } => None,
         })
         .show(ui, |plot| {
+            // Perfect estimates, as far as there are truths.
             let identity = Line::new("estimate = truth", vec![[low, low], [high, high]]).color(palette.reference);
             plot.line(identity.width(1.2).style(LineStyle::dashed_dense()).allow_hover(false));
             let series = [
-                ("not below the truth", holds, palette.film, MarkerShape::Circle),
-                ("below the truth", fails, palette.warning, MarkerShape::Down),
+                ("not below the truth", &shown.holds, palette.film, MarkerShape::Circle),
+                ("below the truth", &shown.fails, palette.warning, MarkerShape::Down),
             ];
-            for (name, pairs, color, shape) in series {
-                let points: Vec<[f64; 2]> = pairs.iter().map(place).collect();
-                plot.points(Points::new(name, points).color(grey(color)).radius(2.8).shape(shape));
+            for (name, points, color, shape) in series.into_iter().filter(|s| !s.1.is_empty()) {
+                let points = Points::new(name, PlotPoints::Borrowed(points));
+                plot.points(points.color(grey(color)).radius(2.8).shape(shape));
             }
         });
     named(ui, response.response, "Estimated against true error");
