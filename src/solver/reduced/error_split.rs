@@ -18,7 +18,8 @@
 //! **Discretisation**: full solutions on the model's grid and on the next finer one ([`ReferenceGrid::refined`]), and Richardson's
 //! extrapolation with order two, which the scheme has (H_c on uniform grids: 1.98–1.99). The ends of the domain are the model's own; what a
 //! longer inlet would change is not part of it. The smallest *nodal* film has an error that jumps with the node it falls on, so the parabola
-//! through it and its neighbours is extrapolated and the nodal value held against that. Heights of spikes do not converge on
+//! through it and its neighbours is extrapolated and the nodal value held against that. Against three grids finer
+//! than a coarse one of 300 nodes (M 25, 40, 70) this was right to 0.05 % for H_c and to 4, 9 and 13 % for H_min. Heights of spikes do not converge on
 //! these grids; pressures therefore have no discretisation part.
 
 use super::model::{ReducedModel, Window};

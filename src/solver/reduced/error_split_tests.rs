@@ -102,9 +102,9 @@ fn the_discretisation_part_is_what_much_finer_grids_say() {
             "H_c {:.3e} (true {h_c:.3e}), H_min {:.3e} (true {h_min:.3e})",
             split.h_c.discretisation, split.h_min.discretisation
         );
-        assert!((split.h_c.discretisation / h_c - 1.0).abs() < 0.1, "{:e} against {h_c:e}", split.h_c.discretisation);
+        assert!((split.h_c.discretisation / h_c - 1.0).abs() < 0.01, "{:e} against {h_c:e}", split.h_c.discretisation);
         assert!(
-            (split.h_min.discretisation / h_min - 1.0).abs() < 0.3,
+            (split.h_min.discretisation / h_min - 1.0).abs() < 0.2,
             "{:e} against {h_min:e}",
             split.h_min.discretisation
         );

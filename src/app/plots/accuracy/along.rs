@@ -2,7 +2,7 @@
 
 use super::bound::bound_of;
 use super::random_tests::trained_range;
-use super::{Running, count, run_or_stop, stale_note};
+use super::{Running, count, progress, run_or_stop, stale_note};
 use crate::app::controls::{message_ui, named};
 use crate::app::export;
 use crate::app::files::Purpose;
@@ -10,7 +10,7 @@ use crate::app::in_use::{InUse, Solvers};
 use crate::app::plots::axes;
 use crate::app::state::State;
 use crate::app::task::{Ending, Reporter, Task};
-use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette};
+use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, rich};
 use crate::scene::QuantityBox;
 use crate::solver::contact::OperatingPoint;
 use crate::solver::full::{Problem, Solution, Start};
@@ -174,6 +174,7 @@ pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
         let there = along.results.as_ref().is_some_and(|r| !r.steps.is_empty());
         let button = ui.add_enabled(there, egui::Button::new("Export CSV…"));
         export_now = button.on_hover_text("Every contact with both films, estimate and true error").clicked();
+        progress(ui, along.task());
     });
     if let Some(message) = &along.message {
         message_ui(ui, message);
@@ -186,7 +187,7 @@ pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
     if stale {
         stale_note(ui, &results.in_use);
     }
-    ui.weak(summary(results));
+    ui.label(rich(&summary(results), 13.5, Palette::of(ui).quiet));
     super::estimate_note(ui);
     film_plot(ui, results, stale, 0.4 * ui.available_height());
     error_plot(ui, results, stale, (ui.available_height() - 4.0).max(110.0));
@@ -204,7 +205,7 @@ fn summary(results: &Results) -> String {
     let excluded = steps.iter().filter(|s| s.point.is_none()).count();
     let worst = steps.iter().filter_map(Step::error).fold(0.0, f64::max);
     let mut text = format!(
-        "{} of {} contacts through {}, {failures} failures, largest error of H_c {}",
+        "{} of {} contacts through {}, {failures} failures, largest error of {{H_c}} {}",
         steps.len(),
         plan.points,
         plan.through.name(),

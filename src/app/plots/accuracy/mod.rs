@@ -134,7 +134,7 @@ fn count(ui: &mut Ui, name: &str, tip: &str, value: &mut usize, range: std::ops:
     named(ui, response, name).on_hover_text(tip);
 }
 
-/// Run, or how far the run is and Stop. Returns whether a run is wanted.
+/// Run, or Stop while it runs. Returns whether a run is wanted.
 fn run_or_stop(ui: &mut Ui, run: &str, tip: &str, task: Option<&dyn Running>) -> bool {
     let Some(task) = task else {
         return ui.button(run).on_hover_text(tip).clicked();
@@ -142,11 +142,15 @@ fn run_or_stop(ui: &mut Ui, run: &str, tip: &str, task: Option<&dyn Running>) ->
     if ui.button("Stop").on_hover_text("What has been found so far stays (Esc)").clicked() {
         task.stop();
     }
-    let standing = task.standing();
+    false
+}
+
+/// How far a run is and how long the rest takes; last in its row, so that nothing else moves with it.
+fn progress(ui: &mut Ui, task: Option<&dyn Running>) {
+    let Some(standing) = task.map(Running::standing) else { return };
     let fraction = if standing.total > 0 { standing.done as f32 / standing.total as f32 } else { 0.0 };
     ui.add(ProgressBar::new(fraction).desired_width(90.0).desired_height(8.0));
     ui.weak(standing.describe()).on_hover_text(standing.stage);
-    false
 }
 
 /// The row over both views of the random tests. Returns whether the table is wanted as a file.
@@ -168,6 +172,7 @@ fn tests_toolbar(ui: &mut Ui, ctx: &Context, tests: &mut RandomTests, in_use: &I
         let there = tests.results.as_ref().is_some_and(|r| !r.tests.is_empty());
         let button = ui.add_enabled(there, egui::Button::new("Export CSV…"));
         export = button.on_hover_text("Every test with its contact, films, estimate and true errors").clicked();
+        progress(ui, tests.task());
     });
     if let Some(message) = &tests.message {
         message_ui(ui, message);

@@ -19,6 +19,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// Decades that the bars show at most: what is smaller than the rest by more does not matter.
 const DECADES: f64 = 7.0;
+/// Width that a label of the logarithmic axis needs.
+const LABEL: f32 = 66.0;
 /// Width of the rows' names beside the bars.
 const NAMES: f32 = 152.0;
 
@@ -231,6 +233,7 @@ fn bar_plot(ui: &mut Ui, (symbol, name): (&str, &str), values: &[f64; 6], look: 
     let &Look { range: (low, end), height, rows, current } = look;
     let palette = Palette::of(ui);
     let title = format!("Relative error of {symbol}");
+    let marks = f64::from((ui.available_width() - if rows { NAMES } else { 0.0 }) / LABEL).max(2.0);
     let at = |row: usize| -(row as f64);
     let color = |row: usize| match row {
         _ if !current => palette.reference,
@@ -248,7 +251,7 @@ fn bar_plot(ui: &mut Ui, (symbol, name): (&str, &str), values: &[f64; 6], look: 
         .allow_double_click_reset(false)
         .show_x(false)
         .show_y(false)
-        .x_grid_spacer(axes::decade_marks)
+        .x_grid_spacer(move |input| axes::few_decade_marks(input, marks))
         .x_axis_formatter(|mark, _| axes::decade_label(mark))
         .y_grid_spacer(|_| (0..ROWS.len()).map(|k| GridMark { value: -(k as f64), step_size: 1.0 }).collect())
         .y_axis_formatter(move |mark, _| if rows { row_name(mark.value) } else { String::new() })
