@@ -102,6 +102,18 @@ fn the_reduced_model_of_table_3_1_follows_the_trajectory() {
 }
 
 #[test]
+fn the_error_at_the_first_look_comes_from_the_grid() {
+    assert_passes("error_split_first_look");
+    let outcome = run("error_split_first_look");
+    let value = |name: &str| outcome.value(name, None).unwrap();
+    for film in ["H_c", "H_min"] {
+        let part = |name: &str| value(&format!("{film}.{name}"));
+        let sum = part("basis") + part("projection") + part("sampling") + part("discretisation");
+        assert!((part("whole") - sum).abs() < 1e-15 && part("discretisation").abs() > 3.0 * part("reduction").abs());
+    }
+}
+
+#[test]
 fn a_model_file_that_is_missing_is_named() {
     let mut scene = Scene::at_moes(40.0, 10.0);
     scene.study =

@@ -116,6 +116,16 @@ impl Document {
         self.accept(point)
     }
 
+    /// Goes to another contact of another fluid.
+    ///
+    /// # Errors
+    /// A sentence when it would be refused; the document is unchanged then.
+    pub fn set_contact(&mut self, point: OperatingPoint, lubricant: Lubricant) -> Result<(), String> {
+        Problem::new(&point, lubricant).map_err(|e| e.to_string())?;
+        (self.point, self.lubricant) = (point, lubricant);
+        Ok(())
+    }
+
     /// Changes the laws.
     ///
     /// # Errors

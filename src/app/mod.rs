@@ -7,6 +7,7 @@ mod controls;
 mod document;
 mod export;
 mod files;
+mod in_use;
 mod jobs;
 mod model_source;
 mod numbers;
@@ -15,6 +16,7 @@ mod picture;
 mod plots;
 mod session;
 mod state;
+mod task;
 mod theme;
 mod training;
 
@@ -188,6 +190,7 @@ impl Explorer {
             Command::Cancel => {
                 state.jobs.cancel_all();
                 state.training.stop();
+                state.accuracy.stop();
             }
             Command::Keyboard => self.help.keyboard = true,
             Command::About => self.help.about = true,
@@ -251,6 +254,11 @@ impl Explorer {
     /// Title of the reduced model in use.
     pub fn model_title(&self) -> Option<&str> {
         self.state.model.as_ref().map(|model| model.title.as_str())
+    }
+
+    /// Whether a study of the Accuracy tab runs.
+    pub fn studying(&self) -> bool {
+        self.state.accuracy.standing().is_some()
     }
 
     /// Seconds that the last frame took to build.

@@ -21,6 +21,7 @@ mod report;
 mod run;
 mod sampling;
 mod series;
+mod split_study;
 mod statistics;
 pub mod table;
 pub mod training_file;
@@ -33,7 +34,7 @@ pub use outcome::{NamedValue, SceneOutcome, Verdict};
 pub use report::{GridReport, HertzReport, MoesReport, PointReport, ReducedReport, SiReport, profile_table};
 pub use run::run_scene;
 pub use sampling::{Random, random_points};
-pub use statistics::{median, percentile};
+pub use statistics::{median, percentile, rank_correlation};
 pub use table::Table;
 pub use workbench::{Answer, ReducedFacts, Request, Workbench};
 

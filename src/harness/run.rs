@@ -4,7 +4,7 @@ use super::error::HarnessError;
 use super::outcome::SceneOutcome;
 use super::report::{PointReport, profile_table};
 use super::workbench::{Answer, Request, Workbench};
-use super::{formula_comparison, grid_study, random_test, series, training_study};
+use super::{formula_comparison, grid_study, random_test, series, split_study, training_study};
 use crate::scene::{Method, Scene, Study};
 use crate::solver::training::{Progress, TrainingObserver};
 use std::time::Instant;
@@ -31,6 +31,9 @@ pub fn run_scene(
         Study::RandomTest { range, tests, seed, method, compare } => {
             let test = random_test::RandomTest { range, tests: *tests, seed: *seed, method, compare: *compare };
             random_test::run(scene, &test, workbench, observer, &mut outcome)?;
+        }
+        Study::ErrorSplit { contacts, method } => {
+            split_study::run(scene, contacts, method, workbench, observer, &mut outcome)?;
         }
         Study::GridStudy { dx } => grid_study::run(scene, dx, workbench, observer, &mut outcome)?,
         Study::Training(spec) => training_study::run(spec, observer, &mut outcome)?,

@@ -1,6 +1,8 @@
 //! The door: every number of a scene is finite and sane before anything is computed from it.
 
-use super::{Axis, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, View, Within};
+use super::{
+    Axis, Contacts, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, View, Within,
+};
 use crate::solver::training::{Plan, Range, TrainingSpec};
 
 /// Most points of a sweep, a trajectory or a formula comparison.
@@ -92,6 +94,18 @@ fn study(scene: &Scene) -> Checked {
             count("study.tests", *tests, 1, MAX_TESTS)?;
             count("study.compare", *compare, 0, *tests)?;
             test_range(range)
+        }
+        Study::ErrorSplit { contacts, method } => {
+            if method.model().is_none() {
+                return Err(refuse("study.method", "must be Reduced(…): a full solution has no such parts"));
+            }
+            match contacts {
+                Contacts::Here => Ok(()),
+                Contacts::Trajectory { range, points } => {
+                    count("study.contacts.points", *points, 2, MAX_POINTS)?;
+                    quantity_box("study.contacts.range", range)
+                }
+            }
         }
         Study::GridStudy { dx } => {
             count("study.dx (how many)", dx.len(), 3, 12)?;
@@ -258,6 +272,8 @@ mod tests {
         let range = QuantityBox { load: (2.0, f64::NAN), ..QuantityBox::TABLE_3_1 };
         let study = Study::Trajectory { range, points: 10, methods: vec![Method::Full] };
         assert!(message(Scene { study, ..good.clone() }).contains("study.range.load.1"));
+        let study = Study::ErrorSplit { contacts: Contacts::Here, method: Method::Full };
+        assert!(message(Scene { study, ..good.clone() }).contains("study.method"));
         let study = Study::GridStudy { dx: vec![0.02, 0.01, 0.004] };
         assert!(message(Scene { study, ..good }).contains("constant factor"));
     }

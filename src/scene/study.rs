@@ -45,6 +45,13 @@ pub enum Study {
         #[serde(default)]
         compare: usize,
     },
+    /// Where a reduced model's error comes from: its basis, Galerkin's projection, the sampling of rows, or the grid.
+    ErrorSplit {
+        /// Where it is split.
+        contacts: Contacts,
+        /// The reduced model.
+        method: Method,
+    },
     /// The contact on ever finer uniform grids over the scene's domain: observed order and extrapolated value.
     GridStudy {
         /// Spacings ΔX, falling by one constant factor; at least three.
@@ -60,6 +67,21 @@ pub enum Study {
         m: Vec<f64>,
         /// Lubricant numbers.
         l: Vec<f64>,
+    },
+}
+
+/// Which contacts a study looks at.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Contacts {
+    /// The scene's own operating point.
+    Here,
+    /// The test trajectory (3.21) through a box, 0 ≤ c ≤ 2.
+    Trajectory {
+        /// The box.
+        range: QuantityBox,
+        /// Equidistant values of c, both ends counted.
+        points: usize,
     },
 }
 
@@ -184,7 +206,7 @@ impl Study {
     pub fn methods(&self) -> &[Method] {
         match self {
             Self::Point { methods } | Self::Sweep { methods, .. } | Self::Trajectory { methods, .. } => methods,
-            Self::RandomTest { method, .. } => std::slice::from_ref(method),
+            Self::RandomTest { method, .. } | Self::ErrorSplit { method, .. } => std::slice::from_ref(method),
             Self::GridStudy { .. } | Self::Training(_) | Self::FormulaComparison { .. } => &[],
         }
     }

@@ -7,6 +7,8 @@
 //! Node arrays everywhere in the solver have one extra leading node: index 0 lies outside the inlet (the upwind stencil of the first
 //! unknown reaches it), index 1 is the inlet, the last index the outlet. P vanishes at all three.
 
+mod refined;
+
 use super::contact::Moes;
 use super::elasticity::Flexibility;
 use super::reynolds::RowGeometry;
@@ -104,11 +106,7 @@ impl GridSpec {
                 graded_nodes(nodes, from, to)
             }
         };
-        let flexibility = match self {
-            Self::Uniform { .. } => Flexibility::uniform(xi[1] - xi[0], xi.len()),
-            Self::Graded { .. } => Flexibility::graded(&xi),
-        };
-        Ok(Arc::new(ReferenceGrid { spec: *self, weights: node_weights(&xi), xi, flexibility }))
+        Ok(Arc::new(ReferenceGrid::of_nodes(*self, xi)))
     }
 }
 
@@ -141,6 +139,15 @@ pub struct LineGrid {
 }
 
 impl ReferenceGrid {
+    /// Weights and kernel for given abscissae, the outside node among them.
+    fn of_nodes(spec: GridSpec, xi: Vec<f64>) -> Self {
+        let flexibility = match spec {
+            GridSpec::Uniform { .. } => Flexibility::uniform(xi[1] - xi[0], xi.len()),
+            GridSpec::Graded { .. } => Flexibility::graded(&xi),
+        };
+        Self { spec, weights: node_weights(&xi), xi, flexibility }
+    }
+
     /// The grid for a contact: registered by its Moes numbers where the specification says so.
     pub fn for_contact(self: &Arc<Self>, moes: Moes) -> LineGrid {
         let scale = match self.spec {
@@ -234,14 +241,16 @@ fn wanted_spacing(xi: f64) -> f64 {
     base + 0.028 * inlet * inlet / (inlet + 0.5) + 0.03 * outlet
 }
 
+/// ∫ dξ/spacing by Simpson's rule: how many nodes, up to a factor, belong between a and b.
+fn count(a: f64, b: f64) -> f64 {
+    let middle = 0.5 * (a + b);
+    (b - a) / 6.0 * (1.0 / wanted_spacing(a) + 4.0 / wanted_spacing(middle) + 1.0 / wanted_spacing(b))
+}
+
 /// `nodes` abscissae (and the outside one) that equidistribute 1/spacing, with one node exactly at ξ = 1 where registration puts the spike:
 /// grids of equal resolution then share their nodes in the contact, whatever their inlets. The ends move by half a cell at most.
 fn graded_nodes(nodes: usize, from: f64, to: f64) -> Vec<f64> {
-    // ∫ dξ/spacing by Simpson's rule on fine samples; all later steps are exact to rounding.
-    let count = |a: f64, b: f64| {
-        let middle = 0.5 * (a + b);
-        (b - a) / 6.0 * (1.0 / wanted_spacing(a) + 4.0 / wanted_spacing(middle) + 1.0 / wanted_spacing(b))
-    };
+    // Fine samples for the total; all later steps are exact to rounding.
     let samples = 40 * nodes;
     let step = (to - from) / samples as f64;
     let at = |i: usize| from + i as f64 * step;

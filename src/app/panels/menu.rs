@@ -42,8 +42,8 @@ pub fn ui(ui: &mut Ui, state: &mut State, chosen: &mut Vec<Command>) {
         });
         ui.menu_button("Run", |ui| {
             item(ui, Command::Verify, true, chosen);
-            let runs = !state.jobs.running().is_empty() || state.training.job().is_some();
-            item(ui, Command::Cancel, runs, chosen);
+            let background = state.training.job().is_some() || state.accuracy.standing().is_some();
+            item(ui, Command::Cancel, background || !state.jobs.running().is_empty(), chosen);
         });
         ui.menu_button("Help", |ui| {
             item(ui, Command::Keyboard, true, chosen);

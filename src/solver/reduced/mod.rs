@@ -5,6 +5,9 @@
 
 mod calibration;
 mod cubature;
+mod error_split;
+#[cfg(test)]
+mod error_split_tests;
 mod model;
 mod online;
 mod operators;
@@ -14,6 +17,7 @@ mod start;
 
 pub use calibration::{Calibration, ErrorEstimate, Estimated, Evidence, Features, LEAST_EVIDENCE};
 pub use cubature::{GoalEquations, cubature};
+pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
 pub use model::{Domain, ReducedModel, Snapshot, Trust, Window, deformation_weights, distance, flex};
 pub(crate) use online::interpolation_at_zero;
 pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution};
