@@ -15,7 +15,7 @@
 //! **Best approximation**: the state (P, H₀) projected onto the trial space, in the weighted product under which the basis is orthonormal,
 //! among pressures that carry the load, as every reduced solution does. No reduced solution is nearer to P in that norm.
 //!
-//! **Discretisation**: full solutions on the model's grid and on the next finer one ([`ReferenceGrid::refined`]), and Richardson's
+//! **Discretisation**: full solutions on the model's grid and on the next finer one (`ReferenceGrid::refined`), and Richardson's
 //! extrapolation with order two, which the scheme has (H_c on uniform grids: 1.98–1.99). The ends of the domain are the model's own; what a
 //! longer inlet would change is not part of it. The smallest *nodal* film has an error that jumps with the node it falls on, so the parabola
 //! through it and its neighbours is extrapolated and the nodal value held against that. Against three grids finer
