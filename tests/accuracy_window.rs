@@ -153,14 +153,14 @@ fn a_click_on_the_map_goes_to_the_test_there() {
 }
 
 #[test]
-fn the_estimate_is_held_against_the_truth() {
-    let mut harness = open("Estimate against truth");
+fn the_bound_is_held_against_the_truth() {
+    let mut harness = open("Bound against truth");
     assert!(shows(&harness, "Run tests with some of them compared"));
     run_tests(&mut harness, 200.0, 20.0);
-    for name in ["Compared: 20", "Rank correlation: ", "Estimate not below the truth: ", "Median effectivity: "] {
+    for name in ["Compared: 20", "Rank correlation: ", "Bound holds: ", "Median effectivity: "] {
         assert!(shows(&harness, name), "{name}");
     }
-    harness.get_by_label("Estimated against true error");
+    harness.get_by_label("Bound against true error");
 }
 
 #[test]
@@ -215,7 +215,7 @@ fn residuals_are_still_there_and_without_a_model_there_is_a_sentence() {
     let mut harness =
         Harness::builder().with_size([1280.0, 800.0]).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer);
     harness.run_steps(2);
-    for view in ["Where the error comes from", "Failure map", "Estimate against truth", "Along the trajectory"] {
+    for view in ["Where the error comes from", "Failure map", "Bound against truth", "Along the trajectory"] {
         click(&mut harness, "Accuracy");
         click(&mut harness, view);
         assert!(shows(&harness, "nothing to judge"), "{view}");

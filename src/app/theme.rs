@@ -232,7 +232,6 @@ mod tests {
             include_str!("task.rs"),
             include_str!("plots/accuracy/mod.rs"),
             include_str!("plots/accuracy/along.rs"),
-            include_str!("plots/accuracy/bound.rs"),
             include_str!("plots/accuracy/failure_map.rs"),
             include_str!("plots/accuracy/random_tests.rs"),
             include_str!("plots/accuracy/residuals.rs"),

@@ -29,6 +29,7 @@ fn model(sampling: Sampling) -> Arc<ReducedModel> {
         deformation_loss: 1e-7,
         sampling,
         rows_per_mode: 2.0,
+        evidence: 0,
         seed: 1,
     };
     Arc::new(train(&spec, &()).unwrap())

@@ -1,6 +1,5 @@
 //! The reduced model along the test trajectory (3.21), and its error against full solutions.
 
-use super::bound::bound_of;
 use super::random_tests::trained_range;
 use super::{Running, count, progress, run_or_stop, stale_note};
 use crate::app::controls::{message_ui, named};
@@ -53,7 +52,7 @@ struct Step {
     point: Option<OperatingPoint>,
     trained: bool,
     reduced: Option<f64>,
-    estimate: Option<f64>,
+    bound: Option<f64>,
     full: Option<f64>,
 }
 
@@ -131,13 +130,13 @@ fn work(in_use: &InUse, plan: Plan, reporter: &Reporter<Step>) -> Ending {
     let mut former: Option<Solution> = None;
     for i in 0..plan.points {
         let c = 2.0 * i as f64 / (plan.points - 1) as f64;
-        let mut step = Step { c, point: contact(&range, c), trained: false, reduced: None, estimate: None, full: None };
+        let mut step = Step { c, point: contact(&range, c), trained: false, reduced: None, bound: None, full: None };
         if let Some(point) = &step.point {
             let problem = Problem::new(point, lubricant).map_err(|error| error.to_string())?;
             step.trained = in_use.model.trust(&problem) == Trust::Trained;
             if let Ok((solution, scalars)) = solvers.reduced(point, lubricant) {
                 step.reduced = Some(scalars.h_c);
-                step.estimate = bound_of(&solution);
+                step.bound = solution.error.map(|e| e.h_c.bound);
             }
             let start = former.as_ref().map_or(Start::Cold, Start::From);
             let full = solvers.full(point, lubricant, start, &mut reporter.observer());
@@ -173,7 +172,7 @@ pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
         }
         let there = along.results.as_ref().is_some_and(|r| !r.steps.is_empty());
         let button = ui.add_enabled(there, egui::Button::new("Export CSV…"));
-        export_now = button.on_hover_text("Every contact with both films, estimate and true error").clicked();
+        export_now = button.on_hover_text("Every contact with both films, bound and true error").clicked();
         progress(ui, along.task());
     });
     if let Some(message) = &along.message {
@@ -188,7 +187,7 @@ pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
         stale_note(ui, &results.in_use);
     }
     ui.label(rich(&summary(results), 13.5, Palette::of(ui).quiet));
-    super::estimate_note(ui);
+    super::bound_note(ui, results.steps.iter().map(|s| s.bound));
     film_plot(ui, results, stale, 0.4 * ui.available_height());
     error_plot(ui, results, stale, (ui.available_height() - 4.0).max(110.0));
     if export_now {
@@ -270,8 +269,8 @@ fn error_plot(ui: &mut Ui, results: &Results, stale: bool, height: f32) {
         .show(ui, |plot| {
             let truth = pieces(&results.steps, |s| log(s.error()));
             draw(plot, "True error", truth, (grey(palette.film), 1.8, LineStyle::Solid));
-            let estimate = pieces(&results.steps, |s| log(s.estimate));
-            draw(plot, "Estimate", estimate, (grey(palette.accent), 1.2, LineStyle::dashed_dense()));
+            let bound = pieces(&results.steps, |s| log(s.bound));
+            draw(plot, "Bound", bound, (grey(palette.accent), 1.2, LineStyle::dashed_dense()));
             let failed = results.steps.iter().filter(|s| s.point.is_some() && s.reduced.is_none());
             for (k, step) in failed.enumerate() {
                 plot.vline(VLine::new("failed", step.c).color(grey(palette.wrong)).width(1.0).id(("failed", k)));
@@ -298,7 +297,7 @@ fn csv(results: &Results) -> String {
         "trained",
         "H_c",
         "H_c_full",
-        "estimate",
+        "H_c_error_bound",
         "H_c_error",
     ];
     let rows = results.steps.iter().map(|step| {
@@ -311,7 +310,7 @@ fn csv(results: &Results) -> String {
             }
             None => row.extend([None; 8]),
         }
-        row.extend([Some(f64::from(u8::from(step.trained))), step.reduced, step.full, step.estimate, step.error()]);
+        row.extend([Some(f64::from(u8::from(step.trained))), step.reduced, step.full, step.bound, step.error()]);
         row
     });
     export::csv(&comments, &header, rows)
@@ -328,7 +327,7 @@ mod tests {
         for c in [0.0, 0.37, 1.9] {
             assert_eq!(contact(&range, c), Some(QuantityBox::TABLE_3_1.trajectory(c)));
         }
-        let step = |c, reduced| Step { c, point: None, trained: true, reduced, estimate: None, full: None };
+        let step = |c, reduced| Step { c, point: None, trained: true, reduced, bound: None, full: None };
         let steps =
             [step(0.0, Some(1.0)), step(0.1, None), step(0.2, None), step(0.3, Some(2.0)), step(0.4, Some(3.0))];
         assert_eq!(pieces(&steps, |s| s.reduced), [vec![[0.0, 1.0]], vec![[0.3, 2.0], [0.4, 3.0]]]);

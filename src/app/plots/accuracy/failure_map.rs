@@ -24,9 +24,9 @@ const CLASSES: usize = 7;
 /// By what a test is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum By {
-    /// The estimated error of H_c.
+    /// The calibrated bound on the error of H_c.
     #[default]
-    Estimate,
+    Bound,
     /// Its true error, where a full solution was compared.
     Truth,
 }
@@ -35,7 +35,7 @@ impl By {
     /// The error it looks at.
     pub fn of(self, test: &Test) -> Option<f64> {
         match self {
-            Self::Estimate => test.estimate(),
+            Self::Bound => test.bound(),
             Self::Truth => test.true_error(),
         }
     }
@@ -111,14 +111,15 @@ pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
     let map = &mut state.accuracy.map;
     ui.horizontal_wrapped(|ui| {
         ui.label("Judged by").on_hover_text("Colours the map and sorts the list");
-        ui.selectable_value(&mut map.by, By::Estimate, "error estimate");
+        let bound = rich("bound on the error of {H_c}", 13.5, ui.visuals().text_color());
+        ui.selectable_value(&mut map.by, By::Bound, bound);
         let truth = rich("true error of {H_c}", 13.5, ui.visuals().text_color());
         ui.selectable_value(&mut map.by, By::Truth, truth)
             .on_hover_text("Only tests that were compared with full solutions have a colour");
         ui.weak(summary(results));
     });
-    if map.by == By::Estimate {
-        super::estimate_note(ui);
+    if map.by == By::Bound {
+        super::bound_note(ui, results.tests.iter().map(|t| t.bound()));
     }
     if map.drawn.as_ref().is_none_or(|d| d.of != stamp(results, map.by)) {
         map.drawn = Some(Drawn::new(results, map.by));
@@ -214,10 +215,10 @@ fn label(results: &Results, place: PlotPoint) -> Option<String> {
     let test = results.tests.iter().find(|test| at(test.point.moes()) == place)?;
     let error = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), numbers::error_percent);
     Some(format!(
-        "{}, α {}/GPa\nestimate {}, true error of H_c {}\nclick to go there",
+        "{}, α {}/GPa\nerror of H_c within {}, truly {}\nclick to go there",
         numbers::moes(test.point.moes()),
         numbers::digits(test.point.alpha_per_pa * 1e9, 3),
-        error(test.estimate()),
+        error(test.bound()),
         error(test.true_error())
     ))
 }
@@ -242,7 +243,7 @@ pub fn csv(results: &Results) -> String {
         "newton_steps",
         "H_c",
         "H_min",
-        "estimate",
+        "H_c_error_bound",
         "H_c_error",
         "H_min_error",
     ];
@@ -259,7 +260,7 @@ pub fn csv(results: &Results) -> String {
             test.solved.map(|s| s.iterations as f64),
             test.solved.map(|s| s.h_c),
             test.solved.map(|s| s.h_min),
-            test.estimate(),
+            test.bound(),
             errors.map(|e| e.h_c),
             errors.map(|e| e.h_min),
         ]);

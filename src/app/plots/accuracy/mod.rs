@@ -1,8 +1,7 @@
-//! How far results can be believed: where the error of this contact comes from, how the model does over its whole range, what its error
-//! estimate is worth, and how the last full solve converged.
+//! How far results can be believed: where the error of this contact comes from, how the model does over its whole range, what its calibrated
+//! bound is worth, and how the last full solve converged.
 
 mod along;
-mod bound;
 mod failure_map;
 mod random_tests;
 mod residuals;
@@ -26,7 +25,7 @@ enum View {
     Split,
     /// Random tests in the M–L plane.
     FailureMap,
-    /// Estimated against true error.
+    /// Calibrated bound against true error.
     Truth,
     /// Errors along (3.21).
     Along,
@@ -41,7 +40,7 @@ impl View {
         match self {
             Self::Split => "Where the error comes from",
             Self::FailureMap => "Failure map",
-            Self::Truth => "Estimate against truth",
+            Self::Truth => "Bound against truth",
             Self::Along => "Along the trajectory",
             Self::Residuals => "Newton residuals",
         }
@@ -171,7 +170,7 @@ fn tests_toolbar(ui: &mut Ui, ctx: &Context, tests: &mut RandomTests, in_use: &I
         }
         let there = tests.results.as_ref().is_some_and(|r| !r.tests.is_empty());
         let button = ui.add_enabled(there, egui::Button::new("Export CSV…"));
-        export = button.on_hover_text("Every test with its contact, films, estimate and true errors").clicked();
+        export = button.on_hover_text("Every test with its contact, films, bound and true errors").clicked();
         progress(ui, tests.task());
     });
     if let Some(message) = &tests.message {
@@ -188,9 +187,10 @@ fn stale_note(ui: &mut Ui, of: &InUse) {
     warning_ui(ui, &format!("Found with {}; the model or its truncation has changed since", of.describe()));
 }
 
-/// What the estimate must be read with.
-fn estimate_note(ui: &mut Ui) {
-    if let Some(note) = bound::NOTE {
+/// Says why there are no bounds, where there are none.
+fn bound_note(ui: &mut Ui, mut bounds: impl Iterator<Item = Option<f64>>) {
+    if !bounds.any(|bound| bound.is_some()) {
+        let note = "No calibrated bounds: the model is truncated, or its training measured no errors";
         ui.label(rich(note, 11.0, Palette::of(ui).quiet));
     }
 }

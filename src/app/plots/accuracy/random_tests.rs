@@ -1,6 +1,5 @@
 //! Random tests (3.17) of the reduced model over what it was trained for: the work on its own thread, and what came of it.
 
-use super::bound::bound_of;
 use crate::app::in_use::{InUse, Solvers};
 use crate::app::task::{Ending, Reporter, Task};
 use crate::scene::{Scene, Study};
@@ -61,8 +60,8 @@ pub struct Solved {
     pub h_c: f64,
     /// Its H_min.
     pub h_min: f64,
-    /// The estimated relative error of H_c.
-    pub estimate: Option<f64>,
+    /// The calibrated bound on the relative error of H_c.
+    pub bound: Option<f64>,
     /// Newton steps.
     pub iterations: usize,
 }
@@ -87,9 +86,9 @@ impl Test {
         }
     }
 
-    /// The estimated error of H_c.
-    pub fn estimate(&self) -> Option<f64> {
-        self.solved.and_then(|s| s.estimate)
+    /// The calibrated bound on the error of H_c.
+    pub fn bound(&self) -> Option<f64> {
+        self.solved.and_then(|s| s.bound)
     }
 }
 
@@ -116,9 +115,9 @@ impl Results {
         self.tests.iter().filter(|t| t.solved.is_none()).count()
     }
 
-    /// Estimated and true error of H_c, where both are known.
+    /// Bound and true error of H_c, where both are known.
     pub fn pairs(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
-        self.tests.iter().filter_map(|t| Some((t.estimate()?, t.true_error()?)))
+        self.tests.iter().filter_map(|t| Some((t.bound()?, t.true_error()?)))
     }
 }
 
@@ -205,7 +204,7 @@ fn work(in_use: &InUse, plan: Plan, reporter: &Reporter<Message>) -> Ending {
         let solved = solvers.reduced(point, lubricant).ok().map(|(solution, scalars)| Solved {
             h_c: scalars.h_c,
             h_min: scalars.h_min,
-            estimate: bound_of(&solution),
+            bound: solution.error.map(|e| e.h_c.bound),
             iterations: solution.iterations,
         });
         films.push(solved);

@@ -1,4 +1,4 @@
-//! What the error estimate is worth: estimated against true error of H_c wherever both are known.
+//! What the calibrated bound is worth: bound against true error of H_c wherever both are known.
 
 use super::failure_map::{By, csv, stamp, summary};
 use super::random_tests::Results;
@@ -17,26 +17,26 @@ use egui_plot::{Corner, Legend, Line, LineStyle, MarkerShape, PlotPoint, PlotPoi
 /// Smaller errors are the full solver's own tolerance.
 const FLOOR: f64 = 1e-11;
 
-/// What a set of pairs (estimate, truth) says of the estimate.
+/// What a set of pairs (bound, truth) says of the bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Worth {
     /// Pairs.
     count: usize,
     /// Spearman's rank correlation.
     correlation: f64,
-    /// Share of pairs whose estimate is not below the truth.
+    /// Share of pairs whose bound is not below the truth.
     holds: f64,
-    /// Median of estimate over truth.
+    /// Median of bound over truth.
     effectivity: f64,
 }
 
 impl Worth {
     fn of(pairs: &[(f64, f64)]) -> Self {
-        let (estimates, truths): (Vec<f64>, Vec<f64>) = pairs.iter().copied().unzip();
+        let (bounds, truths): (Vec<f64>, Vec<f64>) = pairs.iter().copied().unzip();
         let effectivities: Vec<f64> = pairs.iter().map(|(e, t)| e / t.max(FLOOR)).collect();
         Self {
             count: pairs.len(),
-            correlation: rank_correlation(&estimates, &truths),
+            correlation: rank_correlation(&bounds, &truths),
             holds: pairs.iter().filter(|(e, t)| e >= t).count() as f64 / pairs.len() as f64,
             effectivity: median(&effectivities),
         }
@@ -47,11 +47,11 @@ impl Worth {
 pub struct Shown {
     of: (usize, usize, By),
     worth: Worth,
-    /// (log10 of the truth, log10 of the estimate) where the estimate is not below the truth.
+    /// (log10 of the truth, log10 of the bound) where the bound holds.
     holds: Vec<PlotPoint>,
     /// The same where it is.
     fails: Vec<PlotPoint>,
-    /// Where the line of perfect estimates begins and ends.
+    /// Where the line of perfect bounds begins and ends.
     line: (f64, f64),
 }
 
@@ -63,8 +63,8 @@ impl Shown {
             return None;
         }
         let log = |v: f64| v.max(FLOOR).log10();
-        let place = |&(estimate, truth): &(f64, f64)| PlotPoint::new(log(truth), log(estimate));
-        let (holds, fails): (Vec<_>, Vec<_>) = pairs.iter().partition(|(estimate, truth)| estimate >= truth);
+        let place = |&(bound, truth): &(f64, f64)| PlotPoint::new(log(truth), log(bound));
+        let (holds, fails): (Vec<_>, Vec<_>) = pairs.iter().partition(|(bound, truth)| bound >= truth);
         let truths = pairs.iter().map(|pair| log(pair.1));
         let (low, high) = truths.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
         Some(Self {
@@ -82,11 +82,11 @@ pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
     let ctx = ui.ctx().clone();
     let export_now = tests_toolbar(ui, &ctx, &mut state.accuracy.tests, in_use);
     let Some(results) = &state.accuracy.tests.results else {
-        super::nothing_yet(ui, "Run tests with some of them compared in full to see what the estimate is worth");
+        super::nothing_yet(ui, "Run tests with some of them compared in full to see what the bound is worth");
         return;
     };
     ui.weak(summary(results));
-    super::estimate_note(ui);
+    super::bound_note(ui, results.tests.iter().map(|t| t.bound()));
     let shown = &mut state.accuracy.truth;
     if shown.as_ref().is_none_or(|s| s.of != stamp(results, By::Truth)) {
         *shown = Shown::new(results);
@@ -106,21 +106,21 @@ pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
 
 fn worth_ui(ui: &mut Ui, worth: &Worth) {
     let cells = [
-        ("Compared", worth.count.to_string(), "Tests with an estimate and a true error"),
+        ("Compared", worth.count.to_string(), "Tests with a bound and a true error"),
         (
             "Rank correlation",
             numbers::digits(worth.correlation, 3),
-            "Spearman’s: 1 when the estimate orders all errors rightly",
+            "Spearman’s: 1 when the bound orders all errors rightly",
         ),
         (
-            "Estimate not below the truth",
+            "Bound holds",
             format!("{}{}%", numbers::digits(100.0 * worth.holds, 3), numbers::THIN),
-            "Share of tests in which the estimate holds as a bound",
+            "Share of tests whose true error is not larger; the promise is 99 %",
         ),
         (
             "Median effectivity",
             numbers::digits(worth.effectivity, 3),
-            "Estimate over true error: 1 is perfect, below 1 it promises too much",
+            "Bound over true error: 1 would be perfect, below 10 it is worth something",
         ),
     ];
     Grid::new("worth").num_columns(cells.len()).spacing([22.0, 2.0]).show(ui, |ui| {
@@ -141,7 +141,7 @@ fn scatter(ui: &mut Ui, shown: &Shown, stale: bool) {
     let grey = |color| if stale { palette.reference } else { color };
     let (low, high) = shown.line;
     let height = (ui.available_height() - 4.0).max(150.0);
-    let response = axes::plot(ui, "truth", height, "True relative error of {H_c}", "Estimated error of {H_c}")
+    let response = axes::plot(ui, "truth", height, "True relative error of {H_c}", "Bound on the error of {H_c}")
         .legend(Legend::default().position(Corner::LeftTop).follow_insertion_order(true).background_alpha(0.6))
         .x_grid_spacer(axes::decade_marks)
         .x_axis_formatter(|mark, _| axes::decade_label(mark))
@@ -150,26 +150,26 @@ fn scatter(ui: &mut Ui, shown: &Shown, stale: bool) {
         .auto_bounds(Vec2b::TRUE)
         .label_formatter(|hover| match hover {
             egui_plot::HoverPosition::NearDataPoint { position, .. } => Some(format!(
-                "true error {}\nestimate {}",
+                "true error {}\nbound {}",
                 numbers::error_percent(10f64.powf(position.x)),
                 numbers::error_percent(10f64.powf(position.y))
             )),
             egui_plot::HoverPosition::Elsewhere { .. } => None,
         })
         .show(ui, |plot| {
-            // Perfect estimates, as far as there are truths.
-            let identity = Line::new("estimate = truth", vec![[low, low], [high, high]]).color(palette.reference);
+            // Perfect bounds, as far as there are truths.
+            let identity = Line::new("bound = truth", vec![[low, low], [high, high]]).color(palette.reference);
             plot.line(identity.width(1.2).style(LineStyle::dashed_dense()).allow_hover(false));
             let series = [
-                ("not below the truth", &shown.holds, palette.film, MarkerShape::Circle),
-                ("below the truth", &shown.fails, palette.warning, MarkerShape::Down),
+                ("holds", &shown.holds, palette.film, MarkerShape::Circle),
+                ("does not hold", &shown.fails, palette.warning, MarkerShape::Down),
             ];
             for (name, points, color, shape) in series.into_iter().filter(|s| !s.1.is_empty()) {
                 let points = Points::new(name, PlotPoints::Borrowed(points));
                 plot.points(points.color(grey(color)).radius(2.8).shape(shape));
             }
         });
-    named(ui, response.response, "Estimated against true error");
+    named(ui, response.response, "Bound against true error");
 }
 
 #[cfg(test)]
@@ -177,7 +177,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_worth_of_an_estimate_twice_too_large_and_once_too_small() {
+    fn the_worth_of_a_bound_twice_too_large_and_once_too_small() {
         let mut pairs: Vec<(f64, f64)> = (1..=9).map(|k| (2e-6 * f64::from(k), 1e-6 * f64::from(k))).collect();
         let worth = Worth::of(&pairs);
         assert!(

@@ -43,7 +43,7 @@ pub fn ui(ui: &mut Ui, worst: &Worst, results: &Results) -> Option<OperatingPoin
     ui.strong("Worst cases").on_hover_text("Failures first. A click on M and L goes there");
     ScrollArea::vertical().id_salt("worst").auto_shrink(false).show(ui, |ui| {
         Grid::new("worst").num_columns(4).spacing([10.0, 3.0]).striped(true).show(ui, |ui| {
-            for title in ["", "{M}, {L}", "Estimate", "True Δ{H_c}"] {
+            for title in ["", "{M}, {L}", "Bound", "True Δ{H_c}"] {
                 ui.label(rich(title, 12.0, palette.quiet));
             }
             ui.end_row();
@@ -62,7 +62,7 @@ pub fn ui(ui: &mut Ui, worst: &Worst, results: &Results) -> Option<OperatingPoin
                 }
                 let error = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), numbers::error_percent);
                 if test.solved.is_some() {
-                    ui.label(error(test.estimate()));
+                    ui.label(error(test.bound()));
                     ui.label(error(test.true_error()));
                 } else {
                     ui.colored_label(palette.wrong, "failed");
