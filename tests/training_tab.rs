@@ -78,6 +78,7 @@ fn a_small_training_is_watched_used_compared_and_saved() {
     wait(&mut harness, "the comparison", |app| !app.training());
     assert!(harness.query_by_label_contains("Compared with the model before").is_some());
     assert!(harness.query_by_label("Online median").is_some());
+    assert!(harness.query_by_label("12 pre-computed").is_some(), "the chart stays");
     click(&mut harness, "Use this model");
     assert_eq!(harness.state().model_title(), Some("Small box"));
     wait(&mut harness, "verification", |app| app.badge() == "Verified");
