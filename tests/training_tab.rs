@@ -108,6 +108,19 @@ fn a_stopped_training_is_kept_used_and_resumed_after_a_crash() {
     wait(&mut harness, "the first file", |_| kept.exists());
     assert!(harness.query_by_label("Progress of the training").is_some());
     assert!(harness.query_by_label("Start training").is_none());
+    // The picture is dragged meanwhile, and follows within the frame.
+    let mut times: Vec<f64> = (0..40)
+        .map(|k| {
+            harness.get_by_label("Load number M").set_value_accesskit(20.0 * 1.02f64.powi(k));
+            harness.step();
+            assert!(harness.state().training() && harness.state().central_film().is_some());
+            harness.state().frame_s()
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    println!("dragging beside a training: median {:.2} ms, worst {:.2} ms", 1e3 * times[20], 1e3 * times[39]);
+    let bar = if cfg!(debug_assertions) { 0.5 } else { 0.012 };
+    assert!(times[20] < bar, "a frame takes {} s", times[20]);
     click(&mut harness, "Stop");
     wait(&mut harness, "the model of what there is", |app| !app.training());
     assert!(harness.query_by_label_contains("Stopped at").is_some());
