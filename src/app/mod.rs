@@ -166,10 +166,12 @@ impl Explorer {
             Command::Undo => {
                 state.history.undo(&mut state.document);
                 state.entries.clear();
+                state.training.refused = None;
             }
             Command::Redo => {
                 state.history.redo(&mut state.document);
                 state.entries.clear();
+                state.training.refused = None;
             }
             Command::CopyReadouts => ctx.copy_text(export::readouts_table(state)),
             Command::Pin => state.pin(),

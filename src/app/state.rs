@@ -414,6 +414,7 @@ impl State {
         self.history.restart(&document);
         self.document = document;
         self.entries = Entries::default();
+        self.training.refused = None;
     }
 }
 

@@ -246,6 +246,7 @@ mod tests {
             include_str!("plots/regime_chart.rs"),
             include_str!("plots/training/charts.rs"),
             include_str!("plots/training/comparison.rs"),
+            include_str!("plots/training/fields.rs"),
             include_str!("plots/training/form.rs"),
             include_str!("plots/training/mod.rs"),
             include_str!("training/mod.rs"),

@@ -116,11 +116,10 @@ impl Training {
     /// Takes the result of a job that has ended.
     fn receive(&mut self) {
         let Some(job) = &self.job else { return };
+        if job.trains {
+            self.chart = Arc::clone(&job.live().chart);
+        }
         let outcome = job.poll();
-        self.chart = match &outcome {
-            None => Arc::clone(&job.live().chart),
-            Some(_) => Arc::clone(&self.chart),
-        };
         let Some(outcome) = outcome else { return };
         let seconds = job.since.elapsed().as_secs_f64();
         self.job = None;

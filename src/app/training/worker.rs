@@ -116,6 +116,8 @@ fn most_solutions(spec: &TrainingSpec) -> usize {
 pub struct Job {
     /// What it is, for people.
     pub name: &'static str,
+    /// Whether it is a training.
+    pub trains: bool,
     /// When it began.
     pub since: Instant,
     live: Arc<Mutex<Live>>,
@@ -138,6 +140,7 @@ impl Job {
             }
             Task::Compare(..) => "Comparing two models",
         };
+        let trains = matches!(task, Task::Train(..));
         let live = Arc::new(Mutex::new(live));
         let (stop, abandon) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicBool::new(false)));
         let (sender, outcome) = channel();
@@ -160,7 +163,7 @@ impl Job {
             let _ = sender.send(outcome);
             ctx.request_repaint();
         });
-        Self { name, since: Instant::now(), live, stop, abandon, outcome }
+        Self { name, trains, since: Instant::now(), live, stop, abandon, outcome }
     }
 
     /// What came of it, once it has ended.

@@ -7,7 +7,7 @@ use crate::app::state::State;
 use crate::app::theme::{Palette, faded};
 use crate::solver::training::Plan;
 use egui::{RichText, Ui};
-use egui_plot::{GridMark, HLine, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points};
+use egui_plot::{GridInput, GridMark, HLine, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points};
 
 /// Width of the axes' numbers: both charts are as wide as each other.
 const AXIS_WIDTH: f32 = 44.0;
@@ -17,6 +17,14 @@ fn whole(marks: Vec<GridMark>) -> Vec<GridMark> {
     marks.into_iter().filter(|mark| mark.value.fract() == 0.0).collect()
 }
 
+/// Decades far enough apart for their labels.
+fn legible(input: GridInput, height: f32) -> Vec<GridMark> {
+    let (low, high) = input.bounds;
+    let stride = (34.0 * (high - low) / f64::from((height - 50.0).max(34.0))).ceil().max(1.0);
+    let kept = axes::decade_marks(input).into_iter().filter(|mark| mark.value % stride == 0.0);
+    kept.map(|mark| GridMark { step_size: stride, ..mark }).collect()
+}
+
 /// What the marks mean, above the charts: they leave no corner free.
 pub fn key(ui: &mut Ui, state: &State) {
     let palette = Palette::of(ui);
@@ -24,14 +32,14 @@ pub fn key(ui: &mut Ui, state: &State) {
     let searched = chart.solved.iter().filter(|dot| dot.searched).count();
     let failed = chart.bad.iter().filter(|bad| bad.indicator.is_none()).count();
     let entries = [
-        (palette.reference, "pre-computed", chart.solved.len() - searched),
-        (palette.accent, "found by the search", searched),
-        (palette.warning, "bad approximations", chart.bad.len() - failed),
-        (palette.wrong, "failed reduced solves", failed),
+        (palette.reference, "Pre-computed", chart.solved.len() - searched),
+        (palette.accent, "Found by the search", searched),
+        (palette.warning, "Bad approximations", chart.bad.len() - failed),
+        (palette.wrong, "Failed reduced solves", failed),
     ];
     ui.horizontal_wrapped(|ui| {
         for (color, name, count) in entries.into_iter().filter(|entry| entry.2 > 0) {
-            ui.label(RichText::new(format!("{count} {name}")).small().color(color));
+            ui.label(RichText::new(format!("{name} {count}")).small().color(color));
         }
     });
 }
@@ -83,7 +91,7 @@ pub fn plane(ui: &mut Ui, state: &State, height: f32) {
                 let crosses = dots("Reduced solve failed", failed, palette.wrong, 6.0).shape(MarkerShape::Cross);
                 plot.points(crosses.allow_hover(false));
             }
-            if let Some(last) = chart.solved.last().filter(|_| state.training.job().is_some()) {
+            if let Some(last) = chart.solved.last().filter(|_| state.training.job().is_some_and(|job| job.trains)) {
                 let ring = dots("", vec![last.at], palette.accent, 8.0).filled(false).id("newest");
                 plot.points(ring.shape(MarkerShape::Circle).allow_hover(false));
             }
@@ -113,7 +121,7 @@ pub fn indicator(ui: &mut Ui, state: &State, height: f32) {
     let response = axes::plot(ui, "training indicator", height, "Full solutions", "Indicator")
         .x_grid_spacer(|input| whole(axes::round_marks(input, 6.0)))
         .y_axis_min_width(AXIS_WIDTH)
-        .y_grid_spacer(axes::decade_marks)
+        .y_grid_spacer(move |input| legible(input, height))
         .y_axis_formatter(|mark, _| axes::decade_label(mark))
         .auto_bounds(egui::Vec2b::TRUE)
         .show(ui, |plot| {

@@ -40,20 +40,21 @@ pub fn ui(ui: &mut Ui, state: &State) {
         ("Error of {H_min}, 95 %", errors, |s| numbers::error_percent(s.h_min.p95)),
         ("Error of {H_min}, largest", errors, |s| numbers::error_percent(s.h_min.max)),
     ];
-    Grid::new("model comparison").num_columns(3).striped(true).spacing([18.0, 3.0]).show(ui, |ui| {
-        // Nothing here is clicked: lines may stand as close as text does.
-        ui.spacing_mut().interact_size.y = 15.0;
-        ui.weak("");
-        for (name, score) in ["Before", "New"].into_iter().zip(&comparison.scores) {
-            ui.strong(name).on_hover_text(&score.title);
-        }
-        ui.end_row();
-        for (name, tip, value) in rows {
-            ui.label(rich(name, 13.5, ui.visuals().text_color())).on_hover_text(tip);
-            for score in &comparison.scores {
-                ui.label(value(score));
+    Grid::new("model comparison").num_columns(3).min_row_height(16.0).striped(true).spacing([18.0, 3.0]).show(
+        ui,
+        |ui| {
+            ui.weak("");
+            for (name, score) in ["Before", "New"].into_iter().zip(&comparison.scores) {
+                ui.strong(name).on_hover_text(&score.title);
             }
             ui.end_row();
-        }
-    });
+            for (name, tip, value) in rows {
+                ui.label(rich(name, 13.5, ui.visuals().text_color())).on_hover_text(tip);
+                for score in &comparison.scores {
+                    ui.label(value(score));
+                }
+                ui.end_row();
+            }
+        },
+    );
 }

@@ -2,6 +2,7 @@
 
 mod charts;
 mod comparison;
+mod fields;
 mod form;
 
 use crate::app::controls::{message_ui, sentence, warning_ui};
@@ -148,7 +149,8 @@ fn running(ui: &mut Ui, job: &crate::app::training::Job) {
         Some(p) => (p.stage.as_str(), p.done as f32 / p.total.max(1) as f32, format!("{} of {}", p.done, p.total)),
         None => (job.name, 0.0, String::new()),
     };
-    ui.label(if job.stopping() { format!("Stopping. {stage}") } else { stage.to_owned() });
+    let stage = sentence(stage);
+    ui.label(if job.stopping() { format!("Stopping. {stage}") } else { stage });
     let width = ui.available_width().min(420.0);
     let bar = ui.add(ProgressBar::new(fraction).text(count).desired_width(width));
     crate::app::controls::named(ui, bar, "Progress of the training");
