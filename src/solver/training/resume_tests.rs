@@ -21,7 +21,7 @@ fn small(plan: Plan) -> TrainingSpec {
         },
         lubricant: Default::default(),
         plan,
-        windows: vec![WindowSpec { m: (5.0, 25.0), grid }, WindowSpec { m: (25.0, 200.0), grid }],
+        windows: Windows::Given(vec![WindowSpec { m: (5.0, 25.0), grid }, WindowSpec { m: (25.0, 200.0), grid }]),
         pressure_loss: 1e-7,
         deformation_loss: 1e-6,
         sampling: Sampling::QDeim,

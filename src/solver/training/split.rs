@@ -1,0 +1,123 @@
+//! Splitting a window of M that needs more pressure modes than it may have. Both halves inherit its full solutions: they share one grid.
+
+use super::TrainingError;
+use super::build::on_one_thread;
+use super::state::{OVERLAP, Solved, TrainingState, WindowState};
+use crate::solver::grid::ReferenceGrid;
+use crate::solver::reduced::PodBasis;
+use faer::Mat;
+use fastrand::Rng;
+
+/// Largest number of windows.
+const MOST_WINDOWS: usize = 16;
+/// Narrowest window, as the ratio of its ends.
+const NARROWEST: f64 = 1.4;
+/// Halvings of the interval in which the edge is sought.
+const HALVINGS: usize = 8;
+
+/// Whether window `k` can be split.
+pub(super) fn may_split(state: &TrainingState, k: usize) -> bool {
+    let (low, high) = state.windows[k].window.m;
+    state.windows.len() < MOST_WINDOWS && high > low * NARROWEST * NARROWEST
+}
+
+/// Puts two windows in place of window `k`, with the edge where the solutions of both need equally many modes.
+///
+/// # Errors
+/// When the solutions cannot be decomposed.
+pub(super) fn split(state: &mut TrainingState, k: usize) -> Result<(), TrainingError> {
+    let own = &state.windows[k];
+    let (from, to) = own.window.m;
+    let grid = own.window.grid.build().map_err(crate::solver::full::SolveError::from)?;
+    let edge = on_one_thread(|| balanced_edge(&own.solved, own.window.m, &grid, state.spec.pressure_loss))
+        .ok_or(TrainingError::Decomposition { from, to })?;
+    let mut rng = Rng::with_seed(own.seed);
+    let [low, high] = [(from, edge), (edge, to)].map(|m| {
+        let inherited = own.solved.iter().filter(|s| reached(m, (from, to), s)).cloned();
+        WindowState::new(super::WindowSpec { m, ..own.window }, rng.u64(..), inherited)
+    });
+    let decision = format!(
+        "M {from}…{to} needs more pressure modes than a window may have (seen at {} full solutions): split at {edge}",
+        own.solved.len()
+    );
+    state.decisions.push(decision);
+    state.windows.splice(k..=k, [low, high]);
+    Ok(())
+}
+
+/// Whether a part of a window is trained with a solution of the whole: beyond its inner edge by the overlap.
+fn reached(part: (f64, f64), whole: (f64, f64), solved: &Solved) -> bool {
+    let m = solved.point.moes().m;
+    (part.0 == whole.0 || m >= part.0 / OVERLAP) && (part.1 == whole.1 || m <= part.1 * OVERLAP)
+}
+
+/// The M, to two digits, at which both sides need equally many modes at a loss of information; `None` when a decomposition fails.
+fn balanced_edge(solved: &[Solved], whole: (f64, f64), grid: &ReferenceGrid, loss: f64) -> Option<f64> {
+    let modes = |part: (f64, f64)| {
+        let inside: Vec<&Solved> = solved.iter().filter(|s| reached(part, whole, s)).collect();
+        if inside.is_empty() {
+            return Some(0);
+        }
+        let pressures = Mat::from_fn(grid.xi.len(), inside.len(), |i, j| inside[j].pressure[i]);
+        PodBasis::new(pressures.as_ref(), &grid.weights, loss).map(|basis| basis.modes.ncols())
+    };
+    let (mut low, mut high) = (whole.0 * NARROWEST, whole.1 / NARROWEST);
+    for _ in 0..HALVINGS {
+        let edge = (low * high).sqrt();
+        if modes((whole.0, edge))? < modes((edge, whole.1))? {
+            low = edge;
+        } else {
+            high = edge;
+        }
+    }
+    let edge = (low * high).sqrt();
+    format!("{edge:.1e}").parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::grid::GridSpec;
+    use crate::solver::training::{Range, farthest_points};
+
+    /// Solutions whose pressures are all different below M = 30 and all alike above.
+    fn solutions(grid: &ReferenceGrid) -> Vec<Solved> {
+        let range = Range::Moes {
+            m: (2.0, 500.0),
+            l: (2.0, 8.0),
+            alpha: (5e-9, 20e-9),
+            max_hertz_pressure: 6e9,
+            viscosity: 0.01,
+        };
+        let points = farthest_points(&range, (0.0, f64::INFINITY), 60, &mut Rng::with_seed(1));
+        let solved = points.into_iter().enumerate().map(|(place, point)| {
+            let bump = if point.moes().m < 30.0 { 1 + place } else { 0 };
+            let pressure = (0..grid.xi.len()).map(|i| if i > 1 && i % 64 == bump { 1.0 } else { 0.0 }).collect();
+            Solved { place, point, pressure, h_0: 0.0, h_c: 1.0 }
+        });
+        solved.collect()
+    }
+
+    #[test]
+    fn the_edge_lies_where_both_sides_need_equally_many_modes() {
+        let grid = GridSpec::explorer_from(-5.0, true).build().unwrap();
+        let solved = solutions(&grid);
+        let edge = balanced_edge(&solved, (2.0, 500.0), &grid, 1e-9).unwrap();
+        assert!((4.0..15.0).contains(&edge), "{edge}");
+        let below = solved.iter().filter(|s| s.point.moes().m <= edge * OVERLAP).count();
+        let above = solved.iter().filter(|s| (edge / OVERLAP..30.0).contains(&s.point.moes().m)).count();
+        assert!(below.abs_diff(above) <= 4, "{below} {above}");
+    }
+
+    #[test]
+    fn halves_reach_beyond_their_common_edge_only() {
+        let grid = GridSpec::explorer_from(-5.0, true).build().unwrap();
+        let solved = solutions(&grid);
+        let of = |part| -> Vec<f64> {
+            solved.iter().filter(|s| reached(part, (2.0, 500.0), s)).map(|s| s.point.moes().m).collect()
+        };
+        let (low, high) = (of((2.0, 20.0)), of((20.0, 500.0)));
+        assert!(low.iter().all(|m| *m <= 20.0 * OVERLAP) && high.iter().all(|m| *m >= 20.0 / OVERLAP));
+        assert!(low.len() + high.len() > solved.len());
+    }
+}
