@@ -29,7 +29,7 @@ pub(super) fn split(state: &mut TrainingState, k: usize) -> Result<(), TrainingE
     let own = &state.windows[k];
     let (from, to) = own.window.m;
     let grid = own.window.grid.build().map_err(crate::solver::full::SolveError::from)?;
-    let edge = on_one_thread(|| balanced_edge(&own.solved, own.window.m, &grid, state.spec.pressure_loss))
+    let edge = on_one_thread(|| balanced_edge(&own.solved, own.window.m, &grid))
         .ok_or(TrainingError::Decomposition { from, to })?;
     let mut rng = Rng::with_seed(own.seed);
     let [low, high] = [(from, edge), (edge, to)].map(|m| {
@@ -51,27 +51,29 @@ fn reached(part: (f64, f64), whole: (f64, f64), solved: &Solved) -> bool {
     (part.0 == whole.0 || m >= part.0 / OVERLAP) && (part.1 == whole.1 || m <= part.1 * OVERLAP)
 }
 
-/// The M, to two digits, at which both sides need equally many modes at a loss of information; `None` when a decomposition fails.
-fn balanced_edge(solved: &[Solved], whole: (f64, f64), grid: &ReferenceGrid, loss: f64) -> Option<f64> {
-    let modes = |part: (f64, f64)| {
+/// The M, to two digits, at which both sides need equally many modes at a loss of information; `None` when the whole cannot be decomposed.
+///
+/// The loss is the one that three quarters of as many modes as there are solutions leave: a smaller one needs nearly as many modes as there are
+/// solutions on either side, and would compare their numbers only.
+fn balanced_edge(solved: &[Solved], whole: (f64, f64), grid: &ReferenceGrid) -> Option<f64> {
+    let basis = |part: (f64, f64), loss: f64| {
         let inside: Vec<&Solved> = solved.iter().filter(|s| reached(part, whole, s)).collect();
-        if inside.is_empty() {
-            return Some(0);
-        }
         let pressures = Mat::from_fn(grid.xi.len(), inside.len(), |i, j| inside[j].pressure[i]);
-        PodBasis::new(pressures.as_ref(), &grid.weights, loss).map(|basis| basis.modes.ncols())
+        if inside.is_empty() { None } else { PodBasis::new(pressures.as_ref(), &grid.weights, loss) }
     };
+    let loss = basis(whole, 0.0)?.loss(solved.len() * 3 / 4);
+    // A side without any solution needs no mode.
+    let modes = |part| basis(part, loss).map_or(0, |basis| basis.modes.ncols());
     let (mut low, mut high) = (whole.0 * NARROWEST, whole.1 / NARROWEST);
     for _ in 0..HALVINGS {
         let edge = (low * high).sqrt();
-        if modes((whole.0, edge))? < modes((edge, whole.1))? {
+        if modes((whole.0, edge)) < modes((edge, whole.1)) {
             low = edge;
         } else {
             high = edge;
         }
     }
-    let edge = (low * high).sqrt();
-    format!("{edge:.1e}").parse().ok()
+    format!("{:.1e}", (low * high).sqrt()).parse().ok()
 }
 
 #[cfg(test)]
@@ -102,7 +104,7 @@ mod tests {
     fn the_edge_lies_where_both_sides_need_equally_many_modes() {
         let grid = GridSpec::explorer_from(-5.0, true).build().unwrap();
         let solved = solutions(&grid);
-        let edge = balanced_edge(&solved, (2.0, 500.0), &grid, 1e-9).unwrap();
+        let edge = balanced_edge(&solved, (2.0, 500.0), &grid).unwrap();
         assert!((4.0..15.0).contains(&edge), "{edge}");
         let below = solved.iter().filter(|s| s.point.moes().m <= edge * OVERLAP).count();
         let above = solved.iter().filter(|s| (edge / OVERLAP..30.0).contains(&s.point.moes().m)).count();
