@@ -132,6 +132,8 @@ fn a_reduced_solve_says_what_served_it_and_whether_it_was_trained() {
     assert_eq!(object["grid"]["dofs"].as_u64().unwrap(), modes + 1);
     assert!(reduced["sampled_rows"].as_u64().unwrap() >= modes && reduced["basis_delta"].as_u64().unwrap() > 0);
     assert!(reduced["residual_estimate"].as_f64().unwrap() > 0.0);
+    let bound = reduced["h_c_error_bound"].as_f64().unwrap();
+    assert!(bound > 0.0 && bound < 1e-2 && reduced["h_min_error_bound"].as_f64().is_some(), "{bound}");
     assert!(object.get("linear_iterations").is_none() && object.get("warning").is_none());
     let full = json(&program(&["solve", "--json", "--moes-m", "40", "--moes-l", "10", "--grid", "model"]));
     assert_eq!(full["grid"]["nx"], object["grid"]["nx"]);

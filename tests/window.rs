@@ -228,7 +228,8 @@ fn the_badge_estimates_first_and_knows_later() {
     let mut harness = open_embedded();
     harness.step();
     assert_eq!(harness.state().badge(), "Reduced model");
-    assert!(harness.state().badge_detail().starts_with("uncalibrated estimate"), "{}", harness.state().badge_detail());
+    let promise = harness.state().badge_detail();
+    assert!(promise.starts_with("{H_c} within") && promise.contains("{H_min} within"), "{promise}");
     wait(&mut harness, "verification", |app| app.badge() == "Verified");
     let detail = harness.state().badge_detail();
     assert!(detail.contains("Δ{H_c}") && detail.contains('%') && !detail.contains("e−7"), "{detail}");
@@ -347,6 +348,7 @@ fn small_model() -> ReducedModel {
         deformation_loss: 1e-8,
         sampling: Sampling::default(),
         rows_per_mode: 2.0,
+        evidence: 0,
         seed: 1,
     };
     train(&spec, &()).unwrap()

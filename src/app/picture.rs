@@ -3,6 +3,7 @@
 use super::jobs::Key;
 use super::numbers;
 use crate::solver::full::{Solution, Traction};
+use crate::solver::reduced::ErrorEstimate;
 use egui_plot::PlotPoint;
 use std::sync::Arc;
 
@@ -13,6 +14,8 @@ pub enum Origin {
     Reduced {
         /// e_f^I, (3.15).
         residual_estimate: f64,
+        /// Calibrated errors; none for a model that was not calibrated as it is used.
+        error: Option<ErrorEstimate>,
         /// Newton steps.
         iterations: usize,
         /// Window that served it.
@@ -27,10 +30,16 @@ impl Origin {
     pub fn describe(&self) -> String {
         match self {
             Self::Full => "full solution".to_owned(),
-            Self::Reduced { residual_estimate, iterations, window } => format!(
-                "reduced model, window {}, {iterations} Newton steps, uncalibrated residual estimate {residual_estimate:e}",
-                window + 1
-            ),
+            Self::Reduced { residual_estimate, error, iterations, window } => {
+                let bound = match error {
+                    Some(e) => format!("error bounds H_c {:e}, H_min {:e}", e.h_c.bound, e.h_min.bound),
+                    None => "no calibrated error bound".to_owned(),
+                };
+                let window = window + 1;
+                format!(
+                    "reduced model, window {window}, {iterations} Newton steps, residual estimate {residual_estimate:e}, {bound}"
+                )
+            }
         }
     }
 }

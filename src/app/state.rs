@@ -322,6 +322,7 @@ impl State {
                 self.reduced_wall_s = Some(wall_s);
                 let origin = Origin::Reduced {
                     residual_estimate: reduced.residual_estimate,
+                    error: reduced.error,
                     iterations: reduced.iterations,
                     window: reduced.window,
                 };

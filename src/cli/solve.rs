@@ -102,6 +102,11 @@ fn describe(report: &PointReport) -> String {
         if let Some(estimate) = reduced.residual_estimate {
             line("estimate e_f", format!("{estimate:.3e}"));
         }
+        for (name, bound) in [("H_c", reduced.h_c_error_bound), ("H_min", reduced.h_min_error_bound)] {
+            if let Some(bound) = bound {
+                line(&format!("error of {name}"), format!("below {:.2e} (99 of 100)", bound));
+            }
+        }
     }
     line("time", format!("{:.3} ms", report.wall_s * 1e3));
     text

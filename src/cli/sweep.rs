@@ -35,7 +35,7 @@ pub struct Varied {
 }
 
 /// Values in the table, as the report names them.
-const COLUMNS: [&str; 27] = [
+const COLUMNS: [&str; 29] = [
     "si.radius",
     "si.speed",
     "si.load",
@@ -62,6 +62,8 @@ const COLUMNS: [&str; 27] = [
     "newton_iterations",
     "linear_iterations",
     "reduced.residual_estimate",
+    "reduced.h_c_error_bound",
+    "reduced.h_min_error_bound",
     "wall_s",
 ];
 

@@ -5,7 +5,7 @@
 
 use crate::scene::atomic_file::{self, WriteError};
 use crate::solver::grid::{GridError, GridSpec, ReferenceGrid};
-use crate::solver::reduced::{Domain, PodBasis, ReducedModel, SampledRows, Sampling, Snapshot, Window};
+use crate::solver::reduced::{Calibration, Domain, PodBasis, ReducedModel, SampledRows, Sampling, Snapshot, Window};
 use faer::Mat;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -15,7 +15,7 @@ use std::sync::Arc;
 use xxhash_rust::xxh3::xxh3_64;
 
 const MAGIC: &[u8; 8] = b"EHLROM\r\n";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const HEADER: usize = 28;
 /// Largest payload that is read; real models have a few MB.
 const MAX_PAYLOAD: u64 = 512 << 20;
@@ -42,9 +42,15 @@ pub enum ModelFileError {
     Foreign,
     /// Written by a newer program.
     #[error(
-        "the model file has version {found}, but this program reads up to version {VERSION}; use a newer program or train it again"
+        "the model file has version {found}, but this program reads version {VERSION}; use a newer program or train it again"
     )]
     Newer {
+        /// Its version.
+        found: u32,
+    },
+    /// Written by an older program.
+    #[error("the model file has version {found}, but this program reads version {VERSION}; train it again")]
+    Older {
         /// Its version.
         found: u32,
     },
@@ -92,6 +98,7 @@ struct StoredWindow {
     sampled_rows: Vec<usize>,
     reconstruction: StoredMatrix,
     snapshots: Vec<Snapshot>,
+    calibration: Option<Calibration>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -165,8 +172,13 @@ impl StoredWindow {
         if self.snapshots.is_empty() || !snapshots_fit {
             return damaged("snapshots");
         }
+        if !self.calibration.as_ref().is_none_or(Calibration::sound) {
+            return damaged("calibration");
+        }
         let rows = SampledRows { rows: self.sampled_rows, reconstruction };
-        Ok(Window::new(self.m, grid, pressure, deformation, self.snapshots, self.sampling, rows))
+        let mut window = Window::new(self.m, grid, pressure, deformation, self.snapshots, self.sampling, rows);
+        window.calibration = self.calibration;
+        Ok(window)
     }
 }
 
@@ -232,6 +244,7 @@ pub fn to_bytes(model: &ReducedModel) -> Result<Vec<u8>, ModelFileError> {
                 sampled_rows: w.sampled_rows.clone(),
                 reconstruction: StoredMatrix::from_mat(&w.reconstruction),
                 snapshots: w.snapshots.clone(),
+                calibration: w.calibration.clone(),
             })
             .collect(),
         scene: model.scene.clone(),
@@ -300,6 +313,9 @@ fn payload_length(bytes: &[u8]) -> Result<u64, ModelFileError> {
     let version = u64_at(bytes, 8).unwrap_or_default() as u32;
     if version > VERSION {
         return Err(ModelFileError::Newer { found: version });
+    }
+    if version < VERSION {
+        return Err(ModelFileError::Older { found: version });
     }
     let announced = u64_at(bytes, 12).unwrap_or_default();
     if announced > MAX_PAYLOAD {

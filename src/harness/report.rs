@@ -146,6 +146,12 @@ pub struct ReducedReport {
     /// e_f^I, (3.15).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub residual_estimate: Option<f64>,
+    /// Calibrated bound on the relative error of H_c.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub h_c_error_bound: Option<f64>,
+    /// Calibrated bound on the relative error of H_min.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub h_min_error_bound: Option<f64>,
 }
 
 impl From<&Answer> for PointReport {
@@ -191,6 +197,8 @@ impl From<&Answer> for PointReport {
                 sampled_rows: facts.sampled_rows,
                 trained: facts.trained,
                 residual_estimate: facts.residual_estimate.and_then(finite),
+                h_c_error_bound: facts.error.and_then(|e| finite(e.h_c.bound)),
+                h_min_error_bound: facts.error.and_then(|e| finite(e.h_min.bound)),
             }),
         }
     }

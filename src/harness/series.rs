@@ -13,7 +13,7 @@ use crate::solver::full::Solution;
 use crate::solver::training::TrainingObserver;
 
 /// Values of each method in the table of a series.
-const COLUMNS: [&str; 15] = [
+const COLUMNS: [&str; 17] = [
     "converged",
     "H_c",
     "H_min",
@@ -28,6 +28,8 @@ const COLUMNS: [&str; 15] = [
     "newton_iterations",
     "linear_iterations",
     "reduced.residual_estimate",
+    "reduced.h_c_error_bound",
+    "reduced.h_min_error_bound",
     "wall_s",
 ];
 

@@ -8,7 +8,7 @@ use crate::solver::full::{FullSolver, Problem, Solution, Start};
 use crate::solver::grid::{GridSpec, ReferenceGrid};
 use crate::solver::lubricant::Lubricant;
 use crate::solver::observer::Observer;
-use crate::solver::reduced::{Online, ReducedError, ReducedModel, ReducedOptions, Trust, Window};
+use crate::solver::reduced::{ErrorEstimate, Online, ReducedError, ReducedModel, ReducedOptions, Trust, Window};
 use crate::solver::training::{TrainingObserver, train};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -72,6 +72,8 @@ pub struct ReducedFacts {
     pub trained: bool,
     /// e_f^I, (3.15); none without convergence.
     pub residual_estimate: Option<f64>,
+    /// Calibrated errors, where the model has them.
+    pub error: Option<ErrorEstimate>,
 }
 
 /// Grids, solvers and models, made when first needed and kept.
@@ -280,10 +282,12 @@ impl Workbench {
             sampled_rows: window.sampled_rows.len(),
             trained: trust == Trust::Trained,
             residual_estimate: None,
+            error: None,
         };
         let (solution, newton_iterations) = match solved {
             Ok(solved) => {
                 facts.residual_estimate = Some(solved.residual_estimate);
+                facts.error = solved.error;
                 facts.basis_p = solved.coefficients.len();
                 (Some(online.reconstruct(&solved)?), solved.iterations)
             }

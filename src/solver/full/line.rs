@@ -24,11 +24,21 @@ pub struct SolveOptions {
     pub kernel_band: usize,
     /// Penalty factor γ̄ of (2.36).
     pub penalty: f64,
+    /// Backtracking on the residual ends at this fraction of the step; 1 takes Newton's own steps, which is right beside a solution:
+    /// there the penalty makes the residual jump though the step is good.
+    pub shortest_step: f64,
 }
 
 impl Default for SolveOptions {
     fn default() -> Self {
-        Self { tolerance: 1e-10, max_newton: 80, max_krylov: 80, kernel_band: 6, penalty: PENALTY }
+        Self {
+            tolerance: 1e-10,
+            max_newton: 80,
+            max_krylov: 80,
+            kernel_band: 6,
+            penalty: PENALTY,
+            shortest_step: 1.0 / 64.0,
+        }
     }
 }
 
@@ -192,7 +202,7 @@ impl LineSystem {
         report.residual_norm = residual;
     }
 
-    /// Takes the Newton step with backtracking on the residual (to 1/64, then accepts); the film may lose 90 % per step at most.
+    /// Takes the Newton step with backtracking on the residual (to `shortest_step`, then accepts); the film may lose 90 % per step at most.
     /// Returns ‖Δz‖/‖z‖ of the undamped step, so that damping never looks like convergence, and the new residual.
     fn damped_step(&mut self, problem: &Problem, options: &SolveOptions, before: f64) -> (f64, f64) {
         let u = self.grid.unknowns();
@@ -222,7 +232,8 @@ impl LineSystem {
             residual = self.evaluate(problem, options.penalty, true);
             let norm = (dot(&self.pressure, &self.pressure) + self.h_0 * self.h_0).sqrt();
             let relative = factor * size / norm;
-            if residual < before * (1.0 - 1e-4 * factor) || factor <= longest / 64.0 || relative < 1e-7 {
+            if residual < before * (1.0 - 1e-4 * factor) || factor <= longest * options.shortest_step || relative < 1e-7
+            {
                 // A full, fresh deformation now and then would change nothing: the increments are exact to rounding.
                 return (size / norm, residual);
             }

@@ -3,6 +3,7 @@
 //! State (p̃, H₀); deformation and load are linear and condensed (`DESIGN`, idea 2). Everything lives in the reference coordinate ξ; the
 //! registration scale s enters the online phase as a number: X = −1 + (ξ + 1)s, H = H₀ − ½ ln s + X²/2 + s (K V_p p̃).
 
+mod calibration;
 mod cubature;
 mod model;
 mod online;
@@ -11,6 +12,7 @@ mod pod;
 mod sampling;
 mod start;
 
+pub use calibration::{Calibration, ErrorEstimate, Estimated, Evidence, Features, LEAST_EVIDENCE};
 pub use cubature::{GoalEquations, cubature};
 pub use model::{Domain, ReducedModel, Snapshot, Trust, Window, deformation_weights, distance, flex};
 pub(crate) use online::interpolation_at_zero;

@@ -1,5 +1,6 @@
 //! What a reduced model is made of.
 
+use super::calibration::Calibration;
 use super::pod::PodBasis;
 use super::sampling::{SampledRows, Sampling};
 use crate::solver::contact::{Moes, OperatingPoint};
@@ -71,6 +72,8 @@ pub struct Window {
     pub reconstruction: Mat<f64>,
     /// Training solutions.
     pub snapshots: Vec<Snapshot>,
+    /// What it knows about its own errors, with all modes and these rows; none until it was measured.
+    pub calibration: Option<Calibration>,
 }
 
 /// A reduced model of the stationary line contact.
@@ -112,14 +115,26 @@ impl Window {
     ) -> Self {
         let flexed = flex(&grid, &pressure.modes);
         let SampledRows { rows: sampled_rows, reconstruction } = rows;
-        Self { m, grid, pressure, deformation, flexed, sampling, sampled_rows, reconstruction, snapshots }
+        Self {
+            m,
+            grid,
+            pressure,
+            deformation,
+            flexed,
+            sampling,
+            sampled_rows,
+            reconstruction,
+            snapshots,
+            calibration: None,
+        }
     }
 
-    /// Replaces the sampled rows.
+    /// Replaces the sampled rows, which ends a calibration.
     pub fn set_rows(&mut self, sampling: Sampling, rows: SampledRows) {
         self.sampling = sampling;
         self.sampled_rows = rows.rows;
         self.reconstruction = rows.reconstruction;
+        self.calibration = None;
     }
 
     /// The nearest training solution by (3.20).

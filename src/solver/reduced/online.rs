@@ -1,5 +1,6 @@
 //! The online phase: which window, which start, and back to fields.
 
+use super::calibration::{ErrorEstimate, Features};
 use super::model::{ReducedModel, Snapshot, Trust, Window, distance};
 use super::operators::{Case, OnlineOutcome, Operators, RowObserver, Stop};
 use super::start::{self, Guess, film_number};
@@ -78,6 +79,9 @@ pub struct ReducedSolution {
     pub iterations: usize,
     /// e_f^I, (3.15), in the L2 norm over X restricted to the sampled rows.
     pub residual_estimate: f64,
+    /// Calibrated estimate of its errors. None where the model has no calibration, or solved otherwise than it was calibrated: outside
+    /// its domain, with fewer modes or other settings.
+    pub error: Option<ErrorEstimate>,
     /// Whether the model was trained for the point.
     pub trust: Trust,
 }
@@ -183,6 +187,11 @@ impl Online {
         let Found { coefficients, h_0, h_c, iterations, residual } = found;
         let previous = Previous { window, moes: problem.moes, coefficients: coefficients.clone(), h_c };
         self.previous = Some(previous);
+        let trust = self.model.trust(problem);
+        let calibration = self.model.windows.get(window).and_then(|w| w.calibration.as_ref());
+        let error = calibration
+            .filter(|_| trust == Trust::Trained && self.options == ReducedOptions::default())
+            .map(|c| c.estimate(&Features::new(&problem.point, residual, &coefficients)));
         ReducedSolution {
             point: problem.point,
             lubricant: problem.lubricant,
@@ -191,7 +200,8 @@ impl Online {
             h_0,
             iterations,
             residual_estimate: residual,
-            trust: self.model.trust(problem),
+            error,
+            trust,
         }
     }
 

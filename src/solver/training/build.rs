@@ -9,7 +9,7 @@ use crate::solver::full::{FullSolver, Start};
 use crate::solver::grid::ReferenceGrid;
 use crate::solver::observer::Observer;
 use crate::solver::reduced::{
-    Domain, PodBasis, ReducedModel, Sampling, Snapshot, Window, all_rows, deformation_weights, flex,
+    Domain, LEAST_EVIDENCE, PodBasis, ReducedModel, Sampling, Snapshot, Window, all_rows, deformation_weights, flex,
 };
 use faer::Mat;
 use fastrand::Rng;
@@ -50,6 +50,12 @@ pub(super) fn check(spec: &TrainingSpec) -> Result<(), TrainingError> {
     }
     if !(1.0..=20.0).contains(&spec.rows_per_mode) {
         return refuse(format!("rows_per_mode is {}, but must lie between 1 and 20", spec.rows_per_mode));
+    }
+    if spec.evidence > 0 && !(LEAST_EVIDENCE..=100_000).contains(&spec.evidence) {
+        return refuse(format!(
+            "evidence is {}, but must lie between {LEAST_EVIDENCE} and 100000, or be 0 for a model without an error bound",
+            spec.evidence
+        ));
     }
     match &spec.plan {
         Plan::FarthestPoint { snapshots } if !(4..=5000).contains(snapshots) => {

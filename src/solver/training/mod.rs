@@ -4,6 +4,7 @@
 
 mod adaptive;
 mod build;
+mod calibrate;
 pub mod distance;
 mod indicator;
 mod layout;
@@ -18,6 +19,7 @@ mod tests;
 
 pub use adaptive::Search;
 pub use build::train;
+pub use calibrate::EVIDENCE;
 pub use indicator::Indicator;
 pub use plan::{farthest_points, grid_points, local_point, random_points, test_point};
 pub use state::{Solved, TrainingState, WindowState, train_resumable};
@@ -143,8 +145,15 @@ pub struct TrainingSpec {
     pub sampling: Sampling,
     /// Sampled rows per pressure mode.
     pub rows_per_mode: f64,
+    /// Random points per window at which its errors are measured for the calibrated bound; 0 leaves the bound out.
+    #[serde(default = "evidence")]
+    pub evidence: usize,
     /// Seed of everything random.
     pub seed: u64,
+}
+
+fn evidence() -> usize {
+    EVIDENCE
 }
 
 /// Where the windows of a model come from.

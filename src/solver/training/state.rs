@@ -1,7 +1,8 @@
 //! What a training has done so far: enough to stop after any full solution, go on later, and arrive at the same model.
 
 use super::adaptive::Search;
-use super::build::{Shop, check, domain};
+use super::build::{Shop, alone, check, domain};
+use super::calibrate::calibrate;
 use super::plan::{farther_points, grid_points};
 use super::split::{may_split, split};
 use super::{Plan, TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows, layout};
@@ -10,6 +11,7 @@ use crate::solver::full::Solution;
 use crate::solver::reduced::{ReducedModel, Window};
 use fastrand::Rng;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// Training reaches beyond a window's ends by this factor in M, so that its edge is not a corner.
 pub(super) const OVERLAP: f64 = 1.221_402_758_160_17;
@@ -173,10 +175,14 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
     let mut log = Vec::new();
     while windows.len() < state.windows.len() {
         let k = windows.len();
-        let Some(trained) = train_window(&spec, k, ended, state, observer)? else {
+        let Some(mut trained) = train_window(&spec, k, ended, state, observer)? else {
             split(state, k)?;
             continue;
         };
+        if spec.evidence > 0 {
+            let last = k + 1 == state.windows.len();
+            trained.calibration = calibrate(&spec, &Arc::new(alone(&spec, &trained)), k, last, observer)?;
+        }
         log.push(format!(
             "M {}…{}: {} full solutions, {} pressure and {} deformation modes, {} of {} rows",
             trained.m.0,
@@ -188,6 +194,10 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
             trained.grid.xi.len() - 3,
         ));
         log.extend(state.windows[k].search.describe(&spec.plan));
+        log.push(match &trained.calibration {
+            Some(c) => format!("errors measured at {} random points by two full Newton steps each", c.evidence()),
+            None => "no error bound: errors were measured at too few points".to_owned(),
+        });
         windows.push(trained);
     }
     log.splice(0..0, state.decisions.iter().cloned());

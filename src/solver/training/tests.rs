@@ -28,6 +28,7 @@ fn small(sampling: Sampling) -> TrainingSpec {
         deformation_loss: 1e-6,
         sampling,
         rows_per_mode: 2.0,
+        evidence: 0,
         seed: 5,
     }
 }
@@ -83,6 +84,34 @@ fn all_rows_and_q_deim_agree_at_fresh_points_and_lie_near_full_solutions() {
 
 fn exact_range() -> Range {
     small(Sampling::All).range
+}
+
+#[test]
+fn the_calibrated_bound_holds_against_full_solutions_and_is_not_idle() {
+    let spec = TrainingSpec { plan: Plan::FarthestPoint { snapshots: 30 }, evidence: 300, ..small(Sampling::QDeim) };
+    let model = Arc::new(train(&spec, &()).unwrap());
+    let mut online = Online::new(Arc::clone(&model), ReducedOptions::default());
+    let mut solver = FullSolver::on(Arc::clone(&model.windows[0].grid));
+    let points = random_points(&spec.range, (0.0, f64::INFINITY), 200, &mut fastrand::Rng::with_seed(77));
+    let (mut held, mut ratios) = (0, Vec::new());
+    for point in &points {
+        online.forget();
+        let solved = online.solve(point, Lubricant::default()).unwrap();
+        let estimate = solved.error.unwrap();
+        let reduced = online.scalars(&solved).unwrap();
+        let full = solver.solve(point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+        assert!(full.converged());
+        let error = (reduced.h_c / full.scalars.h_c - 1.0).abs();
+        held += usize::from(error <= estimate.h_c.bound);
+        ratios.push(estimate.h_c.bound / error);
+    }
+    assert!(held >= 196, "{held} of 200");
+    ratios.sort_by(f64::total_cmp);
+    assert!(ratios[100] < 10.0, "{}", ratios[100]);
+    // A truncated model is another one: nothing is known of its errors.
+    let options = ReducedOptions { pressure_modes: Some(10), ..ReducedOptions::default() };
+    let truncated = Online::new(model, options).solve(&points[0], Lubricant::default());
+    assert!(truncated.is_err() || truncated.is_ok_and(|solved| solved.error.is_none()));
 }
 
 #[test]

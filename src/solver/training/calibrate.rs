@@ -1,0 +1,64 @@
+//! What a finished window finds out about its own errors.
+//!
+//! At random points (3.17) of the window's own range the reduced solution is carried on by two full Newton steps; what they change is its
+//! error. That is evidence for [`Calibration`], and nothing else: no basis sees these points, and they are not full solutions (two steps
+//! from the reduced solution, a cold full solution takes about 15).
+
+use super::indicator::measured_errors;
+use super::plan::random_points;
+use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
+use crate::solver::reduced::{Calibration, Evidence, Features, Online, ReducedModel, ReducedOptions, Window};
+use fastrand::Rng;
+use rayon::prelude::*;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Measured points of a window unless a specification says otherwise.
+pub const EVIDENCE: usize = 1000;
+
+/// Measures window `k`, `model` being the model of it alone. Points where the reduced model fails are no evidence: there nothing is shown.
+///
+/// # Errors
+/// When the observer cancels.
+pub(super) fn calibrate(
+    spec: &TrainingSpec,
+    model: &Arc<ReducedModel>,
+    k: usize,
+    last: bool,
+    observer: &dyn TrainingObserver,
+) -> Result<Option<Calibration>, TrainingError> {
+    let Some(window) = model.windows.first() else { return Ok(None) };
+    let seed = spec.seed ^ 0x9E37_79B9_7F4A_7C15_u64.wrapping_mul(k as u64 + 1);
+    let points = random_points(&spec.range, served(k, last, window), spec.evidence, &mut Rng::with_seed(seed));
+    let stage = format!("Measuring errors, M {}…{}", window.m.0, window.m.1);
+    let done = AtomicUsize::new(0);
+    let measured: Vec<Option<Evidence>> = points
+        .par_iter()
+        .map_init(
+            || Online::new(Arc::clone(model), ReducedOptions::default()),
+            |online, point| {
+                if observer.cancelled() {
+                    return Err(TrainingError::Cancelled);
+                }
+                online.forget();
+                let evidence = online.solve(point, spec.lubricant).ok().and_then(|solved| {
+                    let errors = measured_errors(online, &solved, window)?;
+                    Some(Evidence { features: Features::of(&solved), errors })
+                });
+                let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+                if done.is_multiple_of(16) {
+                    observer.progress(Progress { stage: stage.clone(), done, total: points.len() });
+                }
+                Ok(evidence)
+            },
+        )
+        .collect::<Result<_, _>>()?;
+    let evidence: Vec<Evidence> = measured.into_iter().flatten().collect();
+    Ok(super::build::on_one_thread(|| Calibration::fit(&evidence)))
+}
+
+/// The range of M in which window `k` serves: the first and the last one also serve what lies beyond.
+fn served(k: usize, last: bool, window: &Window) -> (f64, f64) {
+    let (low, high) = window.m;
+    (if k == 0 { 0.0 } else { low }, if last { f64::INFINITY } else { high })
+}
