@@ -150,8 +150,11 @@ fn projection_error(basis: &PodBasis, grid: &ReferenceGrid, pressure: &[f64]) ->
 /// An interval widened to four significant digits, for people.
 fn outward((low, high): (f64, f64)) -> (f64, f64) {
     let digits = |v: f64| format!("{v:.3e}").parse().unwrap_or(v);
-    // Half a digit at most is taken off or added; an end that has few digits stays what it is.
-    let round = |v: f64, half: f64| if (digits(v) / v - 1.0).abs() < 1e-12 { v } else { digits(v * (1.0 + half)) };
+    // Half of the last digit is taken off or added before rounding; an end that has few digits stays what it is.
+    let round = |v: f64, half: f64| {
+        let shifted = v + half * 10f64.powf(v.log10().floor());
+        if (digits(v) / v - 1.0).abs() < 1e-12 { v } else { digits(shifted) }
+    };
     (round(low, -5e-4), round(high, 5e-4))
 }
 

@@ -11,12 +11,16 @@
 //! | the same | 60, 1e-7 | 319 | 84, 83 | 1.7 MB | 0.54 ms | 3.7e-4 / 1.7e-3 |
 //! | ≤ 90 modes, edge as below | 100, 3e-7 | 470 | 88, 90, 87, 65 | 3.2 MB | 0.51 ms | 3.4e-4 / 8.5e-4 |
 //! | the same, errors judged by undamped steps | 100, 3e-7 | 536 | 89, 87, 83, 87, 69 | 4.2 MB | 0.52 ms | 2.9e-4 / 9.1e-4 |
-//! FINAL
+//! | ≤ 100 modes, likewise | 100, 1e-7 | 406 | 91, 96, 98 | 2.9 MB | 0.65 ms | 2.8e-4 / 1.6e-3 |
+//! | **≤ 90 modes, likewise** | 80, 1e-7 | 427 | 87, 88, 84, 67 | 3.3 MB | 0.51 ms | 1.6e-4 / 5.6e-4 |
 //!
+//! The last two were measured after the errors were judged by undamped steps, the last one at 4,000 tests and 2,000 comparisons. What none of
+//! them watches is the pressure: where the spike appears (M ≈ 5, L ≈ 16) the last but one is 5 % off it, the last one 1 %.
 //! With modes as many as solutions (start 60) the sizes are small but 1 of 100 solves takes 12 iterations instead of 8 and typical errors are six times
 //! larger. Loss 3e-7 with at most 95 modes left one window (M 31…500, 69 modes) short of the tolerance after 180 solutions: the loss, not
 //! the number of solutions, limited it. Cubature with 1.75 rows per mode gave up at M 2…3.5, where its equations are satisfied by fewer than
-//! 1.2 rows per mode: Q-DEIM stays. The dissertation's search in place of the pool takes one solution per retraining.
+//! 1.2 rows per mode: Q-DEIM stays. The dissertation's search in place of the pool (start 100, loss 3e-7)
+//! took 543 solutions and 44 s of processor time where the pool took 470 and 15 s: it retrains after every one.
 
 use super::TrainingError;
 use super::build::on_one_thread;
@@ -100,7 +104,7 @@ mod tests {
     use crate::solver::grid::GridSpec;
     use crate::solver::training::{Range, farthest_points};
 
-    /// Solutions whose pressures are all different below M = 30 and all alike above.
+    /// Solutions whose pressures have nothing in common: every one needs a mode.
     fn solutions(grid: &ReferenceGrid) -> Vec<Solved> {
         let range = Range::Moes {
             m: (2.0, 500.0),
@@ -111,8 +115,7 @@ mod tests {
         };
         let points = farthest_points(&range, (0.0, f64::INFINITY), 60, &mut Rng::with_seed(1));
         let solved = points.into_iter().enumerate().map(|(place, point)| {
-            let bump = if point.moes().m < 30.0 { 1 + place } else { 0 };
-            let pressure = (0..grid.xi.len()).map(|i| if i > 1 && i % 64 == bump { 1.0 } else { 0.0 }).collect();
+            let pressure = (0..grid.xi.len()).map(|i| if i > 1 && i % 64 == place { 1.0 } else { 0.0 }).collect();
             Solved { place, point, pressure, h_0: 0.0, h_c: 1.0 }
         });
         solved.collect()
@@ -123,10 +126,9 @@ mod tests {
         let grid = GridSpec::explorer_from(-5.0, true).build().unwrap();
         let solved = solutions(&grid);
         let edge = balanced_edge(&solved, (2.0, 500.0), &grid).unwrap();
-        assert!((4.0..15.0).contains(&edge), "{edge}");
         let below = solved.iter().filter(|s| s.point.moes().m <= edge * OVERLAP).count();
-        let above = solved.iter().filter(|s| (edge / OVERLAP..30.0).contains(&s.point.moes().m)).count();
-        assert!(below.abs_diff(above) <= 4, "{below} {above}");
+        let above = solved.iter().filter(|s| s.point.moes().m >= edge / OVERLAP).count();
+        assert!(below.abs_diff(above) <= 10, "{below} {above}");
     }
 
     #[test]
