@@ -9,7 +9,7 @@ use ehl_explorer::solver::contact::PLAUSIBLE_HERTZ_PRESSURE_PA;
 use ehl_explorer::solver::grid::GridSpec;
 use ehl_explorer::solver::lubricant::Lubricant;
 use ehl_explorer::solver::reduced::{ReducedModel, Sampling};
-use ehl_explorer::solver::training::{Plan, Range, TrainingSpec, WindowSpec, train};
+use ehl_explorer::solver::training::{Plan, Range, TrainingSpec, WindowSpec, Windows, train};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -340,10 +340,10 @@ fn small_model() -> ReducedModel {
         },
         lubricant: Lubricant::default(),
         plan: Plan::FarthestPoint { snapshots: 40 },
-        windows: vec![WindowSpec {
+        windows: Windows::Given(vec![WindowSpec {
             m: (20.0, 100.0),
             grid: GridSpec::Graded { nodes: 400, domain: (-8.0, 1.9), registered: true },
-        }],
+        }]),
         pressure_loss: 1e-7,
         deformation_loss: 1e-8,
         sampling: Sampling::default(),

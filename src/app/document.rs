@@ -289,6 +289,7 @@ impl History {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::solver::training::Windows;
 
     #[test]
     fn every_pair_of_followers_reaches_the_wanted_numbers_and_keeps_the_rest() {
@@ -343,7 +344,7 @@ mod tests {
         spec.seed = 7;
         document.set_training(spec.clone()).unwrap();
         assert_eq!(Document::from_ron(&document.to_ron().unwrap()).unwrap().training, Some(spec.clone()));
-        spec.windows.clear();
+        spec.windows = Windows::Given(Vec::new());
         assert!(document.set_training(spec.clone()).unwrap_err().contains("window"));
         assert_eq!(document.training.as_ref().unwrap().seed, 7);
         // A scene with another question keeps it; a fresh document takes the training along.

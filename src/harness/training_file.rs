@@ -5,7 +5,7 @@
 
 use super::checked_file::{Flaw, Format, Unreadable};
 use crate::scene::atomic_file::{self, WriteError};
-use crate::solver::training::{TrainingObserver, TrainingSpec, TrainingState};
+use crate::solver::training::{TrainingObserver, TrainingSpec, TrainingState, Windows};
 use std::collections::HashSet;
 use std::ffi::OsString;
 use std::io;
@@ -95,8 +95,12 @@ pub fn read(path: &Path) -> Result<TrainingState, TrainingFileError> {
 
 /// Whether a state can be trained on from: what a right hash cannot promise.
 fn is_sound(state: &TrainingState) -> bool {
-    state.windows.len() <= state.spec.windows.len()
-        && state.windows.iter().all(|window| {
+    let windows_fit = match &state.spec.windows {
+        Windows::Given(given) => state.windows.is_empty() || state.windows.iter().map(|w| &w.window).eq(given),
+        Windows::Automatic { .. } => true,
+    };
+    windows_fit
+        && state.windows.iter().chain(&state.trials).all(|window| {
             let places = window.solved.iter().map(|s| s.place).chain(window.pending.iter().map(|p| p.0));
             let points = window.solved.iter().map(|s| &s.point).chain(window.pending.iter().map(|p| &p.1));
             let numbers = window.solved.iter().flat_map(|s| s.pressure.iter().chain([&s.h_0, &s.h_c]));
@@ -220,7 +224,7 @@ mod tests {
     use crate::solver::contact::OperatingPoint;
     use crate::solver::grid::GridSpec;
     use crate::solver::reduced::Sampling;
-    use crate::solver::training::{Plan, Range, Solved, WindowSpec, WindowState};
+    use crate::solver::training::{Plan, Range, Search, Solved, WindowSpec, WindowState};
 
     fn state(folder: &str) -> (TrainingState, PathBuf) {
         let spec = TrainingSpec {
@@ -234,7 +238,7 @@ mod tests {
             },
             lubricant: Default::default(),
             plan: Plan::FarthestPoint { snapshots: 8 },
-            windows: vec![WindowSpec { m: (10.0, 20.0), grid: GridSpec::EXPLORER }],
+            windows: Windows::Given(vec![WindowSpec { m: (10.0, 20.0), grid: GridSpec::EXPLORER }]),
             pressure_loss: 1e-6,
             deformation_loss: 1e-6,
             sampling: Sampling::QDeim,
@@ -244,10 +248,18 @@ mod tests {
         };
         let point = OperatingPoint::TABLE_2_1;
         let solved = Solved { place: 0, point, pressure: vec![0.5; 633], h_0: -0.1, h_c: 0.04 };
-        let window = WindowState { solved: vec![solved], pending: vec![(1, point)], ..WindowState::default() };
+        let window = WindowState {
+            window: WindowSpec { m: (10.0, 20.0), grid: GridSpec::EXPLORER },
+            seed: 1,
+            inherited: 0,
+            solved: vec![solved],
+            pending: vec![(1, point)],
+            planned: true,
+            search: Search::default(),
+        };
         let folder = std::env::temp_dir().join(format!("ehl-training-file-{folder}-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
-        (TrainingState { spec, windows: vec![window] }, folder.join("a.rom.training"))
+        (TrainingState { windows: vec![window], solves: 1, ..TrainingState::new(spec) }, folder.join("a.rom.training"))
     }
 
     #[test]
@@ -279,7 +291,7 @@ mod tests {
         for spoil in [
             (|s: &mut TrainingState| s.windows[0].pending[0].0 = 7) as fn(&mut TrainingState),
             |s| s.windows[0].solved[0].pressure[9] = f64::NAN,
-            |s| s.windows.push(WindowState::default()),
+            |s| s.windows[0].window.m.1 = 30.0,
             |s| s.windows[0].solved[0].point.radius_m = -1.0,
         ] {
             let mut bad = good.clone();

@@ -3,7 +3,7 @@
 use super::{
     Axis, Contacts, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, View, Within,
 };
-use crate::solver::training::{Plan, Range, TrainingSpec};
+use crate::solver::training::{Plan, Range, TrainingSpec, Windows};
 
 /// Most points of a sweep, a trajectory or a formula comparison.
 pub const MAX_POINTS: usize = 100_000;
@@ -206,9 +206,12 @@ fn training(spec: &TrainingSpec) -> Checked {
             number("study.plan.tolerance", *tolerance, 1e-12, 1e12)?;
         }
     }
-    count("study.windows (how many)", spec.windows.len(), 1, 64)?;
-    for window in &spec.windows {
-        interval("study.windows.m", window.m, 1e-3, 1e6)?;
+    match &spec.windows {
+        Windows::Given(windows) => {
+            count("study.windows (how many)", windows.len(), 1, 64)?;
+            windows.iter().try_for_each(|window| interval("study.windows.m", window.m, 1e-3, 1e6))?;
+        }
+        Windows::Automatic { modes } => count("study.windows.modes", *modes, 8, 1000)?,
     }
     number("study.pressure_loss", spec.pressure_loss, 1e-15, 0.5)?;
     number("study.deformation_loss", spec.deformation_loss, 1e-15, 0.5)?;

@@ -24,6 +24,10 @@ pub const MAX_GRADED_NODES: usize = 4001;
 /// Largest number of nodes a uniform grid may have.
 pub const MAX_UNIFORM_NODES: usize = 200_001;
 
+const EXPLORER_NODES: usize = 632;
+const EXPLORER_INLET: f64 = -20.0;
+const EXPLORER_OUTLET: f64 = 3.2;
+
 /// A description of a line grid, as scenes and the command line give it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -76,7 +80,16 @@ impl GridSpec {
     pub const DISSERTATION: Self = Self::Uniform { dx: 0.005, domain: (-4.0, 2.0) };
 
     /// The explorer's default for every contact: 632 registered nodes, fine at ξ = ±1, with an inlet long enough for M = 2.
-    pub const EXPLORER: Self = Self::Graded { nodes: 632, domain: (-20.0, 3.2), registered: true };
+    pub const EXPLORER: Self =
+        Self::Graded { nodes: EXPLORER_NODES, domain: (EXPLORER_INLET, EXPLORER_OUTLET), registered: true };
+
+    /// [`GridSpec::EXPLORER`]'s spacing and outlet with another inlet: as many nodes as that takes.
+    pub fn explorer_from(inlet: f64, registered: bool) -> Self {
+        let count = |from: f64| cells(from, EXPLORER_OUTLET, FINE_SAMPLES);
+        let share = count(inlet) / count(EXPLORER_INLET);
+        let nodes = ((EXPLORER_NODES - 1) as f64 * share).round().max(0.0) as usize + 1;
+        Self::Graded { nodes, domain: (inlet, EXPLORER_OUTLET), registered }
+    }
 
     /// Builds the reference grid and its kernel; the costly part, done once per specification.
     ///
@@ -241,30 +254,40 @@ fn wanted_spacing(xi: f64) -> f64 {
     base + 0.028 * inlet * inlet / (inlet + 0.5) + 0.03 * outlet
 }
 
-/// ∫ dξ/spacing by Simpson's rule: how many nodes, up to a factor, belong between a and b.
-fn count(a: f64, b: f64) -> f64 {
+/// Samples over which the cells of a whole grid are counted.
+const FINE_SAMPLES: usize = 20_000;
+
+/// ∫ dξ/spacing over a short interval by Simpson's rule: the cells between its ends, up to a factor.
+fn cells_between(a: f64, b: f64) -> f64 {
     let middle = 0.5 * (a + b);
     (b - a) / 6.0 * (1.0 / wanted_spacing(a) + 4.0 / wanted_spacing(middle) + 1.0 / wanted_spacing(b))
+}
+
+/// ∫ dξ/spacing over a whole domain in `samples` intervals.
+fn cells(from: f64, to: f64, samples: usize) -> f64 {
+    let step = (to - from) / samples as f64;
+    let at = |i: usize| from + i as f64 * step;
+    (0..samples).map(|i| cells_between(at(i), at(i + 1))).sum()
 }
 
 /// `nodes` abscissae (and the outside one) that equidistribute 1/spacing, with one node exactly at ξ = 1 where registration puts the spike:
 /// grids of equal resolution then share their nodes in the contact, whatever their inlets. The ends move by half a cell at most.
 fn graded_nodes(nodes: usize, from: f64, to: f64) -> Vec<f64> {
-    // Fine samples for the total; all later steps are exact to rounding.
+    // ∫ dξ/spacing on fine samples; all later steps are exact to rounding.
     let samples = 40 * nodes;
     let step = (to - from) / samples as f64;
     let at = |i: usize| from + i as f64 * step;
-    let total: f64 = (0..samples).map(|i| count(at(i), at(i + 1))).sum();
+    let total = cells(from, to, samples);
     let before: f64 = {
-        let cells = ((1.0 - from) / step).floor() as usize;
-        (0..cells).map(|i| count(at(i), at(i + 1))).sum::<f64>() + count(at(cells), 1.0)
+        let whole = ((1.0 - from) / step).floor() as usize;
+        (0..whole).map(|i| cells_between(at(i), at(i + 1))).sum::<f64>() + cells_between(at(whole), 1.0)
     };
     let per_node = total / (nodes - 1) as f64;
-    // March from the anchor both ways; each node solves count(previous, node) = per_node by Newton's method.
+    // March from the anchor both ways; each node solves cells_between(previous, node) = per_node by Newton's method.
     let next = |x: f64, sign: f64| {
         let mut y = x + sign * per_node * wanted_spacing(x);
         for _ in 0..4 {
-            y -= (count(x, y) - sign * per_node) * wanted_spacing(y);
+            y -= (cells_between(x, y) - sign * per_node) * wanted_spacing(y);
         }
         y
     };
@@ -326,6 +349,20 @@ mod tests {
         assert!(steps.windows(2).skip(1).all(|w| (w[1] / w[0] - 1.0).abs() < 0.12));
         let spacing_at = |x: f64| steps[xi.partition_point(|&v| v < x) - 1];
         assert!(spacing_at(1.0) < 0.35 * spacing_at(0.0) && spacing_at(-1.0) < 0.6 * spacing_at(0.0));
+    }
+
+    #[test]
+    fn another_inlet_keeps_the_explorers_nodes_in_the_contact() {
+        assert_eq!(GridSpec::explorer_from(-20.0, true), GridSpec::EXPLORER);
+        let (long, short) =
+            (GridSpec::EXPLORER.build().unwrap(), GridSpec::explorer_from(-10.0, true).build().unwrap());
+        assert!(short.xi.len() < long.xi.len());
+        let from_the_spike = |xi: &[f64]| {
+            let spike = xi.iter().position(|&v| v == 1.0).unwrap();
+            xi[spike - 300..spike + 50].to_vec()
+        };
+        let pairs = from_the_spike(&long.xi).into_iter().zip(from_the_spike(&short.xi));
+        assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 5e-3));
     }
 
     #[test]

@@ -9,7 +9,7 @@ pub use worker::{Job, Made};
 use super::state::State;
 use crate::harness::{ModelComparison, training_file};
 use crate::solver::reduced::ReducedModel;
-use crate::solver::training::{Plan, TrainingSpec, TrainingState, WindowSpec, WindowState};
+use crate::solver::training::{Plan, TrainingSpec, TrainingState, WindowState};
 use chart::Chart;
 use egui::Context;
 use std::path::{Path, PathBuf};
@@ -172,17 +172,17 @@ fn missed_tolerances(state: &TrainingState) -> Vec<String> {
         Plan::WorstOfPool { tolerance, limit, .. } => (std::slice::from_ref(tolerance), *limit),
         Plan::FarthestPoint { .. } | Plan::Grid { .. } => (&[][..], 0),
     };
-    let missed = |(window, spec): (&WindowState, &WindowSpec)| {
+    let missed = |window: &WindowState| {
         let missed = tolerances.get(window.search.rungs.len())?;
         let round = |m: f64| (m * 1e3).round() / 1e3;
         Some(format!(
             "The tolerance {missed:e} could not be met for M {}…{} within the limit of {limit} full solutions; \
              the model is made of what there is",
-            round(spec.m.0),
-            round(spec.m.1)
+            round(window.window.m.0),
+            round(window.window.m.1)
         ))
     };
-    state.windows.iter().zip(&state.spec.windows).filter_map(missed).collect()
+    state.windows.iter().filter_map(missed).collect()
 }
 
 impl State {

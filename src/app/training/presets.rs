@@ -1,7 +1,7 @@
 //! Trainings to begin with, read from the scenes that come with the program.
 
 use crate::scene::{Scene, Study};
-use crate::solver::training::TrainingSpec;
+use crate::solver::training::{TrainingSpec, Windows};
 use std::sync::LazyLock;
 
 /// Table 3.1's box by the automatic algorithm: what the tab shows where the document describes no training.
@@ -25,21 +25,22 @@ fn spec_of(scene: &str) -> Option<TrainingSpec> {
     }
 }
 
-/// Lets the windows follow a range that was changed: those it no longer meets go, the outer ends move to its own.
+/// Lets given windows follow a range that was changed: those it no longer meets go, the outer ends move to its own.
 pub fn fit_windows(spec: &mut TrainingSpec) {
     let (low, high) = spec.domain().m;
     if !(low > 0.0 && low < high && high.is_finite()) {
         return;
     }
-    let first = spec.windows.first().cloned();
-    spec.windows.retain(|w| w.m.0 < high && w.m.1 > low);
-    if spec.windows.is_empty() {
-        spec.windows.extend(first);
+    let Windows::Given(windows) = &mut spec.windows else { return };
+    let first = windows.first().copied();
+    windows.retain(|w| w.m.0 < high && w.m.1 > low);
+    if windows.is_empty() {
+        windows.extend(first);
     }
-    if let Some(window) = spec.windows.first_mut() {
+    if let Some(window) = windows.first_mut() {
         window.m.0 = low;
     }
-    if let Some(window) = spec.windows.last_mut() {
+    if let Some(window) = windows.last_mut() {
         window.m.1 = high;
     }
 }
@@ -47,7 +48,8 @@ pub fn fit_windows(spec: &mut TrainingSpec) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::training::Range;
+    use crate::solver::grid::GridSpec;
+    use crate::solver::training::{Range, WindowSpec};
 
     #[test]
     fn the_presets_are_trainings_that_can_be_started() {
@@ -58,15 +60,18 @@ mod tests {
 
     #[test]
     fn windows_follow_the_range() {
-        let mut spec = slider_range().unwrap().clone();
-        let Range::Moes { m, .. } = &mut spec.range else { panic!() };
-        *m = (20.0, 700.0);
-        fit_windows(&mut spec);
-        assert_eq!(spec.windows.iter().map(|w| w.m).collect::<Vec<_>>(), [(20.0, 40.0), (40.0, 700.0)]);
-        let Range::Moes { m, .. } = &mut spec.range else { panic!() };
-        *m = (1.0, 5.0);
-        fit_windows(&mut spec);
-        assert_eq!(spec.windows.iter().map(|w| w.m).collect::<Vec<_>>(), [(1.0, 5.0)]);
-        spec.check().unwrap();
+        let grid = GridSpec::EXPLORER;
+        let windows = [(2.0, 9.0), (9.0, 40.0), (40.0, 500.0)].map(|m| WindowSpec { m, grid });
+        let mut spec = TrainingSpec { windows: Windows::Given(windows.into()), ..slider_range().unwrap().clone() };
+        let mut fitted = |range| {
+            let Range::Moes { m, .. } = &mut spec.range else { panic!() };
+            *m = range;
+            fit_windows(&mut spec);
+            spec.check().unwrap();
+            let Windows::Given(windows) = &spec.windows else { panic!() };
+            windows.iter().map(|w| w.m).collect::<Vec<_>>()
+        };
+        assert_eq!(fitted((20.0, 700.0)), [(20.0, 40.0), (40.0, 700.0)]);
+        assert_eq!(fitted((1.0, 5.0)), [(1.0, 5.0)]);
     }
 }

@@ -6,7 +6,7 @@ use crate::harness::training_file::{self, TrainingKeeper};
 use crate::harness::{ModelComparison, compare_models, model_file};
 use crate::solver::reduced::ReducedModel;
 use crate::solver::training::{
-    Plan, Progress, TrainingError, TrainingObserver, TrainingSpec, TrainingState, train_resumable,
+    Plan, Progress, TrainingError, TrainingObserver, TrainingSpec, TrainingState, Windows, train_resumable,
 };
 use std::collections::VecDeque;
 use std::path::PathBuf;
@@ -109,7 +109,11 @@ fn most_solutions(spec: &TrainingSpec) -> usize {
         Plan::Adaptive { limit, .. } | Plan::WorstOfPool { limit, .. } => *limit,
         Plan::Grid { nodes } => return nodes.iter().product(),
     };
-    per_window * spec.windows.len()
+    match &spec.windows {
+        Windows::Given(windows) => per_window * windows.len(),
+        // How many it will be is not known before; one is the least.
+        Windows::Automatic { .. } => per_window,
+    }
 }
 
 /// Work that runs.

@@ -4,7 +4,9 @@
 //! spacings whose truncation error differs from that of the coarse grid by more than the factor 2² that Richardson's
 //! extrapolation counts on. A new grid of twice as many nodes would do neither: its ends lie elsewhere, by up to half a cell.
 
-use super::{GridError, GridSpec, INLET, MAX_GRADED_NODES, MAX_UNIFORM_NODES, ReferenceGrid, count, wanted_spacing};
+use super::{
+    GridError, GridSpec, INLET, MAX_GRADED_NODES, MAX_UNIFORM_NODES, ReferenceGrid, cells_between, wanted_spacing,
+};
 use std::sync::Arc;
 
 impl ReferenceGrid {
@@ -38,7 +40,7 @@ impl ReferenceGrid {
 fn halfway(a: f64, b: f64) -> f64 {
     let mut middle = 0.5 * (a + b);
     for _ in 0..4 {
-        middle += 0.5 * (count(middle, b) - count(a, middle)) * wanted_spacing(middle);
+        middle += 0.5 * (cells_between(middle, b) - cells_between(a, middle)) * wanted_spacing(middle);
     }
     middle
 }

@@ -5,7 +5,7 @@ use crate::solver::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_m
 use crate::solver::full::{FullSolver, Solution, Start};
 use crate::solver::grid::{GridSpec, ReferenceGrid};
 use crate::solver::lubricant::Lubricant;
-use crate::solver::training::{Plan, Range, TrainingSpec, WindowSpec, train};
+use crate::solver::training::{Plan, Range, TrainingSpec, WindowSpec, Windows, train};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -21,10 +21,10 @@ fn model(sampling: Sampling) -> Arc<ReducedModel> {
         },
         lubricant: Lubricant::default(),
         plan: Plan::FarthestPoint { snapshots: 50 },
-        windows: vec![WindowSpec {
+        windows: Windows::Given(vec![WindowSpec {
             m: (20.0, 80.0),
             grid: GridSpec::Graded { nodes: 300, domain: (-6.0, 1.9), registered: true },
-        }],
+        }]),
         pressure_loss: 1e-6,
         deformation_loss: 1e-7,
         sampling,

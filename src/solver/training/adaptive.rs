@@ -30,7 +30,7 @@
 use super::build::Shop;
 use super::indicator::{Indicator, Judges};
 use super::plan::{global_point, local_point};
-use super::state::{TrainingState, WindowState};
+use super::state::{Part, TrainingState, WindowState};
 use super::{Plan, Progress, TrainingError};
 use crate::solver::contact::OperatingPoint;
 use crate::solver::reduced::{Window, distance};
@@ -128,17 +128,17 @@ impl Search {
     }
 }
 
-/// Searches window `k` to the end; returns its last model.
+/// Searches window `k` to the end; returns its last model, or `None` once it needs more modes than it may have.
 pub(super) fn search(
     shop: &mut Shop<'_>,
     state: &mut TrainingState,
     k: usize,
     row_seed: u64,
-) -> Result<Window, TrainingError> {
+) -> Result<Option<Window>, TrainingError> {
     loop {
-        shop.solve_pending(state, k)?;
+        shop.solve_pending(state, Part::Window(k))?;
         let own = &mut state.windows[k];
-        let window = shop.assemble(&own.solved, &mut Rng::with_seed(row_seed))?;
+        let Some(window) = shop.assemble(&own.solved, &mut Rng::with_seed(row_seed))? else { return Ok(None) };
         if !own.search.finished {
             let chosen = match &shop.spec.plan {
                 plan @ Plan::Adaptive { .. } => find_bad(shop, plan, &window, own)?.into_iter().collect(),
@@ -147,7 +147,7 @@ pub(super) fn search(
             own.decide(chosen);
         }
         if own.search.finished {
-            return Ok(window);
+            return Ok(Some(window));
         }
     }
 }

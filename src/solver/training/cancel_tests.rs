@@ -30,7 +30,7 @@ fn spec(sampling: Sampling) -> TrainingSpec {
             vicinity: 8,
             limit: 120,
         },
-        windows: vec![WindowSpec { m: (5.0, 200.0), grid: GridSpec::EXPLORER }],
+        windows: Windows::Given(vec![WindowSpec { m: (5.0, 200.0), grid: GridSpec::EXPLORER }]),
         pressure_loss: 1e-7,
         deformation_loss: 1e-6,
         sampling,

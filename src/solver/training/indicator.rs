@@ -36,8 +36,8 @@ pub enum Indicator {
     /// e_f^I of (3.15), the dissertation's: no large-scale work at all.
     #[default]
     Residual,
-    /// By how much two Newton steps of the full system, taken from the reduced solution, change the film: the larger of
-    /// |ΔH_c/H_c| and ½|ΔH_min/H_min|. A tolerance on it is one on what people read off.
+    /// By how much two Newton steps of the full system, taken from the reduced solution, change it: the largest of |ΔH_c/H_c|,
+    /// ½|ΔH_min/H_min| and e_z of (3.10). A tolerance on it is one on what people read off, and the state keeps the spike in place.
     Correction,
 }
 
@@ -103,8 +103,8 @@ fn error_at(
     let error = match indicator {
         Indicator::Residual => solved.residual_estimate,
         Indicator::Correction => {
-            let [h_c, h_min, _] = measured_errors(online, &solved, window)?;
-            h_c.max(0.5 * h_min)
+            let [h_c, h_min, state] = measured_errors(online, &solved, window)?;
+            h_c.max(0.5 * h_min).max(state)
         }
     };
     error.is_finite().then_some(error)

@@ -10,10 +10,12 @@ mod calibrate;
 mod cancel_tests;
 pub mod distance;
 mod indicator;
+mod layout;
 mod plan;
 #[cfg(test)]
 mod resume_tests;
 mod rows;
+mod split;
 mod state;
 #[cfg(test)]
 mod tests;
@@ -136,7 +138,7 @@ pub struct TrainingSpec {
     /// Where the solutions are taken.
     pub plan: Plan,
     /// Windows of M with the grid of each.
-    pub windows: Vec<WindowSpec>,
+    pub windows: Windows,
     /// Loss of information that pressure modes may neglect, (2.92).
     pub pressure_loss: f64,
     /// Loss of information that deformation modes may neglect, (2.93).
@@ -172,8 +174,21 @@ impl TrainingSpec {
     }
 }
 
-/// One window of a model.
+/// Where the windows of a model come from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Windows {
+    /// As listed, by ascending M.
+    Given(Vec<WindowSpec>),
+    /// Chosen by the training from its range: inlet and registration of the grid by trial, edges by splitting.
+    Automatic {
+        /// Pressure modes beyond which a window is split: what a reduced solve costs grows with their cube.
+        modes: usize,
+    },
+}
+
+/// One window of a model.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WindowSpec {
     /// Range of M it serves (training reaches beyond by an overlap).

@@ -7,7 +7,7 @@ use crate::app::training::presets;
 use crate::scene::QuantityBox;
 use crate::solver::grid::GridSpec;
 use crate::solver::reduced::Sampling;
-use crate::solver::training::{Indicator, Plan, Range, TrainingSpec};
+use crate::solver::training::{Indicator, Plan, Range, TrainingSpec, Windows};
 use egui::{TextEdit, Ui};
 
 /// The form.
@@ -103,12 +103,23 @@ fn range_ui(ui: &mut Ui, form: &mut Form, spec: &mut TrainingSpec) {
             form.row(ui, "Viscosity {η_0}", VISCOSITY, viscosity, viscosity_tip);
         }
     }
-    let windows: Vec<String> = spec.windows.iter().map(|w| format!("{}…{}", short(w.m.0), short(w.m.1))).collect();
-    let grid = spec.windows.first().map_or_else(String::new, |w| match w.grid {
+    ui.weak(described_windows(&spec.windows));
+}
+
+/// The windows of M in a line.
+fn described_windows(windows: &Windows) -> String {
+    let given = match windows {
+        Windows::Automatic { modes } => {
+            return format!("Windows of M and grid: chosen by the training, at most {modes} modes each");
+        }
+        Windows::Given(given) => given,
+    };
+    let ranges: Vec<String> = given.iter().map(|w| format!("{}…{}", short(w.m.0), short(w.m.1))).collect();
+    let grid = given.first().map_or_else(String::new, |w| match w.grid {
         GridSpec::Graded { nodes, .. } => format!(", {nodes} graded nodes"),
         GridSpec::Uniform { dx, .. } => format!(", uniform grid of {dx}"),
     });
-    ui.weak(format!("Windows of M: {}{grid}", windows.join(", ")));
+    format!("Windows of M: {}{grid}", ranges.join(", "))
 }
 
 /// The same range, as far as it can be, given the other way.
