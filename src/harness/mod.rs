@@ -8,11 +8,15 @@
 //! Wall time is measured here and nowhere below.
 
 pub mod bench;
+mod distance_study;
 mod error;
+mod error_measure_study;
 mod formula_comparison;
 mod grid_study;
 pub mod model_file;
 mod outcome;
+mod parallel;
+mod plan_comparison;
 mod random_test;
 mod report;
 mod run;
@@ -20,6 +24,7 @@ mod sampling;
 mod series;
 mod statistics;
 pub mod table;
+mod tolerance_study;
 mod training_study;
 mod workbench;
 
@@ -28,7 +33,7 @@ pub use outcome::{NamedValue, SceneOutcome, Verdict};
 pub use report::{GridReport, HertzReport, MoesReport, PointReport, ReducedReport, SiReport, profile_table};
 pub use run::run_scene;
 pub use sampling::{Random, random_points};
-pub use statistics::{median, percentile};
+pub use statistics::{median, percentile, rank_correlation};
 pub use table::Table;
 pub use workbench::{Answer, ReducedFacts, Request, Workbench};
 

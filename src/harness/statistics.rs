@@ -17,9 +17,41 @@ pub fn median(values: &[f64]) -> f64 {
     percentile(values, 0.5)
 }
 
+/// Spearman's rank correlation of two lists, pair by pair, ties at their mean rank; NaN of fewer than two pairs or where one does not vary.
+pub fn rank_correlation(a: &[f64], b: &[f64]) -> f64 {
+    let n = a.len().min(b.len());
+    let (a, b) = (ranks(&a[..n]), ranks(&b[..n]));
+    let mean = 0.5 * (n as f64 - 1.0);
+    let product = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| (x - mean) * (y - mean)).sum::<f64>();
+    product(&a, &b) / (product(&a, &a) * product(&b, &b)).sqrt()
+}
+
+fn ranks(values: &[f64]) -> Vec<f64> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|&i, &j| values[i].total_cmp(&values[j]));
+    let mut ranks = vec![0.0; values.len()];
+    let mut from = 0;
+    for tied in order.chunk_by(|&i, &j| values[i] == values[j]) {
+        let rank = from as f64 + 0.5 * (tied.len() as f64 - 1.0);
+        tied.iter().for_each(|&i| ranks[i] = rank);
+        from += tied.len();
+    }
+    ranks
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn ranks_ignore_everything_but_the_order() {
+        let a = [1.0, 2.0, 3.0, 4.0];
+        assert_eq!(rank_correlation(&a, &a.map(|v| v.powi(9))), 1.0);
+        assert_eq!(rank_correlation(&a, &a.map(|v| -v)), -1.0);
+        // By hand: ranks 0, 1.5, 1.5, 3 against 0, 1, 2, 3.
+        assert!((rank_correlation(&[1.0, 5.0, 5.0, 9.0], &a) - 4.5 / (4.5f64 * 5.0).sqrt()).abs() < 1e-15);
+        assert!(rank_correlation(&[1.0, 1.0], &[1.0, 2.0]).is_nan() && rank_correlation(&[], &[]).is_nan());
+    }
 
     #[test]
     fn percentiles_interpolate() {

@@ -14,7 +14,7 @@ mod view;
 
 pub use document::{SceneError, SceneFileError};
 pub use expectation::{Expectation, Within};
-pub use study::{Axis, Formula, QuantityBox, Steps, Study, TestRange, Variable};
+pub use study::{Axis, ComparedPlan, Formula, OnlineScheme, QuantityBox, Steps, Study, TestRange, Variable};
 pub use view::{LoadFollower, LubricantFollower, View};
 
 use crate::solver::contact::{ContactError, ContactKind, MoesRequest, OperatingPoint, si_from_moes};

@@ -4,6 +4,7 @@
 //! registration scale s enters the online phase as a number: X = −1 + (ξ + 1)s, H = H₀ − ½ ln s + X²/2 + s (K V_p p̃).
 
 mod cubature;
+mod error_measures;
 mod model;
 mod online;
 mod operators;
@@ -12,9 +13,10 @@ mod sampling;
 mod start;
 
 pub use cubature::{GoalEquations, cubature};
+pub use error_measures::{ErrorMeasures, Norm, Residuals};
 pub use model::{Domain, ReducedModel, Snapshot, Trust, Window, deformation_weights, distance, flex};
 pub(crate) use online::interpolation_at_zero;
-pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution};
+pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution, Starts};
 pub(crate) use operators::Iterate;
 pub use pod::PodBasis;
 pub use sampling::{RowSnapshots, SampledRows, Sampling, all_rows, greedy, is_finite, q_deim};
