@@ -2,9 +2,10 @@
 //! often their models fail (Table 3.3), how far they are off, also along the trajectory (3.21) (Figs. 3.5 and 3.7).
 //!
 //! Sets of different size are compared as the dissertation does, by the loss of information l(k) of (2.90), each normalised by its own
-//! singular values: a slow decay means that the snapshots have little in common. `modes_per_snapshot` is the efficiency of section
-//! 3.1.4, information per full solution. l(k) says what a set knows of itself; what it knows of the range is told by the best
-//! approximation of pressures it has never seen, with as many modes as the smallest of the bases has (`unseen_…`).
+//! singular values: a slow decay means that the snapshots have little in common. `relative_loss_p_40` is l(40) of the pressure over the
+//! largest l(40) of all plans, one for the slowest decay; `modes_per_snapshot` is the efficiency of section 3.1.4, information
+//! per full solution. l(k) says what a set knows of itself; what it knows of the range is told by the best approximation of
+//! pressures it has never seen, with as many modes as the smallest of the bases has (`unseen_…`).
 
 use super::error::HarnessError;
 use super::outcome::SceneOutcome;
@@ -33,6 +34,8 @@ pub(super) struct PlanComparison<'a> {
 
 /// Losses of information at which modes are counted.
 const LOSSES: [(f64, &str); 2] = [(1e-4, "1e-4"), (1e-6, "1e-6")];
+/// Numbers of modes at which losses of information are compared.
+const MODES: [usize; 2] = [40, 60];
 /// Snapshots below this M count as lightly loaded; above about 50 solutions hardly differ (section 3.1.4).
 const LIGHT_M: f64 = 30.0;
 
@@ -168,6 +171,17 @@ fn information(plans: &[Plan<'_>], outcome: &mut SceneOutcome) {
             }
             columns.push(format!("{}.{field}", plan.name));
             all.push(losses);
+        }
+    }
+    for modes in MODES {
+        for (f, field) in ["p", "delta"].iter().enumerate() {
+            let losses: Vec<f64> =
+                all.iter().skip(f).step_by(2).map(|l| l.get(modes).copied().unwrap_or(f64::NAN)).collect();
+            let slowest = losses.iter().copied().fold(0.0, f64::max);
+            for (plan, loss) in plans.iter().zip(&losses) {
+                outcome.push(format!("{}.loss_{field}_{modes}", plan.name), None, *loss);
+                outcome.push(format!("{}.relative_loss_{field}_{modes}", plan.name), None, loss / slowest);
+            }
         }
     }
     let longest = all.iter().map(Vec::len).max().unwrap_or(0);
