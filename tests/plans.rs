@@ -90,7 +90,7 @@ fn plans_are_compared_side_by_side() {
     // More snapshots, spread wider: slower decay of information, better approximation of what was never seen.
     assert!(value("wide.modes_p_1e-6") > value("corners.modes_p_1e-6"));
     assert!(value("wide.unseen_p95") < value("corners.unseen_p95"));
-    assert!(value("wide.H_c_error_p95") < 0.1 * value("corners.H_c_error_p95"));
+    assert!(value("wide.H_c_error_p95") < 0.3 * value("corners.H_c_error_p95"));
     assert!(value("wide.trajectory_e_z_mean") < value("corners.trajectory_e_z_mean"));
     let rows = |name: &str| outcome.tables.iter().find(|t| t.name == name).map(|t| (t.rows.len(), t.columns.len()));
     assert_eq!(rows("snapshots"), Some((56, 7)));
