@@ -176,11 +176,14 @@ fn information(plans: &[Plan<'_>], outcome: &mut SceneOutcome) {
     for modes in MODES {
         for (f, field) in ["p", "delta"].iter().enumerate() {
             let losses: Vec<f64> =
-                all.iter().skip(f).step_by(2).map(|l| l.get(modes).copied().unwrap_or(f64::NAN)).collect();
+                all.iter().skip(f).step_by(2).map(|l| l.get(modes).copied().unwrap_or(0.0)).collect();
             let slowest = losses.iter().copied().fold(0.0, f64::max);
             for (plan, loss) in plans.iter().zip(&losses) {
                 outcome.push(format!("{}.loss_{field}_{modes}", plan.name), None, *loss);
-                outcome.push(format!("{}.relative_loss_{field}_{modes}", plan.name), None, loss / slowest);
+                // Where all sets are smaller than that, none of them loses anything.
+                if slowest > 0.0 {
+                    outcome.push(format!("{}.relative_loss_{field}_{modes}", plan.name), None, loss / slowest);
+                }
             }
         }
     }
