@@ -114,6 +114,17 @@ fn the_error_at_the_first_look_comes_from_the_grid() {
 }
 
 #[test]
+fn the_distance_measure_comes_out_of_full_solutions() {
+    assert_passes("distance_measure_uniform");
+    assert_passes("distance_measure_graded");
+}
+
+#[test]
+fn error_measures_rank_as_the_figure_shows() {
+    assert_passes("fig_3_1_error_measures");
+}
+
+#[test]
 fn a_model_file_that_is_missing_is_named() {
     let mut scene = Scene::at_moes(40.0, 10.0);
     scene.study =

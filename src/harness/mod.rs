@@ -10,12 +10,16 @@
 
 pub mod bench;
 mod checked_file;
+mod distance_study;
 mod error;
+mod error_measure_study;
 mod formula_comparison;
 mod grid_study;
 mod model_comparison;
 pub mod model_file;
 mod outcome;
+mod parallel;
+mod plan_comparison;
 mod random_test;
 mod report;
 mod run;
@@ -24,6 +28,7 @@ mod series;
 mod split_study;
 mod statistics;
 pub mod table;
+mod tolerance_study;
 pub mod training_file;
 mod training_study;
 mod workbench;

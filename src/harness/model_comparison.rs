@@ -1,7 +1,7 @@
 //! Reduced models side by side: size, speed, and errors at the same random points.
 
 use super::error::HarnessError;
-use super::random_test::full_films;
+use super::parallel::full_solutions;
 use super::statistics::{median, percentile};
 use crate::solver::contact::OperatingPoint;
 use crate::solver::full::Problem;
@@ -91,6 +91,18 @@ pub fn compare_models(
         films.push(full);
     }
     Ok(ModelComparison { points: points.len(), scores })
+}
+
+/// Films of full solutions on a model's own grids.
+fn full_films(
+    model: &ReducedModel,
+    points: &[OperatingPoint],
+    lubricant: Lubricant,
+    observer: &dyn TrainingObserver,
+) -> Result<Films, HarnessError> {
+    let grid = |point: &OperatingPoint| Arc::clone(&model.windows[model.window_for(point.moes())].grid);
+    let full = full_solutions(grid, points, lubricant, observer)?;
+    Ok(full.into_iter().map(|full| full.map(|full| (full.scalars.h_c, full.scalars.h_min))).collect())
 }
 
 /// H_c and H_min of full solutions, where there are any.

@@ -46,6 +46,16 @@ mod tests {
     use super::*;
 
     #[test]
+    fn ranks_ignore_everything_but_the_order() {
+        let a = [1.0, 2.0, 3.0, 4.0];
+        assert_eq!(rank_correlation(&a, &a.map(|v| v.powi(9))), 1.0);
+        assert_eq!(rank_correlation(&a, &a.map(|v| -v)), -1.0);
+        // By hand: ranks 0, 1.5, 1.5, 3 against 0, 1, 2, 3.
+        assert!((rank_correlation(&[1.0, 5.0, 5.0, 9.0], &a) - 4.5 / (4.5f64 * 5.0).sqrt()).abs() < 1e-15);
+        assert!(rank_correlation(&[1.0, 1.0], &[1.0, 2.0]).is_nan() && rank_correlation(&[], &[]).is_nan());
+    }
+
+    #[test]
     fn percentiles_interpolate() {
         assert_eq!(median(&[3.0, 1.0, 2.0]), 2.0);
         assert_eq!(median(&[4.0, 1.0, 2.0, 3.0]), 2.5);

@@ -9,8 +9,8 @@ use crate::solver::grid::{GridSpec, ReferenceGrid};
 use crate::solver::lubricant::Lubricant;
 use crate::solver::observer::Observer;
 use crate::solver::reduced::{ErrorEstimate, Online, ReducedError, ReducedModel, ReducedOptions, Trust, Window};
-use crate::solver::training::{TrainingObserver, train};
-use std::path::PathBuf;
+use crate::solver::training::{TrainingObserver, TrainingSpec, train};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -127,16 +127,22 @@ impl Workbench {
                 let path = self.base.join(path);
                 Arc::new(model_file::read(&path).map_err(|reason| HarnessError::Model { path, reason })?)
             }
-            ModelSource::Trained(path) => {
-                let path = self.base.join(path);
-                let Study::Training(spec) = Scene::read(&path)?.study else {
-                    return Err(HarnessError::NoTraining { path });
-                };
-                Arc::new(train(&spec, observer)?)
-            }
+            ModelSource::Trained(path) => Arc::new(train(&self.training(path)?, observer)?),
         };
         self.models.push((source.clone(), Arc::clone(&model)));
         Ok(model)
+    }
+
+    /// The training that a scene describes.
+    ///
+    /// # Errors
+    /// When the scene cannot be read or describes none.
+    pub fn training(&self, scene: &Path) -> Result<TrainingSpec, HarnessError> {
+        let path = self.base.join(scene);
+        match Scene::read(&path)?.study {
+            Study::Training(spec) => Ok(spec),
+            _ => Err(HarnessError::NoTraining { path }),
+        }
     }
 
     /// Solves a contact; `start` is a solution nearby, where there is one.

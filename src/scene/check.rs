@@ -10,6 +10,9 @@ pub const MAX_POINTS: usize = 100_000;
 /// Most random tests.
 pub const MAX_TESTS: usize = 1_000_000;
 
+/// Most full solutions that a study keeps to compare with.
+pub const MAX_COMPARED: usize = 20_000;
+
 type Checked = Result<(), SceneError>;
 
 fn refuse(field: impl Into<String>, problem: impl Into<String>) -> SceneError {
@@ -120,6 +123,32 @@ fn study(scene: &Scene) -> Checked {
             }
         }
         Study::Training(spec) => training(spec),
+        Study::ErrorMeasures { range, points, .. } | Study::DistanceMeasure { range, points, .. } => {
+            count("study.points", *points, 3, MAX_COMPARED)?;
+            test_range(range)
+        }
+        Study::PlanComparison { plans, range, tests, compare, trajectory, .. } => {
+            count("study.plans (how many)", plans.len(), 1, 16)?;
+            count("study.tests", *tests, 1, MAX_TESTS)?;
+            count("study.compare", *compare, 0, (*tests).min(MAX_COMPARED))?;
+            count("study.trajectory", *trajectory, 2, MAX_COMPARED)?;
+            for (i, plan) in plans.iter().enumerate() {
+                if plan.name.is_empty() || plans[..i].iter().any(|other| other.name == plan.name) {
+                    return Err(refuse(
+                        "study.plans.name",
+                        "must not be empty or occur twice: results are named by it",
+                    ));
+                }
+            }
+            let published = plans.iter().filter_map(|plan| plan.published_failure_percent);
+            published.into_iter().try_for_each(|p| number("study.plans.published_failure_percent", p, 0.0, 100.0))?;
+            quantity_box("study.range", range)
+        }
+        Study::ToleranceStudy { range, points, tests, .. } => {
+            count("study.points", *points, 2, MAX_COMPARED)?;
+            count("study.tests", *tests, 1, MAX_TESTS)?;
+            quantity_box("study.range", range)
+        }
         Study::FormulaComparison { m, l, .. } => {
             count("study.m (how many)", m.len(), 1, 1000)?;
             count("study.l (how many)", l.len(), 1, 1000)?;

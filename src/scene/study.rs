@@ -2,9 +2,11 @@
 
 use super::{Method, ModelSource};
 use crate::solver::contact::{ContactKind, FilmFormula, OperatingPoint};
+use crate::solver::reduced::{Norm, ReducedOptions};
 use crate::solver::training::TrainingSpec;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
+use std::path::PathBuf;
 
 /// What is asked of a scene's contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -59,6 +61,66 @@ pub enum Study {
     },
     /// Training of a reduced model.
     Training(TrainingSpec),
+    /// Error measures (3.10), (3.14), (3.15) of a reduced model at random points (3.17), ordered by the true error: Fig. 3.1.
+    ErrorMeasures {
+        /// Where the points are drawn.
+        range: TestRange,
+        /// How many.
+        points: usize,
+        /// Seed of the random numbers.
+        seed: u64,
+        /// The measured model.
+        model: ModelSource,
+        /// Its online scheme.
+        #[serde(default)]
+        online: OnlineScheme,
+        /// The norm of states and residuals.
+        #[serde(default)]
+        norm: Norm,
+    },
+    /// Weights of the distance measure by (3.9) from full solutions at random points (3.17): (3.20).
+    DistanceMeasure {
+        /// Where the points are drawn.
+        range: TestRange,
+        /// How many.
+        points: usize,
+        /// Seed of the random numbers.
+        seed: u64,
+    },
+    /// Plans of snapshot selection side by side: Tables 3.2 and 3.3, Figs. 3.3 to 3.5 and 3.7.
+    PlanComparison {
+        /// The plans.
+        plans: Vec<ComparedPlan>,
+        /// The box of random tests (3.17) and of the trajectory (3.21).
+        range: QuantityBox,
+        /// Random tests of each.
+        tests: usize,
+        /// Seed of the random tests.
+        seed: u64,
+        /// Full solutions are compared at this many of them.
+        compare: usize,
+        /// Points along the trajectory.
+        trajectory: usize,
+        /// Online scheme of all of them.
+        #[serde(default)]
+        online: OnlineScheme,
+    },
+    /// An adaptive training cut at each tolerance of its ladder: Fig. 3.6.
+    ToleranceStudy {
+        /// The scene of the training; relative paths refer to this scene's folder.
+        training: PathBuf,
+        /// The box of random tests (3.17) and of the trajectory (3.21).
+        range: QuantityBox,
+        /// Points along the trajectory, each with a full solution.
+        points: usize,
+        /// Random tests of each cut.
+        tests: usize,
+        /// Seed of the random tests.
+        seed: u64,
+        /// Online scheme.
+        #[serde(default)]
+        online: OnlineScheme,
+    },
     /// Full solutions against a published film formula at all pairs of M and L in the default realisation.
     FormulaComparison {
         /// The formula.
@@ -83,6 +145,29 @@ pub enum Contacts {
         /// Equidistant values of c, both ends counted.
         points: usize,
     },
+}
+
+/// One of the compared plans.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ComparedPlan {
+    /// Its name in results.
+    pub name: String,
+    /// The scene of its training; relative paths refer to this scene's folder.
+    pub training: PathBuf,
+    /// Failure rate as published \[%\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub published_failure_percent: Option<f64>,
+}
+
+/// How a reduced model is solved online.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
+pub enum OnlineScheme {
+    /// The explorer's: exact deformation operator, several starts, continuation.
+    #[default]
+    Explorer,
+    /// The dissertation's: δ̃ in the state, the nearest snapshot by (3.20) as the only start.
+    Dissertation,
 }
 
 /// One varied quantity.
@@ -207,13 +292,29 @@ impl Study {
         match self {
             Self::Point { methods } | Self::Sweep { methods, .. } | Self::Trajectory { methods, .. } => methods,
             Self::RandomTest { method, .. } | Self::ErrorSplit { method, .. } => std::slice::from_ref(method),
-            Self::GridStudy { .. } | Self::Training(_) | Self::FormulaComparison { .. } => &[],
+            Self::GridStudy { .. }
+            | Self::Training(_)
+            | Self::FormulaComparison { .. }
+            | Self::ErrorMeasures { .. }
+            | Self::DistanceMeasure { .. }
+            | Self::PlanComparison { .. }
+            | Self::ToleranceStudy { .. } => &[],
         }
     }
 
     /// The reduced model whose grid [`Grid::Model`](super::Grid::Model) means: the first one used, else the embedded one.
     pub fn grid_model(&self) -> ModelSource {
         self.methods().iter().find_map(Method::model).cloned().unwrap_or_default()
+    }
+}
+
+impl OnlineScheme {
+    /// The solver's options for it.
+    pub fn options(self) -> ReducedOptions {
+        match self {
+            Self::Explorer => ReducedOptions::default(),
+            Self::Dissertation => ReducedOptions::dissertation(),
+        }
     }
 }
 

@@ -258,11 +258,15 @@ fn plan_ui(ui: &mut Ui, form: &mut Form, spec: &mut TrainingSpec) {
 
 fn indicator_ui(ui: &mut Ui, form: &mut Form, indicator: &mut Indicator) {
     let before = *indicator;
-    let options = [Indicator::Correction, Indicator::Residual];
+    let options = [Indicator::Correction, Indicator::Residual, Indicator::Dissertation];
     choose(ui, "Judged by", "The indicator of a bad approximation", indicator, &options, |indicator| match indicator {
         Indicator::Correction => {
-            ("Newton steps", "What two Newton steps of the full system change of the film, relative")
+            ("Newton steps", "What two Newton steps of the full system change of film and state, relative")
         }
+        Indicator::Dissertation => (
+            "Residual, 2-norm",
+            "The dissertation's e_f^I: Euclidean norm, δ̃ in the state, the nearest snapshot as start",
+        ),
         Indicator::Residual => ("Residual", "The residual at the sampled rows, e_f^I (3.15): no large-scale work"),
     });
     if *indicator != before {
