@@ -1,6 +1,6 @@
 //! Published film-thickness formulas for line contacts, each with its source and range of validity.
 
-use super::{Moes, OperatingPoint};
+use super::{ContactKind, Moes, OperatingPoint};
 
 /// A published formula, as the Regimes tab and the formula-comparison scene list them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,8 +102,24 @@ pub fn dowson_toyoda_central(point: &OperatingPoint) -> f64 {
     3.06 * g.powf(0.56) * u.powf(0.69) * w.powf(-0.10)
 }
 
+/// Hamrock–Dowson central film of a circular point contact as h_c/R, in U = η₀u_m/(E′R), G = αE′, W = w/(E′R²).
+pub fn hamrock_dowson_central(point: &OperatingPoint) -> f64 {
+    let (u, g, w) = groups(point);
+    2.69 * u.powf(0.67) * g.powf(0.53) * w.powf(-0.067) * (1.0 - 0.61 * (-0.73f64).exp())
+}
+
+/// Hamrock–Dowson minimum film of a circular point contact as h_min/R.
+pub fn hamrock_dowson_minimum(point: &OperatingPoint) -> f64 {
+    let (u, g, w) = groups(point);
+    3.63 * u.powf(0.68) * g.powf(0.49) * w.powf(-0.073) * (1.0 - (-0.68f64).exp())
+}
+
 fn groups(point: &OperatingPoint) -> (f64, f64, f64) {
-    (point.speed_group() / 2.0, point.alpha_per_pa * point.modulus_pa, point.load / (point.modulus_pa * point.radius_m))
+    let area = match point.kind {
+        ContactKind::Line => point.radius_m,
+        ContactKind::Point => point.radius_m * point.radius_m,
+    };
+    (point.speed_group() / 2.0, point.alpha_per_pa * point.modulus_pa, point.load / (point.modulus_pa * area))
 }
 
 #[cfg(test)]
