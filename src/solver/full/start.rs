@@ -196,11 +196,8 @@ fn moes_film(problem: &Problem) -> f64 {
 fn warm_state(system: &mut LineSystem, problem: &Problem, former: &Solution) {
     let grid = &system.grid;
     let same_grid = matches!(former.mesh, Mesh::Line { spec, .. } if spec == grid.reference.spec);
-    let pressure = if former.x.len() == grid.len() && same_grid {
-        former.pressure.clone()
-    } else {
-        interpolate(former, grid)
-    };
+    let pressure =
+        if former.x.len() == grid.len() && same_grid { former.pressure.clone() } else { interpolate(former, grid) };
     let ratio = moes_film(problem) / moes_film(&former.problem);
     let same = former.problem == *problem;
     system.set_pressure(problem, &pressure);

@@ -7,10 +7,10 @@
 //! Node arrays everywhere in the solver have one extra leading node: index 0 lies outside the inlet (the upwind stencil of the first
 //! unknown reaches it), index 1 is the inlet, the last index the outlet. P vanishes at all three.
 
+use super::dot;
 use crate::solver::contact::Moes;
 use crate::solver::elasticity::{Flexibility, Scratch};
 use crate::solver::reynolds::RowGeometry;
-use super::dot;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 

@@ -90,6 +90,16 @@ impl PointGridSpec {
         Ok((((to - from) / self.dx).round() as usize + 1, (-edge / self.dy).round() as usize + 1))
     }
 
+    /// Refuses what [`PointGridSpec::build`] would refuse, without building it.
+    ///
+    /// # Errors
+    /// When the domain cuts the contact, or the grid is too coarse to hold it or too fine for memory.
+    pub fn check(&self) -> Result<(usize, usize), PointGridError> {
+        let (nx, ny) = self.nodes()?;
+        let bytes = Self::bytes(nx, ny);
+        if bytes > MAX_BYTES { Err(PointGridError::Memory { nx, ny, bytes }) } else { Ok((nx, ny)) }
+    }
+
     /// Bytes that the kernel and the preconditioner of nx × ny nodes take: they grow as nx·ny², all else as nx·ny.
     fn bytes(nx: usize, ny: usize) -> f64 {
         let (nx, ny) = (nx as f64, ny as f64);
@@ -101,11 +111,7 @@ impl PointGridSpec {
     /// # Errors
     /// When the domain cuts the contact, or the grid is too coarse to hold it or too fine for memory.
     pub fn build(&self) -> Result<Arc<PointGrid>, PointGridError> {
-        let (nx, ny) = self.nodes()?;
-        let bytes = Self::bytes(nx, ny);
-        if bytes > MAX_BYTES {
-            return Err(PointGridError::Memory { nx, ny, bytes });
-        }
+        let (nx, ny) = self.check()?;
         let (from, to, edge) = self.domain;
         let at = |from: f64, to: f64, i: usize, n: usize| from + (to - from) * i as f64 / (n - 1) as f64;
         let x: Vec<f64> = (0..nx).map(|i| at(from, to, i, nx)).collect();
@@ -199,8 +205,7 @@ impl PointGrid {
         let south = self.y[j] - self.y[j - 1];
         let north = (!on_axis).then(|| self.y[j + 1] - self.y[j]);
         let west2 = if column == 0 { node - ny } else { node - 2 * ny };
-        let stencil =
-            [west2, node - ny, node, node + ny, node - 1, if on_axis { node - 1 } else { node + 1 }];
+        let stencil = [west2, node - ny, node, node + ny, node - 1, if on_axis { node - 1 } else { node + 1 }];
         (stencil, self.columns[column].across(south, north))
     }
 

@@ -126,8 +126,7 @@ pub struct Row {
 pub fn row(geometry: &RowGeometry, penalty: f64, nodes: [&Node; STENCIL]) -> Row {
     let center = nodes[CENTER];
     let mut out = Row::default();
-    for (k, weight) in
-        [(WEST, geometry.west), (EAST, geometry.east), (SOUTH, geometry.south), (NORTH, geometry.north)]
+    for (k, weight) in [(WEST, geometry.west), (EAST, geometry.east), (SOUTH, geometry.south), (NORTH, geometry.north)]
     {
         if weight == 0.0 {
             continue;
@@ -236,11 +235,8 @@ mod tests {
             let t0 = 0.4;
             let x: [f64; 4] = std::array::from_fn(|k| map(t0 + step * (k as f64 - 2.0)));
             let nodes: Vec<Node> = x.iter().map(|&x| Node::new(&fluid, 1.0, p(x), h(x))).collect();
-            let r = row(
-                &RowGeometry::new(x),
-                PENALTY,
-                [&nodes[0], &nodes[1], &nodes[2], &nodes[3], &nodes[2], &nodes[2]],
-            );
+            let r =
+                row(&RowGeometry::new(x), PENALTY, [&nodes[0], &nodes[1], &nodes[2], &nodes[3], &nodes[2], &nodes[2]]);
             (r.value - exact(x[2])).abs()
         };
         let order = (error(0.02) / error(0.01)).log2();

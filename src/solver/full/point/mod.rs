@@ -4,10 +4,14 @@
 //! a fast convolution. There is no line search on the residual: the penalty makes it jump at the cavitation front, and the steps would
 //! collapse. Steps are limited by what pressure and film can bear instead.
 
+mod accuracy;
 mod block_tridiagonal;
 mod preconditioner;
 mod start;
+#[cfg(test)]
+mod tests;
 
+pub use accuracy::{Accuracy, Estimate, resolution_warning, side_lobe_curvature};
 pub use start::PointSolver;
 
 use super::gmres::{Gmres, LinearOutcome};

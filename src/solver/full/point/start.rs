@@ -2,9 +2,7 @@
 
 use super::{PointOptions, PointSystem};
 use crate::solver::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, hamrock_dowson_central, si_from_moes};
-use crate::solver::full::solution::{
-    Mesh, Problem, Report, Solution, SolveError, Termination, point_scalars_of,
-};
+use crate::solver::full::solution::{Mesh, Problem, Report, Solution, SolveError, Termination, point_scalars_of};
 use crate::solver::full::start::Start;
 use crate::solver::grid::{PointGrid, PointGridSpec};
 use crate::solver::lubricant::Lubricant;
