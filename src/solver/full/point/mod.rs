@@ -57,6 +57,12 @@ impl Default for PointOptions {
     }
 }
 
+/// Steps smaller than this only move the cavitation front.
+const LATE_STEP: f64 = 1e-2;
+/// Shares of a late step that are taken in turn when the front cycles: nodes that all change sides at once, there and back, then do so in
+/// smaller groups.
+const CYCLE_BREAKERS: [f64; 3] = [0.5, 0.25, 0.75];
+
 /// Pressures are cut off here after each step: lower ones are no state, only an overshoot of the penalty.
 const LOWEST_PRESSURE: f64 = -1e-4;
 
@@ -173,7 +179,7 @@ impl PointSystem {
         report: &mut Report,
     ) {
         let mut residual = self.evaluate(problem, options.penalty);
-        let forcing = options.forcing;
+        let (mut recent, mut cycles) = ([f64::INFINITY; 2], 0);
         report.termination = Termination::IterationLimit;
         for _ in 0..options.max_newton {
             if observer.cancelled() {
@@ -181,10 +187,18 @@ impl PointSystem {
                 break;
             }
             report.residuals.push(residual);
-            let linear = self.solve_linear(problem, options, forcing);
+            let linear = self.solve_linear(problem, options, options.forcing);
             report.linear_iterations += linear.iterations;
             report.newton_iterations += 1;
-            let (step, shift) = self.damped_step(options);
+            let (step, shift) = self.damped_step(options, |step| {
+                // A step as large as the one before the last, late: the front moves to and fro.
+                if step > LATE_STEP || step < 0.9 * recent[0] {
+                    return 1.0;
+                }
+                cycles += 1;
+                CYCLE_BREAKERS[cycles % CYCLE_BREAKERS.len()]
+            });
+            recent = [recent[1], step];
             let before = residual;
             residual = self.evaluate(problem, options.penalty);
             report.steps.push(step);
@@ -203,15 +217,15 @@ impl PointSystem {
         report.residual_norm = residual;
     }
 
-    /// Takes the Newton step as far as pressure and film can bear it. Returns max|ΔP| and ΔH₀ of the undamped step, so that damping never
-    /// looks like convergence.
-    fn damped_step(&mut self, options: &PointOptions) -> (f64, f64) {
+    /// Takes the Newton step as far as pressure and film can bear it, and as `share` of its max|ΔP| allows. Returns max|ΔP| and ΔH₀ of the
+    /// undamped step, so that damping never looks like convergence.
+    fn damped_step(&mut self, options: &PointOptions, share: impl FnOnce(f64) -> f64) -> (f64, f64) {
         let u = self.grid.unknowns();
         let dh_0 = self.update[u];
         scatter(&self.grid, &self.update, &mut self.step);
         let largest = self.step.iter().fold(0.0f64, |largest, s| if s.is_nan() { *s } else { largest.max(s.abs()) });
         self.grid.deform(&self.step, &mut self.step_deformation, &mut self.fft);
-        let mut factor = (options.largest_step / largest).min(1.0);
+        let mut factor = (options.largest_step / largest).min(share(largest));
         for (h, d) in self.film.iter().zip(&self.step_deformation) {
             let change = d + dh_0;
             if change < -options.film_loss * h {
