@@ -34,7 +34,7 @@ fn full_solutions_agree_with_independent_ones_on_301_by_41_nodes() {
         let pairs = [("H_c", s.h_c), ("P_c", s.p_c), ("H_0", s.h_0), ("H_min", s.h_min)];
         for ((name, got), worst) in pairs.into_iter().zip(&mut worst) {
             let error = (got / wanted(name) - 1.0).abs();
-            assert!(error < 1e-4, "M {m}: {name} {got} against {}", wanted(name));
+            assert!(error < 1e-6, "M {m}: {name} {got} against {}", wanted(name));
             *worst = worst.max(error);
         }
         let place = [("X_H_min", s.x_h_min), ("Y_H_min", s.y_h_min)];

@@ -119,7 +119,7 @@ fn heavy_load_tends_to_hertz() {
         inside.map(|(x, y, p, _)| (p - (1.0 - x * x - y * y).sqrt()).abs()).fold(0.0, f64::max)
     };
     let (light, middle, heavy) = (deviation(20.0), deviation(100.0), deviation(600.0));
-    assert!(heavy < 0.3 * middle && middle < 0.5 * light && heavy < 0.01, "{light} {middle} {heavy}");
+    assert!(heavy < 0.3 * middle && middle < 0.5 * light && heavy < 0.02, "{light} {middle} {heavy}");
 }
 
 #[test]
