@@ -76,7 +76,7 @@ impl FilmFormula {
                 "Hamrock & Dowson 1977, ASME J. Lubr. Technol. 99, h_min/R = 3.63 U^0.68 G^0.49 W^−0.073 (1 − exp(−0.68 k)), k = 1.03 for a circle; piezoviscous-elastic regime"
             }
             Self::NijenbanningVennerMoes => {
-                "Nijenbanning, Venner & Moes 1994, Film thickness in elastohydrodynamically lubricated elliptic contacts, Wear 176; all four regimes, Barus viscosity, incompressible"
+                "Nijenbanning, Venner & Moes 1994, Film thickness in elastohydrodynamically lubricated elliptic contacts, Wear 176; all four regimes; real fluids deviate to both sides"
             }
         }
     }
@@ -137,7 +137,8 @@ const CIRCLE: f64 = 1.03;
 
 /// Moes' film number H = (h/R)(2U)^(−1/2) for a circular point contact, central film.
 ///
-/// Source: Nijenbanning, Venner & Moes, Wear 176 (1994) 217–229, at equal radii; Barus viscosity, incompressible fluid.
+/// Source: Nijenbanning, Venner & Moes, Wear 176 (1994) 217–229, at equal radii. Full solutions with Barus' law and no compressibility
+/// lie 8–15 % above it, with Roelands and Dowson–Higginson 6–13 % below (M 20…200, L 2.5…10, default realisation).
 pub fn moes_point_film(Moes { m, l }: Moes) -> f64 {
     let rigid_iso = 145.0 * 1.796f64.powf(-15.0 / 7.0) * m.powi(-2);
     let elastic_iso = 3.18 * 1.63f64.powf(-14.0 / 25.0) * m.powf(-2.0 / 15.0);
