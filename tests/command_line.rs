@@ -187,7 +187,6 @@ fn bad_options_are_refused_with_one_sentence() {
     let moes = ["solve", "--moes-m", "40", "--moes-l", "10"];
     for (more, words) in [
         (&["--contact", "point", "--method", "reduced"][..], "point"),
-        (&["--contact", "point", "--grid", "graded"], "uniform"),
         (&["--contact", "point", "--grid", "model"], "uniform"),
         (&["--contact", "point", "--dx", "0.5"], "hold the contact"),
         (&["--contact", "point", "--dy", "nan"], "ΔY"),

@@ -115,7 +115,7 @@ pub struct PointOptions {
     /// Spacing ΔX of a uniform grid (default: 0.005 line, 0.02 point)
     #[arg(long, allow_negative_numbers = true)]
     pub dx: Option<f64>,
-    /// Spacing ΔY of a point contact's grid (default: 0.05)
+    /// Spacing ΔY of a point contact's grid (default: 0.05); a graded grid is four times finer in the side lobes
     #[arg(long, allow_negative_numbers = true)]
     pub dy: Option<f64>,
     /// Inlet and outlet (default: -4,2 on a uniform grid), and outer edge of a point contact's half domain (default: -2); of a graded grid in its reference coordinate
@@ -318,19 +318,24 @@ impl PointOptions {
         }
     }
 
-    /// The grid of a point contact: always uniform.
+    /// The grid of a point contact.
     fn plane(&self) -> Result<Grid, Failure> {
-        if self.grid.is_some_and(|grid| grid != GridName::Uniform) {
-            return refuse("a point contact has uniform grids only: leave out --grid, or write --grid uniform");
-        }
-        let default = PointGridSpec::DISSERTATION;
+        let default = match self.grid {
+            None | Some(GridName::Uniform) => PointGridSpec::DISSERTATION,
+            Some(GridName::Graded) => PointGridSpec::EXPLORER,
+            Some(GridName::Model) => {
+                return refuse(
+                    "there is no reduced model of a point contact in this version; write --grid uniform or --grid graded",
+                );
+            }
+        };
         let (from, to, edge) = default.domain;
         let ends = self.domain.map_or((from, to), |domain| domain.x);
         let edge = self.domain.and_then(|domain| domain.y).unwrap_or(edge);
         let (dx, dy) = (self.dx.unwrap_or(default.dx), self.dy.unwrap_or(default.dy));
-        let domain = (ends.0, ends.1, edge);
-        PointGridSpec { dx, dy, domain }.check().map_err(|error| Failure::Request(error.to_string()))?;
-        Ok(Grid::Plane { dx, dy, domain })
+        let spec = PointGridSpec { dx, dy, domain: (ends.0, ends.1, edge), ..default };
+        spec.check().map_err(|error| Failure::Request(error.to_string()))?;
+        Ok(Grid::Plane { dx, dy, domain: spec.domain, refinement: spec.refinement })
     }
 
     fn grid(&self, method: &Method) -> Result<Grid, Failure> {

@@ -26,7 +26,7 @@ pub(super) fn run(
         step(observer, "grids", i, spacings.len())?;
         let grid = match scene.grid {
             Grid::Uniform { domain, .. } => Grid::Uniform { dx, domain },
-            Grid::Plane { dy, domain, .. } => Grid::Plane { dx, dy, domain },
+            Grid::Plane { dy, domain, refinement, .. } => Grid::Plane { dx, dy, domain, refinement },
             _ => return Err(HarnessError::Study("a grid study needs a Uniform or Plane `grid`".to_owned())),
         };
         let request = Request { grid, ..template.clone() };

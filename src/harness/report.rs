@@ -175,11 +175,7 @@ impl From<&Answer> for PointReport {
                 load_residual: finite(s.load_residual),
             }
         });
-        let kind = match point.kind {
-            _ if answer.reduced.is_some() => "model",
-            ContactKind::Line => answer.request.grid.kind(),
-            ContactKind::Point => "uniform",
-        };
+        let kind = if answer.reduced.is_some() { "model" } else { answer.request.grid.kind() };
         Self {
             contact: point.kind.name(),
             method: answer.method.name(),

@@ -83,7 +83,7 @@ fn grid(grid: &Grid, contact: ContactKind) -> Checked {
             count("grid.nodes", nodes, 61, crate::solver::grid::MAX_GRADED_NODES)?;
             domain(ends)
         }
-        Grid::Plane { dx, dy, domain } => PointGridSpec { dx, dy, domain }
+        Grid::Plane { dx, dy, domain, refinement } => PointGridSpec { dx, dy, refinement, domain }
             .check()
             .map(|_| ())
             .map_err(|problem| refuse("grid", format!("makes no sense: {problem}"))),

@@ -116,7 +116,7 @@ pub enum Grid {
         /// Inlet and outlet.
         domain: (f64, f64),
     },
-    /// The default: the explorer's graded grid for a line, the dissertation's uniform 301×41 nodes for a point contact.
+    /// The explorer's graded grid: along X for a line, across for a point contact.
     #[default]
     Graded,
     /// A graded grid of one's own.
@@ -128,7 +128,7 @@ pub enum Grid {
         /// Whether the pressure spike is mapped to ξ = 1.
         registered: bool,
     },
-    /// Equidistant nodes on the half Y ≤ 0 of a point contact; the dissertation's are `Plane(dx: 0.02, dy: 0.05, domain: (-4.0, 2.0, -2.0))`.
+    /// Nodes on the half Y ≤ 0 of a point contact; the dissertation's are `Plane(dx: 0.02, dy: 0.05, domain: (-4.0, 2.0, -2.0))`.
     Plane {
         /// Spacing ΔX.
         dx: f64,
@@ -136,6 +136,9 @@ pub enum Grid {
         dy: f64,
         /// Inlet, outlet and outer edge.
         domain: (f64, f64, f64),
+        /// How many times finer the spacing across is in the side lobes.
+        #[serde(default = "equidistant", skip_serializing_if = "is_equidistant")]
+        refinement: f64,
     },
     /// The grid of the reduced model in the study (of the embedded one where there is none), so that both can be compared.
     Model,
@@ -264,6 +267,14 @@ impl From<OperatingPoint> for At {
     }
 }
 
+fn equidistant() -> f64 {
+    1.0
+}
+
+fn is_equidistant(refinement: &f64) -> bool {
+    *refinement == 1.0
+}
+
 impl Grid {
     /// The dissertation's grid: 1201 nodes from −4 to 2.
     pub const DISSERTATION: Self = Self::Uniform { dx: 0.005, domain: (-4.0, 2.0) };
@@ -271,8 +282,8 @@ impl Grid {
     /// The solver's specification for a point contact; `None` where this is no grid of one.
     pub fn point_spec(&self) -> Option<PointGridSpec> {
         match *self {
-            Self::Plane { dx, dy, domain } => Some(PointGridSpec { dx, dy, domain }),
-            Self::Graded => Some(PointGridSpec::DISSERTATION),
+            Self::Plane { dx, dy, domain, refinement } => Some(PointGridSpec { dx, dy, refinement, domain }),
+            Self::Graded => Some(PointGridSpec::EXPLORER),
             Self::Uniform { .. } | Self::GradedNodes { .. } | Self::Model => None,
         }
     }
@@ -290,7 +301,9 @@ impl Grid {
     /// The word that stands for it in results.
     pub fn kind(&self) -> &'static str {
         match self {
-            Self::Uniform { .. } | Self::Plane { .. } => "uniform",
+            Self::Uniform { .. } => "uniform",
+            Self::Plane { refinement, .. } if is_equidistant(refinement) => "uniform",
+            Self::Plane { .. } => "graded",
             Self::Graded | Self::GradedNodes { .. } => "graded",
             Self::Model => "model",
         }

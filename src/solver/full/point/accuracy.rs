@@ -31,7 +31,7 @@ impl Accuracy {
     /// where both do, it must be by the same factor. None where the two cannot be compared so.
     pub fn of(coarse: &Solution, fine: &Solution) -> Option<Self> {
         let (Mesh::Point(wide), Mesh::Point(narrow)) = (coarse.mesh, fine.mesh) else { return None };
-        if coarse.problem != fine.problem || wide.domain != narrow.domain {
+        if coarse.problem != fine.problem || wide.domain != narrow.domain || wide.refinement != narrow.refinement {
             return None;
         }
         let (along, across) = (wide.dx / narrow.dx, wide.dy / narrow.dy);
@@ -69,14 +69,14 @@ pub fn side_lobe_curvature(solution: &Solution) -> f64 {
 
 /// A sentence where the grid is too wide across to resolve the side lobes in which H_min lies.
 pub fn resolution_warning(solution: &Solution) -> Option<String> {
-    let Mesh::Point(spec) = solution.mesh else { return None };
+    let spacing = |w: &[f64]| (w[1] >= solution.scalars.y_h_min).then(|| w[1] - w[0]);
+    let spacing = solution.y.windows(2).find_map(spacing)?;
     let curvature = side_lobe_curvature(solution);
     (curvature > UNRESOLVED_CURVATURE).then(|| {
         // The curvature falls with the square of the spacing.
-        let wanted = spec.dy * (0.5 * UNRESOLVED_CURVATURE / curvature).sqrt();
+        let wanted = spacing * (0.5 * UNRESOLVED_CURVATURE / curvature).sqrt();
         format!(
-            "H_min is not resolved: the side lobes are narrower than the spacing across (ΔY {}); H_c is not affected; take ΔY {wanted:.2} or less",
-            spec.dy
+            "H_min is not resolved: the side lobes are too narrow for the spacing of {spacing:.3} across them; H_c is not affected; take {wanted:.3} or less, or the graded grid"
         )
     })
 }

@@ -8,7 +8,7 @@ use crate::solver::lubricant::{DensityLaw, Lubricant, ScaledFluid, ViscosityLaw}
 use crate::solver::reynolds::RowGeometry;
 use std::sync::atomic::AtomicBool;
 
-const COARSE: PointGridSpec = PointGridSpec { dx: 0.04, dy: 0.1, domain: (-4.0, 2.0, -2.0) };
+const COARSE: PointGridSpec = PointGridSpec::uniform(0.04, 0.1, (-4.0, 2.0, -2.0));
 
 fn at(m: f64, l: f64) -> OperatingPoint {
     si_from_moes(&MoesRequest::new(ContactKind::Point, m, l)).unwrap()
@@ -21,7 +21,7 @@ fn solve(spec: PointGridSpec, point: &OperatingPoint) -> Solution {
 #[test]
 fn jacobian_stencils_with_the_kernel_are_the_derivative_of_the_residual() {
     let problem = Problem::new(&at(60.0, 8.0), Lubricant::default()).unwrap();
-    let grid = PointGridSpec { dx: 0.1, dy: 0.2, domain: (-2.5, 1.5, -1.6) }.build().unwrap();
+    let grid = PointGridSpec::uniform(0.1, 0.2, (-2.5, 1.5, -1.6)).build().unwrap();
     let mut system = PointSystem::new(Arc::clone(&grid));
     let (nx, ny) = (grid.nx(), grid.ny());
     let field = |f: &dyn Fn(f64, f64) -> f64| -> Vec<f64> {
@@ -175,6 +175,18 @@ fn two_grids_estimate_the_error_and_a_coarse_one_warns() {
     assert!(resolution_warning(&coarse).is_some_and(|sentence| sentence.contains("H_min")));
     let light = solve(PointGridSpec { dx: 0.08, dy: 0.05, ..COARSE }, &at(20.0, 5.0));
     assert_eq!(resolution_warning(&light), None);
+}
+
+#[test]
+fn a_graded_grid_finds_the_films_of_a_much_finer_uniform_one() {
+    let spec = |dy: f64, refinement: f64| PointGridSpec { dx: 0.08, dy, refinement, domain: (-3.0, 1.8, -1.4) };
+    let point = at(700.0, 5.0);
+    let [uniform, graded, fine] = [spec(0.05, 1.0), spec(0.05, 4.0), spec(0.0125, 1.0)].map(|s| solve(s, &point));
+    assert!(graded.y.len() < 52 && uniform.converged() && graded.converged() && fine.converged());
+    let off = |s: &Solution| (s.scalars.h_min / fine.scalars.h_min - 1.0).abs();
+    assert!(off(&uniform) > 0.2 && off(&graded) < 0.02, "{} {}", off(&uniform), off(&graded));
+    assert!((graded.scalars.h_c / fine.scalars.h_c - 1.0).abs() < 2e-3);
+    assert!(resolution_warning(&uniform).is_some() && resolution_warning(&graded).is_none());
 }
 
 #[test]
