@@ -1,4 +1,4 @@
-//! Elastic deformation of the half-space: under line loads ([`line`], (2.27)) and under pressures on a plane ([`point`], (2.25)).
+//! Elastic deformation of the half-space: under line loads ([`mod@line`], (2.27)) and under pressures on a plane ([`mod@point`], (2.25)).
 
 pub mod line;
 pub mod point;

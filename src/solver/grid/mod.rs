@@ -1,4 +1,4 @@
-//! The computational domains: of a line contact along X ([`line`]), of the half of a point contact that its symmetry leaves ([`point`]).
+//! The computational domains: of a line contact along X ([`mod@line`]), of the half of a point contact that its symmetry leaves ([`mod@point`]).
 
 pub mod line;
 pub mod point;

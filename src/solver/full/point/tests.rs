@@ -179,12 +179,12 @@ fn two_grids_estimate_the_error_and_a_coarse_one_warns() {
 
 #[test]
 fn a_graded_grid_finds_the_films_of_a_much_finer_uniform_one() {
-    let spec = |dy: f64, refinement: f64| PointGridSpec { dx: 0.08, dy, refinement, domain: (-3.0, 1.8, -1.4) };
-    let point = at(700.0, 5.0);
+    let spec = |dy: f64, refinement: f64| PointGridSpec { dx: 0.04, dy, refinement, domain: (-3.0, 1.8, -1.4) };
+    let point = at(858.0, 2.0);
     let [uniform, graded, fine] = [spec(0.05, 1.0), spec(0.05, 4.0), spec(0.0125, 1.0)].map(|s| solve(s, &point));
     assert!(graded.y.len() < 52 && uniform.converged() && graded.converged() && fine.converged());
     let off = |s: &Solution| (s.scalars.h_min / fine.scalars.h_min - 1.0).abs();
-    assert!(off(&uniform) > 0.2 && off(&graded) < 0.02, "{} {}", off(&uniform), off(&graded));
+    assert!(off(&uniform) > 0.5 && off(&graded) < 0.04, "{} {}", off(&uniform), off(&graded));
     assert!((graded.scalars.h_c / fine.scalars.h_c - 1.0).abs() < 2e-3);
     assert!(resolution_warning(&uniform).is_some() && resolution_warning(&graded).is_none());
 }
