@@ -59,9 +59,11 @@ impl Default for PointOptions {
 
 /// Steps smaller than this only move the cavitation front.
 const LATE_STEP: f64 = 1e-2;
-/// Shares of a late step that are taken in turn when the front cycles: nodes that all change sides at once, there and back, then do so in
-/// smaller groups.
-const CYCLE_BREAKERS: [f64; 3] = [0.5, 0.25, 0.75];
+/// The share of a late step that is taken when the front cycles: nodes that all change sides at once, there and back, then do so in smaller
+/// groups. The golden ratio spreads the shares over 0.035…0.7 and never repeats them: a repeating pattern can become part of a cycle.
+fn cycle_breaker(cycles: usize) -> f64 {
+    0.7 * 0.05f64.powf((cycles as f64 * 0.618_033_988_749_895).fract())
+}
 
 /// Pressures are cut off here after each step: lower ones are no state, only an overshoot of the penalty.
 const LOWEST_PRESSURE: f64 = -1e-4;
@@ -196,7 +198,7 @@ impl PointSystem {
                     return 1.0;
                 }
                 cycles += 1;
-                CYCLE_BREAKERS[cycles % CYCLE_BREAKERS.len()]
+                cycle_breaker(cycles)
             });
             recent = [recent[1], step];
             let before = residual;
