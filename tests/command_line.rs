@@ -145,6 +145,31 @@ fn a_reduced_solve_says_what_served_it_and_whether_it_was_trained() {
 }
 
 #[test]
+fn a_point_contact_prints_its_plane_and_its_fields() {
+    let folder = scratch("point");
+    let profiles = folder.join("fields.csv");
+    let path = profiles.to_string_lossy().into_owned();
+    let fixed = ["solve", "--json", "--contact", "point", "--dx", "0.06", "--dy", "0.1", "--domain=-3,1.8,-1.5"];
+    let report = json(&program(&[&fixed[..], &["--moes-m", "200", "--moes-l", "10", "--profiles", &path]].concat()));
+    assert_eq!((&report["contact"], &report["converged"]), (&"point".into(), &true.into()));
+    let grid = &report["grid"];
+    assert_eq!((&grid["kind"], &grid["nx"], &grid["ny"]), (&"uniform".into(), &81.into(), &16.into()));
+    assert_eq!(grid["dofs"], 79 * 15 + 1);
+    let number = |name: &str| report[name].as_f64().unwrap();
+    assert!((report["moes"]["M"].as_f64().unwrap() / 200.0 - 1.0).abs() < 1e-9);
+    assert!((-1.2..0.0).contains(&number("Y_H_min")) && number("H_min") < number("H_c"));
+    assert!(number("load_residual") < 1e-12 && number("linear_iterations") > number("newton_iterations"));
+    // Side lobes as narrow as this grid's spacing across: the report must say so.
+    assert!(report["warning"].as_str().unwrap().contains("H_min"));
+    let table = std::fs::read_to_string(&profiles).unwrap();
+    std::fs::remove_dir_all(&folder).unwrap();
+    assert_eq!(table.lines().count(), 1 + 81 * 16);
+    assert_eq!(table.lines().next().unwrap(), "X,Y,P,H,x_m,y_m,p_pa,h_m");
+    let line = json(&program(&["solve", "--json", "--moes-m", "20", "--moes-l", "5", "--dx", "0.02"]));
+    assert!(line["Y_H_min"].is_null() && line["grid"]["ny"] == 1);
+}
+
+#[test]
 fn bad_points_are_refused_with_one_sentence() {
     for bad in ["nan", "inf", "0", "-1", "1e30"] {
         for option in ["--radius", "--speed", "--load", "--modulus", "--viscosity", "--alpha"] {
@@ -163,7 +188,14 @@ fn bad_points_are_refused_with_one_sentence() {
 fn bad_options_are_refused_with_one_sentence() {
     let moes = ["solve", "--moes-m", "40", "--moes-l", "10"];
     for (more, words) in [
-        (&["--contact", "point"][..], "point"),
+        (&["--contact", "point", "--method", "reduced"][..], "point"),
+        (&["--contact", "point", "--grid", "model"], "uniform"),
+        (&["--contact", "point", "--dx", "0.5"], "hold the contact"),
+        (&["--contact", "point", "--dy", "nan"], "ΔY"),
+        (&["--contact", "point", "--dx", "0.001", "--dy", "0.001"], "GB of memory"),
+        (&["--contact", "point", "--domain=-4,0.5,-2"], "cuts the contact"),
+        (&["--contact", "point", "--domain=-4,2,-0.5"], "cuts the contact"),
+        (&["--contact", "sphere"], "point"),
         (&["--cavitation", "elrod"], "penalty"),
         (&["--density", "tait"], "shear-thinning"),
         (&["--pressure-viscosity", "doolittle"], "shear-thinning"),

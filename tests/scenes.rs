@@ -81,6 +81,17 @@ fn cold_solves_converge_at_random_points_of_table_3_1() {
 }
 
 #[test]
+fn cold_solves_of_point_contacts_converge_at_random_points_of_table_3_4() {
+    let mut scene = Scene::read(&folder().join("convergence_table_3_4.ron")).unwrap();
+    if let Study::RandomTest { tests, .. } = &mut scene.study {
+        *tests = 8;
+    }
+    let outcome = run_scene(&scene, &mut Workbench::new(folder()), &()).unwrap();
+    assert_eq!(outcome.value("failures", None), Some(0.0));
+    assert!(outcome.value("newton_max", None).unwrap() <= 40.0);
+}
+
+#[test]
 fn the_first_look_shows_a_trained_contact() {
     assert_passes("first_look");
 }

@@ -131,7 +131,7 @@ impl Document {
     /// # Errors
     /// A sentence when a law is not defined here; the document is unchanged then.
     pub fn set_lubricant(&mut self, lubricant: Lubricant) -> Result<(), String> {
-        Problem::new(&self.point, lubricant).map_err(|e| e.to_string())?;
+        Problem::of_kind(ContactKind::Line, &self.point, lubricant).map_err(|e| e.to_string())?;
         self.lubricant = lubricant;
         Ok(())
     }
@@ -164,7 +164,7 @@ impl Document {
     }
 
     fn accept(&mut self, point: OperatingPoint) -> Result<(), String> {
-        Problem::new(&point, self.lubricant).map_err(|e| e.to_string())?;
+        Problem::of_kind(ContactKind::Line, &point, self.lubricant).map_err(|e| e.to_string())?;
         self.point = point;
         Ok(())
     }
@@ -175,7 +175,7 @@ impl Document {
     /// A sentence that names what the explorer cannot solve.
     pub fn of_scene(scene: Scene) -> Result<Self, String> {
         let point = scene.point().map_err(|e| e.to_string())?;
-        Problem::new(&point, scene.lubricant).map_err(|e| e.to_string())?;
+        Problem::of_kind(ContactKind::Line, &point, scene.lubricant).map_err(|e| e.to_string())?;
         Ok(Self {
             title: scene.title.clone(),
             point,

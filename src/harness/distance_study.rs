@@ -21,7 +21,7 @@ pub(super) fn run(
     observer: &dyn TrainingObserver,
     outcome: &mut SceneOutcome,
 ) -> Result<(), HarnessError> {
-    let drawn = random_points(range, points, seed);
+    let drawn = random_points(range, scene.contact, points, seed);
     let grid = Arc::clone(workbench.full_solver(&request_of(scene)?, observer)?.reference());
     let solutions = full_solutions(|_| Arc::clone(&grid), &drawn, scene.lubricant, observer)?;
     let (mut kept, mut states) = (Vec::new(), Vec::new());

@@ -47,7 +47,7 @@ pub(super) fn run(
     observer: &dyn TrainingObserver,
     outcome: &mut SceneOutcome,
 ) -> Result<(), HarnessError> {
-    let points = random_points(study.range, study.points, study.seed);
+    let points = random_points(study.range, scene.contact, study.points, study.seed);
     let model = workbench.model(study.model, observer)?;
     let options = study.online.options();
     let measures: Vec<ErrorMeasures> =
@@ -111,10 +111,9 @@ pub(super) fn run(
 fn judge_bounds(bounds: &[(ErrorEstimate, [f64; 3])], outcome: &mut SceneOutcome) {
     let (states, truths): (Vec<f64>, Vec<f64>) = bounds.iter().map(|(e, truth)| (e.state.likely, truth[0])).unzip();
     outcome.push("rank.estimate.e_z", None, rank_correlation(&states, &truths));
-    let films: [(&str, fn(&ErrorEstimate) -> f64, usize); 2] =
-        [("H_c", |e| e.h_c.bound, 1), ("H_min", |e| e.h_min.bound, 2)];
-    for (name, bound, k) in films {
-        let ratios: Vec<f64> = bounds.iter().map(|(e, truth)| bound(e) / truth[k]).collect();
+    let h_c: Vec<f64> = bounds.iter().map(|(e, truth)| e.h_c.bound / truth[1]).collect();
+    let h_min: Vec<f64> = bounds.iter().map(|(e, truth)| e.h_min.bound / truth[2]).collect();
+    for (name, ratios) in [("H_c", h_c), ("H_min", h_min)] {
         let held = ratios.iter().filter(|ratio| **ratio >= 1.0).count();
         outcome.push(format!("{name}_bound_holds_percent"), None, 100.0 * held as f64 / ratios.len() as f64);
         outcome.push(format!("{name}_bound_over_error_median"), None, median(&ratios));

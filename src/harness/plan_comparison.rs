@@ -73,10 +73,10 @@ pub(super) fn run(
     }
     snapshots(&plans, outcome);
     information(&plans, outcome);
-    let points = random_points(&TestRange::Box(*study.range), study.tests, study.seed);
+    let points = random_points(&TestRange::Box(*study.range), scene.contact, study.tests, study.seed);
     let path: Vec<(f64, OperatingPoint)> = (0..study.trajectory)
         .map(|i| 2.0 * i as f64 / (study.trajectory - 1) as f64)
-        .map(|c| (c, study.range.trajectory(c)))
+        .map(|c| (c, study.range.trajectory(scene.contact, c)))
         .collect();
     let along: Vec<OperatingPoint> = path.iter().map(|(_, point)| *point).collect();
     let mut truths: Vec<Truth> = Vec::new();

@@ -38,7 +38,7 @@ pub(super) fn run(
     observer: &dyn TrainingObserver,
     outcome: &mut SceneOutcome,
 ) -> Result<(), HarnessError> {
-    let points = random_points(test.range, test.tests, test.seed);
+    let points = random_points(test.range, scene.contact, test.tests, test.seed);
     if points.len() < test.tests {
         return Err(HarnessError::Study(format!(
             "`study.range` holds hardly any point below its largest Hertzian pressure; only {} of {} were found",

@@ -78,7 +78,7 @@ fn points_of(scene: &Scene, contacts: &Contacts) -> Result<Vec<(f64, OperatingPo
         Contacts::Trajectory { range, points } => (0..*points)
             .map(|i| {
                 let c = 2.0 * i as f64 / (points - 1) as f64;
-                let point = range.trajectory(c);
+                let point = range.trajectory(scene.contact, c);
                 point.check()?;
                 Ok((c, point))
             })

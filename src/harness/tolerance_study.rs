@@ -59,10 +59,11 @@ pub(super) fn run(
     let model = train_resumable(&mut state, observer)?;
     outcome.warnings.extend(model.log.iter().cloned());
     let grid = Arc::clone(&model.windows[0].grid);
-    let along: Vec<OperatingPoint> =
-        (0..study.points).map(|i| study.range.trajectory(2.0 * i as f64 / (study.points - 1) as f64)).collect();
+    let along: Vec<OperatingPoint> = (0..study.points)
+        .map(|i| study.range.trajectory(scene.contact, 2.0 * i as f64 / (study.points - 1) as f64))
+        .collect();
     let truth = full_solutions(|_| Arc::clone(&grid), &along, scene.lubricant, observer)?;
-    let points = random_points(&TestRange::Box(*study.range), study.tests, study.seed);
+    let points = random_points(&TestRange::Box(*study.range), scene.contact, study.tests, study.seed);
     let options = study.online.options();
     let mut table = Table::new("tolerances", &COLUMNS);
     let rungs = state.windows[0].search.rungs.clone();

@@ -3,6 +3,8 @@
 use super::{
     Axis, Contacts, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, View, Within,
 };
+use crate::solver::contact::ContactKind;
+use crate::solver::grid::PointGridSpec;
 use crate::solver::training::{Plan, Range, TrainingSpec, Windows};
 
 /// Most points of a sweep, a trajectory or a formula comparison.
@@ -53,14 +55,26 @@ impl Scene {
     /// With the first such field.
     pub fn check(&self) -> Result<(), SceneError> {
         self.point()?;
-        grid(&self.grid)?;
+        grid(&self.grid, self.contact)?;
         study(self)?;
         self.view.iter().try_for_each(view)?;
         self.expect.iter().enumerate().try_for_each(|(i, entry)| expectation(i, entry))
     }
 }
 
-fn grid(grid: &Grid) -> Checked {
+fn grid(grid: &Grid, contact: ContactKind) -> Checked {
+    match (contact, grid) {
+        (ContactKind::Line, Grid::Plane { .. }) => {
+            return Err(refuse("grid", "is Plane, but a line contact has no Y; write Uniform, Graded or GradedNodes"));
+        }
+        (ContactKind::Point, Grid::Uniform { .. } | Grid::GradedNodes { .. } | Grid::Model) => {
+            return Err(refuse(
+                "grid",
+                "must be Plane(dx: …, dy: …, domain: (…, …, …)) for a point contact, or left out",
+            ));
+        }
+        _ => {}
+    }
     let domain = |(from, to): (f64, f64)| {
         number("grid.domain.0", from, -200.0, -1.5)?;
         number("grid.domain.1", to, 1.2, 20.0)
@@ -74,12 +88,32 @@ fn grid(grid: &Grid) -> Checked {
             count("grid.nodes", nodes, 61, crate::solver::grid::MAX_GRADED_NODES)?;
             domain(ends)
         }
+        Grid::Plane { dx, dy, domain, refinement } => PointGridSpec { dx, dy, refinement, domain }
+            .check()
+            .map(|_| ())
+            .map_err(|problem| refuse("grid", format!("makes no sense: {problem}"))),
         Grid::Graded | Grid::Model => Ok(()),
     }
 }
 
 fn study(scene: &Scene) -> Checked {
+    if scene.contact == ContactKind::Point && scene.study.methods().iter().any(|method| *method != Method::Full) {
+        return Err(refuse(
+            "study",
+            "asks for a reduced model of a point contact, which this version does not have; write Full",
+        ));
+    }
     match &scene.study {
+        Study::Training(_)
+        | Study::ErrorSplit { .. }
+        | Study::ErrorMeasures { .. }
+        | Study::DistanceMeasure { .. }
+        | Study::PlanComparison { .. }
+        | Study::ToleranceStudy { .. }
+            if scene.contact == ContactKind::Point =>
+        {
+            Err(refuse("study", "is about reduced models, of which this version has none of a point contact"))
+        }
         Study::Point { methods: list } => methods("study.methods", list),
         Study::Sweep { over, methods: list } => {
             methods("study.methods", list)?;
@@ -118,8 +152,8 @@ fn study(scene: &Scene) -> Checked {
                 return Err(refuse("study.dx", "must fall by one constant factor, as 0.02, 0.01, 0.005 do"));
             }
             match scene.grid {
-                Grid::Uniform { .. } => Ok(()),
-                _ => Err(refuse("grid", "must be Uniform for a grid study, which takes its domain from it")),
+                Grid::Uniform { .. } | Grid::Plane { .. } => Ok(()),
+                _ => Err(refuse("grid", "must be Uniform or Plane for a grid study, which takes its domain from it")),
             }
         }
         Study::Training(spec) => training(spec),
@@ -148,6 +182,13 @@ fn study(scene: &Scene) -> Checked {
             count("study.points", *points, 2, MAX_COMPARED)?;
             count("study.tests", *tests, 1, MAX_TESTS)?;
             quantity_box("study.range", range)
+        }
+        Study::FormulaComparison { formula, .. } if formula.film_formula().contact() != scene.contact => {
+            let wanted = formula.film_formula().contact().name();
+            Err(refuse(
+                "study.formula",
+                format!("is made for {wanted} contacts, but the scene's is a {} contact", scene.contact.name()),
+            ))
         }
         Study::FormulaComparison { m, l, .. } => {
             count("study.m (how many)", m.len(), 1, 1000)?;

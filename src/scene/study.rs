@@ -54,7 +54,7 @@ pub enum Study {
         /// The reduced model.
         method: Method,
     },
-    /// The contact on ever finer uniform grids over the scene's domain: observed order and extrapolated value.
+    /// The contact on ever finer uniform grids over the scene's domain: observed order and extrapolated value. A point contact keeps ΔY.
     GridStudy {
         /// Spacings ΔX, falling by one constant factor; at least three.
         dx: Vec<f64>,
@@ -235,7 +235,7 @@ pub struct QuantityBox {
     pub radius: (f64, f64),
     /// Speed \[m/s\].
     pub speed: (f64, f64),
-    /// Load \[N/m\].
+    /// Load \[N/m\] (line) or \[N\] (point).
     pub load: (f64, f64),
     /// Pressure–viscosity coefficient \[1/Pa\].
     pub alpha: (f64, f64),
@@ -260,7 +260,7 @@ pub enum TestRange {
         /// Largest Hertzian pressure \[Pa\].
         max_hertz_pressure: f64,
     },
-    /// M, L and α at R = 3 mm and E′ = 231 GPa, (3.17) in ln M, L and α; points beyond the pressure are drawn again.
+    /// M, L and α at the default R (3 mm line, 10 mm point) and E′ = 231 GPa, (3.17) in ln M, L and α; points beyond the pressure are drawn again.
     Moes {
         /// Load number.
         m: (f64, f64),
@@ -284,6 +284,12 @@ pub enum Formula {
     DowsonHigginson,
     /// Dowson & Toyoda, central film.
     DowsonToyoda,
+    /// Hamrock & Dowson, point contact, central film.
+    HamrockDowsonCentral,
+    /// Hamrock & Dowson, point contact, minimum film.
+    HamrockDowsonMinimum,
+    /// Nijenbanning, Venner & Moes, point contact, central film.
+    NijenbanningVennerMoes,
 }
 
 impl Study {
@@ -378,11 +384,21 @@ impl QuantityBox {
         viscosity: 0.01,
     };
 
-    /// The point at fractions (0…1) of radius, speed, load and alpha.
-    pub fn at(&self, [radius, speed, load, alpha]: [f64; 4]) -> OperatingPoint {
+    /// The dissertation's Table 3.4, whose printed radii and loads contradict its M and L: with these they hold.
+    pub const TABLE_3_4: Self = Self {
+        radius: (10e-3, 20e-3),
+        speed: (1.0, 10.0),
+        load: (20.0, 100.0),
+        alpha: (5e-9, 20e-9),
+        modulus: 231e9,
+        viscosity: 0.01,
+    };
+
+    /// The point of a kind at fractions (0…1) of radius, speed, load and alpha.
+    pub fn at(&self, kind: ContactKind, [radius, speed, load, alpha]: [f64; 4]) -> OperatingPoint {
         let between = |(low, high): (f64, f64), t: f64| low + (high - low) * t;
         OperatingPoint {
-            kind: ContactKind::Line,
+            kind,
             radius_m: between(self.radius, radius),
             speed_m_per_s: between(self.speed, speed),
             load: between(self.load, load),
@@ -393,9 +409,9 @@ impl QuantityBox {
     }
 
     /// The point of the test trajectory (3.21) at the running parameter c.
-    pub fn trajectory(&self, c: f64) -> OperatingPoint {
+    pub fn trajectory(&self, kind: ContactKind, c: f64) -> OperatingPoint {
         let wave = |halves: f64| 0.5 + 0.5 * (halves * PI * c).sin();
-        self.at([wave(3.0), wave(4.0), wave(5.0), wave(2.0)])
+        self.at(kind, [wave(3.0), wave(4.0), wave(5.0), wave(2.0)])
     }
 }
 
@@ -406,6 +422,9 @@ impl Formula {
             Self::Moes => FilmFormula::MoesLine,
             Self::DowsonHigginson => FilmFormula::DowsonHigginson,
             Self::DowsonToyoda => FilmFormula::DowsonToyoda,
+            Self::HamrockDowsonCentral => FilmFormula::HamrockDowsonCentral,
+            Self::HamrockDowsonMinimum => FilmFormula::HamrockDowsonMinimum,
+            Self::NijenbanningVennerMoes => FilmFormula::NijenbanningVennerMoes,
         }
     }
 }
@@ -418,9 +437,16 @@ mod tests {
     fn the_trajectory_starts_in_the_middle_and_stays_in_the_box() {
         let range = QuantityBox::TABLE_3_1;
         let middle = [3e-3, 5.5, 3e5, 231e9, 0.01, 12.5e-9];
-        assert!(range.trajectory(0.0).quantities().iter().zip(middle).all(|(q, m)| (q / m - 1.0).abs() < 1e-14));
+        assert!(
+            range
+                .trajectory(ContactKind::Line, 0.0)
+                .quantities()
+                .iter()
+                .zip(middle)
+                .all(|(q, m)| (q / m - 1.0).abs() < 1e-14)
+        );
         for i in 0..=1000 {
-            let point = range.trajectory(i as f64 / 500.0);
+            let point = range.trajectory(ContactKind::Line, i as f64 / 500.0);
             assert!((2e-3..=4e-3).contains(&point.radius_m) && (1e5..=5e5).contains(&point.load));
         }
     }

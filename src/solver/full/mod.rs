@@ -4,11 +4,15 @@ mod band;
 pub mod dense;
 mod gmres;
 mod line;
+pub mod point;
 mod solution;
 mod start;
 #[cfg(test)]
 mod tests;
 
 pub use line::{LineSystem, SolveOptions};
-pub use solution::{Problem, Report, Scalars, Solution, SolveError, Termination, Traction, scalars_of};
+pub use point::{PointOptions, PointSolver};
+pub use solution::{
+    Mesh, Problem, Report, Scalars, Solution, SolveError, Termination, Traction, point_scalars_of, scalars_of,
+};
 pub use start::{FullSolver, Start};

@@ -95,7 +95,7 @@ impl ErrorMeasures {
     /// e_f and e_f^I of a reduced solution, given by its pressure coefficients and its reconstructed fields.
     pub fn residuals(&self, coefficients: &[f64], fields: &Solution) -> Residuals {
         let problem = &fields.problem;
-        let grid = self.grid.scaled(fields.grid_scale);
+        let grid = self.grid.scaled(fields.mesh.scale());
         let nodes: Vec<Node> = fields
             .pressure
             .iter()
@@ -132,7 +132,7 @@ impl ErrorMeasures {
         let deformation = |s: &Solution, i: usize| s.film[i] - s.scalars.h_0 - 0.5 * s.x[i] * s.x[i];
         let (mut error, mut size) = ((fields.scalars.h_0 - full.scalars.h_0).powi(2), full.scalars.h_0.powi(2));
         for (i, cell) in cells.iter().enumerate() {
-            let weight = self.weight(cell * full.grid_scale);
+            let weight = self.weight(cell * full.mesh.scale());
             let bent = deformation(full, i);
             error += weight * (fields.pressure[i] - full.pressure[i]).powi(2);
             error += weight * (deformation(fields, i) - bent).powi(2);
@@ -218,7 +218,7 @@ mod tests {
                         let bent: f64 = (0..modes).map(|k| window.flexed[(i, k)] * state[k]).sum();
                         let kept: f64 =
                             (0..kept_modes).map(|k| window.deformation.modes[(i, k)] * state[modes + k]).sum();
-                        let weight = if norm == Norm::Euclidean { 1.0 } else { cells[i] * fields.grid_scale };
+                        let weight = if norm == Norm::Euclidean { 1.0 } else { cells[i] * fields.mesh.scale() };
                         weight * (kept - bent).powi(2)
                     })
                     .sum::<f64>()

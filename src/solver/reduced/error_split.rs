@@ -234,7 +234,7 @@ fn best_approximation(window: &Window, full: &Solution, reduced: &ReducedSolutio
     let mut coefficients = against(&|i| full.pressure[i]);
     let load = against(&|_| 1.0);
     // The modes are orthonormal, so the shortest way to the right load runs along its own coefficients.
-    let missing = full.problem.load / full.grid_scale - dot(&load, &coefficients);
+    let missing = full.problem.load / full.mesh.scale() - dot(&load, &coefficients);
     let step = missing / dot(&load, &load);
     for (c, l) in coefficients.iter_mut().zip(&load) {
         *c += step * l;

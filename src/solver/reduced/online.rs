@@ -4,8 +4,8 @@ use super::calibration::{ErrorEstimate, Features};
 use super::model::{ReducedModel, Snapshot, Trust, Window, distance};
 use super::operators::{Case, OnlineOutcome, Operators, RowObserver, Stop};
 use super::start::{self, Guess, film_number};
-use crate::solver::contact::{Moes, OperatingPoint};
-use crate::solver::full::{Problem, Report, Scalars, Solution, SolveError, Termination, scalars_of};
+use crate::solver::contact::{ContactKind, Moes, OperatingPoint};
+use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, SolveError, Termination, scalars_of};
 use crate::solver::grid::{GridSpec, LineGrid, registration_scale};
 use crate::solver::lubricant::Lubricant;
 use crate::solver::reynolds::PENALTY;
@@ -171,7 +171,7 @@ impl Online {
         lubricant: Lubricant,
         mut observer: Option<RowObserver<'_>>,
     ) -> Result<ReducedSolution, ReducedError> {
-        let problem = Problem::new(point, lubricant)?;
+        let problem = Problem::of_kind(ContactKind::Line, point, lubricant)?;
         let index = self.model.window_for(problem.moes);
         let model = Arc::clone(&self.model);
         let (Some(window), Some(cell)) = (model.windows.get(index), self.windows.get_mut(index)) else {
@@ -244,10 +244,10 @@ impl Online {
         let (problem, grid, pressure, film) = self.fields(solution)?;
         Ok(Solution {
             problem,
-            grid: grid.reference.spec,
-            grid_scale: grid.scale,
+            mesh: Mesh::Line { spec: grid.reference.spec, scale: grid.scale },
             scalars: scalars_of(&grid, &problem, &pressure, &film, solution.h_0),
             x: grid.x,
+            y: vec![0.0],
             pressure,
             film,
             report: Report {

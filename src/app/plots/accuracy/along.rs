@@ -325,7 +325,10 @@ mod tests {
         let QuantityBox { radius, speed, load, alpha, modulus, viscosity } = QuantityBox::TABLE_3_1;
         let range = Range::Box { radius, speed, load, alpha, modulus, viscosity };
         for c in [0.0, 0.37, 1.9] {
-            assert_eq!(contact(&range, c), Some(QuantityBox::TABLE_3_1.trajectory(c)));
+            assert_eq!(
+                contact(&range, c),
+                Some(QuantityBox::TABLE_3_1.trajectory(crate::solver::contact::ContactKind::Line, c))
+            );
         }
         let step = |c, reduced| Step { c, point: None, trained: true, reduced, bound: None, full: None };
         let steps =

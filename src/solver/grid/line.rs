@@ -9,9 +9,10 @@
 
 mod refined;
 
-use super::contact::Moes;
-use super::elasticity::Flexibility;
-use super::reynolds::RowGeometry;
+use super::dot;
+use crate::solver::contact::Moes;
+use crate::solver::elasticity::{Flexibility, Scratch};
+use crate::solver::reynolds::RowGeometry;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -174,7 +175,7 @@ impl ReferenceGrid {
     pub fn scaled(self: &Arc<Self>, scale: f64) -> LineGrid {
         let x: Vec<f64> = self.xi.iter().map(|xi| -1.0 + (xi + 1.0) * scale).collect();
         let weights = self.weights.iter().map(|w| w * scale).collect();
-        let rows = x.windows(4).map(|w| RowGeometry::new([w[0], w[1], w[2], w[3]], None)).collect();
+        let rows = x.windows(4).map(|w| RowGeometry::new([w[0], w[1], w[2], w[3]])).collect();
         LineGrid { reference: Arc::clone(self), scale, x, weights, rows }
     }
 }
@@ -196,7 +197,7 @@ impl LineGrid {
     }
 
     /// Deformation δ = K P at every node, (2.37). Both slices are node arrays.
-    pub fn deform(&self, pressure: &[f64], deformation: &mut [f64], scratch: &mut super::elasticity::Scratch) {
+    pub fn deform(&self, pressure: &[f64], deformation: &mut [f64], scratch: &mut Scratch) {
         self.reference.flexibility.apply(pressure, deformation, scratch);
         if self.scale != 1.0 {
             let shift = self.kernel_shift() * dot(&self.reference.weights, pressure);
@@ -218,16 +219,8 @@ impl LineGrid {
 
     /// Weights and first index of the cubic (4-point Lagrange) interpolation at X; a single unit weight where X is a node.
     pub fn interpolation(&self, x: f64) -> (usize, [f64; 4]) {
-        let n = self.x.len();
-        let upper = self.x.partition_point(|&node| node < x).clamp(2, n - 2);
-        let first = (upper - 2).max(INLET).min(n - 4);
-        let nodes = &self.x[first..first + 4];
-        if let Some(k) = nodes.iter().position(|&node| (node - x).abs() < 1e-10) {
-            return (first, std::array::from_fn(|i| if i == k { 1.0 } else { 0.0 }));
-        }
-        let weight =
-            |k: usize| (0..4).filter(|&j| j != k).map(|j| (x - nodes[j]) / (nodes[k] - nodes[j])).product::<f64>();
-        (first, std::array::from_fn(weight))
+        let (first, weights) = super::cubic(&self.x[INLET..], x);
+        (first + INLET, weights)
     }
 
     /// Value of a node array at X by cubic interpolation.
@@ -321,10 +314,6 @@ pub fn spike_position(Moes { m, l }: Moes) -> f64 {
     let fade = (3.0 - 0.25 * effective_l).exp();
     let log_ratio = 1.8728 + x * (-2.3636 + x * (0.42316 - 0.03449 * x)) + fade * (0.79158 - 0.19788 * x);
     1.0 / (1.0 + log_ratio.exp())
-}
-
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 #[cfg(test)]
