@@ -105,9 +105,9 @@ impl TrainingState {
         let mut rest = self.clone();
         let usable = rest.windows.iter().take_while(|w| w.solved.len() >= FEWEST).count();
         if usable == 0 {
+            let there = rest.windows.first().map_or(0, |window| window.solved.len());
             return Err(TrainingError::Specification(format!(
-                "{} full solutions are too few for a model; at least {FEWEST} are needed",
-                self.solutions()
+                "{there} full solutions in the first window are too few for a model; at least {FEWEST} are needed"
             )));
         }
         rest.windows.truncate(usable);

@@ -265,7 +265,7 @@ fn indicator_ui(ui: &mut Ui, form: &mut Form, indicator: &mut Indicator) {
         }
         Indicator::Dissertation => (
             "Residual, 2-norm",
-            "The dissertation's e_f^I: Euclidean norm, δ̃ in the state, the nearest snapshot as start",
+            "The dissertation's e_f^I: Euclidean norm, deformation modes in the state, the nearest snapshot as start",
         ),
         Indicator::Residual => ("Residual", "The residual at the sampled rows, e_f^I (3.15): no large-scale work"),
     });
