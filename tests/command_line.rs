@@ -295,7 +295,7 @@ const SMALL_TRAINING: &str = "Scene(version: 1, title: \"small\", study: Trainin
     range: Box(radius: (2e-3, 4e-3), speed: (1.0, 10.0), load: (1e5, 5e5), alpha: (5e-9, 20e-9), modulus: 231e9, viscosity: 0.01),
     plan: Adaptive(start: 20, indicator: Correction, tolerances: [1e-2, 1e-3], successes: 32, local_sigma: 0.1,
         local_successes: 8, vicinity: 4, limit: 32),
-    windows: [(m: (5.0, 200.0), grid: Graded(nodes: 200, domain: (-6.0, 2.0), registered: true))],
+    windows: Given([(m: (5.0, 200.0), grid: Graded(nodes: 200, domain: (-6.0, 2.0), registered: true))]),
     pressure_loss: 1e-7, deformation_loss: 1e-6, rows_per_mode: 2.0, seed: 1,
 ))";
 
