@@ -145,6 +145,31 @@ fn a_reduced_solve_says_what_served_it_and_whether_it_was_trained() {
 }
 
 #[test]
+fn a_point_contact_prints_its_plane_and_its_fields() {
+    let folder = scratch("point");
+    let profiles = folder.join("fields.csv");
+    let path = profiles.to_string_lossy().into_owned();
+    let fixed = ["solve", "--json", "--contact", "point", "--dx", "0.06", "--dy", "0.1", "--domain=-3,1.8,-1.5"];
+    let report = json(&program(&[&fixed[..], &["--moes-m", "200", "--moes-l", "10", "--profiles", &path]].concat()));
+    assert_eq!((&report["contact"], &report["converged"]), (&"point".into(), &true.into()));
+    let grid = &report["grid"];
+    assert_eq!((&grid["kind"], &grid["nx"], &grid["ny"]), (&"uniform".into(), &81.into(), &16.into()));
+    assert_eq!(grid["dofs"], 79 * 15 + 1);
+    let number = |name: &str| report[name].as_f64().unwrap();
+    assert!((report["moes"]["M"].as_f64().unwrap() / 200.0 - 1.0).abs() < 1e-9);
+    assert!((-1.2..0.0).contains(&number("Y_H_min")) && number("H_min") < number("H_c"));
+    assert!(number("load_residual") < 1e-12 && number("linear_iterations") > number("newton_iterations"));
+    // Side lobes as narrow as this grid's spacing across: the report must say so.
+    assert!(report["warning"].as_str().unwrap().contains("H_min"));
+    let table = std::fs::read_to_string(&profiles).unwrap();
+    std::fs::remove_dir_all(&folder).unwrap();
+    assert_eq!(table.lines().count(), 1 + 81 * 16);
+    assert_eq!(table.lines().next().unwrap(), "X,Y,P,H,x_m,y_m,p_pa,h_m");
+    let line = json(&program(&["solve", "--json", "--moes-m", "20", "--moes-l", "5", "--dx", "0.02"]));
+    assert!(line["Y_H_min"].is_null() && line["grid"]["ny"] == 1);
+}
+
+#[test]
 fn bad_points_are_refused_with_one_sentence() {
     for bad in ["nan", "inf", "0", "-1", "1e30"] {
         for option in ["--radius", "--speed", "--load", "--modulus", "--viscosity", "--alpha"] {
@@ -163,7 +188,14 @@ fn bad_points_are_refused_with_one_sentence() {
 fn bad_options_are_refused_with_one_sentence() {
     let moes = ["solve", "--moes-m", "40", "--moes-l", "10"];
     for (more, words) in [
-        (&["--contact", "point"][..], "point"),
+        (&["--contact", "point", "--method", "reduced"][..], "point"),
+        (&["--contact", "point", "--grid", "model"], "uniform"),
+        (&["--contact", "point", "--dx", "0.5"], "hold the contact"),
+        (&["--contact", "point", "--dy", "nan"], "ΔY"),
+        (&["--contact", "point", "--dx", "0.001", "--dy", "0.001"], "GB of memory"),
+        (&["--contact", "point", "--domain=-4,0.5,-2"], "cuts the contact"),
+        (&["--contact", "point", "--domain=-4,2,-0.5"], "cuts the contact"),
+        (&["--contact", "sphere"], "point"),
         (&["--cavitation", "elrod"], "penalty"),
         (&["--density", "tait"], "squalane-pip"),
         (&["--pressure-viscosity", "doolittle"], "pao-650"),
@@ -257,6 +289,57 @@ fn run_gives_one_object_per_scene_and_exit_1_when_an_expectation_falls_short() {
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
+/// A training that takes about a second on an idle core, by the automatic algorithm.
+const SMALL_TRAINING: &str = "Scene(version: 1, title: \"small\", study: Training(
+    title: \"small\",
+    range: Box(radius: (2e-3, 4e-3), speed: (1.0, 10.0), load: (1e5, 5e5), alpha: (5e-9, 20e-9), modulus: 231e9, viscosity: 0.01),
+    plan: Adaptive(start: 20, indicator: Correction, tolerances: [1e-2, 1e-3], successes: 32, local_sigma: 0.1,
+        local_successes: 8, vicinity: 4, limit: 32),
+    windows: Given([(m: (5.0, 200.0), grid: Graded(nodes: 200, domain: (-6.0, 2.0), registered: true))]),
+    pressure_loss: 1e-7, deformation_loss: 1e-6, rows_per_mode: 2.0, seed: 1,
+))";
+
+#[test]
+fn a_training_that_is_killed_goes_on_and_gives_the_same_file() {
+    use std::time::{Duration, Instant};
+    let folder = scratch("killed");
+    let scene = folder.join("small.ron");
+    std::fs::write(&scene, SMALL_TRAINING).unwrap();
+    let (whole, killed) = (folder.join("whole.rom"), folder.join("killed.rom"));
+    let kept = folder.join("killed.rom.training");
+    let train = |out: &PathBuf| ["train".into(), scene.clone(), "--out".into(), out.clone()];
+    let command = |out| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_ehl-explorer"));
+        command.args(train(out));
+        command
+    };
+    let output = command(&whole).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let mut child = command(&killed).stderr(std::process::Stdio::null()).spawn().unwrap();
+    let begin = Instant::now();
+    while !kept.exists() {
+        assert!(begin.elapsed() < Duration::from_secs(60), "nothing was kept");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(kept.exists() && !killed.exists(), "killed in the middle");
+    // Another training never overwrites what is kept.
+    let other = folder.join("other.ron");
+    std::fs::write(&other, SMALL_TRAINING.replace("seed: 1", "seed: 2")).unwrap();
+    let before = std::fs::read(&kept).unwrap();
+    let names = [&other, &killed].map(|path| path.to_string_lossy().into_owned());
+    assert_refused(&["train", &names[0], "--out", &names[1]], "another training");
+    assert_eq!(std::fs::read(&kept).unwrap(), before);
+    let output = command(&killed).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(said.contains("going on with") && said.contains("full solutions"), "{said}");
+    assert!(std::fs::read(&killed).unwrap() == std::fs::read(&whole).unwrap(), "the files differ");
+    assert!(!kept.exists(), "nothing is left beside a finished model");
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
 #[test]
 fn sweep_writes_a_table() {
     let folder = scratch("sweep");
@@ -316,4 +399,19 @@ fn a_reader_that_leaves_early_is_no_panic() {
     drop(child.stdout.take());
     let output = child.wait_with_output().unwrap();
     assert!(!String::from_utf8_lossy(&output.stderr).contains("panicked"));
+}
+
+#[test]
+fn a_shear_thinning_line_contact_slides_and_a_point_contact_refuses_to() {
+    let contact =
+        ["solve", "--lubricant", "squalane-pip", "--radius", "0.0127", "--speed", "0.74", "--modulus", "1.2388e11"];
+    let line = [&contact[..], &["--load", "144000", "--srr", "0.5", "--dx", "0.01", "--json"]].concat();
+    let output = program(&line);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let traction = report["traction"].as_f64().unwrap();
+    // The independent solution of the same grid.
+    assert!((traction / 0.032052 - 1.0).abs() < 0.01, "{traction}");
+    let point = [&contact[..], &["--contact", "point", "--load", "23", "--srr", "0.5"]].concat();
+    assert_refused(&point, "shear-thinning");
 }

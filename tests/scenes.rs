@@ -81,6 +81,17 @@ fn cold_solves_converge_at_random_points_of_table_3_1() {
 }
 
 #[test]
+fn cold_solves_of_point_contacts_converge_at_random_points_of_table_3_4() {
+    let mut scene = Scene::read(&folder().join("convergence_table_3_4.ron")).unwrap();
+    if let Study::RandomTest { tests, .. } = &mut scene.study {
+        *tests = 8;
+    }
+    let outcome = run_scene(&scene, &mut Workbench::new(folder()), &()).unwrap();
+    assert_eq!(outcome.value("failures", None), Some(0.0));
+    assert!(outcome.value("newton_max", None).unwrap() <= 40.0);
+}
+
+#[test]
 fn the_first_look_shows_a_trained_contact() {
     assert_passes("first_look");
 }
@@ -99,6 +110,29 @@ fn the_embedded_model_agrees_with_full_solutions() {
 #[test]
 fn the_reduced_model_of_table_3_1_follows_the_trajectory() {
     assert_passes("fig_3_7_trajectory");
+}
+
+#[test]
+fn the_error_at_the_first_look_comes_from_the_grid() {
+    assert_passes("error_split_first_look");
+    let outcome = run("error_split_first_look");
+    let value = |name: &str| outcome.value(name, None).unwrap();
+    for film in ["H_c", "H_min"] {
+        let part = |name: &str| value(&format!("{film}.{name}"));
+        let sum = part("basis") + part("projection") + part("sampling") + part("discretisation");
+        assert!((part("whole") - sum).abs() < 1e-15 && part("discretisation").abs() > 3.0 * part("reduction").abs());
+    }
+}
+
+#[test]
+fn the_distance_measure_comes_out_of_full_solutions() {
+    assert_passes("distance_measure_uniform");
+    assert_passes("distance_measure_graded");
+}
+
+#[test]
+fn error_measures_rank_as_the_figure_shows() {
+    assert_passes("fig_3_1_error_measures");
 }
 
 #[test]

@@ -9,7 +9,7 @@ use ehl_explorer::solver::contact::PLAUSIBLE_HERTZ_PRESSURE_PA;
 use ehl_explorer::solver::grid::GridSpec;
 use ehl_explorer::solver::lubricant::Lubricant;
 use ehl_explorer::solver::reduced::{ReducedModel, Sampling};
-use ehl_explorer::solver::training::{Plan, Range, TrainingSpec, WindowSpec, train};
+use ehl_explorer::solver::training::{Plan, Range, TrainingSpec, WindowSpec, Windows, train};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -57,7 +57,7 @@ fn a_live_verified_picture_appears_by_itself() {
 fn every_tab_opens() {
     let mut harness = open();
     settled(&mut harness);
-    for tab in ["Regimes", "Reduced basis", "Accuracy", "Profiles"] {
+    for tab in ["Regimes", "Reduced basis", "Accuracy", "Training", "Profiles"] {
         click(&mut harness, tab);
     }
 }
@@ -76,7 +76,7 @@ fn a_model_draws_the_picture_and_a_full_solve_checks_it() {
     harness.get_by_label("Load number M").set_value_accesskit(50.0);
     wait(&mut harness, "the reduced model", |app| app.badge() == "Verified");
     settled(&mut harness);
-    for tab in ["Regimes", "Reduced basis", "Accuracy", "Profiles"] {
+    for tab in ["Regimes", "Reduced basis", "Accuracy", "Training", "Profiles"] {
         click(&mut harness, tab);
     }
 }
@@ -340,10 +340,10 @@ fn small_model() -> ReducedModel {
         },
         lubricant: Lubricant::default(),
         plan: Plan::FarthestPoint { snapshots: 40 },
-        windows: vec![WindowSpec {
+        windows: Windows::Given(vec![WindowSpec {
             m: (20.0, 100.0),
             grid: GridSpec::Graded { nodes: 400, domain: (-8.0, 1.9), registered: true },
-        }],
+        }]),
         pressure_loss: 1e-7,
         deformation_loss: 1e-8,
         sampling: Sampling::default(),

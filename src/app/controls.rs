@@ -76,6 +76,12 @@ pub fn named(ui: &Ui, response: Response, name: &str) -> Response {
     response
 }
 
+/// What a screen reader says of a label whose text alone would not tell what it is.
+pub fn spoken(ui: &Ui, response: Response, text: &str) -> Response {
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_value(text));
+    response
+}
+
 /// What a screen reader says after the name: a tooltip is out of its reach.
 pub fn described(ui: &Ui, response: Response, description: &str) -> Response {
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(description));

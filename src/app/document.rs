@@ -1,10 +1,11 @@
 //! What the user edits and what a file holds: the operating point, what follows when M or L moves, the lubricant, the truncation.
 //! Undo and redo are snapshots of it.
 
-use crate::scene::{At, LoadFollower, LubricantFollower, Scene, View};
+use crate::scene::{At, LoadFollower, LubricantFollower, Scene, Study, View};
 use crate::solver::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::full::Problem;
 use crate::solver::lubricant::{Lubricant, ShearLaw};
+use crate::solver::training::TrainingSpec;
 
 /// One of the six SI quantities, in the order of [`OperatingPoint::quantities`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -52,6 +53,8 @@ pub struct Document {
     pub lubricant: Lubricant,
     /// What follows when M or L moves, the truncation, SRR and NPR.
     pub view: View,
+    /// The training it describes; `None` until one is opened or edited.
+    pub training: Option<TrainingSpec>,
     /// The scene it was opened from: its study and expectations are kept for saving.
     pub scene: Option<Scene>,
 }
@@ -67,6 +70,7 @@ impl Default for Document {
             point: si_from_moes(&request).unwrap_or(OperatingPoint::TABLE_2_1),
             lubricant: Lubricant::default(),
             view: View::default(),
+            training: None,
             scene: None,
         }
     }
@@ -112,14 +116,41 @@ impl Document {
         self.accept(point)
     }
 
+    /// Goes to another contact of another fluid.
+    ///
+    /// # Errors
+    /// A sentence when it would be refused; the document is unchanged then.
+    pub fn set_contact(&mut self, point: OperatingPoint, lubricant: Lubricant) -> Result<(), String> {
+        Problem::new(&point, lubricant).map_err(|e| e.to_string())?;
+        (self.point, self.lubricant) = (point, lubricant);
+        Ok(())
+    }
+
     /// Changes the laws.
     ///
     /// # Errors
     /// A sentence when a law is not defined here; the document is unchanged then.
     pub fn set_lubricant(&mut self, lubricant: Lubricant) -> Result<(), String> {
-        Problem::new(&self.point, lubricant).map_err(|e| e.to_string())?;
+        Problem::of_kind(ContactKind::Line, &self.point, lubricant).map_err(|e| e.to_string())?;
         self.lubricant = lubricant;
         Ok(())
+    }
+
+    /// Changes the training it describes.
+    ///
+    /// # Errors
+    /// A sentence when the training makes no sense; the document is unchanged then.
+    pub fn set_training(&mut self, spec: TrainingSpec) -> Result<(), String> {
+        spec.check().map_err(|e| e.to_string())?;
+        let scene = Scene { study: Study::Training(spec.clone()), ..Scene::at_moes(HOME.m, HOME.l) };
+        scene.check().map_err(|e| e.to_string())?;
+        self.training = Some(spec);
+        Ok(())
+    }
+
+    /// Whether its file holds the training: a scene that asks another question keeps that.
+    pub fn saves_training(&self) -> bool {
+        self.scene.as_ref().is_none_or(|scene| matches!(scene.study, Study::Training(_)))
     }
 
     /// Chooses what follows M; what follows L changes along where both cannot be had together.
@@ -133,7 +164,7 @@ impl Document {
     }
 
     fn accept(&mut self, point: OperatingPoint) -> Result<(), String> {
-        Problem::new(&point, self.lubricant).map_err(|e| e.to_string())?;
+        Problem::of_kind(ContactKind::Line, &point, self.lubricant).map_err(|e| e.to_string())?;
         self.point = point;
         Ok(())
     }
@@ -144,7 +175,7 @@ impl Document {
     /// A sentence that names what the explorer cannot solve.
     pub fn of_scene(scene: Scene) -> Result<Self, String> {
         let point = scene.point().map_err(|e| e.to_string())?;
-        Problem::new(&point, scene.lubricant).map_err(|e| e.to_string())?;
+        Problem::of_kind(ContactKind::Line, &point, scene.lubricant).map_err(|e| e.to_string())?;
         if scene.lubricant.shear != ShearLaw::Newtonian || scene.srr != 0.0 {
             return Err(
                 "the explorer shows no sliding of shear-thinning lubricants in this version; use `ehl-explorer run`"
@@ -156,6 +187,10 @@ impl Document {
             point,
             lubricant: scene.lubricant,
             view: scene.view.unwrap_or_default(),
+            training: match &scene.study {
+                Study::Training(spec) => Some(spec.clone()),
+                _ => None,
+            },
             scene: Some(scene),
         })
     }
@@ -166,6 +201,9 @@ impl Document {
         let mut scene = self.scene.clone().unwrap_or_else(|| Scene::at_moes(moes.m, moes.l));
         scene.title.clone_from(&self.title);
         scene.lubricant = self.lubricant;
+        if let Some(spec) = self.training.as_ref().filter(|_| self.saves_training()) {
+            scene.study = Study::Training(spec.clone());
+        }
         if scene.point() != Ok(self.point) {
             scene.at = At::from(self.point);
         }
@@ -257,6 +295,7 @@ impl History {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::solver::training::Windows;
 
     #[test]
     fn every_pair_of_followers_reaches_the_wanted_numbers_and_keeps_the_rest() {
@@ -300,6 +339,27 @@ mod tests {
         assert_eq!(document.to_scene().view, Some(document.view));
         document.view.projected_deformation = false;
         assert_eq!(document.to_scene().view, None);
+    }
+
+    #[test]
+    fn a_training_is_edited_saved_and_refused_like_the_rest() {
+        let scene = Scene::from_ron(include_str!("../../scenes/embedded_model.ron")).unwrap();
+        let mut document = Document::of_scene(scene.clone()).unwrap();
+        assert_eq!(document.to_scene(), scene);
+        let mut spec = document.training.clone().unwrap();
+        spec.seed = 7;
+        document.set_training(spec.clone()).unwrap();
+        assert_eq!(Document::from_ron(&document.to_ron().unwrap()).unwrap().training, Some(spec.clone()));
+        spec.windows = Windows::Given(Vec::new());
+        assert!(document.set_training(spec.clone()).unwrap_err().contains("window"));
+        assert_eq!(document.training.as_ref().unwrap().seed, 7);
+        // A scene with another question keeps it; a fresh document takes the training along.
+        let other = Scene::from_ron(include_str!("../../scenes/table_2_1.ron")).unwrap();
+        let training = document.training.clone();
+        let document = Document { training: training.clone(), ..Document::of_scene(other.clone()).unwrap() };
+        assert_eq!(document.to_scene().study, other.study);
+        let fresh = Document { training: training.clone(), ..Document::default() };
+        assert_eq!(Document::of_scene(fresh.to_scene()).unwrap().training, training);
     }
 
     #[test]

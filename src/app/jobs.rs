@@ -254,7 +254,7 @@ fn work(shared: &Shared, events: &Sender<Event>) {
 }
 
 /// Runs something that may panic and turns the panic into a sentence.
-fn guarded<T>(run: impl FnOnce() -> T) -> Result<T, String> {
+pub(super) fn guarded<T>(run: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(run)).map_err(|payload| {
         format!(
             "the solver stopped unexpectedly ({}); the window and your work are not affected",

@@ -7,6 +7,7 @@ mod controls;
 mod document;
 mod export;
 mod files;
+mod in_use;
 mod jobs;
 mod model_source;
 mod numbers;
@@ -15,7 +16,9 @@ mod picture;
 mod plots;
 mod session;
 mod state;
+mod task;
 mod theme;
+mod training;
 
 use crate::solver::contact::Moes;
 use crate::solver::reduced::ReducedModel;
@@ -32,18 +35,24 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
+/// By which the system knows the window, and the session its folder.
+const APP_ID: &str = "ehl-explorer";
+
 /// Opens the window, on a scene or on the last session, and returns when it is closed.
 ///
 /// # Errors
 /// One sentence when the scene cannot be read or there is no display.
 pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
     let mut explorer = Explorer::new(model_source::load_model());
+    if let Some(folder) = eframe::storage_dir(APP_ID) {
+        explorer = explorer.keeping_trainings_in(&folder);
+    }
     if let Some(path) = &scene {
         explorer.open_scene(path)?;
     }
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
-            .with_app_id("ehl-explorer")
+            .with_app_id(APP_ID)
             .with_title("EHL Explorer")
             .with_inner_size([1280.0, 800.0])
             .with_min_inner_size([900.0, 560.0]),
@@ -52,7 +61,7 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
     };
     let restore = scene.is_none();
     eframe::run_native(
-        "ehl-explorer",
+        APP_ID,
         options,
         Box::new(move |creation| {
             if let Some(storage) = creation.storage {
@@ -98,6 +107,12 @@ impl Explorer {
         self
     }
 
+    /// Keeps trainings in a folder while they run, and offers to go on with what is found there.
+    pub fn keeping_trainings_in(mut self, folder: &Path) -> Self {
+        self.state.training.keep_in(folder);
+        self
+    }
+
     /// One frame.
     pub fn ui(&mut self, ui: &mut Ui) {
         let begin = Instant::now();
@@ -107,8 +122,10 @@ impl Explorer {
             theme::install(&ctx);
             ctx.set_theme(self.state.display.theme);
             ctx.set_zoom_factor(self.state.display.zoom);
+            self.state.training.look(&ctx);
         }
         self.state.receive();
+        self.state.receive_training();
         let mut chosen = if self.state.files.asks() { Vec::new() } else { Command::pressed(&ctx) };
         Panel::top("menu").show(ui, |ui| panels::menu::ui(ui, &mut self.state, &mut chosen));
         Panel::bottom("jobs").show(ui, |ui| panels::strip::ui(ui, &self.state, self.frame_s, &mut chosen));
@@ -149,10 +166,12 @@ impl Explorer {
             Command::Undo => {
                 state.history.undo(&mut state.document);
                 state.entries.clear();
+                state.training.refused = None;
             }
             Command::Redo => {
                 state.history.redo(&mut state.document);
                 state.entries.clear();
+                state.training.refused = None;
             }
             Command::CopyReadouts => ctx.copy_text(export::readouts_table(state)),
             Command::Pin => state.pin(),
@@ -170,7 +189,11 @@ impl Explorer {
                 ctx.memory_mut(|m| m.data.clear());
             }
             Command::Verify => state.verify(ctx),
-            Command::Cancel => state.jobs.cancel_all(),
+            Command::Cancel => {
+                state.jobs.cancel_all();
+                state.training.stop();
+                state.accuracy.stop();
+            }
             Command::Keyboard => self.help.keyboard = true,
             Command::About => self.help.about = true,
         }
@@ -223,6 +246,21 @@ impl Explorer {
     /// Whether a computation runs or waits.
     pub fn busy(&self) -> bool {
         self.state.jobs.busy(JobKind::Live) || self.state.jobs.busy(JobKind::Verify)
+    }
+
+    /// Whether a training or a comparison runs.
+    pub fn training(&self) -> bool {
+        self.state.training.job().is_some()
+    }
+
+    /// Title of the reduced model in use.
+    pub fn model_title(&self) -> Option<&str> {
+        self.state.model.as_ref().map(|model| model.title.as_str())
+    }
+
+    /// Whether a study of the Accuracy tab runs.
+    pub fn studying(&self) -> bool {
+        self.state.accuracy.standing().is_some()
     }
 
     /// Seconds that the last frame took to build.

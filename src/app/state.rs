@@ -3,9 +3,11 @@
 use super::controls::Entries;
 use super::document::{Document, History};
 use super::files::Files;
+use super::in_use::InUse;
 use super::jobs::{GridChoice, JobKind, Jobs, Key, Outcome, Request, Running};
 use super::picture::{Comparison, Origin, Picture};
-use super::plots::{basis::BasisView, regimes::RegimeChart};
+use super::plots::{accuracy::AccuracyView, basis::BasisView, regimes::RegimeChart};
+use super::training::Training;
 use crate::solver::full::{Problem, Report};
 use crate::solver::grid::GridSpec;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
@@ -110,6 +112,10 @@ pub struct State {
     pub full_wall_s: Option<f64>,
     /// State of the Reduced basis tab.
     pub basis: BasisView,
+    /// The studies of the Accuracy tab.
+    pub accuracy: AccuracyView,
+    /// Trainings.
+    pub training: Training,
     /// What the Regimes tab keeps between frames.
     pub regimes: RegimeChart,
     /// Plots are to be fitted to their data in this frame.
@@ -146,6 +152,8 @@ impl State {
             reduced_wall_s: None,
             full_wall_s: None,
             basis: BasisView::default(),
+            accuracy: AccuracyView::default(),
+            training: Training::default(),
             regimes: RegimeChart::default(),
             fit_plots: true,
             wanted: None,
@@ -181,6 +189,15 @@ impl State {
         self.full.as_ref().is_some_and(|p| p.key == self.key())
     }
 
+    /// Puts a reduced model in use, or none: the picture and everything drawn of the model follow.
+    pub fn use_model(&mut self, model: Option<Arc<ReducedModel>>) {
+        self.model = model;
+        self.online = None;
+        self.regimes = RegimeChart::default();
+        self.comparison = None;
+        self.wanted = None;
+    }
+
     /// Whether the model was trained for the sliders.
     pub fn trust(&self) -> Option<Trust> {
         let problem = Problem::new(&self.document.point, self.document.lubricant).ok()?;
@@ -189,21 +206,23 @@ impl State {
 
     /// The truncation the document asks for, in the window that serves it.
     pub fn reduced_options(&self) -> ReducedOptions {
-        let mut options = ReducedOptions::default();
-        if let Some(model) = &self.model
-            && let Some(window) = model.windows.get(model.window_for(self.document.point.moes()))
-        {
-            options.pressure_modes = self.document.view.pressure_loss.map(|loss| window.pressure.modes_for(loss));
-            if self.document.view.projected_deformation {
-                let loss = self.document.view.deformation_loss.unwrap_or(0.0);
-                options.deformation_modes = Some(window.deformation.modes_for(loss));
-            }
-        }
-        options
+        let moes = self.document.point.moes();
+        self.in_use().map_or_else(ReducedOptions::default, |model| model.options_at(moes))
+    }
+
+    /// The reduced model with the document's truncation.
+    pub fn in_use(&self) -> Option<InUse> {
+        self.model.as_ref().map(|model| InUse::new(model, &self.document.view))
+    }
+
+    /// Seconds since the document last changed, as of `now`.
+    pub fn rested_s(&self, now: f64) -> f64 {
+        now - self.changed_at
     }
 
     /// Answers finished jobs. Called first in every frame.
     pub fn receive(&mut self) {
+        self.accuracy.receive();
         for (job, outcome) in self.jobs.poll() {
             match job.kind {
                 JobKind::Live => self.receive_live(&job, outcome),
@@ -395,6 +414,7 @@ impl State {
         self.history.restart(&document);
         self.document = document;
         self.entries = Entries::default();
+        self.training.refused = None;
     }
 }
 

@@ -31,6 +31,8 @@ pub struct Palette {
     pub warning: Color32,
     /// Something is wrong.
     pub wrong: Color32,
+    /// Text.
+    pub text: Color32,
     /// Quiet text and outlines.
     pub quiet: Color32,
     /// Grid lines of plots.
@@ -65,6 +67,7 @@ impl Palette {
                 verified: Color32::from_rgb(0x6F, 0xC0, 0x8B),
                 warning: Color32::from_rgb(0xE6, 0xB4, 0x50),
                 wrong: Color32::from_rgb(0xF2, 0x6D, 0x6D),
+                text: Color32::from_gray(0xDE),
                 quiet: Color32::from_gray(0x9A),
                 grid: Color32::from_white_alpha(34),
                 cavitated: Color32::from_white_alpha(10),
@@ -86,6 +89,7 @@ impl Palette {
                 verified: Color32::from_rgb(0x2E, 0x7D, 0x4F),
                 warning: Color32::from_rgb(0x9A, 0x68, 0x00),
                 wrong: Color32::from_rgb(0xB8, 0x23, 0x23),
+                text: Color32::from_gray(0x24),
                 quiet: Color32::from_gray(0x6A),
                 grid: Color32::from_black_alpha(44),
                 cavitated: Color32::from_black_alpha(10),
@@ -111,13 +115,13 @@ pub fn install(ctx: &Context) {
                 visuals.window_fill = Color32::from_rgb(0xFC, 0xFC, 0xFC);
                 visuals.extreme_bg_color = Color32::WHITE;
                 visuals.faint_bg_color = Color32::from_rgb(0xF0, 0xF0, 0xF2);
-                visuals.override_text_color = Some(Color32::from_gray(0x24));
+                visuals.override_text_color = Some(palette.text);
             } else {
                 visuals.panel_fill = Color32::from_rgb(0x1E, 0x1F, 0x22);
                 visuals.window_fill = Color32::from_rgb(0x26, 0x27, 0x2B);
                 visuals.extreme_bg_color = Color32::from_rgb(0x16, 0x17, 0x1A);
                 visuals.faint_bg_color = Color32::from_rgb(0x26, 0x27, 0x2B);
-                visuals.override_text_color = Some(Color32::from_gray(0xDE));
+                visuals.override_text_color = Some(palette.text);
             }
             visuals.weak_text_color = Some(palette.quiet);
             visuals.warn_fg_color = palette.warning;
@@ -180,6 +184,24 @@ fn append_symbol(job: &mut LayoutJob, size: f32, color: Color32, base: &str, sub
     }
 }
 
+/// A perceptually uniform scale (viridis): t = 0 stands back from the theme's background, t = 1 stands out.
+pub fn sequential(t: f32, dark: bool) -> Color32 {
+    const STOPS: [(u8, u8, u8); 6] = [
+        (0x44, 0x01, 0x54),
+        (0x41, 0x44, 0x87),
+        (0x2A, 0x78, 0x8E),
+        (0x22, 0xA8, 0x84),
+        (0x7A, 0xD1, 0x51),
+        (0xFD, 0xE7, 0x25),
+    ];
+    // The end that would vanish into the background is left out.
+    let t = t.clamp(0.0, 1.0);
+    let place = if dark { 0.2 + 0.8 * t } else { 0.9 - 0.9 * t } * (STOPS.len() - 1) as f32;
+    let at = (place.floor() as usize).min(STOPS.len() - 2);
+    let color = |(r, g, b): (u8, u8, u8)| Color32::from_rgb(r, g, b);
+    color(STOPS[at]).lerp_to_gamma(color(STOPS[at + 1]), place - at as f32)
+}
+
 /// A curve that stands back behind the live one.
 pub fn faded(color: Color32, strength: f32) -> Color32 {
     color.gamma_multiply(strength)
@@ -206,13 +228,28 @@ mod tests {
             include_str!("panels/readouts.rs"),
             include_str!("panels/settings.rs"),
             include_str!("panels/strip.rs"),
-            include_str!("plots/accuracy.rs"),
+            include_str!("in_use.rs"),
+            include_str!("task.rs"),
+            include_str!("plots/accuracy/mod.rs"),
+            include_str!("plots/accuracy/along.rs"),
+            include_str!("plots/accuracy/failure_map.rs"),
+            include_str!("plots/accuracy/random_tests.rs"),
+            include_str!("plots/accuracy/residuals.rs"),
+            include_str!("plots/accuracy/split.rs"),
+            include_str!("plots/accuracy/truth.rs"),
+            include_str!("plots/accuracy/worst.rs"),
             include_str!("plots/badge.rs"),
             include_str!("plots/basis.rs"),
             include_str!("plots/formulas.rs"),
             include_str!("plots/profiles.rs"),
             include_str!("plots/regimes.rs"),
             include_str!("plots/regime_chart.rs"),
+            include_str!("plots/training/charts.rs"),
+            include_str!("plots/training/comparison.rs"),
+            include_str!("plots/training/fields.rs"),
+            include_str!("plots/training/form.rs"),
+            include_str!("plots/training/mod.rs"),
+            include_str!("training/mod.rs"),
             include_str!("../scene/view.rs"),
             include_str!("../solver/contact/film_formulas.rs"),
         ];

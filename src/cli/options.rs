@@ -5,7 +5,7 @@ use crate::harness::Request;
 use crate::scene::named_lubricant::{NAMED, NamedLubricant, by_name};
 use crate::scene::{At, Grid, Method, ModelSource};
 use crate::solver::contact::{ContactKind, OperatingPoint, reduced_modulus};
-use crate::solver::grid::GridSpec;
+use crate::solver::grid::{GridSpec, PointGridSpec};
 use crate::solver::lubricant::{DensityLaw, Lubricant, ShearLaw, Sliding, ViscosityLaw};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -64,7 +64,7 @@ pub struct PointOptions {
     /// Mean entrainment speed u_m in m/s
     #[arg(long, allow_negative_numbers = true)]
     pub speed: Option<f64>,
-    /// Load w in N/m
+    /// Load w in N/m (line) or N (point)
     #[arg(long, allow_negative_numbers = true)]
     pub load: Option<f64>,
     /// Reduced modulus E′ in Pa, or --e1 --nu1 --e2 --nu2
@@ -112,13 +112,13 @@ pub struct PointOptions {
     /// Grid of a full solution (default: the dissertation's uniform one)
     #[arg(long, value_enum)]
     pub grid: Option<GridName>,
-    /// Spacing ΔX of a uniform grid (default: 0.005)
+    /// Spacing ΔX of a uniform grid (default: 0.005 line, 0.02 point)
     #[arg(long, allow_negative_numbers = true)]
     pub dx: Option<f64>,
-    /// Spacing ΔY (point contact)
+    /// Spacing ΔY of a point contact's grid (default: 0.05); a graded grid is four times finer in the side lobes
     #[arg(long, allow_negative_numbers = true)]
     pub dy: Option<f64>,
-    /// Inlet and outlet (default: -4,2 on a uniform grid); of a graded grid in its reference coordinate
+    /// Inlet and outlet (default: -4,2 on a uniform grid), and outer edge of a point contact's half domain (default: -2); of a graded grid in its reference coordinate
     #[arg(long, value_name = "X0,X1[,Y0]", allow_hyphen_values = true, value_parser = domain)]
     pub domain: Option<Domain>,
     /// Cavitation model
@@ -176,7 +176,7 @@ fn refuse<T>(sentence: impl Into<String>) -> Result<T, Failure> {
 
 impl PointOptions {
     /// Names of the numeric options that a sweep can vary, without the leading dashes.
-    pub const VARIABLES: [&str; 15] = [
+    pub const VARIABLES: [&str; 16] = [
         "moes-m",
         "moes-l",
         "radius",
@@ -192,6 +192,7 @@ impl PointOptions {
         "srr",
         "npr",
         "dx",
+        "dy",
     ];
 
     /// Sets a numeric option by name; `m` and `l` are short for `moes-m` and `moes-l`.
@@ -214,6 +215,7 @@ impl PointOptions {
             "nu2" => &mut self.nu2,
             "npr" => &mut self.npr,
             "dx" => &mut self.dx,
+            "dy" => &mut self.dy,
             "srr" => {
                 self.srr = value;
                 return Ok(());
@@ -232,8 +234,8 @@ impl PointOptions {
     /// # Errors
     /// When they contradict each other or a value is outside any sense.
     pub fn request(&self) -> Result<(Request, Method), Failure> {
-        if self.contact == ContactName::Point {
-            return refuse("--contact point is not part of this version; use --contact line");
+        if self.contact == ContactName::Point && self.method == MethodName::Reduced {
+            return refuse("there is no reduced model of a point contact in this version; use --method full");
         }
         if !(self.srr.is_finite() && self.srr.abs() <= 10.0) {
             return refuse(format!("--srr is {}, but must be a finite number between -10 and 10", self.srr));
@@ -321,10 +323,40 @@ impl PointOptions {
             }
             _ => return refuse("--moes-m and --moes-l belong together; give both"),
         };
-        at.point(ContactKind::Line).map_err(|error| Failure::Request(error.to_string()))
+        at.point(self.kind()).map_err(|error| Failure::Request(error.to_string()))
+    }
+
+    fn kind(&self) -> ContactKind {
+        match self.contact {
+            ContactName::Line => ContactKind::Line,
+            ContactName::Point => ContactKind::Point,
+        }
+    }
+
+    /// The grid of a point contact.
+    fn plane(&self) -> Result<Grid, Failure> {
+        let default = match self.grid {
+            None | Some(GridName::Uniform) => PointGridSpec::DISSERTATION,
+            Some(GridName::Graded) => PointGridSpec::EXPLORER,
+            Some(GridName::Model) => {
+                return refuse(
+                    "there is no reduced model of a point contact in this version; write --grid uniform or --grid graded",
+                );
+            }
+        };
+        let (from, to, edge) = default.domain;
+        let ends = self.domain.map_or((from, to), |domain| domain.x);
+        let edge = self.domain.and_then(|domain| domain.y).unwrap_or(edge);
+        let (dx, dy) = (self.dx.unwrap_or(default.dx), self.dy.unwrap_or(default.dy));
+        let spec = PointGridSpec { dx, dy, domain: (ends.0, ends.1, edge), ..default };
+        spec.check().map_err(|error| Failure::Request(error.to_string()))?;
+        Ok(Grid::Plane { dx, dy, domain: spec.domain, refinement: spec.refinement })
     }
 
     fn grid(&self, method: &Method) -> Result<Grid, Failure> {
+        if self.kind() == ContactKind::Point {
+            return self.plane();
+        }
         if self.dy.is_some() || self.domain.is_some_and(|domain| domain.y.is_some()) {
             return refuse("a line contact has no Y: leave out --dy and the third number of --domain");
         }

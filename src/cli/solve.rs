@@ -59,18 +59,21 @@ fn describe(report: &PointReport) -> String {
     }
     line("R", format!("{:.6e} m", si.radius));
     line("u_m", format!("{:.6e} m/s", si.speed));
-    line("w", format!("{:.6e} N/m", si.load));
+    let unit = if report.contact == "line" { "N/m" } else { "N" };
+    line("w", format!("{:.6e} {unit}", si.load));
     line("E′", format!("{:.6e} Pa", si.modulus));
     line("η₀", format!("{:.6e} Pa·s", si.viscosity));
     line("α", format!("{:.6e} 1/Pa", si.alpha));
     line("M, L", format!("{:.6}, {:.6}", report.moes.m, report.moes.l));
     line("Hertz", format!("a {:.6e} m, p_H {:.6e} Pa", report.hertz.a_m, report.hertz.p_h_pa));
-    line("grid", format!("{}, {} nodes, {} unknowns", grid.kind, grid.nx, grid.dofs));
+    let nodes = if grid.ny == 1 { grid.nx.to_string() } else { format!("{}×{}", grid.nx, grid.ny) };
+    line("grid", format!("{}, {nodes} nodes, {} unknowns", grid.kind, grid.dofs));
     let s = &report.scalars;
     let numbers = [
         ("H_c", s.h_c),
         ("H_min", s.h_min),
         ("X of H_min", s.x_h_min),
+        ("Y of H_min", s.y_h_min),
         ("P_c", s.p_c),
         ("P_max", s.p_max),
         ("X of P_max", s.x_p_max),

@@ -35,7 +35,7 @@ pub struct Varied {
 }
 
 /// Values in the table, as the report names them.
-const COLUMNS: [&str; 29] = [
+const COLUMNS: [&str; 30] = [
     "si.radius",
     "si.speed",
     "si.load",
@@ -50,6 +50,7 @@ const COLUMNS: [&str; 29] = [
     "H_c",
     "H_min",
     "X_H_min",
+    "Y_H_min",
     "P_c",
     "P_max",
     "X_P_max",

@@ -1,11 +1,13 @@
-//! `train`: a reduced model as a scene describes.
+//! `train`: a reduced model as a scene describes. What was solved is kept in `FILE.rom.training` until the model is written, so that
+//! the same command goes on where a killed one stopped.
 
 use super::failure::Failure;
 use super::output::{self, ProgressLine};
 use super::{Verdict, info};
+use crate::harness::training_file::{self, TrainingKeeper};
 use crate::harness::{HarnessError, model_file};
 use crate::scene::{Scene, Study};
-use crate::solver::training::train;
+use crate::solver::training::{Progress, TrainingObserver, TrainingState, train_resumable};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -33,11 +35,47 @@ pub fn run(args: &TrainArgs) -> Result<Verdict, Failure> {
             args.out.display()
         )));
     }
-    let progress = ProgressLine::new(true);
-    let trained = train(&spec, &progress);
-    progress.finish();
-    let model = trained.map_err(HarnessError::from)?;
+    let kept = training_file::beside(&args.out);
+    let mut state = match training_file::unfinished(&kept, &spec).map_err(HarnessError::from)? {
+        Some(state) => {
+            let sentence = format!("going on with {}: {} full solutions are there", kept.display(), state.solutions());
+            output::complain(&sentence);
+            state
+        }
+        None => TrainingState::new(spec),
+    };
+    let watch = Watch { progress: ProgressLine::new(true), keeper: TrainingKeeper::new(kept) };
+    let trained = train_resumable(&mut state, &watch);
+    watch.progress.finish();
+    let model = match trained {
+        Ok(model) => model,
+        Err(error) => {
+            if state.solutions() > 0
+                && let Err(reason) = watch.keeper.keep(&state)
+            {
+                output::complain(&reason.to_string());
+            }
+            return Err(HarnessError::from(error).into());
+        }
+    };
     model_file::write(&model, &args.out).map_err(|reason| HarnessError::Model { path: args.out.clone(), reason })?;
+    watch.keeper.discard().map_err(HarnessError::from)?;
     output::print(&info::describe(&model))?;
     Ok(Verdict::Done)
+}
+
+/// Shows how far the training is and keeps it on disk meanwhile.
+struct Watch {
+    progress: ProgressLine,
+    keeper: TrainingKeeper,
+}
+
+impl TrainingObserver for Watch {
+    fn progress(&self, progress: Progress) {
+        self.progress.progress(progress);
+    }
+
+    fn checkpoint(&self, state: &TrainingState) {
+        self.keeper.checkpoint(state);
+    }
 }

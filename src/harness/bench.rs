@@ -4,17 +4,21 @@ use super::error::HarnessError;
 use super::sampling::random_points;
 use super::statistics::{median, percentile};
 use crate::scene::{QuantityBox, TestRange};
+use crate::solver::contact::ContactKind;
 use crate::solver::contact::OperatingPoint;
 use crate::solver::full::dense::{dense_kernel, dense_newton};
-use crate::solver::full::{FullSolver, Solution, SolveOptions, Start};
-use crate::solver::grid::GridSpec;
+use crate::solver::full::{FullSolver, PointSolver, Solution, SolveOptions, Start};
+use crate::solver::grid::{GridSpec, PointGridSpec};
 use crate::solver::lubricant::Lubricant;
 use crate::solver::reduced::{Online, ReducedOptions, distance};
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
-/// What all rows are compared with: Newton with a dense LU per step on the same 1201 nodes, as the dissertation has it.
+/// What all rows of line contacts are compared with: Newton with a dense LU per step on the same 1201 nodes, as the dissertation has it.
 pub const BASELINE: &str = "line/dense-newton";
+
+/// What all rows of point contacts are compared with: the cold full solve. A dense LU of 11960 unknowns would take minutes.
+pub const POINT_BASELINE: &str = "point/full/cold";
 
 /// The dense baseline may take this long; at least three runs are made whatever they take.
 const BASELINE_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(10)];
@@ -24,6 +28,9 @@ const ROW_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(
 const FULL_POINTS: [usize; 2] = [400, 120];
 const REDUCED_POINTS: [usize; 2] = [10_000, 2_000];
 const BASELINE_POINTS: [usize; 2] = [40, 12];
+/// Point contacts: solves, and the time after which no further ones are begun.
+const POINT_POINTS: [usize; 2] = [50, 8];
+const POINT_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(5)];
 const SEED: u64 = 2026;
 
 /// One line of the table.
@@ -53,7 +60,7 @@ pub struct Bench {
     pub notes: Vec<String>,
 }
 
-/// Measures the table over random points of Table 3.1's box, the same points for every row.
+/// Measures the table over random points of Table 3.1's box for line and of Table 3.4's for point contacts, the same points for every row.
 ///
 /// `quick` takes fewer points and ends within 40 s.
 ///
@@ -61,7 +68,7 @@ pub struct Bench {
 /// When a solver refuses a point of the box, which it never should.
 pub fn run(quick: bool) -> Result<Bench, HarnessError> {
     let size = usize::from(quick);
-    let points = random_points(&TestRange::Box(QuantityBox::TABLE_3_1), REDUCED_POINTS[size], SEED);
+    let points = random_points(&TestRange::Box(QuantityBox::TABLE_3_1), ContactKind::Line, REDUCED_POINTS[size], SEED);
     let lubricant = Lubricant::default();
     let mut solver = FullSolver::new(GridSpec::DISSERTATION)?;
     let mut bench = Bench::default();
@@ -111,22 +118,59 @@ pub fn run(quick: bool) -> Result<Bench, HarnessError> {
         }
         Err(reason) => bench.notes.push(format!("line/reduced is missing: {reason}")),
     }
-    let baseline = median(&rows[0].seconds);
-    for timing in rows {
-        if timing.failures > 0 {
-            bench.notes.push(format!("{}: {} solves did not converge", timing.name, timing.failures));
-        }
-        let median_s = median(&timing.seconds);
-        bench.rows.push(Row {
-            name: timing.name,
-            median_s,
-            p99_s: percentile(&timing.seconds, 0.99),
-            runs: timing.seconds.len(),
-            baseline: BASELINE,
-            ratio: baseline / median_s,
-        });
-    }
+    bench.add(rows, BASELINE);
+    bench.add(point_rows(size)?, POINT_BASELINE);
     Ok(bench)
+}
+
+impl Bench {
+    /// Adds rows that are compared with the first of them.
+    fn add(&mut self, rows: Vec<Timing>, baseline: &'static str) {
+        let reference = rows.first().map_or(f64::NAN, |first| median(&first.seconds));
+        for timing in rows {
+            if timing.failures > 0 {
+                self.notes.push(format!("{}: {} solves did not converge", timing.name, timing.failures));
+            }
+            let median_s = median(&timing.seconds);
+            self.rows.push(Row {
+                name: timing.name,
+                median_s,
+                p99_s: percentile(&timing.seconds, 0.99),
+                runs: timing.seconds.len(),
+                baseline,
+                ratio: reference / median_s,
+            });
+        }
+    }
+}
+
+/// Full solves of point contacts on 301×41 nodes, cold and from the nearest other solution.
+fn point_rows(size: usize) -> Result<Vec<Timing>, HarnessError> {
+    let lubricant = Lubricant::default();
+    let range = TestRange::Box(QuantityBox::TABLE_3_4);
+    let mut solver = PointSolver::new(PointGridSpec::DISSERTATION)?;
+    let mut cold = Timing::new(POINT_BASELINE, POINT_BUDGET[size]);
+    let mut solutions: Vec<Solution> = Vec::new();
+    for point in random_points(&range, ContactKind::Point, POINT_POINTS[size], SEED) {
+        if cold.spent() && cold.seconds.len() >= 4 {
+            break;
+        }
+        let clock = Instant::now();
+        let solution = solver.solve(&point, lubricant, Start::Cold, &mut ())?;
+        cold.record(clock, solution.converged());
+        solutions.extend(Some(solution).filter(Solution::converged));
+    }
+    let mut warm = Timing::new("point/full/warm", POINT_BUDGET[size]);
+    for (k, own) in solutions.iter().enumerate() {
+        let Some(start) = nearest_other(&solutions, k) else { break };
+        if warm.spent() && warm.seconds.len() >= 4 {
+            break;
+        }
+        let clock = Instant::now();
+        let solution = solver.solve(&own.problem.point, lubricant, Start::From(start), &mut ())?;
+        warm.record(clock, solution.converged());
+    }
+    Ok(vec![cold, warm])
 }
 
 fn reduced_row(online: &mut Online, points: &[OperatingPoint], budget: Duration) -> Timing {

@@ -1,6 +1,7 @@
 //! What can be wrong with a request.
 
 use super::model_file::ModelFileError;
+use super::training_file::TrainingFileError;
 use crate::scene::{SceneError, SceneFileError, atomic_file::WriteError};
 use crate::solver::contact::ContactError;
 use crate::solver::full::SolveError;
@@ -46,6 +47,9 @@ pub enum HarnessError {
     /// The training gives no model.
     #[error(transparent)]
     Training(#[from] TrainingError),
+    /// An unfinished training cannot be gone on with or kept.
+    #[error(transparent)]
+    TrainingFile(#[from] TrainingFileError),
     /// An output cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),

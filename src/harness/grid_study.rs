@@ -9,7 +9,7 @@ use crate::scene::{Grid, Method, Scene};
 use crate::solver::full::Solution;
 use crate::solver::training::TrainingObserver;
 
-/// Runs the study. Values: `order` (of the three finest grids), `order.1`, … (of each three neighbours, coarsest first),
+/// Runs the study. Values: `H_c.1`, … (coarsest first), `order` (of the three finest grids), `order.1`, … (of each three neighbours, coarsest first),
 /// `H_c_extrapolated` (Richardson, from the two finest), `H_c_error` (relative, of the finest).
 pub(super) fn run(
     scene: &Scene,
@@ -19,22 +19,35 @@ pub(super) fn run(
     outcome: &mut SceneOutcome,
 ) -> Result<(), HarnessError> {
     let template = request_of(scene)?;
-    let Grid::Uniform { domain, .. } = scene.grid else {
-        return Err(HarnessError::Study("a grid study needs a Uniform `grid`".to_owned()));
-    };
     let of = Some(&Method::Full);
     let mut table = Table::new("grids", &["dx", "nodes", "H_c", "H_min", "P_c", "newton_iterations", "wall_s"]);
     let mut former: Option<Solution> = None;
     for (i, &dx) in spacings.iter().enumerate() {
         step(observer, "grids", i, spacings.len())?;
-        let request = Request { grid: Grid::Uniform { dx, domain }, ..template.clone() };
+        let grid = match scene.grid {
+            Grid::Uniform { domain, .. } => Grid::Uniform { dx, domain },
+            Grid::Plane { dy, domain, refinement, .. } => Grid::Plane { dx, dy, domain, refinement },
+            _ => return Err(HarnessError::Study("a grid study needs a Uniform or Plane `grid`".to_owned())),
+        };
+        let request = Request { grid, ..template.clone() };
         let answer = workbench.answer(&request, &Method::Full, former.as_ref(), observer)?;
         outcome.warnings.extend(answer.warnings.iter().map(|warning| format!("dx {dx}: {warning}")));
         outcome.converged &= answer.converged;
         let scalars = answer.result().map(|solution| solution.scalars);
         let [h_c, h_min, p_c] = scalars.map_or([f64::NAN; 3], |s| [s.h_c, s.h_min, s.p_c]);
-        table.rows.push(vec![dx, answer.nodes as f64, h_c, h_min, p_c, answer.newton_iterations as f64, answer.wall_s]);
+        table.rows.push(vec![
+            dx,
+            (answer.nodes * answer.nodes_across) as f64,
+            h_c,
+            h_min,
+            p_c,
+            answer.newton_iterations as f64,
+            answer.wall_s,
+        ]);
         former = answer.solution.filter(|_| answer.converged);
+    }
+    for (i, row) in table.rows.iter().enumerate() {
+        outcome.push(format!("H_c.{}", i + 1), of, row[2]);
     }
     let films: Vec<f64> = table.rows.iter().map(|row| row[2]).collect();
     let ratio = spacings[0] / spacings[1];

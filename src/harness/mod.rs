@@ -3,32 +3,43 @@
 //! * [`Workbench`] solves single contacts by any method and keeps grids, work space and models between solves.
 //! * [`PointReport`] is one result as the command line prints it; its flattened names are what expectations refer to.
 //! * [`run_scene`] answers a scene's question; each study has a module of its own.
-//! * [`mod@bench`] is the speed table, [`model_file`] the `.rom` format, [`table`] tables and CSV.
+//! * [`mod@bench`] is the speed table, [`model_file`] the `.rom` format, [`training_file`] keeps unfinished trainings, [`table`] tables and
+//!   CSV; [`compare_models`] holds models side by side.
 //!
 //! Wall time is measured here and nowhere below.
 
 pub mod bench;
+mod checked_file;
+mod distance_study;
 mod error;
+mod error_measure_study;
 mod formula_comparison;
 mod grid_study;
+mod model_comparison;
 pub mod model_file;
 mod outcome;
+mod parallel;
+mod plan_comparison;
 mod random_test;
 mod report;
 mod run;
 mod sampling;
 mod series;
+mod split_study;
 mod statistics;
 pub mod table;
+mod tolerance_study;
+pub mod training_file;
 mod training_study;
 mod workbench;
 
 pub use error::HarnessError;
+pub use model_comparison::{ModelComparison, ModelScore, Spread, compare_models};
 pub use outcome::{NamedValue, SceneOutcome, Verdict};
 pub use report::{GridReport, HertzReport, MoesReport, PointReport, ReducedReport, SiReport, profile_table};
 pub use run::run_scene;
 pub use sampling::{Random, random_points};
-pub use statistics::{median, percentile};
+pub use statistics::{median, percentile, rank_correlation};
 pub use table::Table;
 pub use workbench::{Answer, ReducedFacts, Request, Workbench};
 

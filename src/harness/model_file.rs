@@ -1,24 +1,21 @@
 //! Reduced model files (`.rom`): a checked header, then bases, rows, operators, snapshots and the training scene.
 //!
-//! Layout: magic (8 bytes), version (u32), payload length (u64), XXH3 hash of the payload (u64), all little-endian, then the payload in postcard's
-//! encoding. K V_p is not stored: it is recomputed when a model is read.
+//! The header is that of `checked_file`, the payload in postcard's encoding. K V_p is not stored: it is
+//! recomputed when a model is read.
 
+use super::checked_file::{Flaw, Format, Unreadable};
 use crate::scene::atomic_file::{self, WriteError};
 use crate::solver::grid::{GridError, GridSpec, ReferenceGrid};
 use crate::solver::reduced::{Calibration, Domain, PodBasis, ReducedModel, SampledRows, Sampling, Snapshot, Window};
 use faer::Mat;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use xxhash_rust::xxh3::xxh3_64;
 
-const MAGIC: &[u8; 8] = b"EHLROM\r\n";
 const VERSION: u32 = 2;
-const HEADER: usize = 28;
-/// Largest payload that is read; real models have a few MB.
-const MAX_PAYLOAD: u64 = 512 << 20;
+/// Real models have a few MB.
+const FORMAT: Format = Format { magic: b"EHLROM\r\n", version: VERSION, max_payload: 512 << 20 };
 
 /// The model that is part of the program, trained by `scenes/embedded_model.ron`.
 static EMBEDDED: &[u8] = include_bytes!("../../assets/line.rom");
@@ -77,6 +74,19 @@ pub enum ModelFileError {
     /// Its grid is refused.
     #[error("the model file's grid is refused: {0}")]
     Grid(#[from] GridError),
+}
+
+impl From<Flaw> for ModelFileError {
+    fn from(flaw: Flaw) -> Self {
+        match flaw {
+            Flaw::Foreign => Self::Foreign,
+            Flaw::Newer { found } => Self::Newer { found },
+            Flaw::Older { found } => Self::Older { found },
+            Flaw::Truncated { found, wanted } => Self::Truncated { found, wanted },
+            Flaw::TooLarge { bytes } => Self::TooLarge { bytes },
+            Flaw::Changed => Self::Damaged { what: "its content does not match its hash" },
+        }
+    }
 }
 
 #[derive(Serialize, Deserialize)]
@@ -195,24 +205,10 @@ pub fn embedded() -> Result<Arc<ReducedModel>, ModelFileError> {
 /// # Errors
 /// When the file cannot be read, is foreign, newer, cut off or damaged.
 pub fn read(path: &Path) -> Result<ReducedModel, ModelFileError> {
-    let io = |source| ModelFileError::Io { path: path.to_owned(), source };
-    let mut file = std::fs::File::open(path).map_err(io)?;
-    let length = file.metadata().map_err(io)?.len();
-    let mut head = [0u8; HEADER];
-    let mut filled = 0;
-    while filled < HEADER {
-        match file.read(&mut head[filled..]).map_err(io)? {
-            0 => break,
-            n => filled += n,
-        }
-    }
-    let announced = payload_length(&head[..filled])?;
-    let found = length.saturating_sub(HEADER as u64);
-    if found < announced {
-        return Err(ModelFileError::Truncated { found: length, wanted: announced + HEADER as u64 });
-    }
-    let mut bytes = head.to_vec();
-    file.take(announced).read_to_end(&mut bytes).map_err(io)?;
+    let bytes = FORMAT.read(path).map_err(|reason| match reason {
+        Unreadable::Io(source) => ModelFileError::Io { path: path.to_owned(), source },
+        Unreadable::Flaw(flaw) => flaw.into(),
+    })?;
     from_bytes(&bytes)
 }
 
@@ -251,13 +247,7 @@ pub fn to_bytes(model: &ReducedModel) -> Result<Vec<u8>, ModelFileError> {
         log: model.log.clone(),
     };
     let payload = postcard::to_allocvec(&stored).map_err(|_| ModelFileError::Damaged { what: "encoding" })?;
-    let mut bytes = Vec::with_capacity(HEADER + payload.len());
-    bytes.extend_from_slice(MAGIC);
-    bytes.extend_from_slice(&VERSION.to_le_bytes());
-    bytes.extend_from_slice(&(payload.len() as u64).to_le_bytes());
-    bytes.extend_from_slice(&xxh3_64(&payload).to_le_bytes());
-    bytes.extend_from_slice(&payload);
-    Ok(bytes)
+    Ok(FORMAT.seal(&payload))
 }
 
 /// A model from the content of a file.
@@ -265,17 +255,7 @@ pub fn to_bytes(model: &ReducedModel) -> Result<Vec<u8>, ModelFileError> {
 /// # Errors
 /// As [`read`].
 pub fn from_bytes(bytes: &[u8]) -> Result<ReducedModel, ModelFileError> {
-    let announced = payload_length(bytes)?;
-    let payload = &bytes[HEADER..];
-    if (payload.len() as u64) < announced {
-        let wanted = announced + HEADER as u64;
-        return Err(ModelFileError::Truncated { found: bytes.len() as u64, wanted });
-    }
-    let payload = &payload[..announced as usize];
-    let hash = u64_at(bytes, 20).unwrap_or_default();
-    if xxh3_64(payload) != hash {
-        return Err(ModelFileError::Damaged { what: "its content does not match its hash" });
-    }
+    let payload = FORMAT.open(bytes)?;
     let stored: StoredModel =
         postcard::from_bytes(payload).map_err(|_| ModelFileError::Damaged { what: "its content cannot be decoded" })?;
     let grids = grids(&stored.windows)?;
@@ -299,33 +279,6 @@ fn grids(windows: &[StoredWindow]) -> Result<Vec<Arc<ReferenceGrid>>, ModelFileE
         grids.push(grid);
     }
     Ok(grids)
-}
-
-/// Checks magic, version and announced size.
-fn payload_length(bytes: &[u8]) -> Result<u64, ModelFileError> {
-    if !bytes.starts_with(MAGIC) {
-        return Err(ModelFileError::Foreign);
-    }
-    let cut = ModelFileError::Truncated { found: bytes.len() as u64, wanted: HEADER as u64 };
-    if bytes.len() < HEADER {
-        return Err(cut);
-    }
-    let version = u64_at(bytes, 8).unwrap_or_default() as u32;
-    if version > VERSION {
-        return Err(ModelFileError::Newer { found: version });
-    }
-    if version < VERSION {
-        return Err(ModelFileError::Older { found: version });
-    }
-    let announced = u64_at(bytes, 12).unwrap_or_default();
-    if announced > MAX_PAYLOAD {
-        return Err(ModelFileError::TooLarge { bytes: announced });
-    }
-    Ok(announced)
-}
-
-fn u64_at(bytes: &[u8], at: usize) -> Option<u64> {
-    bytes.get(at..at + 8)?.try_into().ok().map(u64::from_le_bytes)
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! What a scene gave: values by name and method, verdicts, tables.
 
+use super::statistics::{median, percentile};
 use super::table::Table;
 use crate::scene::{Method, Scene};
 use serde_json::{Value, json};
@@ -61,6 +62,13 @@ impl SceneOutcome {
 
     pub(super) fn push(&mut self, name: impl Into<String>, method: Option<&Method>, value: f64) {
         self.values.push(NamedValue { name: name.into(), method: method.cloned(), value });
+    }
+
+    /// Median, 95 % value and maximum of a quantity, as `name_median`, `name_p95` and `name_max`.
+    pub(super) fn push_spread(&mut self, name: &str, values: &[f64]) {
+        self.push(format!("{name}_median"), None, median(values));
+        self.push(format!("{name}_p95"), None, percentile(values, 0.95));
+        self.push(format!("{name}_max"), None, percentile(values, 1.0));
     }
 
     /// The value of a name: of the method where one is given, else the first of that name.

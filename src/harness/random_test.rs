@@ -2,18 +2,16 @@
 
 use super::error::HarnessError;
 use super::outcome::SceneOutcome;
+use super::parallel::full_solutions;
 use super::run::{request_of, step};
 use super::sampling::random_points;
 use super::statistics::{median, percentile};
 use super::table::Table;
-use super::workbench::{Cancel, Request, Workbench};
+use super::workbench::{Request, Workbench};
 use crate::scene::{Method, Scene, TestRange};
-use crate::solver::full::{FullSolver, Start};
-use crate::solver::lubricant::Lubricant;
-use crate::solver::reduced::ReducedModel;
-use crate::solver::training::{Progress, TrainingObserver};
-use rayon::prelude::*;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use crate::solver::contact::OperatingPoint;
+use crate::solver::training::TrainingObserver;
+use std::sync::Arc;
 
 /// What is tested.
 pub(super) struct RandomTest<'a> {
@@ -40,7 +38,7 @@ pub(super) fn run(
     observer: &dyn TrainingObserver,
     outcome: &mut SceneOutcome,
 ) -> Result<(), HarnessError> {
-    let points = random_points(test.range, test.tests, test.seed);
+    let points = random_points(test.range, scene.contact, test.tests, test.seed);
     if points.len() < test.tests {
         return Err(HarnessError::Study(format!(
             "`study.range` holds hardly any point below its largest Hertzian pressure; only {} of {} were found",
@@ -104,12 +102,13 @@ pub(super) fn run(
     if let Some(source) = test.method.model() {
         outcome.push("untrained", of, untrained as f64);
         let model = workbench.model(source, observer)?;
-        let films = full_films(&model, &points[..test.compare], scene.lubricant, observer)?;
+        let grid = |point: &OperatingPoint| Arc::clone(&model.windows[model.window_for(point.moes())].grid);
+        let full = full_solutions(grid, &points[..test.compare], scene.lubricant, observer)?;
         let mut errors: [Vec<f64>; 2] = Default::default();
         let mut full_failures = 0;
-        for (row, film) in table.rows.iter_mut().zip(films) {
-            full_failures += usize::from(film.is_none());
-            (row[8], row[10]) = film.unwrap_or((f64::NAN, f64::NAN));
+        for (row, full) in table.rows.iter_mut().zip(full) {
+            full_failures += usize::from(full.is_none());
+            (row[8], row[10]) = full.map_or((f64::NAN, f64::NAN), |full| (full.scalars.h_c, full.scalars.h_min));
             for (errors, (reduced, full)) in errors.iter_mut().zip([(row[5], row[8]), (row[9], row[10])]) {
                 errors.extend(Some((reduced / full - 1.0).abs()).filter(|error| error.is_finite()));
             }
@@ -126,34 +125,4 @@ pub(super) fn run(
     }
     outcome.tables.push(table);
     Ok(())
-}
-
-/// Central and smallest films of cold full solutions on the model's own grids, on all cores: cold, so that no reduced solution can lead them to its root.
-fn full_films(
-    model: &ReducedModel,
-    points: &[crate::solver::contact::OperatingPoint],
-    lubricant: Lubricant,
-    observer: &dyn TrainingObserver,
-) -> Result<Vec<Option<(f64, f64)>>, HarnessError> {
-    let done = AtomicUsize::new(0);
-    points
-        .par_iter()
-        .map_init(
-            || (0..model.windows.len()).map(|_| None::<FullSolver>).collect::<Vec<_>>(),
-            |solvers, point| {
-                if observer.cancelled() {
-                    return Err(HarnessError::Cancelled);
-                }
-                let k = model.window_for(point.moes());
-                let solver = solvers[k].get_or_insert_with(|| FullSolver::on(model.windows[k].grid.clone()));
-                let solution = solver.solve(point, lubricant, Start::Cold, &mut Cancel(observer))?;
-                let so_far = done.fetch_add(1, Ordering::Relaxed) + 1;
-                if so_far.is_multiple_of(REPORT_EVERY) {
-                    let stage = "full solutions to compare with".to_owned();
-                    observer.progress(Progress { stage, done: so_far, total: points.len() });
-                }
-                Ok(solution.converged().then_some((solution.scalars.h_c, solution.scalars.h_min)))
-            },
-        )
-        .collect()
 }

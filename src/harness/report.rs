@@ -2,6 +2,7 @@
 
 use super::table::Table;
 use super::workbench::Answer;
+use crate::solver::contact::ContactKind;
 use crate::solver::full::Solution;
 use serde::Serialize;
 use serde_json::Value;
@@ -9,7 +10,7 @@ use serde_json::Value;
 /// The object of `solve --json`; what does not apply is absent.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PointReport {
-    /// `line`.
+    /// `line` or `point`.
     pub contact: &'static str,
     /// `full` or `reduced`.
     pub method: &'static str,
@@ -29,7 +30,7 @@ pub struct PointReport {
     /// Scalars of the solution.
     #[serde(flatten)]
     pub scalars: ScalarsReport,
-    /// ‖f‖₂ of the scaled rows, each weighted by the square root of its cell: the L2 norm over X.
+    /// ‖f‖₂ of the scaled rows, each weighted by the square root of its cell: the L2 norm over the domain.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub residual_norm: Option<f64>,
     /// Newton steps.
@@ -51,7 +52,7 @@ pub struct SiReport {
     pub radius: f64,
     /// u_m \[m/s\].
     pub speed: f64,
-    /// w \[N/m\].
+    /// w \[N/m\] (line) or \[N\] (point).
     pub load: f64,
     /// E′ \[Pa\].
     pub modulus: f64,
@@ -106,6 +107,9 @@ pub struct ScalarsReport {
     /// Its position.
     #[serde(rename = "X_H_min", skip_serializing_if = "Option::is_none")]
     pub x_h_min: Option<f64>,
+    /// Its position across, Y ≤ 0; point contacts only.
+    #[serde(rename = "Y_H_min", skip_serializing_if = "Option::is_none")]
+    pub y_h_min: Option<f64>,
     /// Pressure at X = 0.
     #[serde(rename = "P_c", skip_serializing_if = "Option::is_none")]
     pub p_c: Option<f64>,
@@ -115,7 +119,7 @@ pub struct ScalarsReport {
     /// Its position.
     #[serde(rename = "X_P_max", skip_serializing_if = "Option::is_none")]
     pub x_p_max: Option<f64>,
-    /// Rigid-body displacement by the kernel of (2.27).
+    /// Rigid-body displacement by the kernel of (2.27) or (2.25).
     #[serde(rename = "H_0", skip_serializing_if = "Option::is_none")]
     pub h_0: Option<f64>,
     /// Central film \[m\].
@@ -127,7 +131,7 @@ pub struct ScalarsReport {
     /// Traction coefficient (3.41).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub traction: Option<f64>,
-    /// |∫P/(π/2) − 1|.
+    /// |∫P/load − 1|.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load_residual: Option<f64>,
 }
@@ -166,6 +170,7 @@ impl From<&Answer> for PointReport {
                 h_c: finite(s.h_c),
                 h_min: finite(s.h_min),
                 x_h_min: finite(s.x_h_min),
+                y_h_min: finite(s.y_h_min).filter(|_| point.kind == ContactKind::Point),
                 p_c: finite(s.p_c),
                 p_max: finite(s.p_max),
                 x_p_max: finite(s.x_p_max),
@@ -178,14 +183,14 @@ impl From<&Answer> for PointReport {
         });
         let kind = if answer.reduced.is_some() { "model" } else { answer.request.grid.kind() };
         Self {
-            contact: "line",
+            contact: point.kind.name(),
             method: answer.method.name(),
             converged: answer.converged,
             warning: (!answer.warnings.is_empty()).then(|| answer.warnings.join("; ")),
             si: SiReport { radius, speed, load, modulus, viscosity, alpha },
             moes: MoesReport { m: moes.m, l: moes.l },
             hertz: HertzReport { a_m: hertz.half_width_m, p_h_pa: hertz.pressure_pa },
-            grid: GridReport { kind, nx: answer.nodes, ny: 1, dofs: answer.dofs },
+            grid: GridReport { kind, nx: answer.nodes, ny: answer.nodes_across, dofs: answer.dofs },
             scalars,
             residual_norm: answer.solution.as_ref().and_then(|solution| finite(solution.report.residual_norm)),
             newton_iterations: answer.newton_iterations,
@@ -234,15 +239,13 @@ fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-/// The profile of a solution: X, P, H and their SI twins.
+/// The fields of a solution at its nodes: X, Y, P, H and their SI twins.
 pub fn profile_table(name: impl Into<String>, solution: &Solution) -> Table {
     let mut table = Table::new(name, &["X", "Y", "P", "H", "x_m", "y_m", "p_pa", "h_m"]);
     let hertz = solution.problem.point.hertz();
-    let film_scale = solution.problem.point.film_scale_m();
+    let (a, film_scale) = (hertz.half_width_m, solution.problem.point.film_scale_m());
     table.rows.extend(
-        solution
-            .profile()
-            .map(|(x, p, h)| vec![x, 0.0, p, h, x * hertz.half_width_m, 0.0, p * hertz.pressure_pa, h * film_scale]),
+        solution.nodes().map(|(x, y, p, h)| vec![x, y, p, h, x * a, y * a, p * hertz.pressure_pa, h * film_scale]),
     );
     table
 }

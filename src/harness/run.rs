@@ -4,7 +4,10 @@ use super::error::HarnessError;
 use super::outcome::SceneOutcome;
 use super::report::{PointReport, profile_table};
 use super::workbench::{Answer, Request, Workbench};
-use super::{formula_comparison, grid_study, random_test, series, training_study};
+use super::{
+    distance_study, error_measure_study, formula_comparison, grid_study, plan_comparison, random_test, series,
+    split_study, tolerance_study, training_study,
+};
 use crate::scene::{Method, Scene, Study};
 use crate::solver::training::{Progress, TrainingObserver};
 use std::time::Instant;
@@ -32,8 +35,30 @@ pub fn run_scene(
             let test = random_test::RandomTest { range, tests: *tests, seed: *seed, method, compare: *compare };
             random_test::run(scene, &test, workbench, observer, &mut outcome)?;
         }
+        Study::ErrorSplit { contacts, method } => {
+            split_study::run(scene, contacts, method, workbench, observer, &mut outcome)?;
+        }
         Study::GridStudy { dx } => grid_study::run(scene, dx, workbench, observer, &mut outcome)?,
         Study::Training(spec) => training_study::run(spec, observer, &mut outcome)?,
+        Study::ErrorMeasures { range, points, seed, model, online, norm } => {
+            let (points, seed, online, norm) = (*points, *seed, *online, *norm);
+            let study = error_measure_study::ErrorMeasureStudy { range, points, seed, model, online, norm };
+            error_measure_study::run(scene, &study, workbench, observer, &mut outcome)?;
+        }
+        Study::DistanceMeasure { range, points, seed } => {
+            distance_study::run(scene, (range, *points, *seed), workbench, observer, &mut outcome)?;
+        }
+        Study::PlanComparison { plans, range, tests, seed, compare, trajectory, online } => {
+            let (tests, seed, compare, trajectory, online) = (*tests, *seed, *compare, *trajectory, *online);
+            let study = plan_comparison::PlanComparison { plans, range, tests, seed, compare, trajectory, online };
+            plan_comparison::run(scene, &study, workbench, observer, &mut outcome)?;
+        }
+        Study::ToleranceStudy { training, range, points, tests, seed, online } => {
+            let training = workbench.training(training)?;
+            let (points, tests, seed, online) = (*points, *tests, *seed, *online);
+            let study = tolerance_study::ToleranceStudy { training, range, points, tests, seed, online };
+            tolerance_study::run(scene, &study, observer, &mut outcome)?;
+        }
         Study::FormulaComparison { formula, m, l } => {
             formula_comparison::run(scene, *formula, m, l, workbench, observer, &mut outcome)?;
         }

@@ -32,31 +32,31 @@ impl Random {
 /// Draws per wanted point before a range is given up as holding none.
 const MAX_DRAWS: usize = 10_000;
 
-/// `n` random points of a range; fewer where the range holds hardly any admissible point.
-pub fn random_points(range: &TestRange, n: usize, seed: u64) -> Vec<OperatingPoint> {
+/// `n` random points of a range for one kind of contact; fewer where the range holds hardly any admissible point.
+pub fn random_points(range: &TestRange, kind: ContactKind, n: usize, seed: u64) -> Vec<OperatingPoint> {
     let mut random = Random::new(seed);
-    (0..n).map_while(|_| (0..MAX_DRAWS).find_map(|_| draw(range, &mut random))).collect()
+    (0..n).map_while(|_| (0..MAX_DRAWS).find_map(|_| draw(range, kind, &mut random))).collect()
 }
 
-fn draw(range: &TestRange, random: &mut Random) -> Option<OperatingPoint> {
+fn draw(range: &TestRange, kind: ContactKind, random: &mut Random) -> Option<OperatingPoint> {
     let mut fraction = || random.towards_ends();
     let linear = |(low, high): (f64, f64), t: f64| low + (high - low) * t;
     let logarithmic = |(low, high): (f64, f64), t: f64| low * (high / low).powf(t);
     let (request, limit) = match *range {
         TestRange::Box(range) => {
-            let point = range.at([fraction(), fraction(), fraction(), fraction()]);
+            let point = range.at(kind, [fraction(), fraction(), fraction(), fraction()]);
             return point.check().is_ok().then_some(point);
         }
         TestRange::Realisation { m, l, max_hertz_pressure } => {
             let (m, l) = (logarithmic(m, fraction()), linear(l, fraction()));
-            (MoesRequest::new(ContactKind::Line, m, l), max_hertz_pressure)
+            (MoesRequest::new(kind, m, l), max_hertz_pressure)
         }
         TestRange::Moes { m, l, alpha, max_hertz_pressure, viscosity } => {
             let (m, l, alpha) = (logarithmic(m, fraction()), linear(l, fraction()), linear(alpha, fraction()));
             let request = MoesRequest {
                 alpha_per_pa: Some(alpha),
                 viscosity_pa_s: Some(viscosity),
-                ..MoesRequest::new(ContactKind::Line, m, l)
+                ..MoesRequest::new(kind, m, l)
             };
             (request, max_hertz_pressure)
         }
@@ -72,10 +72,11 @@ mod tests {
     #[test]
     fn points_repeat_with_the_seed_and_stay_in_their_range() {
         let table = TestRange::Box(QuantityBox::TABLE_3_1);
-        assert_eq!(random_points(&table, 20, 7), random_points(&table, 20, 7));
-        assert_ne!(random_points(&table, 20, 7), random_points(&table, 20, 8));
+        let line = ContactKind::Line;
+        assert_eq!(random_points(&table, line, 20, 7), random_points(&table, line, 20, 7));
+        assert_ne!(random_points(&table, line, 20, 7), random_points(&table, line, 20, 8));
         let real = TestRange::Realisation { m: (2.0, 500.0), l: (1.0, 20.0), max_hertz_pressure: 3.2e9 };
-        let points = random_points(&real, 200, 1);
+        let points = random_points(&real, line, 200, 1);
         assert_eq!(points.len(), 200);
         assert!(points.iter().all(|p| p.hertz().pressure_pa <= 3.2e9 && (1.99..501.0).contains(&p.moes().m)));
     }
@@ -83,6 +84,6 @@ mod tests {
     #[test]
     fn an_empty_range_ends() {
         let none = TestRange::Realisation { m: (500.0, 500.0), l: (20.0, 20.0), max_hertz_pressure: 1e6 };
-        assert!(random_points(&none, 3, 1).is_empty());
+        assert!(random_points(&none, ContactKind::Line, 3, 1).is_empty());
     }
 }

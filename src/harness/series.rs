@@ -79,7 +79,7 @@ pub(super) fn trajectory(
     let mut points = Vec::with_capacity(count);
     for i in 0..count {
         let c = 2.0 * i as f64 / (count - 1) as f64;
-        let point = range.trajectory(c);
+        let point = range.trajectory(scene.contact, c);
         point.check()?;
         points.push((vec![c], point));
     }

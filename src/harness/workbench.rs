@@ -3,14 +3,15 @@
 use super::error::HarnessError;
 use super::model_file;
 use crate::scene::{Grid, Method, ModelSource, Scene, Study};
-use crate::solver::contact::{Moes, OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
-use crate::solver::full::{FullSolver, Problem, Solution, Start};
+use crate::solver::contact::{ContactKind, Moes, OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
+use crate::solver::full::point::resolution_warning;
+use crate::solver::full::{FullSolver, PointSolver, Problem, Solution, Start};
 use crate::solver::grid::{GridSpec, ReferenceGrid};
 use crate::solver::lubricant::{Lubricant, Sliding};
 use crate::solver::observer::Observer;
 use crate::solver::reduced::{ErrorEstimate, Online, ReducedError, ReducedModel, ReducedOptions, Trust, Window};
-use crate::solver::training::{TrainingObserver, train};
-use std::path::PathBuf;
+use crate::solver::training::{TrainingObserver, TrainingSpec, train};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -45,8 +46,10 @@ pub struct Answer {
     pub converged: bool,
     /// What a reader must know, one sentence each.
     pub warnings: Vec<String>,
-    /// Nodes of the grid, both ends counted.
+    /// Nodes of the grid along X, both ends counted.
     pub nodes: usize,
+    /// Nodes across, outer edge and axis counted; 1 for a line contact.
+    pub nodes_across: usize,
     /// Unknowns that were iterated on.
     pub dofs: usize,
     /// Newton steps.
@@ -80,12 +83,15 @@ pub struct ReducedFacts {
 pub struct Workbench {
     base: PathBuf,
     solvers: Vec<FullSolver>,
+    point_solvers: Vec<PointSolver>,
     models: Vec<(ModelSource, Arc<ReducedModel>)>,
     online: Vec<(ModelSource, Online)>,
 }
 
-/// Full solvers kept at a time; the oldest goes first.
+/// Full solvers of line contacts kept at a time; the oldest goes first.
 const KEPT_SOLVERS: usize = 6;
+/// Full solvers of point contacts kept at a time: each holds some hundred megabytes on a fine grid.
+const KEPT_POINT_SOLVERS: usize = 2;
 
 /// Lets a solve see that the run as a whole was cancelled.
 pub(super) struct Cancel<'a>(pub &'a dyn TrainingObserver);
@@ -99,7 +105,13 @@ impl Observer for Cancel<'_> {
 impl Workbench {
     /// An empty workbench; relative paths of models refer to the folder `base`.
     pub fn new(base: impl Into<PathBuf>) -> Self {
-        Self { base: base.into(), solvers: Vec::new(), models: Vec::new(), online: Vec::new() }
+        Self {
+            base: base.into(),
+            solvers: Vec::new(),
+            point_solvers: Vec::new(),
+            models: Vec::new(),
+            online: Vec::new(),
+        }
     }
 
     /// Puts a model in place of what its source would give.
@@ -127,16 +139,22 @@ impl Workbench {
                 let path = self.base.join(path);
                 Arc::new(model_file::read(&path).map_err(|reason| HarnessError::Model { path, reason })?)
             }
-            ModelSource::Trained(path) => {
-                let path = self.base.join(path);
-                let Study::Training(spec) = Scene::read(&path)?.study else {
-                    return Err(HarnessError::NoTraining { path });
-                };
-                Arc::new(train(&spec, observer)?)
-            }
+            ModelSource::Trained(path) => Arc::new(train(&self.training(path)?, observer)?),
         };
         self.models.push((source.clone(), Arc::clone(&model)));
         Ok(model)
+    }
+
+    /// The training that a scene describes.
+    ///
+    /// # Errors
+    /// When the scene cannot be read or describes none.
+    pub fn training(&self, scene: &Path) -> Result<TrainingSpec, HarnessError> {
+        let path = self.base.join(scene);
+        match Scene::read(&path)?.study {
+            Study::Training(spec) => Ok(spec),
+            _ => Err(HarnessError::NoTraining { path }),
+        }
     }
 
     /// Solves a contact; `start` is a solution nearby, where there is one.
@@ -175,7 +193,27 @@ impl Workbench {
         Ok(answer)
     }
 
-    /// The full solver for a request's grid.
+    /// The full solver of point contacts for a request's grid.
+    ///
+    /// # Errors
+    /// When the grid is refused.
+    pub fn point_solver(&mut self, request: &Request) -> Result<&mut PointSolver, HarnessError> {
+        let no_plane = || HarnessError::Study("a point contact needs a Plane `grid`, or none".to_owned());
+        let spec = request.grid.point_spec().ok_or_else(no_plane)?;
+        let place = match self.point_solvers.iter().position(|solver| solver.grid().spec == spec) {
+            Some(place) => place,
+            None => {
+                if self.point_solvers.len() == KEPT_POINT_SOLVERS {
+                    self.point_solvers.remove(0);
+                }
+                self.point_solvers.push(PointSolver::new(spec)?);
+                self.point_solvers.len() - 1
+            }
+        };
+        Ok(&mut self.point_solvers[place])
+    }
+
+    /// The full solver of line contacts for a request's grid.
     ///
     /// # Errors
     /// When the grid is refused or its model cannot be had.
@@ -217,11 +255,20 @@ impl Workbench {
         start: Option<&Solution>,
         observer: &dyn TrainingObserver,
     ) -> Result<Answer, HarnessError> {
-        let solver = self.full_solver(request, observer)?;
         let start = start.map_or(Start::Cold, Start::From);
-        let clock = Instant::now();
-        let solution = solver.solve_problem(*problem, start, &mut Cancel(observer));
-        let wall_s = clock.elapsed().as_secs_f64();
+        let cancel = &mut Cancel(observer);
+        let (solution, wall_s) = match problem.point.kind {
+            ContactKind::Line => {
+                let solver = self.full_solver(request, observer)?;
+                let clock = Instant::now();
+                (solver.solve_problem(*problem, start, cancel), clock.elapsed().as_secs_f64())
+            }
+            ContactKind::Point => {
+                let solver = self.point_solver(request)?;
+                let clock = Instant::now();
+                (solver.solve_problem(*problem, start, cancel)?, clock.elapsed().as_secs_f64())
+            }
+        };
         if observer.cancelled() {
             return Err(HarnessError::Cancelled);
         }
@@ -236,13 +283,21 @@ impl Workbench {
                 report.residual_norm
             ));
         }
+        warnings.extend(resolution_warning(&solution).filter(|_| solution.converged()));
+        let (nx, ny) = (solution.x.len(), solution.y.len());
+        let (nodes, dofs) = match problem.point.kind {
+            // Its node arrays have one node outside the inlet.
+            ContactKind::Line => (nx - 1, nx - 2),
+            ContactKind::Point => (nx, (nx - 2) * (ny - 1) + 1),
+        };
         Ok(Answer {
             request: request.clone(),
             method: Method::Full,
             converged: solution.converged(),
             warnings,
-            nodes: solution.x.len() - 1,
-            dofs: solution.x.len() - 2,
+            nodes,
+            nodes_across: ny,
+            dofs,
             newton_iterations: report.newton_iterations,
             linear_iterations: Some(report.linear_iterations),
             wall_s,
@@ -308,6 +363,7 @@ impl Workbench {
             converged: solution.is_some(),
             warnings,
             nodes: window.grid.xi.len() - 1,
+            nodes_across: 1,
             dofs: facts.basis_p + 1,
             newton_iterations,
             linear_iterations: None,

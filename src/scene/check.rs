@@ -1,13 +1,20 @@
 //! The door: every number of a scene is finite and sane before anything is computed from it.
 
-use super::{Axis, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, View, Within};
+use super::{
+    Axis, Contacts, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, View, Within,
+};
+use crate::solver::contact::ContactKind;
+use crate::solver::grid::PointGridSpec;
 use crate::solver::lubricant::{LubricantError, ScaledShear, ShearLaw};
-use crate::solver::training::{Plan, Range, TrainingSpec};
+use crate::solver::training::{Plan, Range, TrainingSpec, Windows};
 
 /// Most points of a sweep, a trajectory or a formula comparison.
 pub const MAX_POINTS: usize = 100_000;
 /// Most random tests.
 pub const MAX_TESTS: usize = 1_000_000;
+
+/// Most full solutions that a study keeps to compare with.
+pub const MAX_COMPARED: usize = 20_000;
 
 type Checked = Result<(), SceneError>;
 
@@ -54,14 +61,26 @@ impl Scene {
         self.lubricant.scaled(&point).map_err(lubricant)?;
         ScaledShear::new(self.lubricant.shear, self.sliding(), &point)
             .map_err(|problem| refuse("srr, npr", format!("are refused: {problem}")))?;
-        grid(&self.grid)?;
+        grid(&self.grid, self.contact)?;
         study(self)?;
         self.view.iter().try_for_each(view)?;
         self.expect.iter().enumerate().try_for_each(|(i, entry)| expectation(i, entry))
     }
 }
 
-fn grid(grid: &Grid) -> Checked {
+fn grid(grid: &Grid, contact: ContactKind) -> Checked {
+    match (contact, grid) {
+        (ContactKind::Line, Grid::Plane { .. }) => {
+            return Err(refuse("grid", "is Plane, but a line contact has no Y; write Uniform, Graded or GradedNodes"));
+        }
+        (ContactKind::Point, Grid::Uniform { .. } | Grid::GradedNodes { .. } | Grid::Model) => {
+            return Err(refuse(
+                "grid",
+                "must be Plane(dx: …, dy: …, domain: (…, …, …)) for a point contact, or left out",
+            ));
+        }
+        _ => {}
+    }
     let domain = |(from, to): (f64, f64)| {
         number("grid.domain.0", from, -200.0, -1.5)?;
         number("grid.domain.1", to, 1.2, 20.0)
@@ -75,12 +94,32 @@ fn grid(grid: &Grid) -> Checked {
             count("grid.nodes", nodes, 61, crate::solver::grid::MAX_GRADED_NODES)?;
             domain(ends)
         }
+        Grid::Plane { dx, dy, domain, refinement } => PointGridSpec { dx, dy, refinement, domain }
+            .check()
+            .map(|_| ())
+            .map_err(|problem| refuse("grid", format!("makes no sense: {problem}"))),
         Grid::Graded | Grid::Model => Ok(()),
     }
 }
 
 fn study(scene: &Scene) -> Checked {
+    if scene.contact == ContactKind::Point && scene.study.methods().iter().any(|method| *method != Method::Full) {
+        return Err(refuse(
+            "study",
+            "asks for a reduced model of a point contact, which this version does not have; write Full",
+        ));
+    }
     match &scene.study {
+        Study::Training(_)
+        | Study::ErrorSplit { .. }
+        | Study::ErrorMeasures { .. }
+        | Study::DistanceMeasure { .. }
+        | Study::PlanComparison { .. }
+        | Study::ToleranceStudy { .. }
+            if scene.contact == ContactKind::Point =>
+        {
+            Err(refuse("study", "is about reduced models, of which this version has none of a point contact"))
+        }
         Study::Point { methods: list } => methods("study.methods", list),
         Study::Sweep { over, methods: list } => {
             methods("study.methods", list)?;
@@ -99,6 +138,18 @@ fn study(scene: &Scene) -> Checked {
             count("study.compare", *compare, 0, *tests)?;
             test_range(range)
         }
+        Study::ErrorSplit { contacts, method } => {
+            if method.model().is_none() {
+                return Err(refuse("study.method", "must be Reduced(…): a full solution has no such parts"));
+            }
+            match contacts {
+                Contacts::Here => Ok(()),
+                Contacts::Trajectory { range, points } => {
+                    count("study.contacts.points", *points, 2, MAX_POINTS)?;
+                    quantity_box("study.contacts.range", range)
+                }
+            }
+        }
         Study::GridStudy { dx } => {
             count("study.dx (how many)", dx.len(), 3, 12)?;
             dx.iter().try_for_each(|&dx| number("study.dx", dx, 1e-4, 0.2))?;
@@ -107,11 +158,44 @@ fn study(scene: &Scene) -> Checked {
                 return Err(refuse("study.dx", "must fall by one constant factor, as 0.02, 0.01, 0.005 do"));
             }
             match scene.grid {
-                Grid::Uniform { .. } => Ok(()),
-                _ => Err(refuse("grid", "must be Uniform for a grid study, which takes its domain from it")),
+                Grid::Uniform { .. } | Grid::Plane { .. } => Ok(()),
+                _ => Err(refuse("grid", "must be Uniform or Plane for a grid study, which takes its domain from it")),
             }
         }
         Study::Training(spec) => training(spec),
+        Study::ErrorMeasures { range, points, .. } | Study::DistanceMeasure { range, points, .. } => {
+            count("study.points", *points, 3, MAX_COMPARED)?;
+            test_range(range)
+        }
+        Study::PlanComparison { plans, range, tests, compare, trajectory, .. } => {
+            count("study.plans (how many)", plans.len(), 1, 16)?;
+            count("study.tests", *tests, 1, MAX_TESTS)?;
+            count("study.compare", *compare, 0, (*tests).min(MAX_COMPARED))?;
+            count("study.trajectory", *trajectory, 2, MAX_COMPARED)?;
+            for (i, plan) in plans.iter().enumerate() {
+                if plan.name.is_empty() || plans[..i].iter().any(|other| other.name == plan.name) {
+                    return Err(refuse(
+                        "study.plans.name",
+                        "must not be empty or occur twice: results are named by it",
+                    ));
+                }
+            }
+            let published = plans.iter().filter_map(|plan| plan.published_failure_percent);
+            published.into_iter().try_for_each(|p| number("study.plans.published_failure_percent", p, 0.0, 100.0))?;
+            quantity_box("study.range", range)
+        }
+        Study::ToleranceStudy { range, points, tests, .. } => {
+            count("study.points", *points, 2, MAX_COMPARED)?;
+            count("study.tests", *tests, 1, MAX_TESTS)?;
+            quantity_box("study.range", range)
+        }
+        Study::FormulaComparison { formula, .. } if formula.film_formula().contact() != scene.contact => {
+            let wanted = formula.film_formula().contact().name();
+            Err(refuse(
+                "study.formula",
+                format!("is made for {wanted} contacts, but the scene's is a {} contact", scene.contact.name()),
+            ))
+        }
         Study::FormulaComparison { m, l, .. } => {
             count("study.m (how many)", m.len(), 1, 1000)?;
             count("study.l (how many)", l.len(), 1, 1000)?;
@@ -204,9 +288,12 @@ fn training(spec: &TrainingSpec) -> Checked {
             number("study.plan.tolerance", *tolerance, 1e-12, 1e12)?;
         }
     }
-    count("study.windows (how many)", spec.windows.len(), 1, 64)?;
-    for window in &spec.windows {
-        interval("study.windows.m", window.m, 1e-3, 1e6)?;
+    match &spec.windows {
+        Windows::Given(windows) => {
+            count("study.windows (how many)", windows.len(), 1, 64)?;
+            windows.iter().try_for_each(|window| interval("study.windows.m", window.m, 1e-3, 1e6))?;
+        }
+        Windows::Automatic { modes } => count("study.windows.modes", *modes, 8, 1000)?,
     }
     number("study.pressure_loss", spec.pressure_loss, 1e-15, 0.5)?;
     number("study.deformation_loss", spec.deformation_loss, 1e-15, 0.5)?;
@@ -270,6 +357,8 @@ mod tests {
         let range = QuantityBox { load: (2.0, f64::NAN), ..QuantityBox::TABLE_3_1 };
         let study = Study::Trajectory { range, points: 10, methods: vec![Method::Full] };
         assert!(message(Scene { study, ..good.clone() }).contains("study.range.load.1"));
+        let study = Study::ErrorSplit { contacts: Contacts::Here, method: Method::Full };
+        assert!(message(Scene { study, ..good.clone() }).contains("study.method"));
         let study = Study::GridStudy { dx: vec![0.02, 0.01, 0.004] };
         assert!(message(Scene { study, ..good }).contains("constant factor"));
     }

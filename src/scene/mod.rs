@@ -14,11 +14,11 @@ mod view;
 
 pub use document::{SceneError, SceneFileError};
 pub use expectation::{Expectation, Within};
-pub use study::{Axis, Formula, QuantityBox, Steps, Study, TestRange, Variable};
+pub use study::{Axis, ComparedPlan, Contacts, Formula, OnlineScheme, QuantityBox, Steps, Study, TestRange, Variable};
 pub use view::{LoadFollower, LubricantFollower, View};
 
 use crate::solver::contact::{ContactError, ContactKind, MoesRequest, OperatingPoint, si_from_moes};
-use crate::solver::grid::GridSpec;
+use crate::solver::grid::{GridSpec, PointGridSpec};
 use crate::solver::lubricant::{Lubricant, Sliding};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -126,7 +126,7 @@ pub enum Grid {
         /// Inlet and outlet.
         domain: (f64, f64),
     },
-    /// The explorer's graded grid for the contact's load.
+    /// The explorer's graded grid: along X for a line, across for a point contact.
     #[default]
     Graded,
     /// A graded grid of one's own.
@@ -137,6 +137,18 @@ pub enum Grid {
         domain: (f64, f64),
         /// Whether the pressure spike is mapped to ξ = 1.
         registered: bool,
+    },
+    /// Nodes on the half Y ≤ 0 of a point contact; the dissertation's are `Plane(dx: 0.02, dy: 0.05, domain: (-4.0, 2.0, -2.0))`.
+    Plane {
+        /// Spacing ΔX.
+        dx: f64,
+        /// Spacing ΔY.
+        dy: f64,
+        /// Inlet, outlet and outer edge.
+        domain: (f64, f64, f64),
+        /// How many times finer the spacing across is in the side lobes.
+        #[serde(default = "equidistant", skip_serializing_if = "is_equidistant")]
+        refinement: f64,
     },
     /// The grid of the reduced model in the study (of the embedded one where there is none), so that both can be compared.
     Model,
@@ -283,17 +295,34 @@ impl From<OperatingPoint> for At {
     }
 }
 
+fn equidistant() -> f64 {
+    1.0
+}
+
+fn is_equidistant(refinement: &f64) -> bool {
+    *refinement == 1.0
+}
+
 impl Grid {
     /// The dissertation's grid: 1201 nodes from −4 to 2.
     pub const DISSERTATION: Self = Self::Uniform { dx: 0.005, domain: (-4.0, 2.0) };
 
-    /// The solver's specification for a contact; `None` where a reduced model's grid is wanted.
+    /// The solver's specification for a point contact; `None` where this is no grid of one.
+    pub fn point_spec(&self) -> Option<PointGridSpec> {
+        match *self {
+            Self::Plane { dx, dy, domain, refinement } => Some(PointGridSpec { dx, dy, refinement, domain }),
+            Self::Graded => Some(PointGridSpec::EXPLORER),
+            Self::Uniform { .. } | Self::GradedNodes { .. } | Self::Model => None,
+        }
+    }
+
+    /// The solver's specification for a line contact; `None` where a reduced model's grid is wanted, or one of a point contact.
     pub fn spec(&self) -> Option<GridSpec> {
         match *self {
             Self::Uniform { dx, domain } => Some(GridSpec::Uniform { dx, domain }),
             Self::Graded => Some(GridSpec::EXPLORER),
             Self::GradedNodes { nodes, domain, registered } => Some(GridSpec::Graded { nodes, domain, registered }),
-            Self::Model => None,
+            Self::Model | Self::Plane { .. } => None,
         }
     }
 
@@ -301,6 +330,8 @@ impl Grid {
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Uniform { .. } => "uniform",
+            Self::Plane { refinement, .. } if is_equidistant(refinement) => "uniform",
+            Self::Plane { .. } => "graded",
             Self::Graded | Self::GradedNodes { .. } => "graded",
             Self::Model => "model",
         }

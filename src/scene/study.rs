@@ -2,9 +2,11 @@
 
 use super::{Method, ModelSource};
 use crate::solver::contact::{ContactKind, FilmFormula, OperatingPoint};
+use crate::solver::reduced::{Norm, ReducedOptions};
 use crate::solver::training::TrainingSpec;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
+use std::path::PathBuf;
 
 /// What is asked of a scene's contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -49,13 +51,80 @@ pub enum Study {
         #[serde(default)]
         compare: usize,
     },
-    /// The contact on ever finer uniform grids over the scene's domain: observed order and extrapolated value.
+    /// Where a reduced model's error comes from: its basis, Galerkin's projection, the sampling of rows, or the grid.
+    ErrorSplit {
+        /// Where it is split.
+        contacts: Contacts,
+        /// The reduced model.
+        method: Method,
+    },
+    /// The contact on ever finer uniform grids over the scene's domain: observed order and extrapolated value. A point contact keeps ΔY.
     GridStudy {
         /// Spacings ΔX, falling by one constant factor; at least three.
         dx: Vec<f64>,
     },
     /// Training of a reduced model.
     Training(TrainingSpec),
+    /// Error measures (3.10), (3.14), (3.15) of a reduced model at random points (3.17), ordered by the true error: Fig. 3.1.
+    ErrorMeasures {
+        /// Where the points are drawn.
+        range: TestRange,
+        /// How many.
+        points: usize,
+        /// Seed of the random numbers.
+        seed: u64,
+        /// The measured model.
+        model: ModelSource,
+        /// Its online scheme.
+        #[serde(default)]
+        online: OnlineScheme,
+        /// The norm of states and residuals.
+        #[serde(default)]
+        norm: Norm,
+    },
+    /// Weights of the distance measure by (3.9) from full solutions at random points (3.17): (3.20).
+    DistanceMeasure {
+        /// Where the points are drawn.
+        range: TestRange,
+        /// How many.
+        points: usize,
+        /// Seed of the random numbers.
+        seed: u64,
+    },
+    /// Plans of snapshot selection side by side: Tables 3.2 and 3.3, Figs. 3.3 to 3.5 and 3.7.
+    PlanComparison {
+        /// The plans.
+        plans: Vec<ComparedPlan>,
+        /// The box of random tests (3.17) and of the trajectory (3.21).
+        range: QuantityBox,
+        /// Random tests of each.
+        tests: usize,
+        /// Seed of the random tests.
+        seed: u64,
+        /// Full solutions are compared at this many of them.
+        compare: usize,
+        /// Points along the trajectory.
+        trajectory: usize,
+        /// Online scheme of all of them.
+        #[serde(default)]
+        online: OnlineScheme,
+    },
+    /// An adaptive training cut at each tolerance of its ladder: Fig. 3.6.
+    ToleranceStudy {
+        /// The scene of the training; relative paths refer to this scene's folder.
+        training: PathBuf,
+        /// The box of random tests (3.17) and of the trajectory (3.21).
+        range: QuantityBox,
+        /// Points along the trajectory, each with a full solution.
+        points: usize,
+        /// Random tests of each cut.
+        tests: usize,
+        /// Seed of the random tests.
+        seed: u64,
+        /// Online scheme.
+        #[serde(default)]
+        online: OnlineScheme,
+    },
     /// Full solutions against a published film formula at all pairs of M and L in the default realisation.
     FormulaComparison {
         /// The formula.
@@ -65,6 +134,44 @@ pub enum Study {
         /// Lubricant numbers.
         l: Vec<f64>,
     },
+}
+
+/// Which contacts a study looks at.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Contacts {
+    /// The scene's own operating point.
+    Here,
+    /// The test trajectory (3.21) through a box, 0 ≤ c ≤ 2.
+    Trajectory {
+        /// The box.
+        range: QuantityBox,
+        /// Equidistant values of c, both ends counted.
+        points: usize,
+    },
+}
+
+/// One of the compared plans.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ComparedPlan {
+    /// Its name in results.
+    pub name: String,
+    /// The scene of its training; relative paths refer to this scene's folder.
+    pub training: PathBuf,
+    /// Failure rate as published \[%\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub published_failure_percent: Option<f64>,
+}
+
+/// How a reduced model is solved online.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
+pub enum OnlineScheme {
+    /// The explorer's: exact deformation operator, several starts, continuation.
+    #[default]
+    Explorer,
+    /// The dissertation's: δ̃ in the state, the nearest snapshot by (3.20) as the only start.
+    Dissertation,
 }
 
 /// One varied quantity.
@@ -132,7 +239,7 @@ pub struct QuantityBox {
     pub radius: (f64, f64),
     /// Speed \[m/s\].
     pub speed: (f64, f64),
-    /// Load \[N/m\].
+    /// Load \[N/m\] (line) or \[N\] (point).
     pub load: (f64, f64),
     /// Pressure–viscosity coefficient \[1/Pa\].
     pub alpha: (f64, f64),
@@ -157,7 +264,7 @@ pub enum TestRange {
         /// Largest Hertzian pressure \[Pa\].
         max_hertz_pressure: f64,
     },
-    /// M, L and α at R = 3 mm and E′ = 231 GPa, (3.17) in ln M, L and α; points beyond the pressure are drawn again.
+    /// M, L and α at the default R (3 mm line, 10 mm point) and E′ = 231 GPa, (3.17) in ln M, L and α; points beyond the pressure are drawn again.
     Moes {
         /// Load number.
         m: (f64, f64),
@@ -181,6 +288,12 @@ pub enum Formula {
     DowsonHigginson,
     /// Dowson & Toyoda, central film.
     DowsonToyoda,
+    /// Hamrock & Dowson, point contact, central film.
+    HamrockDowsonCentral,
+    /// Hamrock & Dowson, point contact, minimum film.
+    HamrockDowsonMinimum,
+    /// Nijenbanning, Venner & Moes, point contact, central film.
+    NijenbanningVennerMoes,
 }
 
 impl Study {
@@ -188,14 +301,30 @@ impl Study {
     pub fn methods(&self) -> &[Method] {
         match self {
             Self::Point { methods } | Self::Sweep { methods, .. } | Self::Trajectory { methods, .. } => methods,
-            Self::RandomTest { method, .. } => std::slice::from_ref(method),
-            Self::GridStudy { .. } | Self::Training(_) | Self::FormulaComparison { .. } => &[],
+            Self::RandomTest { method, .. } | Self::ErrorSplit { method, .. } => std::slice::from_ref(method),
+            Self::GridStudy { .. }
+            | Self::Training(_)
+            | Self::FormulaComparison { .. }
+            | Self::ErrorMeasures { .. }
+            | Self::DistanceMeasure { .. }
+            | Self::PlanComparison { .. }
+            | Self::ToleranceStudy { .. } => &[],
         }
     }
 
     /// The reduced model whose grid [`Grid::Model`](super::Grid::Model) means: the first one used, else the embedded one.
     pub fn grid_model(&self) -> ModelSource {
         self.methods().iter().find_map(Method::model).cloned().unwrap_or_default()
+    }
+}
+
+impl OnlineScheme {
+    /// The solver's options for it.
+    pub fn options(self) -> ReducedOptions {
+        match self {
+            Self::Explorer => ReducedOptions::default(),
+            Self::Dissertation => ReducedOptions::dissertation(),
+        }
     }
 }
 
@@ -259,11 +388,21 @@ impl QuantityBox {
         viscosity: 0.01,
     };
 
-    /// The point at fractions (0…1) of radius, speed, load and alpha.
-    pub fn at(&self, [radius, speed, load, alpha]: [f64; 4]) -> OperatingPoint {
+    /// The dissertation's Table 3.4, whose printed radii and loads contradict its M and L: with these they hold.
+    pub const TABLE_3_4: Self = Self {
+        radius: (10e-3, 20e-3),
+        speed: (1.0, 10.0),
+        load: (20.0, 100.0),
+        alpha: (5e-9, 20e-9),
+        modulus: 231e9,
+        viscosity: 0.01,
+    };
+
+    /// The point of a kind at fractions (0…1) of radius, speed, load and alpha.
+    pub fn at(&self, kind: ContactKind, [radius, speed, load, alpha]: [f64; 4]) -> OperatingPoint {
         let between = |(low, high): (f64, f64), t: f64| low + (high - low) * t;
         OperatingPoint {
-            kind: ContactKind::Line,
+            kind,
             radius_m: between(self.radius, radius),
             speed_m_per_s: between(self.speed, speed),
             load: between(self.load, load),
@@ -274,9 +413,9 @@ impl QuantityBox {
     }
 
     /// The point of the test trajectory (3.21) at the running parameter c.
-    pub fn trajectory(&self, c: f64) -> OperatingPoint {
+    pub fn trajectory(&self, kind: ContactKind, c: f64) -> OperatingPoint {
         let wave = |halves: f64| 0.5 + 0.5 * (halves * PI * c).sin();
-        self.at([wave(3.0), wave(4.0), wave(5.0), wave(2.0)])
+        self.at(kind, [wave(3.0), wave(4.0), wave(5.0), wave(2.0)])
     }
 }
 
@@ -287,6 +426,9 @@ impl Formula {
             Self::Moes => FilmFormula::MoesLine,
             Self::DowsonHigginson => FilmFormula::DowsonHigginson,
             Self::DowsonToyoda => FilmFormula::DowsonToyoda,
+            Self::HamrockDowsonCentral => FilmFormula::HamrockDowsonCentral,
+            Self::HamrockDowsonMinimum => FilmFormula::HamrockDowsonMinimum,
+            Self::NijenbanningVennerMoes => FilmFormula::NijenbanningVennerMoes,
         }
     }
 }
@@ -299,9 +441,16 @@ mod tests {
     fn the_trajectory_starts_in_the_middle_and_stays_in_the_box() {
         let range = QuantityBox::TABLE_3_1;
         let middle = [3e-3, 5.5, 3e5, 231e9, 0.01, 12.5e-9];
-        assert!(range.trajectory(0.0).quantities().iter().zip(middle).all(|(q, m)| (q / m - 1.0).abs() < 1e-14));
+        assert!(
+            range
+                .trajectory(ContactKind::Line, 0.0)
+                .quantities()
+                .iter()
+                .zip(middle)
+                .all(|(q, m)| (q / m - 1.0).abs() < 1e-14)
+        );
         for i in 0..=1000 {
-            let point = range.trajectory(i as f64 / 500.0);
+            let point = range.trajectory(ContactKind::Line, i as f64 / 500.0);
             assert!((2e-3..=4e-3).contains(&point.radius_m) && (1e5..=5e5).contains(&point.load));
         }
     }

@@ -4,10 +4,12 @@ mod path_window;
 
 use super::document::Document;
 use super::state::State;
+use crate::harness::model_file;
 use crate::scene::Scene;
 use egui::{Context, Id, Modal, Ui, ViewportCommand};
 use path_window::PathWindow;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Recent files kept.
 const MOST_RECENT: usize = 8;
@@ -18,6 +20,11 @@ pub enum Purpose {
     Open,
     /// Save the scene.
     Save,
+    /// Write a reduced model.
+    Model {
+        /// The content of its file.
+        bytes: Arc<Vec<u8>>,
+    },
     /// Write a table.
     Csv {
         /// Its content.
@@ -87,6 +94,10 @@ impl Files {
     }
 }
 
+fn is_model(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "rom")
+}
+
 impl State {
     /// Whether there is something to lose.
     pub fn dirty(&self) -> bool {
@@ -95,7 +106,8 @@ impl State {
 
     /// Does something that ends the present document, after asking when there is something to lose.
     pub fn request(&mut self, ctx: &Context, pending: Pending) {
-        if self.dirty() {
+        let ends_document = !matches!(&pending, Pending::Open(path) if is_model(path));
+        if ends_document && self.dirty() {
             self.files.pending = Some(pending);
         } else {
             self.proceed(ctx, pending);
@@ -123,11 +135,17 @@ impl State {
         }
     }
 
-    /// Opens a scene.
+    /// Opens a scene, or puts a reduced model (`.rom`) in use.
     ///
     /// # Errors
     /// A sentence when it cannot be read; what is on the screen stays.
     pub fn open_path(&mut self, path: &Path) -> Result<(), String> {
+        if is_model(path) {
+            let model = model_file::read(path).map_err(|e| format!("{}: {e}", path.display()))?;
+            self.use_model(Some(Arc::new(model)));
+            self.files.notice = Some(Ok(format!("Using the model {}", path.display())));
+            return Ok(());
+        }
         let scene = Scene::read(path).map_err(|e| e.to_string())?;
         let document = Document::of_scene(scene).map_err(|e| format!("{}: {e}", path.display()))?;
         self.replace_document(document);

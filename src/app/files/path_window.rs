@@ -29,6 +29,7 @@ impl State {
             Purpose::Open => String::new(),
             Purpose::Save => self.files.path.as_deref().unwrap_or(Path::new("contact.ron")).display().to_string(),
             Purpose::Csv { .. } => "profiles.csv".to_owned(),
+            Purpose::Model { .. } => "line.rom".to_owned(),
         };
         let browse = self.files.native_dialogs.then(|| (browse(ctx, &purpose, &suggestion), Instant::now()));
         self.files.window =
@@ -60,9 +61,10 @@ impl State {
     pub(super) fn path_window_ui(&mut self, ctx: &Context) {
         let Some(window) = &mut self.files.window else { return };
         let (title, action) = match window.purpose {
-            Purpose::Open => ("Open a scene", "Open"),
+            Purpose::Open => ("Open a scene or a reduced model", "Open"),
             Purpose::Save => ("Save the scene", "Save"),
             Purpose::Csv { .. } => ("Export the data as CSV", "Export"),
+            Purpose::Model { .. } => ("Save the reduced model", "Save"),
         };
         let waiting = window.browse.is_some();
         let (mut act, mut close, mut again) = (false, false, false);
@@ -132,6 +134,9 @@ impl State {
             Purpose::Csv { text } => atomic_file::replace(&path, text.as_bytes())
                 .map_err(|e| e.to_string())
                 .map(|()| self.files.notice = Some(Ok(format!("Exported {}", path.display())))),
+            Purpose::Model { bytes } => atomic_file::replace(&path, &bytes)
+                .map_err(|e| e.to_string())
+                .map(|()| self.files.notice = Some(Ok(format!("Saved the model {}", path.display())))),
         };
         match (result, &mut self.files.window) {
             (Ok(()), _) => {
@@ -157,7 +162,9 @@ fn browse(ctx: &Context, purpose: &Purpose, suggestion: &str) -> Receiver<Option
         let name = suggestion.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
         let mut dialog = match purpose {
             Purpose::Csv { .. } => rfd::FileDialog::new().add_filter("Table", &["csv"]),
-            _ => rfd::FileDialog::new().add_filter("Scene", &["ron"]),
+            Purpose::Model { .. } => rfd::FileDialog::new().add_filter("Reduced model", &["rom"]),
+            Purpose::Open => rfd::FileDialog::new().add_filter("Scene or reduced model", &["ron", "rom"]),
+            Purpose::Save => rfd::FileDialog::new().add_filter("Scene", &["ron"]),
         };
         if let Some(folder) = suggestion.parent().filter(|p| p.is_dir()) {
             dialog = dialog.set_directory(folder);

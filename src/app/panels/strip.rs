@@ -6,13 +6,16 @@ use crate::app::state::State;
 use crate::app::theme::Palette;
 use egui::{Align, Layout, RichText, Ui};
 
+/// Work younger than this is no news: showing it would only flicker.
+const NEWS_S: f64 = 0.12;
+
 /// The strip at the bottom.
 pub fn ui(ui: &mut Ui, state: &State, frame_s: f64, chosen: &mut Vec<Command>) {
     ui.horizontal(|ui| {
-        // A solve of a few milliseconds is no news: the strip would only flicker.
-        let slow = state.jobs.running().iter().find(|j| j.since.elapsed().as_millis() > 120);
-        match slow {
-            Some(job) => {
+        let slow = state.jobs.running().iter().find(|j| j.since.elapsed().as_secs_f64() > NEWS_S);
+        let study = state.accuracy.standing().filter(|standing| standing.since_s > NEWS_S);
+        match (slow, study) {
+            (Some(job), _) => {
                 ui.label(job.kind.name());
                 let step = job.steps.last().map_or_else(String::new, |s| {
                     format!("Newton step {}, residual {}", s.iteration, numbers::digits(s.residual, 2))
@@ -23,7 +26,15 @@ pub fn ui(ui: &mut Ui, state: &State, frame_s: f64, chosen: &mut Vec<Command>) {
                     chosen.push(Command::Cancel);
                 }
             }
-            None => {
+            (None, Some(standing)) => {
+                ui.label(&standing.stage);
+                ui.weak(standing.describe());
+                if ui.small_button("Cancel").clicked() {
+                    chosen.push(Command::Cancel);
+                }
+            }
+            (None, None) if state.training.job().is_some() => training_ui(ui, state, chosen),
+            (None, None) => {
                 let idle = ui.weak("Ready");
                 if let Some(failure) = state.failure.as_ref().or(state.verify_failure.as_ref()) {
                     let color = Palette::of(ui).wrong;
@@ -46,4 +57,17 @@ pub fn ui(ui: &mut Ui, state: &State, frame_s: f64, chosen: &mut Vec<Command>) {
             ui.weak("Time per solve");
         });
     });
+}
+
+/// A training at work, in one line.
+fn training_ui(ui: &mut Ui, state: &State, chosen: &mut Vec<Command>) {
+    let Some(job) = state.training.job() else { return };
+    ui.label(job.name);
+    if let Some(progress) = &job.live().progress {
+        ui.weak(format!("{}, {} of {}", progress.stage, progress.done, progress.total));
+    }
+    ui.weak(numbers::duration(job.since.elapsed().as_secs_f64()));
+    if ui.small_button("Cancel").clicked() {
+        chosen.push(Command::Cancel);
+    }
 }

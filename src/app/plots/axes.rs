@@ -61,11 +61,16 @@ pub fn round_marks(input: GridInput, target: f64) -> Vec<GridMark> {
 
 /// Marks of an axis that shows log10 of its values: decades, thinned where there are many.
 pub fn decade_marks(input: GridInput) -> Vec<GridMark> {
+    few_decade_marks(input, 8.0)
+}
+
+/// The same with about `most` marks at most, for short axes.
+pub fn few_decade_marks(input: GridInput, most: f64) -> Vec<GridMark> {
     let (low, high) = input.bounds;
     if !(low.is_finite() && high.is_finite() && high > low && high - low < 400.0) {
         return Vec::new();
     }
-    let stride = ((high - low) / 8.0).ceil().max(1.0);
+    let stride = ((high - low) / most).ceil().max(1.0);
     let (first, last) = ((low / stride).ceil() as i64, (high / stride).floor() as i64);
     (first..=last).map(|k| GridMark { value: k as f64 * stride, step_size: stride }).collect()
 }

@@ -8,6 +8,7 @@ mod formulas;
 pub mod profiles;
 mod regime_chart;
 pub mod regimes;
+mod training;
 
 use super::state::State;
 use egui::Ui;
@@ -25,11 +26,13 @@ pub enum Tab {
     Basis,
     /// Residuals and errors.
     Accuracy,
+    /// Making a reduced model.
+    Training,
 }
 
 impl Tab {
     /// All tabs in their order.
-    pub const ALL: [Self; 4] = [Self::Profiles, Self::Regimes, Self::Basis, Self::Accuracy];
+    pub const ALL: [Self; 5] = [Self::Profiles, Self::Regimes, Self::Basis, Self::Accuracy, Self::Training];
 
     /// Title.
     pub fn title(self) -> &'static str {
@@ -38,6 +41,7 @@ impl Tab {
             Self::Regimes => "Regimes",
             Self::Basis => "Reduced basis",
             Self::Accuracy => "Accuracy",
+            Self::Training => "Training",
         }
     }
 }
@@ -68,6 +72,7 @@ impl Behavior<Tab> for Tabs<'_> {
                 Tab::Regimes => regimes::ui(ui, self.state),
                 Tab::Basis => basis::ui(ui, self.state),
                 Tab::Accuracy => accuracy::ui(ui, self.state),
+                Tab::Training => training::ui(ui, self.state),
             }
         });
         UiResponse::None

@@ -6,7 +6,8 @@ mod film_formulas;
 mod moes;
 
 pub use film_formulas::{
-    FilmFormula, FilmPrediction, dowson_higginson_minimum, dowson_toyoda_central, moes_line_central, moes_line_film,
+    FilmFormula, FilmPrediction, dowson_higginson_minimum, dowson_toyoda_central, hamrock_dowson_central,
+    hamrock_dowson_minimum, moes_line_central, moes_line_film, moes_point_central, moes_point_film,
 };
 pub use moes::{MoesRequest, si_from_moes};
 
@@ -24,6 +25,16 @@ pub enum ContactKind {
     Line,
     /// Circular point contact: loads in N.
     Point,
+}
+
+impl ContactKind {
+    /// The word that stands for it in options and results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Line => "line",
+            Self::Point => "point",
+        }
+    }
 }
 
 /// Why an operating point is refused. Each message names the quantity, its value and what would be accepted.

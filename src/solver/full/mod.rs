@@ -4,6 +4,7 @@ mod band;
 pub mod dense;
 mod gmres;
 mod line;
+pub mod point;
 mod shear;
 mod solution;
 mod start;
@@ -12,6 +13,9 @@ mod tests;
 mod traction;
 
 pub use line::{LineSystem, SolveOptions};
-pub use solution::{Problem, Report, Scalars, Solution, SolveError, Termination, Traction, scalars_of};
+pub use point::{PointOptions, PointSolver};
+pub use solution::{
+    Mesh, Problem, Report, Scalars, Solution, SolveError, Termination, Traction, point_scalars_of, scalars_of,
+};
 pub use start::{FullSolver, Start};
 pub use traction::{PLAUSIBLE_EXPONENT, Shear};

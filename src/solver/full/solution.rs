@@ -1,7 +1,9 @@
 //! What is solved and what comes out: a problem and a solution are values that know what they belong to.
 
 use crate::solver::contact::{ContactError, ContactKind, Moes, OperatingPoint};
-use crate::solver::grid::{FIRST_UNKNOWN, GridError, GridSpec, LineGrid, dot};
+use crate::solver::grid::{
+    FIRST_UNKNOWN, GridError, GridSpec, LineGrid, PointGrid, PointGridError, PointGridSpec, dot,
+};
 use crate::solver::lubricant::{Lubricant, LubricantError, ScaledFluid, ScaledShear, Sliding};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -15,12 +17,25 @@ pub enum SolveError {
     /// The lubricant is refused.
     #[error(transparent)]
     Lubricant(#[from] LubricantError),
-    /// The grid is refused.
+    /// The grid of a line contact is refused.
     #[error(transparent)]
     Grid(#[from] GridError),
-    /// The kind of contact is not available.
-    #[error("the point contact is not part of this version; use a line contact")]
-    PointContact,
+    /// The grid of a point contact is refused.
+    #[error(transparent)]
+    PointGrid(#[from] PointGridError),
+    /// The problem is of the other kind.
+    #[error("this solver is made for {} contacts, but the operating point is that of a {} contact", wanted.name(), given.name())]
+    OtherContact {
+        /// What the solver is made for.
+        wanted: ContactKind,
+        /// What it was given.
+        given: ContactKind,
+    },
+    /// Shear-thinning or a limiting stress in a point contact.
+    #[error(
+        "shear-thinning lubricants and limiting shear stresses are not part of this version's point contacts; use a line contact or a Newtonian lubricant"
+    )]
+    ShearInPointContact,
 }
 
 /// One dimensionless problem: what the solver needs of an operating point and a lubricant.
@@ -40,7 +55,7 @@ pub struct Problem {
     pub moes: Moes,
     /// 1/λ̄ of (2.23).
     pub inverse_lambda: f64,
-    /// ∫P dX: π/2, (2.28).
+    /// ∫P: π/2 for a line, (2.28), 2π/3 for a point contact, (2.29).
     pub load: f64,
 }
 
@@ -62,9 +77,6 @@ impl Problem {
         let alpha_per_pa = lubricant.own_coefficient().unwrap_or(point.alpha_per_pa);
         let point = &OperatingPoint { alpha_per_pa, ..*point };
         point.check()?;
-        if point.kind == ContactKind::Point {
-            return Err(SolveError::PointContact);
-        }
         let fluid = lubricant.scaled(point)?;
         Ok(Self {
             point: *point,
@@ -74,15 +86,29 @@ impl Problem {
             shear: ScaledShear::new(lubricant.shear, sliding, point)?,
             moes: point.moes(),
             inverse_lambda: 1.0 / point.lambda_bar(),
-            load: 0.5 * PI,
+            load: match point.kind {
+                ContactKind::Line => 0.5 * PI,
+                ContactKind::Point => 2.0 / 3.0 * PI,
+            },
         })
+    }
+
+    /// The same for a solver that is made for one kind of contact.
+    ///
+    /// # Errors
+    /// When the point is of the other kind, or it or the lubricant is outside its valid range.
+    pub fn of_kind(kind: ContactKind, point: &OperatingPoint, lubricant: Lubricant) -> Result<Self, SolveError> {
+        if point.kind != kind {
+            return Err(SolveError::OtherContact { wanted: kind, given: point.kind });
+        }
+        Self::new(point, lubricant)
     }
 }
 
 /// Why a solve stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Termination {
-    /// ‖Δz‖/‖z‖ fell below the tolerance.
+    /// The step fell below the tolerance.
     Converged,
     /// The iteration limit was reached.
     IterationLimit,
@@ -122,32 +148,54 @@ pub struct Report {
     pub linear_iterations: usize,
     /// Starts that were tried (1 when the first one converged).
     pub attempts: usize,
-    /// Residual 2-norm before each Newton step: rows weighted by √w so that it approximates the L2 norm over X.
+    /// Residual 2-norm before each Newton step: rows weighted by √w so that it approximates the L2 norm over the domain.
     pub residuals: Vec<f64>,
-    /// ‖Δz‖/‖z‖ of each Newton step.
+    /// Size of each Newton step: ‖Δz‖/‖z‖ for a line, max|ΔP| for a point contact.
     pub steps: Vec<f64>,
     /// Residual 2-norm of the solution.
     pub residual_norm: f64,
 }
 
+impl Report {
+    /// Nothing tried yet.
+    pub(super) fn empty() -> Self {
+        Self {
+            termination: Termination::IterationLimit,
+            newton_iterations: 0,
+            linear_iterations: 0,
+            attempts: 0,
+            residuals: Vec::new(),
+            steps: Vec::new(),
+            residual_norm: f64::NAN,
+        }
+    }
+
+    /// Whether no further start needs to be tried.
+    pub(super) fn ended(&self) -> bool {
+        self.attempts > 0 && matches!(self.termination, Termination::Converged | Termination::Cancelled)
+    }
+}
+
 /// Scalars of a solution. Positions and values are dimensionless, (2.22).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
 pub struct Scalars {
-    /// Film at X = 0 (interpolated where no node lies there).
+    /// Film at X = 0 (and Y = 0; interpolated where no node lies there).
     pub h_c: f64,
     /// Smallest nodal film in −1.2 < X < 1.5.
     pub h_min: f64,
-    /// Its position.
+    /// Its position along X.
     pub x_h_min: f64,
-    /// Pressure at X = 0.
+    /// Its position across, at most 0; zero for a line contact.
+    pub y_h_min: f64,
+    /// Pressure at X = 0 (and Y = 0).
     pub p_c: f64,
     /// Largest nodal pressure.
     pub p_max: f64,
-    /// Its position.
+    /// Its position along X.
     pub x_p_max: f64,
-    /// Rigid-body displacement H₀ with the kernel of (2.27).
+    /// Rigid-body displacement H₀ with the kernel of (2.27) or (2.25).
     pub h_0: f64,
-    /// |∫P/(π/2) − 1|.
+    /// |∫P/load − 1| with the load of (2.28) or (2.29).
     pub load_residual: f64,
 }
 
@@ -158,17 +206,44 @@ pub struct Traction {
     pub per_srr: f64,
 }
 
+/// The grid that a solution lives on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mesh {
+    /// Of a line contact; its node arrays have one extra leading node outside the inlet.
+    Line {
+        /// Reference grid.
+        spec: GridSpec,
+        /// Scale of the registration map.
+        scale: f64,
+    },
+    /// Of the half Y ≤ 0 of a point contact.
+    Point(PointGridSpec),
+}
+
+impl Mesh {
+    /// Scale of the registration map; 1 where there is none.
+    pub fn scale(&self) -> f64 {
+        match self {
+            Self::Line { scale, .. } => *scale,
+            Self::Point(_) => 1.0,
+        }
+    }
+}
+
 /// Fields and scalars of one contact, with what they were computed for and how.
+///
+/// Node arrays run over X and, fastest, over Y: node (i, j) has the index i·n_y + j, and the last j lies on the axis Y = 0. A line
+/// contact is the case n_y = 1.
 #[derive(Clone, Debug)]
 pub struct Solution {
     /// What was solved.
     pub problem: Problem,
-    /// Reference grid it was solved on.
-    pub grid: GridSpec,
-    /// Scale of the registration map.
-    pub grid_scale: f64,
-    /// Node abscissae X (node array: leading outside node).
+    /// Grid it was solved on.
+    pub mesh: Mesh,
+    /// Abscissae X.
     pub x: Vec<f64>,
+    /// Ordinates Y ≤ 0; only 0 for a line contact.
+    pub y: Vec<f64>,
     /// P at the nodes.
     pub pressure: Vec<f64>,
     /// H at the nodes.
@@ -185,30 +260,50 @@ impl Solution {
         self.report.termination == Termination::Converged
     }
 
-    /// Deformation Δ = H − H₀ − X²/2 at the nodes (the logarithmic kernel's own constant included).
+    /// Deformation Δ = H − H₀ − (X² + Y²)/2 at the nodes (a logarithmic kernel's own constant included).
     pub fn deformation(&self) -> Vec<f64> {
-        self.x.iter().zip(&self.film).map(|(x, h)| h - self.scalars.h_0 - 0.5 * x * x).collect()
+        let gap = |x: &f64, y: &f64| 0.5 * (x * x + y * y);
+        let parabola = self.x.iter().flat_map(|x| self.y.iter().map(move |y| gap(x, y)));
+        self.film.iter().zip(parabola).map(|(h, gap)| h - self.scalars.h_0 - gap).collect()
     }
 
-    /// The profile without the outside node: X, P, H.
+    /// Index of the first abscissa that belongs to the domain.
+    fn first(&self) -> usize {
+        match self.mesh {
+            Mesh::Line { .. } => 1,
+            Mesh::Point(_) => 0,
+        }
+    }
+
+    /// The profile along the axis Y = 0 from inlet to outlet: X, P, H.
     pub fn profile(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
-        self.x.iter().zip(&self.pressure).zip(&self.film).skip(1).map(|((&x, &p), &h)| (x, p, h))
+        let ny = self.y.len();
+        let axis = move |values: &'_ [f64], i: usize| values[i * ny + ny - 1];
+        (self.first()..self.x.len()).map(move |i| (self.x[i], axis(&self.pressure, i), axis(&self.film, i)))
     }
 
-    /// Position and height of the pressure spike: the last local maximum in 0.2 < X < 1.2 that stands out, if there is one.
+    /// All nodes of the domain, Y fastest: X, Y, P, H.
+    pub fn nodes(&self) -> impl Iterator<Item = (f64, f64, f64, f64)> + '_ {
+        let ny = self.y.len();
+        (self.first() * ny..self.x.len() * ny)
+            .map(move |k| (self.x[k / ny], self.y[k % ny], self.pressure[k], self.film[k]))
+    }
+
+    /// Position and height of the pressure spike on the axis: the last local maximum in 0.2 < X < 1.2 that stands out, if there is one.
     pub fn spike(&self) -> Option<(f64, f64)> {
-        let p = &self.pressure;
-        (1..p.len() - 1)
-            .rev()
-            .filter(|&i| self.x[i] > 0.2 && self.x[i] < 1.2)
-            .find(|&i| p[i] > 0.05 && p[i] > p[i - 1] && p[i] >= p[i + 1])
-            .map(|i| (self.x[i], p[i]))
+        let axis: Vec<(f64, f64)> = self.profile().map(|(x, p, _)| (x, p)).collect();
+        let peak = axis.windows(3).rev().find(|w| {
+            let [(_, before), (x, p), (_, after)] = [w[0], w[1], w[2]];
+            x > 0.2 && x < 1.2 && p > 0.05 && p > before && p >= after
+        })?;
+        Some(peak[1])
     }
 
-    /// Where the film ruptures: first node behind the contact with P ≤ 0.
+    /// Where the film ruptures on the axis: first node behind the contact with P ≤ 0.
     pub fn rupture(&self) -> Option<f64> {
-        let last = self.pressure.iter().rposition(|&p| p > 0.0)?;
-        self.x.get(last + 1).copied()
+        let axis: Vec<(f64, f64)> = self.profile().map(|(x, p, _)| (x, p)).collect();
+        let last = axis.iter().rposition(|&(_, p)| p > 0.0)?;
+        axis.get(last + 1).map(|&(x, _)| x)
     }
 
     /// Newtonian traction over the whole domain, (3.41), positive for SRR > 0, as the mean shear stress on the surfaces over the load.
@@ -217,22 +312,56 @@ impl Solution {
         let point = &self.problem.point;
         let hertz = point.hertz();
         let stress_scale = point.viscosity_pa_s * point.speed_m_per_s / point.film_scale_m();
+        let state = |k: usize| {
+            let viscosity =
+                if self.pressure[k] > 0.0 { self.problem.fluid.at(self.pressure[k]).viscosity } else { 1.0 };
+            viscosity / self.film[k]
+        };
+        let ny = self.y.len();
+        // Across the contact: the trapezoidal rule over both halves, where there is anything across.
+        let at = |i: usize| {
+            let across = |j: usize| (state(i * ny + j - 1) + state(i * ny + j)) * (self.y[j] - self.y[j - 1]);
+            if ny == 1 { state(i) } else { (1..ny).map(across).sum() }
+        };
         let mut integral = 0.0;
-        for i in 1..self.x.len() - 1 {
-            let value = |k: usize| {
-                if self.pressure[k] > 0.0 {
-                    self.problem.fluid.at(self.pressure[k]).viscosity / self.film[k]
-                } else {
-                    1.0 / self.film[k]
-                }
-            };
-            integral += 0.5 * (value(i) + value(i + 1)) * (self.x[i + 1] - self.x[i]);
+        let mut upstream = at(self.first());
+        for i in self.first() + 1..self.x.len() {
+            let here = at(i);
+            integral += 0.5 * (upstream + here) * (self.x[i] - self.x[i - 1]);
+            upstream = here;
         }
-        Traction { per_srr: stress_scale * hertz.half_width_m * integral / point.load }
+        let area = match point.kind {
+            ContactKind::Line => hertz.half_width_m,
+            ContactKind::Point => hertz.half_width_m.powi(2),
+        };
+        Traction { per_srr: stress_scale * area * integral / point.load }
     }
 }
 
-/// Scalars of fields on a grid.
+/// Scalars of fields on a point grid.
+pub fn point_scalars_of(grid: &PointGrid, problem: &Problem, pressure: &[f64], film: &[f64], h_0: f64) -> Scalars {
+    let mut out = Scalars {
+        h_c: grid.on_axis(film, 0.0),
+        p_c: grid.on_axis(pressure, 0.0),
+        h_min: f64::INFINITY,
+        p_max: f64::NEG_INFINITY,
+        h_0,
+        load_residual: (dot(&grid.weights, pressure) / problem.load - 1.0).abs(),
+        ..Scalars::default()
+    };
+    for node in (0..grid.unknowns()).map(|unknown| grid.node(unknown)) {
+        let (x, y) = (grid.x[node / grid.ny()], grid.y[node % grid.ny()]);
+        if film[node] < out.h_min && x > -1.2 && x < 1.5 {
+            (out.h_min, out.x_h_min, out.y_h_min) = (film[node], x, y);
+        }
+        if pressure[node] > out.p_max {
+            (out.p_max, out.x_p_max) = (pressure[node], x);
+        }
+    }
+    out
+}
+
+/// Scalars of fields on a line grid.
 pub fn scalars_of(grid: &LineGrid, problem: &Problem, pressure: &[f64], film: &[f64], h_0: f64) -> Scalars {
     let mut out = Scalars {
         h_c: grid.at(film, 0.0),

@@ -1,7 +1,7 @@
 //! Where Newton starts, and what is tried when it fails: retries with other films, then continuation from an easier contact.
 
 use super::line::{LineSystem, SolveOptions};
-use super::solution::{Problem, Report, Solution, SolveError, Termination, scalars_of};
+use super::solution::{Mesh, Problem, Report, Solution, SolveError, Termination, scalars_of};
 use crate::solver::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, moes_line_film, si_from_moes};
 use crate::solver::grid::{GridSpec, LineGrid, ReferenceGrid};
 use crate::solver::lubricant::Lubricant;
@@ -11,9 +11,9 @@ use std::sync::Arc;
 /// The start of a full solve.
 #[derive(Clone, Copy, Debug)]
 pub enum Start<'a> {
-    /// Hertzian pressure and twice Moes' film.
+    /// Hertzian pressure and a film from a formula.
     Cold,
-    /// Any solution, also of another contact or on another grid.
+    /// Any solution of the same kind of contact, also at another operating point or on another grid; one of the other kind means cold.
     From(&'a Solution),
 }
 
@@ -59,22 +59,22 @@ impl FullSolver {
         start: Start<'_>,
         observer: &mut dyn Observer,
     ) -> Result<Solution, SolveError> {
-        Ok(self.solve_problem(Problem::new(point, lubricant)?, start, observer))
+        Ok(self.solve_problem(Problem::of_kind(ContactKind::Line, point, lubricant)?, start, observer))
     }
 
     /// The same for a problem that exists already, under sliding for instance.
     pub fn solve_problem(&mut self, problem: Problem, start: Start<'_>, observer: &mut dyn Observer) -> Solution {
-        let mut report = empty_report();
-        if let Start::From(former) = start {
+        let mut report = Report::empty();
+        if let Start::From(former @ Solution { mesh: Mesh::Line { .. }, .. }) = start {
             self.attempt(&problem, Start::From(former), 0.0, observer, &mut report);
         }
         for film in COLD_FILMS {
-            if ended(&report) {
+            if report.ended() {
                 break;
             }
             self.attempt(&problem, Start::Cold, film, observer, &mut report);
         }
-        if !ended(&report) {
+        if !report.ended() {
             self.continuation(&problem, observer, &mut report);
         }
         if report.termination == Termination::Converged {
@@ -98,7 +98,7 @@ impl FullSolver {
         point: &OperatingPoint,
         lubricant: Lubricant,
     ) -> Result<(LineSystem, Problem), SolveError> {
-        let problem = Problem::new(point, lubricant)?;
+        let problem = Problem::of_kind(ContactKind::Line, point, lubricant)?;
         let mut system = LineSystem::new(self.reference.for_contact(problem.moes));
         cold_state(&mut system, &problem, COLD_FILMS[0]);
         Ok((system, problem))
@@ -151,7 +151,7 @@ impl FullSolver {
             return;
         }
         let (mut t, mut stride) = (0.0, 0.25f64);
-        let mut last = self.solution(first, empty_report());
+        let mut last = self.solution(first, Report::empty());
         while t < 1.0 && stride > 1e-3 {
             let next = (t + stride).min(1.0);
             let wanted = if next >= 1.0 { Some(*problem) } else { point_at(next) };
@@ -161,7 +161,7 @@ impl FullSolver {
                 Termination::Cancelled => return,
                 Termination::Converged => {
                     t = next;
-                    last = self.solution(wanted, empty_report());
+                    last = self.solution(wanted, Report::empty());
                     stride *= 1.5;
                 }
                 _ => stride *= 0.4,
@@ -180,9 +180,9 @@ impl FullSolver {
         };
         let solution = Solution {
             problem,
-            grid: self.reference.spec,
-            grid_scale: system.grid.scale,
+            mesh: Mesh::Line { spec: self.reference.spec, scale: system.grid.scale },
             x: system.grid.x.clone(),
+            y: vec![0.0],
             pressure: system.pressure.clone(),
             film: system.film.clone(),
             scalars: scalars_of(&system.grid, &problem, &system.pressure, &system.film, system.h_0),
@@ -191,22 +191,6 @@ impl FullSolver {
         self.system = Some(system);
         solution
     }
-}
-
-fn empty_report() -> Report {
-    Report {
-        termination: Termination::IterationLimit,
-        newton_iterations: 0,
-        linear_iterations: 0,
-        attempts: 0,
-        residuals: Vec::new(),
-        steps: Vec::new(),
-        residual_norm: f64::NAN,
-    }
-}
-
-fn ended(report: &Report) -> bool {
-    report.attempts > 0 && matches!(report.termination, Termination::Converged | Termination::Cancelled)
 }
 
 /// Hertzian pressure and H(0) = `film` × Moes' formula.
@@ -226,15 +210,13 @@ fn moes_film(problem: &Problem) -> f64 {
 /// A former solution on this grid: pressure interpolated over the registered coordinate, central film scaled by Moes' formula.
 fn warm_state(system: &mut LineSystem, problem: &Problem, former: &Solution) {
     let grid = &system.grid;
-    let pressure = if former.x.len() == grid.len() && former.grid == grid.reference.spec {
-        former.pressure.clone()
-    } else {
-        interpolate(former, grid)
-    };
+    let same_grid = matches!(former.mesh, Mesh::Line { spec, .. } if spec == grid.reference.spec);
+    let pressure =
+        if former.x.len() == grid.len() && same_grid { former.pressure.clone() } else { interpolate(former, grid) };
     let ratio = moes_film(problem) / moes_film(&former.problem);
     let same = former.problem == *problem;
     system.set_pressure(problem, &pressure);
-    if same && former.grid == system.grid.reference.spec {
+    if same && same_grid {
         system.set_h_0(former.scalars.h_0);
     } else {
         system.set_central_film(former.scalars.h_c * ratio);

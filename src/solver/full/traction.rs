@@ -1,6 +1,7 @@
-//! Shear across the film of a line contact, and the traction (3.41) it adds up to.
+//! Shear across the film of a line contact, and the traction (3.41) it adds up to; the Newtonian traction of a point contact.
 
 use super::solution::Solution;
+use crate::solver::contact::ContactKind;
 use crate::solver::lubricant::{Fluidity, ScaledShear};
 use crate::solver::reynolds::film_integrals::{FilmLoad, PRODUCTION_RULE, film_integrals};
 use crate::solver::reynolds::generalized::NodalGradient;
@@ -58,6 +59,9 @@ impl Solution {
             return 0.0;
         }
         let point = &self.problem.point;
+        if point.kind == ContactKind::Point {
+            return self.traction().per_srr * self.problem.sliding.slide_to_roll_ratio;
+        }
         let stress = self.shear_at_height(0.5);
         let cells = self.x.windows(2).zip(stress.windows(2)).skip(1);
         let integral: f64 = cells.map(|(x, s)| 0.5 * (s[0].stress_pa + s[1].stress_pa) * (x[1] - x[0])).sum();

@@ -5,6 +5,10 @@
 
 mod calibration;
 mod cubature;
+mod error_measures;
+mod error_split;
+#[cfg(test)]
+mod error_split_tests;
 mod model;
 mod online;
 mod operators;
@@ -14,9 +18,11 @@ mod start;
 
 pub use calibration::{Calibration, ErrorEstimate, Estimated, Evidence, Features, LEAST_EVIDENCE};
 pub use cubature::{GoalEquations, cubature};
+pub use error_measures::{ErrorMeasures, Norm, Residuals};
+pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
 pub use model::{Domain, ReducedModel, Snapshot, Trust, Window, deformation_weights, distance, flex};
 pub(crate) use online::interpolation_at_zero;
-pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution};
+pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution, Starts};
 pub(crate) use operators::Iterate;
 pub use pod::PodBasis;
 pub use sampling::{RowSnapshots, SampledRows, Sampling, all_rows, greedy, is_finite, q_deim};

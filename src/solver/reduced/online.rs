@@ -4,8 +4,8 @@ use super::calibration::{ErrorEstimate, Features};
 use super::model::{ReducedModel, Snapshot, Trust, Window, distance};
 use super::operators::{Case, OnlineOutcome, Operators, RowObserver, Stop};
 use super::start::{self, Guess, film_number};
-use crate::solver::contact::{Moes, OperatingPoint};
-use crate::solver::full::{Problem, Report, Scalars, Solution, SolveError, Termination, scalars_of};
+use crate::solver::contact::{ContactKind, Moes, OperatingPoint};
+use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, SolveError, Termination, scalars_of};
 use crate::solver::grid::{GridSpec, LineGrid, registration_scale};
 use crate::solver::lubricant::{Lubricant, ShearLaw};
 use crate::solver::reynolds::PENALTY;
@@ -44,6 +44,16 @@ pub enum ReducedError {
     },
 }
 
+/// From where an online iteration is started.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Starts {
+    /// The previous solution where it is near, an interpolation between snapshots, the nearest snapshot, continuation from it.
+    #[default]
+    Explorer,
+    /// The nearest snapshot by (3.20) as it is, and nothing else: the dissertation's.
+    Nearest,
+}
+
 /// Settings of the online phase; changing them does not retrain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReducedOptions {
@@ -57,11 +67,27 @@ pub struct ReducedOptions {
     pub max_newton: usize,
     /// Penalty factor γ̄ of (2.36).
     pub penalty: f64,
+    /// From where it starts.
+    pub starts: Starts,
 }
 
 impl Default for ReducedOptions {
     fn default() -> Self {
-        Self { pressure_modes: None, deformation_modes: None, tolerance: 1e-5, max_newton: 40, penalty: PENALTY }
+        Self {
+            pressure_modes: None,
+            deformation_modes: None,
+            tolerance: 1e-5,
+            max_newton: 40,
+            penalty: PENALTY,
+            starts: Starts::Explorer,
+        }
+    }
+}
+
+impl ReducedOptions {
+    /// The dissertation's scheme: the state holds δ̃ with all modes that were kept, and starts from the nearest snapshot only.
+    pub fn dissertation() -> Self {
+        Self { deformation_modes: Some(usize::MAX), starts: Starts::Nearest, ..Self::default() }
     }
 }
 
@@ -151,7 +177,7 @@ impl Online {
         if lubricant.shear != ShearLaw::Newtonian {
             return Err(ReducedError::ShearThinning);
         }
-        let problem = Problem::new(point, lubricant)?;
+        let problem = Problem::of_kind(ContactKind::Line, point, lubricant)?;
         let index = self.model.window_for(problem.moes);
         let model = Arc::clone(&self.model);
         let (Some(window), Some(cell)) = (model.windows.get(index), self.windows.get_mut(index)) else {
@@ -160,6 +186,11 @@ impl Online {
         cell.get_or_init(|| operators_of(window, &self.options));
         let Some(operators) = cell.get_mut() else { return Err(ReducedError::Empty) };
         let moes = problem.moes;
+        if self.options.starts == Starts::Nearest {
+            let guess = start::unchanged(window, moes).ok_or(ReducedError::Empty)?;
+            let found = attempt(window, operators, &problem, &guess, usize::MAX, &self.options, &mut observer)?;
+            return Ok(self.keep(&problem, index, found));
+        }
         // The previous solution while somebody drags, else an interpolation, else the nearest snapshot.
         let previous =
             self.previous.as_ref().filter(|p| p.window == index && distance(moes, p.moes) < DRAG_DISTANCE).map(|p| {
@@ -219,10 +250,10 @@ impl Online {
         let (problem, grid, pressure, film) = self.fields(solution)?;
         Ok(Solution {
             problem,
-            grid: grid.reference.spec,
-            grid_scale: grid.scale,
+            mesh: Mesh::Line { spec: grid.reference.spec, scale: grid.scale },
             scalars: scalars_of(&grid, &problem, &pressure, &film, solution.h_0),
             x: grid.x,
+            y: vec![0.0],
             pressure,
             film,
             report: Report {

@@ -126,7 +126,7 @@ impl Operators {
         support.dedup();
         let stencil = rows.iter().map(|r| std::array::from_fn(|m| support.partition_point(|&s| s < r + m))).collect();
         let xi = &reference.xi;
-        let geometry = rows.iter().map(|&r| RowGeometry::new([xi[r], xi[r + 1], xi[r + 2], xi[r + 3]], None)).collect();
+        let geometry = rows.iter().map(|&r| RowGeometry::new([xi[r], xi[r + 1], xi[r + 2], xi[r + 3]])).collect();
         let mut state_rows = Vec::with_capacity(2 * support.len() * modes);
         for &node in &support {
             state_rows.extend((0..modes).map(|k| basis[(node, k)]));
@@ -241,7 +241,8 @@ impl Operators {
                 upwind: geometry.upwind.map(|w| w * first),
                 west: geometry.west * second,
                 east: geometry.east * second,
-                south_north: 0.0,
+                south: 0.0,
+                north: 0.0,
             };
             let center = &s.nodes[stencil[2]];
             let nodes = [&s.nodes[stencil[0]], &s.nodes[stencil[1]], center, &s.nodes[stencil[3]], center, center];

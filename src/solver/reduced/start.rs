@@ -31,6 +31,11 @@ pub(super) fn nearest(window: &Window, moes: Moes) -> Option<Guess> {
     })
 }
 
+/// The nearest training solution by (3.20) with its own film.
+pub(super) fn unchanged(window: &Window, moes: Moes) -> Option<Guess> {
+    window.nearest(moes).map(|(snapshot, _)| Guess { coefficients: snapshot.coefficients.clone(), h_c: snapshot.h_c })
+}
+
 /// Interpolation between the nearest training solutions: weights that reproduce functions linear in (ln M, L, ln α) and
 /// strongly prefer near ones (6 neighbours and 1/d² beat 10 and 16, and 1/d).
 pub(super) fn interpolated(window: &Window, point: &OperatingPoint) -> Option<Guess> {

@@ -141,7 +141,7 @@ mod tests {
         let gradient = NodalGradient::new(&X);
         let node = |i: usize| ShearNode::new(&fluid, shear, 100.0, [p[i], gradient.at(p, i), h[i]], false);
         let nodes: [ShearNode; 4] = std::array::from_fn(|m| node(m + 2));
-        let geometry = RowGeometry::new([X[2], X[3], X[4], X[5]], None);
+        let geometry = RowGeometry::new([X[2], X[3], X[4], X[5]]);
         let order = [0, 1, 2, 3, CENTER, CENTER];
         let r = row(&geometry, PENALTY, order.map(|m| &nodes[m].node));
         let slopes = gradient_slopes(&geometry, order.map(|m| &nodes[m]));
@@ -193,7 +193,7 @@ mod tests {
     fn without_thinning_it_is_the_newtonian_row_whatever_the_sliding() {
         let fluid = Lubricant::default().scaled(&OperatingPoint::TABLE_2_1).unwrap();
         let nodes: Vec<Node> = (2..6).map(|i| Node::new(&fluid, 100.0, PRESSURES[i], FILMS[i])).collect();
-        let geometry = RowGeometry::new([X[2], X[3], X[4], X[5]], None);
+        let geometry = RowGeometry::new([X[2], X[3], X[4], X[5]]);
         let newtonian = row(&geometry, PENALTY, [0, 1, 2, 3, CENTER, CENTER].map(|m| &nodes[m]));
         for srr in [0.0, 0.5, -2.0] {
             let fluidity = Fluidity::of(CARREAU, 1.0).unwrap().0;

@@ -30,7 +30,7 @@
 use super::build::Shop;
 use super::indicator::{Indicator, Judges};
 use super::plan::{global_point, local_point};
-use super::state::{TrainingState, WindowState};
+use super::state::{Part, TrainingState, WindowState};
 use super::{Plan, Progress, TrainingError};
 use crate::solver::contact::OperatingPoint;
 use crate::solver::reduced::{Window, distance};
@@ -61,8 +61,23 @@ pub struct Search {
     pub failed: usize,
     /// Full solutions when each rung was done.
     pub rungs: Vec<usize>,
+    /// Bad approximations in the order in which they were found.
+    pub bad: Vec<BadPoint>,
     /// Whether it is over.
     pub finished: bool,
+}
+
+/// A bad approximation that a search came upon and had solved in full.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BadPoint {
+    /// Where.
+    pub point: OperatingPoint,
+    /// What the indicator said; infinite where the reduced solve failed.
+    pub indicator: f64,
+    /// Full solutions of its window when it was found.
+    pub solutions: usize,
+    /// Rung of the ladder of tolerances on which it was found.
+    pub rung: usize,
 }
 
 /// A point with its coordinates in the unit cube.
@@ -100,6 +115,7 @@ impl Search {
         };
         let judged_by = match indicator {
             Indicator::Residual => "the residual (3.15)",
+            Indicator::Dissertation => "the residual (3.15) of the dissertation's scheme",
             Indicator::Correction => "two full Newton steps each",
         };
         let mut text = format!("{} points judged by {judged_by}, {} reduced solves failed", self.judged, self.failed);
@@ -113,17 +129,17 @@ impl Search {
     }
 }
 
-/// Searches window `k` to the end; returns its last model.
+/// Searches window `k` to the end; returns its last model, or `None` once it needs more modes than it may have.
 pub(super) fn search(
     shop: &mut Shop<'_>,
     state: &mut TrainingState,
     k: usize,
     row_seed: u64,
-) -> Result<Window, TrainingError> {
+) -> Result<Option<Window>, TrainingError> {
     loop {
-        shop.solve_pending(state, k)?;
+        shop.solve_pending(state, Part::Window(k))?;
         let own = &mut state.windows[k];
-        let window = shop.assemble(&own.solved, &mut Rng::with_seed(row_seed))?;
+        let Some(window) = shop.assemble(&own.solved, &mut Rng::with_seed(row_seed))? else { return Ok(None) };
         if !own.search.finished {
             let chosen = match &shop.spec.plan {
                 plan @ Plan::Adaptive { .. } => find_bad(shop, plan, &window, own)?.into_iter().collect(),
@@ -132,7 +148,7 @@ pub(super) fn search(
             own.decide(chosen);
         }
         if own.search.finished {
-            return Ok(window);
+            return Ok(Some(window));
         }
     }
 }
@@ -197,6 +213,12 @@ fn find_bad(
             next.judged += around.len() - 1;
             // The first of equals, so that failures do not wander.
             let worst = (0..around.len()).rev().max_by(|&a, &b| errors[a].total_cmp(&errors[b])).unwrap_or(0);
+            next.bad.push(BadPoint {
+                point: around[worst].1,
+                indicator: errors[worst],
+                solutions: own.solved.len(),
+                rung: next.rung,
+            });
             next.successes = 0;
             next.local = (*local_successes > 0).then_some((around[worst].0, 0));
             next.random = rng.get_seed();
@@ -242,7 +264,7 @@ fn worst_of_pool(
     let mut order: Vec<usize> = (0..drawn.len()).filter(|&i| errors[i] > *tolerance).collect();
     order.sort_by(|&a, &b| errors[b].total_cmp(&errors[a]));
     let mut chosen: Vec<OperatingPoint> = Vec::new();
-    for (_, candidate) in order.into_iter().map(|i| drawn[i]) {
+    for (candidate, indicator) in order.into_iter().map(|i| (drawn[i].1, errors[i])) {
         if chosen.len() == (*per_round).min(limit - known) {
             break;
         }
@@ -251,6 +273,7 @@ fn worst_of_pool(
         let nearest = window.nearest(moes).map_or(f64::INFINITY, |(_, d)| d);
         if chosen.iter().all(|c| distance(c.moes(), moes) >= nearest) {
             chosen.push(candidate);
+            own.search.bad.push(BadPoint { point: candidate, indicator, solutions: known, rung: own.search.rung });
         }
     }
     if chosen.is_empty() {

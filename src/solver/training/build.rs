@@ -1,9 +1,10 @@
 //! From a specification to a model: snapshots, bases, row snapshots, sampled rows.
 
+use super::aside::aside;
 use super::plan::grid_points;
 use super::rows::sample_rows;
-use super::state::{Solved, TrainingState, train_resumable};
-use super::{Plan, Progress, Range, TrainingError, TrainingObserver, TrainingSpec, WindowSpec};
+use super::state::{FEWEST, Part, Solved, TrainingState, train_resumable};
+use super::{Plan, Progress, Range, TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows};
 use crate::solver::contact::OperatingPoint;
 use crate::solver::full::{FullSolver, Start};
 use crate::solver::grid::ReferenceGrid;
@@ -36,21 +37,12 @@ pub fn train(spec: &TrainingSpec, observer: &dyn TrainingObserver) -> Result<Red
 pub(super) fn check(spec: &TrainingSpec) -> Result<(), TrainingError> {
     spec.range.check()?;
     let refuse = |sentence: String| Err(TrainingError::Specification(sentence));
-    if spec.windows.is_empty() {
-        return refuse("a model needs at least one window".to_owned());
-    }
-    if !spec.windows.iter().all(|w| w.m.0 > 0.0 && w.m.0 < w.m.1)
-        || !spec.windows.windows(2).all(|p| p[0].m.1 <= p[1].m.0)
-    {
-        return refuse("windows must be non-empty intervals of M in ascending order".to_owned());
-    }
-    let range = domain(spec).m;
-    if let Some(w) = spec.windows.iter().find(|w| w.m.1 < range.0 || w.m.0 > range.1) {
-        let (from, to) = w.m;
-        return refuse(format!(
-            "the window M {from}…{to} lies outside the range, whose M is {:.4}…{:.4}",
-            range.0, range.1
-        ));
+    match &spec.windows {
+        Windows::Given(windows) => check_given(spec, windows)?,
+        Windows::Automatic { modes } if !(8..=1000).contains(modes) => {
+            return refuse(format!("automatic windows have at most {modes} modes; between 8 and 1000 are accepted"));
+        }
+        Windows::Automatic { .. } => {}
     }
     for (name, loss) in [("pressure_loss", spec.pressure_loss), ("deformation_loss", spec.deformation_loss)] {
         if !(0.0..1.0).contains(&loss) {
@@ -96,6 +88,25 @@ pub(super) fn check(spec: &TrainingSpec) -> Result<(), TrainingError> {
     }
 }
 
+fn check_given(spec: &TrainingSpec, windows: &[WindowSpec]) -> Result<(), TrainingError> {
+    let refuse = |sentence: String| Err(TrainingError::Specification(sentence));
+    if windows.is_empty() {
+        return refuse("a model needs at least one window".to_owned());
+    }
+    if !windows.iter().all(|w| w.m.0 > 0.0 && w.m.0 < w.m.1) || !windows.windows(2).all(|p| p[0].m.1 <= p[1].m.0) {
+        return refuse("windows must be non-empty intervals of M in ascending order".to_owned());
+    }
+    let range = domain(spec).m;
+    if let Some(w) = windows.iter().find(|w| w.m.1 < range.0 || w.m.0 > range.1) {
+        let (from, to) = w.m;
+        return refuse(format!(
+            "the window M {from}…{to} lies outside the range, whose M is {:.4}…{:.4}",
+            range.0, range.1
+        ));
+    }
+    Ok(())
+}
+
 /// What the model declares to be trained for.
 pub(super) fn domain(spec: &TrainingSpec) -> Domain {
     match spec.range {
@@ -124,22 +135,15 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
     }
 }
 
-/// Linear algebra splits its sums by the threads it finds: on one thread a model is the same to the last bit on every machine size.
-pub(super) fn on_one_thread<T: Send>(work: impl FnOnce() -> T + Send) -> T {
-    match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
-        Ok(pool) => pool.install(work),
-        // Without another thread the work is done here, equal to rounding.
-        Err(_) => work(),
-    }
-}
-
 /// Everything one window is made with.
 pub(super) struct Shop<'a> {
     pub spec: &'a TrainingSpec,
-    pub window: &'a WindowSpec,
+    pub window: WindowSpec,
     pub grid: Arc<ReferenceGrid>,
     /// Range of M from which it is trained.
     pub reach: (f64, f64),
+    /// Pressure modes beyond which it is to be split instead of being assembled.
+    pub most_modes: Option<usize>,
     pub observer: &'a dyn TrainingObserver,
 }
 
@@ -149,13 +153,14 @@ const SOLVED_AT_ONCE: usize = 16;
 impl<'a> Shop<'a> {
     pub fn new(
         spec: &'a TrainingSpec,
-        k: usize,
+        window: WindowSpec,
         reach: (f64, f64),
+        most_modes: Option<usize>,
         observer: &'a dyn TrainingObserver,
     ) -> Result<Self, TrainingError> {
-        let window = &spec.windows[k];
-        let grid = window.grid.build().map_err(crate::solver::full::SolveError::from)?;
-        Ok(Self { spec, window, grid, reach, observer })
+        let wanted = window.grid;
+        let grid = aside(observer, move || wanted.build())?.map_err(crate::solver::full::SolveError::from)?;
+        Ok(Self { spec, window, grid, reach, most_modes, observer })
     }
 
     pub fn too_few(&self, count: usize) -> TrainingError {
@@ -165,10 +170,13 @@ impl<'a> Shop<'a> {
         ))
     }
 
-    /// Full solutions at all pending points of window `k`, in parallel, in order. What was finished stays finished.
-    pub fn solve_pending(&self, state: &mut TrainingState, k: usize) -> Result<(), TrainingError> {
-        while !state.windows[k].pending.is_empty() {
-            let own = &mut state.windows[k];
+    /// Full solutions at all pending points of a part, in parallel, in order. What was finished stays finished.
+    pub fn solve_pending(&self, state: &mut TrainingState, part: Part) -> Result<(), TrainingError> {
+        loop {
+            let own = state.part(part);
+            if own.pending.is_empty() {
+                return Ok(());
+            }
             let before = own.solved.len();
             let total = before + own.pending.len();
             let results = self.solve_all(&own.pending[..own.pending.len().min(SOLVED_AT_ONCE)], before, total);
@@ -180,13 +188,14 @@ impl<'a> Shop<'a> {
                     Err(error) => first_error = first_error.or(Some(error)),
                 }
             }
+            let count = finished.len();
             own.keep(finished);
+            state.solves += count;
             self.observer.checkpoint(state);
             if let Some(error) = first_error {
                 return Err(error);
             }
         }
-        Ok(())
     }
 
     fn solve_all(
@@ -222,40 +231,53 @@ impl<'a> Shop<'a> {
             .collect()
     }
 
-    /// Bases, row sampling and operators of given solutions.
-    pub fn assemble(&self, solutions: &[Solved], rng: &mut Rng) -> Result<Window, TrainingError> {
-        let Self { spec, window, grid, reach, observer } = self;
-        if solutions.len() < 4 {
+    /// Bases, row sampling and operators of given solutions; `None` when they need more modes than the window may have.
+    pub fn assemble(&self, solutions: &[Solved], rng: &mut Rng) -> Result<Option<Window>, TrainingError> {
+        let Self { spec, window, grid, reach, most_modes, observer } = self;
+        if solutions.len() < FEWEST {
             return Err(self.too_few(solutions.len()));
         }
         observer.progress(Progress { stage: format!("Bases, M {}…{}", window.m.0, window.m.1), done: 0, total: 1 });
-        let failed = || TrainingError::Decomposition { from: window.m.0, to: window.m.1 };
-        let mut model = on_one_thread(|| {
-            let (pressure, deformation, snapshots) = bases(spec, grid, solutions)?;
+        let (from, to) = window.m;
+        let failed = || TrainingError::Decomposition { from, to };
+        let (losses, grid, solutions) = (Losses::of(spec), Arc::clone(grid), solutions.to_vec());
+        let mut model = aside(*observer, move || {
+            let (pressure, deformation, snapshots) = bases(losses, &grid, &solutions)?;
             let rows = all_rows(&pressure, &grid.weights);
-            Some(Window::new(window.m, Arc::clone(grid), pressure, deformation, snapshots, Sampling::All, rows))
-        })
+            Some(Window::new((from, to), grid, pressure, deformation, snapshots, Sampling::All, rows))
+        })?
         .ok_or_else(failed)?;
+        if most_modes.is_some_and(|most| model.pressure.modes.ncols() > most) {
+            return Ok(None);
+        }
         if spec.sampling != Sampling::All {
             let sampled =
                 sample_rows(spec, &Arc::new(alone(spec, &model)), *reach, rng, *observer)?.ok_or_else(failed)?;
             model.set_rows(spec.sampling, sampled);
         }
-        Ok(model)
+        Ok(Some(model))
+    }
+}
+
+/// Losses of information that the modes may neglect.
+#[derive(Clone, Copy)]
+struct Losses {
+    pressure: f64,
+    deformation: f64,
+}
+
+impl Losses {
+    fn of(spec: &TrainingSpec) -> Self {
+        Self { pressure: spec.pressure_loss, deformation: spec.deformation_loss }
     }
 }
 
 /// POD of pressures and deformations, and the snapshots in the pressure basis.
-fn bases(
-    spec: &TrainingSpec,
-    grid: &ReferenceGrid,
-    solutions: &[Solved],
-) -> Option<(PodBasis, PodBasis, Vec<Snapshot>)> {
+fn bases(losses: Losses, grid: &ReferenceGrid, solutions: &[Solved]) -> Option<(PodBasis, PodBasis, Vec<Snapshot>)> {
     let nodes = grid.xi.len();
     let pressures = Mat::from_fn(nodes, solutions.len(), |i, j| solutions[j].pressure[i]);
-    let pressure = PodBasis::new(pressures.as_ref(), &grid.weights, spec.pressure_loss)?;
-    let deformation =
-        PodBasis::new(flex(grid, &pressures).as_ref(), &deformation_weights(grid), spec.deformation_loss)?;
+    let pressure = PodBasis::new(pressures.as_ref(), &grid.weights, losses.pressure)?;
+    let deformation = PodBasis::new(flex(grid, &pressures).as_ref(), &deformation_weights(grid), losses.deformation)?;
     let snapshots = solutions
         .iter()
         .map(|s| Snapshot {

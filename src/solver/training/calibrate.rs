@@ -4,6 +4,7 @@
 //! error. That is evidence for [`Calibration`], and nothing else: no basis sees these points, and they are not full solutions (two steps
 //! from the reduced solution, a cold full solution takes about 15).
 
+use super::aside::aside;
 use super::indicator::measured_errors;
 use super::plan::random_points;
 use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
@@ -16,7 +17,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Measured points of a window unless a specification says otherwise.
 pub const EVIDENCE: usize = 1000;
 
-/// Measures a window, `model` being the model of it alone. Points where the reduced model fails are no evidence: there nothing is shown.
+/// Measures window `k`, `model` being the model of it alone. Points where the reduced model fails are no evidence: there nothing is shown.
 ///
 /// # Errors
 /// When the observer cancels.
@@ -24,11 +25,12 @@ pub(super) fn calibrate(
     spec: &TrainingSpec,
     model: &Arc<ReducedModel>,
     k: usize,
+    last: bool,
     observer: &dyn TrainingObserver,
 ) -> Result<Option<Calibration>, TrainingError> {
     let Some(window) = model.windows.first() else { return Ok(None) };
     let seed = spec.seed ^ 0x9E37_79B9_7F4A_7C15_u64.wrapping_mul(k as u64 + 1);
-    let points = random_points(&spec.range, served(spec, k, window), spec.evidence, &mut Rng::with_seed(seed));
+    let points = random_points(&spec.range, served(k, last, window), spec.evidence, &mut Rng::with_seed(seed));
     let stage = format!("Measuring errors, M {}…{}", window.m.0, window.m.1);
     let done = AtomicUsize::new(0);
     let measured: Vec<Option<Evidence>> = points
@@ -53,11 +55,11 @@ pub(super) fn calibrate(
         )
         .collect::<Result<_, _>>()?;
     let evidence: Vec<Evidence> = measured.into_iter().flatten().collect();
-    Ok(super::build::on_one_thread(|| Calibration::fit(&evidence)))
+    aside(observer, move || Calibration::fit(&evidence))
 }
 
 /// The range of M in which window `k` serves: the first and the last one also serve what lies beyond.
-fn served(spec: &TrainingSpec, k: usize, window: &Window) -> (f64, f64) {
+fn served(k: usize, last: bool, window: &Window) -> (f64, f64) {
     let (low, high) = window.m;
-    (if k == 0 { 0.0 } else { low }, if k + 1 == spec.windows.len() { f64::INFINITY } else { high })
+    (if k == 0 { 0.0 } else { low }, if last { f64::INFINITY } else { high })
 }

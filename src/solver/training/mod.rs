@@ -3,19 +3,24 @@
 //! The same specification gives the same model: everything random comes from its seed, and parallel work is collected in order.
 
 mod adaptive;
+mod aside;
 mod build;
 mod calibrate;
+#[cfg(test)]
+mod cancel_tests;
 pub mod distance;
 mod indicator;
+mod layout;
 mod plan;
 #[cfg(test)]
 mod resume_tests;
 mod rows;
+mod split;
 mod state;
 #[cfg(test)]
 mod tests;
 
-pub use adaptive::Search;
+pub use adaptive::{BadPoint, Search};
 pub use build::train;
 pub use calibrate::EVIDENCE;
 pub use indicator::Indicator;
@@ -23,7 +28,7 @@ pub use plan::{farthest_points, grid_points, local_point, random_points, test_po
 pub use state::{Solved, TrainingState, WindowState, train_resumable};
 
 use super::lubricant::Lubricant;
-use super::reduced::Sampling;
+use super::reduced::{Domain, Sampling};
 use serde::{Deserialize, Serialize};
 
 /// Where the training solutions are taken.
@@ -133,7 +138,7 @@ pub struct TrainingSpec {
     /// Where the solutions are taken.
     pub plan: Plan,
     /// Windows of M with the grid of each.
-    pub windows: Vec<WindowSpec>,
+    pub windows: Windows,
     /// Loss of information that pressure modes may neglect, (2.92).
     pub pressure_loss: f64,
     /// Loss of information that deformation modes may neglect, (2.93).
@@ -154,8 +159,36 @@ fn evidence() -> usize {
     EVIDENCE
 }
 
-/// One window of a model.
+impl TrainingSpec {
+    /// Refuses what no training can be made of, before anything is solved.
+    ///
+    /// # Errors
+    /// A sentence that names the field.
+    pub fn check(&self) -> Result<(), TrainingError> {
+        build::check(self)
+    }
+
+    /// What the model will declare to be trained for.
+    pub fn domain(&self) -> Domain {
+        build::domain(self)
+    }
+}
+
+/// Where the windows of a model come from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Windows {
+    /// As listed, by ascending M.
+    Given(Vec<WindowSpec>),
+    /// Chosen by the training from its range: inlet and registration of the grid by trial, edges by splitting.
+    Automatic {
+        /// Pressure modes beyond which a window is split: what a reduced solve costs grows with their cube.
+        modes: usize,
+    },
+}
+
+/// One window of a model.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WindowSpec {
     /// Range of M it serves (training reaches beyond by an overlap).
@@ -181,7 +214,7 @@ pub trait TrainingObserver: Sync {
     fn progress(&self, _progress: Progress) {}
     /// Shown the state whenever full solutions were finished: what a crash must not lose can be written here.
     fn checkpoint(&self, _state: &TrainingState) {}
-    /// Asked between full solutions; `true` stops the training.
+    /// Asked every few milliseconds, whatever is being done; `true` stops the training.
     fn cancelled(&self) -> bool {
         false
     }

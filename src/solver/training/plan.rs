@@ -104,6 +104,17 @@ pub fn random_points(range: &Range, m: (f64, f64), count: usize, rng: &mut Rng) 
 
 /// Farthest-point sampling (3.16): every next point of a random pool is the one farthest from all chosen ones.
 pub fn farthest_points(range: &Range, m: (f64, f64), count: usize, rng: &mut Rng) -> Vec<OperatingPoint> {
+    farther_points(range, m, &[], count, rng)
+}
+
+/// (3.16) beside points that are there already: `count` more of them.
+pub(super) fn farther_points(
+    range: &Range,
+    m: (f64, f64),
+    known: &[OperatingPoint],
+    count: usize,
+    rng: &mut Rng,
+) -> Vec<OperatingPoint> {
     let mut pool = random_points(range, m, (40 * count).max(2000), rng);
     // The corners of the range are its extremes, and a random pool never quite reaches them.
     let corners = (0..16u8).filter_map(|c| range.at(std::array::from_fn(|k| f64::from(c >> k & 1))));
@@ -111,19 +122,27 @@ pub fn farthest_points(range: &Range, m: (f64, f64), count: usize, rng: &mut Rng
     let coordinates: Vec<_> = pool.iter().map(|p| (p.moes(), p.alpha_per_pa.ln())).collect();
     let alpha_weight = if matches!(range, Range::Box { .. }) { 0.005 } else { ALPHA_WEIGHT };
     let mut nearest = vec![f64::INFINITY; pool.len()];
-    let mut chosen = Vec::with_capacity(count);
-    let mut next = (0..pool.len()).min_by(|&a, &b| coordinates[a].0.m.total_cmp(&coordinates[b].0.m));
-    while let Some(index) = next {
-        chosen.push(pool[index]);
-        if chosen.len() == count {
-            break;
-        }
-        let (moes, log_alpha) = coordinates[index];
+    let approach = |nearest: &mut [f64], point: &OperatingPoint| {
+        let (moes, log_alpha) = (point.moes(), point.alpha_per_pa.ln());
         for (best, (other, other_alpha)) in nearest.iter_mut().zip(&coordinates) {
             let d = distance(moes, *other) + alpha_weight * (log_alpha - other_alpha).powi(2);
             *best = best.min(d);
         }
-        next = (0..pool.len()).max_by(|&a, &b| nearest[a].total_cmp(&nearest[b])).filter(|&i| nearest[i] > 0.0);
+    };
+    let farthest = |nearest: &[f64]| {
+        (0..pool.len()).max_by(|&a, &b| nearest[a].total_cmp(&nearest[b])).filter(|&i| nearest[i] > 0.0)
+    };
+    known.iter().for_each(|point| approach(&mut nearest, point));
+    let mut chosen = Vec::with_capacity(count);
+    let mut next = if known.is_empty() {
+        (0..pool.len()).min_by(|&a, &b| coordinates[a].0.m.total_cmp(&coordinates[b].0.m))
+    } else {
+        farthest(&nearest)
+    };
+    while let Some(index) = next.filter(|_| chosen.len() < count) {
+        chosen.push(pool[index]);
+        approach(&mut nearest, &pool[index]);
+        next = farthest(&nearest);
     }
     chosen
 }

@@ -21,7 +21,7 @@ fn small(plan: Plan) -> TrainingSpec {
         },
         lubricant: Default::default(),
         plan,
-        windows: vec![WindowSpec { m: (5.0, 25.0), grid }, WindowSpec { m: (25.0, 200.0), grid }],
+        windows: Windows::Given(vec![WindowSpec { m: (5.0, 25.0), grid }, WindowSpec { m: (25.0, 200.0), grid }]),
         pressure_loss: 1e-7,
         deformation_loss: 1e-6,
         sampling: Sampling::QDeim,
@@ -76,7 +76,8 @@ fn essence(model: &ReducedModel) -> Vec<String> {
 }
 
 fn stopped_and_resumed_is_the_same(spec: &TrainingSpec, stops: &[usize]) {
-    let whole = train(spec, &()).unwrap();
+    let mut reference = TrainingState::new(spec.clone());
+    let whole = train_resumable(&mut reference, &()).unwrap();
     for &solutions in stops {
         let stop = StopAt { solutions, stopped: AtomicBool::new(false), written: Mutex::new(None) };
         let mut state = TrainingState::new(spec.clone());
@@ -84,13 +85,15 @@ fn stopped_and_resumed_is_the_same(spec: &TrainingSpec, stops: &[usize]) {
         let crashed = stop.written.into_inner().unwrap().unwrap();
         for mut state in [state, crashed] {
             assert!(state.solutions() >= solutions);
-            let before = state.windows[0].solved.clone();
+            let before: Vec<_> = state.windows.iter().flat_map(|w| &w.solved).map(|s| s.point).collect();
             // Through bytes, as a file would keep it.
             let bytes = postcard::to_allocvec(&state).unwrap();
             state = postcard::from_bytes(&bytes).unwrap();
             let resumed = train_resumable(&mut state, &()).unwrap();
             assert!(essence(&resumed) == essence(&whole), "stopped after {solutions}");
-            assert!(before.iter().all(|s| state.windows[0].solved.contains(s)));
+            let kept = |point| state.windows.iter().flat_map(|w| &w.solved).any(|s| s.point == point);
+            assert!(before.into_iter().all(kept));
+            assert!(state == reference, "stopped after {solutions}");
         }
     }
 }
@@ -106,12 +109,109 @@ fn a_training_stopped_and_resumed_gives_the_same_model() {
     stopped_and_resumed_is_the_same(&small(Plan::FarthestPoint { snapshots: 20 }), &[1, 17, 30]);
 }
 
+/// The small box with automatic windows of few modes, which must be split.
+fn automatic(plan: Plan, modes: usize) -> TrainingSpec {
+    TrainingSpec { windows: Windows::Automatic { modes }, pressure_loss: 1e-4, ..small(plan) }
+}
+
+#[test]
+fn automatic_windows_are_split_until_they_fit_and_share_their_solutions() {
+    let mut state = TrainingState::new(automatic(Plan::FarthestPoint { snapshots: 30 }, 12));
+    let model = train_resumable(&mut state, &()).unwrap();
+    assert!(model.windows.len() >= 2, "{:?}", model.log);
+    assert!(model.windows.windows(2).all(|pair| pair[0].m.1 == pair[1].m.0));
+    let domain = &model.domain;
+    let (first, last) = (model.windows.first().unwrap(), model.windows.last().unwrap());
+    assert!(first.m.0 <= domain.m.0 && last.m.1 >= domain.m.1);
+    for (k, window) in model.windows.iter().enumerate() {
+        assert_eq!(window.grid.spec, first.grid.spec);
+        assert!(window.snapshots.iter().all(|s| state.windows[k].solved.iter().any(|known| known.point == s.point)));
+    }
+    let mut points: Vec<_> = model.windows.iter().flat_map(|w| &w.snapshots).map(|s| s.point.quantities()).collect();
+    let with_shared = points.len();
+    points.sort_by(|a, b| a.iter().map(|v| v.to_bits()).cmp(b.iter().map(|v| v.to_bits())));
+    points.dedup();
+    assert!(points.len() < with_shared && points.len() <= state.solutions());
+    for said in ["Grid: inlet", "split at"] {
+        assert!(model.log.iter().any(|line| line.contains(said)), "{said}: {:?}", model.log);
+    }
+}
+
+#[test]
+fn automatic_windows_resume_too_even_from_their_trials() {
+    // 12 solutions per inlet are tried first, then 48 on each of two grids: stops during the trials and after a split.
+    let spec = automatic(Plan::FarthestPoint { snapshots: 30 }, 12);
+    let mut state = TrainingState::new(spec.clone());
+    train_resumable(&mut state, &()).unwrap();
+    assert!(state.windows.len() > 1);
+    stopped_and_resumed_is_the_same(&spec, &[30, state.solutions()]);
+}
+
+#[test]
+fn a_training_that_is_stopped_in_its_trials_says_that_there_is_no_model_yet() {
+    let stop = StopAt { solutions: 1, stopped: AtomicBool::new(false), written: Mutex::new(None) };
+    let mut state = TrainingState::new(automatic(Plan::FarthestPoint { snapshots: 30 }, 12));
+    train_resumable(&mut state, &stop).unwrap_err();
+    assert!(state.model(&()).unwrap_err().to_string().starts_with("0 full solutions in the first window"));
+}
+
+#[test]
+fn a_range_in_which_full_solves_fail_names_the_point_and_keeps_what_it_has() {
+    // Films far below what this grid resolves beyond M of a few hundred.
+    let mut spec = small(Plan::FarthestPoint { snapshots: 60 });
+    spec.range = Range::Moes {
+        m: (20.0, 50_000.0),
+        l: (0.05, 2.5),
+        alpha: (5e-9, 20e-9),
+        max_hertz_pressure: 1e12,
+        viscosity: 0.01,
+    };
+    let grid = GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) };
+    spec.windows = Windows::Given(vec![WindowSpec { m: (20.0, 50_000.0), grid }]);
+    let mut state = TrainingState::new(spec);
+    let error = train_resumable(&mut state, &()).unwrap_err();
+    let TrainingError::NotConverged { m, .. } = error else { panic!("{error}") };
+    assert!(m > 20.0 && error.to_string().contains(&format!("M = {m:.4}")), "{error}");
+    assert!(state.solutions() > 0 && state.windows[0].solved.len() == state.solutions());
+    if state.solutions() >= 4 {
+        assert_eq!(state.model(&()).unwrap().windows[0].snapshots.len(), state.solutions());
+    }
+}
+
+#[test]
+fn a_range_that_holds_no_contact_is_refused_with_a_sentence() {
+    let nowhere = Range::Moes {
+        m: (400.0, 500.0),
+        l: (19.0, 20.0),
+        alpha: (5e-9, 20e-9),
+        max_hertz_pressure: 1e6,
+        viscosity: 0.01,
+    };
+    let Range::Moes { l, alpha, viscosity, .. } = nowhere else { unreachable!() };
+    let one_point =
+        Range::Moes { m: (20.0, 20.0), l: (l.0, l.0), alpha: (alpha.0, alpha.0), max_hertz_pressure: 1e10, viscosity };
+    let plan = Plan::FarthestPoint { snapshots: 8 };
+    let given = |m| Windows::Given(vec![WindowSpec { m, grid: GridSpec::EXPLORER }]);
+    for (range, windows, holds) in [
+        (nowhere.clone(), given((400.0, 500.0)), "holds 0"),
+        (nowhere, Windows::Automatic { modes: 90 }, "holds 0"),
+        (one_point.clone(), given((10.0, 30.0)), "holds 1"),
+        (one_point, Windows::Automatic { modes: 90 }, "holds 1"),
+    ] {
+        let spec = TrainingSpec { range, windows, ..small(plan.clone()) };
+        let sentence = train(&spec, &()).unwrap_err().to_string();
+        assert!(sentence.contains(holds) && sentence.contains("at least 4"), "{sentence}");
+    }
+}
+
 #[test]
 fn the_number_of_threads_changes_nothing() {
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let three = rayon::ThreadPoolBuilder::new().num_threads(3).build().unwrap();
-    for plan in [adaptive(vec![3e-3], 20), pool(3e-3, 20)] {
-        let spec = TrainingSpec { evidence: 100, ..small(plan) };
+    for spec in
+        [small(adaptive(vec![3e-3], 20)), small(pool(3e-3, 20)), automatic(Plan::FarthestPoint { snapshots: 30 }, 12)]
+    {
+        let spec = TrainingSpec { evidence: 100, ..spec };
         let (a, b) = (one.install(|| train(&spec, &()).unwrap()), three.install(|| train(&spec, &()).unwrap()));
         assert!(essence(&a) == essence(&b));
     }
@@ -145,6 +245,17 @@ fn a_training_that_is_stopped_still_gives_a_model() {
 }
 
 #[test]
+fn what_was_hardly_begun_is_left_out_of_the_model_and_its_domain() {
+    let mut state = TrainingState::new(small(adaptive(vec![1e-2], 30)));
+    train_resumable(&mut state, &()).unwrap();
+    state.windows[1].solved.truncate(2);
+    let model = state.model(&()).unwrap();
+    assert_eq!((model.windows.len(), model.domain.m.1), (1, 25.0));
+    state.windows[0].solved.truncate(2);
+    assert!(state.model(&()).unwrap_err().to_string().starts_with("2 full solutions in the first window"));
+}
+
+#[test]
 fn plans_that_make_no_sense_are_refused_with_a_sentence() {
     let message = |plan| train(&small(plan), &()).unwrap_err().to_string();
     assert!(message(adaptive(vec![], 20)).contains("tolerances"));
@@ -162,4 +273,6 @@ fn plans_that_make_no_sense_are_refused_with_a_sentence() {
         })
         .contains("per_round is 3")
     );
+    let few = train(&automatic(pool(1e-3, 20), 2), &()).unwrap_err().to_string();
+    assert!(few.contains("at most 2 modes"), "{few}");
 }

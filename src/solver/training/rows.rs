@@ -1,6 +1,6 @@
 //! Row sampling of a window: the all-rows reduced model runs at random parameters, and what its iterates show decides which rows stay.
 
-use super::build::on_one_thread;
+use super::aside::aside;
 use super::plan::random_points;
 use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::contact::OperatingPoint;
@@ -70,8 +70,18 @@ pub(super) fn sample_rows(
         )
         .collect::<Result<_, _>>()?;
     observer.progress(Progress { stage: "Row sampling".to_owned(), done: 0, total: 1 });
+    let (exact, sampling, rows_per_mode) = (Arc::clone(exact), spec.sampling, spec.rows_per_mode);
+    aside(observer, move || {
+        let sampled = choose(exact.windows.first()?, sampling, rows_per_mode, collected);
+        sampled.filter(|s| is_finite(s.reconstruction.as_ref()))
+    })
+}
+
+/// The rows that all evidence together speaks for.
+fn choose(window: &Window, sampling: Sampling, rows_per_mode: f64, collected: Vec<Evidence>) -> Option<SampledRows> {
+    let unknowns = window.grid.xi.len() - 3;
     let mut rows = RowSnapshots::default();
-    let mut equations = GoalEquations::new(window.grid.xi.len() - 3);
+    let mut equations = GoalEquations::new(unknowns);
     for part in collected {
         match part {
             Evidence::Snapshots(part) => {
@@ -81,16 +91,14 @@ pub(super) fn sample_rows(
             Evidence::Goals(part) => equations.merge(&part),
         }
     }
-    let count =
-        ((window.pressure.modes.ncols() as f64 * spec.rows_per_mode).round() as usize).min(window.grid.xi.len() - 3);
+    let count = ((window.pressure.modes.ncols() as f64 * rows_per_mode).round() as usize).min(unknowns);
     let (basis, weights) = (&window.pressure, &window.grid.weights);
-    let sampled = on_one_thread(|| match spec.sampling {
+    match sampling {
         Sampling::QDeim => q_deim(basis, weights, &rows, count),
         Sampling::Greedy => greedy(basis, weights, &rows, count),
         Sampling::Cubature => cubature(basis, weights, &equations, count),
         Sampling::All => Some(all_rows(basis, weights)),
-    });
-    Ok(sampled.filter(|s| is_finite(s.reconstruction.as_ref())))
+    }
 }
 
 /// Residual and Jacobian snapshots of one solve, scaled by √w and by the largest of them. Empty when it diverges: that teaches nothing about the

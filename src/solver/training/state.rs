@@ -1,10 +1,12 @@
 //! What a training has done so far: enough to stop after any full solution, go on later, and arrive at the same model.
 
 use super::adaptive::Search;
+use super::aside::aside;
 use super::build::{Shop, alone, check, domain};
 use super::calibrate::calibrate;
-use super::plan::{farthest_points, grid_points};
-use super::{Plan, TrainingError, TrainingObserver, TrainingSpec, WindowSpec};
+use super::plan::{farther_points, grid_points};
+use super::split::{may_split, split};
+use super::{Plan, TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows, layout};
 use crate::solver::contact::OperatingPoint;
 use crate::solver::full::Solution;
 use crate::solver::reduced::{ReducedModel, Window};
@@ -13,20 +15,35 @@ use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Training reaches beyond a window's ends by this factor in M, so that its edge is not a corner.
-const OVERLAP: f64 = 1.221_402_758_160_17;
+pub(super) const OVERLAP: f64 = 1.221_402_758_160_17;
+
+/// Fewest full solutions that make a window.
+pub(super) const FEWEST: usize = 4;
 
 /// A training with everything it has computed; full solutions are never computed twice.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrainingState {
     /// What is being trained.
     pub spec: TrainingSpec,
-    /// One entry per window that was begun.
+    /// Grids under trial for automatic windows; none once a grid was chosen.
+    pub trials: Vec<WindowState>,
+    /// The windows by ascending M; automatic ones are split as the training goes on.
     pub windows: Vec<WindowState>,
+    /// What was decided on grid and windows, for the model's log.
+    pub decisions: Vec<String>,
+    /// Full solutions computed so far; windows that overlap may share them.
+    pub solves: usize,
 }
 
-/// How far one window is.
-#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
+/// How far one window, or one trial, is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WindowState {
+    /// Its range of M and its grid.
+    pub window: WindowSpec,
+    /// Seed of everything random in it.
+    pub seed: u64,
+    /// How many of its solutions were there before its own were planned.
+    pub inherited: usize,
     /// Full solutions, by their place in the order in which they were decided on.
     pub solved: Vec<Solved>,
     /// Decided on, not yet solved.
@@ -35,6 +52,13 @@ pub struct WindowState {
     pub planned: bool,
     /// Where the search for bad approximations is.
     pub search: Search,
+}
+
+/// What full solutions are computed for.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Part {
+    Trial(usize),
+    Window(usize),
 }
 
 /// A full solution as a training keeps it.
@@ -63,31 +87,55 @@ impl Solved {
 impl TrainingState {
     /// A training that has not begun.
     pub fn new(spec: TrainingSpec) -> Self {
-        Self { spec, windows: Vec::new() }
+        Self { spec, trials: Vec::new(), windows: Vec::new(), decisions: Vec::new(), solves: 0 }
     }
 
     /// Full solutions so far.
     pub fn solutions(&self) -> usize {
-        self.windows.iter().map(|w| w.solved.len()).sum()
+        self.solves
     }
 
-    /// The model of what there is, without another full solution: what a stopped training is worth.
+    /// The model of what there is, without another full solution: what a stopped training is worth. Its domain ends where the
+    /// windows do that have solutions enough.
     ///
     /// # Errors
-    /// When a window has fewer than four solutions, or the observer cancels.
+    /// When the first window has fewer than four solutions, or the observer cancels.
     pub fn model(&self, observer: &dyn TrainingObserver) -> Result<ReducedModel, TrainingError> {
+        check(&self.spec)?;
         let mut rest = self.clone();
-        rest.spec.windows.truncate(rest.windows.len());
-        check(&rest.spec)?;
+        let usable = rest.windows.iter().take_while(|w| w.solved.len() >= FEWEST).count();
+        if usable == 0 {
+            let there = rest.windows.first().map_or(0, |window| window.solved.len());
+            return Err(TrainingError::Specification(format!(
+                "{there} full solutions in the first window are too few for a model; at least {FEWEST} are needed"
+            )));
+        }
+        rest.windows.truncate(usable);
         for window in &mut rest.windows {
             window.pending.clear();
+            window.planned = true;
             window.search.finished = true;
         }
-        go(&mut rest, observer)
+        go(&mut rest, true, observer)
+    }
+
+    pub(super) fn part(&mut self, part: Part) -> &mut WindowState {
+        match part {
+            Part::Trial(k) => &mut self.trials[k],
+            Part::Window(k) => &mut self.windows[k],
+        }
     }
 }
 
 impl WindowState {
+    /// A window of which nothing was computed but the solutions `inherited`.
+    pub(super) fn new(window: WindowSpec, seed: u64, inherited: impl IntoIterator<Item = Solved>) -> Self {
+        let renumbered = inherited.into_iter().enumerate().map(|(place, solved)| Solved { place, ..solved });
+        let solved: Vec<Solved> = renumbered.collect();
+        let (pending, planned, search) = (Vec::new(), false, Search::default());
+        Self { window, seed, inherited: solved.len(), solved, pending, planned, search }
+    }
+
     /// Decides on further points.
     pub(super) fn decide(&mut self, points: impl IntoIterator<Item = OperatingPoint>) {
         let from = self.solved.len() + self.pending.len();
@@ -111,26 +159,38 @@ pub fn train_resumable(
     observer: &dyn TrainingObserver,
 ) -> Result<ReducedModel, TrainingError> {
     check(&state.spec)?;
-    go(state, observer)
+    if state.windows.is_empty() {
+        match &state.spec.windows {
+            Windows::Given(windows) => {
+                let seeds = std::iter::successors(Some(state.spec.seed), |seed| Some(Rng::with_seed(*seed).u64(..)));
+                let begun = windows.iter().zip(seeds).map(|(window, seed)| WindowState::new(*window, seed, []));
+                state.windows = begun.collect();
+            }
+            Windows::Automatic { .. } => layout::choose(state, observer)?,
+        }
+    }
+    go(state, false, observer)
 }
 
-fn go(state: &mut TrainingState, observer: &dyn TrainingObserver) -> Result<ReducedModel, TrainingError> {
+/// Trains every window; `ended` takes them as they are.
+fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -> Result<ReducedModel, TrainingError> {
     let spec = state.spec.clone();
-    let mut rng = Rng::with_seed(spec.seed);
-    let mut windows = Vec::with_capacity(spec.windows.len());
+    let mut windows = Vec::with_capacity(state.windows.len());
     let mut log = Vec::new();
-    for (k, window) in spec.windows.iter().enumerate() {
-        if state.windows.len() == k {
-            state.windows.push(WindowState::default());
-        }
-        let mut trained = train_window(&spec, k, &mut rng, state, observer)?;
+    while windows.len() < state.windows.len() {
+        let k = windows.len();
+        let Some(mut trained) = train_window(&spec, k, ended, state, observer)? else {
+            split(state, k, observer)?;
+            continue;
+        };
         if spec.evidence > 0 {
-            trained.calibration = calibrate(&spec, &Arc::new(alone(&spec, &trained)), k, observer)?;
+            let last = k + 1 == state.windows.len();
+            trained.calibration = calibrate(&spec, &Arc::new(alone(&spec, &trained)), k, last, observer)?;
         }
         log.push(format!(
             "M {}…{}: {} full solutions, {} pressure and {} deformation modes, {} of {} rows",
-            window.m.0,
-            window.m.1,
+            trained.m.0,
+            trained.m.1,
             trained.snapshots.len(),
             trained.pressure.modes.ncols(),
             trained.deformation.modes.ncols(),
@@ -144,46 +204,70 @@ fn go(state: &mut TrainingState, observer: &dyn TrainingObserver) -> Result<Redu
         });
         windows.push(trained);
     }
-    Ok(ReducedModel { title: spec.title.clone(), domain: domain(&spec), windows, scene: String::new(), log })
+    log.splice(0..0, state.decisions.iter().cloned());
+    let mut domain = domain(&spec);
+    if let (Some(first), Some(last)) = (windows.first(), windows.last()) {
+        domain.m = (domain.m.0.max(first.m.0), domain.m.1.min(last.m.1));
+    }
+    Ok(ReducedModel { title: spec.title, domain, windows, scene: String::new(), log })
 }
 
 /// The range of M from which a window is trained.
-fn reach(windows: &[WindowSpec], k: usize) -> (f64, f64) {
-    let (low, high) = windows[k].m;
+fn reach(windows: &[WindowState], k: usize) -> (f64, f64) {
+    let (low, high) = windows[k].window.m;
     (if k == 0 { 0.0 } else { low / OVERLAP }, if k + 1 == windows.len() { f64::INFINITY } else { high * OVERLAP })
 }
 
+/// Trains window `k` to the end; `None` when it is to be split.
 fn train_window(
     spec: &TrainingSpec,
     k: usize,
-    rng: &mut Rng,
+    ended: bool,
     state: &mut TrainingState,
     observer: &dyn TrainingObserver,
-) -> Result<Window, TrainingError> {
-    let mut shop = Shop::new(spec, k, reach(&spec.windows, k), observer)?;
+) -> Result<Option<Window>, TrainingError> {
+    let most_modes = match spec.windows {
+        Windows::Automatic { modes } if !ended && may_split(state, k) => Some(modes),
+        _ => None,
+    };
+    let reach = reach(&state.windows, k);
+    let own = &mut state.windows[k];
+    let mut rng = Rng::with_seed(own.seed);
+    let mut shop = Shop::new(spec, own.window, reach, most_modes, observer)?;
+    let known: Vec<OperatingPoint> = own.solved.iter().take(own.inherited).map(|s| s.point).collect();
+    if own.solved.iter().any(|s| s.pressure.len() != shop.grid.xi.len()) {
+        return Err(TrainingError::Specification("the stored full solutions belong to another grid".to_owned()));
+    }
     // Drawn again when resumed, so that the random numbers behind it are the same.
     let points = match spec.plan {
-        Plan::FarthestPoint { snapshots } => farthest_points(&spec.range, shop.reach, snapshots, rng),
         Plan::Grid { nodes } => {
             let mut points = grid_points(&spec.range, nodes);
-            points.retain(|p| (shop.reach.0..=shop.reach.1).contains(&p.moes().m));
+            points.retain(|p| (reach.0..=reach.1).contains(&p.moes().m) && !known.contains(p));
             points
         }
-        Plan::Adaptive { start, .. } | Plan::WorstOfPool { start, .. } => {
-            farthest_points(&spec.range, shop.reach, start, rng)
+        Plan::FarthestPoint { snapshots: wanted }
+        | Plan::Adaptive { start: wanted, .. }
+        | Plan::WorstOfPool { start: wanted, .. } => {
+            let (range, known, mut random) = (spec.range.clone(), known.clone(), rng.clone());
+            let more = wanted.saturating_sub(known.len());
+            let (points, random) = aside(observer, move || {
+                let points = farther_points(&range, reach, &known, more, &mut random);
+                (points, random)
+            })?;
+            rng = random;
+            points
         }
     };
-    if points.len() < 4 {
-        return Err(shop.too_few(points.len()));
+    if known.len() + points.len() < FEWEST {
+        return Err(shop.too_few(known.len() + points.len()));
     }
-    let own = &mut state.windows[k];
     if !own.planned {
         own.decide(points);
         own.planned = true;
     }
-    shop.solve_pending(state, k)?;
+    shop.solve_pending(state, Part::Window(k))?;
     if !spec.plan.searches() {
-        return shop.assemble(&state.windows[k].solved, rng);
+        return shop.assemble(&state.windows[k].solved, &mut rng);
     }
     // Two seeds from the common sequence; the rows are sampled at the same random points in every round.
     let (search_seed, row_seed) = (rng.u64(..), rng.u64(..));

@@ -20,10 +20,10 @@ fn small(sampling: Sampling) -> TrainingSpec {
         },
         lubricant: Lubricant::default(),
         plan: Plan::FarthestPoint { snapshots: 50 },
-        windows: vec![WindowSpec {
+        windows: Windows::Given(vec![WindowSpec {
             m: (1.0, 500.0),
             grid: GridSpec::Graded { nodes: 240, domain: (-6.0, 1.9), registered: true },
-        }],
+        }]),
         pressure_loss: 1e-6,
         deformation_loss: 1e-6,
         sampling,
@@ -134,12 +134,15 @@ fn cancelling_stops_the_training() {
 fn requests_that_make_no_sense_are_refused_with_a_sentence() {
     let base = small(Sampling::QDeim);
     for (spec, word) in [
-        (TrainingSpec { windows: Vec::new(), ..base.clone() }, "window"),
+        (TrainingSpec { windows: Windows::Given(Vec::new()), ..base.clone() }, "window"),
         (TrainingSpec { pressure_loss: f64::NAN, ..base.clone() }, "pressure_loss"),
         (TrainingSpec { rows_per_mode: 0.5, ..base.clone() }, "rows_per_mode"),
         (TrainingSpec { plan: Plan::FarthestPoint { snapshots: 1 }, ..base.clone() }, "snapshots"),
         (
-            TrainingSpec { windows: vec![WindowSpec { m: (1e3, 2e3), grid: base.windows[0].grid }], ..base.clone() },
+            TrainingSpec {
+                windows: Windows::Given(vec![WindowSpec { m: (1e3, 2e3), grid: GridSpec::EXPLORER }]),
+                ..base.clone()
+            },
             "window",
         ),
     ] {

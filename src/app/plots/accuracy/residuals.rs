@@ -1,10 +1,10 @@
-//! How the last full solve converged, and what the reduced model's error is here.
+//! How the last full solve converged.
 
-use super::axes;
 use crate::app::export;
 use crate::app::files::Purpose;
 use crate::app::jobs::Running;
 use crate::app::numbers;
+use crate::app::plots::axes;
 use crate::app::state::State;
 use crate::app::theme::{Palette, rich};
 use egui::{Grid, Ui};
@@ -13,7 +13,7 @@ use egui_plot::{Corner, Legend, Line, MarkerShape, Points};
 /// A solve younger than this is no news: showing it would only flicker.
 const NEWS_S: f64 = 0.12;
 
-/// The tab: the solve that runs, else the last one that ended.
+/// The view: the solve that runs, else the last one that ended.
 pub fn ui(ui: &mut Ui, state: &mut State) {
     let news = |job: &&Running| job.since.elapsed().as_secs_f64() > NEWS_S && !job.steps.is_empty();
     if let Some(job) = state.jobs.running().iter().find(news) {

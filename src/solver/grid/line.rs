@@ -7,9 +7,12 @@
 //! Node arrays everywhere in the solver have one extra leading node: index 0 lies outside the inlet (the upwind stencil of the first
 //! unknown reaches it), index 1 is the inlet, the last index the outlet. P vanishes at all three.
 
-use super::contact::Moes;
-use super::elasticity::Flexibility;
-use super::reynolds::RowGeometry;
+mod refined;
+
+use super::dot;
+use crate::solver::contact::Moes;
+use crate::solver::elasticity::{Flexibility, Scratch};
+use crate::solver::reynolds::RowGeometry;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -21,6 +24,10 @@ pub const FIRST_UNKNOWN: usize = 2;
 pub const MAX_GRADED_NODES: usize = 4001;
 /// Largest number of nodes a uniform grid may have.
 pub const MAX_UNIFORM_NODES: usize = 200_001;
+
+const EXPLORER_NODES: usize = 632;
+const EXPLORER_INLET: f64 = -20.0;
+const EXPLORER_OUTLET: f64 = 3.2;
 
 /// A description of a line grid, as scenes and the command line give it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -74,7 +81,16 @@ impl GridSpec {
     pub const DISSERTATION: Self = Self::Uniform { dx: 0.005, domain: (-4.0, 2.0) };
 
     /// The explorer's default for every contact: 632 registered nodes, fine at ξ = ±1, with an inlet long enough for M = 2.
-    pub const EXPLORER: Self = Self::Graded { nodes: 632, domain: (-20.0, 3.2), registered: true };
+    pub const EXPLORER: Self =
+        Self::Graded { nodes: EXPLORER_NODES, domain: (EXPLORER_INLET, EXPLORER_OUTLET), registered: true };
+
+    /// [`GridSpec::EXPLORER`]'s spacing and outlet with another inlet: as many nodes as that takes.
+    pub fn explorer_from(inlet: f64, registered: bool) -> Self {
+        let count = |from: f64| cells(from, EXPLORER_OUTLET, FINE_SAMPLES);
+        let share = count(inlet) / count(EXPLORER_INLET);
+        let nodes = ((EXPLORER_NODES - 1) as f64 * share).round().max(0.0) as usize + 1;
+        Self::Graded { nodes, domain: (inlet, EXPLORER_OUTLET), registered }
+    }
 
     /// Builds the reference grid and its kernel; the costly part, done once per specification.
     ///
@@ -104,11 +120,7 @@ impl GridSpec {
                 graded_nodes(nodes, from, to)
             }
         };
-        let flexibility = match self {
-            Self::Uniform { .. } => Flexibility::uniform(xi[1] - xi[0], xi.len()),
-            Self::Graded { .. } => Flexibility::graded(&xi),
-        };
-        Ok(Arc::new(ReferenceGrid { spec: *self, weights: node_weights(&xi), xi, flexibility }))
+        Ok(Arc::new(ReferenceGrid::of_nodes(*self, xi)))
     }
 }
 
@@ -141,6 +153,15 @@ pub struct LineGrid {
 }
 
 impl ReferenceGrid {
+    /// Weights and kernel for given abscissae, the outside node among them.
+    fn of_nodes(spec: GridSpec, xi: Vec<f64>) -> Self {
+        let flexibility = match spec {
+            GridSpec::Uniform { .. } => Flexibility::uniform(xi[1] - xi[0], xi.len()),
+            GridSpec::Graded { .. } => Flexibility::graded(&xi),
+        };
+        Self { spec, weights: node_weights(&xi), xi, flexibility }
+    }
+
     /// The grid for a contact: registered by its Moes numbers where the specification says so.
     pub fn for_contact(self: &Arc<Self>, moes: Moes) -> LineGrid {
         let scale = match self.spec {
@@ -154,7 +175,7 @@ impl ReferenceGrid {
     pub fn scaled(self: &Arc<Self>, scale: f64) -> LineGrid {
         let x: Vec<f64> = self.xi.iter().map(|xi| -1.0 + (xi + 1.0) * scale).collect();
         let weights = self.weights.iter().map(|w| w * scale).collect();
-        let rows = x.windows(4).map(|w| RowGeometry::new([w[0], w[1], w[2], w[3]], None)).collect();
+        let rows = x.windows(4).map(|w| RowGeometry::new([w[0], w[1], w[2], w[3]])).collect();
         LineGrid { reference: Arc::clone(self), scale, x, weights, rows }
     }
 }
@@ -176,7 +197,7 @@ impl LineGrid {
     }
 
     /// Deformation δ = K P at every node, (2.37). Both slices are node arrays.
-    pub fn deform(&self, pressure: &[f64], deformation: &mut [f64], scratch: &mut super::elasticity::Scratch) {
+    pub fn deform(&self, pressure: &[f64], deformation: &mut [f64], scratch: &mut Scratch) {
         self.reference.flexibility.apply(pressure, deformation, scratch);
         if self.scale != 1.0 {
             let shift = self.kernel_shift() * dot(&self.reference.weights, pressure);
@@ -198,16 +219,8 @@ impl LineGrid {
 
     /// Weights and first index of the cubic (4-point Lagrange) interpolation at X; a single unit weight where X is a node.
     pub fn interpolation(&self, x: f64) -> (usize, [f64; 4]) {
-        let n = self.x.len();
-        let upper = self.x.partition_point(|&node| node < x).clamp(2, n - 2);
-        let first = (upper - 2).max(INLET).min(n - 4);
-        let nodes = &self.x[first..first + 4];
-        if let Some(k) = nodes.iter().position(|&node| (node - x).abs() < 1e-10) {
-            return (first, std::array::from_fn(|i| if i == k { 1.0 } else { 0.0 }));
-        }
-        let weight =
-            |k: usize| (0..4).filter(|&j| j != k).map(|j| (x - nodes[j]) / (nodes[k] - nodes[j])).product::<f64>();
-        (first, std::array::from_fn(weight))
+        let (first, weights) = super::cubic(&self.x[INLET..], x);
+        (first + INLET, weights)
     }
 
     /// Value of a node array at X by cubic interpolation.
@@ -234,28 +247,40 @@ fn wanted_spacing(xi: f64) -> f64 {
     base + 0.028 * inlet * inlet / (inlet + 0.5) + 0.03 * outlet
 }
 
+/// Samples over which the cells of a whole grid are counted.
+const FINE_SAMPLES: usize = 20_000;
+
+/// ∫ dξ/spacing over a short interval by Simpson's rule: the cells between its ends, up to a factor.
+fn cells_between(a: f64, b: f64) -> f64 {
+    let middle = 0.5 * (a + b);
+    (b - a) / 6.0 * (1.0 / wanted_spacing(a) + 4.0 / wanted_spacing(middle) + 1.0 / wanted_spacing(b))
+}
+
+/// ∫ dξ/spacing over a whole domain in `samples` intervals.
+fn cells(from: f64, to: f64, samples: usize) -> f64 {
+    let step = (to - from) / samples as f64;
+    let at = |i: usize| from + i as f64 * step;
+    (0..samples).map(|i| cells_between(at(i), at(i + 1))).sum()
+}
+
 /// `nodes` abscissae (and the outside one) that equidistribute 1/spacing, with one node exactly at ξ = 1 where registration puts the spike:
 /// grids of equal resolution then share their nodes in the contact, whatever their inlets. The ends move by half a cell at most.
 fn graded_nodes(nodes: usize, from: f64, to: f64) -> Vec<f64> {
-    // ∫ dξ/spacing by Simpson's rule on fine samples; all later steps are exact to rounding.
-    let count = |a: f64, b: f64| {
-        let middle = 0.5 * (a + b);
-        (b - a) / 6.0 * (1.0 / wanted_spacing(a) + 4.0 / wanted_spacing(middle) + 1.0 / wanted_spacing(b))
-    };
+    // ∫ dξ/spacing on fine samples; all later steps are exact to rounding.
     let samples = 40 * nodes;
     let step = (to - from) / samples as f64;
     let at = |i: usize| from + i as f64 * step;
-    let total: f64 = (0..samples).map(|i| count(at(i), at(i + 1))).sum();
+    let total = cells(from, to, samples);
     let before: f64 = {
-        let cells = ((1.0 - from) / step).floor() as usize;
-        (0..cells).map(|i| count(at(i), at(i + 1))).sum::<f64>() + count(at(cells), 1.0)
+        let whole = ((1.0 - from) / step).floor() as usize;
+        (0..whole).map(|i| cells_between(at(i), at(i + 1))).sum::<f64>() + cells_between(at(whole), 1.0)
     };
     let per_node = total / (nodes - 1) as f64;
-    // March from the anchor both ways; each node solves count(previous, node) = per_node by Newton's method.
+    // March from the anchor both ways; each node solves cells_between(previous, node) = per_node by Newton's method.
     let next = |x: f64, sign: f64| {
         let mut y = x + sign * per_node * wanted_spacing(x);
         for _ in 0..4 {
-            y -= (count(x, y) - sign * per_node) * wanted_spacing(y);
+            y -= (cells_between(x, y) - sign * per_node) * wanted_spacing(y);
         }
         y
     };
@@ -291,10 +316,6 @@ pub fn spike_position(Moes { m, l }: Moes) -> f64 {
     1.0 / (1.0 + log_ratio.exp())
 }
 
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -317,6 +338,20 @@ mod tests {
         assert!(steps.windows(2).skip(1).all(|w| (w[1] / w[0] - 1.0).abs() < 0.12));
         let spacing_at = |x: f64| steps[xi.partition_point(|&v| v < x) - 1];
         assert!(spacing_at(1.0) < 0.35 * spacing_at(0.0) && spacing_at(-1.0) < 0.6 * spacing_at(0.0));
+    }
+
+    #[test]
+    fn another_inlet_keeps_the_explorers_nodes_in_the_contact() {
+        assert_eq!(GridSpec::explorer_from(-20.0, true), GridSpec::EXPLORER);
+        let (long, short) =
+            (GridSpec::EXPLORER.build().unwrap(), GridSpec::explorer_from(-10.0, true).build().unwrap());
+        assert!(short.xi.len() < long.xi.len());
+        let from_the_spike = |xi: &[f64]| {
+            let spike = xi.iter().position(|&v| v == 1.0).unwrap();
+            xi[spike - 300..spike + 50].to_vec()
+        };
+        let pairs = from_the_spike(&long.xi).into_iter().zip(from_the_spike(&short.xi));
+        assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 5e-3));
     }
 
     #[test]

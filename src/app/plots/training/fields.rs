@@ -1,0 +1,124 @@
+//! Rows of the form: numbers that are dragged or typed, intervals, counts, choices, each with why its last entry was refused.
+
+use crate::app::controls::{choice, explained, message_ui, named};
+use crate::app::numbers;
+use crate::app::theme::rich;
+use egui::{DragValue, Ui};
+
+/// Width of the column of names.
+const NAMES: f32 = 112.0;
+/// Width of a number.
+const NUMBER: f32 = 66.0;
+
+/// What the fields share.
+pub struct Form {
+    /// A field whose entry was refused, and why.
+    pub refused: Option<(&'static str, String)>,
+    /// The field that was changed in this frame.
+    pub changed: Option<&'static str>,
+}
+
+impl Form {
+    /// Why the last entry in a field was refused.
+    pub fn message(&self, ui: &mut Ui, field: &str) {
+        if let Some((_, message)) = self.refused.as_ref().filter(|(refused, _)| *refused == field) {
+            message_ui(ui, message);
+        }
+    }
+
+    /// A number that is dragged or typed; `scale` is what one of its shown units is in SI units.
+    pub fn number(&mut self, ui: &mut Ui, field: &'static str, name: &str, value: &mut f64, scale: f64, tip: &str) {
+        let mut shown = *value / scale;
+        let before = shown;
+        let drag = DragValue::new(&mut shown)
+            .speed((0.01 * before.abs()).max(1e-12))
+            .update_while_editing(false)
+            .custom_formatter(|value, _| short(value))
+            .custom_parser(|text| numbers::parse(text).ok());
+        let height = ui.spacing().interact_size.y;
+        let response = ui.add_sized([NUMBER, height], drag);
+        let response = named(ui, response, name).on_hover_text(tip);
+        // Leaving a field untouched must not round its value to the digits shown.
+        if response.changed() && short(shown) != short(before) {
+            *value = shown * scale;
+            self.changed = Some(field);
+        }
+    }
+
+    /// A row with a count.
+    pub fn count(&mut self, ui: &mut Ui, field: &'static str, value: &mut usize, tip: &str) {
+        row(ui, field, tip, |ui| {
+            let response = ui.add_sized([NUMBER, ui.spacing().interact_size.y], DragValue::new(value).speed(0.4));
+            if named(ui, response, &plain(field)).on_hover_text(tip).changed() {
+                self.changed = Some(field);
+            }
+        });
+        self.message(ui, field);
+    }
+
+    /// A row with a number and its unit.
+    pub fn row(&mut self, ui: &mut Ui, field: &'static str, unit: (&str, f64), value: &mut f64, tip: &str) {
+        row(ui, field, tip, |ui| {
+            self.number(ui, field, &plain(field), value, unit.1, tip);
+            ui.label(unit.0);
+        });
+        self.message(ui, field);
+    }
+
+    /// A row with both ends of an interval and their unit.
+    pub fn interval(&mut self, ui: &mut Ui, field: &'static str, unit: (&str, f64), ends: &mut (f64, f64), tip: &str) {
+        row(ui, field, tip, |ui| {
+            self.number(ui, field, &format!("{} from", plain(field)), &mut ends.0, unit.1, tip);
+            ui.label("…");
+            self.number(ui, field, &format!("{} to", plain(field)), &mut ends.1, unit.1, tip);
+            ui.label(unit.0);
+        });
+        self.message(ui, field);
+    }
+}
+
+/// A row: its name, explained on hover, and what stands behind it.
+pub fn row(ui: &mut Ui, name: &str, tip: &str, content: impl FnOnce(&mut Ui)) {
+    ui.horizontal(|ui| {
+        ui.horizontal(|ui| {
+            ui.set_min_width(NAMES);
+            let job = rich(name, 13.5, ui.visuals().text_color());
+            explained(ui, job, tip);
+        });
+        ui.spacing_mut().item_spacing.x = 5.0;
+        content(ui);
+    });
+}
+
+/// A name as it is spoken: without the marks of its symbol.
+fn plain(name: &str) -> String {
+    name.replace(['{', '}'], "")
+}
+
+/// A number without trailing zeros, powers of ten where they are shorter.
+pub fn short(value: f64) -> String {
+    let size = value.abs();
+    if size != 0.0 && !(1e-3..1e6).contains(&size) {
+        let text = format!("{value:.3e}");
+        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        let mantissa =
+            if mantissa.contains('.') { mantissa.trim_end_matches('0').trim_end_matches('.') } else { mantissa };
+        return format!("{mantissa}e{exponent}").replace('-', "−");
+    }
+    let text = numbers::digits(value, 5);
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+/// A row with a box to choose from.
+pub fn choose<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    name: &str,
+    tip: &str,
+    value: &mut T,
+    options: &[T],
+    describe: impl Fn(T) -> (&'static str, &'static str),
+) {
+    egui::Grid::new(name).num_columns(2).min_col_width(NAMES).spacing([8.0, 4.0]).show(ui, |ui| {
+        choice(ui, name, tip, value, options, describe);
+    });
+}

@@ -1,0 +1,61 @@
+//! What a training has found so far, as points of a chart.
+
+use crate::solver::contact::OperatingPoint;
+use crate::solver::training::{Plan, TrainingState};
+use egui_plot::PlotPoint;
+
+/// Full solutions and bad approximations, all windows, in the order in which they were decided on.
+#[derive(Clone, Debug, Default)]
+pub struct Chart {
+    /// Full solutions.
+    pub solved: Vec<Dot>,
+    /// Bad approximations that the search came upon.
+    pub bad: Vec<Found>,
+}
+
+/// A full solution in the M–L plane.
+#[derive(Clone, Copy, Debug)]
+pub struct Dot {
+    /// log10 M and L.
+    pub at: PlotPoint,
+    /// Whether the search decided on it; else it was planned from the start.
+    pub searched: bool,
+}
+
+/// A bad approximation.
+#[derive(Clone, Copy, Debug)]
+pub struct Found {
+    /// log10 M and L.
+    pub at: PlotPoint,
+    /// What the indicator said; none where the reduced solve failed.
+    pub indicator: Option<f64>,
+    /// Full solutions when it was found, all windows.
+    pub solutions: usize,
+}
+
+impl Chart {
+    /// The chart of a training.
+    pub fn of(state: &TrainingState) -> Self {
+        let planned = match state.spec.plan {
+            Plan::Adaptive { start, .. } | Plan::WorstOfPool { start, .. } => start,
+            Plan::FarthestPoint { .. } | Plan::Grid { .. } => usize::MAX,
+        };
+        let mut chart = Self::default();
+        for window in &state.windows {
+            let before = chart.solved.len();
+            chart.bad.extend(window.search.bad.iter().map(|bad| Found {
+                at: place(&bad.point),
+                indicator: Some(bad.indicator).filter(|value| value.is_finite()),
+                solutions: before + bad.solutions,
+            }));
+            let dots = window.solved.iter().map(|s| Dot { at: place(&s.point), searched: s.place >= planned });
+            chart.solved.extend(dots);
+        }
+        chart
+    }
+}
+
+fn place(point: &OperatingPoint) -> PlotPoint {
+    let moes = point.moes();
+    PlotPoint::new(moes.m.log10(), moes.l)
+}

@@ -1,0 +1,241 @@
+//! Training reduced models from the window: what runs, what it left, and what becomes of it.
+
+pub mod chart;
+pub mod presets;
+mod worker;
+
+pub use worker::{Job, Made};
+
+use super::state::State;
+use crate::harness::{ModelComparison, training_file};
+use crate::solver::reduced::ReducedModel;
+use crate::solver::training::{Plan, TrainingSpec, TrainingState, WindowState};
+use chart::Chart;
+use egui::Context;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use worker::{Ended, Outcome, Task, Trained};
+
+/// Name of the file in the session's folder.
+const FILE: &str = "unfinished.training";
+
+/// A sentence about how something ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Notice {
+    /// As it should.
+    Done(String),
+    /// Worth knowing.
+    Short(String),
+    /// Wrong.
+    Wrong(String),
+}
+
+/// What the window knows about trainings.
+#[derive(Default)]
+pub struct Training {
+    job: Option<Job>,
+    /// What is drawn.
+    pub chart: Arc<Chart>,
+    /// The training that the chart and the model belong to.
+    pub spec: Option<Box<TrainingSpec>>,
+    /// A training that was stopped, failed, or was left by a former session.
+    pub unfinished: Option<Box<TrainingState>>,
+    /// Whether a former session left it: then it is not replaced unasked.
+    pub left_behind: bool,
+    /// The last model made.
+    pub made: Option<Made>,
+    /// The model that was in use before it.
+    pub former: Option<Arc<ReducedModel>>,
+    /// Both side by side.
+    pub comparison: Option<ModelComparison>,
+    /// How the last job ended.
+    pub notices: Vec<Notice>,
+    /// The title while it is typed.
+    pub title: Option<String>,
+    /// A field whose entry was refused, and why.
+    pub refused: Option<(&'static str, String)>,
+    file: Option<PathBuf>,
+}
+
+impl Training {
+    /// Keeps trainings in a folder from now on.
+    pub fn keep_in(&mut self, folder: &Path) {
+        self.file = Some(folder.join(FILE));
+    }
+
+    /// Looks for a training that a former session left behind.
+    pub fn look(&mut self, ctx: &Context) {
+        if let Some(path) = &self.file {
+            self.job = Some(Job::start(ctx, Task::Look(path.clone())));
+        }
+    }
+
+    /// What runs.
+    pub fn job(&self) -> Option<&Job> {
+        self.job.as_ref()
+    }
+
+    /// Trains on from a state.
+    fn run(&mut self, ctx: &Context, state: TrainingState) {
+        self.chart = Arc::new(Chart::of(&state));
+        self.spec = Some(Box::new(state.spec.clone()));
+        self.unfinished = None;
+        self.left_behind = false;
+        self.made = None;
+        self.comparison = None;
+        self.notices.clear();
+        self.job = Some(Job::start(ctx, Task::Train(Box::new(state), self.file.clone())));
+    }
+
+    /// Goes on with the unfinished training.
+    pub fn resume(&mut self, ctx: &Context) {
+        if let Some(state) = self.unfinished.take() {
+            self.run(ctx, *state);
+        }
+    }
+
+    /// Forgets the unfinished training, also on disk.
+    pub fn discard(&mut self) {
+        self.unfinished = None;
+        self.left_behind = false;
+        self.notices.clear();
+        if let Some(path) = &self.file
+            && let Err(error) = training_file::remove(path)
+        {
+            self.notices.push(Notice::Wrong(error.to_string()));
+        }
+    }
+
+    /// Stops what runs.
+    pub fn stop(&self) {
+        if let Some(job) = &self.job {
+            job.stop();
+        }
+    }
+
+    /// Takes the result of a job that has ended.
+    fn receive(&mut self) {
+        let Some(job) = &self.job else { return };
+        if job.trains {
+            self.chart = Arc::clone(&job.live().chart);
+        }
+        let outcome = job.poll();
+        let Some(outcome) = outcome else { return };
+        let seconds = job.since.elapsed().as_secs_f64();
+        self.job = None;
+        match outcome {
+            Ok(Outcome::Found(Ok(Some(state)))) => {
+                self.chart = Arc::new(Chart::of(&state));
+                self.spec = Some(Box::new(state.spec.clone()));
+                self.unfinished = Some(state);
+                self.left_behind = true;
+            }
+            Ok(Outcome::Found(Ok(None))) => {}
+            Ok(Outcome::Found(Err(message))) => {
+                // Whatever it is, it is not ours to overwrite.
+                self.file = None;
+                self.notices.push(Notice::Wrong(format!("{message}. Until then trainings are not kept on disk")));
+            }
+            Ok(Outcome::Compared(Err(message))) | Err(message) => self.notices.push(Notice::Wrong(message)),
+            Ok(Outcome::Compared(Ok(comparison))) => self.comparison = Some(comparison),
+            Ok(Outcome::Trained(trained)) => self.take(*trained, seconds),
+        }
+    }
+
+    fn take(&mut self, trained: Trained, seconds: f64) {
+        let Trained { state, ended, made, unkept } = trained;
+        self.chart = Arc::new(Chart::of(&state));
+        let solutions = state.solutions();
+        self.notices.push(match &ended {
+            Ended::Complete => {
+                Notice::Done(format!("Done with {solutions} full solutions in {}", super::numbers::duration(seconds)))
+            }
+            Ended::Stopped => Notice::Short(format!("Stopped at {solutions} full solutions, which are kept")),
+            Ended::Failed(why) => Notice::Wrong(format!("{why}. The {solutions} full solutions until then are kept")),
+        });
+        if ended == Ended::Complete {
+            self.notices.extend(missed_tolerances(&state).into_iter().map(Notice::Short));
+        }
+        match made {
+            Ok(made) => self.made = Some(made),
+            Err(why) => self.notices.push(Notice::Wrong(why)),
+        }
+        self.notices.extend(unkept.map(Notice::Wrong));
+        self.unfinished = (ended != Ended::Complete && solutions > 0).then(|| Box::new(state));
+    }
+}
+
+/// Tolerances that a finished search could not meet within its limit.
+fn missed_tolerances(state: &TrainingState) -> Vec<String> {
+    let (tolerances, limit) = match &state.spec.plan {
+        Plan::Adaptive { tolerances, limit, .. } => (tolerances.as_slice(), *limit),
+        Plan::WorstOfPool { tolerance, limit, .. } => (std::slice::from_ref(tolerance), *limit),
+        Plan::FarthestPoint { .. } | Plan::Grid { .. } => (&[][..], 0),
+    };
+    let missed = |window: &WindowState| {
+        let missed = tolerances.get(window.search.rungs.len())?;
+        let round = |m: f64| (m * 1e3).round() / 1e3;
+        Some(format!(
+            "The tolerance {missed:e} could not be met for M {}…{} within the limit of {limit} full solutions; \
+             the model is made of what there is",
+            round(window.window.m.0),
+            round(window.window.m.1)
+        ))
+    };
+    state.windows.iter().filter_map(missed).collect()
+}
+
+impl State {
+    /// The training that the Training tab shows.
+    pub fn training_spec(&self) -> Option<&TrainingSpec> {
+        match &self.document.training {
+            Some(spec) => Some(spec),
+            None => presets::table_3_1(),
+        }
+    }
+
+    /// Starts the training that the tab shows, unless its specification is refused.
+    pub fn start_training(&mut self, ctx: &Context) {
+        let Some(spec) = self.training_spec().cloned() else { return };
+        match spec.check() {
+            Ok(()) => self.training.run(ctx, TrainingState::new(spec)),
+            Err(error) => self.training.notices = vec![Notice::Wrong(error.to_string())],
+        }
+    }
+
+    /// Compares the model that was made with the one in use, or with the one it replaced.
+    pub fn compare_models(&mut self, ctx: &Context) {
+        let (Some(made), Some(spec)) = (&self.training.made, &self.training.spec) else { return };
+        let in_use = self.model.as_ref().filter(|model| !Arc::ptr_eq(model, &made.model));
+        let Some(former) = in_use.or(self.training.former.as_ref()) else { return };
+        let task = Task::Compare(Arc::clone(former), Arc::clone(&made.model), spec.clone());
+        self.training.comparison = None;
+        self.training.job = Some(Job::start(ctx, task));
+    }
+
+    /// Puts the model that was made in use.
+    pub fn use_made_model(&mut self) {
+        if let Some(made) = &self.training.made {
+            let model = Arc::clone(&made.model);
+            self.training.former = self.model.clone();
+            self.use_model(Some(model));
+        }
+    }
+
+    /// Puts the model in use that was before.
+    pub fn use_former_model(&mut self) {
+        let former = self.training.former.take();
+        self.use_model(former);
+    }
+
+    /// Whether the model that was made is in use.
+    pub fn uses_made_model(&self) -> bool {
+        let made = self.training.made.as_ref().map(|made| &made.model);
+        matches!((made, &self.model), (Some(made), Some(model)) if Arc::ptr_eq(made, model))
+    }
+
+    /// Answers a training or comparison that has ended. Called first in every frame.
+    pub fn receive_training(&mut self) {
+        self.training.receive();
+    }
+}

@@ -1,0 +1,77 @@
+//! Trainings to begin with, read from the scenes that come with the program.
+
+use crate::scene::{Scene, Study};
+use crate::solver::training::{TrainingSpec, Windows};
+use std::sync::LazyLock;
+
+/// Table 3.1's box by the automatic algorithm: what the tab shows where the document describes no training.
+pub fn table_3_1() -> Option<&'static TrainingSpec> {
+    static SPEC: LazyLock<Option<TrainingSpec>> =
+        LazyLock::new(|| spec_of(include_str!("../../../scenes/table_3_2_adaptive_graded.ron")));
+    SPEC.as_ref()
+}
+
+/// The embedded model's range: what the sliders reach.
+pub fn slider_range() -> Option<&'static TrainingSpec> {
+    static SPEC: LazyLock<Option<TrainingSpec>> =
+        LazyLock::new(|| spec_of(include_str!("../../../scenes/embedded_model.ron")));
+    SPEC.as_ref()
+}
+
+fn spec_of(scene: &str) -> Option<TrainingSpec> {
+    match Scene::from_ron(scene).ok()?.study {
+        Study::Training(spec) => Some(spec),
+        _ => None,
+    }
+}
+
+/// Lets given windows follow a range that was changed: those it no longer meets go, the outer ends move to its own.
+pub fn fit_windows(spec: &mut TrainingSpec) {
+    let (low, high) = spec.domain().m;
+    if !(low > 0.0 && low < high && high.is_finite()) {
+        return;
+    }
+    let Windows::Given(windows) = &mut spec.windows else { return };
+    let first = windows.first().copied();
+    windows.retain(|w| w.m.0 < high && w.m.1 > low);
+    if windows.is_empty() {
+        windows.extend(first);
+    }
+    if let Some(window) = windows.first_mut() {
+        window.m.0 = low;
+    }
+    if let Some(window) = windows.last_mut() {
+        window.m.1 = high;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::grid::GridSpec;
+    use crate::solver::training::{Range, WindowSpec};
+
+    #[test]
+    fn the_presets_are_trainings_that_can_be_started() {
+        for preset in [table_3_1(), slider_range()] {
+            preset.unwrap().check().unwrap();
+        }
+    }
+
+    #[test]
+    fn windows_follow_the_range() {
+        let grid = GridSpec::EXPLORER;
+        let windows = [(2.0, 9.0), (9.0, 40.0), (40.0, 500.0)].map(|m| WindowSpec { m, grid });
+        let mut spec = TrainingSpec { windows: Windows::Given(windows.into()), ..slider_range().unwrap().clone() };
+        let mut fitted = |range| {
+            let Range::Moes { m, .. } = &mut spec.range else { panic!() };
+            *m = range;
+            fit_windows(&mut spec);
+            spec.check().unwrap();
+            let Windows::Given(windows) = &spec.windows else { panic!() };
+            windows.iter().map(|w| w.m).collect::<Vec<_>>()
+        };
+        assert_eq!(fitted((20.0, 700.0)), [(20.0, 40.0), (40.0, 700.0)]);
+        assert_eq!(fitted((1.0, 5.0)), [(1.0, 5.0)]);
+    }
+}

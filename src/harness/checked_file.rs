@@ -1,0 +1,122 @@
+//! Files with a checked header, shared by reduced models and unfinished trainings.
+//!
+//! Layout: magic (8 bytes), version (u32), payload length (u64), XXH3 hash of the payload (u64), all little-endian, then the payload.
+
+use std::io::{self, Read};
+use std::path::Path;
+use xxhash_rust::xxh3::xxh3_64;
+
+/// Bytes before the payload.
+pub(super) const HEADER: usize = 28;
+
+/// A kind of file.
+pub(super) struct Format {
+    /// What every file of the kind begins with.
+    pub magic: &'static [u8; 8],
+    /// The version that is written and read.
+    pub version: u32,
+    /// Largest payload that is read \[bytes\].
+    pub max_payload: u64,
+}
+
+/// What is wrong with a file's content.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Flaw {
+    /// Another kind of file.
+    Foreign,
+    /// A newer version.
+    Newer { found: u32 },
+    /// An older version.
+    Older { found: u32 },
+    /// Fewer bytes than announced.
+    Truncated { found: u64, wanted: u64 },
+    /// More bytes announced than any such file has.
+    TooLarge { bytes: u64 },
+    /// Other bytes than were written.
+    Changed,
+}
+
+/// Why a file gives no payload.
+pub(super) enum Unreadable {
+    /// The system refuses to read it.
+    Io(io::Error),
+    /// Its content is refused.
+    Flaw(Flaw),
+}
+
+impl From<io::Error> for Unreadable {
+    fn from(error: io::Error) -> Self {
+        Self::Io(error)
+    }
+}
+
+impl From<Flaw> for Unreadable {
+    fn from(flaw: Flaw) -> Self {
+        Self::Flaw(flaw)
+    }
+}
+
+impl Format {
+    /// The content of a file with this payload.
+    pub fn seal(&self, payload: &[u8]) -> Vec<u8> {
+        let mut bytes = Vec::with_capacity(HEADER + payload.len());
+        bytes.extend_from_slice(self.magic);
+        bytes.extend_from_slice(&self.version.to_le_bytes());
+        bytes.extend_from_slice(&(payload.len() as u64).to_le_bytes());
+        bytes.extend_from_slice(&xxh3_64(payload).to_le_bytes());
+        bytes.extend_from_slice(payload);
+        bytes
+    }
+
+    /// The payload of a file's content.
+    pub fn open<'a>(&self, bytes: &'a [u8]) -> Result<&'a [u8], Flaw> {
+        let announced = self.announced(bytes)?;
+        let rest = bytes.get(HEADER..).unwrap_or_default();
+        let cut = Flaw::Truncated { found: bytes.len() as u64, wanted: announced + HEADER as u64 };
+        let payload = usize::try_from(announced).ok().and_then(|length| rest.get(..length)).ok_or(cut)?;
+        if u64_at(bytes, 20) != Some(xxh3_64(payload)) {
+            return Err(Flaw::Changed);
+        }
+        Ok(payload)
+    }
+
+    /// Reads a whole file. Its announced size is checked before anything is allocated.
+    pub fn read(&self, path: &Path) -> Result<Vec<u8>, Unreadable> {
+        let mut file = std::fs::File::open(path)?;
+        let length = file.metadata()?.len();
+        let mut bytes = Vec::with_capacity(HEADER);
+        file.by_ref().take(HEADER as u64).read_to_end(&mut bytes)?;
+        let wanted = self.announced(&bytes)?;
+        if length.saturating_sub(HEADER as u64) < wanted {
+            return Err(Flaw::Truncated { found: length, wanted: wanted + HEADER as u64 }.into());
+        }
+        file.take(wanted).read_to_end(&mut bytes)?;
+        Ok(bytes)
+    }
+
+    /// Checks magic, version and announced size.
+    fn announced(&self, bytes: &[u8]) -> Result<u64, Flaw> {
+        if !bytes.starts_with(self.magic) {
+            return Err(Flaw::Foreign);
+        }
+        if bytes.len() < HEADER {
+            return Err(Flaw::Truncated { found: bytes.len() as u64, wanted: HEADER as u64 });
+        }
+        let version = u64_at(bytes, 8).unwrap_or_default() as u32;
+        if version > self.version {
+            return Err(Flaw::Newer { found: version });
+        }
+        if version < self.version {
+            return Err(Flaw::Older { found: version });
+        }
+        let announced = u64_at(bytes, 12).unwrap_or_default();
+        if announced > self.max_payload {
+            return Err(Flaw::TooLarge { bytes: announced });
+        }
+        Ok(announced)
+    }
+}
+
+fn u64_at(bytes: &[u8], at: usize) -> Option<u64> {
+    bytes.get(at..at + 8)?.try_into().ok().map(u64::from_le_bytes)
+}

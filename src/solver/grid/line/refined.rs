@@ -1,0 +1,77 @@
+//! The next finer grid of the same grading: every interval halved, every old node kept.
+//!
+//! A graded interval is halved in the grading's own coordinate ∫dξ/spacing, not in ξ. Halving in ξ would leave a staircase of
+//! spacings whose truncation error differs from that of the coarse grid by more than the factor 2² that Richardson's
+//! extrapolation counts on. A new grid of twice as many nodes would do neither: its ends lie elsewhere, by up to half a cell.
+
+use super::{
+    GridError, GridSpec, INLET, MAX_GRADED_NODES, MAX_UNIFORM_NODES, ReferenceGrid, cells_between, wanted_spacing,
+};
+use std::sync::Arc;
+
+impl ReferenceGrid {
+    /// The grid with every interval halved. Node k of this grid is node 2k − 1 of the finer one (k ≥ 1), and the ends stay.
+    ///
+    /// # Errors
+    /// When it would have too many nodes.
+    pub fn refined(&self) -> Result<Arc<Self>, GridError> {
+        let nodes = 2 * (self.xi.len() - 1) - 1;
+        let (max, halve): (usize, fn(f64, f64) -> f64) = match self.spec {
+            GridSpec::Uniform { .. } => (MAX_UNIFORM_NODES, |a, b| 0.5 * (a + b)),
+            GridSpec::Graded { .. } => (MAX_GRADED_NODES, halfway),
+        };
+        if nodes > max {
+            return Err(GridError::Size { nodes: nodes as f64, min: 61, max });
+        }
+        let mut xi = Vec::with_capacity(nodes + 1);
+        for pair in self.xi.windows(2) {
+            xi.extend([halve(pair[0], pair[1]), pair[1]]);
+        }
+        let domain = (self.xi[INLET], xi[nodes]);
+        let spec = match self.spec {
+            GridSpec::Uniform { dx, .. } => GridSpec::Uniform { dx: 0.5 * dx, domain },
+            GridSpec::Graded { registered, .. } => GridSpec::Graded { nodes, domain, registered },
+        };
+        Ok(Arc::new(Self::of_nodes(spec, xi)))
+    }
+}
+
+/// The abscissa that halves the grading's coordinate between two nodes, by Newton's method.
+fn halfway(a: f64, b: f64) -> f64 {
+    let mut middle = 0.5 * (a + b);
+    for _ in 0..4 {
+        middle += 0.5 * (cells_between(middle, b) - cells_between(a, middle)) * wanted_spacing(middle);
+    }
+    middle
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_interval_is_halved_and_every_node_kept() {
+        for spec in [
+            GridSpec::Uniform { dx: 0.01, domain: (-4.0, 2.0) },
+            GridSpec::Graded { nodes: 300, domain: (-12.0, 2.5), registered: true },
+        ] {
+            let coarse = spec.build().unwrap();
+            let fine = coarse.refined().unwrap();
+            assert_eq!(fine.xi.len() - 1, 2 * (coarse.xi.len() - 1) - 1);
+            for (k, xi) in coarse.xi.iter().enumerate().skip(1) {
+                assert_eq!(*xi, fine.xi[2 * k - 1]);
+            }
+            let steps: Vec<f64> = fine.xi.windows(2).map(|w| w[1] - w[0]).collect();
+            let coarse_ratio = coarse.xi.windows(3).map(|w| (w[2] - w[1]) / (w[1] - w[0])).fold(0.0, f64::max);
+            // Smooth everywhere: the spacing changes half as much per cell as on the coarse grid.
+            let ratio = steps.windows(2).map(|w| w[1] / w[0]).fold(0.0, f64::max);
+            assert!(ratio < 1.0 + 0.6 * (coarse_ratio - 1.0) + 1e-9, "{ratio} against {coarse_ratio}");
+        }
+    }
+
+    #[test]
+    fn a_grid_is_not_refined_beyond_its_limit() {
+        let grid = GridSpec::Graded { nodes: 2500, domain: (-8.0, 2.0), registered: false }.build().unwrap();
+        assert!(grid.refined().unwrap_err().to_string().contains("4999 nodes"));
+    }
+}

@@ -1,0 +1,292 @@
+//! Error measures of section 3.1.2: e_z against a full solution (3.10), the residuals e_f (3.14) and e_f^I (3.15).
+//!
+//! The state is the dissertation's, z = (P, δ, H₀). P and δ are node arrays, δ the elastic deformation H − H₀ − X²/2; f_δ = δ − K P is
+//! taken in the reference coordinate, in which the reduced model lives. Which norm ‖·‖ is meant is a choice of [`Norm`]. A model
+//! whose deformation is the exact K V_p has f_δ = 0 and no δ̃; with V_δ the Galerkin rows give δ̃ = V_δᵀ W K V_p p̃.
+//!
+//! ‖f_δ‖² = z̃ᵀ E_δ z̃ costs no large-scale work, but is a difference of large numbers: below about 1e-7 ‖K V_p p̃‖ it is rounding, and
+//! where that makes it negative it counts as zero. What the norm is computed from then is far below the other parts of the residual.
+
+use super::model::{Window, deformation_weights};
+use super::online::ReducedOptions;
+use crate::solver::full::Solution;
+use crate::solver::grid::{FIRST_UNKNOWN, ReferenceGrid};
+use crate::solver::reynolds::{Node, row};
+use faer::{ColRef, Mat};
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// In which norm states and residuals are measured; H₀ and the load balance count once in either.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
+pub enum Norm {
+    /// All nodes count alike: the dissertation's ‖·‖₂, which grows with the number of nodes.
+    Euclidean,
+    /// Nodes count by their cell sizes, so that grids can be compared: the L2 norm over X. The online residual is measured in it.
+    #[default]
+    Quadrature,
+}
+
+/// The residual of a reduced solution and its parts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Residuals {
+    /// e_f of (3.14): all rows of the Reynolds equation.
+    pub all_rows: f64,
+    /// e_f^I of (3.15): the sampled rows only.
+    pub sampled_rows: f64,
+    /// ‖f_δ‖ by (3.13).
+    pub deformation: f64,
+    /// f_h0, the load balance.
+    pub load: f64,
+}
+
+/// The error measures of one window under given options.
+pub struct ErrorMeasures {
+    norm: Norm,
+    penalty: f64,
+    grid: Arc<ReferenceGrid>,
+    sampled_rows: Vec<usize>,
+    /// V_δᵀ W K V_p, which gives δ̃; without rows for the exact operator.
+    projection: Mat<f64>,
+    /// E_δ over (p̃, δ̃).
+    deformation_error: Mat<f64>,
+}
+
+impl ErrorMeasures {
+    /// Precomputes E_δ for a window and the truncation of the options.
+    pub fn new(window: &Window, options: &ReducedOptions, norm: Norm) -> Self {
+        let modes = options.pressure_modes.unwrap_or(usize::MAX).clamp(1, window.pressure.modes.ncols());
+        let kept = options.deformation_modes.map_or(0, |k| k.clamp(1, window.deformation.modes.ncols()));
+        let flexed = window.flexed.get(.., ..modes);
+        let basis = window.deformation.modes.get(.., ..kept);
+        let cells = deformation_weights(&window.grid);
+        let weighted = Mat::from_fn(basis.nrows(), kept, |i, j| cells[i] * basis[(i, j)]);
+        let projection: Mat<f64> = weighted.transpose() * flexed;
+        // f_δ = [−K V_p, V_δ] (p̃, δ̃), (3.12); E_δ is its Gram matrix, so both off-diagonal blocks carry the minus sign that
+        // the lower left one of (3.13) lacks in print. Its zero row and column of H₀ are left out.
+        let size = modes + if kept > 0 { kept } else { 0 };
+        let weight = |i: usize| match norm {
+            Norm::Euclidean => 1.0,
+            Norm::Quadrature => cells[i].sqrt(),
+        };
+        let row_of = |i: usize, k: usize| if k < modes { -flexed[(i, k)] } else { basis[(i, k - modes)] };
+        let f = Mat::from_fn(if kept > 0 { flexed.nrows() } else { 0 }, size, |i, k| weight(i) * row_of(i, k));
+        let deformation_error: Mat<f64> = f.transpose() * &f;
+        Self {
+            norm,
+            penalty: options.penalty,
+            grid: Arc::clone(&window.grid),
+            sampled_rows: window.sampled_rows.clone(),
+            projection,
+            deformation_error,
+        }
+    }
+
+    /// E_δ of (3.13) over (p̃, δ̃); zero for the exact deformation operator.
+    pub fn deformation_error(&self) -> &Mat<f64> {
+        &self.deformation_error
+    }
+
+    /// (p̃, δ̃) of a reduced solution's pressure coefficients.
+    pub fn state(&self, coefficients: &[f64]) -> Vec<f64> {
+        let deformation = &self.projection * ColRef::from_slice(coefficients);
+        coefficients.iter().copied().chain(deformation.iter().copied()).collect()
+    }
+
+    /// e_f and e_f^I of a reduced solution, given by its pressure coefficients and its reconstructed fields.
+    pub fn residuals(&self, coefficients: &[f64], fields: &Solution) -> Residuals {
+        let problem = &fields.problem;
+        let grid = self.grid.scaled(fields.mesh.scale());
+        let nodes: Vec<Node> = fields
+            .pressure
+            .iter()
+            .zip(&fields.film)
+            .map(|(&p, &h)| Node::new(&problem.fluid, problem.inverse_lambda, p, h))
+            .collect();
+        let squared: Vec<f64> = grid
+            .rows
+            .iter()
+            .zip(nodes.windows(4))
+            .enumerate()
+            .map(|(k, (geometry, n))| {
+                let value = row(geometry, self.penalty, [&n[0], &n[1], &n[2], &n[3], &n[2], &n[2]]).value;
+                self.weight(grid.weights[k + FIRST_UNKNOWN]) * value * value
+            })
+            .collect();
+        let state = self.state(coefficients);
+        let z = ColRef::from_slice(&state);
+        let deformation = self.weight(grid.scale) * (z.transpose() * (&self.deformation_error * z)).max(0.0);
+        let load = grid.weights.iter().zip(&fields.pressure).map(|(w, p)| w * p).sum::<f64>() - problem.load;
+        let linear = deformation + load * load;
+        let sampled: f64 = self.sampled_rows.iter().map(|&r| squared[r]).sum();
+        Residuals {
+            all_rows: (squared.iter().sum::<f64>() + linear).sqrt(),
+            sampled_rows: (sampled + linear).sqrt(),
+            deformation: deformation.sqrt(),
+            load,
+        }
+    }
+
+    /// e_z of (3.10): ‖z − Vz̃‖/‖z‖ of reconstructed fields against a full solution on the same grid.
+    pub fn state_error(&self, fields: &Solution, full: &Solution) -> f64 {
+        let cells = deformation_weights(&self.grid);
+        let deformation = |s: &Solution, i: usize| s.film[i] - s.scalars.h_0 - 0.5 * s.x[i] * s.x[i];
+        let (mut error, mut size) = ((fields.scalars.h_0 - full.scalars.h_0).powi(2), full.scalars.h_0.powi(2));
+        for (i, cell) in cells.iter().enumerate() {
+            let weight = self.weight(cell * full.mesh.scale());
+            let bent = deformation(full, i);
+            error += weight * (fields.pressure[i] - full.pressure[i]).powi(2);
+            error += weight * (deformation(fields, i) - bent).powi(2);
+            size += weight * (full.pressure[i].powi(2) + bent.powi(2));
+        }
+        (error / size).sqrt()
+    }
+
+    fn weight(&self, cell: f64) -> f64 {
+        match self.norm {
+            Norm::Euclidean => 1.0,
+            Norm::Quadrature => cell,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Online, Sampling, Starts};
+    use super::*;
+    use crate::solver::full::{FullSolver, Start};
+    use crate::solver::grid::GridSpec;
+    use crate::solver::lubricant::Lubricant;
+    use crate::solver::training::{Plan, Range, TrainingSpec, WindowSpec, Windows, random_points, train};
+
+    fn spec(sampling: Sampling, registered: bool) -> TrainingSpec {
+        TrainingSpec {
+            title: String::new(),
+            range: Range::Box {
+                radius: (3e-3, 4e-3),
+                speed: (2.0, 4.0),
+                load: (2e5, 4e5),
+                alpha: (8e-9, 12e-9),
+                modulus: 231e9,
+                viscosity: 0.01,
+            },
+            lubricant: Lubricant::default(),
+            plan: Plan::FarthestPoint { snapshots: 24 },
+            windows: Windows::Given(vec![WindowSpec {
+                m: (1.0, 500.0),
+                grid: GridSpec::Graded { nodes: 200, domain: (-6.0, 1.9), registered },
+            }]),
+            pressure_loss: 1e-5,
+            deformation_loss: 1e-4,
+            sampling,
+            rows_per_mode: 2.0,
+            evidence: 0,
+            seed: 5,
+        }
+    }
+
+    /// Reduced solutions at random points with what they are measured by.
+    fn for_solutions(
+        sampling: Sampling,
+        options: ReducedOptions,
+        mut look: impl FnMut(&Window, &Online, super::super::ReducedSolution),
+    ) {
+        let spec = spec(sampling, true);
+        let model = Arc::new(train(&spec, &()).unwrap());
+        let mut online = Online::new(Arc::clone(&model), options);
+        let points = random_points(&spec.range, (0.0, f64::INFINITY), 6, &mut fastrand::Rng::with_seed(2));
+        for point in points {
+            let solved = online.solve(&point, Lubricant::default()).unwrap();
+            look(&model.windows[0], &online, solved);
+        }
+    }
+
+    #[test]
+    fn the_deformation_form_is_the_norm_of_the_large_scale_residual() {
+        let options = ReducedOptions { deformation_modes: Some(3), ..ReducedOptions::default() };
+        for norm in [Norm::Euclidean, Norm::Quadrature] {
+            for_solutions(Sampling::QDeim, options, |window, online, solved| {
+                let measures = ErrorMeasures::new(window, &options, norm);
+                let e = measures.deformation_error();
+                assert!((0..e.nrows()).all(|i| (0..i).all(|j| e[(i, j)] == e[(j, i)])), "symmetric");
+                let fields = online.reconstruct(&solved).unwrap();
+                let state = measures.state(&solved.coefficients);
+                let modes = solved.coefficients.len();
+                let kept_modes = state.len() - modes;
+                let cells = deformation_weights(&window.grid);
+                let direct: f64 = (0..cells.len())
+                    .map(|i| {
+                        let bent: f64 = (0..modes).map(|k| window.flexed[(i, k)] * state[k]).sum();
+                        let kept: f64 =
+                            (0..kept_modes).map(|k| window.deformation.modes[(i, k)] * state[modes + k]).sum();
+                        let weight = if norm == Norm::Euclidean { 1.0 } else { cells[i] * fields.mesh.scale() };
+                        weight * (kept - bent).powi(2)
+                    })
+                    .sum::<f64>()
+                    .sqrt();
+                let form = measures.residuals(&solved.coefficients, &fields).deformation;
+                assert!((form / direct - 1.0).abs() < 1e-5, "{norm:?}: {form} {direct}");
+                // As printed, without the minus sign below, the form is not even small.
+                let (p, d) = state.split_at(modes);
+                let mixed: f64 = (0..modes)
+                    .flat_map(|i| (0..kept_modes).map(move |j| (i, j)))
+                    .map(|(i, j)| p[i] * e[(i, modes + j)] * d[j])
+                    .sum();
+                assert!(-2.0 * mixed > 100.0 * direct * direct);
+            });
+        }
+    }
+
+    #[test]
+    fn the_sampled_residual_is_the_one_of_the_online_iteration() {
+        for deformation_modes in [None, Some(12)] {
+            for starts in [Starts::Explorer, Starts::Nearest] {
+                let options = ReducedOptions { deformation_modes, starts, ..ReducedOptions::default() };
+                for_solutions(Sampling::QDeim, options, |window, online, solved| {
+                    let fields = online.reconstruct(&solved).unwrap();
+                    let measures = ErrorMeasures::new(window, &options, Norm::Quadrature);
+                    let found = measures.residuals(&solved.coefficients, &fields);
+                    assert!((found.sampled_rows / solved.residual_estimate - 1.0).abs() < 1e-4, "{found:?}");
+                    assert!(found.all_rows >= found.sampled_rows && found.load.abs() < 1e-10);
+                    assert_eq!(found.deformation > 0.0, deformation_modes.is_some());
+                });
+            }
+        }
+    }
+
+    #[test]
+    fn with_all_rows_sampled_both_residuals_are_one() {
+        let options = ReducedOptions::default();
+        for norm in [Norm::Euclidean, Norm::Quadrature] {
+            for_solutions(Sampling::All, options, |window, online, solved| {
+                let fields = online.reconstruct(&solved).unwrap();
+                let found = ErrorMeasures::new(window, &options, norm).residuals(&solved.coefficients, &fields);
+                assert!((found.all_rows / found.sampled_rows - 1.0).abs() < 1e-12);
+            });
+        }
+    }
+
+    #[test]
+    fn the_state_error_vanishes_for_the_same_solution_and_sees_each_part() {
+        let options = ReducedOptions::default();
+        for_solutions(Sampling::QDeim, options, |window, online, solved| {
+            let full = FullSolver::on(Arc::clone(&window.grid))
+                .solve(&solved.point, Lubricant::default(), Start::Cold, &mut ())
+                .unwrap();
+            for norm in [Norm::Euclidean, Norm::Quadrature] {
+                let measures = ErrorMeasures::new(window, &options, norm);
+                assert_eq!(measures.state_error(&full, &full), 0.0);
+                let error = measures.state_error(&online.reconstruct(&solved).unwrap(), &full);
+                assert!(error > 1e-9 && error < 1e-2, "{error}");
+                let mut shifted = full.clone();
+                shifted.scalars.h_0 += 1e-3;
+                shifted.film.iter_mut().for_each(|h| *h += 1e-3);
+                let by_shift = measures.state_error(&shifted, &full);
+                // Only H₀ differs: the deformation H − H₀ − X²/2 does not.
+                assert!(by_shift > 0.0 && by_shift < 1e-3 / full.scalars.h_0.abs(), "{by_shift}");
+                let mut stretched = full.clone();
+                stretched.pressure.iter_mut().for_each(|p| *p *= 1.01);
+                assert!((1e-4..=1e-2).contains(&measures.state_error(&stretched, &full)));
+            }
+        });
+    }
+}

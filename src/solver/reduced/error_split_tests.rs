@@ -1,0 +1,125 @@
+//! The parts of an error: they add up, the best approximation is the best, and the discretisation part is what much finer grids say.
+
+use super::{ErrorSplitter, Online, ReducedModel, ReducedOptions, Sampling, SplitError};
+use crate::solver::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
+use crate::solver::full::{FullSolver, Solution, Start};
+use crate::solver::grid::{GridSpec, ReferenceGrid};
+use crate::solver::lubricant::Lubricant;
+use crate::solver::training::{Plan, Range, TrainingSpec, WindowSpec, Windows, train};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+fn model(sampling: Sampling) -> Arc<ReducedModel> {
+    let spec = TrainingSpec {
+        title: "Middle of the sliders".to_owned(),
+        range: Range::Moes {
+            m: (20.0, 80.0),
+            l: (6.0, 12.0),
+            alpha: (9e-9, 18e-9),
+            max_hertz_pressure: 3.2e9,
+            viscosity: 0.01,
+        },
+        lubricant: Lubricant::default(),
+        plan: Plan::FarthestPoint { snapshots: 50 },
+        windows: Windows::Given(vec![WindowSpec {
+            m: (20.0, 80.0),
+            grid: GridSpec::Graded { nodes: 300, domain: (-6.0, 1.9), registered: true },
+        }]),
+        pressure_loss: 1e-6,
+        deformation_loss: 1e-7,
+        sampling,
+        rows_per_mode: 2.0,
+        evidence: 0,
+        seed: 1,
+    };
+    Arc::new(train(&spec, &()).unwrap())
+}
+
+fn points() -> Vec<OperatingPoint> {
+    [(25.0, 7.0), (40.0, 10.0), (70.0, 11.0)]
+        .map(|(m, l)| si_from_moes(&MoesRequest::new(ContactKind::Line, m, l)).unwrap())
+        .to_vec()
+}
+
+fn full(grid: &Arc<ReferenceGrid>, point: &OperatingPoint) -> Solution {
+    let solution = FullSolver::on(Arc::clone(grid)).solve(point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+    assert!(solution.converged());
+    solution
+}
+
+#[test]
+fn the_parts_add_up_to_what_verification_and_extrapolation_see() {
+    let model = model(Sampling::QDeim);
+    let mut splitter = ErrorSplitter::new(Arc::clone(&model), ReducedOptions::default());
+    let mut online = Online::new(Arc::clone(&model), ReducedOptions::default());
+    let grid = &model.windows[0].grid;
+    let finer = grid.refined().unwrap();
+    for point in points() {
+        let split = splitter.split(&point, Lubricant::default(), &mut ()).unwrap();
+        online.forget();
+        let solved = online.solve(&point, Lubricant::default()).unwrap();
+        let reduced = online.scalars(&solved).unwrap();
+        let (full, finer) = (full(grid, &point).scalars, full(&finer, &point).scalars);
+        for (parts, reduced, full) in [(split.h_c, reduced.h_c, full.h_c), (split.h_min, reduced.h_min, full.h_min)] {
+            assert!((parts.reduction() - (reduced / full - 1.0)).abs() < 1e-9, "{parts:?}");
+            let sum: f64 = parts.named().iter().map(|part| part.1).sum();
+            assert!((parts.whole() - sum).abs() < 1e-15);
+        }
+        let limit = (4.0 * finer.h_c - full.h_c) / 3.0;
+        assert!((split.h_c.whole() - (reduced.h_c - limit) / full.h_c).abs() < 1e-8);
+        // No solution in the basis is nearer to the pressure than the best approximation.
+        let pressure = split.pressure;
+        assert!(pressure.basis <= pressure.reduction * (1.0 + 1e-6), "{pressure:?}");
+        assert!(pressure.basis > 1e-9 && pressure.sampling < pressure.reduction + pressure.basis, "{pressure:?}");
+    }
+}
+
+#[test]
+fn with_all_rows_there_is_no_sampling_error_and_fewer_modes_cost_basis() {
+    let model = model(Sampling::All);
+    let few = ReducedOptions { pressure_modes: Some(20), ..ReducedOptions::default() };
+    let point = points()[1];
+    let split = |options| ErrorSplitter::new(Arc::clone(&model), options).split(&point, Lubricant::default(), &mut ());
+    let (all, few) = (split(ReducedOptions::default()).unwrap(), split(few).unwrap());
+    assert!(all.h_c.sampling.abs() < 1e-12 && all.pressure.sampling < 1e-12, "{all:?}");
+    assert!(few.pressure.basis > 3.0 * all.pressure.basis, "{:?} {:?}", few.pressure, all.pressure);
+    assert_eq!(few.h_c.discretisation, all.h_c.discretisation, "the basis has no part in it");
+}
+
+#[test]
+fn the_discretisation_part_is_what_much_finer_grids_say() {
+    let model = model(Sampling::QDeim);
+    let mut splitter = ErrorSplitter::new(Arc::clone(&model), ReducedOptions::default());
+    let coarse = &model.windows[0].grid;
+    let finest = coarse.refined().unwrap().refined().unwrap();
+    let limit = finest.refined().unwrap();
+    for point in points() {
+        let split = splitter.split(&point, Lubricant::default(), &mut ()).unwrap();
+        let here = full(coarse, &point).scalars;
+        let (a, b) = (full(&finest, &point).scalars, full(&limit, &point).scalars);
+        let error = |here: f64, a: f64, b: f64| here - (4.0 * b - a) / 3.0;
+        let (h_c, h_min) = (error(here.h_c, a.h_c, b.h_c) / here.h_c, error(here.h_min, a.h_min, b.h_min) / here.h_min);
+        println!(
+            "H_c {:.3e} (true {h_c:.3e}), H_min {:.3e} (true {h_min:.3e})",
+            split.h_c.discretisation, split.h_min.discretisation
+        );
+        assert!((split.h_c.discretisation / h_c - 1.0).abs() < 0.01, "{:e} against {h_c:e}", split.h_c.discretisation);
+        assert!(
+            (split.h_min.discretisation / h_min - 1.0).abs() < 0.2,
+            "{:e} against {h_min:e}",
+            split.h_min.discretisation
+        );
+    }
+}
+
+#[test]
+fn a_split_can_be_stopped_and_says_what_failed() {
+    let model = model(Sampling::QDeim);
+    let mut splitter = ErrorSplitter::new(model, ReducedOptions::default());
+    let stop = AtomicBool::new(true);
+    let error = splitter.split(&points()[1], Lubricant::default(), &mut &stop).unwrap_err();
+    assert_eq!(error, SplitError::Cancelled);
+    splitter.split(&points()[1], Lubricant::default(), &mut ()).unwrap();
+    let bad = OperatingPoint { load: -1.0, ..points()[0] };
+    assert!(splitter.split(&bad, Lubricant::default(), &mut ()).unwrap_err().to_string().contains("load"));
+}

@@ -1,0 +1,206 @@
+//! The grid of automatic windows, chosen by trial from the range alone.
+//!
+//! All windows share one grid: their edges then show no change of discretisation, and a window that is split hands every full solution on.
+//! Both trials use the explorer's spacing and outlet.
+//!
+//! **Inlet**: the shortest of a ladder whose central films at the first 12 farthest points (3.16) agree with those of a very long inlet to
+//! 4e-3. Registered, the largest change of H_c over the explorer's range (M 2…500) is 13 % at −5, 6.1 % at −7, 2.5 % at −10, 1 % at −14,
+//! 3.5e-3 at −20, 1.3e-3 at −28; over Table 3.1's box 1.4 %, 5.1e-3, 1.8e-3, 6.5e-4, 2.2e-4. It is always the lightest load with the largest L.
+//!
+//! **Registration**: with and without, the first half of 48 trial solutions makes a basis and the second half is projected on it; the
+//! smaller of the largest errors decides (explorer's range: 3.5e-2 with, 1.2e-1 without). The trial solutions on the chosen grid are the
+//! first of the training. What registration saves over the explorer's range, in pressure modes from 900 snapshots:
+//!
+//! | M | loss 1e-3: with, without | 1e-5 | 1e-7 |
+//! |---|---|---|---|
+//! | 2…500 | 54, 92 | 129, 138 | 160, 184 |
+//! | 2…9 | 49, 57 | 101, 89 | 124, 127 |
+//! | 2…4 | 39, 38 | 76, 65 | 93, 99 |
+//! | 8…16 | 30, 27 | 63, 54 | 83, 83 |
+//! | 9…40 | 30, 35 | 72, 67 | 97, 98 |
+//! | 40…500 | 15, 21 | 48, 48 | 71, 71 |
+//!
+//! So it pays for wide windows and small numbers of modes, and hardly matters for narrow windows at the losses that are used.
+//!
+use super::aside::aside;
+use super::build::{Shop, domain};
+use super::plan::farthest_points;
+use super::state::{FEWEST, Part, Solved, TrainingState, WindowState};
+use super::{Plan, TrainingError, TrainingObserver, WindowSpec};
+use crate::solver::contact::OperatingPoint;
+use crate::solver::grid::{GridSpec, ReferenceGrid};
+use crate::solver::reduced::PodBasis;
+use faer::Mat;
+use fastrand::Rng;
+
+/// Inlets that are tried, shortest first.
+const INLETS: [f64; 7] = [-5.0, -7.0, -10.0, -14.0, -20.0, -28.0, -40.0];
+/// The inlet they are compared with: H_c converges with the third power of its length.
+const LONG_INLET: f64 = -60.0;
+/// Points at which inlets are compared; farthest points begin with the smallest M, where the inlet matters most.
+const INLET_POINTS: usize = 12;
+/// Change of H_c that an inlet may cause: about what the explorer's spacing leaves at M 165 to 500.
+const INLET_TOLERANCE: f64 = 4e-3;
+/// Solutions that decide on registration.
+const TRIAL_POINTS: usize = 48;
+
+/// Chooses the grid and begins with one window over the whole range.
+///
+/// # Errors
+/// When the range holds too few points, a full solve fails, or the observer cancels.
+pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver) -> Result<(), TrainingError> {
+    let (spec, whole) = (state.spec.clone(), outward(domain(&state.spec).m));
+    let points = farthest_points(&spec.range, (0.0, f64::INFINITY), TRIAL_POINTS, &mut Rng::with_seed(spec.seed));
+    if points.len() < FEWEST {
+        return Err(TrainingError::Specification(format!(
+            "the range holds {} points that differ; a model needs at least {FEWEST}",
+            points.len()
+        )));
+    }
+    let mut tried = |inlet: f64, registered: bool, points: &[OperatingPoint]| {
+        let grid = GridSpec::explorer_from(inlet, registered);
+        try_grid(state, WindowSpec { m: whole, grid }, points, observer)
+    };
+    let few = &points[..INLET_POINTS.min(points.len())];
+    let long = tried(LONG_INLET, true, few)?;
+    let (mut inlet, mut change) = (LONG_INLET, 0.0);
+    for candidate in INLETS {
+        let films = match tried(candidate, true, few) {
+            Ok(films) => films,
+            // An inlet that is too short to be solved on is too short.
+            Err(TrainingError::NotConverged { .. }) => continue,
+            Err(error) => return Err(error),
+        };
+        let change_here = films.iter().zip(&long).map(|(a, b)| (a.h_c / b.h_c - 1.0).abs()).fold(0.0, f64::max);
+        if change_here <= INLET_TOLERANCE {
+            (inlet, change) = (candidate, change_here);
+            break;
+        }
+    }
+    let mut unexplained = |registered| match tried(inlet, registered, &points) {
+        Ok(solved) => {
+            held_out(GridSpec::explorer_from(inlet, registered), &solved, observer).map(|error| (error, solved))
+        }
+        Err(TrainingError::NotConverged { .. }) if !registered => Ok((f64::INFINITY, Vec::new())),
+        Err(error) => Err(error),
+    };
+    let (with, without) = (unexplained(true)?, unexplained(false)?);
+    let registered = with.0 <= without.0;
+    state.decisions.push(format!(
+        "Grid: inlet at {inlet}, which changes H_c by {change:.1e} at most against one at {LONG_INLET}; {}, as held-out trial pressures lie \
+         {:.1e} at most off their basis registered and {:.1e} unregistered",
+        if registered { "registered by the spike" } else { "not registered" },
+        with.0,
+        without.0
+    ));
+    let inherited = match spec.plan {
+        // A manual plan is exactly its points.
+        Plan::Grid { .. } => Vec::new(),
+        _ if registered => with.1,
+        _ => without.1,
+    };
+    let window = WindowSpec { m: whole, grid: GridSpec::explorer_from(inlet, registered) };
+    state.trials.clear();
+    state.windows = vec![WindowState::new(window, spec.seed, inherited)];
+    Ok(())
+}
+
+/// Solutions at points on a grid, of which the first may be there already.
+fn try_grid(
+    state: &mut TrainingState,
+    window: WindowSpec,
+    points: &[OperatingPoint],
+    observer: &dyn TrainingObserver,
+) -> Result<Vec<Solved>, TrainingError> {
+    let k = match state.trials.iter().position(|trial| trial.window == window) {
+        Some(k) => k,
+        None => {
+            state.trials.push(WindowState::new(window, state.spec.seed, []));
+            state.trials.len() - 1
+        }
+    };
+    let trial = &mut state.trials[k];
+    let decided = trial.solved.len() + trial.pending.len();
+    trial.decide(points.iter().skip(decided).copied());
+    if !trial.pending.is_empty() {
+        let spec = state.spec.clone();
+        Shop::new(&spec, window, window.m, None, observer)?.solve_pending(state, Part::Trial(k))?;
+    }
+    Ok(state.trials[k].solved.clone())
+}
+
+/// Largest relative error of the second half's pressures in a basis of the first half.
+fn held_out(grid: GridSpec, solved: &[Solved], observer: &dyn TrainingObserver) -> Result<f64, TrainingError> {
+    let solved = solved.to_vec();
+    aside(observer, move || {
+        let grid = grid.build().map_err(crate::solver::full::SolveError::from)?;
+        let (first, second) = solved.split_at(solved.len().div_ceil(2));
+        let pressures = Mat::from_fn(grid.xi.len(), first.len(), |i, j| first[j].pressure[i]);
+        let basis = PodBasis::new(pressures.as_ref(), &grid.weights, 0.0)
+            .ok_or(TrainingError::Decomposition { from: 0.0, to: f64::INFINITY })?;
+        Ok(second.iter().map(|s| projection_error(&basis, &grid, &s.pressure)).fold(0.0, f64::max))
+    })?
+}
+
+/// ‖P − V Vᵀ W P‖/‖P‖ in the norm of the grid's weights.
+fn projection_error(basis: &PodBasis, grid: &ReferenceGrid, pressure: &[f64]) -> f64 {
+    let size = |v: &[f64]| v.iter().zip(&grid.weights).map(|(v, w)| w * v * v).sum::<f64>().sqrt();
+    let mut rest = pressure.to_vec();
+    for mode in basis.modes.col_iter() {
+        let share: f64 = mode.iter().zip(&grid.weights).zip(pressure).map(|((v, w), p)| w * v * p).sum();
+        rest.iter_mut().zip(mode.iter()).for_each(|(r, v)| *r -= share * v);
+    }
+    size(&rest) / size(pressure)
+}
+
+/// An interval widened to four significant digits, for people.
+fn outward((low, high): (f64, f64)) -> (f64, f64) {
+    let digits = |v: f64| format!("{v:.3e}").parse().unwrap_or(v);
+    // Half of the last digit is taken off or added before rounding; an end that has few digits stays what it is.
+    let round = |v: f64, half: f64| {
+        let shifted = v + half * 10f64.powf(v.log10().floor());
+        if (digits(v) / v - 1.0).abs() < 1e-12 { v } else { digits(shifted) }
+    };
+    (round(low, -5e-4), round(high, 5e-4))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn intervals_are_widened_to_few_digits_and_never_narrowed() {
+        assert_eq!(outward((2.0, 500.0)), (2.0, 500.0));
+        assert_eq!(outward((7.356_123, 164.61)), (7.356, 164.7));
+        for v in [1.000_1, 1.999_9, 3.3333, 9.999_9, 12.345_678] {
+            let (low, high) = outward((v, v));
+            assert!(low <= v && high >= v && high - low <= 0.02, "{low} {v} {high}");
+        }
+    }
+
+    #[test]
+    fn what_the_first_half_spans_is_explained() {
+        let spec = GridSpec::explorer_from(-5.0, true);
+        let grid = spec.build().unwrap();
+        let point = farthest_points(
+            &super::super::Range::Moes {
+                m: (5.0, 50.0),
+                l: (5.0, 8.0),
+                alpha: (1e-8, 2e-8),
+                max_hertz_pressure: 4e9,
+                viscosity: 0.01,
+            },
+            (0.0, f64::INFINITY),
+            1,
+            &mut Rng::with_seed(1),
+        )[0];
+        let solved = |a: f64, b: f64| {
+            let pressure = grid.xi.iter().map(|x| a * (x * 0.3).cos() + b * (x * 0.7).sin()).collect();
+            Solved { place: 0, point, pressure, h_0: 0.0, h_c: 1.0 }
+        };
+        let spanned = [solved(1.0, 0.0), solved(0.0, 1.0), solved(2.0, 3.0), solved(-1.0, 0.5)];
+        assert!(held_out(spec, &spanned, &()).unwrap() < 1e-12);
+        let fresh = [solved(1.0, 0.0), solved(2.0, 0.0), solved(1.0, 0.1), solved(0.0, 1.0)];
+        assert!(held_out(spec, &fresh, &()).unwrap() > 0.5);
+    }
+}

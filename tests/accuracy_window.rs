@@ -1,0 +1,223 @@
+//! The Accuracy tab without a display: its studies run, can be stopped, lead to the contacts they found, and know when they are old.
+
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use ehl_explorer::app::Explorer;
+use ehl_explorer::harness::model_file;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// A study must stop within this; debug builds are many times slower.
+const STOP: Duration = Duration::from_millis(if cfg!(debug_assertions) { 3000 } else { 100 });
+
+type Window = Harness<'static, Explorer>;
+
+/// The Accuracy tab at one of its views, over a settled picture.
+fn open(view: &str) -> Window {
+    let explorer = Explorer::new(Some(model_file::embedded().unwrap())).without_system_dialogs();
+    let mut harness =
+        Harness::builder().with_size([1280.0, 800.0]).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer);
+    wait(&mut harness, "verification", |h| h.state().badge() == "Verified" && !h.state().busy());
+    click(&mut harness, "Accuracy");
+    click(&mut harness, view);
+    harness
+}
+
+fn wait(harness: &mut Window, what: &str, done: impl Fn(&Window) -> bool) {
+    let begin = Instant::now();
+    loop {
+        harness.step();
+        if done(harness) {
+            return;
+        }
+        assert!(begin.elapsed() < Duration::from_secs(30), "waited in vain for {what}");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+/// Clicks and draws two frames: while a study runs there is always another one to come.
+fn click(harness: &mut Window, name: &str) {
+    harness.get_by_label(name).click();
+    harness.run_steps(2);
+}
+
+fn choose(harness: &mut Window, name: &str, value: f64) {
+    harness.get_by_role_and_label(Role::SpinButton, name).set_value_accesskit(value);
+    harness.run_steps(2);
+}
+
+fn shows(harness: &Window, text: &str) -> bool {
+    harness.query_by_label_contains(text).is_some()
+}
+
+fn run_tests(harness: &mut Window, tests: f64, compared: f64) {
+    choose(harness, "Random tests", tests);
+    choose(harness, "Compared in full", compared);
+    click(harness, "Run tests");
+    wait(harness, "the random tests", |h| !h.state().studying());
+}
+
+/// Writes the table of the view through the path field and reads it back.
+fn exported(harness: &mut Window, name: &str) -> Vec<String> {
+    let folder = std::env::temp_dir().join(format!("ehl-explorer-accuracy-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let path: PathBuf = folder.join(name);
+    click(harness, "Export CSV…");
+    harness.get_by_label("Path of the file").focus();
+    harness.run_steps(2);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    harness.get_by_label("Path of the file").type_text(&path.display().to_string());
+    harness.run_steps(2);
+    click(harness, "Export");
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::remove_file(&path).unwrap();
+    text.lines().map(str::to_owned).collect()
+}
+
+/// Truncates the model as opening a scene with a view does.
+fn truncate(harness: &mut Window, name: &str) {
+    let path = std::env::temp_dir().join(format!("ehl-explorer-{name}-{}.ron", std::process::id()));
+    let text = "Scene(version: 1, title: \"t\", at: Moes(m: 40.0, l: 10.0), study: Point(methods: [Full]), \
+        view: (pressure_loss: 1e-5))";
+    std::fs::write(&path, text).unwrap();
+    harness.state_mut().open_scene(&path).unwrap();
+    std::fs::remove_file(&path).unwrap();
+    harness.run_steps(2);
+}
+
+#[test]
+fn the_parts_appear_when_the_sliders_rest_and_follow_them() {
+    let mut harness = open("Where the error comes from");
+    wait(&mut harness, "the parts", |h| shows(h, "Discretisation, H_min: "));
+    for part in ["Basis", "Projection", "Sampling", "Reduced against full", "Reduced against the limit"] {
+        assert!(shows(&harness, &format!("{part}, H_c: ")), "{part}");
+    }
+    let table = exported(&mut harness, "split.csv");
+    assert_eq!(table[3], "row,H_c,H_min,P");
+    let parts: Vec<f64> = table[4..].iter().map(|line| line.split(',').nth(1).unwrap().parse().unwrap()).collect();
+    assert!(
+        (parts[0] + parts[1] + parts[2] - parts[3]).abs() < 1e-12 && (parts[3] + parts[4] - parts[5]).abs() < 1e-12
+    );
+    harness.get_by_label("Load number M").set_value_accesskit(80.0);
+    harness.run_steps(1);
+    assert!(shows(&harness, "not to the sliders"));
+    wait(&mut harness, "the new parts", |h| !shows(h, "not to the sliders"));
+    // Outside the trained range nothing is computed unasked.
+    harness.get_by_label("Load number M").set_value_accesskit(900.0);
+    harness.run_steps(4);
+    assert!(shows(&harness, "on request only") && !harness.state().studying());
+}
+
+#[test]
+fn the_failure_map_counts_and_its_worst_case_is_a_click_away() {
+    let mut harness = open("Failure map");
+    run_tests(&mut harness, 200.0, 10.0);
+    assert!(shows(&harness, "200 of 200 tests, no failures, 10 compared"));
+    println!("a frame of the map takes {:.2} ms", 1e3 * harness.state().frame_s());
+    let before = harness.state().moes();
+    click(&mut harness, "Go to worst case 1");
+    let worst = harness.state().moes();
+    assert_ne!(before, worst);
+    wait(&mut harness, "its picture", |h| h.state().central_film().is_some());
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    harness.run_steps(2);
+    assert_eq!(harness.state().moes(), before);
+    let table = exported(&mut harness, "map.csv");
+    assert_eq!(table.len(), 4 + 200);
+    assert!(table[3].starts_with("M,L,R_m"));
+    truncate(&mut harness, "map");
+    assert!(shows(&harness, "has changed since"));
+}
+
+#[test]
+fn a_click_on_the_map_goes_to_the_test_there() {
+    let mut harness = open("Failure map");
+    run_tests(&mut harness, 400.0, 0.0);
+    let before = harness.state().moes();
+    let rect = harness.get_by_label("Map of the random tests").rect();
+    // The tests crowd at the corners of the range (3.17): the low left one is never cut by the pressure limit.
+    for k in 0..60 {
+        let corner = rect.left_bottom() + egui::vec2(0.3, -0.3) * f32::from(u8::try_from(k).unwrap()) * 4.0;
+        harness.hover_at(corner);
+        harness.run_steps(1);
+        harness.drag_at(corner);
+        harness.run_steps(1);
+        harness.drop_at(corner);
+        harness.run_steps(2);
+        if harness.state().moes() != before {
+            return;
+        }
+    }
+    panic!("no test was found along the diagonal");
+}
+
+#[test]
+fn the_bound_is_held_against_the_truth() {
+    let mut harness = open("Bound against truth");
+    assert!(shows(&harness, "Run tests with some of them compared"));
+    run_tests(&mut harness, 200.0, 20.0);
+    for name in ["Compared: 20", "Rank correlation: ", "Bound holds: ", "Median effectivity: "] {
+        assert!(shows(&harness, name), "{name}");
+    }
+    harness.get_by_label("Bound against true error");
+}
+
+#[test]
+fn the_trajectory_is_followed_in_both_ranges() {
+    let mut harness = open("Along the trajectory");
+    choose(&mut harness, "Contacts", 11.0);
+    click(&mut harness, "Follow the trajectory");
+    wait(&mut harness, "the trajectory", |h| !h.state().studying());
+    assert!(shows(&harness, "11 of 11 contacts through Table 3.1’s box, 0 failures"));
+    let table = exported(&mut harness, "along.csv");
+    assert_eq!(table.len(), 3 + 11);
+    harness.get_by_label("Film along the trajectory");
+    harness.get_by_label("Error along the trajectory");
+    harness.get_by_role_and_label(Role::ComboBox, "Through").click();
+    harness.run_steps(2);
+    click(&mut harness, "the trained range");
+    click(&mut harness, "Follow the trajectory");
+    wait(&mut harness, "the other trajectory", |h| !h.state().studying());
+    assert!(shows(&harness, "11 of 11 contacts through the trained range, 0 failures"));
+}
+
+#[test]
+fn a_study_stops_at_once_and_keeps_what_it_found_while_the_picture_lives() {
+    let mut harness = open("Failure map");
+    choose(&mut harness, "Random tests", 10_000.0);
+    // On a busy machine the window's own frames take long: one of several attempts must show the study's share.
+    let mut fastest = Duration::MAX;
+    for attempt in 0..8 {
+        click(&mut harness, "Run tests");
+        wait(&mut harness, "the first tests", |h| shows(h, " of 10000 tests") && !shows(h, "0 of 10000 tests, no"));
+        harness.get_by_label("Load number M").set_value_accesskit(60.0 + f64::from(attempt));
+        harness.run_steps(2);
+        assert!(harness.state().central_film().is_some(), "the picture follows while the tests run");
+        let begin = Instant::now();
+        click(&mut harness, "Stop");
+        wait(&mut harness, "the end", |h| !h.state().studying());
+        fastest = fastest.min(begin.elapsed());
+        assert!(shows(&harness, " of 10000 tests") && !shows(&harness, "10000 of 10000"));
+        if fastest < STOP {
+            break;
+        }
+    }
+    println!("stopped after {fastest:.0?}");
+    assert!(fastest < STOP, "{fastest:?}");
+}
+
+#[test]
+fn residuals_are_still_there_and_without_a_model_there_is_a_sentence() {
+    let harness = open("Newton residuals");
+    assert!(shows(&harness, "Last full solve"));
+    let explorer = Explorer::new(None).without_system_dialogs();
+    let mut harness =
+        Harness::builder().with_size([1280.0, 800.0]).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer);
+    harness.run_steps(2);
+    for view in ["Where the error comes from", "Failure map", "Bound against truth", "Along the trajectory"] {
+        click(&mut harness, "Accuracy");
+        click(&mut harness, view);
+        assert!(shows(&harness, "nothing to judge"), "{view}");
+    }
+}

@@ -1,0 +1,195 @@
+//! The Training tab without a display: a training is started, watched, stopped, resumed, used, saved and compared.
+
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use ehl_explorer::app::Explorer;
+use ehl_explorer::harness::{model_file, training_file};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// A scene with a training of a small box; full solves take about a millisecond.
+fn scene(title: &str, plan: &str) -> String {
+    format!(
+        "Scene(version: 1, title: \"{title}\", at: Moes(m: 20, l: 5), study: Training(
+            title: \"{title}\",
+            range: Box(radius: (2e-3, 3e-3), speed: (3.0, 5.0), load: (1e5, 2e5), alpha: (6e-9, 12e-9), modulus: 231e9, viscosity: 0.01),
+            plan: {plan},
+            windows: [(m: (5.0, 100.0), grid: Graded(nodes: 200, domain: (-6.0, 2.0), registered: true))],
+            pressure_loss: 1e-6, deformation_loss: 1e-6, rows_per_mode: 2.0, seed: 1,
+        ))"
+    )
+}
+
+const TINY: &str = "Adaptive(start: 12, indicator: Correction, tolerances: [1e-7], successes: 16, local_sigma: 0.1, \
+    local_successes: 8, vicinity: 4, limit: 15)";
+/// More than is waited for, on a grid on which a full solve takes some milliseconds.
+const LONG: &str = "FarthestPoint(snapshots: 1500)";
+
+fn scratch(name: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("ehl-training-tab-{name}-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// The Training tab on a scene of its own.
+fn open(folder: &Path, title: &str, plan: &str) -> Harness<'static, Explorer> {
+    let path = folder.join("scene.ron");
+    let nodes = if plan == LONG { "nodes: 500" } else { "nodes: 200" };
+    std::fs::write(&path, scene(title, plan).replace("nodes: 200", nodes)).unwrap();
+    let mut explorer =
+        Explorer::new(Some(model_file::embedded().unwrap())).without_system_dialogs().keeping_trainings_in(folder);
+    explorer.open_scene(&path).unwrap();
+    let mut harness =
+        Harness::builder().with_size([1280.0, 1400.0]).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer);
+    wait(&mut harness, "the first picture", |app| !app.training() && !app.busy() && app.central_film().is_some());
+    click(&mut harness, "Training");
+    harness
+}
+
+/// Steps until `done`, for at most a minute.
+fn wait(harness: &mut Harness<'_, Explorer>, what: &str, done: impl Fn(&Explorer) -> bool) {
+    let begin = Instant::now();
+    loop {
+        harness.step();
+        if done(harness.state()) {
+            harness.run_steps(2);
+            return;
+        }
+        assert!(begin.elapsed() < Duration::from_secs(60), "waited in vain for {what}");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+fn click(harness: &mut Harness<'_, Explorer>, name: &str) {
+    harness.get_by_label(name).click();
+    harness.run_steps(3);
+}
+
+#[test]
+fn a_small_training_is_watched_used_compared_and_saved() {
+    let folder = scratch("small");
+    let mut harness = open(&folder, "Small box", TINY);
+    let embedded = harness.state().model_title().unwrap().to_owned();
+    click(&mut harness, "Start training");
+    wait(&mut harness, "the training", |app| !app.training());
+    assert!(harness.query_by_label_contains("Done with 15 full solutions").is_some());
+    assert!(harness.query_by_label_contains("tolerance 1e-7 could not be met").is_some());
+    assert!(harness.query_by_label("Indicator against full solutions").is_some());
+    assert_eq!(harness.state().model_title(), Some(embedded.as_str()), "nothing is replaced unasked");
+    click(&mut harness, "Compare models");
+    wait(&mut harness, "the comparison", |app| !app.training());
+    assert!(harness.query_by_label_contains("Compared with the model before").is_some());
+    assert!(harness.query_by_label("Online median").is_some());
+    assert!(harness.query_by_label("Pre-computed 12").is_some(), "the chart stays");
+    click(&mut harness, "Use this model");
+    assert_eq!(harness.state().model_title(), Some("Small box"));
+    wait(&mut harness, "verification", |app| app.badge() == "Verified");
+    click(&mut harness, "Back to the former model");
+    assert_eq!(harness.state().model_title(), Some(embedded.as_str()));
+    click(&mut harness, "Save model…");
+    let path = folder.join("small.rom");
+    harness.get_by_label("Path of the file").focus();
+    harness.run();
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    harness.get_by_label("Path of the file").type_text(&path.display().to_string());
+    harness.run();
+    click(&mut harness, "Save");
+    assert_eq!(model_file::read(&path).unwrap().title, "Small box");
+    assert!(!folder.join("unfinished.training").exists());
+    harness.state_mut().open_scene(&path).unwrap();
+    wait(&mut harness, "the model from the file", |app| app.model_title() == Some("Small box"));
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn a_stopped_training_is_kept_used_and_resumed_after_a_crash() {
+    let folder = scratch("stopped");
+    let kept = folder.join("unfinished.training");
+    let mut harness = open(&folder, "Long box", LONG);
+    click(&mut harness, "Start training");
+    wait(&mut harness, "the first file", |_| kept.exists());
+    assert!(harness.query_by_label("Progress of the training").is_some());
+    assert!(harness.query_by_label("Start training").is_none());
+    // The picture is dragged meanwhile, and follows within the frame.
+    let mut times: Vec<f64> = (0..40)
+        .map(|k| {
+            harness.get_by_label("Load number M").set_value_accesskit(20.0 * 1.02f64.powi(k));
+            harness.step();
+            assert!(harness.state().training() && harness.state().central_film().is_some());
+            harness.state().frame_s()
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    println!("dragging beside a training: median {:.2} ms, worst {:.2} ms", 1e3 * times[20], 1e3 * times[39]);
+    let bar = if cfg!(debug_assertions) { 0.5 } else { 0.012 };
+    assert!(times[20] < bar, "a frame takes {} s", times[20]);
+    click(&mut harness, "Stop");
+    wait(&mut harness, "the model of what there is", |app| !app.training());
+    assert!(harness.query_by_label_contains("Stopped at").is_some());
+    click(&mut harness, "Use this model");
+    assert_eq!(harness.state().model_title(), Some("Long box"));
+    let solutions = training_file::read(&kept).unwrap().solutions();
+    assert!((16..1500).contains(&solutions));
+    drop(harness);
+    // The window is gone; the next one offers to go on.
+    let mut harness = open(&folder, "Long box", LONG);
+    assert!(harness.query_by_label_contains("was left unfinished").is_some());
+    assert!(harness.get_by_label("Start training").accesskit_node().is_disabled());
+    click(&mut harness, "Resume training");
+    harness.step();
+    assert!(harness.state().training());
+    click(&mut harness, "Stop");
+    wait(&mut harness, "the end", |app| !app.training());
+    click(&mut harness, "Discard");
+    assert!(!kept.exists());
+    assert!(!harness.get_by_label("Start training").accesskit_node().is_disabled());
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn a_bad_range_is_a_sentence_and_edits_can_be_undone() {
+    let folder = scratch("range");
+    let mut harness = open(&folder, "Small box", TINY);
+    let value = |harness: &Harness<'_, Explorer>, name: &str| harness.get_by_label(name).value().unwrap();
+    let before = value(&harness, "Radius R from");
+    harness.get_by_label("Radius R from").set_value_accesskit(7.0);
+    harness.run_steps(2);
+    assert!(harness.query_by_label_contains("The range of radius is 0.007…0.003").is_some());
+    assert_eq!(value(&harness, "Radius R from"), before, "what is refused changes nothing");
+    harness.get_by_label("Radius R to").set_value_accesskit(4.0);
+    harness.run_steps(2);
+    assert!(harness.query_by_label_contains("The range of radius").is_none());
+    let after = value(&harness, "Radius R to");
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    harness.run_steps(2);
+    assert_ne!(value(&harness, "Radius R to"), after);
+    // The presets fill the form; the sliders' range is given in M and L.
+    click(&mut harness, "Whole slider range");
+    assert_eq!(value(&harness, "Load number M to"), "500");
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    harness.run_steps(2);
+    assert_eq!(value(&harness, "Radius R from"), before);
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn a_range_where_full_solves_fail_is_named_and_what_there_is_stays() {
+    let folder = scratch("failing");
+    // A grid far too coarse for the heavy end: somewhere there is no full solution.
+    let text = scene("Failing box", "FarthestPoint(snapshots: 60)")
+        .replace("load: (1e5, 2e5)", "load: (1e5, 4e6)")
+        .replace("alpha: (6e-9, 12e-9)", "alpha: (6e-9, 40e-9)")
+        .replace("m: (5.0, 100.0)", "m: (5.0, 4000.0)")
+        .replace("nodes: 200", "nodes: 61");
+    let mut harness = open(&folder, "Failing box", TINY);
+    let path = folder.join("failing.ron");
+    std::fs::write(&path, text).unwrap();
+    harness.state_mut().open_scene(&path).unwrap();
+    harness.run_steps(2);
+    click(&mut harness, "Start training");
+    wait(&mut harness, "the failure", |app| !app.training());
+    assert!(harness.query_by_label_contains("full solver did not converge at M =").is_some());
+    assert!(harness.query_by_label_contains("until then are kept").is_some());
+    assert!(harness.query_by_label("Resume training").is_some());
+    std::fs::remove_dir_all(&folder).unwrap();
+}
