@@ -14,7 +14,7 @@ fn scene(title: &str, plan: &str) -> String {
             title: \"{title}\",
             range: Box(radius: (2e-3, 3e-3), speed: (3.0, 5.0), load: (1e5, 2e5), alpha: (6e-9, 12e-9), modulus: 231e9, viscosity: 0.01),
             plan: {plan},
-            windows: [(m: (5.0, 100.0), grid: Graded(nodes: 200, domain: (-6.0, 2.0), registered: true))],
+            windows: Given([(m: (5.0, 100.0), grid: Graded(nodes: 200, domain: (-6.0, 2.0), registered: true))]),
             pressure_loss: 1e-6, deformation_loss: 1e-6, rows_per_mode: 2.0, seed: 1,
         ))"
     )
