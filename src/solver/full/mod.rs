@@ -1,5 +1,6 @@
 //! The full-order system: unknowns (P, H₀), deformation condensed, solved by Newton's method with a preconditioned Krylov solver.
 
+mod attempts;
 mod band;
 pub mod dense;
 mod gmres;

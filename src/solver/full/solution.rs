@@ -158,7 +158,7 @@ pub struct Report {
 
 impl Report {
     /// Nothing tried yet.
-    pub(super) fn empty() -> Self {
+    pub(crate) fn empty() -> Self {
         Self {
             termination: Termination::IterationLimit,
             newton_iterations: 0,

@@ -1,8 +1,9 @@
-//! Where Newton starts, and what is tried when it fails: retries with other films, then continuation from an easier contact.
+//! Solving line contacts: where Newton starts.
 
+use super::attempts::{self, Attempts, Beginning, lifted};
 use super::line::{LineSystem, SolveOptions};
-use super::solution::{Mesh, Problem, Report, Solution, SolveError, Termination, scalars_of};
-use crate::solver::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, moes_line_film, si_from_moes};
+use super::solution::{Mesh, Problem, Report, Solution, SolveError, scalars_of};
+use crate::solver::contact::{ContactKind, OperatingPoint, moes_line_film};
 use crate::solver::grid::{GridSpec, LineGrid, ReferenceGrid};
 use crate::solver::lubricant::Lubricant;
 use crate::solver::observer::Observer;
@@ -24,9 +25,6 @@ pub struct FullSolver {
     /// Settings of every solve.
     pub options: SolveOptions,
 }
-
-/// Films tried by a cold start, in units of Moes' formula.
-const COLD_FILMS: [f64; 3] = [2.0, 1.2, 4.0];
 
 impl FullSolver {
     /// A solver on the grid of a specification.
@@ -64,29 +62,11 @@ impl FullSolver {
 
     /// The same for a problem that exists already, under sliding for instance.
     pub fn solve_problem(&mut self, problem: Problem, start: Start<'_>, observer: &mut dyn Observer) -> Solution {
-        let mut report = Report::empty();
-        if let Start::From(former @ Solution { mesh: Mesh::Line { .. }, .. }) = start {
-            self.attempt(&problem, Start::From(former), 0.0, observer, &mut report);
-        }
-        for film in COLD_FILMS {
-            if report.ended() {
-                break;
-            }
-            self.attempt(&problem, Start::Cold, film, observer, &mut report);
-        }
-        if !report.ended() {
-            self.continuation(&problem, observer, &mut report);
-        }
-        if report.termination == Termination::Converged {
-            let meets = self.system.as_ref().is_some_and(|system| {
-                let largest = problem.fluid.largest_pressure();
-                system.pressure.iter().any(|&p| p >= largest)
-            });
-            if meets {
-                report.termination = Termination::OccupiedVolume;
-            }
-        }
-        self.solution(problem, report)
+        let former = match start {
+            Start::From(former @ Solution { mesh: Mesh::Line { .. }, .. }) => Some(former),
+            _ => None,
+        };
+        attempts::solve(self, problem, former, observer)
     }
 
     /// The system prepared at a cold start, for whoever iterates it in another way (the dense baseline).
@@ -100,15 +80,21 @@ impl FullSolver {
     ) -> Result<(LineSystem, Problem), SolveError> {
         let problem = Problem::of_kind(ContactKind::Line, point, lubricant)?;
         let mut system = LineSystem::new(self.reference.for_contact(problem.moes));
-        cold_state(&mut system, &problem, COLD_FILMS[0]);
+        cold_state(&mut system, &problem, Self::COLD_FILMS[0]);
         Ok((system, problem))
     }
+}
+
+impl Attempts for FullSolver {
+    // In units of Moes' formula.
+    const COLD_FILMS: [f64; 3] = [2.0, 1.2, 4.0];
+    const EASY_M: (f64, f64) = (15.0, 60.0);
+    const EASY_L: (f64, f64) = (2.0, 8.0);
 
     fn attempt(
         &mut self,
         problem: &Problem,
-        start: Start<'_>,
-        film: f64,
+        beginning: Beginning<'_>,
         observer: &mut dyn Observer,
         report: &mut Report,
     ) {
@@ -119,57 +105,12 @@ impl FullSolver {
             Some(system) if system.grid.scale == grid.scale => system,
             _ => LineSystem::new(grid),
         };
-        match start {
-            Start::Cold => cold_state(&mut system, problem, film),
-            Start::From(former) => warm_state(&mut system, problem, former),
+        match beginning {
+            Beginning::Cold(film) => cold_state(&mut system, problem, film),
+            Beginning::Warm(former) => warm_state(&mut system, problem, former),
         }
         system.newton(problem, &self.options, observer, report);
         self.system = Some(system);
-    }
-
-    /// Walks from an easier contact (larger M, moderate L) to the wanted one in steps that shrink on failure.
-    fn continuation(&mut self, problem: &Problem, observer: &mut dyn Observer, report: &mut Report) {
-        let target = problem.moes;
-        let easy = Moes { m: target.m.clamp(15.0, 60.0), l: target.l.clamp(2.0, 8.0) };
-        let point_at = |t: f64| {
-            let m = (easy.m.ln() * (1.0 - t) + target.m.ln() * t).exp();
-            let l = easy.l * (1.0 - t) + target.l * t;
-            let request = MoesRequest {
-                radius_m: Some(problem.point.radius_m),
-                modulus_pa: Some(problem.point.modulus_pa),
-                viscosity_pa_s: Some(problem.point.viscosity_pa_s),
-                alpha_per_pa: Some(problem.point.alpha_per_pa),
-                ..MoesRequest::new(ContactKind::Line, m, l)
-            };
-            si_from_moes(&request)
-                .ok()
-                .and_then(|p| Problem::under_sliding(&p, problem.lubricant, problem.sliding).ok())
-        };
-        let Some(first) = point_at(0.0) else { return };
-        self.attempt(&first, Start::Cold, COLD_FILMS[0], observer, report);
-        if report.termination != Termination::Converged {
-            return;
-        }
-        let (mut t, mut stride) = (0.0, 0.25f64);
-        let mut last = self.solution(first, Report::empty());
-        while t < 1.0 && stride > 1e-3 {
-            let next = (t + stride).min(1.0);
-            let wanted = if next >= 1.0 { Some(*problem) } else { point_at(next) };
-            let Some(wanted) = wanted else { return };
-            self.attempt(&wanted, Start::From(&last), 0.0, observer, report);
-            match report.termination {
-                Termination::Cancelled => return,
-                Termination::Converged => {
-                    t = next;
-                    last = self.solution(wanted, Report::empty());
-                    stride *= 1.5;
-                }
-                _ => stride *= 0.4,
-            }
-        }
-        if t < 1.0 && report.termination == Termination::Converged {
-            report.termination = Termination::IterationLimit;
-        }
     }
 
     fn solution(&mut self, problem: Problem, report: Report) -> Solution {
@@ -221,11 +162,8 @@ fn warm_state(system: &mut LineSystem, problem: &Problem, former: &Solution) {
     } else {
         system.set_central_film(former.scalars.h_c * ratio);
     }
-    // A film that touches anywhere would be no start: lift it.
-    let lowest = system.film.iter().copied().fold(f64::INFINITY, f64::min);
-    let floor = 0.2 * former.scalars.h_min * ratio;
-    if lowest < floor {
-        system.set_h_0(system.h_0 + floor - lowest);
+    if let Some(h_0) = lifted(&system.film, system.h_0, 0.2 * former.scalars.h_min * ratio) {
+        system.set_h_0(h_0);
     }
 }
 

@@ -99,10 +99,6 @@ fn the_discretisation_part_is_what_much_finer_grids_say() {
         let (a, b) = (full(&finest, &point).scalars, full(&limit, &point).scalars);
         let error = |here: f64, a: f64, b: f64| here - (4.0 * b - a) / 3.0;
         let (h_c, h_min) = (error(here.h_c, a.h_c, b.h_c) / here.h_c, error(here.h_min, a.h_min, b.h_min) / here.h_min);
-        println!(
-            "H_c {:.3e} (true {h_c:.3e}), H_min {:.3e} (true {h_min:.3e})",
-            split.h_c.discretisation, split.h_min.discretisation
-        );
         assert!((split.h_c.discretisation / h_c - 1.0).abs() < 0.01, "{:e} against {h_c:e}", split.h_c.discretisation);
         assert!(
             (split.h_min.discretisation / h_min - 1.0).abs() < 0.2,

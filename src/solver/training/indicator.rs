@@ -20,7 +20,7 @@
 use super::build::alone;
 use super::{TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::contact::OperatingPoint;
-use crate::solver::full::{LineSystem, Report, SolveOptions, Termination, scalars_of};
+use crate::solver::full::{LineSystem, Report, SolveOptions, scalars_of};
 use crate::solver::lubricant::Lubricant;
 use crate::solver::reduced::{ErrorMeasures, Norm, Online, ReducedOptions, ReducedSolution, Window};
 use rayon::prelude::*;
@@ -134,15 +134,7 @@ pub(super) fn measured_errors(online: &Online, solved: &ReducedSolution, window:
     let mut system = LineSystem::new(window.grid.for_contact(problem.moes));
     system.set_pressure(problem, &before.pressure);
     system.set_central_film(before.scalars.h_c);
-    let mut report = Report {
-        termination: Termination::IterationLimit,
-        newton_iterations: 0,
-        linear_iterations: 0,
-        attempts: 1,
-        residuals: Vec::new(),
-        steps: Vec::new(),
-        residual_norm: f64::NAN,
-    };
+    let mut report = Report::empty();
     // Damping by the residual would hide the error: beside a solution the penalty makes it jump.
     let options = SolveOptions { max_newton: CORRECTIONS, shortest_step: 1.0, ..SolveOptions::default() };
     system.newton(problem, &options, &mut (), &mut report);

@@ -6,8 +6,6 @@ mod adaptive;
 mod aside;
 mod build;
 mod calibrate;
-#[cfg(test)]
-mod cancel_tests;
 pub mod distance;
 mod indicator;
 mod layout;

@@ -1,7 +1,7 @@
 //! The reduced model along the test trajectory (3.21), and its error against full solutions.
 
 use super::random_tests::trained_range;
-use super::{Running, count, progress, run_or_stop, stale_note};
+use super::{CONTACT_COLUMNS, Running, contact_cells, count, progress, run_or_stop, stale_note};
 use crate::app::controls::{message_ui, named};
 use crate::app::export;
 use crate::app::files::Purpose;
@@ -284,32 +284,11 @@ fn csv(results: &Results) -> String {
         results.in_use.describe(),
         format!("trajectory (3.21) through {}", results.plan.through.name().replace('’', "'")),
     ];
-    let header = [
-        "c",
-        "M",
-        "L",
-        "R_m",
-        "u_m_m_per_s",
-        "w_n_per_m",
-        "E_pa",
-        "eta_0_pa_s",
-        "alpha_per_pa",
-        "trained",
-        "H_c",
-        "H_c_full",
-        "H_c_error_bound",
-        "H_c_error",
-    ];
+    let own = ["trained", "H_c", "H_c_full", "H_c_error_bound", "H_c_error"];
+    let header: Vec<&str> = ["c"].into_iter().chain(CONTACT_COLUMNS).chain(own).collect();
     let rows = results.steps.iter().map(|step| {
         let mut row = vec![Some(step.c)];
-        match &step.point {
-            Some(point) => {
-                let moes = point.moes();
-                row.extend([Some(moes.m), Some(moes.l)]);
-                row.extend(point.quantities().map(Some));
-            }
-            None => row.extend([None; 8]),
-        }
+        row.extend(step.point.as_ref().map_or([None; 8], |point| contact_cells(point).map(Some)));
         row.extend([Some(f64::from(u8::from(step.trained))), step.reduced, step.full, step.bound, step.error()]);
         row
     });

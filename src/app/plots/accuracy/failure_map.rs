@@ -2,7 +2,7 @@
 
 use super::random_tests::{Results, Test};
 use super::worst::Worst;
-use super::{tests_toolbar, worst};
+use super::{CONTACT_COLUMNS, contact_cells, tests_toolbar, worst};
 use crate::app::controls::named;
 use crate::app::export;
 use crate::app::files::Purpose;
@@ -230,27 +230,10 @@ pub fn csv(results: &Results) -> String {
         format!("random tests (3.17) of the trained range, seed {}", results.plan.seed),
         "converged 0: the reduced model failed; empty errors: not compared, or no full solution".to_owned(),
     ];
-    let header = [
-        "M",
-        "L",
-        "R_m",
-        "u_m_m_per_s",
-        "w_n_per_m",
-        "E_pa",
-        "eta_0_pa_s",
-        "alpha_per_pa",
-        "converged",
-        "newton_steps",
-        "H_c",
-        "H_min",
-        "H_c_error_bound",
-        "H_c_error",
-        "H_min_error",
-    ];
+    let own = ["converged", "newton_steps", "H_c", "H_min", "H_c_error_bound", "H_c_error", "H_min_error"];
+    let header: Vec<&str> = CONTACT_COLUMNS.into_iter().chain(own).collect();
     let rows = results.tests.iter().map(|test| {
-        let moes = test.point.moes();
-        let mut row = vec![Some(moes.m), Some(moes.l)];
-        row.extend(test.point.quantities().map(Some));
+        let mut row = contact_cells(&test.point).map(Some).to_vec();
         let errors = match test.truth {
             Some(super::random_tests::Truth::Known(errors)) => Some(errors),
             _ => None,

@@ -14,6 +14,7 @@ use crate::app::in_use::InUse;
 use crate::app::state::State;
 use crate::app::task::{Standing, Task};
 use crate::app::theme::{Palette, rich};
+use crate::solver::contact::OperatingPoint;
 use egui::{Context, DragValue, ProgressBar, Ui};
 use random_tests::{MOST_COMPARED, RandomTests, TESTS};
 
@@ -193,6 +194,15 @@ fn bound_note(ui: &mut Ui, mut bounds: impl Iterator<Item = Option<f64>>) {
         let note = "No calibrated bounds: the model is truncated, or its training measured no errors";
         ui.label(rich(note, 11.0, Palette::of(ui).quiet));
     }
+}
+
+/// Columns that say which contact a row of an exported table is.
+const CONTACT_COLUMNS: [&str; 8] = ["M", "L", "R_m", "u_m_m_per_s", "w_n_per_m", "E_pa", "eta_0_pa_s", "alpha_per_pa"];
+
+/// The values of [`CONTACT_COLUMNS`].
+fn contact_cells(point: &OperatingPoint) -> [f64; 8] {
+    let (moes, [r, u, w, e, eta, alpha]) = (point.moes(), point.quantities());
+    [moes.m, moes.l, r, u, w, e, eta, alpha]
 }
 
 /// Says why there is nothing yet.

@@ -1,8 +1,9 @@
-//! Where Newton starts for a point contact, and what is tried when it fails: other films, then continuation from an easier contact.
+//! Solving point contacts: where Newton starts.
 
 use super::{PointOptions, PointSystem};
-use crate::solver::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, hamrock_dowson_central, si_from_moes};
-use crate::solver::full::solution::{Mesh, Problem, Report, Solution, SolveError, Termination, point_scalars_of};
+use crate::solver::contact::{ContactKind, OperatingPoint, hamrock_dowson_central};
+use crate::solver::full::attempts::{self, Attempts, Beginning, lifted};
+use crate::solver::full::solution::{Mesh, Problem, Report, Solution, SolveError, point_scalars_of};
 use crate::solver::full::start::Start;
 use crate::solver::grid::{PointGrid, PointGridSpec};
 use crate::solver::lubricant::Lubricant;
@@ -15,9 +16,6 @@ pub struct PointSolver {
     /// Settings of every solve.
     pub options: PointOptions,
 }
-
-/// Films tried by a cold start, in units of Hamrock and Dowson's formula.
-const COLD_FILMS: [f64; 3] = [1.2, 0.8, 2.0];
 
 impl PointSolver {
     /// A solver on the grid of a specification.
@@ -69,75 +67,36 @@ impl PointSolver {
         if problem.shear.is_some() || problem.lubricant.limiting_stress.is_some() {
             return Err(SolveError::ShearInPointContact);
         }
-        let mut report = Report::empty();
-        if let Start::From(former @ Solution { mesh: Mesh::Point(_), .. }) = start {
-            warm_state(&mut self.system, &problem, former);
-            self.attempt(&problem, observer, &mut report);
-        }
-        for film in COLD_FILMS {
-            if report.ended() {
-                break;
-            }
-            cold_state(&mut self.system, &problem, film);
-            self.attempt(&problem, observer, &mut report);
-        }
-        if !report.ended() {
-            self.continuation(&problem, observer, &mut report);
-        }
-        Ok(self.solution(problem, report))
+        let former = match start {
+            Start::From(former @ Solution { mesh: Mesh::Point(_), .. }) => Some(former),
+            _ => None,
+        };
+        Ok(attempts::solve(self, problem, former, observer))
     }
+}
 
-    fn attempt(&mut self, problem: &Problem, observer: &mut dyn Observer, report: &mut Report) {
+impl Attempts for PointSolver {
+    // In units of Hamrock and Dowson's formula.
+    const COLD_FILMS: [f64; 3] = [1.2, 0.8, 2.0];
+    const EASY_M: (f64, f64) = (60.0, 200.0);
+    const EASY_L: (f64, f64) = (3.0, 8.0);
+
+    fn attempt(
+        &mut self,
+        problem: &Problem,
+        beginning: Beginning<'_>,
+        observer: &mut dyn Observer,
+        report: &mut Report,
+    ) {
         report.attempts += 1;
+        match beginning {
+            Beginning::Cold(film) => cold_state(&mut self.system, problem, film),
+            Beginning::Warm(former) => warm_state(&mut self.system, problem, former),
+        }
         self.system.newton(problem, &self.options, observer, report);
     }
 
-    /// Walks from an easier contact to the wanted one in steps that shrink on failure.
-    fn continuation(&mut self, problem: &Problem, observer: &mut dyn Observer, report: &mut Report) {
-        let target = problem.moes;
-        let easy = Moes { m: target.m.clamp(60.0, 200.0), l: target.l.clamp(3.0, 8.0) };
-        let point_at = |t: f64| {
-            let m = (easy.m.ln() * (1.0 - t) + target.m.ln() * t).exp();
-            let l = easy.l * (1.0 - t) + target.l * t;
-            let request = MoesRequest {
-                radius_m: Some(problem.point.radius_m),
-                modulus_pa: Some(problem.point.modulus_pa),
-                viscosity_pa_s: Some(problem.point.viscosity_pa_s),
-                alpha_per_pa: Some(problem.point.alpha_per_pa),
-                ..MoesRequest::new(ContactKind::Point, m, l)
-            };
-            si_from_moes(&request).ok().and_then(|p| Problem::new(&p, problem.lubricant).ok())
-        };
-        let Some(first) = point_at(0.0) else { return };
-        cold_state(&mut self.system, &first, COLD_FILMS[0]);
-        self.attempt(&first, observer, report);
-        if report.termination != Termination::Converged {
-            return;
-        }
-        let (mut t, mut stride) = (0.0, 0.25f64);
-        let mut last = self.solution(first, Report::empty());
-        while t < 1.0 && stride > 1e-3 {
-            let next = (t + stride).min(1.0);
-            let wanted = if next >= 1.0 { Some(*problem) } else { point_at(next) };
-            let Some(wanted) = wanted else { return };
-            warm_state(&mut self.system, &wanted, &last);
-            self.attempt(&wanted, observer, report);
-            match report.termination {
-                Termination::Cancelled => return,
-                Termination::Converged => {
-                    t = next;
-                    last = self.solution(wanted, Report::empty());
-                    stride *= 1.5;
-                }
-                _ => stride *= 0.4,
-            }
-        }
-        if t < 1.0 && report.termination == Termination::Converged {
-            report.termination = Termination::IterationLimit;
-        }
-    }
-
-    fn solution(&self, problem: Problem, report: Report) -> Solution {
+    fn solution(&mut self, problem: Problem, report: Report) -> Solution {
         let PointSystem { grid, pressure, film, h_0, .. } = &self.system;
         Solution {
             problem,
@@ -180,11 +139,8 @@ fn warm_state(system: &mut PointSystem, problem: &Problem, former: &Solution) {
     } else {
         system.set_central_film(former.scalars.h_c * ratio);
     }
-    // A film that touches anywhere would be no start: lift it.
-    let lowest = system.film.iter().copied().fold(f64::INFINITY, f64::min);
-    let floor = 0.2 * former.scalars.h_min * ratio;
-    if lowest < floor {
-        system.set_h_0(system.h_0 + floor - lowest);
+    if let Some(h_0) = lifted(&system.film, system.h_0, 0.2 * former.scalars.h_min * ratio) {
+        system.set_h_0(h_0);
     }
 }
 

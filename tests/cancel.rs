@@ -1,8 +1,11 @@
 //! How soon a cancelled training returns, whatever it was doing.
 
-use super::*;
-use crate::solver::grid::GridSpec;
-use crate::solver::reduced::Sampling;
+use ehl_explorer::solver::grid::GridSpec;
+use ehl_explorer::solver::reduced::Sampling;
+use ehl_explorer::solver::training::{
+    Indicator, Plan, Progress, Range, TrainingError, TrainingObserver, TrainingSpec, TrainingState, WindowSpec,
+    Windows, train_resumable,
+};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
