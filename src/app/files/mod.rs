@@ -3,6 +3,7 @@
 mod path_window;
 
 use super::document::Document;
+use super::model_source::served_by;
 use super::state::State;
 use crate::harness::model_file;
 use crate::scene::Scene;
@@ -29,6 +30,13 @@ pub enum Purpose {
     Csv {
         /// Its content.
         text: String,
+    },
+    /// Write a picture.
+    Picture {
+        /// The content of its file.
+        bytes: Arc<[u8]>,
+        /// How its name ends: `png` or `svg`.
+        extension: &'static str,
     },
 }
 
@@ -142,7 +150,7 @@ impl State {
     pub fn open_path(&mut self, path: &Path) -> Result<(), String> {
         if is_model(path) {
             let model = model_file::read(path).map_err(|e| format!("{}: {e}", path.display()))?;
-            self.use_model(Some(Arc::new(model)));
+            self.use_model(served_by(&model), Some(Arc::new(model)));
             self.files.notice = Some(Ok(format!("Using the model {}", path.display())));
             return Ok(());
         }

@@ -2,6 +2,7 @@
 
 mod attempts;
 mod band;
+mod cut;
 pub mod dense;
 mod gmres;
 mod line;
