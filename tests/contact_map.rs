@@ -215,7 +215,8 @@ fn a_frame_with_the_map_is_cheap() {
         })
         .collect();
     times.sort_by(f64::total_cmp);
-    println!("interferogram made anew: median {:.2} ms, worst {:.2} ms", 1e3 * times[20], 1e3 * times[39]);
-    let bar = if cfg!(debug_assertions) { 0.6 } else { 0.016 };
-    assert!(times[20] < bar, "a frame takes {} s", times[20]);
+    println!("interferogram made anew: best {:.2} ms, median {:.2} ms", 1e3 * times[0], 1e3 * times[20]);
+    // Other work on the machine only ever makes it slower.
+    let bar = if cfg!(debug_assertions) { 0.6 } else { 0.012 };
+    assert!(times[4] < bar, "a frame takes {} s", times[4]);
 }

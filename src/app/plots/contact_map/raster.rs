@@ -5,7 +5,7 @@ use crate::solver::optics::{Interferometer, RGB_WAVELENGTHS_M};
 use egui::{Color32, ColorImage};
 
 /// Pixels per Hertzian radius.
-const RESOLUTION: f64 = 120.0;
+const RESOLUTION: f64 = 100.0;
 
 /// Values at the pixels of the half Y ≤ 0, row by row from the outer edge to the axis.
 pub struct Raster {
@@ -72,7 +72,8 @@ impl Raster {
             let table = &table;
             move |film: f32, change: f32| {
                 let order = film * per_metre + offset;
-                let step = ((order - order.floor()) * STEPS as f32) as usize;
+                // Films are positive, and so are orders: cutting off is rounding down.
+                let step = ((order - (order as u32) as f32) * STEPS as f32) as usize;
                 // Half an order from one pixel to the next is what a picture can just show.
                 let sharp = (1.0 - (2.0 * change * per_metre).powi(2)).max(0.0);
                 (255.0 * (0.5 + sharp * table[step.min(STEPS - 1)])) as u8
