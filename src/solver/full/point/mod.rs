@@ -11,7 +11,7 @@ mod start;
 #[cfg(test)]
 mod tests;
 
-pub use accuracy::{Accuracy, Estimate, resolution_warning, side_lobe_curvature};
+pub use accuracy::{Accuracy, Estimate, resolution_warning, second_grid, side_lobe_curvature};
 pub use start::PointSolver;
 
 use super::gmres::{Gmres, LinearOutcome};
@@ -189,8 +189,12 @@ impl PointSystem {
                 break;
             }
             report.residuals.push(residual);
-            let linear = self.solve_linear(problem, options, options.forcing);
+            let linear = self.solve_linear(problem, options, options.forcing, observer);
             report.linear_iterations += linear.iterations;
+            if observer.cancelled() {
+                report.termination = Termination::Cancelled;
+                break;
+            }
             report.newton_iterations += 1;
             let (step, shift) = self.damped_step(options, |step| {
                 // A step as large as the one before the last, late: the front moves to and fro.
@@ -254,14 +258,22 @@ impl PointSystem {
     }
 
     /// Solves the linearised system for `update` = (ΔP, ΔH₀). Returns how the linear solver ended.
-    fn solve_linear(&mut self, problem: &Problem, options: &PointOptions, tolerance: f64) -> LinearOutcome {
+    fn solve_linear(
+        &mut self,
+        problem: &Problem,
+        options: &PointOptions,
+        tolerance: f64,
+        observer: &mut dyn Observer,
+    ) -> LinearOutcome {
         let u = self.grid.unknowns();
         let middle = self.grid.node(u / 2);
         let diagonal = self.grid.flexibility.entry(middle, middle);
         for ((s, a), b) in self.scaling.iter_mut().zip(&self.d_p).zip(&self.d_h) {
             *s = 1.0 / (a[CENTER].abs() + b[CENTER].abs() * diagonal);
         }
-        self.preconditioner.build(&self.grid, &self.d_p, &self.d_h, &self.scaling);
+        if !self.preconditioner.build(&self.grid, &self.d_p, &self.d_h, &self.scaling, || !observer.cancelled()) {
+            return LinearOutcome { iterations: 0, relative_residual: f64::NAN };
+        }
         for ((r, f), s) in self.rhs.iter_mut().zip(&self.residual).zip(&self.scaling) {
             *r = -f * s;
         }
@@ -269,11 +281,10 @@ impl PointSystem {
         let Self { krylov, grid, fft, step, step_deformation, d_p, d_h, scaling, preconditioner, rhs, update, .. } =
             self;
         let grid = &**grid;
-        krylov.solve(
+        krylov.solve_watched(
             rhs,
             update,
-            tolerance,
-            options.max_krylov,
+            (tolerance, options.max_krylov),
             |v, out| {
                 scatter(grid, v, step);
                 grid.deform(step, step_deformation, fft);
@@ -295,6 +306,10 @@ impl PointSystem {
                 out[u] = dot(&grid.weights, field);
             },
             |v| preconditioner.apply(v),
+            |iterations| {
+                observer.krylov_iteration(iterations);
+                !observer.cancelled()
+            },
         )
     }
 }
