@@ -400,16 +400,33 @@ fn a_reader_that_leaves_early_is_no_panic() {
 }
 
 #[test]
-fn a_shear_thinning_line_contact_slides_and_a_point_contact_refuses_to() {
-    let contact =
-        ["solve", "--lubricant", "squalane-pip", "--radius", "0.0127", "--speed", "0.74", "--modulus", "1.2388e11"];
-    let line = [&contact[..], &["--load", "144000", "--srr", "0.5", "--dx", "0.01", "--json"]].concat();
-    let output = program(&line);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    let traction = report["traction"].as_f64().unwrap();
-    // The independent solution of the same grid.
+fn shear_thinning_contacts_slide_and_show_the_shear_across_the_film() {
+    let folder = scratch("film_shear");
+    let file = folder.join("shear.csv");
+    let path = file.to_string_lossy().into_owned();
+    let contact = [
+        "solve",
+        "--json",
+        "--lubricant",
+        "squalane-pip",
+        "--radius",
+        "0.0127",
+        "--speed",
+        "0.74",
+        "--modulus",
+        "1.2388e11",
+        "--srr",
+        "0.5",
+    ];
+    let line = json(&program(&[&contact[..], &["--load", "144000", "--dx", "0.01", "--film-shear", &path]].concat()));
+    // The independent solutions of the same grids.
+    let traction = line["traction"].as_f64().unwrap();
     assert!((traction / 0.032052 - 1.0).abs() < 0.01, "{traction}");
-    let point = [&contact[..], &["--contact", "point", "--load", "23", "--srr", "0.5"]].concat();
-    assert_refused(&point, "shear-thinning");
+    let point = json(&program(&[&contact[..], &["--contact", "point", "--load", "23"]].concat()));
+    let traction = point["traction"].as_f64().unwrap();
+    assert!((traction / 0.029735 - 1.0).abs() < 0.01, "{traction}");
+    let table = std::fs::read_to_string(&file).unwrap();
+    std::fs::remove_dir_all(&folder).unwrap();
+    assert_eq!(table.lines().next().unwrap(), "X,Z,tau_zx_pa,rate_per_s");
+    assert_eq!(table.lines().count(), 1 + 601 * 11);
 }

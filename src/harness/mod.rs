@@ -36,7 +36,9 @@ mod workbench;
 pub use error::HarnessError;
 pub use model_comparison::{ModelComparison, ModelScore, Spread, compare_models};
 pub use outcome::{NamedValue, SceneOutcome, Verdict};
-pub use report::{GridReport, HertzReport, MoesReport, PointReport, ReducedReport, SiReport, profile_table};
+pub use report::{
+    GridReport, HertzReport, MoesReport, PointReport, ReducedReport, SiReport, film_shear_table, profile_table,
+};
 pub use run::run_scene;
 pub use sampling::{Random, random_points};
 pub use statistics::{median, percentile, rank_correlation};

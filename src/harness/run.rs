@@ -25,9 +25,12 @@ pub fn run_scene(
     scene.check()?;
     let clock = Instant::now();
     let mut outcome = SceneOutcome::of(scene);
+    outcome.warnings.extend(scene.unused_alpha());
     match &scene.study {
         Study::Point { methods } => point(scene, methods, workbench, observer, &mut outcome)?,
-        Study::Sweep { over, methods } => series::sweep(scene, over, methods, workbench, observer, &mut outcome)?,
+        Study::Sweep { over, methods, cold } => {
+            series::sweep(scene, (over, methods, *cold), workbench, observer, &mut outcome)?;
+        }
         Study::Trajectory { range, points, methods } => {
             series::trajectory(scene, range, *points, methods, workbench, observer, &mut outcome)?;
         }

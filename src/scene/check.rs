@@ -1,7 +1,8 @@
 //! The door: every number of a scene is finite and sane before anything is computed from it.
 
 use super::{
-    Axis, Contacts, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, View, Within,
+    Axis, Contacts, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, Variable, View,
+    Within,
 };
 use crate::solver::contact::ContactKind;
 use crate::solver::grid::PointGridSpec;
@@ -116,10 +117,16 @@ fn study(scene: &Scene) -> Checked {
             ),
         )),
         Study::Point { methods: list } => methods("study.methods", list),
-        Study::Sweep { over, methods: list } => {
+        Study::Sweep { over, methods: list, .. } => {
             methods("study.methods", list)?;
-            count("study.over (how many)", over.len(), 1, 2)?;
+            count("study.over (how many)", over.len(), 1, 3)?;
             over.iter().try_for_each(axis)?;
+            if over.iter().any(|axis| axis.vary == Variable::Alpha) && scene.lubricant.own_coefficient().is_some() {
+                return Err(refuse(
+                    "study.over.alpha",
+                    "cannot be varied: the lubricant's viscosity law determines it",
+                ));
+            }
             let points = over.iter().map(|axis| axis.values.len()).try_fold(1usize, usize::checked_mul);
             count("study.over (points)", points.unwrap_or(usize::MAX), 1, MAX_POINTS)
         }
@@ -202,12 +209,17 @@ fn study(scene: &Scene) -> Checked {
 
 fn axis(axis: &Axis) -> Checked {
     let field = format!("study.over.{}", axis.vary.name());
-    let limit = |value: f64| number(&field, value, f64::MIN_POSITIVE, 1e15);
+    let (least, most) = axis.vary.range();
+    let limit = |value: f64| number(&field, value, least, most);
     count(&format!("{field} (values)"), axis.values.len(), 1, MAX_POINTS)?;
     match &axis.values {
-        Steps::Linear { from, to, .. } | Steps::Log { from, to, .. } => {
+        Steps::Linear { from, to, .. } => {
             limit(*from)?;
             limit(*to)
+        }
+        Steps::Log { from, to, .. } => {
+            number(&field, *from, least.max(f64::MIN_POSITIVE), most)?;
+            number(&field, *to, least.max(f64::MIN_POSITIVE), most)
         }
         Steps::List(values) => values.iter().try_for_each(|&value| limit(value)),
     }
@@ -342,11 +354,9 @@ mod tests {
         assert!(message(Scene { grid: bad_grid, ..good.clone() }).contains("grid.dx"));
         assert!(message(Scene { study: Study::Point { methods: vec![] }, ..good.clone() }).contains("methods"));
         let huge = Study::Sweep {
-            over: vec![Axis {
-                vary: super::super::Variable::M,
-                values: Steps::Log { from: 1.0, to: 9.0, n: usize::MAX },
-            }],
+            over: vec![Axis { vary: Variable::M, values: Steps::Log { from: 1.0, to: 9.0, n: usize::MAX } }],
             methods: vec![Method::Full],
+            cold: false,
         };
         assert!(message(Scene { study: huge, ..good.clone() }).contains("study.over.M"));
         let range = QuantityBox { load: (2.0, f64::NAN), ..QuantityBox::TABLE_3_1 };

@@ -21,12 +21,15 @@ pub enum Study {
         /// How it is solved.
         methods: Vec<Method>,
     },
-    /// The contact along one or two varied quantities, the last one fastest; each solve starts from its neighbour.
+    /// The contact along one to three varied quantities, the last one fastest; each solve starts from its neighbour.
     Sweep {
         /// What is varied.
         over: Vec<Axis>,
         /// How each point is solved.
         methods: Vec<Method>,
+        /// Whether full solves start cold instead.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        cold: bool,
     },
     /// The test trajectory (3.21) through a box, 0 ≤ c ≤ 2.
     Trajectory {
@@ -203,6 +206,10 @@ pub enum Variable {
     Viscosity,
     /// Pressure–viscosity coefficient \[1/Pa\].
     Alpha,
+    /// Slide-to-roll ratio SRR.
+    SlideToRollRatio,
+    /// Newtonian plateau ratio NPR.
+    NewtonianPlateauRatio,
 }
 
 /// Values of a varied quantity.
@@ -340,6 +347,17 @@ impl Variable {
             Self::Modulus => "modulus",
             Self::Viscosity => "viscosity",
             Self::Alpha => "alpha",
+            Self::SlideToRollRatio => "srr",
+            Self::NewtonianPlateauRatio => "npr",
+        }
+    }
+
+    /// Smallest and largest accepted value.
+    pub fn range(self) -> (f64, f64) {
+        match self {
+            Self::SlideToRollRatio => (-10.0, 10.0),
+            Self::NewtonianPlateauRatio => (0.0, 1.0),
+            _ => (f64::MIN_POSITIVE, 1e15),
         }
     }
 }
