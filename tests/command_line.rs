@@ -145,6 +145,22 @@ fn a_reduced_solve_says_what_served_it_and_whether_it_was_trained() {
 }
 
 #[test]
+fn what_a_point_contacts_grid_costs_is_estimated_on_request() {
+    let point = ["solve", "--json", "--contact", "point", "--moes-m", "50", "--moes-l", "5"];
+    let grid = ["--dx", "0.05", "--dy", "0.1", "--domain=-3,1.8,-1.4", "--accuracy"];
+    let report = json(&program(&[&point[..], &grid].concat()));
+    let accuracy = &report["accuracy"];
+    assert_eq!((&accuracy["nx"], &accuracy["ny"]), (&193.into(), &29.into()));
+    let number = |value: &Value| value.as_f64().unwrap();
+    let (h_c, limit) = (number(&report["H_c"]), number(&accuracy["H_c_limit"]));
+    assert!((number(&accuracy["h_c_error"]) - (h_c / limit - 1.0).abs()).abs() < 1e-12);
+    assert!((1e-3..0.1).contains(&number(&accuracy["h_c_error"])), "{accuracy}");
+    let line = program(&["solve", "--moes-m", "40", "--moes-l", "10", "--accuracy"]);
+    assert_eq!(line.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&line.stderr).contains("--accuracy belongs to"));
+}
+
+#[test]
 fn a_point_contact_prints_its_plane_and_its_fields() {
     let folder = scratch("point");
     let profiles = folder.join("fields.csv");

@@ -259,7 +259,7 @@ impl Explorer {
 
     /// Estimated relative grid errors of H_c and H_min, when they belong to the sliders.
     pub fn grid_errors(&self) -> Option<(f64, f64)> {
-        self.state.grid_error().map(|error| error.errors)
+        self.state.grid_error().map(|error| (error.accuracy.h_c_error, error.accuracy.h_min_error))
     }
 
     /// The first words of the trust badge.

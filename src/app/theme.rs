@@ -242,6 +242,7 @@ mod tests {
             include_str!("plots/badge.rs"),
             include_str!("plots/basis.rs"),
             include_str!("plots/contact_map/mod.rs"),
+            include_str!("plots/contact_map/optics.rs"),
             include_str!("plots/contact_map/scale.rs"),
             include_str!("plots/formulas.rs"),
             include_str!("plots/profiles.rs"),

@@ -14,6 +14,7 @@ mod distance_study;
 mod error;
 mod error_measure_study;
 mod formula_comparison;
+mod grid_accuracy;
 mod grid_study;
 mod model_comparison;
 pub mod model_file;
@@ -34,6 +35,7 @@ mod training_study;
 mod workbench;
 
 pub use error::HarnessError;
+pub use grid_accuracy::GridAccuracy;
 pub use model_comparison::{ModelComparison, ModelScore, Spread, compare_models};
 pub use outcome::{NamedValue, SceneOutcome, Verdict};
 pub use report::{

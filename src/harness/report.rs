@@ -1,5 +1,6 @@
 //! One result as the command line prints it.
 
+use super::grid_accuracy::GridAccuracy;
 use super::table::Table;
 use super::workbench::Answer;
 use crate::solver::contact::ContactKind;
@@ -43,6 +44,9 @@ pub struct PointReport {
     /// What only a reduced solve has.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reduced: Option<ReducedReport>,
+    /// What the grid of a point contact costs, where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<GridAccuracy>,
 }
 
 /// SI quantities without unit suffixes, as the options are called.
@@ -205,6 +209,7 @@ impl From<&Answer> for PointReport {
                 h_c_error_bound: facts.error.and_then(|e| finite(e.h_c.bound)),
                 h_min_error_bound: facts.error.and_then(|e| finite(e.h_min.bound)),
             }),
+            accuracy: None,
         }
     }
 }

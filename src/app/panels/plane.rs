@@ -75,20 +75,17 @@ fn error_ui(ui: &mut Ui, state: &mut State, chosen: PointGridSpec) {
         state.estimate_grid_error(&ctx);
     }
     state.entries.message_ui(ui, "grid error");
-    let Some(error) = state.grid_error() else { return };
+    let Some(error) = state.grid_error().map(|error| error.accuracy) else { return };
     let palette = Palette::of(ui);
     let text = format!(
         "{{H_c}} off by {}, in the limit {}\n{{H_min}} off by {}, in the limit {}",
-        numbers::error_percent(error.errors.0),
-        numbers::significant(error.limits.0),
-        numbers::error_percent(error.errors.1),
-        numbers::significant(error.limits.1)
+        numbers::error_percent(error.h_c_error),
+        numbers::significant(error.h_c_limit),
+        numbers::error_percent(error.h_min_error),
+        numbers::significant(error.h_min_limit)
     );
     let response = ui.label(rich(&text, 12.5, palette.text));
-    response.on_hover_text(format!(
-        "Richardson’s extrapolation with the solution on {}×{} nodes",
-        error.second.0, error.second.1
-    ));
+    response.on_hover_text(format!("Richardson’s extrapolation with the solution on {}×{} nodes", error.nx, error.ny));
     if !error.resolved {
         warning_ui(ui, "one of both grids does not resolve the side lobes: the error of H_min may be larger");
     }

@@ -27,12 +27,12 @@ pub fn ui(ui: &mut Ui, state: &State) {
         let s = scalars(picture);
         // What the grid costs stands beside the value it was estimated for.
         let shown_is_full = state.full.as_ref().is_some_and(|full| Arc::ptr_eq(&full.solution, &picture.solution));
-        let grid_error = state.grid_error().filter(|_| shown_is_full).map(|error| error.errors);
+        let grid_error = state.grid_error().filter(|_| shown_is_full).map(|error| error.accuracy);
         let off = |error: Option<f64>| error.map_or_else(String::new, |e| format!(" ±{}", numbers::error_percent(e)));
         cell(
             ui,
             symbol(ui, "H", "c"),
-            numbers::significant(s.h_c) + &off(grid_error.map(|e| e.0)),
+            numbers::significant(s.h_c) + &off(grid_error.map(|e| e.h_c_error)),
             numbers::length(picture.central_film_m()),
             palette.film,
             delta(&|p| p.central_film_m()),
@@ -41,7 +41,7 @@ pub fn ui(ui: &mut Ui, state: &State) {
         cell(
             ui,
             symbol(ui, "H", "min"),
-            numbers::significant(s.h_min) + &off(grid_error.map(|e| e.1)),
+            numbers::significant(s.h_min) + &off(grid_error.map(|e| e.h_min_error)),
             numbers::length(picture.minimum_film_m()),
             palette.film,
             delta(&|p| p.minimum_film_m()),

@@ -4,6 +4,7 @@
 mod contours;
 mod export;
 mod images;
+mod optics;
 mod raster;
 mod scale;
 
@@ -13,12 +14,12 @@ use super::axes;
 use crate::app::controls::{described, named};
 use crate::app::files::Purpose;
 use crate::app::numbers;
-use crate::app::picture::Picture;
+use crate::app::picture::{Cuts, Picture};
 use crate::app::state::State;
 use crate::app::theme::{Palette, faded, rich};
 use crate::solver::contact::ContactKind;
 use crate::solver::optics::Interferometer;
-use egui::{Color32, CursorIcon, DragValue, RichText, Ui};
+use egui::{Color32, CursorIcon, DragValue, Response, RichText, Ui};
 use egui_plot::{
     HLine, HoverPosition, Line, LineStyle, PlotImage, PlotPoint, PlotPoints, PlotTransform, PlotUi, Text, VLine,
 };
@@ -97,26 +98,38 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
     }
     toolbar(ui, state);
     if state.display.map.shown == Shown::Interferogram {
-        optics(ui, state);
+        optics::ui(ui, &mut state.display.map);
     }
     let stale = state.picture_is_stale(ui.input(|i| i.time));
-    let Some(picture) = state.picture.clone().filter(Picture::has_plane) else {
+    let Some(picture) = state.picture.as_ref().filter(|picture| picture.has_plane()) else {
         ui.centered_and_justified(|ui| ui.weak("The first picture is being computed"));
         return;
     };
     if stale {
-        super::profiles::stale_note(ui, &picture);
+        super::profiles::stale_note(ui, picture);
     }
-    state.map.follow(ui.ctx(), &picture, &state.display.map);
+    state.map.follow(ui.ctx(), picture, &state.display.map);
+    let drawing = Drawing {
+        picture,
+        images: &state.map,
+        view: state.display.map,
+        cuts: state.display.cuts,
+        fit: state.fit_plots,
+        stale,
+    };
     let height = ui.available_height();
-    ui.horizontal_top(|ui| {
-        let width = (ui.available_width() - SCALE_WIDTH - 8.0).max(200.0);
-        ui.vertical(|ui| {
-            ui.set_width(width);
-            map(ui, state, &picture, height, stale);
-        });
-        scale::ui(ui, &state.map, &picture, &state.display.map, height);
-    });
+    let (response, transform) = ui
+        .horizontal_top(|ui| {
+            let width = (ui.available_width() - SCALE_WIDTH - 8.0).max(200.0);
+            let drawn = ui.vertical(|ui| {
+                ui.set_width(width);
+                drawing.ui(ui, height)
+            });
+            scale::ui(ui, drawing.images, picture, &drawing.view, height);
+            drawn.inner
+        })
+        .inner;
+    drag_cuts(ui, state, &response, &transform);
 }
 
 fn toolbar(ui: &mut Ui, state: &mut State) {
@@ -179,80 +192,54 @@ pub fn cuts_ui(ui: &mut Ui, state: &mut State) {
     }
 }
 
-fn optics(ui: &mut Ui, state: &mut State) {
-    let view = &mut state.display.map;
-    let quiet = Palette::of(ui).quiet;
-    ui.horizontal_wrapped(|ui| {
-        let tip = "630, 532 and 460 nm at once, as a three-colour camera sees them";
-        ui.selectable_value(&mut view.three_colors, true, "Three colours").on_hover_text(tip);
-        ui.selectable_value(&mut view.three_colors, false, "Monochromatic").on_hover_text("One wavelength, in grey");
-        let rig = &mut view.rig;
-        let field = |ui: &mut Ui, text: &str, name: &str, tip: &str, value: &mut f64, scale: f64, range: (f64, f64), speed: f64, unit: &str, on: bool| {
-            ui.label(rich(text, 13.5, ui.visuals().text_color())).on_hover_text(tip);
-            let mut shown = *value / scale;
-            let drag = DragValue::new(&mut shown).range(range.0..=range.1).speed(speed).suffix(unit).max_decimals(2);
-            let response = ui.add_enabled(on, drag).on_hover_text(tip);
-            let response = named(ui, response, name);
-            if described(ui, response, tip).changed() {
-                *value = shown * scale;
-            }
-        };
-        let mono = !view.three_colors;
-        field(ui, "{λ}", "Wavelength", "Wavelength of the monochromatic light in vacuum", &mut rig.wavelength_m, 1e-9, (380.0, 780.0), 1.0, " nm", mono);
-        field(ui, "{n}", "Refractive index", "Of the oil; under 1 GPa it is some per cent higher", &mut rig.refractive_index, 1.0, (1.0, 2.5), 0.005, "", true);
-        field(ui, "{φ}", "Phase", "What the reflections at coating and ball add; 180° makes touching surfaces dark", &mut rig.phase, std::f64::consts::PI / 180.0, (0.0, 360.0), 1.0, "°", true);
-        field(ui, "{V}", "Visibility", "Contrast of the fringes: 1 where both beams are equally strong", &mut rig.visibility, 1.0, (0.0, 1.0), 0.01, "", true);
-        let spacing = numbers::length(rig.fringe_spacing_m(rig.wavelength_m));
-        let text = if mono {
-            format!("{{I}} = ½(1 + {{V}} cos(4π{{n}}{{h}}/{{λ}} + {{φ}})); one fringe is {spacing}")
-        } else {
-            "{I} = ½(1 + {V} cos(4π{n}{h}/{λ} + {φ})) at 630, 532 and 460 nm".to_owned()
-        };
-        ui.label(rich(&text, 12.5, quiet)).on_hover_text(
-            "Two-beam interference: Cameron & Gohar 1966, Proc. R. Soc. A 291; Wedeven, Evans & Cameron 1971, ASME J. Lubr. Technol. 93",
-        );
-    });
+/// What is drawn in one frame.
+struct Drawing<'a> {
+    picture: &'a Picture,
+    images: &'a ContactMap,
+    view: MapView,
+    cuts: Cuts,
+    fit: bool,
+    stale: bool,
 }
 
-fn map(ui: &mut Ui, state: &mut State, picture: &Picture, height: f32, stale: bool) {
-    let palette = Palette::of(ui);
-    let (cuts, view, fit) = (state.display.cuts, state.display.map, state.fit_plots);
-    let images = &state.map;
-    let line_color = contour_color(view.shown);
-    let response = axes::plot(ui, "contact map", height, "{X} = {x}/{a}", "{Y} = {y}/{a}")
-        .data_aspect(1.0)
-        .default_x_bounds(X_RANGE.0, X_RANGE.1)
-        .default_y_bounds(Y_RANGE.0, Y_RANGE.1)
-        .allow_drag(!images.is_dragging())
-        .label_formatter(|at| hover(picture, &view, at))
-        .show(ui, |plot| {
-            axes::fit(plot, fit);
-            image(plot, images, stale);
-            if view.contours {
-                for (k, (name, line)) in images.contours().iter().enumerate() {
-                    let line =
-                        Line::new("", PlotPoints::Borrowed(line)).id(("contour", k)).color(line_color).width(1.0);
-                    plot.line(line.allow_hover(false));
-                    if let Some((at, text)) = name {
-                        let text = RichText::new(text)
-                            .size(10.5)
-                            .color(line_color)
-                            .background_color(Color32::from_black_alpha(110));
-                        plot.text(Text::new("", *at, text).id(("contour name", k)).allow_hover(false));
-                    }
+impl Drawing<'_> {
+    fn ui(&self, ui: &mut Ui, height: f32) -> (Response, PlotTransform) {
+        let palette = Palette::of(ui);
+        let Self { picture, images, view, cuts, fit, stale } = *self;
+        let shown = axes::plot(ui, "contact map", height, "{X} = {x}/{a}", "{Y} = {y}/{a}")
+            .data_aspect(1.0)
+            .default_x_bounds(X_RANGE.0, X_RANGE.1)
+            .default_y_bounds(Y_RANGE.0, Y_RANGE.1)
+            .allow_drag(!images.is_dragging())
+            .label_formatter(|at| hover(picture, &view, at))
+            .show(ui, |plot| {
+                axes::fit(plot, fit);
+                image(plot, images, stale);
+                if view.contours {
+                    contour_lines(plot, images, contour_color(view.shown));
                 }
-            }
-            let hertz = PlotPoints::from_parametric_callback(|t| (t.cos(), t.sin()), 0.0..=std::f64::consts::TAU, 181);
-            let hertz = Line::new("", hertz).id("hertz").color(faded(Color32::WHITE, 0.75)).width(1.0);
-            plot.line(hertz.style(LineStyle::dashed_dense()).allow_hover(false));
-            let accent = if view.shown == Shown::Interferogram { Color32::WHITE } else { palette.accent };
-            let width = 1.6;
-            plot.vline(VLine::new("", cuts.x).id("cut x").color(accent).width(width).allow_hover(false));
-            plot.hline(HLine::new("", cuts.y).id("cut y").color(accent).width(width).allow_hover(false));
-        });
-    let plot = named(ui, response.response, "Map of the contact");
-    let plot = described(ui, plot, &spoken(picture, &view));
-    drag_cuts(ui, state, &plot, &response.transform);
+                let circle = |t: f64| (t.cos(), t.sin());
+                let hertz = PlotPoints::from_parametric_callback(circle, 0.0..=std::f64::consts::TAU, 181);
+                let hertz = Line::new("", hertz).id("hertz").color(faded(Color32::WHITE, 0.75)).width(1.0);
+                plot.line(hertz.style(LineStyle::dashed_dense()).allow_hover(false));
+                let color = if view.shown == Shown::Interferogram { Color32::WHITE } else { palette.accent };
+                plot.vline(VLine::new("", cuts.x).id("cut x").color(color).width(1.6).allow_hover(false));
+                plot.hline(HLine::new("", cuts.y).id("cut y").color(color).width(1.6).allow_hover(false));
+            });
+        let response = named(ui, shown.response, "Map of the contact");
+        (described(ui, response, &spoken(picture, &view)), shown.transform)
+    }
+}
+
+fn contour_lines<'a>(plot: &mut PlotUi<'a>, images: &'a ContactMap, color: Color32) {
+    for (k, (name, line)) in images.contours().iter().enumerate() {
+        let line = Line::new("", PlotPoints::Borrowed(line)).id(("contour", k)).color(color).width(1.0);
+        plot.line(line.allow_hover(false));
+        if let Some((at, text)) = name {
+            let text = RichText::new(text).size(10.5).color(color).background_color(Color32::from_black_alpha(110));
+            plot.text(Text::new("", *at, text).id(("contour name", k)).allow_hover(false));
+        }
+    }
 }
 
 fn image(plot: &mut PlotUi<'_>, images: &ContactMap, stale: bool) {
@@ -308,7 +295,7 @@ fn spoken(picture: &Picture, view: &MapView) -> String {
     )
 }
 
-fn drag_cuts(ui: &Ui, state: &mut State, response: &egui::Response, transform: &PlotTransform) {
+fn drag_cuts(ui: &Ui, state: &mut State, response: &Response, transform: &PlotTransform) {
     let cuts = state.display.cuts;
     let spot = transform.position_from_point(&PlotPoint::new(cuts.x, cuts.y));
     let near = |p: egui::Pos2| [(p.x - spot.x).abs() < GRAB, (p.y - spot.y).abs() < GRAB];
