@@ -12,6 +12,7 @@ mod start;
 #[cfg(test)]
 mod tests;
 mod traction;
+pub mod transient;
 
 pub use line::{LineSystem, SolveOptions};
 pub use point::{PointOptions, PointSolver};

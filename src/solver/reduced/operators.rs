@@ -241,8 +241,7 @@ impl Operators {
                 upwind: geometry.upwind.map(|w| w * first),
                 west: geometry.west * second,
                 east: geometry.east * second,
-                south: 0.0,
-                north: 0.0,
+                ..RowGeometry::default()
             };
             let center = &s.nodes[stencil[2]];
             let nodes = [&s.nodes[stencil[0]], &s.nodes[stencil[1]], center, &s.nodes[stencil[3]], center, center];
