@@ -210,8 +210,7 @@ impl Trajectory {
         let ends = [self.at(quantity, from)?, self.at(quantity, to)?];
         let inside = self.moments.iter().filter(|moment| moment.time > from && moment.time < to);
         let values = ends.into_iter().chain(inside.map(|moment| moment.value(quantity)));
-        let (low, high) =
-            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
         Some(0.5 * (high - low))
     }
 
