@@ -14,6 +14,7 @@ mod start;
 #[cfg(test)]
 mod tests;
 mod traction;
+pub mod transient;
 
 pub use contact_solver::ContactSolver;
 pub use line::{LineSystem, SolveOptions};
