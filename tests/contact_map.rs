@@ -68,7 +68,8 @@ fn the_switch_keeps_m_and_l_and_undo_brings_the_line_back() {
     assert_eq!(harness.state().nodes(), Some((151, 41)));
     solved(&mut harness, (301, 59));
     assert_eq!(harness.state().badge(), "Verified");
-    assert!(harness.get_by_label("Load w").accesskit_node().value().is_some_and(|w| w.parse::<f64>().is_ok()));
+    let load = harness.get_by_role_and_label(Role::TextInput, "Load w").accesskit_node().value();
+    assert!(load.is_some_and(|w| w.parse::<f64>().is_ok_and(|w| (10.0..100.0).contains(&w))), "in newtons");
     harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
     wait(&mut harness, "the line contact", |app| !app.is_point() && app.central_film().is_some() && !app.busy());
     assert_eq!(harness.state().nodes().map(|n| n.1), Some(1));
@@ -82,7 +83,7 @@ fn the_map_shows_fields_and_fringes_and_its_cuts_feed_the_profiles() {
     click(&mut harness, "Contact map");
     let said = harness.get_by_label("Map of the contact").accesskit_node().description().unwrap_or_default();
     assert!(said.starts_with("Film map of M") && said.contains("smallest"), "{said}");
-    for name in ["Pressure map", "Interferogram", "Monochromatic", "Three colours", "Contours", "Film map"] {
+    for name in ["Pressure map", "Contours", "Interferogram", "Monochromatic", "Three colours", "Film map"] {
         click(&mut harness, name);
     }
     // The line at X = 0 is taken along by the hand.
@@ -179,7 +180,9 @@ fn the_map_leaves_as_table_and_picture() {
     click(&mut harness, "Contact map");
     let folder = std::env::temp_dir().join(format!("ehl-explorer-map-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
-    for (button, name) in [("Export CSV…", "map.csv"), ("Export SVG…", "map.svg"), ("Export PNG…", "map.png")] {
+    for (button, name) in [("Data as CSV…", "map.csv"), ("Figure as SVG…", "map.svg"), ("Image as PNG…", "map.png")]
+    {
+        click(&mut harness, "Export map");
         click(&mut harness, button);
         harness.get_by_label("Path of the file").focus();
         harness.run();

@@ -391,9 +391,10 @@ impl State {
             let rest = ctx.input(|i| i.time) - self.changed_at;
             if rest >= REST_S {
                 self.verify_due = false;
-                if self.picture.as_ref().is_some_and(|p| p.origin != Origin::Full) && !self.full_is_current() {
+                let reduced = self.passed_over.is_none();
+                if reduced && !self.full_is_current() {
                     self.submit(ctx, JobKind::Verify);
-                } else if self.plane().is_some() && !self.is_settled(&self.key()) {
+                } else if !reduced && !self.is_settled(&self.key()) {
                     self.submit(ctx, JobKind::Refine);
                 }
             } else {

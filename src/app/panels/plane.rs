@@ -28,7 +28,7 @@ const PRESETS: [(PointGridSpec, &str, &str); 5] = [
         "The dissertation’s, four times finer in the side lobes: H_min within 2 % of ΔY 0.0125",
     ),
     (PointGridSpec::FINE, "Fine, 601×81", "ΔX 0.01, ΔY 0.025: H_c 0.4 % too small at M = 200; seconds"),
-    (PointGridSpec::FINEST, "Finest, 601×118", "The fine one, four times finer in the side lobes; several seconds"),
+    (PointGridSpec::FINEST, "Finest, 601×116", "The fine one, four times finer in the side lobes; several seconds"),
 ];
 
 /// The group Grid; nothing for a line contact.

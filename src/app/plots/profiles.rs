@@ -248,7 +248,9 @@ impl<'a> Scene<'a> {
 /// A plot of the stack: shared X axis and cursor.
 fn stacked<'a>(ui: &Ui, direction: Direction, id: &str, height: f32, x_title: &str, y_title: &str) -> Plot<'a> {
     let group = Id::unique(direction.id("profiles"));
+    let marks = if direction == Direction::Along { 9.0 } else { 5.0 };
     axes::plot(ui, &direction.id(id), height, x_title, y_title)
+        .x_grid_spacer(move |input| axes::round_marks(input, marks))
         .link_axis(group, Vec2b::new(true, false))
         .link_cursor(group, Vec2b::new(true, false))
         .set_margin_fraction(egui::vec2(0.0, 0.0))

@@ -226,7 +226,7 @@ fn contour(kind: ContactKind, film: f64) -> Vec<PlotPoint> {
 fn names(kind: ContactKind) -> Vec<(Regime, PlotPoint)> {
     let places = match kind {
         ContactKind::Line => [(0.62, 0.6), (30.0, 0.5), (0.95, 14.0), (480.0, 22.0)],
-        ContactKind::Point => [(1.0, 2.5), (60.0, 0.45), (5.5, 22.0), (900.0, 4.0)],
+        ContactKind::Point => [(1.0, 2.5), (60.0, 0.45), (5.5, 22.0), (800.0, 13.5)],
     };
     Regime::ALL.into_iter().zip(places).map(|(regime, (m, l))| (regime, point(m, l))).collect()
 }

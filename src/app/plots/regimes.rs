@@ -30,7 +30,7 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
     let wide = ui.available_width() > 760.0;
     if wide {
         ui.horizontal_top(|ui| {
-            let table = 350.0;
+            let table = if state.document.point.kind == ContactKind::Line { 350.0 } else { 384.0 };
             let width = ui.available_width() - table - 14.0;
             ui.vertical(|ui| {
                 ui.set_width(width);
@@ -68,9 +68,7 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
     ui.horizontal_wrapped(|ui| {
         let hint = match kind {
             ContactKind::Line => "Drag the contact across the chart. Contours are Moes’ film number ({h}/{R})/√(2{U})",
-            ContactKind::Point => {
-                "Drag the contact across the chart. Contours are the film number ({h}/{R})/√(2{U}) of Nijenbanning, Venner and Moes"
-            }
+            ContactKind::Point => "Drag the contact. Contours: ({h}/{R})/√(2{U}) of Nijenbanning, Venner and Moes",
         };
         ui.label(rich(hint, 12.5, palette.quiet));
         toolbar_export = ui.button("Export CSV…").on_hover_text("Contours, boundaries and snapshots").clicked();

@@ -56,8 +56,12 @@ impl State {
             Outcome::Solved(solution, wall_s) if solution.converged() => {
                 self.full_wall_s = Some(wall_s);
                 self.last_report = Some((job.key, solution.report.clone()));
-                let full = Picture::new(job.key, Origin::Full, Arc::from(solution), self.display.cuts);
                 let reduced = self.picture.as_ref().is_some_and(|p| p.key == job.key && p.origin != Origin::Full);
+                if !reduced && self.plane().is_some_and(|plane| solution.mesh != Mesh::Point(plane)) {
+                    // Another grid has been chosen meanwhile, and answers later.
+                    return;
+                }
+                let full = Picture::new(job.key, Origin::Full, Arc::from(solution), self.display.cuts);
                 if job.key == self.key() && self.plane().is_some() && !reduced {
                     self.failure = None;
                     self.picture = Some(full.clone());

@@ -92,7 +92,7 @@ impl PointGridSpec {
     /// 601×81 nodes.
     pub const FINE: Self = Self::uniform(0.01, 0.025, (-4.0, 2.0, -2.0));
 
-    /// 601×118 nodes, four times finer in the side lobes than the former.
+    /// 601×116 nodes, four times finer in the side lobes than the former.
     pub const FINEST: Self = Self { refinement: 4.0, ..Self::FINE };
 
     /// Equidistant nodes in both directions; the domain is inlet, outlet and outer edge.

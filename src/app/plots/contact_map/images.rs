@@ -50,7 +50,8 @@ impl ContactMap {
             None => self.texture = Some(ctx.load_texture("contact map", Arc::clone(&image), options)),
         }
         self.image = Some(image);
-        self.contours = if view.contours { contours(solution, view.shown, self.range) } else { Vec::new() };
+        let lines = view.contours && view.shown != Shown::Interferogram;
+        self.contours = if lines { contours(solution, view.shown, self.range) } else { Vec::new() };
         self.made_of = Some((Arc::clone(solution), *view));
     }
 
@@ -88,7 +89,9 @@ impl ContactMap {
 /// Ends of the scale: round, so that colours stay still while the contact moves.
 fn range(solution: &Solution, shown: Shown) -> (f64, f64) {
     match shown {
-        Shown::Film | Shown::Interferogram => (0.0, numbers::round_up(2.5 * solution.scalars.h_c)),
+        // Little more than the contact itself: its side lobes are what the colours are for.
+        Shown::Film => (0.0, numbers::round_up(1.5 * solution.scalars.h_c)),
+        Shown::Interferogram => (0.0, numbers::round_up(2.5 * solution.scalars.h_c)),
         Shown::Pressure => (0.0, numbers::round_up(solution.scalars.p_max)),
     }
 }

@@ -139,29 +139,37 @@ fn toolbar(ui: &mut Ui, state: &mut State) {
         for shown in Shown::ALL {
             ui.selectable_value(&mut state.display.map.shown, shown, shown.name()).on_hover_text(shown.tip());
         }
-        ui.checkbox(&mut state.display.map.contours, "Contours")
-            .on_hover_text("Lines of equal value; in an interferogram fringes are such lines already");
+        let field = state.display.map.shown != Shown::Interferogram;
+        ui.add_enabled(field, egui::Checkbox::new(&mut state.display.map.contours, "Contours"))
+            .on_hover_text("Lines of equal value")
+            .on_disabled_hover_text("Fringes are lines of equal film already");
         cuts_ui(ui, state);
-        let there = state.picture.as_ref().is_some_and(Picture::has_plane);
-        let button = |ui: &mut Ui, name: &str, tip: &str| {
-            ui.add_enabled(there, egui::Button::new(name)).on_hover_text(tip).clicked()
-        };
-        let csv = button(ui, "Export CSV…", "X, Y, P, H of all nodes of both halves, with their SI twins");
-        let svg = button(ui, "Export SVG…", "The map with its axes, contours, scale and parameters");
-        let png = button(ui, "Export PNG…", "The map alone, pixel by pixel");
-        let Some(picture) = state.picture.as_ref().filter(|_| csv || svg || png) else { return };
-        let purpose = if csv {
-            Purpose::Csv { text: export::csv(picture) }
-        } else if svg {
-            Purpose::Picture {
-                bytes: export::svg(picture, &state.map, &state.display.map).into_bytes().into(),
-                extension: "svg",
-            }
-        } else {
-            Purpose::Picture { bytes: state.map.png().into(), extension: "png" }
-        };
+        let Some(purpose) = ui.menu_button("Export map", |ui| export_menu(ui, state)).inner.flatten() else { return };
         state.ask_path(&ctx, purpose);
     });
+}
+
+/// The three forms in which the map leaves.
+fn export_menu(ui: &mut Ui, state: &State) -> Option<Purpose> {
+    let picture = state.picture.as_ref().filter(|picture| picture.has_plane())?;
+    let item = |ui: &mut Ui, name: &str, tip: &str| {
+        let clicked = ui.button(name).on_hover_text(tip).clicked();
+        if clicked {
+            ui.close();
+        }
+        clicked
+    };
+    let csv = item(ui, "Data as CSV…", "X, Y, P, H of all nodes of both halves, with their SI twins");
+    let svg = item(ui, "Figure as SVG…", "The map with its axes, contours, scale and parameters");
+    let png = item(ui, "Image as PNG…", "The map alone, pixel by pixel");
+    if csv {
+        Some(Purpose::Csv { text: export::csv(picture) })
+    } else if svg {
+        let text = export::svg(picture, &state.map, &state.display.map);
+        Some(Purpose::Picture { bytes: text.into_bytes().into(), extension: "svg" })
+    } else {
+        png.then(|| Purpose::Picture { bytes: state.map.png().into(), extension: "png" })
+    }
 }
 
 /// Where the contact is cut, as numbers.
@@ -184,11 +192,13 @@ pub fn cuts_ui(ui: &mut Ui, state: &mut State) {
             "Where the profile along X is taken; drag the line in the map",
         ),
     ] {
-        let color = ui.visuals().text_color();
-        ui.label(rich(&format!("Cut {symbol}"), 13.5, color)).on_hover_text(tip);
-        let field = DragValue::new(value).range(range).speed(0.01).fixed_decimals(2);
-        let response = ui.add(field).on_hover_text(tip);
-        named(ui, response, name);
+        ui.horizontal(|ui| {
+            let color = ui.visuals().text_color();
+            ui.label(rich(&format!("Cut {symbol}"), 13.5, color)).on_hover_text(tip);
+            let field = DragValue::new(value).range(range).speed(0.01).fixed_decimals(2);
+            let response = ui.add(field).on_hover_text(tip);
+            named(ui, response, name);
+        });
     }
 }
 
@@ -215,9 +225,7 @@ impl Drawing<'_> {
             .show(ui, |plot| {
                 axes::fit(plot, fit);
                 image(plot, images, stale);
-                if view.contours {
-                    contour_lines(plot, images, contour_color(view.shown));
-                }
+                contour_lines(plot, images);
                 let circle = |t: f64| (t.cos(), t.sin());
                 let hertz = PlotPoints::from_parametric_callback(circle, 0.0..=std::f64::consts::TAU, 181);
                 let hertz = Line::new("", hertz).id("hertz").color(faded(Color32::WHITE, 0.75)).width(1.0);
@@ -231,7 +239,9 @@ impl Drawing<'_> {
     }
 }
 
-fn contour_lines<'a>(plot: &mut PlotUi<'a>, images: &'a ContactMap, color: Color32) {
+/// Lines that show on every colour of the map.
+fn contour_lines<'a>(plot: &mut PlotUi<'a>, images: &'a ContactMap) {
+    let color = Color32::from_white_alpha(170);
     for (k, (name, line)) in images.contours().iter().enumerate() {
         let line = Line::new("", PlotPoints::Borrowed(line)).id(("contour", k)).color(color).width(1.0);
         plot.line(line.allow_hover(false));
@@ -248,14 +258,6 @@ fn image(plot: &mut PlotUi<'_>, images: &ContactMap, stale: bool) {
     let size = egui::vec2((to - from) as f32, (-2.0 * edge) as f32);
     let tint = if stale { Color32::from_gray(120) } else { Color32::WHITE };
     plot.image(PlotImage::new("", texture, center, size).tint(tint).id("field").allow_hover(false));
-}
-
-/// Lines that show on every colour of what is drawn.
-fn contour_color(shown: Shown) -> Color32 {
-    match shown {
-        Shown::Film | Shown::Pressure => Color32::from_white_alpha(170),
-        Shown::Interferogram => Color32::from_rgb(0xFF, 0xE0, 0x60),
-    }
 }
 
 fn hover(picture: &Picture, view: &MapView, at: &HoverPosition<'_>) -> Option<String> {

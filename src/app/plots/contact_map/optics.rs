@@ -57,15 +57,17 @@ const VISIBILITY: Dial = Dial {
 
 impl Dial {
     fn ui(&self, ui: &mut Ui, value: &mut f64) {
-        ui.label(rich(self.symbol, 13.5, ui.visuals().text_color())).on_hover_text(self.tip);
-        let mut shown = *value / self.scale;
-        let (low, high) = self.range;
-        let field = DragValue::new(&mut shown).range(low..=high).speed(self.speed).suffix(self.unit).max_decimals(2);
-        let response = ui.add(field).on_hover_text(self.tip);
-        let response = named(ui, response, self.name);
-        if described(ui, response, self.tip).changed() {
-            *value = shown * self.scale;
-        }
+        ui.horizontal(|ui| {
+            ui.label(rich(self.symbol, 13.5, ui.visuals().text_color())).on_hover_text(self.tip);
+            let mut shown = *value / self.scale;
+            let (low, high) = self.range;
+            let field = DragValue::new(&mut shown).range(low..=high).speed(self.speed).suffix(self.unit);
+            let response = ui.add(field.max_decimals(2)).on_hover_text(self.tip);
+            let response = named(ui, response, self.name);
+            if described(ui, response, self.tip).changed() {
+                *value = shown * self.scale;
+            }
+        });
     }
 }
 

@@ -135,13 +135,14 @@ mod tests {
         let top = s.scalars.p_max;
         let image = raster.colored(&color_map::table(false), (0.0, top));
         assert_eq!(image.size, [raster.width, 2 * raster.rows]);
+        let rows: Vec<&[Color32]> = image.pixels.chunks_exact(raster.width).collect();
+        assert!(rows.iter().eq(rows.iter().rev()), "both halves are alike");
         let at = |x: f64, y: f64| {
             let column = ((x + 3.0) / 4.8 * raster.width as f64) as usize;
             let row = ((1.4 - y) / 2.8 * (2 * raster.rows) as f64) as usize;
             image.pixels[row.min(2 * raster.rows - 1) * raster.width + column]
         };
         for (x, y) in [(0.0, 0.3), (-0.7, 0.55), (0.9, 0.11), (-2.0, 1.2)] {
-            assert_eq!(at(x, y), at(x, -y));
             let wanted = color_map::viridis(s.at(x, y).unwrap().0 / top);
             let got = at(x, y);
             for (a, b) in [(got.r(), wanted.r()), (got.g(), wanted.g()), (got.b(), wanted.b())] {
