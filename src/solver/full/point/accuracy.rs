@@ -106,3 +106,23 @@ pub fn resolution_warning(solution: &Solution) -> Option<String> {
         )
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_second_grid_is_finer_where_that_is_affordable_and_can_be_compared() {
+        for (spec, nodes) in [
+            (PointGridSpec::QUICK, (301, 81)),
+            (PointGridSpec::DISSERTATION, (601, 81)),
+            (PointGridSpec::EXPLORER, (601, 116)),
+            (PointGridSpec::FINE, (301, 41)),
+            (PointGridSpec::FINEST, (301, 59)),
+        ] {
+            let second = second_grid(spec);
+            assert_eq!(second.nodes(), Ok(nodes), "{spec:?}");
+            assert_eq!((second.domain, second.refinement), (spec.domain, spec.refinement));
+        }
+    }
+}
