@@ -117,12 +117,7 @@ impl RowGeometry {
     #[inline]
     pub fn scaled(&self, scale: f64) -> Self {
         let (first, second) = (1.0 / scale, 1.0 / (scale * scale));
-        Self {
-            upwind: self.upwind.map(|w| w * first),
-            west: self.west * second,
-            east: self.east * second,
-            ..*self
-        }
+        Self { upwind: self.upwind.map(|w| w * first), west: self.west * second, east: self.east * second, ..*self }
     }
 
     /// The same row with diffusion across: `south` and `north` are the distances to the neighbours in Y. On the symmetry axis there is
