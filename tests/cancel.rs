@@ -2,7 +2,7 @@
 
 use ehl_explorer::solver::contact::{ContactKind, MoesRequest, si_from_moes};
 use ehl_explorer::solver::full::{PointSolver, Start, Termination};
-use ehl_explorer::solver::grid::{GridSpec, PointGridSpec};
+use ehl_explorer::solver::grid::{ContactGridSpec, GridSpec, PointGridSpec};
 use ehl_explorer::solver::observer::Observer;
 use ehl_explorer::solver::reduced::Sampling;
 use ehl_explorer::solver::training::{
@@ -36,11 +36,12 @@ fn spec(sampling: Sampling) -> TrainingSpec {
             vicinity: 8,
             limit: 120,
         },
-        windows: Windows::Given(vec![WindowSpec { m: (5.0, 200.0), grid: GridSpec::EXPLORER }]),
+        windows: Windows::Given(vec![WindowSpec { m: (5.0, 200.0), grid: ContactGridSpec::Line(GridSpec::EXPLORER) }]),
         pressure_loss: 1e-7,
         deformation_loss: 1e-6,
         sampling,
         rows_per_mode: 2.0,
+        penalty: 1e6,
         evidence: 300,
         seed: 1,
     }

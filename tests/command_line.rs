@@ -204,9 +204,7 @@ fn bad_points_are_refused_with_one_sentence() {
 fn bad_options_are_refused_with_one_sentence() {
     let moes = ["solve", "--moes-m", "40", "--moes-l", "10"];
     for (more, words) in [
-        (&["--contact", "point", "--method", "reduced"][..], "point"),
-        (&["--contact", "point", "--grid", "model"], "uniform"),
-        (&["--contact", "point", "--dx", "0.5"], "hold the contact"),
+        (&["--contact", "point", "--dx", "0.5"][..], "hold the contact"),
         (&["--contact", "point", "--dy", "nan"], "ΔY"),
         (&["--contact", "point", "--dx", "0.001", "--dy", "0.001"], "GB of memory"),
         (&["--contact", "point", "--domain=-4,0.5,-2"], "cuts the contact"),
@@ -418,16 +416,33 @@ fn a_reader_that_leaves_early_is_no_panic() {
 }
 
 #[test]
-fn a_shear_thinning_line_contact_slides_and_a_point_contact_refuses_to() {
-    let contact =
-        ["solve", "--lubricant", "squalane-pip", "--radius", "0.0127", "--speed", "0.74", "--modulus", "1.2388e11"];
-    let line = [&contact[..], &["--load", "144000", "--srr", "0.5", "--dx", "0.01", "--json"]].concat();
-    let output = program(&line);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    let traction = report["traction"].as_f64().unwrap();
-    // The independent solution of the same grid.
+fn shear_thinning_contacts_slide_and_show_the_shear_across_the_film() {
+    let folder = scratch("film_shear");
+    let file = folder.join("shear.csv");
+    let path = file.to_string_lossy().into_owned();
+    let contact = [
+        "solve",
+        "--json",
+        "--lubricant",
+        "squalane-pip",
+        "--radius",
+        "0.0127",
+        "--speed",
+        "0.74",
+        "--modulus",
+        "1.2388e11",
+        "--srr",
+        "0.5",
+    ];
+    let line = json(&program(&[&contact[..], &["--load", "144000", "--dx", "0.01", "--film-shear", &path]].concat()));
+    // The independent solutions of the same grids.
+    let traction = line["traction"].as_f64().unwrap();
     assert!((traction / 0.032052 - 1.0).abs() < 0.01, "{traction}");
-    let point = [&contact[..], &["--contact", "point", "--load", "23", "--srr", "0.5"]].concat();
-    assert_refused(&point, "shear-thinning");
+    let point = json(&program(&[&contact[..], &["--contact", "point", "--load", "23"]].concat()));
+    let traction = point["traction"].as_f64().unwrap();
+    assert!((traction / 0.029735 - 1.0).abs() < 0.01, "{traction}");
+    let table = std::fs::read_to_string(&file).unwrap();
+    std::fs::remove_dir_all(&folder).unwrap();
+    assert_eq!(table.lines().next().unwrap(), "X,Z,tau_zx_pa,rate_per_s");
+    assert_eq!(table.lines().count(), 1 + 601 * 11);
 }

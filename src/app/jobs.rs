@@ -3,7 +3,7 @@
 use super::solvers::Solvers;
 use crate::solver::contact::{ContactKind, OperatingPoint};
 use crate::solver::full::{Solution, Start};
-use crate::solver::grid::{GridSpec, PointGridSpec, ReferenceGrid};
+use crate::solver::grid::{ContactGrid, ContactGridSpec};
 use crate::solver::lubricant::Lubricant;
 use crate::solver::observer::{NewtonStep, Observer};
 use std::any::Any;
@@ -51,11 +51,9 @@ impl JobKind {
 #[derive(Clone, Debug)]
 pub enum GridChoice {
     /// A reduced model's own grid.
-    Existing(Arc<ReferenceGrid>),
+    Existing(ContactGrid),
     /// A specification.
-    Spec(GridSpec),
-    /// The half domain of a point contact.
-    Plane(PointGridSpec),
+    Spec(ContactGridSpec),
 }
 
 /// A full solve that is wanted.
@@ -340,6 +338,7 @@ impl Observer for Reporter<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::solver::grid::GridSpec;
 
     #[test]
     fn a_panic_becomes_a_sentence() {
@@ -351,7 +350,7 @@ mod tests {
     fn a_job_comes_back_with_what_it_was_for() {
         let mut jobs = Jobs::default();
         let key = Key { point: OperatingPoint::TABLE_2_1, lubricant: Lubricant::default() };
-        let grid = GridChoice::Spec(GridSpec::EXPLORER);
+        let grid = GridChoice::Spec(ContactGridSpec::Line(GridSpec::EXPLORER));
         jobs.submit(&egui::Context::default(), Request { kind: JobKind::Verify, key, grid, start: None });
         let begin = Instant::now();
         loop {

@@ -41,9 +41,3 @@ impl Models {
         }
     }
 }
-
-/// The kind of contact that a model serves.
-pub fn served_by(_model: &ReducedModel) -> ContactKind {
-    // Files of this version hold models of line contacts only.
-    ContactKind::Line
-}

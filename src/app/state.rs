@@ -15,7 +15,7 @@ use super::plots::{accuracy::AccuracyView, basis::BasisView, regimes::RegimeChar
 use super::training::Training;
 use crate::solver::contact::ContactKind;
 use crate::solver::full::{Mesh, Problem, Report};
-use crate::solver::grid::{GridSpec, PointGridSpec};
+use crate::solver::grid::{ContactGridSpec, GridSpec, PointGridSpec};
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
 use egui::Context;
 use serde::{Deserialize, Serialize};
@@ -367,10 +367,10 @@ impl State {
         let moes = key.point.moes();
         let window = self.model().and_then(|m| m.windows.get(m.window_for(moes)));
         let grid = match (window, self.plane()) {
-            (Some(window), _) => GridChoice::Existing(Arc::clone(&window.grid)),
-            (None, None) => GridChoice::Spec(GridSpec::EXPLORER),
-            (None, Some(plane)) if kind == JobKind::Live => GridChoice::Plane(quick(plane)),
-            (None, Some(plane)) => GridChoice::Plane(plane),
+            (Some(window), _) => GridChoice::Existing(window.grid.clone()),
+            (None, None) => GridChoice::Spec(ContactGridSpec::Line(GridSpec::EXPLORER)),
+            (None, Some(plane)) if kind == JobKind::Live => GridChoice::Spec(ContactGridSpec::Point(quick(plane))),
+            (None, Some(plane)) => GridChoice::Spec(ContactGridSpec::Point(plane)),
         };
         let start = match kind {
             // The truth must not depend on what it checks.

@@ -3,9 +3,10 @@
 use super::failure::Failure;
 use super::options::PointOptions;
 use super::{Verdict, output};
-use crate::harness::{PointReport, Workbench, profile_table};
+use crate::harness::{PointReport, Table, Workbench, film_shear_table, profile_table};
 use crate::scene::{Method, atomic_file};
 use crate::solver::contact::ContactKind;
+use crate::solver::full::Solution;
 use clap::Args;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -18,6 +19,9 @@ pub struct SolveArgs {
     /// Write the profiles as CSV: X, Y, P, H and their SI twins
     #[arg(long, value_name = "FILE.csv")]
     profiles: Option<PathBuf>,
+    /// Write the shear across the film in the plane Y = 0 as CSV: X, Z = z/h, stress in Pa, rate in 1/s
+    #[arg(long, value_name = "FILE.csv")]
+    film_shear: Option<PathBuf>,
     /// Estimate what a point contact's grid costs H_c and H_min, by a second solve on another grid
     #[arg(long)]
     accuracy: bool,
@@ -36,14 +40,16 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
     }
     let mut workbench = Workbench::new("");
     let answer = workbench.answer(&request, &method, None, &())?;
-    match (&args.profiles, answer.result()) {
-        (Some(path), Some(solution)) => {
-            atomic_file::replace(path, profile_table("profiles", solution).to_csv().as_bytes())?;
+    type Fields = fn(&Solution) -> Table;
+    let files: [(&Option<PathBuf>, Fields); 2] = [
+        (&args.profiles, |solution| profile_table("profiles", solution)),
+        (&args.film_shear, |solution| film_shear_table("film_shear", solution)),
+    ];
+    for (path, fields) in files.into_iter().filter_map(|(path, fields)| Some((path.as_ref()?, fields))) {
+        match answer.result() {
+            Some(solution) => atomic_file::replace(path, fields(solution).to_csv().as_bytes())?,
+            None => output::complain(&format!("{} is not written: the solve did not converge", path.display())),
         }
-        (Some(path), None) => {
-            output::complain(&format!("{} is not written: the solve did not converge", path.display()));
-        }
-        (None, _) => {}
     }
     let mut report = PointReport::from(&answer);
     if args.accuracy && answer.converged {

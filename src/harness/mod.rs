@@ -32,27 +32,31 @@ pub mod table;
 mod tolerance_study;
 pub mod training_file;
 mod training_study;
+mod transient_study;
 mod workbench;
 
 pub use error::HarnessError;
 pub use grid_accuracy::GridAccuracy;
 pub use model_comparison::{ModelComparison, ModelScore, Spread, compare_models};
 pub use outcome::{NamedValue, SceneOutcome, Verdict};
-pub use report::{GridReport, HertzReport, MoesReport, PointReport, ReducedReport, SiReport, profile_table};
+pub use report::{
+    GridReport, HertzReport, MoesReport, PointReport, ReducedReport, SiReport, film_shear_table, profile_table,
+};
 pub use run::run_scene;
 pub use sampling::{Random, random_points};
 pub use statistics::{median, percentile, rank_correlation};
 pub use table::Table;
 pub use workbench::{Answer, ReducedFacts, Request, Workbench};
 
+use crate::solver::contact::ContactKind;
 use crate::solver::reduced::ReducedModel;
 use model_file::ModelFileError;
 use std::sync::Arc;
 
-/// The reduced model in the program; read once, then shared.
+/// The reduced model of one kind of contact in the program.
 ///
 /// # Errors
-/// When the program holds none, or a damaged one.
-pub fn embedded_model() -> Result<Arc<ReducedModel>, ModelFileError> {
-    model_file::embedded()
+/// When the program was built with a damaged one.
+pub fn embedded_model(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileError> {
+    model_file::embedded_of(contact)
 }

@@ -1,9 +1,11 @@
 //! The door: every number of a scene is finite and sane before anything is computed from it.
 
 use super::{
-    Axis, Contacts, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, View, Within,
+    Axis, Contacts, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, TransientStudy,
+    Variable, View, Within,
 };
 use crate::solver::contact::ContactKind;
+use crate::solver::full::transient::{Frame, Keep, Transient};
 use crate::solver::grid::PointGridSpec;
 use crate::solver::lubricant::{LubricantError, ScaledShear, ShearLaw};
 use crate::solver::training::{Plan, Range, TrainingSpec, Windows};
@@ -73,10 +75,10 @@ fn grid(grid: &Grid, contact: ContactKind) -> Checked {
         (ContactKind::Line, Grid::Plane { .. }) => {
             return Err(refuse("grid", "is Plane, but a line contact has no Y; write Uniform, Graded or GradedNodes"));
         }
-        (ContactKind::Point, Grid::Uniform { .. } | Grid::GradedNodes { .. } | Grid::Model) => {
+        (ContactKind::Point, Grid::Uniform { .. } | Grid::GradedNodes { .. }) => {
             return Err(refuse(
                 "grid",
-                "must be Plane(dx: …, dy: …, domain: (…, …, …)) for a point contact, or left out",
+                "must be Plane(dx: …, dy: …, domain: (…, …, …)) or Model for a point contact, or left out",
             ));
         }
         _ => {}
@@ -103,28 +105,29 @@ fn grid(grid: &Grid, contact: ContactKind) -> Checked {
 }
 
 fn study(scene: &Scene) -> Checked {
-    if scene.contact == ContactKind::Point && scene.study.methods().iter().any(|method| *method != Method::Full) {
-        return Err(refuse(
-            "study",
-            "asks for a reduced model of a point contact, which this version does not have; write Full",
-        ));
-    }
     match &scene.study {
-        Study::Training(_)
-        | Study::ErrorSplit { .. }
-        | Study::ErrorMeasures { .. }
-        | Study::DistanceMeasure { .. }
-        | Study::PlanComparison { .. }
-        | Study::ToleranceStudy { .. }
-            if scene.contact == ContactKind::Point =>
-        {
-            Err(refuse("study", "is about reduced models, of which this version has none of a point contact"))
+        Study::ErrorSplit { .. } | Study::DistanceMeasure { .. } if scene.contact == ContactKind::Point => {
+            Err(refuse("study", "is made for line contacts only; write `contact: Line`, or another study"))
         }
+        Study::Training(spec) if spec.contact() != scene.contact => Err(refuse(
+            "study.windows",
+            format!(
+                "hold grids of {} contacts, but the scene's is a {} contact",
+                spec.contact().name(),
+                scene.contact.name()
+            ),
+        )),
         Study::Point { methods: list } => methods("study.methods", list),
-        Study::Sweep { over, methods: list } => {
+        Study::Sweep { over, methods: list, .. } => {
             methods("study.methods", list)?;
-            count("study.over (how many)", over.len(), 1, 2)?;
+            count("study.over (how many)", over.len(), 1, 3)?;
             over.iter().try_for_each(axis)?;
+            if over.iter().any(|axis| axis.vary == Variable::Alpha) && scene.lubricant.own_coefficient().is_some() {
+                return Err(refuse(
+                    "study.over.alpha",
+                    "cannot be varied: the lubricant's viscosity law determines it",
+                ));
+            }
             let points = over.iter().map(|axis| axis.values.len()).try_fold(1usize, usize::checked_mul);
             count("study.over (points)", points.unwrap_or(usize::MAX), 1, MAX_POINTS)
         }
@@ -189,6 +192,7 @@ fn study(scene: &Scene) -> Checked {
             count("study.tests", *tests, 1, MAX_TESTS)?;
             quantity_box("study.range", range)
         }
+        Study::Transient(study) => transient(scene, study),
         Study::FormulaComparison { formula, .. } if formula.film_formula().contact() != scene.contact => {
             let wanted = formula.film_formula().contact().name();
             Err(refuse(
@@ -205,14 +209,55 @@ fn study(scene: &Scene) -> Checked {
     }
 }
 
+fn transient(scene: &Scene, study: &TransientStudy) -> Checked {
+    if scene.contact == ContactKind::Point {
+        return Err(refuse(
+            "study",
+            "takes a line contact through time; this version does not do so with a point contact",
+        ));
+    }
+    if scene.lubricant.shear != ShearLaw::Newtonian {
+        return Err(refuse("lubricant.shear", "must be left out: contacts in time are Newtonian in this version"));
+    }
+    if scene.grid == Grid::Model {
+        return Err(refuse("grid", "cannot be Model for a contact in time; write Uniform, Graded or GradedNodes"));
+    }
+    count("study.frames (how many)", study.frames.len(), 1, 4)?;
+    if (1..study.frames.len()).any(|i| study.frames[..i].contains(&study.frames[i])) {
+        return Err(refuse("study.frames", "must not name a frame twice: results are named by it"));
+    }
+    number("study.duration", study.duration, 1e-6, 1e6)?;
+    if let Some(window) = study.window {
+        interval("study.window", window, 0.0, study.duration)?;
+    }
+    if let Some(places) = study.mass_between {
+        interval("study.mass_between", places, -4.0, 1.0)?;
+    }
+    let transient = Transient {
+        point: scene.point()?,
+        lubricant: scene.lubricant,
+        inputs: study.inputs.clone(),
+        frame: Frame::Fixed,
+        duration: study.duration,
+        time_step: study.time_step,
+        keep: Keep::Scalars,
+    };
+    transient.check().map_err(|problem| refuse("study", format!("is refused: {problem}")))
+}
+
 fn axis(axis: &Axis) -> Checked {
     let field = format!("study.over.{}", axis.vary.name());
-    let limit = |value: f64| number(&field, value, f64::MIN_POSITIVE, 1e15);
+    let (least, most) = axis.vary.range();
+    let limit = |value: f64| number(&field, value, least, most);
     count(&format!("{field} (values)"), axis.values.len(), 1, MAX_POINTS)?;
     match &axis.values {
-        Steps::Linear { from, to, .. } | Steps::Log { from, to, .. } => {
+        Steps::Linear { from, to, .. } => {
             limit(*from)?;
             limit(*to)
+        }
+        Steps::Log { from, to, .. } => {
+            number(&field, *from, least.max(f64::MIN_POSITIVE), most)?;
+            number(&field, *to, least.max(f64::MIN_POSITIVE), most)
         }
         Steps::List(values) => values.iter().try_for_each(|&value| limit(value)),
     }
@@ -347,11 +392,9 @@ mod tests {
         assert!(message(Scene { grid: bad_grid, ..good.clone() }).contains("grid.dx"));
         assert!(message(Scene { study: Study::Point { methods: vec![] }, ..good.clone() }).contains("methods"));
         let huge = Study::Sweep {
-            over: vec![Axis {
-                vary: super::super::Variable::M,
-                values: Steps::Log { from: 1.0, to: 9.0, n: usize::MAX },
-            }],
+            over: vec![Axis { vary: Variable::M, values: Steps::Log { from: 1.0, to: 9.0, n: usize::MAX } }],
             methods: vec![Method::Full],
+            cold: false,
         };
         assert!(message(Scene { study: huge, ..good.clone() }).contains("study.over.M"));
         let range = QuantityBox { load: (2.0, f64::NAN), ..QuantityBox::TABLE_3_1 };

@@ -3,7 +3,6 @@
 mod path_window;
 
 use super::document::Document;
-use super::model_source::served_by;
 use super::state::State;
 use crate::harness::model_file;
 use crate::scene::Scene;
@@ -150,7 +149,7 @@ impl State {
     pub fn open_path(&mut self, path: &Path) -> Result<(), String> {
         if is_model(path) {
             let model = model_file::read(path).map_err(|e| format!("{}: {e}", path.display()))?;
-            self.use_model(served_by(&model), Some(Arc::new(model)));
+            self.use_model(model.contact(), Some(Arc::new(model)));
             self.files.notice = Some(Ok(format!("Using the model {}", path.display())));
             return Ok(());
         }

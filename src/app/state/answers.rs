@@ -6,6 +6,7 @@ use crate::app::jobs::{GridChoice, JobKind, Key, Outcome, Request, Running};
 use crate::app::picture::{Comparison, Origin, Picture};
 use crate::solver::full::point::second_grid;
 use crate::solver::full::{Mesh, Report};
+use crate::solver::grid::ContactGridSpec;
 use egui::Context;
 use std::sync::Arc;
 
@@ -117,7 +118,7 @@ impl State {
         let Some(full) = self.full.as_ref().filter(|_| self.full_is_current()) else { return };
         let Mesh::Point(spec) = full.solution.mesh else { return };
         let (key, start) = (self.key(), Some(Arc::clone(&full.solution)));
-        let grid = GridChoice::Plane(second_grid(spec));
+        let grid = GridChoice::Spec(ContactGridSpec::Point(second_grid(spec)));
         self.jobs.submit(ctx, Request { kind: JobKind::Estimate, key, grid, start });
     }
 }

@@ -2,6 +2,7 @@
 
 mod attempts;
 mod band;
+mod contact_solver;
 mod cut;
 pub mod dense;
 mod gmres;
@@ -13,9 +14,11 @@ mod start;
 #[cfg(test)]
 mod tests;
 mod traction;
+pub mod transient;
 
+pub use contact_solver::ContactSolver;
 pub use line::{LineSystem, SolveOptions};
-pub use point::{PointOptions, PointSolver};
+pub use point::{PointOptions, PointSolver, PointSystem};
 pub use solution::{
     Mesh, Problem, Report, Scalars, Solution, SolveError, Termination, Traction, point_scalars_of, scalars_of,
 };

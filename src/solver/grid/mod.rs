@@ -1,8 +1,11 @@
-//! The computational domains: of a line contact along X ([`mod@line`]), of the half of a point contact that its symmetry leaves ([`mod@point`]).
+//! The computational domains: of a line contact along X ([`mod@line`]), of the half of a point contact that its symmetry leaves ([`mod@point`]),
+//! and of either kind ([`mod@contact`]).
 
+pub mod contact;
 pub mod line;
 pub mod point;
 
+pub use contact::{ContactGrid, ContactGridError, ContactGridSpec};
 pub use line::{
     FIRST_UNKNOWN, GridError, GridSpec, INLET, LineGrid, MAX_GRADED_NODES, MAX_UNIFORM_NODES, ReferenceGrid,
     registration_scale, spike_position,
@@ -11,7 +14,7 @@ pub use point::{PointGrid, PointGridError, PointGridSpec};
 
 /// First index and weights of the cubic (4-point Lagrange) interpolation at X among increasing `nodes`; a single unit weight where X
 /// is a node.
-fn cubic(nodes: &[f64], x: f64) -> (usize, [f64; 4]) {
+pub(crate) fn cubic(nodes: &[f64], x: f64) -> (usize, [f64; 4]) {
     let first = nodes.partition_point(|&node| node < x).saturating_sub(2).min(nodes.len() - 4);
     let near = &nodes[first..first + 4];
     if let Some(k) = near.iter().position(|&node| (node - x).abs() < 1e-10) {

@@ -7,6 +7,7 @@
 mod accuracy;
 mod block_tridiagonal;
 mod preconditioner;
+mod shear;
 mod start;
 #[cfg(test)]
 mod tests;
@@ -22,6 +23,7 @@ use crate::solver::observer::{NewtonStep, Observer};
 use crate::solver::reynolds::{CENTER, Node, PENALTY, STENCIL, row};
 use preconditioner::PointPreconditioner;
 use rayon::prelude::*;
+use shear::PointShear;
 use std::sync::Arc;
 
 /// Settings of a full solve of a point contact.
@@ -41,6 +43,9 @@ pub struct PointOptions {
     pub film_loss: f64,
     /// Accuracy of the linear solves, relative to the right-hand side.
     pub forcing: f64,
+    /// Whether the film integrals of a shear-thinning lubricant count as constants in the Jacobian: cheaper, and as good within rounding
+    /// of the answer, but no longer quadratic.
+    pub frozen_film_integrals: bool,
 }
 
 impl Default for PointOptions {
@@ -53,6 +58,7 @@ impl Default for PointOptions {
             largest_step: 0.4,
             film_loss: 0.8,
             forcing: 1e-2,
+            frozen_film_integrals: false,
         }
     }
 }
@@ -81,6 +87,9 @@ pub struct PointSystem {
     deformation: Vec<f64>,
     parabola: Vec<f64>,
     nodes: Vec<Node>,
+    /// What shear-thinning adds; absent for a Newtonian problem.
+    shear: Option<PointShear>,
+    frozen_film_integrals: bool,
     /// f_p at the unknowns.
     pub residual: Vec<f64>,
     /// ∂f/∂P of each row at its six nodes.
@@ -111,6 +120,8 @@ impl PointSystem {
             deformation: vec![0.0; n],
             parabola: (0..n).map(|node| grid.parabola(node)).collect(),
             nodes: vec![Node::default(); n],
+            shear: None,
+            frozen_film_integrals: false,
             residual: vec![0.0; u],
             d_p: vec![[0.0; STENCIL]; u],
             d_h: vec![[0.0; STENCIL]; u],
@@ -155,10 +166,20 @@ impl PointSystem {
 
     /// Evaluates all rows at the current state: residual and Jacobian stencils. Returns the residual norm.
     pub fn evaluate(&mut self, problem: &Problem, penalty: f64) -> f64 {
-        let state = self.pressure.par_iter().zip(&self.film).with_min_len(SHARE);
-        self.nodes.par_iter_mut().zip(state).for_each(|(node, (&p, &h))| {
-            *node = Node::new(&problem.fluid, problem.inverse_lambda, p, h);
-        });
+        match &problem.shear {
+            None => {
+                self.shear = None;
+                let state = self.pressure.par_iter().zip(&self.film).with_min_len(SHARE);
+                self.nodes.par_iter_mut().zip(state).for_each(|(node, (&p, &h))| {
+                    *node = Node::new(&problem.fluid, problem.inverse_lambda, p, h);
+                });
+            }
+            Some(law) => {
+                let shear = self.shear.get_or_insert_with(|| PointShear::new(&self.grid));
+                let fields = (self.pressure.as_slice(), self.film.as_slice());
+                shear.evaluate(problem, law, fields, self.frozen_film_integrals, &mut self.nodes);
+            }
+        }
         let (grid, nodes) = (&*self.grid, &self.nodes);
         let derivatives = self.d_p.par_iter_mut().zip(&mut self.d_h);
         self.residual.par_iter_mut().zip(derivatives).enumerate().with_min_len(SHARE).for_each(
@@ -168,6 +189,9 @@ impl PointSystem {
                 (*value, *d_p, *d_h) = (r.value, r.d_p, r.d_h);
             },
         );
+        if let Some(shear) = &mut self.shear {
+            shear.differentiate(grid);
+        }
         let square = |(k, f): (usize, &f64)| grid.weights[grid.node(k)] * f * f;
         self.residual.iter().enumerate().map(square).sum::<f64>().sqrt()
     }
@@ -180,6 +204,7 @@ impl PointSystem {
         observer: &mut dyn Observer,
         report: &mut Report,
     ) {
+        self.frozen_film_integrals = options.frozen_film_integrals;
         let mut residual = self.evaluate(problem, options.penalty);
         let (mut recent, mut cycles) = ([f64::INFINITY; 2], 0);
         report.termination = Termination::IterationLimit;
@@ -278,8 +303,21 @@ impl PointSystem {
             *r = -f * s;
         }
         self.rhs[u] = problem.load - dot(&self.grid.weights, &self.pressure);
-        let Self { krylov, grid, fft, step, step_deformation, d_p, d_h, scaling, preconditioner, rhs, update, .. } =
-            self;
+        let Self {
+            krylov,
+            grid,
+            fft,
+            step,
+            step_deformation,
+            d_p,
+            d_h,
+            scaling,
+            preconditioner,
+            rhs,
+            update,
+            shear,
+            ..
+        } = self;
         let grid = &**grid;
         krylov.solve_watched(
             rhs,
@@ -303,6 +341,9 @@ impl PointSystem {
                         *out = sum * scaling[k];
                     }
                 });
+                if let Some(shear) = shear {
+                    shear.add_product(grid, field, scaling, &mut out[..u]);
+                }
                 out[u] = dot(&grid.weights, field);
             },
             |v| preconditioner.apply(v),
