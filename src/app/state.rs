@@ -365,7 +365,10 @@ impl State {
     fn submit(&mut self, ctx: &Context, kind: JobKind) {
         let key = self.key();
         let moes = key.point.moes();
-        let window = self.model().and_then(|m| m.windows.get(m.window_for(moes)));
+        // A line contact is solved on the model's own grid wherever it lies, a point contact where the model serves it: elsewhere on the
+        // grid that was chosen.
+        let own = self.passed_over.is_none() || self.plane().is_none();
+        let window = self.model().filter(|_| own).and_then(|m| m.windows.get(m.window_for(moes)));
         let grid = match (window, self.plane()) {
             (Some(window), _) => GridChoice::Existing(window.grid.clone()),
             (None, None) => GridChoice::Spec(ContactGridSpec::Line(GridSpec::EXPLORER)),

@@ -6,6 +6,7 @@ use crate::app::numbers;
 use crate::app::state::State;
 use crate::app::theme::{Palette, rich};
 use crate::solver::contact::ContactKind;
+use crate::solver::full::Mesh;
 use crate::solver::full::point::second_grid;
 use crate::solver::grid::PointGridSpec;
 use egui::{Grid, Ui};
@@ -54,19 +55,24 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
     if wanted != chosen {
         state.document.set_plane(wanted);
     }
+    if state.model().is_some() {
+        ui.weak("Of full solutions outside the reduced model, which has its own grid");
+    }
     if let Some(warning) =
         state.picture.as_ref().filter(|_| state.picture_is_current()).and_then(|p| p.unresolved.as_ref())
     {
         warning_ui(ui, warning);
     }
-    error_ui(ui, state, chosen);
+    error_ui(ui, state);
 }
 
-fn error_ui(ui: &mut Ui, state: &mut State, chosen: PointGridSpec) {
+fn error_ui(ui: &mut Ui, state: &mut State) {
     let ctx = ui.ctx().clone();
     let runs = state.jobs.busy(JobKind::Estimate);
     let there = state.full_is_current() && !state.is_quick();
-    let (nx, ny) = second_grid(chosen).nodes().unwrap_or_default();
+    let mesh = state.full.as_ref().map(|full| full.solution.mesh);
+    let spec = if let Some(Mesh::Point(spec)) = mesh { spec } else { state.document.plane() };
+    let (nx, ny) = second_grid(spec).nodes().unwrap_or_default();
     let tip = format!(
         "Solves the same contact on {nx}×{ny} nodes and extrapolates H_c and H_min to fine grids, by the second order of the scheme"
     );
