@@ -119,7 +119,7 @@ pub fn run(quick: bool) -> Result<Bench, HarnessError> {
     }
 
     let mut rows = vec![dense, cold, warm];
-    match super::embedded_model() {
+    match super::embedded_model(ContactKind::Line) {
         Ok(model) => {
             rows.push(reduced_row(&mut Online::new(model, ReducedOptions::default()), &points, ROW_BUDGET[size]));
         }
