@@ -18,6 +18,8 @@ mod state;
 #[cfg(test)]
 mod tests;
 mod trajectories;
+#[cfg(test)]
+mod trajectories_tests;
 
 pub use adaptive::{BadPoint, Search};
 pub use build::train;
