@@ -5,7 +5,7 @@ use super::{
     Variable, View, Within,
 };
 use crate::solver::contact::ContactKind;
-use crate::solver::full::transient::{Frame, Keep, Transient};
+use crate::solver::full::transient::{Frame, Inputs, Keep, Transient};
 use crate::solver::grid::PointGridSpec;
 use crate::solver::lubricant::{LubricantError, ScaledShear, ShearLaw};
 use crate::solver::training::{Plan, Range, TrainingSpec, Windows};
@@ -233,16 +233,33 @@ fn transient(scene: &Scene, study: &TransientStudy) -> Checked {
     if let Some(places) = study.mass_between {
         interval("study.mass_between", places, -4.0, 1.0)?;
     }
-    let transient = Transient {
-        point: scene.point()?,
-        lubricant: scene.lubricant,
-        inputs: study.inputs.clone(),
-        frame: Frame::Fixed,
-        duration: study.duration,
-        time_step: study.time_step,
-        keep: Keep::Scalars,
+    let (lubricant, time_step) = (scene.lubricant, study.time_step);
+    let march = |field: &str, point, inputs: &Inputs, duration| {
+        let (frame, keep) = (Frame::Fixed, Keep::Scalars);
+        let transient = Transient { point, lubricant, inputs: inputs.clone(), frame, duration, time_step, keep };
+        transient.check().map_err(|problem| refuse(field, format!("is refused: {problem}")))
     };
-    transient.check().map_err(|problem| refuse("study", format!("is refused: {problem}")))
+    march("study", scene.point()?, &study.inputs, study.duration)?;
+    let Some(reduced) = &study.reduced else { return Ok(()) };
+    if !matches!(scene.grid, Grid::Uniform { .. } | Grid::GradedNodes { registered: false, .. }) {
+        return Err(refuse(
+            "grid",
+            "must be Uniform, or GradedNodes without registration, for a reduced model in time",
+        ));
+    }
+    number("study.reduced.loss", reduced.loss, 1e-12, 0.5)?;
+    number("study.reduced.rows_per_mode", reduced.rows_per_mode, 1.0, 20.0)?;
+    count("study.reduced.trainings (how many)", reduced.trainings.len(), 0, 64)?;
+    for (i, training) in reduced.trainings.iter().enumerate() {
+        let point = match training.at {
+            Some(at) => at.with_alpha_of(&lubricant).point(ContactKind::Line)?,
+            None => scene.point()?,
+        };
+        let field = format!("study.reduced.trainings.{i}");
+        number(&format!("{field}.duration"), training.duration, 1e-6, 1e6)?;
+        march(&field, point, &training.inputs, training.duration)?;
+    }
+    Ok(())
 }
 
 fn axis(axis: &Axis) -> Checked {
