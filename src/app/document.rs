@@ -1,7 +1,8 @@
 //! What the user edits and what a file holds: the operating point, what follows when M or L moves, the lubricant, the truncation.
 //! Undo and redo are snapshots of it.
 
-use crate::scene::{At, LoadFollower, LubricantFollower, Scene, Study, View};
+use super::transient;
+use crate::scene::{At, LoadFollower, LubricantFollower, Scene, Study, TransientStudy, View};
 use crate::solver::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::full::Problem;
 use crate::solver::lubricant::{Lubricant, ShearLaw};
@@ -55,6 +56,8 @@ pub struct Document {
     pub view: View,
     /// The training it describes; `None` until one is opened or edited.
     pub training: Option<TrainingSpec>,
+    /// The contact in time it describes; `None` until one is opened or edited.
+    pub transient: Option<TransientStudy>,
     /// The scene it was opened from: its study and expectations are kept for saving.
     pub scene: Option<Scene>,
 }
@@ -71,6 +74,7 @@ impl Default for Document {
             lubricant: Lubricant::default(),
             view: View::default(),
             training: None,
+            transient: None,
             scene: None,
         }
     }
@@ -148,9 +152,12 @@ impl Document {
         Ok(())
     }
 
-    /// Whether its file holds the training: a scene that asks another question keeps that.
+    /// Whether its file holds the training: a scene that asks another question keeps that, and a new one has room for one question.
     pub fn saves_training(&self) -> bool {
-        self.scene.as_ref().is_none_or(|scene| matches!(scene.study, Study::Training(_)))
+        match &self.scene {
+            Some(scene) => matches!(scene.study, Study::Training(_)),
+            None => self.transient.is_none(),
+        }
     }
 
     /// Chooses what follows M; what follows L changes along where both cannot be had together.
@@ -191,6 +198,7 @@ impl Document {
                 Study::Training(spec) => Some(spec.clone()),
                 _ => None,
             },
+            transient: transient::of_scene(&scene),
             scene: Some(scene),
         })
     }
@@ -203,6 +211,9 @@ impl Document {
         scene.lubricant = self.lubricant;
         if let Some(spec) = self.training.as_ref().filter(|_| self.saves_training()) {
             scene.study = Study::Training(spec.clone());
+        }
+        if let Some(study) = self.transient.as_ref().filter(|_| self.saves_transient()) {
+            scene.study = Study::Transient(study.clone());
         }
         if scene.point() != Ok(self.point) {
             scene.at = At::from(self.point);

@@ -8,6 +8,7 @@ use super::jobs::{GridChoice, JobKind, Jobs, Key, Outcome, Request, Running};
 use super::picture::{Comparison, Origin, Picture};
 use super::plots::{accuracy::AccuracyView, basis::BasisView, regimes::RegimeChart};
 use super::training::Training;
+use super::transient::TransientView;
 use crate::solver::full::{Problem, Report};
 use crate::solver::grid::GridSpec;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
@@ -116,6 +117,8 @@ pub struct State {
     pub accuracy: AccuracyView,
     /// Trainings.
     pub training: Training,
+    /// Contacts in time.
+    pub transient: TransientView,
     /// What the Regimes tab keeps between frames.
     pub regimes: RegimeChart,
     /// Plots are to be fitted to their data in this frame.
@@ -154,6 +157,7 @@ impl State {
             basis: BasisView::default(),
             accuracy: AccuracyView::default(),
             training: Training::default(),
+            transient: TransientView::default(),
             regimes: RegimeChart::default(),
             fit_plots: true,
             wanted: None,
@@ -223,6 +227,7 @@ impl State {
     /// Answers finished jobs. Called first in every frame.
     pub fn receive(&mut self) {
         self.accuracy.receive();
+        self.transient.receive();
         for (job, outcome) in self.jobs.poll() {
             match job.kind {
                 JobKind::Live => self.receive_live(&job, outcome),
@@ -415,6 +420,7 @@ impl State {
         self.document = document;
         self.entries = Entries::default();
         self.training.refused = None;
+        self.transient.refused = None;
     }
 }
 
