@@ -67,7 +67,7 @@ fn shows(harness: &Window, text: &str) -> bool {
 }
 
 fn run(harness: &mut Window) {
-    click(harness, "Run");
+    click(harness, "Run in time");
     wait(harness, "the run", |app| !app.marching());
 }
 
@@ -142,7 +142,7 @@ fn frames_are_run_compared_scrubbed_played_and_exported() {
 #[test]
 fn a_stopped_run_keeps_what_it_has_and_the_sliders_make_it_old() {
     let (mut harness, folder) = open("stopped", &scene(BREATHING, 4000.0, "Fixed"));
-    click(&mut harness, "Run");
+    click(&mut harness, "Run in time");
     wait(&mut harness, "some steps", |app| !app.marching() || app.transient_moments() > 20);
     assert!(harness.query_by_label("Progress of the contact in time").is_some());
     let begin = Instant::now();
@@ -181,19 +181,19 @@ fn a_step_that_cannot_be_taken_is_named_and_what_was_computed_stays() {
 #[test]
 fn the_set_up_is_edited_undone_refused_and_saved_with_the_scene() {
     let (mut harness, folder) = open("document", &scene(BREATHING, 2.0, "Fixed"));
-    let value = |harness: &Window, name: &str| harness.get_by_label(name).value().unwrap();
+    let value = |harness: &Window, name: &str| harness.get_by_role_and_label(Role::SpinButton, name).value().unwrap();
     assert_eq!(value(&harness, "Load A"), "0.1");
-    harness.get_by_label("Load A").set_value_accesskit(1.5);
+    harness.get_by_role_and_label(Role::SpinButton, "Load A").set_value_accesskit(1.5);
     harness.run_steps(2);
     assert!(shows(&harness, "The load falls to"), "a load through zero is refused with its time");
     assert_eq!(value(&harness, "Load A"), "0.1");
-    harness.get_by_label("Load A").set_value_accesskit(0.2);
+    harness.get_by_role_and_label(Role::SpinButton, "Load A").set_value_accesskit(0.2);
     harness.run_steps(2);
     assert!(!shows(&harness, "The load falls to") && value(&harness, "Load A") == "0.2");
     harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
     harness.run_steps(2);
     assert_eq!(value(&harness, "Load A"), "0.1");
-    harness.get_by_label("Duration T").set_value_accesskit(0.01);
+    harness.get_by_role_and_label(Role::SpinButton, "Duration T").set_value_accesskit(0.01);
     harness.run_steps(2);
     assert!(shows(&harness, "time step is 0.05"));
     click(&mut harness, "Fixed frame");

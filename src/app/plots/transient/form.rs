@@ -31,21 +31,21 @@ struct Names {
 fn names(input: Input) -> Names {
     match input {
         Input::Load => Names {
-            kind: "Load {w}",
+            kind: "Load",
             tip: "w over that of the sliders, as a function of time (2.20)",
             one: ["Load {A}", "Load {T_ex}"],
             two: ["Load {A_1}", "Load {T_1}", "Load {A_2}", "Load {T_2}"],
             steepness: "Load {s}",
         },
         Input::Speed => Names {
-            kind: "Speed {u_m}",
+            kind: "Speed",
             tip: "u_m over that of the sliders, as a function of time (2.19); it may turn round",
             one: ["Speed {A}", "Speed {T_ex}"],
             two: ["Speed {A_1}", "Speed {T_1}", "Speed {A_2}", "Speed {T_2}"],
             steepness: "Speed {s}",
         },
         Input::Radius => Names {
-            kind: "Radius {R}",
+            kind: "Radius",
             tip: "R over that of the sliders, as a function of time (2.18)",
             one: ["Radius {A}", "Radius {T_ex}"],
             two: ["Radius {A_1}", "Radius {T_1}", "Radius {A_2}", "Radius {T_2}"],
@@ -194,6 +194,8 @@ fn preview(ui: &mut Ui, inputs: &Inputs, duration: f64) {
     ];
     let plot = axes::plot(ui, "transient inputs", 96.0, "", "")
         .y_axis_min_width(36.0)
+        .x_grid_spacer(|input| axes::round_marks(input, 4.0))
+        .y_grid_spacer(|input| axes::round_marks(input, 2.0))
         .allow_zoom(false)
         .allow_drag(false)
         .include_y(0.95)

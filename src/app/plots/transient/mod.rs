@@ -46,7 +46,7 @@ fn results(ui: &mut Ui, state: &mut State) {
     status(ui, state);
     if state.transient.runs.iter().all(|run| run.trajectory.moments.is_empty()) {
         if state.transient.standing().is_none() {
-            ui.weak("Run it to see pressure and film follow the inputs.");
+            ui.weak("Run it in time to see pressure and film follow the inputs.");
         }
         return;
     }
@@ -89,7 +89,7 @@ fn buttons(ui: &mut Ui, state: &mut State) {
                 state.transient.stop();
             }
         } else if ui
-            .button("Run")
+            .button("Run in time")
             .on_hover_text("Takes the contact of the sliders through time, frame after frame")
             .clicked()
         {
@@ -170,6 +170,11 @@ fn player(ui: &mut Ui, view: &mut TransientView) {
     if view.player.playing() {
         ui.ctx().request_repaint();
     }
+}
+
+/// Marks of an axis of this width that leave their labels room.
+fn marks(width: f32) -> f64 {
+    f64::from((width - 60.0).max(80.0) / 80.0)
 }
 
 /// What each run took, and where it stands now.

@@ -24,10 +24,12 @@ pub fn ui(ui: &mut Ui, state: &State, height: f32) {
     };
     let time = view.player.time();
     let generation = view.generation;
+    let marks = super::marks(ui.available_width());
     let stacked = |name: &str, titles: (&str, &str), top: f64| {
         // The axis stays still while the profiles play.
         let id = format!("transient {name} {generation}");
         axes::plot(ui, &id, height, titles.0, titles.1)
+            .x_grid_spacer(move |input| axes::round_marks(input, marks))
             .y_axis_min_width(48.0)
             .link_axis(Id::unique(("transient profiles", generation)), Vec2b::new(true, false))
             .link_cursor(Id::unique(("transient profiles", generation)), Vec2b::new(true, false))

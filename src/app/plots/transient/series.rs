@@ -64,7 +64,9 @@ impl Chart {
         let duration = view.setup.as_ref().map_or(0.0, |setup| setup.study.duration);
         let group = Id::unique(("transient", view.generation));
         let id = format!("transient {} {}", self.name, view.generation);
+        let marks = super::marks(ui.available_width());
         let mut plot = axes::plot(ui, &id, height, titles.0, titles.1)
+            .x_grid_spacer(move |input| axes::round_marks(input, marks))
             .link_axis(group, Vec2b::new(true, false))
             .link_cursor(group, Vec2b::new(true, false))
             .include_x(0.0)
