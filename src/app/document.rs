@@ -1,7 +1,8 @@
 //! What the user edits and what a file holds: the operating point, what follows when M or L moves, the lubricant, the truncation.
 //! Undo and redo are snapshots of it.
 
-use crate::scene::{At, Grid, LoadFollower, LubricantFollower, Method, Scene, Study, View};
+use super::transient;
+use crate::scene::{At, Grid, LoadFollower, LubricantFollower, Method, Scene, Study, TransientStudy, View};
 use crate::solver::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::full::Problem;
 use crate::solver::grid::PointGridSpec;
@@ -58,6 +59,8 @@ pub struct Document {
     pub view: View,
     /// The training it describes; `None` until one is opened or edited.
     pub training: Option<TrainingSpec>,
+    /// The contact in time it describes; `None` until one is opened or edited.
+    pub transient: Option<TransientStudy>,
     /// The scene it was opened from: its study and expectations are kept for saving.
     pub scene: Option<Scene>,
 }
@@ -83,6 +86,7 @@ impl Default for Document {
             grid: Grid::Graded,
             view: View::default(),
             training: None,
+            transient: None,
             scene: None,
         }
     }
@@ -195,11 +199,12 @@ impl Document {
         Ok(())
     }
 
-    /// Whether its file holds the training: a scene that asks another question keeps that, and a contact of the other kind asks its own.
+    /// Whether its file holds the training: a scene that asks another question keeps that, a contact of the other kind asks its own, and a new
+    /// one has room for one question.
     pub fn saves_training(&self) -> bool {
         match &self.scene {
             Some(scene) => scene.contact == self.point.kind && matches!(scene.study, Study::Training(_)),
-            None => self.point.kind == ContactKind::Line,
+            None => self.point.kind == ContactKind::Line && self.transient.is_none(),
         }
     }
 
@@ -242,6 +247,7 @@ impl Document {
                 Study::Training(spec) => Some(spec.clone()),
                 _ => None,
             },
+            transient: transient::of_scene(&scene),
             scene: Some(scene),
         })
     }
@@ -262,6 +268,9 @@ impl Document {
         scene.grid = self.grid;
         if let Some(spec) = self.training.as_ref().filter(|_| self.saves_training()) {
             scene.study = Study::Training(spec.clone());
+        }
+        if let Some(study) = self.transient.as_ref().filter(|_| self.saves_transient()) {
+            scene.study = Study::Transient(study.clone());
         }
         if scene.point() != Ok(self.point) {
             scene.at = At::from(self.point);

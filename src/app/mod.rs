@@ -23,6 +23,7 @@ mod state;
 mod task;
 mod theme;
 mod training;
+mod transient;
 
 use crate::solver::contact::{ContactKind, Moes};
 use crate::solver::reduced::ReducedModel;
@@ -178,11 +179,13 @@ impl Explorer {
                 state.history.undo(&mut state.document);
                 state.entries.clear();
                 state.training.refused = None;
+                state.transient.refused = None;
             }
             Command::Redo => {
                 state.history.redo(&mut state.document);
                 state.entries.clear();
                 state.training.refused = None;
+                state.transient.refused = None;
             }
             Command::CopyReadouts => ctx.copy_text(export::readouts_table(state)),
             Command::Pin => state.pin(),
@@ -204,6 +207,7 @@ impl Explorer {
                 state.jobs.cancel_all();
                 state.training.stop();
                 state.accuracy.stop();
+                state.transient.stop();
             }
             Command::Keyboard => self.help.keyboard = true,
             Command::About => self.help.about = true,
@@ -298,6 +302,16 @@ impl Explorer {
     /// Whether a study of the Accuracy tab runs.
     pub fn studying(&self) -> bool {
         self.state.accuracy.standing().is_some()
+    }
+
+    /// Whether a contact is taken through time.
+    pub fn marching(&self) -> bool {
+        self.state.transient.standing().is_some()
+    }
+
+    /// Moments that have been computed of contacts in time.
+    pub fn transient_moments(&self) -> usize {
+        self.state.transient.runs.iter().map(|run| run.trajectory.moments.len()).sum()
     }
 
     /// Seconds that the last frame took to build.

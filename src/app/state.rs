@@ -13,6 +13,7 @@ use super::picture::{Comparison, Cuts, Origin, Picture};
 use super::plots::contact_map::{ContactMap, MapView};
 use super::plots::{accuracy::AccuracyView, basis::BasisView, regimes::RegimeChart};
 use super::training::Training;
+use super::transient::TransientView;
 use crate::solver::contact::ContactKind;
 use crate::solver::full::{Mesh, Problem, Report};
 use crate::solver::grid::{ContactGridSpec, GridSpec, PointGridSpec};
@@ -137,6 +138,8 @@ pub struct State {
     pub accuracy: AccuracyView,
     /// Trainings.
     pub training: Training,
+    /// Contacts in time.
+    pub transient: TransientView,
     /// What the Regimes tab keeps between frames.
     pub regimes: RegimeChart,
     /// Plots are to be fitted to their data in this frame.
@@ -178,6 +181,7 @@ impl State {
             basis: BasisView::default(),
             accuracy: AccuracyView::default(),
             training: Training::default(),
+            transient: TransientView::default(),
             regimes: RegimeChart::default(),
             fit_plots: true,
             wanted: None,
@@ -430,6 +434,7 @@ impl State {
         self.document = document;
         self.entries = Entries::default();
         self.training.refused = None;
+        self.transient.refused = None;
     }
 }
 

@@ -254,6 +254,12 @@ mod tests {
             include_str!("plots/training/form.rs"),
             include_str!("plots/training/mod.rs"),
             include_str!("training/mod.rs"),
+            include_str!("transient/method.rs"),
+            include_str!("transient/mod.rs"),
+            include_str!("plots/transient/form.rs"),
+            include_str!("plots/transient/mod.rs"),
+            include_str!("plots/transient/profiles.rs"),
+            include_str!("plots/transient/series.rs"),
             include_str!("../scene/view.rs"),
             include_str!("../solver/contact/film_formulas.rs"),
         ];

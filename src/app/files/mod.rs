@@ -20,6 +20,8 @@ pub enum Purpose {
     Open,
     /// Save the scene.
     Save,
+    /// Read inputs of a contact in time.
+    Inputs,
     /// Write a reduced model.
     Model {
         /// The content of its file.
@@ -37,6 +39,13 @@ pub enum Purpose {
         /// How its name ends: `png` or `svg`.
         extension: &'static str,
     },
+}
+
+impl Purpose {
+    /// Whether a file is read: then it must exist, and none is replaced.
+    fn reads(&self) -> bool {
+        matches!(self, Self::Open | Self::Inputs)
+    }
 }
 
 /// What waits for the answer about unsaved changes.

@@ -10,6 +10,7 @@ pub mod profiles;
 mod regime_chart;
 pub mod regimes;
 mod training;
+mod transient;
 
 use super::state::State;
 use egui::Ui;
@@ -31,12 +32,14 @@ pub enum Tab {
     Accuracy,
     /// Making a reduced model.
     Training,
+    /// The contact in time.
+    Transient,
 }
 
 impl Tab {
     /// All tabs in their order.
-    pub const ALL: [Self; 6] =
-        [Self::Profiles, Self::ContactMap, Self::Regimes, Self::Basis, Self::Accuracy, Self::Training];
+    pub const ALL: [Self; 7] =
+        [Self::Profiles, Self::ContactMap, Self::Regimes, Self::Basis, Self::Accuracy, Self::Training, Self::Transient];
 
     /// Title.
     pub fn title(self) -> &'static str {
@@ -47,6 +50,7 @@ impl Tab {
             Self::Basis => "Reduced basis",
             Self::Accuracy => "Accuracy",
             Self::Training => "Training",
+            Self::Transient => "Transient",
         }
     }
 }
@@ -79,6 +83,7 @@ impl Behavior<Tab> for Tabs<'_> {
                 Tab::Basis => basis::ui(ui, self.state),
                 Tab::Accuracy => accuracy::ui(ui, self.state),
                 Tab::Training => training::ui(ui, self.state),
+                Tab::Transient => transient::ui(ui, self.state),
             }
         });
         UiResponse::None

@@ -14,6 +14,7 @@ impl State {
     /// Answers finished jobs. Called first in every frame.
     pub fn receive(&mut self) {
         self.accuracy.receive();
+        self.transient.receive();
         for (job, outcome) in self.jobs.poll() {
             match job.kind {
                 JobKind::Live => self.receive_live(&job, outcome),

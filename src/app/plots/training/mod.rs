@@ -2,7 +2,7 @@
 
 mod charts;
 mod comparison;
-mod fields;
+pub(super) mod fields;
 mod form;
 
 use crate::app::controls::{message_ui, sentence, warning_ui};
