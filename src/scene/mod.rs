@@ -14,7 +14,10 @@ mod view;
 
 pub use document::{SceneError, SceneFileError};
 pub use expectation::{Expectation, Within};
-pub use study::{Axis, ComparedPlan, Contacts, Formula, OnlineScheme, QuantityBox, Steps, Study, TestRange, Variable};
+pub use study::{
+    Axis, ComparedPlan, ComparedSampling, Contacts, Formula, OnlineScheme, QuantityBox, Steps, Study, TestRange,
+    Variable,
+};
 pub use view::{LoadFollower, LubricantFollower, View};
 
 use crate::solver::contact::{ContactError, ContactKind, MoesRequest, OperatingPoint, si_from_moes};
