@@ -186,6 +186,22 @@ fn a_point_contact_prints_its_plane_and_its_fields() {
 }
 
 #[test]
+fn a_reduced_point_contact_agrees_with_the_full_one_on_its_grid() {
+    let at = ["solve", "--json", "--contact", "point", "--moes-m", "100", "--moes-l", "6"];
+    let reduced = json(&program(&[&at[..], &["--method", "reduced"]].concat()));
+    let full = json(&program(&[&at[..], &["--grid", "model"]].concat()));
+    assert_eq!((&reduced["converged"], &reduced["reduced"]["trained"]), (&true.into(), &true.into()));
+    assert_eq!((&reduced["grid"]["nx"], &reduced["grid"]["ny"]), (&full["grid"]["nx"], &full["grid"]["ny"]));
+    assert_eq!(reduced["grid"]["kind"], "model");
+    let number = |report: &Value, name: &str| report[name].as_f64().unwrap();
+    for (name, bar) in [("H_c", 5e-3), ("H_min", 1e-2), ("P_max", 1e-2)] {
+        let error = (number(&reduced, name) / number(&full, name) - 1.0).abs();
+        assert!(error < bar, "{name}: {error:.1e}");
+    }
+    assert!(number(&reduced["reduced"], "h_c_error_bound") > 0.0 && number(&reduced, "Y_H_min") < 0.0);
+}
+
+#[test]
 fn bad_points_are_refused_with_one_sentence() {
     for bad in ["nan", "inf", "0", "-1", "1e30"] {
         for option in ["--radius", "--speed", "--load", "--modulus", "--viscosity", "--alpha"] {
@@ -209,6 +225,11 @@ fn bad_options_are_refused_with_one_sentence() {
         (&["--contact", "point", "--dx", "0.001", "--dy", "0.001"], "GB of memory"),
         (&["--contact", "point", "--domain=-4,0.5,-2"], "cuts the contact"),
         (&["--contact", "point", "--domain=-4,2,-0.5"], "cuts the contact"),
+        (&["--contact", "point", "--grid", "model", "--dy", "0.05"], "--dy"),
+        (&["--contact", "point", "--method", "reduced", "--dy", "0.05"], "own grid"),
+        (&["--contact", "point", "--method", "reduced", "--rom", "assets/line.rom"], "of line contacts"),
+        (&["--contact", "point", "--grid", "model", "--rom", "assets/line.rom"], "of line contacts"),
+        (&["--method", "reduced", "--rom", "assets/point.rom"], "of point contacts"),
         (&["--contact", "sphere"], "point"),
         (&["--cavitation", "elrod"], "penalty"),
         (&["--density", "tait"], "squalane-pip"),

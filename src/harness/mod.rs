@@ -25,6 +25,7 @@ mod random_test;
 mod report;
 mod run;
 mod sampling;
+mod sampling_study;
 mod series;
 mod split_study;
 mod statistics;

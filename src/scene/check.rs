@@ -193,6 +193,20 @@ fn study(scene: &Scene) -> Checked {
             quantity_box("study.range", range)
         }
         Study::Transient(study) => transient(scene, study),
+        Study::SamplingComparison { samplings, range, tests, compare, .. } => {
+            count("study.samplings (how many)", samplings.len(), 1, 16)?;
+            count("study.tests", *tests, 1, MAX_TESTS)?;
+            count("study.compare", *compare, 0, (*tests).min(MAX_COMPARED))?;
+            for (i, way) in samplings.iter().enumerate() {
+                if way.name.is_empty() || samplings[..i].iter().any(|other| other.name == way.name) {
+                    let sentence = "must not be empty or occur twice: results are named by it";
+                    return Err(refuse("study.samplings.name", sentence));
+                }
+                number("study.samplings.rows_per_mode", way.rows_per_mode, 1.0, 20.0)?;
+                number("study.samplings.penalty", way.penalty, 1e2, 1e9)?;
+            }
+            quantity_box("study.range", range)
+        }
         Study::FormulaComparison { formula, .. } if formula.film_formula().contact() != scene.contact => {
             let wanted = formula.film_formula().contact().name();
             Err(refuse(
@@ -359,7 +373,8 @@ fn training(spec: &TrainingSpec) -> Checked {
     }
     number("study.pressure_loss", spec.pressure_loss, 1e-15, 0.5)?;
     number("study.deformation_loss", spec.deformation_loss, 1e-15, 0.5)?;
-    number("study.rows_per_mode", spec.rows_per_mode, 1.0, 100.0)
+    number("study.rows_per_mode", spec.rows_per_mode, 1.0, 100.0)?;
+    number("study.penalty", spec.penalty, 1e2, 1e9)
 }
 
 fn view(view: &View) -> Checked {

@@ -16,7 +16,10 @@ mod view;
 
 pub use document::{SceneError, SceneFileError};
 pub use expectation::{Expectation, Within};
-pub use study::{Axis, ComparedPlan, Contacts, Formula, OnlineScheme, QuantityBox, Steps, Study, TestRange, Variable};
+pub use study::{
+    Axis, ComparedPlan, ComparedSampling, Contacts, Formula, OnlineScheme, QuantityBox, Steps, Study, TestRange,
+    Variable,
+};
 pub use transient::{ReducedTransient, TrainingInputs, TransientStudy};
 pub use view::{LoadFollower, LubricantFollower, View};
 

@@ -2,7 +2,7 @@
 
 use super::{Method, ModelSource, TransientStudy};
 use crate::solver::contact::{ContactKind, FilmFormula, OperatingPoint};
-use crate::solver::reduced::{Norm, ReducedOptions};
+use crate::solver::reduced::{Norm, ReducedOptions, Sampling};
 use crate::solver::training::TrainingSpec;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -126,6 +126,21 @@ pub enum Study {
     },
     /// The contact in time, under inputs that vary: Figs. 2.6 (right), 4.4, 4.14, 4.15.
     Transient(TransientStudy),
+    /// Ways of sampling rows, on the same full solutions and basis.
+    SamplingComparison {
+        /// The scene of the training; relative paths refer to this scene's folder.
+        training: PathBuf,
+        /// The ways.
+        samplings: Vec<ComparedSampling>,
+        /// The box of random tests (3.17).
+        range: QuantityBox,
+        /// Random tests of each.
+        tests: usize,
+        /// Seed of the random tests.
+        seed: u64,
+        /// Full solutions are compared at this many of them.
+        compare: usize,
+    },
     /// Full solutions against a published film formula at all pairs of M and L in the default realisation.
     FormulaComparison {
         /// The formula.
@@ -163,6 +178,20 @@ pub struct ComparedPlan {
     /// Failure rate as published \[%\].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub published_failure_percent: Option<f64>,
+}
+
+/// One of the compared ways of sampling rows.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ComparedSampling {
+    /// Its name in results.
+    pub name: String,
+    /// How rows are sampled.
+    pub sampling: Sampling,
+    /// Sampled rows per pressure mode.
+    pub rows_per_mode: f64,
+    /// Penalty factor γ̄ of the reduced equations.
+    pub penalty: f64,
 }
 
 /// How a reduced model is solved online.
@@ -314,7 +343,8 @@ impl Study {
             | Self::DistanceMeasure { .. }
             | Self::PlanComparison { .. }
             | Self::ToleranceStudy { .. }
-            | Self::Transient(_) => &[],
+            | Self::Transient(_)
+            | Self::SamplingComparison { .. } => &[],
         }
     }
 
