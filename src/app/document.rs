@@ -1,9 +1,11 @@
 //! What the user edits and what a file holds: the operating point, what follows when M or L moves, the lubricant, the truncation.
 //! Undo and redo are snapshots of it.
 
-use crate::scene::{At, LoadFollower, LubricantFollower, Scene, Study, View};
+use super::transient;
+use crate::scene::{At, Grid, LoadFollower, LubricantFollower, Method, Scene, Study, TransientStudy, View};
 use crate::solver::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::full::Problem;
+use crate::solver::grid::PointGridSpec;
 use crate::solver::lubricant::{Lubricant, ShearLaw};
 use crate::solver::training::TrainingSpec;
 
@@ -14,7 +16,7 @@ pub enum Quantity {
     Radius,
     /// Mean entrainment speed u_m.
     Speed,
-    /// Load w per unit length.
+    /// Load w, per unit length for a line contact.
     Load,
     /// Reduced modulus E′.
     Modulus,
@@ -51,10 +53,14 @@ pub struct Document {
     pub point: OperatingPoint,
     /// Laws of the lubricant.
     pub lubricant: Lubricant,
+    /// Grid of full solutions; only a point contact's is edited here.
+    pub grid: Grid,
     /// What follows when M or L moves, the truncation, SRR and NPR.
     pub view: View,
     /// The training it describes; `None` until one is opened or edited.
     pub training: Option<TrainingSpec>,
+    /// The contact in time it describes; `None` until one is opened or edited.
+    pub transient: Option<TransientStudy>,
     /// The scene it was opened from: its study and expectations are kept for saving.
     pub scene: Option<Scene>,
 }
@@ -62,15 +68,25 @@ pub struct Document {
 /// M and L that a new document and a double click on a slider go to.
 pub const HOME: Moes = Moes { m: 40.0, l: 10.0 };
 
+/// Title of a document that nobody has named.
+fn default_title(kind: ContactKind) -> &'static str {
+    match kind {
+        ContactKind::Line => "Line contact",
+        ContactKind::Point => "Point contact",
+    }
+}
+
 impl Default for Document {
     fn default() -> Self {
         let request = MoesRequest::new(ContactKind::Line, HOME.m, HOME.l);
         Self {
-            title: "Line contact".to_owned(),
+            title: default_title(ContactKind::Line).to_owned(),
             point: si_from_moes(&request).unwrap_or(OperatingPoint::TABLE_2_1),
             lubricant: Lubricant::default(),
+            grid: Grid::Graded,
             view: View::default(),
             training: None,
+            transient: None,
             scene: None,
         }
     }
@@ -106,6 +122,41 @@ impl Document {
         self.accept(point)
     }
 
+    /// Changes between line and point contact. M, L and the lubricant stay, E′ too; radius, speed and load are those of the other kind's
+    /// default realisation.
+    ///
+    /// # Errors
+    /// A sentence when the point would be refused; the document is unchanged then.
+    pub fn set_kind(&mut self, kind: ContactKind) -> Result<(), String> {
+        let here = self.point;
+        if here.kind == kind {
+            return Ok(());
+        }
+        let moes = here.moes();
+        let request = MoesRequest {
+            modulus_pa: Some(here.modulus_pa),
+            viscosity_pa_s: Some(here.viscosity_pa_s),
+            alpha_per_pa: Some(here.alpha_per_pa),
+            ..MoesRequest::new(kind, moes.m, moes.l)
+        };
+        self.accept(si_from_moes(&request).map_err(|e| e.to_string())?)?;
+        self.grid = Grid::Graded;
+        if self.title == default_title(here.kind) {
+            default_title(kind).clone_into(&mut self.title);
+        }
+        Ok(())
+    }
+
+    /// The grid of a point contact's full solutions; the explorer's own where the scene names none.
+    pub fn plane(&self) -> PointGridSpec {
+        self.grid.point_spec().unwrap_or(PointGridSpec::EXPLORER)
+    }
+
+    /// Chooses the grid of a point contact's full solutions.
+    pub fn set_plane(&mut self, PointGridSpec { dx, dy, domain, refinement }: PointGridSpec) {
+        self.grid = Grid::Plane { dx, dy, domain, refinement };
+    }
+
     /// Sets one SI quantity; M and L follow.
     ///
     /// # Errors
@@ -131,7 +182,7 @@ impl Document {
     /// # Errors
     /// A sentence when a law is not defined here; the document is unchanged then.
     pub fn set_lubricant(&mut self, lubricant: Lubricant) -> Result<(), String> {
-        Problem::of_kind(ContactKind::Line, &self.point, lubricant).map_err(|e| e.to_string())?;
+        Problem::new(&self.point, lubricant).map_err(|e| e.to_string())?;
         self.lubricant = lubricant;
         Ok(())
     }
@@ -148,9 +199,13 @@ impl Document {
         Ok(())
     }
 
-    /// Whether its file holds the training: a scene that asks another question keeps that.
+    /// Whether its file holds the training: a scene that asks another question keeps that, a contact of the other kind asks its own, and a new
+    /// one has room for one question.
     pub fn saves_training(&self) -> bool {
-        self.scene.as_ref().is_none_or(|scene| matches!(scene.study, Study::Training(_)))
+        match &self.scene {
+            Some(scene) => scene.contact == self.point.kind && matches!(scene.study, Study::Training(_)),
+            None => self.point.kind == ContactKind::Line && self.transient.is_none(),
+        }
     }
 
     /// Chooses what follows M; what follows L changes along where both cannot be had together.
@@ -164,7 +219,7 @@ impl Document {
     }
 
     fn accept(&mut self, point: OperatingPoint) -> Result<(), String> {
-        Problem::of_kind(ContactKind::Line, &point, self.lubricant).map_err(|e| e.to_string())?;
+        Problem::new(&point, self.lubricant).map_err(|e| e.to_string())?;
         self.point = point;
         Ok(())
     }
@@ -175,7 +230,7 @@ impl Document {
     /// A sentence that names what the explorer cannot solve.
     pub fn of_scene(scene: Scene) -> Result<Self, String> {
         let point = scene.point().map_err(|e| e.to_string())?;
-        Problem::of_kind(ContactKind::Line, &point, scene.lubricant).map_err(|e| e.to_string())?;
+        Problem::new(&point, scene.lubricant).map_err(|e| e.to_string())?;
         if scene.lubricant.shear != ShearLaw::Newtonian || scene.srr != 0.0 {
             return Err(
                 "the explorer shows no sliding of shear-thinning lubricants in this version; use `ehl-explorer run`"
@@ -186,11 +241,13 @@ impl Document {
             title: scene.title.clone(),
             point,
             lubricant: scene.lubricant,
+            grid: scene.grid,
             view: scene.view.unwrap_or_default(),
             training: match &scene.study {
                 Study::Training(spec) => Some(spec.clone()),
                 _ => None,
             },
+            transient: transient::of_scene(&scene),
             scene: Some(scene),
         })
     }
@@ -201,8 +258,19 @@ impl Document {
         let mut scene = self.scene.clone().unwrap_or_else(|| Scene::at_moes(moes.m, moes.l));
         scene.title.clone_from(&self.title);
         scene.lubricant = self.lubricant;
+        if scene.contact != self.point.kind {
+            // Its question and what it expects belonged to the other kind of contact.
+            scene.contact = self.point.kind;
+            scene.study = Study::Point { methods: methods_of(self.point.kind) };
+            scene.expect.clear();
+            scene.source.clear();
+        }
+        scene.grid = self.grid;
         if let Some(spec) = self.training.as_ref().filter(|_| self.saves_training()) {
             scene.study = Study::Training(spec.clone());
+        }
+        if let Some(study) = self.transient.as_ref().filter(|_| self.saves_transient()) {
+            scene.study = Study::Transient(study.clone());
         }
         if scene.point() != Ok(self.point) {
             scene.at = At::from(self.point);
@@ -227,6 +295,14 @@ impl Document {
     /// A sentence; in practice never.
     pub fn to_ron(&self) -> Result<String, String> {
         self.to_scene().to_ron().map_err(|e| e.to_string())
+    }
+}
+
+/// How a contact is solved headless when nothing else is asked: by all that is in the program.
+fn methods_of(kind: ContactKind) -> Vec<Method> {
+    match kind {
+        ContactKind::Line => vec![Method::Full, Method::EMBEDDED],
+        ContactKind::Point => vec![Method::Full],
     }
 }
 
@@ -360,6 +436,35 @@ mod tests {
         assert_eq!(document.to_scene().study, other.study);
         let fresh = Document { training: training.clone(), ..Document::default() };
         assert_eq!(Document::of_scene(fresh.to_scene()).unwrap().training, training);
+    }
+
+    #[test]
+    fn the_other_kind_of_contact_keeps_the_numbers_and_the_lubricant() {
+        let mut document = Document::default();
+        let line = document.point;
+        document.set_kind(ContactKind::Point).unwrap();
+        let (before, after) = (line.moes(), document.point.moes());
+        assert!((after.m / before.m - 1.0).abs() < 1e-9 && (after.l / before.l - 1.0).abs() < 1e-9);
+        let kept = |p: &OperatingPoint| [p.modulus_pa, p.viscosity_pa_s, p.alpha_per_pa];
+        assert_eq!((document.point.kind, kept(&document.point)), (ContactKind::Point, kept(&line)));
+        assert_eq!((document.title.as_str(), document.plane()), ("Point contact", PointGridSpec::EXPLORER));
+        document.set_plane(PointGridSpec::DISSERTATION);
+        let again = Document::from_ron(&document.to_ron().unwrap()).unwrap();
+        assert_eq!((again.point, again.plane()), (document.point, PointGridSpec::DISSERTATION));
+        document.set_kind(ContactKind::Line).unwrap();
+        let [back, there] = [document.point, line].map(|p| p.quantities());
+        assert!(back.iter().zip(there).all(|(a, b)| (a / b - 1.0).abs() < 1e-9), "{back:?} {there:?}");
+    }
+
+    #[test]
+    fn a_scene_of_a_point_contact_opens_and_keeps_its_question_until_the_kind_changes() {
+        let scene = Scene::from_ron(include_str!("../../scenes/table_2_3.ron")).unwrap();
+        let mut document = Document::of_scene(scene.clone()).unwrap();
+        assert_eq!((document.point.kind, document.to_scene()), (ContactKind::Point, scene));
+        document.set_kind(ContactKind::Line).unwrap();
+        let scene = document.to_scene();
+        assert!(scene.expect.is_empty() && scene.check().is_ok());
+        assert_eq!(Document::of_scene(scene).unwrap().point, document.point);
     }
 
     #[test]

@@ -3,15 +3,22 @@
 use super::error::HarnessError;
 use super::sampling::random_points;
 use super::statistics::{median, percentile};
-use crate::scene::{QuantityBox, TestRange};
+use super::transient_study::timed_march;
+use crate::scene::{QuantityBox, TestRange, named_lubricant};
 use crate::solver::contact::ContactKind;
 use crate::solver::contact::OperatingPoint;
 use crate::solver::full::dense::{dense_kernel, dense_newton};
-use crate::solver::full::{FullSolver, PointSolver, Solution, SolveOptions, Start};
+use crate::solver::full::transient::{
+    Frame, FullMarch, Inputs, Keep, Marching, Signal, TimeStep, Trajectory, Transient,
+};
+use crate::solver::full::{FullSolver, PointSolver, Problem, Solution, SolveError, SolveOptions, Start};
 use crate::solver::grid::{GridSpec, PointGridSpec};
-use crate::solver::lubricant::Lubricant;
+use crate::solver::lubricant::{Lubricant, Sliding};
+use crate::solver::reduced::transient::ReducedMarch;
 use crate::solver::reduced::{Online, ReducedOptions, distance};
+use crate::solver::training::{TrajectoryTraining, train_trajectories};
 use serde::Serialize;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// What all rows of line contacts are compared with: Newton with a dense LU per step on the same 1201 nodes, as the dissertation has it.
@@ -19,6 +26,9 @@ pub const BASELINE: &str = "line/dense-newton";
 
 /// What all rows of point contacts are compared with: the cold full solve. A dense LU of 11960 unknowns would take minutes.
 pub const POINT_BASELINE: &str = "point/full/cold";
+
+/// What all rows of steps in time are compared with: the full step on the same 1201 nodes.
+pub const TRANSIENT_BASELINE: &str = "line/transient/full-step";
 
 /// The dense baseline may take this long; at least three runs are made whatever they take.
 const BASELINE_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(10)];
@@ -28,10 +38,14 @@ const ROW_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(
 const FULL_POINTS: [usize; 2] = [400, 120];
 const REDUCED_POINTS: [usize; 2] = [10_000, 2_000];
 const BASELINE_POINTS: [usize; 2] = [40, 12];
+/// Shear-thinning line contacts.
+const SHEAR_POINTS: [usize; 2] = [150, 40];
 /// Point contacts: solves, and the time after which no further ones are begun.
 const POINT_POINTS: [usize; 2] = [50, 8];
 const POINT_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(5)];
 const SEED: u64 = 2026;
+/// Duration of the march whose steps are timed.
+const MARCH_DURATION: [f64; 2] = [1.5, 0.5];
 
 /// One line of the table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -60,7 +74,8 @@ pub struct Bench {
     pub notes: Vec<String>,
 }
 
-/// Measures the table over random points of Table 3.1's box for line and of Table 3.4's for point contacts, the same points for every row.
+/// Measures the table over random points of Table 3.1's box for line and of Table 3.4's for point contacts, and of Table 3.6's ranges for
+/// shear-thinning ones: the same points for every row of a kind.
 ///
 /// `quick` takes fewer points and ends within 40 s.
 ///
@@ -86,32 +101,17 @@ pub fn run(quick: bool) -> Result<Bench, HarnessError> {
         dense.record(clock, steps < options.max_newton);
     }
 
-    let mut cold = Timing::new("line/full/cold", ROW_BUDGET[size]);
-    let mut solutions: Vec<Solution> = Vec::new();
-    for point in &points[..FULL_POINTS[size]] {
-        if cold.spent() {
-            break;
-        }
-        let clock = Instant::now();
-        let solution = solver.solve(point, lubricant, Start::Cold, &mut ())?;
-        cold.record(clock, solution.converged());
-        if solution.converged() {
-            solutions.push(solution);
-        }
-    }
-
-    let mut warm = Timing::new("line/full/warm", ROW_BUDGET[size]);
-    for (k, own) in solutions.iter().enumerate() {
-        let Some(start) = nearest_other(&solutions, k) else { break };
-        if warm.spent() {
-            break;
-        }
-        let clock = Instant::now();
-        let solution = solver.solve(&own.problem.point, lubricant, Start::From(start), &mut ())?;
-        warm.record(clock, solution.converged());
-    }
-
-    let mut rows = vec![dense, cold, warm];
+    let mut rows = vec![dense];
+    let newtonian = |point: &OperatingPoint| Problem::new(point, lubricant);
+    let problems = points[..FULL_POINTS[size]].iter().map(newtonian).collect::<Result<Vec<_>, _>>()?;
+    rows.extend(cold_and_warm(["line/full/cold", "line/full/warm"], ROW_BUDGET[size], &problems, |problem, start| {
+        Ok(solver.solve_problem(problem, start, &mut ()))
+    })?);
+    let shear = shear_problems(ContactKind::Line, SHEAR_POINTS[size])?;
+    let names = ["line/shear/full/cold", "line/shear/full/warm"];
+    rows.extend(cold_and_warm(names, ROW_BUDGET[size], &shear, |problem, start| {
+        Ok(solver.solve_problem(problem, start, &mut ()))
+    })?);
     match super::embedded_model(ContactKind::Line) {
         Ok(model) => {
             let mut online = Online::new(model, ReducedOptions::default());
@@ -120,6 +120,7 @@ pub fn run(quick: bool) -> Result<Bench, HarnessError> {
         Err(reason) => bench.notes.push(format!("line/reduced is missing: {reason}")),
     }
     bench.add(rows, BASELINE);
+    bench.add(transient_rows(size)?, TRANSIENT_BASELINE);
     let mut rows = point_rows(size)?;
     match super::embedded_model(ContactKind::Point) {
         Ok(model) => {
@@ -159,31 +160,102 @@ impl Bench {
 
 /// Full solves of point contacts on 301×41 nodes, cold and from the nearest other solution.
 fn point_rows(size: usize) -> Result<Vec<Timing>, HarnessError> {
-    let lubricant = Lubricant::default();
     let range = TestRange::Box(QuantityBox::TABLE_3_4);
+    let points = random_points(&range, ContactKind::Point, POINT_POINTS[size], SEED);
+    let newtonian = |point: &OperatingPoint| Problem::new(point, Lubricant::default());
+    let newtonian = points.iter().map(newtonian).collect::<Result<Vec<_>, _>>()?;
+    let shear = shear_problems(ContactKind::Point, POINT_POINTS[size])?;
     let mut solver = PointSolver::new(PointGridSpec::DISSERTATION)?;
-    let mut cold = Timing::new(POINT_BASELINE, POINT_BUDGET[size]);
+    let mut rows = Vec::new();
+    for (names, problems) in
+        [([POINT_BASELINE, "point/full/warm"], newtonian), (["point/shear/full/cold", "point/shear/full/warm"], shear)]
+    {
+        let solve = |problem, start: Start<'_>| solver.solve_problem(problem, start, &mut ());
+        rows.extend(cold_and_warm(names, POINT_BUDGET[size], &problems, solve)?);
+    }
+    Ok(rows)
+}
+
+/// Random contacts of Table 3.5 in the ranges of Table 3.6: u_m with a constant ratio, SRR and NPR equidistant.
+fn shear_problems(kind: ContactKind, count: usize) -> Result<Vec<Problem>, HarnessError> {
+    let lubricant = named_lubricant::SQUALANE_PIP;
+    let mut random = fastrand::Rng::with_seed(SEED);
+    let problem = |_| {
+        let point = OperatingPoint {
+            kind,
+            radius_m: 12.7e-3,
+            speed_m_per_s: 0.1 * 50f64.powf(random.f64()),
+            // The line's load makes the Hertzian pressure of the point's 23 N.
+            load: if kind == ContactKind::Line { 144e3 } else { 23.0 },
+            modulus_pa: 1.2388e11,
+            viscosity_pa_s: 0.0705,
+            alpha_per_pa: 2e-8,
+        };
+        let sliding =
+            Sliding { slide_to_roll_ratio: random.f64(), newtonian_plateau_ratio: Some(0.2 + 0.8 * random.f64()) };
+        Ok(Problem::under_sliding(&point, lubricant, sliding)?)
+    };
+    (0..count).map(problem).collect()
+}
+
+/// Solves cold, then each again from the nearest other solution.
+fn cold_and_warm(
+    names: [&'static str; 2],
+    budget: Duration,
+    problems: &[Problem],
+    mut solve: impl FnMut(Problem, Start<'_>) -> Result<Solution, SolveError>,
+) -> Result<[Timing; 2], HarnessError> {
+    let [mut cold, mut warm] = names.map(|name| Timing::new(name, budget));
     let mut solutions: Vec<Solution> = Vec::new();
-    for point in random_points(&range, ContactKind::Point, POINT_POINTS[size], SEED) {
+    for &problem in problems {
         if cold.spent() && cold.seconds.len() >= 4 {
             break;
         }
         let clock = Instant::now();
-        let solution = solver.solve(&point, lubricant, Start::Cold, &mut ())?;
+        let solution = solve(problem, Start::Cold)?;
         cold.record(clock, solution.converged());
         solutions.extend(Some(solution).filter(Solution::converged));
     }
-    let mut warm = Timing::new("point/full/warm", POINT_BUDGET[size]);
+    warm.begun = Instant::now();
     for (k, own) in solutions.iter().enumerate() {
         let Some(start) = nearest_other(&solutions, k) else { break };
         if warm.spent() && warm.seconds.len() >= 4 {
             break;
         }
         let clock = Instant::now();
-        let solution = solver.solve(&own.problem.point, lubricant, Start::From(start), &mut ())?;
+        let solution = solve(own.problem, Start::From(start))?;
         warm.record(clock, solution.converged());
     }
-    Ok(vec![cold, warm])
+    Ok([cold, warm])
+}
+
+/// Steps in time, of the full system and of a reduced model that reproduces them: the load of case 1 of Table 4.1 on the contact of Table
+/// 4.2, fixed frame.
+fn transient_rows(size: usize) -> Result<Vec<Timing>, HarnessError> {
+    let [radius_m, speed_m_per_s, load] = [2e-3, 5.0, 2e5];
+    let [modulus_pa, viscosity_pa_s, alpha_per_pa] = [231e9, 0.01, 1e-8];
+    let kind = ContactKind::Line;
+    let transient = Transient {
+        point: OperatingPoint { kind, radius_m, speed_m_per_s, load, modulus_pa, viscosity_pa_s, alpha_per_pa },
+        lubricant: Lubricant::default(),
+        inputs: Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 1.0 / 3.0 }),
+        frame: Frame::Fixed,
+        duration: MARCH_DURATION[size],
+        time_step: TimeStep::Fixed(2.5e-3),
+        keep: Keep::Every(1),
+    };
+    let grid = GridSpec::DISSERTATION.build().map_err(SolveError::from)?;
+    let timed = |name, model: &mut dyn Marching| -> Result<(Timing, Trajectory), HarnessError> {
+        let mut timing = Timing::new(name, ROW_BUDGET[size]);
+        let (trajectory, seconds) = timed_march(model, &transient, String::new(), &())?;
+        (timing.seconds, timing.failures) = (seconds, usize::from(!trajectory.finished()));
+        Ok((timing, trajectory))
+    };
+    let (full, trajectory) = timed(TRANSIENT_BASELINE, &mut FullMarch::new(Arc::clone(&grid), &transient)?)?;
+    let settings = TrajectoryTraining { loss: 1e-5, ..TrajectoryTraining::default() };
+    let model = train_trajectories(&grid, &[trajectory], &settings, &())?;
+    let (reduced, _) = timed("line/transient/rnsa-step", &mut ReducedMarch::new(&model)?)?;
+    Ok(vec![full, reduced])
 }
 
 /// Reduced solves one after the other, with all fields and the scalars read off them where `fields` says so.
@@ -214,11 +286,16 @@ fn reduced_row(
     timing
 }
 
-/// The solution nearest to number `k` by (3.20), other than itself.
+/// The solution nearest to number `k` by (3.20) and in SRR and NPR, other than itself.
 fn nearest_other(solutions: &[Solution], k: usize) -> Option<&Solution> {
-    let here = solutions[k].problem.moes;
+    let far = |other: &Solution| {
+        let (a, b) = (&solutions[k].problem, &other.problem);
+        let plateau = |problem: &Problem| problem.sliding.newtonian_plateau_ratio.unwrap_or(1.0);
+        let sliding = a.sliding.slide_to_roll_ratio - b.sliding.slide_to_roll_ratio;
+        distance(a.moes, b.moes) + sliding.powi(2) + (plateau(a) - plateau(b)).powi(2)
+    };
     let others = solutions.iter().enumerate().filter(|&(i, _)| i != k).map(|(_, solution)| solution);
-    others.min_by(|a, b| distance(here, a.problem.moes).total_cmp(&distance(here, b.problem.moes)))
+    others.min_by(|a, b| far(a).total_cmp(&far(b)))
 }
 
 struct Timing {

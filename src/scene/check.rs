@@ -1,9 +1,11 @@
 //! The door: every number of a scene is finite and sane before anything is computed from it.
 
 use super::{
-    Axis, Contacts, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, View, Within,
+    Axis, Contacts, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, TransientStudy,
+    Variable, View, Within,
 };
 use crate::solver::contact::ContactKind;
+use crate::solver::full::transient::{Frame, Inputs, Keep, Transient};
 use crate::solver::grid::PointGridSpec;
 use crate::solver::lubricant::{LubricantError, ScaledShear, ShearLaw};
 use crate::solver::training::{Plan, Range, TrainingSpec, Windows};
@@ -116,10 +118,16 @@ fn study(scene: &Scene) -> Checked {
             ),
         )),
         Study::Point { methods: list } => methods("study.methods", list),
-        Study::Sweep { over, methods: list } => {
+        Study::Sweep { over, methods: list, .. } => {
             methods("study.methods", list)?;
-            count("study.over (how many)", over.len(), 1, 2)?;
+            count("study.over (how many)", over.len(), 1, 3)?;
             over.iter().try_for_each(axis)?;
+            if over.iter().any(|axis| axis.vary == Variable::Alpha) && scene.lubricant.own_coefficient().is_some() {
+                return Err(refuse(
+                    "study.over.alpha",
+                    "cannot be varied: the lubricant's viscosity law determines it",
+                ));
+            }
             let points = over.iter().map(|axis| axis.values.len()).try_fold(1usize, usize::checked_mul);
             count("study.over (points)", points.unwrap_or(usize::MAX), 1, MAX_POINTS)
         }
@@ -198,6 +206,7 @@ fn study(scene: &Scene) -> Checked {
             }
             quantity_box("study.range", range)
         }
+        Study::Transient(study) => transient(scene, study),
         Study::FormulaComparison { formula, .. } if formula.film_formula().contact() != scene.contact => {
             let wanted = formula.film_formula().contact().name();
             Err(refuse(
@@ -214,14 +223,72 @@ fn study(scene: &Scene) -> Checked {
     }
 }
 
+fn transient(scene: &Scene, study: &TransientStudy) -> Checked {
+    if scene.contact == ContactKind::Point {
+        return Err(refuse(
+            "study",
+            "takes a line contact through time; this version does not do so with a point contact",
+        ));
+    }
+    if scene.lubricant.shear != ShearLaw::Newtonian {
+        return Err(refuse("lubricant.shear", "must be left out: contacts in time are Newtonian in this version"));
+    }
+    if scene.grid == Grid::Model {
+        return Err(refuse("grid", "cannot be Model for a contact in time; write Uniform, Graded or GradedNodes"));
+    }
+    count("study.frames (how many)", study.frames.len(), 1, 4)?;
+    if (1..study.frames.len()).any(|i| study.frames[..i].contains(&study.frames[i])) {
+        return Err(refuse("study.frames", "must not name a frame twice: results are named by it"));
+    }
+    number("study.duration", study.duration, 1e-6, 1e6)?;
+    if let Some(window) = study.window {
+        interval("study.window", window, 0.0, study.duration)?;
+    }
+    if let Some(places) = study.mass_between {
+        interval("study.mass_between", places, -4.0, 1.0)?;
+    }
+    let (lubricant, time_step) = (scene.lubricant, study.time_step);
+    let march = |field: &str, point, inputs: &Inputs, duration| {
+        let (frame, keep) = (Frame::Fixed, Keep::Scalars);
+        let transient = Transient { point, lubricant, inputs: inputs.clone(), frame, duration, time_step, keep };
+        transient.check().map_err(|problem| refuse(field, format!("is refused: {problem}")))
+    };
+    march("study", scene.point()?, &study.inputs, study.duration)?;
+    let Some(reduced) = &study.reduced else { return Ok(()) };
+    if !matches!(scene.grid, Grid::Uniform { .. } | Grid::GradedNodes { registered: false, .. }) {
+        return Err(refuse(
+            "grid",
+            "must be Uniform, or GradedNodes without registration, for a reduced model in time",
+        ));
+    }
+    number("study.reduced.loss", reduced.loss, 1e-12, 0.5)?;
+    number("study.reduced.rows_per_mode", reduced.rows_per_mode, 1.0, 20.0)?;
+    count("study.reduced.trainings (how many)", reduced.trainings.len(), 0, 64)?;
+    for (i, training) in reduced.trainings.iter().enumerate() {
+        let point = match training.at {
+            Some(at) => at.with_alpha_of(&lubricant).point(ContactKind::Line)?,
+            None => scene.point()?,
+        };
+        let field = format!("study.reduced.trainings.{i}");
+        number(&format!("{field}.duration"), training.duration, 1e-6, 1e6)?;
+        march(&field, point, &training.inputs, training.duration)?;
+    }
+    Ok(())
+}
+
 fn axis(axis: &Axis) -> Checked {
     let field = format!("study.over.{}", axis.vary.name());
-    let limit = |value: f64| number(&field, value, f64::MIN_POSITIVE, 1e15);
+    let (least, most) = axis.vary.range();
+    let limit = |value: f64| number(&field, value, least, most);
     count(&format!("{field} (values)"), axis.values.len(), 1, MAX_POINTS)?;
     match &axis.values {
-        Steps::Linear { from, to, .. } | Steps::Log { from, to, .. } => {
+        Steps::Linear { from, to, .. } => {
             limit(*from)?;
             limit(*to)
+        }
+        Steps::Log { from, to, .. } => {
+            number(&field, *from, least.max(f64::MIN_POSITIVE), most)?;
+            number(&field, *to, least.max(f64::MIN_POSITIVE), most)
         }
         Steps::List(values) => values.iter().try_for_each(|&value| limit(value)),
     }
@@ -357,11 +424,9 @@ mod tests {
         assert!(message(Scene { grid: bad_grid, ..good.clone() }).contains("grid.dx"));
         assert!(message(Scene { study: Study::Point { methods: vec![] }, ..good.clone() }).contains("methods"));
         let huge = Study::Sweep {
-            over: vec![Axis {
-                vary: super::super::Variable::M,
-                values: Steps::Log { from: 1.0, to: 9.0, n: usize::MAX },
-            }],
+            over: vec![Axis { vary: Variable::M, values: Steps::Log { from: 1.0, to: 9.0, n: usize::MAX } }],
             methods: vec![Method::Full],
+            cold: false,
         };
         assert!(message(Scene { study: huge, ..good.clone() }).contains("study.over.M"));
         let range = QuantityBox { load: (2.0, f64::NAN), ..QuantityBox::TABLE_3_1 };

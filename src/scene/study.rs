@@ -1,6 +1,6 @@
 //! The questions a scene can ask.
 
-use super::{Method, ModelSource};
+use super::{Method, ModelSource, TransientStudy};
 use crate::solver::contact::{ContactKind, FilmFormula, OperatingPoint};
 use crate::solver::reduced::{Norm, ReducedOptions, Sampling};
 use crate::solver::training::TrainingSpec;
@@ -11,22 +11,21 @@ use std::path::PathBuf;
 /// What is asked of a scene's contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "a scene has one study: the size of the largest is the size of the scene"
-)]
 pub enum Study {
     /// The contact itself.
     Point {
         /// How it is solved.
         methods: Vec<Method>,
     },
-    /// The contact along one or two varied quantities, the last one fastest; each solve starts from its neighbour.
+    /// The contact along one to three varied quantities, the last one fastest; each solve starts from its neighbour.
     Sweep {
         /// What is varied.
         over: Vec<Axis>,
         /// How each point is solved.
         methods: Vec<Method>,
+        /// Whether full solves start cold instead.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        cold: bool,
     },
     /// The test trajectory (3.21) through a box, 0 ≤ c ≤ 2.
     Trajectory {
@@ -140,6 +139,8 @@ pub enum Study {
         /// Full solutions are compared at this many of them.
         compare: usize,
     },
+    /// The contact in time, under inputs that vary: Figs. 2.6 (right), 4.4, 4.14, 4.15.
+    Transient(TransientStudy),
     /// Full solutions against a published film formula at all pairs of M and L in the default realisation.
     FormulaComparison {
         /// The formula.
@@ -232,6 +233,10 @@ pub enum Variable {
     Viscosity,
     /// Pressure–viscosity coefficient \[1/Pa\].
     Alpha,
+    /// Slide-to-roll ratio SRR.
+    SlideToRollRatio,
+    /// Newtonian plateau ratio NPR.
+    NewtonianPlateauRatio,
 }
 
 /// Values of a varied quantity.
@@ -338,7 +343,8 @@ impl Study {
             | Self::DistanceMeasure { .. }
             | Self::PlanComparison { .. }
             | Self::ToleranceStudy { .. }
-            | Self::SamplingComparison { .. } => &[],
+            | Self::SamplingComparison { .. }
+            | Self::Transient(_) => &[],
         }
     }
 
@@ -370,6 +376,17 @@ impl Variable {
             Self::Modulus => "modulus",
             Self::Viscosity => "viscosity",
             Self::Alpha => "alpha",
+            Self::SlideToRollRatio => "srr",
+            Self::NewtonianPlateauRatio => "npr",
+        }
+    }
+
+    /// Smallest and largest accepted value.
+    pub fn range(self) -> (f64, f64) {
+        match self {
+            Self::SlideToRollRatio => (-10.0, 10.0),
+            Self::NewtonianPlateauRatio => (0.0, 1.0),
+            _ => (f64::MIN_POSITIVE, 1e15),
         }
     }
 }

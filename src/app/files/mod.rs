@@ -20,6 +20,8 @@ pub enum Purpose {
     Open,
     /// Save the scene.
     Save,
+    /// Read inputs of a contact in time.
+    Inputs,
     /// Write a reduced model.
     Model {
         /// The content of its file.
@@ -30,6 +32,20 @@ pub enum Purpose {
         /// Its content.
         text: String,
     },
+    /// Write a picture.
+    Picture {
+        /// The content of its file.
+        bytes: Arc<[u8]>,
+        /// How its name ends: `png` or `svg`.
+        extension: &'static str,
+    },
+}
+
+impl Purpose {
+    /// Whether a file is read: then it must exist, and none is replaced.
+    fn reads(&self) -> bool {
+        matches!(self, Self::Open | Self::Inputs)
+    }
 }
 
 /// What waits for the answer about unsaved changes.
@@ -142,7 +158,7 @@ impl State {
     pub fn open_path(&mut self, path: &Path) -> Result<(), String> {
         if is_model(path) {
             let model = model_file::read(path).map_err(|e| format!("{}: {e}", path.display()))?;
-            self.use_model(Some(Arc::new(model)));
+            self.use_model(model.contact(), Some(Arc::new(model)));
             self.files.notice = Some(Ok(format!("Using the model {}", path.display())));
             return Ok(());
         }

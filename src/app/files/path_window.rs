@@ -26,9 +26,10 @@ impl State {
     /// Asks for a path, by the system's dialog and by a text field for where there is none.
     pub fn ask_path(&mut self, ctx: &Context, purpose: Purpose) {
         let suggestion = match &purpose {
-            Purpose::Open => String::new(),
+            Purpose::Open | Purpose::Inputs => String::new(),
             Purpose::Save => self.files.path.as_deref().unwrap_or(Path::new("contact.ron")).display().to_string(),
             Purpose::Csv { .. } => "profiles.csv".to_owned(),
+            Purpose::Picture { extension, .. } => format!("contact.{extension}"),
             Purpose::Model { .. } => "line.rom".to_owned(),
         };
         let browse = self.files.native_dialogs.then(|| (browse(ctx, &purpose, &suggestion), Instant::now()));
@@ -62,8 +63,10 @@ impl State {
         let Some(window) = &mut self.files.window else { return };
         let (title, action) = match window.purpose {
             Purpose::Open => ("Open a scene or a reduced model", "Open"),
+            Purpose::Inputs => ("Inputs from a table", "Read"),
             Purpose::Save => ("Save the scene", "Save"),
             Purpose::Csv { .. } => ("Export the data as CSV", "Export"),
+            Purpose::Picture { .. } => ("Export the picture", "Export"),
             Purpose::Model { .. } => ("Save the reduced model", "Save"),
         };
         let waiting = window.browse.is_some();
@@ -94,7 +97,7 @@ impl State {
             }
             ui.add_space(4.0);
             ui.horizontal(|ui| {
-                let exists = window.overwrite.is_some() && window.purpose != Purpose::Open;
+                let exists = window.overwrite.is_some() && !window.purpose.reads();
                 act |= ui.button(if exists { "Replace the file" } else { action }).clicked();
                 if !waiting {
                     again =
@@ -123,15 +126,19 @@ impl State {
             return;
         }
         let known = self.files.path.as_deref() == Some(path.as_path()) && window.purpose == Purpose::Save;
-        if window.purpose != Purpose::Open && path.exists() && !known && window.overwrite.as_deref() != Some(&path) {
+        if !window.purpose.reads() && path.exists() && !known && window.overwrite.as_deref() != Some(&path) {
             window.message = Some("a file of this name exists; press again to replace it".to_owned());
             window.overwrite = Some(path);
             return;
         }
         let result = match window.purpose.clone() {
             Purpose::Open => self.open_path(&path),
+            Purpose::Inputs => self.read_inputs(&path),
             Purpose::Save => self.save_to(&path),
             Purpose::Csv { text } => atomic_file::replace(&path, text.as_bytes())
+                .map_err(|e| e.to_string())
+                .map(|()| self.files.notice = Some(Ok(format!("Exported {}", path.display())))),
+            Purpose::Picture { bytes, .. } => atomic_file::replace(&path, &bytes)
                 .map_err(|e| e.to_string())
                 .map(|()| self.files.notice = Some(Ok(format!("Exported {}", path.display())))),
             Purpose::Model { bytes } => atomic_file::replace(&path, &bytes)
@@ -161,7 +168,8 @@ fn browse(ctx: &Context, purpose: &Purpose, suggestion: &str) -> Receiver<Option
     let run = move || {
         let name = suggestion.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
         let mut dialog = match purpose {
-            Purpose::Csv { .. } => rfd::FileDialog::new().add_filter("Table", &["csv"]),
+            Purpose::Csv { .. } | Purpose::Inputs => rfd::FileDialog::new().add_filter("Table", &["csv"]),
+            Purpose::Picture { extension, .. } => rfd::FileDialog::new().add_filter("Picture", &[extension]),
             Purpose::Model { .. } => rfd::FileDialog::new().add_filter("Reduced model", &["rom"]),
             Purpose::Open => rfd::FileDialog::new().add_filter("Scene or reduced model", &["ron", "rom"]),
             Purpose::Save => rfd::FileDialog::new().add_filter("Scene", &["ron"]),
@@ -170,7 +178,7 @@ fn browse(ctx: &Context, purpose: &Purpose, suggestion: &str) -> Receiver<Option
             dialog = dialog.set_directory(folder);
         }
         let answer = match purpose {
-            Purpose::Open => dialog.pick_file(),
+            Purpose::Open | Purpose::Inputs => dialog.pick_file(),
             _ => dialog.set_file_name(name).save_file(),
         };
         // The window may be closed by now: then nobody waits for the answer.

@@ -7,10 +7,8 @@ use super::solution::{Problem, Report, Termination};
 use crate::solver::elasticity::Scratch;
 use crate::solver::grid::{FIRST_UNKNOWN, LineGrid, dot};
 use crate::solver::observer::{NewtonStep, Observer};
-use crate::solver::reynolds::{CENTER, Node, PENALTY, row};
-
-/// Nodes of a line row: two upstream, its own, one downstream.
-const LINE_STENCIL: usize = 4;
+use crate::solver::reynolds::line::{LINE_STENCIL, Upstream};
+use crate::solver::reynolds::{CENTER, Node, PENALTY, RowGeometry};
 
 /// Settings of a full solve.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,6 +55,12 @@ pub struct LineSystem {
     pub film: Vec<f64>,
     /// H₀.
     pub h_0: f64,
+    /// 1/R̄ of (2.24); 1 where the radius does not vary.
+    pub(super) curvature: f64,
+    /// Coefficients of the rows, those of the grid where nothing changes in time.
+    pub(super) rows: Vec<RowGeometry>,
+    /// The side each row's flow comes from.
+    pub(super) upstream: Vec<Upstream>,
     deformation: Vec<f64>,
     nodes: Vec<Node>,
     /// What shear-thinning adds; absent for a Newtonian problem.
@@ -98,6 +102,9 @@ impl LineSystem {
             pressure: vec![0.0; n],
             film: vec![0.0; n],
             h_0: 0.0,
+            curvature: 1.0,
+            rows: grid.rows.clone(),
+            upstream: vec![Upstream::Inlet; u],
             deformation: vec![0.0; n],
             nodes: vec![Node::default(); n],
             shear: None,
@@ -137,7 +144,7 @@ impl LineSystem {
     pub fn set_h_0(&mut self, h_0: f64) {
         self.h_0 = h_0;
         for ((h, x), d) in self.film.iter_mut().zip(&self.grid.x).zip(&self.deformation) {
-            *h = h_0 + 0.5 * x * x + d;
+            *h = h_0 + 0.5 * self.curvature * x * x + d;
         }
     }
 
@@ -164,21 +171,23 @@ impl LineSystem {
             }
         }
         let mut sum = 0.0;
-        for (k, geometry) in self.grid.rows.iter().enumerate() {
-            let nodes = &self.nodes[k..k + LINE_STENCIL];
-            let here = &nodes[CENTER];
-            let r = row(geometry, penalty, [&nodes[0], &nodes[1], here, &nodes[3], here, here]);
+        for (k, (geometry, upstream)) in self.rows.iter().zip(&self.upstream).enumerate() {
+            let r = upstream.row(geometry, penalty, &self.nodes, k);
             self.residual[k] = r.value;
             sum += self.grid.weights[k + FIRST_UNKNOWN] * r.value * r.value;
             if derivatives {
-                self.d_p[k] = [r.d_p[0], r.d_p[1], r.d_p[2], r.d_p[3]];
-                self.d_h[k] = [r.d_h[0], r.d_h[1], r.d_h[2], r.d_h[3]];
+                (self.d_p[k], self.d_h[k]) = (r.d_p, r.d_h);
             }
         }
         if let Some(shear) = self.shear.as_mut().filter(|_| derivatives) {
             shear.differentiate(&self.grid);
         }
         sum.sqrt()
+    }
+
+    /// ρ̄H of the state evaluated last, node array.
+    pub(super) fn flow(&self) -> impl Iterator<Item = f64> + '_ {
+        self.nodes.iter().map(|node| node.flow)
     }
 
     /// Newton's method from the current state.
@@ -283,11 +292,13 @@ impl LineSystem {
     fn solve_linear(&mut self, options: &SolveOptions, tolerance: f64) -> LinearOutcome {
         let u = self.grid.unknowns();
         let diagonal = self.grid.kernel_entry(self.grid.len() / 2, self.grid.len() / 2);
-        for ((s, a), b) in self.scaling.iter_mut().zip(&self.d_p).zip(&self.d_h) {
-            *s = 1.0 / (a[CENTER].abs() + b[CENTER].abs() * diagonal);
+        for (k, s) in self.scaling.iter_mut().enumerate() {
+            let own = k + CENTER - self.upstream[k].first_node(k);
+            *s = 1.0 / (self.d_p[k][own].abs() + self.d_h[k][own].abs() * diagonal);
         }
         let shear = self.shear.as_ref();
-        self.preconditioner.build(&self.grid, options.kernel_band, (&self.d_p, &self.d_h), shear, &self.scaling);
+        let jacobian = (self.upstream.as_slice(), self.d_p.as_slice(), self.d_h.as_slice());
+        self.preconditioner.build(&self.grid, options.kernel_band, jacobian, shear, &self.scaling);
         for ((r, f), s) in self.rhs.iter_mut().zip(&self.residual).zip(&self.scaling) {
             *r = -f * s;
         }
@@ -299,6 +310,7 @@ impl LineSystem {
             fft,
             field,
             step_deformation,
+            upstream,
             d_p,
             d_h,
             scaling,
@@ -317,10 +329,10 @@ impl LineSystem {
                 field[FIRST_UNKNOWN..FIRST_UNKNOWN + u].copy_from_slice(&v[..u]);
                 grid.deform(field, step_deformation, fft);
                 for (k, out) in out[..u].iter_mut().enumerate() {
-                    let (a, b) = (&d_p[k], &d_h[k]);
+                    let (a, b, first) = (&d_p[k], &d_h[k], upstream[k].first_node(k));
                     let mut sum = 0.0;
                     for m in 0..LINE_STENCIL {
-                        sum += a[m] * field[k + m] + b[m] * (step_deformation[k + m] + v[u]);
+                        sum += a[m] * field[first + m] + b[m] * (step_deformation[first + m] + v[u]);
                     }
                     *out = sum * scaling[k];
                 }
@@ -342,7 +354,7 @@ impl Preconditioner {
         &mut self,
         grid: &LineGrid,
         band: usize,
-        (d_p, d_h): (&[[f64; LINE_STENCIL]], &[[f64; LINE_STENCIL]]),
+        (upstream, d_p, d_h): (&[Upstream], &[[f64; LINE_STENCIL]], &[[f64; LINE_STENCIL]]),
         shear: Option<&ShearState>,
         scaling: &[f64],
     ) {
@@ -355,11 +367,16 @@ impl Preconditioner {
             self.kernel.clear();
             self.kernel.resize(n * stored, 0.0);
             self.kernel_band = band;
+            let reach = band + 2;
             for i in 0..n {
+                // The load of a step is zero, so a constant added to the kernel changes nothing but its truncation: it ends at zero.
+                let edge = if i + reach + 1 < n { i + reach } else { i - reach };
+                let level = grid.kernel_entry(i, edge) / grid.weights[edge];
                 for c in 0..stored {
                     let j = i + c;
-                    if j >= band + 2 && j - band - 2 < n {
-                        self.kernel[i * stored + c] = grid.kernel_entry(i, j - band - 2);
+                    if j >= reach && j - reach < n {
+                        let j = j - reach;
+                        self.kernel[i * stored + c] = grid.kernel_entry(i, j) - level * grid.weights[j];
                     }
                 }
             }
@@ -367,17 +384,18 @@ impl Preconditioner {
         self.band.reset(u, band, band);
         for k in 0..u {
             let (a, b, s) = (&d_p[k], &d_h[k], scaling[k]);
+            let shift = upstream[k].first_node(k) - k;
             let row = self.band.row_mut(k);
-            for m in 0..LINE_STENCIL {
+            for (j, m) in (shift..shift + LINE_STENCIL).enumerate() {
                 // Node k + m against column node k + 2 + d, d = −band…band: offset 2 − m + d from its own diagonal.
                 let from = (k + m) * stored + (4 - m);
                 let kernel = &self.kernel[from..from + width];
-                let weight = s * b[m];
+                let weight = s * b[j];
                 for (r, kernel) in row.iter_mut().zip(kernel) {
                     *r += weight * kernel;
                 }
                 if (m + band).checked_sub(CENTER).is_some_and(|c| c < width) {
-                    row[m + band - CENTER] += s * a[m];
+                    row[m + band - CENTER] += s * a[j];
                 }
             }
             if let Some(shear) = shear {

@@ -3,6 +3,7 @@
 mod attempts;
 mod band;
 mod contact_solver;
+mod cut;
 pub mod dense;
 mod gmres;
 mod line;
@@ -13,6 +14,7 @@ mod start;
 #[cfg(test)]
 mod tests;
 mod traction;
+pub mod transient;
 
 pub use contact_solver::ContactSolver;
 pub use line::{LineSystem, SolveOptions};

@@ -169,16 +169,16 @@ fn warm_state(system: &mut LineSystem, problem: &Problem, former: &Solution) {
 
 /// Pressure of another grid's solution at this grid's nodes, linearly, zero outside.
 fn interpolate(former: &Solution, grid: &LineGrid) -> Vec<f64> {
-    let (x, p) = (&former.x, &former.pressure);
-    grid.x
-        .iter()
-        .map(|&at| {
-            let k = x.partition_point(|&v| v < at);
-            if k < 2 || k >= x.len() {
-                return 0.0;
-            }
-            let t = (at - x[k - 1]) / (x[k] - x[k - 1]);
-            (1.0 - t) * p[k - 1] + t * p[k]
-        })
-        .collect()
+    grid.x.iter().map(|&x| pressure_at(former, x)).collect()
+}
+
+/// Pressure of a line contact's solution at X, linearly, zero outside.
+pub(super) fn pressure_at(former: &Solution, x: f64) -> f64 {
+    let (nodes, p) = (&former.x, &former.pressure);
+    let k = nodes.partition_point(|&v| v < x);
+    if k < 2 || k >= nodes.len() {
+        return 0.0;
+    }
+    let t = (x - nodes[k - 1]) / (nodes[k] - nodes[k - 1]);
+    (1.0 - t) * p[k - 1] + t * p[k]
 }

@@ -406,7 +406,7 @@ fn attempt(
     let offset = -0.5 * scale.ln();
     let mut h_0 = start.h_c - (dot(&lift, &coefficients) + offset);
     let watch = observer.as_mut().map(|o| &mut **o as RowObserver<'_>);
-    let case = Case { problem, scale, penalty: options.penalty.unwrap_or(window.penalty), lift: &lift };
+    let case = Case { problem, scale, curvature: 1.0, penalty: options.penalty.unwrap_or(window.penalty), lift: &lift };
     let stop = Stop { tolerance: options.tolerance, max_newton: options.max_newton.min(limit) };
     let outcome = operators.newton(&case, &mut coefficients, &mut h_0, stop, watch);
     let h_c = h_0 + (dot(&lift, &coefficients) + offset);

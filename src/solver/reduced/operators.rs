@@ -4,7 +4,7 @@
 use super::model::{Window, deformation_weights};
 use crate::solver::full::Problem;
 use crate::solver::grid::dot;
-use crate::solver::reynolds::{Node, RowGeometry, STENCIL, row};
+use crate::solver::reynolds::{CENTER, Node, RowGeometry, STENCIL, row};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::linalg::matmul::matmul;
@@ -26,6 +26,8 @@ pub(crate) struct Case<'a> {
     pub problem: &'a Problem,
     /// Registration scale s.
     pub scale: f64,
+    /// 1/R̄ of (2.24); 1 where the radius does not vary.
+    pub curvature: f64,
     /// Penalty factor γ̄.
     pub penalty: f64,
     /// s K V_p at X = 0 (and Y = 0): what the film there gains per unit of each coefficient.
@@ -109,6 +111,11 @@ struct Scratch {
 impl Operators {
     /// Operators with the first `modes` pressure modes and, if given, the first `deformation_modes` deformation modes.
     pub fn new(window: &Window, modes: usize, deformation_modes: Option<usize>) -> Self {
+        Self::with_support(window, modes, deformation_modes, &[])
+    }
+
+    /// The same with further nodes that its rows may come to depend on.
+    pub fn with_support(window: &Window, modes: usize, deformation_modes: Option<usize>, further: &[usize]) -> Self {
         let modes = modes.clamp(1, window.pressure.modes.ncols());
         let reference = &window.grid;
         let basis = window.pressure.modes.get(.., ..modes);
@@ -129,7 +136,7 @@ impl Operators {
         };
         let rows = &window.sampled_rows;
         let (stencils, geometry): (Vec<_>, Vec<_>) = rows.iter().map(|&row| reference.row(row)).unzip();
-        let mut support: Vec<usize> = stencils.iter().flatten().copied().collect();
+        let mut support: Vec<usize> = stencils.iter().flatten().chain(further).copied().collect();
         support.sort_unstable();
         support.dedup();
         let stencil = stencils.iter().map(|nodes| nodes.map(|node| support.partition_point(|&s| s < node))).collect();
@@ -178,6 +185,16 @@ impl Operators {
             },
             support: support.iter().map(place).collect(),
         }
+    }
+
+    /// Gives sampled row `r` other coefficients, and other nodes: places in the ascending support.
+    pub fn set_row(&mut self, r: usize, stencil: [usize; STENCIL], geometry: RowGeometry) {
+        (self.stencil[r], self.geometry[r]) = (stencil, geometry);
+    }
+
+    /// ρ̄H at the sampled rows' own nodes, of the state evaluated last.
+    pub fn flow(&self) -> impl Iterator<Item = f64> + '_ {
+        self.stencil.iter().map(|stencil| self.scratch.nodes[stencil[CENTER]].flow)
     }
 
     /// Newton's method on (p̃, H₀) for one case, damped by the largest pressure change.
@@ -237,13 +254,13 @@ impl Operators {
 
     /// Evaluates the sampled rows at the fields; returns e_f^I.
     fn evaluate(&mut self, case: &Case<'_>, coefficients: &[f64], h_0: f64, derivatives: bool) -> f64 {
-        let Case { problem, scale, penalty, .. } = *case;
+        let Case { problem, scale, curvature, penalty, .. } = *case;
         let s = &mut self.scratch;
         let (pressure, deformation) = s.fields.split_at(self.support.len());
         let offset = h_0 - 0.5 * scale.ln();
         for (k, (node, place)) in s.nodes.iter_mut().zip(&self.support).enumerate() {
             let x = -1.0 + (place.xi + 1.0) * scale;
-            let film = offset + (0.5 * x * x + place.across) + scale * deformation[k];
+            let film = offset + (0.5 * curvature * x * x + place.across) + scale * deformation[k];
             *node = Node::new(&problem.fluid, problem.inverse_lambda, pressure[k], film);
         }
         let (v, d) = self.state_rows.split_at(self.support.len() * self.modes);

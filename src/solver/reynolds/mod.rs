@@ -7,6 +7,7 @@
 
 pub mod film_integrals;
 pub mod generalized;
+pub mod line;
 
 use super::lubricant::{FluidState, ScaledFluid};
 
@@ -72,7 +73,8 @@ impl Node {
     }
 }
 
-/// Difference coefficients of one row; they depend on the grid only.
+/// Coefficients of one row. Where nothing changes in time they are difference coefficients, which depend on the grid only; in time the
+/// storage of (2.31) is part of them, see [`RowGeometry::in_time`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RowGeometry {
     /// Weights of ρ̄H at [`WEST2`], [`WEST`], [`CENTER`] in ∂(ρ̄H)/∂X, (B.4).
@@ -85,6 +87,8 @@ pub struct RowGeometry {
     pub south: f64,
     /// 1/(h_n h_c): weight of the northern face; zero for a line contact and on the symmetry axis.
     pub north: f64,
+    /// What the time derivative draws from the former steps; zero where nothing changes in time.
+    pub history: f64,
 }
 
 impl RowGeometry {
@@ -97,8 +101,7 @@ impl RowGeometry {
             upwind: [r * r / (1.0 + r) / h1, -(1.0 + r) / h1, (1.0 + 2.0 * r) / (1.0 + r) / h1],
             west: 1.0 / (h1 * cell),
             east: 1.0 / (h2 * cell),
-            south: 0.0,
-            north: 0.0,
+            ..Self::default()
         }
     }
 
@@ -110,17 +113,11 @@ impl RowGeometry {
         Self { upwind: [0.0, -1.0 / h1, 1.0 / h1], west: 1.0 / (h1 * cell), east: 1.0 / (h2 * cell), ..Self::default() }
     }
 
-    /// The row under the map X = −1 + (ξ + 1)s, given in ξ; what it has across stays.
+    /// The row under the map X = −1 + (ξ + 1)s, given in ξ; what it has across and in time stays.
     #[inline]
     pub fn scaled(&self, scale: f64) -> Self {
         let (first, second) = (1.0 / scale, 1.0 / (scale * scale));
-        Self {
-            upwind: self.upwind.map(|w| w * first),
-            west: self.west * second,
-            east: self.east * second,
-            south: self.south,
-            north: self.north,
-        }
+        Self { upwind: self.upwind.map(|w| w * first), west: self.west * second, east: self.east * second, ..*self }
     }
 
     /// The same row with diffusion across: `south` and `north` are the distances to the neighbours in Y. On the symmetry axis there is
@@ -128,6 +125,13 @@ impl RowGeometry {
     pub fn across(self, south: f64, north: Option<f64>) -> Self {
         let cell = 0.5 * (south + north.unwrap_or(0.0));
         Self { south: 1.0 / (south * cell), north: north.map_or(0.0, |h| 1.0 / (h * cell)), ..self }
+    }
+
+    /// The same row in time: the flow passes the node at `speed` ≥ 0 instead of 1, and ∂(ρ̄H)/∂T is `storage` ρ̄H + `history`. The
+    /// storage joins the upwind weight of the row's own node, so a row in time costs what a stationary one does.
+    pub fn in_time(self, speed: f64, storage: f64, history: f64) -> Self {
+        let [west_2, west, center] = self.upwind.map(|weight| speed * weight);
+        Self { upwind: [west_2, west, center + storage], history, ..self }
     }
 }
 
@@ -142,11 +146,11 @@ pub struct Row {
     pub d_h: [f64; STENCIL],
 }
 
-/// Evaluates the row: diffusion in X and Y, convection, penalty Λ = −γ̄ min(P, 0).
+/// Evaluates the row: diffusion in X and Y, convection, storage, penalty Λ = −γ̄ min(P, 0).
 #[inline]
 pub fn row(geometry: &RowGeometry, penalty: f64, nodes: [&Node; STENCIL]) -> Row {
     let center = nodes[CENTER];
-    let mut out = Row::default();
+    let mut out = Row { value: -geometry.history, ..Row::default() };
     for (k, weight) in [(WEST, geometry.west), (EAST, geometry.east), (SOUTH, geometry.south), (NORTH, geometry.north)]
     {
         if weight == 0.0 {

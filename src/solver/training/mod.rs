@@ -19,6 +19,9 @@ mod split;
 mod state;
 #[cfg(test)]
 mod tests;
+mod trajectories;
+#[cfg(test)]
+mod trajectories_tests;
 
 pub use adaptive::{BadPoint, Search};
 pub use build::train;
@@ -26,6 +29,7 @@ pub use calibrate::EVIDENCE;
 pub use indicator::Indicator;
 pub use plan::{farthest_points, grid_points, local_point, random_points, test_point};
 pub use state::{Solved, TrainingState, WindowState, train_resumable};
+pub use trajectories::{TrajectoryTraining, train_trajectories};
 
 use super::contact::ContactKind;
 use super::grid::ContactGridSpec;
@@ -268,6 +272,22 @@ pub enum TrainingError {
         /// Upper end of the window.
         to: f64,
     },
+    /// No trajectories to learn from.
+    #[error(
+        "a training needs trajectories of one frame on one unregistered grid that kept their fields, each with at least its start"
+    )]
+    NoTrajectories,
+    /// The bases of trajectories, or the rule for their rows, could not be had.
+    #[error(
+        "the trajectories could not be decomposed, or no rule of few rows carries their steps; try a larger loss of information or more rows per mode"
+    )]
+    Trajectories,
+    /// A training trajectory is refused.
+    #[error(transparent)]
+    Transient(#[from] super::full::transient::TransientError),
+    /// The reduced model refuses a trajectory.
+    #[error(transparent)]
+    Reduced(#[from] super::reduced::ReducedError),
     /// The observer asked to stop.
     #[error("the training was cancelled")]
     Cancelled,

@@ -182,7 +182,7 @@ fn goals(
 }
 
 /// Adds functionals of the step, each for f and for J V Δz̃.
-fn add_goals(equations: &mut GoalEquations, test: &TestSpace, iterate: &Iterate<'_>, rng: &mut Rng) {
+pub(super) fn add_goals(equations: &mut GoalEquations, test: &TestSpace, iterate: &Iterate<'_>, rng: &mut Rng) {
     let modes = iterate.coefficients.len();
     let length = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let size = length(iterate.coefficients);

@@ -1,0 +1,228 @@
+//! The contact in time: what drives it, how film and pressure answer, and how the frames differ.
+
+mod form;
+mod profiles;
+mod series;
+
+use crate::app::controls::{message_ui, named, sentence, warning_ui};
+use crate::app::files::Purpose;
+use crate::app::numbers;
+use crate::app::state::State;
+use crate::app::theme::{Palette, rich};
+use crate::app::transient::{Run, TransientView, export};
+use crate::solver::full::transient::{Ended, Quantity};
+use egui::{Button, Grid, ProgressBar, ScrollArea, Slider, Ui};
+
+/// Width of the form.
+const FORM_WIDTH: f32 = 300.0;
+/// Width from which on the profiles stand beside the series.
+const SIDE_BY_SIDE: f32 = 560.0;
+/// Heights below which plots cannot be read.
+const LEAST_HEIGHT: f32 = 104.0;
+
+/// The tab.
+pub fn ui(ui: &mut Ui, state: &mut State) {
+    if let Some(why) = state.no_transient() {
+        ui.centered_and_justified(|ui| ui.weak(why));
+        return;
+    }
+    ui.horizontal_top(|ui| {
+        if !state.transient.form_hidden {
+            ui.vertical(|ui| {
+                ui.set_width(FORM_WIDTH);
+                ScrollArea::vertical().id_salt("transient form").auto_shrink(false).show(ui, |ui| form::ui(ui, state));
+            });
+            ui.separator();
+        }
+        ui.vertical(|ui| {
+            ScrollArea::vertical().id_salt("transient").auto_shrink(false).show(ui, |ui| results(ui, state));
+        });
+    });
+}
+
+fn results(ui: &mut Ui, state: &mut State) {
+    let (top, height) = (ui.cursor().top(), ui.available_height());
+    buttons(ui, state);
+    status(ui, state);
+    if state.transient.runs.iter().all(|run| run.trajectory.moments.is_empty()) {
+        if state.transient.standing().is_none() {
+            ui.weak("Run it in time to see pressure and film follow the inputs.");
+        }
+        return;
+    }
+    player(ui, &mut state.transient);
+    cost(ui, &state.transient);
+    let rest = height - (ui.cursor().top() - top) - 10.0;
+    let several = state.transient.runs.len() > 1;
+    let parts = if several { 2.7 } else { 2.0 };
+    if ui.available_width() >= SIDE_BY_SIDE {
+        let unit = (rest / parts).max(LEAST_HEIGHT);
+        let width = ui.available_width();
+        let mut clicked = None;
+        ui.horizontal_top(|ui| {
+            ui.vertical(|ui| {
+                ui.set_width(0.56 * width);
+                clicked = series::ui(ui, state, unit);
+            });
+            ui.vertical(|ui| profiles::ui(ui, state, 0.5 * unit * parts));
+        });
+        clicked
+    } else {
+        let unit = (0.55 * rest / parts).max(LEAST_HEIGHT);
+        let clicked = series::ui(ui, state, unit);
+        profiles::ui(ui, state, (0.5 * rest).max(LEAST_HEIGHT));
+        clicked
+    }
+    .into_iter()
+    .for_each(|time| state.transient.player.go_to(time));
+}
+
+fn buttons(ui: &mut Ui, state: &mut State) {
+    let ctx = ui.ctx().clone();
+    ui.horizontal_wrapped(|ui| {
+        let mut form = !state.transient.form_hidden;
+        ui.toggle_value(&mut form, "Set-up")
+            .on_hover_text("Shows what drives the contact, or leaves the room to plots");
+        state.transient.form_hidden = !form;
+        if state.transient.standing().is_some() {
+            if ui.button("Stop").on_hover_text("What has been computed so far stays (Esc)").clicked() {
+                state.transient.stop();
+            }
+        } else if ui
+            .button("Run in time")
+            .on_hover_text("Takes the contact of the sliders through time, frame after frame")
+            .clicked()
+        {
+            state.start_transient(&ctx);
+        }
+        let there = state.transient.runs.iter().any(|run| !run.trajectory.moments.is_empty());
+        let tip = "All moments of every run with their SI twins, each run in columns of its own";
+        if ui.add_enabled(there, Button::new("Export series…")).on_hover_text(tip).clicked()
+            && let Some(text) = export::series(&state.transient)
+        {
+            state.ask_path(&ctx, Purpose::Csv { text });
+        }
+        let tip = "Pressure and film of every run at the moment that is shown";
+        if ui.add_enabled(there, Button::new("Export profiles…")).on_hover_text(tip).clicked()
+            && let Some(text) = export::profiles(&state.transient)
+        {
+            state.ask_path(&ctx, Purpose::Csv { text });
+        }
+    });
+}
+
+/// What runs and how far it is; how runs ended that did not reach the end; whether all of it is still what the sliders say.
+fn status(ui: &mut Ui, state: &State) {
+    let view = &state.transient;
+    if let Some(standing) = view.standing() {
+        ui.horizontal(|ui| {
+            ui.label(&standing.stage);
+            let fraction = if standing.total > 0 { standing.done as f32 / standing.total as f32 } else { 0.0 };
+            let bar = ProgressBar::new(fraction).desired_width(120.0).desired_height(8.0);
+            let bar = ui.add(bar);
+            named(ui, bar, "Progress of the contact in time");
+            ui.weak(standing.describe());
+        });
+    }
+    if let Some(message) = &view.message {
+        message_ui(ui, message);
+    }
+    for run in &view.runs {
+        let said = |ended: &Ended| format!("{} {}", run.name(), ended.describe());
+        match run.ended.then_some(&run.trajectory.ended) {
+            Some(ended @ (Ended::StepRefused { .. } | Ended::ContactRefused { .. })) => message_ui(ui, &said(ended)),
+            Some(ended @ Ended::Cancelled { .. }) => {
+                ui.weak(sentence(&said(ended)));
+            }
+            Some(Ended::Finished) | None => {}
+        }
+    }
+    if let Some(setup) = view.setup.as_ref().filter(|setup| ***setup != state.transient_setup()) {
+        let of = numbers::moes(setup.point.moes());
+        warning_ui(ui, &format!("What is shown belongs to {of} and a former set-up; run it again for the present one"));
+    }
+}
+
+/// The moment that is looked at: a slider over what was computed, and a button that plays it.
+fn player(ui: &mut Ui, view: &mut TransientView) {
+    let Some(setup) = view.setup.clone() else { return };
+    let seconds = ui.input(|i| i.stable_dt).min(0.1);
+    view.player.advance(f64::from(seconds), setup.study.duration);
+    ui.horizontal(|ui| {
+        let playing = view.player.playing();
+        let (name, tip) = if playing { ("Pause", "Stand still here") } else { ("Play", "Play the profiles in time") };
+        if ui.button(name).on_hover_text(tip).clicked() {
+            view.player.toggle();
+        }
+        let mut time = view.player.time();
+        let text =
+            format!("{{T}} = {}, {}", numbers::significant(time), numbers::duration(time * setup.time_scale_s()));
+        ui.spacing_mut().slider_width = (ui.available_width() - 190.0).max(80.0);
+        let response = ui.add(Slider::new(&mut time, 0.0..=view.player.end().max(f64::MIN_POSITIVE)).show_value(false));
+        let response = named(ui, response, "Time T");
+        if response.changed() {
+            view.player.go_to(time);
+        }
+        let tip =
+            "The moment whose profiles are shown, in units of a/u_m of the reference contact (2.22) and on the clock";
+        ui.label(rich(&text, 13.5, ui.visuals().text_color())).on_hover_text(tip);
+    });
+    if view.player.playing() {
+        ui.ctx().request_repaint();
+    }
+}
+
+/// Marks of an axis of this width that leave their labels room.
+fn marks(width: f32) -> f64 {
+    f64::from((width - 60.0).max(80.0) / 80.0)
+}
+
+/// What each run took, and where it stands now.
+fn cost(ui: &mut Ui, view: &TransientView) {
+    let quiet = Palette::of(ui).quiet;
+    let time = view.player.time();
+    let title = |ui: &mut Ui, text: &str, tip: &str| {
+        ui.label(rich(text, 12.0, quiet)).on_hover_text(tip);
+    };
+    Grid::new("transient cost").num_columns(7).spacing([14.0, 2.0]).min_row_height(15.0).show(ui, |ui| {
+        title(ui, "", "");
+        title(ui, "{H_c}", "Central film at this moment");
+        title(ui, "{P_c}", "Central pressure at this moment");
+        title(
+            ui,
+            "Mean {H_c}",
+            "Over the scene’s window or else the second half of the duration, against the stationary start",
+        );
+        title(ui, "Steps", "Steps taken, and those discarded");
+        title(ui, "Per step", "Median of the time per step");
+        title(ui, "In all", "Time of the whole run");
+        ui.end_row();
+        for (k, run) in view.runs.iter().enumerate() {
+            ui.label(run.name()).on_hover_text(series::style_name(k));
+            let value =
+                |quantity| run.trajectory.at(quantity, time).map_or_else(|| "–".to_owned(), numbers::significant);
+            ui.label(value(Quantity::CentralFilm));
+            ui.label(value(Quantity::CentralPressure));
+            ui.label(
+                offset(run, view).map_or_else(|| "–".to_owned(), |offset| format!("{offset:+.2} %").replace('-', "−")),
+            );
+            let discarded = if run.trajectory.rejected_steps > 0 {
+                format!(" + {}", run.trajectory.rejected_steps)
+            } else {
+                String::new()
+            };
+            ui.label(format!("{}{discarded}", run.trajectory.moments.len().saturating_sub(1)));
+            ui.label(run.seconds_per_step().map_or_else(|| "–".to_owned(), numbers::duration));
+            ui.label(numbers::duration(run.seconds.iter().sum()));
+            ui.end_row();
+        }
+    });
+}
+
+/// Mean of H_c over the window over its stationary start, less 1, in percent.
+fn offset(run: &Run, view: &TransientView) -> Option<f64> {
+    let study = &view.setup.as_ref()?.study;
+    let window = study.window.unwrap_or((0.5 * study.duration, study.duration));
+    let mean = run.trajectory.mean(Quantity::CentralFilm, window)?;
+    Some(100.0 * (mean / run.trajectory.moments.first()?.h_c - 1.0))
+}

@@ -1,0 +1,152 @@
+//! Central pressure and film against time, and how far the other runs lie from the first.
+
+use crate::app::controls::named;
+use crate::app::plots::axes;
+use crate::app::state::State;
+use crate::app::theme::{Palette, THIN_WIDTH};
+use crate::app::transient::Run;
+use crate::solver::full::transient::Quantity;
+use egui::{Color32, Id, Ui, Vec2b};
+use egui_plot::{Corner, HLine, Legend, Line, LineStyle, PlotPoint, PlotPoints, VLine};
+
+/// Points of a curve beyond which only the extremes of neighbouring ones are drawn.
+const MOST_POINTS: usize = 3000;
+
+/// The line of the k-th run: the first is the thick one, the others are told apart without colour.
+pub fn style(k: usize, color: Color32, palette: &Palette) -> (Color32, f32, LineStyle) {
+    match k {
+        0 => (color, 2.4, LineStyle::Solid),
+        1 => (palette.over(color), 1.3, LineStyle::Solid),
+        2 => (palette.over(color), 1.5, LineStyle::dashed_loose()),
+        _ => (palette.over(color), 1.7, LineStyle::dotted_dense()),
+    }
+}
+
+/// The same in words.
+pub fn style_name(k: usize) -> &'static str {
+    match k {
+        0 => "The thick line",
+        1 => "The thin line",
+        2 => "The dashed line",
+        _ => "The dotted line",
+    }
+}
+
+/// The plots; returns the time that was clicked at.
+pub fn ui(ui: &mut Ui, state: &State, unit: f32) -> Option<f64> {
+    let palette = Palette::of(ui);
+    let several = state.transient.runs.len() > 1;
+    let pressure = Chart { name: "pressure", quantity: Quantity::CentralPressure, color: palette.pressure };
+    let film = Chart { name: "film", quantity: Quantity::CentralFilm, color: palette.film };
+    let mut clicked = pressure.show(ui, state, unit, ("", "Pressure {P_c}"), false);
+    clicked = film.show(ui, state, unit, (if several { "" } else { "{T}" }, "Film {H_c}"), false).or(clicked);
+    if several {
+        let titles = ("{T}", "Δ{H_c} / %");
+        let deviation = Chart { name: "deviation", ..film };
+        clicked = deviation.show(ui, state, 0.7 * unit, titles, true).or(clicked);
+    }
+    clicked
+}
+
+/// One plot of a quantity against time.
+struct Chart {
+    name: &'static str,
+    quantity: Quantity,
+    color: Color32,
+}
+
+impl Chart {
+    /// The quantity of all runs, or how far the others lie from the first in percent.
+    fn show(&self, ui: &mut Ui, state: &State, height: f32, titles: (&str, &str), deviation: bool) -> Option<f64> {
+        let palette = Palette::of(ui);
+        let view = &state.transient;
+        let first = view.runs.first()?;
+        let duration = view.setup.as_ref().map_or(0.0, |setup| setup.study.duration);
+        let group = Id::unique(("transient", view.generation));
+        let id = format!("transient {} {}", self.name, view.generation);
+        let marks = super::marks(ui.available_width());
+        let mut plot = axes::plot(ui, &id, height, titles.0, titles.1)
+            .x_grid_spacer(move |input| axes::round_marks(input, marks))
+            .link_axis(group, Vec2b::new(true, false))
+            .link_cursor(group, Vec2b::new(true, false))
+            .include_x(0.0)
+            .include_x(duration)
+            .set_margin_fraction(egui::vec2(0.0, 0.08))
+            .auto_bounds(Vec2b::TRUE);
+        if !deviation && view.runs.len() > 1 {
+            plot = plot.legend(
+                Legend::default().position(Corner::RightTop).follow_insertion_order(true).background_alpha(0.6),
+            );
+        }
+        let shown = plot.show(ui, |plot| {
+            if deviation {
+                plot.hline(
+                    HLine::new("", 0.0).id("none").color(palette.reference).width(THIN_WIDTH).allow_hover(false),
+                );
+            } else if let Some(start) = first.trajectory.moments.first() {
+                let line = HLine::new("Stationary at T = 0", start.value(self.quantity)).color(palette.reference);
+                plot.hline(line.width(THIN_WIDTH).style(LineStyle::dashed_dense()).allow_hover(false));
+            }
+            for (k, run) in view.runs.iter().enumerate().skip(usize::from(deviation)) {
+                let points = if deviation { deviations(run, first, self.quantity) } else { values(run, self.quantity) };
+                let (color, width, line_style) = style(k, self.color, &palette);
+                let line = Line::new(run.name(), PlotPoints::Owned(thinned(points)));
+                plot.line(line.color(color).width(width).style(line_style).allow_band(false));
+            }
+            let now = VLine::new("", view.player.time()).id("now").color(palette.accent).width(1.0);
+            plot.vline(now.allow_hover(false));
+            plot.response().clicked().then(|| plot.pointer_coordinate()).flatten()
+        });
+        let name = match self.name {
+            "pressure" => "Central pressure against time",
+            "film" => "Central film against time",
+            _ => "Deviation from the first run",
+        };
+        named(ui, shown.response, name);
+        shown.inner.map(|at| at.x)
+    }
+}
+
+fn values(run: &Run, quantity: Quantity) -> Vec<PlotPoint> {
+    run.trajectory.moments.iter().map(|moment| PlotPoint::new(moment.time, moment.value(quantity))).collect()
+}
+
+fn deviations(run: &Run, first: &Run, quantity: Quantity) -> Vec<PlotPoint> {
+    let percent = |time: f64, value: f64| {
+        Some(PlotPoint::new(time, 100.0 * (value / first.trajectory.at(quantity, time)? - 1.0)))
+    };
+    run.trajectory.moments.iter().filter_map(|moment| percent(moment.time, moment.value(quantity))).collect()
+}
+
+/// As many points as a screen can show, with all extremes.
+fn thinned(points: Vec<PlotPoint>) -> Vec<PlotPoint> {
+    if points.len() <= MOST_POINTS {
+        return points;
+    }
+    let group = points.len().div_ceil(MOST_POINTS / 2);
+    points
+        .chunks(group)
+        .flat_map(|chunk| {
+            let least = chunk.iter().copied().min_by(|a, b| a.y.total_cmp(&b.y));
+            let greatest = chunk.iter().copied().max_by(|a, b| a.y.total_cmp(&b.y));
+            let mut pair: Vec<PlotPoint> = least.into_iter().chain(greatest).collect();
+            pair.sort_by(|a, b| a.x.total_cmp(&b.x));
+            pair
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_series_keep_their_extremes_and_their_order() {
+        let wave = |k: usize| PlotPoint::new(k as f64, (k as f64 / 900.0).sin() + if k == 7777 { 5.0 } else { 0.0 });
+        let points = thinned((0..20_000).map(wave).collect());
+        assert!(points.len() <= MOST_POINTS + 2);
+        assert!(points.iter().any(|p| p.x == 7777.0));
+        assert!(points.windows(2).all(|pair| pair[0].x <= pair[1].x));
+        assert_eq!(thinned((0..10).map(wave).collect()).len(), 10);
+    }
+}

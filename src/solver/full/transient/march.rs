@@ -1,0 +1,355 @@
+//! The march through time: which steps are taken, which are discarded, and what is kept.
+
+use super::difference::BackwardDifference;
+use super::frame::{Conditions, Frame, Scales};
+use super::signal::{InputError, Inputs};
+use super::trajectory::{Effort, Ended, Moment, State, Trajectory};
+use crate::solver::contact::OperatingPoint;
+use crate::solver::full::{Mesh, Problem, SolveError, Termination};
+use crate::solver::grid::LineGrid;
+use crate::solver::lubricant::Lubricant;
+use serde::{Deserialize, Serialize};
+
+/// A contact to be taken through time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Transient {
+    /// The reference contact.
+    pub point: OperatingPoint,
+    /// Its lubricant.
+    pub lubricant: Lubricant,
+    /// What varies.
+    pub inputs: Inputs,
+    /// How the domain follows.
+    pub frame: Frame,
+    /// The last T.
+    pub duration: f64,
+    /// Lengths of the steps.
+    pub time_step: TimeStep,
+    /// Which fields are kept.
+    pub keep: Keep,
+}
+
+/// How long steps are.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum TimeStep {
+    /// All the same; the duration is divided evenly.
+    Fixed(f64),
+    /// As long as the solution stays near the straight line through the two former ones.
+    Adaptive {
+        /// ‖P − extrapolation‖/‖P‖ aimed at.
+        tolerance: f64,
+        /// The longest step, and the first.
+        longest: f64,
+    },
+}
+
+/// Which fields a trajectory keeps; scalars are always kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Keep {
+    /// None.
+    #[default]
+    Scalars,
+    /// Those of the start and of every n-th step after it; n is at least 1.
+    Every(usize),
+}
+
+/// Why a march cannot begin.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TransientError {
+    /// The contact or its grid is refused.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+    /// The inputs are refused.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// The duration or a step is no positive number, or there would be too many steps.
+    #[error("the {quantity} is {value}, but must be {accepted}")]
+    Time {
+        /// Which quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// What would be accepted.
+        accepted: String,
+    },
+    /// Shear-thinning in time.
+    #[error("shear-thinning lubricants are not part of this version's contacts in time; use a Newtonian lubricant")]
+    Shear,
+}
+
+/// Watches a march. Every method has a default, so `()` watches nothing.
+pub trait TransientObserver {
+    /// Called after the start and after every step taken.
+    fn moment(&mut self, _moment: &Moment) {}
+
+    /// Asked after each moment: whether its fields are wanted too.
+    fn wants_state(&self) -> bool {
+        false
+    }
+
+    /// The fields of the moment reported last, where they were wanted.
+    fn state(&mut self, _state: &State) {}
+
+    /// Asked between steps and between iterations; `true` ends the march with what it has.
+    fn cancelled(&self) -> bool {
+        false
+    }
+}
+
+impl TransientObserver for () {}
+
+/// One step: what the rows of any model need to know of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Step {
+    /// The equations at its end.
+    pub now: Conditions,
+    /// Scales at its beginning and one step before.
+    pub former: [Scales; 2],
+    /// Its difference quotient.
+    pub quotient: BackwardDifference,
+    /// Its length over that of the former step.
+    pub ratio: f64,
+    /// ȧ/a of the moving nodes by the same quotient as everything else, so that nodes in motion alone change no field; 0 in the other frames.
+    pub growth: f64,
+}
+
+/// A model of the contact that can be taken through time. It holds its present state, two former ones, and the one under trial.
+pub trait Marching {
+    /// The grid its fields live on.
+    fn grid(&self) -> &LineGrid;
+
+    /// Finds the stationary state at the start, where the contact has rested for ever.
+    ///
+    /// # Errors
+    /// With the reason why the iteration stopped.
+    fn rest(&mut self, at: &Conditions, observer: &dyn TransientObserver) -> Result<Effort, Termination>;
+
+    /// Solves for the end of a step, from the extrapolation of the former states.
+    ///
+    /// # Errors
+    /// With the reason why the iteration stopped; the former states are as before.
+    fn step(&mut self, step: &Step, observer: &dyn TransientObserver) -> Result<Effort, Termination>;
+
+    /// ‖P − extrapolation‖/‖P‖ of the step under trial.
+    fn deviation(&self) -> f64;
+
+    /// Makes the step under trial, which led to `at`, a former one.
+    fn accept(&mut self, at: &Conditions);
+
+    /// Scalars of the state found last.
+    fn moment(&self, at: &Conditions, step: f64, effort: Effort) -> Moment;
+
+    /// Fields of the state found last.
+    fn state(&self, at: &Conditions) -> State;
+}
+
+/// Most steps of one march.
+const MOST_STEPS: f64 = 2e6;
+/// A step may be this much longer than the former one; (2.34) is stable up to 2.4.
+const GREATEST_RATIO: f64 = 1.8;
+/// An adaptive step is not made shorter than this part of the longest.
+const SHORTEST_PART: f64 = 1e-5;
+/// A step is repeated when it should have been shorter than this part of its length.
+const TOO_FAR: f64 = 0.5;
+
+impl Transient {
+    /// Refuses inputs and times without sense.
+    ///
+    /// # Errors
+    /// With what is wrong.
+    pub fn check(&self) -> Result<(), TransientError> {
+        let positive = |quantity, value: f64| {
+            let accepted = || "a finite number above zero".to_owned();
+            let fine = value.is_finite() && value > 0.0;
+            if fine { Ok(()) } else { Err(TransientError::Time { quantity, value, accepted: accepted() }) }
+        };
+        positive("duration", self.duration)?;
+        let longest = match self.time_step {
+            TimeStep::Fixed(step) => step,
+            TimeStep::Adaptive { tolerance, longest } => {
+                positive("tolerance of the time step", tolerance)?;
+                longest
+            }
+        };
+        positive("time step", longest)?;
+        if longest > self.duration || self.duration / longest > MOST_STEPS {
+            let accepted = format!("between {:e} and the duration {}", self.duration / MOST_STEPS, self.duration);
+            return Err(TransientError::Time { quantity: "time step", value: longest, accepted });
+        }
+        Ok(self.inputs.check(self.duration)?)
+    }
+
+    /// The reference problem.
+    ///
+    /// # Errors
+    /// When the contact, the inputs, the times or the lubricant is refused.
+    pub fn problem(&self) -> Result<Problem, TransientError> {
+        self.check()?;
+        let problem = Problem::of_kind(crate::solver::contact::ContactKind::Line, &self.point, self.lubricant)?;
+        if problem.shear.is_some() {
+            return Err(TransientError::Shear);
+        }
+        Ok(problem)
+    }
+}
+
+impl Step {
+    /// The step to `now` after the states at `former` conditions. The first step of a march has no former one: its `step_before` is its own.
+    pub fn new(frame: Frame, now: Conditions, former: [Scales; 2], step: f64, step_before: f64) -> Self {
+        let quotient = BackwardDifference::second_order(step, step_before);
+        let growth = match frame {
+            Frame::ArbitraryLagrangianEulerian => {
+                quotient.of([now.scales.half_width, former[0].half_width, former[1].half_width]) / now.scales.half_width
+            }
+            Frame::Fixed | Frame::Remeshed(_) => 0.0,
+        };
+        Self { now, former, quotient, ratio: step / step_before, growth }
+    }
+
+    /// Velocity of the flow relative to the node at X.
+    #[inline]
+    pub fn velocity(&self, x: f64) -> f64 {
+        self.now.speed - self.growth * x
+    }
+
+    /// Weights of the former ρ̄H, the nearer one first: (R/a²) ∂/∂T of (a²/R) ρ̄H, which is ∂(ρ̄H)/∂T with the growth of the scale of H.
+    pub fn history_weights(&self) -> [f64; 2] {
+        std::array::from_fn(|i| self.quotient.former[i] * self.former[i].film / self.now.scales.film)
+    }
+}
+
+/// Takes a model through time.
+///
+/// # Errors
+/// When the contact, the inputs, the times or the lubricant is refused. A march that ends early is an answer: it says when and why.
+pub fn march(
+    model: &mut dyn Marching,
+    transient: &Transient,
+    observer: &mut dyn TransientObserver,
+) -> Result<Trajectory, TransientError> {
+    let problem = transient.problem()?;
+    let grid = model.grid();
+    let mut trajectory = Trajectory {
+        transient: transient.clone(),
+        problem,
+        mesh: Mesh::Line { spec: grid.reference.spec, scale: grid.scale },
+        x: grid.x.clone(),
+        moments: Vec::new(),
+        states: Vec::new(),
+        rejected_steps: 0,
+        ended: Ended::Finished,
+    };
+    trajectory.ended = match walk(model, &problem, observer, &mut trajectory) {
+        Ok(()) => Ended::Finished,
+        Err(ended) => ended,
+    };
+    Ok(trajectory)
+}
+
+fn walk(
+    model: &mut dyn Marching,
+    problem: &Problem,
+    observer: &mut dyn TransientObserver,
+    trajectory: &mut Trajectory,
+) -> Result<(), Ended> {
+    let Transient { inputs, frame, duration, time_step, .. } = trajectory.transient.clone();
+    let conditions = |time: f64| {
+        frame.conditions(problem, time, inputs.at(time)).map_err(|reason| Ended::ContactRefused { time, reason })
+    };
+    let mut at = conditions(0.0)?;
+    let effort = model.rest(&at, observer).map_err(|termination| match termination {
+        Termination::Cancelled => Ended::Cancelled { time: 0.0 },
+        _ => Ended::StepRefused { time: 0.0, step: 0.0, termination },
+    })?;
+    trajectory.record(model, &at, 0.0, effort, observer);
+    let mut former = at.scales;
+    let mut length = time_step.first(duration);
+    let mut length_before = length;
+    while at.time < duration {
+        if observer.cancelled() {
+            return Err(Ended::Cancelled { time: at.time });
+        }
+        // What rounding leaves of the last step is no step of its own.
+        let last = duration - at.time <= length * (1.0 + 1e-6);
+        if last {
+            length = duration - at.time;
+        }
+        let now = conditions(if last { duration } else { at.time + length })?;
+        let step = Step::new(frame, now, [at.scales, former], length, length_before);
+        match model.step(&step, observer) {
+            Ok(effort) => {
+                let wanted = time_step.wanted(length, model.deviation());
+                if wanted < TOO_FAR * length {
+                    length = wanted;
+                    trajectory.rejected_steps += 1;
+                    continue;
+                }
+                model.accept(&now);
+                (former, at) = (at.scales, now);
+                trajectory.record(model, &at, length, effort, observer);
+                (length_before, length) = (length, wanted);
+            }
+            Err(Termination::Cancelled) => return Err(Ended::Cancelled { time: at.time }),
+            Err(termination) => {
+                let refused = Ended::StepRefused { time: now.time, step: length, termination };
+                length = time_step.shorter(length).ok_or(refused)?;
+                trajectory.rejected_steps += 1;
+            }
+        }
+    }
+    Ok(())
+}
+
+impl TimeStep {
+    /// The first step of a march over `duration`.
+    fn first(self, duration: f64) -> f64 {
+        match self {
+            Self::Fixed(step) => duration / (duration / step).round().max(1.0),
+            Self::Adaptive { longest, .. } => longest,
+        }
+    }
+
+    /// The step that would have been right instead of `length`, by its deviation from the extrapolation, which is of second order in it.
+    fn wanted(self, length: f64, deviation: f64) -> f64 {
+        match self {
+            Self::Fixed(_) => length,
+            Self::Adaptive { tolerance, longest } => {
+                let factor = 0.9 * (tolerance / deviation).sqrt();
+                (length * factor.clamp(0.2, GREATEST_RATIO)).clamp(SHORTEST_PART * longest, longest)
+            }
+        }
+    }
+
+    /// A shorter step in place of one that could not be taken; `None` where that is not allowed.
+    fn shorter(self, length: f64) -> Option<f64> {
+        match self {
+            Self::Fixed(_) => None,
+            Self::Adaptive { longest, .. } => (length > SHORTEST_PART * longest).then_some(0.25 * length),
+        }
+    }
+}
+
+impl Trajectory {
+    /// Adds the state found last, and tells of it.
+    fn record(
+        &mut self,
+        model: &dyn Marching,
+        at: &Conditions,
+        step: f64,
+        effort: Effort,
+        observer: &mut dyn TransientObserver,
+    ) {
+        if let Keep::Every(n) = self.transient.keep
+            && self.moments.len().is_multiple_of(n.max(1))
+        {
+            self.states.push(model.state(at));
+        }
+        let moment = model.moment(at, step, effort);
+        self.moments.push(moment);
+        observer.moment(&moment);
+        if observer.wants_state() {
+            observer.state(&model.state(at));
+        }
+    }
+}

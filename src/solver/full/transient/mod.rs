@@ -1,0 +1,25 @@
+//! Line contacts in time: inputs that vary, second-order time integration, three frames, and the trajectory that comes of it.
+//!
+//! [`march`] takes any [`Marching`] model through time and knows nothing of how a step is solved; [`solve`] does so with the full
+//! system. All scalars of a [`Trajectory`] are in the scales of the reference contact, whatever the frame, so that trajectories can be
+//! compared; its fields are in the frame's own.
+
+mod difference;
+mod frame;
+mod march;
+mod mass;
+mod signal;
+mod spline;
+mod system;
+#[cfg(test)]
+mod tests;
+mod trajectory;
+
+pub use difference::{BackwardDifference, extrapolated};
+pub use frame::{Conditions, Frame, Scales, point_at};
+pub use march::{Keep, Marching, Step, TimeStep, Transient, TransientError, TransientObserver, march};
+pub use mass::MassBalance;
+pub use signal::{Input, InputError, Inputs, Signal};
+pub use spline::{Interpolated, Interpolation};
+pub use system::{FullMarch, solve};
+pub use trajectory::{Effort, Ended, Moment, Quantity, State, Trajectory};

@@ -1,0 +1,316 @@
+//! What drives a contact in time: R̄(T), ū(T) and w̄(T) of (2.18) to (2.20).
+
+use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
+
+/// A dimensionless function of time. Before T = 0 it rests at its value there.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Signal {
+    /// 1 throughout.
+    #[default]
+    Constant,
+    /// 1 + A sin(2π T/T_ex), (2.49), (4.12).
+    Harmonic {
+        /// A.
+        amplitude: f64,
+        /// T_ex.
+        period: f64,
+    },
+    /// 1 + A₁ sin(2π T/T₁) + A₂ sin(2π T/T₂), (4.33).
+    TwoScale {
+        /// A₁ and A₂.
+        amplitudes: (f64, f64),
+        /// T₁ and T₂.
+        periods: (f64, f64),
+    },
+    /// Between a triangle wave (s = 0) and a square wave (s = 1) around 1, Fig. 4.16: a triangle 1/(1 − s) times as high, cut at ±A.
+    TriangleToSquare {
+        /// A.
+        amplitude: f64,
+        /// T_ex.
+        period: f64,
+        /// s, 0 ≤ s < 1.
+        s: f64,
+    },
+    /// Given values, joined by straight lines; after the last one it rests.
+    Sampled {
+        /// T, rising.
+        times: Vec<f64>,
+        /// The value at each.
+        values: Vec<f64>,
+    },
+}
+
+/// The three inputs as functions of time.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Inputs {
+    /// R̄(T).
+    #[serde(default)]
+    pub radius: Signal,
+    /// ū(T).
+    #[serde(default)]
+    pub speed: Signal,
+    /// w̄(T).
+    #[serde(default)]
+    pub load: Signal,
+}
+
+/// The three inputs at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Input {
+    /// R̄.
+    pub radius: f64,
+    /// ū.
+    pub speed: f64,
+    /// w̄.
+    pub load: f64,
+}
+
+/// Why inputs are refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum InputError {
+    /// R̄ or w̄ does not stay positive.
+    #[error("the {input} falls to {value:.4} times its reference at T = {time:.4}, but must stay above zero")]
+    NotPositive {
+        /// Which input.
+        input: &'static str,
+        /// Its value.
+        value: f64,
+        /// When.
+        time: f64,
+    },
+    /// A value is NaN or infinite.
+    #[error("the {input} is {value} at T = {time:.4}, but must be a finite number")]
+    NotFinite {
+        /// Which input.
+        input: &'static str,
+        /// Its value.
+        value: f64,
+        /// When.
+        time: f64,
+    },
+    /// A period or slope makes no sense.
+    #[error("the {input} has the {constant} {value}, but it must be {accepted}")]
+    Constant {
+        /// Which input.
+        input: &'static str,
+        /// Which constant.
+        constant: &'static str,
+        /// Its value.
+        value: f64,
+        /// What would be accepted.
+        accepted: &'static str,
+    },
+    /// Sampled times do not rise.
+    #[error("the times of the {input} must rise, but {time} (entry {entry}) does not lie after {before}")]
+    Order {
+        /// Which input.
+        input: &'static str,
+        /// Which entry, from 1.
+        entry: usize,
+        /// Its time.
+        time: f64,
+        /// The time before.
+        before: f64,
+    },
+    /// Sampled times and values do not match.
+    #[error("the {input} has {times} times but {values} values; both are needed, as many of each")]
+    Length {
+        /// Which input.
+        input: &'static str,
+        /// Times given.
+        times: usize,
+        /// Values given.
+        values: usize,
+    },
+}
+
+/// Samples over which inputs are watched for a passage through zero, beside their own knots.
+const WATCHED: usize = 20_000;
+
+impl Signal {
+    /// Its value at T.
+    pub fn at(&self, time: f64) -> f64 {
+        let time = time.max(0.0);
+        match self {
+            Self::Constant => 1.0,
+            Self::Harmonic { amplitude, period } => 1.0 + amplitude * (TAU * time / period).sin(),
+            Self::TwoScale { amplitudes, periods } => {
+                1.0 + amplitudes.0 * (TAU * time / periods.0).sin() + amplitudes.1 * (TAU * time / periods.1).sin()
+            }
+            Self::TriangleToSquare { amplitude, period, s } => {
+                // A triangle of height 1 that starts upwards at zero.
+                let phase = (time / period + 0.25).fract();
+                let triangle = 1.0 - 4.0 * (phase - 0.5).abs();
+                1.0 + amplitude * (triangle / (1.0 - s)).clamp(-1.0, 1.0)
+            }
+            Self::Sampled { times, values } => {
+                let next = times.partition_point(|&t| t <= time);
+                match (next.checked_sub(1), values.get(next)) {
+                    (None, Some(&first)) => first,
+                    (Some(k), Some(&value)) => {
+                        let share = (time - times[k]) / (times[k + 1] - times[k]);
+                        values[k] + share * (value - values[k])
+                    }
+                    (_, None) => values.last().copied().unwrap_or(1.0),
+                }
+            }
+        }
+    }
+
+    /// The shortest time over which it changes its course: what a time step has to resolve. Infinite where nothing changes.
+    pub fn shortest_period(&self) -> f64 {
+        match self {
+            Self::Constant => f64::INFINITY,
+            Self::Harmonic { period, .. } => *period,
+            Self::TwoScale { periods, .. } => periods.0.min(periods.1),
+            Self::TriangleToSquare { period, s, .. } => period * (1.0 - s),
+            Self::Sampled { times, .. } => {
+                4.0 * times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min)
+            }
+        }
+    }
+
+    fn check_constants(&self, input: &'static str) -> Result<(), InputError> {
+        let positive = |constant, value: f64| {
+            let accepted = "a finite number above zero";
+            if value.is_finite() && value > 0.0 {
+                Ok(())
+            } else {
+                Err(InputError::Constant { input, constant, value, accepted })
+            }
+        };
+        match self {
+            Self::Constant => Ok(()),
+            Self::Harmonic { period, .. } => positive("period", *period),
+            Self::TwoScale { periods, .. } => {
+                positive("first period", periods.0).and_then(|()| positive("second period", periods.1))
+            }
+            Self::TriangleToSquare { period, s, .. } => {
+                positive("period", *period)?;
+                if (0.0..1.0).contains(s) {
+                    return Ok(());
+                }
+                let accepted = "at least 0 (a triangle) and below 1 (a square)";
+                Err(InputError::Constant { input, constant: "steepness s", value: *s, accepted })
+            }
+            Self::Sampled { times, values } => {
+                if times.len() != values.len() || times.is_empty() {
+                    return Err(InputError::Length { input, times: times.len(), values: values.len() });
+                }
+                for (entry, &time) in times.iter().enumerate() {
+                    let before = if entry == 0 { f64::NEG_INFINITY } else { times[entry - 1] };
+                    if !time.is_finite() || time <= before {
+                        return Err(InputError::Order { input, entry: entry + 1, time, before });
+                    }
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+impl Inputs {
+    /// Only the load varies.
+    pub fn load(load: Signal) -> Self {
+        Self { load, ..Self::default() }
+    }
+
+    /// All three follow the same function, (4.34).
+    pub fn all(signal: Signal) -> Self {
+        Self { radius: signal.clone(), speed: signal.clone(), load: signal }
+    }
+
+    /// The inputs at T.
+    pub fn at(&self, time: f64) -> Input {
+        Input { radius: self.radius.at(time), speed: self.speed.at(time), load: self.load.at(time) }
+    }
+
+    /// The shortest time over which any of them changes its course.
+    pub fn shortest_period(&self) -> f64 {
+        [&self.radius, &self.speed, &self.load].map(Signal::shortest_period).into_iter().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Refuses functions without sense, and a radius or a load that does not stay positive over 0 ≤ T ≤ `duration`. The speed may
+    /// turn round.
+    ///
+    /// # Errors
+    /// With the input and the first time at which it happens.
+    pub fn check(&self, duration: f64) -> Result<(), InputError> {
+        for (input, signal) in [("radius", &self.radius), ("speed", &self.speed), ("load", &self.load)] {
+            signal.check_constants(input)?;
+            let mut times: Vec<f64> = (0..=WATCHED).map(|k| duration * k as f64 / WATCHED as f64).collect();
+            if let Signal::Sampled { times: knots, .. } = signal {
+                times.extend(knots.iter().filter(|knot| (0.0..=duration).contains(*knot)));
+                times.sort_by(f64::total_cmp);
+            }
+            for time in times {
+                let value = signal.at(time);
+                if !value.is_finite() {
+                    return Err(InputError::NotFinite { input, value, time });
+                }
+                if input != "speed" && value <= 0.0 {
+                    return Err(InputError::NotPositive { input, value, time });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn signals_have_the_printed_values() {
+        let harmonic = Signal::Harmonic { amplitude: 0.1, period: 4.0 };
+        assert!((harmonic.at(1.0) - 1.1).abs() < 1e-15 && harmonic.at(-3.0) == 1.0);
+        // (4.33) at T = 2 and T = 1/8.
+        let load = Signal::TwoScale { amplitudes: (0.8, 0.1), periods: (8.0, 0.5) };
+        assert!((load.at(2.0) - 1.8).abs() < 1e-14);
+        assert!((load.at(0.125) - (1.1 + 0.8 * (TAU / 64.0).sin())).abs() < 1e-14);
+    }
+
+    #[test]
+    fn the_triangle_becomes_a_square() {
+        let wave = |s| Signal::TriangleToSquare { amplitude: 0.1, period: 1.0, s };
+        for (s, eighth) in [(0.0, 1.05), (0.5, 1.1), (0.9, 1.1)] {
+            let wave = wave(s);
+            for (time, want) in [(0.0, 1.0), (0.125, eighth), (0.25, 1.1), (0.5, 1.0), (0.75, 0.9), (1.0, 1.0)] {
+                assert!((wave.at(time) - want).abs() < 1e-12, "s = {s} at {time}: {}", wave.at(time));
+            }
+        }
+    }
+
+    #[test]
+    fn samples_are_joined_by_straight_lines_and_rest_at_both_ends() {
+        let sampled = Signal::Sampled { times: vec![1.0, 2.0, 4.0], values: vec![1.0, 3.0, 2.0] };
+        for (time, want) in [(0.0, 1.0), (1.5, 2.0), (3.0, 2.5), (4.0, 2.0), (9.0, 2.0)] {
+            assert!((sampled.at(time) - want).abs() < 1e-14, "at {time}");
+        }
+    }
+
+    #[test]
+    fn inputs_without_sense_are_refused_with_the_time() {
+        let message = |inputs: Inputs| inputs.check(2.0).unwrap_err().to_string();
+        let deep = Signal::Harmonic { amplitude: 1.2, period: 1.0 };
+        assert!(message(Inputs::load(deep.clone())).starts_with("the load falls to -0.0"));
+        assert!(message(Inputs::load(deep.clone())).contains("T = 0.65"));
+        assert!(Inputs { speed: deep.clone(), ..Inputs::default() }.check(2.0).is_ok());
+        assert!(Inputs::load(deep).check(0.5).is_ok());
+        let dip = Signal::Sampled { times: vec![0.0, 1.000_000_1, 1.1], values: vec![1.0, -0.5, 1.0] };
+        assert!(message(Inputs { radius: dip, ..Inputs::default() }).contains("radius"));
+        let order = Signal::Sampled { times: vec![0.0, 1.0, 1.0], values: vec![1.0; 3] };
+        assert!(message(Inputs::load(order)).contains("entry 3"));
+        let short = Signal::Sampled { times: vec![0.0, 1.0], values: vec![1.0; 3] };
+        assert!(message(Inputs::load(short)).contains("2 times but 3 values"));
+        let gap = Signal::Sampled { times: vec![0.0, 1.0], values: vec![1.0, f64::NAN] };
+        assert!(message(Inputs::load(gap)).contains("finite"));
+        let square = Signal::TriangleToSquare { amplitude: 0.1, period: 1.0, s: 1.0 };
+        assert!(message(Inputs::load(square)).contains("steepness"));
+        assert!(message(Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 0.0 })).contains("period"));
+    }
+}

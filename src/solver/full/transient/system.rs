@@ -1,0 +1,239 @@
+//! The full system in time: every step a Newton solve from the extrapolation of the two former ones.
+
+use super::difference::extrapolated;
+use super::frame::{Conditions, Frame, point_at};
+use super::march::{Marching, Step, Transient, TransientError, TransientObserver, march};
+use super::spline::Interpolated;
+use super::trajectory::{Effort, Moment, State, Trajectory};
+use crate::solver::full::start::pressure_at;
+use crate::solver::full::{FullSolver, LineSystem, Problem, Report, SolveOptions, Start, Termination};
+use crate::solver::grid::{GridSpec, LineGrid, ReferenceGrid};
+use crate::solver::observer::Observer;
+use crate::solver::reynolds::line::Upstream;
+use std::sync::Arc;
+
+/// The full system, ready to march.
+pub struct FullMarch {
+    system: LineSystem,
+    /// The stationary start, which needs other settings than a step.
+    solver: FullSolver,
+    reference: Problem,
+    frame: Frame,
+    /// Settings of a step beside its extrapolation, and of a second attempt from the former state.
+    options: [SolveOptions; 2],
+    /// The nearer one first.
+    former: [Past; 2],
+    start: Vec<f64>,
+    /// Their ρ̄H at the present nodes.
+    carried: [Vec<f64>; 2],
+}
+
+/// A former state.
+#[derive(Clone, Debug, Default)]
+struct Past {
+    pressure: Vec<f64>,
+    h_0: f64,
+    /// ρ̄H.
+    flow: Vec<f64>,
+    /// The same between the nodes, where the frame is remeshed.
+    between: Interpolated,
+}
+
+/// Lets a Newton solve see that the march was cancelled.
+struct Cancel<'a>(&'a dyn TransientObserver);
+
+impl Observer for Cancel<'_> {
+    fn cancelled(&self) -> bool {
+        self.0.cancelled()
+    }
+}
+
+/// Stop of a step's Newton iteration on ‖Δz‖/‖z‖. It converges quadratically, so the error left is far below that.
+const STEP_TOLERANCE: f64 = 1e-6;
+
+/// Takes a contact through time with the full system on a grid.
+///
+/// # Errors
+/// When the contact, the grid, the inputs, the times or the lubricant is refused.
+pub fn solve(
+    spec: GridSpec,
+    transient: &Transient,
+    observer: &mut dyn TransientObserver,
+) -> Result<Trajectory, TransientError> {
+    let reference = spec.build().map_err(crate::solver::full::SolveError::from)?;
+    march(&mut FullMarch::new(reference, transient)?, transient, observer)
+}
+
+impl FullMarch {
+    /// The system on a reference grid for one contact and frame.
+    ///
+    /// # Errors
+    /// When the contact, the inputs, the times or the lubricant is refused.
+    pub fn new(reference: Arc<ReferenceGrid>, transient: &Transient) -> Result<Self, TransientError> {
+        let problem = transient.problem()?;
+        let grid = reference.for_contact(problem.moes);
+        let length = grid.len();
+        let beside =
+            SolveOptions { tolerance: STEP_TOLERANCE, max_newton: 12, shortest_step: 1.0, ..SolveOptions::default() };
+        let farther = SolveOptions { max_newton: 60, shortest_step: SolveOptions::default().shortest_step, ..beside };
+        Ok(Self {
+            system: LineSystem::new(grid),
+            solver: FullSolver::on(reference),
+            reference: problem,
+            frame: transient.frame,
+            options: [beside, farther],
+            former: Default::default(),
+            start: vec![0.0; length],
+            carried: [vec![0.0; length], vec![0.0; length]],
+        })
+    }
+
+    /// Gives the rows their place in time.
+    fn set_rows(&mut self, step: &Step) {
+        for (carried, (past, scales)) in self.carried.iter_mut().zip(self.former.iter().zip(step.former)) {
+            match self.frame {
+                Frame::Remeshed(_) => {
+                    let stretch = step.now.scales.half_width / scales.half_width;
+                    let x = &self.system.grid.x;
+                    past.between.stretched(x, stretch, x.iter().copied(), |i, flow| carried[i] = flow);
+                }
+                Frame::Fixed | Frame::ArbitraryLagrangianEulerian => carried.copy_from_slice(&past.flow),
+            }
+        }
+        let LineSystem { grid, rows, upstream, .. } = &mut self.system;
+        let unknowns = grid.unknowns();
+        let [near, far] = step.history_weights();
+        for (k, (row, upstream)) in rows.iter_mut().zip(upstream).enumerate() {
+            let node = k + crate::solver::grid::FIRST_UNKNOWN;
+            let velocity = step.velocity(grid.x[node]);
+            *upstream = Upstream::of(velocity, k, unknowns);
+            let geometry = match upstream {
+                Upstream::Inlet => grid.rows[k],
+                Upstream::Outlet | Upstream::Edge => upstream.geometry(&grid.x, k),
+            };
+            let history = near * self.carried[0][node] + far * self.carried[1][node];
+            *row = geometry.in_time(velocity.abs(), step.quotient.now, history);
+        }
+    }
+
+    /// Newton from the state that is set.
+    fn newton(&mut self, at: &Conditions, attempt: usize, observer: &dyn TransientObserver) -> Report {
+        let mut report = Report::empty();
+        self.system.newton(&at.problem, &self.options[attempt], &mut Cancel(observer), &mut report);
+        report
+    }
+
+    fn set_state(&mut self, at: &Conditions, h_0: f64) {
+        self.system.curvature = at.curvature;
+        self.system.set_pressure(&at.problem, &self.start);
+        self.system.set_h_0(h_0);
+    }
+
+    /// Makes the present state the nearer of the former ones.
+    fn remember(&mut self) {
+        self.former.swap(0, 1);
+        let (past, system) = (&mut self.former[0], &self.system);
+        past.pressure.clone_from(&system.pressure);
+        past.h_0 = system.h_0;
+        past.flow.clear();
+        past.flow.extend(system.flow());
+        if let Frame::Remeshed(interpolation) = self.frame {
+            past.between.set(interpolation, &system.grid.x, system.flow());
+        }
+    }
+}
+
+fn effort_of(report: &Report) -> Effort {
+    Effort { newton_iterations: report.newton_iterations, linear_iterations: report.linear_iterations }
+}
+
+fn converged(report: &Report) -> Result<Effort, Termination> {
+    match report.termination {
+        Termination::Converged => Ok(effort_of(report)),
+        termination => Err(termination),
+    }
+}
+
+impl Marching for FullMarch {
+    fn grid(&self) -> &LineGrid {
+        &self.system.grid
+    }
+
+    fn rest(&mut self, at: &Conditions, observer: &dyn TransientObserver) -> Result<Effort, Termination> {
+        let point = point_at(&self.reference.point, at.input);
+        let problem = Problem::new(&point, self.reference.lubricant).map_err(|_| Termination::Diverged)?;
+        let solution = self.solver.solve_problem(problem, Start::Cold, &mut Cancel(observer));
+        converged(&solution.report)?;
+        // The same contact in the frame's scales and on its grid.
+        let size = (at.input.load * at.input.radius).sqrt() / at.scales.half_width;
+        for (p, x) in self.start.iter_mut().zip(&self.system.grid.x) {
+            *p = pressure_at(&solution, x / size);
+        }
+        for (row, geometry) in self.system.rows.iter_mut().zip(&self.system.grid.rows) {
+            *row = geometry.in_time(at.speed, 0.0, 0.0);
+        }
+        self.system.upstream.fill(Upstream::Inlet);
+        self.set_state(at, 0.0);
+        self.system.set_central_film(solution.scalars.h_c * at.input.load / at.scales.film);
+        self.options[1].tolerance = SolveOptions::default().tolerance;
+        let report = self.newton(at, 1, observer);
+        self.options[1].tolerance = STEP_TOLERANCE;
+        let mut effort = converged(&report)?;
+        effort.newton_iterations += solution.report.newton_iterations;
+        effort.linear_iterations += solution.report.linear_iterations;
+        self.remember();
+        self.former[1] = self.former[0].clone();
+        Ok(effort)
+    }
+
+    fn step(&mut self, step: &Step, observer: &dyn TransientObserver) -> Result<Effort, Termination> {
+        self.set_rows(step);
+        let [near, far] = &self.former;
+        for (start, (near, far)) in self.start.iter_mut().zip(near.pressure.iter().zip(&far.pressure)) {
+            *start = extrapolated(step.ratio, *near, *far);
+        }
+        let h_0 = extrapolated(step.ratio, near.h_0, far.h_0);
+        self.set_state(&step.now, h_0);
+        let first = self.newton(&step.now, 0, observer);
+        if matches!(first.termination, Termination::Converged | Termination::Cancelled) {
+            return converged(&first);
+        }
+        let (h_0, extrapolation) = (self.former[0].h_0, self.start.clone());
+        self.start.copy_from_slice(&self.former[0].pressure);
+        self.set_state(&step.now, h_0);
+        let second = self.newton(&step.now, 1, observer);
+        self.start = extrapolation;
+        let mut effort = converged(&second)?;
+        effort.newton_iterations += first.newton_iterations;
+        effort.linear_iterations += first.linear_iterations;
+        Ok(effort)
+    }
+
+    fn deviation(&self) -> f64 {
+        let weights = &self.system.grid.weights;
+        let (mut difference, mut norm) = (0.0, 0.0);
+        for ((p, e), w) in self.system.pressure.iter().zip(&self.start).zip(weights) {
+            difference += w * (p - e) * (p - e);
+            norm += w * p * p;
+        }
+        (difference / norm).sqrt()
+    }
+
+    fn accept(&mut self, _: &Conditions) {
+        self.remember();
+    }
+
+    fn moment(&self, at: &Conditions, step: f64, effort: Effort) -> Moment {
+        Moment::of_fields(at, step, &self.system.grid, &self.system.pressure, &self.system.film, effort)
+    }
+
+    fn state(&self, at: &Conditions) -> State {
+        State {
+            time: at.time,
+            scales: at.scales,
+            pressure: self.system.pressure.clone(),
+            film: self.system.film.clone(),
+            h_0: self.system.h_0,
+        }
+    }
+}

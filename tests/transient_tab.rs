@@ -1,0 +1,241 @@
+//! The Transient tab without a display: a contact is taken through time, watched, stopped, looked at, exported and saved.
+
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use ehl_explorer::app::Explorer;
+use ehl_explorer::scene::{Scene, Study};
+use ehl_explorer::solver::full::transient::{Frame, Signal};
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// A run must stop within this; debug builds are many times slower.
+const STOP: Duration = Duration::from_millis(if cfg!(debug_assertions) { 3000 } else { 100 });
+
+type Window = Harness<'static, Explorer>;
+
+/// A scene on a coarse grid, on which a step takes about a millisecond.
+fn scene(inputs: &str, duration: f64, frames: &str) -> String {
+    format!(
+        "Scene(version: 1, title: \"breathing\", at: Moes(m: 20.0, l: 5.0), grid: Uniform(dx: 0.02, domain: (-4.0, 2.0)),
+            study: Transient(inputs: ({inputs}), duration: {duration}, time_step: Fixed(0.05), frames: [{frames}]))"
+    )
+}
+
+const BREATHING: &str = "load: Harmonic(amplitude: 0.1, period: 2.0)";
+
+fn scratch(name: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("ehl-transient-tab-{name}-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// The Transient tab on a scene.
+fn open(name: &str, text: &str) -> (Window, PathBuf) {
+    let folder = scratch(name);
+    let path = folder.join("scene.ron");
+    std::fs::write(&path, text).unwrap();
+    let mut explorer = Explorer::new(None).without_system_dialogs();
+    explorer.open_scene(&path).unwrap();
+    let mut harness =
+        Harness::builder().with_size([1280.0, 1000.0]).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer);
+    wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
+    click(&mut harness, "Transient");
+    (harness, folder)
+}
+
+fn wait(harness: &mut Window, what: &str, done: impl Fn(&Explorer) -> bool) {
+    let begin = Instant::now();
+    loop {
+        harness.step();
+        if done(harness.state()) {
+            harness.run_steps(2);
+            return;
+        }
+        assert!(begin.elapsed() < Duration::from_secs(60), "waited in vain for {what}");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+fn click(harness: &mut Window, name: &str) {
+    harness.get_by_label(name).click();
+    harness.run_steps(3);
+}
+
+fn shows(harness: &Window, text: &str) -> bool {
+    harness.query_all_by_label_contains(text).next().is_some()
+}
+
+fn run(harness: &mut Window) {
+    click(harness, "Run in time");
+    wait(harness, "the run", |app| !app.marching());
+}
+
+fn time(harness: &Window) -> f64 {
+    harness.get_by_role_and_label(Role::Slider, "Time T").accesskit_node().numeric_value().unwrap()
+}
+
+/// Gives a path to the field that asks for one.
+fn give_path(harness: &mut Window, path: &std::path::Path, action: &str) {
+    harness.get_by_label("Path of the file").focus();
+    harness.run_steps(2);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    harness.get_by_label("Path of the file").type_text(&path.display().to_string());
+    harness.run_steps(2);
+    click(harness, action);
+}
+
+/// Rows of numbers under the names of their columns.
+fn table(path: &std::path::Path) -> (Vec<String>, Vec<Vec<f64>>) {
+    let text = std::fs::read_to_string(path).unwrap();
+    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
+    let header = lines.next().unwrap().split(',').map(str::to_owned).collect();
+    let row = |line: &str| line.split(',').map(|cell| cell.parse().unwrap_or(f64::NAN)).collect();
+    (header, lines.map(row).collect())
+}
+
+#[test]
+fn frames_are_run_compared_scrubbed_played_and_exported() {
+    let (mut harness, folder) = open("frames", &scene(BREATHING, 2.0, "Fixed, ArbitraryLagrangianEulerian"));
+    run(&mut harness);
+    assert!(shows(&harness, "Central film against time") && shows(&harness, "Central pressure against time"));
+    assert!(shows(&harness, "Deviation from the first run"));
+    assert!(shows(&harness, "Moving nodes (ALE)") && shows(&harness, "Film at this moment"));
+    assert!((time(&harness) - 2.0).abs() < 1e-12, "it has followed the run to its end");
+
+    click(&mut harness, "Export series…");
+    let path = folder.join("series.csv");
+    give_path(&mut harness, &path, "Export");
+    let (header, rows) = table(&path);
+    let column = |name: &str| header.iter().position(|title| title == name).unwrap();
+    let (film, moving) = (column("full.fixed.H_c"), column("full.ale.H_c"));
+    assert_eq!(rows.len(), 41);
+    let load = column("full.fixed.w_over_ref");
+    assert!((rows[10][load] - 1.1).abs() < 1e-12);
+    assert!(rows.iter().all(|row| (row[moving] / row[film] - 1.0).abs() < 0.02));
+    assert!(rows.iter().any(|row| (row[film] / rows[0][film] - 1.0).abs() > 0.01), "the film breathes");
+
+    // A quarter of the period: the profiles are those of that moment.
+    harness.get_by_role_and_label(Role::Slider, "Time T").set_value_accesskit(0.5);
+    harness.run_steps(2);
+    click(&mut harness, "Export profiles…");
+    let path = folder.join("profiles.csv");
+    give_path(&mut harness, &path, "Export");
+    let (header, profile) = table(&path);
+    let column = |name: &str| header.iter().position(|title| title == name).unwrap();
+    let (x, h) = (column("full.ale.X"), column("full.ale.H"));
+    let centre = profile.iter().min_by(|a, b| a[x].abs().total_cmp(&b[x].abs())).unwrap();
+    assert!((centre[h] / rows[10][moving] - 1.0).abs() < 1e-6, "in the scales of the reference contact");
+
+    harness.run_steps(4);
+    assert!((time(&harness) - 0.5).abs() < 1e-9, "nothing moves by itself");
+    click(&mut harness, "Play");
+    wait(&mut harness, "the player", |app| !app.marching());
+    assert!(time(&harness) > 0.5);
+    click(&mut harness, "Pause");
+    let there = time(&harness);
+    harness.run_steps(4);
+    assert_eq!(time(&harness), there);
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn a_stopped_run_keeps_what_it_has_and_the_sliders_make_it_old() {
+    let (mut harness, folder) = open("stopped", &scene(BREATHING, 4000.0, "Fixed"));
+    let mut fastest = Duration::MAX;
+    // Another process may have the cores for a while: the best of a few runs counts.
+    for _ in 0..5 {
+        click(&mut harness, "Run in time");
+        wait(&mut harness, "some steps", |app| !app.marching() || app.transient_moments() > 20);
+        assert!(harness.query_by_label("Progress of the contact in time").is_some());
+        let begin = Instant::now();
+        click(&mut harness, "Stop");
+        wait(&mut harness, "the end", |app| !app.marching());
+        fastest = fastest.min(begin.elapsed());
+        if fastest < STOP {
+            break;
+        }
+    }
+    println!("stopped after {fastest:.0?}");
+    assert!(fastest < STOP, "{fastest:?}");
+    assert!(shows(&harness, "was cancelled at T ="));
+    let kept = harness.state().transient_moments();
+    assert!(kept > 20 && time(&harness) > 0.0);
+    assert!(!shows(&harness, "a former set-up"));
+    harness.get_by_label("Load number M").set_value_accesskit(25.0);
+    harness.run_steps(2);
+    assert!(shows(&harness, "a former set-up") && harness.state().transient_moments() == kept);
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn a_step_that_cannot_be_taken_is_named_and_what_was_computed_stays() {
+    // A load that falls to a millionth within one step.
+    let inputs = "load: Sampled(times: [0.0, 1.0, 1.01, 2.0], values: [1.0, 1.0, 1e-6, 1e-6])";
+    let (mut harness, folder) = open("refused", &scene(inputs, 2.0, "Fixed"));
+    run(&mut harness);
+    assert!(shows(&harness, "could not take the step") || shows(&harness, "stopped at T ="), "it is said");
+    assert!(shows(&harness, "what was computed before is kept"));
+    assert!((10..=41).contains(&harness.state().transient_moments()));
+    click(&mut harness, "Export series…");
+    let path = folder.join("series.csv");
+    give_path(&mut harness, &path, "Export");
+    assert_eq!(table(&path).1.len(), harness.state().transient_moments());
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn the_set_up_is_edited_undone_refused_and_saved_with_the_scene() {
+    let (mut harness, folder) = open("document", &scene(BREATHING, 2.0, "Fixed"));
+    let value = |harness: &Window, name: &str| harness.get_by_role_and_label(Role::SpinButton, name).value().unwrap();
+    assert_eq!(value(&harness, "Load A"), "0.1");
+    harness.get_by_role_and_label(Role::SpinButton, "Load A").set_value_accesskit(1.5);
+    harness.run_steps(2);
+    assert!(shows(&harness, "The load falls to"), "a load through zero is refused with its time");
+    assert_eq!(value(&harness, "Load A"), "0.1");
+    harness.get_by_role_and_label(Role::SpinButton, "Load A").set_value_accesskit(0.2);
+    harness.run_steps(2);
+    assert!(!shows(&harness, "The load falls to") && value(&harness, "Load A") == "0.2");
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    harness.run_steps(2);
+    assert_eq!(value(&harness, "Load A"), "0.1");
+    harness.get_by_role_and_label(Role::SpinButton, "Duration T").set_value_accesskit(0.01);
+    harness.run_steps(2);
+    assert!(shows(&harness, "time step is 0.05"));
+    click(&mut harness, "Fixed frame");
+    assert!(shows(&harness, "At least one frame is needed"));
+    click(&mut harness, "Remeshed, spline");
+
+    // A table with a gap changes nothing; a whole one takes the place of the load.
+    let input = folder.join("load.csv");
+    std::fs::write(&input, "T,load\n0,1\n1,\n").unwrap();
+    click(&mut harness, "Inputs from CSV…");
+    give_path(&mut harness, &input, "Read");
+    assert!(shows(&harness, "line 3: `load` is missing"));
+    std::fs::write(&input, "T,load\n0,1\n1,1.2\n2,0.9\n").unwrap();
+    click(&mut harness, "Read");
+    assert!(shows(&harness, "3 values"));
+
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
+    harness.run_steps(2);
+    let Study::Transient(study) = Scene::read(&folder.join("scene.ron")).unwrap().study else { panic!() };
+    assert_eq!(study.inputs.load, Signal::Sampled { times: vec![0.0, 1.0, 2.0], values: vec![1.0, 1.2, 0.9] });
+    assert_eq!(study.frames.len(), 2);
+    assert!(study.frames.contains(&Frame::Fixed));
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn a_fresh_window_has_something_to_run() {
+    let explorer = Explorer::new(None).without_system_dialogs();
+    let mut harness =
+        Harness::builder().with_size([1024.0, 640.0]).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer);
+    wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
+    click(&mut harness, "Transient");
+    assert!(shows(&harness, "Inputs against time"));
+    run(&mut harness);
+    assert_eq!(harness.state().transient_moments(), 161);
+    click(&mut harness, "Set-up");
+    assert!(!shows(&harness, "Inputs against time") && shows(&harness, "Film at this moment"));
+    println!("a frame with results takes {:.2} ms", 1e3 * harness.state().frame_s());
+}
