@@ -62,13 +62,13 @@ pub fn run_scene(
             let study = tolerance_study::ToleranceStudy { training, range, points, tests, seed, online };
             tolerance_study::run(scene, &study, observer, &mut outcome)?;
         }
-        Study::Transient(study) => transient_study::run(scene, study, workbench, observer, &mut outcome)?,
         Study::SamplingComparison { training, samplings, range, tests, seed, compare } => {
             let training = workbench.training(training)?;
             let (tests, seed, compare) = (*tests, *seed, *compare);
             let study = sampling_study::SamplingStudy { training, samplings, range, tests, seed, compare };
             sampling_study::run(scene, &study, observer, &mut outcome)?;
         }
+        Study::Transient(study) => transient_study::run(scene, study, workbench, observer, &mut outcome)?,
         Study::FormulaComparison { formula, m, l } => {
             formula_comparison::run(scene, *formula, m, l, workbench, observer, &mut outcome)?;
         }

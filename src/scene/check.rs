@@ -192,7 +192,6 @@ fn study(scene: &Scene) -> Checked {
             count("study.tests", *tests, 1, MAX_TESTS)?;
             quantity_box("study.range", range)
         }
-        Study::Transient(study) => transient(scene, study),
         Study::SamplingComparison { samplings, range, tests, compare, .. } => {
             count("study.samplings (how many)", samplings.len(), 1, 16)?;
             count("study.tests", *tests, 1, MAX_TESTS)?;
@@ -207,6 +206,7 @@ fn study(scene: &Scene) -> Checked {
             }
             quantity_box("study.range", range)
         }
+        Study::Transient(study) => transient(scene, study),
         Study::FormulaComparison { formula, .. } if formula.film_formula().contact() != scene.contact => {
             let wanted = formula.film_formula().contact().name();
             Err(refuse(

@@ -124,8 +124,6 @@ pub enum Study {
         #[serde(default)]
         online: OnlineScheme,
     },
-    /// The contact in time, under inputs that vary: Figs. 2.6 (right), 4.4, 4.14, 4.15.
-    Transient(TransientStudy),
     /// Ways of sampling rows, on the same full solutions and basis.
     SamplingComparison {
         /// The scene of the training; relative paths refer to this scene's folder.
@@ -141,6 +139,8 @@ pub enum Study {
         /// Full solutions are compared at this many of them.
         compare: usize,
     },
+    /// The contact in time, under inputs that vary: Figs. 2.6 (right), 4.4, 4.14, 4.15.
+    Transient(TransientStudy),
     /// Full solutions against a published film formula at all pairs of M and L in the default realisation.
     FormulaComparison {
         /// The formula.
@@ -343,8 +343,8 @@ impl Study {
             | Self::DistanceMeasure { .. }
             | Self::PlanComparison { .. }
             | Self::ToleranceStudy { .. }
-            | Self::Transient(_)
-            | Self::SamplingComparison { .. } => &[],
+            | Self::SamplingComparison { .. }
+            | Self::Transient(_) => &[],
         }
     }
 

@@ -1,0 +1,52 @@
+//! Ways of sampling rows side by side, on a small point contact: what all rows can, a cubature of few rows can too.
+
+use ehl_explorer::harness::{Workbench, run_scene};
+use ehl_explorer::scene::Scene;
+
+const TRAINING: &str = "Scene(
+    version: 1, title: \"small\", source: \"test\", contact: Point,
+    study: Training(
+        title: \"small\",
+        range: Box(radius: (10e-3, 11e-3), speed: (2.0, 3.0), load: (30.0, 45.0), alpha: (8e-9, 11e-9), modulus: 231e9, viscosity: 0.01),
+        plan: FarthestPoint(snapshots: 20),
+        windows: Given([(m: (1.0, 2000.0), grid: Plane(dx: 0.06, dy: 0.1, domain: (-2.7, 1.5, -1.5)))]),
+        pressure_loss: 1e-4, deformation_loss: 1e-3, sampling: All, rows_per_mode: 3.0, penalty: 1e5, evidence: 0, seed: 2,
+    ),
+)";
+
+const COMPARISON: &str = "Scene(
+    version: 1, title: \"ways\", source: \"test\", contact: Point,
+    study: SamplingComparison(
+        training: \"training.ron\",
+        samplings: [
+            (name: \"all\", sampling: All, rows_per_mode: 3.0, penalty: 1e6),
+            (name: \"greedy\", sampling: Greedy, rows_per_mode: 4.0, penalty: 1e6),
+            (name: \"q_deim\", sampling: QDeim, rows_per_mode: 4.0, penalty: 1e5),
+            (name: \"cubature\", sampling: Cubature, rows_per_mode: 3.0, penalty: 1e5),
+        ],
+        range: (radius: (10e-3, 11e-3), speed: (2.0, 3.0), load: (30.0, 45.0), alpha: (8e-9, 11e-9), modulus: 231e9, viscosity: 0.01),
+        tests: 20, seed: 3, compare: 8,
+    ),
+)";
+
+#[test]
+fn a_cubature_of_few_rows_does_what_all_rows_do() {
+    let folder = std::env::temp_dir().join(format!("ehl-explorer-samplings-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("training.ron"), TRAINING).unwrap();
+    let scene = Scene::from_ron(COMPARISON).unwrap();
+    let outcome = run_scene(&scene, &mut Workbench::new(&folder), &()).unwrap();
+    std::fs::remove_dir_all(&folder).unwrap();
+    let value = |name: &str| outcome.value(name, None).unwrap_or_else(|| panic!("{name} is missing"));
+    let modes = value("basis_p");
+    assert_eq!(value("snapshots"), 20.0);
+    assert_eq!(value("all.rows"), 68.0 * 15.0);
+    assert!(value("cubature.rows") <= 3.0 * modes + 1.0);
+    assert_eq!((value("all.failures"), value("cubature.failures")), (0.0, 0.0));
+    assert!(value("all.H_c_error_max") < 3e-3 && value("cubature.H_c_error_max") < 6e-3);
+    assert!(value("greedy.rows") > modes && value("q_deim.rows") > modes);
+    assert!(outcome.tables.iter().any(|table| table.name == "samplings" && table.rows.len() == 4));
+
+    let twice = COMPARISON.replace("greedy\"", "all\"");
+    assert!(Scene::from_ron(&twice).unwrap().check().unwrap_err().to_string().contains("study.samplings.name"));
+}
