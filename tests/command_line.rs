@@ -145,6 +145,22 @@ fn a_reduced_solve_says_what_served_it_and_whether_it_was_trained() {
 }
 
 #[test]
+fn what_a_point_contacts_grid_costs_is_estimated_on_request() {
+    let point = ["solve", "--json", "--contact", "point", "--moes-m", "50", "--moes-l", "5"];
+    let grid = ["--dx", "0.05", "--dy", "0.1", "--domain=-3,1.8,-1.4", "--accuracy"];
+    let report = json(&program(&[&point[..], &grid].concat()));
+    let accuracy = &report["accuracy"];
+    assert_eq!((&accuracy["nx"], &accuracy["ny"]), (&193.into(), &29.into()));
+    let number = |value: &Value| value.as_f64().unwrap();
+    let (h_c, limit) = (number(&report["H_c"]), number(&accuracy["H_c_limit"]));
+    assert!((number(&accuracy["h_c_error"]) - (h_c / limit - 1.0).abs()).abs() < 1e-12);
+    assert!((1e-3..0.1).contains(&number(&accuracy["h_c_error"])), "{accuracy}");
+    let line = program(&["solve", "--moes-m", "40", "--moes-l", "10", "--accuracy"]);
+    assert_eq!(line.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&line.stderr).contains("--accuracy belongs to"));
+}
+
+#[test]
 fn a_point_contact_prints_its_plane_and_its_fields() {
     let folder = scratch("point");
     let profiles = folder.join("fields.csv");
@@ -167,6 +183,22 @@ fn a_point_contact_prints_its_plane_and_its_fields() {
     assert_eq!(table.lines().next().unwrap(), "X,Y,P,H,x_m,y_m,p_pa,h_m");
     let line = json(&program(&["solve", "--json", "--moes-m", "20", "--moes-l", "5", "--dx", "0.02"]));
     assert!(line["Y_H_min"].is_null() && line["grid"]["ny"] == 1);
+}
+
+#[test]
+fn a_reduced_point_contact_agrees_with_the_full_one_on_its_grid() {
+    let at = ["solve", "--json", "--contact", "point", "--moes-m", "100", "--moes-l", "6"];
+    let reduced = json(&program(&[&at[..], &["--method", "reduced"]].concat()));
+    let full = json(&program(&[&at[..], &["--grid", "model"]].concat()));
+    assert_eq!((&reduced["converged"], &reduced["reduced"]["trained"]), (&true.into(), &true.into()));
+    assert_eq!((&reduced["grid"]["nx"], &reduced["grid"]["ny"]), (&full["grid"]["nx"], &full["grid"]["ny"]));
+    assert_eq!(reduced["grid"]["kind"], "model");
+    let number = |report: &Value, name: &str| report[name].as_f64().unwrap();
+    for (name, bar) in [("H_c", 5e-3), ("H_min", 1e-2), ("P_max", 1e-2)] {
+        let error = (number(&reduced, name) / number(&full, name) - 1.0).abs();
+        assert!(error < bar, "{name}: {error:.1e}");
+    }
+    assert!(number(&reduced["reduced"], "h_c_error_bound") > 0.0 && number(&reduced, "Y_H_min") < 0.0);
 }
 
 #[test]
@@ -193,6 +225,11 @@ fn bad_options_are_refused_with_one_sentence() {
         (&["--contact", "point", "--dx", "0.001", "--dy", "0.001"], "GB of memory"),
         (&["--contact", "point", "--domain=-4,0.5,-2"], "cuts the contact"),
         (&["--contact", "point", "--domain=-4,2,-0.5"], "cuts the contact"),
+        (&["--contact", "point", "--grid", "model", "--dy", "0.05"], "--dy"),
+        (&["--contact", "point", "--method", "reduced", "--dy", "0.05"], "own grid"),
+        (&["--contact", "point", "--method", "reduced", "--rom", "assets/line.rom"], "of line contacts"),
+        (&["--contact", "point", "--grid", "model", "--rom", "assets/line.rom"], "of line contacts"),
+        (&["--method", "reduced", "--rom", "assets/point.rom"], "of point contacts"),
         (&["--contact", "sphere"], "point"),
         (&["--cavitation", "elrod"], "penalty"),
         (&["--density", "tait"], "squalane-pip"),
@@ -400,16 +437,33 @@ fn a_reader_that_leaves_early_is_no_panic() {
 }
 
 #[test]
-fn a_shear_thinning_line_contact_slides_and_a_point_contact_refuses_to() {
-    let contact =
-        ["solve", "--lubricant", "squalane-pip", "--radius", "0.0127", "--speed", "0.74", "--modulus", "1.2388e11"];
-    let line = [&contact[..], &["--load", "144000", "--srr", "0.5", "--dx", "0.01", "--json"]].concat();
-    let output = program(&line);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    let traction = report["traction"].as_f64().unwrap();
-    // The independent solution of the same grid.
+fn shear_thinning_contacts_slide_and_show_the_shear_across_the_film() {
+    let folder = scratch("film_shear");
+    let file = folder.join("shear.csv");
+    let path = file.to_string_lossy().into_owned();
+    let contact = [
+        "solve",
+        "--json",
+        "--lubricant",
+        "squalane-pip",
+        "--radius",
+        "0.0127",
+        "--speed",
+        "0.74",
+        "--modulus",
+        "1.2388e11",
+        "--srr",
+        "0.5",
+    ];
+    let line = json(&program(&[&contact[..], &["--load", "144000", "--dx", "0.01", "--film-shear", &path]].concat()));
+    // The independent solutions of the same grids.
+    let traction = line["traction"].as_f64().unwrap();
     assert!((traction / 0.032052 - 1.0).abs() < 0.01, "{traction}");
-    let point = [&contact[..], &["--contact", "point", "--load", "23", "--srr", "0.5"]].concat();
-    assert_refused(&point, "shear-thinning");
+    let point = json(&program(&[&contact[..], &["--contact", "point", "--load", "23"]].concat()));
+    let traction = point["traction"].as_f64().unwrap();
+    assert!((traction / 0.029735 - 1.0).abs() < 0.01, "{traction}");
+    let table = std::fs::read_to_string(&file).unwrap();
+    std::fs::remove_dir_all(&folder).unwrap();
+    assert_eq!(table.lines().next().unwrap(), "X,Z,tau_zx_pa,rate_per_s");
+    assert_eq!(table.lines().count(), 1 + 601 * 11);
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// Options whose value is a file or folder to be written.
-const WRITTEN: [&str; 3] = ["--csv", "--profiles", "--out"];
+const WRITTEN: [&str; 4] = ["--csv", "--profiles", "--film-shear", "--out"];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))

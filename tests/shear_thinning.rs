@@ -129,6 +129,22 @@ fn frozen_film_integrals_lead_to_the_same_solution() {
 }
 
 #[test]
+fn shear_rates_add_up_to_the_sliding_speed() {
+    let mut solver = FullSolver::new(GRID).unwrap();
+    let solution = solve(&mut solver, problem(0.74, 0.5, 0.2227));
+    let film_scale = solution.problem.point.film_scale_m();
+    let heights: Vec<Vec<_>> = (0..=40).map(|k| solution.shear_along_axis(f64::from(k) / 40.0)).collect();
+    for (i, (x, _, film)) in solution.profile().enumerate() {
+        // The trapezoidal rule across the film.
+        let weight = |k: usize| if k == 0 || k == 40 { 0.0125 } else { 0.025 };
+        let slid: f64 = heights.iter().enumerate().map(|(k, shear)| weight(k) * shear[i].rate_per_s).sum();
+        let slid = slid * film * film_scale;
+        // Half of the entrainment speed.
+        assert!((slid / 0.37 - 1.0).abs() < 2e-3, "X {x}: {slid}");
+    }
+}
+
+#[test]
 fn a_limiting_stress_bounds_the_traction_and_ends_the_warning() {
     let mut solver = FullSolver::new(GRID).unwrap();
     let mut heavy = problem(0.74, 1.0, 0.2227);

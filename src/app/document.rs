@@ -2,9 +2,10 @@
 //! Undo and redo are snapshots of it.
 
 use super::transient;
-use crate::scene::{At, LoadFollower, LubricantFollower, Scene, Study, TransientStudy, View};
+use crate::scene::{At, Grid, LoadFollower, LubricantFollower, Method, Scene, Study, TransientStudy, View};
 use crate::solver::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::full::Problem;
+use crate::solver::grid::PointGridSpec;
 use crate::solver::lubricant::{Lubricant, ShearLaw};
 use crate::solver::training::TrainingSpec;
 
@@ -15,7 +16,7 @@ pub enum Quantity {
     Radius,
     /// Mean entrainment speed u_m.
     Speed,
-    /// Load w per unit length.
+    /// Load w, per unit length for a line contact.
     Load,
     /// Reduced modulus E′.
     Modulus,
@@ -52,6 +53,8 @@ pub struct Document {
     pub point: OperatingPoint,
     /// Laws of the lubricant.
     pub lubricant: Lubricant,
+    /// Grid of full solutions; only a point contact's is edited here.
+    pub grid: Grid,
     /// What follows when M or L moves, the truncation, SRR and NPR.
     pub view: View,
     /// The training it describes; `None` until one is opened or edited.
@@ -65,13 +68,22 @@ pub struct Document {
 /// M and L that a new document and a double click on a slider go to.
 pub const HOME: Moes = Moes { m: 40.0, l: 10.0 };
 
+/// Title of a document that nobody has named.
+fn default_title(kind: ContactKind) -> &'static str {
+    match kind {
+        ContactKind::Line => "Line contact",
+        ContactKind::Point => "Point contact",
+    }
+}
+
 impl Default for Document {
     fn default() -> Self {
         let request = MoesRequest::new(ContactKind::Line, HOME.m, HOME.l);
         Self {
-            title: "Line contact".to_owned(),
+            title: default_title(ContactKind::Line).to_owned(),
             point: si_from_moes(&request).unwrap_or(OperatingPoint::TABLE_2_1),
             lubricant: Lubricant::default(),
+            grid: Grid::Graded,
             view: View::default(),
             training: None,
             transient: None,
@@ -110,6 +122,41 @@ impl Document {
         self.accept(point)
     }
 
+    /// Changes between line and point contact. M, L and the lubricant stay, E′ too; radius, speed and load are those of the other kind's
+    /// default realisation.
+    ///
+    /// # Errors
+    /// A sentence when the point would be refused; the document is unchanged then.
+    pub fn set_kind(&mut self, kind: ContactKind) -> Result<(), String> {
+        let here = self.point;
+        if here.kind == kind {
+            return Ok(());
+        }
+        let moes = here.moes();
+        let request = MoesRequest {
+            modulus_pa: Some(here.modulus_pa),
+            viscosity_pa_s: Some(here.viscosity_pa_s),
+            alpha_per_pa: Some(here.alpha_per_pa),
+            ..MoesRequest::new(kind, moes.m, moes.l)
+        };
+        self.accept(si_from_moes(&request).map_err(|e| e.to_string())?)?;
+        self.grid = Grid::Graded;
+        if self.title == default_title(here.kind) {
+            default_title(kind).clone_into(&mut self.title);
+        }
+        Ok(())
+    }
+
+    /// The grid of a point contact's full solutions; the explorer's own where the scene names none.
+    pub fn plane(&self) -> PointGridSpec {
+        self.grid.point_spec().unwrap_or(PointGridSpec::EXPLORER)
+    }
+
+    /// Chooses the grid of a point contact's full solutions.
+    pub fn set_plane(&mut self, PointGridSpec { dx, dy, domain, refinement }: PointGridSpec) {
+        self.grid = Grid::Plane { dx, dy, domain, refinement };
+    }
+
     /// Sets one SI quantity; M and L follow.
     ///
     /// # Errors
@@ -135,7 +182,7 @@ impl Document {
     /// # Errors
     /// A sentence when a law is not defined here; the document is unchanged then.
     pub fn set_lubricant(&mut self, lubricant: Lubricant) -> Result<(), String> {
-        Problem::of_kind(ContactKind::Line, &self.point, lubricant).map_err(|e| e.to_string())?;
+        Problem::new(&self.point, lubricant).map_err(|e| e.to_string())?;
         self.lubricant = lubricant;
         Ok(())
     }
@@ -152,11 +199,12 @@ impl Document {
         Ok(())
     }
 
-    /// Whether its file holds the training: a scene that asks another question keeps that, and a new one has room for one question.
+    /// Whether its file holds the training: a scene that asks another question keeps that, a contact of the other kind asks its own, and a new
+    /// one has room for one question.
     pub fn saves_training(&self) -> bool {
         match &self.scene {
-            Some(scene) => matches!(scene.study, Study::Training(_)),
-            None => self.transient.is_none(),
+            Some(scene) => scene.contact == self.point.kind && matches!(scene.study, Study::Training(_)),
+            None => self.point.kind == ContactKind::Line && self.transient.is_none(),
         }
     }
 
@@ -171,7 +219,7 @@ impl Document {
     }
 
     fn accept(&mut self, point: OperatingPoint) -> Result<(), String> {
-        Problem::of_kind(ContactKind::Line, &point, self.lubricant).map_err(|e| e.to_string())?;
+        Problem::new(&point, self.lubricant).map_err(|e| e.to_string())?;
         self.point = point;
         Ok(())
     }
@@ -182,7 +230,7 @@ impl Document {
     /// A sentence that names what the explorer cannot solve.
     pub fn of_scene(scene: Scene) -> Result<Self, String> {
         let point = scene.point().map_err(|e| e.to_string())?;
-        Problem::of_kind(ContactKind::Line, &point, scene.lubricant).map_err(|e| e.to_string())?;
+        Problem::new(&point, scene.lubricant).map_err(|e| e.to_string())?;
         if scene.lubricant.shear != ShearLaw::Newtonian || scene.srr != 0.0 {
             return Err(
                 "the explorer shows no sliding of shear-thinning lubricants in this version; use `ehl-explorer run`"
@@ -193,6 +241,7 @@ impl Document {
             title: scene.title.clone(),
             point,
             lubricant: scene.lubricant,
+            grid: scene.grid,
             view: scene.view.unwrap_or_default(),
             training: match &scene.study {
                 Study::Training(spec) => Some(spec.clone()),
@@ -209,6 +258,14 @@ impl Document {
         let mut scene = self.scene.clone().unwrap_or_else(|| Scene::at_moes(moes.m, moes.l));
         scene.title.clone_from(&self.title);
         scene.lubricant = self.lubricant;
+        if scene.contact != self.point.kind {
+            // Its question and what it expects belonged to the other kind of contact.
+            scene.contact = self.point.kind;
+            scene.study = Study::Point { methods: methods_of(self.point.kind) };
+            scene.expect.clear();
+            scene.source.clear();
+        }
+        scene.grid = self.grid;
         if let Some(spec) = self.training.as_ref().filter(|_| self.saves_training()) {
             scene.study = Study::Training(spec.clone());
         }
@@ -239,6 +296,14 @@ impl Document {
     /// A sentence; in practice never.
     pub fn to_ron(&self) -> Result<String, String> {
         self.to_scene().to_ron().map_err(|e| e.to_string())
+    }
+}
+
+/// How a contact is solved headless when nothing else is asked: by all that is in the program.
+fn methods_of(kind: ContactKind) -> Vec<Method> {
+    match kind {
+        ContactKind::Line => vec![Method::Full, Method::EMBEDDED],
+        ContactKind::Point => vec![Method::Full],
     }
 }
 
@@ -390,6 +455,37 @@ mod tests {
         let other = Scene::from_ron(include_str!("../../scenes/table_2_1.ron")).unwrap();
         let kept = Document { transient: document.transient.clone(), ..Document::of_scene(other.clone()).unwrap() };
         assert_eq!(kept.to_scene().study, other.study);
+        document.set_kind(ContactKind::Point).unwrap();
+        assert!(document.to_scene().check().is_ok());
+    }
+
+    #[test]
+    fn the_other_kind_of_contact_keeps_the_numbers_and_the_lubricant() {
+        let mut document = Document::default();
+        let line = document.point;
+        document.set_kind(ContactKind::Point).unwrap();
+        let (before, after) = (line.moes(), document.point.moes());
+        assert!((after.m / before.m - 1.0).abs() < 1e-9 && (after.l / before.l - 1.0).abs() < 1e-9);
+        let kept = |p: &OperatingPoint| [p.modulus_pa, p.viscosity_pa_s, p.alpha_per_pa];
+        assert_eq!((document.point.kind, kept(&document.point)), (ContactKind::Point, kept(&line)));
+        assert_eq!((document.title.as_str(), document.plane()), ("Point contact", PointGridSpec::EXPLORER));
+        document.set_plane(PointGridSpec::DISSERTATION);
+        let again = Document::from_ron(&document.to_ron().unwrap()).unwrap();
+        assert_eq!((again.point, again.plane()), (document.point, PointGridSpec::DISSERTATION));
+        document.set_kind(ContactKind::Line).unwrap();
+        let [back, there] = [document.point, line].map(|p| p.quantities());
+        assert!(back.iter().zip(there).all(|(a, b)| (a / b - 1.0).abs() < 1e-9), "{back:?} {there:?}");
+    }
+
+    #[test]
+    fn a_scene_of_a_point_contact_opens_and_keeps_its_question_until_the_kind_changes() {
+        let scene = Scene::from_ron(include_str!("../../scenes/table_2_3.ron")).unwrap();
+        let mut document = Document::of_scene(scene.clone()).unwrap();
+        assert_eq!((document.point.kind, document.to_scene()), (ContactKind::Point, scene));
+        document.set_kind(ContactKind::Line).unwrap();
+        let scene = document.to_scene();
+        assert!(scene.expect.is_empty() && scene.check().is_ok());
+        assert_eq!(Document::of_scene(scene).unwrap().point, document.point);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use super::numbers;
 use super::picture::{Picture, value_at};
 use super::state::State;
+use crate::solver::contact::ContactKind;
 use std::fmt::Write as _;
 
 /// A CSV table: comment lines, header, rows of numbers with full precision; what is missing is an empty field.
@@ -33,8 +34,12 @@ pub fn csv(comments: &[String], header: &[&str], rows: impl IntoIterator<Item = 
 /// The parameters of a picture in one line.
 pub fn describe(picture: &Picture) -> String {
     let (point, moes) = (&picture.key.point, picture.key.point.moes());
+    let unit = match point.kind {
+        ContactKind::Line => "N/m",
+        ContactKind::Point => "N",
+    };
     format!(
-        "M {:e}; L {:e}; R {:e} m; u_m {:e} m/s; w {:e} N/m; E' {:e} Pa; eta_0 {:e} Pa s; alpha {:e} 1/Pa; {:?}; {:?}",
+        "M {:e}; L {:e}; R {:e} m; u_m {:e} m/s; w {:e} {unit}; E' {:e} Pa; eta_0 {:e} Pa s; alpha {:e} 1/Pa; {:?}; {:?}",
         moes.m,
         moes.l,
         point.radius_m,
@@ -70,9 +75,14 @@ pub fn profiles(state: &State) -> Option<String> {
         header.extend(COLUMNS.map(|column| format!("pin{}.{column}", pin.number)));
     }
     let live_width = COLUMNS.len() + if full.is_some() { 2 } else { 0 };
+    let cuts = state.display.cuts;
+    if picture.has_plane() {
+        comments.push(format!("profiles along X at Y {:e}", cuts.y));
+    }
     let live: Vec<Vec<Option<f64>>> = picture
         .solution
-        .profile()
+        .along(cuts.y)
+        .into_iter()
         .map(|node| {
             let mut row = profile_row(picture, node).to_vec();
             if let Some(full) = full {
@@ -84,7 +94,7 @@ pub fn profiles(state: &State) -> Option<String> {
     let pinned: Vec<Vec<[Option<f64>; 6]>> = state
         .pins
         .iter()
-        .map(|pin| pin.picture.solution.profile().map(|node| profile_row(&pin.picture, node)).collect())
+        .map(|pin| pin.picture.solution.along(cuts.y).into_iter().map(|node| profile_row(&pin.picture, node)).collect())
         .collect();
     let rows = pinned.iter().map(Vec::len).fold(live.len(), usize::max);
     let row = |k: usize| {
@@ -94,6 +104,13 @@ pub fn profiles(state: &State) -> Option<String> {
     };
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
     Some(csv(&comments, &header, (0..rows).map(row)))
+}
+
+/// The profile across a point contact with its SI twins.
+pub fn profile_across(picture: &Picture, x: f64) -> String {
+    let rows = picture.solution.across(x).into_iter().map(|node| profile_row(picture, node).to_vec());
+    let comments = [describe(picture), picture.origin.describe(), format!("profile across at X {x:e}")];
+    csv(&comments, &["Y", "P", "H", "y_m", "p_pa", "h_m"], rows)
 }
 
 /// The rows of the read-outs: name, dimensionless value, value with unit.

@@ -1,8 +1,9 @@
 //! Work that takes longer than a frame: one worker thread, newest request first, cancellable, and unable to take the window down.
 
-use crate::solver::contact::OperatingPoint;
-use crate::solver::full::{FullSolver, Solution, Start};
-use crate::solver::grid::{GridSpec, ReferenceGrid};
+use super::solvers::Solvers;
+use crate::solver::contact::{ContactKind, OperatingPoint};
+use crate::solver::full::{Solution, Start};
+use crate::solver::grid::{ContactGrid, ContactGridSpec};
 use crate::solver::lubricant::Lubricant;
 use crate::solver::observer::{NewtonStep, Observer};
 use std::any::Any;
@@ -26,8 +27,12 @@ pub struct Key {
 pub enum JobKind {
     /// The live picture where no reduced model serves.
     Live,
+    /// The same contact on the grid that was chosen, after a live picture on a quick one.
+    Refine,
     /// The check of a picture.
     Verify,
+    /// The same contact on a second grid, to estimate what the first one costs.
+    Estimate,
 }
 
 impl JobKind {
@@ -35,7 +40,9 @@ impl JobKind {
     pub fn name(self) -> &'static str {
         match self {
             Self::Live => "Full solve for the picture",
+            Self::Refine => "Full solve on the chosen grid",
             Self::Verify => "Verification by a full solve",
+            Self::Estimate => "Full solve on a second grid",
         }
     }
 }
@@ -44,9 +51,9 @@ impl JobKind {
 #[derive(Clone, Debug)]
 pub enum GridChoice {
     /// A reduced model's own grid.
-    Existing(Arc<ReferenceGrid>),
+    Existing(ContactGrid),
     /// A specification.
-    Spec(GridSpec),
+    Spec(ContactGridSpec),
 }
 
 /// A full solve that is wanted.
@@ -80,6 +87,8 @@ pub struct Running {
     pub key: Key,
     /// Newton steps so far.
     pub steps: Vec<NewtonStep>,
+    /// Krylov iterations of the present Newton step, where they are counted.
+    pub krylov: usize,
     /// When it was handed over.
     pub since: Instant,
     cancel: Arc<AtomicBool>,
@@ -101,13 +110,14 @@ struct Job {
 
 enum Event {
     Step(u64, NewtonStep),
+    Krylov(u64, usize),
     Finished(u64, Outcome),
 }
 
+/// What waits, one job of each kind at most, the most urgent first.
 #[derive(Default)]
 struct Queue {
-    live: Option<Job>,
-    verify: Option<Job>,
+    waiting: [Option<Job>; 4],
     closed: bool,
 }
 
@@ -151,16 +161,22 @@ impl Drop for Jobs {
     }
 }
 
-/// A live solve that ran longer than this is given up for a newer one.
-const LIVE_PATIENCE: Duration = Duration::from_millis(80);
+/// A live solve that ran longer than this is given up for a newer one. A point contact's takes longer: were it given up at every
+/// movement of the hand, the picture would stand still.
+fn live_patience(kind: ContactKind) -> Duration {
+    match kind {
+        ContactKind::Line => Duration::from_millis(80),
+        ContactKind::Point => Duration::from_millis(800),
+    }
+}
 
 impl Jobs {
-    /// Hands a solve over. It replaces one of the same kind that has not started; a verification of other parameters stops.
+    /// Hands a solve over. It replaces one of the same kind that has not started; all but live solves of other parameters stop.
     pub fn submit(&mut self, ctx: &egui::Context, request: Request) {
         for job in &self.running {
             let obsolete = match job.kind {
-                JobKind::Verify => job.key != request.key || request.kind == JobKind::Verify,
-                JobKind::Live => job.key != request.key && job.since.elapsed() > LIVE_PATIENCE,
+                JobKind::Live => job.key != request.key && job.since.elapsed() > live_patience(job.key.point.kind),
+                kind => job.key != request.key || request.kind == kind,
             };
             if obsolete {
                 job.cancel();
@@ -172,15 +188,12 @@ impl Jobs {
         let job = Job { id, request, cancel: Arc::clone(&cancel), ctx: ctx.clone() };
         let replaced = {
             let mut queue = self.shared.lock();
-            match kind {
-                JobKind::Live => queue.live.replace(job),
-                JobKind::Verify => queue.verify.replace(job),
-            }
+            queue.waiting.get_mut(kind as usize).and_then(|place| place.replace(job))
         };
         if let Some(old) = replaced {
             self.running.retain(|r| r.id != old.id);
         }
-        self.running.push(Running { id, kind, key, steps: Vec::new(), since: Instant::now(), cancel });
+        self.running.push(Running { id, kind, key, steps: Vec::new(), krylov: 0, since: Instant::now(), cancel });
         self.shared.wake.notify_one();
     }
 
@@ -192,6 +205,12 @@ impl Jobs {
                 Event::Step(id, step) => {
                     if let Some(job) = self.running.iter_mut().find(|r| r.id == id) {
                         job.steps.push(step);
+                        job.krylov = 0;
+                    }
+                }
+                Event::Krylov(id, count) => {
+                    if let Some(job) = self.running.iter_mut().find(|r| r.id == id) {
+                        job.krylov = count;
                     }
                 }
                 Event::Finished(id, outcome) => {
@@ -222,9 +241,9 @@ impl Jobs {
     }
 }
 
-/// The worker's loop: the live picture goes before verifications.
+/// The worker's loop: the live picture goes before all else.
 fn work(shared: &Shared, events: &Sender<Event>) {
-    let mut solvers: Vec<FullSolver> = Vec::new();
+    let mut solvers = Solvers::default();
     loop {
         let job = {
             let mut queue = shared.lock();
@@ -232,7 +251,7 @@ fn work(shared: &Shared, events: &Sender<Event>) {
                 if queue.closed {
                     return;
                 }
-                if let Some(job) = queue.live.take().or_else(|| queue.verify.take()) {
+                if let Some(job) = queue.waiting.iter_mut().find_map(Option::take) {
                     break job;
                 }
                 queue = shared.wake.wait(queue).unwrap_or_else(PoisonError::into_inner);
@@ -242,7 +261,7 @@ fn work(shared: &Shared, events: &Sender<Event>) {
             Ok(outcome) => outcome,
             Err(message) => {
                 // A solver that panicked may hold half a state.
-                solvers.clear();
+                solvers = Solvers::default();
                 Outcome::Failed(message)
             }
         };
@@ -271,57 +290,44 @@ fn panic_text(payload: &(dyn Any + Send)) -> String {
         .unwrap_or_else(|| "no reason given".to_owned())
 }
 
-/// Grids kept between solves.
-const KEPT_SOLVERS: usize = 4;
-
-fn solve(solvers: &mut Vec<FullSolver>, job: &Job, events: &Sender<Event>) -> Outcome {
+fn solve(solvers: &mut Solvers, job: &Job, events: &Sender<Event>) -> Outcome {
     let request = &job.request;
-    let spec = match &request.grid {
-        GridChoice::Existing(reference) => reference.spec,
-        GridChoice::Spec(spec) => *spec,
-    };
-    let at = match solvers.iter().position(|s| s.reference().spec == spec) {
-        Some(at) => at,
-        None => {
-            let solver = match &request.grid {
-                GridChoice::Existing(reference) => FullSolver::on(Arc::clone(reference)),
-                GridChoice::Spec(spec) => match FullSolver::new(*spec) {
-                    Ok(solver) => solver,
-                    Err(error) => return Outcome::Failed(error.to_string()),
-                },
-            };
-            if solvers.len() >= KEPT_SOLVERS {
-                solvers.remove(0);
-            }
-            solvers.push(solver);
-            solvers.len() - 1
-        }
-    };
-    let Some(solver) = solvers.get_mut(at) else { return Outcome::Failed("no solver".to_owned()) };
-    let start = request.start.as_deref().map_or(Start::Cold, Start::From);
     let mut observer = Reporter { job, events, last_repaint: Instant::now() };
+    let prepared = match solvers.of(&request.grid) {
+        Ok(solver) => solver,
+        Err(error) => return Outcome::Failed(error.to_string()),
+    };
+    let start = request.start.as_deref().map_or(Start::Cold, Start::From);
     let begin = Instant::now();
-    match solver.solve(&request.key.point, request.key.lubricant, start, &mut observer) {
+    match prepared.solve(&request.key.point, request.key.lubricant, start, &mut observer) {
         Ok(solution) => Outcome::Solved(Box::new(solution), begin.elapsed().as_secs_f64()),
         Err(error) => Outcome::Failed(error.to_string()),
     }
 }
 
-/// Passes Newton steps on, repainting at most every 50 ms.
+/// Passes Newton steps and Krylov iterations on, repainting at most every 50 ms.
 struct Reporter<'a> {
     job: &'a Job,
     events: &'a Sender<Event>,
     last_repaint: Instant,
 }
 
-impl Observer for Reporter<'_> {
-    fn newton_step(&mut self, step: &NewtonStep) {
-        if self.events.send(Event::Step(self.job.id, *step)).is_ok()
-            && self.last_repaint.elapsed() > Duration::from_millis(50)
-        {
+impl Reporter<'_> {
+    fn send(&mut self, event: Event) {
+        if self.events.send(event).is_ok() && self.last_repaint.elapsed() > Duration::from_millis(50) {
             self.last_repaint = Instant::now();
             self.job.ctx.request_repaint();
         }
+    }
+}
+
+impl Observer for Reporter<'_> {
+    fn newton_step(&mut self, step: &NewtonStep) {
+        self.send(Event::Step(self.job.id, *step));
+    }
+
+    fn krylov_iteration(&mut self, count: usize) {
+        self.send(Event::Krylov(self.job.id, count));
     }
 
     fn cancelled(&self) -> bool {
@@ -332,6 +338,7 @@ impl Observer for Reporter<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::solver::grid::GridSpec;
 
     #[test]
     fn a_panic_becomes_a_sentence() {
@@ -343,7 +350,7 @@ mod tests {
     fn a_job_comes_back_with_what_it_was_for() {
         let mut jobs = Jobs::default();
         let key = Key { point: OperatingPoint::TABLE_2_1, lubricant: Lubricant::default() };
-        let grid = GridChoice::Spec(GridSpec::EXPLORER);
+        let grid = GridChoice::Spec(ContactGridSpec::Line(GridSpec::EXPLORER));
         jobs.submit(&egui::Context::default(), Request { kind: JobKind::Verify, key, grid, start: None });
         let begin = Instant::now();
         loop {

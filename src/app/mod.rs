@@ -2,11 +2,13 @@
 //!
 //! [`Explorer`] is the whole window as a function of an [`egui::Ui`]; [`run`] puts it into a native one.
 
+mod color_map;
 mod command;
 mod controls;
 mod document;
 mod export;
 mod files;
+mod grid_error;
 mod in_use;
 mod jobs;
 mod model_source;
@@ -14,14 +16,16 @@ mod numbers;
 mod panels;
 mod picture;
 mod plots;
+mod png;
 mod session;
+mod solvers;
 mod state;
 mod task;
 mod theme;
 mod training;
 mod transient;
 
-use crate::solver::contact::Moes;
+use crate::solver::contact::{ContactKind, Moes};
 use crate::solver::reduced::ReducedModel;
 use command::Command;
 use document::Document;
@@ -29,6 +33,7 @@ use egui::{CentralPanel, Context, Panel, ScrollArea, Ui, ViewportCommand};
 use egui_tiles::Tree;
 use files::{Pending, Purpose};
 use jobs::JobKind;
+use model_source::Models;
 use panels::help::Help;
 use plots::{Tab, Tabs};
 use state::State;
@@ -44,7 +49,7 @@ const APP_ID: &str = "ehl-explorer";
 /// # Errors
 /// One sentence when the scene cannot be read or there is no display.
 pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
-    let mut explorer = Explorer::new(model_source::load_model());
+    let mut explorer = Explorer::with_models(Models::embedded());
     if let Some(folder) = eframe::storage_dir(APP_ID) {
         explorer = explorer.keeping_trainings_in(&folder);
     }
@@ -91,10 +96,14 @@ pub struct Explorer {
 }
 
 impl Explorer {
-    /// A window with a reduced model, or without one: the full solver then draws every picture.
+    /// A window with a reduced model of line contacts, or without one: the full solver then draws every picture.
     pub fn new(model: Option<Arc<ReducedModel>>) -> Self {
+        Self::with_models(Models::of_lines(model))
+    }
+
+    fn with_models(models: Models) -> Self {
         Self {
-            state: State::new(Document::default(), model),
+            state: State::new(Document::default(), models),
             tree: plots::default_tree(),
             help: Help::default(),
             frame_s: 0.0,
@@ -134,11 +143,13 @@ impl Explorer {
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 panels::operating_point::ui(ui, &mut self.state);
                 panels::settings::ui(ui, &mut self.state);
+                panels::plane::ui(ui, &mut self.state);
                 ui.add_space(8.0);
             });
         });
         // The picture follows within this frame: the panels that change the document are drawn before the plots.
         self.state.refresh(&ctx);
+        self.state.follow_cuts();
         Panel::bottom("readouts").show(ui, |ui| panels::readouts::ui(ui, &self.state));
         CentralPanel::no_frame().show(ui, |ui| {
             self.tree.ui(&mut Tabs { state: &mut self.state }, ui);
@@ -229,6 +240,32 @@ impl Explorer {
         self.state.picture.as_ref().filter(|_| self.state.picture_is_current()).map(|p| p.solution.scalars.h_c)
     }
 
+    /// Whether the contact of the sliders is a point contact.
+    pub fn is_point(&self) -> bool {
+        self.state.document.point.kind == ContactKind::Point
+    }
+
+    /// Nodes along X and across of the picture's grid.
+    pub fn nodes(&self) -> Option<(usize, usize)> {
+        self.state.picture.as_ref().map(|p| (p.solution.x.len(), p.solution.y.len()))
+    }
+
+    /// Where the profiles cut a point contact: X of the one across, Y of the one along.
+    pub fn cuts(&self) -> (f64, f64) {
+        (self.state.display.cuts.x, self.state.display.cuts.y)
+    }
+
+    /// Largest pressures of the drawn profiles: along X, and across where there is one.
+    pub fn profile_peaks(&self) -> Option<(f64, Option<f64>)> {
+        let peak = |curve: &[egui_plot::PlotPoint]| curve.iter().map(|p| p.y).reduce(f64::max);
+        self.state.picture.as_ref().and_then(|p| Some((peak(&p.pressure)?, peak(&p.across.pressure))))
+    }
+
+    /// Estimated relative grid errors of H_c and H_min, when they belong to the sliders.
+    pub fn grid_errors(&self) -> Option<(f64, f64)> {
+        self.state.grid_error().map(|error| (error.accuracy.h_c_error, error.accuracy.h_min_error))
+    }
+
     /// The first words of the trust badge.
     pub fn badge(&self) -> String {
         plots::badge::verdict(&self.state).title
@@ -249,7 +286,7 @@ impl Explorer {
 
     /// Whether a computation runs or waits.
     pub fn busy(&self) -> bool {
-        self.state.jobs.busy(JobKind::Live) || self.state.jobs.busy(JobKind::Verify)
+        [JobKind::Live, JobKind::Refine, JobKind::Verify].into_iter().any(|kind| self.state.jobs.busy(kind))
     }
 
     /// Whether a training or a comparison runs.
@@ -259,7 +296,7 @@ impl Explorer {
 
     /// Title of the reduced model in use.
     pub fn model_title(&self) -> Option<&str> {
-        self.state.model.as_ref().map(|model| model.title.as_str())
+        self.state.model().map(|model| model.title.as_str())
     }
 
     /// Whether a study of the Accuracy tab runs.

@@ -2,10 +2,30 @@
 
 use super::jobs::Key;
 use super::numbers;
-use crate::solver::full::{Solution, Traction};
+use crate::solver::full::point::resolution_warning;
+use crate::solver::full::{Mesh, Solution, Traction};
 use crate::solver::reduced::ErrorEstimate;
 use egui_plot::PlotPoint;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
+
+/// Where a point contact is cut: the profile along X lies at Y = `y`, that across at X = `x`.
+#[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
+pub struct Cuts {
+    /// Abscissa of the profile across.
+    pub x: f64,
+    /// Ordinate of the profile along.
+    pub y: f64,
+}
+
+/// Pressure and film across, over both halves of a point contact; empty for a line contact.
+#[derive(Clone, Default)]
+pub struct Across {
+    /// P against Y.
+    pub pressure: Vec<PlotPoint>,
+    /// H against Y.
+    pub film: Vec<PlotPoint>,
+}
 
 /// How a picture was obtained.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,31 +73,64 @@ pub struct Picture {
     pub origin: Origin,
     /// The solution.
     pub solution: Arc<Solution>,
+    /// Where its curves lie in a point contact.
+    cuts: Cuts,
     /// P against X.
     pub pressure: Vec<PlotPoint>,
     /// H against X.
     pub film: Vec<PlotPoint>,
+    /// P and H against Y.
+    pub across: Across,
     /// Newtonian traction.
     pub traction: Traction,
     /// Where the film ruptures.
     pub rupture: Option<f64>,
     /// The pressure spike.
     pub spike: Option<(f64, f64)>,
+    /// A sentence where the grid does not resolve the side lobes of a point contact.
+    pub unresolved: Option<String>,
 }
 
 impl Picture {
     /// Prepares a converged solution for drawing.
-    pub fn new(key: Key, origin: Origin, solution: Arc<Solution>) -> Self {
-        Self {
+    pub fn new(key: Key, origin: Origin, solution: Arc<Solution>, cuts: Cuts) -> Self {
+        let mut picture = Self {
             key,
             origin,
-            pressure: solution.profile().map(|(x, p, _)| PlotPoint::new(x, p)).collect(),
-            film: solution.profile().map(|(x, _, h)| PlotPoint::new(x, h)).collect(),
+            cuts,
+            pressure: Vec::new(),
+            film: Vec::new(),
+            across: Across::default(),
             traction: solution.traction(),
             rupture: solution.rupture(),
             spike: solution.spike(),
+            unresolved: resolution_warning(&solution),
             solution,
+        };
+        picture.draw_curves();
+        picture
+    }
+
+    /// Lays the curves of a point contact elsewhere.
+    pub fn cut(&mut self, cuts: Cuts) {
+        if self.cuts != cuts {
+            self.cuts = cuts;
+            self.draw_curves();
         }
+    }
+
+    fn draw_curves(&mut self) {
+        let curve = |nodes: &[(f64, f64, f64)], of: fn(&(f64, f64, f64)) -> f64| {
+            nodes.iter().map(|node| PlotPoint::new(node.0, of(node))).collect()
+        };
+        let (along, across) = (self.solution.along(self.cuts.y), self.solution.across(self.cuts.x));
+        (self.pressure, self.film) = (curve(&along, |node| node.1), curve(&along, |node| node.2));
+        self.across = Across { pressure: curve(&across, |node| node.1), film: curve(&across, |node| node.2) };
+    }
+
+    /// Whether it is of a point contact.
+    pub fn has_plane(&self) -> bool {
+        matches!(self.solution.mesh, Mesh::Point(_))
     }
 
     /// Central film in m.
@@ -111,8 +164,10 @@ pub struct Comparison {
     pub h_c: f64,
     /// Relative error of H_min.
     pub h_min: f64,
-    /// Largest |ΔP|.
+    /// Largest |ΔP|; of a point contact over the whole plane.
     pub max_dp: f64,
+    /// Where its curves lie in a point contact.
+    pub cuts: Cuts,
     /// ΔP against X.
     pub pressure: Vec<PlotPoint>,
     /// ΔH/H_c against X.
@@ -137,10 +192,18 @@ impl Comparison {
             mine.iter().filter_map(|p| value_at(theirs, p.x).map(|v| PlotPoint::new(p.x, (p.y - v) / scale))).collect()
         };
         let pressure = difference(&picture.pressure, &full.pressure, 1.0);
+        let largest = |differences: &mut dyn Iterator<Item = f64>| differences.map(f64::abs).fold(0.0, f64::max);
+        let (mine, theirs) = (&picture.solution, &full.solution);
+        let max_dp = if picture.has_plane() && mine.mesh == theirs.mesh {
+            largest(&mut mine.pressure.iter().zip(&theirs.pressure).map(|(p, q)| p - q))
+        } else {
+            largest(&mut pressure.iter().map(|p| p.y))
+        };
         Self {
             h_c: a.h_c / b.h_c - 1.0,
             h_min: a.h_min / b.h_min - 1.0,
-            max_dp: pressure.iter().map(|p| p.y.abs()).fold(0.0, f64::max),
+            max_dp,
+            cuts: picture.cuts,
             film: difference(&picture.film, &full.film, b.h_c),
             pressure,
         }

@@ -1,16 +1,22 @@
 //! Everything the window knows, and how a change of the document becomes a picture and its verification.
 
+mod answers;
+
 use super::controls::Entries;
 use super::document::{Document, History};
 use super::files::Files;
+use super::grid_error::GridError;
 use super::in_use::InUse;
-use super::jobs::{GridChoice, JobKind, Jobs, Key, Outcome, Request, Running};
-use super::picture::{Comparison, Origin, Picture};
+use super::jobs::{GridChoice, JobKind, Jobs, Key, Request};
+use super::model_source::Models;
+use super::picture::{Comparison, Cuts, Origin, Picture};
+use super::plots::contact_map::{ContactMap, MapView};
 use super::plots::{accuracy::AccuracyView, basis::BasisView, regimes::RegimeChart};
 use super::training::Training;
 use super::transient::TransientView;
-use crate::solver::full::{Problem, Report};
-use crate::solver::grid::GridSpec;
+use crate::solver::contact::ContactKind;
+use crate::solver::full::{Mesh, Problem, Report};
+use crate::solver::grid::{ContactGridSpec, GridSpec, PointGridSpec};
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
 use egui::Context;
 use serde::{Deserialize, Serialize};
@@ -32,6 +38,10 @@ pub struct Display {
     pub overlay: bool,
     /// Draw the difference below.
     pub difference: bool,
+    /// Where a point contact is cut.
+    pub cuts: Cuts,
+    /// What the contact map shows.
+    pub map: MapView,
     /// Theme wanted.
     pub theme: egui::ThemePreference,
     /// Size of everything.
@@ -40,7 +50,14 @@ pub struct Display {
 
 impl Default for Display {
     fn default() -> Self {
-        Self { overlay: false, difference: false, theme: egui::ThemePreference::System, zoom: 1.0 }
+        Self {
+            overlay: false,
+            difference: false,
+            cuts: Cuts::default(),
+            map: MapView::default(),
+            theme: egui::ThemePreference::System,
+            zoom: 1.0,
+        }
     }
 }
 
@@ -88,8 +105,8 @@ pub struct State {
     pub jobs: Jobs,
     /// Text fields being edited and their messages.
     pub entries: Entries,
-    /// The reduced model.
-    pub model: Option<Arc<ReducedModel>>,
+    /// The reduced models.
+    pub models: Models,
     online: Option<Online>,
     /// The last valid picture.
     pub picture: Option<Picture>,
@@ -111,6 +128,10 @@ pub struct State {
     pub reduced_wall_s: Option<f64>,
     /// Seconds of the last full solve.
     pub full_wall_s: Option<f64>,
+    /// What the grid costs, estimated on request.
+    pub grid_error: Option<GridError>,
+    /// Images of the Contact map tab.
+    pub map: ContactMap,
     /// State of the Reduced basis tab.
     pub basis: BasisView,
     /// The studies of the Accuracy tab.
@@ -124,6 +145,7 @@ pub struct State {
     /// Plots are to be fitted to their data in this frame.
     pub fit_plots: bool,
     wanted: Option<Key>,
+    wanted_plane: Option<PointGridSpec>,
     wanted_options: Option<ReducedOptions>,
     changed_at: f64,
     verify_due: bool,
@@ -132,7 +154,7 @@ pub struct State {
 
 impl State {
     /// A window on a document.
-    pub fn new(document: Document, model: Option<Arc<ReducedModel>>) -> Self {
+    pub fn new(document: Document, models: Models) -> Self {
         let mut history = History::default();
         history.restart(&document);
         Self {
@@ -142,7 +164,7 @@ impl State {
             display: Display::default(),
             jobs: Jobs::default(),
             entries: Entries::default(),
-            model,
+            models,
             online: None,
             picture: None,
             full: None,
@@ -154,6 +176,8 @@ impl State {
             pins: Vec::new(),
             reduced_wall_s: None,
             full_wall_s: None,
+            grid_error: None,
+            map: ContactMap::default(),
             basis: BasisView::default(),
             accuracy: AccuracyView::default(),
             training: Training::default(),
@@ -161,6 +185,7 @@ impl State {
             regimes: RegimeChart::default(),
             fit_plots: true,
             wanted: None,
+            wanted_plane: None,
             wanted_options: None,
             changed_at: 0.0,
             verify_due: false,
@@ -175,7 +200,26 @@ impl State {
 
     /// Whether the present document has been answered by [`Self::refresh`].
     pub fn is_answered(&self) -> bool {
-        self.wanted == Some(self.key()) && self.wanted_options == Some(self.reduced_options())
+        self.wanted == Some(self.key())
+            && self.wanted_plane == self.plane()
+            && self.wanted_options == Some(self.reduced_options())
+    }
+
+    /// The grid that was chosen for a point contact; none for a line contact.
+    pub fn plane(&self) -> Option<PointGridSpec> {
+        (self.document.point.kind == ContactKind::Point).then(|| self.document.plane())
+    }
+
+    /// The reduced model that serves the contact on the screen.
+    pub fn model(&self) -> Option<&Arc<ReducedModel>> {
+        self.models.of(self.document.point.kind)
+    }
+
+    /// Whether the picture is a full solution on another grid than the one that was chosen, and will be replaced by one on that.
+    pub fn is_quick(&self) -> bool {
+        let on = |picture: &Picture, plane: PointGridSpec| picture.solution.mesh == Mesh::Point(plane);
+        matches!((&self.picture, self.plane()), (Some(picture), Some(plane))
+            if picture.origin == Origin::Full && !on(picture, plane))
     }
 
     /// Whether the picture belongs to the sliders.
@@ -188,14 +232,20 @@ impl State {
         !self.picture_is_current() && (self.failure.is_some() || now - self.changed_at > REST_S)
     }
 
+    /// What the grid costs, where that was estimated for the sliders and the chosen grid.
+    pub fn grid_error(&self) -> Option<&GridError> {
+        let mesh = self.full.as_ref().map(|full| full.solution.mesh);
+        self.grid_error.as_ref().filter(|error| error.key == self.key() && Some(error.mesh) == mesh)
+    }
+
     /// Whether the full solution belongs to the sliders.
     pub fn full_is_current(&self) -> bool {
         self.full.as_ref().is_some_and(|p| p.key == self.key())
     }
 
-    /// Puts a reduced model in use, or none: the picture and everything drawn of the model follow.
-    pub fn use_model(&mut self, model: Option<Arc<ReducedModel>>) {
-        self.model = model;
+    /// Puts a reduced model in use, or none, for a kind of contact: the picture and everything drawn of the model follow.
+    pub fn use_model(&mut self, kind: ContactKind, model: Option<Arc<ReducedModel>>) {
+        self.models.put(kind, model);
         self.online = None;
         self.regimes = RegimeChart::default();
         self.comparison = None;
@@ -205,7 +255,7 @@ impl State {
     /// Whether the model was trained for the sliders.
     pub fn trust(&self) -> Option<Trust> {
         let problem = Problem::new(&self.document.point, self.document.lubricant).ok()?;
-        self.model.as_ref().map(|m| m.trust(&problem))
+        self.model().map(|m| m.trust(&problem))
     }
 
     /// The truncation the document asks for, in the window that serves it.
@@ -216,7 +266,7 @@ impl State {
 
     /// The reduced model with the document's truncation.
     pub fn in_use(&self) -> Option<InUse> {
-        self.model.as_ref().map(|model| InUse::new(model, &self.document.view))
+        self.model().map(|model| InUse::new(model, &self.document.view))
     }
 
     /// Seconds since the document last changed, as of `now`.
@@ -224,77 +274,15 @@ impl State {
         now - self.changed_at
     }
 
-    /// Answers finished jobs. Called first in every frame.
-    pub fn receive(&mut self) {
-        self.accuracy.receive();
-        self.transient.receive();
-        for (job, outcome) in self.jobs.poll() {
-            match job.kind {
-                JobKind::Live => self.receive_live(&job, outcome),
-                JobKind::Verify => self.receive_verification(&job, outcome),
-            }
-        }
-    }
-
-    fn receive_live(&mut self, job: &Running, outcome: Outcome) {
-        match outcome {
-            Outcome::Solved(solution, wall_s) if solution.converged() => {
-                self.full_wall_s = Some(wall_s);
-                self.last_report = Some((job.key, solution.report.clone()));
-                if job.key == self.key() {
-                    self.failure = None;
-                } else if self.picture_is_current() {
-                    // The sliders have moved back to where the reduced model answers at once: this solution comes too late.
-                    return;
-                }
-                let picture = Picture::new(job.key, Origin::Full, Arc::from(solution));
-                self.full = Some(picture.clone());
-                self.picture = Some(picture);
-                self.comparison = None;
-            }
-            other => {
-                if job.key == self.key() {
-                    self.failure = Some(failure_of(job.key, other, &mut self.last_report));
-                }
-            }
-        }
-    }
-
-    fn receive_verification(&mut self, job: &Running, outcome: Outcome) {
-        match outcome {
-            Outcome::Solved(solution, wall_s) if solution.converged() => {
-                self.full_wall_s = Some(wall_s);
-                self.last_report = Some((job.key, solution.report.clone()));
-                self.full = Some(Picture::new(job.key, Origin::Full, Arc::from(solution)));
-                self.verify_failure = None;
-                self.compare();
-            }
-            other => {
-                let cancelled_by_change = job.key != self.key();
-                if !cancelled_by_change {
-                    self.verify_failure = Some(failure_of(job.key, other, &mut self.last_report));
-                }
-            }
-        }
-    }
-
-    fn compare(&mut self) {
-        self.comparison = match (&self.picture, &self.full) {
-            (Some(picture), Some(full)) if picture.key == full.key && picture.origin != Origin::Full => {
-                Some(Comparison::new(picture, full))
-            }
-            _ => None,
-        };
-    }
-
     /// Answers a changed document: at once by the reduced model, else by the full solver in the worker. Called after the panels.
     pub fn refresh(&mut self, ctx: &Context) {
         let (key, options) = (self.key(), self.reduced_options());
-        if self.wanted == Some(key) && self.wanted_options == Some(options) {
+        if self.is_answered() {
             return;
         }
         let moved = self.wanted != Some(key);
         self.wanted = Some(key);
+        self.wanted_plane = self.plane();
         self.wanted_options = Some(options);
         self.changed_at = ctx.input(|i| i.time);
         if moved {
@@ -308,11 +296,29 @@ impl State {
                 ctx.request_repaint_after_secs(REST_S as f32);
             }
         } else {
-            self.verify_due = false;
             self.comparison = None;
-            if self.picture.as_ref().is_none_or(|p| p.key != key || p.origin != Origin::Full) {
+            let live = self.picture.as_ref().is_none_or(|p| p.key != key || p.origin != Origin::Full);
+            if live {
                 self.submit(ctx, JobKind::Live);
             }
+            // A quick grid follows the hand; the chosen one answers when it rests.
+            let finer = self.plane().is_some_and(|plane| !live || plane != quick(plane));
+            self.verify_due = finer && !self.is_settled(&key);
+            if self.verify_due {
+                ctx.request_repaint_after_secs(REST_S as f32);
+            }
+        }
+    }
+
+    /// Lays all curves where the point contact is cut. Called before the plots.
+    pub fn follow_cuts(&mut self) {
+        let cuts = self.display.cuts;
+        let pinned = self.pins.iter_mut().map(|pin| &mut pin.picture);
+        for picture in self.picture.iter_mut().chain(&mut self.full).chain(pinned) {
+            picture.cut(cuts);
+        }
+        if self.comparison.as_ref().is_some_and(|c| c.cuts != cuts) {
+            self.compare();
         }
     }
 
@@ -323,10 +329,10 @@ impl State {
             Some(Trust::Outside(why)) => Some(PassedOver::Outside(why)),
             Some(Trust::Trained) => None,
         };
-        let (None, Some(model)) = (&self.passed_over, &self.model) else { return false };
-        if self.online.as_ref().is_none_or(|o| *o.options() != options || !Arc::ptr_eq(&o.model, model)) {
+        let (None, Some(model)) = (&self.passed_over, self.model().cloned()) else { return false };
+        if self.online.as_ref().is_none_or(|o| *o.options() != options || !Arc::ptr_eq(&o.model, &model)) {
             let first = self.online.is_none();
-            let mut online = Online::new(Arc::clone(model), options);
+            let mut online = Online::new(model, options);
             if first {
                 // The very first solve pays for cold caches and code; the time shown should be that of every later one.
                 let _ = online.solve(&key.point, key.lubricant);
@@ -350,7 +356,7 @@ impl State {
                     iterations: reduced.iterations,
                     window: reduced.window,
                 };
-                self.picture = Some(Picture::new(key, origin, Arc::new(fields)));
+                self.picture = Some(Picture::new(key, origin, Arc::new(fields), self.display.cuts));
                 true
             }
             Err(error) => {
@@ -363,15 +369,20 @@ impl State {
     fn submit(&mut self, ctx: &Context, kind: JobKind) {
         let key = self.key();
         let moes = key.point.moes();
-        let window = self.model.as_ref().and_then(|m| m.windows.get(m.window_for(moes)));
-        let grid = match window.and_then(|window| window.grid.line()) {
-            Some(grid) => GridChoice::Existing(Arc::clone(grid)),
-            None => GridChoice::Spec(GridSpec::EXPLORER),
+        // A line contact is solved on the model's own grid wherever it lies, a point contact where the model serves it: elsewhere on the
+        // grid that was chosen.
+        let own = self.passed_over.is_none() || self.plane().is_none();
+        let window = self.model().filter(|_| own).and_then(|m| m.windows.get(m.window_for(moes)));
+        let grid = match (window, self.plane()) {
+            (Some(window), _) => GridChoice::Existing(window.grid.clone()),
+            (None, None) => GridChoice::Spec(ContactGridSpec::Line(GridSpec::EXPLORER)),
+            (None, Some(plane)) if kind == JobKind::Live => GridChoice::Spec(ContactGridSpec::Point(quick(plane))),
+            (None, Some(plane)) => GridChoice::Spec(ContactGridSpec::Point(plane)),
         };
         let start = match kind {
-            JobKind::Live => self.picture.as_ref().map(|p| Arc::clone(&p.solution)),
             // The truth must not depend on what it checks.
             JobKind::Verify => None,
+            _ => self.picture.as_ref().map(|p| Arc::clone(&p.solution)),
         };
         self.jobs.submit(ctx, Request { kind, key, grid, start });
     }
@@ -387,8 +398,11 @@ impl State {
             let rest = ctx.input(|i| i.time) - self.changed_at;
             if rest >= REST_S {
                 self.verify_due = false;
-                if !self.full_is_current() {
+                let reduced = self.passed_over.is_none();
+                if reduced && !self.full_is_current() {
                     self.submit(ctx, JobKind::Verify);
+                } else if !reduced && !self.is_settled(&self.key()) {
+                    self.submit(ctx, JobKind::Refine);
                 }
             } else {
                 ctx.request_repaint_after_secs((REST_S - rest) as f32);
@@ -424,14 +438,8 @@ impl State {
     }
 }
 
-fn failure_of(key: Key, outcome: Outcome, last_report: &mut Option<(Key, Report)>) -> Failure {
-    match outcome {
-        Outcome::Failed(message) => Failure { key, message, report: None },
-        Outcome::Solved(solution, _) => {
-            let report = solution.report.clone();
-            *last_report = Some((key, report.clone()));
-            let message = format!("The full solve {}", report.termination.describe());
-            Failure { key, message, report: Some(report) }
-        }
-    }
+/// The grid of pictures that follow the hand: the quick one, unless the chosen one is as quick.
+fn quick(chosen: PointGridSpec) -> PointGridSpec {
+    let nodes = |spec: PointGridSpec| spec.nodes().map_or(usize::MAX, |(nx, ny)| nx * ny * ny);
+    if nodes(chosen) <= nodes(PointGridSpec::QUICK) { chosen } else { PointGridSpec::QUICK }
 }

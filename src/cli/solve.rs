@@ -3,8 +3,10 @@
 use super::failure::Failure;
 use super::options::PointOptions;
 use super::{Verdict, output};
-use crate::harness::{PointReport, Workbench, profile_table};
-use crate::scene::atomic_file;
+use crate::harness::{PointReport, Table, Workbench, film_shear_table, profile_table};
+use crate::scene::{Method, atomic_file};
+use crate::solver::contact::ContactKind;
+use crate::solver::full::Solution;
 use clap::Args;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -17,6 +19,12 @@ pub struct SolveArgs {
     /// Write the profiles as CSV: X, Y, P, H and their SI twins
     #[arg(long, value_name = "FILE.csv")]
     profiles: Option<PathBuf>,
+    /// Write the shear across the film in the plane Y = 0 as CSV: X, Z = z/h, stress in Pa, rate in 1/s
+    #[arg(long, value_name = "FILE.csv")]
+    film_shear: Option<PathBuf>,
+    /// Estimate what a point contact's grid costs H_c and H_min, by a second solve on another grid
+    #[arg(long)]
+    accuracy: bool,
     /// Print one JSON object
     #[arg(long)]
     json: bool,
@@ -25,17 +33,28 @@ pub struct SolveArgs {
 /// Runs the command.
 pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
     let (request, method) = args.point.request()?;
-    let answer = Workbench::new("").answer(&request, &method, None, &())?;
-    match (&args.profiles, answer.result()) {
-        (Some(path), Some(solution)) => {
-            atomic_file::replace(path, profile_table("profiles", solution).to_csv().as_bytes())?;
-        }
-        (Some(path), None) => {
-            output::complain(&format!("{} is not written: the solve did not converge", path.display()));
-        }
-        (None, _) => {}
+    if args.accuracy && (request.point.kind == ContactKind::Line || method != Method::Full) {
+        return Err(Failure::Request(
+            "--accuracy belongs to full solutions of point contacts; add --contact point, or leave it out".to_owned(),
+        ));
     }
-    let report = PointReport::from(&answer);
+    let mut workbench = Workbench::new("");
+    let answer = workbench.answer(&request, &method, None, &())?;
+    type Fields = fn(&Solution) -> Table;
+    let files: [(&Option<PathBuf>, Fields); 2] = [
+        (&args.profiles, |solution| profile_table("profiles", solution)),
+        (&args.film_shear, |solution| film_shear_table("film_shear", solution)),
+    ];
+    for (path, fields) in files.into_iter().filter_map(|(path, fields)| Some((path.as_ref()?, fields))) {
+        match answer.result() {
+            Some(solution) => atomic_file::replace(path, fields(solution).to_csv().as_bytes())?,
+            None => output::complain(&format!("{} is not written: the solve did not converge", path.display())),
+        }
+    }
+    let mut report = PointReport::from(&answer);
+    if args.accuracy && answer.converged {
+        report.accuracy = Some(workbench.grid_accuracy(&answer, &())?);
+    }
     if args.json {
         output::print_json(&report)?;
     } else {
@@ -109,6 +128,15 @@ fn describe(report: &PointReport) -> String {
             if let Some(bound) = bound {
                 line(&format!("error of {name}"), format!("below {:.2e} (99 of 100)", bound));
             }
+        }
+    }
+    if let Some(accuracy) = &report.accuracy {
+        let second = format!("by a second solve on {}×{} nodes", accuracy.nx, accuracy.ny);
+        let off = |error: f64, limit: f64| format!("{:.2} %; {limit:.6} in the limit, {second}", 100.0 * error);
+        line("grid error of H_c", off(accuracy.h_c_error, accuracy.h_c_limit));
+        line("grid error of H_min", off(accuracy.h_min_error, accuracy.h_min_limit));
+        if !accuracy.resolved {
+            line("", "one of both grids does not resolve the side lobes: the error of H_min may be larger".to_owned());
         }
     }
     line("time", format!("{:.3} ms", report.wall_s * 1e3));

@@ -4,16 +4,16 @@ use super::error::HarnessError;
 use super::sampling::random_points;
 use super::statistics::{median, percentile};
 use super::transient_study::timed_march;
-use crate::scene::{QuantityBox, TestRange};
+use crate::scene::{QuantityBox, TestRange, named_lubricant};
 use crate::solver::contact::ContactKind;
 use crate::solver::contact::OperatingPoint;
 use crate::solver::full::dense::{dense_kernel, dense_newton};
 use crate::solver::full::transient::{
     Frame, FullMarch, Inputs, Keep, Marching, Signal, TimeStep, Trajectory, Transient,
 };
-use crate::solver::full::{FullSolver, PointSolver, Solution, SolveError, SolveOptions, Start};
+use crate::solver::full::{FullSolver, PointSolver, Problem, Solution, SolveError, SolveOptions, Start};
 use crate::solver::grid::{GridSpec, PointGridSpec};
-use crate::solver::lubricant::Lubricant;
+use crate::solver::lubricant::{Lubricant, Sliding};
 use crate::solver::reduced::transient::ReducedMarch;
 use crate::solver::reduced::{Online, ReducedOptions, distance};
 use crate::solver::training::{TrajectoryTraining, train_trajectories};
@@ -38,6 +38,8 @@ const ROW_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(
 const FULL_POINTS: [usize; 2] = [400, 120];
 const REDUCED_POINTS: [usize; 2] = [10_000, 2_000];
 const BASELINE_POINTS: [usize; 2] = [40, 12];
+/// Shear-thinning line contacts.
+const SHEAR_POINTS: [usize; 2] = [150, 40];
 /// Point contacts: solves, and the time after which no further ones are begun.
 const POINT_POINTS: [usize; 2] = [50, 8];
 const POINT_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(5)];
@@ -72,7 +74,8 @@ pub struct Bench {
     pub notes: Vec<String>,
 }
 
-/// Measures the table over random points of Table 3.1's box for line and of Table 3.4's for point contacts, the same points for every row.
+/// Measures the table over random points of Table 3.1's box for line and of Table 3.4's for point contacts, and of Table 3.6's ranges for
+/// shear-thinning ones: the same points for every row of a kind.
 ///
 /// `quick` takes fewer points and ends within 40 s.
 ///
@@ -98,41 +101,39 @@ pub fn run(quick: bool) -> Result<Bench, HarnessError> {
         dense.record(clock, steps < options.max_newton);
     }
 
-    let mut cold = Timing::new("line/full/cold", ROW_BUDGET[size]);
-    let mut solutions: Vec<Solution> = Vec::new();
-    for point in &points[..FULL_POINTS[size]] {
-        if cold.spent() {
-            break;
-        }
-        let clock = Instant::now();
-        let solution = solver.solve(point, lubricant, Start::Cold, &mut ())?;
-        cold.record(clock, solution.converged());
-        if solution.converged() {
-            solutions.push(solution);
-        }
-    }
-
-    let mut warm = Timing::new("line/full/warm", ROW_BUDGET[size]);
-    for (k, own) in solutions.iter().enumerate() {
-        let Some(start) = nearest_other(&solutions, k) else { break };
-        if warm.spent() {
-            break;
-        }
-        let clock = Instant::now();
-        let solution = solver.solve(&own.problem.point, lubricant, Start::From(start), &mut ())?;
-        warm.record(clock, solution.converged());
-    }
-
-    let mut rows = vec![dense, cold, warm];
+    let mut rows = vec![dense];
+    let newtonian = |point: &OperatingPoint| Problem::new(point, lubricant);
+    let problems = points[..FULL_POINTS[size]].iter().map(newtonian).collect::<Result<Vec<_>, _>>()?;
+    rows.extend(cold_and_warm(["line/full/cold", "line/full/warm"], ROW_BUDGET[size], &problems, |problem, start| {
+        Ok(solver.solve_problem(problem, start, &mut ()))
+    })?);
+    let shear = shear_problems(ContactKind::Line, SHEAR_POINTS[size])?;
+    let names = ["line/shear/full/cold", "line/shear/full/warm"];
+    rows.extend(cold_and_warm(names, ROW_BUDGET[size], &shear, |problem, start| {
+        Ok(solver.solve_problem(problem, start, &mut ()))
+    })?);
     match super::embedded_model(ContactKind::Line) {
         Ok(model) => {
-            rows.push(reduced_row(&mut Online::new(model, ReducedOptions::default()), &points, ROW_BUDGET[size]));
+            let mut online = Online::new(model, ReducedOptions::default());
+            rows.push(reduced_row("line/reduced", &mut online, &points, true, ROW_BUDGET[size]));
         }
         Err(reason) => bench.notes.push(format!("line/reduced is missing: {reason}")),
     }
     bench.add(rows, BASELINE);
     bench.add(transient_rows(size)?, TRANSIENT_BASELINE);
-    bench.add(point_rows(size)?, POINT_BASELINE);
+    let mut rows = point_rows(size)?;
+    match super::embedded_model(ContactKind::Point) {
+        Ok(model) => {
+            let range = TestRange::Box(QuantityBox::TABLE_3_4);
+            let points = random_points(&range, ContactKind::Point, REDUCED_POINTS[size], SEED);
+            let mut online = Online::new(model, ReducedOptions::default());
+            for (name, fields) in [("point/reduced", false), ("point/reduced/fields", true)] {
+                rows.push(reduced_row(name, &mut online, &points, fields, POINT_BUDGET[size]));
+            }
+        }
+        Err(reason) => bench.notes.push(format!("point/reduced is missing: {reason}")),
+    }
+    bench.add(rows, POINT_BASELINE);
     Ok(bench)
 }
 
@@ -159,31 +160,73 @@ impl Bench {
 
 /// Full solves of point contacts on 301×41 nodes, cold and from the nearest other solution.
 fn point_rows(size: usize) -> Result<Vec<Timing>, HarnessError> {
-    let lubricant = Lubricant::default();
     let range = TestRange::Box(QuantityBox::TABLE_3_4);
+    let points = random_points(&range, ContactKind::Point, POINT_POINTS[size], SEED);
+    let newtonian = |point: &OperatingPoint| Problem::new(point, Lubricant::default());
+    let newtonian = points.iter().map(newtonian).collect::<Result<Vec<_>, _>>()?;
+    let shear = shear_problems(ContactKind::Point, POINT_POINTS[size])?;
     let mut solver = PointSolver::new(PointGridSpec::DISSERTATION)?;
-    let mut cold = Timing::new(POINT_BASELINE, POINT_BUDGET[size]);
+    let mut rows = Vec::new();
+    for (names, problems) in
+        [([POINT_BASELINE, "point/full/warm"], newtonian), (["point/shear/full/cold", "point/shear/full/warm"], shear)]
+    {
+        let solve = |problem, start: Start<'_>| solver.solve_problem(problem, start, &mut ());
+        rows.extend(cold_and_warm(names, POINT_BUDGET[size], &problems, solve)?);
+    }
+    Ok(rows)
+}
+
+/// Random contacts of Table 3.5 in the ranges of Table 3.6: u_m with a constant ratio, SRR and NPR equidistant.
+fn shear_problems(kind: ContactKind, count: usize) -> Result<Vec<Problem>, HarnessError> {
+    let lubricant = named_lubricant::SQUALANE_PIP;
+    let mut random = fastrand::Rng::with_seed(SEED);
+    let problem = |_| {
+        let point = OperatingPoint {
+            kind,
+            radius_m: 12.7e-3,
+            speed_m_per_s: 0.1 * 50f64.powf(random.f64()),
+            // The line's load makes the Hertzian pressure of the point's 23 N.
+            load: if kind == ContactKind::Line { 144e3 } else { 23.0 },
+            modulus_pa: 1.2388e11,
+            viscosity_pa_s: 0.0705,
+            alpha_per_pa: 2e-8,
+        };
+        let sliding =
+            Sliding { slide_to_roll_ratio: random.f64(), newtonian_plateau_ratio: Some(0.2 + 0.8 * random.f64()) };
+        Ok(Problem::under_sliding(&point, lubricant, sliding)?)
+    };
+    (0..count).map(problem).collect()
+}
+
+/// Solves cold, then each again from the nearest other solution.
+fn cold_and_warm(
+    names: [&'static str; 2],
+    budget: Duration,
+    problems: &[Problem],
+    mut solve: impl FnMut(Problem, Start<'_>) -> Result<Solution, SolveError>,
+) -> Result<[Timing; 2], HarnessError> {
+    let [mut cold, mut warm] = names.map(|name| Timing::new(name, budget));
     let mut solutions: Vec<Solution> = Vec::new();
-    for point in random_points(&range, ContactKind::Point, POINT_POINTS[size], SEED) {
+    for &problem in problems {
         if cold.spent() && cold.seconds.len() >= 4 {
             break;
         }
         let clock = Instant::now();
-        let solution = solver.solve(&point, lubricant, Start::Cold, &mut ())?;
+        let solution = solve(problem, Start::Cold)?;
         cold.record(clock, solution.converged());
         solutions.extend(Some(solution).filter(Solution::converged));
     }
-    let mut warm = Timing::new("point/full/warm", POINT_BUDGET[size]);
+    warm.begun = Instant::now();
     for (k, own) in solutions.iter().enumerate() {
         let Some(start) = nearest_other(&solutions, k) else { break };
         if warm.spent() && warm.seconds.len() >= 4 {
             break;
         }
         let clock = Instant::now();
-        let solution = solver.solve(&own.problem.point, lubricant, Start::From(start), &mut ())?;
+        let solution = solve(own.problem, Start::From(start))?;
         warm.record(clock, solution.converged());
     }
-    Ok(vec![cold, warm])
+    Ok([cold, warm])
 }
 
 /// Steps in time, of the full system and of a reduced model that reproduces them: the load of case 1 of Table 4.1 on the contact of Table
@@ -215,24 +258,44 @@ fn transient_rows(size: usize) -> Result<Vec<Timing>, HarnessError> {
     Ok(vec![full, reduced])
 }
 
-fn reduced_row(online: &mut Online, points: &[OperatingPoint], budget: Duration) -> Timing {
-    let mut timing = Timing::new("line/reduced", budget);
+/// Reduced solves one after the other, with all fields and the scalars read off them where `fields` says so.
+fn reduced_row(
+    name: &'static str,
+    online: &mut Online,
+    points: &[OperatingPoint],
+    fields: bool,
+    budget: Duration,
+) -> Timing {
+    let mut timing = Timing::new(name, budget);
+    if let Some(first) = points.first() {
+        // Operators belong to the model, not to its solves.
+        online.prepare(first.moes());
+    }
     for point in points {
         if timing.spent() {
             break;
         }
         let clock = Instant::now();
-        let solved = online.solve(point, Lubricant::default()).and_then(|solution| online.scalars(&solution));
-        timing.record(clock, solved.is_ok());
+        let solved = online.solve(point, Lubricant::default());
+        let converged = match solved {
+            Ok(solution) if fields => online.scalars(&solution).is_ok(),
+            solved => solved.is_ok(),
+        };
+        timing.record(clock, converged);
     }
     timing
 }
 
-/// The solution nearest to number `k` by (3.20), other than itself.
+/// The solution nearest to number `k` by (3.20) and in SRR and NPR, other than itself.
 fn nearest_other(solutions: &[Solution], k: usize) -> Option<&Solution> {
-    let here = solutions[k].problem.moes;
+    let far = |other: &Solution| {
+        let (a, b) = (&solutions[k].problem, &other.problem);
+        let plateau = |problem: &Problem| problem.sliding.newtonian_plateau_ratio.unwrap_or(1.0);
+        let sliding = a.sliding.slide_to_roll_ratio - b.sliding.slide_to_roll_ratio;
+        distance(a.moes, b.moes) + sliding.powi(2) + (plateau(a) - plateau(b)).powi(2)
+    };
     let others = solutions.iter().enumerate().filter(|&(i, _)| i != k).map(|(_, solution)| solution);
-    others.min_by(|a, b| distance(here, a.problem.moes).total_cmp(&distance(here, b.problem.moes)))
+    others.min_by(|a, b| far(a).total_cmp(&far(b)))
 }
 
 struct Timing {

@@ -14,6 +14,7 @@ mod distance_study;
 mod error;
 mod error_measure_study;
 mod formula_comparison;
+mod grid_accuracy;
 mod grid_study;
 mod model_comparison;
 pub mod model_file;
@@ -24,6 +25,7 @@ mod random_test;
 mod report;
 mod run;
 mod sampling;
+mod sampling_study;
 mod series;
 mod split_study;
 mod statistics;
@@ -35,9 +37,12 @@ mod transient_study;
 mod workbench;
 
 pub use error::HarnessError;
+pub use grid_accuracy::GridAccuracy;
 pub use model_comparison::{ModelComparison, ModelScore, Spread, compare_models};
 pub use outcome::{NamedValue, SceneOutcome, Verdict};
-pub use report::{GridReport, HertzReport, MoesReport, PointReport, ReducedReport, SiReport, profile_table};
+pub use report::{
+    GridReport, HertzReport, MoesReport, PointReport, ReducedReport, SiReport, film_shear_table, profile_table,
+};
 pub use run::run_scene;
 pub use sampling::{Random, random_points};
 pub use statistics::{median, percentile, rank_correlation};

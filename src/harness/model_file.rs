@@ -22,6 +22,9 @@ const FORMAT: Format = Format { magic: b"EHLROM\r\n", version: VERSION, max_payl
 /// The model that is part of the program, trained by `scenes/embedded_model.ron`.
 static EMBEDDED: &[u8] = include_bytes!("../../assets/line.rom");
 
+/// The model of point contacts that is part of the program, trained by `scenes/table_3_4_model.ron`.
+static EMBEDDED_POINT: &[u8] = include_bytes!("../../assets/point.rom");
+
 /// Why a model file is refused. Nothing is lost by it.
 #[derive(Debug, thiserror::Error)]
 pub enum ModelFileError {
@@ -235,7 +238,7 @@ pub fn embedded() -> Result<Arc<ReducedModel>, ModelFileError> {
 pub fn embedded_of(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileError> {
     let bytes = match contact {
         ContactKind::Line => EMBEDDED,
-        ContactKind::Point => return Err(ModelFileError::Foreign),
+        ContactKind::Point => EMBEDDED_POINT,
     };
     from_bytes(bytes).map(Arc::new)
 }

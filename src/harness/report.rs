@@ -1,5 +1,6 @@
 //! One result as the command line prints it.
 
+use super::grid_accuracy::GridAccuracy;
 use super::table::Table;
 use super::workbench::Answer;
 use crate::solver::contact::ContactKind;
@@ -43,6 +44,9 @@ pub struct PointReport {
     /// What only a reduced solve has.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reduced: Option<ReducedReport>,
+    /// What the grid of a point contact costs, where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<GridAccuracy>,
 }
 
 /// SI quantities without unit suffixes, as the options are called.
@@ -205,6 +209,7 @@ impl From<&Answer> for PointReport {
                 h_c_error_bound: facts.error.and_then(|e| finite(e.h_c.bound)),
                 h_min_error_bound: facts.error.and_then(|e| finite(e.h_min.bound)),
             }),
+            accuracy: None,
         }
     }
 }
@@ -247,5 +252,19 @@ pub fn profile_table(name: impl Into<String>, solution: &Solution) -> Table {
     table.rows.extend(
         solution.nodes().map(|(x, y, p, h)| vec![x, y, p, h, x * a, y * a, p * hertz.pressure_pa, h * film_scale]),
     );
+    table
+}
+
+/// Heights Z at which [`film_shear_table`] looks.
+const HEIGHTS: usize = 11;
+
+/// Shear across the film in the plane Y = 0: X, Z = z/h, the stress τ_zx and the shear rate ∂u/∂z.
+pub fn film_shear_table(name: impl Into<String>, solution: &Solution) -> Table {
+    let mut table = Table::new(name, &["X", "Z", "tau_zx_pa", "rate_per_s"]);
+    for k in 0..HEIGHTS {
+        let height = k as f64 / (HEIGHTS - 1) as f64;
+        let places = solution.profile().zip(solution.shear_along_axis(height));
+        table.rows.extend(places.map(|((x, ..), shear)| vec![x, height, shear.stress_pa, shear.rate_per_s]));
+    }
     table
 }

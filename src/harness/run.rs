@@ -5,8 +5,8 @@ use super::outcome::SceneOutcome;
 use super::report::{PointReport, profile_table};
 use super::workbench::{Answer, Request, Workbench};
 use super::{
-    distance_study, error_measure_study, formula_comparison, grid_study, plan_comparison, random_test, series,
-    split_study, tolerance_study, training_study, transient_study,
+    distance_study, error_measure_study, formula_comparison, grid_study, plan_comparison, random_test, sampling_study,
+    series, split_study, tolerance_study, training_study, transient_study,
 };
 use crate::scene::{Method, Scene, Study};
 use crate::solver::training::{Progress, TrainingObserver};
@@ -25,9 +25,12 @@ pub fn run_scene(
     scene.check()?;
     let clock = Instant::now();
     let mut outcome = SceneOutcome::of(scene);
+    outcome.warnings.extend(scene.unused_alpha());
     match &scene.study {
         Study::Point { methods } => point(scene, methods, workbench, observer, &mut outcome)?,
-        Study::Sweep { over, methods } => series::sweep(scene, over, methods, workbench, observer, &mut outcome)?,
+        Study::Sweep { over, methods, cold } => {
+            series::sweep(scene, (over, methods, *cold), workbench, observer, &mut outcome)?;
+        }
         Study::Trajectory { range, points, methods } => {
             series::trajectory(scene, range, *points, methods, workbench, observer, &mut outcome)?;
         }
@@ -60,6 +63,12 @@ pub fn run_scene(
             tolerance_study::run(scene, &study, observer, &mut outcome)?;
         }
         Study::Transient(study) => transient_study::run(scene, study, workbench, observer, &mut outcome)?,
+        Study::SamplingComparison { training, samplings, range, tests, seed, compare } => {
+            let training = workbench.training(training)?;
+            let (tests, seed, compare) = (*tests, *seed, *compare);
+            let study = sampling_study::SamplingStudy { training, samplings, range, tests, seed, compare };
+            sampling_study::run(scene, &study, observer, &mut outcome)?;
+        }
         Study::FormulaComparison { formula, m, l } => {
             formula_comparison::run(scene, *formula, m, l, workbench, observer, &mut outcome)?;
         }

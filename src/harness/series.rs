@@ -10,10 +10,11 @@ use super::workbench::{Request, Workbench};
 use crate::scene::{At, Axis, Method, QuantityBox, Scene, Variable};
 use crate::solver::contact::{OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
 use crate::solver::full::Solution;
+use crate::solver::lubricant::Sliding;
 use crate::solver::training::TrainingObserver;
 
 /// Values of each method in the table of a series.
-const COLUMNS: [&str; 17] = [
+const COLUMNS: [&str; 18] = [
     "converged",
     "H_c",
     "H_min",
@@ -24,6 +25,7 @@ const COLUMNS: [&str; 17] = [
     "H_0",
     "h_c_m",
     "h_min_m",
+    "traction",
     "load_residual",
     "newton_iterations",
     "linear_iterations",
@@ -33,18 +35,25 @@ const COLUMNS: [&str; 17] = [
     "wall_s",
 ];
 
-/// Contacts one after the other: the name of the table, what is varied, and for each contact the varied values.
+/// Contacts one after the other: the name of the table, what is varied, the contacts, and whether full solves start cold.
 struct Path<'a> {
     name: &'a str,
     varied: &'a [&'a str],
-    points: &'a [(Vec<f64>, OperatingPoint)],
+    contacts: &'a [Contact],
+    cold: bool,
+}
+
+/// One contact of a path with the varied values.
+struct Contact {
+    values: Vec<f64>,
+    point: OperatingPoint,
+    sliding: Sliding,
 }
 
 /// Runs a scene's sweep.
 pub(super) fn sweep(
     scene: &Scene,
-    over: &[Axis],
-    methods: &[Method],
+    (over, methods, cold): (&[Axis], &[Method], bool),
     workbench: &mut Workbench,
     observer: &dyn TrainingObserver,
     outcome: &mut SceneOutcome,
@@ -54,16 +63,18 @@ pub(super) fn sweep(
         let values = axis.values.values();
         varied = varied.iter().flat_map(|head| values.iter().map(move |&v| [head.as_slice(), &[v]].concat())).collect();
     }
-    let mut points = Vec::with_capacity(varied.len());
+    let mut contacts = Vec::with_capacity(varied.len());
     for values in varied {
-        let mut at = scene.at;
+        let (mut at, mut sliding) = (scene.at, scene.sliding());
         for (axis, &value) in over.iter().zip(&values) {
-            set(&mut at, axis.vary, value)?;
+            set(&mut at, &mut sliding, axis.vary, value)?;
         }
-        points.push((values, at.with_alpha_of(&scene.lubricant).point(scene.contact)?));
+        let point = at.with_alpha_of(&scene.lubricant).point(scene.contact)?;
+        contacts.push(Contact { values, point, sliding });
     }
-    let names: Vec<&str> = over.iter().map(|axis| axis.vary.name()).collect();
-    along(&Path { name: "sweep", varied: &names, points: &points }, scene, methods, workbench, observer, outcome)
+    let varied: Vec<&str> = over.iter().map(|axis| axis.vary.name()).collect();
+    let path = Path { name: "sweep", varied: &varied, contacts: &contacts, cold };
+    along(&path, scene, methods, workbench, observer, outcome)
 }
 
 /// Runs the test trajectory.
@@ -76,46 +87,42 @@ pub(super) fn trajectory(
     observer: &dyn TrainingObserver,
     outcome: &mut SceneOutcome,
 ) -> Result<(), HarnessError> {
-    let mut points = Vec::with_capacity(count);
+    let mut contacts = Vec::with_capacity(count);
     for i in 0..count {
         let c = 2.0 * i as f64 / (count - 1) as f64;
         let point = range.trajectory(scene.contact, c);
         point.check()?;
-        points.push((vec![c], point));
+        contacts.push(Contact { values: vec![c], point, sliding: scene.sliding() });
     }
-    along(&Path { name: "trajectory", varied: &["c"], points: &points }, scene, methods, workbench, observer, outcome)
+    let path = Path { name: "trajectory", varied: &["c"], contacts: &contacts, cold: false };
+    along(&path, scene, methods, workbench, observer, outcome)
 }
 
-/// Sets one quantity of an operating point.
-fn set(at: &mut At, variable: Variable, value: f64) -> Result<(), HarnessError> {
-    match at {
-        At::Si { radius, speed, load, modulus, viscosity, alpha } => {
-            let place = match variable {
-                Variable::Radius => radius,
-                Variable::Speed => speed,
-                Variable::Load => load,
-                Variable::Modulus => modulus,
-                Variable::Viscosity => viscosity,
-                Variable::Alpha => alpha,
-                Variable::M | Variable::L => {
-                    return Err(HarnessError::Study(format!(
-                        "{} can only be varied where `at` is Moes(…), which says what follows",
-                        variable.name()
-                    )));
-                }
-            };
-            *place = value;
+/// Sets one quantity of an operating point or its sliding.
+fn set(at: &mut At, sliding: &mut Sliding, variable: Variable, value: f64) -> Result<(), HarnessError> {
+    match (variable, at) {
+        (Variable::M | Variable::L, At::Si { .. }) => {
+            return Err(HarnessError::Study(format!(
+                "{} can only be varied where `at` is Moes(…), which says what follows",
+                variable.name()
+            )));
         }
-        At::Moes { m, l, radius, speed, load, modulus, viscosity, alpha } => match variable {
-            Variable::M => *m = value,
-            Variable::L => *l = value,
-            Variable::Radius => *radius = Some(value),
-            Variable::Speed => *speed = Some(value),
-            Variable::Load => *load = Some(value),
-            Variable::Modulus => *modulus = Some(value),
-            Variable::Viscosity => *viscosity = Some(value),
-            Variable::Alpha => *alpha = Some(value),
-        },
+        (Variable::M, At::Moes { m, .. }) => *m = value,
+        (Variable::L, At::Moes { l, .. }) => *l = value,
+        (Variable::Radius, At::Si { radius, .. }) => *radius = value,
+        (Variable::Radius, At::Moes { radius, .. }) => *radius = Some(value),
+        (Variable::Speed, At::Si { speed, .. }) => *speed = value,
+        (Variable::Speed, At::Moes { speed, .. }) => *speed = Some(value),
+        (Variable::Load, At::Si { load, .. }) => *load = value,
+        (Variable::Load, At::Moes { load, .. }) => *load = Some(value),
+        (Variable::Modulus, At::Si { modulus, .. }) => *modulus = value,
+        (Variable::Modulus, At::Moes { modulus, .. }) => *modulus = Some(value),
+        (Variable::Viscosity, At::Si { viscosity, .. }) => *viscosity = value,
+        (Variable::Viscosity, At::Moes { viscosity, .. }) => *viscosity = Some(value),
+        (Variable::Alpha, At::Si { alpha, .. }) => *alpha = value,
+        (Variable::Alpha, At::Moes { alpha, .. }) => *alpha = Some(value),
+        (Variable::SlideToRollRatio, _) => sliding.slide_to_roll_ratio = value,
+        (Variable::NewtonianPlateauRatio, _) => sliding.newtonian_plateau_ratio = Some(value),
     }
     Ok(())
 }
@@ -129,29 +136,34 @@ fn along(
     observer: &dyn TrainingObserver,
     outcome: &mut SceneOutcome,
 ) -> Result<(), HarnessError> {
-    let &Path { name, varied, points } = path;
+    let &Path { name, varied, contacts, cold } = path;
     let template = request_of(scene)?;
     let mut columns: Vec<String> = varied.iter().map(|&v| v.to_owned()).collect();
     columns.extend(["M", "L", "radius", "speed", "load", "alpha", "p_h_pa"].map(str::to_owned));
     let tags: Vec<String> = (0..methods.len()).map(|k| tag(methods, k)).collect();
     columns.extend(tags.iter().flat_map(|tag| COLUMNS.iter().map(move |column| format!("{tag}.{column}"))));
-    let mut table = Table { name: name.to_owned(), columns, rows: Vec::with_capacity(points.len()) };
+    let mut table = Table { name: name.to_owned(), columns, rows: Vec::with_capacity(contacts.len()) };
     let mut tallies = vec![Tally::default(); methods.len()];
     let mut former: Vec<Option<Solution>> = vec![None; methods.len()];
     let full = methods.iter().position(|method| *method == Method::Full);
-    for (i, (values, point)) in points.iter().enumerate() {
-        step(observer, name, i, points.len())?;
-        let request = Request { point: *point, ..template.clone() };
+    for (i, Contact { values, point, sliding }) in contacts.iter().enumerate() {
+        step(observer, name, i, contacts.len())?;
+        let request = Request { point: *point, sliding: *sliding, ..template.clone() };
         let (moes, p_h) = (point.moes(), point.hertz().pressure_pa);
         let mut row = values.clone();
         row.extend([moes.m, moes.l, point.radius_m, point.speed_m_per_s, point.load, point.alpha_per_pa, p_h]);
         let mut films = vec![f64::NAN; methods.len()];
         for (k, method) in methods.iter().enumerate() {
-            let answer = workbench.answer(&request, method, former[k].as_ref(), observer)?;
+            let start = former[k].as_ref().filter(|_| !cold);
+            let answer = workbench.answer(&request, method, start, observer)?;
             let named = PointReport::from(&answer).values();
             let value = |name: &str| named.iter().find(|(n, _)| n == name).map_or(f64::NAN, |(_, v)| *v);
             row.extend(COLUMNS.iter().map(|column| value(column)));
             films[k] = value("H_c");
+            // Single contacts, for the expectations that ask for them.
+            for wanted in scene.expect.iter().filter_map(|e| e.name.strip_suffix(&format!("[{i}]"))) {
+                outcome.push(format!("{wanted}[{i}]"), Some(method), value(wanted));
+            }
             let tally = &mut tallies[k];
             if !answer.converged {
                 if p_h <= PLAUSIBLE_HERTZ_PRESSURE_PA { tally.failures += 1 } else { tally.failures_beyond += 1 }
@@ -169,7 +181,7 @@ fn along(
         }
         table.rows.push(row);
     }
-    outcome.push("points", None, points.len() as f64);
+    outcome.push("points", None, contacts.len() as f64);
     for (method, tally) in methods.iter().zip(&tallies) {
         tally.report(method, full.is_some(), outcome);
     }

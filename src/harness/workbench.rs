@@ -378,6 +378,7 @@ impl Workbench {
                 facts.error = solved.error;
                 facts.basis_p = solved.coefficients.len();
                 let mut solution = online.reconstruct(&solved)?;
+                warnings.extend(resolution_warning(&solution));
                 // A Newtonian film does not feel the sliding, but its traction does.
                 solution.problem = *problem;
                 (Some(solution), solved.iterations)

@@ -2,7 +2,7 @@
 
 use super::{
     Axis, Contacts, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, TransientStudy,
-    View, Within,
+    Variable, View, Within,
 };
 use crate::solver::contact::ContactKind;
 use crate::solver::full::transient::{Frame, Inputs, Keep, Transient};
@@ -118,10 +118,16 @@ fn study(scene: &Scene) -> Checked {
             ),
         )),
         Study::Point { methods: list } => methods("study.methods", list),
-        Study::Sweep { over, methods: list } => {
+        Study::Sweep { over, methods: list, .. } => {
             methods("study.methods", list)?;
-            count("study.over (how many)", over.len(), 1, 2)?;
+            count("study.over (how many)", over.len(), 1, 3)?;
             over.iter().try_for_each(axis)?;
+            if over.iter().any(|axis| axis.vary == Variable::Alpha) && scene.lubricant.own_coefficient().is_some() {
+                return Err(refuse(
+                    "study.over.alpha",
+                    "cannot be varied: the lubricant's viscosity law determines it",
+                ));
+            }
             let points = over.iter().map(|axis| axis.values.len()).try_fold(1usize, usize::checked_mul);
             count("study.over (points)", points.unwrap_or(usize::MAX), 1, MAX_POINTS)
         }
@@ -187,6 +193,20 @@ fn study(scene: &Scene) -> Checked {
             quantity_box("study.range", range)
         }
         Study::Transient(study) => transient(scene, study),
+        Study::SamplingComparison { samplings, range, tests, compare, .. } => {
+            count("study.samplings (how many)", samplings.len(), 1, 16)?;
+            count("study.tests", *tests, 1, MAX_TESTS)?;
+            count("study.compare", *compare, 0, (*tests).min(MAX_COMPARED))?;
+            for (i, way) in samplings.iter().enumerate() {
+                if way.name.is_empty() || samplings[..i].iter().any(|other| other.name == way.name) {
+                    let sentence = "must not be empty or occur twice: results are named by it";
+                    return Err(refuse("study.samplings.name", sentence));
+                }
+                number("study.samplings.rows_per_mode", way.rows_per_mode, 1.0, 20.0)?;
+                number("study.samplings.penalty", way.penalty, 1e2, 1e9)?;
+            }
+            quantity_box("study.range", range)
+        }
         Study::FormulaComparison { formula, .. } if formula.film_formula().contact() != scene.contact => {
             let wanted = formula.film_formula().contact().name();
             Err(refuse(
@@ -258,12 +278,17 @@ fn transient(scene: &Scene, study: &TransientStudy) -> Checked {
 
 fn axis(axis: &Axis) -> Checked {
     let field = format!("study.over.{}", axis.vary.name());
-    let limit = |value: f64| number(&field, value, f64::MIN_POSITIVE, 1e15);
+    let (least, most) = axis.vary.range();
+    let limit = |value: f64| number(&field, value, least, most);
     count(&format!("{field} (values)"), axis.values.len(), 1, MAX_POINTS)?;
     match &axis.values {
-        Steps::Linear { from, to, .. } | Steps::Log { from, to, .. } => {
+        Steps::Linear { from, to, .. } => {
             limit(*from)?;
             limit(*to)
+        }
+        Steps::Log { from, to, .. } => {
+            number(&field, *from, least.max(f64::MIN_POSITIVE), most)?;
+            number(&field, *to, least.max(f64::MIN_POSITIVE), most)
         }
         Steps::List(values) => values.iter().try_for_each(|&value| limit(value)),
     }
@@ -348,7 +373,8 @@ fn training(spec: &TrainingSpec) -> Checked {
     }
     number("study.pressure_loss", spec.pressure_loss, 1e-15, 0.5)?;
     number("study.deformation_loss", spec.deformation_loss, 1e-15, 0.5)?;
-    number("study.rows_per_mode", spec.rows_per_mode, 1.0, 100.0)
+    number("study.rows_per_mode", spec.rows_per_mode, 1.0, 100.0)?;
+    number("study.penalty", spec.penalty, 1e2, 1e9)
 }
 
 fn view(view: &View) -> Checked {
@@ -398,11 +424,9 @@ mod tests {
         assert!(message(Scene { grid: bad_grid, ..good.clone() }).contains("grid.dx"));
         assert!(message(Scene { study: Study::Point { methods: vec![] }, ..good.clone() }).contains("methods"));
         let huge = Study::Sweep {
-            over: vec![Axis {
-                vary: super::super::Variable::M,
-                values: Steps::Log { from: 1.0, to: 9.0, n: usize::MAX },
-            }],
+            over: vec![Axis { vary: Variable::M, values: Steps::Log { from: 1.0, to: 9.0, n: usize::MAX } }],
             methods: vec![Method::Full],
+            cold: false,
         };
         assert!(message(Scene { study: huge, ..good.clone() }).contains("study.over.M"));
         let range = QuantityBox { load: (2.0, f64::NAN), ..QuantityBox::TABLE_3_1 };

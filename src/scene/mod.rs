@@ -16,7 +16,10 @@ mod view;
 
 pub use document::{SceneError, SceneFileError};
 pub use expectation::{Expectation, Within};
-pub use study::{Axis, ComparedPlan, Contacts, Formula, OnlineScheme, QuantityBox, Steps, Study, TestRange, Variable};
+pub use study::{
+    Axis, ComparedPlan, ComparedSampling, Contacts, Formula, OnlineScheme, QuantityBox, Steps, Study, TestRange,
+    Variable,
+};
 pub use transient::{ReducedTransient, TrainingInputs, TransientStudy};
 pub use view::{LoadFollower, LubricantFollower, View};
 
@@ -28,6 +31,9 @@ use std::path::PathBuf;
 
 /// Version of the scene format this program writes, and the newest it reads.
 pub const VERSION: u32 = 1;
+
+/// How far the α of a scene may lie from the one that a viscosity law determines and still count as the same, rounded.
+const ROUNDED_ALPHA: f64 = 1e-3;
 
 fn is_zero(value: &f64) -> bool {
     *value == 0.0
@@ -209,6 +215,21 @@ impl Scene {
     /// When it is outside any sense, or more is fixed than M and L leave free.
     pub fn point(&self) -> Result<OperatingPoint, ContactError> {
         self.at.with_alpha_of(&self.lubricant).point(self.contact)
+    }
+
+    /// A sentence where the scene's own α has no effect: the viscosity law determines another one.
+    pub fn unused_alpha(&self) -> Option<String> {
+        let own = self.lubricant.own_coefficient()?;
+        let given = match self.at {
+            At::Si { alpha, .. } => alpha,
+            At::Moes { alpha, .. } => alpha?,
+        };
+        let contradicts = (given / own - 1.0).abs() > ROUNDED_ALPHA;
+        contradicts.then(|| {
+            format!(
+                "the alpha of `at`, {given:.4e} 1/Pa, has no effect: the lubricant's viscosity law has {own:.4e} 1/Pa"
+            )
+        })
     }
 
     /// The sliding and the plateau ratio.

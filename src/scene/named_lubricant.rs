@@ -25,6 +25,14 @@ const NEWTONIAN: Lubricant = Lubricant {
 const SQUALANE_VOLUME: Tait = Tait { k_0: 1.007837e9, k_0_prime: 11.29 };
 const PAO_650_VOLUME: Tait = Tait { k_0: 1.4252e9, k_0_prime: 12.82 };
 
+/// Squalane with polyisoprene, Table 3.5; its η₀ is 0.0705 Pa·s.
+pub const SQUALANE_PIP: Lubricant = Lubricant {
+    density: DensityLaw::Tait(SQUALANE_VOLUME),
+    viscosity: ViscosityLaw::Doolittle(Doolittle { b: 4.2, r_0: 0.658, volume: SQUALANE_VOLUME }),
+    shear: ShearLaw::Carreau { critical_stress: 1e4, beta: 2.198, n: 0.8, npr: 0.2227 },
+    limiting_stress: None,
+};
+
 /// All named lubricants.
 pub const NAMED: [NamedLubricant; 5] = [
     NamedLubricant {
@@ -47,12 +55,7 @@ pub const NAMED: [NamedLubricant; 5] = [
     },
     NamedLubricant {
         name: "squalane-pip",
-        laws: Lubricant {
-            density: DensityLaw::Tait(SQUALANE_VOLUME),
-            viscosity: ViscosityLaw::Doolittle(Doolittle { b: 4.2, r_0: 0.658, volume: SQUALANE_VOLUME }),
-            shear: ShearLaw::Carreau { critical_stress: 1e4, beta: 2.198, n: 0.8, npr: 0.2227 },
-            limiting_stress: None,
-        },
+        laws: SQUALANE_PIP,
         viscosity_pa_s: Some(0.0705),
         about: "squalane with polyisoprene, Table 3.5: Tait, Doolittle, modified Carreau, η₀ 0.0705 Pa·s, NPR 0.2227",
     },

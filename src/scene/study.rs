@@ -2,7 +2,7 @@
 
 use super::{Method, ModelSource, TransientStudy};
 use crate::solver::contact::{ContactKind, FilmFormula, OperatingPoint};
-use crate::solver::reduced::{Norm, ReducedOptions};
+use crate::solver::reduced::{Norm, ReducedOptions, Sampling};
 use crate::solver::training::TrainingSpec;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -17,12 +17,15 @@ pub enum Study {
         /// How it is solved.
         methods: Vec<Method>,
     },
-    /// The contact along one or two varied quantities, the last one fastest; each solve starts from its neighbour.
+    /// The contact along one to three varied quantities, the last one fastest; each solve starts from its neighbour.
     Sweep {
         /// What is varied.
         over: Vec<Axis>,
         /// How each point is solved.
         methods: Vec<Method>,
+        /// Whether full solves start cold instead.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        cold: bool,
     },
     /// The test trajectory (3.21) through a box, 0 ≤ c ≤ 2.
     Trajectory {
@@ -123,6 +126,21 @@ pub enum Study {
     },
     /// The contact in time, under inputs that vary: Figs. 2.6 (right), 4.4, 4.14, 4.15.
     Transient(TransientStudy),
+    /// Ways of sampling rows, on the same full solutions and basis.
+    SamplingComparison {
+        /// The scene of the training; relative paths refer to this scene's folder.
+        training: PathBuf,
+        /// The ways.
+        samplings: Vec<ComparedSampling>,
+        /// The box of random tests (3.17).
+        range: QuantityBox,
+        /// Random tests of each.
+        tests: usize,
+        /// Seed of the random tests.
+        seed: u64,
+        /// Full solutions are compared at this many of them.
+        compare: usize,
+    },
     /// Full solutions against a published film formula at all pairs of M and L in the default realisation.
     FormulaComparison {
         /// The formula.
@@ -160,6 +178,20 @@ pub struct ComparedPlan {
     /// Failure rate as published \[%\].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub published_failure_percent: Option<f64>,
+}
+
+/// One of the compared ways of sampling rows.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ComparedSampling {
+    /// Its name in results.
+    pub name: String,
+    /// How rows are sampled.
+    pub sampling: Sampling,
+    /// Sampled rows per pressure mode.
+    pub rows_per_mode: f64,
+    /// Penalty factor γ̄ of the reduced equations.
+    pub penalty: f64,
 }
 
 /// How a reduced model is solved online.
@@ -201,6 +233,10 @@ pub enum Variable {
     Viscosity,
     /// Pressure–viscosity coefficient \[1/Pa\].
     Alpha,
+    /// Slide-to-roll ratio SRR.
+    SlideToRollRatio,
+    /// Newtonian plateau ratio NPR.
+    NewtonianPlateauRatio,
 }
 
 /// Values of a varied quantity.
@@ -307,7 +343,8 @@ impl Study {
             | Self::DistanceMeasure { .. }
             | Self::PlanComparison { .. }
             | Self::ToleranceStudy { .. }
-            | Self::Transient(_) => &[],
+            | Self::Transient(_)
+            | Self::SamplingComparison { .. } => &[],
         }
     }
 
@@ -339,6 +376,17 @@ impl Variable {
             Self::Modulus => "modulus",
             Self::Viscosity => "viscosity",
             Self::Alpha => "alpha",
+            Self::SlideToRollRatio => "srr",
+            Self::NewtonianPlateauRatio => "npr",
+        }
+    }
+
+    /// Smallest and largest accepted value.
+    pub fn range(self) -> (f64, f64) {
+        match self {
+            Self::SlideToRollRatio => (-10.0, 10.0),
+            Self::NewtonianPlateauRatio => (0.0, 1.0),
+            _ => (f64::MIN_POSITIVE, 1e15),
         }
     }
 }

@@ -6,6 +6,7 @@ pub mod full;
 pub mod grid;
 pub mod lubricant;
 pub mod observer;
+pub mod optics;
 pub mod reduced;
 pub mod reynolds;
 pub mod training;

@@ -7,7 +7,10 @@ pub trait Observer {
     /// Called after every Newton step of a full solve.
     fn newton_step(&mut self, _step: &NewtonStep) {}
 
-    /// Asked between steps; `true` stops the computation with what it has.
+    /// Called after every Krylov iteration of a point contact's linear solve, with their count within the present Newton step.
+    fn krylov_iteration(&mut self, _count: usize) {}
+
+    /// Asked between steps, and within the long ones; `true` stops the computation with what it has.
     fn cancelled(&self) -> bool {
         false
     }

@@ -32,6 +32,13 @@ pub enum Purpose {
         /// Its content.
         text: String,
     },
+    /// Write a picture.
+    Picture {
+        /// The content of its file.
+        bytes: Arc<[u8]>,
+        /// How its name ends: `png` or `svg`.
+        extension: &'static str,
+    },
 }
 
 impl Purpose {
@@ -151,7 +158,7 @@ impl State {
     pub fn open_path(&mut self, path: &Path) -> Result<(), String> {
         if is_model(path) {
             let model = model_file::read(path).map_err(|e| format!("{}: {e}", path.display()))?;
-            self.use_model(Some(Arc::new(model)));
+            self.use_model(model.contact(), Some(Arc::new(model)));
             self.files.notice = Some(Ok(format!("Using the model {}", path.display())));
             return Ok(());
         }

@@ -29,6 +29,7 @@ impl State {
             Purpose::Open | Purpose::Inputs => String::new(),
             Purpose::Save => self.files.path.as_deref().unwrap_or(Path::new("contact.ron")).display().to_string(),
             Purpose::Csv { .. } => "profiles.csv".to_owned(),
+            Purpose::Picture { extension, .. } => format!("contact.{extension}"),
             Purpose::Model { .. } => "line.rom".to_owned(),
         };
         let browse = self.files.native_dialogs.then(|| (browse(ctx, &purpose, &suggestion), Instant::now()));
@@ -65,6 +66,7 @@ impl State {
             Purpose::Inputs => ("Inputs from a table", "Read"),
             Purpose::Save => ("Save the scene", "Save"),
             Purpose::Csv { .. } => ("Export the data as CSV", "Export"),
+            Purpose::Picture { .. } => ("Export the picture", "Export"),
             Purpose::Model { .. } => ("Save the reduced model", "Save"),
         };
         let waiting = window.browse.is_some();
@@ -136,6 +138,9 @@ impl State {
             Purpose::Csv { text } => atomic_file::replace(&path, text.as_bytes())
                 .map_err(|e| e.to_string())
                 .map(|()| self.files.notice = Some(Ok(format!("Exported {}", path.display())))),
+            Purpose::Picture { bytes, .. } => atomic_file::replace(&path, &bytes)
+                .map_err(|e| e.to_string())
+                .map(|()| self.files.notice = Some(Ok(format!("Exported {}", path.display())))),
             Purpose::Model { bytes } => atomic_file::replace(&path, &bytes)
                 .map_err(|e| e.to_string())
                 .map(|()| self.files.notice = Some(Ok(format!("Saved the model {}", path.display())))),
@@ -164,6 +169,7 @@ fn browse(ctx: &Context, purpose: &Purpose, suggestion: &str) -> Receiver<Option
         let name = suggestion.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
         let mut dialog = match purpose {
             Purpose::Csv { .. } | Purpose::Inputs => rfd::FileDialog::new().add_filter("Table", &["csv"]),
+            Purpose::Picture { extension, .. } => rfd::FileDialog::new().add_filter("Picture", &[extension]),
             Purpose::Model { .. } => rfd::FileDialog::new().add_filter("Reduced model", &["rom"]),
             Purpose::Open => rfd::FileDialog::new().add_filter("Scene or reduced model", &["ron", "rom"]),
             Purpose::Save => rfd::FileDialog::new().add_filter("Scene", &["ron"]),

@@ -3,6 +3,7 @@
 pub mod help;
 pub mod menu;
 pub mod operating_point;
+pub mod plane;
 pub mod readouts;
 pub mod settings;
 pub mod strip;

@@ -8,7 +8,7 @@ use crate::app::numbers;
 use crate::app::state::State;
 use crate::app::theme::{name_and_symbol, symbol};
 use crate::scene::LoadFollower;
-use crate::solver::contact::{Moes, PLAUSIBLE_HERTZ_PRESSURE_PA};
+use crate::solver::contact::{ContactKind, Moes, PLAUSIBLE_HERTZ_PRESSURE_PA};
 use egui::{Grid, Slider, Ui};
 
 /// Ends of the M slider.
@@ -18,6 +18,16 @@ pub const L_RANGE: (f64, f64) = (0.5, 25.0);
 
 const M_TIP: &str = "Load number M = w/(E’R) · (2η₀u_m/(E’R))^(−1/2): how heavily the contact is loaded for its speed. \
     Small: nearly rigid bodies; large: nearly Hertzian. Double click: M 40";
+const M_POINT_TIP: &str = "Load number M = w/(E’R²) · (2η₀u_m/(E’R))^(−3/4): how heavily the contact is loaded for its speed. \
+    Small: nearly rigid bodies; large: nearly Hertzian. Double click: M 40";
+const KINDS: [(ContactKind, &str, &str); 2] = [
+    (ContactKind::Line, "Line contact", "A long roller on a raceway: load per unit length, the same at every Y"),
+    (
+        ContactKind::Point,
+        "Point contact",
+        "A ball on a raceway or a disc, circular: the film has its horseshoe and side lobes",
+    ),
+];
 const L_TIP: &str = "Lubricant number L = αE’ · (2η₀u_m/(E’R))^(1/4): how strongly the viscosity rises with pressure. \
     Double click: L 10";
 const SRR_TIP: &str = "Not active yet: the lubricant is Newtonian, so sliding changes neither pressure nor film. \
@@ -28,13 +38,16 @@ const NPR_TIP: &str = "Not active yet: the lubricant is Newtonian, which is a Ne
 /// The panel's first group.
 pub fn ui(ui: &mut Ui, state: &mut State) {
     heading(ui, "Operating point");
+    kind_ui(ui, state);
+    let kind = state.document.point.kind;
     let moes = state.document.point.moes();
-    let trained = state.model.as_ref().map(|m| (m.domain.m, m.domain.l));
+    let trained = state.model().map(|m| (m.domain.m, m.domain.l));
     let width = (ui.available_width() - 132.0).clamp(70.0, 420.0);
     let mut wanted = None;
+    let m_tip = if kind == ContactKind::Line { M_TIP } else { M_POINT_TIP };
     Grid::new("moes numbers").num_columns(3).spacing([8.0, 6.0]).show(ui, |ui| {
         let rows = [
-            ("M", "Load number M", "M value", M_RANGE, trained.map(|t| t.0), HOME.m, moes.m, M_TIP),
+            ("M", "Load number M", "M value", M_RANGE, trained.map(|t| t.0), HOME.m, moes.m, m_tip),
             ("L", "Lubricant number L", "L value", L_RANGE, trained.map(|t| t.1), HOME.l, moes.l, L_TIP),
         ];
         for (base, name, value_name, range, marked, home, value, tooltip) in rows {
@@ -77,6 +90,26 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
     hertz_ui(ui, state);
 }
 
+/// Line or point.
+fn kind_ui(ui: &mut Ui, state: &mut State) {
+    let mut wanted = state.document.point.kind;
+    ui.horizontal(|ui| {
+        for (kind, name, tip) in KINDS {
+            let tip = format!("{tip}. M, L and the lubricant stay");
+            ui.selectable_value(&mut wanted, kind, name).on_hover_text(tip);
+        }
+    });
+    if wanted != state.document.point.kind {
+        let result = state.document.set_kind(wanted);
+        if result.is_ok() {
+            state.entries.clear();
+            state.fit_plots = true;
+        }
+        state.entries.answer("kind of contact", result);
+    }
+    state.entries.message_ui(ui, "kind of contact");
+}
+
 fn followers_ui(ui: &mut Ui, state: &mut State) {
     let document = &mut state.document;
     Grid::new("followers").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
@@ -86,8 +119,12 @@ fn followers_ui(ui: &mut Ui, state: &mut State) {
         if chosen != document.view.when_m_moves {
             document.set_load_follower(chosen);
         }
-        let tip = "L fixes another one. “α and speed together” keeps to α = 5/GPa · L^0.463, \
-            along which the reduced model is trained";
+        let tip = match document.point.kind {
+            ContactKind::Line => {
+                "L fixes another one. “α and speed together” keeps to α = 5/GPa · L^0.463, along which the reduced model is trained"
+            }
+            ContactKind::Point => "L fixes another one. “α and speed together” keeps to α = 5/GPa · (L/1.7)^0.655",
+        };
         let partners = document.view.when_m_moves.partners();
         choice(ui, "When L moves", tip, &mut document.view.when_l_moves, partners, |f| (f.name(), ""));
     });
@@ -154,10 +191,26 @@ const ROWS: [Row; 6] = [
     },
 ];
 
+/// The load of a point contact.
+const POINT_LOAD: Row = Row {
+    quantity: Quantity::Load,
+    name: "Load w",
+    symbol: ("w", ""),
+    unit: "N",
+    scale: 1.0,
+    tooltip: "Load of the point contact (2.9)",
+};
+
+/// The rows of a kind of contact: only the load's differs.
+fn rows(kind: ContactKind) -> impl Iterator<Item = &'static Row> {
+    ROWS.iter()
+        .map(move |row| if kind == ContactKind::Point && row.quantity == Quantity::Load { &POINT_LOAD } else { row })
+}
+
 fn si_ui(ui: &mut Ui, state: &mut State) {
     ui.add_space(4.0);
     let mut changed = None;
-    for row in &ROWS {
+    for row in rows(state.document.point.kind) {
         ui.horizontal(|ui| {
             let name = row.name.split(' ').next().unwrap_or(row.name);
             row_name(ui, name_and_symbol(ui, name, row.symbol.0, row.symbol.1), row.tooltip);
@@ -181,24 +234,26 @@ fn si_ui(ui: &mut Ui, state: &mut State) {
 fn hertz_ui(ui: &mut Ui, state: &State) {
     let point = &state.document.point;
     let hertz = point.hertz();
+    let (width_name, width_tip, pressure_tip, stiffening_tip) = match point.kind {
+        ContactKind::Line => (
+            "Half width",
+            "Hertzian half width, a² = 8wR/(πE’) (2.21)",
+            "Largest pressure of the dry contact, p_H² = wE’/(2πR) (2.21)",
+            "α p_H = L √(M/2π): the exponent of Barus’ law at the Hertzian pressure",
+        ),
+        ContactKind::Point => (
+            "Radius",
+            "Radius of the Hertzian circle, a³ = 3wR/(2E’) (2.21)",
+            "Largest pressure of the dry contact, p_H = 3w/(2πa²) (2.21)",
+            "α p_H = L (3M/2π³)^⅓: the exponent of Barus’ law at the Hertzian pressure",
+        ),
+    };
     ui.add_space(4.0);
     Grid::new("hertz").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 3.0]).show(ui, |ui| {
         let rows = [
-            (
-                ("Half width", "a", ""),
-                numbers::length(hertz.half_width_m),
-                "Hertzian half width, a² = 8wR/(πE’) (2.21)",
-            ),
-            (
-                ("Hertz pressure", "p", "H"),
-                numbers::pressure(hertz.pressure_pa),
-                "Largest pressure of the dry contact, p_H² = wE’/(2πR) (2.21)",
-            ),
-            (
-                ("Stiffening", "αp", "H"),
-                numbers::significant(point.alpha_hertz()),
-                "α p_H = L √(M/2π): the exponent of Barus’ law at the Hertzian pressure",
-            ),
+            ((width_name, "a", ""), numbers::length(hertz.half_width_m), width_tip),
+            (("Hertz pressure", "p", "H"), numbers::pressure(hertz.pressure_pa), pressure_tip),
+            (("Stiffening", "αp", "H"), numbers::significant(point.alpha_hertz()), stiffening_tip),
         ];
         for ((name, base, subscript), value, tip) in rows {
             explained(ui, name_and_symbol(ui, name, base, subscript), tip);

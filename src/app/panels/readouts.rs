@@ -5,6 +5,7 @@ use crate::app::picture::Picture;
 use crate::app::state::State;
 use crate::app::theme::{Palette, symbol};
 use egui::{RichText, Ui, text::LayoutJob};
+use std::sync::Arc;
 
 /// The read-outs.
 pub fn ui(ui: &mut Ui, state: &State) {
@@ -24,23 +25,27 @@ pub fn ui(ui: &mut Ui, state: &State) {
             ui.disable();
         }
         let s = scalars(picture);
+        // What the grid costs stands beside the value it was estimated for.
+        let shown_is_full = state.full.as_ref().is_some_and(|full| Arc::ptr_eq(&full.solution, &picture.solution));
+        let grid_error = state.grid_error().filter(|_| shown_is_full).map(|error| error.accuracy);
+        let off = |error: Option<f64>| error.map_or_else(String::new, |e| format!(" ±{}", numbers::error_percent(e)));
         cell(
             ui,
             symbol(ui, "H", "c"),
-            numbers::significant(s.h_c),
+            numbers::significant(s.h_c) + &off(grid_error.map(|e| e.h_c_error)),
             numbers::length(picture.central_film_m()),
             palette.film,
             delta(&|p| p.central_film_m()),
-            "Central film thickness, H = hR/a² at X = 0 (2.22)",
+            "Central film thickness, H = hR/a² at X = 0 (2.22). After ± what the grid costs, where that was estimated",
         );
         cell(
             ui,
             symbol(ui, "H", "min"),
-            numbers::significant(s.h_min),
+            numbers::significant(s.h_min) + &off(grid_error.map(|e| e.h_min_error)),
             numbers::length(picture.minimum_film_m()),
             palette.film,
             delta(&|p| p.minimum_film_m()),
-            "Smallest film thickness of the contact zone",
+            "Smallest film thickness of the contact zone; in a heavily loaded point contact it lies in the side lobes",
         );
         cell(
             ui,

@@ -2,6 +2,7 @@
 
 use crate::app::controls::{NAME_WIDTH, choice, heading, warning_ui};
 use crate::app::state::State;
+use crate::solver::contact::ContactKind;
 use crate::solver::lubricant::{DensityLaw, ViscosityLaw};
 use crate::solver::reduced::Trust;
 use egui::{Grid, Ui};
@@ -63,8 +64,11 @@ fn deformation_operator(projected: bool) -> (&'static str, &'static str) {
 
 fn model_ui(ui: &mut Ui, state: &mut State) {
     let moes = state.document.point.moes();
-    let Some(model) = state.model.clone() else {
-        ui.weak("No reduced model is loaded; the full solver draws the picture.");
+    let Some(model) = state.model().cloned() else {
+        ui.weak(match state.document.point.kind {
+            ContactKind::Line => "No reduced model is loaded; the full solver draws the picture.",
+            ContactKind::Point => "There is no reduced model of point contacts; the full solver draws the picture.",
+        });
         return;
     };
     let Some(window) = model.windows.get(model.window_for(moes)) else { return };

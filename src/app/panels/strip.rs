@@ -18,10 +18,13 @@ pub fn ui(ui: &mut Ui, state: &State, frame_s: f64, chosen: &mut Vec<Command>) {
         match (slow, study) {
             (Some(job), _) => {
                 ui.label(job.kind.name());
-                let step = job.steps.last().map_or_else(String::new, |s| {
+                let mut step = job.steps.last().map_or_else(String::new, |s| {
                     format!("Newton step {}, residual {}", s.iteration, numbers::digits(s.residual, 2))
                 });
-                ui.weak(step);
+                if job.krylov > 0 {
+                    step = format!("{step}, Krylov iteration {}", job.krylov);
+                }
+                ui.weak(step.trim_start_matches(", "));
                 ui.weak(numbers::duration(job.since.elapsed().as_secs_f64()));
                 if ui.small_button("Cancel").clicked() {
                     chosen.push(Command::Cancel);
@@ -51,7 +54,7 @@ pub fn ui(ui: &mut Ui, state: &State, frame_s: f64, chosen: &mut Vec<Command>) {
                 "Time of the last full solve. Drawing the window takes {}",
                 numbers::duration(frame_s)
             ));
-            if state.model.is_some() {
+            if state.model().is_some() {
                 ui.weak(format!("reduced {}", time(state.reduced_wall_s)))
                     .on_hover_text("Time of the last reduced solve");
             }

@@ -3,7 +3,7 @@
 use crate::app::controls::{described, named, sentence};
 use crate::app::jobs::JobKind;
 use crate::app::numbers;
-use crate::app::picture::{Comparison, Origin};
+use crate::app::picture::{Comparison, Origin, Picture};
 use crate::app::state::{PassedOver, State};
 use crate::app::theme::{Palette, rich};
 use crate::solver::reduced::ErrorEstimate;
@@ -66,12 +66,21 @@ pub fn verdict(state: &State) -> Verdict {
             "The picture shown belongs to the sliders as they were a moment ago".to_owned(),
             Kind::Neutral,
         ),
-        (Origin::Full, _) => make(
-            "Verified",
-            full.to_owned(),
-            "No reduced model is loaded: the picture itself is a converged full solution".to_owned(),
-            Kind::Verified,
+        (Origin::Full, _) if state.is_quick() => make(
+            "Quick grid",
+            format!("full solution on {}", grid(picture)),
+            "A converged full solution on a quick grid, which follows the hand. The chosen grid answers when the sliders rest".to_owned(),
+            Kind::Neutral,
         ),
+        (Origin::Full, _) => match &picture.unresolved {
+            Some(warning) => make("Side lobes unresolved", format!("full solution on {}", grid(picture)), warning.clone(), Kind::Warning),
+            None => make(
+                "Verified",
+                if picture.has_plane() { format!("full solution on {}", grid(picture)) } else { full.to_owned() },
+                "No reduced model is loaded for this contact: the picture itself is a converged full solution".to_owned(),
+                Kind::Verified,
+            ),
+        },
         (Origin::Reduced { residual_estimate, error, iterations, window }, _) => {
             let how = format!(
                 "{iterations} reduced Newton steps in window {}, residual e_f {}",
@@ -112,6 +121,11 @@ pub fn verdict(state: &State) -> Verdict {
             }
         }
     }
+}
+
+/// The nodes of a point contact's grid, in words.
+fn grid(picture: &Picture) -> String {
+    format!("{}×{} nodes", picture.solution.x.len(), picture.solution.y.len())
 }
 
 /// Whether the truth lies within what was promised.

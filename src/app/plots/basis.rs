@@ -100,7 +100,7 @@ impl Curves {
 
 /// The tab.
 pub fn ui(ui: &mut Ui, state: &mut State) {
-    let Some(model) = state.model.clone() else {
+    let Some(model) = state.model().cloned() else {
         ui.centered_and_justified(|ui| {
             ui.weak("No reduced model is loaded, so there is no basis to show. The full solver draws every picture.")
         });

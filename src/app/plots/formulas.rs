@@ -18,7 +18,7 @@ pub fn ui(ui: &mut Ui, state: &State) {
         ui.weak("Film");
         ui.weak("Deviation").on_hover_text("Formula over this contact's film, minus one");
         ui.end_row();
-        for formula in FilmFormula::LINE {
+        for formula in FilmFormula::of(state.document.point.kind) {
             let prediction = formula.predict(&state.document.point);
             let (name, own) = if formula.predicts_minimum() { ("min", minimum) } else { ("c", central) };
             let tip = if prediction.in_range {

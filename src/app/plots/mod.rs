@@ -4,6 +4,7 @@ pub mod accuracy;
 mod axes;
 pub mod badge;
 pub mod basis;
+pub mod contact_map;
 mod formulas;
 pub mod profiles;
 mod regime_chart;
@@ -21,6 +22,8 @@ use serde::{Deserialize, Serialize};
 pub enum Tab {
     /// Pressure and film.
     Profiles,
+    /// Film, pressure and interferogram of a point contact.
+    ContactMap,
     /// The M–L chart.
     Regimes,
     /// Singular values, modes, sampled rows.
@@ -35,13 +38,14 @@ pub enum Tab {
 
 impl Tab {
     /// All tabs in their order.
-    pub const ALL: [Self; 6] =
-        [Self::Profiles, Self::Regimes, Self::Basis, Self::Accuracy, Self::Training, Self::Transient];
+    pub const ALL: [Self; 7] =
+        [Self::Profiles, Self::ContactMap, Self::Regimes, Self::Basis, Self::Accuracy, Self::Training, Self::Transient];
 
     /// Title.
     pub fn title(self) -> &'static str {
         match self {
             Self::Profiles => "Profiles",
+            Self::ContactMap => "Contact map",
             Self::Regimes => "Regimes",
             Self::Basis => "Reduced basis",
             Self::Accuracy => "Accuracy",
@@ -74,6 +78,7 @@ impl Behavior<Tab> for Tabs<'_> {
             ui.set_min_size(ui.available_size());
             match tab {
                 Tab::Profiles => profiles::ui(ui, self.state),
+                Tab::ContactMap => contact_map::ui(ui, self.state),
                 Tab::Regimes => regimes::ui(ui, self.state),
                 Tab::Basis => basis::ui(ui, self.state),
                 Tab::Accuracy => accuracy::ui(ui, self.state),

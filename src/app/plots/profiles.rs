@@ -6,7 +6,7 @@ use crate::app::controls::warning_ui;
 use crate::app::export;
 use crate::app::files::Purpose;
 use crate::app::numbers;
-use crate::app::picture::{Comparison, Origin, Picture, value_at};
+use crate::app::picture::{Comparison, Cuts, Origin, Picture, value_at};
 use crate::app::state::{Pin, State};
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, faded, rich};
 use egui::{Align2, Checkbox, Color32, Id, Ui, Vec2b};
@@ -24,8 +24,7 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
     pins_ui(ui, state);
     let stale = state.picture_is_stale(ui.input(|i| i.time));
     if stale && let Some(picture) = &state.picture {
-        let note = format!("The picture belongs to {}, not to the sliders", numbers::moes(picture.key.point.moes()));
-        warning_ui(ui, &note);
+        stale_note(ui, picture);
     }
     let Some(picture) = &state.picture else {
         ui.centered_and_justified(|ui| ui.weak("The first picture is being computed"));
@@ -36,12 +35,108 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
     let comparison = state.comparison.as_ref().filter(|_| state.display.difference);
     let parts = if comparison.is_some() { 2.6 } else { 2.0 };
     let unit = (ui.available_height() - 6.0) / parts;
-    let scene =
-        Scene { picture, full, pins: &state.pins, stale, full_stale: !state.full_is_current(), fit: state.fit_plots };
-    pressure_plot(ui, &scene, unit);
-    film_plot(ui, &scene, unit);
+    let scene = Scene {
+        picture,
+        full,
+        pins: &state.pins,
+        stale,
+        full_stale: !state.full_is_current(),
+        fit: state.fit_plots,
+        cuts: state.display.cuts,
+    };
+    let stack = |ui: &mut Ui, direction: Direction| {
+        pressure_plot(ui, &scene, direction, unit);
+        film_plot(ui, &scene, direction, unit);
+    };
+    if !picture.has_plane() {
+        stack(ui, Direction::Along);
+    } else {
+        ui.horizontal_top(|ui| {
+            let across = 0.4 * (ui.available_width() - 8.0);
+            let along = ui.available_width() - 8.0 - across;
+            for (direction, width) in [(Direction::Along, along), (Direction::Across, across)] {
+                ui.vertical(|ui| {
+                    ui.set_width(width);
+                    stack(ui, direction);
+                });
+            }
+        });
+    }
     if let Some(comparison) = comparison {
         difference_plot(ui, comparison, state.fit_plots, 0.6 * unit);
+    }
+}
+
+/// Says that a picture belongs to other sliders.
+pub fn stale_note(ui: &mut Ui, picture: &Picture) {
+    let note = format!("The picture belongs to {}, not to the sliders", numbers::moes(picture.key.point.moes()));
+    warning_ui(ui, &note);
+}
+
+/// In which direction a profile runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Direction {
+    /// Along X, in the direction of motion.
+    Along,
+    /// Across, along Y, of a point contact.
+    Across,
+}
+
+impl Direction {
+    fn pressure(self, picture: &Picture) -> &[PlotPoint] {
+        match self {
+            Self::Along => &picture.pressure,
+            Self::Across => &picture.across.pressure,
+        }
+    }
+
+    fn film(self, picture: &Picture) -> &[PlotPoint] {
+        match self {
+            Self::Along => &picture.film,
+            Self::Across => &picture.across.film,
+        }
+    }
+
+    /// Name of the coordinate.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Along => "X",
+            Self::Across => "Y",
+        }
+    }
+
+    /// Range at first: the contact with its inlet and outlet, or with both sides.
+    fn range(self) -> (f64, f64) {
+        match self {
+            Self::Along => X_RANGE,
+            Self::Across => (-1.6, 1.6),
+        }
+    }
+
+    /// Names of the plots that share an axis; those of the other direction have their own.
+    fn id(self, plot: &str) -> String {
+        match self {
+            Self::Along => plot.to_owned(),
+            Self::Across => format!("{plot} across"),
+        }
+    }
+
+    fn x_title(self, picture: &Picture, cuts: Cuts) -> String {
+        match self {
+            Self::Along if picture.has_plane() => {
+                format!("{{X}} = {{x}}/{{a}} at {{Y}} = {}", numbers::digits(cuts.y, 3))
+            }
+            Self::Along => "{X} = {x}/{a}".to_owned(),
+            Self::Across => format!("{{Y}} = {{y}}/{{a}} at {{X}} = {}", numbers::digits(cuts.x, 3)),
+        }
+    }
+
+    /// Where on the other axis the profile lies.
+    fn elsewhere(self, cuts: Cuts) -> f64 {
+        match self {
+            Self::Along => cuts.y,
+            Self::Across => cuts.x,
+        }
     }
 }
 
@@ -72,6 +167,14 @@ fn toolbar(ui: &mut Ui, state: &mut State) {
             && let Some(text) = export::profiles(state)
         {
             state.ask_path(&ctx, Purpose::Csv { text });
+        }
+        if let Some(picture) = state.picture.as_ref().filter(|picture| picture.has_plane()) {
+            let across = ui.button("Export across…").on_hover_text("The live profile across as CSV, with its SI twins");
+            if across.clicked() {
+                let text = export::profile_across(picture, state.display.cuts.x);
+                state.ask_path(&ctx, Purpose::Csv { text });
+            }
+            super::contact_map::cuts_ui(ui, state);
         }
     });
 }
@@ -116,6 +219,7 @@ struct Scene<'a> {
     stale: bool,
     full_stale: bool,
     fit: bool,
+    cuts: Cuts,
 }
 
 impl<'a> Scene<'a> {
@@ -142,9 +246,11 @@ impl<'a> Scene<'a> {
 }
 
 /// A plot of the stack: shared X axis and cursor.
-fn stacked<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> Plot<'a> {
-    let group = Id::unique("profiles");
-    axes::plot(ui, id, height, x_title, y_title)
+fn stacked<'a>(ui: &Ui, direction: Direction, id: &str, height: f32, x_title: &str, y_title: &str) -> Plot<'a> {
+    let group = Id::unique(direction.id("profiles"));
+    let marks = if direction == Direction::Along { 9.0 } else { 5.0 };
+    axes::plot(ui, &direction.id(id), height, x_title, y_title)
+        .x_grid_spacer(move |input| axes::round_marks(input, marks))
         .link_axis(group, Vec2b::new(true, false))
         .link_cursor(group, Vec2b::new(true, false))
         .set_margin_fraction(egui::vec2(0.0, 0.0))
@@ -156,16 +262,17 @@ fn legend(corner: Corner) -> Legend {
     Legend::default().position(corner).follow_insertion_order(true).background_alpha(0.6)
 }
 
-fn hover(picture: &Picture) -> impl Fn(&HoverPosition<'_>) -> Option<String> + '_ {
+fn hover(picture: &Picture, direction: Direction) -> impl Fn(&HoverPosition<'_>) -> Option<String> + '_ {
     move |at| {
         let x = match at {
             HoverPosition::NearDataPoint { position, .. } | HoverPosition::Elsewhere { position } => position.x,
         };
-        let (p, h) = (value_at(&picture.pressure, x)?, value_at(&picture.film, x)?);
+        let (p, h) = (value_at(direction.pressure(picture), x)?, value_at(direction.film(picture), x)?);
         let point = &picture.key.point;
         let hertz = point.hertz();
         Some(format!(
-            "X = {}   ({})\nP = {}   ({})\nH = {}   ({})",
+            "{} = {}   ({})\nP = {}   ({})\nH = {}   ({})",
+            direction.name(),
             numbers::digits(x, 4),
             numbers::length(x * hertz.half_width_m),
             numbers::significant(p),
@@ -199,25 +306,31 @@ fn mark(plot: &mut PlotUi<'_>, at: (f64, f64), name: &'static str, color: Color3
     plot.text(label.anchor(anchor).id((name, "label")).allow_hover(false));
 }
 
-fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, height: f32) {
+fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) {
     let palette = Palette::of(ui);
     let picture = scene.picture;
     let scalars = picture.solution.scalars;
     let top = scene.pins.iter().map(|p| p.picture.solution.scalars.p_max).fold(scalars.p_max.max(1.0), f64::max);
-    stacked(ui, "pressure", height, "", "Pressure {P} = {p}/{p_H}")
-        .default_x_bounds(X_RANGE.0, X_RANGE.1)
+    let (from, to) = direction.range();
+    let elsewhere = direction.elsewhere(scene.cuts);
+    let (on_axis, height_here) = (elsewhere == 0.0 && direction == Direction::Along, 1.0 - elsewhere * elsewhere);
+    let y_title = if direction == Direction::Along { "Pressure {P} = {p}/{p_H}" } else { "" };
+    stacked(ui, direction, "pressure", height, "", y_title)
+        .default_x_bounds(from, to)
         .default_y_bounds(-0.04 * top, numbers::round_up(1.12 * top))
-        .label_formatter(hover(picture))
+        .label_formatter(hover(picture, direction))
         .show(ui, |plot| {
             axes::fit(plot, scene.fit);
-            cavitated(plot, picture, &palette);
+            if on_axis {
+                cavitated(plot, picture, &palette);
+            }
             let hertz: PlotPoints<'_> =
-                PlotPoints::from_explicit_callback(|x| (1.0 - x * x).max(0.0).sqrt(), -1.0..=1.0, 160);
+                PlotPoints::from_explicit_callback(move |x| (height_here - x * x).max(0.0).sqrt(), -1.0..=1.0, 201);
             plot.line(
                 Line::new("Hertz", hertz).color(palette.reference).width(THIN_WIDTH).style(LineStyle::dashed_dense()),
             );
-            let live = scene.curves(plot, &palette, palette.pressure, |picture| &picture.pressure);
-            if let Some(spike) = picture.spike.filter(|s| s.0 < scalars.x_p_max - 1e-9 || s.0 > 0.5) {
+            let live = scene.curves(plot, &palette, palette.pressure, move |picture| direction.pressure(picture));
+            if let Some(spike) = picture.spike.filter(|s| on_axis && (s.0 < scalars.x_p_max - 1e-9 || s.0 > 0.5)) {
                 mark(plot, spike, "spike", live, Align2::LEFT_BOTTOM);
             }
         });
@@ -230,33 +343,52 @@ fn full_name(scene: &Scene<'_>) -> String {
     }
 }
 
-fn film_plot(ui: &mut Ui, scene: &Scene<'_>, height: f32) {
+fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) {
     let palette = Palette::of(ui);
     let picture = scene.picture;
     let scalars = picture.solution.scalars;
     let top = scene.pins.iter().map(|p| p.picture.solution.scalars.h_c).fold(scalars.h_c, f64::max);
-    stacked(ui, "film", height, "{X} = {x}/{a}", "Film {H} = {h}{R}/{a}²")
-        .default_x_bounds(X_RANGE.0, X_RANGE.1)
+    let (from, to) = direction.range();
+    let elsewhere = direction.elsewhere(scene.cuts);
+    let x_title = direction.x_title(picture, scene.cuts);
+    let y_title = if direction == Direction::Along { "Film {H} = {h}{R}/{a}²" } else { "" };
+    stacked(ui, direction, "film", height, &x_title, y_title)
+        .default_x_bounds(from, to)
         .default_y_bounds(0.0, numbers::round_up(4.0 * top))
         // The inlet's film comes down from the top left.
         .legend(legend(Corner::LeftBottom))
-        .label_formatter(hover(picture))
+        .label_formatter(hover(picture, direction))
         .show(ui, |plot| {
             axes::fit(plot, scene.fit);
-            cavitated(plot, picture, &palette);
-            let live = scene.curves(plot, &palette, palette.film, |picture| &picture.film);
-            mark(plot, (0.0, scalars.h_c), "{H_c}", live, Align2::LEFT_BOTTOM);
+            if direction == Direction::Along && elsewhere == 0.0 {
+                cavitated(plot, picture, &palette);
+            }
+            let live = scene.curves(plot, &palette, palette.film, move |picture| direction.film(picture));
+            if elsewhere == 0.0 {
+                mark(plot, (0.0, scalars.h_c), "{H_c}", live, Align2::LEFT_BOTTOM);
+            }
+            let Some(at) = minimum_on(direction, scene) else { return };
             // Below the curve, unless the axis would cut the name off.
             let below = plot.transform().position_from_point(&PlotPoint::new(0.0, scalars.h_min)).y + 34.0;
             let room = below < plot.response().rect.bottom();
             let anchor = if room { Align2::CENTER_TOP } else { Align2::RIGHT_BOTTOM };
-            mark(plot, (scalars.x_h_min, scalars.h_min), "{H_min}", live, anchor);
+            mark(plot, (at, scalars.h_min), "{H_min}", live, anchor);
         });
+}
+
+/// Where a profile meets the smallest film, if it does: within what two hundredths of the contact make of it.
+fn minimum_on(direction: Direction, scene: &Scene<'_>) -> Option<f64> {
+    const NEAR: f64 = 0.02;
+    let s = scene.picture.solution.scalars;
+    match direction {
+        Direction::Along => ((scene.cuts.y.abs() + s.y_h_min).abs() < NEAR).then_some(s.x_h_min),
+        Direction::Across => ((scene.cuts.x - s.x_h_min).abs() < NEAR).then_some(s.y_h_min),
+    }
 }
 
 fn difference_plot(ui: &mut Ui, comparison: &Comparison, wanted: bool, height: f32) {
     let palette = Palette::of(ui);
-    stacked(ui, "difference", height, "", "Reduced − full")
+    stacked(ui, Direction::Along, "difference", height, "", "Reduced − full")
         .default_x_bounds(X_RANGE.0, X_RANGE.1)
         .set_margin_fraction(egui::vec2(0.0, 0.08))
         .show(ui, |plot| {

@@ -8,7 +8,7 @@ use crate::app::files::Purpose;
 use crate::app::numbers;
 use crate::app::state::State;
 use crate::app::theme::{Palette, faded, rich};
-use crate::solver::contact::Moes;
+use crate::solver::contact::{ContactKind, Moes};
 use egui::{Align2, RichText, TextureHandle, Ui};
 use egui_plot::{Line, LineStyle, MarkerShape, PlotImage, PlotPoint, PlotPoints, PlotUi, Points, Text};
 
@@ -18,9 +18,9 @@ const GRAB_RADIUS: f32 = 18.0;
 /// What the chart keeps between frames: its shading as a picture and all lines, made once.
 #[derive(Default)]
 pub struct RegimeChart {
-    texture: Option<(bool, TextureHandle)>,
-    lines: Option<ChartLines>,
-    snapshots: Option<(usize, Vec<PlotPoint>)>,
+    texture: Option<(ContactKind, bool, TextureHandle)>,
+    lines: Option<(ContactKind, ChartLines)>,
+    snapshots: Option<(ContactKind, usize, Vec<PlotPoint>)>,
     dragging: bool,
     message: Option<String>,
 }
@@ -30,7 +30,7 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
     let wide = ui.available_width() > 760.0;
     if wide {
         ui.horizontal_top(|ui| {
-            let table = 350.0;
+            let table = if state.document.point.kind == ContactKind::Line { 350.0 } else { 384.0 };
             let width = ui.available_width() - table - 14.0;
             ui.vertical(|ui| {
                 ui.set_width(width);
@@ -50,20 +50,26 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
     let ctx = ui.ctx().clone();
     let palette = Palette::of(ui);
     let dark = ui.visuals().dark_mode;
-    if state.regimes.texture.as_ref().is_none_or(|t| t.0 != dark) {
-        let texture = ctx.load_texture("regimes", shading(&palette), egui::TextureOptions::LINEAR);
-        state.regimes.texture = Some((dark, texture));
+    let kind = state.document.point.kind;
+    if state.regimes.texture.as_ref().is_none_or(|t| (t.0, t.1) != (kind, dark)) {
+        let texture = ctx.load_texture("regimes", shading(kind, &palette), egui::TextureOptions::LINEAR);
+        state.regimes.texture = Some((kind, dark, texture));
     }
-    let model = state.model.clone();
-    let lines = state.regimes.lines.get_or_insert_with(|| ChartLines::new(model.as_deref().map(|m| &m.domain)));
+    let model = state.model().cloned();
+    if state.regimes.lines.as_ref().is_none_or(|lines| lines.0 != kind) {
+        state.regimes.lines = Some((kind, ChartLines::new(kind, model.as_deref().map(|m| &m.domain))));
+    }
     let count = model.as_ref().map_or(0, |m| m.windows.iter().map(|w| w.snapshots.len()).sum());
-    if state.regimes.snapshots.as_ref().is_none_or(|s| s.0 != count) {
+    if state.regimes.snapshots.as_ref().is_none_or(|s| (s.0, s.1) != (kind, count)) {
         let points = model.iter().flat_map(|m| &m.windows).flat_map(|w| &w.snapshots);
-        state.regimes.snapshots = Some((count, points.map(|s| at(s.point.moes())).collect()));
+        state.regimes.snapshots = Some((kind, count, points.map(|s| at(s.point.moes())).collect()));
     }
     let mut toolbar_export = false;
     ui.horizontal_wrapped(|ui| {
-        let hint = "Drag the contact across the chart. Contours are Moes’ film number ({h}/{R})/√(2{U})";
+        let hint = match kind {
+            ContactKind::Line => "Drag the contact across the chart. Contours are Moes’ film number ({h}/{R})/√(2{U})",
+            ContactKind::Point => "Drag the contact. Contours: ({h}/{R})/√(2{U}) of Nijenbanning, Venner and Moes",
+        };
         ui.label(rich(hint, 12.5, palette.quiet));
         toolbar_export = ui.button("Export CSV…").on_hover_text("Contours, boundaries and snapshots").clicked();
     });
@@ -73,10 +79,17 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
     let here = state.document.point.moes();
     let grabbed = state.regimes.dragging;
     let fit = state.fit_plots;
-    let pins: Vec<[f64; 2]> = state.pins.iter().map(|p| at(p.picture.key.point.moes())).map(|p| [p.x, p.y]).collect();
+    let pins: Vec<[f64; 2]> = state
+        .pins
+        .iter()
+        .filter(|p| p.picture.key.point.kind == kind)
+        .map(|p| at(p.picture.key.point.moes()))
+        .map(|p| [p.x, p.y])
+        .collect();
     let chart_height = (height - 34.0).max(160.0);
-    let texture = state.regimes.texture.as_ref().map(|t| t.1.id());
-    let snapshots = state.regimes.snapshots.as_ref().map(|s| s.1.as_slice()).unwrap_or_default();
+    let Some((_, lines)) = &state.regimes.lines else { return };
+    let texture = state.regimes.texture.as_ref().map(|t| t.2.id());
+    let snapshots = state.regimes.snapshots.as_ref().map(|s| s.2.as_slice()).unwrap_or_default();
     let response = axes::plot(ui, "regimes", chart_height, "Load number {M}", "Lubricant number {L}")
         .default_x_bounds(M_AXIS.0.log10(), M_AXIS.1.log10())
         .default_y_bounds(L_AXIS.0.log10(), L_AXIS.1.log10())
@@ -96,7 +109,7 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
                 "M {}   L {}\n{}",
                 numbers::significant(moes.m),
                 numbers::significant(moes.l),
-                Regime::of(moes).name().replace('\n', " ")
+                Regime::of(kind, moes).name().replace('\n', " ")
             ))
         })
         .show(ui, |plot| {
@@ -139,6 +152,16 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
                     plot.text(label.id("trained label").allow_hover(false));
                 }
             }
+            if let Some(corner) = lines.table.first() {
+                let table = Line::new("Table 3.4", PlotPoints::Borrowed(&lines.table));
+                plot.line(table.color(palette.deformation).width(1.6));
+                let text = RichText::new("Table 3.4").size(11.0).color(palette.deformation);
+                plot.text(
+                    Text::new("", *corner, text).anchor(Align2::RIGHT_CENTER).id("table label").allow_hover(false),
+                );
+                let path = Line::new("Trajectory (3.21)", PlotPoints::Borrowed(&lines.trajectory));
+                plot.line(path.color(faded(palette.deformation, 0.75)).width(1.0).style(LineStyle::dashed_dense()));
+            }
             plot.points(
                 Points::new("Snapshots", PlotPoints::Borrowed(snapshots)).color(faded(palette.accent, 0.7)).radius(1.8),
             );
@@ -176,14 +199,14 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
         let l = 10f64.powf(value.y.clamp(L_AXIS.0.log10(), L_AXIS.1.log10()));
         state.regimes.message = state.document.set_moes(Moes { m, l }).err();
     }
-    if toolbar_export && let Some(lines) = &state.regimes.lines {
+    if toolbar_export && let Some((_, lines)) = &state.regimes.lines {
         let text = lines.csv(snapshots_of(state));
         state.ask_path(&ctx, Purpose::Csv { text });
     }
 }
 
 fn snapshots_of(state: &State) -> &[PlotPoint] {
-    state.regimes.snapshots.as_ref().map(|s| s.1.as_slice()).unwrap_or_default()
+    state.regimes.snapshots.as_ref().map(|s| s.2.as_slice()).unwrap_or_default()
 }
 
 fn at(moes: Moes) -> PlotPoint {

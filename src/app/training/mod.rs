@@ -206,7 +206,7 @@ impl State {
     /// Compares the model that was made with the one in use, or with the one it replaced.
     pub fn compare_models(&mut self, ctx: &Context) {
         let (Some(made), Some(spec)) = (&self.training.made, &self.training.spec) else { return };
-        let in_use = self.model.as_ref().filter(|model| !Arc::ptr_eq(model, &made.model));
+        let in_use = self.models.of(made.model.contact()).filter(|model| !Arc::ptr_eq(model, &made.model));
         let Some(former) = in_use.or(self.training.former.as_ref()) else { return };
         let task = Task::Compare(Arc::clone(former), Arc::clone(&made.model), spec.clone());
         self.training.comparison = None;
@@ -216,22 +216,25 @@ impl State {
     /// Puts the model that was made in use.
     pub fn use_made_model(&mut self) {
         if let Some(made) = &self.training.made {
-            let model = Arc::clone(&made.model);
-            self.training.former = self.model.clone();
-            self.use_model(Some(model));
+            let (model, kind) = (Arc::clone(&made.model), made.model.contact());
+            self.training.former = self.models.of(kind).cloned();
+            self.use_model(kind, Some(model));
         }
     }
 
     /// Puts the model in use that was before.
     pub fn use_former_model(&mut self) {
-        let former = self.training.former.take();
-        self.use_model(former);
+        if let Some(made) = &self.training.made {
+            let kind = made.model.contact();
+            let former = self.training.former.take();
+            self.use_model(kind, former);
+        }
     }
 
     /// Whether the model that was made is in use.
     pub fn uses_made_model(&self) -> bool {
-        let made = self.training.made.as_ref().map(|made| &made.model);
-        matches!((made, &self.model), (Some(made), Some(model)) if Arc::ptr_eq(made, model))
+        let Some(made) = self.training.made.as_ref().map(|made| &made.model) else { return false };
+        self.models.of(made.contact()).is_some_and(|model| Arc::ptr_eq(made, model))
     }
 
     /// Answers a training or comparison that has ended. Called first in every frame.

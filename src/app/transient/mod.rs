@@ -233,9 +233,10 @@ impl Document {
         Ok(())
     }
 
-    /// Whether its file holds the contact in time: a scene that asks another question keeps that.
+    /// Whether its file holds the contact in time: a scene that asks another question keeps that, a point contact has none.
     pub fn saves_transient(&self) -> bool {
-        self.scene.as_ref().is_none_or(|scene| matches!(scene.study, Study::Transient(_)))
+        let asked = self.scene.as_ref().is_none_or(|scene| matches!(scene.study, Study::Transient(_)));
+        asked && self.point.kind == ContactKind::Line
     }
 
     /// The grid of contacts in time: that of a scene of one, else the dissertation's.

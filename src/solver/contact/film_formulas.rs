@@ -29,6 +29,14 @@ pub struct FilmPrediction {
 }
 
 impl FilmFormula {
+    /// All formulas for a kind of contact.
+    pub fn of(kind: ContactKind) -> [Self; 3] {
+        match kind {
+            ContactKind::Line => Self::LINE,
+            ContactKind::Point => Self::POINT,
+        }
+    }
+
     /// All line-contact formulas.
     pub const LINE: [Self; 3] = [Self::MoesLine, Self::DowsonHigginson, Self::DowsonToyoda];
 
@@ -101,17 +109,55 @@ impl FilmFormula {
     }
 }
 
+/// The four asymptotes of a film number H = (h/R)(2U)^(−1/2), as Moes' and Nijenbanning, Venner and Moes' formulas join them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilmAsymptotes {
+    /// Rigid bodies, constant viscosity.
+    pub rigid_isoviscous: f64,
+    /// Elastic bodies, constant viscosity.
+    pub elastic_isoviscous: f64,
+    /// Rigid bodies, viscosity rising with pressure.
+    pub rigid_piezoviscous: f64,
+    /// Elastic bodies, viscosity rising with pressure.
+    pub elastic_piezoviscous: f64,
+}
+
+impl FilmAsymptotes {
+    /// The asymptotes at M and L: of a line contact, Moes 1992; of a circular point contact, Nijenbanning, Venner & Moes 1994 at equal radii.
+    pub fn of(kind: ContactKind, Moes { m, l }: Moes) -> Self {
+        match kind {
+            ContactKind::Line => Self {
+                rigid_isoviscous: 3.0 / m,
+                elastic_isoviscous: 2.621 * m.powf(-0.2),
+                rigid_piezoviscous: 1.287 * l.powf(2.0 / 3.0),
+                elastic_piezoviscous: 1.311 * m.powf(-0.125) * l.powf(0.75),
+            },
+            ContactKind::Point => Self {
+                rigid_isoviscous: 145.0 * 1.796f64.powf(-15.0 / 7.0) * m.powi(-2),
+                elastic_isoviscous: 3.18 * 1.63f64.powf(-14.0 / 25.0) * m.powf(-2.0 / 15.0),
+                rigid_piezoviscous: 1.29 * 1.691f64.powf(-2.0 / 3.0) * l.powf(2.0 / 3.0),
+                elastic_piezoviscous: 1.48 * 1.63f64.powf(-7.0 / 20.0) * m.powf(-1.0 / 12.0) * l.powf(0.75),
+            },
+        }
+    }
+}
+
+/// Moes' film number of a kind of contact, central film.
+pub fn moes_film(kind: ContactKind, moes: Moes) -> f64 {
+    match kind {
+        ContactKind::Line => moes_line_film(moes),
+        ContactKind::Point => moes_point_film(moes),
+    }
+}
+
 /// Moes' film number H = (h/R)(2U)^(−1/2) for a line contact, with the asymptotes rigid/elastic × isoviscous/piezoviscous.
 ///
 /// Source: Moes, Wear 159 (1992) 57–66. Valid for 5 ≤ M ≤ 1000, 0 ≤ L ≤ 25, Barus viscosity, incompressible fluid.
-pub fn moes_line_film(Moes { m, l }: Moes) -> f64 {
-    let rigid_iso = 3.0 / m;
-    let elastic_iso = 2.621 * m.powf(-0.2);
-    let rigid_piezo = 1.287 * l.powf(2.0 / 3.0);
-    let elastic_piezo = 1.311 * m.powf(-0.125) * l.powf(0.75);
-    let s = (7.0 + 8.0 * (-2.0 * elastic_iso / rigid_iso).exp()) / 5.0;
-    let iso = rigid_iso.powf(7.0 / 3.0) + elastic_iso.powf(7.0 / 3.0);
-    let piezo = rigid_piezo.powf(-3.5) + elastic_piezo.powf(-3.5);
+pub fn moes_line_film(moes: Moes) -> f64 {
+    let a = FilmAsymptotes::of(ContactKind::Line, moes);
+    let s = (7.0 + 8.0 * (-2.0 * a.elastic_isoviscous / a.rigid_isoviscous).exp()) / 5.0;
+    let iso = a.rigid_isoviscous.powf(7.0 / 3.0) + a.elastic_isoviscous.powf(7.0 / 3.0);
+    let piezo = a.rigid_piezoviscous.powf(-3.5) + a.elastic_piezoviscous.powf(-3.5);
     (iso.powf(3.0 * s / 7.0) + piezo.powf(-2.0 * s / 7.0)).powf(1.0 / s)
 }
 
@@ -139,15 +185,12 @@ const CIRCLE: f64 = 1.03;
 ///
 /// Source: Nijenbanning, Venner & Moes, Wear 176 (1994) 217–229, at equal radii. Full solutions with Barus' law and no compressibility
 /// lie 8–15 % above it, with Roelands and Dowson–Higginson 6–13 % below (M 20…200, L 2.5…10, default realisation).
-pub fn moes_point_film(Moes { m, l }: Moes) -> f64 {
-    let rigid_iso = 145.0 * 1.796f64.powf(-15.0 / 7.0) * m.powi(-2);
-    let elastic_iso = 3.18 * 1.63f64.powf(-14.0 / 25.0) * m.powf(-2.0 / 15.0);
-    let rigid_piezo = 1.29 * 1.691f64.powf(-2.0 / 3.0) * l.powf(2.0 / 3.0);
-    let elastic_piezo = 1.48 * 1.63f64.powf(-7.0 / 20.0) * m.powf(-1.0 / 12.0) * l.powf(0.75);
-    let s = 1.5 * (1.0 + (-1.2 * elastic_iso / elastic_piezo).exp());
+pub fn moes_point_film(moes: Moes) -> f64 {
+    let a = FilmAsymptotes::of(ContactKind::Point, moes);
+    let s = 1.5 * (1.0 + (-1.2 * a.elastic_isoviscous / a.elastic_piezoviscous).exp());
     // The isoviscous elastic asymptote is cut off at 1.8, beyond which a contact is rigid.
-    let iso = rigid_iso.powf(1.5) + (elastic_iso.powi(-4) + 1.8f64.powi(-4)).powf(-0.375);
-    let piezo = rigid_piezo.powi(-8) + elastic_piezo.powi(-8);
+    let iso = a.rigid_isoviscous.powf(1.5) + (a.elastic_isoviscous.powi(-4) + 1.8f64.powi(-4)).powf(-0.375);
+    let piezo = a.rigid_piezoviscous.powi(-8) + a.elastic_piezoviscous.powi(-8);
     (iso.powf(2.0 * s / 3.0) + piezo.powf(-s / 8.0)).powf(1.0 / s)
 }
 

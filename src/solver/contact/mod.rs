@@ -6,8 +6,9 @@ mod film_formulas;
 mod moes;
 
 pub use film_formulas::{
-    FilmFormula, FilmPrediction, dowson_higginson_minimum, dowson_toyoda_central, hamrock_dowson_central,
-    hamrock_dowson_minimum, moes_line_central, moes_line_film, moes_point_central, moes_point_film,
+    FilmAsymptotes, FilmFormula, FilmPrediction, dowson_higginson_minimum, dowson_toyoda_central,
+    hamrock_dowson_central, hamrock_dowson_minimum, moes_film, moes_line_central, moes_line_film, moes_point_central,
+    moes_point_film,
 };
 pub use moes::{MoesRequest, si_from_moes};
 

@@ -32,8 +32,21 @@ impl Gmres {
         x: &mut [f64],
         tolerance: f64,
         limit: usize,
+        apply: impl FnMut(&[f64], &mut [f64]),
+        precondition: impl FnMut(&mut [f64]),
+    ) -> LinearOutcome {
+        self.solve_watched(b, x, (tolerance, limit), apply, precondition, |_| true)
+    }
+
+    /// The same for iterations that take long: `go_on` is asked after each with their count, and ends the solve with what it has.
+    pub fn solve_watched(
+        &mut self,
+        b: &[f64],
+        x: &mut [f64],
+        (tolerance, limit): (f64, usize),
         mut apply: impl FnMut(&[f64], &mut [f64]),
         mut precondition: impl FnMut(&mut [f64]),
+        mut go_on: impl FnMut(usize) -> bool,
     ) -> LinearOutcome {
         let n = b.len();
         x.fill(0.0);
@@ -79,7 +92,8 @@ impl Gmres {
             let r = self.rhs[k];
             self.rhs[k] = c * r;
             self.rhs.push(-s * r);
-            if self.rhs[k + 1].abs() <= tolerance * norm || next <= 1e-14 * norm.min(1.0) || !next.is_finite() {
+            let ended = self.rhs[k + 1].abs() <= tolerance * norm || next <= 1e-14 * norm.min(1.0) || !next.is_finite();
+            if ended || !go_on(iterations) {
                 break;
             }
             for (v, p) in self.basis[k + 1].iter_mut().zip(&self.product) {

@@ -3,6 +3,7 @@
 mod attempts;
 mod band;
 mod contact_solver;
+mod cut;
 pub mod dense;
 mod gmres;
 mod line;

@@ -3,7 +3,7 @@
 use super::solution::Problem;
 use crate::solver::grid::LineGrid;
 use crate::solver::lubricant::ScaledShear;
-use crate::solver::reynolds::generalized::{NodalGradient, ShearNode, gradient_slopes};
+use crate::solver::reynolds::generalized::{NodalGradient, NodeState, ShearNode, gradient_slopes};
 use crate::solver::reynolds::{CENTER, Node};
 
 /// State of the generalized rows: ∂f/∂P = `d_p` + `slopes` G.
@@ -34,7 +34,8 @@ impl ShearState {
         nodes: &mut [Node],
     ) {
         for (i, (own, node)) in self.nodes.iter_mut().zip(nodes).enumerate() {
-            let state = [pressure[i], self.gradient.at(pressure, i), film[i]];
+            let gradient = [self.gradient.at(pressure, i), 0.0];
+            let state = NodeState { pressure: pressure[i], gradient, film: film[i] };
             *own = ShearNode::new(&problem.fluid, law, problem.inverse_lambda, state, frozen);
             *node = own.node;
         }
@@ -44,7 +45,7 @@ impl ShearState {
     pub fn differentiate(&mut self, grid: &LineGrid) {
         for ((slopes, geometry), nodes) in self.slopes.iter_mut().zip(&grid.rows).zip(self.nodes.windows(4)) {
             let here = &nodes[CENTER];
-            let s = gradient_slopes(geometry, [&nodes[0], &nodes[1], here, &nodes[3], here, here]);
+            let s = gradient_slopes(geometry, [&nodes[0], &nodes[1], here, &nodes[3], here, here], 0);
             *slopes = [s[0], s[1], s[2], s[3]];
         }
     }

@@ -31,11 +31,6 @@ pub enum SolveError {
         /// What it was given.
         given: ContactKind,
     },
-    /// Shear-thinning or a limiting stress in a point contact.
-    #[error(
-        "shear-thinning lubricants and limiting shear stresses are not part of this version's point contacts; use a line contact or a Newtonian lubricant"
-    )]
-    ShearInPointContact,
 }
 
 impl From<ContactGridError> for SolveError {
@@ -277,7 +272,7 @@ impl Solution {
     }
 
     /// Index of the first abscissa that belongs to the domain.
-    fn first(&self) -> usize {
+    pub(super) fn first(&self) -> usize {
         match self.mesh {
             Mesh::Line { .. } => 1,
             Mesh::Point(_) => 0,
@@ -319,18 +314,23 @@ impl Solution {
     pub fn traction(&self) -> Traction {
         // τ = η u_s / h with u_s = SRR u_m; friction = ∫τ dx / w, the Poiseuille part cancels in the mean of both surfaces.
         let point = &self.problem.point;
-        let hertz = point.hertz();
         let stress_scale = point.viscosity_pa_s * point.speed_m_per_s / point.film_scale_m();
-        let state = |k: usize| {
+        let stress = |k: usize| {
             let viscosity =
                 if self.pressure[k] > 0.0 { self.problem.fluid.at(self.pressure[k]).viscosity } else { 1.0 };
-            viscosity / self.film[k]
+            stress_scale * viscosity / self.film[k]
         };
+        Traction { per_srr: self.force_per_load(stress) }
+    }
+
+    /// ∫ of a stress \[Pa\] given at the nodes over the whole domain, both halves of a point contact's, by the trapezoidal rule, over the load.
+    pub(super) fn force_per_load(&self, stress: impl Fn(usize) -> f64) -> f64 {
+        let point = &self.problem.point;
         let ny = self.y.len();
-        // Across the contact: the trapezoidal rule over both halves, where there is anything across.
+        // Across the contact: over both halves, where there is anything across.
         let at = |i: usize| {
-            let across = |j: usize| (state(i * ny + j - 1) + state(i * ny + j)) * (self.y[j] - self.y[j - 1]);
-            if ny == 1 { state(i) } else { (1..ny).map(across).sum() }
+            let across = |j: usize| (stress(i * ny + j - 1) + stress(i * ny + j)) * (self.y[j] - self.y[j - 1]);
+            if ny == 1 { stress(i) } else { (1..ny).map(across).sum() }
         };
         let mut integral = 0.0;
         let mut upstream = at(self.first());
@@ -339,11 +339,12 @@ impl Solution {
             integral += 0.5 * (upstream + here) * (self.x[i] - self.x[i - 1]);
             upstream = here;
         }
+        let half_width = point.hertz().half_width_m;
         let area = match point.kind {
-            ContactKind::Line => hertz.half_width_m,
-            ContactKind::Point => hertz.half_width_m.powi(2),
+            ContactKind::Line => half_width,
+            ContactKind::Point => half_width.powi(2),
         };
-        Traction { per_srr: stress_scale * area * integral / point.load }
+        area * integral / point.load
     }
 }
 

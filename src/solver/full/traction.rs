@@ -1,71 +1,101 @@
-//! Shear across the film of a line contact, and the traction (3.41) it adds up to; the Newtonian traction of a point contact.
+//! Shear across the film, and the traction (3.41) it adds up to.
 
 use super::solution::Solution;
-use crate::solver::contact::ContactKind;
-use crate::solver::lubricant::{Fluidity, ScaledShear};
-use crate::solver::reynolds::film_integrals::{FilmLoad, PRODUCTION_RULE, film_integrals};
-use crate::solver::reynolds::generalized::NodalGradient;
+use crate::solver::lubricant::ScaledShear;
+use crate::solver::reynolds::film_integrals::{PRODUCTION_RULE, film_integrals};
+use crate::solver::reynolds::generalized::PlaneGradient;
+use rayon::prelude::*;
 
 /// α* p_H beyond which an isothermal traction without a limiting stress is no physics: viscosity then outgrows every stress a
 /// lubricant can carry.
 pub const PLAUSIBLE_EXPONENT: f64 = 12.0;
 
-/// Shear at one place of the film.
+/// Shear along X at one place of the film.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shear {
     /// τ_zx \[Pa\].
     pub stress_pa: f64,
-    /// Shear rate \[1/s\].
+    /// Shear rate ∂u/∂z \[1/s\].
     pub rate_per_s: f64,
 }
 
+/// The shear stress of a film: linear across it, from the lower surface Z = 0 to the upper one Z = 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct FilmStress {
+    /// (τ_zx, τ_zy) at mid-film \[Pa\].
+    mid_pa: [f64; 2],
+    /// Their differences between the surfaces \[Pa\].
+    across_pa: [f64; 2],
+    /// μ, the viscosity at rest \[Pa·s\].
+    viscosity_pa_s: f64,
+    /// What the lubricant carries at most \[Pa\].
+    limit_pa: f64,
+}
+
 impl Solution {
-    /// Shear at height z = Z h above the lower surface, 0 ≤ Z ≤ 1, at all entries of the node arrays. A limiting stress, where the lubricant has one,
-    /// cuts the stress; the rate is the one of the film without it.
-    pub fn shear_at_height(&self, height: f64) -> Vec<Shear> {
-        let problem = &self.problem;
-        let (point, fluid) = (&problem.point, &problem.fluid);
-        let hertz = point.hertz();
-        let gradient = NodalGradient::new(&self.x);
-        // Newtonian scales: κ₁ and κ₂ of (3.27).
-        let kappa_1 = hertz.pressure_pa * hertz.half_width_m / point.radius_m;
-        let slip = point.speed_m_per_s * problem.sliding.slide_to_roll_ratio;
-        let kappa_2 = point.viscosity_pa_s * slip / point.film_scale_m();
-        let zeta = height - 0.5;
+    /// Shear along the axis Y = 0 at height z = Z h above the lower surface, 0 ≤ Z ≤ 1, in the order of [`Solution::profile`]. A limiting
+    /// stress, where the lubricant has one, cuts the stress; the rate is the one of the film without it.
+    pub fn shear_along_axis(&self, height: f64) -> Vec<Shear> {
+        let gradient = PlaneGradient::new(&self.x, &self.y);
+        let axis = self.y.len() - 1;
         let at = |i: usize| {
-            let (pressure, film) = (self.pressure[i], self.film[i]);
-            let relative_viscosity = fluid.at(pressure.max(0.0)).viscosity;
-            let (across, sliding) =
-                (kappa_1 * film * gradient.at(&self.pressure, i), kappa_2 * relative_viscosity / film);
-            let (stress, fluidity) = match &problem.shear {
-                None => (sliding + across * zeta, 1.0),
-                Some(ScaledShear { fluidity, stress_scale_pa: scale, .. }) => {
-                    let load = FilmLoad { a: across / scale, b: 0.0, sliding: sliding / scale };
-                    let stress = mid_stress(fluidity, load) + load.a * zeta;
-                    (stress * scale, fluidity.at(stress.abs()).0)
-                }
-            };
-            let rate_per_s = stress * fluidity / (point.viscosity_pa_s * relative_viscosity);
-            let limit = problem.lubricant.limiting_stress.map_or(f64::INFINITY, |l| l.at(pressure * hertz.pressure_pa));
-            Shear { stress_pa: stress.clamp(-limit, limit), rate_per_s }
+            let film = self.film_stress(&gradient, i, axis);
+            let stress = film.at(height);
+            let fluidity = self
+                .problem
+                .shear
+                .map_or(1.0, |law| law.fluidity.at(stress[0].hypot(stress[1]) / law.stress_scale_pa).0);
+            let rate_per_s = stress[0] * fluidity / film.viscosity_pa_s;
+            Shear { stress_pa: film.limited(stress)[0], rate_per_s }
         };
-        (0..self.x.len()).map(at).collect()
+        (self.first()..self.x.len()).map(at).collect()
     }
 
-    /// Traction coefficient (3.41): the shear stress at mid-film over the whole domain, by the trapezoidal rule, over the load. Positive for
-    /// SRR > 0. Over the area with P > 0 alone it is some 0.1 to 2 % smaller.
+    /// Traction coefficient (3.41): the shear stress at mid-film over the whole domain, both halves of a point contact's, by the trapezoidal rule,
+    /// over the load. Positive for SRR > 0. Over the area with P > 0 alone it is some 0.1 to 2 % smaller.
     pub fn traction_coefficient(&self) -> f64 {
         if self.problem.sliding.slide_to_roll_ratio == 0.0 {
             return 0.0;
         }
-        let point = &self.problem.point;
-        if point.kind == ContactKind::Point {
-            return self.traction().per_srr * self.problem.sliding.slide_to_roll_ratio;
+        let gradient = PlaneGradient::new(&self.x, &self.y);
+        let ny = self.y.len();
+        let mut stress = vec![0.0; self.pressure.len()];
+        stress.par_iter_mut().enumerate().with_min_len(256).for_each(|(k, stress)| {
+            let film = self.film_stress(&gradient, k / ny, k % ny);
+            *stress = film.limited(film.mid_pa)[0];
+        });
+        self.force_per_load(|k| stress[k])
+    }
+
+    /// The shear stress of the film at node (i, j).
+    fn film_stress(&self, gradient: &PlaneGradient, i: usize, j: usize) -> FilmStress {
+        let problem = &self.problem;
+        let (point, hertz) = (&problem.point, problem.point.hertz());
+        let k = i * self.y.len() + j;
+        let (pressure, film) = (self.pressure[k], self.film[k]);
+        let viscosity = problem.fluid.at(pressure.max(0.0)).viscosity;
+        let gradient = gradient.at(&self.pressure, i, j);
+        let (across_pa, mid_pa) = match &problem.shear {
+            None => {
+                // κ₁ and κ₂ of (3.27).
+                let kappa_1 = hertz.pressure_pa * hertz.half_width_m / point.radius_m;
+                let slip = point.speed_m_per_s * problem.sliding.slide_to_roll_ratio;
+                let kappa_2 = point.viscosity_pa_s * slip / point.film_scale_m();
+                (gradient.map(|p| kappa_1 * film * p), [kappa_2 * viscosity / film, 0.0])
+            }
+            Some(law @ ScaledShear { fluidity, stress_scale_pa: scale, .. }) => {
+                let load = law.film_load(gradient, film, viscosity);
+                let mid = film_integrals(fluidity, &PRODUCTION_RULE, load).mid_stress;
+                ([load.a * scale, load.b * scale], mid.map(|stress| stress * scale))
+            }
+        };
+        let limit = problem.lubricant.limiting_stress;
+        FilmStress {
+            mid_pa,
+            across_pa,
+            viscosity_pa_s: point.viscosity_pa_s * viscosity,
+            limit_pa: limit.map_or(f64::INFINITY, |limit| limit.at(pressure * hertz.pressure_pa)),
         }
-        let stress = self.shear_at_height(0.5);
-        let cells = self.x.windows(2).zip(stress.windows(2)).skip(1);
-        let integral: f64 = cells.map(|(x, s)| 0.5 * (s[0].stress_pa + s[1].stress_pa) * (x[1] - x[0])).sum();
-        integral * point.hertz().half_width_m / point.load
     }
 
     /// A sentence where the traction is no physics: at great α* p_H without a limiting stress.
@@ -81,6 +111,15 @@ impl Solution {
     }
 }
 
-fn mid_stress(law: &Fluidity, load: FilmLoad) -> f64 {
-    film_integrals(law, &PRODUCTION_RULE, load).mid_stress[0]
+impl FilmStress {
+    /// (τ_zx, τ_zy) at height Z.
+    fn at(&self, height: f64) -> [f64; 2] {
+        [0, 1].map(|axis| self.mid_pa[axis] + (height - 0.5) * self.across_pa[axis])
+    }
+
+    /// A stress cut to what the lubricant carries, in its own direction.
+    fn limited(&self, stress: [f64; 2]) -> [f64; 2] {
+        let size = stress[0].hypot(stress[1]);
+        if size > self.limit_pa { stress.map(|part| part * self.limit_pa / size) } else { stress }
+    }
 }

@@ -34,7 +34,7 @@ const BELIEF: f64 = 0.8;
 const COMMON_SPREAD: f64 = 0.1;
 /// Part of the evidence that must lie below the bound; more than the 99 % promised, since fresh points scatter.
 const QUANTILE: f64 = 0.996;
-/// Errors below this are noise of the two Newton steps they were measured by.
+/// Errors below this are noise of the three Newton steps they were measured by.
 const FLOOR: f64 = 1e-8;
 /// Evidence without which nothing is said.
 pub const LEAST_EVIDENCE: usize = 100;

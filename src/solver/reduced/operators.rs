@@ -92,6 +92,7 @@ struct Place {
 }
 
 struct Scratch {
+    /// P and K P on the support. They follow the steps, so that each iteration multiplies once by the large `state_rows`.
     fields: Vec<f64>,
     step_fields: Vec<f64>,
     nodes: Vec<Node>,
@@ -206,6 +207,7 @@ impl Operators {
         mut observer: Option<RowObserver<'_>>,
     ) -> OnlineOutcome {
         let mut outcome = OnlineOutcome { converged: false, iterations: 0, step: f64::NAN, residual: f64::NAN };
+        product(&self.state_rows, self.modes, coefficients, &mut self.scratch.fields);
         for iteration in 1..=stop.max_newton {
             self.evaluate(case, coefficients, *h_0, true);
             if !self.linear_step(case.problem, case.scale, coefficients, observer.is_some()) {
@@ -226,6 +228,8 @@ impl Operators {
                 });
             }
             let omega = self.damping(case.scale);
+            let s = &mut self.scratch;
+            s.fields.iter_mut().zip(&s.step_fields).for_each(|(field, step)| *field += omega * step);
             let (mut change, mut size) = (0.0, 0.0);
             for (c, d) in coefficients.iter_mut().zip(&self.scratch.rhs) {
                 *c += omega * d;
@@ -248,11 +252,10 @@ impl Operators {
         outcome
     }
 
-    /// Evaluates the sampled rows; returns e_f^I.
+    /// Evaluates the sampled rows at the fields; returns e_f^I.
     fn evaluate(&mut self, case: &Case<'_>, coefficients: &[f64], h_0: f64, derivatives: bool) -> f64 {
         let Case { problem, scale, curvature, penalty, .. } = *case;
         let s = &mut self.scratch;
-        product(&self.state_rows, self.modes, coefficients, &mut s.fields);
         let (pressure, deformation) = s.fields.split_at(self.support.len());
         let offset = h_0 - 0.5 * scale.ln();
         for (k, (node, place)) in s.nodes.iter_mut().zip(&self.support).enumerate() {

@@ -54,8 +54,12 @@ pub struct FilmIntegrals {
     pub iterations: usize,
 }
 
-/// Iterations of the inner Newton method at most. A few are enough in contacts; a hyperbolic sine far beyond its scale needs many.
-const MOST_ITERATIONS: usize = 30;
+/// Iterations of the inner Newton method at most. The named lubricants need five; a power law with n = 0.2 needs eight, and so does a hyperbolic
+/// sine at ten times its scale.
+const MOST_ITERATIONS: usize = 12;
+
+/// How many times as fluid as sliding the pressure gradient must make the film for a start that counts on the gradient.
+const MUCH_MORE_FLUID: f64 = 10.0;
 
 /// A step, relative to τ_m, below which the next one, its square, would be below rounding: the integrals then follow it to first order.
 const LAST_STEP: f64 = 1e-7;
@@ -119,9 +123,15 @@ fn times(m: [f64; 3], v: [f64; 2]) -> [f64; 2] {
 /// Solves the inner problem and returns the integrals with their derivatives.
 pub fn film_integrals(law: &Fluidity, rule: &FilmRule, load: FilmLoad) -> FilmIntegrals {
     let FilmLoad { a, b, sliding } = load;
-    // The rates of a film under a pressure gradient lie above those of the stress at mid-film alone: the start is never too small.
-    let mut mid = [law.stress_near(sliding.abs()).copysign(sliding), 0.0];
     let mut iterations = 0;
+    // The rates of a film under a pressure gradient lie above those of the stress at mid-film alone: this start is never too small.
+    let mut mid = [law.stress_near(sliding.abs()).copysign(sliding), 0.0];
+    let edge = 0.5 * a.hypot(b);
+    if sliding != 0.0 && edge > mid[0].abs() && law.at(edge).0 > MUCH_MORE_FLUID * law.at(mid[0].abs()).0 {
+        // Nor is the one that takes the fluidity from the gradient alone, and here it is much closer.
+        iterations += 1;
+        mid = times(Moments::of(law, rule, &load, [0.0; 2]).inverse(), [sliding, 0.0]);
+    }
     let mut moments = Moments::of(law, rule, &load, mid);
     let mut inverse = moments.inverse();
     while sliding != 0.0 && iterations < MOST_ITERATIONS {
@@ -295,15 +305,33 @@ mod tests {
                 let one = film_integrals(&law, &PRODUCTION_RULE, load);
                 let other = film_integrals(&law, &PRODUCTION_RULE, FilmLoad { sliding: -load.sliding, ..load });
                 assert!((one.mobility / other.mobility - 1.0).abs() < 1e-12, "{law:?} {load:?}");
-                assert!(
-                    (one.shift + other.shift).abs() < 1e-12 && one.iterations < MOST_ITERATIONS,
-                    "{law:?} {load:?} {}",
-                    one.iterations
-                );
+                assert!((one.shift + other.shift).abs() < 1e-12, "{law:?} {load:?}");
                 assert!(
                     (one.mid_stress[0] + other.mid_stress[0]).abs() <= 1e-11 * (one.mid_stress[0].abs() + load.a.abs())
                 );
             }
+        }
+    }
+
+    #[test]
+    fn the_inner_newton_method_is_short() {
+        let strong = [
+            (ShearLaw::Ellis { critical_stress: 1e5, n: 0.2, npr: 0.0 }, 0.0),
+            (ShearLaw::Carreau { critical_stress: 1e5, beta: 2.0, n: 0.3, npr: 0.0 }, 0.0),
+        ];
+        let strong = strong.into_iter().filter_map(|(law, npr)| Some(Fluidity::of(law, npr)?.0));
+        for (k, law) in laws().into_iter().chain(strong).enumerate() {
+            let mut most = 0;
+            for exponents in 0..14 * 10 {
+                let power = |e: i32| 10f64.powf(0.5 * f64::from(e));
+                let (sliding, a) = (power(exponents % 14 - 6), power(exponents / 14 - 6));
+                for b in [0.0, 0.4, -9.0, 40.0] {
+                    most = most.max(film_integrals(&law, &PRODUCTION_RULE, FilmLoad { a, b, sliding }).iterations);
+                }
+            }
+            // The first two are those of Tables 3.5 and 3.8.
+            let bar = if k < 2 { 5 } else { 8 };
+            assert!(most <= bar, "{law:?}: {most} iterations");
         }
     }
 

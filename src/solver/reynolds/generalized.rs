@@ -1,12 +1,12 @@
 //! The generalized Reynolds row (3.23): what shear-thinning adds to the nodes of the row, and to its derivatives.
 //!
 //! A shear-thinning node is a Newtonian one whose mobility is multiplied by φ and whose flow by 1 + SRR (½ − Z₀), with the film integrals of the
-//! gradient at the node itself. The row then is the Newtonian row. Only the derivatives grow by one more kind: with respect to
-//! the nodal gradient P_X, which is a central difference. So the row reaches from X −3 to +2, as ∂f/∂P + (∂f/∂P_X) G with the
-//! fixed difference operator G of [`NodalGradient`].
+//! gradient at the node itself. The row then is the Newtonian row. Only the derivatives grow by two more kinds: with respect to
+//! the nodal gradients P_X and P_Y, which are central differences. So the row reaches from X −3 to +2, across to Y ±2 and to the diagonals,
+//! as ∂f/∂P + (∂f/∂P_X) G_X + (∂f/∂P_Y) G_Y with the fixed difference operators of [`NodalGradient`].
 
 use super::film_integrals::{FilmLoad, PRODUCTION_RULE, film_integrals};
-use super::{CENTER, EAST, Node, RowGeometry, STENCIL, WEST};
+use super::{CENTER, EAST, NORTH, Node, RowGeometry, SOUTH, STENCIL, WEST};
 use crate::solver::lubricant::{ScaledFluid, ScaledShear};
 
 /// A shear-thinning node: what the row needs of it, and how that answers to its pressure gradient.
@@ -14,32 +14,42 @@ use crate::solver::lubricant::{ScaledFluid, ScaledShear};
 pub struct ShearNode {
     /// The node as the row sees it.
     pub node: Node,
-    /// ∂(flow)/∂P_X.
-    pub flow_px: f64,
-    /// ∂ξ/∂P_X.
-    pub mobility_px: f64,
+    /// ∂(flow)/∂(P_X, P_Y).
+    pub flow_gradient: [f64; 2],
+    /// ∂ξ/∂(P_X, P_Y).
+    pub mobility_gradient: [f64; 2],
+}
+
+/// What the film integrals of a node depend on.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct NodeState {
+    /// P.
+    pub pressure: f64,
+    /// (P_X, P_Y); P_Y is zero for a line contact.
+    pub gradient: [f64; 2],
+    /// H.
+    pub film: f64,
 }
 
 impl ShearNode {
-    /// The node's quantities at P, P_X and H of a line contact. With `frozen` the film integrals count as constants in all derivatives.
+    /// The node's quantities. With `frozen` the film integrals count as constants in all derivatives.
     #[inline]
     pub fn new(
         fluid: &ScaledFluid,
         shear: &ScaledShear,
         inverse_lambda: f64,
-        [pressure, gradient, film]: [f64; 3],
+        NodeState { pressure, gradient, film }: NodeState,
         frozen: bool,
     ) -> Self {
         let state = fluid.at(pressure);
         let node = Node::of_state(&state, inverse_lambda, pressure, film);
-        let newtonian = Self { node, flow_px: 0.0, mobility_px: 0.0 };
+        let newtonian = Self { node, ..Self::default() };
         if film <= 0.0 {
             // Surfaces that overlap are a passing iterate: there is no film to integrate over.
             return newtonian;
         }
-        let load =
-            FilmLoad { a: shear.gradient * film * gradient, b: 0.0, sliding: shear.sliding * state.viscosity / film };
-        if load.a == 0.0 && load.sliding == 0.0 {
+        let load = shear.film_load(gradient, film, state.viscosity);
+        if load == FilmLoad::default() {
             return newtonian;
         }
         let integrals = film_integrals(&shear.fluidity, &PRODUCTION_RULE, load);
@@ -55,45 +65,55 @@ impl ShearNode {
                 mobility_p: node.mobility_p * integrals.mobility,
                 mobility_h: node.mobility_h * integrals.mobility,
             },
-            flow_px: 0.0,
-            mobility_px: 0.0,
+            ..Self::default()
         };
         if frozen {
             return out;
         }
-        let ([mobility_a, _, mobility_s], [shift_a, _, shift_s]) = (integrals.d_mobility, integrals.d_shift);
-        // a grows with H and P_X; S with μ̄ and 1/H.
-        let (a_h, a_px) = (load.a / film, shear.gradient * film);
+        let ([mobility_a, mobility_b, mobility_s], [shift_a, shift_b, shift_s]) =
+            (integrals.d_mobility, integrals.d_shift);
+        // a and b grow with H and the gradient; S with μ̄ and 1/H.
+        let (a_h, b_h, per_gradient) = (load.a / film, load.b / film, shear.gradient * film);
         let (s_p, s_h) = (load.sliding * state.log_viscosity_slope, -load.sliding / film);
         out.node.mobility_p += node.mobility * mobility_s * s_p;
-        out.node.mobility_h += node.mobility * (mobility_a * a_h + mobility_s * s_h);
-        out.mobility_px = node.mobility * mobility_a * a_px;
+        out.node.mobility_h += node.mobility * (mobility_a * a_h + mobility_b * b_h + mobility_s * s_h);
+        out.mobility_gradient = [mobility_a, mobility_b].map(|slope| node.mobility * slope * per_gradient);
         let slid = -srr * node.flow;
         out.node.flow_p += slid * shift_s * s_p;
-        out.node.flow_h += slid * (shift_a * a_h + shift_s * s_h);
-        out.flow_px = slid * shift_a * a_px;
+        out.node.flow_h += slid * (shift_a * a_h + shift_b * b_h + shift_s * s_h);
+        out.flow_gradient = [shift_a, shift_b].map(|slope| slid * slope * per_gradient);
         out
     }
 }
 
-/// ∂f/∂P_X at the nodes of a line row, the nodal gradients counted as variables of their own.
+impl ScaledShear {
+    /// The scalars of the film integrals at a gradient (P_X, P_Y), a film H > 0 and a viscosity μ̄.
+    #[inline]
+    pub fn film_load(&self, gradient: [f64; 2], film: f64, viscosity: f64) -> FilmLoad {
+        let across = self.gradient * film;
+        FilmLoad { a: across * gradient[0], b: across * gradient[1], sliding: self.sliding * viscosity / film }
+    }
+}
+
+/// ∂f/∂P_X (`axis` 0) or ∂f/∂P_Y (1) at the nodes of a row, the nodal gradients counted as variables of their own.
 #[inline]
-pub fn gradient_slopes(geometry: &RowGeometry, nodes: [&ShearNode; STENCIL]) -> [f64; STENCIL] {
+pub fn gradient_slopes(geometry: &RowGeometry, nodes: [&ShearNode; STENCIL], axis: usize) -> [f64; STENCIL] {
     let center = nodes[CENTER];
     let mut out = [0.0; STENCIL];
-    for (k, weight) in [(WEST, geometry.west), (EAST, geometry.east)] {
+    for (k, weight) in [(WEST, geometry.west), (EAST, geometry.east), (SOUTH, geometry.south), (NORTH, geometry.north)]
+    {
         let half_drop = 0.5 * weight * (nodes[k].node.pressure - center.node.pressure);
-        out[k] += half_drop * nodes[k].mobility_px;
-        out[CENTER] += half_drop * center.mobility_px;
+        out[k] += half_drop * nodes[k].mobility_gradient[axis];
+        out[CENTER] += half_drop * center.mobility_gradient[axis];
     }
     for (k, weight) in geometry.upwind.into_iter().enumerate() {
-        out[k] -= weight * nodes[k].flow_px;
+        out[k] -= weight * nodes[k].flow_gradient[axis];
     }
     out
 }
 
-/// The operator G: central differences of P at all entries of a node array, of second order also where the spacing varies. Beyond
-/// both ends P vanishes.
+/// The operators G_X and G_Y: central differences of P along one axis, of second order also where the spacing varies. Beyond both ends
+/// P vanishes, unless the last entry lies on an axis of symmetry.
 #[derive(Clone, Debug, Default)]
 pub struct NodalGradient {
     /// Weights of the neighbour upstream, the node itself and the neighbour downstream.
@@ -114,12 +134,55 @@ impl NodalGradient {
         Self { weights: weights.collect() }
     }
 
-    /// P_X at entry i of a node array.
+    /// The same where the last abscissa is an axis of symmetry: the gradient vanishes there, and so it does where there is no other.
+    pub fn up_to_axis(x: &[f64]) -> Self {
+        if x.len() < 2 {
+            return Self { weights: vec![[0.0; 3]; x.len()] };
+        }
+        let mut out = Self::new(x);
+        if let Some(last) = out.weights.last_mut() {
+            *last = [0.0; 3];
+        }
+        out
+    }
+
+    /// The gradient at entry i of a node array.
     #[inline]
     pub fn at(&self, values: &[f64], i: usize) -> f64 {
         let [west, own, east] = self.weights[i];
         let upstream = if i == 0 { 0.0 } else { west * values[i - 1] };
         upstream + own * values[i] + values.get(i + 1).map_or(0.0, |v| east * v)
+    }
+}
+
+/// Nodal gradients (P_X, P_Y) of node arrays over X and, fastest, Y; of a line contact's where there is but one Y.
+#[derive(Clone, Debug, Default)]
+pub struct PlaneGradient {
+    along: NodalGradient,
+    across: NodalGradient,
+}
+
+impl PlaneGradient {
+    /// On a grid with these abscissae and ordinates, the last of which is the axis of symmetry.
+    pub fn new(x: &[f64], y: &[f64]) -> Self {
+        Self { along: NodalGradient::new(x), across: NodalGradient::up_to_axis(y) }
+    }
+
+    /// Nodes across.
+    pub fn across(&self) -> usize {
+        self.across.weights.len()
+    }
+
+    /// The gradient at node (i, j).
+    #[inline]
+    pub fn at(&self, values: &[f64], i: usize, j: usize) -> [f64; 2] {
+        let ny = self.across();
+        let [west, own, east] = self.along.weights[i];
+        let node = i * ny + j;
+        let upstream = if i == 0 { 0.0 } else { west * values[node - ny] };
+        let downstream = values.get(node + ny).map_or(0.0, |v| east * v);
+        let across = self.across.at(&values[i * ny..(i + 1) * ny], j);
+        [upstream + own * values[node] + downstream, across]
     }
 }
 
@@ -139,12 +202,15 @@ mod tests {
     fn evaluate(shear: &ScaledShear, p: &[f64; 8], h: &[f64; 8]) -> (f64, [f64; 8], [f64; 8]) {
         let fluid = Lubricant::default().scaled(&OperatingPoint::TABLE_2_1).unwrap();
         let gradient = NodalGradient::new(&X);
-        let node = |i: usize| ShearNode::new(&fluid, shear, 100.0, [p[i], gradient.at(p, i), h[i]], false);
+        let node = |i: usize| {
+            let gradient = [gradient.at(p, i), 0.0];
+            ShearNode::new(&fluid, shear, 100.0, NodeState { pressure: p[i], gradient, film: h[i] }, false)
+        };
         let nodes: [ShearNode; 4] = std::array::from_fn(|m| node(m + 2));
         let geometry = RowGeometry::new([X[2], X[3], X[4], X[5]]);
         let order = [0, 1, 2, 3, CENTER, CENTER];
         let r = row(&geometry, PENALTY, order.map(|m| &nodes[m].node));
-        let slopes = gradient_slopes(&geometry, order.map(|m| &nodes[m]));
+        let slopes = gradient_slopes(&geometry, order.map(|m| &nodes[m]), 0);
         let (mut d_p, mut d_h) = ([0.0; 8], [0.0; 8]);
         for m in 0..4 {
             d_p[m + 2] += r.d_p[m];

@@ -113,7 +113,7 @@ impl RowGeometry {
         Self { upwind: [0.0, -1.0 / h1, 1.0 / h1], west: 1.0 / (h1 * cell), east: 1.0 / (h2 * cell), ..Self::default() }
     }
 
-    /// The row under the map X = −1 + (ξ + 1)s, given in ξ; what it has across stays.
+    /// The row under the map X = −1 + (ξ + 1)s, given in ξ; what it has across and in time stays.
     #[inline]
     pub fn scaled(&self, scale: f64) -> Self {
         let (first, second) = (1.0 / scale, 1.0 / (scale * scale));

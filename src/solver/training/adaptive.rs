@@ -116,7 +116,7 @@ impl Search {
         let judged_by = match indicator {
             Indicator::Residual => "the residual (3.15)",
             Indicator::Dissertation => "the residual (3.15) of the dissertation's scheme",
-            Indicator::Correction => "two full Newton steps each",
+            Indicator::Correction => "three full Newton steps each",
         };
         let mut text = format!("{} points judged by {judged_by}, {} reduced solves failed", self.judged, self.failed);
         for (tolerance, solutions) in tolerances.iter().zip(&self.rungs) {

@@ -11,6 +11,8 @@ mod indicator;
 mod layout;
 mod plan;
 #[cfg(test)]
+mod point_tests;
+#[cfg(test)]
 mod resume_tests;
 mod rows;
 mod split;

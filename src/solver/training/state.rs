@@ -199,7 +199,7 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
         ));
         log.extend(state.windows[k].search.describe(&spec.plan));
         log.push(match &trained.calibration {
-            Some(c) => format!("errors measured at {} random points by two full Newton steps each", c.evidence()),
+            Some(c) => format!("errors measured at {} random points by three full Newton steps each", c.evidence()),
             None => "no error bound: errors were measured at too few points".to_owned(),
         });
         windows.push(trained);

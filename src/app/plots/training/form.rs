@@ -262,7 +262,7 @@ fn indicator_ui(ui: &mut Ui, form: &mut Form, indicator: &mut Indicator) {
     let options = [Indicator::Correction, Indicator::Residual, Indicator::Dissertation];
     choose(ui, "Judged by", "The indicator of a bad approximation", indicator, &options, |indicator| match indicator {
         Indicator::Correction => {
-            ("Newton steps", "What two Newton steps of the full system change of film and state, relative")
+            ("Newton steps", "What three Newton steps of the full system change of film and state, relative")
         }
         Indicator::Dissertation => (
             "Residual, 2-norm",

@@ -93,7 +93,7 @@ fn buttons(ui: &mut Ui, state: &mut State) {
         {
             state.ask_path(&ctx, Purpose::Model { bytes: made.bytes });
         }
-        let other = state.model.is_some();
+        let other = state.model().is_some();
         let tip = "Size, time and errors of both at the same random points, against full solutions";
         if enabled(ui, other && !runs, "Compare models", tip).clicked() {
             state.compare_models(&ctx);

@@ -1,6 +1,7 @@
 //! How far a point contact's solution is from the limit of fine grids: estimated from two grids, and a warning from one.
 
 use crate::solver::full::solution::{Mesh, Solution};
+use crate::solver::grid::PointGridSpec;
 
 /// Curvature of the film across the side lobes beyond which they are called unresolved.
 ///
@@ -26,7 +27,32 @@ pub struct Accuracy {
     pub h_min: Estimate,
 }
 
+/// Nodes along X times nodes across squared, to which the time of a solve is proportional, up to which a second grid may be finer.
+const AFFORDABLE: usize = 9_000_000;
+
+/// The grid by which the error on another is estimated: half its spacings where that takes seconds at most, else twice.
+///
+/// Half the spacings tell more: the coarser of both may not resolve the side lobes.
+pub fn second_grid(spec: PointGridSpec) -> PointGridSpec {
+    let scaled = |factor: f64| PointGridSpec { dx: factor * spec.dx, dy: factor * spec.dy, ..spec };
+    match scaled(0.5).check() {
+        Ok((nx, ny)) if nx * ny * ny <= AFFORDABLE => scaled(0.5),
+        _ => scaled(2.0),
+    }
+}
+
 impl Accuracy {
+    /// Compares two solutions of one problem, whichever is on the finer grid.
+    pub fn of_either(one: &Solution, other: &Solution) -> Option<Self> {
+        Self::of(one, other).or_else(|| Self::of(other, one))
+    }
+
+    /// Relative errors of H_c and H_min of one of the two solutions.
+    pub fn errors_of(&self, solution: &Solution) -> (f64, f64) {
+        let off = |value: f64, estimate: Estimate| (value / estimate.limit - 1.0).abs();
+        (off(solution.scalars.h_c, self.h_c), off(solution.scalars.h_min, self.h_min))
+    }
+
     /// Compares solutions of one problem on two grids over one domain. The estimate covers the directions in which the spacing differs;
     /// where both do, it must be by the same factor. None where the two cannot be compared so.
     pub fn of(coarse: &Solution, fine: &Solution) -> Option<Self> {
@@ -79,4 +105,24 @@ pub fn resolution_warning(solution: &Solution) -> Option<String> {
             "H_min is not resolved: the side lobes are too narrow for the spacing of {spacing:.3} across them; H_c is not affected; take {wanted:.3} or less, or the graded grid"
         )
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_second_grid_is_finer_where_that_is_affordable_and_can_be_compared() {
+        for (spec, nodes) in [
+            (PointGridSpec::QUICK, (301, 81)),
+            (PointGridSpec::DISSERTATION, (601, 81)),
+            (PointGridSpec::EXPLORER, (601, 116)),
+            (PointGridSpec::FINE, (301, 41)),
+            (PointGridSpec::FINEST, (301, 59)),
+        ] {
+            let second = second_grid(spec);
+            assert_eq!(second.nodes(), Ok(nodes), "{spec:?}");
+            assert_eq!((second.domain, second.refinement), (spec.domain, spec.refinement));
+        }
+    }
 }

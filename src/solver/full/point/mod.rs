@@ -7,11 +7,12 @@
 mod accuracy;
 mod block_tridiagonal;
 mod preconditioner;
+mod shear;
 mod start;
 #[cfg(test)]
 mod tests;
 
-pub use accuracy::{Accuracy, Estimate, resolution_warning, side_lobe_curvature};
+pub use accuracy::{Accuracy, Estimate, resolution_warning, second_grid, side_lobe_curvature};
 pub use start::PointSolver;
 
 use super::gmres::{Gmres, LinearOutcome};
@@ -22,6 +23,7 @@ use crate::solver::observer::{NewtonStep, Observer};
 use crate::solver::reynolds::{CENTER, Node, PENALTY, STENCIL, row};
 use preconditioner::PointPreconditioner;
 use rayon::prelude::*;
+use shear::PointShear;
 use std::sync::Arc;
 
 /// Settings of a full solve of a point contact.
@@ -41,6 +43,9 @@ pub struct PointOptions {
     pub film_loss: f64,
     /// Accuracy of the linear solves, relative to the right-hand side.
     pub forcing: f64,
+    /// Whether the film integrals of a shear-thinning lubricant count as constants in the Jacobian: cheaper, and as good within rounding
+    /// of the answer, but no longer quadratic.
+    pub frozen_film_integrals: bool,
 }
 
 impl Default for PointOptions {
@@ -53,6 +58,7 @@ impl Default for PointOptions {
             largest_step: 0.4,
             film_loss: 0.8,
             forcing: 1e-2,
+            frozen_film_integrals: false,
         }
     }
 }
@@ -81,6 +87,9 @@ pub struct PointSystem {
     deformation: Vec<f64>,
     parabola: Vec<f64>,
     nodes: Vec<Node>,
+    /// What shear-thinning adds; absent for a Newtonian problem.
+    shear: Option<PointShear>,
+    frozen_film_integrals: bool,
     /// f_p at the unknowns.
     pub residual: Vec<f64>,
     /// ∂f/∂P of each row at its six nodes.
@@ -111,6 +120,8 @@ impl PointSystem {
             deformation: vec![0.0; n],
             parabola: (0..n).map(|node| grid.parabola(node)).collect(),
             nodes: vec![Node::default(); n],
+            shear: None,
+            frozen_film_integrals: false,
             residual: vec![0.0; u],
             d_p: vec![[0.0; STENCIL]; u],
             d_h: vec![[0.0; STENCIL]; u],
@@ -155,10 +166,20 @@ impl PointSystem {
 
     /// Evaluates all rows at the current state: residual and Jacobian stencils. Returns the residual norm.
     pub fn evaluate(&mut self, problem: &Problem, penalty: f64) -> f64 {
-        let state = self.pressure.par_iter().zip(&self.film).with_min_len(SHARE);
-        self.nodes.par_iter_mut().zip(state).for_each(|(node, (&p, &h))| {
-            *node = Node::new(&problem.fluid, problem.inverse_lambda, p, h);
-        });
+        match &problem.shear {
+            None => {
+                self.shear = None;
+                let state = self.pressure.par_iter().zip(&self.film).with_min_len(SHARE);
+                self.nodes.par_iter_mut().zip(state).for_each(|(node, (&p, &h))| {
+                    *node = Node::new(&problem.fluid, problem.inverse_lambda, p, h);
+                });
+            }
+            Some(law) => {
+                let shear = self.shear.get_or_insert_with(|| PointShear::new(&self.grid));
+                let fields = (self.pressure.as_slice(), self.film.as_slice());
+                shear.evaluate(problem, law, fields, self.frozen_film_integrals, &mut self.nodes);
+            }
+        }
         let (grid, nodes) = (&*self.grid, &self.nodes);
         let derivatives = self.d_p.par_iter_mut().zip(&mut self.d_h);
         self.residual.par_iter_mut().zip(derivatives).enumerate().with_min_len(SHARE).for_each(
@@ -168,6 +189,9 @@ impl PointSystem {
                 (*value, *d_p, *d_h) = (r.value, r.d_p, r.d_h);
             },
         );
+        if let Some(shear) = &mut self.shear {
+            shear.differentiate(grid);
+        }
         let square = |(k, f): (usize, &f64)| grid.weights[grid.node(k)] * f * f;
         self.residual.iter().enumerate().map(square).sum::<f64>().sqrt()
     }
@@ -180,6 +204,7 @@ impl PointSystem {
         observer: &mut dyn Observer,
         report: &mut Report,
     ) {
+        self.frozen_film_integrals = options.frozen_film_integrals;
         let mut residual = self.evaluate(problem, options.penalty);
         let (mut recent, mut cycles) = ([f64::INFINITY; 2], 0);
         report.termination = Termination::IterationLimit;
@@ -189,8 +214,12 @@ impl PointSystem {
                 break;
             }
             report.residuals.push(residual);
-            let linear = self.solve_linear(problem, options, options.forcing);
+            let linear = self.solve_linear(problem, options, options.forcing, observer);
             report.linear_iterations += linear.iterations;
+            if observer.cancelled() {
+                report.termination = Termination::Cancelled;
+                break;
+            }
             report.newton_iterations += 1;
             let (step, shift) = self.damped_step(options, |step| {
                 // A step as large as the one before the last, late: the front moves to and fro.
@@ -254,26 +283,46 @@ impl PointSystem {
     }
 
     /// Solves the linearised system for `update` = (ΔP, ΔH₀). Returns how the linear solver ended.
-    fn solve_linear(&mut self, problem: &Problem, options: &PointOptions, tolerance: f64) -> LinearOutcome {
+    fn solve_linear(
+        &mut self,
+        problem: &Problem,
+        options: &PointOptions,
+        tolerance: f64,
+        observer: &mut dyn Observer,
+    ) -> LinearOutcome {
         let u = self.grid.unknowns();
         let middle = self.grid.node(u / 2);
         let diagonal = self.grid.flexibility.entry(middle, middle);
         for ((s, a), b) in self.scaling.iter_mut().zip(&self.d_p).zip(&self.d_h) {
             *s = 1.0 / (a[CENTER].abs() + b[CENTER].abs() * diagonal);
         }
-        self.preconditioner.build(&self.grid, &self.d_p, &self.d_h, &self.scaling);
+        if !self.preconditioner.build(&self.grid, &self.d_p, &self.d_h, &self.scaling, || !observer.cancelled()) {
+            return LinearOutcome { iterations: 0, relative_residual: f64::NAN };
+        }
         for ((r, f), s) in self.rhs.iter_mut().zip(&self.residual).zip(&self.scaling) {
             *r = -f * s;
         }
         self.rhs[u] = problem.load - dot(&self.grid.weights, &self.pressure);
-        let Self { krylov, grid, fft, step, step_deformation, d_p, d_h, scaling, preconditioner, rhs, update, .. } =
-            self;
-        let grid = &**grid;
-        krylov.solve(
+        let Self {
+            krylov,
+            grid,
+            fft,
+            step,
+            step_deformation,
+            d_p,
+            d_h,
+            scaling,
+            preconditioner,
             rhs,
             update,
-            tolerance,
-            options.max_krylov,
+            shear,
+            ..
+        } = self;
+        let grid = &**grid;
+        krylov.solve_watched(
+            rhs,
+            update,
+            (tolerance, options.max_krylov),
             |v, out| {
                 scatter(grid, v, step);
                 grid.deform(step, step_deformation, fft);
@@ -292,9 +341,16 @@ impl PointSystem {
                         *out = sum * scaling[k];
                     }
                 });
+                if let Some(shear) = shear {
+                    shear.add_product(grid, field, scaling, &mut out[..u]);
+                }
                 out[u] = dot(&grid.weights, field);
             },
             |v| preconditioner.apply(v),
+            |iterations| {
+                observer.krylov_iteration(iterations);
+                !observer.cancelled()
+            },
         )
     }
 }

@@ -26,8 +26,15 @@ pub struct PointPreconditioner {
 }
 
 impl PointPreconditioner {
-    /// Assembles and factorises for the given Jacobian rows and their scaling.
-    pub fn build(&mut self, grid: &PointGrid, d_p: &[[f64; STENCIL]], d_h: &[[f64; STENCIL]], scaling: &[f64]) {
+    /// Assembles and factorises for the given Jacobian rows and their scaling; `false` when `go_on` ended it half way.
+    pub fn build(
+        &mut self,
+        grid: &PointGrid,
+        d_p: &[[f64; STENCIL]],
+        d_h: &[[f64; STENCIL]],
+        scaling: &[f64],
+        go_on: impl Fn() -> bool,
+    ) -> bool {
         let (m, ny) = (grid.column_unknowns(), grid.ny());
         let columns = grid.nx() - 2;
         if self.kernel.is_empty() {
@@ -90,11 +97,14 @@ impl PointPreconditioner {
                 }
             }
         });
-        self.matrix.factorise();
+        if !self.matrix.factorise(go_on) {
+            return false;
+        }
         self.column.clear();
         self.column.extend(d_h.iter().zip(scaling).map(|(b, s)| s * b.iter().sum::<f64>()));
         self.matrix.solve(&mut self.column);
         self.schur = dot(&self.weights, &self.column);
+        true
     }
 
     fn prepare(&mut self, grid: &PointGrid) {

@@ -51,10 +51,10 @@ impl PointSolver {
         self.solve_problem(Problem::of_kind(ContactKind::Point, point, lubricant)?, start, observer)
     }
 
-    /// The same for a problem that exists already: one that slides, for its traction.
+    /// The same for a problem that exists already, under sliding for instance.
     ///
     /// # Errors
-    /// When it is a line contact, or its lubricant thins under shear or has a limiting stress.
+    /// When it is a line contact.
     pub fn solve_problem(
         &mut self,
         problem: Problem,
@@ -63,9 +63,6 @@ impl PointSolver {
     ) -> Result<Solution, SolveError> {
         if problem.point.kind != ContactKind::Point {
             return Err(SolveError::OtherContact { wanted: ContactKind::Point, given: problem.point.kind });
-        }
-        if problem.shear.is_some() || problem.lubricant.limiting_stress.is_some() {
-            return Err(SolveError::ShearInPointContact);
         }
         let former = match start {
             Start::From(former @ Solution { mesh: Mesh::Point(_), .. }) => Some(former),

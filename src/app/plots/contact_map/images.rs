@@ -1,0 +1,139 @@
+//! The map as a texture and its contour lines, made anew only when the solution or what is shown of it changes.
+
+use super::contours::Field;
+use super::raster::Raster;
+use super::{MapView, Shown};
+use crate::app::color_map;
+use crate::app::numbers;
+use crate::app::picture::Picture;
+use crate::app::png;
+use crate::solver::full::Solution;
+use egui::{Color32, ColorImage, Context, TextureHandle, TextureId, TextureOptions};
+use egui_plot::PlotPoint;
+use std::sync::Arc;
+
+/// A contour line, with its name and where that stands on the longest of its level.
+pub type Contour = (Option<(PlotPoint, String)>, Vec<PlotPoint>);
+
+/// What the tab keeps between frames.
+#[derive(Default)]
+pub struct ContactMap {
+    texture: Option<TextureHandle>,
+    image: Option<Arc<ColorImage>>,
+    contours: Vec<Contour>,
+    range: (f64, f64),
+    domain: (f64, f64, f64),
+    made_of: Option<(Arc<Solution>, MapView)>,
+    /// Which of both cuts the pointer holds: that at X, that at Y.
+    pub dragging: [bool; 2],
+}
+
+/// Contour lines wanted between both ends of the scale.
+const LINES: f64 = 8.0;
+
+impl ContactMap {
+    /// Makes image and contours anew where they are out of date.
+    pub fn follow(&mut self, ctx: &Context, picture: &Picture, view: &MapView) {
+        let solution = &picture.solution;
+        if self.made_of.as_ref().is_some_and(|(of, with)| Arc::ptr_eq(of, solution) && with == view) {
+            return;
+        }
+        self.range = range(solution, view.shown);
+        self.domain = match (solution.x.as_slice(), solution.y.as_slice()) {
+            ([from, .., to], [edge, ..]) => (*from, *to, *edge),
+            _ => (0.0, 0.0, 0.0),
+        };
+        let image = Arc::new(draw(picture, view, self.range));
+        let options = TextureOptions::LINEAR;
+        match &mut self.texture {
+            Some(texture) => texture.set(Arc::clone(&image), options),
+            None => self.texture = Some(ctx.load_texture("contact map", Arc::clone(&image), options)),
+        }
+        self.image = Some(image);
+        let lines = view.contours && view.shown != Shown::Interferogram;
+        self.contours = if lines { contours(solution, view.shown, self.range) } else { Vec::new() };
+        self.made_of = Some((Arc::clone(solution), *view));
+    }
+
+    /// The texture and the domain it covers: inlet, outlet, outer edge.
+    pub fn texture(&self) -> Option<(TextureId, (f64, f64, f64))> {
+        self.texture.as_ref().map(|texture| (texture.id(), self.domain))
+    }
+
+    /// The contour lines of both halves.
+    pub fn contours(&self) -> &[Contour] {
+        &self.contours
+    }
+
+    /// Values at the ends of the scale.
+    pub fn range(&self) -> (f64, f64) {
+        self.range
+    }
+
+    /// The domain of the image: inlet, outlet, outer edge.
+    pub fn domain(&self) -> (f64, f64, f64) {
+        self.domain
+    }
+
+    /// Whether the pointer holds a cut.
+    pub fn is_dragging(&self) -> bool {
+        self.dragging.contains(&true)
+    }
+
+    /// The image as a PNG file; empty where there is none.
+    pub fn png(&self) -> Vec<u8> {
+        self.image.as_ref().map_or_else(Vec::new, |image| png::encode(image))
+    }
+}
+
+/// Ends of the scale: round, so that colours stay still while the contact moves.
+fn range(solution: &Solution, shown: Shown) -> (f64, f64) {
+    match shown {
+        // Little more than the contact itself: its side lobes are what the colours are for.
+        Shown::Film => (0.0, numbers::round_up(1.5 * solution.scalars.h_c)),
+        Shown::Interferogram => (0.0, numbers::round_up(2.5 * solution.scalars.h_c)),
+        Shown::Pressure => (0.0, numbers::round_up(solution.scalars.p_max)),
+    }
+}
+
+/// The colours of a field's scale: film is bright where it is thin, pressure where it is high.
+pub fn table(shown: Shown) -> Vec<Color32> {
+    color_map::table(shown == Shown::Film)
+}
+
+fn draw(picture: &Picture, view: &MapView, range: (f64, f64)) -> ColorImage {
+    let solution = &*picture.solution;
+    match view.shown {
+        Shown::Film => Raster::new(solution, &solution.film, 1.0).colored(&table(view.shown), range),
+        Shown::Pressure => Raster::new(solution, &solution.pressure, 1.0).colored(&table(view.shown), range),
+        Shown::Interferogram => {
+            let films = Raster::new(solution, &solution.film, picture.key.point.film_scale_m());
+            films.interferogram(&view.rig, view.three_colors)
+        }
+    }
+}
+
+/// Contours at round levels, each with its mirror image.
+fn contours(solution: &Solution, shown: Shown, (low, high): (f64, f64)) -> Vec<Contour> {
+    let values = if shown == Shown::Pressure { &solution.pressure } else { &solution.film };
+    let field = Field { x: &solution.x, y: &solution.y, values };
+    let step = numbers::round_up((high - low) / LINES);
+    let count = ((high - low) / step).floor() as usize;
+    let mut all = Vec::new();
+    for level in (1..=count).map(|k| low + step * k as f64) {
+        let lines = field.contours(level);
+        let longest = lines.iter().map(Vec::len).max().unwrap_or(0);
+        let mut unnamed = true;
+        for line in lines {
+            for sign in [1.0, -1.0] {
+                let points: Vec<PlotPoint> = line.iter().map(|p| PlotPoint::new(p[0], sign * p[1])).collect();
+                let name = (unnamed && line.len() == longest && longest > 12)
+                    .then(|| points.get(points.len() / 3).map(|at| (*at, numbers::digits(level, 2))))
+                    .flatten();
+                unnamed &= name.is_none();
+                all.push((name, points));
+            }
+        }
+    }
+    all
+}

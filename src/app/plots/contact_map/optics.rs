@@ -1,0 +1,97 @@
+//! The optics of the interferogram: light, refractive index, phase and visibility, and the formula they stand in.
+
+use super::MapView;
+use crate::app::controls::{described, named};
+use crate::app::numbers;
+use crate::app::theme::{Palette, rich};
+use egui::{DragValue, Ui};
+
+/// A number of the optics as it is shown and changed.
+struct Dial {
+    symbol: &'static str,
+    name: &'static str,
+    tip: &'static str,
+    /// Own units per shown unit.
+    scale: f64,
+    range: (f64, f64),
+    speed: f64,
+    unit: &'static str,
+}
+
+const WAVELENGTH: Dial = Dial {
+    symbol: "{λ}",
+    name: "Wavelength",
+    tip: "Wavelength of the monochromatic light in vacuum",
+    scale: 1e-9,
+    range: (380.0, 780.0),
+    speed: 1.0,
+    unit: " nm",
+};
+const REFRACTIVE_INDEX: Dial = Dial {
+    symbol: "{n}",
+    name: "Refractive index",
+    tip: "Of the oil; under 1 GPa it is some per cent higher",
+    scale: 1.0,
+    range: (1.0, 2.5),
+    speed: 0.005,
+    unit: "",
+};
+const PHASE: Dial = Dial {
+    symbol: "{φ}",
+    name: "Phase",
+    tip: "What the reflections at coating and ball add; 180° makes touching surfaces dark",
+    scale: std::f64::consts::PI / 180.0,
+    range: (0.0, 360.0),
+    speed: 1.0,
+    unit: "°",
+};
+const VISIBILITY: Dial = Dial {
+    symbol: "{V}",
+    name: "Visibility",
+    tip: "Contrast of the fringes: 1 where both beams are equally strong",
+    scale: 1.0,
+    range: (0.0, 1.0),
+    speed: 0.01,
+    unit: "",
+};
+
+impl Dial {
+    fn ui(&self, ui: &mut Ui, value: &mut f64) {
+        ui.horizontal(|ui| {
+            ui.label(rich(self.symbol, 13.5, ui.visuals().text_color())).on_hover_text(self.tip);
+            let mut shown = *value / self.scale;
+            let (low, high) = self.range;
+            let field = DragValue::new(&mut shown).range(low..=high).speed(self.speed).suffix(self.unit);
+            let response = ui.add(field.max_decimals(2)).on_hover_text(self.tip);
+            let response = named(ui, response, self.name);
+            if described(ui, response, self.tip).changed() {
+                *value = shown * self.scale;
+            }
+        });
+    }
+}
+
+/// The row of the optics.
+pub fn ui(ui: &mut Ui, view: &mut MapView) {
+    ui.horizontal_wrapped(|ui| {
+        let tip = "630, 532 and 460 nm at once, as a three-colour camera sees them";
+        ui.selectable_value(&mut view.three_colors, true, "Three colours").on_hover_text(tip);
+        ui.selectable_value(&mut view.three_colors, false, "Monochromatic").on_hover_text("One wavelength, in grey");
+        let rig = &mut view.rig;
+        if !view.three_colors {
+            WAVELENGTH.ui(ui, &mut rig.wavelength_m);
+        }
+        REFRACTIVE_INDEX.ui(ui, &mut rig.refractive_index);
+        PHASE.ui(ui, &mut rig.phase);
+        VISIBILITY.ui(ui, &mut rig.visibility);
+        let formula = "{I} = ½(1 + {V} cos(4π{n}{h}/{λ} + {φ}))";
+        let text = if view.three_colors {
+            format!("{formula} at 630, 532 and 460 nm")
+        } else {
+            format!("{formula}; one fringe is {}", numbers::length(rig.fringe_spacing_m(rig.wavelength_m)))
+        };
+        ui.label(rich(&text, 12.5, Palette::of(ui).quiet)).on_hover_text(
+            "Two-beam interference: Cameron & Gohar 1966, Proc. R. Soc. A 291; Wedeven, Evans & Cameron 1971, ASME J. Lubr. Technol. 93",
+        );
+    });
+}

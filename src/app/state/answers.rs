@@ -1,0 +1,137 @@
+//! What finished jobs bring: a picture, the truth about it, what its grid costs, or why there is none.
+
+use super::{Failure, State};
+use crate::app::grid_error::GridError;
+use crate::app::jobs::{GridChoice, JobKind, Key, Outcome, Request, Running};
+use crate::app::picture::{Comparison, Origin, Picture};
+use crate::solver::full::point::second_grid;
+use crate::solver::full::{Mesh, Report};
+use crate::solver::grid::ContactGridSpec;
+use egui::Context;
+use std::sync::Arc;
+
+impl State {
+    /// Answers finished jobs. Called first in every frame.
+    pub fn receive(&mut self) {
+        self.accuracy.receive();
+        self.transient.receive();
+        for (job, outcome) in self.jobs.poll() {
+            match job.kind {
+                JobKind::Live => self.receive_live(&job, outcome),
+                JobKind::Verify | JobKind::Refine => self.receive_verification(&job, outcome),
+                JobKind::Estimate => self.receive_second_grid(&job, outcome),
+            }
+        }
+    }
+
+    fn receive_live(&mut self, job: &Running, outcome: Outcome) {
+        match outcome {
+            Outcome::Solved(solution, wall_s) if solution.converged() => {
+                self.full_wall_s = Some(wall_s);
+                self.last_report = Some((job.key, solution.report.clone()));
+                if job.key == self.key() {
+                    self.failure = None;
+                } else if self.picture_is_current() {
+                    // The sliders have moved back to where the reduced model answers at once: this solution comes too late.
+                    return;
+                }
+                if self.is_settled(&job.key) {
+                    // The chosen grid has answered before the quick one.
+                    return;
+                }
+                let picture = Picture::new(job.key, Origin::Full, Arc::from(solution), self.display.cuts);
+                self.full = Some(picture.clone());
+                self.picture = Some(picture);
+                self.comparison = None;
+            }
+            other => {
+                if job.key == self.key() {
+                    self.failure = Some(failure_of(job.key, other, &mut self.last_report));
+                }
+            }
+        }
+    }
+
+    fn receive_verification(&mut self, job: &Running, outcome: Outcome) {
+        match outcome {
+            Outcome::Solved(solution, wall_s) if solution.converged() => {
+                self.full_wall_s = Some(wall_s);
+                self.last_report = Some((job.key, solution.report.clone()));
+                let reduced = self.picture.as_ref().is_some_and(|p| p.key == job.key && p.origin != Origin::Full);
+                if !reduced && self.plane().is_some_and(|plane| solution.mesh != Mesh::Point(plane)) {
+                    // Another grid has been chosen meanwhile, and answers later.
+                    return;
+                }
+                let full = Picture::new(job.key, Origin::Full, Arc::from(solution), self.display.cuts);
+                if job.key == self.key() && self.plane().is_some() && !reduced {
+                    self.failure = None;
+                    self.picture = Some(full.clone());
+                }
+                self.full = Some(full);
+                self.verify_failure = None;
+                self.compare();
+            }
+            other => {
+                let cancelled_by_change = job.key != self.key();
+                if !cancelled_by_change {
+                    self.verify_failure = Some(failure_of(job.key, other, &mut self.last_report));
+                }
+            }
+        }
+    }
+
+    fn receive_second_grid(&mut self, job: &Running, outcome: Outcome) {
+        if job.key != self.key() {
+            return;
+        }
+        let result = match outcome {
+            Outcome::Solved(solution, _) if solution.converged() => self
+                .full
+                .as_ref()
+                .and_then(|full| GridError::of(full, &solution))
+                .ok_or_else(|| "the contact or its grid has changed meanwhile".to_owned()),
+            other => Err(failure_of(job.key, other, &mut self.last_report).message),
+        };
+        match result {
+            Ok(error) => self.grid_error = Some(error),
+            Err(message) => self.entries.answer("grid error", Err(message)),
+        }
+    }
+
+    /// Whether a full solution on the chosen grid is there for a contact.
+    pub(super) fn is_settled(&self, key: &Key) -> bool {
+        let on_plane = |full: &Picture| self.plane().is_none_or(|plane| full.solution.mesh == Mesh::Point(plane));
+        self.plane().is_some() && self.full.as_ref().is_some_and(|full| full.key == *key && on_plane(full))
+    }
+
+    pub(super) fn compare(&mut self) {
+        self.comparison = match (&self.picture, &self.full) {
+            (Some(picture), Some(full)) if picture.key == full.key && picture.origin != Origin::Full => {
+                Some(Comparison::new(picture, full))
+            }
+            _ => None,
+        };
+    }
+
+    /// Estimates what the chosen grid costs, by a solve on a second one.
+    pub fn estimate_grid_error(&mut self, ctx: &Context) {
+        self.entries.answer("grid error", Ok(()));
+        let Some(full) = self.full.as_ref().filter(|_| self.full_is_current()) else { return };
+        let Mesh::Point(spec) = full.solution.mesh else { return };
+        let (key, start) = (self.key(), Some(Arc::clone(&full.solution)));
+        let grid = GridChoice::Spec(ContactGridSpec::Point(second_grid(spec)));
+        self.jobs.submit(ctx, Request { kind: JobKind::Estimate, key, grid, start });
+    }
+}
+
+fn failure_of(key: Key, outcome: Outcome, last_report: &mut Option<(Key, Report)>) -> Failure {
+    match outcome {
+        Outcome::Failed(message) => Failure { key, message, report: None },
+        Outcome::Solved(solution, _) => {
+            let report = solution.report.clone();
+            *last_report = Some((key, report.clone()));
+            let message = format!("The full solve {}", report.termination.describe());
+            Failure { key, message, report: Some(report) }
+        }
+    }
+}

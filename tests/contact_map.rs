@@ -1,0 +1,222 @@
+//! The point contact in the window: the switch, the map, its cuts, the grids, the interferogram.
+
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use ehl_explorer::app::Explorer;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+type Window = Harness<'static, Explorer>;
+
+fn open() -> Window {
+    let explorer = Explorer::new(None).without_system_dialogs();
+    Harness::builder().with_size([1280.0, 800.0]).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer)
+}
+
+/// Steps until `done`, as a screen would, for at most a minute.
+fn wait(harness: &mut Window, what: &str, done: impl Fn(&Explorer) -> bool) {
+    let begin = Instant::now();
+    loop {
+        harness.step();
+        if done(harness.state()) {
+            return;
+        }
+        assert!(begin.elapsed() < Duration::from_secs(60), "waited in vain for {what}: {}", harness.state().badge());
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+/// Waits for a full solution on so many nodes.
+fn solved(harness: &mut Window, nodes: (usize, usize)) {
+    wait(harness, "the chosen grid", |app| {
+        app.nodes() == Some(nodes) && app.central_film().is_some() && !app.busy() && app.badge() != "Quick grid"
+    });
+    harness.run();
+}
+
+fn click(harness: &mut Window, name: &str) {
+    harness.get_by_label(name).click();
+    harness.run();
+}
+
+fn choose_grid(harness: &mut Window, name: &str) {
+    harness.get_by_role_and_label(Role::ComboBox, "Nodes").click();
+    harness.run();
+    click(harness, name);
+}
+
+/// A window on a point contact, solved on the quick grid.
+fn quick_point() -> Window {
+    let mut harness = open();
+    click(&mut harness, "Point contact");
+    choose_grid(&mut harness, "Quick, 151×41");
+    solved(&mut harness, (151, 41));
+    harness
+}
+
+#[test]
+fn the_switch_keeps_m_and_l_and_undo_brings_the_line_back() {
+    let mut harness = open();
+    let before = harness.state().moes();
+    click(&mut harness, "Point contact");
+    assert!(harness.state().is_point());
+    let after = harness.state().moes();
+    assert!((after.m / before.m - 1.0).abs() < 1e-9 && (after.l / before.l - 1.0).abs() < 1e-9);
+    // A quick grid answers first, the graded one when the sliders rest.
+    wait(&mut harness, "the first picture", |app| app.central_film().is_some());
+    assert_eq!(harness.state().nodes(), Some((151, 41)));
+    solved(&mut harness, (301, 59));
+    assert_eq!(harness.state().badge(), "Verified");
+    let load = harness.get_by_role_and_label(Role::TextInput, "Load w").accesskit_node().value();
+    assert!(load.is_some_and(|w| w.parse::<f64>().is_ok_and(|w| (10.0..100.0).contains(&w))), "in newtons");
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    wait(&mut harness, "the line contact", |app| !app.is_point() && app.central_film().is_some() && !app.busy());
+    assert_eq!(harness.state().nodes().map(|n| n.1), Some(1));
+}
+
+#[test]
+fn the_map_shows_fields_and_fringes_and_its_cuts_feed_the_profiles() {
+    let mut harness = quick_point();
+    let (along, across) = harness.state().profile_peaks().unwrap();
+    assert!(along > 0.9 && across.is_some_and(|p| p > 0.9));
+    click(&mut harness, "Contact map");
+    let said = harness.get_by_label("Map of the contact").accesskit_node().description().unwrap_or_default();
+    assert!(said.starts_with("Film map of M") && said.contains("smallest"), "{said}");
+    for name in ["Pressure map", "Contours", "Interferogram", "Monochromatic", "Three colours", "Film map"] {
+        click(&mut harness, name);
+    }
+    // The line at X = 0 is taken along by the hand.
+    let map = harness.get_by_label("Map of the contact").rect();
+    let cut = harness.state().cuts();
+    assert_eq!(cut, (0.0, 0.0));
+    harness.get_by_label("Cut across at X").set_value_accesskit(0.9);
+    harness.run();
+    let (_, moved) = harness.state().profile_peaks().unwrap();
+    assert_eq!(harness.state().cuts().0, 0.9);
+    assert!(moved.unwrap() < 0.8 * across.unwrap(), "the profile across lies near the edge of the contact now");
+    harness.get_by_label("Cut along at Y").set_value_accesskit(0.5);
+    harness.run();
+    assert!(harness.state().profile_peaks().unwrap().0 < along);
+    assert!(map.width() > 300.0 && map.height() > 300.0);
+    click(&mut harness, "Profiles");
+}
+
+#[test]
+fn a_cut_is_dragged_by_the_hand() {
+    let mut harness = quick_point();
+    click(&mut harness, "Contact map");
+    // The vertical line stands where its X is; find it by walking along the map at rest.
+    let map = harness.get_by_label("Map of the contact").rect();
+    let y = map.top() + 0.3 * map.height();
+    let mut grabbed = None;
+    for k in 1..60 {
+        let x = map.left() + map.width() * k as f32 / 60.0;
+        harness.hover_at(egui::pos2(x, y));
+        harness.step();
+        if harness.output().platform_output.cursor_icon == egui::CursorIcon::ResizeHorizontal {
+            grabbed = Some(x);
+            break;
+        }
+    }
+    let x = grabbed.expect("the cut shows under the pointer that it can be moved");
+    harness.drag_at(egui::pos2(x, y));
+    harness.step();
+    for k in 1..=10 {
+        harness.hover_at(egui::pos2(x + 6.0 * k as f32, y));
+        harness.step();
+    }
+    harness.drop_at(egui::pos2(x + 60.0, y));
+    harness.run();
+    let (x, y) = harness.state().cuts();
+    assert!(x > 0.15 && y == 0.0, "{x} {y}");
+}
+
+#[test]
+fn grids_are_chosen_estimated_and_taken_back() {
+    let mut harness = quick_point();
+    let coarse = harness.state().central_film().unwrap();
+    click(&mut harness, "Estimate grid error");
+    wait(&mut harness, "the estimate", |app| app.grid_errors().is_some());
+    let (h_c, h_min) = harness.state().grid_errors().unwrap();
+    assert!((1e-3..0.1).contains(&h_c) && (1e-3..0.5).contains(&h_min), "{h_c} {h_min}");
+    choose_grid(&mut harness, "Dissertation, 301×41");
+    solved(&mut harness, (301, 41));
+    assert!(harness.state().grid_errors().is_none(), "the estimate belonged to the other grid");
+    let fine = harness.state().central_film().unwrap();
+    // Halving ΔX takes three quarters of the error in X away.
+    assert!((fine / coarse - 1.0).abs() < 1.2 * h_c && fine > coarse, "{coarse} {fine} {h_c}");
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    solved(&mut harness, (151, 41));
+}
+
+#[test]
+fn a_heavy_load_on_a_coarse_grid_says_that_the_side_lobes_are_not_resolved() {
+    let mut harness = quick_point();
+    harness.get_by_label("Load number M").set_value_accesskit(700.0);
+    harness.run();
+    solved(&mut harness, (151, 41));
+    assert_eq!(harness.state().badge(), "Side lobes unresolved");
+    assert!(harness.query_by_label_contains("H_min is not resolved").is_some());
+}
+
+#[test]
+fn the_scenes_of_point_contacts_open_with_their_own_grid() {
+    let mut harness = open();
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/table_2_2.ron");
+    harness.state_mut().open_scene(&scene).unwrap();
+    solved(&mut harness, (301, 41));
+    assert!((harness.state().moes().m - 192.4).abs() < 0.05);
+    for tab in ["Contact map", "Regimes", "Reduced basis", "Accuracy", "Training", "Profiles"] {
+        click(&mut harness, tab);
+    }
+    let idle = harness.output().viewport_output.values().map(|v| v.repaint_delay).min().unwrap();
+    assert!(idle > Duration::from_secs(60), "repaint after {idle:?}");
+}
+
+#[test]
+fn the_map_leaves_as_table_and_picture() {
+    let mut harness = quick_point();
+    click(&mut harness, "Contact map");
+    let folder = std::env::temp_dir().join(format!("ehl-explorer-map-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    for (button, name) in [("Data as CSV…", "map.csv"), ("Figure as SVG…", "map.svg"), ("Image as PNG…", "map.png")]
+    {
+        click(&mut harness, "Export map");
+        click(&mut harness, button);
+        harness.get_by_label("Path of the file").focus();
+        harness.run();
+        harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+        harness.get_by_label("Path of the file").type_text(&folder.join(name).display().to_string());
+        harness.run();
+        click(&mut harness, "Export");
+    }
+    let table = std::fs::read_to_string(folder.join("map.csv")).unwrap();
+    assert_eq!(table.lines().nth(2), Some("X,Y,P,H,x_m,y_m,p_pa,h_m"));
+    assert_eq!(table.lines().count(), 3 + 151 * 81);
+    let drawing = std::fs::read_to_string(folder.join("map.svg")).unwrap();
+    assert!(drawing.starts_with("<svg") && drawing.contains("polyline") && drawing.trim_end().ends_with("</svg>"));
+    let picture = std::fs::read(folder.join("map.png")).unwrap();
+    assert_eq!(&picture[1..4], b"PNG");
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn a_frame_with_the_map_is_cheap() {
+    let mut harness = quick_point();
+    click(&mut harness, "Contact map");
+    click(&mut harness, "Interferogram");
+    let mut times: Vec<f64> = (0..40)
+        .map(|k| {
+            // A new phase every frame: the picture is made anew every time.
+            harness.get_by_label("Phase").set_value_accesskit(f64::from(9 * k));
+            harness.step();
+            harness.state().frame_s()
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    println!("interferogram made anew: best {:.2} ms, median {:.2} ms", 1e3 * times[0], 1e3 * times[20]);
+    // Other work on the machine only ever makes it slower.
+    let bar = if cfg!(debug_assertions) { 0.6 } else { 0.012 };
+    assert!(times[4] < bar, "a frame takes {} s", times[4]);
+}

@@ -1,0 +1,84 @@
+//! The embedded reduced model of point contacts against full solutions on its own grid.
+
+use ehl_explorer::harness::model_file::embedded_of;
+use ehl_explorer::harness::{median, percentile, random_points};
+use ehl_explorer::scene::{QuantityBox, TestRange};
+use ehl_explorer::solver::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
+use ehl_explorer::solver::full::{ContactSolver, Start};
+use ehl_explorer::solver::lubricant::Lubricant;
+use ehl_explorer::solver::reduced::{Online, ReducedError, ReducedOptions, Trust};
+
+fn online() -> Online {
+    Online::new(embedded_of(ContactKind::Point).unwrap(), ReducedOptions::default())
+}
+
+fn points(count: usize, seed: u64) -> Vec<OperatingPoint> {
+    random_points(&TestRange::Box(QuantityBox::TABLE_3_4), ContactKind::Point, count, seed)
+}
+
+#[test]
+fn random_contacts_of_its_box_are_solved_and_trusted() {
+    let mut online = online();
+    let mut iterations = Vec::new();
+    for point in points(400, 41) {
+        online.forget();
+        let solved = online.solve(&point, Lubricant::default()).unwrap_or_else(|e| panic!("{:?}: {e}", point.moes()));
+        assert_eq!(solved.trust, Trust::Trained);
+        assert!(solved.error.is_some_and(|error| error.h_c.bound > 0.0 && error.h_min.bound > 0.0));
+        iterations.push(solved.iterations as f64);
+    }
+    assert!(median(&iterations) <= 7.0, "{} iterations", median(&iterations));
+}
+
+#[test]
+fn its_films_lie_near_full_solutions() {
+    let mut online = online();
+    let mut solver = ContactSolver::on(&online.model.windows[0].grid);
+    let (mut h_c, mut h_min) = (Vec::new(), Vec::new());
+    for point in points(16, 42) {
+        let full = solver.solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+        assert!(full.converged());
+        let solved = online.solve(&point, Lubricant::default()).unwrap();
+        let fields = online.reconstruct(&solved).unwrap();
+        assert!(fields.mesh == full.mesh && fields.x == full.x && fields.y == full.y);
+        assert!(fields.scalars.load_residual < 1e-9);
+        h_c.push((fields.scalars.h_c / full.scalars.h_c - 1.0).abs());
+        h_min.push((fields.scalars.h_min / full.scalars.h_min - 1.0).abs());
+    }
+    println!(
+        "H_c {:.1e} / {:.1e}, H_min {:.1e} / {:.1e}",
+        median(&h_c),
+        percentile(&h_c, 1.0),
+        median(&h_min),
+        percentile(&h_min, 1.0)
+    );
+    assert!(median(&h_c) <= 1e-3 && percentile(&h_c, 1.0) <= 1e-2, "{h_c:?}");
+    assert!(percentile(&h_min, 1.0) <= 2e-2, "{h_min:?}");
+}
+
+#[test]
+fn dragging_gives_the_same_picture_as_jumping() {
+    let (mut dragged, mut fresh) = (online(), online());
+    let mut iterations = 0;
+    for k in 0..40 {
+        let moes = MoesRequest::new(ContactKind::Point, 40.0 * 1.03f64.powi(k), 4.0 + 0.05 * f64::from(k));
+        let point = si_from_moes(&moes).unwrap();
+        let a = dragged.solve(&point, Lubricant::default()).unwrap();
+        fresh.forget();
+        let b = fresh.solve(&point, Lubricant::default()).unwrap();
+        iterations += a.iterations;
+        let (a, b) = (dragged.scalars(&a).unwrap(), fresh.scalars(&b).unwrap());
+        // The iteration ends with steps below 1e-5 of p̃, while rows at the cavitation front may still change sides.
+        let difference = (a.h_c / b.h_c - 1.0).abs();
+        assert!(difference < 1e-5, "H_c differs by {difference:.1e} at {:?}", point.moes());
+    }
+    assert!(iterations <= 40 * 6, "{iterations} iterations for 40 pictures");
+}
+
+#[test]
+fn a_line_contact_is_refused_with_a_sentence() {
+    let point = si_from_moes(&MoesRequest::new(ContactKind::Line, 40.0, 10.0)).unwrap();
+    let error = online().solve(&point, Lubricant::default()).unwrap_err();
+    assert!(matches!(error, ReducedError::OtherContact { model: ContactKind::Point, given: ContactKind::Line }));
+    assert!(error.to_string().contains("point contacts") && error.to_string().contains("line contact"), "{error}");
+}
