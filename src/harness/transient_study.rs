@@ -92,7 +92,7 @@ pub(super) fn run(
 }
 
 /// Which states a training keeps: some hundreds in all.
-fn training_states(duration: f64, time_step: TimeStep) -> Keep {
+pub(crate) fn training_states(duration: f64, time_step: TimeStep) -> Keep {
     let longest = match time_step {
         TimeStep::Fixed(step) => step,
         TimeStep::Adaptive { longest, .. } => longest,
