@@ -15,6 +15,7 @@ mod operators;
 mod pod;
 mod sampling;
 mod start;
+pub mod tpwl;
 
 pub use calibration::{Calibration, ErrorEstimate, Estimated, Evidence, Features, LEAST_EVIDENCE};
 pub use cubature::{GoalEquations, cubature};
