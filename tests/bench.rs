@@ -6,6 +6,7 @@ use std::process::Command;
 const FIELDS: [&str; 6] = ["baseline", "median_s", "name", "p99_s", "ratio", "runs"];
 const BASELINE: &str = "line/dense-newton";
 const POINT_BASELINE: &str = "point/full/cold";
+const TRANSIENT_BASELINE: &str = "line/transient/full-step";
 
 #[test]
 #[cfg_attr(debug_assertions, ignore = "times mean nothing without optimisation")]
@@ -30,14 +31,20 @@ fn the_quick_speed_table_keeps_its_contract() {
         let (median, p99) = (number("median_s").unwrap(), number("p99_s").unwrap());
         assert!(median <= p99 && number("ratio").is_some(), "{row}");
         assert!(row["runs"].as_u64().unwrap() >= 3, "{row}");
-        let point = row["name"].as_str().unwrap().starts_with("point/");
-        assert_eq!(row["baseline"], if point { POINT_BASELINE } else { BASELINE });
+        let name = row["name"].as_str().unwrap();
+        let baseline = match name {
+            _ if name.starts_with("point/") => POINT_BASELINE,
+            _ if name.starts_with("line/transient/") => TRANSIENT_BASELINE,
+            _ => BASELINE,
+        };
+        assert_eq!(row["baseline"], baseline, "{name}");
     }
     let row =
         |name: &str| rows.iter().find(|row| row["name"] == name).unwrap_or_else(|| panic!("no row {name}: {text}"));
     let ratio = |name: &str| row(name)["ratio"].as_f64().unwrap();
     assert!((ratio(BASELINE) - 1.0).abs() < 1e-12);
     assert!((ratio(POINT_BASELINE) - 1.0).abs() < 1e-12 && ratio("point/full/warm") > 1.0);
+    assert!(row(TRANSIENT_BASELINE)["median_s"].as_f64().unwrap() < row(BASELINE)["median_s"].as_f64().unwrap());
     for (name, least) in [("line/full/cold", 10.0), ("line/full/warm", 10.0), ("line/reduced", 100.0)] {
         assert!(ratio(name) >= least, "{name} is only {:.1} times faster than {BASELINE}", ratio(name));
         let quotient = row(BASELINE)["median_s"].as_f64().unwrap() / row(name)["median_s"].as_f64().unwrap();

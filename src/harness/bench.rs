@@ -3,11 +3,13 @@
 use super::error::HarnessError;
 use super::sampling::random_points;
 use super::statistics::{median, percentile};
+use super::transient_study::timed_march;
 use crate::scene::{QuantityBox, TestRange};
 use crate::solver::contact::ContactKind;
 use crate::solver::contact::OperatingPoint;
 use crate::solver::full::dense::{dense_kernel, dense_newton};
-use crate::solver::full::{FullSolver, PointSolver, Solution, SolveOptions, Start};
+use crate::solver::full::transient::{Frame, FullMarch, Inputs, Keep, Signal, TimeStep, Transient};
+use crate::solver::full::{FullSolver, PointSolver, Solution, SolveError, SolveOptions, Start};
 use crate::solver::grid::{GridSpec, PointGridSpec};
 use crate::solver::lubricant::Lubricant;
 use crate::solver::reduced::{Online, ReducedOptions, distance};
@@ -19,6 +21,9 @@ pub const BASELINE: &str = "line/dense-newton";
 
 /// What all rows of point contacts are compared with: the cold full solve. A dense LU of 11960 unknowns would take minutes.
 pub const POINT_BASELINE: &str = "point/full/cold";
+
+/// What all rows of steps in time are compared with: the full step on the same 1201 nodes.
+pub const TRANSIENT_BASELINE: &str = "line/transient/full-step";
 
 /// The dense baseline may take this long; at least three runs are made whatever they take.
 const BASELINE_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(10)];
@@ -32,6 +37,8 @@ const BASELINE_POINTS: [usize; 2] = [40, 12];
 const POINT_POINTS: [usize; 2] = [50, 8];
 const POINT_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(5)];
 const SEED: u64 = 2026;
+/// Duration of the march whose steps are timed: case 1 of Table 4.1, steps of 0.001 as there.
+const MARCH_DURATION: [f64; 2] = [1.0, 0.15];
 
 /// One line of the table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -119,6 +126,7 @@ pub fn run(quick: bool) -> Result<Bench, HarnessError> {
         Err(reason) => bench.notes.push(format!("line/reduced is missing: {reason}")),
     }
     bench.add(rows, BASELINE);
+    bench.add(vec![transient_row(size)?], TRANSIENT_BASELINE);
     bench.add(point_rows(size)?, POINT_BASELINE);
     Ok(bench)
 }
@@ -171,6 +179,29 @@ fn point_rows(size: usize) -> Result<Vec<Timing>, HarnessError> {
         warm.record(clock, solution.converged());
     }
     Ok(vec![cold, warm])
+}
+
+/// Steps of the full system in time: case 1 of Tables 4.1 and 4.2, fixed frame.
+fn transient_row(size: usize) -> Result<Timing, HarnessError> {
+    let [radius_m, speed_m_per_s, load] = [2e-3, 5.0, 2e5];
+    let [modulus_pa, viscosity_pa_s, alpha_per_pa] = [231e9, 0.01, 1e-8];
+    let kind = ContactKind::Line;
+    let transient = Transient {
+        point: OperatingPoint { kind, radius_m, speed_m_per_s, load, modulus_pa, viscosity_pa_s, alpha_per_pa },
+        lubricant: Lubricant::default(),
+        inputs: Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 1.0 / 3.0 }),
+        frame: Frame::Fixed,
+        duration: MARCH_DURATION[size],
+        time_step: TimeStep::Fixed(1e-3),
+        keep: Keep::Scalars,
+    };
+    let mut timing = Timing::new(TRANSIENT_BASELINE, ROW_BUDGET[size]);
+    let reference = GridSpec::DISSERTATION.build().map_err(SolveError::from)?;
+    let (trajectory, seconds) =
+        timed_march(&mut FullMarch::new(reference, &transient)?, &transient, String::new(), &())?;
+    timing.seconds = seconds;
+    timing.failures = usize::from(!trajectory.finished());
+    Ok(timing)
 }
 
 fn reduced_row(online: &mut Online, points: &[OperatingPoint], budget: Duration) -> Timing {

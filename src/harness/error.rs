@@ -2,9 +2,11 @@
 
 use super::model_file::ModelFileError;
 use super::training_file::TrainingFileError;
+use crate::scene::sampled::SampledError;
 use crate::scene::{SceneError, SceneFileError, atomic_file::WriteError};
 use crate::solver::contact::ContactError;
 use crate::solver::full::SolveError;
+use crate::solver::full::transient::TransientError;
 use crate::solver::reduced::ReducedError;
 use crate::solver::training::TrainingError;
 use std::path::PathBuf;
@@ -44,6 +46,12 @@ pub enum HarnessError {
     /// A scene's study and its operating point do not fit.
     #[error("{0}")]
     Study(String),
+    /// A contact in time is refused.
+    #[error(transparent)]
+    Transient(#[from] TransientError),
+    /// Sampled inputs are refused.
+    #[error(transparent)]
+    Sampled(#[from] SampledError),
     /// The training gives no model.
     #[error(transparent)]
     Training(#[from] TrainingError),

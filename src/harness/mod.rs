@@ -31,6 +31,7 @@ pub mod table;
 mod tolerance_study;
 pub mod training_file;
 mod training_study;
+mod transient_study;
 mod workbench;
 
 pub use error::HarnessError;

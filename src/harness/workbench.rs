@@ -114,6 +114,11 @@ impl Workbench {
         }
     }
 
+    /// A path of the scene's, relative to its folder.
+    pub(super) fn resolve(&self, path: &Path) -> PathBuf {
+        self.base.join(path)
+    }
+
     /// Puts a model in place of what its source would give.
     pub fn insert_model(&mut self, source: ModelSource, model: Arc<ReducedModel>) {
         self.models.retain(|(kept, _)| *kept != source);

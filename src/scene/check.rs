@@ -1,9 +1,11 @@
 //! The door: every number of a scene is finite and sane before anything is computed from it.
 
 use super::{
-    Axis, Contacts, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, View, Within,
+    Axis, Contacts, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, TransientStudy,
+    View, Within,
 };
 use crate::solver::contact::ContactKind;
+use crate::solver::full::transient::{Frame, Keep, Transient};
 use crate::solver::grid::PointGridSpec;
 use crate::solver::lubricant::{LubricantError, ScaledShear, ShearLaw};
 use crate::solver::training::{Plan, Range, TrainingSpec, Windows};
@@ -189,6 +191,7 @@ fn study(scene: &Scene) -> Checked {
             count("study.tests", *tests, 1, MAX_TESTS)?;
             quantity_box("study.range", range)
         }
+        Study::Transient(study) => transient(scene, study),
         Study::FormulaComparison { formula, .. } if formula.film_formula().contact() != scene.contact => {
             let wanted = formula.film_formula().contact().name();
             Err(refuse(
@@ -203,6 +206,42 @@ fn study(scene: &Scene) -> Checked {
             l.iter().try_for_each(|&l| number("study.l", l, 1e-3, 1e3))
         }
     }
+}
+
+fn transient(scene: &Scene, study: &TransientStudy) -> Checked {
+    if scene.contact == ContactKind::Point {
+        return Err(refuse(
+            "study",
+            "takes a line contact through time; this version does not do so with a point contact",
+        ));
+    }
+    if scene.lubricant.shear != ShearLaw::Newtonian {
+        return Err(refuse("lubricant.shear", "must be left out: contacts in time are Newtonian in this version"));
+    }
+    if scene.grid == Grid::Model {
+        return Err(refuse("grid", "cannot be Model for a contact in time; write Uniform, Graded or GradedNodes"));
+    }
+    count("study.frames (how many)", study.frames.len(), 1, 4)?;
+    if (1..study.frames.len()).any(|i| study.frames[..i].contains(&study.frames[i])) {
+        return Err(refuse("study.frames", "must not name a frame twice: results are named by it"));
+    }
+    number("study.duration", study.duration, 1e-6, 1e6)?;
+    if let Some(window) = study.window {
+        interval("study.window", window, 0.0, study.duration)?;
+    }
+    if let Some(places) = study.mass_between {
+        interval("study.mass_between", places, -4.0, 1.0)?;
+    }
+    let transient = Transient {
+        point: scene.point()?,
+        lubricant: scene.lubricant,
+        inputs: study.inputs.clone(),
+        frame: Frame::Fixed,
+        duration: study.duration,
+        time_step: study.time_step,
+        keep: Keep::Scalars,
+    };
+    transient.check().map_err(|problem| refuse("study", format!("is refused: {problem}")))
 }
 
 fn axis(axis: &Axis) -> Checked {

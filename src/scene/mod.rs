@@ -9,12 +9,15 @@ pub mod check;
 pub mod document;
 mod expectation;
 pub mod named_lubricant;
+pub mod sampled;
 mod study;
+mod transient;
 mod view;
 
 pub use document::{SceneError, SceneFileError};
 pub use expectation::{Expectation, Within};
 pub use study::{Axis, ComparedPlan, Contacts, Formula, OnlineScheme, QuantityBox, Steps, Study, TestRange, Variable};
+pub use transient::TransientStudy;
 pub use view::{LoadFollower, LubricantFollower, View};
 
 use crate::solver::contact::{ContactError, ContactKind, MoesRequest, OperatingPoint, si_from_moes};

@@ -1,6 +1,6 @@
 //! The questions a scene can ask.
 
-use super::{Method, ModelSource};
+use super::{Method, ModelSource, TransientStudy};
 use crate::solver::contact::{ContactKind, FilmFormula, OperatingPoint};
 use crate::solver::reduced::{Norm, ReducedOptions};
 use crate::solver::training::TrainingSpec;
@@ -11,10 +11,6 @@ use std::path::PathBuf;
 /// What is asked of a scene's contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "a scene has one study: the size of the largest is the size of the scene"
-)]
 pub enum Study {
     /// The contact itself.
     Point {
@@ -125,6 +121,8 @@ pub enum Study {
         #[serde(default)]
         online: OnlineScheme,
     },
+    /// The contact in time, under inputs that vary: Figs. 2.6 (right), 4.4, 4.14, 4.15.
+    Transient(TransientStudy),
     /// Full solutions against a published film formula at all pairs of M and L in the default realisation.
     FormulaComparison {
         /// The formula.
@@ -308,7 +306,8 @@ impl Study {
             | Self::ErrorMeasures { .. }
             | Self::DistanceMeasure { .. }
             | Self::PlanComparison { .. }
-            | Self::ToleranceStudy { .. } => &[],
+            | Self::ToleranceStudy { .. }
+            | Self::Transient(_) => &[],
         }
     }
 

@@ -367,11 +367,16 @@ impl Preconditioner {
             self.kernel.clear();
             self.kernel.resize(n * stored, 0.0);
             self.kernel_band = band;
+            let reach = band + 2;
             for i in 0..n {
+                // The load of a step is zero, so a constant added to the kernel changes nothing but its truncation: it ends at zero.
+                let edge = if i + reach + 1 < n { i + reach } else { i - reach };
+                let level = grid.kernel_entry(i, edge) / grid.weights[edge];
                 for c in 0..stored {
                     let j = i + c;
-                    if j >= band + 2 && j - band - 2 < n {
-                        self.kernel[i * stored + c] = grid.kernel_entry(i, j - band - 2);
+                    if j >= reach && j - reach < n {
+                        let j = j - reach;
+                        self.kernel[i * stored + c] = grid.kernel_entry(i, j) - level * grid.weights[j];
                     }
                 }
             }

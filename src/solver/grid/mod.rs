@@ -11,7 +11,7 @@ pub use point::{PointGrid, PointGridError, PointGridSpec};
 
 /// First index and weights of the cubic (4-point Lagrange) interpolation at X among increasing `nodes`; a single unit weight where X
 /// is a node.
-fn cubic(nodes: &[f64], x: f64) -> (usize, [f64; 4]) {
+pub(crate) fn cubic(nodes: &[f64], x: f64) -> (usize, [f64; 4]) {
     let first = nodes.partition_point(|&node| node < x).saturating_sub(2).min(nodes.len() - 4);
     let near = &nodes[first..first + 4];
     if let Some(k) = near.iter().position(|&node| (node - x).abs() < 1e-10) {

@@ -200,8 +200,7 @@ impl Step {
         let quotient = BackwardDifference::second_order(step, step_before);
         let growth = match frame {
             Frame::ArbitraryLagrangianEulerian => {
-                quotient.of([now.scales.half_width, former[0].half_width, former[1].half_width])
-                    / now.scales.half_width
+                quotient.of([now.scales.half_width, former[0].half_width, former[1].half_width]) / now.scales.half_width
             }
             Frame::Fixed | Frame::Remeshed(_) => 0.0,
         };

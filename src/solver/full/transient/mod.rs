@@ -7,6 +7,7 @@
 mod difference;
 mod frame;
 mod march;
+mod mass;
 mod signal;
 mod spline;
 mod system;
@@ -17,6 +18,7 @@ mod trajectory;
 pub use difference::{BackwardDifference, extrapolated};
 pub use frame::{Conditions, Frame, Scales, point_at};
 pub use march::{Keep, Marching, Step, TimeStep, Transient, TransientError, TransientObserver, march};
+pub use mass::MassBalance;
 pub use signal::{Input, InputError, Inputs, Signal};
 pub use spline::{Interpolation, Interpolator};
 pub use system::{FullMarch, solve};

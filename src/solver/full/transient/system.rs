@@ -71,12 +71,8 @@ impl FullMarch {
         let problem = transient.problem()?;
         let grid = reference.for_contact(problem.moes);
         let length = grid.len();
-        let beside = SolveOptions {
-            tolerance: STEP_TOLERANCE,
-            max_newton: 12,
-            shortest_step: 1.0,
-            ..SolveOptions::default()
-        };
+        let beside =
+            SolveOptions { tolerance: STEP_TOLERANCE, max_newton: 12, shortest_step: 1.0, ..SolveOptions::default() };
         let farther = SolveOptions { max_newton: 60, shortest_step: SolveOptions::default().shortest_step, ..beside };
         Ok(Self {
             system: LineSystem::new(grid),
@@ -133,11 +129,7 @@ impl FullMarch {
     }
 
     fn past(&self) -> Past {
-        Past {
-            pressure: self.system.pressure.clone(),
-            h_0: self.system.h_0,
-            flow: self.system.flow().collect(),
-        }
+        Past { pressure: self.system.pressure.clone(), h_0: self.system.h_0, flow: self.system.flow().collect() }
     }
 }
 

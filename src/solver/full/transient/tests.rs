@@ -1,27 +1,194 @@
+//! Marches of the full system: against an independent solution, in the time step, between frames, and what ends them.
+
 use super::*;
 use crate::solver::contact::OperatingPoint;
+use crate::solver::full::{FullSolver, Start};
 use crate::solver::grid::GridSpec;
-use crate::solver::lubricant::Lubricant;
+use crate::solver::lubricant::{Lubricant, ShearLaw};
+
+const COARSE: GridSpec = GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) };
+const MIDDLE: GridSpec = GridSpec::Uniform { dx: 0.01, domain: (-4.0, 2.0) };
+const REMESHED: Frame = Frame::Remeshed(Interpolation::CubicSpline);
+const ALL: (f64, f64) = (0.0, f64::INFINITY);
+const FRAMES: [Frame; 3] = [Frame::Fixed, Frame::ArbitraryLagrangianEulerian, REMESHED];
+
+const TABLE_4_2: OperatingPoint = OperatingPoint {
+    radius_m: 2e-3,
+    speed_m_per_s: 5.0,
+    load: 2e5,
+    modulus_pa: 231e9,
+    viscosity_pa_s: 0.01,
+    alpha_per_pa: 1e-8,
+    ..OperatingPoint::TABLE_2_1
+};
+
+/// Case 1 of Table 4.1.
+fn case_1(duration: f64, step: f64) -> Transient {
+    Transient {
+        point: TABLE_4_2,
+        lubricant: Lubricant::default(),
+        inputs: Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 1.0 / 3.0 }),
+        frame: Frame::Fixed,
+        duration,
+        time_step: TimeStep::Fixed(step),
+        keep: Keep::Scalars,
+    }
+}
+
+fn finished(spec: GridSpec, transient: &Transient) -> Trajectory {
+    let trajectory = solve(spec, transient, &mut ()).unwrap();
+    assert!(trajectory.finished(), "{}", trajectory.ended.describe());
+    trajectory
+}
 
 #[test]
-fn probe() {
+fn table_2_1_breathes_as_the_independent_solution_does() {
     let transient = Transient {
         point: OperatingPoint::TABLE_2_1,
-        lubricant: Lubricant::default(),
         inputs: Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 4.0 }),
-        frame: Frame::Fixed,
-        duration: 8.0,
-        time_step: TimeStep::Fixed(0.01),
-        keep: Keep::Scalars,
+        ..case_1(8.0, 0.02)
     };
-    for frame in [Frame::Fixed, Frame::ArbitraryLagrangianEulerian, Frame::Remeshed(Interpolation::CubicSpline), Frame::Remeshed(Interpolation::Linear)] {
-        let clock = std::time::Instant::now();
-        let t = solve(GridSpec::DISSERTATION, &Transient { frame, ..transient.clone() }, &mut ()).unwrap();
-        println!("{frame:?} {:?} steps {} time/step {:.2} ms", t.ended, t.moments.len(), clock.elapsed().as_secs_f64() * 1e3 / t.moments.len() as f64);
-        let newton: usize = t.moments[1..].iter().map(|m| m.effort.newton_iterations).sum();
-        let linear: usize = t.moments[1..].iter().map(|m| m.effort.linear_iterations).sum();
-        println!("newton {:.2} linear {:.2}", newton as f64 / t.moments.len() as f64, linear as f64 / t.moments.len() as f64);
-        let w = (4.0, 8.0);
-        println!("H_c {:?} {:?}  P_c {:?} {:?}  Hm {:?} {:?}", t.mean(Quantity::CentralFilm, w), t.amplitude(Quantity::CentralFilm, w), t.mean(Quantity::CentralPressure, w), t.amplitude(Quantity::CentralPressure, w), t.mean(Quantity::MinimumFilm, w), t.amplitude(Quantity::MinimumFilm, w));
+    let trajectory = finished(GridSpec::DISSERTATION, &transient);
+    let window = (4.0, 8.0);
+    for (quantity, mean, amplitude) in [
+        (Quantity::CentralFilm, 0.040049385794635184, 0.001997365278354535),
+        (Quantity::CentralPressure, 0.9958219462821398, 0.05263676890607921),
+        (Quantity::MinimumFilm, 0.035264178115314564, 0.0018756215150153716),
+    ] {
+        let seen = (trajectory.mean(quantity, window).unwrap(), trajectory.amplitude(quantity, window).unwrap());
+        assert!(
+            (seen.0 / mean - 1.0).abs() < 1e-3 && (seen.1 / amplitude - 1.0).abs() < 1e-3,
+            "{quantity:?}: {seen:?}"
+        );
     }
+}
+
+#[test]
+fn the_time_step_is_of_second_order() {
+    let [coarse, middle, fine] = [300.0, 600.0, 1200.0].map(|steps| finished(COARSE, &case_1(1.2, 1.0 / steps)));
+    for quantity in [Quantity::CentralFilm, Quantity::CentralPressure] {
+        let (far, near) =
+            (coarse.difference(&middle, quantity, ALL).unwrap().1, middle.difference(&fine, quantity, ALL).unwrap().1);
+        let order = (far / near).log2();
+        assert!((1.7..2.3).contains(&order), "{quantity:?}: order {order} ({far:e}, {near:e})");
+    }
+}
+
+#[test]
+fn what_flows_in_and_not_out_is_stored() {
+    for frame in FRAMES {
+        let defect = |spec, step| {
+            let transient = Transient { frame, keep: Keep::Every(1), ..case_1(0.4, step) };
+            finished(spec, &transient).mass_balance((-1.0, 0.0)).unwrap().defect()
+        };
+        let (coarse, fine) = (defect(COARSE, 1.0 / 150.0), defect(MIDDLE, 1.0 / 300.0));
+        assert!(fine < 2e-2 && coarse / fine > 3.0, "{frame:?}: {coarse:e}, then {fine:e}");
+    }
+}
+
+#[test]
+fn the_frames_agree() {
+    let case_2 = Transient {
+        inputs: Inputs::load(Signal::Harmonic { amplitude: 0.5, period: 0.5 }),
+        ..case_1(1.0, 1.0 / 400.0)
+    };
+    for (transient, bar) in [(case_1(0.7, 1.0 / 400.0), 2e-3), (case_2, 5e-3)] {
+        let fixed = finished(MIDDLE, &transient);
+        for frame in [Frame::ArbitraryLagrangianEulerian, REMESHED] {
+            let other = finished(MIDDLE, &Transient { frame, ..transient.clone() });
+            let (greatest, _) = other.difference(&fixed, Quantity::CentralFilm, ALL).unwrap();
+            assert!(greatest < bar, "{frame:?}: {greatest}");
+        }
+    }
+}
+
+#[test]
+fn radius_and_speed_vary_alike_in_all_frames() {
+    let transient =
+        Transient { inputs: Inputs::all(Signal::Harmonic { amplitude: 0.1, period: 1.0 }), ..case_1(1.0, 0.01) };
+    let fixed = finished(MIDDLE, &transient);
+    for frame in [Frame::ArbitraryLagrangianEulerian, REMESHED] {
+        let other = finished(MIDDLE, &Transient { frame, ..transient.clone() });
+        let (greatest, _) = other.difference(&fixed, Quantity::CentralFilm, ALL).unwrap();
+        assert!(greatest < 2e-3, "{frame:?}: {greatest}");
+    }
+}
+
+#[test]
+fn constant_inputs_keep_the_stationary_contact() {
+    // Also where they rest at other values than the reference's.
+    let rest = |value| Signal::Sampled { times: vec![0.0], values: vec![value] };
+    let others = Inputs { radius: rest(1.2), speed: rest(0.8), load: rest(1.5) };
+    for inputs in [Inputs::default(), others] {
+        let at = inputs.at(0.0);
+        let point = point_at(&TABLE_4_2, at);
+        let want = FullSolver::new(MIDDLE).unwrap().solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+        // Its own scales are not the reference's.
+        let (film, pressure) = (at.load * want.scalars.h_c, (at.load / at.radius).sqrt() * want.scalars.p_c);
+        for frame in FRAMES {
+            let trajectory = finished(MIDDLE, &Transient { frame, inputs: inputs.clone(), ..case_1(0.05, 0.01) });
+            for moment in &trajectory.moments {
+                // The fixed frame resolves another contact's size with another number of nodes.
+                let bar = if frame == Frame::Fixed && at.load != 1.0 { 5e-3 } else { 1e-7 };
+                assert!((moment.h_c / film - 1.0).abs() < bar, "{frame:?}: {} against {film}", moment.h_c);
+                assert!((moment.p_c / pressure - 1.0).abs() < bar, "{frame:?}");
+            }
+            let drift = trajectory.moments.last().unwrap().h_c / trajectory.moments[0].h_c - 1.0;
+            assert!(drift.abs() < 1e-7, "{frame:?}: {drift}");
+        }
+    }
+}
+
+#[test]
+fn adaptive_steps_find_what_fixed_ones_do_with_fewer() {
+    let wave = Signal::TriangleToSquare { amplitude: 0.1, period: 0.5, s: 0.9 };
+    let fixed = Transient { inputs: Inputs::load(wave), ..case_1(0.5, 1.0 / 1000.0) };
+    let adaptive = Transient { time_step: TimeStep::Adaptive { tolerance: 2e-3, longest: 0.01 }, ..fixed.clone() };
+    let (fixed, adaptive) = (finished(COARSE, &fixed), finished(COARSE, &adaptive));
+    let (_, l2) = adaptive.difference(&fixed, Quantity::CentralFilm, ALL).unwrap();
+    assert!(l2 < 2e-3, "{l2}");
+    let steps = adaptive.moments.windows(2).map(|pair| pair[1].time - pair[0].time);
+    let (shortest, longest) = steps.fold((f64::INFINITY, 0.0f64), |(a, b), step| (a.min(step), b.max(step)));
+    assert!(shortest < 0.3 * longest && adaptive.moments.len() < 300, "{}", adaptive.moments.len());
+    assert_eq!(adaptive.moments.last().unwrap().time, 0.5);
+}
+
+#[test]
+fn what_was_computed_before_an_end_is_kept() {
+    struct Until(usize);
+    impl TransientObserver for Until {
+        fn moment(&mut self, _: &Moment) {
+            self.0 = self.0.saturating_sub(1);
+        }
+        fn cancelled(&self) -> bool {
+            self.0 == 0
+        }
+    }
+    let transient = Transient { keep: Keep::Every(2), ..case_1(0.5, 0.01) };
+    let trajectory = solve(COARSE, &transient, &mut Until(6)).unwrap();
+    assert_eq!((trajectory.moments.len(), trajectory.states.len()), (6, 3));
+    assert_eq!(trajectory.ended, Ended::Cancelled { time: trajectory.moments[5].time });
+
+    // A load that multiplies within one fixed step, far beyond what Newton follows.
+    let jump = Signal::Sampled { times: vec![0.0, 0.1, 0.1001], values: vec![1.0, 1.0, 1e-3] };
+    let trajectory = solve(COARSE, &Transient { inputs: Inputs::load(jump), ..case_1(0.5, 0.01) }, &mut ()).unwrap();
+    let sentence = trajectory.ended.describe();
+    assert!(sentence.contains("T = 0.11") && sentence.contains("kept"), "{sentence}");
+    assert_eq!(trajectory.moments.len(), 11);
+}
+
+#[test]
+fn questions_without_sense_are_refused() {
+    let message = |transient: Transient| solve(COARSE, &transient, &mut ()).unwrap_err().to_string();
+    assert!(message(case_1(0.0, 0.01)).starts_with("the duration is 0"));
+    assert!(message(case_1(1.0, f64::NAN)).starts_with("the time step is NaN"));
+    assert!(message(case_1(1.0, 2.0)).contains("duration 1"));
+    assert!(message(case_1(1.0, 1e-9)).contains("time step"));
+    let deep = Signal::Harmonic { amplitude: 1.5, period: 1.0 };
+    assert!(message(Transient { inputs: Inputs::load(deep), ..case_1(1.0, 0.01) }).starts_with("the load falls"));
+    let thinning = Lubricant {
+        shear: ShearLaw::Carreau { critical_stress: 1e4, beta: 2.198, n: 0.8, npr: 0.2227 },
+        ..Lubricant::default()
+    };
+    assert!(message(Transient { lubricant: thinning, ..case_1(1.0, 0.01) }).contains("shear-thinning"));
 }

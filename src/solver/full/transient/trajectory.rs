@@ -210,15 +210,15 @@ impl Trajectory {
         let ends = [self.at(quantity, from)?, self.at(quantity, to)?];
         let inside = self.moments.iter().filter(|moment| moment.time > from && moment.time < to);
         let values = ends.into_iter().chain(inside.map(|moment| moment.value(quantity)));
-        let (low, high) =
-            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
         Some(0.5 * (high - low))
     }
 
-    /// Greatest relative difference and relative L2 difference of a quantity from another trajectory, at the times of this one which
-    /// both have reached.
-    pub fn difference(&self, other: &Self, quantity: Quantity) -> Option<(f64, f64)> {
-        let pairs = self.moments.iter().filter_map(|moment| {
+    /// Greatest relative difference and relative L2 difference of a quantity from another trajectory, at the times of this one in a
+    /// window, as far as both have come.
+    pub fn difference(&self, other: &Self, quantity: Quantity, (from, to): (f64, f64)) -> Option<(f64, f64)> {
+        let inside = self.moments.iter().filter(|moment| (from..=to).contains(&moment.time));
+        let pairs = inside.filter_map(|moment| {
             let reference = other.at(quantity, moment.time)?;
             Some((moment.value(quantity) - reference, reference))
         });

@@ -1,0 +1,176 @@
+//! A contact in time: one march for each frame, its statistics, and how far the frames lie apart.
+
+use super::error::HarnessError;
+use super::outcome::SceneOutcome;
+use super::run::request_of;
+use super::statistics::{median, percentile};
+use super::table::Table;
+use super::workbench::{Request, Workbench};
+use crate::scene::{Grid, Scene, TransientStudy, sampled};
+use crate::solver::full::transient::{
+    FullMarch, Keep, Marching, Moment, Quantity, Trajectory, Transient, TransientObserver, march,
+};
+use crate::solver::training::{Progress, TrainingObserver};
+use std::time::Instant;
+
+/// Quantities that statistics are taken of, with their names.
+const QUANTITIES: [(&str, Quantity); 4] = [
+    ("H_c", Quantity::CentralFilm),
+    ("H_min", Quantity::MinimumFilm),
+    ("P_c", Quantity::CentralPressure),
+    ("P_max", Quantity::MaximumPressure),
+];
+
+/// Runs the study. Values of each frame, after its name (`fixed`, `ale`, `remeshed`, `remeshed_linear`): `H_c.start`, `H_c.mean`,
+/// `H_c.amplitude`, `H_c.offset` (mean over start, less 1) over the window, and so on for H_min, P_c, P_max; `steps`, `rejected_steps`,
+/// `newton_per_step`, `krylov_per_step`, `step_s_median`, `step_s_p99`, `wall_s`, `mass_defect` where places are given. Of the second frame
+/// on: `H_c.difference` (greatest, relative) and `H_c.difference_l2` from the first one within the window. Tables: the time series of each frame.
+pub(super) fn run(
+    scene: &Scene,
+    study: &TransientStudy,
+    workbench: &mut Workbench,
+    observer: &dyn TrainingObserver,
+    outcome: &mut SceneOutcome,
+) -> Result<(), HarnessError> {
+    let mut inputs = study.inputs.clone();
+    if let Some(path) = &study.sampled {
+        sampled::read_into(&mut inputs, &workbench.resolve(path))?;
+    }
+    let request = request_of(scene)?;
+    let mut first: Option<Trajectory> = None;
+    for &frame in &study.frames {
+        let transient = Transient {
+            point: request.point,
+            lubricant: request.lubricant,
+            inputs: inputs.clone(),
+            frame,
+            duration: study.duration,
+            time_step: study.time_step,
+            keep: if study.mass_between.is_some() { Keep::Every(1) } else { Keep::Scalars },
+        };
+        let (trajectory, seconds) = full_march(&request, &transient, workbench, observer)?;
+        if observer.cancelled() {
+            return Err(HarnessError::Cancelled);
+        }
+        let name = frame.name();
+        if !trajectory.finished() {
+            outcome.converged = false;
+            outcome.warnings.push(format!("{name}: the march {}", trajectory.ended.describe()));
+        }
+        statistics(name, &trajectory, study.window(), outcome);
+        costs(name, &trajectory, &seconds, outcome);
+        if let Some(balance) = study.mass_between.and_then(|places| trajectory.mass_balance(places)) {
+            outcome.push(format!("{name}.mass_defect"), None, balance.defect());
+        }
+        if let Some(first) = &first {
+            for (quantity_name, quantity) in QUANTITIES {
+                if let Some((greatest, l2)) = trajectory.difference(first, quantity, study.window()) {
+                    outcome.push(format!("{name}.{quantity_name}.difference"), None, greatest);
+                    outcome.push(format!("{name}.{quantity_name}.difference_l2"), None, l2);
+                }
+            }
+        }
+        outcome.tables.push(series(&format!("transient_{name}"), &trajectory));
+        first.get_or_insert(trajectory);
+    }
+    Ok(())
+}
+
+/// A march of the full system, and the seconds of each step.
+fn full_march(
+    request: &Request,
+    transient: &Transient,
+    workbench: &mut Workbench,
+    observer: &dyn TrainingObserver,
+) -> Result<(Trajectory, Vec<f64>), HarnessError> {
+    if request.grid == Grid::Model {
+        return Err(HarnessError::Study("a contact in time needs a `grid` of its own, not Model".to_owned()));
+    }
+    let reference = workbench.full_solver(request, observer)?.reference().clone();
+    let mut model = FullMarch::new(reference, transient)?;
+    let stage = format!("{} frame, full", transient.frame.name());
+    timed_march(&mut model, transient, stage, observer)
+}
+
+/// Marches and times each step.
+pub(super) fn timed_march(
+    model: &mut dyn Marching,
+    transient: &Transient,
+    stage: String,
+    observer: &dyn TrainingObserver,
+) -> Result<(Trajectory, Vec<f64>), HarnessError> {
+    let mut watch = StepClock { observer, stage, duration: transient.duration, begun: None, seconds: Vec::new() };
+    let trajectory = march(model, transient, &mut watch)?;
+    Ok((trajectory, watch.seconds))
+}
+
+/// Measures every step, and tells how far the march is in thousandths of its duration.
+struct StepClock<'a> {
+    observer: &'a dyn TrainingObserver,
+    stage: String,
+    duration: f64,
+    begun: Option<Instant>,
+    seconds: Vec<f64>,
+}
+
+impl TransientObserver for StepClock<'_> {
+    fn moment(&mut self, moment: &Moment) {
+        if let Some(begun) = self.begun {
+            self.seconds.push(begun.elapsed().as_secs_f64());
+        }
+        let done = (1000.0 * moment.time / self.duration) as usize;
+        self.observer.progress(Progress { stage: self.stage.clone(), done, total: 1000 });
+        self.begun = Some(Instant::now());
+    }
+
+    fn cancelled(&self) -> bool {
+        self.observer.cancelled()
+    }
+}
+
+fn statistics(name: &str, trajectory: &Trajectory, window: (f64, f64), outcome: &mut SceneOutcome) {
+    let Some(start) = trajectory.moments.first() else { return };
+    for (quantity_name, quantity) in QUANTITIES {
+        let mut push = |what: &str, value| outcome.push(format!("{name}.{quantity_name}.{what}"), None, value);
+        push("start", start.value(quantity));
+        if let (Some(mean), Some(amplitude)) =
+            (trajectory.mean(quantity, window), trajectory.amplitude(quantity, window))
+        {
+            push("mean", mean);
+            push("offset", mean / start.value(quantity) - 1.0);
+            push("amplitude", amplitude);
+        }
+    }
+}
+
+fn costs(name: &str, trajectory: &Trajectory, seconds: &[f64], outcome: &mut SceneOutcome) {
+    let taken = trajectory.moments.get(1..).unwrap_or(&[]);
+    let per_step = |count: fn(&Moment) -> usize| taken.iter().map(count).sum::<usize>() as f64 / taken.len() as f64;
+    for (what, value) in [
+        ("steps", taken.len() as f64),
+        ("rejected_steps", trajectory.rejected_steps as f64),
+        ("newton_per_step", per_step(|moment| moment.effort.newton_iterations)),
+        ("krylov_per_step", per_step(|moment| moment.effort.linear_iterations)),
+        ("step_s_median", median(seconds)),
+        ("step_s_p99", percentile(seconds, 0.99)),
+        ("march_s", seconds.iter().sum()),
+    ] {
+        outcome.push(format!("{name}.{what}"), None, value);
+    }
+}
+
+/// The time series of a trajectory.
+fn series(name: &str, trajectory: &Trajectory) -> Table {
+    let columns = [
+        "T", "step", "radius", "speed", "load", "H_c", "H_min", "X_H_min", "P_c", "P_max", "X_P_max", "newton",
+        "krylov",
+    ];
+    let mut table = Table::new(name, &columns);
+    table.rows.extend(trajectory.moments.iter().map(|m| {
+        let Moment { time, step, input, h_c, h_min, x_h_min, p_c, p_max, x_p_max, effort, .. } = *m;
+        let effort = [effort.newton_iterations as f64, effort.linear_iterations as f64];
+        [&[time, step, input.radius, input.speed, input.load, h_c, h_min, x_h_min, p_c, p_max, x_p_max][..], &effort]
+            .concat()
+    }));
+    table
+}

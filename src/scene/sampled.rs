@@ -1,0 +1,144 @@
+//! Inputs of a contact in time from a CSV file: a column T and any of radius, speed and load, relative to the reference.
+
+use crate::solver::full::transient::{Inputs, Signal};
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+
+/// Largest file that is read \[bytes\].
+pub const MAX_SAMPLED_BYTES: u64 = 32 << 20;
+
+/// Why sampled inputs are refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SampledError {
+    /// The file cannot be read.
+    #[error("cannot read the inputs {}: {reason}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
+    /// A line makes no sense.
+    #[error("the inputs {} are refused: line {line}: {problem}", path.display())]
+    Line {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// What is wrong, and what would be accepted.
+        problem: String,
+    },
+}
+
+/// Puts the columns of a file in place of the inputs of their names.
+///
+/// # Errors
+/// When the file cannot be read, or with the first line that makes no sense.
+pub fn read_into(inputs: &mut Inputs, path: &Path) -> Result<(), SampledError> {
+    let unreadable = |reason: String| SampledError::Read { path: path.to_owned(), reason };
+    let file = std::fs::File::open(path).map_err(|error| unreadable(error.to_string()))?;
+    let mut text = String::new();
+    file.take(MAX_SAMPLED_BYTES + 1).read_to_string(&mut text).map_err(|error| unreadable(error.to_string()))?;
+    if text.len() as u64 > MAX_SAMPLED_BYTES {
+        return Err(unreadable(format!("it is larger than {} MiB", MAX_SAMPLED_BYTES >> 20)));
+    }
+    parse_into(inputs, &text).map_err(|(line, problem)| SampledError::Line { path: path.to_owned(), line, problem })
+}
+
+/// The same for a text; a refusal names the line, from 1.
+fn parse_into(inputs: &mut Inputs, text: &str) -> Result<(), (usize, String)> {
+    let mut lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim())).filter(|(_, line)| !line.is_empty());
+    let (title_line, titles) =
+        lines.next().ok_or((1, "the file is empty; it needs a title line `T,load`".to_owned()))?;
+    let titles: Vec<&str> = titles.split(',').map(str::trim).collect();
+    for (i, title) in titles.iter().enumerate() {
+        if !["T", "radius", "speed", "load"].contains(title) {
+            let problem = format!("the column `{title}` is unknown; write T and any of radius, speed, load");
+            return Err((title_line, problem));
+        }
+        if titles[..i].contains(title) {
+            return Err((title_line, format!("the column `{title}` occurs twice")));
+        }
+    }
+    let Some(time_column) = titles.iter().position(|title| *title == "T").filter(|_| titles.len() > 1) else {
+        return Err((title_line, "a column T and at least one of radius, speed, load are needed".to_owned()));
+    };
+    let mut columns: Vec<Vec<f64>> = vec![Vec::new(); titles.len()];
+    for (line, text) in lines {
+        let cells: Vec<&str> = text.split(',').map(str::trim).collect();
+        if cells.len() != titles.len() {
+            let problem =
+                format!("{} columns are needed as in the title line, but there are {}", titles.len(), cells.len());
+            return Err((line, problem));
+        }
+        for ((cell, title), column) in cells.iter().zip(&titles).zip(&mut columns) {
+            let value = match cell.parse::<f64>() {
+                _ if cell.is_empty() => return Err((line, format!("`{title}` is missing"))),
+                Ok(value) if value.is_finite() => value,
+                _ => return Err((line, format!("`{title}` is `{cell}`, but must be a finite number"))),
+            };
+            if let (&"T", Some(before)) = (title, column.last())
+                && value <= *before
+            {
+                return Err((line, format!("T is {value}, but must be greater than {before}, the one before")));
+            }
+            if matches!(*title, "radius" | "load") && value <= 0.0 {
+                return Err((line, format!("`{title}` is {value}, but must be above zero")));
+            }
+            column.push(value);
+        }
+    }
+    if columns[time_column].is_empty() {
+        return Err((title_line, "no line of numbers follows the titles".to_owned()));
+    }
+    for (title, values) in titles.iter().zip(&columns) {
+        let signal = Signal::Sampled { times: columns[time_column].clone(), values: values.clone() };
+        match *title {
+            "radius" => inputs.radius = signal,
+            "speed" => inputs.speed = signal,
+            "load" => inputs.load = signal,
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_take_the_place_of_the_inputs_of_their_names() {
+        let mut inputs = Inputs::default();
+        parse_into(&mut inputs, "T, load, speed\n0, 1, 1\n\n0.5, 1.2, 0.9\n").unwrap();
+        let at = inputs.at(0.25);
+        assert!((at.load - 1.1).abs() < 1e-15 && (at.speed - 0.95).abs() < 1e-15 && at.radius == 1.0);
+    }
+
+    #[test]
+    fn a_refusal_names_the_line_and_what_is_wrong_there() {
+        for (text, line, part) in [
+            ("", 1, "empty"),
+            ("T\n0\n", 1, "at least one"),
+            ("T,force\n0,1\n", 1, "`force` is unknown"),
+            ("T,load,load\n", 1, "twice"),
+            ("T,load\n", 1, "no line of numbers"),
+            ("T,load\n0,1\n1\n", 3, "2 columns are needed"),
+            ("T,load\n0,1\n1,2,3\n", 3, "there are 3"),
+            ("T,load\n0,1\n1,\n", 3, "`load` is missing"),
+            ("T,load\n0,1\n1,NaN\n", 3, "finite"),
+            ("T,load\n0,1\nx,1\n", 3, "`T` is `x`"),
+            ("T,load\n0,1\n2,1\n2,1\n", 4, "must be greater than 2"),
+            ("T,load\n0,1\n1,-0.5\n", 3, "above zero"),
+        ] {
+            let (seen, problem) = parse_into(&mut Inputs::default(), text).unwrap_err();
+            assert!(seen == line && problem.contains(part), "{text:?}: line {seen}: {problem}");
+        }
+    }
+
+    #[test]
+    fn a_file_that_is_missing_is_named() {
+        let error = read_into(&mut Inputs::default(), Path::new("no/such/inputs.csv")).unwrap_err().to_string();
+        assert!(error.contains("no/such/inputs.csv"), "{error}");
+    }
+}
