@@ -11,12 +11,14 @@ mod expectation;
 pub mod named_lubricant;
 pub mod sampled;
 mod study;
+mod tpwl;
 mod transient;
 mod view;
 
 pub use document::{SceneError, SceneFileError};
 pub use expectation::{Expectation, Within};
 pub use study::{Axis, ComparedPlan, Contacts, Formula, OnlineScheme, QuantityBox, Steps, Study, TestRange, Variable};
+pub use tpwl::{Drive, TpwlStudy};
 pub use transient::TransientStudy;
 pub use view::{LoadFollower, LubricantFollower, View};
 

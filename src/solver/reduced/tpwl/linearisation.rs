@@ -107,7 +107,8 @@ impl Linearisation {
             storage[(k, first_input)] = flow_h * curvature_slope(own);
             flux[(k, first_input)] = (0..LINE_STENCIL).map(|m| row.d_h[m] * curvature_slope(k + m)).sum();
             // f is linear in ū.
-            flux[(k, first_input + 1)] = -grid.rows[k].upwind.iter().zip(&nodes[k..]).map(|(w, n)| w * n.flow).sum::<f64>();
+            flux[(k, first_input + 1)] =
+                -grid.rows[k].upwind.iter().zip(&nodes[k..]).map(|(w, n)| w * n.flow).sum::<f64>();
             storage[(k, value)] = flow;
             flux[(k, value)] = row.value;
         }

@@ -231,7 +231,9 @@ impl TpwlModel {
     /// # Errors
     /// When the contact differs in more than its load, or its load lies outside the trained ones.
     pub fn shares(&self, problem: &Problem) -> Result<Vec<(usize, f64)>, TpwlError> {
-        let (Some(first), Some(last)) = (self.sets.first(), self.sets.last()) else { return Err(TpwlError::NoTraining) };
+        let (Some(first), Some(last)) = (self.sets.first(), self.sets.last()) else {
+            return Err(TpwlError::NoTraining);
+        };
         if problem.lubricant != first.problem.lubricant {
             return Err(TpwlError::Other { what: "lubricant" });
         }

@@ -27,6 +27,14 @@ pub enum Selection {
 }
 
 impl Selection {
+    /// The word that stands for it in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Distance { .. } => "distance",
+            Self::Step { .. } => "step",
+        }
+    }
+
     /// β.
     pub fn tolerance(self) -> f64 {
         let (Self::Distance { tolerance } | Self::Step { tolerance }) = self;

@@ -5,8 +5,8 @@ use crate::solver::elasticity::Scratch;
 use crate::solver::full::transient::{Input, State};
 use crate::solver::grid::LineGrid;
 use crate::solver::reduced::PodBasis;
-use faer::{ColMut, ColRef, Mat, MatRef, linalg::matmul::matmul};
 use faer::{Accum, Par};
+use faer::{ColMut, ColRef, Mat, MatRef, linalg::matmul::matmul};
 
 /// Entries of the input vector.
 pub const INPUTS: usize = 3;
@@ -41,7 +41,8 @@ impl ReducedSpace {
             grid.deform(&column, &mut bent, &mut fft);
             bent.iter().enumerate().for_each(|(i, d)| deformation[(i, k)] = *d);
         }
-        let load = (0..modes).map(|k| grid.weights.iter().enumerate().map(|(i, w)| w * pressure[(i, k)]).sum()).collect();
+        let load =
+            (0..modes).map(|k| grid.weights.iter().enumerate().map(|(i, w)| w * pressure[(i, k)]).sum()).collect();
         Self { grid, pressure, deformation, load }
     }
 
@@ -75,7 +76,14 @@ impl ReducedSpace {
         let coefficients = ColRef::from_slice(&state[..modes]);
         let part = |matrix: MatRef<'_, f64>, out: &mut [f64]| {
             let rows = matrix.subrows(from, out.len());
-            matmul(ColMut::from_slice_mut(out).as_mat_mut(), Accum::Replace, rows, coefficients.as_mat(), 1.0, Par::Seq);
+            matmul(
+                ColMut::from_slice_mut(out).as_mat_mut(),
+                Accum::Replace,
+                rows,
+                coefficients.as_mat(),
+                1.0,
+                Par::Seq,
+            );
         };
         part(self.pressure.as_ref(), pressure);
         part(self.deformation.as_ref(), film);

@@ -15,6 +15,16 @@ pub enum Weighting {
     Dissertation,
 }
 
+impl Weighting {
+    /// The word that stands for it in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::DualTaylor => "dual_taylor",
+            Self::Dissertation => "dissertation",
+        }
+    }
+}
+
 /// Nearest points considered where a set has one trajectory.
 pub const NEAREST: usize = 5;
 /// Nearest points considered on each trajectory where a set has several.
@@ -73,7 +83,8 @@ impl Barycentre {
     /// with Σ wᵢ = 1, where points of negative weight are left out and the rest solved again. At most as many points as there is
     /// room for.
     pub fn weights<'a>(&mut self, state: &[f64], point: impl Fn(usize) -> &'a [f64], out: &mut Vec<Weight>) {
-        let nearest = out.iter().map(|w| (w.point, square_distance(state, point(w.point)))).min_by(|a, b| a.1.total_cmp(&b.1));
+        let nearest =
+            out.iter().map(|w| (w.point, square_distance(state, point(w.point)))).min_by(|a, b| a.1.total_cmp(&b.1));
         let Some((only, least)) = nearest else { return };
         while out.len() > 1 && least > 0.0 {
             if !self.solve(state, &point, out) {
@@ -124,5 +135,57 @@ impl Barycentre {
         let total: f64 = self.solution[..n].iter().sum();
         out.iter_mut().zip(&self.solution).for_each(|(w, s)| w.weight = s / total);
         out.iter().all(|w| w.weight.is_finite())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const POINTS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [5.0, 5.0]];
+
+    fn barycentric(state: [f64; 2], points: &[usize]) -> Vec<Weight> {
+        let mut out: Vec<Weight> = points.iter().map(|&point| Weight { point, weight: 0.0 }).collect();
+        Barycentre::new(4).weights(&state, |point| &POINTS[point], &mut out);
+        out
+    }
+
+    fn sum(weights: &[Weight]) -> f64 {
+        weights.iter().map(|w| w.weight).sum()
+    }
+
+    #[test]
+    fn the_barycentre_lies_beside_a_state_among_the_points() {
+        let weights = barycentric([0.3, 0.2], &[0, 1, 2]);
+        assert!((sum(&weights) - 1.0).abs() < 1e-14);
+        for (axis, want) in [0.3, 0.2].into_iter().enumerate() {
+            let got: f64 = weights.iter().map(|w| w.weight * POINTS[w.point][axis]).sum();
+            assert!((got - want).abs() < 2e-3, "{weights:?}");
+        }
+    }
+
+    #[test]
+    fn points_of_negative_weight_are_left_out() {
+        let weights = barycentric([0.5, -0.5], &[0, 1, 2, 3]);
+        assert!(weights.iter().all(|w| w.weight >= 0.0 && w.point < 2), "{weights:?}");
+        assert!((weights[0].weight - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_point_met_exactly_has_all_the_weight() {
+        assert_eq!(barycentric([1.0, 0.0], &[0, 1, 2]), [Weight { point: 1, weight: 1.0 }]);
+        let mut out = Vec::new();
+        exponential(&[(4, 0.3), (7, 0.0), (9, 0.1)], &mut out);
+        assert_eq!(out, [Weight { point: 7, weight: 1.0 }]);
+    }
+
+    #[test]
+    fn exponential_weights_are_those_of_4_29() {
+        let mut out = Vec::new();
+        exponential(&[(0, 1.0), (1, 1.1), (2, 1.5)], &mut out);
+        // e^(−25) : e^(−27.5); the third, e^(−12.5) of the first, falls under 0.001.
+        assert_eq!(out.len(), 2);
+        assert!((out[1].weight / out[0].weight - (-2.5f64).exp()).abs() < 1e-12);
+        assert!((sum(&out) - 1.0).abs() < 1e-14);
     }
 }
