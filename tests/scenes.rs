@@ -1,7 +1,8 @@
 //! Every scene of the repository: it parses, survives writing, and the quick ones give what they expect.
 
 use ehl_explorer::harness::{SceneOutcome, Workbench, run_scene};
-use ehl_explorer::scene::{Method, ModelSource, Scene, Study};
+use ehl_explorer::scene::{Grid, Method, ModelSource, Scene, Study, TransientStudy};
+use ehl_explorer::solver::full::transient::{Frame, Signal, TimeStep};
 use std::path::{Path, PathBuf};
 
 fn folder() -> PathBuf {
@@ -89,6 +90,58 @@ fn cold_solves_of_point_contacts_converge_at_random_points_of_table_3_4() {
     let outcome = run_scene(&scene, &mut Workbench::new(folder()), &()).unwrap();
     assert_eq!(outcome.value("failures", None), Some(0.0));
     assert!(outcome.value("newton_max", None).unwrap() <= 40.0);
+}
+
+#[test]
+fn a_contact_in_time_breathes_as_its_scene_expects() {
+    assert_passes("fig_2_6_right");
+}
+
+#[test]
+fn the_frames_of_a_contact_in_time_agree() {
+    for (name, duration) in [("fig_4_4_case_1", 0.5), ("fig_4_4_case_2", 0.6)] {
+        let mut scene = Scene::read(&folder().join(format!("{name}.ron"))).unwrap();
+        if let Study::Transient(study) = &mut scene.study {
+            (study.duration, study.window) = (duration, None);
+            study.time_step = TimeStep::Fixed(0.0025);
+        }
+        let outcome = run_scene(&scene, &mut Workbench::new(folder()), &()).unwrap();
+        let short: Vec<_> = outcome.verdicts.iter().filter(|verdict| !verdict.holds).collect();
+        assert!(short.is_empty() && outcome.converged, "{name}: {short:?}");
+        assert_eq!(outcome.tables.len(), 4);
+    }
+}
+
+#[test]
+fn a_reduced_model_reproduces_a_trained_load_in_time() {
+    let mut scene = Scene::read(&folder().join("rnsa_table_4_2_sine.ron")).unwrap();
+    if let Study::Transient(study) = &mut scene.study {
+        (study.duration, study.frames) = (0.5, vec![Frame::Fixed]);
+        if let Some(reduced) = &mut study.reduced {
+            reduced.trainings.clear();
+        }
+    }
+    scene.grid = Grid::Uniform { dx: 0.01, domain: (-4.0, 2.0) };
+    let outcome = run_scene(&scene, &mut Workbench::new(folder()), &()).unwrap();
+    assert!(outcome.converged, "{:?}", outcome.warnings);
+    assert!(outcome.value("fixed.rnsa.H_c.difference_l2", None).unwrap() < 1e-4);
+    assert!(outcome.value("fixed.rnsa.speed_up", None).unwrap() > 1.0);
+}
+
+#[test]
+fn inputs_in_time_that_make_no_sense_are_refused() {
+    let refusal = |change: fn(&mut TransientStudy)| {
+        let mut scene = Scene::read(&folder().join("fig_2_6_right.ron")).unwrap();
+        if let Study::Transient(study) = &mut scene.study {
+            change(study);
+        }
+        run_scene(&scene, &mut Workbench::new(folder()), &()).unwrap_err().to_string()
+    };
+    let deep = |study: &mut TransientStudy| study.inputs.load = Signal::Harmonic { amplitude: 1.5, period: 4.0 };
+    assert!(refusal(deep).contains("the load falls to"));
+    assert!(refusal(|study| study.frames.clear()).contains("study.frames"));
+    assert!(refusal(|study| study.window = Some((4.0, 99.0))).contains("study.window.1"));
+    assert!(refusal(|study| study.sampled = Some("no/such/inputs.csv".into())).contains("no/such/inputs.csv"));
 }
 
 #[test]

@@ -8,12 +8,18 @@ use crate::scene::{QuantityBox, TestRange};
 use crate::solver::contact::ContactKind;
 use crate::solver::contact::OperatingPoint;
 use crate::solver::full::dense::{dense_kernel, dense_newton};
-use crate::solver::full::transient::{Frame, FullMarch, Inputs, Keep, Signal, TimeStep, Transient};
+use crate::solver::full::transient::{
+    Frame, FullMarch, Inputs, Keep, Marching, Signal, TimeStep, Trajectory, Transient,
+};
 use crate::solver::full::{FullSolver, PointSolver, Solution, SolveError, SolveOptions, Start};
 use crate::solver::grid::{GridSpec, PointGridSpec};
 use crate::solver::lubricant::Lubricant;
+use crate::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
+use crate::solver::reduced::transient::ReducedMarch;
 use crate::solver::reduced::{Online, ReducedOptions, distance};
+use crate::solver::training::{TrajectoryTraining, train_trajectories};
 use serde::Serialize;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// What all rows of line contacts are compared with: Newton with a dense LU per step on the same 1201 nodes, as the dissertation has it.
@@ -36,9 +42,11 @@ const BASELINE_POINTS: [usize; 2] = [40, 12];
 /// Point contacts: solves, and the time after which no further ones are begun.
 const POINT_POINTS: [usize; 2] = [50, 8];
 const POINT_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(5)];
+/// The trajectory-piecewise-linear model of the same march.
+const TPWL_TRAINING: TpwlTraining = TpwlTraining { modes: 100, selection: Selection::Step { tolerance: 1e-3 } };
 const SEED: u64 = 2026;
-/// Duration of the march whose steps are timed: case 1 of Table 4.1, steps of 0.001 as there.
-const MARCH_DURATION: [f64; 2] = [1.0, 0.15];
+/// Duration of the march whose steps are timed.
+const MARCH_DURATION: [f64; 2] = [1.5, 0.5];
 
 /// One line of the table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -119,14 +127,14 @@ pub fn run(quick: bool) -> Result<Bench, HarnessError> {
     }
 
     let mut rows = vec![dense, cold, warm];
-    match super::embedded_model() {
+    match super::embedded_model(ContactKind::Line) {
         Ok(model) => {
             rows.push(reduced_row(&mut Online::new(model, ReducedOptions::default()), &points, ROW_BUDGET[size]));
         }
         Err(reason) => bench.notes.push(format!("line/reduced is missing: {reason}")),
     }
     bench.add(rows, BASELINE);
-    bench.add(vec![transient_row(size)?], TRANSIENT_BASELINE);
+    bench.add(transient_rows(size)?, TRANSIENT_BASELINE);
     bench.add(point_rows(size)?, POINT_BASELINE);
     Ok(bench)
 }
@@ -181,8 +189,9 @@ fn point_rows(size: usize) -> Result<Vec<Timing>, HarnessError> {
     Ok(vec![cold, warm])
 }
 
-/// Steps of the full system in time: case 1 of Tables 4.1 and 4.2, fixed frame.
-fn transient_row(size: usize) -> Result<Timing, HarnessError> {
+/// Steps in time, of the full system and of the reduced models that reproduce them: the load of case 1 of Table 4.1 on the contact of Table
+/// 4.2, fixed frame.
+fn transient_rows(size: usize) -> Result<Vec<Timing>, HarnessError> {
     let [radius_m, speed_m_per_s, load] = [2e-3, 5.0, 2e5];
     let [modulus_pa, viscosity_pa_s, alpha_per_pa] = [231e9, 0.01, 1e-8];
     let kind = ContactKind::Line;
@@ -192,16 +201,24 @@ fn transient_row(size: usize) -> Result<Timing, HarnessError> {
         inputs: Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 1.0 / 3.0 }),
         frame: Frame::Fixed,
         duration: MARCH_DURATION[size],
-        time_step: TimeStep::Fixed(1e-3),
-        keep: Keep::Scalars,
+        time_step: TimeStep::Fixed(2.5e-3),
+        keep: Keep::Every(1),
     };
-    let mut timing = Timing::new(TRANSIENT_BASELINE, ROW_BUDGET[size]);
-    let reference = GridSpec::DISSERTATION.build().map_err(SolveError::from)?;
-    let (trajectory, seconds) =
-        timed_march(&mut FullMarch::new(reference, &transient)?, &transient, String::new(), &())?;
-    timing.seconds = seconds;
-    timing.failures = usize::from(!trajectory.finished());
-    Ok(timing)
+    let grid = GridSpec::DISSERTATION.build().map_err(SolveError::from)?;
+    let timed = |name, model: &mut dyn Marching| -> Result<(Timing, Trajectory), HarnessError> {
+        let mut timing = Timing::new(name, ROW_BUDGET[size]);
+        let (trajectory, seconds) = timed_march(model, &transient, String::new(), &())?;
+        (timing.seconds, timing.failures) = (seconds, usize::from(!trajectory.finished()));
+        Ok((timing, trajectory))
+    };
+    let (full, trajectory) = timed(TRANSIENT_BASELINE, &mut FullMarch::new(Arc::clone(&grid), &transient)?)?;
+    let settings = TrajectoryTraining { loss: 1e-5, ..TrajectoryTraining::default() };
+    let linearised = TpwlModel::train(&[&trajectory], TPWL_TRAINING)?;
+    let model = train_trajectories(&grid, &[trajectory], &settings, &())?;
+    let (reduced, _) = timed("line/transient/rnsa-step", &mut ReducedMarch::new(&model)?)?;
+    let mut march = TpwlMarch::new(&linearised, &transient, Weighting::DualTaylor)?;
+    let (superposed, _) = timed("line/transient/tpwl-step", &mut march)?;
+    Ok(vec![full, reduced, superposed])
 }
 
 fn reduced_row(online: &mut Online, points: &[OperatingPoint], budget: Duration) -> Timing {

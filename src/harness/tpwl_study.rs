@@ -9,10 +9,11 @@ use super::transient_study::timed_march;
 use super::workbench::Workbench;
 use crate::scene::{Drive, Grid, Scene, TpwlStudy};
 use crate::solver::contact::OperatingPoint;
-use crate::solver::full::transient::{Frame, FullMarch, Keep, Quantity, Trajectory, Transient};
+use crate::solver::full::transient::{Frame, FullMarch, Keep, Quantity, TimeStep, Trajectory, Transient};
 use crate::solver::grid::ReferenceGrid;
 use crate::solver::reduced::tpwl::{TpwlMarch, TpwlModel, TpwlStep, TpwlTraining};
-use crate::solver::training::TrainingObserver;
+use crate::solver::reduced::transient::ReducedMarch;
+use crate::solver::training::{TrainingObserver, TrajectoryTraining, train_trajectories};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -28,7 +29,7 @@ struct Reference {
 /// `points` and `model_s`, and of each of its weightings W (`dual_taylor`, `dissertation`) on each test `T.W.H_c.difference` (greatest,
 /// relative), `T.W.H_c.difference_l2`, the same of P_c, `T.W.steps`, `T.W.step_s_median`, `T.W.step_s_p99`, `T.W.march_s`, `T.W.speedup` (of the
 /// whole march), and `T.W.reach_median` and `T.W.reach_max`: how far steps lie from the trained trajectories, in distances between
-/// operating points. With more than one model, all its names begin with its rule and tolerance, as in `step_0.001.points`. Tables: the time
+/// operating points. Of a model with sampled rows `rnsa.model_s`, `rnsa.modes` and, with W = `rnsa`, the same values. With more than one model, all its names begin with its rule and tolerance, as in `step_0.001.points`. Tables: the time
 /// series of each test; the operating points of each model.
 pub(super) fn run(
     scene: &Scene,
@@ -57,7 +58,7 @@ pub(super) fn run(
     for load in study.loads(own) {
         for drive in &study.training {
             let stage = format!("training, {}, {} N/mm", drive.name, load / 1e3);
-            let transient = transient(drive, load, Keep::Every(1));
+            let transient = transient(drive, load, training_states(drive.duration, study.time_step));
             trained.push(full_march(&grid, transient, stage, observer, outcome)?.trajectory);
         }
     }
@@ -75,14 +76,14 @@ pub(super) fn run(
         }
         references.push(reference);
     }
-    let trained: Vec<&Trajectory> = trained.iter().collect();
     let mut series: Vec<Table> =
         study.tests.iter().zip(&references).map(|(test, reference)| reference_table(&test.name, reference)).collect();
     for &selection in &study.selections {
         let label = format!("{}_{}", selection.name(), selection.tolerance());
         let prefix = if study.selections.len() > 1 { format!("{label}.") } else { String::new() };
         let begun = Instant::now();
-        let model = TpwlModel::train(&trained, TpwlTraining { modes: study.modes, selection })?;
+        let model =
+            TpwlModel::train(&trained.iter().collect::<Vec<_>>(), TpwlTraining { modes: study.modes, selection })?;
         outcome.push(format!("{prefix}model_s"), None, begun.elapsed().as_secs_f64());
         outcome.push(format!("{prefix}points"), None, model.points.len() as f64);
         outcome.tables.push(points_table(&label, &model));
@@ -104,8 +105,31 @@ pub(super) fn run(
             return Err(HarnessError::Cancelled);
         }
     }
+    if let Some(loss) = study.rnsa_loss {
+        let settings = TrajectoryTraining { loss, ..TrajectoryTraining::default() };
+        let begun = Instant::now();
+        let model = train_trajectories(&grid, &trained, &settings, observer)?;
+        outcome.push("rnsa.model_s", None, begun.elapsed().as_secs_f64());
+        outcome.push("rnsa.modes", None, model.window.pressure.modes.ncols() as f64);
+        for ((test, reference), table) in study.tests.iter().zip(&references).zip(&mut series) {
+            let name = format!("{}.rnsa", test.name);
+            let mut march = ReducedMarch::new(&model)?;
+            let (trajectory, seconds) = timed_march(&mut march, &reference.transient, name.clone(), observer)?;
+            note_end(&name, &trajectory, outcome);
+            compare(&name, &trajectory, reference, &seconds, outcome);
+            add_series(table, &name, &trajectory);
+        }
+    }
     outcome.tables.extend(series);
     Ok(())
+}
+
+/// Most moments of a training trajectory whose fields are kept.
+const TRAINING_STATES: f64 = 3000.0;
+
+fn training_states(duration: f64, time_step: TimeStep) -> Keep {
+    let (TimeStep::Fixed(longest) | TimeStep::Adaptive { longest, .. }) = time_step;
+    Keep::Every(((duration / longest / TRAINING_STATES).ceil() as usize).max(1))
 }
 
 fn full_march(

@@ -6,11 +6,12 @@ use super::run::request_of;
 use super::statistics::{median, percentile};
 use super::table::Table;
 use super::workbench::{Request, Workbench};
-use crate::scene::{Grid, Scene, TransientStudy, sampled};
+use crate::scene::{Grid, ReducedTransient, Scene, TransientStudy, sampled};
 use crate::solver::full::transient::{
-    FullMarch, Keep, Marching, Moment, Quantity, Trajectory, Transient, TransientObserver, march,
+    FullMarch, Keep, Marching, Moment, Quantity, TimeStep, Trajectory, Transient, TransientObserver, march,
 };
-use crate::solver::training::{Progress, TrainingObserver};
+use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel};
+use crate::solver::training::{Progress, TrainingObserver, TrajectoryTraining, train_trajectories};
 use std::time::Instant;
 
 /// Quantities that statistics are taken of, with their names.
@@ -20,6 +21,9 @@ const QUANTITIES: [(&str, Quantity); 4] = [
     ("P_c", Quantity::CentralPressure),
     ("P_max", Quantity::MaximumPressure),
 ];
+
+/// States of a training trajectory that are kept, about.
+const TRAINING_STATES: f64 = 700.0;
 
 /// Runs the study. Values of each frame, after its name (`fixed`, `ale`, `remeshed`, `remeshed_linear`): `H_c.start`, `H_c.mean`,
 /// `H_c.amplitude`, `H_c.offset` (mean over start, less 1) over the window, and so on for H_min, P_c, P_max; `steps`, `rejected_steps`,
@@ -46,7 +50,13 @@ pub(super) fn run(
             frame,
             duration: study.duration,
             time_step: study.time_step,
-            keep: if study.mass_between.is_some() { Keep::Every(1) } else { Keep::Scalars },
+            keep: match (&study.mass_between, &study.reduced) {
+                (Some(_), _) => Keep::Every(1),
+                (None, Some(reduced)) if reduced.trainings.is_empty() => {
+                    training_states(study.duration, study.time_step)
+                }
+                (None, _) => Keep::Scalars,
+            },
         };
         let (trajectory, seconds) = full_march(&request, &transient, workbench, observer)?;
         if observer.cancelled() {
@@ -63,17 +73,102 @@ pub(super) fn run(
             outcome.push(format!("{name}.mass_defect"), None, balance.defect());
         }
         if let Some(first) = &first {
-            for (quantity_name, quantity) in QUANTITIES {
-                if let Some((greatest, l2)) = trajectory.difference(first, quantity, study.window()) {
-                    outcome.push(format!("{name}.{quantity_name}.difference"), None, greatest);
-                    outcome.push(format!("{name}.{quantity_name}.difference_l2"), None, l2);
-                }
-            }
+            differences(name, &trajectory, first, study.window(), outcome);
         }
         outcome.tables.push(series(&format!("transient_{name}"), &trajectory));
+        if let Some(reduced) = &study.reduced {
+            let trained = train(scene, study, reduced, &trajectory, workbench, observer)?;
+            reduced_march(&trained, &trajectory, &seconds, study.window(), observer, outcome)?;
+        }
         first.get_or_insert(trajectory);
     }
     Ok(())
+}
+
+/// Which states a training keeps: some hundreds in all.
+fn training_states(duration: f64, time_step: TimeStep) -> Keep {
+    let longest = match time_step {
+        TimeStep::Fixed(step) => step,
+        TimeStep::Adaptive { longest, .. } => longest,
+    };
+    Keep::Every(((duration / longest / TRAINING_STATES) as usize).max(1))
+}
+
+/// The model of a frame, from trainings of its own or from the trajectory that it shall reproduce.
+fn train(
+    scene: &Scene,
+    study: &TransientStudy,
+    reduced: &ReducedTransient,
+    own: &Trajectory,
+    workbench: &mut Workbench,
+    observer: &dyn TrainingObserver,
+) -> Result<TrajectoryModel, HarnessError> {
+    let mut request = request_of(scene)?;
+    let mut trainings = Vec::new();
+    for training in &reduced.trainings {
+        let at = training.at.unwrap_or(scene.at).with_alpha_of(&scene.lubricant);
+        request.point = at.point(scene.contact)?;
+        let transient = Transient {
+            point: request.point,
+            inputs: training.inputs.clone(),
+            duration: training.duration,
+            keep: training_states(training.duration, study.time_step),
+            ..own.transient.clone()
+        };
+        trainings.push(full_march(&request, &transient, workbench, observer)?.0);
+    }
+    let settings = TrajectoryTraining { loss: reduced.loss, rows_per_mode: reduced.rows_per_mode, seed: reduced.seed };
+    let grid = workbench.full_solver(&request, observer)?.reference().clone();
+    let all = if trainings.is_empty() { std::slice::from_ref(own) } else { &trainings[..] };
+    Ok(train_trajectories(&grid, all, &settings, observer)?)
+}
+
+/// Marches a reduced model beside the full trajectory of its frame. Values, after `<frame>.rnsa`: `modes`, `deformation_modes`, `rows`,
+/// `H_c.difference`, `H_c.difference_l2` and so on from the full trajectory, those of [`costs`], and `speed_up` (medians of the steps).
+fn reduced_march(
+    model: &TrajectoryModel,
+    full: &Trajectory,
+    full_seconds: &[f64],
+    window: (f64, f64),
+    observer: &dyn TrainingObserver,
+    outcome: &mut SceneOutcome,
+) -> Result<(), HarnessError> {
+    let frame = full.transient.frame.name();
+    let name = format!("{frame}.rnsa");
+    let transient = Transient { keep: Keep::Scalars, ..full.transient.clone() };
+    let stage = format!("{frame} frame, reduced");
+    let (trajectory, seconds) = timed_march(&mut ReducedMarch::new(model)?, &transient, stage, observer)?;
+    if observer.cancelled() {
+        return Err(HarnessError::Cancelled);
+    }
+    if !trajectory.finished() {
+        outcome.converged = false;
+        outcome.warnings.push(format!("{name}: the march {}", trajectory.ended.describe()));
+    }
+    for (what, value) in [
+        ("modes", model.window.pressure.modes.ncols()),
+        ("deformation_modes", model.window.deformation.modes.ncols()),
+        ("rows", model.window.sampled_rows.len()),
+    ] {
+        outcome.push(format!("{name}.{what}"), None, value as f64);
+    }
+    costs(&name, &trajectory, &seconds, outcome);
+    outcome.push(format!("{name}.speed_up"), None, median(full_seconds) / median(&seconds));
+    // A march that ended early agrees with nothing.
+    if trajectory.finished() {
+        differences(&name, &trajectory, full, window, outcome);
+    }
+    outcome.tables.push(series(&format!("transient_{frame}_rnsa"), &trajectory));
+    Ok(())
+}
+
+fn differences(name: &str, trajectory: &Trajectory, from: &Trajectory, window: (f64, f64), outcome: &mut SceneOutcome) {
+    for (quantity_name, quantity) in QUANTITIES {
+        if let Some((greatest, l2)) = trajectory.difference(from, quantity, window) {
+            outcome.push(format!("{name}.{quantity_name}.difference"), None, greatest);
+            outcome.push(format!("{name}.{quantity_name}.difference_l2"), None, l2);
+        }
+    }
 }
 
 /// A march of the full system, and the seconds of each step.

@@ -5,7 +5,7 @@ use super::{
     TransientStudy, View, Within,
 };
 use crate::solver::contact::{ContactKind, OperatingPoint};
-use crate::solver::full::transient::{Frame, Keep, Transient};
+use crate::solver::full::transient::{Frame, Inputs, Keep, Transient};
 use crate::solver::grid::PointGridSpec;
 use crate::solver::lubricant::{LubricantError, ScaledShear, ShearLaw};
 use crate::solver::training::{Plan, Range, TrainingSpec, Windows};
@@ -75,10 +75,10 @@ fn grid(grid: &Grid, contact: ContactKind) -> Checked {
         (ContactKind::Line, Grid::Plane { .. }) => {
             return Err(refuse("grid", "is Plane, but a line contact has no Y; write Uniform, Graded or GradedNodes"));
         }
-        (ContactKind::Point, Grid::Uniform { .. } | Grid::GradedNodes { .. } | Grid::Model) => {
+        (ContactKind::Point, Grid::Uniform { .. } | Grid::GradedNodes { .. }) => {
             return Err(refuse(
                 "grid",
-                "must be Plane(dx: …, dy: …, domain: (…, …, …)) for a point contact, or left out",
+                "must be Plane(dx: …, dy: …, domain: (…, …, …)) or Model for a point contact, or left out",
             ));
         }
         _ => {}
@@ -105,23 +105,18 @@ fn grid(grid: &Grid, contact: ContactKind) -> Checked {
 }
 
 fn study(scene: &Scene) -> Checked {
-    if scene.contact == ContactKind::Point && scene.study.methods().iter().any(|method| *method != Method::Full) {
-        return Err(refuse(
-            "study",
-            "asks for a reduced model of a point contact, which this version does not have; write Full",
-        ));
-    }
     match &scene.study {
-        Study::Training(_)
-        | Study::ErrorSplit { .. }
-        | Study::ErrorMeasures { .. }
-        | Study::DistanceMeasure { .. }
-        | Study::PlanComparison { .. }
-        | Study::ToleranceStudy { .. }
-            if scene.contact == ContactKind::Point =>
-        {
-            Err(refuse("study", "is about reduced models, of which this version has none of a point contact"))
+        Study::ErrorSplit { .. } | Study::DistanceMeasure { .. } if scene.contact == ContactKind::Point => {
+            Err(refuse("study", "is made for line contacts only; write `contact: Line`, or another study"))
         }
+        Study::Training(spec) if spec.contact() != scene.contact => Err(refuse(
+            "study.windows",
+            format!(
+                "hold grids of {} contacts, but the scene's is a {} contact",
+                spec.contact().name(),
+                scene.contact.name()
+            ),
+        )),
         Study::Point { methods: list } => methods("study.methods", list),
         Study::Sweep { over, methods: list } => {
             methods("study.methods", list)?;
@@ -238,16 +233,33 @@ fn transient(scene: &Scene, study: &TransientStudy) -> Checked {
     if let Some(places) = study.mass_between {
         interval("study.mass_between", places, -4.0, 1.0)?;
     }
-    let transient = Transient {
-        point: scene.point()?,
-        lubricant: scene.lubricant,
-        inputs: study.inputs.clone(),
-        frame: Frame::Fixed,
-        duration: study.duration,
-        time_step: study.time_step,
-        keep: Keep::Scalars,
+    let (lubricant, time_step) = (scene.lubricant, study.time_step);
+    let march = |field: &str, point, inputs: &Inputs, duration| {
+        let (frame, keep) = (Frame::Fixed, Keep::Scalars);
+        let transient = Transient { point, lubricant, inputs: inputs.clone(), frame, duration, time_step, keep };
+        transient.check().map_err(|problem| refuse(field, format!("is refused: {problem}")))
     };
-    transient.check().map_err(|problem| refuse("study", format!("is refused: {problem}")))
+    march("study", scene.point()?, &study.inputs, study.duration)?;
+    let Some(reduced) = &study.reduced else { return Ok(()) };
+    if !matches!(scene.grid, Grid::Uniform { .. } | Grid::GradedNodes { registered: false, .. }) {
+        return Err(refuse(
+            "grid",
+            "must be Uniform, or GradedNodes without registration, for a reduced model in time",
+        ));
+    }
+    number("study.reduced.loss", reduced.loss, 1e-12, 0.5)?;
+    number("study.reduced.rows_per_mode", reduced.rows_per_mode, 1.0, 20.0)?;
+    count("study.reduced.trainings (how many)", reduced.trainings.len(), 0, 64)?;
+    for (i, training) in reduced.trainings.iter().enumerate() {
+        let point = match training.at {
+            Some(at) => at.with_alpha_of(&lubricant).point(ContactKind::Line)?,
+            None => scene.point()?,
+        };
+        let field = format!("study.reduced.trainings.{i}");
+        number(&format!("{field}.duration"), training.duration, 1e-6, 1e6)?;
+        march(&field, point, &training.inputs, training.duration)?;
+    }
+    Ok(())
 }
 
 fn tpwl(scene: &Scene, study: &TpwlStudy) -> Checked {
@@ -255,6 +267,7 @@ fn tpwl(scene: &Scene, study: &TpwlStudy) -> Checked {
     count("study.training (how many)", study.training.len(), 1, 32)?;
     count("study.loads (how many)", study.loads.len(), 0, 16)?;
     count("study.modes", study.modes, 1, 1000)?;
+    study.rnsa_loss.iter().try_for_each(|&loss| number("study.rnsa_loss", loss, 1e-12, 0.5))?;
     count("study.selections (how many)", study.selections.len(), 1, 32)?;
     count("study.weightings (how many)", study.weightings.len(), 1, 2)?;
     count("study.tests (how many)", study.tests.len(), 1, 64)?;

@@ -19,7 +19,7 @@ pub use document::{SceneError, SceneFileError};
 pub use expectation::{Expectation, Within};
 pub use study::{Axis, ComparedPlan, Contacts, Formula, OnlineScheme, QuantityBox, Steps, Study, TestRange, Variable};
 pub use tpwl::{Drive, TpwlStudy};
-pub use transient::TransientStudy;
+pub use transient::{ReducedTransient, TrainingInputs, TransientStudy};
 pub use view::{LoadFollower, LubricantFollower, View};
 
 use crate::solver::contact::{ContactError, ContactKind, MoesRequest, OperatingPoint, si_from_moes};

@@ -17,6 +17,9 @@ pub struct TpwlStudy {
     pub time_step: TimeStep,
     /// Pressure modes.
     pub modes: usize,
+    /// Loss of information of the bases of a reduced model with sampled rows, trained by the same trajectories, where one is wanted beside.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rnsa_loss: Option<f64>,
     /// Rules for the operating points; each gives a model.
     pub selections: Vec<Selection>,
     /// Weightings tried with each model.

@@ -1,5 +1,6 @@
 //! A contact in time as part of a scene.
 
+use super::At;
 use crate::solver::full::transient::{Frame, Inputs, TimeStep};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -24,9 +25,58 @@ pub struct TransientStudy {
     /// Window of T over which means, amplitudes and differences are taken; the whole duration where there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub window: Option<(f64, f64)>,
+    /// A reduced model of each frame beside the full system.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reduced: Option<ReducedTransient>,
     /// Two places in units of a_ref, between which the balance of mass is drawn up.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mass_between: Option<(f64, f64)>,
+}
+
+/// A reduced model of a contact in time: trained on the spot, then marched along the study's inputs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ReducedTransient {
+    /// The training trajectories; the study's own where there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub trainings: Vec<TrainingInputs>,
+    /// Loss of information of the bases, (2.90).
+    pub loss: f64,
+    /// Sampled rows per pressure mode.
+    #[serde(default = "two", skip_serializing_if = "is_two")]
+    pub rows_per_mode: f64,
+    /// Seed of the cubature.
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    pub seed: u64,
+}
+
+/// A training trajectory; it takes the study's time step.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TrainingInputs {
+    /// Its reference contact; the scene's where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at: Option<At>,
+    /// Its inputs.
+    pub inputs: Inputs,
+    /// Its last T.
+    pub duration: f64,
+}
+
+fn two() -> f64 {
+    2.0
+}
+
+fn is_two(rows: &f64) -> bool {
+    *rows == two()
+}
+
+fn one() -> u64 {
+    1
+}
+
+fn is_one(seed: &u64) -> bool {
+    *seed == one()
 }
 
 fn is_default(inputs: &Inputs) -> bool {

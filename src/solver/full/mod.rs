@@ -2,6 +2,7 @@
 
 mod attempts;
 mod band;
+mod contact_solver;
 pub mod dense;
 mod gmres;
 mod line;
@@ -14,8 +15,9 @@ mod tests;
 mod traction;
 pub mod transient;
 
+pub use contact_solver::ContactSolver;
 pub use line::{LineSystem, SolveOptions};
-pub use point::{PointOptions, PointSolver};
+pub use point::{PointOptions, PointSolver, PointSystem};
 pub use solution::{
     Mesh, Problem, Report, Scalars, Solution, SolveError, Termination, Traction, point_scalars_of, scalars_of,
 };

@@ -134,8 +134,8 @@ pub trait Marching {
     /// ‖P − extrapolation‖/‖P‖ of the step under trial.
     fn deviation(&self) -> f64;
 
-    /// Makes the step under trial a former one.
-    fn accept(&mut self);
+    /// Makes the step under trial, which led to `at`, a former one.
+    fn accept(&mut self, at: &Conditions);
 
     /// Scalars of the state found last.
     fn moment(&self, at: &Conditions, step: f64, effort: Effort) -> Moment;
@@ -285,7 +285,7 @@ fn walk(
                     trajectory.rejected_steps += 1;
                     continue;
                 }
-                model.accept();
+                model.accept(&now);
                 (former, at) = (at.scales, now);
                 trajectory.record(model, &at, length, effort, observer);
                 (length_before, length) = (length, wanted);

@@ -20,6 +20,6 @@ pub use frame::{Conditions, Frame, Scales, point_at};
 pub use march::{Keep, Marching, Step, TimeStep, Transient, TransientError, TransientObserver, march};
 pub use mass::MassBalance;
 pub use signal::{Input, InputError, Inputs, Signal};
-pub use spline::{Interpolation, Interpolator};
+pub use spline::{Interpolated, Interpolation};
 pub use system::{FullMarch, solve};
 pub use trajectory::{Effort, Ended, Moment, Quantity, State, Trajectory};

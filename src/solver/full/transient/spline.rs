@@ -12,48 +12,51 @@ pub enum Interpolation {
     Linear,
 }
 
-/// Interpolates on fixed nodes; keeps its work space.
+/// A nodal field as a function between its nodes; keeps its work space.
 #[derive(Clone, Debug, Default)]
-pub struct Interpolator {
+pub struct Interpolated {
+    values: Vec<f64>,
     curvature: Vec<f64>,
     work: Vec<f64>,
 }
 
-impl Interpolator {
-    /// Values of the field at `stretch` x for all nodes x, in order; x increase. Beyond the ends the last piece continues.
-    pub fn stretched(
-        &mut self,
-        interpolation: Interpolation,
-        x: &[f64],
-        values: &[f64],
-        stretch: f64,
-        out: &mut [f64],
-    ) {
-        match interpolation {
-            Interpolation::CubicSpline => self.fit(x, values),
-            Interpolation::Linear => {
-                self.curvature.clear();
-                self.curvature.resize(x.len(), 0.0);
-            }
+impl Interpolated {
+    /// Takes another field's values at the increasing nodes `x`.
+    pub fn set(&mut self, interpolation: Interpolation, x: &[f64], values: impl Iterator<Item = f64>) {
+        self.values.clear();
+        self.values.extend(values);
+        self.curvature.clear();
+        self.curvature.resize(x.len(), 0.0);
+        if interpolation == Interpolation::CubicSpline {
+            self.bend(x);
         }
+    }
+
+    /// Its values at `stretch` x for increasing x. Beyond the ends of its `nodes` the last piece continues.
+    pub fn stretched(
+        &self,
+        nodes: &[f64],
+        stretch: f64,
+        x: impl Iterator<Item = f64>,
+        mut out: impl FnMut(usize, f64),
+    ) {
+        let (values, curvature) = (&self.values, &self.curvature);
         let mut piece = 0;
-        for (out, x_new) in out.iter_mut().zip(x) {
-            let at = stretch * x_new;
-            while piece + 2 < x.len() && x[piece + 1] < at {
+        for (i, x) in x.enumerate() {
+            let at = stretch * x;
+            while piece + 2 < nodes.len() && nodes[piece + 1] < at {
                 piece += 1;
             }
-            let h = x[piece + 1] - x[piece];
-            let (b, a) = ((at - x[piece]) / h, (x[piece + 1] - at) / h);
-            let bend = (a * a * a - a) * self.curvature[piece] + (b * b * b - b) * self.curvature[piece + 1];
-            *out = a * values[piece] + b * values[piece + 1] + bend * h * h / 6.0;
+            let h = nodes[piece + 1] - nodes[piece];
+            let (b, a) = ((at - nodes[piece]) / h, (nodes[piece + 1] - at) / h);
+            let bend = (a * a * a - a) * curvature[piece] + (b * b * b - b) * curvature[piece + 1];
+            out(i, a * values[piece] + b * values[piece + 1] + bend * h * h / 6.0);
         }
     }
 
     /// Second derivatives of the spline, constant over its first and last piece: Thomas' algorithm on a tridiagonal system.
-    fn fit(&mut self, x: &[f64], values: &[f64]) {
-        let n = x.len();
-        self.curvature.clear();
-        self.curvature.resize(n, 0.0);
+    fn bend(&mut self, x: &[f64]) {
+        let (n, values) = (x.len(), &self.values);
         self.work.clear();
         self.work.resize(n, 0.0);
         self.work[0] = 1.0;
@@ -84,7 +87,9 @@ mod tests {
             .collect();
         let values: Vec<f64> = x.iter().map(|x| x.cos()).collect();
         let mut out = vec![0.0; x.len()];
-        Interpolator::default().stretched(interpolation, &x, &values, 0.97, &mut out);
+        let mut field = Interpolated::default();
+        field.set(interpolation, &x, values.into_iter());
+        field.stretched(&x, 0.97, x.iter().copied(), |i, value| out[i] = value);
         x.iter().zip(&out).map(|(x, v)| (v - (0.97 * x).cos()).abs()).fold(0.0, f64::max)
     }
 
@@ -100,7 +105,9 @@ mod tests {
     fn a_stretch_by_one_changes_nothing() {
         let (x, values) = ([0.0, 0.3, 1.0, 1.2, 2.0], [1.0, -2.0, 0.5, 0.25, 3.0]);
         let mut out = [0.0; 5];
-        Interpolator::default().stretched(Interpolation::CubicSpline, &x, &values, 1.0, &mut out);
+        let mut field = Interpolated::default();
+        field.set(Interpolation::CubicSpline, &x, values.into_iter());
+        field.stretched(&x, 1.0, x.iter().copied(), |i, value| out[i] = value);
         for (a, b) in out.iter().zip(&values) {
             assert!((a - b).abs() < 1e-14);
         }

@@ -3,7 +3,7 @@
 use super::difference::extrapolated;
 use super::frame::{Conditions, Frame, point_at};
 use super::march::{Marching, Step, Transient, TransientError, TransientObserver, march};
-use super::spline::Interpolator;
+use super::spline::Interpolated;
 use super::trajectory::{Effort, Moment, State, Trajectory};
 use crate::solver::full::start::pressure_at;
 use crate::solver::full::{FullSolver, LineSystem, Problem, Report, SolveOptions, Start, Termination};
@@ -24,8 +24,8 @@ pub struct FullMarch {
     /// The nearer one first.
     former: [Past; 2],
     start: Vec<f64>,
+    /// Their ρ̄H at the present nodes.
     carried: [Vec<f64>; 2],
-    interpolator: Interpolator,
 }
 
 /// A former state.
@@ -35,6 +35,8 @@ struct Past {
     h_0: f64,
     /// ρ̄H.
     flow: Vec<f64>,
+    /// The same between the nodes, where the frame is remeshed.
+    between: Interpolated,
 }
 
 /// Lets a Newton solve see that the march was cancelled.
@@ -83,7 +85,6 @@ impl FullMarch {
             former: Default::default(),
             start: vec![0.0; length],
             carried: [vec![0.0; length], vec![0.0; length]],
-            interpolator: Interpolator::default(),
         })
     }
 
@@ -91,10 +92,10 @@ impl FullMarch {
     fn set_rows(&mut self, step: &Step) {
         for (carried, (past, scales)) in self.carried.iter_mut().zip(self.former.iter().zip(step.former)) {
             match self.frame {
-                Frame::Remeshed(interpolation) => {
+                Frame::Remeshed(_) => {
                     let stretch = step.now.scales.half_width / scales.half_width;
                     let x = &self.system.grid.x;
-                    self.interpolator.stretched(interpolation, x, &past.flow, stretch, carried);
+                    past.between.stretched(x, stretch, x.iter().copied(), |i, flow| carried[i] = flow);
                 }
                 Frame::Fixed | Frame::ArbitraryLagrangianEulerian => carried.copy_from_slice(&past.flow),
             }
@@ -128,8 +129,17 @@ impl FullMarch {
         self.system.set_h_0(h_0);
     }
 
-    fn past(&self) -> Past {
-        Past { pressure: self.system.pressure.clone(), h_0: self.system.h_0, flow: self.system.flow().collect() }
+    /// Makes the present state the nearer of the former ones.
+    fn remember(&mut self) {
+        self.former.swap(0, 1);
+        let (past, system) = (&mut self.former[0], &self.system);
+        past.pressure.clone_from(&system.pressure);
+        past.h_0 = system.h_0;
+        past.flow.clear();
+        past.flow.extend(system.flow());
+        if let Frame::Remeshed(interpolation) = self.frame {
+            past.between.set(interpolation, &system.grid.x, system.flow());
+        }
     }
 }
 
@@ -171,7 +181,8 @@ impl Marching for FullMarch {
         let mut effort = converged(&report)?;
         effort.newton_iterations += solution.report.newton_iterations;
         effort.linear_iterations += solution.report.linear_iterations;
-        self.former = [self.past(), self.past()];
+        self.remember();
+        self.former[1] = self.former[0].clone();
         Ok(effort)
     }
 
@@ -208,14 +219,8 @@ impl Marching for FullMarch {
         (difference / norm).sqrt()
     }
 
-    fn accept(&mut self) {
-        self.former.swap(0, 1);
-        let LineSystem { pressure, h_0, .. } = &self.system;
-        let past = &mut self.former[0];
-        past.pressure.copy_from_slice(pressure);
-        past.h_0 = *h_0;
-        past.flow.clear();
-        past.flow.extend(self.system.flow());
+    fn accept(&mut self, _: &Conditions) {
+        self.remember();
     }
 
     fn moment(&self, at: &Conditions, step: f64, effort: Effort) -> Moment {

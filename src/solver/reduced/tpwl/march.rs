@@ -27,8 +27,6 @@ pub struct TpwlMarch<'a> {
     superposition: Superposition,
     system: SmallSystem,
     step: TpwlStep,
-    /// Inputs of the state under trial.
-    input: Input,
     /// Fields of the state found last, where scalars are drawn from them.
     contact: ContactFields,
     record: TpwlRecord,
@@ -103,7 +101,6 @@ impl<'a> TpwlMarch<'a> {
             superposition: Superposition::new(weighting, len, most),
             system: SmallSystem::new(len),
             step: TpwlStep::default(),
-            input: transient.inputs.at(0.0),
             contact: ContactFields::new(&model.space.grid),
             record: TpwlRecord::with_room(steps, most.min(8), len),
             search,
@@ -148,11 +145,11 @@ impl<'a> TpwlMarch<'a> {
     }
 
     /// Keeps the state under trial as the newest, with its record and the fields under the contact.
-    fn keep(&mut self) {
+    fn keep(&mut self, input: Input) {
         self.record.push(self.step, &self.superposition.weights, &self.trial.state);
         let ContactFields { from, to, pressure, film } = &mut self.contact;
         let part = *from..*to;
-        self.model.space.fields(&self.trial.state, self.input, *from, &mut pressure[part.clone()], &mut film[part]);
+        self.model.space.fields(&self.trial.state, input, *from, &mut pressure[part.clone()], &mut film[part]);
     }
 }
 
@@ -197,8 +194,7 @@ impl Marching for TpwlMarch<'_> {
             return Err(Termination::IterationLimit);
         }
         self.former = [self.trial.clone(), self.trial.clone()];
-        self.input = at.input;
-        self.keep();
+        self.keep(at.input);
         Ok(effort)
     }
 
@@ -207,7 +203,6 @@ impl Marching for TpwlMarch<'_> {
         for (start, (near, far)) in self.start.iter_mut().zip(near.state.iter().zip(&far.state)) {
             *start = extrapolated(step.ratio, *near, *far);
         }
-        self.input = step.now.input;
         self.superpose(step.now.time);
         self.advance(step.quotient.now, step.quotient.former, input_vector(step.now.input))?;
         Ok(LINEAR)
@@ -217,8 +212,8 @@ impl Marching for TpwlMarch<'_> {
         relative_change(&self.trial.state, &self.start, self.model.space.modes())
     }
 
-    fn accept(&mut self) {
-        self.keep();
+    fn accept(&mut self, at: &Conditions) {
+        self.keep(at.input);
         self.former.swap(0, 1);
         std::mem::swap(&mut self.former[0], &mut self.trial);
     }

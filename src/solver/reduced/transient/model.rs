@@ -1,0 +1,27 @@
+//! What a reduced model of trajectories is made of.
+
+use crate::solver::contact::OperatingPoint;
+use crate::solver::full::transient::Frame;
+use crate::solver::reduced::Window;
+
+/// A reduced model of a line contact in time, in one frame.
+#[derive(Clone, Debug)]
+pub struct TrajectoryModel {
+    /// The frame it was trained in.
+    pub frame: Frame,
+    /// Bases, sampled rows, grid. Its snapshots and its range of M are of no use here.
+    pub window: Window,
+    /// Where its training trajectories began.
+    pub starts: Vec<TrajectoryStart>,
+}
+
+/// The beginning of a training trajectory, from which others begin.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TrajectoryStart {
+    /// The reference contact.
+    pub point: OperatingPoint,
+    /// p̃ of its stationary state.
+    pub coefficients: Vec<f64>,
+    /// Its H₀.
+    pub h_0: f64,
+}

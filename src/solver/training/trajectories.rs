@@ -1,0 +1,169 @@
+//! Training of a reduced model of contacts in time: bases from the steps of full trajectories, rows by a cubature that carries the steps
+//! which the all-rows model takes along the same inputs (`NUMERICS` 6).
+
+use super::aside::aside;
+use super::rows::add_goals;
+use super::{Progress, TrainingError, TrainingObserver};
+use crate::solver::full::transient::{Frame, Keep, Moment, Trajectory, Transient, TransientObserver, march};
+use crate::solver::grid::{ContactGrid, ReferenceGrid, dot};
+use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel, TrajectoryStart};
+use crate::solver::reduced::{
+    GoalEquations, Iterate, PodBasis, SampledRows, Sampling, TestSpace, Window, all_rows, cubature,
+    deformation_weights, is_finite,
+};
+use crate::solver::reynolds::PENALTY;
+use faer::Mat;
+use fastrand::Rng;
+use std::cell::RefCell;
+use std::sync::Arc;
+
+/// Settings of such a training.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrajectoryTraining {
+    /// Loss of information of both bases, (2.90).
+    pub loss: f64,
+    /// Sampled rows per pressure mode.
+    pub rows_per_mode: f64,
+    /// Seed of the cubature's random functionals.
+    pub seed: u64,
+}
+
+impl Default for TrajectoryTraining {
+    /// A loss of 1e-6 and two rows per mode.
+    fn default() -> Self {
+        Self { loss: 1e-6, rows_per_mode: 2.0, seed: 1 }
+    }
+}
+
+/// Most states that enter the bases: of longer trajectories every n-th one.
+const MOST_SNAPSHOTS: usize = 900;
+/// Iterates that the cubature has to satisfy.
+const ITERATES: usize = 600;
+
+/// Trains a model of one frame from full trajectories that kept their states.
+///
+/// # Errors
+/// When the trajectories hold no states or are of different frames or grids, when the linear algebra gives up, or the observer cancels.
+pub fn train_trajectories(
+    grid: &Arc<ReferenceGrid>,
+    trajectories: &[Trajectory],
+    training: &TrajectoryTraining,
+    observer: &dyn TrainingObserver,
+) -> Result<TrajectoryModel, TrainingError> {
+    let frame = trajectories.first().ok_or(TrainingError::NoTrajectories)?.transient.frame;
+    let length = grid.xi.len();
+    let of_one_kind = |t: &Trajectory| {
+        t.transient.frame == frame && !t.states.is_empty() && t.x == grid.xi && t.states[0].pressure.len() == length
+    };
+    if !trajectories.iter().all(of_one_kind) {
+        return Err(TrainingError::NoTrajectories);
+    }
+    let exact = bases(grid, trajectories, training, frame, observer)?;
+    let test = TestSpace::new(&exact.window.pressure, &exact.window.grid);
+    let equations = goal_equations(&exact, &test, trajectories, training, observer)?;
+    observer.progress(Progress { stage: "Row sampling".to_owned(), done: 0, total: 1 });
+    let target = (test.modes.ncols() as f64 * training.rows_per_mode).round() as usize;
+    let sampled = aside(observer, move || cubature(&test, &equations, target))?;
+    let sampled = sampled.filter(|s: &SampledRows| is_finite(s.reconstruction.as_ref()));
+    let mut model = exact;
+    model.window.set_rows(Sampling::Cubature, sampled.ok_or(TrainingError::Trajectories)?);
+    Ok(model)
+}
+
+/// The model with all rows.
+fn bases(
+    grid: &Arc<ReferenceGrid>,
+    trajectories: &[Trajectory],
+    training: &TrajectoryTraining,
+    frame: Frame,
+    observer: &dyn TrainingObserver,
+) -> Result<TrajectoryModel, TrainingError> {
+    observer.progress(Progress { stage: "Bases".to_owned(), done: 0, total: 1 });
+    let states: usize = trajectories.iter().map(|t| t.states.len()).sum();
+    let every = states.div_ceil(MOST_SNAPSHOTS);
+    let chosen: Vec<&[f64]> =
+        trajectories.iter().flat_map(|t| t.states.iter().step_by(every)).map(|s| s.pressure.as_slice()).collect();
+    let pressures = Mat::from_fn(grid.xi.len(), chosen.len(), |i, j| chosen[j][i]);
+    let (contact, loss) = (ContactGrid::Line(Arc::clone(grid)), training.loss);
+    let weights = grid.weights.clone();
+    let (pressure, deformation) = aside(observer, {
+        let contact = contact.clone();
+        move || {
+            let pressure = PodBasis::new(pressures.as_ref(), &weights, loss);
+            let deformations = contact.flex(&pressures);
+            let deformation = PodBasis::new(deformations.as_ref(), &deformation_weights(&contact), loss);
+            (pressure, deformation)
+        }
+    })?;
+    let pressure = pressure.ok_or(TrainingError::Trajectories)?;
+    let deformation = deformation.ok_or(TrainingError::Trajectories)?;
+    let starts = trajectories
+        .iter()
+        .filter_map(|t| {
+            let state = t.states.first()?;
+            let coefficient = |mode: &[f64]| -> f64 {
+                let weighted: Vec<f64> = mode.iter().zip(&grid.weights).map(|(v, w)| v * w).collect();
+                dot(&weighted, &state.pressure)
+            };
+            let modes = 0..pressure.modes.ncols();
+            let column = |k: usize| -> Vec<f64> { pressure.modes.col(k).iter().copied().collect() };
+            let coefficients = modes.map(|k| coefficient(&column(k))).collect();
+            Some(TrajectoryStart { point: t.transient.point, coefficients, h_0: state.h_0 })
+        })
+        .collect();
+    let rows = all_rows(&TestSpace::new(&pressure, &contact));
+    let mut window = Window::new((0.0, f64::INFINITY), contact, pressure, deformation, Vec::new(), Sampling::All, rows);
+    window.penalty = PENALTY;
+    Ok(TrajectoryModel { frame, window, starts })
+}
+
+/// Marches the all-rows model along the trainings and collects what its iterates demand of a rule.
+fn goal_equations(
+    exact: &TrajectoryModel,
+    test: &TestSpace,
+    trajectories: &[Trajectory],
+    training: &TrajectoryTraining,
+    observer: &dyn TrainingObserver,
+) -> Result<GoalEquations, TrainingError> {
+    let equations = RefCell::new(GoalEquations::over(test));
+    // About three iterates in a step: every n-th is kept.
+    let steps: usize = trajectories.iter().map(|t| t.moments.len()).sum();
+    let every = (3 * steps).div_ceil(ITERATES).max(1);
+    let rng = RefCell::new(Rng::with_seed(training.seed));
+    for (index, trajectory) in trajectories.iter().enumerate() {
+        let mut seen = 0;
+        let mut model = ReducedMarch::new(exact)?;
+        model.observe(Box::new(|iterate: &Iterate<'_>| {
+            if seen % every == 0 {
+                add_goals(&mut equations.borrow_mut(), test, iterate, &mut rng.borrow_mut());
+            }
+            seen += 1;
+        }));
+        let transient = Transient { keep: Keep::Scalars, ..trajectory.transient.clone() };
+        let stage = format!("Rows along training {} of {}", index + 1, trajectories.len());
+        let mut watch = Watch { observer, stage, duration: transient.duration };
+        march(&mut model, &transient, &mut watch)?;
+        if observer.cancelled() {
+            return Err(TrainingError::Cancelled);
+        }
+    }
+    Ok(equations.into_inner())
+}
+
+/// Tells how far a march is.
+struct Watch<'a> {
+    observer: &'a dyn TrainingObserver,
+    stage: String,
+    duration: f64,
+}
+
+impl TransientObserver for Watch<'_> {
+    fn moment(&mut self, moment: &Moment) {
+        let done = (1000.0 * moment.time / self.duration) as usize;
+        self.observer.progress(Progress { stage: self.stage.clone(), done, total: 1000 });
+    }
+
+    fn cancelled(&self) -> bool {
+        self.observer.cancelled()
+    }
+}

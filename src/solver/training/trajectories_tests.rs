@@ -1,0 +1,89 @@
+//! Reduced models in time: they reproduce what they were trained with, follow what they never saw, and are the same again.
+
+use super::{TrajectoryTraining, train_trajectories};
+use crate::solver::contact::OperatingPoint;
+use crate::solver::full::transient::{
+    Frame, FullMarch, Inputs, Interpolation, Keep, Quantity, Signal, TimeStep, Trajectory, Transient, march,
+};
+use crate::solver::grid::{GridSpec, ReferenceGrid};
+use crate::solver::lubricant::Lubricant;
+use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel};
+use std::sync::Arc;
+
+const ALL: (f64, f64) = (0.0, f64::INFINITY);
+
+fn grid() -> Arc<ReferenceGrid> {
+    GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) }.build().unwrap()
+}
+
+fn transient(frame: Frame, load: Signal) -> Transient {
+    Transient {
+        point: OperatingPoint {
+            radius_m: 2e-3,
+            speed_m_per_s: 5.0,
+            load: 2e5,
+            modulus_pa: 231e9,
+            viscosity_pa_s: 0.01,
+            alpha_per_pa: 1e-8,
+            ..OperatingPoint::TABLE_2_1
+        },
+        lubricant: Lubricant::default(),
+        inputs: Inputs::load(load),
+        frame,
+        duration: 1.0,
+        time_step: TimeStep::Fixed(0.005),
+        keep: Keep::Every(1),
+    }
+}
+
+fn full(transient: &Transient) -> Trajectory {
+    march(&mut FullMarch::new(grid(), transient).unwrap(), transient, &mut ()).unwrap()
+}
+
+fn reduced(model: &TrajectoryModel, transient: &Transient) -> Trajectory {
+    march(&mut ReducedMarch::new(model).unwrap(), transient, &mut ()).unwrap()
+}
+
+fn trained(frame: Frame) -> (Trajectory, TrajectoryModel) {
+    let training = full(&transient(frame, Signal::Harmonic { amplitude: 0.1, period: 0.5 }));
+    let settings = TrajectoryTraining::default();
+    let model = train_trajectories(&grid(), std::slice::from_ref(&training), &settings, &()).unwrap();
+    (training, model)
+}
+
+fn off(seen: &Trajectory, wanted: &Trajectory) -> f64 {
+    assert!(seen.finished(), "{}", seen.ended.describe());
+    seen.difference(wanted, Quantity::CentralFilm, ALL).unwrap().1
+}
+
+#[test]
+fn a_model_reproduces_its_training_in_every_frame_and_follows_an_unseen_load() {
+    for frame in [Frame::Fixed, Frame::ArbitraryLagrangianEulerian, Frame::Remeshed(Interpolation::CubicSpline)] {
+        let (training, model) = trained(frame);
+        let rows = model.window.sampled_rows.len();
+        assert!(rows < training.x.len() - 3 && rows <= 2 * model.window.pressure.modes.ncols(), "{frame:?}: {rows}");
+        assert!(off(&reduced(&model, &training.transient), &training) < 1e-4, "{frame:?}");
+        let unseen = transient(frame, Signal::TriangleToSquare { amplitude: 0.1, period: 0.5, s: 0.0 });
+        let seen = off(&reduced(&model, &unseen), &full(&unseen));
+        assert!(seen < 1e-3, "{frame:?}: {seen}");
+    }
+}
+
+#[test]
+fn the_same_training_gives_the_same_rows() {
+    let ((_, a), (_, b)) = (trained(Frame::Fixed), trained(Frame::Fixed));
+    assert_eq!(a.window.sampled_rows, b.window.sampled_rows);
+}
+
+#[test]
+fn trajectories_without_fields_teach_nothing() {
+    let silent = full(&Transient {
+        keep: Keep::Scalars,
+        duration: 0.02,
+        ..transient(Frame::Fixed, Signal::Harmonic { amplitude: 0.1, period: 0.5 })
+    });
+    let settings = TrajectoryTraining::default();
+    let message = |all: &[Trajectory]| train_trajectories(&grid(), all, &settings, &()).unwrap_err().to_string();
+    assert!(message(&[silent]).contains("kept their fields"));
+    assert!(message(&[]).contains("trajectories"));
+}
