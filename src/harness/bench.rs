@@ -14,6 +14,7 @@ use crate::solver::full::transient::{
 use crate::solver::full::{FullSolver, PointSolver, Problem, Solution, SolveError, SolveOptions, Start};
 use crate::solver::grid::{GridSpec, PointGridSpec};
 use crate::solver::lubricant::{Lubricant, Sliding};
+use crate::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
 use crate::solver::reduced::transient::ReducedMarch;
 use crate::solver::reduced::{Online, ReducedOptions, distance};
 use crate::solver::training::{TrajectoryTraining, train_trajectories};
@@ -43,6 +44,8 @@ const SHEAR_POINTS: [usize; 2] = [150, 40];
 /// Point contacts: solves, and the time after which no further ones are begun.
 const POINT_POINTS: [usize; 2] = [50, 8];
 const POINT_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(5)];
+/// The trajectory-piecewise-linear model of the same march.
+const TPWL_TRAINING: TpwlTraining = TpwlTraining { modes: 100, selection: Selection::Step { tolerance: 1e-3 } };
 const SEED: u64 = 2026;
 /// Duration of the march whose steps are timed.
 const MARCH_DURATION: [f64; 2] = [1.5, 0.5];
@@ -229,7 +232,7 @@ fn cold_and_warm(
     Ok([cold, warm])
 }
 
-/// Steps in time, of the full system and of a reduced model that reproduces them: the load of case 1 of Table 4.1 on the contact of Table
+/// Steps in time, of the full system and of the reduced models that reproduce them: the load of case 1 of Table 4.1 on the contact of Table
 /// 4.2, fixed frame.
 fn transient_rows(size: usize) -> Result<Vec<Timing>, HarnessError> {
     let [radius_m, speed_m_per_s, load] = [2e-3, 5.0, 2e5];
@@ -253,9 +256,12 @@ fn transient_rows(size: usize) -> Result<Vec<Timing>, HarnessError> {
     };
     let (full, trajectory) = timed(TRANSIENT_BASELINE, &mut FullMarch::new(Arc::clone(&grid), &transient)?)?;
     let settings = TrajectoryTraining { loss: 1e-5, ..TrajectoryTraining::default() };
+    let linearised = TpwlModel::train(&[&trajectory], TPWL_TRAINING)?;
     let model = train_trajectories(&grid, &[trajectory], &settings, &())?;
     let (reduced, _) = timed("line/transient/rnsa-step", &mut ReducedMarch::new(&model)?)?;
-    Ok(vec![full, reduced])
+    let mut march = TpwlMarch::new(&linearised, &transient, Weighting::DualTaylor)?;
+    let (superposed, _) = timed("line/transient/tpwl-step", &mut march)?;
+    Ok(vec![full, reduced, superposed])
 }
 
 /// Reduced solves one after the other, with all fields and the scalars read off them where `fields` says so.

@@ -31,6 +31,7 @@ mod split_study;
 mod statistics;
 pub mod table;
 mod tolerance_study;
+mod tpwl_study;
 pub mod training_file;
 mod training_study;
 mod transient_study;

@@ -11,6 +11,7 @@ mod expectation;
 pub mod named_lubricant;
 pub mod sampled;
 mod study;
+mod tpwl;
 mod transient;
 mod view;
 
@@ -20,6 +21,7 @@ pub use study::{
     Axis, ComparedPlan, ComparedSampling, Contacts, Formula, OnlineScheme, QuantityBox, Steps, Study, TestRange,
     Variable,
 };
+pub use tpwl::{Drive, TpwlStudy};
 pub use transient::{ReducedTransient, TrainingInputs, TransientStudy};
 pub use view::{LoadFollower, LubricantFollower, View};
 

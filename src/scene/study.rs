@@ -1,6 +1,6 @@
 //! The questions a scene can ask.
 
-use super::{Method, ModelSource, TransientStudy};
+use super::{Method, ModelSource, TpwlStudy, TransientStudy};
 use crate::solver::contact::{ContactKind, FilmFormula, OperatingPoint};
 use crate::solver::reduced::{Norm, ReducedOptions, Sampling};
 use crate::solver::training::TrainingSpec;
@@ -141,6 +141,8 @@ pub enum Study {
     },
     /// The contact in time, under inputs that vary: Figs. 2.6 (right), 4.4, 4.14, 4.15.
     Transient(TransientStudy),
+    /// Trajectory-piecewise-linear models of the contact in time: Figs. 4.10 to 4.12, 4.15 to 4.18.
+    Tpwl(TpwlStudy),
     /// Full solutions against a published film formula at all pairs of M and L in the default realisation.
     FormulaComparison {
         /// The formula.
@@ -344,7 +346,8 @@ impl Study {
             | Self::PlanComparison { .. }
             | Self::ToleranceStudy { .. }
             | Self::SamplingComparison { .. }
-            | Self::Transient(_) => &[],
+            | Self::Transient(_)
+            | Self::Tpwl(_) => &[],
         }
     }
 

@@ -16,6 +16,7 @@ mod operators;
 mod pod;
 mod sampling;
 mod start;
+pub mod tpwl;
 pub mod transient;
 
 pub use calibration::{Calibration, ErrorEstimate, Estimated, Evidence, Features, LEAST_EVIDENCE};
