@@ -108,7 +108,7 @@ fn sliding_and_plateaus_beyond_table_3_6_converge_and_a_neighbour_is_a_good_star
 fn frozen_film_integrals_lead_to_the_same_solution() {
     let mut solver = PointSolver::new(COARSE).unwrap();
     let exact = solve(&mut solver, squalane(0.74, 0.5, 0.2227));
-    solver.options.frozen_film_integrals = true;
+    solver.options.film.frozen = true;
     let frozen = solve(&mut solver, squalane(0.74, 0.5, 0.2227));
     println!("exact {} steps, frozen {}", exact.report.newton_iterations, frozen.report.newton_iterations);
     assert!((frozen.scalars.h_c / exact.scalars.h_c - 1.0).abs() < 1e-6);

@@ -152,7 +152,8 @@ impl Fluidity {
         let (factor, slope) = match self.factor {
             Factor::Power { beta, q, .. } => {
                 let y = (beta * t.ln()).exp();
-                let factor = (q * y.ln_1p()).exp();
+                // A y that is lost beside 1 changes nothing: ln(1 + y) need not be exact relative to itself.
+                let factor = (q * (1.0 + y).ln()).exp();
                 // y/(1 + y) written so that an overflowing y is harmless.
                 (factor, q * beta * factor / (1.0 + 1.0 / y))
             }

@@ -81,10 +81,39 @@ struct Moments {
 impl Moments {
     #[inline]
     fn of(law: &Fluidity, rule: &FilmRule, load: &FilmLoad, mid: [f64; 2]) -> Self {
+        if load.b == 0.0 && mid[1] == 0.0 {
+            Self::along(law, rule, load.a, mid[0])
+        } else {
+            Self::plane(law, rule, load, mid)
+        }
+    }
+
+    /// Where nothing shears the film across the direction of sliding: the y parts vanish, stresses are scalars.
+    fn along(law: &Fluidity, rule: &FilmRule, a: f64, mid: f64) -> Self {
+        let mut out = Self::default();
+        for &(zeta, weight) in rule {
+            let stress = mid + a * zeta;
+            let (g, slope) = law.at(stress.abs());
+            let (wg, we) = (weight * g, weight * slope);
+            let sx = if stress == 0.0 { 0.0 } else { we / stress };
+            let (z2, z3) = (zeta * zeta, zeta * zeta * zeta);
+            for (sum, z) in out.fluidity.iter_mut().zip([1.0, zeta, z2]) {
+                *sum += z * wg;
+            }
+            for (sum, z) in out.slope.iter_mut().zip([1.0, zeta, z2, z3]) {
+                sum[0] += z * sx;
+            }
+            out.stiffness[0][0] += we;
+            out.stiffness[1][0] += zeta * we;
+        }
+        out
+    }
+
+    fn plane(law: &Fluidity, rule: &FilmRule, load: &FilmLoad, mid: [f64; 2]) -> Self {
         let mut out = Self::default();
         for &(zeta, weight) in rule {
             let (x, y) = (mid[0] + load.a * zeta, mid[1] + load.b * zeta);
-            let stress = if load.b == 0.0 { x.abs() } else { x.hypot(y) };
+            let stress = (x * x + y * y).sqrt();
             let (g, slope) = law.at(stress);
             let per = if stress > 0.0 { 1.0 / stress } else { 0.0 };
             let (nx, ny) = (x * per, y * per);

@@ -5,7 +5,7 @@
 //! the nodal gradients P_X and P_Y, which are central differences. So the row reaches from X −3 to +2, across to Y ±2 and to the diagonals,
 //! as ∂f/∂P + (∂f/∂P_X) G_X + (∂f/∂P_Y) G_Y with the fixed difference operators of [`NodalGradient`].
 
-use super::film_integrals::{FilmLoad, PRODUCTION_RULE, film_integrals};
+use super::film_integrals::{FilmLoad, FilmRule, PRODUCTION_RULE, film_integrals};
 use super::{CENTER, EAST, NORTH, Node, RowGeometry, SOUTH, STENCIL, WEST};
 use crate::solver::lubricant::{ScaledFluid, ScaledShear};
 
@@ -20,6 +20,21 @@ pub struct ShearNode {
     pub mobility_gradient: [f64; 2],
 }
 
+/// How the film integrals are taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilmTreatment {
+    /// The rule across the film.
+    pub rule: &'static FilmRule,
+    /// Whether they count as constants in the Jacobian: cheaper, and as good within rounding of the answer, but no longer quadratic.
+    pub frozen: bool,
+}
+
+impl Default for FilmTreatment {
+    fn default() -> Self {
+        Self { rule: &PRODUCTION_RULE, frozen: false }
+    }
+}
+
 /// What the film integrals of a node depend on.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NodeState {
@@ -32,14 +47,14 @@ pub struct NodeState {
 }
 
 impl ShearNode {
-    /// The node's quantities. With `frozen` the film integrals count as constants in all derivatives.
+    /// The node's quantities.
     #[inline]
     pub fn new(
         fluid: &ScaledFluid,
         shear: &ScaledShear,
         inverse_lambda: f64,
         NodeState { pressure, gradient, film }: NodeState,
-        frozen: bool,
+        treatment: FilmTreatment,
     ) -> Self {
         let state = fluid.at(pressure);
         let node = Node::of_state(&state, inverse_lambda, pressure, film);
@@ -52,7 +67,7 @@ impl ShearNode {
         if load == FilmLoad::default() {
             return newtonian;
         }
-        let integrals = film_integrals(&shear.fluidity, &PRODUCTION_RULE, load);
+        let integrals = film_integrals(&shear.fluidity, treatment.rule, load);
         let srr = shear.slide_to_roll_ratio;
         let carried = 1.0 - srr * integrals.shift;
         let mut out = Self {
@@ -67,7 +82,7 @@ impl ShearNode {
             },
             ..Self::default()
         };
-        if frozen {
+        if treatment.frozen {
             return out;
         }
         let ([mobility_a, mobility_b, mobility_s], [shift_a, shift_b, shift_s]) =
@@ -204,7 +219,13 @@ mod tests {
         let gradient = NodalGradient::new(&X);
         let node = |i: usize| {
             let gradient = [gradient.at(p, i), 0.0];
-            ShearNode::new(&fluid, shear, 100.0, NodeState { pressure: p[i], gradient, film: h[i] }, false)
+            ShearNode::new(
+                &fluid,
+                shear,
+                100.0,
+                NodeState { pressure: p[i], gradient, film: h[i] },
+                FilmTreatment::default(),
+            )
         };
         let nodes: [ShearNode; 4] = std::array::from_fn(|m| node(m + 2));
         let geometry = RowGeometry::new([X[2], X[3], X[4], X[5]]);
