@@ -1,6 +1,6 @@
 //! How soon a cancelled training returns, whatever it was doing.
 
-use ehl_explorer::solver::grid::GridSpec;
+use ehl_explorer::solver::grid::{ContactGridSpec, GridSpec};
 use ehl_explorer::solver::reduced::Sampling;
 use ehl_explorer::solver::training::{
     Indicator, Plan, Progress, Range, TrainingError, TrainingObserver, TrainingSpec, TrainingState, WindowSpec,
@@ -33,11 +33,12 @@ fn spec(sampling: Sampling) -> TrainingSpec {
             vicinity: 8,
             limit: 120,
         },
-        windows: Windows::Given(vec![WindowSpec { m: (5.0, 200.0), grid: GridSpec::EXPLORER }]),
+        windows: Windows::Given(vec![WindowSpec { m: (5.0, 200.0), grid: ContactGridSpec::Line(GridSpec::EXPLORER) }]),
         pressure_loss: 1e-7,
         deformation_loss: 1e-6,
         sampling,
         rows_per_mode: 2.0,
+        penalty: 1e6,
         evidence: 300,
         seed: 1,
     }

@@ -2,7 +2,7 @@
 
 use ehl_explorer::harness::model_file::embedded;
 use ehl_explorer::solver::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
-use ehl_explorer::solver::full::{FullSolver, Solution, Start};
+use ehl_explorer::solver::full::{ContactSolver, Solution, Start};
 use ehl_explorer::solver::lubricant::Lubricant;
 use ehl_explorer::solver::reduced::{Online, ReducedOptions, Trust};
 use std::sync::Arc;
@@ -61,7 +61,7 @@ fn corners_of_the_range_agree_with_full_solutions() {
         let reduced = online.solve(&point, Lubricant::default()).unwrap();
         assert_eq!(reduced.trust, Trust::Trained, "M = {m}, L = {l}");
         let picture = online.reconstruct(&reduced).unwrap();
-        let mut solver = FullSolver::on(Arc::clone(&online.model.windows[reduced.window].grid));
+        let mut solver = ContactSolver::on(&online.model.windows[reduced.window].grid);
         let full = solver.solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
         assert!(full.converged());
         let error = (picture.scalars.h_c / full.scalars.h_c - 1.0).abs();

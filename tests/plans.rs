@@ -2,7 +2,7 @@
 
 use ehl_explorer::harness::{SceneOutcome, Workbench, run_scene};
 use ehl_explorer::scene::{ComparedPlan, OnlineScheme, QuantityBox, Scene, Study};
-use ehl_explorer::solver::grid::GridSpec;
+use ehl_explorer::solver::grid::{ContactGridSpec, GridSpec};
 use ehl_explorer::solver::reduced::Sampling;
 use ehl_explorer::solver::training::{Indicator, Plan, Range, TrainingSpec, WindowSpec, Windows};
 use std::path::{Path, PathBuf};
@@ -36,13 +36,14 @@ impl Folder {
             plan,
             windows: Windows::Given(vec![WindowSpec {
                 m: (1.0, 500.0),
-                grid: GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) },
+                grid: ContactGridSpec::Line(GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) }),
             }]),
             pressure_loss: 1e-6,
             deformation_loss: 1e-6,
             sampling: Sampling::QDeim,
             evidence: 0,
             rows_per_mode: 2.0,
+            penalty: 1e6,
             seed: 3,
         });
         let path = self.0.join(format!("{name}.ron"));

@@ -6,7 +6,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
 use ehl_explorer::harness::model_file;
 use ehl_explorer::solver::contact::PLAUSIBLE_HERTZ_PRESSURE_PA;
-use ehl_explorer::solver::grid::GridSpec;
+use ehl_explorer::solver::grid::{ContactGridSpec, GridSpec};
 use ehl_explorer::solver::lubricant::Lubricant;
 use ehl_explorer::solver::reduced::{ReducedModel, Sampling};
 use ehl_explorer::solver::training::{Plan, Range, TrainingSpec, WindowSpec, Windows, train};
@@ -342,12 +342,13 @@ fn small_model() -> ReducedModel {
         plan: Plan::FarthestPoint { snapshots: 40 },
         windows: Windows::Given(vec![WindowSpec {
             m: (20.0, 100.0),
-            grid: GridSpec::Graded { nodes: 400, domain: (-8.0, 1.9), registered: true },
+            grid: ContactGridSpec::Line(GridSpec::Graded { nodes: 400, domain: (-8.0, 1.9), registered: true }),
         }]),
         pressure_loss: 1e-7,
         deformation_loss: 1e-8,
         sampling: Sampling::default(),
         rows_per_mode: 2.0,
+        penalty: 1e6,
         evidence: 0,
         seed: 1,
     };

@@ -2,7 +2,7 @@
 
 use crate::scene::View;
 use crate::solver::contact::{Moes, OperatingPoint};
-use crate::solver::full::{FullSolver, Scalars, Solution, SolveError, Start};
+use crate::solver::full::{ContactSolver, Scalars, Solution, SolveError, Start};
 use crate::solver::lubricant::Lubricant;
 use crate::solver::observer::Observer;
 use crate::solver::reduced::{Online, ReducedError, ReducedModel, ReducedOptions, ReducedSolution, Window};
@@ -65,7 +65,7 @@ impl InUse {
 pub struct Solvers {
     in_use: InUse,
     reduced: Vec<Online>,
-    full: Vec<FullSolver>,
+    full: Vec<ContactSolver>,
 }
 
 impl Solvers {
@@ -74,7 +74,7 @@ impl Solvers {
         let windows = &in_use.model.windows;
         Self {
             reduced: windows.iter().map(|w| Online::new(Arc::clone(&in_use.model), in_use.options(w))).collect(),
-            full: windows.iter().map(|w| FullSolver::on(Arc::clone(&w.grid))).collect(),
+            full: windows.iter().map(|w| ContactSolver::on(&w.grid)).collect(),
             in_use: in_use.clone(),
         }
     }

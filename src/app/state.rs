@@ -359,8 +359,8 @@ impl State {
         let key = self.key();
         let moes = key.point.moes();
         let window = self.model.as_ref().and_then(|m| m.windows.get(m.window_for(moes)));
-        let grid = match window {
-            Some(window) => GridChoice::Existing(Arc::clone(&window.grid)),
+        let grid = match window.and_then(|window| window.grid.line()) {
+            Some(grid) => GridChoice::Existing(Arc::clone(grid)),
             None => GridChoice::Spec(GridSpec::EXPLORER),
         };
         let start = match kind {

@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use super::{Verdict, output};
 use crate::harness::{HarnessError, model_file};
-use crate::solver::grid::GridSpec;
+use crate::solver::grid::{ContactGridSpec, GridSpec};
 use crate::solver::reduced::ReducedModel;
 use std::fmt::Write;
 use std::path::Path;
@@ -17,7 +17,7 @@ pub fn run(path: &Path) -> Result<Verdict, Failure> {
 
 /// The model for people.
 pub fn describe(model: &ReducedModel) -> String {
-    let mut text = format!("{}\n", model.title);
+    let mut text = format!("{}\n  {} contacts\n", model.title, model.contact().name());
     let d = &model.domain;
     // Writing to a string cannot fail.
     let _ = writeln!(text, "  M {}…{}, L {}…{}", d.m.0, d.m.1, d.l.0, d.l.1);
@@ -31,23 +31,30 @@ pub fn describe(model: &ReducedModel) -> String {
     );
     let _ = writeln!(text, "  density {:?}, viscosity {:?}", d.lubricant.density, d.lubricant.viscosity);
     for window in &model.windows {
-        let grid = match window.grid.spec {
-            GridSpec::Uniform { dx, domain } => format!("uniform, dx {dx}, {}…{}", domain.0, domain.1),
-            GridSpec::Graded { nodes, domain, registered } => {
+        let grid = match window.grid.spec() {
+            ContactGridSpec::Line(GridSpec::Uniform { dx, domain }) => {
+                format!("uniform, dx {dx}, {}…{}", domain.0, domain.1)
+            }
+            ContactGridSpec::Line(GridSpec::Graded { nodes, domain, registered }) => {
                 let registered = if registered { ", registered" } else { "" };
                 format!("graded, {nodes} nodes, ξ {}…{}{registered}", domain.0, domain.1)
+            }
+            ContactGridSpec::Point(spec) => {
+                let ((nx, ny), (from, to, edge)) = (window.grid.nodes(), spec.domain);
+                format!("{nx}×{ny} nodes, X {from}…{to}, Y {edge}…0")
             }
         };
         let _ = writeln!(
             text,
-            "  window M {}…{}: {grid}; {} snapshots, {} pressure modes, {} deformation modes, {} sampled rows ({:?})",
+            "  window M {}…{}: {grid}; {} snapshots, {} pressure modes, {} deformation modes, {} sampled rows ({:?}), γ̄ {:e}",
             window.m.0,
             window.m.1,
             window.snapshots.len(),
             window.pressure.modes.ncols(),
             window.deformation.modes.ncols(),
             window.sampled_rows.len(),
-            window.sampling
+            window.sampling,
+            window.penalty
         );
     }
     for line in &model.log {

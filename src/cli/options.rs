@@ -234,9 +234,6 @@ impl PointOptions {
     /// # Errors
     /// When they contradict each other or a value is outside any sense.
     pub fn request(&self) -> Result<(Request, Method), Failure> {
-        if self.contact == ContactName::Point && self.method == MethodName::Reduced {
-            return refuse("there is no reduced model of a point contact in this version; use --method full");
-        }
         if !(self.srr.is_finite() && self.srr.abs() <= 10.0) {
             return refuse(format!("--srr is {}, but must be a finite number between -10 and 10", self.srr));
         }
@@ -333,16 +330,15 @@ impl PointOptions {
         }
     }
 
-    /// The grid of a point contact.
+    /// The grid of a full solution of a point contact.
     fn plane(&self) -> Result<Grid, Failure> {
         let default = match self.grid {
             None | Some(GridName::Uniform) => PointGridSpec::DISSERTATION,
             Some(GridName::Graded) => PointGridSpec::EXPLORER,
-            Some(GridName::Model) => {
-                return refuse(
-                    "there is no reduced model of a point contact in this version; write --grid uniform or --grid graded",
-                );
+            Some(GridName::Model) if self.dx.is_some() || self.dy.is_some() || self.domain.is_some() => {
+                return refuse("--grid model is the model's own: leave out --dx, --dy and --domain");
             }
+            Some(GridName::Model) => return Ok(Grid::Model),
         };
         let (from, to, edge) = default.domain;
         let ends = self.domain.map_or((from, to), |domain| domain.x);
@@ -354,21 +350,22 @@ impl PointOptions {
     }
 
     fn grid(&self, method: &Method) -> Result<Grid, Failure> {
-        if self.kind() == ContactKind::Point {
-            return self.plane();
-        }
-        if self.dy.is_some() || self.domain.is_some_and(|domain| domain.y.is_some()) {
+        let point = self.kind() == ContactKind::Point;
+        if !point && (self.dy.is_some() || self.domain.is_some_and(|domain| domain.y.is_some())) {
             return refuse("a line contact has no Y: leave out --dy and the third number of --domain");
         }
         if *method != Method::Full {
             let own = "a reduced model brings its own grid";
-            if self.dx.is_some() || self.domain.is_some() {
-                return refuse(format!("{own}: leave out --dx and --domain with --method reduced"));
+            if self.dx.is_some() || self.dy.is_some() || self.domain.is_some() {
+                return refuse(format!("{own}: leave out --dx, --dy and --domain with --method reduced"));
             }
             if self.grid.is_some_and(|grid| grid != GridName::Model) {
                 return refuse(format!("{own}: with --method reduced only --grid model is accepted"));
             }
             return Ok(Grid::Model);
+        }
+        if point {
+            return self.plane();
         }
         let ends = self.domain.map(|domain| domain.x);
         let grid = match self.grid {

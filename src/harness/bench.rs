@@ -100,7 +100,7 @@ pub fn run(quick: bool) -> Result<Bench, HarnessError> {
     rows.extend(cold_and_warm(names, ROW_BUDGET[size], &shear, |problem, start| {
         Ok(solver.solve_problem(problem, start, &mut ()))
     })?);
-    match super::embedded_model() {
+    match super::embedded_model(ContactKind::Line) {
         Ok(model) => {
             rows.push(reduced_row(&mut Online::new(model, ReducedOptions::default()), &points, ROW_BUDGET[size]));
         }

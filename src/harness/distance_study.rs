@@ -8,6 +8,7 @@ use super::sampling::random_points;
 use super::table::Table;
 use super::workbench::Workbench;
 use crate::scene::{Scene, TestRange};
+use crate::solver::grid::ContactGrid;
 use crate::solver::training::TrainingObserver;
 use crate::solver::training::distance::{Candidate, DISSERTATION, FURTHER, correlation, fit};
 use std::sync::Arc;
@@ -22,8 +23,8 @@ pub(super) fn run(
     outcome: &mut SceneOutcome,
 ) -> Result<(), HarnessError> {
     let drawn = random_points(range, scene.contact, points, seed);
-    let grid = Arc::clone(workbench.full_solver(&request_of(scene)?, observer)?.reference());
-    let solutions = full_solutions(|_| Arc::clone(&grid), &drawn, scene.lubricant, observer)?;
+    let grid = ContactGrid::Line(Arc::clone(workbench.full_solver(&request_of(scene)?, observer)?.reference()));
+    let solutions = full_solutions(|_| grid.clone(), &drawn, scene.lubricant, observer)?;
     let (mut kept, mut states) = (Vec::new(), Vec::new());
     for solution in solutions.into_iter().flatten() {
         // z = (P, δ, H₀) at the nodes, in the Euclidean norm of (3.6).

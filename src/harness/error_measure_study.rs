@@ -10,7 +10,6 @@ use super::workbench::Workbench;
 use crate::scene::{ModelSource, OnlineScheme, Scene, TestRange};
 use crate::solver::reduced::{ErrorEstimate, ErrorMeasures, Norm};
 use crate::solver::training::TrainingObserver;
-use std::sync::Arc;
 
 /// What is measured where.
 pub(super) struct ErrorMeasureStudy<'a> {
@@ -48,14 +47,13 @@ pub(super) fn run(
     outcome: &mut SceneOutcome,
 ) -> Result<(), HarnessError> {
     let points = random_points(study.range, scene.contact, study.points, study.seed);
-    let model = workbench.model(study.model, observer)?;
+    let model = workbench.model(study.model, scene.contact, observer)?;
     let options = study.online.options();
     let measures: Vec<ErrorMeasures> =
         model.windows.iter().map(|window| ErrorMeasures::new(window, &options, study.norm)).collect();
     let reduced = reduced_solutions(&model, options, &points, scene.lubricant, |_| true, observer)?;
-    let grid = |point: &crate::solver::contact::OperatingPoint| {
-        Arc::clone(&model.windows[model.window_for(point.moes())].grid)
-    };
+    let grid =
+        |point: &crate::solver::contact::OperatingPoint| model.windows[model.window_for(point.moes())].grid.clone();
     let full = full_solutions(grid, &points, scene.lubricant, observer)?;
     let mut table = Table::new("error_measures", &COLUMNS);
     let mut failures = 0;

@@ -45,14 +45,15 @@ pub use statistics::{median, percentile, rank_correlation};
 pub use table::Table;
 pub use workbench::{Answer, ReducedFacts, Request, Workbench};
 
+use crate::solver::contact::ContactKind;
 use crate::solver::reduced::ReducedModel;
 use model_file::ModelFileError;
 use std::sync::Arc;
 
-/// The reduced model in the program; read once, then shared.
+/// The reduced model of one kind of contact in the program.
 ///
 /// # Errors
-/// When the program holds none, or a damaged one.
-pub fn embedded_model() -> Result<Arc<ReducedModel>, ModelFileError> {
-    model_file::embedded()
+/// When the program was built with a damaged one.
+pub fn embedded_model(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileError> {
+    model_file::embedded_of(contact)
 }

@@ -3,7 +3,7 @@
 use super::error::HarnessError;
 use super::parallel::full_solutions;
 use super::statistics::{median, percentile};
-use crate::solver::contact::OperatingPoint;
+use crate::solver::contact::{ContactKind, OperatingPoint};
 use crate::solver::full::Problem;
 use crate::solver::lubricant::Lubricant;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
@@ -75,7 +75,8 @@ pub fn compare_models(
     observer: &dyn TrainingObserver,
 ) -> Result<ModelComparison, HarnessError> {
     range.check()?;
-    let points = random_points(range, (0.0, f64::INFINITY), count, &mut fastrand::Rng::with_seed(seed));
+    let contact = models.first().map_or_else(ContactKind::default, |model| model.contact());
+    let points = random_points(range, contact, (0.0, f64::INFINITY), count, &mut fastrand::Rng::with_seed(seed));
     if points.is_empty() {
         return Err(HarnessError::Study("the range holds no points to compare at".to_owned()));
     }
@@ -100,7 +101,7 @@ fn full_films(
     lubricant: Lubricant,
     observer: &dyn TrainingObserver,
 ) -> Result<Films, HarnessError> {
-    let grid = |point: &OperatingPoint| Arc::clone(&model.windows[model.window_for(point.moes())].grid);
+    let grid = |point: &OperatingPoint| model.windows[model.window_for(point.moes())].grid.clone();
     let full = full_solutions(grid, points, lubricant, observer)?;
     Ok(full.into_iter().map(|full| full.map(|full| (full.scalars.h_c, full.scalars.h_min))).collect())
 }
@@ -108,8 +109,8 @@ fn full_films(
 /// H_c and H_min of full solutions, where there are any.
 type Films = Vec<Option<(f64, f64)>>;
 
-fn grid_of(model: &ReducedModel, point: &OperatingPoint) -> Option<crate::solver::grid::GridSpec> {
-    model.windows.get(model.window_for(point.moes())).map(|window| window.grid.spec)
+fn grid_of(model: &ReducedModel, point: &OperatingPoint) -> Option<crate::solver::grid::ContactGridSpec> {
+    model.windows.get(model.window_for(point.moes())).map(|window| window.grid.spec())
 }
 
 fn score(

@@ -1,11 +1,13 @@
 //! Reduced model files (`.rom`): a checked header, then bases, rows, operators, snapshots and the training scene.
 //!
 //! The header is that of `checked_file`, the payload in postcard's encoding. K V_p is not stored: it is
-//! recomputed when a model is read.
+//! recomputed when a model is read. The bases of point contacts are stored in single precision, which moves their modes by 1e-8
+//! and the solutions in them by no more.
 
 use super::checked_file::{Flaw, Format, Unreadable};
 use crate::scene::atomic_file::{self, WriteError};
-use crate::solver::grid::{GridError, GridSpec, ReferenceGrid};
+use crate::solver::contact::ContactKind;
+use crate::solver::grid::{ContactGrid, ContactGridError, ContactGridSpec};
 use crate::solver::reduced::{Calibration, Domain, PodBasis, ReducedModel, SampledRows, Sampling, Snapshot, Window};
 use faer::Mat;
 use rayon::prelude::*;
@@ -13,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 /// Real models have a few MB.
 const FORMAT: Format = Format { magic: b"EHLROM\r\n", version: VERSION, max_payload: 512 << 20 };
 
@@ -73,7 +75,7 @@ pub enum ModelFileError {
     },
     /// Its grid is refused.
     #[error("the model file's grid is refused: {0}")]
-    Grid(#[from] GridError),
+    Grid(#[from] ContactGridError),
 }
 
 impl From<Flaw> for ModelFileError {
@@ -101,7 +103,8 @@ struct StoredModel {
 #[derive(Serialize, Deserialize)]
 struct StoredWindow {
     m: (f64, f64),
-    grid: GridSpec,
+    grid: ContactGridSpec,
+    penalty: f64,
     pressure: StoredBasis,
     deformation: StoredBasis,
     sampling: Sampling,
@@ -121,27 +124,48 @@ struct StoredBasis {
 struct StoredMatrix {
     rows: usize,
     columns: usize,
-    values: Vec<f64>,
+    values: Values,
+}
+
+#[derive(Serialize, Deserialize)]
+enum Values {
+    Double(Vec<f64>),
+    Single(Vec<f32>),
+}
+
+/// How many digits a matrix keeps.
+#[derive(Clone, Copy, PartialEq)]
+enum Precision {
+    Double,
+    Single,
 }
 
 impl StoredMatrix {
-    fn from_mat(matrix: &Mat<f64>) -> Self {
-        let values = matrix.col_iter().flat_map(|c| c.iter().copied()).collect();
+    fn from_mat(matrix: &Mat<f64>, precision: Precision) -> Self {
+        let values = matrix.col_iter().flat_map(|c| c.iter().copied());
+        let values = match precision {
+            Precision::Double => Values::Double(values.collect()),
+            Precision::Single => Values::Single(values.map(|v| v as f32).collect()),
+        };
         Self { rows: matrix.nrows(), columns: matrix.ncols(), values }
     }
 
     fn into_mat(self, what: &'static str) -> Result<Mat<f64>, ModelFileError> {
-        let fits = self.rows.checked_mul(self.columns) == Some(self.values.len());
-        if !fits || self.values.iter().any(|v| !v.is_finite()) {
+        let values = match self.values {
+            Values::Double(values) => values,
+            Values::Single(values) => values.into_iter().map(f64::from).collect(),
+        };
+        let fits = self.rows.checked_mul(self.columns) == Some(values.len());
+        if !fits || values.iter().any(|v| !v.is_finite()) {
             return Err(ModelFileError::Damaged { what });
         }
-        Ok(Mat::from_fn(self.rows, self.columns, |i, j| self.values[j * self.rows + i]))
+        Ok(Mat::from_fn(self.rows, self.columns, |i, j| values[j * self.rows + i]))
     }
 }
 
 impl StoredBasis {
-    fn from_basis(basis: &PodBasis) -> Self {
-        Self { modes: StoredMatrix::from_mat(&basis.modes), singular_values: basis.singular_values.clone() }
+    fn from_basis(basis: &PodBasis, precision: Precision) -> Self {
+        Self { modes: StoredMatrix::from_mat(&basis.modes, precision), singular_values: basis.singular_values.clone() }
     }
 
     fn into_basis(self, what: &'static str) -> Result<PodBasis, ModelFileError> {
@@ -153,8 +177,8 @@ impl StoredBasis {
 }
 
 impl StoredWindow {
-    fn into_window(self, grid: Arc<ReferenceGrid>) -> Result<Window, ModelFileError> {
-        let nodes = grid.xi.len();
+    fn into_window(self, grid: ContactGrid) -> Result<Window, ModelFileError> {
+        let nodes = grid.len();
         let pressure = self.pressure.into_basis("pressure basis")?;
         let deformation = self.deformation.into_basis("deformation basis")?;
         let reconstruction = self.reconstruction.into_mat("sampled rows")?;
@@ -168,7 +192,7 @@ impl StoredWindow {
             return damaged("bases of another grid");
         }
         let rows_fit = self.sampled_rows.windows(2).all(|w| w[0] < w[1])
-            && self.sampled_rows.last().is_some_and(|&r| r + 3 < nodes)
+            && self.sampled_rows.last().is_some_and(|&r| r < grid.unknowns())
             && reconstruction.ncols() == self.sampled_rows.len()
             && reconstruction.nrows() == modes;
         if !rows_fit {
@@ -176,9 +200,13 @@ impl StoredWindow {
         }
         let snapshots_fit = self.snapshots.iter().all(|s| {
             s.point.check().is_ok()
+                && s.point.kind == grid.kind()
                 && s.coefficients.len() == modes
                 && s.coefficients.iter().chain([&s.h_0, &s.h_c]).all(|v| v.is_finite())
         });
+        if !(self.penalty.is_finite() && self.penalty > 0.0) {
+            return damaged("penalty");
+        }
         if self.snapshots.is_empty() || !snapshots_fit {
             return damaged("snapshots");
         }
@@ -187,17 +215,29 @@ impl StoredWindow {
         }
         let rows = SampledRows { rows: self.sampled_rows, reconstruction };
         let mut window = Window::new(self.m, grid, pressure, deformation, self.snapshots, self.sampling, rows);
-        window.calibration = self.calibration;
+        (window.penalty, window.calibration) = (self.penalty, self.calibration);
         Ok(window)
     }
 }
 
-/// The model that is part of the program.
+/// The model of line contacts that is part of the program.
 ///
 /// # Errors
 /// When the program was built with a damaged asset.
 pub fn embedded() -> Result<Arc<ReducedModel>, ModelFileError> {
-    from_bytes(EMBEDDED).map(Arc::new)
+    embedded_of(ContactKind::Line)
+}
+
+/// The model of one kind of contact that is part of the program.
+///
+/// # Errors
+/// When the program was built with a damaged asset.
+pub fn embedded_of(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileError> {
+    let bytes = match contact {
+        ContactKind::Line => EMBEDDED,
+        ContactKind::Point => return Err(ModelFileError::Foreign),
+    };
+    from_bytes(bytes).map(Arc::new)
 }
 
 /// Reads a model file. Its announced size is checked before anything is allocated.
@@ -225,6 +265,10 @@ pub fn write(model: &ReducedModel, path: &Path) -> Result<(), ModelFileError> {
 /// # Errors
 /// When the model cannot be encoded.
 pub fn to_bytes(model: &ReducedModel) -> Result<Vec<u8>, ModelFileError> {
+    let precision = match model.contact() {
+        ContactKind::Line => Precision::Double,
+        ContactKind::Point => Precision::Single,
+    };
     let stored = StoredModel {
         title: model.title.clone(),
         domain: model.domain.clone(),
@@ -233,12 +277,13 @@ pub fn to_bytes(model: &ReducedModel) -> Result<Vec<u8>, ModelFileError> {
             .iter()
             .map(|w| StoredWindow {
                 m: w.m,
-                grid: w.grid.spec,
-                pressure: StoredBasis::from_basis(&w.pressure),
-                deformation: StoredBasis::from_basis(&w.deformation),
+                grid: w.grid.spec(),
+                penalty: w.penalty,
+                pressure: StoredBasis::from_basis(&w.pressure, precision),
+                deformation: StoredBasis::from_basis(&w.deformation, precision),
                 sampling: w.sampling,
                 sampled_rows: w.sampled_rows.clone(),
-                reconstruction: StoredMatrix::from_mat(&w.reconstruction),
+                reconstruction: StoredMatrix::from_mat(&w.reconstruction, Precision::Double),
                 snapshots: w.snapshots.clone(),
                 calibration: w.calibration.clone(),
             })
@@ -264,16 +309,19 @@ pub fn from_bytes(bytes: &[u8]) -> Result<ReducedModel, ModelFileError> {
     if windows.is_empty() {
         return Err(ModelFileError::Damaged { what: "no windows" });
     }
+    if windows.iter().any(|window| window.grid.kind() != windows[0].grid.kind()) {
+        return Err(ModelFileError::Damaged { what: "windows of different contacts" });
+    }
     let StoredModel { title, domain, scene, log, .. } = StoredModel { windows: Vec::new(), ..stored };
     Ok(ReducedModel { title, domain, windows, scene, log })
 }
 
 /// The grid of each window. Building one is the costly part of reading a model, so equal ones are built once.
-fn grids(windows: &[StoredWindow]) -> Result<Vec<Arc<ReferenceGrid>>, ModelFileError> {
-    let mut grids: Vec<Arc<ReferenceGrid>> = Vec::with_capacity(windows.len());
+fn grids(windows: &[StoredWindow]) -> Result<Vec<ContactGrid>, ModelFileError> {
+    let mut grids: Vec<ContactGrid> = Vec::with_capacity(windows.len());
     for window in windows {
-        let grid = match grids.iter().find(|grid| grid.spec == window.grid) {
-            Some(built) => Arc::clone(built),
+        let grid = match grids.iter().find(|grid| grid.spec() == window.grid) {
+            Some(built) => built.clone(),
             None => window.grid.build()?,
         };
         grids.push(grid);

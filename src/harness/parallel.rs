@@ -3,8 +3,8 @@
 use super::error::HarnessError;
 use super::workbench::Cancel;
 use crate::solver::contact::OperatingPoint;
-use crate::solver::full::{FullSolver, Solution, Start};
-use crate::solver::grid::ReferenceGrid;
+use crate::solver::full::{ContactSolver, Solution, Start};
+use crate::solver::grid::ContactGrid;
 use crate::solver::lubricant::Lubricant;
 use crate::solver::reduced::{Online, ReducedError, ReducedModel, ReducedOptions, ReducedSolution};
 use crate::solver::training::{Progress, TrainingObserver};
@@ -38,7 +38,7 @@ impl Count<'_> {
 /// Cold full solutions, none where the solver does not converge; `grid` gives the grid of a point. Cold, so that no reduced solution can
 /// lead them to its root.
 pub(super) fn full_solutions(
-    grid: impl Fn(&OperatingPoint) -> Arc<ReferenceGrid> + Sync,
+    grid: impl Fn(&OperatingPoint) -> ContactGrid + Sync,
     points: &[OperatingPoint],
     lubricant: Lubricant,
     observer: &dyn TrainingObserver,
@@ -47,12 +47,12 @@ pub(super) fn full_solutions(
         Count { stage: "full solutions to compare with", done: AtomicUsize::new(0), total: points.len(), observer };
     points
         .par_iter()
-        .map_init(Vec::<FullSolver>::new, |solvers, point| {
+        .map_init(Vec::<ContactSolver>::new, |solvers, point| {
             let grid = grid(point);
-            let place = match solvers.iter().position(|solver| solver.reference().spec == grid.spec) {
+            let place = match solvers.iter().position(|solver| solver.grid_spec() == grid.spec()) {
                 Some(place) => place,
                 None => {
-                    solvers.push(FullSolver::on(grid));
+                    solvers.push(ContactSolver::on(&grid));
                     solvers.len() - 1
                 }
             };

@@ -16,7 +16,7 @@ use super::workbench::Workbench;
 use crate::scene::{ComparedPlan, ModelSource, OnlineScheme, QuantityBox, Scene, TestRange};
 use crate::solver::contact::OperatingPoint;
 use crate::solver::full::Solution;
-use crate::solver::grid::GridSpec;
+use crate::solver::grid::ContactGridSpec;
 use crate::solver::reduced::{ErrorMeasures, Norm, PodBasis, ReducedModel, Window};
 use crate::solver::training::TrainingObserver;
 use std::sync::Arc;
@@ -63,7 +63,7 @@ pub(super) fn run(
 ) -> Result<(), HarnessError> {
     let mut plans = Vec::new();
     for ComparedPlan { name, training, published_failure_percent } in study.plans {
-        let model = workbench.model(&ModelSource::Trained(training.clone()), observer)?;
+        let model = workbench.model(&ModelSource::Trained(training.clone()), scene.contact, observer)?;
         if model.windows.len() != 1 {
             let windows = model.windows.len();
             return Err(HarnessError::Study(format!("plans are compared on one window, but `{name}` has {windows}")));
@@ -86,13 +86,13 @@ pub(super) fn run(
     let mut trajectory = Trajectory::new(&path);
     for plan in &plans {
         let grid = &plan.window().grid;
-        let k = match truths.iter().position(|truth| truth.grid == grid.spec) {
+        let k = match truths.iter().position(|truth| truth.grid == grid.spec()) {
             Some(k) => k,
             None => {
                 let solve =
-                    |points: &[OperatingPoint]| full_solutions(|_| Arc::clone(grid), points, scene.lubricant, observer);
+                    |points: &[OperatingPoint]| full_solutions(|_| grid.clone(), points, scene.lubricant, observer);
                 let (random, along) = (solve(&points[..study.compare.min(points.len())])?, solve(&along)?);
-                truths.push(Truth { grid: grid.spec, random, along });
+                truths.push(Truth { grid: grid.spec(), random, along });
                 truths.len() - 1
             }
         };
@@ -125,7 +125,7 @@ pub(super) fn run(
 
 /// Full solutions on one grid.
 struct Truth {
-    grid: GridSpec,
+    grid: ContactGridSpec,
     random: Vec<Option<Solution>>,
     along: Vec<Option<Solution>>,
 }
@@ -212,7 +212,7 @@ fn films(name: &str, tested: &[Option<Reduced>], truth: &[Option<Solution>], out
 
 /// ‖P − V_k V_kᵀ W P‖/‖P‖ of full pressures under the grid's weights, with the first k modes.
 fn unseen(window: &Window, modes: usize, truth: &[Option<Solution>]) -> Vec<f64> {
-    let (basis, weights) = (&window.pressure.modes, &window.grid.weights);
+    let (basis, weights) = (&window.pressure.modes, window.grid.weights());
     let size = |p: &[f64]| weights.iter().zip(p).map(|(w, p)| w * p * p).sum::<f64>();
     truth
         .iter()

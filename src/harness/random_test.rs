@@ -11,7 +11,6 @@ use super::workbench::{Request, Workbench};
 use crate::scene::{Method, Scene, TestRange};
 use crate::solver::contact::OperatingPoint;
 use crate::solver::training::TrainingObserver;
-use std::sync::Arc;
 
 /// What is tested.
 pub(super) struct RandomTest<'a> {
@@ -101,8 +100,8 @@ pub(super) fn run(
     outcome.push("p99_s", of, percentile(&seconds, 0.99));
     if let Some(source) = test.method.model() {
         outcome.push("untrained", of, untrained as f64);
-        let model = workbench.model(source, observer)?;
-        let grid = |point: &OperatingPoint| Arc::clone(&model.windows[model.window_for(point.moes())].grid);
+        let model = workbench.model(source, scene.contact, observer)?;
+        let grid = |point: &OperatingPoint| model.windows[model.window_for(point.moes())].grid.clone();
         let full = full_solutions(grid, &points[..test.compare], scene.lubricant, observer)?;
         let mut errors: [Vec<f64>; 2] = Default::default();
         let mut full_failures = 0;

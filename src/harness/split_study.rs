@@ -29,7 +29,7 @@ pub(super) fn run(
     let Some(source) = method.model() else {
         return Err(HarnessError::Study("an error split needs a Reduced `method`".to_owned()));
     };
-    let model = workbench.model(source, observer)?;
+    let model = workbench.model(source, scene.contact, observer)?;
     let points = points_of(scene, contacts)?;
     let mut splitter = ErrorSplitter::new(model, ReducedOptions::default());
     let films = ["H_c", "H_min"].iter().flat_map(|film| PARTS.map(|part| format!("{film}.{part}")));

@@ -58,11 +58,11 @@ pub(super) fn run(
     let mut state = TrainingState::new(study.training.clone());
     let model = train_resumable(&mut state, observer)?;
     outcome.warnings.extend(model.log.iter().cloned());
-    let grid = Arc::clone(&model.windows[0].grid);
+    let grid = model.windows[0].grid.clone();
     let along: Vec<OperatingPoint> = (0..study.points)
         .map(|i| study.range.trajectory(scene.contact, 2.0 * i as f64 / (study.points - 1) as f64))
         .collect();
-    let truth = full_solutions(|_| Arc::clone(&grid), &along, scene.lubricant, observer)?;
+    let truth = full_solutions(|_| grid.clone(), &along, scene.lubricant, observer)?;
     let points = random_points(&TestRange::Box(*study.range), scene.contact, study.tests, study.seed);
     let options = study.online.options();
     let mut table = Table::new("tolerances", &COLUMNS);

@@ -15,7 +15,7 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 /// 5000 full solutions in each of some windows, on the finest grids that are used.
 const FORMAT: Format = Format { magic: b"EHLTRN\r\n", version: VERSION, max_payload: 2 << 30 };
 
@@ -222,7 +222,7 @@ pub fn remove(path: &Path) -> Result<(), TrainingFileError> {
 mod tests {
     use super::*;
     use crate::solver::contact::OperatingPoint;
-    use crate::solver::grid::GridSpec;
+    use crate::solver::grid::{ContactGridSpec, GridSpec};
     use crate::solver::reduced::Sampling;
     use crate::solver::training::{Plan, Range, Search, Solved, WindowSpec, WindowState};
 
@@ -238,18 +238,22 @@ mod tests {
             },
             lubricant: Default::default(),
             plan: Plan::FarthestPoint { snapshots: 8 },
-            windows: Windows::Given(vec![WindowSpec { m: (10.0, 20.0), grid: GridSpec::EXPLORER }]),
+            windows: Windows::Given(vec![WindowSpec {
+                m: (10.0, 20.0),
+                grid: ContactGridSpec::Line(GridSpec::EXPLORER),
+            }]),
             pressure_loss: 1e-6,
             deformation_loss: 1e-6,
             sampling: Sampling::QDeim,
             rows_per_mode: 2.0,
+            penalty: 1e6,
             evidence: 0,
             seed: 1,
         };
         let point = OperatingPoint::TABLE_2_1;
         let solved = Solved { place: 0, point, pressure: vec![0.5; 633], h_0: -0.1, h_c: 0.04 };
         let window = WindowState {
-            window: WindowSpec { m: (10.0, 20.0), grid: GridSpec::EXPLORER },
+            window: WindowSpec { m: (10.0, 20.0), grid: ContactGridSpec::Line(GridSpec::EXPLORER) },
             seed: 1,
             inherited: 0,
             solved: vec![solved],

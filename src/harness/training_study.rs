@@ -24,10 +24,11 @@ fn describe(model: &ReducedModel, outcome: &mut SceneOutcome) {
     let mut table =
         Table::new("windows", &["m_from", "m_to", "nodes", "snapshots", "basis_p", "basis_delta", "sampled_rows"]);
     for window in &model.windows {
+        let (nx, ny) = window.grid.nodes();
         table.rows.push(vec![
             window.m.0,
             window.m.1,
-            (window.grid.xi.len() - 1) as f64,
+            (nx * ny) as f64,
             window.snapshots.len() as f64,
             window.pressure.modes.ncols() as f64,
             window.deformation.modes.ncols() as f64,

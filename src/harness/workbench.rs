@@ -6,7 +6,7 @@ use crate::scene::{Grid, Method, ModelSource, Scene, Study};
 use crate::solver::contact::{ContactKind, Moes, OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
 use crate::solver::full::point::resolution_warning;
 use crate::solver::full::{FullSolver, PointSolver, Problem, Solution, Start};
-use crate::solver::grid::{GridSpec, ReferenceGrid};
+use crate::solver::grid::{ContactGrid, GridSpec, PointGrid, PointGridSpec, ReferenceGrid};
 use crate::solver::lubricant::{Lubricant, Sliding};
 use crate::solver::observer::Observer;
 use crate::solver::reduced::{ErrorEstimate, Online, ReducedError, ReducedModel, ReducedOptions, Trust, Window};
@@ -84,9 +84,12 @@ pub struct Workbench {
     base: PathBuf,
     solvers: Vec<FullSolver>,
     point_solvers: Vec<PointSolver>,
-    models: Vec<(ModelSource, Arc<ReducedModel>)>,
-    online: Vec<(ModelSource, Online)>,
+    models: Vec<(Wanted, Arc<ReducedModel>)>,
+    online: Vec<(Wanted, Online)>,
 }
+
+/// Where a model comes from, and of which kind of contact it should be: the program holds one of each.
+type Wanted = (ModelSource, ContactKind);
 
 /// Full solvers of line contacts kept at a time; the oldest goes first.
 const KEPT_SOLVERS: usize = 6;
@@ -116,32 +119,35 @@ impl Workbench {
 
     /// Puts a model in place of what its source would give.
     pub fn insert_model(&mut self, source: ModelSource, model: Arc<ReducedModel>) {
-        self.models.retain(|(kept, _)| *kept != source);
-        self.online.retain(|(kept, _)| *kept != source);
-        self.models.push((source, model));
+        let wanted = (source, model.contact());
+        self.models.retain(|(kept, _)| *kept != wanted);
+        self.online.retain(|(kept, _)| *kept != wanted);
+        self.models.push((wanted, model));
     }
 
-    /// The reduced model of a source: read, or trained, once.
+    /// The reduced model of a source, for one kind of contact: read, or trained, once.
     ///
     /// # Errors
     /// When it cannot be read or trained.
     pub fn model(
         &mut self,
         source: &ModelSource,
+        contact: ContactKind,
         observer: &dyn TrainingObserver,
     ) -> Result<Arc<ReducedModel>, HarnessError> {
-        if let Some((_, model)) = self.models.iter().find(|(kept, _)| kept == source) {
+        let wanted = (source.clone(), contact);
+        if let Some((_, model)) = self.models.iter().find(|(kept, _)| *kept == wanted) {
             return Ok(Arc::clone(model));
         }
         let model = match source {
-            ModelSource::Embedded => super::embedded_model().map_err(HarnessError::Embedded)?,
+            ModelSource::Embedded => super::embedded_model(contact).map_err(HarnessError::Embedded)?,
             ModelSource::File(path) => {
                 let path = self.base.join(path);
                 Arc::new(model_file::read(&path).map_err(|reason| HarnessError::Model { path, reason })?)
             }
             ModelSource::Trained(path) => Arc::new(train(&self.training(path)?, observer)?),
         };
-        self.models.push((source.clone(), Arc::clone(&model)));
+        self.models.push((wanted, Arc::clone(&model)));
         Ok(model)
     }
 
@@ -196,17 +202,33 @@ impl Workbench {
     /// The full solver of point contacts for a request's grid.
     ///
     /// # Errors
-    /// When the grid is refused.
-    pub fn point_solver(&mut self, request: &Request) -> Result<&mut PointSolver, HarnessError> {
-        let no_plane = || HarnessError::Study("a point contact needs a Plane `grid`, or none".to_owned());
-        let spec = request.grid.point_spec().ok_or_else(no_plane)?;
+    /// When the grid is refused or its model cannot be had.
+    pub fn point_solver(
+        &mut self,
+        request: &Request,
+        observer: &dyn TrainingObserver,
+    ) -> Result<&mut PointSolver, HarnessError> {
+        let (spec, ready): (PointGridSpec, Option<Arc<PointGrid>>) = match (request.grid, request.grid.point_spec()) {
+            (_, Some(spec)) => (spec, None),
+            (Grid::Model, None) => {
+                let model = self.model(&request.grid_model, ContactKind::Point, observer)?;
+                match &window_of(&model, request.point.moes())?.grid {
+                    ContactGrid::Point(grid) => (grid.spec, Some(Arc::clone(grid))),
+                    ContactGrid::Line(_) => return Err(other_contact(&model, ContactKind::Point)),
+                }
+            }
+            _ => return Err(HarnessError::Study("a point contact needs a Plane `grid`, Model, or none".to_owned())),
+        };
         let place = match self.point_solvers.iter().position(|solver| solver.grid().spec == spec) {
             Some(place) => place,
             None => {
                 if self.point_solvers.len() == KEPT_POINT_SOLVERS {
                     self.point_solvers.remove(0);
                 }
-                self.point_solvers.push(PointSolver::new(spec)?);
+                self.point_solvers.push(match ready {
+                    Some(grid) => PointSolver::on(grid),
+                    None => PointSolver::new(spec)?,
+                });
                 self.point_solvers.len() - 1
             }
         };
@@ -226,9 +248,11 @@ impl Workbench {
         let (spec, ready): (GridSpec, Option<Arc<ReferenceGrid>>) = match request.grid.spec() {
             Some(spec) => (spec, None),
             None => {
-                let model = self.model(&request.grid_model, observer)?;
-                let window = window_of(&model, moes)?;
-                (window.grid.spec, Some(Arc::clone(&window.grid)))
+                let model = self.model(&request.grid_model, ContactKind::Line, observer)?;
+                match &window_of(&model, moes)?.grid {
+                    ContactGrid::Line(grid) => (grid.spec, Some(Arc::clone(grid))),
+                    ContactGrid::Point(_) => return Err(other_contact(&model, ContactKind::Line)),
+                }
             }
         };
         let place = match self.solvers.iter().position(|solver| solver.reference().spec == spec) {
@@ -264,7 +288,7 @@ impl Workbench {
                 (solver.solve_problem(*problem, start, cancel), clock.elapsed().as_secs_f64())
             }
             ContactKind::Point => {
-                let solver = self.point_solver(request)?;
+                let solver = self.point_solver(request, observer)?;
                 let clock = Instant::now();
                 (solver.solve_problem(*problem, start, cancel)?, clock.elapsed().as_secs_f64())
             }
@@ -313,11 +337,12 @@ impl Workbench {
         source: &ModelSource,
         observer: &dyn TrainingObserver,
     ) -> Result<Answer, HarnessError> {
-        let model = self.model(source, observer)?;
-        let place = match self.online.iter().position(|(kept, _)| kept == source) {
+        let wanted = (source.clone(), problem.point.kind);
+        let model = self.model(source, problem.point.kind, observer)?;
+        let place = match self.online.iter().position(|(kept, _)| *kept == wanted) {
             Some(place) => place,
             None => {
-                self.online.push((source.clone(), Online::new(Arc::clone(&model), ReducedOptions::default())));
+                self.online.push((wanted, Online::new(Arc::clone(&model), ReducedOptions::default())));
                 self.online.len() - 1
             }
         };
@@ -328,6 +353,7 @@ impl Workbench {
         let solved = online.solve(&problem.point, request.lubricant);
         let wall_s = clock.elapsed().as_secs_f64();
         let window = window_of(&model, problem.moes)?;
+        let (nodes, nodes_across) = window.grid.nodes();
         let trust = model.trust(problem);
         let mut warnings = Vec::new();
         if let Trust::Outside(reason) = &trust {
@@ -362,8 +388,8 @@ impl Workbench {
             method: Method::Reduced { model: source.clone() },
             converged: solution.is_some(),
             warnings,
-            nodes: window.grid.xi.len() - 1,
-            nodes_across: 1,
+            nodes,
+            nodes_across,
             dofs: facts.basis_p + 1,
             newton_iterations,
             linear_iterations: None,
@@ -378,6 +404,11 @@ impl Workbench {
 fn window_of(model: &ReducedModel, moes: Moes) -> Result<&Window, HarnessError> {
     let none = || HarnessError::Study(format!("the reduced model `{}` holds no window", model.title));
     model.windows.get(model.window_for(moes)).ok_or_else(none)
+}
+
+/// A model asked about the other kind of contact.
+fn other_contact(model: &ReducedModel, given: ContactKind) -> HarnessError {
+    ReducedError::OtherContact { model: model.contact(), given }.into()
 }
 
 impl Answer {

@@ -74,10 +74,10 @@ fn grid(grid: &Grid, contact: ContactKind) -> Checked {
         (ContactKind::Line, Grid::Plane { .. }) => {
             return Err(refuse("grid", "is Plane, but a line contact has no Y; write Uniform, Graded or GradedNodes"));
         }
-        (ContactKind::Point, Grid::Uniform { .. } | Grid::GradedNodes { .. } | Grid::Model) => {
+        (ContactKind::Point, Grid::Uniform { .. } | Grid::GradedNodes { .. }) => {
             return Err(refuse(
                 "grid",
-                "must be Plane(dx: …, dy: …, domain: (…, …, …)) for a point contact, or left out",
+                "must be Plane(dx: …, dy: …, domain: (…, …, …)) or Model for a point contact, or left out",
             ));
         }
         _ => {}
@@ -104,23 +104,18 @@ fn grid(grid: &Grid, contact: ContactKind) -> Checked {
 }
 
 fn study(scene: &Scene) -> Checked {
-    if scene.contact == ContactKind::Point && scene.study.methods().iter().any(|method| *method != Method::Full) {
-        return Err(refuse(
-            "study",
-            "asks for a reduced model of a point contact, which this version does not have; write Full",
-        ));
-    }
     match &scene.study {
-        Study::Training(_)
-        | Study::ErrorSplit { .. }
-        | Study::ErrorMeasures { .. }
-        | Study::DistanceMeasure { .. }
-        | Study::PlanComparison { .. }
-        | Study::ToleranceStudy { .. }
-            if scene.contact == ContactKind::Point =>
-        {
-            Err(refuse("study", "is about reduced models, of which this version has none of a point contact"))
+        Study::ErrorSplit { .. } | Study::DistanceMeasure { .. } if scene.contact == ContactKind::Point => {
+            Err(refuse("study", "is made for line contacts only; write `contact: Line`, or another study"))
         }
+        Study::Training(spec) if spec.contact() != scene.contact => Err(refuse(
+            "study.windows",
+            format!(
+                "hold grids of {} contacts, but the scene's is a {} contact",
+                spec.contact().name(),
+                scene.contact.name()
+            ),
+        )),
         Study::Point { methods: list } => methods("study.methods", list),
         Study::Sweep { over, methods: list, .. } => {
             methods("study.methods", list)?;

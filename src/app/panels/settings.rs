@@ -76,7 +76,7 @@ fn model_ui(ui: &mut Ui, state: &mut State) {
         ui.label(format!("{} of {all}", options.pressure_modes.unwrap_or(all)));
         ui.end_row();
         ui.label("Sampled rows").on_hover_text("Rows of the Reynolds equation that the reduced model evaluates");
-        ui.label(format!("{} of {}", window.sampled_rows.len(), window.grid.xi.len().saturating_sub(3)));
+        ui.label(format!("{} of {}", window.sampled_rows.len(), window.grid.unknowns()));
         ui.end_row();
         let tip = "How the reduced model deforms the bodies";
         let projected = &mut state.document.view.projected_deformation;

@@ -6,7 +6,7 @@ use crate::app::files::Purpose;
 use crate::app::numbers;
 use crate::app::state::State;
 use crate::app::theme::Palette;
-use crate::solver::grid::FIRST_UNKNOWN;
+use crate::solver::grid::ContactGrid;
 use crate::solver::reduced::{PodBasis, ReducedModel, Window};
 use egui::{Align2, Color32, ComboBox, RichText, Ui};
 use egui_plot::{
@@ -86,14 +86,14 @@ impl Curves {
             log(&mut basis.singular_values.iter().map(|s| s / first), 1)
         };
         let loss = |basis: &PodBasis| log(&mut (1..=basis.singular_values.len()).map(|k| basis.loss(k)), 1);
-        let rows = window.sampled_rows.iter().filter_map(|row| window.grid.xi.get(row + FIRST_UNKNOWN));
+        let rows = window.sampled_rows.iter().map(|row| window.grid.place(window.grid.node(*row)).0);
         Self {
             window: at,
             model: Arc::clone(model),
             singular: [singular(&window.pressure), singular(&window.deformation)],
             loss: [loss(&window.pressure), loss(&window.deformation)],
             modes: Vec::new(),
-            rows: rows.map(|xi| PlotPoint::new(*xi, 0.0)).collect(),
+            rows: rows.map(|xi| PlotPoint::new(xi, 0.0)).collect(),
         }
     }
 }
@@ -301,7 +301,7 @@ fn mode_plot(ui: &mut Ui, state: &mut State, window: &Window, height: f32) {
     let last = (first + SHOWN_MODES).min(field.of(window).modes.ncols());
     for k in first..last {
         if !curves.modes.iter().any(|m| m.0 == field && m.1 == k) {
-            let points = mode_points(field.of(window), &window.grid.xi, k);
+            let points = mode_points(field.of(window), &window.grid, k);
             curves.modes.push((field, k, points));
         }
     }
@@ -323,9 +323,10 @@ fn mode_plot(ui: &mut Ui, state: &mut State, window: &Window, height: f32) {
 }
 
 /// One mode, scaled to a largest magnitude of one: its weights make the columns themselves hard to compare.
-fn mode_points(basis: &PodBasis, xi: &[f64], k: usize) -> Vec<PlotPoint> {
-    let rows = basis.modes.nrows().min(xi.len());
-    let column = (0..rows).map(|i| basis.modes[(i, k)]);
+fn mode_points(basis: &PodBasis, grid: &ContactGrid, k: usize) -> Vec<PlotPoint> {
+    let column = (0..basis.modes.nrows()).map(|i| basis.modes[(i, k)]);
     let largest = column.clone().map(f64::abs).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
-    xi.iter().zip(column).skip(1).map(|(x, v)| PlotPoint::new(*x, v / largest)).collect()
+    let points = column.enumerate().map(|(node, v)| (grid.place(node), v / largest));
+    // Along the axis Y = 0 where there is anything across.
+    points.filter(|((_, y), _)| *y == 0.0).skip(1).map(|((xi, _), v)| PlotPoint::new(xi, v)).collect()
 }

@@ -48,7 +48,7 @@ pub fn fit_windows(spec: &mut TrainingSpec) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::grid::GridSpec;
+    use crate::solver::grid::{ContactGridSpec, GridSpec};
     use crate::solver::training::{Range, WindowSpec};
 
     #[test]
@@ -60,7 +60,7 @@ mod tests {
 
     #[test]
     fn windows_follow_the_range() {
-        let grid = GridSpec::EXPLORER;
+        let grid = ContactGridSpec::Line(GridSpec::EXPLORER);
         let windows = [(2.0, 9.0), (9.0, 40.0), (40.0, 500.0)].map(|m| WindowSpec { m, grid });
         let mut spec = TrainingSpec { windows: Windows::Given(windows.into()), ..slider_range().unwrap().clone() };
         let mut fitted = |range| {

@@ -2,6 +2,7 @@
 
 mod attempts;
 mod band;
+mod contact_solver;
 pub mod dense;
 mod gmres;
 mod line;
@@ -13,8 +14,9 @@ mod start;
 mod tests;
 mod traction;
 
+pub use contact_solver::ContactSolver;
 pub use line::{LineSystem, SolveOptions};
-pub use point::{PointOptions, PointSolver};
+pub use point::{PointOptions, PointSolver, PointSystem};
 pub use solution::{
     Mesh, Problem, Report, Scalars, Solution, SolveError, Termination, Traction, point_scalars_of, scalars_of,
 };

@@ -2,7 +2,7 @@
 
 use crate::solver::contact::{ContactError, ContactKind, Moes, OperatingPoint};
 use crate::solver::grid::{
-    FIRST_UNKNOWN, GridError, GridSpec, LineGrid, PointGrid, PointGridError, PointGridSpec, dot,
+    ContactGridError, FIRST_UNKNOWN, GridError, GridSpec, LineGrid, PointGrid, PointGridError, PointGridSpec, dot,
 };
 use crate::solver::lubricant::{Lubricant, LubricantError, ScaledFluid, ScaledShear, Sliding};
 use serde::{Deserialize, Serialize};
@@ -31,6 +31,15 @@ pub enum SolveError {
         /// What it was given.
         given: ContactKind,
     },
+}
+
+impl From<ContactGridError> for SolveError {
+    fn from(refused: ContactGridError) -> Self {
+        match refused {
+            ContactGridError::Line(refused) => refused.into(),
+            ContactGridError::Point(refused) => refused.into(),
+        }
+    }
 }
 
 /// One dimensionless problem: what the solver needs of an operating point and a lubricant.

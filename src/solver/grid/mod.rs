@@ -1,8 +1,11 @@
-//! The computational domains: of a line contact along X ([`mod@line`]), of the half of a point contact that its symmetry leaves ([`mod@point`]).
+//! The computational domains: of a line contact along X ([`mod@line`]), of the half of a point contact that its symmetry leaves ([`mod@point`]),
+//! and of either kind ([`mod@contact`]).
 
+pub mod contact;
 pub mod line;
 pub mod point;
 
+pub use contact::{ContactGrid, ContactGridError, ContactGridSpec};
 pub use line::{
     FIRST_UNKNOWN, GridError, GridSpec, INLET, LineGrid, MAX_GRADED_NODES, MAX_UNIFORM_NODES, ReferenceGrid,
     registration_scale, spike_position,

@@ -274,9 +274,14 @@ impl PointGrid {
 
     /// Value of a node array on the axis at X by cubic interpolation.
     pub fn on_axis(&self, values: &[f64], x: f64) -> f64 {
+        self.interpolation_on_axis(x).iter().map(|(node, w)| w * values[*node]).sum()
+    }
+
+    /// Nodes and weights of the cubic interpolation on the axis at X; a single unit weight where X is a node.
+    pub fn interpolation_on_axis(&self, x: f64) -> [(usize, f64); 4] {
         let (first, weights) = cubic(&self.x, x);
         let ny = self.ny();
-        weights.iter().enumerate().map(|(k, w)| w * values[(first + k) * ny + ny - 1]).sum()
+        std::array::from_fn(|k| ((first + k) * ny + ny - 1, weights[k]))
     }
 }
 

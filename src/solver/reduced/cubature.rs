@@ -1,118 +1,227 @@
 //! Goal-oriented cubature: few rows with non-negative weights that give every Newton *step* what all rows would give it.
 //!
-//! For each iterate of the all-rows reduced model, three functionals of the Newton step are demanded to come out right (two random ones of Δp̃,
+//! For each iterate of the all-rows reduced model, some functionals of the Newton step are demanded to come out right (random ones of Δp̃,
 //! and ΔH_c): Σ_i ω_i (T V_i) w_i f_i = T Vᵀ W f with T = L J_r⁻¹, and the same with f replaced by J V Δz̃. Relative weights ω = 1 on all rows
 //! solve the equations exactly; a greedy non-negative least squares finds few rows that nearly do, and pruning drops the least useful ones
-//! (`NUMERICS` 5.4, 5.6). Only the Gram matrix of the equations is kept, whatever their number.
+//! (`NUMERICS` 5.4, 5.6).
+//!
+//! The equations of a point contact are thousands over thousands of rows: they are kept in single precision, and inner products are formed
+//! for rows that the greedy has looked at, not for all pairs.
 
-use super::pod::PodBasis;
-use super::sampling::SampledRows;
-use crate::solver::grid::FIRST_UNKNOWN;
+use super::sampling::{SampledRows, TestSpace};
 use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::{Llt, Solve};
 use faer::{Accum, Mat, Par, Side};
 
 /// Rows the forward greedy collects before pruning, relative to the target.
-const OVERSHOOT: f64 = 1.5;
-/// Ridge on the Gram matrix of unit columns.
+const OVERSHOOT: f64 = 2.0;
+/// Ridge on the inner products of unit columns.
 const RIDGE: f64 = 1e-12;
+/// Rows whose test functions √w ‖V_i‖ stay below this are no candidates: nothing happens there.
+const LEAST_TEST: f64 = 3e-4;
+/// Rounds without growth after which the greedy ends.
+const STALLS: usize = 8;
 
-/// The equations' columns, accumulated as their Gram matrix AᵀA over the rows of the Reynolds equation.
-#[derive(Clone, Debug)]
+/// Equations that a cubature rule should satisfy, one column per candidate row.
+#[derive(Clone, Debug, PartialEq)]
 pub struct GoalEquations {
-    gram: Mat<f64>,
-    /// Equations collected.
-    pub count: usize,
+    /// Rows that may be sampled, ascending.
+    candidates: Vec<usize>,
+    /// Equation after equation.
+    entries: Vec<f32>,
+    /// What all rows together give, one per equation.
+    wanted: Vec<f64>,
 }
 
 impl GoalEquations {
-    /// No equations yet, over `rows` candidate rows.
-    pub fn new(rows: usize) -> Self {
-        Self { gram: Mat::zeros(rows, rows), count: 0 }
+    /// No equations yet, over candidate rows.
+    pub fn new(candidates: Vec<usize>) -> Self {
+        Self { candidates, entries: Vec::new(), wanted: Vec::new() }
     }
 
-    /// Adds equations: one per row of `block`, one column per candidate.
-    pub fn add(&mut self, block: &Mat<f64>) {
-        matmul(self.gram.as_mut(), Accum::Add, block.transpose(), block.as_ref(), 1.0, Par::Seq);
-        self.count += block.nrows();
+    /// No equations yet, over the rows of a test space that matter.
+    pub fn over(test: &TestSpace) -> Self {
+        let matters = |&row: &usize| {
+            let square: f64 = test.modes.row(row).iter().map(|v| v * v).sum();
+            (test.weights[row] * square).sqrt() > LEAST_TEST
+        };
+        Self::new((0..test.weights.len()).filter(matters).collect())
+    }
+
+    /// The candidate rows.
+    pub fn candidates(&self) -> &[usize] {
+        &self.candidates
+    }
+
+    /// Equations collected.
+    pub fn count(&self) -> usize {
+        self.wanted.len()
+    }
+
+    /// Adds an equation, given its coefficient at every row.
+    pub fn add(&mut self, coefficients: impl Fn(usize) -> f64, rows: usize) {
+        self.wanted.push((0..rows).map(&coefficients).sum());
+        self.entries.extend(self.candidates.iter().map(|&row| coefficients(row) as f32));
     }
 
     /// Adds the equations of another collection over the same rows.
     pub fn merge(&mut self, other: &Self) {
-        self.gram += &other.gram;
-        self.count += other.count;
+        self.entries.extend_from_slice(&other.entries);
+        self.wanted.extend_from_slice(&other.wanted);
     }
 
     /// Rows and relative weights: at most `target` rows. `None` when the equations are degenerate.
     pub fn solve(&self, target: usize) -> Option<(Vec<usize>, Vec<f64>)> {
-        let n = self.gram.nrows();
-        // Unit columns; rows that never matter are no candidates. The right-hand side is A·1.
-        let norms: Vec<f64> = (0..n).map(|i| self.gram[(i, i)].max(0.0).sqrt()).collect();
-        let largest = norms.iter().copied().fold(0.0, f64::max);
-        let candidates: Vec<usize> = (0..n).filter(|&i| norms[i] > 1e-9 * largest).collect();
-        let unit = |i: usize, j: usize| self.gram[(i, j)] / (norms[i] * norms[j]);
-        let wanted: Vec<f64> = (0..n)
-            .map(|i| if norms[i] > 0.0 { (0..n).map(|j| self.gram[(i, j)]).sum::<f64>() / norms[i] } else { 0.0 })
-            .collect();
-        let fit = |support: &[usize]| -> Option<Mat<f64>> {
-            let m = support.len();
-            let gram = Mat::from_fn(m, m, |r, c| unit(support[r], support[c]) + if r == c { RIDGE } else { 0.0 });
-            let rhs = Mat::from_fn(m, 1, |r, _| wanted[support[r]]);
-            Llt::new(gram.as_ref(), Side::Lower).ok().map(|llt| llt.solve(&rhs))
-        };
-        // Non-negative fit on a support: drop the most negative until none is left.
-        let positive_fit = |support: &mut Vec<usize>| -> Option<Vec<f64>> {
-            loop {
-                let w = fit(support)?;
-                let worst = (0..support.len()).min_by(|&a, &b| w[(a, 0)].total_cmp(&w[(b, 0)]))?;
-                if w[(worst, 0)] > 0.0 {
-                    return Some((0..support.len()).map(|k| w[(k, 0)]).collect());
-                }
-                support.swap_remove(worst);
-            }
-        };
-        let forward = ((target as f64 * OVERSHOOT).ceil() as usize).min(candidates.len());
+        let mut fit = Fit::new(self);
+        let forward = ((target as f64 * OVERSHOOT).ceil() as usize).min(fit.useful());
         let mut support: Vec<usize> = Vec::with_capacity(forward);
         let mut weights: Vec<f64> = Vec::new();
         let mut stalls = 0;
-        while support.len() < forward && stalls < 8 {
+        while support.len() < forward && stalls < STALLS {
             let before = support.len();
-            let gradient =
-                |i: usize| wanted[i] - support.iter().zip(&weights).map(|(&s, w)| unit(i, s) * w).sum::<f64>();
-            let mut ranked: Vec<(usize, f64)> = candidates
-                .iter()
-                .filter(|i| !support.contains(i))
-                .map(|&i| (i, gradient(i)))
-                .filter(|g| g.1 > 0.0)
-                .collect();
-            ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
+            let gradient = fit.gradient(&support, &weights);
+            let mut ranked: Vec<usize> = (0..gradient.len()).filter(|&i| gradient[i] > 0.0).collect();
+            ranked.sort_by(|&a, &b| gradient[b].total_cmp(&gradient[a]));
             // Several columns per round at first; one at a time after a stall, which also ends cycling.
             let batch = if stalls > 0 { 1 } else { (forward / 12).clamp(1, forward - before) };
-            support.extend(ranked.iter().take(batch).map(|g| g.0));
-            weights = positive_fit(&mut support)?;
+            let further = ranked.into_iter().filter(|i| !support.contains(i)).take(batch);
+            let further: Vec<usize> = further.collect();
+            support.extend(further);
+            fit.look_at(&support);
+            weights = fit.non_negative(&mut support)?;
             if support.len() <= before {
                 stalls += 1;
             }
         }
         while support.len() > target {
-            let m = support.len();
-            let gram = Mat::from_fn(m, m, |r, c| unit(support[r], support[c]) + if r == c { RIDGE } else { 0.0 });
-            let inverse = Llt::new(gram.as_ref(), Side::Lower).ok()?.solve(Mat::<f64>::identity(m, m));
-            let w: Vec<f64> = (0..m).map(|r| (0..m).map(|c| inverse[(r, c)] * wanted[support[c]]).sum()).collect();
-            // What the fit loses without a row is w²/(G⁻¹)ᵢᵢ; rows that want a negative weight go first.
-            let value = |k: usize| if w[k] <= 0.0 { w[k] } else { w[k] * w[k] / inverse[(k, k)] };
-            let mut order: Vec<usize> = (0..m).collect();
-            order.sort_by(|&a, &b| value(a).total_cmp(&value(b)));
-            let mut leaving: Vec<usize> = order.into_iter().take(2.min(m - target)).collect();
-            leaving.sort_unstable_by(|a, b| b.cmp(a));
-            for k in leaving {
-                support.swap_remove(k);
-            }
+            fit.prune(&mut support, target)?;
         }
-        let weights = positive_fit(&mut support)?;
-        let mut pairs: Vec<(usize, f64)> = support.iter().zip(&weights).map(|(&i, w)| (i, w / norms[i])).collect();
+        let weights = fit.non_negative(&mut support)?;
+        let rule = support.iter().zip(&weights).map(|(&i, w)| (self.candidates[i], w / fit.norms[i]));
+        let mut pairs: Vec<(usize, f64)> = rule.collect();
         pairs.sort_by_key(|p| p.0);
         Some(pairs.into_iter().unzip())
+    }
+}
+
+/// Least squares on the equations' columns, scaled to unit length. Columns are named by their place among the candidates.
+struct Fit<'a> {
+    equations: &'a GoalEquations,
+    /// Lengths of the columns.
+    norms: Vec<f64>,
+    /// Columns looked at so far, and where each column is among them.
+    seen: Vec<usize>,
+    place: Vec<Option<usize>>,
+    /// The unit columns looked at, their inner products, and those with the right-hand side.
+    columns: Mat<f64>,
+    gram: Mat<f64>,
+    right: Vec<f64>,
+}
+
+impl<'a> Fit<'a> {
+    fn new(equations: &'a GoalEquations) -> Self {
+        let n = equations.candidates.len();
+        let mut norms = vec![0.0; n];
+        for equation in equations.entries.chunks_exact(n.max(1)) {
+            norms.iter_mut().zip(equation).for_each(|(norm, &a)| *norm += f64::from(a) * f64::from(a));
+        }
+        norms.iter_mut().for_each(|norm| *norm = norm.sqrt());
+        let (columns, gram) = (Mat::zeros(equations.count(), 0), Mat::zeros(0, 0));
+        Self { equations, norms, seen: Vec::new(), place: vec![None; n], columns, gram, right: Vec::new() }
+    }
+
+    /// Whether a column may be used at all: rows that never matter may not.
+    fn usable(&self, i: usize, largest: f64) -> bool {
+        self.norms[i] > 1e-9 * largest
+    }
+
+    fn largest(&self) -> f64 {
+        self.norms.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// How many columns may be used.
+    fn useful(&self) -> usize {
+        let largest = self.largest();
+        (0..self.norms.len()).filter(|&i| self.usable(i, largest)).count()
+    }
+
+    /// Inner product of every unit column with what a rule leaves of the right-hand side; 0 for those that may not be used.
+    fn gradient(&self, support: &[usize], weights: &[f64]) -> Vec<f64> {
+        let GoalEquations { candidates, entries, wanted } = self.equations;
+        let mut rest = wanted.clone();
+        for (i, weight) in support.iter().zip(weights) {
+            if let Some(place) = self.place[*i] {
+                rest.iter_mut().zip(self.columns.col(place).iter()).for_each(|(r, a)| *r -= weight * a);
+            }
+        }
+        let mut gradient = vec![0.0; candidates.len()];
+        for (equation, rest) in entries.chunks_exact(candidates.len().max(1)).zip(&rest) {
+            gradient.iter_mut().zip(equation).for_each(|(g, &a)| *g += rest * f64::from(a));
+        }
+        let largest = self.largest();
+        for (i, g) in gradient.iter_mut().enumerate() {
+            *g = if self.usable(i, largest) { *g / self.norms[i] } else { 0.0 };
+        }
+        gradient
+    }
+
+    /// Forms the inner products of columns that were not looked at before.
+    fn look_at(&mut self, columns: &[usize]) {
+        let fresh: Vec<usize> = columns.iter().copied().filter(|&i| self.place[i].is_none()).collect();
+        let (rows, known, n) = (self.equations.count(), self.seen.len(), self.equations.candidates.len());
+        for &i in &fresh {
+            self.place[i] = Some(self.seen.len());
+            self.seen.push(i);
+        }
+        let (seen, entries, norms) = (&self.seen, &self.equations.entries, &self.norms);
+        self.columns.resize_with(rows, seen.len(), |e, c| f64::from(entries[e * n + seen[c]]) / norms[seen[c]]);
+        let new = self.columns.get(.., known..);
+        let mut products = Mat::zeros(seen.len(), fresh.len());
+        matmul(products.as_mut(), Accum::Replace, self.columns.transpose(), new, 1.0, Par::Seq);
+        let column = |r: usize, c: usize| if c >= known { products[(r, c - known)] } else { products[(c, r - known)] };
+        self.gram.resize_with(seen.len(), seen.len(), column);
+        let wanted = &self.equations.wanted;
+        self.right.extend(new.col_iter().map(|column| column.iter().zip(wanted).map(|(a, b)| a * b).sum::<f64>()));
+    }
+
+    /// Inner products and right-hand side of a support.
+    fn normal_equations(&self, support: &[usize]) -> Option<(Mat<f64>, Mat<f64>)> {
+        let places: Vec<usize> = support.iter().map(|&i| self.place[i]).collect::<Option<_>>()?;
+        let m = places.len();
+        let ridge = |r: usize, c: usize| if r == c { RIDGE } else { 0.0 };
+        let gram = Mat::from_fn(m, m, |r, c| self.gram[(places[r], places[c])] + ridge(r, c));
+        Some((gram, Mat::from_fn(m, 1, |r, _| self.right[places[r]])))
+    }
+
+    /// Non-negative fit on a support: drops the most negative until none is left.
+    fn non_negative(&self, support: &mut Vec<usize>) -> Option<Vec<f64>> {
+        loop {
+            let (gram, right) = self.normal_equations(support)?;
+            let w = Llt::new(gram.as_ref(), Side::Lower).ok()?.solve(&right);
+            let worst = (0..support.len()).min_by(|&a, &b| w[(a, 0)].total_cmp(&w[(b, 0)]))?;
+            if w[(worst, 0)] > 0.0 {
+                return Some((0..support.len()).map(|k| w[(k, 0)]).collect());
+            }
+            support.swap_remove(worst);
+        }
+    }
+
+    /// Takes one or two rows out, those that the fit misses least.
+    fn prune(&self, support: &mut Vec<usize>, target: usize) -> Option<()> {
+        let (gram, right) = self.normal_equations(support)?;
+        let m = support.len();
+        let inverse = Llt::new(gram.as_ref(), Side::Lower).ok()?.solve(Mat::<f64>::identity(m, m));
+        let w: Vec<f64> = (0..m).map(|r| (0..m).map(|c| inverse[(r, c)] * right[(c, 0)]).sum()).collect();
+        // What the fit loses without a row is w²/(G⁻¹)ᵢᵢ; rows that want a negative weight go first.
+        let value = |k: usize| if w[k] <= 0.0 { w[k] } else { w[k] * w[k] / inverse[(k, k)] };
+        let mut order: Vec<usize> = (0..m).collect();
+        order.sort_by(|&a, &b| value(a).total_cmp(&value(b)));
+        let mut leaving: Vec<usize> = order.into_iter().take(2.min(m - target)).collect();
+        leaving.sort_unstable_by(|a, b| b.cmp(a));
+        for k in leaving {
+            support.swap_remove(k);
+        }
+        Some(())
     }
 }
 
@@ -120,15 +229,14 @@ impl GoalEquations {
 const LEAST_ROWS_PER_MODE: f64 = 1.2;
 
 /// Sampled rows with G = V_Iᵀ diag(w ω). `None` when the equations are satisfied by too few rows to carry the modes: collect more of them.
-pub fn cubature(basis: &PodBasis, weights: &[f64], equations: &GoalEquations, target: usize) -> Option<SampledRows> {
+pub fn cubature(test: &TestSpace, equations: &GoalEquations, target: usize) -> Option<SampledRows> {
     let (rows, relative) = equations.solve(target)?;
-    if (rows.len() as f64) < LEAST_ROWS_PER_MODE * basis.modes.ncols() as f64 {
+    let modes = test.modes.ncols();
+    if (rows.len() as f64) < LEAST_ROWS_PER_MODE * modes as f64 {
         return None;
     }
-    let reconstruction = Mat::from_fn(basis.modes.ncols(), rows.len(), |k, r| {
-        let node = rows[r] + FIRST_UNKNOWN;
-        relative[r] * weights[node] * basis.modes[(node, k)]
-    });
+    let reconstruction =
+        Mat::from_fn(modes, rows.len(), |k, r| relative[r] * test.weights[rows[r]] * test.modes[(rows[r], k)]);
     Some(SampledRows { rows, reconstruction })
 }
 
@@ -142,8 +250,8 @@ mod tests {
         let n = 60;
         let x = |i: usize| (i as f64 + 0.5) / n as f64;
         let block = Mat::from_fn(6, n, |degree, i| x(i).powi(degree as i32) / n as f64);
-        let mut equations = GoalEquations::new(n);
-        equations.add(&block);
+        let mut equations = GoalEquations::new((0..n).collect());
+        (0..6).for_each(|degree| equations.add(|i| block[(degree, i)], n));
         let (rows, weights) = equations.solve(10).unwrap();
         assert!(rows.len() <= 10 && weights.iter().all(|w| *w > 0.0));
         for degree in 0..6 {
@@ -154,13 +262,14 @@ mod tests {
     }
 
     #[test]
-    fn collections_merge() {
-        let block = Mat::from_fn(2, 5, |r, c| (r * 5 + c) as f64);
-        let (mut a, mut b) = (GoalEquations::new(5), GoalEquations::new(5));
-        a.add(&block);
-        b.add(&block);
-        a.merge(&b);
-        assert_eq!(a.count, 4);
-        assert!((a.gram[(1, 2)] - 2.0 * b.gram[(1, 2)]).abs() < 1e-12);
+    fn collections_merge_and_want_what_all_rows_give() {
+        let coefficient = |e: usize| move |row: usize| (e * 5 + row) as f64;
+        let mut both = GoalEquations::new(vec![1, 3]);
+        both.add(coefficient(0), 5);
+        let mut second = GoalEquations::new(vec![1, 3]);
+        second.add(coefficient(1), 5);
+        both.merge(&second);
+        assert_eq!(both.entries, [1.0, 3.0, 6.0, 8.0]);
+        assert_eq!((both.count(), both.wanted.as_slice()), (2, &[10.0, 35.0][..]));
     }
 }

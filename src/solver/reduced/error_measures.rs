@@ -1,6 +1,6 @@
 //! Error measures of section 3.1.2: e_z against a full solution (3.10), the residuals e_f (3.14) and e_f^I (3.15).
 //!
-//! The state is the dissertation's, z = (P, δ, H₀). P and δ are node arrays, δ the elastic deformation H − H₀ − X²/2; f_δ = δ − K P is
+//! The state is the dissertation's, z = (P, δ, H₀). P and δ are node arrays, δ the elastic deformation H − H₀ − (X² + Y²)/2; f_δ = δ − K P is
 //! taken in the reference coordinate, in which the reduced model lives. Which norm ‖·‖ is meant is a choice of [`Norm`]. A model
 //! whose deformation is the exact K V_p has f_δ = 0 and no δ̃; with V_δ the Galerkin rows give δ̃ = V_δᵀ W K V_p p̃.
 //!
@@ -10,18 +10,17 @@
 use super::model::{Window, deformation_weights};
 use super::online::ReducedOptions;
 use crate::solver::full::Solution;
-use crate::solver::grid::{FIRST_UNKNOWN, ReferenceGrid};
+use crate::solver::grid::ContactGrid;
 use crate::solver::reynolds::{Node, row};
 use faer::{ColRef, Mat};
 use serde::{Deserialize, Serialize};
-use std::sync::Arc;
 
 /// In which norm states and residuals are measured; H₀ and the load balance count once in either.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
 pub enum Norm {
     /// All nodes count alike: the dissertation's ‖·‖₂, which grows with the number of nodes.
     Euclidean,
-    /// Nodes count by their cell sizes, so that grids can be compared: the L2 norm over X. The online residual is measured in it.
+    /// Nodes count by their cell sizes, so that grids can be compared: the L2 norm over X (and Y). The online residual is measured in it.
     #[default]
     Quadrature,
 }
@@ -43,7 +42,7 @@ pub struct Residuals {
 pub struct ErrorMeasures {
     norm: Norm,
     penalty: f64,
-    grid: Arc<ReferenceGrid>,
+    grid: ContactGrid,
     sampled_rows: Vec<usize>,
     /// V_δᵀ W K V_p, which gives δ̃; without rows for the exact operator.
     projection: Mat<f64>,
@@ -73,8 +72,8 @@ impl ErrorMeasures {
         let deformation_error: Mat<f64> = f.transpose() * &f;
         Self {
             norm,
-            penalty: options.penalty,
-            grid: Arc::clone(&window.grid),
+            penalty: options.penalty.unwrap_or(window.penalty),
+            grid: window.grid.clone(),
             sampled_rows: window.sampled_rows.clone(),
             projection,
             deformation_error,
@@ -95,27 +94,24 @@ impl ErrorMeasures {
     /// e_f and e_f^I of a reduced solution, given by its pressure coefficients and its reconstructed fields.
     pub fn residuals(&self, coefficients: &[f64], fields: &Solution) -> Residuals {
         let problem = &fields.problem;
-        let grid = self.grid.scaled(fields.mesh.scale());
+        let (scale, weights) = (fields.mesh.scale(), self.grid.weights());
         let nodes: Vec<Node> = fields
             .pressure
             .iter()
             .zip(&fields.film)
             .map(|(&p, &h)| Node::new(&problem.fluid, problem.inverse_lambda, p, h))
             .collect();
-        let squared: Vec<f64> = grid
-            .rows
-            .iter()
-            .zip(nodes.windows(4))
-            .enumerate()
-            .map(|(k, (geometry, n))| {
-                let value = row(geometry, self.penalty, [&n[0], &n[1], &n[2], &n[3], &n[2], &n[2]]).value;
-                self.weight(grid.weights[k + FIRST_UNKNOWN]) * value * value
+        let squared: Vec<f64> = (0..self.grid.unknowns())
+            .map(|unknown| {
+                let (stencil, geometry) = self.grid.row(unknown);
+                let value = row(&geometry.scaled(scale), self.penalty, stencil.map(|node| &nodes[node])).value;
+                self.weight(scale * weights[self.grid.node(unknown)]) * value * value
             })
             .collect();
         let state = self.state(coefficients);
         let z = ColRef::from_slice(&state);
-        let deformation = self.weight(grid.scale) * (z.transpose() * (&self.deformation_error * z)).max(0.0);
-        let load = grid.weights.iter().zip(&fields.pressure).map(|(w, p)| w * p).sum::<f64>() - problem.load;
+        let deformation = self.weight(scale) * (z.transpose() * (&self.deformation_error * z)).max(0.0);
+        let load = scale * weights.iter().zip(&fields.pressure).map(|(w, p)| w * p).sum::<f64>() - problem.load;
         let linear = deformation + load * load;
         let sampled: f64 = self.sampled_rows.iter().map(|&r| squared[r]).sum();
         Residuals {
@@ -129,14 +125,13 @@ impl ErrorMeasures {
     /// e_z of (3.10): ‖z − Vz̃‖/‖z‖ of reconstructed fields against a full solution on the same grid.
     pub fn state_error(&self, fields: &Solution, full: &Solution) -> f64 {
         let cells = deformation_weights(&self.grid);
-        let deformation = |s: &Solution, i: usize| s.film[i] - s.scalars.h_0 - 0.5 * s.x[i] * s.x[i];
+        let (bent, approximate) = (full.deformation(), fields.deformation());
         let (mut error, mut size) = ((fields.scalars.h_0 - full.scalars.h_0).powi(2), full.scalars.h_0.powi(2));
         for (i, cell) in cells.iter().enumerate() {
             let weight = self.weight(cell * full.mesh.scale());
-            let bent = deformation(full, i);
             error += weight * (fields.pressure[i] - full.pressure[i]).powi(2);
-            error += weight * (deformation(fields, i) - bent).powi(2);
-            size += weight * (full.pressure[i].powi(2) + bent.powi(2));
+            error += weight * (approximate[i] - bent[i]).powi(2);
+            size += weight * (full.pressure[i].powi(2) + bent[i].powi(2));
         }
         (error / size).sqrt()
     }
@@ -153,10 +148,13 @@ impl ErrorMeasures {
 mod tests {
     use super::super::{Online, Sampling, Starts};
     use super::*;
-    use crate::solver::full::{FullSolver, Start};
-    use crate::solver::grid::GridSpec;
+    use crate::solver::contact::ContactKind;
+    use crate::solver::full::{ContactSolver, Start};
+    use crate::solver::grid::{ContactGridSpec, GridSpec};
     use crate::solver::lubricant::Lubricant;
+    use crate::solver::reynolds::PENALTY;
     use crate::solver::training::{Plan, Range, TrainingSpec, WindowSpec, Windows, random_points, train};
+    use std::sync::Arc;
 
     fn spec(sampling: Sampling, registered: bool) -> TrainingSpec {
         TrainingSpec {
@@ -173,12 +171,13 @@ mod tests {
             plan: Plan::FarthestPoint { snapshots: 24 },
             windows: Windows::Given(vec![WindowSpec {
                 m: (1.0, 500.0),
-                grid: GridSpec::Graded { nodes: 200, domain: (-6.0, 1.9), registered },
+                grid: ContactGridSpec::Line(GridSpec::Graded { nodes: 200, domain: (-6.0, 1.9), registered }),
             }]),
             pressure_loss: 1e-5,
             deformation_loss: 1e-4,
             sampling,
             rows_per_mode: 2.0,
+            penalty: PENALTY,
             evidence: 0,
             seed: 5,
         }
@@ -193,7 +192,8 @@ mod tests {
         let spec = spec(sampling, true);
         let model = Arc::new(train(&spec, &()).unwrap());
         let mut online = Online::new(Arc::clone(&model), options);
-        let points = random_points(&spec.range, (0.0, f64::INFINITY), 6, &mut fastrand::Rng::with_seed(2));
+        let points =
+            random_points(&spec.range, ContactKind::Line, (0.0, f64::INFINITY), 6, &mut fastrand::Rng::with_seed(2));
         for point in points {
             let solved = online.solve(&point, Lubricant::default()).unwrap();
             look(&model.windows[0], &online, solved);
@@ -269,7 +269,7 @@ mod tests {
     fn the_state_error_vanishes_for_the_same_solution_and_sees_each_part() {
         let options = ReducedOptions::default();
         for_solutions(Sampling::QDeim, options, |window, online, solved| {
-            let full = FullSolver::on(Arc::clone(&window.grid))
+            let full = ContactSolver::on(&window.grid)
                 .solve(&solved.point, Lubricant::default(), Start::Cold, &mut ())
                 .unwrap();
             for norm in [Norm::Euclidean, Norm::Quadrature] {

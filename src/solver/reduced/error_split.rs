@@ -24,7 +24,7 @@
 
 use super::model::{ReducedModel, Window};
 use super::online::{Online, ReducedError, ReducedOptions, ReducedSolution};
-use super::sampling::{Sampling, all_rows};
+use super::sampling::{Sampling, TestSpace, all_rows};
 use crate::solver::contact::OperatingPoint;
 use crate::solver::full::{FullSolver, Scalars, Solution, SolveError, Start, Termination};
 use crate::solver::grid::{FIRST_UNKNOWN, GridError, dot};
@@ -58,6 +58,9 @@ pub enum SplitError {
         /// How it ended.
         termination: Termination,
     },
+    /// The model is of point contacts.
+    #[error("errors are split by their causes for line contacts only")]
+    PointContact,
     /// The observer asked to stop.
     #[error("cancelled")]
     Cancelled,
@@ -184,7 +187,7 @@ impl ErrorSplitter {
 
         let h_c_limit = extrapolate(full.scalars.h_c, finer.scalars.h_c);
         let h_min_limit = extrapolate(lowest_film(&full), lowest_film(&finer));
-        let distance = |a: &Solution, b: &Solution| distance(&window.grid.weights, a, b, &full);
+        let distance = |a: &Solution, b: &Solution| distance(window.grid.weights(), a, b, &full);
         Ok(ErrorSplit {
             h_c: parts(steps.map(|s| s.scalars.h_c), h_c_limit),
             h_min: parts(steps.map(|s| s.scalars.h_min), h_min_limit),
@@ -202,14 +205,15 @@ impl ErrorSplitter {
 }
 
 impl Rivals {
-    fn new(model: &ReducedModel, window: &Window, options: &ReducedOptions) -> Result<Self, GridError> {
+    fn new(model: &ReducedModel, window: &Window, options: &ReducedOptions) -> Result<Self, SplitError> {
+        let grid = window.grid.line().ok_or(SplitError::PointContact)?;
         let mut exact = window.clone();
-        exact.set_rows(Sampling::All, all_rows(&window.pressure, &window.grid.weights));
+        exact.set_rows(Sampling::All, all_rows(&TestSpace::new(&window.pressure, &window.grid)));
         let exact = ReducedModel { windows: vec![exact], ..model.clone() };
         Ok(Self {
             all_rows: Online::new(Arc::new(exact), *options),
-            full: FullSolver::on(Arc::clone(&window.grid)),
-            finer: FullSolver::on(window.grid.refined()?),
+            full: FullSolver::on(Arc::clone(grid)),
+            finer: FullSolver::on(grid.refined()?),
         })
     }
 }
@@ -224,7 +228,7 @@ fn converged(solution: Solution, grid: &'static str) -> Result<Solution, SplitEr
 
 /// The projection of a full state onto the trial space of a reduced solution, among pressures that carry the load.
 fn best_approximation(window: &Window, full: &Solution, reduced: &ReducedSolution) -> ReducedSolution {
-    let weights = &window.grid.weights;
+    let weights = window.grid.weights();
     let modes = window.pressure.modes.get(.., ..reduced.coefficients.len());
     let against = |values: &dyn Fn(usize) -> f64| -> Vec<f64> {
         (0..modes.ncols())

@@ -3,8 +3,9 @@
 use super::{ErrorSplitter, Online, ReducedModel, ReducedOptions, Sampling, SplitError};
 use crate::solver::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::full::{FullSolver, Solution, Start};
-use crate::solver::grid::{GridSpec, ReferenceGrid};
+use crate::solver::grid::{ContactGridSpec, GridSpec, ReferenceGrid};
 use crate::solver::lubricant::Lubricant;
+use crate::solver::reynolds::PENALTY;
 use crate::solver::training::{Plan, Range, TrainingSpec, WindowSpec, Windows, train};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -23,12 +24,13 @@ fn model(sampling: Sampling) -> Arc<ReducedModel> {
         plan: Plan::FarthestPoint { snapshots: 50 },
         windows: Windows::Given(vec![WindowSpec {
             m: (20.0, 80.0),
-            grid: GridSpec::Graded { nodes: 300, domain: (-6.0, 1.9), registered: true },
+            grid: ContactGridSpec::Line(GridSpec::Graded { nodes: 300, domain: (-6.0, 1.9), registered: true }),
         }]),
         pressure_loss: 1e-6,
         deformation_loss: 1e-7,
         sampling,
         rows_per_mode: 2.0,
+        penalty: PENALTY,
         evidence: 0,
         seed: 1,
     };
@@ -52,7 +54,7 @@ fn the_parts_add_up_to_what_verification_and_extrapolation_see() {
     let model = model(Sampling::QDeim);
     let mut splitter = ErrorSplitter::new(Arc::clone(&model), ReducedOptions::default());
     let mut online = Online::new(Arc::clone(&model), ReducedOptions::default());
-    let grid = &model.windows[0].grid;
+    let grid = model.windows[0].grid.line().unwrap();
     let finer = grid.refined().unwrap();
     for point in points() {
         let split = splitter.split(&point, Lubricant::default(), &mut ()).unwrap();
@@ -90,7 +92,7 @@ fn with_all_rows_there_is_no_sampling_error_and_fewer_modes_cost_basis() {
 fn the_discretisation_part_is_what_much_finer_grids_say() {
     let model = model(Sampling::QDeim);
     let mut splitter = ErrorSplitter::new(Arc::clone(&model), ReducedOptions::default());
-    let coarse = &model.windows[0].grid;
+    let coarse = model.windows[0].grid.line().unwrap();
     let finest = coarse.refined().unwrap().refined().unwrap();
     let limit = finest.refined().unwrap();
     for point in points() {

@@ -1,7 +1,8 @@
 //! Reduced models: POD bases, row sampling, reduced operators and the online Newton iteration without large-scale work.
 //!
 //! State (p̃, H₀); deformation and load are linear and condensed (`DESIGN`, idea 2). Everything lives in the reference coordinate ξ; the
-//! registration scale s enters the online phase as a number: X = −1 + (ξ + 1)s, H = H₀ − ½ ln s + X²/2 + s (K V_p p̃).
+//! registration scale s enters the online phase as a number: X = −1 + (ξ + 1)s, H = H₀ − ½ ln s + (X² + Y²)/2 + s (K V_p p̃). Line and point
+//! contacts share all of it: what differs is in their grids ([`crate::solver::grid::ContactGrid`]) and in the penalty of a window.
 
 mod calibration;
 mod cubature;
@@ -20,9 +21,8 @@ pub use calibration::{Calibration, ErrorEstimate, Estimated, Evidence, Features,
 pub use cubature::{GoalEquations, cubature};
 pub use error_measures::{ErrorMeasures, Norm, Residuals};
 pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
-pub use model::{Domain, ReducedModel, Snapshot, Trust, Window, deformation_weights, distance, flex};
-pub(crate) use online::interpolation_at_zero;
+pub use model::{Domain, ReducedModel, Snapshot, Trust, Window, deformation_weights, distance};
 pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution, Starts};
 pub(crate) use operators::Iterate;
 pub use pod::PodBasis;
-pub use sampling::{RowSnapshots, SampledRows, Sampling, all_rows, greedy, is_finite, q_deim};
+pub use sampling::{RowSnapshots, SampledRows, Sampling, TestSpace, all_rows, greedy, is_finite, q_deim};

@@ -3,14 +3,13 @@
 use super::calibration::Calibration;
 use super::pod::PodBasis;
 use super::sampling::{SampledRows, Sampling};
-use crate::solver::contact::{Moes, OperatingPoint};
-use crate::solver::elasticity::{Flexibility, Scratch};
+use crate::solver::contact::{ContactKind, Moes, OperatingPoint};
 use crate::solver::full::Problem;
-use crate::solver::grid::{FIRST_UNKNOWN, ReferenceGrid};
+use crate::solver::grid::{ContactGrid, FIRST_UNKNOWN};
 use crate::solver::lubricant::Lubricant;
+use crate::solver::reynolds::PENALTY;
 use faer::Mat;
 use serde::{Deserialize, Serialize};
-use std::sync::Arc;
 
 /// The range a model declares to be trained for: an interval each of M, L, α and p_H at its η₀, for its lubricant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -72,8 +71,10 @@ pub struct Snapshot {
 pub struct Window {
     /// Range of M for which this window is used.
     pub m: (f64, f64),
-    /// The reference grid of its solutions.
-    pub grid: Arc<ReferenceGrid>,
+    /// The grid of its solutions.
+    pub grid: ContactGrid,
+    /// Penalty factor γ̄ of (2.36) in the reduced equations. Sampled rows of a point contact want it softer than the full system.
+    pub penalty: f64,
     /// Pressure basis.
     pub pressure: PodBasis,
     /// Deformation basis (of K P in the reference coordinate ξ).
@@ -82,7 +83,7 @@ pub struct Window {
     pub flexed: Mat<f64>,
     /// How rows were sampled.
     pub sampling: Sampling,
-    /// Sampled rows as indices of unknowns (node index minus 2), ascending.
+    /// Sampled rows as indices of unknowns, ascending.
     pub sampled_rows: Vec<usize>,
     /// G with Vᵀ W f ≈ G f_I, modes × rows.
     pub reconstruction: Mat<f64>,
@@ -92,7 +93,7 @@ pub struct Window {
     pub calibration: Option<Calibration>,
 }
 
-/// A reduced model of the stationary line contact.
+/// A reduced model of stationary contacts of one kind.
 #[derive(Clone, Debug)]
 pub struct ReducedModel {
     /// Title for people.
@@ -112,28 +113,36 @@ pub fn distance(a: Moes, b: Moes) -> f64 {
     (a.m - b.m).powi(2) / (a.m * a.m + b.m * b.m) + 0.001 * (a.l - b.l).powi(2)
 }
 
-/// Weights under which deformations are decomposed: the cell sizes, with the neighbour's at the three nodes that carry no pressure.
-pub fn deformation_weights(grid: &ReferenceGrid) -> Vec<f64> {
-    let n = grid.weights.len();
-    (0..n).map(|i| grid.weights[i.clamp(FIRST_UNKNOWN, n - 2)]).collect()
+/// Weights under which deformations are decomposed: the cell sizes, with the neighbour's at the nodes that carry no pressure.
+pub fn deformation_weights(grid: &ContactGrid) -> Vec<f64> {
+    let weights = grid.weights();
+    let n = weights.len();
+    match grid {
+        ContactGrid::Line(_) => (0..n).map(|i| weights[i.clamp(FIRST_UNKNOWN, n - 2)]).collect(),
+        ContactGrid::Point(grid) => {
+            let (nx, ny) = (grid.nx(), grid.ny());
+            (0..n).map(|node| weights[(node / ny).clamp(1, nx - 2) * ny + (node % ny).max(1)]).collect()
+        }
+    }
 }
 
 impl Window {
-    /// Assembles a window from its bases; K V_p is computed here, so that it need not be stored.
+    /// Assembles a window from its bases, with the penalty of the full system; K V_p is computed here, so that it need not be stored.
     pub fn new(
         m: (f64, f64),
-        grid: Arc<ReferenceGrid>,
+        grid: ContactGrid,
         pressure: PodBasis,
         deformation: PodBasis,
         snapshots: Vec<Snapshot>,
         sampling: Sampling,
         rows: SampledRows,
     ) -> Self {
-        let flexed = flex(&grid, &pressure.modes);
+        let flexed = grid.flex(&pressure.modes);
         let SampledRows { rows: sampled_rows, reconstruction } = rows;
         Self {
             m,
             grid,
+            penalty: PENALTY,
             pressure,
             deformation,
             flexed,
@@ -159,32 +168,15 @@ impl Window {
     }
 }
 
-/// K applied to every column, in the reference coordinate.
-pub fn flex(grid: &ReferenceGrid, columns: &Mat<f64>) -> Mat<f64> {
-    let n = columns.nrows();
-    if let Flexibility::Dense(kernel) = &grid.flexibility {
-        return kernel * columns;
-    }
-    let mut out = Mat::zeros(n, columns.ncols());
-    let mut scratch = Scratch::default();
-    let mut input = vec![0.0; n];
-    let mut output = vec![0.0; n];
-    for j in 0..columns.ncols() {
-        for (i, v) in input.iter_mut().enumerate() {
-            *v = columns[(i, j)];
-        }
-        grid.flexibility.apply(&input, &mut output, &mut scratch);
-        for (i, v) in output.iter().enumerate() {
-            out[(i, j)] = *v;
-        }
-    }
-    out
-}
-
 impl ReducedModel {
     /// Index of the window that serves a contact.
     pub fn window_for(&self, moes: Moes) -> usize {
         self.windows.iter().position(|w| moes.m <= w.m.1).unwrap_or(self.windows.len().saturating_sub(1))
+    }
+
+    /// The kind of contact it is a model of.
+    pub fn contact(&self) -> ContactKind {
+        self.windows.first().map_or_else(ContactKind::default, |window| window.grid.kind())
     }
 
     /// Whether the model was trained for a problem.
@@ -237,7 +229,7 @@ fn digits(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::contact::{ContactKind, MoesRequest, si_from_moes};
+    use crate::solver::contact::{MoesRequest, si_from_moes};
 
     #[test]
     fn what_lies_outside_is_said_with_sensible_digits() {

@@ -5,10 +5,11 @@ use super::model::{ReducedModel, Snapshot, Trust, Window, distance};
 use super::operators::{Case, OnlineOutcome, Operators, RowObserver, Stop};
 use super::start::{self, Guess, film_number};
 use crate::solver::contact::{ContactKind, Moes, OperatingPoint};
-use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, SolveError, Termination, scalars_of};
-use crate::solver::grid::{GridSpec, LineGrid, registration_scale};
+use crate::solver::full::{
+    Mesh, Problem, Report, Scalars, Solution, SolveError, Termination, point_scalars_of, scalars_of,
+};
+use crate::solver::grid::{ContactGrid, dot};
 use crate::solver::lubricant::{Lubricant, ShearLaw};
-use crate::solver::reynolds::PENALTY;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Par};
 use std::cell::OnceCell;
@@ -29,6 +30,14 @@ pub enum ReducedError {
     /// The lubricant is none the reduced equations describe.
     #[error("a reduced model has no shear-thinning in this version; use the full solver for this lubricant")]
     ShearThinning,
+    /// The model is of the other kind of contact.
+    #[error("the reduced model is of {} contacts, but the operating point is that of a {} contact", model.name(), given.name())]
+    OtherContact {
+        /// What the model is of.
+        model: ContactKind,
+        /// What it was given.
+        given: ContactKind,
+    },
     /// The model holds no window.
     #[error("the reduced model holds no bases")]
     Empty,
@@ -65,8 +74,8 @@ pub struct ReducedOptions {
     pub tolerance: f64,
     /// Newton steps at most.
     pub max_newton: usize,
-    /// Penalty factor γ̄ of (2.36).
-    pub penalty: f64,
+    /// Penalty factor γ̄ of (2.36) in place of the window's own.
+    pub penalty: Option<f64>,
     /// From where it starts.
     pub starts: Starts,
 }
@@ -78,7 +87,7 @@ impl Default for ReducedOptions {
             deformation_modes: None,
             tolerance: 1e-5,
             max_newton: 40,
-            penalty: PENALTY,
+            penalty: None,
             starts: Starts::Explorer,
         }
     }
@@ -128,7 +137,7 @@ pub struct Online {
 /// The last converged solution: the start while somebody drags.
 struct Previous {
     window: usize,
-    moes: Moes,
+    point: OperatingPoint,
     coefficients: Vec<f64>,
     h_c: f64,
 }
@@ -177,7 +186,11 @@ impl Online {
         if lubricant.shear != ShearLaw::Newtonian {
             return Err(ReducedError::ShearThinning);
         }
-        let problem = Problem::of_kind(ContactKind::Line, point, lubricant)?;
+        let model = self.model.contact();
+        if point.kind != model {
+            return Err(ReducedError::OtherContact { model, given: point.kind });
+        }
+        let problem = Problem::new(point, lubricant)?;
         let index = self.model.window_for(problem.moes);
         let model = Arc::clone(&self.model);
         let (Some(window), Some(cell)) = (model.windows.get(index), self.windows.get_mut(index)) else {
@@ -193,12 +206,15 @@ impl Online {
         }
         // The previous solution while somebody drags, else an interpolation, else the nearest snapshot.
         let previous =
-            self.previous.as_ref().filter(|p| p.window == index && distance(moes, p.moes) < DRAG_DISTANCE).map(|p| {
-                Guess { coefficients: p.coefficients.clone(), h_c: p.h_c * film_number(moes) / film_number(p.moes) }
-            });
+            self.previous.as_ref().filter(|p| p.window == index && distance(moes, p.point.moes()) < DRAG_DISTANCE).map(
+                |p| Guess {
+                    coefficients: p.coefficients.clone(),
+                    h_c: p.h_c * film_number(point) / film_number(&p.point),
+                },
+            );
         let mut last = ReducedError::Empty;
         let starts: [&dyn Fn() -> Option<Guess>; 3] =
-            [&|| previous.clone(), &|| start::interpolated(window, point), &|| start::nearest(window, moes)];
+            [&|| previous.clone(), &|| start::interpolated(window, point), &|| start::nearest(window, point)];
         for guess in starts {
             let Some(guess) = guess() else { continue };
             match attempt(window, operators, &problem, &guess, FIRST_ATTEMPTS, &self.options, &mut observer) {
@@ -219,10 +235,29 @@ impl Online {
         }
     }
 
+    /// Solves a contact from one snapshot of its window and from nowhere else, showing every iterate, for the training.
+    pub(crate) fn solve_from(
+        &mut self,
+        snapshot: &Snapshot,
+        point: &OperatingPoint,
+        lubricant: Lubricant,
+        observer: RowObserver<'_>,
+    ) -> Result<ReducedSolution, ReducedError> {
+        let problem = Problem::new(point, lubricant)?;
+        let index = self.model.window_for(problem.moes);
+        let model = Arc::clone(&self.model);
+        let window = model.windows.get(index).ok_or(ReducedError::Empty)?;
+        self.prepare(problem.moes);
+        let operators = self.windows.get_mut(index).and_then(OnceCell::get_mut).ok_or(ReducedError::Empty)?;
+        let guess = start::carried(snapshot, point);
+        let found = attempt(window, operators, &problem, &guess, usize::MAX, &self.options, &mut Some(observer))?;
+        Ok(self.keep(&problem, index, found))
+    }
+
     /// Remembers a solution as the next start and returns it.
     fn keep(&mut self, problem: &Problem, window: usize, found: Found) -> ReducedSolution {
         let Found { coefficients, h_0, h_c, iterations, residual } = found;
-        let previous = Previous { window, moes: problem.moes, coefficients: coefficients.clone(), h_c };
+        let previous = Previous { window, point: problem.point, coefficients: coefficients.clone(), h_c };
         self.previous = Some(previous);
         let trust = self.model.trust(problem);
         let calibration = self.model.windows.get(window).and_then(|w| w.calibration.as_ref());
@@ -247,13 +282,19 @@ impl Online {
     /// # Errors
     /// When the solution's point is refused or it belongs to another model.
     pub fn reconstruct(&self, solution: &ReducedSolution) -> Result<Solution, ReducedError> {
-        let (problem, grid, pressure, film) = self.fields(solution)?;
+        let fields = self.fields(solution)?;
+        let scalars = fields.scalars(solution.h_0);
+        let Fields { problem, grid, scale, pressure, film } = fields;
+        let (mesh, x, y) = match &grid {
+            ContactGrid::Line(grid) => (Mesh::Line { spec: grid.spec, scale }, grid.scaled(scale).x, vec![0.0]),
+            ContactGrid::Point(grid) => (Mesh::Point(grid.spec), grid.x.clone(), grid.y.clone()),
+        };
         Ok(Solution {
             problem,
-            mesh: Mesh::Line { spec: grid.reference.spec, scale: grid.scale },
-            scalars: scalars_of(&grid, &problem, &pressure, &film, solution.h_0),
-            x: grid.x,
-            y: vec![0.0],
+            mesh,
+            scalars,
+            x,
+            y,
             pressure,
             film,
             report: Report {
@@ -273,11 +314,10 @@ impl Online {
     /// # Errors
     /// When the solution's point is refused or it belongs to another model.
     pub fn scalars(&self, solution: &ReducedSolution) -> Result<Scalars, ReducedError> {
-        let (problem, grid, pressure, film) = self.fields(solution)?;
-        Ok(scalars_of(&grid, &problem, &pressure, &film, solution.h_0))
+        Ok(self.fields(solution)?.scalars(solution.h_0))
     }
 
-    fn fields(&self, solution: &ReducedSolution) -> Result<(Problem, LineGrid, Vec<f64>, Vec<f64>), ReducedError> {
+    fn fields(&self, solution: &ReducedSolution) -> Result<Fields, ReducedError> {
         let problem = Problem::new(&solution.point, solution.lubricant)?;
         let (Some(window), Some(cell)) = (self.model.windows.get(solution.window), self.windows.get(solution.window))
         else {
@@ -288,7 +328,7 @@ impl Online {
         if modes > window.pressure.modes.ncols() || modes != operators.modes {
             return Err(ReducedError::Empty);
         }
-        let grid = window.grid.for_contact(problem.moes);
+        let scale = window.grid.scale(problem.moes);
         let multiply = |matrix: faer::MatRef<'_, f64>| {
             let mut out = vec![0.0; matrix.nrows()];
             matmul(
@@ -302,12 +342,33 @@ impl Online {
             out
         };
         let pressure = multiply(window.pressure.modes.get(.., ..modes));
-        let mut film = multiply(operators.deformation.as_ref());
-        let offset = solution.h_0 - 0.5 * grid.scale.ln();
-        for (h, x) in film.iter_mut().zip(&grid.x) {
-            *h = offset + 0.5 * x * x + grid.scale * *h;
+        let mut film = multiply(operators.deformation(window));
+        let offset = solution.h_0 - 0.5 * scale.ln();
+        for (node, h) in film.iter_mut().enumerate() {
+            let (xi, y) = window.grid.place(node);
+            let x = -1.0 + (xi + 1.0) * scale;
+            *h = offset + 0.5 * (x * x + y * y) + scale * *h;
         }
-        Ok((problem, grid, pressure, film))
+        Ok(Fields { problem, grid: window.grid.clone(), scale, pressure, film })
+    }
+}
+
+/// Reconstructed node arrays.
+struct Fields {
+    problem: Problem,
+    grid: ContactGrid,
+    scale: f64,
+    pressure: Vec<f64>,
+    film: Vec<f64>,
+}
+
+impl Fields {
+    fn scalars(&self, h_0: f64) -> Scalars {
+        let Self { problem, grid, scale, pressure, film } = self;
+        match grid {
+            ContactGrid::Line(grid) => scalars_of(&grid.scaled(*scale), problem, pressure, film, h_0),
+            ContactGrid::Point(grid) => point_scalars_of(grid, problem, pressure, film, h_0),
+        }
     }
 }
 
@@ -334,21 +395,21 @@ fn attempt(
     options: &ReducedOptions,
     observer: &mut Option<RowObserver<'_>>,
 ) -> Result<Found, ReducedError> {
-    let scale = scale_of(window.grid.spec, problem.moes);
-    let zero = interpolation_at_zero(window, scale);
+    let scale = window.grid.scale(problem.moes);
+    let zero = window.grid.at_zero(scale);
     let mut coefficients = start.coefficients[..operators.modes].to_vec();
     operators.carry_load(problem, scale, &mut coefficients);
     // H(0) = H₀ − ½ ln s + s δ(0).
-    let lift = |operators: &Operators, coefficients: &[f64]| -> f64 {
-        let sag: f64 = zero.iter().map(|(node, w)| w * row_dot(&operators.deformation, *node, coefficients)).sum();
-        scale * sag - 0.5 * scale.ln()
-    };
-    let mut h_0 = start.h_c - lift(operators, &coefficients);
+    let deformation = operators.deformation(window);
+    let at_zero = |k: usize| scale * zero.iter().map(|(node, w)| w * deformation[(*node, k)]).sum::<f64>();
+    let lift: Vec<f64> = (0..operators.modes).map(at_zero).collect();
+    let offset = -0.5 * scale.ln();
+    let mut h_0 = start.h_c - (dot(&lift, &coefficients) + offset);
     let watch = observer.as_mut().map(|o| &mut **o as RowObserver<'_>);
-    let case = Case { problem, scale, xi: &window.grid.xi, penalty: options.penalty };
+    let case = Case { problem, scale, penalty: options.penalty.unwrap_or(window.penalty), lift: &lift };
     let stop = Stop { tolerance: options.tolerance, max_newton: options.max_newton.min(limit) };
     let outcome = operators.newton(&case, &mut coefficients, &mut h_0, stop, watch);
-    let h_c = h_0 + lift(operators, &coefficients);
+    let h_c = h_0 + (dot(&lift, &coefficients) + offset);
     if outcome.converged && h_c > 0.0 {
         let OnlineOutcome { iterations, residual, .. } = outcome;
         Ok(Found { coefficients, h_0, h_c, iterations, residual })
@@ -382,12 +443,12 @@ fn walk(
     };
     let (mut t, mut stride) = (0.0, 0.25);
     let mut guess = Guess { coefficients: snapshot.coefficients.clone(), h_c: snapshot.h_c };
-    let mut moes = snapshot.point.moes();
+    let mut from_point = snapshot.point;
     let mut iterations = 0;
     while stride > 0.01 {
         let next = f64::min(t + stride, 1.0);
         let problem = if next >= 1.0 { *target } else { at(next)? };
-        let h_c = guess.h_c * film_number(problem.moes) / film_number(moes);
+        let h_c = guess.h_c * film_number(&problem.point) / film_number(&from_point);
         let start = Guess { h_c, ..guess.clone() };
         match attempt(window, operators, &problem, &start, usize::MAX, options, observer) {
             Ok(found) => {
@@ -397,35 +458,10 @@ fn walk(
                 }
                 (t, stride) = (next, 1.5 * stride);
                 guess = Guess { coefficients: found.coefficients, h_c: found.h_c };
-                moes = problem.moes;
+                from_point = problem.point;
             }
             Err(_) => stride *= 0.4,
         }
     }
     None
-}
-
-/// The registration scale of a grid specification for a contact.
-fn scale_of(spec: GridSpec, moes: Moes) -> f64 {
-    match spec {
-        GridSpec::Graded { registered: true, .. } => registration_scale(moes),
-        _ => 1.0,
-    }
-}
-
-/// Nodes and weights that give the value at X = 0 on a window's grid under scale s (cubic interpolation in ξ).
-pub(crate) fn interpolation_at_zero(window: &Window, scale: f64) -> [(usize, f64); 4] {
-    let xi = &window.grid.xi;
-    let at = 1.0 / scale - 1.0;
-    let upper = xi.partition_point(|&v| v < at).clamp(3, xi.len() - 2);
-    let first = upper - 2;
-    std::array::from_fn(|k| {
-        let weight =
-            (0..4).filter(|&j| j != k).map(|j| (at - xi[first + j]) / (xi[first + k] - xi[first + j])).product();
-        (first + k, weight)
-    })
-}
-
-fn row_dot(matrix: &faer::Mat<f64>, row: usize, x: &[f64]) -> f64 {
-    x.iter().enumerate().map(|(k, v)| matrix[(row, k)] * v).sum()
 }

@@ -3,15 +3,12 @@
 
 use super::model::{Window, deformation_weights};
 use crate::solver::full::Problem;
-use crate::solver::grid::FIRST_UNKNOWN;
-use crate::solver::reynolds::{Node, RowGeometry, row};
+use crate::solver::grid::dot;
+use crate::solver::reynolds::{Node, RowGeometry, STENCIL, row};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Conj, Mat, MatMut, MatRef, Par};
-
-/// Nodes of a line row.
-const LINE_STENCIL: usize = 4;
 
 /// How an online Newton iteration ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,10 +26,10 @@ pub(crate) struct Case<'a> {
     pub problem: &'a Problem,
     /// Registration scale s.
     pub scale: f64,
-    /// Nodes of the window's reference grid.
-    pub xi: &'a [f64],
     /// Penalty factor γ̄.
     pub penalty: f64,
+    /// s K V_p at X = 0 (and Y = 0): what the film there gains per unit of each coefficient.
+    pub lift: &'a [f64],
 }
 
 /// When an online iteration stops.
@@ -54,10 +51,10 @@ pub(crate) struct Iterate<'a> {
     pub step: &'a [f64],
     /// p̃ before the step.
     pub coefficients: &'a [f64],
-    /// H₀ before the step.
-    pub h_0: f64,
-    /// Registration scale s.
-    pub scale: f64,
+    /// What the film at X = 0 gains per unit of each coefficient.
+    pub lift: &'a [f64],
+    /// H_c before the step.
+    pub h_c: f64,
 }
 
 /// Sees each iterate.
@@ -65,9 +62,10 @@ pub(crate) type RowObserver<'a> = &'a mut dyn FnMut(&Iterate<'_>);
 
 pub(crate) struct Operators {
     pub modes: usize,
-    /// Indices of the nodes the sampled rows depend on.
-    support: Vec<usize>,
-    stencil: Vec<[usize; LINE_STENCIL]>,
+    /// The nodes the sampled rows depend on.
+    support: Vec<Place>,
+    /// Six of them per sampled row; those that a row lacks have weight zero.
+    stencil: Vec<[usize; STENCIL]>,
     geometry: Vec<RowGeometry>,
     row_weights: Vec<f64>,
     /// V_p on the support, then K V_p on it: row-major, 2·support × modes.
@@ -76,11 +74,19 @@ pub(crate) struct Operators {
     reconstruction: Mat<f64>,
     /// wᵀ V_p.
     load_row: Vec<f64>,
-    /// K V_p or V_δ V_δᵀ W K V_p over the whole node array, for reconstruction.
-    pub deformation: Mat<f64>,
+    /// V_δ V_δᵀ W K V_p over the whole node array, for reconstruction; none where the exact K V_p is used, which the window has.
+    projected: Option<Mat<f64>>,
     /// E_δ of (3.13) with δ̃ condensed: what V_δ cannot represent of K V_p, as a quadratic form; empty for the exact operator.
     deformation_error: Option<Mat<f64>>,
     scratch: Scratch,
+}
+
+/// Where a node lies.
+#[derive(Clone, Copy)]
+struct Place {
+    xi: f64,
+    /// Y²/2: what the undeformed gap has across.
+    across: f64,
 }
 
 struct Scratch {
@@ -106,8 +112,8 @@ impl Operators {
         let reference = &window.grid;
         let basis = window.pressure.modes.get(.., ..modes);
         let exact = window.flexed.get(.., ..modes);
-        let (deformation, deformation_error) = match deformation_modes {
-            None => (exact.to_owned(), None),
+        let (projected, deformation_error) = match deformation_modes {
+            None => (None, None),
             Some(k) => {
                 let k = k.clamp(1, window.deformation.modes.ncols());
                 let weights = deformation_weights(reference);
@@ -117,16 +123,16 @@ impl Operators {
                 let missing =
                     Mat::from_fn(v.nrows(), modes, |i, j| weights[i].sqrt() * (exact[(i, j)] - projected[(i, j)]));
                 let error: Mat<f64> = missing.transpose() * &missing;
-                (projected, Some(error))
+                (Some(projected), Some(error))
             }
         };
         let rows = &window.sampled_rows;
-        let mut support: Vec<usize> = rows.iter().flat_map(|r| *r..*r + LINE_STENCIL).collect();
+        let (stencils, geometry): (Vec<_>, Vec<_>) = rows.iter().map(|&row| reference.row(row)).unzip();
+        let mut support: Vec<usize> = stencils.iter().flatten().copied().collect();
         support.sort_unstable();
         support.dedup();
-        let stencil = rows.iter().map(|r| std::array::from_fn(|m| support.partition_point(|&s| s < r + m))).collect();
-        let xi = &reference.xi;
-        let geometry = rows.iter().map(|&r| RowGeometry::new([xi[r], xi[r + 1], xi[r + 2], xi[r + 3]])).collect();
+        let stencil = stencils.iter().map(|nodes| nodes.map(|node| support.partition_point(|&s| s < node))).collect();
+        let deformation = projected.as_ref().map_or(exact, Mat::as_ref);
         let mut state_rows = Vec::with_capacity(2 * support.len() * modes);
         for &node in &support {
             state_rows.extend((0..modes).map(|k| basis[(node, k)]));
@@ -134,8 +140,12 @@ impl Operators {
         for &node in &support {
             state_rows.extend((0..modes).map(|k| deformation[(node, k)]));
         }
-        let load_row =
-            (0..modes).map(|k| reference.weights.iter().enumerate().map(|(i, w)| w * basis[(i, k)]).sum()).collect();
+        let weights = reference.weights();
+        let load_row = (0..modes).map(|k| weights.iter().enumerate().map(|(i, w)| w * basis[(i, k)]).sum()).collect();
+        let place = |node: &usize| {
+            let (xi, y) = reference.place(*node);
+            Place { xi, across: 0.5 * y * y }
+        };
         let (n, s) = (rows.len(), support.len());
         let size = modes + 1;
         let memory = factor::lu_in_place_scratch::<usize, f64>(size, size, Par::Seq, faer::Spec::default())
@@ -144,11 +154,11 @@ impl Operators {
             modes,
             stencil,
             geometry,
-            row_weights: rows.iter().map(|r| reference.weights[r + FIRST_UNKNOWN]).collect(),
+            row_weights: rows.iter().map(|&row| weights[reference.node(row)]).collect(),
             state_rows,
             reconstruction: window.reconstruction.get(..modes, ..).to_owned(),
             load_row,
-            deformation,
+            projected,
             deformation_error,
             scratch: Scratch {
                 fields: vec![0.0; 2 * s],
@@ -165,7 +175,7 @@ impl Operators {
                 memory: MemBuffer::new(memory),
                 product: vec![0.0; n],
             },
-            support,
+            support: support.iter().map(place).collect(),
         }
     }
 
@@ -194,8 +204,8 @@ impl Operators {
                     jacobian: s.jacobian.as_ref(),
                     step: &s.rhs,
                     coefficients,
-                    h_0: *h_0,
-                    scale: case.scale,
+                    lift: case.lift,
+                    h_c: *h_0 - 0.5 * case.scale.ln() + dot(case.lift, coefficients),
                 });
             }
             let omega = self.damping(case.scale);
@@ -223,30 +233,20 @@ impl Operators {
 
     /// Evaluates the sampled rows; returns e_f^I.
     fn evaluate(&mut self, case: &Case<'_>, coefficients: &[f64], h_0: f64, derivatives: bool) -> f64 {
-        let Case { problem, scale, xi, penalty } = *case;
+        let Case { problem, scale, penalty, .. } = *case;
         let s = &mut self.scratch;
         product(&self.state_rows, self.modes, coefficients, &mut s.fields);
         let (pressure, deformation) = s.fields.split_at(self.support.len());
         let offset = h_0 - 0.5 * scale.ln();
-        for (k, (node, &index)) in s.nodes.iter_mut().zip(&self.support).enumerate() {
-            let x = -1.0 + (xi[index] + 1.0) * scale;
-            let film = offset + 0.5 * x * x + scale * deformation[k];
+        for (k, (node, place)) in s.nodes.iter_mut().zip(&self.support).enumerate() {
+            let x = -1.0 + (place.xi + 1.0) * scale;
+            let film = offset + (0.5 * x * x + place.across) + scale * deformation[k];
             *node = Node::new(&problem.fluid, problem.inverse_lambda, pressure[k], film);
         }
-        let (first, second) = (1.0 / scale, 1.0 / (scale * scale));
         let (v, d) = self.state_rows.split_at(self.support.len() * self.modes);
         let mut sum = 0.0;
         for (r, (stencil, geometry)) in self.stencil.iter().zip(&self.geometry).enumerate() {
-            let geometry = RowGeometry {
-                upwind: geometry.upwind.map(|w| w * first),
-                west: geometry.west * second,
-                east: geometry.east * second,
-                south: 0.0,
-                north: 0.0,
-            };
-            let center = &s.nodes[stencil[2]];
-            let nodes = [&s.nodes[stencil[0]], &s.nodes[stencil[1]], center, &s.nodes[stencil[3]], center, center];
-            let out = row(&geometry, penalty, nodes);
+            let out = row(&geometry.scaled(scale), penalty, stencil.map(|node| &s.nodes[node]));
             s.values[r] = out.value;
             sum += self.row_weights[r] * scale * out.value * out.value;
             if derivatives {
@@ -254,12 +254,15 @@ impl Operators {
                 target.fill(0.0);
                 for (m, &node) in stencil.iter().enumerate() {
                     let (a, b) = (out.d_p[m], scale * out.d_h[m]);
+                    if a == 0.0 && b == 0.0 {
+                        continue;
+                    }
                     let range = node * self.modes..(node + 1) * self.modes;
                     for ((t, v), d) in target.iter_mut().zip(&v[range.clone()]).zip(&d[range]) {
                         *t += a * v + b * d;
                     }
                 }
-                s.film_column[r] = out.d_h[..LINE_STENCIL].iter().sum();
+                s.film_column[r] = out.d_h.iter().sum();
             }
         }
         if let Some(error) = &self.deformation_error {
@@ -346,6 +349,14 @@ impl Operators {
         for (r, out) in s.product.iter_mut().enumerate() {
             let row = &s.jacobian_rows[r * self.modes..(r + 1) * self.modes];
             *out = s.film_column[r] * dh_0 + row.iter().zip(&s.rhs).map(|(a, b)| a * b).sum::<f64>();
+        }
+    }
+
+    /// K V_p or V_δ V_δᵀ W K V_p over the whole node array of the window these operators are of.
+    pub fn deformation<'a>(&'a self, window: &'a Window) -> MatRef<'a, f64> {
+        match &self.projected {
+            Some(projected) => projected.as_ref(),
+            None => window.flexed.get(.., ..self.modes),
         }
     }
 

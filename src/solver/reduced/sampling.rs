@@ -4,7 +4,7 @@
 //! used.
 
 use super::pod::PodBasis;
-use crate::solver::grid::FIRST_UNKNOWN;
+use crate::solver::grid::ContactGrid;
 use faer::linalg::solvers::{ColPivQr, PartialPivLu, Solve, Svd};
 use faer::{Mat, MatRef};
 use serde::{Deserialize, Serialize};
@@ -41,19 +41,36 @@ pub struct RowSnapshots {
     pub jacobian: Vec<Vec<f64>>,
 }
 
-/// Every row with its quadrature weight.
-pub fn all_rows(basis: &PodBasis, weights: &[f64]) -> SampledRows {
-    let unknowns = weights.len() - 3;
-    rows_of_basis(basis, weights, (0..unknowns).collect())
+/// What the rows of the Reynolds equation are tested with: V and the quadrature weights at the unknowns.
+#[derive(Clone, Debug)]
+pub struct TestSpace {
+    /// V, unknowns × modes.
+    pub modes: Mat<f64>,
+    /// Weights at the unknowns, all positive.
+    pub weights: Vec<f64>,
 }
 
-/// G = V_Iᵀ W_I for given rows.
-fn rows_of_basis(basis: &PodBasis, weights: &[f64], rows: Vec<usize>) -> SampledRows {
-    let reconstruction = Mat::from_fn(basis.modes.ncols(), rows.len(), |k, r| {
-        let node = rows[r] + FIRST_UNKNOWN;
-        weights[node] * basis.modes[(node, k)]
-    });
-    SampledRows { rows, reconstruction }
+impl TestSpace {
+    /// The test space of a pressure basis on a grid.
+    pub fn new(basis: &PodBasis, grid: &ContactGrid) -> Self {
+        let nodes: Vec<usize> = (0..grid.unknowns()).map(|unknown| grid.node(unknown)).collect();
+        Self {
+            modes: Mat::from_fn(nodes.len(), basis.modes.ncols(), |i, k| basis.modes[(nodes[i], k)]),
+            weights: nodes.iter().map(|&node| grid.weights()[node]).collect(),
+        }
+    }
+
+    /// G = V_Iᵀ W_I for given rows.
+    fn rows(&self, rows: Vec<usize>) -> SampledRows {
+        let reconstruction =
+            Mat::from_fn(self.modes.ncols(), rows.len(), |k, r| self.weights[rows[r]] * self.modes[(rows[r], k)]);
+        SampledRows { rows, reconstruction }
+    }
+}
+
+/// Every row with its quadrature weight.
+pub fn all_rows(test: &TestSpace) -> SampledRows {
+    test.rows((0..test.weights.len()).collect())
 }
 
 /// Leading left singular vectors of snapshots.
@@ -66,7 +83,7 @@ fn leading_modes(snapshots: &[Vec<f64>], count: usize) -> Option<Mat<f64>> {
 }
 
 /// The dissertation's greedy selection, Fig. 2.9, on the POD bases of residual and Jacobian snapshots.
-pub fn greedy(basis: &PodBasis, weights: &[f64], snapshots: &RowSnapshots, count: usize) -> Option<SampledRows> {
+pub fn greedy(test: &TestSpace, snapshots: &RowSnapshots, count: usize) -> Option<SampledRows> {
     let residual = leading_modes(&snapshots.residual, count)?;
     let jacobian = leading_modes(&snapshots.jacobian, count)?;
     let count = count.min(residual.ncols()).min(jacobian.ncols());
@@ -81,7 +98,7 @@ pub fn greedy(basis: &PodBasis, weights: &[f64], snapshots: &RowSnapshots, count
         rows.push(next);
     }
     rows.sort_unstable();
-    Some(rows_of_basis(basis, weights, rows))
+    Some(test.rows(rows))
 }
 
 /// What of column `mode` its interpolation through the former columns at the chosen rows leaves.
@@ -102,7 +119,7 @@ fn interpolation_error(modes: &Mat<f64>, rows: &[usize], mode: usize) -> Vec<f64
 }
 
 /// Q-DEIM on the Jacobian snapshots: as many rows as POD modes Φ, found by QR with column pivoting of Φᵀ (Drmač & Gugercin 2016).
-pub fn q_deim(basis: &PodBasis, weights: &[f64], snapshots: &RowSnapshots, count: usize) -> Option<SampledRows> {
+pub fn q_deim(test: &TestSpace, snapshots: &RowSnapshots, count: usize) -> Option<SampledRows> {
     let phi = leading_modes(&snapshots.jacobian, count)?;
     let count = phi.ncols();
     let unknowns = phi.nrows();
@@ -111,15 +128,13 @@ pub fn q_deim(basis: &PodBasis, weights: &[f64], snapshots: &RowSnapshots, count
     let mut rows: Vec<usize> = forward[..count].to_vec();
     rows.sort_unstable();
     // The snapshots are scaled by √w: so are the test functions, and G undoes it on the sampled values.
-    let test = Mat::from_fn(unknowns, basis.modes.ncols(), |i, k| {
-        weights[i + FIRST_UNKNOWN].sqrt() * basis.modes[(i + FIRST_UNKNOWN, k)]
-    });
-    let projected: Mat<f64> = phi.transpose() * &test;
+    let modes = test.modes.ncols();
+    let scaled = Mat::from_fn(unknowns, modes, |i, k| test.weights[i].sqrt() * test.modes[(i, k)]);
+    let projected: Mat<f64> = phi.transpose() * &scaled;
     let sampled = Mat::from_fn(count, count, |r, c| phi[(rows[r], c)]);
     // G′ = projectedᵀ Φ_I⁻¹, so Φ_Iᵀ G′ᵀ = projected.
     let solution = PartialPivLu::new(sampled.transpose()).solve(&projected);
-    let reconstruction =
-        Mat::from_fn(basis.modes.ncols(), count, |k, r| solution[(r, k)] * weights[rows[r] + FIRST_UNKNOWN].sqrt());
+    let reconstruction = Mat::from_fn(modes, count, |k, r| solution[(r, k)] * test.weights[rows[r]].sqrt());
     Some(SampledRows { rows, reconstruction })
 }
 
@@ -132,12 +147,10 @@ pub fn is_finite(matrix: MatRef<'_, f64>) -> bool {
 mod tests {
     use super::*;
 
-    fn example() -> (PodBasis, Vec<f64>, RowSnapshots) {
+    fn example() -> (TestSpace, RowSnapshots) {
         let unknowns = 40;
-        let weights: Vec<f64> =
-            (0..unknowns + 3).map(|i| if i < 2 || i == unknowns + 2 { 0.0 } else { 0.05 + 0.001 * i as f64 }).collect();
-        let modes = Mat::from_fn(unknowns + 3, 4, |i, k| ((i * (k + 1)) as f64 * 0.11).cos());
-        let basis = PodBasis { modes, singular_values: vec![1.0; 4] };
+        let weights: Vec<f64> = (0..unknowns).map(|i| 0.05 + 0.001 * i as f64).collect();
+        let modes = Mat::from_fn(unknowns, 4, |i, k| ((i * (k + 1)) as f64 * 0.11).cos());
         // Snapshots from a six-dimensional space.
         let column = |j: usize| {
             (0..unknowns)
@@ -146,18 +159,18 @@ mod tests {
         };
         let snapshots =
             RowSnapshots { residual: (0..20).map(column).collect(), jacobian: (5..30).map(column).collect() };
-        (basis, weights, snapshots)
+        (TestSpace { modes, weights }, snapshots)
     }
 
     #[test]
     fn q_deim_reconstructs_what_the_snapshots_span_exactly() {
-        let (basis, weights, snapshots) = example();
-        let sampled = q_deim(&basis, &weights, &snapshots, 6).unwrap();
+        let (test, snapshots) = example();
+        let sampled = q_deim(&test, &snapshots, 6).unwrap();
         assert_eq!(sampled.rows.len(), 6);
-        let all = all_rows(&basis, &weights);
+        let all = all_rows(&test);
         for column in &snapshots.jacobian {
             // A residual f whose √w-scaled values lie in the snapshot space.
-            let f: Vec<f64> = column.iter().enumerate().map(|(i, v)| v / weights[i + 2].sqrt()).collect();
+            let f: Vec<f64> = column.iter().enumerate().map(|(i, v)| v / test.weights[i].sqrt()).collect();
             for k in 0..4 {
                 let exact: f64 = f.iter().enumerate().map(|(i, f)| all.reconstruction[(k, i)] * f).sum();
                 let from_rows: f64 =
@@ -169,8 +182,8 @@ mod tests {
 
     #[test]
     fn greedy_takes_distinct_rows() {
-        let (basis, weights, snapshots) = example();
-        let sampled = greedy(&basis, &weights, &snapshots, 6).unwrap();
+        let (test, snapshots) = example();
+        let sampled = greedy(&test, &snapshots, 6).unwrap();
         let mut rows = sampled.rows.clone();
         rows.dedup();
         assert_eq!(rows.len(), 6);

@@ -3,32 +3,42 @@
 //! Nearest snapshots alone (the dissertation's choice) needed 10 iterations at the 90th and 34 at the 99th percentile of the
 //! embedded model's range; with the interpolation it is 6 and 9, because film and spike are carried along.
 
-use super::model::{Window, distance};
-use crate::solver::contact::{Moes, OperatingPoint, moes_line_film};
+use super::model::{Snapshot, Window, distance};
+use crate::solver::contact::{ContactKind, Moes, OperatingPoint, hamrock_dowson_central, moes_line_film};
 use faer::Mat;
 use faer::linalg::solvers::{PartialPivLu, Solve};
 
 /// Snapshots that take part in the interpolation.
 const NEIGHBOURS: usize = 6;
 
-/// A start: coefficients of the pressure, and the film at X = 0.
+/// A start: coefficients of the pressure, and the film at X = 0 (and Y = 0).
 #[derive(Clone)]
 pub(super) struct Guess {
     pub coefficients: Vec<f64>,
     pub h_c: f64,
 }
 
-/// Moes' film in the solver's scaling up to a constant: what films are compared by.
-pub(super) fn film_number(moes: Moes) -> f64 {
-    moes_line_film(moes) / moes.m
+/// The film of a formula in the solver's scaling up to a constant, what films are compared by: Moes' for line, Hamrock and Dowson's for
+/// point contacts.
+pub(super) fn film_number(point: &OperatingPoint) -> f64 {
+    match point.kind {
+        ContactKind::Line => {
+            let moes = point.moes();
+            moes_line_film(moes) / moes.m
+        }
+        ContactKind::Point => hamrock_dowson_central(point) * point.radius_m / point.film_scale_m(),
+    }
 }
 
-/// The nearest training solution by (3.20), its film carried over by Moes' formula.
-pub(super) fn nearest(window: &Window, moes: Moes) -> Option<Guess> {
-    window.nearest(moes).map(|(snapshot, _)| Guess {
-        coefficients: snapshot.coefficients.clone(),
-        h_c: snapshot.h_c * film_number(moes) / film_number(snapshot.point.moes()),
-    })
+/// The nearest training solution by (3.20), its film carried over by the formula.
+pub(super) fn nearest(window: &Window, point: &OperatingPoint) -> Option<Guess> {
+    window.nearest(point.moes()).map(|(snapshot, _)| carried(snapshot, point))
+}
+
+/// A training solution, its film carried over to a point by the formula.
+pub(super) fn carried(snapshot: &Snapshot, point: &OperatingPoint) -> Guess {
+    let h_c = snapshot.h_c * film_number(point) / film_number(&snapshot.point);
+    Guess { coefficients: snapshot.coefficients.clone(), h_c }
 }
 
 /// The nearest training solution by (3.20) with its own film.
@@ -88,7 +98,7 @@ pub(super) fn interpolated(window: &Window, point: &OperatingPoint) -> Option<Gu
         for (c, s) in coefficients.iter_mut().zip(&snapshot.coefficients) {
             *c += w * s;
         }
-        log_film += w * (snapshot.h_c / film_number(snapshot.point.moes())).ln();
+        log_film += w * (snapshot.h_c / film_number(&snapshot.point)).ln();
     }
-    Some(Guess { coefficients, h_c: log_film.exp() * film_number(moes) })
+    Some(Guess { coefficients, h_c: log_film.exp() * film_number(point) })
 }

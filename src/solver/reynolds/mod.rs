@@ -110,6 +110,19 @@ impl RowGeometry {
         Self { upwind: [0.0, -1.0 / h1, 1.0 / h1], west: 1.0 / (h1 * cell), east: 1.0 / (h2 * cell), ..Self::default() }
     }
 
+    /// The row under the map X = −1 + (ξ + 1)s, given in ξ; what it has across stays.
+    #[inline]
+    pub fn scaled(&self, scale: f64) -> Self {
+        let (first, second) = (1.0 / scale, 1.0 / (scale * scale));
+        Self {
+            upwind: self.upwind.map(|w| w * first),
+            west: self.west * second,
+            east: self.east * second,
+            south: self.south,
+            north: self.north,
+        }
+    }
+
     /// The same row with diffusion across: `south` and `north` are the distances to the neighbours in Y. On the symmetry axis there is
     /// no northern one: the cell is then the southern half, through whose axis nothing flows.
     pub fn across(self, south: f64, north: Option<f64>) -> Self {

@@ -33,7 +33,7 @@ use super::plan::{global_point, local_point};
 use super::state::{Part, TrainingState, WindowState};
 use super::{Plan, Progress, TrainingError};
 use crate::solver::contact::OperatingPoint;
-use crate::solver::reduced::{Window, distance};
+use crate::solver::reduced::{Sampling, Window, distance};
 use fastrand::Rng;
 use serde::{Deserialize, Serialize};
 
@@ -129,7 +129,8 @@ impl Search {
     }
 }
 
-/// Searches window `k` to the end; returns its last model, or `None` once it needs more modes than it may have.
+/// Searches window `k` to the end; returns its last model, or `None` once it needs more modes than it may have. A cubature takes longer
+/// than a round of the search: there it is the model with all rows that is judged, and rows are sampled once at the end.
 pub(super) fn search(
     shop: &mut Shop<'_>,
     state: &mut TrainingState,
@@ -139,7 +140,11 @@ pub(super) fn search(
     loop {
         shop.solve_pending(state, Part::Window(k))?;
         let own = &mut state.windows[k];
-        let Some(window) = shop.assemble(&own.solved, &mut Rng::with_seed(row_seed))? else { return Ok(None) };
+        let Some(mut window) = shop.assemble(&own.solved)? else { return Ok(None) };
+        let all_rows = shop.spec.sampling == Sampling::Cubature;
+        if !all_rows {
+            window = shop.sample(window, &mut Rng::with_seed(row_seed))?;
+        }
         if !own.search.finished {
             let chosen = match &shop.spec.plan {
                 plan @ Plan::Adaptive { .. } => find_bad(shop, plan, &window, own)?.into_iter().collect(),
@@ -148,6 +153,9 @@ pub(super) fn search(
             own.decide(chosen);
         }
         if own.search.finished {
+            if all_rows {
+                window = shop.sample(window, &mut Rng::with_seed(row_seed))?;
+            }
             return Ok(Some(window));
         }
     }
@@ -158,7 +166,7 @@ fn points(shop: &Shop<'_>, count: usize, mut draw: impl FnMut() -> [f64; 4]) -> 
     let (low, high) = shop.reach;
     let mut one = || {
         let unit = draw();
-        let point = shop.spec.range.at(unit).filter(|p| (low..=high).contains(&p.moes().m));
+        let point = shop.spec.range.at(shop.spec.contact(), unit).filter(|p| (low..=high).contains(&p.moes().m));
         point.map(|point| (unit, point))
     };
     (0..count).map_while(|_| (0..MAX_DRAWS).find_map(|_| one())).collect()

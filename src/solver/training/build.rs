@@ -6,11 +6,12 @@ use super::rows::sample_rows;
 use super::state::{FEWEST, Part, Solved, TrainingState, train_resumable};
 use super::{Plan, Progress, Range, TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows};
 use crate::solver::contact::OperatingPoint;
-use crate::solver::full::{FullSolver, Start};
-use crate::solver::grid::ReferenceGrid;
+use crate::solver::full::{ContactSolver, Start};
+use crate::solver::grid::ContactGrid;
 use crate::solver::observer::Observer;
 use crate::solver::reduced::{
-    Domain, LEAST_EVIDENCE, PodBasis, ReducedModel, Sampling, Snapshot, Window, all_rows, deformation_weights, flex,
+    Domain, LEAST_EVIDENCE, PodBasis, ReducedModel, Sampling, Snapshot, TestSpace, Window, all_rows,
+    deformation_weights,
 };
 use faer::Mat;
 use fastrand::Rng;
@@ -51,6 +52,9 @@ pub(super) fn check(spec: &TrainingSpec) -> Result<(), TrainingError> {
     }
     if !(1.0..=20.0).contains(&spec.rows_per_mode) {
         return refuse(format!("rows_per_mode is {}, but must lie between 1 and 20", spec.rows_per_mode));
+    }
+    if !(1e2..=1e9).contains(&spec.penalty) {
+        return refuse(format!("penalty is {}, but must lie between 1e2 and 1e9", spec.penalty));
     }
     if spec.evidence > 0 && !(LEAST_EVIDENCE..=100_000).contains(&spec.evidence) {
         return refuse(format!(
@@ -93,6 +97,9 @@ fn check_given(spec: &TrainingSpec, windows: &[WindowSpec]) -> Result<(), Traini
     if windows.is_empty() {
         return refuse("a model needs at least one window".to_owned());
     }
+    if windows.iter().any(|w| w.grid.kind() != spec.contact()) {
+        return refuse("all windows must be of one kind of contact: all grids Plane, or none".to_owned());
+    }
     if !windows.iter().all(|w| w.m.0 > 0.0 && w.m.0 < w.m.1) || !windows.windows(2).all(|p| p[0].m.1 <= p[1].m.0) {
         return refuse("windows must be non-empty intervals of M in ascending order".to_owned());
     }
@@ -119,7 +126,7 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
             lubricant: spec.lubricant,
         },
         Range::Box { alpha, viscosity, .. } => {
-            let corners = grid_points(&spec.range, [2, 2, 2, 2]);
+            let corners = grid_points(&spec.range, spec.contact(), [2, 2, 2, 2]);
             let span = |value: &dyn Fn(&OperatingPoint) -> f64| {
                 corners.iter().map(value).fold((f64::INFINITY, 0.0f64), |(a, b), v| (a.min(v), b.max(v)))
             };
@@ -139,7 +146,7 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
 pub(super) struct Shop<'a> {
     pub spec: &'a TrainingSpec,
     pub window: WindowSpec,
-    pub grid: Arc<ReferenceGrid>,
+    pub grid: ContactGrid,
     /// Range of M from which it is trained.
     pub reach: (f64, f64),
     /// Pressure modes beyond which it is to be split instead of being assembled.
@@ -210,7 +217,7 @@ impl<'a> Shop<'a> {
         points
             .par_iter()
             .map_init(
-                || FullSolver::on(Arc::clone(&self.grid)),
+                || ContactSolver::on(&self.grid),
                 |solver, (place, point)| {
                     if observer.cancelled() {
                         return Err(TrainingError::Cancelled);
@@ -231,31 +238,38 @@ impl<'a> Shop<'a> {
             .collect()
     }
 
-    /// Bases, row sampling and operators of given solutions; `None` when they need more modes than the window may have.
-    pub fn assemble(&self, solutions: &[Solved], rng: &mut Rng) -> Result<Option<Window>, TrainingError> {
-        let Self { spec, window, grid, reach, most_modes, observer } = self;
+    /// Bases of given solutions, with all rows; `None` when they need more modes than the window may have.
+    pub fn assemble(&self, solutions: &[Solved]) -> Result<Option<Window>, TrainingError> {
+        let Self { spec, window, grid, most_modes, observer, .. } = self;
         if solutions.len() < FEWEST {
             return Err(self.too_few(solutions.len()));
         }
         observer.progress(Progress { stage: format!("Bases, M {}…{}", window.m.0, window.m.1), done: 0, total: 1 });
         let (from, to) = window.m;
         let failed = || TrainingError::Decomposition { from, to };
-        let (losses, grid, solutions) = (Losses::of(spec), Arc::clone(grid), solutions.to_vec());
+        let (losses, grid, solutions) = (Losses::of(spec), grid.clone(), solutions.to_vec());
         let mut model = aside(*observer, move || {
             let (pressure, deformation, snapshots) = bases(losses, &grid, &solutions)?;
-            let rows = all_rows(&pressure, &grid.weights);
+            let rows = all_rows(&TestSpace::new(&pressure, &grid));
             Some(Window::new((from, to), grid, pressure, deformation, snapshots, Sampling::All, rows))
         })?
         .ok_or_else(failed)?;
+        model.penalty = spec.penalty;
         if most_modes.is_some_and(|most| model.pressure.modes.ncols() > most) {
             return Ok(None);
         }
-        if spec.sampling != Sampling::All {
-            let sampled =
-                sample_rows(spec, &Arc::new(alone(spec, &model)), *reach, rng, *observer)?.ok_or_else(failed)?;
-            model.set_rows(spec.sampling, sampled);
-        }
         Ok(Some(model))
+    }
+
+    /// A window with its rows sampled as the specification says.
+    pub fn sample(&self, mut window: Window, rng: &mut Rng) -> Result<Window, TrainingError> {
+        let Self { spec, reach, observer, .. } = self;
+        if spec.sampling != Sampling::All {
+            let (from, to) = window.m;
+            let sampled = sample_rows(spec, &Arc::new(alone(spec, &window)), *reach, rng, *observer)?;
+            window.set_rows(spec.sampling, sampled.ok_or(TrainingError::Decomposition { from, to })?);
+        }
+        Ok(window)
     }
 }
 
@@ -273,17 +287,17 @@ impl Losses {
 }
 
 /// POD of pressures and deformations, and the snapshots in the pressure basis.
-fn bases(losses: Losses, grid: &ReferenceGrid, solutions: &[Solved]) -> Option<(PodBasis, PodBasis, Vec<Snapshot>)> {
-    let nodes = grid.xi.len();
+fn bases(losses: Losses, grid: &ContactGrid, solutions: &[Solved]) -> Option<(PodBasis, PodBasis, Vec<Snapshot>)> {
+    let (nodes, weights) = (grid.len(), grid.weights());
     let pressures = Mat::from_fn(nodes, solutions.len(), |i, j| solutions[j].pressure[i]);
-    let pressure = PodBasis::new(pressures.as_ref(), &grid.weights, losses.pressure)?;
-    let deformation = PodBasis::new(flex(grid, &pressures).as_ref(), &deformation_weights(grid), losses.deformation)?;
+    let pressure = PodBasis::new(pressures.as_ref(), weights, losses.pressure)?;
+    let deformation = PodBasis::new(grid.flex(&pressures).as_ref(), &deformation_weights(grid), losses.deformation)?;
     let snapshots = solutions
         .iter()
         .map(|s| Snapshot {
             point: s.point,
             coefficients: (0..pressure.modes.ncols())
-                .map(|k| (0..nodes).map(|i| grid.weights[i] * pressure.modes[(i, k)] * s.pressure[i]).sum())
+                .map(|k| (0..nodes).map(|i| weights[i] * pressure.modes[(i, k)] * s.pressure[i]).sum())
                 .collect(),
             h_0: s.h_0,
             h_c: s.h_c,

@@ -5,7 +5,7 @@
 //! from the reduced solution, a cold full solution takes about 15).
 
 use super::aside::aside;
-use super::indicator::measured_errors;
+use super::indicator::Corrector;
 use super::plan::random_points;
 use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::reduced::{Calibration, Evidence, Features, Online, ReducedModel, ReducedOptions, Window};
@@ -30,20 +30,21 @@ pub(super) fn calibrate(
 ) -> Result<Option<Calibration>, TrainingError> {
     let Some(window) = model.windows.first() else { return Ok(None) };
     let seed = spec.seed ^ 0x9E37_79B9_7F4A_7C15_u64.wrapping_mul(k as u64 + 1);
-    let points = random_points(&spec.range, served(k, last, window), spec.evidence, &mut Rng::with_seed(seed));
+    let points =
+        random_points(&spec.range, spec.contact(), served(k, last, window), spec.evidence, &mut Rng::with_seed(seed));
     let stage = format!("Measuring errors, M {}…{}", window.m.0, window.m.1);
     let done = AtomicUsize::new(0);
     let measured: Vec<Option<Evidence>> = points
         .par_iter()
         .map_init(
-            || Online::new(Arc::clone(model), ReducedOptions::default()),
-            |online, point| {
+            || (Online::new(Arc::clone(model), ReducedOptions::default()), Corrector::of(window)),
+            |(online, corrector), point| {
                 if observer.cancelled() {
                     return Err(TrainingError::Cancelled);
                 }
                 online.forget();
                 let evidence = online.solve(point, spec.lubricant).ok().and_then(|solved| {
-                    let errors = measured_errors(online, &solved, window)?;
+                    let errors = corrector.errors(online, &solved)?;
                     Some(Evidence { features: Features::of(&solved), errors })
                 });
                 let done = done.fetch_add(1, Ordering::Relaxed) + 1;

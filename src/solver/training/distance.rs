@@ -143,6 +143,7 @@ fn non_negative(q: &[Vec<f64>], a: &[f64]) -> Vec<f64> {
 mod tests {
     use super::super::{Range, random_points};
     use super::*;
+    use crate::solver::contact::ContactKind;
     use crate::solver::full::{FullSolver, Start};
     use crate::solver::grid::GridSpec;
     use crate::solver::lubricant::Lubricant;
@@ -157,7 +158,7 @@ mod tests {
             modulus: 231e9,
             viscosity: 0.01,
         };
-        random_points(&range, (0.0, f64::INFINITY), 40, &mut Rng::with_seed(5))
+        random_points(&range, ContactKind::Line, (0.0, f64::INFINITY), 40, &mut Rng::with_seed(5))
     }
 
     #[test]

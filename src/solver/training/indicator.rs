@@ -20,7 +20,11 @@
 use super::build::alone;
 use super::{TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::contact::OperatingPoint;
-use crate::solver::full::{LineSystem, Report, SolveOptions, scalars_of};
+use crate::solver::full::{
+    LineSystem, PointOptions, PointSystem, Problem, Report, Scalars, Solution, SolveOptions, point_scalars_of,
+    scalars_of,
+};
+use crate::solver::grid::ContactGrid;
 use crate::solver::lubricant::Lubricant;
 use crate::solver::reduced::{ErrorMeasures, Norm, Online, ReducedOptions, ReducedSolution, Window};
 use rayon::prelude::*;
@@ -48,19 +52,13 @@ pub enum Indicator {
 pub(super) struct Judges<'a> {
     indicator: Indicator,
     lubricant: Lubricant,
-    window: &'a Window,
     measures: Option<ErrorMeasures>,
-    online: Vec<Online>,
+    solvers: Vec<(Online, Corrector)>,
     observer: &'a dyn TrainingObserver,
 }
 
 impl<'a> Judges<'a> {
-    pub fn new(
-        indicator: Indicator,
-        spec: &TrainingSpec,
-        window: &'a Window,
-        observer: &'a dyn TrainingObserver,
-    ) -> Self {
+    pub fn new(indicator: Indicator, spec: &TrainingSpec, window: &Window, observer: &'a dyn TrainingObserver) -> Self {
         let model = Arc::new(alone(spec, window));
         let (options, measures) = match indicator {
             Indicator::Dissertation => {
@@ -69,20 +67,21 @@ impl<'a> Judges<'a> {
             }
             Indicator::Residual | Indicator::Correction => (ReducedOptions::default(), None),
         };
-        let online = (0..rayon::current_num_threads()).map(|_| Online::new(Arc::clone(&model), options)).collect();
-        Self { indicator, lubricant: spec.lubricant, window, measures, online, observer }
+        let solver = |_| (Online::new(Arc::clone(&model), options), Corrector::of(window));
+        let solvers = (0..rayon::current_num_threads()).map(solver).collect();
+        Self { indicator, lubricant: spec.lubricant, measures, solvers, observer }
     }
 
     /// The indicator at each point, infinite where the reduced model fails. Every solve starts afresh, so that neither order
     /// nor threads matter.
     pub fn judge(&mut self, points: &[OperatingPoint]) -> Result<Vec<f64>, TrainingError> {
-        let Self { indicator, lubricant, window, measures, online, observer } = self;
+        let Self { indicator, lubricant, measures, solvers, observer } = self;
         let measures = measures.as_ref();
-        let threads = online.len();
-        let parts: Vec<Vec<f64>> = online
+        let threads = solvers.len();
+        let parts: Vec<Vec<f64>> = solvers
             .par_iter_mut()
             .enumerate()
-            .map(|(t, online)| {
+            .map(|(t, solvers)| {
                 points
                     .iter()
                     .skip(t)
@@ -91,7 +90,7 @@ impl<'a> Judges<'a> {
                         if observer.cancelled() {
                             return Err(TrainingError::Cancelled);
                         }
-                        let error = error_at(*indicator, measures, online, window, point, *lubricant);
+                        let error = error_at(*indicator, measures, solvers, point, *lubricant);
                         Ok(error.unwrap_or(f64::INFINITY))
                     })
                     .collect()
@@ -105,8 +104,7 @@ impl<'a> Judges<'a> {
 fn error_at(
     indicator: Indicator,
     measures: Option<&ErrorMeasures>,
-    online: &mut Online,
-    window: &Window,
+    (online, corrector): &mut (Online, Corrector),
     point: &OperatingPoint,
     lubricant: Lubricant,
 ) -> Option<f64> {
@@ -119,35 +117,74 @@ fn error_at(
             measures?.residuals(&solved.coefficients, &fields).sampled_rows
         }
         Indicator::Correction => {
-            let [h_c, h_min, state] = measured_errors(online, &solved, window)?;
+            let [h_c, h_min, state] = corrector.errors(online, &solved)?;
             h_c.max(0.5 * h_min).max(state)
         }
     };
     error.is_finite().then_some(error)
 }
 
-/// Relative errors of H_c, H_min and the state (e_z of (3.10)) as two full Newton steps from a reduced solution find them: nearly exact where
-/// the model is fair, and large where it is not.
-pub(super) fn measured_errors(online: &Online, solved: &ReducedSolution, window: &Window) -> Option<[f64; 3]> {
-    let before = online.reconstruct(solved).ok()?;
-    let problem = &before.problem;
-    let mut system = LineSystem::new(window.grid.for_contact(problem.moes));
-    system.set_pressure(problem, &before.pressure);
-    system.set_central_film(before.scalars.h_c);
-    let mut report = Report::empty();
-    // Damping by the residual would hide the error: beside a solution the penalty makes it jump.
-    let options = SolveOptions { max_newton: CORRECTIONS, shortest_step: 1.0, ..SolveOptions::default() };
-    system.newton(problem, &options, &mut (), &mut report);
-    let after = scalars_of(&system.grid, problem, &system.pressure, &system.film, system.h_0);
-    let change = |from: f64, to: f64| (from / to - 1.0).abs();
-    let (mut difference, mut size) = ((before.scalars.h_0 - system.h_0).powi(2), system.h_0.powi(2));
-    for (i, x) in system.grid.x.iter().enumerate() {
-        let deformation = |film: f64, h_0: f64| film - h_0 - 0.5 * x * x;
-        let (was, is) = (deformation(before.film[i], before.scalars.h_0), deformation(system.film[i], system.h_0));
-        difference += (before.pressure[i] - system.pressure[i]).powi(2) + (was - is).powi(2);
-        size += system.pressure[i].powi(2) + is * is;
+/// Measures errors of a window's reduced solutions by full Newton steps; keeps its work space.
+pub(super) struct Corrector {
+    grid: ContactGrid,
+    /// Made when first needed, of a point contact; a line's is made per contact, for its scale.
+    point: Option<PointSystem>,
+}
+
+/// Where the full steps lead.
+struct Corrected {
+    pressure: Vec<f64>,
+    film: Vec<f64>,
+    scalars: Scalars,
+}
+
+impl Corrector {
+    /// For the reduced solutions of a window.
+    pub fn of(window: &Window) -> Self {
+        Self { grid: window.grid.clone(), point: None }
     }
-    let errors =
-        [change(before.scalars.h_c, after.h_c), change(before.scalars.h_min, after.h_min), (difference / size).sqrt()];
-    errors.iter().all(|e| e.is_finite()).then_some(errors)
+
+    /// Relative errors of H_c, H_min and the state (e_z of (3.10)) as two full Newton steps from a reduced solution find them: nearly exact
+    /// where the model is fair, and large where it is not.
+    pub fn errors(&mut self, online: &Online, solved: &ReducedSolution) -> Option<[f64; 3]> {
+        let before = online.reconstruct(solved).ok()?;
+        let after = self.corrected(&before);
+        let change = |from: f64, to: f64| (from / to - 1.0).abs();
+        let (from, to) = (&before.scalars, &after.scalars);
+        let (mut difference, mut size) = ((from.h_0 - to.h_0).powi(2), to.h_0.powi(2));
+        for (node, was) in before.deformation().into_iter().enumerate() {
+            // Both share the gap of the undeformed bodies.
+            let is = was + (after.film[node] - before.film[node]) - (to.h_0 - from.h_0);
+            difference += (before.pressure[node] - after.pressure[node]).powi(2) + (was - is).powi(2);
+            size += after.pressure[node].powi(2) + is * is;
+        }
+        let errors = [change(from.h_c, to.h_c), change(from.h_min, to.h_min), (difference / size).sqrt()];
+        errors.iter().all(|e| e.is_finite()).then_some(errors)
+    }
+
+    /// Undamped where there is a line search: by the residual it would hide the error, since beside a solution the penalty makes it jump.
+    fn corrected(&mut self, before: &Solution) -> Corrected {
+        let problem: &Problem = &before.problem;
+        let mut report = Report::empty();
+        match &self.grid {
+            ContactGrid::Line(grid) => {
+                let mut system = LineSystem::new(grid.scaled(before.mesh.scale()));
+                system.set_pressure(problem, &before.pressure);
+                system.set_central_film(before.scalars.h_c);
+                let options = SolveOptions { max_newton: CORRECTIONS, shortest_step: 1.0, ..SolveOptions::default() };
+                system.newton(problem, &options, &mut (), &mut report);
+                let scalars = scalars_of(&system.grid, problem, &system.pressure, &system.film, system.h_0);
+                Corrected { pressure: system.pressure, film: system.film, scalars }
+            }
+            ContactGrid::Point(grid) => {
+                let system = self.point.get_or_insert_with(|| PointSystem::new(Arc::clone(grid)));
+                system.set_pressure(problem, &before.pressure);
+                system.set_central_film(before.scalars.h_c);
+                let options = PointOptions { max_newton: CORRECTIONS, ..PointOptions::default() };
+                system.newton(problem, &options, &mut (), &mut report);
+                let scalars = point_scalars_of(grid, problem, &system.pressure, &system.film, system.h_0);
+                Corrected { pressure: system.pressure.clone(), film: system.film.clone(), scalars }
+            }
+        }
+    }
 }

@@ -27,8 +27,8 @@ use super::build::{Shop, domain};
 use super::plan::farthest_points;
 use super::state::{FEWEST, Part, Solved, TrainingState, WindowState};
 use super::{Plan, TrainingError, TrainingObserver, WindowSpec};
-use crate::solver::contact::OperatingPoint;
-use crate::solver::grid::{GridSpec, ReferenceGrid};
+use crate::solver::contact::{ContactKind, OperatingPoint};
+use crate::solver::grid::{ContactGridSpec, GridSpec, ReferenceGrid};
 use crate::solver::reduced::PodBasis;
 use faer::Mat;
 use fastrand::Rng;
@@ -50,7 +50,13 @@ const TRIAL_POINTS: usize = 48;
 /// When the range holds too few points, a full solve fails, or the observer cancels.
 pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver) -> Result<(), TrainingError> {
     let (spec, whole) = (state.spec.clone(), outward(domain(&state.spec).m));
-    let points = farthest_points(&spec.range, (0.0, f64::INFINITY), TRIAL_POINTS, &mut Rng::with_seed(spec.seed));
+    let points = farthest_points(
+        &spec.range,
+        ContactKind::Line,
+        (0.0, f64::INFINITY),
+        TRIAL_POINTS,
+        &mut Rng::with_seed(spec.seed),
+    );
     if points.len() < FEWEST {
         return Err(TrainingError::Specification(format!(
             "the range holds {} points that differ; a model needs at least {FEWEST}",
@@ -58,7 +64,7 @@ pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver)
         )));
     }
     let mut tried = |inlet: f64, registered: bool, points: &[OperatingPoint]| {
-        let grid = GridSpec::explorer_from(inlet, registered);
+        let grid = ContactGridSpec::Line(GridSpec::explorer_from(inlet, registered));
         try_grid(state, WindowSpec { m: whole, grid }, points, observer)
     };
     let few = &points[..INLET_POINTS.min(points.len())];
@@ -99,7 +105,7 @@ pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver)
         _ if registered => with.1,
         _ => without.1,
     };
-    let window = WindowSpec { m: whole, grid: GridSpec::explorer_from(inlet, registered) };
+    let window = WindowSpec { m: whole, grid: ContactGridSpec::Line(GridSpec::explorer_from(inlet, registered)) };
     state.trials.clear();
     state.windows = vec![WindowState::new(window, spec.seed, inherited)];
     Ok(())
@@ -190,6 +196,7 @@ mod tests {
                 max_hertz_pressure: 4e9,
                 viscosity: 0.01,
             },
+            ContactKind::Line,
             (0.0, f64::INFINITY),
             1,
             &mut Rng::with_seed(1),

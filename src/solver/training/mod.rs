@@ -25,8 +25,11 @@ pub use indicator::Indicator;
 pub use plan::{farthest_points, grid_points, local_point, random_points, test_point};
 pub use state::{Solved, TrainingState, WindowState, train_resumable};
 
+use super::contact::ContactKind;
+use super::grid::ContactGridSpec;
 use super::lubricant::Lubricant;
 use super::reduced::{Domain, Sampling};
+use super::reynolds::PENALTY;
 use serde::{Deserialize, Serialize};
 
 /// Where the training solutions are taken.
@@ -92,13 +95,14 @@ impl Plan {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Range {
-    /// A box of SI quantities, (3.16): R \[m\], u_m \[m/s\], w \[N/m\], α \[1/Pa\] at fixed E′ and η₀. Table 3.1.
+    /// A box of SI quantities, (3.16): R \[m\], u_m \[m/s\], w \[N/m\] (line) or \[N\] (point), α \[1/Pa\] at fixed E′ and η₀. Tables 3.1
+    /// and 3.4.
     Box {
         /// Smallest and largest radius \[m\].
         radius: (f64, f64),
         /// Smallest and largest speed \[m/s\].
         speed: (f64, f64),
-        /// Smallest and largest load \[N/m\].
+        /// Smallest and largest load \[N/m\] (line) or \[N\] (point).
         load: (f64, f64),
         /// Smallest and largest α \[1/Pa\].
         alpha: (f64, f64),
@@ -146,11 +150,18 @@ pub struct TrainingSpec {
     pub sampling: Sampling,
     /// Sampled rows per pressure mode.
     pub rows_per_mode: f64,
+    /// Penalty factor γ̄ of (2.36) in the reduced equations; the full solutions keep their own.
+    #[serde(default = "penalty")]
+    pub penalty: f64,
     /// Random points per window at which its errors are measured for the calibrated bound; 0 leaves the bound out.
     #[serde(default = "evidence")]
     pub evidence: usize,
     /// Seed of everything random.
     pub seed: u64,
+}
+
+fn penalty() -> f64 {
+    PENALTY
 }
 
 fn evidence() -> usize {
@@ -166,6 +177,14 @@ impl TrainingSpec {
         build::check(self)
     }
 
+    /// The kind of contact it is about: that of its grids; windows chosen by the training are of line contacts.
+    pub fn contact(&self) -> ContactKind {
+        match &self.windows {
+            Windows::Given(windows) => windows.first().map_or_else(ContactKind::default, |window| window.grid.kind()),
+            Windows::Automatic { .. } => ContactKind::Line,
+        }
+    }
+
     /// What the model will declare to be trained for.
     pub fn domain(&self) -> Domain {
         build::domain(self)
@@ -178,7 +197,7 @@ impl TrainingSpec {
 pub enum Windows {
     /// As listed, by ascending M.
     Given(Vec<WindowSpec>),
-    /// Chosen by the training from its range: inlet and registration of the grid by trial, edges by splitting.
+    /// Of a line contact, chosen by the training from its range: inlet and registration of the grid by trial, edges by splitting.
     Automatic {
         /// Pressure modes beyond which a window is split: what a reduced solve costs grows with their cube.
         modes: usize,
@@ -192,7 +211,7 @@ pub struct WindowSpec {
     /// Range of M it serves (training reaches beyond by an overlap).
     pub m: (f64, f64),
     /// Its grid.
-    pub grid: super::grid::GridSpec,
+    pub grid: ContactGridSpec,
 }
 
 /// How far a training is.

@@ -44,14 +44,14 @@ impl Range {
         Ok(())
     }
 
-    /// The operating point at coordinates in the unit cube (3 or 4 of them are used); `None` where the range excludes it.
-    pub fn at(&self, unit: [f64; 4]) -> Option<OperatingPoint> {
+    /// The operating point of a kind at coordinates in the unit cube (3 or 4 of them are used); `None` where the range excludes it.
+    pub fn at(&self, kind: ContactKind, unit: [f64; 4]) -> Option<OperatingPoint> {
         let linear = |(low, high): (f64, f64), t: f64| low + (high - low) * t;
         let logarithmic = |(low, high): (f64, f64), t: f64| low * (high / low).powf(t);
         match *self {
             Self::Box { radius, speed, load, alpha, modulus, viscosity } => {
                 let point = OperatingPoint {
-                    kind: ContactKind::Line,
+                    kind,
                     radius_m: linear(radius, unit[0]),
                     speed_m_per_s: linear(speed, unit[1]),
                     load: linear(load, unit[2]),
@@ -65,7 +65,7 @@ impl Range {
                 let request = MoesRequest {
                     alpha_per_pa: Some(logarithmic(alpha, unit[2])),
                     viscosity_pa_s: Some(viscosity),
-                    ..MoesRequest::new(ContactKind::Line, logarithmic(m, unit[0]), linear(l, unit[1]))
+                    ..MoesRequest::new(kind, logarithmic(m, unit[0]), linear(l, unit[1]))
                 };
                 si_from_moes(&request).ok().filter(|p| p.hertz().pressure_pa <= max_hertz_pressure)
             }
@@ -85,39 +85,52 @@ pub(super) fn global_point(rng: &mut Rng) -> [f64; 4] {
 }
 
 /// A random point of a range by (3.17), which pushes towards the boundary; `None` where the range excludes it.
-pub fn test_point(range: &Range, rng: &mut Rng) -> Option<OperatingPoint> {
-    range.at(global_point(rng))
+pub fn test_point(range: &Range, kind: ContactKind, rng: &mut Rng) -> Option<OperatingPoint> {
+    range.at(kind, global_point(rng))
 }
 
 /// `count` random points of a range with M in a window.
-pub fn random_points(range: &Range, m: (f64, f64), count: usize, rng: &mut Rng) -> Vec<OperatingPoint> {
+pub fn random_points(
+    range: &Range,
+    kind: ContactKind,
+    m: (f64, f64),
+    count: usize,
+    rng: &mut Rng,
+) -> Vec<OperatingPoint> {
     let mut points = Vec::with_capacity(count);
     // A window that the range never meets must not loop for ever.
     for _ in 0..count.saturating_mul(400) {
         if points.len() == count {
             break;
         }
-        points.extend(test_point(range, rng).filter(|p| (m.0..=m.1).contains(&p.moes().m)));
+        points.extend(test_point(range, kind, rng).filter(|p| (m.0..=m.1).contains(&p.moes().m)));
     }
     points
 }
 
 /// Farthest-point sampling (3.16): every next point of a random pool is the one farthest from all chosen ones.
-pub fn farthest_points(range: &Range, m: (f64, f64), count: usize, rng: &mut Rng) -> Vec<OperatingPoint> {
-    farther_points(range, m, &[], count, rng)
+pub fn farthest_points(
+    range: &Range,
+    kind: ContactKind,
+    m: (f64, f64),
+    count: usize,
+    rng: &mut Rng,
+) -> Vec<OperatingPoint> {
+    farther_points(range, kind, m, &[], count, rng)
 }
 
 /// (3.16) beside points that are there already: `count` more of them.
 pub(super) fn farther_points(
     range: &Range,
+    kind: ContactKind,
     m: (f64, f64),
     known: &[OperatingPoint],
     count: usize,
     rng: &mut Rng,
 ) -> Vec<OperatingPoint> {
-    let mut pool = random_points(range, m, (40 * count).max(2000), rng);
+    let mut pool = random_points(range, kind, m, (40 * count).max(2000), rng);
     // The corners of the range are its extremes, and a random pool never quite reaches them.
-    let corners = (0..16u8).filter_map(|c| range.at(std::array::from_fn(|k| f64::from(c >> k & 1))));
+    let corners = (0..16u8).filter_map(|c| range.at(kind, std::array::from_fn(|k| f64::from(c >> k & 1))));
     pool.extend(corners.filter(|p| (m.0..=m.1).contains(&p.moes().m)));
     let coordinates: Vec<_> = pool.iter().map(|p| (p.moes(), p.alpha_per_pa.ln())).collect();
     let alpha_weight = if matches!(range, Range::Box { .. }) { 0.005 } else { ALPHA_WEIGHT };
@@ -148,7 +161,7 @@ pub(super) fn farther_points(
 }
 
 /// The tensor grid of Table 3.2 over a box: equidistant in R, u_m and α, logarithmic in w. Empty for a range given in M and L.
-pub fn grid_points(range: &Range, nodes: [usize; 4]) -> Vec<OperatingPoint> {
+pub fn grid_points(range: &Range, kind: ContactKind, nodes: [usize; 4]) -> Vec<OperatingPoint> {
     let Range::Box { load, .. } = range else { return Vec::new() };
     let unit = |i: usize, n: usize| if n < 2 { 0.5 } else { i as f64 / (n - 1) as f64 };
     let log_unit = |t: f64| {
@@ -161,7 +174,7 @@ pub fn grid_points(range: &Range, nodes: [usize; 4]) -> Vec<OperatingPoint> {
             for w in 0..nodes[2] {
                 for a in 0..nodes[3] {
                     let at = [unit(r, nodes[0]), unit(u, nodes[1]), log_unit(unit(w, nodes[2])), unit(a, nodes[3])];
-                    points.extend(range.at(at));
+                    points.extend(range.at(kind, at));
                 }
             }
         }
@@ -173,6 +186,7 @@ pub fn grid_points(range: &Range, nodes: [usize; 4]) -> Vec<OperatingPoint> {
 mod tests {
     use super::*;
 
+    const LINE: ContactKind = ContactKind::Line;
     const TABLE_3_1: Range = Range::Box {
         radius: (2e-3, 4e-3),
         speed: (1.0, 10.0),
@@ -184,7 +198,7 @@ mod tests {
 
     #[test]
     fn table_3_1_has_the_moes_numbers_the_dissertation_prints() {
-        let points = grid_points(&TABLE_3_1, [2, 2, 2, 2]);
+        let points = grid_points(&TABLE_3_1, LINE, [2, 2, 2, 2]);
         let m = points.iter().map(|p| p.moes().m);
         let l = points.iter().map(|p| p.moes().l);
         let (low, high) = (m.clone().fold(f64::INFINITY, f64::min), m.fold(0.0, f64::max));
@@ -196,16 +210,16 @@ mod tests {
 
     #[test]
     fn table_3_2_grids_have_the_printed_sizes() {
-        assert_eq!(grid_points(&TABLE_3_1, [3, 4, 5, 4]).len(), 240);
-        assert_eq!(grid_points(&TABLE_3_1, [2, 3, 5, 4]).len(), 120);
+        assert_eq!(grid_points(&TABLE_3_1, LINE, [3, 4, 5, 4]).len(), 240);
+        assert_eq!(grid_points(&TABLE_3_1, LINE, [2, 3, 5, 4]).len(), 120);
     }
 
     #[test]
     fn farthest_points_are_spread_wider_than_random_ones_and_follow_the_seed() {
         let all = (0.0, f64::INFINITY);
-        let chosen = farthest_points(&TABLE_3_1, all, 60, &mut Rng::with_seed(3));
-        assert_eq!(chosen, farthest_points(&TABLE_3_1, all, 60, &mut Rng::with_seed(3)));
-        let random = random_points(&TABLE_3_1, all, 60, &mut Rng::with_seed(4));
+        let chosen = farthest_points(&TABLE_3_1, LINE, all, 60, &mut Rng::with_seed(3));
+        assert_eq!(chosen, farthest_points(&TABLE_3_1, LINE, all, 60, &mut Rng::with_seed(3)));
+        let random = random_points(&TABLE_3_1, LINE, all, 60, &mut Rng::with_seed(4));
         let closest = |points: &[OperatingPoint]| {
             let mut d = f64::INFINITY;
             for (i, a) in points.iter().enumerate() {
@@ -229,7 +243,7 @@ mod tests {
             max_hertz_pressure: 3.2e9,
             viscosity: 0.01,
         };
-        for p in random_points(&range, (2.0, 500.0), 300, &mut Rng::with_seed(1)) {
+        for p in random_points(&range, LINE, (2.0, 500.0), 300, &mut Rng::with_seed(1)) {
             assert!(p.hertz().pressure_pa <= 3.2e9);
             assert!((5e-9..=20.0001e-9).contains(&p.alpha_per_pa));
         }

@@ -1,14 +1,14 @@
 //! Trainings as a whole: stopped and resumed, on any number of threads, with tolerances out of reach.
 
 use super::*;
-use crate::solver::grid::GridSpec;
+use crate::solver::grid::{ContactGridSpec, GridSpec};
 use crate::solver::reduced::{ReducedModel, Window};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// A small box on a coarse grid: a full solve takes a fraction of a millisecond.
 fn small(plan: Plan) -> TrainingSpec {
-    let grid = GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) };
+    let grid = ContactGridSpec::Line(GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) });
     TrainingSpec {
         title: "small".to_owned(),
         range: Range::Box {
@@ -26,6 +26,7 @@ fn small(plan: Plan) -> TrainingSpec {
         deformation_loss: 1e-6,
         sampling: Sampling::QDeim,
         rows_per_mode: 2.0,
+        penalty: PENALTY,
         evidence: 0,
         seed: 3,
     }
@@ -124,7 +125,7 @@ fn automatic_windows_are_split_until_they_fit_and_share_their_solutions() {
     let (first, last) = (model.windows.first().unwrap(), model.windows.last().unwrap());
     assert!(first.m.0 <= domain.m.0 && last.m.1 >= domain.m.1);
     for (k, window) in model.windows.iter().enumerate() {
-        assert_eq!(window.grid.spec, first.grid.spec);
+        assert_eq!(window.grid.spec(), first.grid.spec());
         assert!(window.snapshots.iter().all(|s| state.windows[k].solved.iter().any(|known| known.point == s.point)));
     }
     let mut points: Vec<_> = model.windows.iter().flat_map(|w| &w.snapshots).map(|s| s.point.quantities()).collect();
@@ -166,7 +167,7 @@ fn a_range_in_which_full_solves_fail_names_the_point_and_keeps_what_it_has() {
         max_hertz_pressure: 1e12,
         viscosity: 0.01,
     };
-    let grid = GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) };
+    let grid = ContactGridSpec::Line(GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) });
     spec.windows = Windows::Given(vec![WindowSpec { m: (20.0, 50_000.0), grid }]);
     let mut state = TrainingState::new(spec);
     let error = train_resumable(&mut state, &()).unwrap_err();
@@ -191,7 +192,7 @@ fn a_range_that_holds_no_contact_is_refused_with_a_sentence() {
     let one_point =
         Range::Moes { m: (20.0, 20.0), l: (l.0, l.0), alpha: (alpha.0, alpha.0), max_hertz_pressure: 1e10, viscosity };
     let plan = Plan::FarthestPoint { snapshots: 8 };
-    let given = |m| Windows::Given(vec![WindowSpec { m, grid: GridSpec::EXPLORER }]);
+    let given = |m| Windows::Given(vec![WindowSpec { m, grid: ContactGridSpec::Line(GridSpec::EXPLORER) }]);
     for (range, windows, holds) in [
         (nowhere.clone(), given((400.0, 500.0)), "holds 0"),
         (nowhere, Windows::Automatic { modes: 90 }, "holds 0"),

@@ -1,13 +1,13 @@
-//! Row sampling of a window: the all-rows reduced model runs at random parameters, and what its iterates show decides which rows stay.
+//! Row sampling of a window: the all-rows reduced model runs at random parameters, for a cubature at the trainings too, and what its iterates
+//! show decides which rows stay.
 
 use super::aside::aside;
 use super::plan::random_points;
 use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::contact::OperatingPoint;
-use crate::solver::grid::FIRST_UNKNOWN;
 use crate::solver::reduced::{
-    GoalEquations, Iterate, Online, ReducedModel, ReducedOptions, RowSnapshots, SampledRows, Sampling, Window,
-    all_rows, cubature, greedy, interpolation_at_zero, is_finite, q_deim,
+    GoalEquations, Iterate, Online, ReducedModel, ReducedOptions, RowSnapshots, SampledRows, Sampling, Snapshot,
+    TestSpace, Window, all_rows, cubature, distance, greedy, is_finite, q_deim,
 };
 use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::{PartialPivLu, Solve};
@@ -22,8 +22,37 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 const ROW_SNAPSHOT_SOLVES: usize = 160;
 /// Steps smaller than this are demanded to be right absolutely, larger ones relatively (`NUMERICS` 5.4, step 3).
 const STEP_FLOOR: f64 = 0.03;
-/// Random functionals of Δp̃ per iterate, beside the one of ΔH_c.
-const RANDOM_FUNCTIONALS: usize = 6;
+/// Random functionals of Δp̃ per iterate, beside the one of ΔH_c, on a grid of few and of many rows.
+const RANDOM_FUNCTIONALS: [usize; 2] = [6, 2];
+/// Candidate rows that are many.
+const MANY_ROWS: usize = 3000;
+
+/// A reduced solve whose iterates are collected.
+enum Task<'a> {
+    /// At a random point, from wherever the online phase starts.
+    At(OperatingPoint),
+    /// At a training, from its nearest other solution.
+    From(&'a Snapshot, OperatingPoint),
+}
+
+impl<'a> Task<'a> {
+    /// At training `k` of a window; `None` where it is the only one.
+    fn beside(window: &'a Window, k: usize) -> Option<Self> {
+        let point = window.snapshots[k].point;
+        let far = |other: &Snapshot| distance(point.moes(), other.point.moes());
+        let others = window.snapshots.iter().enumerate().filter(|(other, _)| *other != k).map(|(_, other)| other);
+        others.min_by(|a, b| far(a).total_cmp(&far(b))).map(|nearest| Self::From(nearest, point))
+    }
+
+    /// Solves, showing every iterate; false when it diverges.
+    fn solve(&self, spec: &TrainingSpec, online: &mut Online, keep: &mut dyn FnMut(&Iterate<'_>)) -> bool {
+        online.forget();
+        match self {
+            Self::At(point) => online.solve_observed(point, spec.lubricant, Some(keep)).is_ok(),
+            Self::From(snapshot, point) => online.solve_from(snapshot, point, spec.lubricant, keep).is_ok(),
+        }
+    }
+}
 
 /// What one reduced solve contributes.
 enum Evidence {
@@ -44,44 +73,54 @@ pub(super) fn sample_rows(
     observer: &dyn TrainingObserver,
 ) -> Result<Option<SampledRows>, TrainingError> {
     let Some(window) = exact.windows.first() else { return Ok(None) };
-    let points = random_points(&spec.range, reach, ROW_SNAPSHOT_SOLVES, rng);
+    let mut tasks: Vec<Task<'_>> =
+        random_points(&spec.range, spec.contact(), reach, ROW_SNAPSHOT_SOLVES, rng).into_iter().map(Task::At).collect();
+    if spec.sampling == Sampling::Cubature {
+        tasks.extend((0..window.snapshots.len()).filter_map(|k| Task::beside(window, k)));
+    }
+    let test = Arc::new(TestSpace::new(&window.pressure, &window.grid));
+    let none = GoalEquations::over(&test);
     let stage = format!("Row snapshots, M {}…{}", window.m.0, window.m.1);
     let done = AtomicUsize::new(0);
-    let collected: Vec<Evidence> = points
+    let collected: Vec<Evidence> = tasks
         .par_iter()
         .enumerate()
         .map_init(
             || Online::new(Arc::clone(exact), ReducedOptions::default()),
-            |online, (index, point)| {
+            |online, (index, task)| {
                 if observer.cancelled() {
                     return Err(TrainingError::Cancelled);
                 }
                 let evidence = match spec.sampling {
                     Sampling::Cubature => {
                         let mut rng = Rng::with_seed(spec.seed.wrapping_add(index as u64));
-                        Evidence::Goals(goals(spec, online, window, point, &mut rng))
+                        Evidence::Goals(goals(spec, online, &test, none.clone(), task, &mut rng))
                     }
-                    _ => Evidence::Snapshots(snapshots(spec, online, window, point)),
+                    _ => Evidence::Snapshots(snapshots(spec, online, &test, task)),
                 };
                 let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-                observer.progress(Progress { stage: stage.clone(), done, total: points.len() });
+                observer.progress(Progress { stage: stage.clone(), done, total: tasks.len() });
                 Ok(evidence)
             },
         )
         .collect::<Result<_, _>>()?;
     observer.progress(Progress { stage: "Row sampling".to_owned(), done: 0, total: 1 });
-    let (exact, sampling, rows_per_mode) = (Arc::clone(exact), spec.sampling, spec.rows_per_mode);
+    let (sampling, rows_per_mode) = (spec.sampling, spec.rows_per_mode);
     aside(observer, move || {
-        let sampled = choose(exact.windows.first()?, sampling, rows_per_mode, collected);
+        let sampled = choose(&test, sampling, rows_per_mode, collected, none);
         sampled.filter(|s| is_finite(s.reconstruction.as_ref()))
     })
 }
 
 /// The rows that all evidence together speaks for.
-fn choose(window: &Window, sampling: Sampling, rows_per_mode: f64, collected: Vec<Evidence>) -> Option<SampledRows> {
-    let unknowns = window.grid.xi.len() - 3;
+fn choose(
+    test: &TestSpace,
+    sampling: Sampling,
+    rows_per_mode: f64,
+    collected: Vec<Evidence>,
+    mut equations: GoalEquations,
+) -> Option<SampledRows> {
     let mut rows = RowSnapshots::default();
-    let mut equations = GoalEquations::new(unknowns);
     for part in collected {
         match part {
             Evidence::Snapshots(part) => {
@@ -91,29 +130,25 @@ fn choose(window: &Window, sampling: Sampling, rows_per_mode: f64, collected: Ve
             Evidence::Goals(part) => equations.merge(&part),
         }
     }
-    let count = ((window.pressure.modes.ncols() as f64 * rows_per_mode).round() as usize).min(unknowns);
-    let (basis, weights) = (&window.pressure, &window.grid.weights);
+    let count = ((test.modes.ncols() as f64 * rows_per_mode).round() as usize).min(test.weights.len());
     match sampling {
-        Sampling::QDeim => q_deim(basis, weights, &rows, count),
-        Sampling::Greedy => greedy(basis, weights, &rows, count),
-        Sampling::Cubature => cubature(basis, weights, &equations, count),
-        Sampling::All => Some(all_rows(basis, weights)),
+        Sampling::QDeim => q_deim(test, &rows, count),
+        Sampling::Greedy => greedy(test, &rows, count),
+        Sampling::Cubature => cubature(test, &equations, count),
+        Sampling::All => Some(all_rows(test)),
     }
 }
 
 /// Residual and Jacobian snapshots of one solve, scaled by √w and by the largest of them. Empty when it diverges: that teaches nothing about the
 /// rows a good iteration meets.
-fn snapshots(spec: &TrainingSpec, online: &mut Online, window: &Window, point: &OperatingPoint) -> RowSnapshots {
-    let weights = &window.grid.weights;
-    let scaled =
-        |v: &[f64]| -> Vec<f64> { v.iter().zip(&weights[FIRST_UNKNOWN..]).map(|(v, w)| v * w.sqrt()).collect() };
+fn snapshots(spec: &TrainingSpec, online: &mut Online, test: &TestSpace, task: &Task<'_>) -> RowSnapshots {
+    let scaled = |v: &[f64]| -> Vec<f64> { v.iter().zip(&test.weights).map(|(v, w)| v * w.sqrt()).collect() };
     let mut rows = RowSnapshots::default();
     let mut keep = |iterate: &Iterate<'_>| {
         rows.residual.push(scaled(iterate.residual));
         rows.jacobian.push(scaled(iterate.jacobian_step));
     };
-    online.forget();
-    if online.solve_observed(point, spec.lubricant, Some(&mut keep)).is_err() {
+    if !task.solve(spec, online, &mut keep) {
         return RowSnapshots::default();
     }
     normalise(&mut rows.residual);
@@ -132,66 +167,51 @@ fn normalise(snapshots: &mut [Vec<f64>]) {
     }
 }
 
-/// The goal equations of every iterate of one solve; none when it diverges.
+/// The goal equations of every iterate of one solve added to `none`; none when it diverges.
 fn goals(
     spec: &TrainingSpec,
     online: &mut Online,
-    window: &Window,
-    point: &OperatingPoint,
+    test: &TestSpace,
+    none: GoalEquations,
+    task: &Task<'_>,
     rng: &mut Rng,
 ) -> GoalEquations {
-    let unknowns = window.grid.xi.len() - 3;
-    let mut equations = GoalEquations::new(unknowns);
-    let mut keep = |iterate: &Iterate<'_>| {
-        if let Some(block) = goal_block(window, iterate, rng) {
-            equations.add(&block);
-        }
-    };
-    online.forget();
-    if online.solve_observed(point, spec.lubricant, Some(&mut keep)).is_err() {
-        return GoalEquations::new(unknowns);
-    }
-    equations
+    let mut equations = none.clone();
+    let mut keep = |iterate: &Iterate<'_>| add_goals(&mut equations, test, iterate, rng);
+    if task.solve(spec, online, &mut keep) { equations } else { none }
 }
 
-/// Functionals of the step, each for f and for J V Δz̃.
-fn goal_block(window: &Window, iterate: &Iterate<'_>, rng: &mut Rng) -> Option<Mat<f64>> {
+/// Adds functionals of the step, each for f and for J V Δz̃.
+fn add_goals(equations: &mut GoalEquations, test: &TestSpace, iterate: &Iterate<'_>, rng: &mut Rng) {
     let modes = iterate.coefficients.len();
     let length = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let size = length(iterate.coefficients);
-    // The row that turns (Δp̃, ΔH₀) into ΔH_c, and H_c itself.
-    let zero = interpolation_at_zero(window, iterate.scale);
-    let lift: Vec<f64> = (0..modes)
-        .map(|k| iterate.scale * zero.iter().map(|(node, w)| w * window.flexed[(*node, k)]).sum::<f64>())
-        .collect();
-    let h_c =
-        iterate.h_0 - 0.5 * iterate.scale.ln() + lift.iter().zip(iterate.coefficients).map(|(l, c)| l * c).sum::<f64>();
     let (step, dh_0) = iterate.step.split_at(modes);
-    let film_step = (dh_0.first()? + lift.iter().zip(step).map(|(l, d)| l * d).sum::<f64>()) / h_c;
+    let dh_0: f64 = dh_0.iter().sum();
+    let (lift, h_c) = (iterate.lift, iterate.h_c);
+    let film_step = (dh_0 + lift.iter().zip(step).map(|(l, d)| l * d).sum::<f64>()) / h_c;
     let change = 5.0 * length(step) / size + film_step.abs();
     if !(h_c > 0.0 && change.is_finite() && change > 0.0) {
-        return None;
+        return;
     }
     let mut gauss = || (-2.0 * (1.0 - rng.f64()).ln()).sqrt() * (2.0 * PI * rng.f64()).cos();
     // Lᵀ: random functionals of Δp̃, then the one of ΔH_c.
-    let count = RANDOM_FUNCTIONALS + 1;
-    let functionals = Mat::from_fn(modes + 1, count, |row, column| match (column < RANDOM_FUNCTIONALS, row == modes) {
+    let random = RANDOM_FUNCTIONALS[usize::from(equations.candidates().len() > MANY_ROWS)];
+    let functionals = Mat::from_fn(modes + 1, random + 1, |row, column| match (column < random, row == modes) {
         (false, true) => 1.0 / h_c,
         (false, false) => lift[row] / h_c,
         (true, true) => 0.0,
         (true, false) => 5.0 * gauss() / size,
     });
     let goals = PartialPivLu::new(iterate.jacobian.transpose()).solve(&functionals);
-    let share = 1.0 / (count as f64).sqrt();
+    let share = 1.0 / ((random + 1) as f64).sqrt();
     let (first, second) = (share / change.max(STEP_FLOOR), share / change);
-    let weights = &window.grid.weights;
-    // (T V_i) w_i for every row, then times f_i or (J V Δz̃)_i.
-    // On one thread, so that rounding does not depend on how many there are.
-    let mut tested = Mat::<f64>::zeros(window.pressure.modes.nrows(), count);
-    matmul(tested.as_mut(), Accum::Replace, window.pressure.modes.as_ref(), goals.get(..modes, ..), 1.0, Par::Seq);
-    Some(Mat::from_fn(2 * count, iterate.residual.len(), |equation, i| {
-        let node = i + FIRST_UNKNOWN;
-        let test = tested[(node, equation % count)] * weights[node];
-        if equation < count { first * test * iterate.residual[i] } else { second * test * iterate.jacobian_step[i] }
-    }))
+    // T V_i for every row; on one thread, so that rounding does not depend on how many there are.
+    let rows = test.weights.len();
+    let mut tested = Mat::<f64>::zeros(rows, random + 1);
+    matmul(tested.as_mut(), Accum::Replace, test.modes.as_ref(), goals.get(..modes, ..), 1.0, Par::Seq);
+    for functional in tested.col_iter() {
+        equations.add(|i| first * functional[i] * test.weights[i] * iterate.residual[i], rows);
+        equations.add(|i| second * functional[i] * test.weights[i] * iterate.jacobian_step[i], rows);
+    }
 }

@@ -25,7 +25,7 @@
 use super::aside::aside;
 use super::state::{OVERLAP, Solved, TrainingState, WindowState};
 use super::{TrainingError, TrainingObserver};
-use crate::solver::grid::ReferenceGrid;
+use crate::solver::grid::ContactGrid;
 use crate::solver::reduced::PodBasis;
 use faer::Mat;
 use fastrand::Rng;
@@ -79,11 +79,11 @@ fn reached(part: (f64, f64), whole: (f64, f64), solved: &Solved) -> bool {
 ///
 /// The loss is the one that three quarters of as many modes as there are solutions leave: a smaller one needs nearly as many modes as there are
 /// solutions on either side, and would compare their numbers only.
-fn balanced_edge(solved: &[Solved], whole: (f64, f64), grid: &ReferenceGrid) -> Option<f64> {
+fn balanced_edge(solved: &[Solved], whole: (f64, f64), grid: &ContactGrid) -> Option<f64> {
     let basis = |part: (f64, f64), loss: f64| {
         let inside: Vec<&Solved> = solved.iter().filter(|s| reached(part, whole, s)).collect();
-        let pressures = Mat::from_fn(grid.xi.len(), inside.len(), |i, j| inside[j].pressure[i]);
-        if inside.is_empty() { None } else { PodBasis::new(pressures.as_ref(), &grid.weights, loss) }
+        let pressures = Mat::from_fn(grid.len(), inside.len(), |i, j| inside[j].pressure[i]);
+        if inside.is_empty() { None } else { PodBasis::new(pressures.as_ref(), grid.weights(), loss) }
     };
     let loss = basis(whole, 0.0)?.loss(solved.len() * 3 / 4);
     // A side without any solution needs no mode.
@@ -103,11 +103,12 @@ fn balanced_edge(solved: &[Solved], whole: (f64, f64), grid: &ReferenceGrid) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::grid::GridSpec;
+    use crate::solver::contact::ContactKind;
+    use crate::solver::grid::{ContactGridSpec, GridSpec};
     use crate::solver::training::{Range, farthest_points};
 
     /// Solutions whose pressures have nothing in common: every one needs a mode.
-    fn solutions(grid: &ReferenceGrid) -> Vec<Solved> {
+    fn solutions(grid: &ContactGrid) -> Vec<Solved> {
         let range = Range::Moes {
             m: (2.0, 500.0),
             l: (2.0, 8.0),
@@ -115,9 +116,9 @@ mod tests {
             max_hertz_pressure: 6e9,
             viscosity: 0.01,
         };
-        let points = farthest_points(&range, (0.0, f64::INFINITY), 60, &mut Rng::with_seed(1));
+        let points = farthest_points(&range, ContactKind::Line, (0.0, f64::INFINITY), 60, &mut Rng::with_seed(1));
         let solved = points.into_iter().enumerate().map(|(place, point)| {
-            let pressure = (0..grid.xi.len()).map(|i| if i > 1 && i % 64 == place { 1.0 } else { 0.0 }).collect();
+            let pressure = (0..grid.len()).map(|i| if i > 1 && i % 64 == place { 1.0 } else { 0.0 }).collect();
             Solved { place, point, pressure, h_0: 0.0, h_c: 1.0 }
         });
         solved.collect()
@@ -125,7 +126,7 @@ mod tests {
 
     #[test]
     fn the_edge_lies_where_both_sides_need_equally_many_modes() {
-        let grid = GridSpec::explorer_from(-5.0, true).build().unwrap();
+        let grid = ContactGridSpec::Line(GridSpec::explorer_from(-5.0, true)).build().unwrap();
         let solved = solutions(&grid);
         let edge = balanced_edge(&solved, (2.0, 500.0), &grid).unwrap();
         let below = solved.iter().filter(|s| s.point.moes().m <= edge * OVERLAP).count();
@@ -135,7 +136,7 @@ mod tests {
 
     #[test]
     fn halves_reach_beyond_their_common_edge_only() {
-        let grid = GridSpec::explorer_from(-5.0, true).build().unwrap();
+        let grid = ContactGridSpec::Line(GridSpec::explorer_from(-5.0, true)).build().unwrap();
         let solved = solutions(&grid);
         let of = |part| -> Vec<f64> {
             solved.iter().filter(|s| reached(part, (2.0, 500.0), s)).map(|s| s.point.moes().m).collect()

@@ -195,7 +195,7 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
             trained.pressure.modes.ncols(),
             trained.deformation.modes.ncols(),
             trained.sampled_rows.len(),
-            trained.grid.xi.len() - 3,
+            trained.grid.unknowns(),
         ));
         log.extend(state.windows[k].search.describe(&spec.plan));
         log.push(match &trained.calibration {
@@ -235,23 +235,23 @@ fn train_window(
     let mut rng = Rng::with_seed(own.seed);
     let mut shop = Shop::new(spec, own.window, reach, most_modes, observer)?;
     let known: Vec<OperatingPoint> = own.solved.iter().take(own.inherited).map(|s| s.point).collect();
-    if own.solved.iter().any(|s| s.pressure.len() != shop.grid.xi.len()) {
+    if own.solved.iter().any(|s| s.pressure.len() != shop.grid.len()) {
         return Err(TrainingError::Specification("the stored full solutions belong to another grid".to_owned()));
     }
     // Drawn again when resumed, so that the random numbers behind it are the same.
     let points = match spec.plan {
         Plan::Grid { nodes } => {
-            let mut points = grid_points(&spec.range, nodes);
+            let mut points = grid_points(&spec.range, spec.contact(), nodes);
             points.retain(|p| (reach.0..=reach.1).contains(&p.moes().m) && !known.contains(p));
             points
         }
         Plan::FarthestPoint { snapshots: wanted }
         | Plan::Adaptive { start: wanted, .. }
         | Plan::WorstOfPool { start: wanted, .. } => {
-            let (range, known, mut random) = (spec.range.clone(), known.clone(), rng.clone());
+            let (range, kind, known, mut random) = (spec.range.clone(), spec.contact(), known.clone(), rng.clone());
             let more = wanted.saturating_sub(known.len());
             let (points, random) = aside(observer, move || {
-                let points = farther_points(&range, reach, &known, more, &mut random);
+                let points = farther_points(&range, kind, reach, &known, more, &mut random);
                 (points, random)
             })?;
             rng = random;
@@ -267,7 +267,8 @@ fn train_window(
     }
     shop.solve_pending(state, Part::Window(k))?;
     if !spec.plan.searches() {
-        return shop.assemble(&state.windows[k].solved, &mut rng);
+        let window = shop.assemble(&state.windows[k].solved)?;
+        return window.map(|window| shop.sample(window, &mut rng)).transpose();
     }
     // Two seeds from the common sequence; the rows are sampled at the same random points in every round.
     let (search_seed, row_seed) = (rng.u64(..), rng.u64(..));

@@ -1,8 +1,8 @@
 //! Behaviour of training: the same specification gives the same model, models reproduce what they were trained on, bad requests are refused.
 
 use super::*;
-use crate::solver::full::{FullSolver, Start};
-use crate::solver::grid::GridSpec;
+use crate::solver::full::{ContactSolver, Start};
+use crate::solver::grid::{ContactGridSpec, GridSpec};
 use crate::solver::reduced::{Online, ReducedOptions, Sampling};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -22,12 +22,13 @@ fn small(sampling: Sampling) -> TrainingSpec {
         plan: Plan::FarthestPoint { snapshots: 50 },
         windows: Windows::Given(vec![WindowSpec {
             m: (1.0, 500.0),
-            grid: GridSpec::Graded { nodes: 240, domain: (-6.0, 1.9), registered: true },
+            grid: ContactGridSpec::Line(GridSpec::Graded { nodes: 240, domain: (-6.0, 1.9), registered: true }),
         }]),
         pressure_loss: 1e-6,
         deformation_loss: 1e-6,
         sampling,
         rows_per_mode: 2.0,
+        penalty: PENALTY,
         evidence: 0,
         seed: 5,
     }
@@ -68,8 +69,8 @@ fn all_rows_and_q_deim_agree_at_fresh_points_and_lie_near_full_solutions() {
     let exact = Arc::new(train(&small(Sampling::All), &()).unwrap());
     let sampled = Arc::new(train(&small(Sampling::QDeim), &()).unwrap());
     let mut rng = fastrand::Rng::with_seed(9);
-    let points = random_points(&exact_range(), (0.0, f64::INFINITY), 20, &mut rng);
-    let mut full = FullSolver::on(Arc::clone(&exact.windows[0].grid));
+    let points = random_points(&exact_range(), ContactKind::Line, (0.0, f64::INFINITY), 20, &mut rng);
+    let mut full = ContactSolver::on(&exact.windows[0].grid);
     let (mut a, mut b) =
         (Online::new(Arc::clone(&exact), ReducedOptions::default()), Online::new(sampled, ReducedOptions::default()));
     for point in points {
@@ -91,8 +92,9 @@ fn the_calibrated_bound_holds_against_full_solutions_and_is_not_idle() {
     let spec = TrainingSpec { plan: Plan::FarthestPoint { snapshots: 30 }, evidence: 300, ..small(Sampling::QDeim) };
     let model = Arc::new(train(&spec, &()).unwrap());
     let mut online = Online::new(Arc::clone(&model), ReducedOptions::default());
-    let mut solver = FullSolver::on(Arc::clone(&model.windows[0].grid));
-    let points = random_points(&spec.range, (0.0, f64::INFINITY), 200, &mut fastrand::Rng::with_seed(77));
+    let mut solver = ContactSolver::on(&model.windows[0].grid);
+    let points =
+        random_points(&spec.range, ContactKind::Line, (0.0, f64::INFINITY), 200, &mut fastrand::Rng::with_seed(77));
     let (mut held, mut ratios) = (0, Vec::new());
     for point in &points {
         online.forget();
@@ -140,7 +142,10 @@ fn requests_that_make_no_sense_are_refused_with_a_sentence() {
         (TrainingSpec { plan: Plan::FarthestPoint { snapshots: 1 }, ..base.clone() }, "snapshots"),
         (
             TrainingSpec {
-                windows: Windows::Given(vec![WindowSpec { m: (1e3, 2e3), grid: GridSpec::EXPLORER }]),
+                windows: Windows::Given(vec![WindowSpec {
+                    m: (1e3, 2e3),
+                    grid: ContactGridSpec::Line(GridSpec::EXPLORER),
+                }]),
                 ..base.clone()
             },
             "window",

@@ -11,7 +11,7 @@ use crate::app::state::State;
 use crate::app::task::{Ending, Reporter, Task};
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, rich};
 use crate::scene::QuantityBox;
-use crate::solver::contact::OperatingPoint;
+use crate::solver::contact::{ContactKind, OperatingPoint};
 use crate::solver::full::{Problem, Solution, Start};
 use crate::solver::reduced::Trust;
 use crate::solver::training::Range;
@@ -107,9 +107,9 @@ impl Along {
 }
 
 /// The contact of (3.21) at c in a range: in a box of SI quantities the dissertation's, in others the same waves of its coordinates.
-fn contact(range: &Range, c: f64) -> Option<OperatingPoint> {
+fn contact(range: &Range, kind: ContactKind, c: f64) -> Option<OperatingPoint> {
     let wave = |halves: f64| 0.5 + 0.5 * (halves * PI * c).sin();
-    range.at([3.0, 4.0, 5.0, 2.0].map(wave))
+    range.at(kind, [3.0, 4.0, 5.0, 2.0].map(wave))
 }
 
 fn range_of(in_use: &InUse, through: Through) -> Range {
@@ -130,7 +130,14 @@ fn work(in_use: &InUse, plan: Plan, reporter: &Reporter<Step>) -> Ending {
     let mut former: Option<Solution> = None;
     for i in 0..plan.points {
         let c = 2.0 * i as f64 / (plan.points - 1) as f64;
-        let mut step = Step { c, point: contact(&range, c), trained: false, reduced: None, bound: None, full: None };
+        let mut step = Step {
+            c,
+            point: contact(&range, in_use.model.contact(), c),
+            trained: false,
+            reduced: None,
+            bound: None,
+            full: None,
+        };
         if let Some(point) = &step.point {
             let problem = Problem::new(point, lubricant).map_err(|error| error.to_string())?;
             step.trained = in_use.model.trust(&problem) == Trust::Trained;
@@ -305,8 +312,8 @@ mod tests {
         let range = Range::Box { radius, speed, load, alpha, modulus, viscosity };
         for c in [0.0, 0.37, 1.9] {
             assert_eq!(
-                contact(&range, c),
-                Some(QuantityBox::TABLE_3_1.trajectory(crate::solver::contact::ContactKind::Line, c))
+                contact(&range, ContactKind::Line, c),
+                Some(QuantityBox::TABLE_3_1.trajectory(ContactKind::Line, c))
             );
         }
         let step = |c, reduced| Step { c, point: None, trained: true, reduced, bound: None, full: None };

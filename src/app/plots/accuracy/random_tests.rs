@@ -190,7 +190,8 @@ pub fn trained_range(model: &ReducedModel) -> Range {
 fn work(in_use: &InUse, plan: Plan, reporter: &Reporter<Message>) -> Ending {
     let lubricant = in_use.model.domain.lubricant;
     let range = trained_range(&in_use.model);
-    let points = random_points(&range, (0.0, f64::INFINITY), plan.tests, &mut Rng::with_seed(plan.seed));
+    let (contact, seed) = (in_use.model.contact(), plan.seed);
+    let points = random_points(&range, contact, (0.0, f64::INFINITY), plan.tests, &mut Rng::with_seed(seed));
     if points.is_empty() {
         return Err("the model’s range holds no admissible contact to test".to_owned());
     }

@@ -5,7 +5,7 @@ use crate::app::controls::{heading, named};
 use crate::app::state::State;
 use crate::app::training::presets;
 use crate::scene::QuantityBox;
-use crate::solver::grid::GridSpec;
+use crate::solver::grid::{ContactGridSpec, GridSpec};
 use crate::solver::reduced::Sampling;
 use crate::solver::training::{Indicator, Plan, Range, TrainingSpec, Windows};
 use egui::{TextEdit, Ui};
@@ -116,8 +116,9 @@ fn described_windows(windows: &Windows) -> String {
     };
     let ranges: Vec<String> = given.iter().map(|w| format!("{}…{}", short(w.m.0), short(w.m.1))).collect();
     let grid = given.first().map_or_else(String::new, |w| match w.grid {
-        GridSpec::Graded { nodes, .. } => format!(", {nodes} graded nodes"),
-        GridSpec::Uniform { dx, .. } => format!(", uniform grid of {dx}"),
+        ContactGridSpec::Line(GridSpec::Graded { nodes, .. }) => format!(", {nodes} graded nodes"),
+        ContactGridSpec::Line(GridSpec::Uniform { dx, .. }) => format!(", uniform grid of {dx}"),
+        ContactGridSpec::Point(spec) => format!(", point grid of {}×{}", spec.dx, spec.dy),
     });
     format!("Windows of M: {}{grid}", ranges.join(", "))
 }
