@@ -24,6 +24,7 @@ fn problem(speed_m_per_s: f64, srr: f64, npr: f64) -> Problem {
         modulus_pa: reduced_modulus(81e9, 0.208, 210e9, 0.3).unwrap(),
         viscosity_pa_s: 0.0705,
         alpha_per_pa: 1e-8,
+        sliding: Sliding::NONE,
     };
     let sliding = Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: Some(npr) };
     Problem::under_sliding(&point, lubricant("squalane-pip"), sliding).unwrap()
@@ -31,7 +32,7 @@ fn problem(speed_m_per_s: f64, srr: f64, npr: f64) -> Problem {
 
 fn solve(solver: &mut FullSolver, problem: Problem) -> Solution {
     let solution = solver.solve_problem(problem, Start::Cold, &mut ());
-    assert!(solution.converged(), "{:?}: {:?}", problem.sliding, solution.report);
+    assert!(solution.converged(), "{:?}: {:?}", problem.point.sliding, solution.report);
     solution
 }
 
@@ -178,7 +179,7 @@ fn a_limiting_stress_bounds_the_traction_and_ends_the_warning() {
     heavy.point.load *= 4.0;
     let limited = |limit| {
         let laws = Lubricant { limiting_stress: limit, ..heavy.lubricant };
-        Problem::under_sliding(&heavy.point, laws, heavy.sliding).unwrap()
+        Problem::under_sliding(&heavy.point, laws, heavy.point.sliding).unwrap()
     };
     let unlimited = solve(&mut solver, limited(None));
     assert!(unlimited.traction_warning().is_some_and(|sentence| sentence.contains("unphysical")));

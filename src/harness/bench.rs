@@ -164,10 +164,12 @@ fn shear_problems(kind: ContactKind, count: usize) -> Result<Vec<Problem>, Harne
             modulus_pa: 1.2388e11,
             viscosity_pa_s: 0.0705,
             alpha_per_pa: 2e-8,
+            sliding: Sliding {
+                slide_to_roll_ratio: random.f64(),
+                newtonian_plateau_ratio: Some(0.2 + 0.8 * random.f64()),
+            },
         };
-        let sliding =
-            Sliding { slide_to_roll_ratio: random.f64(), newtonian_plateau_ratio: Some(0.2 + 0.8 * random.f64()) };
-        Ok(Problem::under_sliding(&point, lubricant, sliding)?)
+        Ok(Problem::new(&point, lubricant)?)
     };
     (0..count).map(problem).collect()
 }
@@ -220,9 +222,7 @@ fn reduced_row(online: &mut Online, points: &[OperatingPoint], budget: Duration)
 fn nearest_other(solutions: &[Solution], k: usize) -> Option<&Solution> {
     let far = |other: &Solution| {
         let (a, b) = (&solutions[k].problem, &other.problem);
-        let plateau = |problem: &Problem| problem.sliding.newtonian_plateau_ratio.unwrap_or(1.0);
-        let sliding = a.sliding.slide_to_roll_ratio - b.sliding.slide_to_roll_ratio;
-        distance(a.moes, b.moes) + sliding.powi(2) + (plateau(a) - plateau(b)).powi(2)
+        distance(a.moes, b.moes) + a.point.sliding.distance(b.point.sliding)
     };
     let others = solutions.iter().enumerate().filter(|&(i, _)| i != k).map(|(_, solution)| solution);
     others.min_by(|a, b| far(a).total_cmp(&far(b)))

@@ -8,7 +8,10 @@ use super::checked_file::{Flaw, Format, Unreadable};
 use crate::scene::atomic_file::{self, WriteError};
 use crate::solver::contact::ContactKind;
 use crate::solver::grid::{ContactGrid, ContactGridError, ContactGridSpec};
-use crate::solver::reduced::{Calibration, Domain, PodBasis, ReducedModel, SampledRows, Sampling, Snapshot, Window};
+use crate::solver::lubricant::{LimitingStress, Lubricant, ShearLaw, Sliding};
+use crate::solver::reduced::{
+    Calibration, Domain, PodBasis, ReducedModel, SampledRows, Sampling, SlidingDomain, Snapshot, Window,
+};
 use faer::Mat;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -100,6 +103,16 @@ struct StoredModel {
     log: Vec<String>,
 }
 
+/// What follows the model where its lubricant thins under shear.
+#[derive(Serialize, Deserialize)]
+struct StoredShear {
+    law: ShearLaw,
+    limiting_stress: Option<LimitingStress>,
+    domain: SlidingDomain,
+    /// Of the snapshots of each window.
+    snapshots: Vec<Vec<Sliding>>,
+}
+
 #[derive(Serialize, Deserialize)]
 struct StoredWindow {
     m: (f64, f64),
@@ -138,6 +151,30 @@ enum Values {
 enum Precision {
     Double,
     Single,
+}
+
+impl StoredModel {
+    /// Takes over what a shear-thinning lubricant adds.
+    fn thin(&mut self, shear: StoredShear) -> Result<(), ModelFileError> {
+        let StoredShear { law, limiting_stress, domain, snapshots } = shear;
+        let lubricant = Lubricant { shear: law, limiting_stress, ..self.domain.lubricant };
+        let ratios = |s: &Sliding| (s.slide_to_roll_ratio, s.newtonian_plateau_ratio.unwrap_or(0.0));
+        let sound = |s: &Sliding| ratios(s).0.is_finite() && (0.0..=1.0).contains(&ratios(s).1);
+        let fits = snapshots.len() == self.windows.len()
+            && self.windows.iter().zip(&snapshots).all(|(window, sliding)| window.snapshots.len() == sliding.len())
+            && snapshots.iter().flatten().all(sound);
+        if !fits || law == ShearLaw::Newtonian || lubricant.check().is_err() {
+            return Err(ModelFileError::Damaged { what: "shear-thinning" });
+        }
+        for (window, sliding) in self.windows.iter_mut().zip(snapshots) {
+            for (snapshot, sliding) in window.snapshots.iter_mut().zip(sliding) {
+                snapshot.point.sliding = sliding;
+            }
+        }
+        self.domain.lubricant = lubricant;
+        self.domain.sliding = Some(domain);
+        Ok(())
+    }
 }
 
 impl StoredMatrix {
@@ -291,7 +328,15 @@ pub fn to_bytes(model: &ReducedModel) -> Result<Vec<u8>, ModelFileError> {
         scene: model.scene.clone(),
         log: model.log.clone(),
     };
-    let payload = postcard::to_allocvec(&stored).map_err(|_| ModelFileError::Damaged { what: "encoding" })?;
+    let unwritable = |_| ModelFileError::Damaged { what: "encoding" };
+    let mut payload = postcard::to_allocvec(&stored).map_err(unwritable)?;
+    if let Some(domain) = model.domain.sliding {
+        let Lubricant { shear: law, limiting_stress, .. } = model.domain.lubricant;
+        let of_window = |w: &Window| w.snapshots.iter().map(|snapshot| snapshot.point.sliding).collect();
+        let snapshots = model.windows.iter().map(of_window).collect();
+        let shear = StoredShear { law, limiting_stress, domain, snapshots };
+        payload = postcard::to_extend(&shear, payload).map_err(unwritable)?;
+    }
     Ok(FORMAT.seal(&payload))
 }
 
@@ -301,8 +346,12 @@ pub fn to_bytes(model: &ReducedModel) -> Result<Vec<u8>, ModelFileError> {
 /// As [`read`].
 pub fn from_bytes(bytes: &[u8]) -> Result<ReducedModel, ModelFileError> {
     let payload = FORMAT.open(bytes)?;
-    let stored: StoredModel =
-        postcard::from_bytes(payload).map_err(|_| ModelFileError::Damaged { what: "its content cannot be decoded" })?;
+    let undecodable = |_| ModelFileError::Damaged { what: "its content cannot be decoded" };
+    let (mut stored, rest): (StoredModel, &[u8]) = postcard::take_from_bytes(payload).map_err(undecodable)?;
+    if !rest.is_empty() {
+        let shear = postcard::from_bytes(rest).map_err(undecodable)?;
+        stored.thin(shear)?;
+    }
     let grids = grids(&stored.windows)?;
     let windows: Vec<Window> =
         stored.windows.into_par_iter().zip(grids).map(|(w, grid)| w.into_window(grid)).collect::<Result<_, _>>()?;

@@ -15,7 +15,7 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 /// 5000 full solutions in each of some windows, on the finest grids that are used.
 const FORMAT: Format = Format { magic: b"EHLTRN\r\n", version: VERSION, max_payload: 2 << 30 };
 

@@ -1,7 +1,7 @@
 //! The questions a scene can ask.
 
 use super::{Method, ModelSource};
-use crate::solver::contact::{ContactKind, FilmFormula, OperatingPoint};
+use crate::solver::contact::{ContactKind, FilmFormula, OperatingPoint, Sliding};
 use crate::solver::reduced::{Norm, ReducedOptions};
 use crate::solver::training::TrainingSpec;
 use serde::{Deserialize, Serialize};
@@ -427,6 +427,7 @@ impl QuantityBox {
             modulus_pa: self.modulus,
             viscosity_pa_s: self.viscosity,
             alpha_per_pa: between(self.alpha, alpha),
+            sliding: Sliding::NONE,
         }
     }
 

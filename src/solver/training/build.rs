@@ -8,9 +8,10 @@ use super::{Plan, Progress, Range, TrainingError, TrainingObserver, TrainingSpec
 use crate::solver::contact::OperatingPoint;
 use crate::solver::full::{ContactSolver, Start};
 use crate::solver::grid::ContactGrid;
+use crate::solver::lubricant::ShearLaw;
 use crate::solver::observer::Observer;
 use crate::solver::reduced::{
-    Domain, LEAST_EVIDENCE, PodBasis, ReducedModel, Sampling, Snapshot, TestSpace, Window, all_rows,
+    Domain, LEAST_EVIDENCE, PodBasis, ReducedModel, Sampling, SlidingDomain, Snapshot, TestSpace, Window, all_rows,
     deformation_weights,
 };
 use faer::Mat;
@@ -38,6 +39,7 @@ pub fn train(spec: &TrainingSpec, observer: &dyn TrainingObserver) -> Result<Red
 pub(super) fn check(spec: &TrainingSpec) -> Result<(), TrainingError> {
     spec.range.check()?;
     let refuse = |sentence: String| Err(TrainingError::Specification(sentence));
+    check_lubricant(spec)?;
     match &spec.windows {
         Windows::Given(windows) => check_given(spec, windows)?,
         Windows::Automatic { modes } if !(8..=1000).contains(modes) => {
@@ -92,6 +94,26 @@ pub(super) fn check(spec: &TrainingSpec) -> Result<(), TrainingError> {
     }
 }
 
+/// A range with SRR and NPR belongs to a lubricant that thins under shear, and only such a range does; its α is the lubricant's own.
+fn check_lubricant(spec: &TrainingSpec) -> Result<(), TrainingError> {
+    let refuse = |sentence: String| Err(TrainingError::Specification(sentence));
+    match (&spec.range, spec.lubricant.shear == ShearLaw::Newtonian) {
+        (Range::Sliding { .. }, true) => {
+            refuse("the range names SRR and NPR, but the lubricant has no shear constants".to_owned())
+        }
+        (Range::Sliding { alpha, .. }, false) => match spec.lubricant.own_coefficient() {
+            Some(own) if (alpha / own - 1.0).abs() > 1e-3 => refuse(format!(
+                "alpha is {alpha:.4e} 1/Pa, but the lubricant's viscosity law determines {own:.4e} 1/Pa; write that"
+            )),
+            _ => Ok(()),
+        },
+        (_, false) => {
+            refuse("a lubricant that thins under shear needs a range of SRR and NPR: `Sliding(…)`".to_owned())
+        }
+        (_, true) => Ok(()),
+    }
+}
+
 fn check_given(spec: &TrainingSpec, windows: &[WindowSpec]) -> Result<(), TrainingError> {
     let refuse = |sentence: String| Err(TrainingError::Specification(sentence));
     if windows.is_empty() {
@@ -124,7 +146,20 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
             max_hertz_pressure_pa: max_hertz_pressure,
             viscosity_pa_s: viscosity,
             lubricant: spec.lubricant,
+            sliding: None,
         },
+        Range::Sliding { m, l, srr, npr, modulus, viscosity, alpha, .. } => {
+            let heaviest = spec.range.at(spec.contact(), [1.0; 4]);
+            Domain {
+                m,
+                l,
+                alpha_per_pa: (alpha, alpha),
+                max_hertz_pressure_pa: heaviest.map_or(0.0, |point| point.hertz().pressure_pa),
+                viscosity_pa_s: viscosity,
+                lubricant: spec.lubricant,
+                sliding: Some(SlidingDomain { srr, npr, modulus_pa: modulus }),
+            }
+        }
         Range::Box { alpha, viscosity, .. } => {
             let corners = grid_points(&spec.range, spec.contact(), [2, 2, 2, 2]);
             let span = |value: &dyn Fn(&OperatingPoint) -> f64| {
@@ -137,6 +172,7 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
                 max_hertz_pressure_pa: span(&|p| p.hertz().pressure_pa).1,
                 viscosity_pa_s: viscosity,
                 lubricant: spec.lubricant,
+                sliding: None,
             }
         }
     }
