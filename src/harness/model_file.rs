@@ -277,6 +277,15 @@ pub fn embedded_of(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileE
     from_bytes(bytes).map(Arc::new)
 }
 
+/// The model of one kind of contact with a shear-thinning lubricant that is part of the program.
+///
+/// # Errors
+/// When the program was built with a damaged asset, or has none of that kind.
+pub fn embedded_shear_of(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileError> {
+    let _ = contact;
+    Err(ModelFileError::Foreign)
+}
+
 /// Reads a model file. Its announced size is checked before anything is allocated.
 ///
 /// # Errors

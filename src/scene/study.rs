@@ -284,6 +284,25 @@ pub enum TestRange {
         /// Viscosity at ambient pressure \[Pa·s\].
         viscosity: f64,
     },
+    /// M, L, SRR and NPR of a shear-thinning lubricant, (3.17) in ln M, L, SRR and NPR.
+    Sliding {
+        /// Load number.
+        m: (f64, f64),
+        /// Lubricant number.
+        l: (f64, f64),
+        /// Slide-to-roll ratio.
+        srr: (f64, f64),
+        /// Newtonian plateau ratio.
+        npr: (f64, f64),
+        /// Radius \[m\].
+        radius: f64,
+        /// Reduced modulus \[Pa\].
+        modulus: f64,
+        /// Viscosity at ambient pressure \[Pa·s\].
+        viscosity: f64,
+        /// Pressure–viscosity coefficient \[1/Pa\]; the lubricant's own, where its viscosity law determines it.
+        alpha: f64,
+    },
 }
 
 /// A published film formula.
