@@ -102,9 +102,23 @@ pub fn run(quick: bool) -> Result<Bench, HarnessError> {
     })?);
     match super::embedded_model(ContactKind::Line) {
         Ok(model) => {
-            rows.push(reduced_row(&mut Online::new(model, ReducedOptions::default()), &points, ROW_BUDGET[size]));
+            let mut online = Online::new(model, ReducedOptions::default());
+            rows.push(reduced_row("line/reduced", &mut online, (&points, lubricant), ROW_BUDGET[size]));
         }
         Err(reason) => bench.notes.push(format!("line/reduced is missing: {reason}")),
+    }
+    match super::embedded_shear_model(ContactKind::Line) {
+        Ok(model) => {
+            let mut online = Online::new(model, ReducedOptions::default());
+            let points: Vec<OperatingPoint> = shear.iter().map(|problem| problem.point).collect();
+            rows.push(reduced_row(
+                "line/shear/reduced",
+                &mut online,
+                (&points, named_lubricant::SQUALANE_PIP),
+                ROW_BUDGET[size],
+            ));
+        }
+        Err(reason) => bench.notes.push(format!("line/shear/reduced is missing: {reason}")),
     }
     bench.add(rows, BASELINE);
     bench.add(point_rows(size)?, POINT_BASELINE);
@@ -205,14 +219,19 @@ fn cold_and_warm(
     Ok([cold, warm])
 }
 
-fn reduced_row(online: &mut Online, points: &[OperatingPoint], budget: Duration) -> Timing {
-    let mut timing = Timing::new("line/reduced", budget);
+fn reduced_row(
+    name: &'static str,
+    online: &mut Online,
+    (points, lubricant): (&[OperatingPoint], Lubricant),
+    budget: Duration,
+) -> Timing {
+    let mut timing = Timing::new(name, budget);
     for point in points {
         if timing.spent() {
             break;
         }
         let clock = Instant::now();
-        let solved = online.solve(point, Lubricant::default()).and_then(|solution| online.scalars(&solution));
+        let solved = online.solve(point, lubricant).and_then(|solution| online.scalars(&solution));
         timing.record(clock, solved.is_ok());
     }
     timing

@@ -25,6 +25,9 @@ const FORMAT: Format = Format { magic: b"EHLROM\r\n", version: VERSION, max_payl
 /// The model that is part of the program, trained by `scenes/embedded_model.ron`.
 static EMBEDDED: &[u8] = include_bytes!("../../assets/line.rom");
 
+/// The same for a lubricant that thins under shear, trained by `scenes/embedded_shear_model.ron`.
+static EMBEDDED_SHEAR: &[u8] = include_bytes!("../../assets/line_shear.rom");
+
 /// Why a model file is refused. Nothing is lost by it.
 #[derive(Debug, thiserror::Error)]
 pub enum ModelFileError {
@@ -39,6 +42,9 @@ pub enum ModelFileError {
     /// Writing failed.
     #[error(transparent)]
     Write(#[from] WriteError),
+    /// The program has none.
+    #[error("there is no reduced model of shear-thinning point contacts in this version; use the full solver")]
+    NoShearPoint,
     /// Not a model file at all.
     #[error("this is not a reduced model file (.rom); train one with `ehl-explorer train SCENE.ron --out FILE.rom`")]
     Foreign,
@@ -282,8 +288,10 @@ pub fn embedded_of(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileE
 /// # Errors
 /// When the program was built with a damaged asset, or has none of that kind.
 pub fn embedded_shear_of(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileError> {
-    let _ = contact;
-    Err(ModelFileError::Foreign)
+    match contact {
+        ContactKind::Line => from_bytes(EMBEDDED_SHEAR).map(Arc::new),
+        ContactKind::Point => Err(ModelFileError::NoShearPoint),
+    }
 }
 
 /// Reads a model file. Its announced size is checked before anything is allocated.

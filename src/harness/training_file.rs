@@ -247,6 +247,7 @@ mod tests {
             sampling: Sampling::QDeim,
             rows_per_mode: 2.0,
             penalty: 1e6,
+            positive_modes: false,
             evidence: 0,
             seed: 1,
         };

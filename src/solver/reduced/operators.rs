@@ -216,6 +216,8 @@ impl Operators {
         mut observer: Option<RowObserver<'_>>,
     ) -> OnlineOutcome {
         let mut outcome = OnlineOutcome { converged: false, iterations: 0, step: f64::NAN, residual: f64::NAN };
+        // The films of another contact are no start.
+        self.scratch.thinning.fill(ShearNode::default());
         for iteration in 1..=stop.max_newton {
             self.evaluate(case, coefficients, *h_0, true);
             if !self.linear_step(case.problem, case.scale, coefficients, observer.is_some()) {
@@ -284,7 +286,9 @@ impl Operators {
                 for (k, ((node, own), (&pressure, &film))) in nodes.zip(states).enumerate() {
                     let gradient = [gradients[k] / scale, gradients.get(count + k).copied().unwrap_or(0.0)];
                     let state = NodeState { pressure, gradient, film };
-                    *own = ShearNode::new(&problem.fluid, law, problem.inverse_lambda, state, FilmTreatment::default());
+                    let (fluid, inverse_lambda) = (&problem.fluid, problem.inverse_lambda);
+                    // Between two iterations the stress hardly changes.
+                    *own = ShearNode::near(own.mid_stress, fluid, law, inverse_lambda, state, FilmTreatment::default());
                     *node = own.node;
                 }
             }

@@ -149,6 +149,7 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
             sliding: None,
         },
         Range::Sliding { m, l, srr, npr, modulus, viscosity, alpha, .. } => {
+            let alpha = spec.lubricant.own_coefficient().unwrap_or(alpha);
             let heaviest = spec.range.at(spec.contact(), [1.0; 4]);
             Domain {
                 m,
@@ -283,9 +284,9 @@ impl<'a> Shop<'a> {
         observer.progress(Progress { stage: format!("Bases, M {}…{}", window.m.0, window.m.1), done: 0, total: 1 });
         let (from, to) = window.m;
         let failed = || TrainingError::Decomposition { from, to };
-        let (losses, grid, solutions) = (Losses::of(spec), grid.clone(), solutions.to_vec());
+        let (wanted, grid, solutions) = (Modes::of(spec), grid.clone(), solutions.to_vec());
         let mut model = aside(*observer, move || {
-            let (pressure, deformation, snapshots) = bases(losses, &grid, &solutions)?;
+            let (pressure, deformation, snapshots) = bases(wanted, &grid, &solutions)?;
             let rows = all_rows(&TestSpace::new(&pressure, &grid));
             Some(Window::new((from, to), grid, pressure, deformation, snapshots, Sampling::All, rows))
         })?
@@ -309,31 +310,41 @@ impl<'a> Shop<'a> {
     }
 }
 
-/// Losses of information that the modes may neglect.
+/// Losses of information that the modes may neglect, and whether they are made of max(P, 0).
 #[derive(Clone, Copy)]
-struct Losses {
-    pressure: f64,
-    deformation: f64,
+struct Modes {
+    pressure_loss: f64,
+    deformation_loss: f64,
+    positive: bool,
 }
 
-impl Losses {
+impl Modes {
     fn of(spec: &TrainingSpec) -> Self {
-        Self { pressure: spec.pressure_loss, deformation: spec.deformation_loss }
+        Self {
+            pressure_loss: spec.pressure_loss,
+            deformation_loss: spec.deformation_loss,
+            positive: spec.positive_modes,
+        }
     }
 }
 
 /// POD of pressures and deformations, and the snapshots in the pressure basis.
-fn bases(losses: Losses, grid: &ContactGrid, solutions: &[Solved]) -> Option<(PodBasis, PodBasis, Vec<Snapshot>)> {
+fn bases(wanted: Modes, grid: &ContactGrid, solutions: &[Solved]) -> Option<(PodBasis, PodBasis, Vec<Snapshot>)> {
     let (nodes, weights) = (grid.len(), grid.weights());
-    let pressures = Mat::from_fn(nodes, solutions.len(), |i, j| solutions[j].pressure[i]);
-    let pressure = PodBasis::new(pressures.as_ref(), weights, losses.pressure)?;
-    let deformation = PodBasis::new(grid.flex(&pressures).as_ref(), &deformation_weights(grid), losses.deformation)?;
+    let pressures = Mat::from_fn(nodes, solutions.len(), |i, j| {
+        let pressure = solutions[j].pressure[i];
+        if wanted.positive { pressure.max(0.0) } else { pressure }
+    });
+    let pressure = PodBasis::new(pressures.as_ref(), weights, wanted.pressure_loss)?;
+    let deformation =
+        PodBasis::new(grid.flex(&pressures).as_ref(), &deformation_weights(grid), wanted.deformation_loss)?;
     let snapshots = solutions
         .iter()
-        .map(|s| Snapshot {
+        .zip(pressures.col_iter())
+        .map(|(s, p)| Snapshot {
             point: s.point,
             coefficients: (0..pressure.modes.ncols())
-                .map(|k| (0..nodes).map(|i| weights[i] * pressure.modes[(i, k)] * s.pressure[i]).sum())
+                .map(|k| (0..nodes).map(|i| weights[i] * pressure.modes[(i, k)] * p[i]).sum())
                 .collect(),
             h_0: s.h_0,
             h_c: s.h_c,
