@@ -118,9 +118,23 @@ pub fn run(quick: bool) -> Result<Bench, HarnessError> {
     match super::embedded_model(ContactKind::Line) {
         Ok(model) => {
             let mut online = Online::new(model, ReducedOptions::default());
-            rows.push(reduced_row("line/reduced", &mut online, &points, true, ROW_BUDGET[size]));
+            rows.push(reduced_row("line/reduced", &mut online, (&points, lubricant), true, ROW_BUDGET[size]));
         }
         Err(reason) => bench.notes.push(format!("line/reduced is missing: {reason}")),
+    }
+    match super::embedded_shear_model(ContactKind::Line) {
+        Ok(model) => {
+            let mut online = Online::new(model, ReducedOptions::default());
+            let points: Vec<OperatingPoint> = shear.iter().map(|problem| problem.point).collect();
+            rows.push(reduced_row(
+                "line/shear/reduced",
+                &mut online,
+                (&points, named_lubricant::SQUALANE_PIP),
+                true,
+                ROW_BUDGET[size],
+            ));
+        }
+        Err(reason) => bench.notes.push(format!("line/shear/reduced is missing: {reason}")),
     }
     bench.add(rows, BASELINE);
     bench.add(transient_rows(size)?, TRANSIENT_BASELINE);
@@ -131,7 +145,7 @@ pub fn run(quick: bool) -> Result<Bench, HarnessError> {
             let points = random_points(&range, ContactKind::Point, REDUCED_POINTS[size], SEED);
             let mut online = Online::new(model, ReducedOptions::default());
             for (name, fields) in [("point/reduced", false), ("point/reduced/fields", true)] {
-                rows.push(reduced_row(name, &mut online, &points, fields, POINT_BUDGET[size]));
+                rows.push(reduced_row(name, &mut online, (&points, Lubricant::default()), fields, POINT_BUDGET[size]));
             }
         }
         Err(reason) => bench.notes.push(format!("point/reduced is missing: {reason}")),
@@ -193,10 +207,12 @@ fn shear_problems(kind: ContactKind, count: usize) -> Result<Vec<Problem>, Harne
             modulus_pa: 1.2388e11,
             viscosity_pa_s: 0.0705,
             alpha_per_pa: 2e-8,
+            sliding: Sliding {
+                slide_to_roll_ratio: random.f64(),
+                newtonian_plateau_ratio: Some(0.2 + 0.8 * random.f64()),
+            },
         };
-        let sliding =
-            Sliding { slide_to_roll_ratio: random.f64(), newtonian_plateau_ratio: Some(0.2 + 0.8 * random.f64()) };
-        Ok(Problem::under_sliding(&point, lubricant, sliding)?)
+        Ok(Problem::new(&point, lubricant)?)
     };
     (0..count).map(problem).collect()
 }
@@ -239,7 +255,11 @@ fn transient_rows(size: usize) -> Result<Vec<Timing>, HarnessError> {
     let [modulus_pa, viscosity_pa_s, alpha_per_pa] = [231e9, 0.01, 1e-8];
     let kind = ContactKind::Line;
     let transient = Transient {
-        point: OperatingPoint { kind, radius_m, speed_m_per_s, load, modulus_pa, viscosity_pa_s, alpha_per_pa },
+        point: OperatingPoint::from_quantities(
+            kind,
+            [radius_m, speed_m_per_s, load, modulus_pa, viscosity_pa_s, alpha_per_pa],
+            Sliding::NONE,
+        ),
         lubricant: Lubricant::default(),
         inputs: Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 1.0 / 3.0 }),
         frame: Frame::Fixed,
@@ -268,7 +288,7 @@ fn transient_rows(size: usize) -> Result<Vec<Timing>, HarnessError> {
 fn reduced_row(
     name: &'static str,
     online: &mut Online,
-    points: &[OperatingPoint],
+    (points, lubricant): (&[OperatingPoint], Lubricant),
     fields: bool,
     budget: Duration,
 ) -> Timing {
@@ -282,7 +302,7 @@ fn reduced_row(
             break;
         }
         let clock = Instant::now();
-        let solved = online.solve(point, Lubricant::default());
+        let solved = online.solve(point, lubricant);
         let converged = match solved {
             Ok(solution) if fields => online.scalars(&solution).is_ok(),
             solved => solved.is_ok(),
@@ -296,9 +316,7 @@ fn reduced_row(
 fn nearest_other(solutions: &[Solution], k: usize) -> Option<&Solution> {
     let far = |other: &Solution| {
         let (a, b) = (&solutions[k].problem, &other.problem);
-        let plateau = |problem: &Problem| problem.sliding.newtonian_plateau_ratio.unwrap_or(1.0);
-        let sliding = a.sliding.slide_to_roll_ratio - b.sliding.slide_to_roll_ratio;
-        distance(a.moes, b.moes) + sliding.powi(2) + (plateau(a) - plateau(b)).powi(2)
+        distance(a.moes, b.moes) + a.point.sliding.distance(b.point.sliding)
     };
     let others = solutions.iter().enumerate().filter(|&(i, _)| i != k).map(|(_, solution)| solution);
     others.min_by(|a, b| far(a).total_cmp(&far(b)))

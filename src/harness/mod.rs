@@ -63,3 +63,11 @@ use std::sync::Arc;
 pub fn embedded_model(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileError> {
     model_file::embedded_of(contact)
 }
+
+/// The reduced model of one kind of contact with a shear-thinning lubricant in the program.
+///
+/// # Errors
+/// When the program was built with a damaged one, or has none of that kind.
+pub fn embedded_shear_model(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileError> {
+    model_file::embedded_shear_of(contact)
+}

@@ -9,6 +9,7 @@ use super::{
     series, split_study, tolerance_study, tpwl_study, training_study, transient_study,
 };
 use crate::scene::{Method, Scene, Study};
+use crate::solver::contact::OperatingPoint;
 use crate::solver::training::{Progress, TrainingObserver};
 use std::time::Instant;
 
@@ -82,11 +83,10 @@ pub fn run_scene(
 /// The request of a scene at its own operating point.
 pub(super) fn request_of(scene: &Scene) -> Result<Request, HarnessError> {
     Ok(Request {
-        point: scene.point()?,
+        point: OperatingPoint { sliding: scene.sliding(), ..scene.point()? },
         lubricant: scene.lubricant,
         grid: scene.grid,
         grid_model: scene.study.grid_model(),
-        sliding: scene.sliding(),
     })
 }
 

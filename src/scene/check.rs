@@ -359,22 +359,29 @@ fn test_range(range: &TestRange) -> Checked {
             interval("study.range.alpha", *alpha, 1e-12, 1e-5)?;
             number("study.range.viscosity", *viscosity, 1e-6, 1e4)
         }
+        TestRange::Sliding { m, l, srr, npr, radius, modulus, viscosity, alpha } => {
+            interval("study.range.m", *m, 0.05, 1e5)?;
+            interval("study.range.l", *l, 1e-3, 1e3)?;
+            interval("study.range.srr", *srr, -10.0, 10.0)?;
+            interval("study.range.npr", *npr, 0.0, 1.0)?;
+            number("study.range.radius", *radius, 1e-6, 1e3)?;
+            number("study.range.modulus", *modulus, 1e5, 1e14)?;
+            number("study.range.viscosity", *viscosity, 1e-6, 1e4)?;
+            number("study.range.alpha", *alpha, 1e-12, 1e-5)
+        }
     }
 }
 
 fn training(spec: &TrainingSpec) -> Checked {
-    if spec.lubricant.shear != ShearLaw::Newtonian {
-        return Err(refuse(
-            "study.lubricant.shear",
-            "must be left out: a reduced model has no shear-thinning in this version",
-        ));
-    }
     match spec.range {
         Range::Box { radius, speed, load, alpha, modulus, viscosity } => {
             quantity_box("study.range", &QuantityBox { radius, speed, load, alpha, modulus, viscosity })?;
         }
         Range::Moes { m, l, alpha, max_hertz_pressure, viscosity } => {
             test_range(&TestRange::Moes { m, l, alpha, max_hertz_pressure, viscosity })?;
+        }
+        Range::Sliding { m, l, srr, npr, radius, modulus, viscosity, alpha } => {
+            test_range(&TestRange::Sliding { m, l, srr, npr, radius, modulus, viscosity, alpha })?;
         }
     }
     match &spec.plan {

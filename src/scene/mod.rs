@@ -279,6 +279,7 @@ impl At {
                     modulus_pa: modulus,
                     viscosity_pa_s: viscosity,
                     alpha_per_pa: alpha,
+                    sliding: Sliding::NONE,
                 };
                 point.check()?;
                 Ok(point)

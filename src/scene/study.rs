@@ -1,7 +1,7 @@
 //! The questions a scene can ask.
 
 use super::{Method, ModelSource, TpwlStudy, TransientStudy};
-use crate::solver::contact::{ContactKind, FilmFormula, OperatingPoint};
+use crate::solver::contact::{ContactKind, FilmFormula, OperatingPoint, Sliding};
 use crate::solver::reduced::{Norm, ReducedOptions, Sampling};
 use crate::solver::training::TrainingSpec;
 use serde::{Deserialize, Serialize};
@@ -313,6 +313,25 @@ pub enum TestRange {
         /// Viscosity at ambient pressure \[Pa·s\].
         viscosity: f64,
     },
+    /// M, L, SRR and NPR of a shear-thinning lubricant, (3.17) in ln M, L, SRR and NPR.
+    Sliding {
+        /// Load number.
+        m: (f64, f64),
+        /// Lubricant number.
+        l: (f64, f64),
+        /// Slide-to-roll ratio.
+        srr: (f64, f64),
+        /// Newtonian plateau ratio.
+        npr: (f64, f64),
+        /// Radius \[m\].
+        radius: f64,
+        /// Reduced modulus \[Pa\].
+        modulus: f64,
+        /// Viscosity at ambient pressure \[Pa·s\].
+        viscosity: f64,
+        /// Pressure–viscosity coefficient \[1/Pa\]; the lubricant's own, where its viscosity law determines it.
+        alpha: f64,
+    },
 }
 
 /// A published film formula.
@@ -459,6 +478,7 @@ impl QuantityBox {
             modulus_pa: self.modulus,
             viscosity_pa_s: self.viscosity,
             alpha_per_pa: between(self.alpha, alpha),
+            sliding: Sliding::NONE,
         }
     }
 

@@ -7,6 +7,7 @@ use super::solution::{Problem, Report, Termination};
 use crate::solver::elasticity::Scratch;
 use crate::solver::grid::{FIRST_UNKNOWN, LineGrid, dot};
 use crate::solver::observer::{NewtonStep, Observer};
+use crate::solver::reynolds::generalized::FilmTreatment;
 use crate::solver::reynolds::line::{LINE_STENCIL, Upstream};
 use crate::solver::reynolds::{CENTER, Node, PENALTY, RowGeometry};
 
@@ -26,9 +27,8 @@ pub struct SolveOptions {
     /// Backtracking on the residual ends at this fraction of the step; 1 takes Newton's own steps, which is right beside a solution:
     /// there the penalty makes the residual jump though the step is good.
     pub shortest_step: f64,
-    /// Whether the film integrals of a shear-thinning lubricant count as constants in the Jacobian: cheaper, and as good within rounding
-    /// of the answer, but no longer quadratic.
-    pub frozen_film_integrals: bool,
+    /// How the film integrals of a shear-thinning lubricant are taken.
+    pub film: FilmTreatment,
 }
 
 impl Default for SolveOptions {
@@ -40,7 +40,7 @@ impl Default for SolveOptions {
             kernel_band: 6,
             penalty: PENALTY,
             shortest_step: 1.0 / 64.0,
-            frozen_film_integrals: false,
+            film: FilmTreatment::default(),
         }
     }
 }
@@ -65,7 +65,7 @@ pub struct LineSystem {
     nodes: Vec<Node>,
     /// What shear-thinning adds; absent for a Newtonian problem.
     shear: Option<ShearState>,
-    frozen_film_integrals: bool,
+    treatment: FilmTreatment,
     /// f_p at the unknowns.
     pub residual: Vec<f64>,
     /// ∂f/∂P and ∂f/∂H per row.
@@ -108,7 +108,7 @@ impl LineSystem {
             deformation: vec![0.0; n],
             nodes: vec![Node::default(); n],
             shear: None,
-            frozen_film_integrals: false,
+            treatment: FilmTreatment::default(),
             residual: vec![0.0; u],
             d_p: vec![[0.0; LINE_STENCIL]; u],
             d_h: vec![[0.0; LINE_STENCIL]; u],
@@ -167,7 +167,7 @@ impl LineSystem {
             Some(law) => {
                 let shear = self.shear.get_or_insert_with(|| ShearState::new(&self.grid));
                 let fields = (self.pressure.as_slice(), self.film.as_slice());
-                shear.evaluate(problem, law, fields, self.frozen_film_integrals, &mut self.nodes);
+                shear.evaluate(problem, law, fields, self.treatment, &mut self.nodes);
             }
         }
         let mut sum = 0.0;
@@ -198,7 +198,7 @@ impl LineSystem {
         observer: &mut dyn Observer,
         report: &mut Report,
     ) {
-        self.frozen_film_integrals = options.frozen_film_integrals;
+        self.treatment = options.film;
         let mut residual = self.evaluate(problem, options.penalty, true);
         let mut previous = f64::NAN;
         report.termination = Termination::IterationLimit;
