@@ -127,6 +127,14 @@ fn frames_are_run_compared_scrubbed_played_and_exported() {
     let centre = profile.iter().min_by(|a, b| a[x].abs().total_cmp(&b[x].abs())).unwrap();
     assert!((centre[h] / rows[10][moving] - 1.0).abs() < 1e-6, "in the scales of the reference contact");
 
+    click(&mut harness, "Export SVG…");
+    let path = folder.join("figure.svg");
+    give_path(&mut harness, &path, "Export");
+    let figure = std::fs::read_to_string(&path).unwrap();
+    // Two runs in central pressure, central film and both profiles; one deviation.
+    assert_eq!(figure.matches("<polyline").count(), 9);
+    assert!(figure.contains("Moving nodes (ALE)") && figure.ends_with("</svg>\n"));
+
     harness.run_steps(4);
     assert!((time(&harness) - 0.5).abs() < 1e-9, "nothing moves by itself");
     click(&mut harness, "Play");

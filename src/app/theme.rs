@@ -258,6 +258,7 @@ mod tests {
             include_str!("transient/method.rs"),
             include_str!("transient/mod.rs"),
             include_str!("plots/transient/cost.rs"),
+            include_str!("plots/transient/figure.rs"),
             include_str!("plots/transient/form.rs"),
             include_str!("plots/transient/mod.rs"),
             include_str!("plots/transient/profiles.rs"),

@@ -21,7 +21,7 @@ pub fn ui(ui: &mut Ui, state: &State) {
     let title = |ui: &mut Ui, text: &str, tip: &str| {
         ui.label(rich(text, 12.0, quiet)).on_hover_text(tip);
     };
-    Grid::new(("transient cost", wide)).spacing([12.0, 2.0]).min_row_height(15.0).show(ui, |ui| {
+    Grid::new(("transient cost", wide)).min_col_width(0.0).spacing([12.0, 2.0]).min_row_height(15.0).show(ui, |ui| {
         title(ui, "", "");
         title(ui, "", "");
         if wide {

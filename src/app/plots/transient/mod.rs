@@ -1,6 +1,7 @@
 //! The contact in time: what drives it, how film and pressure answer, and how the frames differ.
 
 mod cost;
+mod figure;
 mod form;
 mod profiles;
 mod series;
@@ -109,6 +110,12 @@ fn buttons(ui: &mut Ui, state: &mut State) {
         {
             state.ask_path(&ctx, Purpose::Csv { text });
         }
+        let tip = "Series and profiles as a figure with axes and parameters";
+        if ui.add_enabled(there, Button::new("Export SVG…")).on_hover_text(tip).clicked()
+            && let Some(text) = figure::svg(&state.transient)
+        {
+            state.ask_path(&ctx, Purpose::Picture { bytes: text.into_bytes().into(), extension: "svg" });
+        }
     });
 }
 
@@ -176,4 +183,9 @@ fn player(ui: &mut Ui, view: &mut TransientView) {
 /// Marks of an axis of this width that leave their labels room.
 fn marks(width: f32) -> f64 {
     f64::from((width - 60.0).max(60.0) / 60.0)
+}
+
+/// The same for an axis of this height.
+fn rows(height: f32) -> f64 {
+    f64::from((height - 24.0).max(48.0) / 24.0).min(6.0)
 }

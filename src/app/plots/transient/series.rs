@@ -75,6 +75,7 @@ impl Chart {
         let marks = super::marks(ui.available_width());
         let plot = axes::plot(ui, &id, height, titles.0, titles.1)
             .x_grid_spacer(move |input| axes::round_marks(input, marks))
+            .y_grid_spacer(move |input| axes::round_marks(input, super::rows(height)))
             .link_axis(group, Vec2b::new(true, false))
             .link_cursor(group, Vec2b::new(true, false))
             .include_x(0.0)
