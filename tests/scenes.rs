@@ -131,6 +131,11 @@ fn a_reduced_model_reproduces_a_trained_load_in_time() {
 }
 
 #[test]
+fn linearised_models_carry_over_to_an_unseen_load() {
+    assert_passes("fig_4_17_quick");
+}
+
+#[test]
 fn inputs_in_time_that_make_no_sense_are_refused() {
     let refusal = |change: fn(&mut TransientStudy)| {
         let mut scene = Scene::read(&folder().join("fig_2_6_right.ron")).unwrap();

@@ -98,6 +98,11 @@ pub(super) fn run(
                 reach.retain(|reach| reach.is_finite());
                 outcome.push(format!("{name}.reach_median"), None, median(&reach));
                 outcome.push(format!("{name}.reach_max"), None, percentile(&reach, 1.0));
+                if march.record().too_steep() {
+                    outcome.warnings.push(format!(
+                        "{name}: the inputs are too steep for linearised models; a reduced model with sampled rows is the right choice"
+                    ));
+                }
                 add_series(table, &name, &trajectory);
             }
         }

@@ -1,10 +1,10 @@
 //! The door: every number of a scene is finite and sane before anything is computed from it.
 
 use super::{
-    Axis, Contacts, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, TpwlStudy,
-    TransientStudy, Variable, View, Within,
+    Axis, Contacts, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, TransientStudy,
+    Variable, View, Within,
 };
-use crate::solver::contact::{ContactKind, OperatingPoint};
+use crate::solver::contact::ContactKind;
 use crate::solver::full::transient::{Frame, Inputs, Keep, Transient};
 use crate::solver::grid::PointGridSpec;
 use crate::solver::lubricant::{LubricantError, ScaledShear, ShearLaw};
@@ -18,20 +18,20 @@ pub const MAX_TESTS: usize = 1_000_000;
 /// Most full solutions that a study keeps to compare with.
 pub const MAX_COMPARED: usize = 20_000;
 
-type Checked = Result<(), SceneError>;
+pub(super) type Checked = Result<(), SceneError>;
 
-fn refuse(field: impl Into<String>, problem: impl Into<String>) -> SceneError {
+pub(super) fn refuse(field: impl Into<String>, problem: impl Into<String>) -> SceneError {
     SceneError::Field { field: field.into(), problem: problem.into() }
 }
 
-fn number(field: &str, value: f64, low: f64, high: f64) -> Checked {
+pub(super) fn number(field: &str, value: f64, low: f64, high: f64) -> Checked {
     if (low..=high).contains(&value) {
         return Ok(());
     }
     Err(refuse(field, format!("is {value}, but must be a finite number between {low:e} and {high:e}")))
 }
 
-fn count(field: &str, value: usize, low: usize, high: usize) -> Checked {
+pub(super) fn count(field: &str, value: usize, low: usize, high: usize) -> Checked {
     if (low..=high).contains(&value) {
         return Ok(());
     }
@@ -207,7 +207,7 @@ fn study(scene: &Scene) -> Checked {
             quantity_box("study.range", range)
         }
         Study::Transient(study) => transient(scene, study),
-        Study::Tpwl(study) => tpwl(scene, study),
+        Study::Tpwl(study) => study.check(scene),
         Study::FormulaComparison { formula, .. } if formula.film_formula().contact() != scene.contact => {
             let wanted = formula.film_formula().contact().name();
             Err(refuse(
@@ -224,7 +224,8 @@ fn study(scene: &Scene) -> Checked {
     }
 }
 
-fn newtonian_line_in_time(scene: &Scene) -> Checked {
+/// Contacts in time are line contacts with a Newtonian lubricant on a grid of their own.
+pub(super) fn newtonian_line_in_time(scene: &Scene) -> Checked {
     if scene.contact == ContactKind::Point {
         return Err(refuse(
             "study",
@@ -278,37 +279,6 @@ fn transient(scene: &Scene, study: &TransientStudy) -> Checked {
         let field = format!("study.reduced.trainings.{i}");
         number(&format!("{field}.duration"), training.duration, 1e-6, 1e6)?;
         march(&field, point, &training.inputs, training.duration)?;
-    }
-    Ok(())
-}
-
-fn tpwl(scene: &Scene, study: &TpwlStudy) -> Checked {
-    newtonian_line_in_time(scene)?;
-    count("study.training (how many)", study.training.len(), 1, 32)?;
-    count("study.loads (how many)", study.loads.len(), 0, 16)?;
-    count("study.modes", study.modes, 1, 1000)?;
-    study.rnsa_loss.iter().try_for_each(|&loss| number("study.rnsa_loss", loss, 1e-12, 0.5))?;
-    count("study.selections (how many)", study.selections.len(), 1, 32)?;
-    count("study.weightings (how many)", study.weightings.len(), 1, 2)?;
-    count("study.tests (how many)", study.tests.len(), 1, 64)?;
-    for selection in &study.selections {
-        number("study.selections.tolerance", selection.tolerance(), 1e-9, 10.0)?;
-    }
-    let point = scene.point()?;
-    for load in study.loads(point.load) {
-        let point = OperatingPoint { load, ..point };
-        for drive in study.training.iter().chain(&study.tests) {
-            let transient = Transient {
-                point,
-                lubricant: scene.lubricant,
-                inputs: drive.inputs.clone(),
-                frame: Frame::Fixed,
-                duration: drive.duration,
-                time_step: study.time_step,
-                keep: Keep::Scalars,
-            };
-            transient.problem().map_err(|problem| refuse("study", format!("is refused, {}: {problem}", drive.name)))?;
-        }
     }
     Ok(())
 }

@@ -6,7 +6,7 @@ use super::record::{TpwlRecord, TpwlStep};
 use super::search::Search;
 use super::space::{INPUTS, input_vector};
 use super::superposition::{SmallSystem, Superposition};
-use super::weights::{Weighting, square_distance};
+use super::weights::{Weight, Weighting, square_distance};
 use crate::solver::full::Termination;
 use crate::solver::full::transient::{
     Conditions, Effort, Input, Marching, Moment, State, Step, TimeStep, Trajectory, Transient, TransientObserver,
@@ -115,6 +115,11 @@ impl<'a> TpwlMarch<'a> {
     /// Weights and superposition at `start`.
     fn superpose(&mut self, time: f64) {
         self.search.weights(self.model, &self.start, &mut self.superposition.weights);
+        self.assemble(time);
+    }
+
+    /// Superposition with the weights there are.
+    fn assemble(&mut self, time: f64) {
         self.superposition.assemble(self.model, self.load);
         let weights = self.superposition.weights.iter();
         self.step = TpwlStep {
@@ -132,16 +137,21 @@ impl<'a> TpwlMarch<'a> {
         if solved { Ok(()) } else { Err(Termination::Diverged) }
     }
 
-    /// A first guess of the stationary state: of each set in use the point whose inputs are nearest.
-    fn guess(&mut self, input: [f64; INPUTS]) {
+    /// A first guess of the stationary state: of each set in use the point whose inputs are nearest. True where they are the inputs themselves.
+    fn guess(&mut self, input: [f64; INPUTS]) -> bool {
         self.start.fill(0.0);
+        self.superposition.weights.clear();
+        let mut met = true;
         for &(set, share) in self.search.shares() {
-            let points = self.model.sets[set].points.iter().map(|&point| &self.model.points[point]);
+            let points = self.model.sets[set].points.iter().map(|&point| (point, &self.model.points[point]));
             let apart = |of: [f64; INPUTS]| square_distance(&of, &input);
-            if let Some(point) = points.min_by(|a, b| apart(a.input).total_cmp(&apart(b.input))) {
+            if let Some((number, point)) = points.min_by(|(_, a), (_, b)| apart(a.input).total_cmp(&apart(b.input))) {
                 self.start.iter_mut().zip(&point.moment.state).for_each(|(y, own)| *y += share * own);
+                self.superposition.weights.push(Weight { point: number, weight: share });
+                met &= point.input == input;
             }
         }
+        met
     }
 
     /// Keeps the state under trial as the newest, with its record and the fields under the contact.
@@ -176,9 +186,12 @@ impl Marching for TpwlMarch<'_> {
 
     fn rest(&mut self, at: &Conditions, observer: &dyn TransientObserver) -> Result<Effort, Termination> {
         let (input, modes) = (input_vector(at.input), self.model.space.modes());
-        self.guess(input);
-        let mut change = f64::INFINITY;
-        let mut effort = Effort::default();
+        // Where training began with the same inputs, the stationary state is an operating point; else the weights follow the state.
+        let met = self.guess(input);
+        self.assemble(at.time);
+        self.advance(0.0, [0.0; 2], input)?;
+        let mut change = if met { 0.0 } else { f64::INFINITY };
+        let mut effort = LINEAR;
         while change > REST_TOLERANCE && effort.newton_iterations < REST_ITERATIONS {
             if observer.cancelled() {
                 return Err(Termination::Cancelled);

@@ -31,7 +31,17 @@ impl TpwlStep {
     }
 }
 
+/// Reach beyond which a step is no longer carried by its points.
+const FAR_REACH: f64 = 2.0;
+
 impl TpwlRecord {
+    /// Whether more than half of the steps lie farther from the trained trajectories than two distances between operating points: the inputs
+    /// are too steep or too strange, and a reduced model that solves the nonlinear equations is the right choice.
+    pub fn too_steep(&self) -> bool {
+        let far = self.steps.iter().filter(|step| step.reach() > FAR_REACH).count();
+        2 * far > self.steps.len()
+    }
+
     /// An empty record with room for `steps` steps of `entries` weights and a state of `len` entries each.
     pub fn with_room(steps: usize, entries: usize, len: usize) -> Self {
         Self {
