@@ -190,18 +190,24 @@ impl<'a> Scene<'a> {
 /// A plot of the stack: shared X axis and cursor.
 fn stacked<'a>(ui: &Ui, direction: Direction, id: &str, height: f32, x_title: &str, y_title: &str) -> Plot<'a> {
     let group = Id::unique(direction.id("profiles"));
-    let marks = if direction == Direction::Along { 9.0 } else { 5.0 };
+    // As many marks as have room for their numbers.
+    let marks = f64::from((ui.available_width() / 90.0).clamp(3.0, 9.0));
     axes::plot(ui, &direction.id(id), height, x_title, y_title)
         .x_grid_spacer(move |input| axes::round_marks(input, marks))
         .link_axis(group, Vec2b::new(true, false))
         .link_cursor(group, Vec2b::new(true, false))
         .set_margin_fraction(egui::vec2(0.0, 0.0))
         .show_y(false)
-        .legend(legend(Corner::LeftTop))
 }
 
-fn legend(corner: Corner) -> Legend {
-    Legend::default().position(corner).follow_insertion_order(true).background_alpha(0.6)
+/// The legend stands in the profiles along X; those across have the same curves and less room.
+fn with_legend(plot: Plot<'_>, direction: Direction, corner: Corner) -> Plot<'_> {
+    match direction {
+        Direction::Along => {
+            plot.legend(Legend::default().position(corner).follow_insertion_order(true).background_alpha(0.6))
+        }
+        Direction::Across => plot,
+    }
 }
 
 fn hover(picture: &Picture, direction: Direction) -> impl Fn(&HoverPosition<'_>) -> Option<String> + '_ {
@@ -259,7 +265,7 @@ fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f
     let (on_axis, height_here) = (elsewhere == 0.0 && direction == Direction::Along, 1.0 - elsewhere * elsewhere);
     let y_title = if direction == Direction::Along { "Pressure {P} = {p}/{p_H}" } else { "" };
     let cut = scene.cut_line(direction, "pressure");
-    let shown = stacked(ui, direction, "pressure", height, "", y_title)
+    let shown = with_legend(stacked(ui, direction, "pressure", height, "", y_title), direction, Corner::LeftTop)
         .allow_drag(cut.as_ref().is_none_or(|cut| !cut.is_held(ui)))
         .default_x_bounds(from, to)
         .default_y_bounds(-0.04 * top, numbers::round_up(1.12 * top))
@@ -303,12 +309,11 @@ fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) 
     let x_title = direction.x_title(picture, scene.cuts);
     let y_title = if direction == Direction::Along { "Film {H} = {h}{R}/{a}²" } else { "" };
     let cut = scene.cut_line(direction, "film");
-    let shown = stacked(ui, direction, "film", height, &x_title, y_title)
+    // The inlet's film comes down from the top left.
+    let shown = with_legend(stacked(ui, direction, "film", height, &x_title, y_title), direction, Corner::LeftBottom)
         .allow_drag(cut.as_ref().is_none_or(|cut| !cut.is_held(ui)))
         .default_x_bounds(from, to)
         .default_y_bounds(0.0, numbers::round_up(4.0 * top))
-        // The inlet's film comes down from the top left.
-        .legend(legend(Corner::LeftBottom))
         .label_formatter(hover(picture, direction))
         .show(ui, |plot| {
             axes::fit(plot, scene.fit);
@@ -335,7 +340,8 @@ fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) 
 fn difference_plot(ui: &mut Ui, comparison: &Comparison, wanted: bool, height: f32) {
     let palette = Palette::of(ui);
     let (from, to) = Direction::Along.range();
-    stacked(ui, Direction::Along, "difference", height, "", "Reduced − full")
+    let plot = stacked(ui, Direction::Along, "difference", height, "", "Reduced − full");
+    with_legend(plot, Direction::Along, Corner::LeftTop)
         .default_x_bounds(from, to)
         .set_margin_fraction(egui::vec2(0.0, 0.08))
         .show(ui, |plot| {
