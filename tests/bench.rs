@@ -46,6 +46,7 @@ fn the_quick_speed_table_keeps_its_contract() {
     assert!((ratio(POINT_BASELINE) - 1.0).abs() < 1e-12 && ratio("point/full/warm") > 1.0);
     assert!(row(TRANSIENT_BASELINE)["median_s"].as_f64().unwrap() < row(BASELINE)["median_s"].as_f64().unwrap());
     assert!(ratio("line/transient/rnsa-step") > 3.0);
+    assert!(ratio("line/transient/tpwl-step") > ratio("line/transient/rnsa-step"));
     for (name, least) in [("line/full/cold", 10.0), ("line/full/warm", 10.0), ("line/reduced", 100.0)] {
         assert!(ratio(name) >= least, "{name} is only {:.1} times faster than {BASELINE}", ratio(name));
         let quotient = row(BASELINE)["median_s"].as_f64().unwrap() / row(name)["median_s"].as_f64().unwrap();

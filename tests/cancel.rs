@@ -42,6 +42,7 @@ fn spec(sampling: Sampling) -> TrainingSpec {
         sampling,
         rows_per_mode: 2.0,
         penalty: 1e6,
+        positive_modes: false,
         evidence: 300,
         seed: 1,
     }

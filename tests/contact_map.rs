@@ -86,10 +86,8 @@ fn the_map_shows_fields_and_fringes_and_its_cuts_feed_the_profiles() {
     for name in ["Pressure map", "Contours", "Interferogram", "Monochromatic", "Three colours", "Film map"] {
         click(&mut harness, name);
     }
-    // The line at X = 0 is taken along by the hand.
     let map = harness.get_by_label("Map of the contact").rect();
-    let cut = harness.state().cuts();
-    assert_eq!(cut, (0.0, 0.0));
+    assert_eq!(harness.state().cuts(), (0.0, 0.0));
     harness.get_by_label("Cut across at X").set_value_accesskit(0.9);
     harness.run();
     let (_, moved) = harness.state().profile_peaks().unwrap();
@@ -102,34 +100,36 @@ fn the_map_shows_fields_and_fringes_and_its_cuts_feed_the_profiles() {
     click(&mut harness, "Profiles");
 }
 
-#[test]
-fn a_cut_is_dragged_by_the_hand() {
-    let mut harness = quick_point();
-    click(&mut harness, "Contact map");
-    // The vertical line stands where its X is; find it by walking along the map at rest.
-    let map = harness.get_by_label("Map of the contact").rect();
-    let y = map.top() + 0.3 * map.height();
-    let mut grabbed = None;
-    for k in 1..60 {
-        let x = map.left() + map.width() * k as f32 / 60.0;
+/// Finds a line that can be moved sideways by walking along a row of the screen, and drags it to the right.
+fn drag_line(harness: &mut Window, (from, to): (f32, f32), y: f32, by: f32) {
+    let movable = (0..60).map(|k| from + (to - from) * k as f32 / 60.0).find(|&x| {
         harness.hover_at(egui::pos2(x, y));
         harness.step();
-        if harness.output().platform_output.cursor_icon == egui::CursorIcon::ResizeHorizontal {
-            grabbed = Some(x);
-            break;
-        }
-    }
-    let x = grabbed.expect("the cut shows under the pointer that it can be moved");
+        harness.output().platform_output.cursor_icon == egui::CursorIcon::ResizeHorizontal
+    });
+    let x = movable.expect("the line shows under the pointer that it can be moved");
     harness.drag_at(egui::pos2(x, y));
     harness.step();
     for k in 1..=10 {
-        harness.hover_at(egui::pos2(x + 6.0 * k as f32, y));
+        harness.hover_at(egui::pos2(x + 0.1 * by * k as f32, y));
         harness.step();
     }
-    harness.drop_at(egui::pos2(x + 60.0, y));
+    harness.drop_at(egui::pos2(x + by, y));
     harness.run();
+}
+
+#[test]
+fn cuts_are_dragged_by_the_hand_in_the_map_and_in_the_profiles() {
+    let mut harness = quick_point();
+    // The profile across fills the right part of the window; its line is where the profile along lies.
+    drag_line(&mut harness, (960.0, 1270.0), 250.0, 60.0);
     let (x, y) = harness.state().cuts();
-    assert!(x > 0.15 && y == 0.0, "{x} {y}");
+    assert!(x == 0.0 && y > 0.15, "{x} {y}");
+    click(&mut harness, "Contact map");
+    let map = harness.get_by_label("Map of the contact").rect();
+    drag_line(&mut harness, (map.left(), map.right()), map.top() + 0.3 * map.height(), 60.0);
+    let (moved, same) = harness.state().cuts();
+    assert!(moved > 0.15 && same == y, "{moved} {same}");
 }
 
 #[test]

@@ -44,6 +44,7 @@ impl Folder {
             evidence: 0,
             rows_per_mode: 2.0,
             penalty: 1e6,
+            positive_modes: false,
             seed: 3,
         });
         let path = self.0.join(format!("{name}.ron"));

@@ -1,7 +1,7 @@
 //! Full solutions of point contacts against independent ones on the same grid, and the corners of the dissertation's box.
 
 use ehl_explorer::scene::QuantityBox;
-use ehl_explorer::solver::contact::{ContactKind, OperatingPoint};
+use ehl_explorer::solver::contact::{ContactKind, OperatingPoint, Sliding};
 use ehl_explorer::solver::full::{PointSolver, Start};
 use ehl_explorer::solver::grid::PointGridSpec;
 use ehl_explorer::solver::lubricant::Lubricant;
@@ -24,6 +24,7 @@ fn full_solutions_agree_with_independent_ones_on_301_by_41_nodes() {
             modulus_pa: number("modulus_pa"),
             viscosity_pa_s: number("viscosity_pa_s"),
             alpha_per_pa: number("alpha_per_pa"),
+            sliding: Sliding::NONE,
         };
         assert!((point.lambda_bar() / number("lambda_bar") - 1.0).abs() < 1e-12);
         let solution = solver.solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();

@@ -20,6 +20,7 @@ fn problem(name: &str, load: f64, speed_m_per_s: f64, srr: f64, npr: f64) -> Pro
         modulus_pa: reduced_modulus(81e9, 0.208, 210e9, 0.3).unwrap(),
         viscosity_pa_s: lubricant.viscosity_pa_s.unwrap(),
         alpha_per_pa: 1e-8,
+        sliding: Sliding::NONE,
     };
     let sliding = Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: Some(npr) };
     Problem::under_sliding(&point, lubricant.laws, sliding).unwrap()
@@ -31,7 +32,7 @@ fn squalane(speed_m_per_s: f64, srr: f64, npr: f64) -> Problem {
 
 fn solve(solver: &mut PointSolver, problem: Problem) -> Solution {
     let solution = solver.solve_problem(problem, Start::Cold, &mut ()).unwrap();
-    assert!(solution.converged(), "{:?}: {:?}", problem.sliding, solution.report);
+    assert!(solution.converged(), "{:?}: {:?}", problem.point.sliding, solution.report);
     solution
 }
 
@@ -108,7 +109,7 @@ fn sliding_and_plateaus_beyond_table_3_6_converge_and_a_neighbour_is_a_good_star
 fn frozen_film_integrals_lead_to_the_same_solution() {
     let mut solver = PointSolver::new(COARSE).unwrap();
     let exact = solve(&mut solver, squalane(0.74, 0.5, 0.2227));
-    solver.options.frozen_film_integrals = true;
+    solver.options.film.frozen = true;
     let frozen = solve(&mut solver, squalane(0.74, 0.5, 0.2227));
     println!("exact {} steps, frozen {}", exact.report.newton_iterations, frozen.report.newton_iterations);
     assert!((frozen.scalars.h_c / exact.scalars.h_c - 1.0).abs() < 1e-6);
@@ -120,7 +121,7 @@ fn a_limiting_stress_bounds_the_traction() {
     let free = squalane(0.74, 1.0, 0.2227);
     let slope = 0.03;
     let laws = Lubricant { limiting_stress: Some(LimitingStress { ambient: 1e5, slope }), ..free.lubricant };
-    let limited = Problem::under_sliding(&free.point, laws, free.sliding).unwrap();
+    let limited = Problem::under_sliding(&free.point, laws, free.point.sliding).unwrap();
     let [free, limited] = [free, limited].map(|problem| solve(&mut solver, problem));
     assert_eq!(free.scalars.h_c, limited.scalars.h_c);
     let traction = limited.traction_coefficient();

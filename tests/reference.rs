@@ -1,7 +1,7 @@
 //! The full solver against independent solutions on the same grid, and against published mathematics.
 
 use ehl_explorer::scene::Scene;
-use ehl_explorer::solver::contact::{ContactKind, OperatingPoint};
+use ehl_explorer::solver::contact::{ContactKind, OperatingPoint, Sliding};
 use ehl_explorer::solver::full::{FullSolver, Start};
 use ehl_explorer::solver::grid::GridSpec;
 use ehl_explorer::solver::lubricant::Lubricant;
@@ -30,6 +30,7 @@ fn references() -> Vec<Reference> {
                 modulus_pa: n[3],
                 viscosity_pa_s: n[4],
                 alpha_per_pa: n[5],
+                sliding: Sliding::NONE,
             };
             Reference { name: name.to_owned(), point, h_c: n[6], h_min: n[7], h_0: n[8], p_c: n[9] }
         })

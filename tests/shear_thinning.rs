@@ -5,6 +5,7 @@ use ehl_explorer::solver::contact::{ContactKind, OperatingPoint, reduced_modulus
 use ehl_explorer::solver::full::{FullSolver, Problem, Solution, Start};
 use ehl_explorer::solver::grid::GridSpec;
 use ehl_explorer::solver::lubricant::{LimitingStress, Lubricant, Sliding};
+use ehl_explorer::solver::reynolds::film_integrals::{FilmRule, PRODUCTION_RULE};
 use serde_json::Value;
 
 const GRID: GridSpec = GridSpec::Uniform { dx: 0.01, domain: (-4.0, 2.0) };
@@ -23,6 +24,7 @@ fn problem(speed_m_per_s: f64, srr: f64, npr: f64) -> Problem {
         modulus_pa: reduced_modulus(81e9, 0.208, 210e9, 0.3).unwrap(),
         viscosity_pa_s: 0.0705,
         alpha_per_pa: 1e-8,
+        sliding: Sliding::NONE,
     };
     let sliding = Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: Some(npr) };
     Problem::under_sliding(&point, lubricant("squalane-pip"), sliding).unwrap()
@@ -30,7 +32,7 @@ fn problem(speed_m_per_s: f64, srr: f64, npr: f64) -> Problem {
 
 fn solve(solver: &mut FullSolver, problem: Problem) -> Solution {
     let solution = solver.solve_problem(problem, Start::Cold, &mut ());
-    assert!(solution.converged(), "{:?}: {:?}", problem.sliding, solution.report);
+    assert!(solution.converged(), "{:?}: {:?}", problem.point.sliding, solution.report);
     solution
 }
 
@@ -118,11 +120,35 @@ fn sliding_and_plateaus_beyond_table_3_6_converge_and_a_neighbour_is_a_good_star
     assert!(warm.converged() && warm.report.attempts == 1 && warm.report.newton_iterations <= 10);
 }
 
+/// `panels` equal ones, a multiple of two, with six Gauss points each: two production rules on half the film, and so on.
+fn finer_rule(panels: usize) -> &'static FilmRule {
+    let width = 2.0 / panels as f64;
+    let part = |k: usize| PRODUCTION_RULE.map(|(at, weight)| (-0.5 + (k as f64 + at + 0.5) * width, weight * width));
+    Vec::leak((0..panels / 2).flat_map(part).collect())
+}
+
+#[test]
+fn the_rule_across_the_film_costs_less_than_its_bar() {
+    let mut solver = FullSolver::new(GRID).unwrap();
+    let fine = finer_rule(32);
+    let mut worst: f64 = 0.0;
+    for speed in [0.1, 0.74, 5.0] {
+        for (srr, npr) in [(0.0, 0.2227), (0.01, 0.2), (0.1, 0.0), (0.5, 0.2227), (1.0, 0.2)] {
+            solver.options.film.rule = &PRODUCTION_RULE;
+            let film = solve(&mut solver, problem(speed, srr, npr)).scalars.h_c;
+            solver.options.film.rule = fine;
+            worst = worst.max((film / solve(&mut solver, problem(speed, srr, npr)).scalars.h_c - 1.0).abs());
+        }
+    }
+    println!("greatest error of H_c by the rule across the film: {worst:.1e}");
+    assert!(worst < 2e-5, "{worst:e}");
+}
+
 #[test]
 fn frozen_film_integrals_lead_to_the_same_solution() {
     let mut solver = FullSolver::new(GRID).unwrap();
     let exact = solve(&mut solver, problem(0.74, 0.5, 0.2227));
-    solver.options.frozen_film_integrals = true;
+    solver.options.film.frozen = true;
     let frozen = solve(&mut solver, problem(0.74, 0.5, 0.2227));
     println!("exact {} steps, frozen {}", exact.report.newton_iterations, frozen.report.newton_iterations);
     assert!((frozen.scalars.h_c / exact.scalars.h_c - 1.0).abs() < 1e-7);
@@ -153,7 +179,7 @@ fn a_limiting_stress_bounds_the_traction_and_ends_the_warning() {
     heavy.point.load *= 4.0;
     let limited = |limit| {
         let laws = Lubricant { limiting_stress: limit, ..heavy.lubricant };
-        Problem::under_sliding(&heavy.point, laws, heavy.sliding).unwrap()
+        Problem::under_sliding(&heavy.point, laws, heavy.point.sliding).unwrap()
     };
     let unlimited = solve(&mut solver, limited(None));
     assert!(unlimited.traction_warning().is_some_and(|sentence| sentence.contains("unphysical")));

@@ -99,7 +99,7 @@ fn frames_are_run_compared_scrubbed_played_and_exported() {
     let (mut harness, folder) = open("frames", &scene(BREATHING, 2.0, "Fixed, ArbitraryLagrangianEulerian"));
     run(&mut harness);
     assert!(shows(&harness, "Central film against time") && shows(&harness, "Central pressure against time"));
-    assert!(shows(&harness, "Deviation from the first run"));
+    assert!(shows(&harness, "Deviation between runs"));
     assert!(shows(&harness, "Moving nodes (ALE)") && shows(&harness, "Film at this moment"));
     assert!((time(&harness) - 2.0).abs() < 1e-12, "it has followed the run to its end");
 
@@ -126,6 +126,14 @@ fn frames_are_run_compared_scrubbed_played_and_exported() {
     let (x, h) = (column("full.ale.X"), column("full.ale.H"));
     let centre = profile.iter().min_by(|a, b| a[x].abs().total_cmp(&b[x].abs())).unwrap();
     assert!((centre[h] / rows[10][moving] - 1.0).abs() < 1e-6, "in the scales of the reference contact");
+
+    click(&mut harness, "Export SVG…");
+    let path = folder.join("figure.svg");
+    give_path(&mut harness, &path, "Export");
+    let figure = std::fs::read_to_string(&path).unwrap();
+    // Two runs in central pressure, central film and both profiles; one deviation.
+    assert_eq!(figure.matches("<polyline").count(), 9);
+    assert!(figure.contains("Moving nodes (ALE)") && figure.ends_with("</svg>\n"));
 
     harness.run_steps(4);
     assert!((time(&harness) - 0.5).abs() < 1e-9, "nothing moves by itself");
@@ -238,4 +246,26 @@ fn a_fresh_window_has_something_to_run() {
     click(&mut harness, "Set-up");
     assert!(!shows(&harness, "Inputs against time") && shows(&harness, "Film at this moment"));
     println!("a frame with results takes {:.2} ms", 1e3 * harness.state().frame_s());
+}
+
+#[test]
+fn a_reduced_model_is_trained_on_the_spot_and_runs_beside_the_full_system() {
+    let (mut harness, folder) = open("reduced", &scene(BREATHING, 2.0, "Fixed"));
+    click(&mut harness, "Reduced model");
+    run(&mut harness);
+    assert!(shows(&harness, "Fixed frame, reduced") && shows(&harness, "Deviation between runs"));
+    assert_eq!(harness.state().transient_moments(), 2 * 41);
+    click(&mut harness, "Export series…");
+    let path = folder.join("series.csv");
+    give_path(&mut harness, &path, "Export");
+    let (header, rows) = table(&path);
+    let column = |name: &str| header.iter().position(|title| title == name).unwrap();
+    let (full, reduced) = (column("full.fixed.H_c"), column("rnsa.fixed.H_c"));
+    let worst = rows.iter().map(|row| (row[reduced] / row[full] - 1.0).abs()).fold(0.0, f64::max);
+    assert!(worst < 1e-3, "{worst:e}");
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
+    harness.run_steps(2);
+    let Study::Transient(study) = Scene::read(&folder.join("scene.ron")).unwrap().study else { panic!() };
+    assert_eq!(study.reduced.map(|reduced| reduced.loss), Some(1e-6));
+    std::fs::remove_dir_all(&folder).unwrap();
 }

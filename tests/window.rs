@@ -349,6 +349,7 @@ fn small_model() -> ReducedModel {
         sampling: Sampling::default(),
         rows_per_mode: 2.0,
         penalty: 1e6,
+        positive_modes: false,
         evidence: 0,
         seed: 1,
     };

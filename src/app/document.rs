@@ -270,6 +270,7 @@ impl Document {
             scene.study = Study::Training(spec.clone());
         }
         if let Some(study) = self.transient.as_ref().filter(|_| self.saves_transient()) {
+            scene.grid = self.transient_grid();
             scene.study = Study::Transient(study.clone());
         }
         if scene.point() != Ok(self.point) {
@@ -436,6 +437,26 @@ mod tests {
         assert_eq!(document.to_scene().study, other.study);
         let fresh = Document { training: training.clone(), ..Document::default() };
         assert_eq!(Document::of_scene(fresh.to_scene()).unwrap().training, training);
+    }
+
+    #[test]
+    fn a_contact_in_time_is_saved_with_its_grid_and_checked_like_the_rest() {
+        let mut document = Document::default();
+        let study = document.transient_study();
+        document.set_transient(study.clone()).unwrap();
+        let again = Document::of_scene(document.to_scene()).unwrap();
+        assert_eq!((again.transient.as_ref(), again.transient_grid()), (Some(&study), document.transient_grid()));
+        assert_eq!(again.to_scene(), document.to_scene());
+        let backwards = TransientStudy { duration: -1.0, ..study.clone() };
+        assert!(document.set_transient(backwards).unwrap_err().contains("duration"));
+        assert_eq!(document.transient, Some(study));
+        // A new scene has room for one question, a scene of another keeps its own.
+        assert!(!document.saves_training());
+        let other = Scene::from_ron(include_str!("../../scenes/table_2_1.ron")).unwrap();
+        let kept = Document { transient: document.transient.clone(), ..Document::of_scene(other.clone()).unwrap() };
+        assert_eq!(kept.to_scene().study, other.study);
+        document.set_kind(ContactKind::Point).unwrap();
+        assert!(document.to_scene().check().is_ok());
     }
 
     #[test]

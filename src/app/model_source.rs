@@ -14,10 +14,9 @@ pub struct Models {
 
 impl Models {
     /// The models embedded in the program. Without them (a damaged build) the full solver draws the pictures.
-    ///
-    /// No model of the point contact is embedded yet: it belongs here.
     pub fn embedded() -> Self {
-        Self { line: model_file::embedded().ok(), point: None }
+        let of = |kind| model_file::embedded_of(kind).ok();
+        Self { line: of(ContactKind::Line), point: of(ContactKind::Point) }
     }
 
     /// A model of line contacts, or none.

@@ -310,8 +310,12 @@ impl State {
         }
     }
 
-    /// Lays all curves where the point contact is cut. Called before the plots.
+    /// Lays all curves where the point contact is cut, within its domain. Called before the plots.
     pub fn follow_cuts(&mut self) {
+        if let Some(PointGridSpec { domain: (from, to, edge), .. }) = self.plane() {
+            let Cuts { x, y } = self.display.cuts;
+            self.display.cuts = Cuts { x: x.clamp(from, to), y: y.clamp(edge, -edge) };
+        }
         let cuts = self.display.cuts;
         let pinned = self.pins.iter_mut().map(|pin| &mut pin.picture);
         for picture in self.picture.iter_mut().chain(&mut self.full).chain(pinned) {

@@ -30,6 +30,11 @@ pub fn describe(model: &ReducedModel) -> String {
         d.viscosity_pa_s
     );
     let _ = writeln!(text, "  density {:?}, viscosity {:?}", d.lubricant.density, d.lubricant.viscosity);
+    if let Some(sliding) = d.sliding {
+        let ((srr, most), (npr, full)) = (sliding.srr, sliding.npr);
+        let modulus = sliding.modulus_pa / 1e9;
+        let _ = writeln!(text, "  SRR {srr}…{most}, NPR {npr}…{full}, E′ {modulus:.3} GPa, {:?}", d.lubricant.shear);
+    }
     for window in &model.windows {
         let grid = match window.grid.spec() {
             ContactGridSpec::Line(GridSpec::Uniform { dx, domain }) => {

@@ -251,11 +251,11 @@ impl PointOptions {
         lubricant.density = self.density.unwrap_or(lubricant.density);
         lubricant.viscosity = self.pressure_viscosity.unwrap_or(lubricant.viscosity);
         let method = self.method()?;
-        let point = self.point(&lubricant)?;
-        let grid = self.grid(&method)?;
         let sliding = Sliding { slide_to_roll_ratio: self.srr, newtonian_plateau_ratio: self.npr };
+        let point = OperatingPoint { sliding, ..self.point(&lubricant)? };
+        let grid = self.grid(&method)?;
         let grid_model = self.model_source();
-        Ok((Request { point, lubricant, grid, grid_model, sliding }, method))
+        Ok((Request { point, lubricant, grid, grid_model }, method))
     }
 
     fn model_source(&self) -> ModelSource {

@@ -14,6 +14,7 @@ use crate::solver::full::transient::{
 use crate::solver::full::{FullSolver, PointSolver, Problem, Solution, SolveError, SolveOptions, Start};
 use crate::solver::grid::{GridSpec, PointGridSpec};
 use crate::solver::lubricant::{Lubricant, Sliding};
+use crate::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
 use crate::solver::reduced::transient::ReducedMarch;
 use crate::solver::reduced::{Online, ReducedOptions, distance};
 use crate::solver::training::{TrajectoryTraining, train_trajectories};
@@ -43,6 +44,8 @@ const SHEAR_POINTS: [usize; 2] = [150, 40];
 /// Point contacts: solves, and the time after which no further ones are begun.
 const POINT_POINTS: [usize; 2] = [50, 8];
 const POINT_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(5)];
+/// The trajectory-piecewise-linear model of the same march.
+const TPWL_TRAINING: TpwlTraining = TpwlTraining { modes: 100, selection: Selection::Step { tolerance: 1e-3 } };
 const SEED: u64 = 2026;
 /// Duration of the march whose steps are timed.
 const MARCH_DURATION: [f64; 2] = [1.5, 0.5];
@@ -115,9 +118,23 @@ pub fn run(quick: bool) -> Result<Bench, HarnessError> {
     match super::embedded_model(ContactKind::Line) {
         Ok(model) => {
             let mut online = Online::new(model, ReducedOptions::default());
-            rows.push(reduced_row("line/reduced", &mut online, &points, true, ROW_BUDGET[size]));
+            rows.push(reduced_row("line/reduced", &mut online, (&points, lubricant), true, ROW_BUDGET[size]));
         }
         Err(reason) => bench.notes.push(format!("line/reduced is missing: {reason}")),
+    }
+    match super::embedded_shear_model(ContactKind::Line) {
+        Ok(model) => {
+            let mut online = Online::new(model, ReducedOptions::default());
+            let points: Vec<OperatingPoint> = shear.iter().map(|problem| problem.point).collect();
+            rows.push(reduced_row(
+                "line/shear/reduced",
+                &mut online,
+                (&points, named_lubricant::SQUALANE_PIP),
+                true,
+                ROW_BUDGET[size],
+            ));
+        }
+        Err(reason) => bench.notes.push(format!("line/shear/reduced is missing: {reason}")),
     }
     bench.add(rows, BASELINE);
     bench.add(transient_rows(size)?, TRANSIENT_BASELINE);
@@ -128,7 +145,7 @@ pub fn run(quick: bool) -> Result<Bench, HarnessError> {
             let points = random_points(&range, ContactKind::Point, REDUCED_POINTS[size], SEED);
             let mut online = Online::new(model, ReducedOptions::default());
             for (name, fields) in [("point/reduced", false), ("point/reduced/fields", true)] {
-                rows.push(reduced_row(name, &mut online, &points, fields, POINT_BUDGET[size]));
+                rows.push(reduced_row(name, &mut online, (&points, Lubricant::default()), fields, POINT_BUDGET[size]));
             }
         }
         Err(reason) => bench.notes.push(format!("point/reduced is missing: {reason}")),
@@ -190,10 +207,12 @@ fn shear_problems(kind: ContactKind, count: usize) -> Result<Vec<Problem>, Harne
             modulus_pa: 1.2388e11,
             viscosity_pa_s: 0.0705,
             alpha_per_pa: 2e-8,
+            sliding: Sliding {
+                slide_to_roll_ratio: random.f64(),
+                newtonian_plateau_ratio: Some(0.2 + 0.8 * random.f64()),
+            },
         };
-        let sliding =
-            Sliding { slide_to_roll_ratio: random.f64(), newtonian_plateau_ratio: Some(0.2 + 0.8 * random.f64()) };
-        Ok(Problem::under_sliding(&point, lubricant, sliding)?)
+        Ok(Problem::new(&point, lubricant)?)
     };
     (0..count).map(problem).collect()
 }
@@ -229,14 +248,18 @@ fn cold_and_warm(
     Ok([cold, warm])
 }
 
-/// Steps in time, of the full system and of a reduced model that reproduces them: the load of case 1 of Table 4.1 on the contact of Table
+/// Steps in time, of the full system and of the reduced models that reproduce them: the load of case 1 of Table 4.1 on the contact of Table
 /// 4.2, fixed frame.
 fn transient_rows(size: usize) -> Result<Vec<Timing>, HarnessError> {
     let [radius_m, speed_m_per_s, load] = [2e-3, 5.0, 2e5];
     let [modulus_pa, viscosity_pa_s, alpha_per_pa] = [231e9, 0.01, 1e-8];
     let kind = ContactKind::Line;
     let transient = Transient {
-        point: OperatingPoint { kind, radius_m, speed_m_per_s, load, modulus_pa, viscosity_pa_s, alpha_per_pa },
+        point: OperatingPoint::from_quantities(
+            kind,
+            [radius_m, speed_m_per_s, load, modulus_pa, viscosity_pa_s, alpha_per_pa],
+            Sliding::NONE,
+        ),
         lubricant: Lubricant::default(),
         inputs: Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 1.0 / 3.0 }),
         frame: Frame::Fixed,
@@ -253,16 +276,19 @@ fn transient_rows(size: usize) -> Result<Vec<Timing>, HarnessError> {
     };
     let (full, trajectory) = timed(TRANSIENT_BASELINE, &mut FullMarch::new(Arc::clone(&grid), &transient)?)?;
     let settings = TrajectoryTraining { loss: 1e-5, ..TrajectoryTraining::default() };
+    let linearised = TpwlModel::train(&[&trajectory], TPWL_TRAINING)?;
     let model = train_trajectories(&grid, &[trajectory], &settings, &())?;
     let (reduced, _) = timed("line/transient/rnsa-step", &mut ReducedMarch::new(&model)?)?;
-    Ok(vec![full, reduced])
+    let mut march = TpwlMarch::new(&linearised, &transient, Weighting::DualTaylor)?;
+    let (superposed, _) = timed("line/transient/tpwl-step", &mut march)?;
+    Ok(vec![full, reduced, superposed])
 }
 
 /// Reduced solves one after the other, with all fields and the scalars read off them where `fields` says so.
 fn reduced_row(
     name: &'static str,
     online: &mut Online,
-    points: &[OperatingPoint],
+    (points, lubricant): (&[OperatingPoint], Lubricant),
     fields: bool,
     budget: Duration,
 ) -> Timing {
@@ -276,7 +302,7 @@ fn reduced_row(
             break;
         }
         let clock = Instant::now();
-        let solved = online.solve(point, Lubricant::default());
+        let solved = online.solve(point, lubricant);
         let converged = match solved {
             Ok(solution) if fields => online.scalars(&solution).is_ok(),
             solved => solved.is_ok(),
@@ -290,9 +316,7 @@ fn reduced_row(
 fn nearest_other(solutions: &[Solution], k: usize) -> Option<&Solution> {
     let far = |other: &Solution| {
         let (a, b) = (&solutions[k].problem, &other.problem);
-        let plateau = |problem: &Problem| problem.sliding.newtonian_plateau_ratio.unwrap_or(1.0);
-        let sliding = a.sliding.slide_to_roll_ratio - b.sliding.slide_to_roll_ratio;
-        distance(a.moes, b.moes) + sliding.powi(2) + (plateau(a) - plateau(b)).powi(2)
+        distance(a.moes, b.moes) + a.point.sliding.distance(b.point.sliding)
     };
     let others = solutions.iter().enumerate().filter(|&(i, _)| i != k).map(|(_, solution)| solution);
     others.min_by(|a, b| far(a).total_cmp(&far(b)))

@@ -8,6 +8,7 @@ use crate::solver::contact::ContactError;
 use crate::solver::full::SolveError;
 use crate::solver::full::transient::TransientError;
 use crate::solver::reduced::ReducedError;
+use crate::solver::reduced::tpwl::TpwlError;
 use crate::solver::training::TrainingError;
 use std::path::PathBuf;
 
@@ -49,6 +50,9 @@ pub enum HarnessError {
     /// A contact in time is refused.
     #[error(transparent)]
     Transient(#[from] TransientError),
+    /// A trajectory-piecewise-linear model is refused.
+    #[error(transparent)]
+    Tpwl(#[from] TpwlError),
     /// Sampled inputs are refused.
     #[error(transparent)]
     Sampled(#[from] SampledError),

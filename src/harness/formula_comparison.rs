@@ -7,6 +7,7 @@ use super::statistics::median;
 use super::table::Table;
 use super::workbench::{Request, Workbench};
 use crate::scene::{At, Formula, Method, Scene};
+use crate::solver::contact::OperatingPoint;
 use crate::solver::full::Solution;
 use crate::solver::training::TrainingObserver;
 
@@ -29,7 +30,7 @@ pub(super) fn run(
         for &m in m {
             step(observer, "formula comparison", table.rows.len(), table.rows.len() + 1)?;
             let point = At::moes(m, l).point(scene.contact)?;
-            let request = Request { point, ..template.clone() };
+            let request = Request { point: OperatingPoint { sliding: scene.sliding(), ..point }, ..template.clone() };
             let answer = workbench.answer(&request, &Method::Full, former.as_ref(), observer)?;
             let film = answer.result().map_or(f64::NAN, |solution| {
                 let s = &solution.scalars;

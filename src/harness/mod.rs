@@ -31,6 +31,7 @@ mod split_study;
 mod statistics;
 pub mod table;
 mod tolerance_study;
+mod tpwl_study;
 pub mod training_file;
 mod training_study;
 mod transient_study;
@@ -47,6 +48,7 @@ pub use run::run_scene;
 pub use sampling::{Random, random_points};
 pub use statistics::{median, percentile, rank_correlation};
 pub use table::Table;
+pub(crate) use transient_study::training_states;
 pub use workbench::{Answer, ReducedFacts, Request, Workbench};
 
 use crate::solver::contact::ContactKind;
@@ -60,4 +62,12 @@ use std::sync::Arc;
 /// When the program was built with a damaged one.
 pub fn embedded_model(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileError> {
     model_file::embedded_of(contact)
+}
+
+/// The reduced model of one kind of contact with a shear-thinning lubricant in the program.
+///
+/// # Errors
+/// When the program was built with a damaged one, or has none of that kind.
+pub fn embedded_shear_model(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileError> {
+    model_file::embedded_shear_of(contact)
 }

@@ -8,7 +8,10 @@ use super::checked_file::{Flaw, Format, Unreadable};
 use crate::scene::atomic_file::{self, WriteError};
 use crate::solver::contact::ContactKind;
 use crate::solver::grid::{ContactGrid, ContactGridError, ContactGridSpec};
-use crate::solver::reduced::{Calibration, Domain, PodBasis, ReducedModel, SampledRows, Sampling, Snapshot, Window};
+use crate::solver::lubricant::{LimitingStress, Lubricant, ShearLaw, Sliding};
+use crate::solver::reduced::{
+    Calibration, Domain, PodBasis, ReducedModel, SampledRows, Sampling, SlidingDomain, Snapshot, Window,
+};
 use faer::Mat;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -25,6 +28,9 @@ static EMBEDDED: &[u8] = include_bytes!("../../assets/line.rom");
 /// The model of point contacts that is part of the program, trained by `scenes/table_3_4_model.ron`.
 static EMBEDDED_POINT: &[u8] = include_bytes!("../../assets/point.rom");
 
+/// The same for a lubricant that thins under shear, trained by `scenes/embedded_shear_model.ron`.
+static EMBEDDED_SHEAR: &[u8] = include_bytes!("../../assets/line_shear.rom");
+
 /// Why a model file is refused. Nothing is lost by it.
 #[derive(Debug, thiserror::Error)]
 pub enum ModelFileError {
@@ -39,6 +45,9 @@ pub enum ModelFileError {
     /// Writing failed.
     #[error(transparent)]
     Write(#[from] WriteError),
+    /// The program has none.
+    #[error("there is no reduced model of shear-thinning point contacts in this version; use the full solver")]
+    NoShearPoint,
     /// Not a model file at all.
     #[error("this is not a reduced model file (.rom); train one with `ehl-explorer train SCENE.ron --out FILE.rom`")]
     Foreign,
@@ -103,6 +112,16 @@ struct StoredModel {
     log: Vec<String>,
 }
 
+/// What follows the model where its lubricant thins under shear.
+#[derive(Serialize, Deserialize)]
+struct StoredShear {
+    law: ShearLaw,
+    limiting_stress: Option<LimitingStress>,
+    domain: SlidingDomain,
+    /// Of the snapshots of each window.
+    snapshots: Vec<Vec<Sliding>>,
+}
+
 #[derive(Serialize, Deserialize)]
 struct StoredWindow {
     m: (f64, f64),
@@ -141,6 +160,30 @@ enum Values {
 enum Precision {
     Double,
     Single,
+}
+
+impl StoredModel {
+    /// Takes over what a shear-thinning lubricant adds.
+    fn thin(&mut self, shear: StoredShear) -> Result<(), ModelFileError> {
+        let StoredShear { law, limiting_stress, domain, snapshots } = shear;
+        let lubricant = Lubricant { shear: law, limiting_stress, ..self.domain.lubricant };
+        let ratios = |s: &Sliding| (s.slide_to_roll_ratio, s.newtonian_plateau_ratio.unwrap_or(0.0));
+        let sound = |s: &Sliding| ratios(s).0.is_finite() && (0.0..=1.0).contains(&ratios(s).1);
+        let fits = snapshots.len() == self.windows.len()
+            && self.windows.iter().zip(&snapshots).all(|(window, sliding)| window.snapshots.len() == sliding.len())
+            && snapshots.iter().flatten().all(sound);
+        if !fits || law == ShearLaw::Newtonian || lubricant.check().is_err() {
+            return Err(ModelFileError::Damaged { what: "shear-thinning" });
+        }
+        for (window, sliding) in self.windows.iter_mut().zip(snapshots) {
+            for (snapshot, sliding) in window.snapshots.iter_mut().zip(sliding) {
+                snapshot.point.sliding = sliding;
+            }
+        }
+        self.domain.lubricant = lubricant;
+        self.domain.sliding = Some(domain);
+        Ok(())
+    }
 }
 
 impl StoredMatrix {
@@ -243,6 +286,17 @@ pub fn embedded_of(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileE
     from_bytes(bytes).map(Arc::new)
 }
 
+/// The model of one kind of contact with a shear-thinning lubricant that is part of the program.
+///
+/// # Errors
+/// When the program was built with a damaged asset, or has none of that kind.
+pub fn embedded_shear_of(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileError> {
+    match contact {
+        ContactKind::Line => from_bytes(EMBEDDED_SHEAR).map(Arc::new),
+        ContactKind::Point => Err(ModelFileError::NoShearPoint),
+    }
+}
+
 /// Reads a model file. Its announced size is checked before anything is allocated.
 ///
 /// # Errors
@@ -294,7 +348,15 @@ pub fn to_bytes(model: &ReducedModel) -> Result<Vec<u8>, ModelFileError> {
         scene: model.scene.clone(),
         log: model.log.clone(),
     };
-    let payload = postcard::to_allocvec(&stored).map_err(|_| ModelFileError::Damaged { what: "encoding" })?;
+    let unwritable = |_| ModelFileError::Damaged { what: "encoding" };
+    let mut payload = postcard::to_allocvec(&stored).map_err(unwritable)?;
+    if let Some(domain) = model.domain.sliding {
+        let Lubricant { shear: law, limiting_stress, .. } = model.domain.lubricant;
+        let of_window = |w: &Window| w.snapshots.iter().map(|snapshot| snapshot.point.sliding).collect();
+        let snapshots = model.windows.iter().map(of_window).collect();
+        let shear = StoredShear { law, limiting_stress, domain, snapshots };
+        payload = postcard::to_extend(&shear, payload).map_err(unwritable)?;
+    }
     Ok(FORMAT.seal(&payload))
 }
 
@@ -304,8 +366,12 @@ pub fn to_bytes(model: &ReducedModel) -> Result<Vec<u8>, ModelFileError> {
 /// As [`read`].
 pub fn from_bytes(bytes: &[u8]) -> Result<ReducedModel, ModelFileError> {
     let payload = FORMAT.open(bytes)?;
-    let stored: StoredModel =
-        postcard::from_bytes(payload).map_err(|_| ModelFileError::Damaged { what: "its content cannot be decoded" })?;
+    let undecodable = |_| ModelFileError::Damaged { what: "its content cannot be decoded" };
+    let (mut stored, rest): (StoredModel, &[u8]) = postcard::take_from_bytes(payload).map_err(undecodable)?;
+    if !rest.is_empty() {
+        let shear = postcard::from_bytes(rest).map_err(undecodable)?;
+        stored.thin(shear)?;
+    }
     let grids = grids(&stored.windows)?;
     let windows: Vec<Window> =
         stored.windows.into_par_iter().zip(grids).map(|(w, grid)| w.into_window(grid)).collect::<Result<_, _>>()?;

@@ -37,13 +37,16 @@ pub(super) fn run(
     observer: &dyn TrainingObserver,
     outcome: &mut SceneOutcome,
 ) -> Result<(), HarnessError> {
-    let points = random_points(test.range, scene.contact, test.tests, test.seed);
+    let mut points = random_points(test.range, scene.contact, test.tests, test.seed);
     if points.len() < test.tests {
         return Err(HarnessError::Study(format!(
             "`study.range` holds hardly any point below its largest Hertzian pressure; only {} of {} were found",
             points.len(),
             test.tests
         )));
+    }
+    if !matches!(test.range, TestRange::Sliding { .. }) {
+        points.iter_mut().for_each(|point| point.sliding = scene.sliding());
     }
     let template = request_of(scene)?;
     let of = Some(test.method);
@@ -61,6 +64,10 @@ pub(super) fn run(
             "H_c_full",
             "H_min",
             "H_min_full",
+            "srr",
+            "npr",
+            "traction",
+            "traction_full",
         ],
     );
     let mut untrained = 0;
@@ -85,6 +92,10 @@ pub(super) fn run(
             f64::NAN,
             scalars.map_or(f64::NAN, |s| s.h_min),
             f64::NAN,
+            point.sliding.slide_to_roll_ratio,
+            point.sliding.newtonian_plateau_ratio.unwrap_or(1.0),
+            answer.traction().unwrap_or(f64::NAN),
+            f64::NAN,
         ]);
     }
     let column = |k: usize| table.rows.iter().map(|row| row[k]).collect::<Vec<f64>>();
@@ -100,22 +111,29 @@ pub(super) fn run(
     outcome.push("p99_s", of, percentile(&seconds, 0.99));
     if let Some(source) = test.method.model() {
         outcome.push("untrained", of, untrained as f64);
-        let model = workbench.model(source, scene.contact, observer)?;
+        let model = workbench.model_for(source, scene.contact, &scene.lubricant, observer)?;
         let grid = |point: &OperatingPoint| model.windows[model.window_for(point.moes())].grid.clone();
         let full = full_solutions(grid, &points[..test.compare], scene.lubricant, observer)?;
-        let mut errors: [Vec<f64>; 2] = Default::default();
+        let mut errors: [Vec<f64>; 3] = Default::default();
         let mut full_failures = 0;
         for (row, full) in table.rows.iter_mut().zip(full) {
             full_failures += usize::from(full.is_none());
-            (row[8], row[10]) = full.map_or((f64::NAN, f64::NAN), |full| (full.scalars.h_c, full.scalars.h_min));
-            for (errors, (reduced, full)) in errors.iter_mut().zip([(row[5], row[8]), (row[9], row[10])]) {
+            if let Some(full) = full {
+                (row[8], row[10]) = (full.scalars.h_c, full.scalars.h_min);
+                // Without a meaning there is nothing to compare.
+                row[14] = if full.traction_warning().is_none() { full.traction_coefficient() } else { f64::NAN };
+            }
+            let pairs = [(row[5], row[8]), (row[9], row[10]), (row[13], row[14])];
+            for (errors, (reduced, full)) in errors.iter_mut().zip(pairs) {
                 errors.extend(Some((reduced / full - 1.0).abs()).filter(|error| error.is_finite()));
             }
         }
         if test.compare > 0 {
             outcome.push("compared", of, errors[0].len() as f64);
             outcome.push("full_failures", of, full_failures as f64);
-            for (name, errors) in ["H_c", "H_min"].iter().zip(&errors) {
+            for (name, errors) in
+                ["H_c", "H_min", "traction"].iter().zip(&errors).filter(|(_, errors)| !errors.is_empty())
+            {
                 outcome.push(format!("{name}_error_median"), of, median(errors));
                 outcome.push(format!("{name}_error_p95"), of, percentile(errors, 0.95));
                 outcome.push(format!("{name}_error_max"), of, percentile(errors, 1.0));

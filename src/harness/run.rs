@@ -6,9 +6,10 @@ use super::report::{PointReport, profile_table};
 use super::workbench::{Answer, Request, Workbench};
 use super::{
     distance_study, error_measure_study, formula_comparison, grid_study, plan_comparison, random_test, sampling_study,
-    series, split_study, tolerance_study, training_study, transient_study,
+    series, split_study, tolerance_study, tpwl_study, training_study, transient_study,
 };
 use crate::scene::{Method, Scene, Study};
+use crate::solver::contact::OperatingPoint;
 use crate::solver::training::{Progress, TrainingObserver};
 use std::time::Instant;
 
@@ -69,6 +70,7 @@ pub fn run_scene(
             sampling_study::run(scene, &study, observer, &mut outcome)?;
         }
         Study::Transient(study) => transient_study::run(scene, study, workbench, observer, &mut outcome)?,
+        Study::Tpwl(study) => tpwl_study::run(scene, study, workbench, observer, &mut outcome)?,
         Study::FormulaComparison { formula, m, l } => {
             formula_comparison::run(scene, *formula, m, l, workbench, observer, &mut outcome)?;
         }
@@ -81,11 +83,10 @@ pub fn run_scene(
 /// The request of a scene at its own operating point.
 pub(super) fn request_of(scene: &Scene) -> Result<Request, HarnessError> {
     Ok(Request {
-        point: scene.point()?,
+        point: OperatingPoint { sliding: scene.sliding(), ..scene.point()? },
         lubricant: scene.lubricant,
         grid: scene.grid,
         grid_model: scene.study.grid_model(),
-        sliding: scene.sliding(),
     })
 }
 

@@ -47,7 +47,6 @@ struct Path<'a> {
 struct Contact {
     values: Vec<f64>,
     point: OperatingPoint,
-    sliding: Sliding,
 }
 
 /// Runs a scene's sweep.
@@ -70,7 +69,7 @@ pub(super) fn sweep(
             set(&mut at, &mut sliding, axis.vary, value)?;
         }
         let point = at.with_alpha_of(&scene.lubricant).point(scene.contact)?;
-        contacts.push(Contact { values, point, sliding });
+        contacts.push(Contact { values, point: OperatingPoint { sliding, ..point } });
     }
     let varied: Vec<&str> = over.iter().map(|axis| axis.vary.name()).collect();
     let path = Path { name: "sweep", varied: &varied, contacts: &contacts, cold };
@@ -92,7 +91,7 @@ pub(super) fn trajectory(
         let c = 2.0 * i as f64 / (count - 1) as f64;
         let point = range.trajectory(scene.contact, c);
         point.check()?;
-        contacts.push(Contact { values: vec![c], point, sliding: scene.sliding() });
+        contacts.push(Contact { values: vec![c], point: OperatingPoint { sliding: scene.sliding(), ..point } });
     }
     let path = Path { name: "trajectory", varied: &["c"], contacts: &contacts, cold: false };
     along(&path, scene, methods, workbench, observer, outcome)
@@ -146,9 +145,9 @@ fn along(
     let mut tallies = vec![Tally::default(); methods.len()];
     let mut former: Vec<Option<Solution>> = vec![None; methods.len()];
     let full = methods.iter().position(|method| *method == Method::Full);
-    for (i, Contact { values, point, sliding }) in contacts.iter().enumerate() {
+    for (i, Contact { values, point }) in contacts.iter().enumerate() {
         step(observer, name, i, contacts.len())?;
-        let request = Request { point: *point, sliding: *sliding, ..template.clone() };
+        let request = Request { point: *point, ..template.clone() };
         let (moes, p_h) = (point.moes(), point.hertz().pressure_pa);
         let mut row = values.clone();
         row.extend([moes.m, moes.l, point.radius_m, point.speed_m_per_s, point.load, point.alpha_per_pa, p_h]);

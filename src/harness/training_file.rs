@@ -15,7 +15,7 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 /// 5000 full solutions in each of some windows, on the finest grids that are used.
 const FORMAT: Format = Format { magic: b"EHLTRN\r\n", version: VERSION, max_payload: 2 << 30 };
 
@@ -247,6 +247,7 @@ mod tests {
             sampling: Sampling::QDeim,
             rows_per_mode: 2.0,
             penalty: 1e6,
+            positive_modes: false,
             evidence: 0,
             seed: 1,
         };

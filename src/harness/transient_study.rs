@@ -24,6 +24,8 @@ const QUANTITIES: [(&str, Quantity); 4] = [
 
 /// States of a training trajectory that are kept, about.
 const TRAINING_STATES: f64 = 700.0;
+/// Most modes in a table of losses.
+const MOST_LOSSES: usize = 300;
 
 /// Runs the study. Values of each frame, after its name (`fixed`, `ale`, `remeshed`, `remeshed_linear`): `H_c.start`, `H_c.mean`,
 /// `H_c.amplitude`, `H_c.offset` (mean over start, less 1) over the window, and so on for H_min, P_c, P_max; `steps`, `rejected_steps`,
@@ -42,6 +44,7 @@ pub(super) fn run(
     }
     let request = request_of(scene)?;
     let mut first: Option<Trajectory> = None;
+    let mut first_modes = None;
     for &frame in &study.frames {
         let transient = Transient {
             point: request.point,
@@ -78,6 +81,9 @@ pub(super) fn run(
         outcome.tables.push(series(&format!("transient_{name}"), &trajectory));
         if let Some(reduced) = &study.reduced {
             let trained = train(scene, study, reduced, &trajectory, workbench, observer)?;
+            let modes = trained.window.pressure.modes.ncols() as f64;
+            outcome.push(format!("{name}.rnsa.modes_share"), None, modes / *first_modes.get_or_insert(modes));
+            outcome.tables.push(loss_table(&format!("loss_{name}"), &trained));
             reduced_march(&trained, &trajectory, &seconds, study.window(), observer, outcome)?;
         }
         first.get_or_insert(trajectory);
@@ -86,7 +92,7 @@ pub(super) fn run(
 }
 
 /// Which states a training keeps: some hundreds in all.
-fn training_states(duration: f64, time_step: TimeStep) -> Keep {
+pub(crate) fn training_states(duration: f64, time_step: TimeStep) -> Keep {
     let longest = match time_step {
         TimeStep::Fixed(step) => step,
         TimeStep::Adaptive { longest, .. } => longest,
@@ -123,7 +129,17 @@ fn train(
     Ok(train_trajectories(&grid, all, &settings, observer)?)
 }
 
-/// Marches a reduced model beside the full trajectory of its frame. Values, after `<frame>.rnsa`: `modes`, `deformation_modes`, `rows`,
+/// Loss of information (2.90) of pressure and deformation against the number of modes: Fig. 4.5.
+fn loss_table(name: &str, model: &TrajectoryModel) -> Table {
+    let mut table = Table::new(name, &["modes", "pressure_loss", "deformation_loss"]);
+    let window = &model.window;
+    let most = window.pressure.singular_values.len().min(MOST_LOSSES);
+    table.rows.extend((0..=most).map(|k| vec![k as f64, window.pressure.loss(k), window.deformation.loss(k)]));
+    table
+}
+
+/// Marches a reduced model beside the full trajectory of its frame. Values, after `<frame>.rnsa`: `modes`, `modes_share` (of the first
+/// frame's), `deformation_modes`, `rows`,
 /// `H_c.difference`, `H_c.difference_l2` and so on from the full trajectory, those of [`costs`], and `speed_up` (medians of the steps).
 fn reduced_march(
     model: &TrajectoryModel,

@@ -7,7 +7,7 @@ use crate::solver::contact::{ContactKind, Moes, OperatingPoint, PLAUSIBLE_HERTZ_
 use crate::solver::full::point::resolution_warning;
 use crate::solver::full::{FullSolver, PointSolver, Problem, Solution, Start};
 use crate::solver::grid::{ContactGrid, GridSpec, PointGrid, PointGridSpec, ReferenceGrid};
-use crate::solver::lubricant::{Lubricant, Sliding};
+use crate::solver::lubricant::{Lubricant, ShearLaw};
 use crate::solver::observer::Observer;
 use crate::solver::reduced::{ErrorEstimate, Online, ReducedError, ReducedModel, ReducedOptions, Trust, Window};
 use crate::solver::training::{TrainingObserver, TrainingSpec, train};
@@ -29,8 +29,6 @@ pub struct Request {
     pub grid: Grid,
     /// The model that [`Grid::Model`] means.
     pub grid_model: ModelSource,
-    /// Slide-to-roll ratio and Newtonian plateau ratio.
-    pub sliding: Sliding,
 }
 
 /// What came of it.
@@ -88,8 +86,8 @@ pub struct Workbench {
     online: Vec<(Wanted, Online)>,
 }
 
-/// Where a model comes from, and of which kind of contact it should be: the program holds one of each.
-type Wanted = (ModelSource, ContactKind);
+/// Where a model comes from, of which kind of contact it should be, and whether its lubricant thins under shear: the program holds one of each.
+type Wanted = (ModelSource, ContactKind, bool);
 
 /// Full solvers of line contacts kept at a time; the oldest goes first.
 const KEPT_SOLVERS: usize = 6;
@@ -124,13 +122,13 @@ impl Workbench {
 
     /// Puts a model in place of what its source would give.
     pub fn insert_model(&mut self, source: ModelSource, model: Arc<ReducedModel>) {
-        let wanted = (source, model.contact());
+        let wanted = (source, model.contact(), model.domain.sliding.is_some());
         self.models.retain(|(kept, _)| *kept != wanted);
         self.online.retain(|(kept, _)| *kept != wanted);
         self.models.push((wanted, model));
     }
 
-    /// The reduced model of a source, for one kind of contact: read, or trained, once.
+    /// The reduced model of a source, for one kind of contact and a Newtonian lubricant: read, or trained, once.
     ///
     /// # Errors
     /// When it cannot be read or trained.
@@ -140,11 +138,28 @@ impl Workbench {
         contact: ContactKind,
         observer: &dyn TrainingObserver,
     ) -> Result<Arc<ReducedModel>, HarnessError> {
-        let wanted = (source.clone(), contact);
+        self.model_for(source, contact, &Lubricant::default(), observer)
+    }
+
+    /// The same for any lubricant.
+    ///
+    /// # Errors
+    /// When it cannot be read or trained.
+    pub fn model_for(
+        &mut self,
+        source: &ModelSource,
+        contact: ContactKind,
+        lubricant: &Lubricant,
+        observer: &dyn TrainingObserver,
+    ) -> Result<Arc<ReducedModel>, HarnessError> {
+        let wanted = wanted(source, contact, lubricant);
         if let Some((_, model)) = self.models.iter().find(|(kept, _)| *kept == wanted) {
             return Ok(Arc::clone(model));
         }
         let model = match source {
+            ModelSource::Embedded if wanted.2 => {
+                super::embedded_shear_model(contact).map_err(HarnessError::Embedded)?
+            }
             ModelSource::Embedded => super::embedded_model(contact).map_err(HarnessError::Embedded)?,
             ModelSource::File(path) => {
                 let path = self.base.join(path);
@@ -179,7 +194,7 @@ impl Workbench {
         start: Option<&Solution>,
         observer: &dyn TrainingObserver,
     ) -> Result<Answer, HarnessError> {
-        let problem = Problem::under_sliding(&request.point, request.lubricant, request.sliding)?;
+        let problem = Problem::new(&request.point, request.lubricant)?;
         if observer.cancelled() {
             return Err(HarnessError::Cancelled);
         }
@@ -216,7 +231,7 @@ impl Workbench {
         let (spec, ready): (PointGridSpec, Option<Arc<PointGrid>>) = match (request.grid, request.grid.point_spec()) {
             (_, Some(spec)) => (spec, None),
             (Grid::Model, None) => {
-                let model = self.model(&request.grid_model, ContactKind::Point, observer)?;
+                let model = self.model_for(&request.grid_model, ContactKind::Point, &request.lubricant, observer)?;
                 match &window_of(&model, request.point.moes())?.grid {
                     ContactGrid::Point(grid) => (grid.spec, Some(Arc::clone(grid))),
                     ContactGrid::Line(_) => return Err(other_contact(&model, ContactKind::Point)),
@@ -253,7 +268,7 @@ impl Workbench {
         let (spec, ready): (GridSpec, Option<Arc<ReferenceGrid>>) = match request.grid.spec() {
             Some(spec) => (spec, None),
             None => {
-                let model = self.model(&request.grid_model, ContactKind::Line, observer)?;
+                let model = self.model_for(&request.grid_model, ContactKind::Line, &request.lubricant, observer)?;
                 match &window_of(&model, moes)?.grid {
                     ContactGrid::Line(grid) => (grid.spec, Some(Arc::clone(grid))),
                     ContactGrid::Point(_) => return Err(other_contact(&model, ContactKind::Line)),
@@ -342,8 +357,8 @@ impl Workbench {
         source: &ModelSource,
         observer: &dyn TrainingObserver,
     ) -> Result<Answer, HarnessError> {
-        let wanted = (source.clone(), problem.point.kind);
-        let model = self.model(source, problem.point.kind, observer)?;
+        let wanted = wanted(source, problem.point.kind, &request.lubricant);
+        let model = self.model_for(source, problem.point.kind, &request.lubricant, observer)?;
         let place = match self.online.iter().position(|(kept, _)| *kept == wanted) {
             Some(place) => place,
             None => {
@@ -404,6 +419,10 @@ impl Workbench {
             solution,
         })
     }
+}
+
+fn wanted(source: &ModelSource, contact: ContactKind, lubricant: &Lubricant) -> Wanted {
+    (source.clone(), contact, lubricant.shear != ShearLaw::Newtonian)
 }
 
 /// The window of a model that serves a contact.

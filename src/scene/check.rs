@@ -18,20 +18,20 @@ pub const MAX_TESTS: usize = 1_000_000;
 /// Most full solutions that a study keeps to compare with.
 pub const MAX_COMPARED: usize = 20_000;
 
-type Checked = Result<(), SceneError>;
+pub(super) type Checked = Result<(), SceneError>;
 
-fn refuse(field: impl Into<String>, problem: impl Into<String>) -> SceneError {
+pub(super) fn refuse(field: impl Into<String>, problem: impl Into<String>) -> SceneError {
     SceneError::Field { field: field.into(), problem: problem.into() }
 }
 
-fn number(field: &str, value: f64, low: f64, high: f64) -> Checked {
+pub(super) fn number(field: &str, value: f64, low: f64, high: f64) -> Checked {
     if (low..=high).contains(&value) {
         return Ok(());
     }
     Err(refuse(field, format!("is {value}, but must be a finite number between {low:e} and {high:e}")))
 }
 
-fn count(field: &str, value: usize, low: usize, high: usize) -> Checked {
+pub(super) fn count(field: &str, value: usize, low: usize, high: usize) -> Checked {
     if (low..=high).contains(&value) {
         return Ok(());
     }
@@ -207,6 +207,7 @@ fn study(scene: &Scene) -> Checked {
             quantity_box("study.range", range)
         }
         Study::Transient(study) => transient(scene, study),
+        Study::Tpwl(study) => study.check(scene),
         Study::FormulaComparison { formula, .. } if formula.film_formula().contact() != scene.contact => {
             let wanted = formula.film_formula().contact().name();
             Err(refuse(
@@ -223,7 +224,8 @@ fn study(scene: &Scene) -> Checked {
     }
 }
 
-fn transient(scene: &Scene, study: &TransientStudy) -> Checked {
+/// Contacts in time are line contacts with a Newtonian lubricant on a grid of their own.
+pub(super) fn newtonian_line_in_time(scene: &Scene) -> Checked {
     if scene.contact == ContactKind::Point {
         return Err(refuse(
             "study",
@@ -236,6 +238,11 @@ fn transient(scene: &Scene, study: &TransientStudy) -> Checked {
     if scene.grid == Grid::Model {
         return Err(refuse("grid", "cannot be Model for a contact in time; write Uniform, Graded or GradedNodes"));
     }
+    Ok(())
+}
+
+fn transient(scene: &Scene, study: &TransientStudy) -> Checked {
+    newtonian_line_in_time(scene)?;
     count("study.frames (how many)", study.frames.len(), 1, 4)?;
     if (1..study.frames.len()).any(|i| study.frames[..i].contains(&study.frames[i])) {
         return Err(refuse("study.frames", "must not name a frame twice: results are named by it"));
@@ -322,22 +329,29 @@ fn test_range(range: &TestRange) -> Checked {
             interval("study.range.alpha", *alpha, 1e-12, 1e-5)?;
             number("study.range.viscosity", *viscosity, 1e-6, 1e4)
         }
+        TestRange::Sliding { m, l, srr, npr, radius, modulus, viscosity, alpha } => {
+            interval("study.range.m", *m, 0.05, 1e5)?;
+            interval("study.range.l", *l, 1e-3, 1e3)?;
+            interval("study.range.srr", *srr, -10.0, 10.0)?;
+            interval("study.range.npr", *npr, 0.0, 1.0)?;
+            number("study.range.radius", *radius, 1e-6, 1e3)?;
+            number("study.range.modulus", *modulus, 1e5, 1e14)?;
+            number("study.range.viscosity", *viscosity, 1e-6, 1e4)?;
+            number("study.range.alpha", *alpha, 1e-12, 1e-5)
+        }
     }
 }
 
 fn training(spec: &TrainingSpec) -> Checked {
-    if spec.lubricant.shear != ShearLaw::Newtonian {
-        return Err(refuse(
-            "study.lubricant.shear",
-            "must be left out: a reduced model has no shear-thinning in this version",
-        ));
-    }
     match spec.range {
         Range::Box { radius, speed, load, alpha, modulus, viscosity } => {
             quantity_box("study.range", &QuantityBox { radius, speed, load, alpha, modulus, viscosity })?;
         }
         Range::Moes { m, l, alpha, max_hertz_pressure, viscosity } => {
             test_range(&TestRange::Moes { m, l, alpha, max_hertz_pressure, viscosity })?;
+        }
+        Range::Sliding { m, l, srr, npr, radius, modulus, viscosity, alpha } => {
+            test_range(&TestRange::Sliding { m, l, srr, npr, radius, modulus, viscosity, alpha })?;
         }
     }
     match &spec.plan {

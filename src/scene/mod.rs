@@ -11,6 +11,7 @@ mod expectation;
 pub mod named_lubricant;
 pub mod sampled;
 mod study;
+mod tpwl;
 mod transient;
 mod view;
 
@@ -20,6 +21,7 @@ pub use study::{
     Axis, ComparedPlan, ComparedSampling, Contacts, Formula, OnlineScheme, QuantityBox, Steps, Study, TestRange,
     Variable,
 };
+pub use tpwl::{Drive, TpwlStudy};
 pub use transient::{ReducedTransient, TrainingInputs, TransientStudy};
 pub use view::{LoadFollower, LubricantFollower, View};
 
@@ -277,6 +279,7 @@ impl At {
                     modulus_pa: modulus,
                     viscosity_pa_s: viscosity,
                     alpha_per_pa: alpha,
+                    sliding: Sliding::NONE,
                 };
                 point.check()?;
                 Ok(point)

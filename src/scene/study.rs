@@ -1,7 +1,7 @@
 //! The questions a scene can ask.
 
-use super::{Method, ModelSource, TransientStudy};
-use crate::solver::contact::{ContactKind, FilmFormula, OperatingPoint};
+use super::{Method, ModelSource, TpwlStudy, TransientStudy};
+use crate::solver::contact::{ContactKind, FilmFormula, OperatingPoint, Sliding};
 use crate::solver::reduced::{Norm, ReducedOptions, Sampling};
 use crate::solver::training::TrainingSpec;
 use serde::{Deserialize, Serialize};
@@ -141,6 +141,8 @@ pub enum Study {
     },
     /// The contact in time, under inputs that vary: Figs. 2.6 (right), 4.4, 4.14, 4.15.
     Transient(TransientStudy),
+    /// Trajectory-piecewise-linear models of the contact in time: Figs. 4.10 to 4.12, 4.15 to 4.18.
+    Tpwl(TpwlStudy),
     /// Full solutions against a published film formula at all pairs of M and L in the default realisation.
     FormulaComparison {
         /// The formula.
@@ -311,6 +313,25 @@ pub enum TestRange {
         /// Viscosity at ambient pressure \[Pa·s\].
         viscosity: f64,
     },
+    /// M, L, SRR and NPR of a shear-thinning lubricant, (3.17) in ln M, L, SRR and NPR.
+    Sliding {
+        /// Load number.
+        m: (f64, f64),
+        /// Lubricant number.
+        l: (f64, f64),
+        /// Slide-to-roll ratio.
+        srr: (f64, f64),
+        /// Newtonian plateau ratio.
+        npr: (f64, f64),
+        /// Radius \[m\].
+        radius: f64,
+        /// Reduced modulus \[Pa\].
+        modulus: f64,
+        /// Viscosity at ambient pressure \[Pa·s\].
+        viscosity: f64,
+        /// Pressure–viscosity coefficient \[1/Pa\]; the lubricant's own, where its viscosity law determines it.
+        alpha: f64,
+    },
 }
 
 /// A published film formula.
@@ -344,7 +365,8 @@ impl Study {
             | Self::PlanComparison { .. }
             | Self::ToleranceStudy { .. }
             | Self::SamplingComparison { .. }
-            | Self::Transient(_) => &[],
+            | Self::Transient(_)
+            | Self::Tpwl(_) => &[],
         }
     }
 
@@ -456,6 +478,7 @@ impl QuantityBox {
             modulus_pa: self.modulus,
             viscosity_pa_s: self.viscosity,
             alpha_per_pa: between(self.alpha, alpha),
+            sliding: Sliding::NONE,
         }
     }
 

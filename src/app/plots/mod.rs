@@ -5,6 +5,8 @@ mod axes;
 pub mod badge;
 pub mod basis;
 pub mod contact_map;
+mod cut_line;
+mod direction;
 mod formulas;
 pub mod profiles;
 mod regime_chart;

@@ -1,6 +1,8 @@
 //! Pressure and film against X, one above the other on a shared axis; the difference to the full solution below on request.
 
 use super::axes;
+use super::cut_line::CutLine;
+use super::direction::Direction;
 use crate::app::command::Command;
 use crate::app::controls::warning_ui;
 use crate::app::export;
@@ -14,9 +16,6 @@ use egui_plot::{
     Corner, HoverPosition, Legend, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points, Span,
     Text,
 };
-
-/// X range at first: the contact with its inlet and outlet.
-const X_RANGE: (f64, f64) = (-2.2, 1.6);
 
 /// The tab.
 pub fn ui(ui: &mut Ui, state: &mut State) {
@@ -44,9 +43,11 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
         fit: state.fit_plots,
         cuts: state.display.cuts,
     };
-    let stack = |ui: &mut Ui, direction: Direction| {
-        pressure_plot(ui, &scene, direction, unit);
-        film_plot(ui, &scene, direction, unit);
+    let mut moved = None;
+    let mut stack = |ui: &mut Ui, direction: Direction| {
+        let by_pressure = pressure_plot(ui, &scene, direction, unit);
+        let by_film = film_plot(ui, &scene, direction, unit);
+        moved = by_pressure.or(by_film).map(|to| (direction, to)).or(moved);
     };
     if !picture.has_plane() {
         stack(ui, Direction::Along);
@@ -65,79 +66,15 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
     if let Some(comparison) = comparison {
         difference_plot(ui, comparison, state.fit_plots, 0.6 * unit);
     }
+    if let Some((direction, to)) = moved {
+        direction.move_other(&mut state.display.cuts, to);
+    }
 }
 
 /// Says that a picture belongs to other sliders.
 pub fn stale_note(ui: &mut Ui, picture: &Picture) {
     let note = format!("The picture belongs to {}, not to the sliders", numbers::moes(picture.key.point.moes()));
     warning_ui(ui, &note);
-}
-
-/// In which direction a profile runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Direction {
-    /// Along X, in the direction of motion.
-    Along,
-    /// Across, along Y, of a point contact.
-    Across,
-}
-
-impl Direction {
-    fn pressure(self, picture: &Picture) -> &[PlotPoint] {
-        match self {
-            Self::Along => &picture.pressure,
-            Self::Across => &picture.across.pressure,
-        }
-    }
-
-    fn film(self, picture: &Picture) -> &[PlotPoint] {
-        match self {
-            Self::Along => &picture.film,
-            Self::Across => &picture.across.film,
-        }
-    }
-
-    /// Name of the coordinate.
-    fn name(self) -> &'static str {
-        match self {
-            Self::Along => "X",
-            Self::Across => "Y",
-        }
-    }
-
-    /// Range at first: the contact with its inlet and outlet, or with both sides.
-    fn range(self) -> (f64, f64) {
-        match self {
-            Self::Along => X_RANGE,
-            Self::Across => (-1.6, 1.6),
-        }
-    }
-
-    /// Names of the plots that share an axis; those of the other direction have their own.
-    fn id(self, plot: &str) -> String {
-        match self {
-            Self::Along => plot.to_owned(),
-            Self::Across => format!("{plot} across"),
-        }
-    }
-
-    fn x_title(self, picture: &Picture, cuts: Cuts) -> String {
-        match self {
-            Self::Along if picture.has_plane() => {
-                format!("{{X}} = {{x}}/{{a}} at {{Y}} = {}", numbers::digits(cuts.y, 3))
-            }
-            Self::Along => "{X} = {x}/{a}".to_owned(),
-            Self::Across => format!("{{Y}} = {{y}}/{{a}} at {{X}} = {}", numbers::digits(cuts.x, 3)),
-        }
-    }
-
-    /// Where on the other axis the profile lies.
-    fn elsewhere(self, cuts: Cuts) -> f64 {
-        match self {
-            Self::Along => cuts.y,
-            Self::Across => cuts.x,
-        }
-    }
 }
 
 fn toolbar(ui: &mut Ui, state: &mut State) {
@@ -223,6 +160,11 @@ struct Scene<'a> {
 }
 
 impl<'a> Scene<'a> {
+    /// Where the other profile cuts a point contact, in the plot of one quantity.
+    fn cut_line(&self, direction: Direction, plot: &str) -> Option<CutLine> {
+        self.picture.has_plane().then(|| CutLine::new(&direction.id(plot), direction.other(self.cuts)))
+    }
+
     /// Pinned, live and full curves of one quantity; returns the colour of the live one.
     fn curves(
         &self,
@@ -248,18 +190,24 @@ impl<'a> Scene<'a> {
 /// A plot of the stack: shared X axis and cursor.
 fn stacked<'a>(ui: &Ui, direction: Direction, id: &str, height: f32, x_title: &str, y_title: &str) -> Plot<'a> {
     let group = Id::unique(direction.id("profiles"));
-    let marks = if direction == Direction::Along { 9.0 } else { 5.0 };
+    // As many marks as have room for their numbers.
+    let marks = f64::from((ui.available_width() / 90.0).clamp(3.0, 9.0));
     axes::plot(ui, &direction.id(id), height, x_title, y_title)
         .x_grid_spacer(move |input| axes::round_marks(input, marks))
         .link_axis(group, Vec2b::new(true, false))
         .link_cursor(group, Vec2b::new(true, false))
         .set_margin_fraction(egui::vec2(0.0, 0.0))
         .show_y(false)
-        .legend(legend(Corner::LeftTop))
 }
 
-fn legend(corner: Corner) -> Legend {
-    Legend::default().position(corner).follow_insertion_order(true).background_alpha(0.6)
+/// The legend stands in the profiles along X; those across have the same curves and less room.
+fn with_legend(plot: Plot<'_>, direction: Direction, corner: Corner) -> Plot<'_> {
+    match direction {
+        Direction::Along => {
+            plot.legend(Legend::default().position(corner).follow_insertion_order(true).background_alpha(0.6))
+        }
+        Direction::Across => plot,
+    }
 }
 
 fn hover(picture: &Picture, direction: Direction) -> impl Fn(&HoverPosition<'_>) -> Option<String> + '_ {
@@ -306,7 +254,8 @@ fn mark(plot: &mut PlotUi<'_>, at: (f64, f64), name: &'static str, color: Color3
     plot.text(label.anchor(anchor).id((name, "label")).allow_hover(false));
 }
 
-fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) {
+/// The pressure; returns where the hand takes the line of the other cut.
+fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) -> Option<f64> {
     let palette = Palette::of(ui);
     let picture = scene.picture;
     let scalars = picture.solution.scalars;
@@ -315,7 +264,9 @@ fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f
     let elsewhere = direction.elsewhere(scene.cuts);
     let (on_axis, height_here) = (elsewhere == 0.0 && direction == Direction::Along, 1.0 - elsewhere * elsewhere);
     let y_title = if direction == Direction::Along { "Pressure {P} = {p}/{p_H}" } else { "" };
-    stacked(ui, direction, "pressure", height, "", y_title)
+    let cut = scene.cut_line(direction, "pressure");
+    let shown = with_legend(stacked(ui, direction, "pressure", height, "", y_title), direction, Corner::LeftTop)
+        .allow_drag(cut.as_ref().is_none_or(|cut| !cut.is_held(ui)))
         .default_x_bounds(from, to)
         .default_y_bounds(-0.04 * top, numbers::round_up(1.12 * top))
         .label_formatter(hover(picture, direction))
@@ -333,7 +284,11 @@ fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f
             if let Some(spike) = picture.spike.filter(|s| on_axis && (s.0 < scalars.x_p_max - 1e-9 || s.0 > 0.5)) {
                 mark(plot, spike, "spike", live, Align2::LEFT_BOTTOM);
             }
+            if let Some(cut) = &cut {
+                cut.draw(plot, palette.accent);
+            }
         });
+    cut?.moved(ui, &shown.response, &shown.transform)
 }
 
 fn full_name(scene: &Scene<'_>) -> String {
@@ -343,7 +298,8 @@ fn full_name(scene: &Scene<'_>) -> String {
     }
 }
 
-fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) {
+/// The film; returns where the hand takes the line of the other cut.
+fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) -> Option<f64> {
     let palette = Palette::of(ui);
     let picture = scene.picture;
     let scalars = picture.solution.scalars;
@@ -352,11 +308,12 @@ fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) 
     let elsewhere = direction.elsewhere(scene.cuts);
     let x_title = direction.x_title(picture, scene.cuts);
     let y_title = if direction == Direction::Along { "Film {H} = {h}{R}/{a}²" } else { "" };
-    stacked(ui, direction, "film", height, &x_title, y_title)
+    let cut = scene.cut_line(direction, "film");
+    // The inlet's film comes down from the top left.
+    let shown = with_legend(stacked(ui, direction, "film", height, &x_title, y_title), direction, Corner::LeftBottom)
+        .allow_drag(cut.as_ref().is_none_or(|cut| !cut.is_held(ui)))
         .default_x_bounds(from, to)
         .default_y_bounds(0.0, numbers::round_up(4.0 * top))
-        // The inlet's film comes down from the top left.
-        .legend(legend(Corner::LeftBottom))
         .label_formatter(hover(picture, direction))
         .show(ui, |plot| {
             axes::fit(plot, scene.fit);
@@ -367,29 +324,25 @@ fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) 
             if elsewhere == 0.0 {
                 mark(plot, (0.0, scalars.h_c), "{H_c}", live, Align2::LEFT_BOTTOM);
             }
-            let Some(at) = minimum_on(direction, scene) else { return };
+            if let Some(cut) = &cut {
+                cut.draw(plot, palette.accent);
+            }
+            let Some(at) = direction.minimum(picture, scene.cuts) else { return };
             // Below the curve, unless the axis would cut the name off.
             let below = plot.transform().position_from_point(&PlotPoint::new(0.0, scalars.h_min)).y + 34.0;
             let room = below < plot.response().rect.bottom();
             let anchor = if room { Align2::CENTER_TOP } else { Align2::RIGHT_BOTTOM };
             mark(plot, (at, scalars.h_min), "{H_min}", live, anchor);
         });
-}
-
-/// Where a profile meets the smallest film, if it does: within what two hundredths of the contact make of it.
-fn minimum_on(direction: Direction, scene: &Scene<'_>) -> Option<f64> {
-    const NEAR: f64 = 0.02;
-    let s = scene.picture.solution.scalars;
-    match direction {
-        Direction::Along => ((scene.cuts.y.abs() + s.y_h_min).abs() < NEAR).then_some(s.x_h_min),
-        Direction::Across => ((scene.cuts.x - s.x_h_min).abs() < NEAR).then_some(s.y_h_min),
-    }
+    cut?.moved(ui, &shown.response, &shown.transform)
 }
 
 fn difference_plot(ui: &mut Ui, comparison: &Comparison, wanted: bool, height: f32) {
     let palette = Palette::of(ui);
-    stacked(ui, Direction::Along, "difference", height, "", "Reduced − full")
-        .default_x_bounds(X_RANGE.0, X_RANGE.1)
+    let (from, to) = Direction::Along.range();
+    let plot = stacked(ui, Direction::Along, "difference", height, "", "Reduced − full");
+    with_legend(plot, Direction::Along, Corner::LeftTop)
+        .default_x_bounds(from, to)
         .set_margin_fraction(egui::vec2(0.0, 0.08))
         .show(ui, |plot| {
             axes::fit(plot, wanted);

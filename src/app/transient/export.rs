@@ -81,7 +81,7 @@ fn table(setup: &Setup, more: &[String], columns: &[&str], blocks: Vec<Block>) -
 }
 
 /// The set-up as lines over a table.
-fn describe(setup: &Setup) -> Vec<String> {
+pub fn describe(setup: &Setup) -> Vec<String> {
     let (point, moes) = (&setup.point, setup.point.moes());
     let Inputs { radius, speed, load } = &setup.study.inputs;
     let grid = match setup.grid {

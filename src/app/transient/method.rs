@@ -2,29 +2,22 @@
 
 use crate::solver::full::transient::{Frame, Interpolation};
 
-/// How the steps of a contact in time are solved. A further method slots in here, in [`Self::ALL`] and where the worker builds its model.
+/// How the steps of a contact in time are solved. A further method slots in here and where the worker builds its model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
     /// The full system.
     #[default]
     Full,
+    /// A reduced model that is trained beforehand (RNSA).
+    Reduced,
 }
 
 impl Method {
-    /// All of them; the first is what the others are compared with.
-    pub const ALL: [Self; 1] = [Self::Full];
-
-    /// For people.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Full => "Full system",
-        }
-    }
-
     /// The word that stands for it in tables.
     pub fn word(self) -> &'static str {
         match self {
             Self::Full => "full",
+            Self::Reduced => "rnsa",
         }
     }
 }
@@ -61,8 +54,11 @@ pub fn frame_meaning(frame: Frame) -> &'static str {
     }
 }
 
-/// The name of a run among others: the method only where there are several.
+/// The name of a run among others.
 pub fn run_name(method: Method, frame: Frame) -> String {
     let frame = frame_name(frame);
-    if Method::ALL.len() > 1 { format!("{}, {frame}", method.name()) } else { frame.to_owned() }
+    match method {
+        Method::Full => frame.to_owned(),
+        Method::Reduced => format!("{frame}, reduced"),
+    }
 }

@@ -11,9 +11,9 @@ pub use player::Player;
 use super::document::{Document, HOME};
 use super::state::State as Window;
 use super::task::{Standing, Task};
-use crate::scene::{At, Scene, Study, TransientStudy};
+use crate::scene::{At, Grid, Scene, Study, TransientStudy};
 use crate::solver::contact::{ContactKind, OperatingPoint};
-use crate::solver::full::transient::{Frame, Inputs, Keep, Signal, State, TimeStep, Trajectory, Transient};
+use crate::solver::full::transient::{Frame, Inputs, Keep, Quantity, Signal, State, TimeStep, Trajectory, Transient};
 use crate::solver::grid::GridSpec;
 use crate::solver::lubricant::Lubricant;
 use egui::Context;
@@ -47,6 +47,21 @@ pub struct Run {
     pub seconds: Vec<f64>,
     /// Whether it has ended.
     pub ended: bool,
+    /// What a reduced model is made of.
+    pub model: Option<ModelSize>,
+    /// Greatest relative difference of H_c from [`TransientView::reference_of`] it, once it has ended.
+    pub difference: Option<f64>,
+}
+
+/// What a reduced model is made of, and what it took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModelSize {
+    /// Pressure modes.
+    pub modes: usize,
+    /// Sampled rows.
+    pub rows: usize,
+    /// Seconds of its training, with the full trajectories of its own.
+    pub training_s: f64,
 }
 
 /// What the window knows of contacts in time.
@@ -125,8 +140,9 @@ impl TransientView {
         let Some(task) = &mut self.task else { return };
         let runs = &mut self.runs;
         let ending = task.poll(|news| match (news, runs.last_mut()) {
-            (News::Begun { method, trajectory }, _) => {
-                runs.push(Run { method, trajectory: *trajectory, seconds: Vec::new(), ended: false });
+            (News::Begun { method, trajectory, model }, _) => {
+                let trajectory = *trajectory;
+                runs.push(Run { method, trajectory, seconds: Vec::new(), ended: false, model, difference: None });
             }
             (News::Moment(moment, seconds), Some(run)) => {
                 run.trajectory.moments.push(moment);
@@ -140,12 +156,34 @@ impl TransientView {
             }
             (News::Moment(..) | News::State(_) | News::Ended(..), None) => {}
         });
+        for k in 0..self.runs.len() {
+            if self.runs[k].ended && self.runs[k].difference.is_none() {
+                self.runs[k].difference = self.difference(k);
+            }
+        }
         if let Some(ending) = ending {
             self.message = ending.err();
             self.task = None;
         }
         let reached = self.runs.iter().map(Run::reached).fold(0.0, f64::max);
         self.player.reached(reached);
+    }
+
+    /// What a run is compared with: a reduced one with the full system in its frame, a full one with the first; `None` for the first itself.
+    pub fn reference_of(&self, k: usize) -> Option<&Run> {
+        let (run, earlier) = (self.runs.get(k)?, self.runs.get(..k)?);
+        match run.method {
+            Method::Full => earlier.first(),
+            Method::Reduced => {
+                earlier.iter().find(|other| other.method == Method::Full && other.frame() == run.frame())
+            }
+        }
+    }
+
+    fn difference(&self, k: usize) -> Option<f64> {
+        let (run, reference) = (self.runs.get(k)?, self.reference_of(k)?);
+        let whole = (0.0, run.reached());
+        Some(run.trajectory.difference(&reference.trajectory, Quantity::CentralFilm, whole)?.0)
     }
 
     /// How far the runs are.
@@ -186,6 +224,7 @@ impl Document {
         let scene = Scene {
             at: At::from(self.point),
             lubricant: self.lubricant,
+            grid: self.transient_grid(),
             study: Study::Transient(study.clone()),
             ..Scene::at_moes(HOME.m, HOME.l)
         };
@@ -194,15 +233,16 @@ impl Document {
         Ok(())
     }
 
-    /// Whether its file holds the contact in time: a scene that asks another question keeps that.
+    /// Whether its file holds the contact in time: a scene that asks another question keeps that, a point contact has none.
     pub fn saves_transient(&self) -> bool {
-        self.scene.as_ref().is_none_or(|scene| matches!(scene.study, Study::Transient(_)))
+        let asked = self.scene.as_ref().is_none_or(|scene| matches!(scene.study, Study::Transient(_)));
+        asked && self.point.kind == ContactKind::Line
     }
 
-    /// The grid of contacts in time: the scene's own, where it has one.
-    fn transient_grid(&self) -> GridSpec {
+    /// The grid of contacts in time: that of a scene of one, else the dissertation's.
+    pub fn transient_grid(&self) -> Grid {
         let scene = self.scene.as_ref().filter(|scene| matches!(scene.study, Study::Transient(_)));
-        scene.and_then(|scene| scene.grid.spec()).unwrap_or(GridSpec::EXPLORER)
+        scene.map_or(Grid::DISSERTATION, |scene| scene.grid)
     }
 }
 
@@ -243,7 +283,7 @@ impl Window {
             lubricant: document.lubricant,
             study: document.transient_study(),
             sampled: self.sampled_path(),
-            grid: document.transient_grid(),
+            grid: document.transient_grid().spec().unwrap_or(GridSpec::EXPLORER),
         }
     }
 

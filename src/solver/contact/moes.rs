@@ -1,6 +1,6 @@
 //! From Moes numbers back to SI: which quantity follows when M and L are given.
 
-use super::{ContactError, ContactKind, OperatingPoint};
+use super::{ContactError, ContactKind, OperatingPoint, Sliding};
 
 /// M and L with whatever SI quantities are fixed; the others follow or take the default realisation.
 ///
@@ -116,6 +116,7 @@ pub fn si_from_moes(request: &MoesRequest) -> Result<OperatingPoint, ContactErro
         modulus_pa: e,
         viscosity_pa_s: eta,
         alpha_per_pa: alpha,
+        sliding: Sliding::NONE,
     };
     point.check()?;
     Ok(point)

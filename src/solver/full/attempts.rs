@@ -77,7 +77,7 @@ fn continuation<S: Attempts>(solver: &mut S, problem: &Problem, observer: &mut d
             ..MoesRequest::new(problem.point.kind, m, l)
         };
         let point = si_from_moes(&request).ok()?;
-        Problem::under_sliding(&point, problem.lubricant, problem.sliding).ok()
+        Problem::under_sliding(&point, problem.lubricant, problem.point.sliding).ok()
     };
     let Some(first) = point_at(0.0) else { return };
     solver.attempt(&first, Beginning::Cold(S::COLD_FILMS[0]), observer, report);

@@ -3,7 +3,7 @@
 use super::solution::Problem;
 use crate::solver::grid::LineGrid;
 use crate::solver::lubricant::ScaledShear;
-use crate::solver::reynolds::generalized::{NodalGradient, NodeState, ShearNode, gradient_slopes};
+use crate::solver::reynolds::generalized::{FilmTreatment, NodalGradient, NodeState, ShearNode, gradient_slopes};
 use crate::solver::reynolds::{CENTER, Node};
 
 /// State of the generalized rows: ∂f/∂P = `d_p` + `slopes` G.
@@ -30,13 +30,13 @@ impl ShearState {
         problem: &Problem,
         law: &ScaledShear,
         (pressure, film): (&[f64], &[f64]),
-        frozen: bool,
+        treatment: FilmTreatment,
         nodes: &mut [Node],
     ) {
         for (i, (own, node)) in self.nodes.iter_mut().zip(nodes).enumerate() {
             let gradient = [self.gradient.at(pressure, i), 0.0];
             let state = NodeState { pressure: pressure[i], gradient, film: film[i] };
-            *own = ShearNode::new(&problem.fluid, law, problem.inverse_lambda, state, frozen);
+            *own = ShearNode::new(&problem.fluid, law, problem.inverse_lambda, state, treatment);
             *node = own.node;
         }
     }

@@ -4,7 +4,7 @@ use crate::solver::contact::{ContactError, ContactKind, Moes, OperatingPoint};
 use crate::solver::grid::{
     ContactGridError, FIRST_UNKNOWN, GridError, GridSpec, LineGrid, PointGrid, PointGridError, PointGridSpec, dot,
 };
-use crate::solver::lubricant::{Lubricant, LubricantError, ScaledFluid, ScaledShear, Sliding};
+use crate::solver::lubricant::{Lubricant, LubricantError, ScaledFluid, ScaledShear, ShearLaw, Sliding};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -49,8 +49,6 @@ pub struct Problem {
     pub point: OperatingPoint,
     /// The laws it was made with.
     pub lubricant: Lubricant,
-    /// The sliding and the plateau it was made with.
-    pub sliding: Sliding,
     /// The laws with their constants.
     pub fluid: ScaledFluid,
     /// The shear-thinning law with its constants; `None` where the fluid is Newtonian.
@@ -64,30 +62,34 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// Checks the point and the lubricant and makes them dimensionless: pure rolling, with the lubricant's own plateau ratio.
+    /// The same point under other sliding.
     ///
     /// # Errors
-    /// When either is outside its valid range.
-    pub fn new(point: &OperatingPoint, lubricant: Lubricant) -> Result<Self, SolveError> {
-        Self::under_sliding(point, lubricant, Sliding::default())
+    /// As [`Problem::new`].
+    pub fn under_sliding(point: &OperatingPoint, lubricant: Lubricant, sliding: Sliding) -> Result<Self, SolveError> {
+        Self::new(&OperatingPoint { sliding, ..*point }, lubricant)
     }
 
-    /// The same under sliding. Where α follows from the viscosity law, the problem's point has that α, whatever the given one has.
+    /// Checks the point and the lubricant and makes them dimensionless. Where α follows from the viscosity law, the problem's point has that α,
+    /// whatever the given one has; where the lubricant thins under shear, its point has the plateau ratio that counts.
     ///
     /// # Errors
-    /// When the point, the lubricant or the sliding is outside its valid range.
-    pub fn under_sliding(point: &OperatingPoint, lubricant: Lubricant, sliding: Sliding) -> Result<Self, SolveError> {
+    /// When the point, its sliding or the lubricant is outside its valid range.
+    pub fn new(point: &OperatingPoint, lubricant: Lubricant) -> Result<Self, SolveError> {
         lubricant.check()?;
         let alpha_per_pa = lubricant.own_coefficient().unwrap_or(point.alpha_per_pa);
-        let point = &OperatingPoint { alpha_per_pa, ..*point };
+        let mut point = OperatingPoint { alpha_per_pa, ..*point };
         point.check()?;
-        let fluid = lubricant.scaled(point)?;
+        let fluid = lubricant.scaled(&point)?;
+        let shear = ScaledShear::new(lubricant.shear, point.sliding, &point)?;
+        if lubricant.shear != ShearLaw::Newtonian {
+            point.sliding.newtonian_plateau_ratio.get_or_insert(lubricant.shear.plateau());
+        }
         Ok(Self {
-            point: *point,
+            point,
             lubricant,
-            sliding,
             fluid,
-            shear: ScaledShear::new(lubricant.shear, sliding, point)?,
+            shear,
             moes: point.moes(),
             inverse_lambda: 1.0 / point.lambda_bar(),
             load: match point.kind {

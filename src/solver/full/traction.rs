@@ -54,7 +54,7 @@ impl Solution {
     /// Traction coefficient (3.41): the shear stress at mid-film over the whole domain, both halves of a point contact's, by the trapezoidal rule,
     /// over the load. Positive for SRR > 0. Over the area with P > 0 alone it is some 0.1 to 2 % smaller.
     pub fn traction_coefficient(&self) -> f64 {
-        if self.problem.sliding.slide_to_roll_ratio == 0.0 {
+        if self.problem.point.sliding.slide_to_roll_ratio == 0.0 {
             return 0.0;
         }
         let gradient = PlaneGradient::new(&self.x, &self.y);
@@ -79,7 +79,7 @@ impl Solution {
             None => {
                 // κ₁ and κ₂ of (3.27).
                 let kappa_1 = hertz.pressure_pa * hertz.half_width_m / point.radius_m;
-                let slip = point.speed_m_per_s * problem.sliding.slide_to_roll_ratio;
+                let slip = point.speed_m_per_s * problem.point.sliding.slide_to_roll_ratio;
                 let kappa_2 = point.viscosity_pa_s * slip / point.film_scale_m();
                 (gradient.map(|p| kappa_1 * film * p), [kappa_2 * viscosity / film, 0.0])
             }
@@ -100,7 +100,7 @@ impl Solution {
 
     /// A sentence where the traction is no physics: at great α* p_H without a limiting stress.
     pub fn traction_warning(&self) -> Option<String> {
-        let slides = self.problem.sliding.slide_to_roll_ratio != 0.0;
+        let slides = self.problem.point.sliding.slide_to_roll_ratio != 0.0;
         let unlimited = self.problem.lubricant.limiting_stress.is_none();
         let exponent = self.problem.fluid.reciprocal_asymptotic_exponent();
         (slides && unlimited && exponent > PLAUSIBLE_EXPONENT).then(|| {

@@ -8,6 +8,7 @@ use super::line::{FIRST_UNKNOWN, GridError, GridSpec, ReferenceGrid, registratio
 use super::point::{PointGrid, PointGridError, PointGridSpec};
 use crate::solver::contact::{ContactKind, Moes};
 use crate::solver::elasticity::{Flexibility, PointScratch, Scratch};
+use crate::solver::reynolds::generalized::PlaneGradient;
 use crate::solver::reynolds::{RowGeometry, STENCIL};
 use faer::Mat;
 use rayon::prelude::*;
@@ -238,6 +239,14 @@ impl ContactGrid {
                 })
             }
             Self::Point(grid) => grid.interpolation_on_axis(0.0),
+        }
+    }
+
+    /// Nodal gradients of node arrays by ξ and Y; node (i, j) has the index i·n_y + j.
+    pub fn gradient(&self) -> PlaneGradient {
+        match self {
+            Self::Line(grid) => PlaneGradient::new(&grid.xi, &[0.0]),
+            Self::Point(grid) => PlaneGradient::new(&grid.x, &grid.y),
         }
     }
 

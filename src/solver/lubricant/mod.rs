@@ -8,9 +8,10 @@ mod free_volume;
 mod pressure_coefficient;
 mod shear_thinning;
 
+pub use super::contact::Sliding;
 pub use free_volume::{Doolittle, Tait};
 pub use pressure_coefficient::GAUSS_6;
-pub use shear_thinning::{Fluidity, LimitingStress, ScaledShear, ShearLaw, Sliding};
+pub use shear_thinning::{Fluidity, LimitingStress, ScaledShear, ShearLaw};
 
 use super::contact::OperatingPoint;
 use serde::{Deserialize, Serialize};

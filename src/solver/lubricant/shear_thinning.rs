@@ -4,7 +4,7 @@
 //! Newtonian plateau as (3.40) does: η = μ(p) \[NPR + (1 − NPR) F\]. The film integrals (3.24) ask for the fluidity μ/η.
 
 use super::{LubricantError, check_constant};
-use crate::solver::contact::OperatingPoint;
+use crate::solver::contact::{OperatingPoint, Sliding};
 use serde::{Deserialize, Serialize};
 
 /// How viscosity depends on shear stress. `npr` is the lubricant's own Newtonian plateau ratio, used where the operating conditions
@@ -56,15 +56,6 @@ pub struct LimitingStress {
     pub ambient: f64,
     /// Λ \[-\].
     pub slope: f64,
-}
-
-/// The operating conditions that only a shear-thinning lubricant feels in its film.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct Sliding {
-    /// Slide-to-roll ratio SRR = (u₂ − u₁)/u_m, (3.25).
-    pub slide_to_roll_ratio: f64,
-    /// Newtonian plateau ratio NPR of (3.40); the lubricant's own where there is none.
-    pub newtonian_plateau_ratio: Option<f64>,
 }
 
 impl ShearLaw {
@@ -152,7 +143,8 @@ impl Fluidity {
         let (factor, slope) = match self.factor {
             Factor::Power { beta, q, .. } => {
                 let y = (beta * t.ln()).exp();
-                let factor = (q * y.ln_1p()).exp();
+                // A y that is lost beside 1 changes nothing: ln(1 + y) need not be exact relative to itself.
+                let factor = (q * (1.0 + y).ln()).exp();
                 // y/(1 + y) written so that an overflowing y is harmless.
                 (factor, q * beta * factor / (1.0 + 1.0 / y))
             }

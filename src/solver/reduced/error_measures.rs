@@ -178,6 +178,7 @@ mod tests {
             sampling,
             rows_per_mode: 2.0,
             penalty: PENALTY,
+            positive_modes: false,
             evidence: 0,
             seed: 5,
         }

@@ -31,6 +31,7 @@ fn model(sampling: Sampling) -> Arc<ReducedModel> {
         sampling,
         rows_per_mode: 2.0,
         penalty: PENALTY,
+        positive_modes: false,
         evidence: 0,
         seed: 1,
     };

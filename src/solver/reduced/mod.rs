@@ -16,13 +16,16 @@ mod operators;
 mod pod;
 mod sampling;
 mod start;
+pub mod tpwl;
 pub mod transient;
 
 pub use calibration::{Calibration, ErrorEstimate, Estimated, Evidence, Features, LEAST_EVIDENCE};
 pub use cubature::{GoalEquations, cubature};
 pub use error_measures::{ErrorMeasures, Norm, Residuals};
 pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
-pub use model::{Domain, ReducedModel, Snapshot, Trust, Window, deformation_weights, distance};
+pub use model::{
+    Domain, ReducedModel, SlidingDomain, Snapshot, Trust, Window, deformation_weights, distance, separation,
+};
 pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution, Starts};
 pub(crate) use operators::Iterate;
 pub use pod::PodBasis;

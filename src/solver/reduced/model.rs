@@ -24,13 +24,27 @@ pub struct Domain {
     pub max_hertz_pressure_pa: f64,
     /// Ambient viscosity \[Pa·s\].
     pub viscosity_pa_s: f64,
-    /// Laws of the lubricant, which is Newtonian.
-    #[serde(with = "newtonian_laws")]
+    /// Laws of the lubricant.
+    #[serde(with = "laws_at_rest")]
     pub lubricant: Lubricant,
+    /// What else a shear-thinning lubricant was trained for.
+    #[serde(skip)]
+    pub sliding: Option<SlidingDomain>,
 }
 
-/// A reduced model knows no shear-thinning: of its lubricant the file holds the laws of density and viscosity.
-mod newtonian_laws {
+/// What a shear-thinning model is trained for beside M, L, α and p_H.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SlidingDomain {
+    /// |SRR|.
+    pub srr: (f64, f64),
+    /// NPR.
+    pub npr: (f64, f64),
+    /// E′ \[Pa\]: with M and L it fixes the shear stress.
+    pub modulus_pa: f64,
+}
+
+/// Encodes the laws of density and viscosity only: what a shear-thinning lubricant has beside them is stored with what it was trained for.
+mod laws_at_rest {
     use crate::solver::lubricant::{DensityLaw, Lubricant, ViscosityLaw};
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -56,7 +70,8 @@ pub enum Trust {
 /// A training solution as the model keeps it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
-    /// The operating point.
+    /// The operating point; its sliding is stored with what a shear-thinning model was trained for.
+    #[serde(with = "without_sliding")]
     pub point: OperatingPoint,
     /// Its coefficients in the pressure basis.
     pub coefficients: Vec<f64>,
@@ -64,6 +79,21 @@ pub struct Snapshot {
     pub h_0: f64,
     /// Its central film H_c, from the full solution.
     pub h_c: f64,
+}
+
+/// Encodes an operating point without its sliding.
+mod without_sliding {
+    use crate::solver::contact::{ContactKind, OperatingPoint, Sliding};
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(point: &OperatingPoint, serializer: S) -> Result<S::Ok, S::Error> {
+        (point.kind, point.quantities()).serialize(serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<OperatingPoint, D::Error> {
+        let (kind, quantities) = <(ContactKind, [f64; 6])>::deserialize(deserializer)?;
+        Ok(OperatingPoint::from_quantities(kind, quantities, Sliding::NONE))
+    }
 }
 
 /// One local model: a window of M with its own grid, bases and sampled rows.
@@ -111,6 +141,11 @@ pub struct ReducedModel {
 /// The dissertation's distance of two contacts, (3.20).
 pub fn distance(a: Moes, b: Moes) -> f64 {
     (a.m - b.m).powi(2) / (a.m * a.m + b.m * b.m) + 0.001 * (a.l - b.l).powi(2)
+}
+
+/// (3.20) with what SRR and NPR add to it.
+pub fn separation(a: &OperatingPoint, b: &OperatingPoint) -> f64 {
+    distance(a.moes(), b.moes()) + a.sliding.distance(b.sliding)
 }
 
 /// Weights under which deformations are decomposed: the cell sizes, with the neighbour's at the nodes that carry no pressure.
@@ -162,9 +197,9 @@ impl Window {
         self.calibration = None;
     }
 
-    /// The nearest training solution by (3.20).
-    pub fn nearest(&self, moes: Moes) -> Option<(&Snapshot, f64)> {
-        self.snapshots.iter().map(|s| (s, distance(moes, s.point.moes()))).min_by(|a, b| a.1.total_cmp(&b.1))
+    /// The nearest training solution by [`separation`].
+    pub fn nearest(&self, point: &OperatingPoint) -> Option<(&Snapshot, f64)> {
+        self.snapshots.iter().map(|s| (s, separation(point, &s.point))).min_by(|a, b| a.1.total_cmp(&b.1))
     }
 }
 
@@ -198,6 +233,9 @@ impl Domain {
                 self.viscosity_pa_s, point.viscosity_pa_s
             ));
         }
+        if let Some(outside) = self.sliding.and_then(|sliding| sliding.outside(point)) {
+            return Trust::Outside(outside);
+        }
         let p_h = point.hertz().pressure_pa;
         let checks = [
             ("M", problem.moes.m, self.m, 1.0, ""),
@@ -216,6 +254,22 @@ impl Domain {
             }
         }
         Trust::Trained
+    }
+}
+
+impl SlidingDomain {
+    /// A sentence that says in what a point lies outside.
+    fn outside(&self, point: &OperatingPoint) -> Option<String> {
+        if (point.modulus_pa / self.modulus_pa - 1.0).abs() > 1e-3 {
+            let [own, given] = [self.modulus_pa, point.modulus_pa].map(|modulus| digits(modulus * 1e-9));
+            return Some(format!("the model was trained with a reduced modulus of {own} GPa, not {given} GPa"));
+        }
+        let npr = point.sliding.newtonian_plateau_ratio.unwrap_or(1.0);
+        let checks = [("SRR", point.sliding.slide_to_roll_ratio.abs(), self.srr), ("NPR", npr, self.npr)];
+        checks
+            .into_iter()
+            .find(|(_, value, (low, high))| *value < low - 1e-9 || *value > high + 1e-9)
+            .map(|(name, value, (low, high))| format!("{name} = {value} lies outside the trained range {low}…{high}"))
     }
 }
 
@@ -240,6 +294,7 @@ mod tests {
             max_hertz_pressure_pa: 3.2e9,
             viscosity_pa_s: 0.01,
             lubricant: Lubricant::default(),
+            sliding: None,
         };
         let trust = |m, l| {
             let point = si_from_moes(&MoesRequest::new(ContactKind::Line, m, l)).unwrap();

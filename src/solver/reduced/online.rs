@@ -1,7 +1,7 @@
 //! The online phase: which window, which start, and back to fields.
 
 use super::calibration::{ErrorEstimate, Features};
-use super::model::{ReducedModel, Snapshot, Trust, Window, distance};
+use super::model::{ReducedModel, Snapshot, Trust, Window, separation};
 use super::operators::{Case, OnlineOutcome, Operators, RowObserver, Stop};
 use super::start::{self, Guess, film_number};
 use crate::solver::contact::{ContactKind, Moes, OperatingPoint};
@@ -9,7 +9,7 @@ use crate::solver::full::{
     Mesh, Problem, Report, Scalars, Solution, SolveError, Termination, point_scalars_of, scalars_of,
 };
 use crate::solver::grid::{ContactGrid, dot};
-use crate::solver::lubricant::{Lubricant, ShearLaw};
+use crate::solver::lubricant::Lubricant;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Par};
 use std::cell::OnceCell;
@@ -28,7 +28,9 @@ pub enum ReducedError {
     #[error(transparent)]
     Problem(#[from] SolveError),
     /// The lubricant is none the reduced equations describe.
-    #[error("a reduced model has no shear-thinning in this version; use the full solver for this lubricant")]
+    #[error(
+        "the reduced model was trained for a lubricant that does not thin under shear; use the full solver, or a model of this lubricant"
+    )]
     ShearThinning,
     /// The model is of the other kind of contact.
     #[error("the reduced model is of {} contacts, but the operating point is that of a {} contact", model.name(), given.name())]
@@ -158,7 +160,7 @@ impl Online {
     pub fn prepare(&mut self, moes: Moes) {
         let index = self.model.window_for(moes);
         if let (Some(window), Some(cell)) = (self.model.windows.get(index), self.windows.get(index)) {
-            cell.get_or_init(|| operators_of(window, &self.options));
+            cell.get_or_init(|| operators_of(&self.model, window, &self.options));
         }
     }
 
@@ -183,38 +185,40 @@ impl Online {
         lubricant: Lubricant,
         mut observer: Option<RowObserver<'_>>,
     ) -> Result<ReducedSolution, ReducedError> {
-        if lubricant.shear != ShearLaw::Newtonian {
-            return Err(ReducedError::ShearThinning);
-        }
         let model = self.model.contact();
         if point.kind != model {
             return Err(ReducedError::OtherContact { model, given: point.kind });
         }
         let problem = Problem::new(point, lubricant)?;
+        if problem.shear.is_some() && self.model.domain.sliding.is_none() {
+            return Err(ReducedError::ShearThinning);
+        }
+        // Its α and its plateau ratio are those that count.
+        let point = &problem.point;
         let index = self.model.window_for(problem.moes);
         let model = Arc::clone(&self.model);
         let (Some(window), Some(cell)) = (model.windows.get(index), self.windows.get_mut(index)) else {
             return Err(ReducedError::Empty);
         };
-        cell.get_or_init(|| operators_of(window, &self.options));
+        cell.get_or_init(|| operators_of(&self.model, window, &self.options));
         let Some(operators) = cell.get_mut() else { return Err(ReducedError::Empty) };
-        let moes = problem.moes;
         if self.options.starts == Starts::Nearest {
-            let guess = start::unchanged(window, moes).ok_or(ReducedError::Empty)?;
+            let guess = start::unchanged(window, point).ok_or(ReducedError::Empty)?;
             let found = attempt(window, operators, &problem, &guess, usize::MAX, &self.options, &mut observer)?;
             return Ok(self.keep(&problem, index, found));
         }
         // The previous solution while somebody drags, else an interpolation, else the nearest snapshot.
         let previous =
-            self.previous.as_ref().filter(|p| p.window == index && distance(moes, p.point.moes()) < DRAG_DISTANCE).map(
+            self.previous.as_ref().filter(|p| p.window == index && separation(point, &p.point) < DRAG_DISTANCE).map(
                 |p| Guess {
                     coefficients: p.coefficients.clone(),
                     h_c: p.h_c * film_number(point) / film_number(&p.point),
                 },
             );
+        let thinning = self.model.domain.sliding.is_some();
         let mut last = ReducedError::Empty;
         let starts: [&dyn Fn() -> Option<Guess>; 3] =
-            [&|| previous.clone(), &|| start::interpolated(window, point), &|| start::nearest(window, point)];
+            [&|| previous.clone(), &|| start::interpolated(window, point, thinning), &|| start::nearest(window, point)];
         for guess in starts {
             let Some(guess) = guess() else { continue };
             match attempt(window, operators, &problem, &guess, FIRST_ATTEMPTS, &self.options, &mut observer) {
@@ -224,7 +228,7 @@ impl Online {
         }
         // The last resort: walk from the nearest snapshot's operating point to this one.
         let walked = window
-            .nearest(moes)
+            .nearest(point)
             .and_then(|(snapshot, _)| walk(window, operators, &problem, snapshot, &self.options, &mut observer));
         match walked {
             Some(found) => Ok(self.keep(&problem, index, found)),
@@ -323,7 +327,7 @@ impl Online {
         else {
             return Err(ReducedError::Empty);
         };
-        let operators = cell.get_or_init(|| operators_of(window, &self.options));
+        let operators = cell.get_or_init(|| operators_of(&self.model, window, &self.options));
         let modes = solution.coefficients.len();
         if modes > window.pressure.modes.ncols() || modes != operators.modes {
             return Err(ReducedError::Empty);
@@ -372,8 +376,9 @@ impl Fields {
     }
 }
 
-fn operators_of(window: &Window, options: &ReducedOptions) -> Operators {
-    Operators::new(window, options.pressure_modes.unwrap_or(usize::MAX), options.deformation_modes)
+fn operators_of(model: &ReducedModel, window: &Window, options: &ReducedOptions) -> Operators {
+    let modes = options.pressure_modes.unwrap_or(usize::MAX);
+    Operators::new(window, modes, options.deformation_modes, model.domain.sliding.is_some())
 }
 
 /// A converged online iteration.
@@ -430,15 +435,8 @@ fn walk(
     let (from, to) = (snapshot.point.quantities(), target.point.quantities());
     let at = |t: f64| {
         let q: [f64; 6] = std::array::from_fn(|i| from[i] * (to[i] / from[i]).powf(t));
-        let point = OperatingPoint {
-            kind: target.point.kind,
-            radius_m: q[0],
-            speed_m_per_s: q[1],
-            load: q[2],
-            modulus_pa: q[3],
-            viscosity_pa_s: q[4],
-            alpha_per_pa: q[5],
-        };
+        let sliding = snapshot.point.sliding.towards(target.point.sliding, t);
+        let point = OperatingPoint::from_quantities(target.point.kind, q, sliding);
         Problem::new(&point, target.lubricant).ok()
     };
     let (mut t, mut stride) = (0.0, 0.25);

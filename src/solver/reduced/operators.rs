@@ -2,8 +2,10 @@
 //! nothing is allocated inside an iteration.
 
 use super::model::{Window, deformation_weights};
+use crate::solver::contact::ContactKind;
 use crate::solver::full::Problem;
 use crate::solver::grid::dot;
+use crate::solver::reynolds::generalized::{FilmTreatment, NodeState, ShearNode, gradient_slopes};
 use crate::solver::reynolds::{CENTER, Node, RowGeometry, STENCIL, row};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
@@ -70,8 +72,11 @@ pub(crate) struct Operators {
     stencil: Vec<[usize; STENCIL]>,
     geometry: Vec<RowGeometry>,
     row_weights: Vec<f64>,
-    /// V_p on the support, then K V_p on it: row-major, 2·support × modes.
+    /// V_p on the support, then K V_p on it, then, of a shear-thinning model, its gradients by ξ and, of a point contact, by Y: row-major,
+    /// (2 + axes)·support × modes.
     state_rows: Vec<f64>,
+    /// Axes along which the rows need gradients: none of a Newtonian model.
+    axes: usize,
     /// G, row-major modes × rows.
     reconstruction: Mat<f64>,
     /// wᵀ V_p.
@@ -92,10 +97,13 @@ struct Place {
 }
 
 struct Scratch {
-    /// P and K P on the support. They follow the steps, so that each iteration multiplies once by the large `state_rows`.
+    /// P and K P on the support, and the gradients where there are any. They follow the steps, so that each iteration multiplies once by the large `state_rows`.
     fields: Vec<f64>,
     step_fields: Vec<f64>,
+    films: Vec<f64>,
     nodes: Vec<Node>,
+    /// What the nodes are made of under shear-thinning.
+    thinning: Vec<ShearNode>,
     values: Vec<f64>,
     jacobian_rows: Vec<f64>,
     film_column: Vec<f64>,
@@ -109,13 +117,20 @@ struct Scratch {
 }
 
 impl Operators {
-    /// Operators with the first `modes` pressure modes and, if given, the first `deformation_modes` deformation modes.
-    pub fn new(window: &Window, modes: usize, deformation_modes: Option<usize>) -> Self {
-        Self::with_support(window, modes, deformation_modes, &[])
+    /// Operators with the first `modes` pressure modes and, if given, the first `deformation_modes` deformation modes; `thinning` for
+    /// lubricants that thin under shear.
+    pub fn new(window: &Window, modes: usize, deformation_modes: Option<usize>, thinning: bool) -> Self {
+        Self::with_support(window, modes, deformation_modes, thinning, &[])
     }
 
     /// The same with further nodes that its rows may come to depend on.
-    pub fn with_support(window: &Window, modes: usize, deformation_modes: Option<usize>, further: &[usize]) -> Self {
+    pub fn with_support(
+        window: &Window,
+        modes: usize,
+        deformation_modes: Option<usize>,
+        thinning: bool,
+        further: &[usize],
+    ) -> Self {
         let modes = modes.clamp(1, window.pressure.modes.ncols());
         let reference = &window.grid;
         let basis = window.pressure.modes.get(.., ..modes);
@@ -141,12 +156,27 @@ impl Operators {
         support.dedup();
         let stencil = stencils.iter().map(|nodes| nodes.map(|node| support.partition_point(|&s| s < node))).collect();
         let deformation = projected.as_ref().map_or(exact, Mat::as_ref);
-        let mut state_rows = Vec::with_capacity(2 * support.len() * modes);
+        let axes = match reference.kind() {
+            _ if !thinning => 0,
+            ContactKind::Line => 1,
+            ContactKind::Point => 2,
+        };
+        let mut state_rows = Vec::with_capacity((2 + axes) * support.len() * modes);
         for &node in &support {
             state_rows.extend((0..modes).map(|k| basis[(node, k)]));
         }
         for &node in &support {
             state_rows.extend((0..modes).map(|k| deformation[(node, k)]));
+        }
+        if axes > 0 {
+            let (gradient, (_, ny)) = (reference.gradient(), reference.nodes());
+            let columns: Vec<Vec<f64>> = (0..modes).map(|k| basis.col(k).iter().copied().collect()).collect();
+            for axis in 0..axes {
+                for &node in &support {
+                    let at = |column: &Vec<f64>| gradient.at(column, node / ny, node % ny)[axis];
+                    state_rows.extend(columns.iter().map(at));
+                }
+            }
         }
         let weights = reference.weights();
         let load_row = (0..modes).map(|k| weights.iter().enumerate().map(|(i, w)| w * basis[(i, k)]).sum()).collect();
@@ -164,14 +194,17 @@ impl Operators {
             geometry,
             row_weights: rows.iter().map(|&row| weights[reference.node(row)]).collect(),
             state_rows,
+            axes,
             reconstruction: window.reconstruction.get(..modes, ..).to_owned(),
             load_row,
             projected,
             deformation_error,
             scratch: Scratch {
-                fields: vec![0.0; 2 * s],
-                step_fields: vec![0.0; 2 * s],
+                fields: vec![0.0; (2 + axes) * s],
+                step_fields: vec![0.0; (2 + axes) * s],
+                films: vec![0.0; s],
                 nodes: vec![Node::default(); s],
+                thinning: vec![ShearNode::default(); if axes > 0 { s } else { 0 }],
                 values: vec![0.0; n],
                 jacobian_rows: vec![0.0; n * modes],
                 film_column: vec![0.0; n],
@@ -208,6 +241,8 @@ impl Operators {
     ) -> OnlineOutcome {
         let mut outcome = OnlineOutcome { converged: false, iterations: 0, step: f64::NAN, residual: f64::NAN };
         product(&self.state_rows, self.modes, coefficients, &mut self.scratch.fields);
+        // The films of another contact are no start.
+        self.scratch.thinning.fill(ShearNode::default());
         for iteration in 1..=stop.max_newton {
             self.evaluate(case, coefficients, *h_0, true);
             if !self.linear_step(case.problem, case.scale, coefficients, observer.is_some()) {
@@ -256,17 +291,40 @@ impl Operators {
     fn evaluate(&mut self, case: &Case<'_>, coefficients: &[f64], h_0: f64, derivatives: bool) -> f64 {
         let Case { problem, scale, curvature, penalty, .. } = *case;
         let s = &mut self.scratch;
-        let (pressure, deformation) = s.fields.split_at(self.support.len());
+        let count = self.support.len();
+        let (pressure, rest) = s.fields.split_at(count);
+        let (deformation, gradients) = rest.split_at(count);
         let offset = h_0 - 0.5 * scale.ln();
-        for (k, (node, place)) in s.nodes.iter_mut().zip(&self.support).enumerate() {
+        for ((film, place), deformation) in s.films.iter_mut().zip(&self.support).zip(deformation) {
             let x = -1.0 + (place.xi + 1.0) * scale;
-            let film = offset + (0.5 * curvature * x * x + place.across) + scale * deformation[k];
-            *node = Node::new(&problem.fluid, problem.inverse_lambda, pressure[k], film);
+            *film = offset + (0.5 * curvature * x * x + place.across) + scale * deformation;
         }
-        let (v, d) = self.state_rows.split_at(self.support.len() * self.modes);
+        let thinning = problem.shear.as_ref().filter(|_| self.axes > 0);
+        let states = pressure.iter().zip(&s.films);
+        match thinning {
+            None => {
+                for (node, (&pressure, &film)) in s.nodes.iter_mut().zip(states) {
+                    *node = Node::new(&problem.fluid, problem.inverse_lambda, pressure, film);
+                }
+            }
+            Some(law) => {
+                let nodes = s.nodes.iter_mut().zip(&mut s.thinning);
+                for (k, ((node, own), (&pressure, &film))) in nodes.zip(states).enumerate() {
+                    let gradient = [gradients[k] / scale, gradients.get(count + k).copied().unwrap_or(0.0)];
+                    let state = NodeState { pressure, gradient, film };
+                    let (fluid, inverse_lambda) = (&problem.fluid, problem.inverse_lambda);
+                    // Between two iterations the stress hardly changes.
+                    *own = ShearNode::near(own.mid_stress, fluid, law, inverse_lambda, state, FilmTreatment::default());
+                    *node = own.node;
+                }
+            }
+        }
+        let (v, d) = self.state_rows.split_at(count * self.modes);
+        let (d, g) = d.split_at(count * self.modes);
         let mut sum = 0.0;
         for (r, (stencil, geometry)) in self.stencil.iter().zip(&self.geometry).enumerate() {
-            let out = row(&geometry.scaled(scale), penalty, stencil.map(|node| &s.nodes[node]));
+            let geometry = geometry.scaled(scale);
+            let out = row(&geometry, penalty, stencil.map(|node| &s.nodes[node]));
             s.values[r] = out.value;
             sum += self.row_weights[r] * scale * out.value * out.value;
             if derivatives {
@@ -280,6 +338,16 @@ impl Operators {
                     let range = node * self.modes..(node + 1) * self.modes;
                     for ((t, v), d) in target.iter_mut().zip(&v[range.clone()]).zip(&d[range]) {
                         *t += a * v + b * d;
+                    }
+                }
+                for axis in 0..if thinning.is_some() { self.axes } else { 0 } {
+                    let per_gradient = if axis == 0 { 1.0 / scale } else { 1.0 };
+                    let slopes = gradient_slopes(&geometry, stencil.map(|node| &s.thinning[node]), axis);
+                    for (&node, slope) in stencil.iter().zip(slopes).filter(|(_, slope)| *slope != 0.0) {
+                        let from = (axis * count + node) * self.modes;
+                        for (t, g) in target.iter_mut().zip(&g[from..from + self.modes]) {
+                            *t += per_gradient * slope * g;
+                        }
                     }
                 }
                 s.film_column[r] = out.d_h.iter().sum();
@@ -352,8 +420,7 @@ impl Operators {
         let largest = pressure.iter().fold(0.0f64, |a, b| a.max(b.abs()));
         let mut omega = if largest > 0.3 { 0.3 / largest } else { 1.0 };
         let dh_0 = s.rhs[self.modes];
-        for (node, d) in s.nodes.iter().zip(deformation) {
-            let film = node.flow / node.flow_h;
+        for (&film, d) in s.films.iter().zip(deformation) {
             let change = dh_0 + scale * d;
             if change < -0.7 * film && film > 0.0 {
                 omega = omega.min(-0.7 * film / change);

@@ -3,13 +3,15 @@
 //! Nearest snapshots alone (the dissertation's choice) needed 10 iterations at the 90th and 34 at the 99th percentile of the
 //! embedded model's range; with the interpolation it is 6 and 9, because film and spike are carried along.
 
-use super::model::{Snapshot, Window, distance};
-use crate::solver::contact::{ContactKind, Moes, OperatingPoint, hamrock_dowson_central, moes_line_film};
+use super::model::{Snapshot, Window, separation};
+use crate::solver::contact::{ContactKind, OperatingPoint, hamrock_dowson_central, moes_line_film};
 use faer::Mat;
 use faer::linalg::solvers::{PartialPivLu, Solve};
 
-/// Snapshots that take part in the interpolation.
-const NEIGHBOURS: usize = 6;
+/// Snapshots that take part in the interpolation of Newtonian contacts, and in that of shear-thinning ones, which have two parameters more.
+const NEIGHBOURS: [usize; 2] = [6, 10];
+/// Functions that it reproduces there.
+const FEATURES: [usize; 2] = [4, 6];
 
 /// A start: coefficients of the pressure, and the film at X = 0 (and Y = 0).
 #[derive(Clone)]
@@ -32,7 +34,7 @@ pub(super) fn film_number(point: &OperatingPoint) -> f64 {
 
 /// The nearest training solution by (3.20), its film carried over by the formula.
 pub(super) fn nearest(window: &Window, point: &OperatingPoint) -> Option<Guess> {
-    window.nearest(point.moes()).map(|(snapshot, _)| carried(snapshot, point))
+    window.nearest(point).map(|(snapshot, _)| carried(snapshot, point))
 }
 
 /// A training solution, its film carried over to a point by the formula.
@@ -42,13 +44,14 @@ pub(super) fn carried(snapshot: &Snapshot, point: &OperatingPoint) -> Guess {
 }
 
 /// The nearest training solution by (3.20) with its own film.
-pub(super) fn unchanged(window: &Window, moes: Moes) -> Option<Guess> {
-    window.nearest(moes).map(|(snapshot, _)| Guess { coefficients: snapshot.coefficients.clone(), h_c: snapshot.h_c })
+pub(super) fn unchanged(window: &Window, point: &OperatingPoint) -> Option<Guess> {
+    window.nearest(point).map(|(snapshot, _)| Guess { coefficients: snapshot.coefficients.clone(), h_c: snapshot.h_c })
 }
 
-/// Interpolation between the nearest training solutions: weights that reproduce functions linear in (ln M, L, ln α) and
-/// strongly prefer near ones (6 neighbours and 1/d² beat 10 and 16, and 1/d).
-pub(super) fn interpolated(window: &Window, point: &OperatingPoint) -> Option<Guess> {
+/// Interpolation between the nearest training solutions: weights that reproduce functions linear in (ln M, L, ln α), and of shear-thinning
+/// contacts in |SRR| and NPR, and strongly prefer near ones (6 neighbours and 1/d² beat 10 and 16, and 1/d).
+pub(super) fn interpolated(window: &Window, point: &OperatingPoint, thinning: bool) -> Option<Guess> {
+    let (neighbours, count) = (NEIGHBOURS[usize::from(thinning)], FEATURES[usize::from(thinning)]);
     let moes = point.moes();
     let log_alpha = point.alpha_per_pa.ln();
     let mut around: Vec<(usize, f64)> = window
@@ -56,36 +59,39 @@ pub(super) fn interpolated(window: &Window, point: &OperatingPoint) -> Option<Gu
         .iter()
         .enumerate()
         .map(|(i, s)| {
-            let d = distance(moes, s.point.moes()) + 0.02 * (s.point.alpha_per_pa.ln() - log_alpha).powi(2);
+            let d = separation(point, &s.point) + 0.02 * (s.point.alpha_per_pa.ln() - log_alpha).powi(2);
             (i, d)
         })
         .collect();
-    if around.len() < NEIGHBOURS {
+    if around.len() < neighbours {
         return None;
     }
-    around.select_nth_unstable_by(NEIGHBOURS - 1, |a, b| a.1.total_cmp(&b.1));
-    around.truncate(NEIGHBOURS);
-    let features: Vec<[f64; 4]> = around
+    around.select_nth_unstable_by(neighbours - 1, |a, b| a.1.total_cmp(&b.1));
+    around.truncate(neighbours);
+    let plateau = |point: &OperatingPoint| point.sliding.newtonian_plateau_ratio.unwrap_or(1.0);
+    let srr = |point: &OperatingPoint| point.sliding.slide_to_roll_ratio.abs();
+    let features: Vec<[f64; 6]> = around
         .iter()
         .map(|&(i, _)| {
             let s = &window.snapshots[i].point;
             let m = s.moes();
-            [1.0, (m.m / moes.m).ln(), 0.2 * (m.l - moes.l), s.alpha_per_pa.ln() - log_alpha]
+            let (dl, d_alpha) = (0.2 * (m.l - moes.l), s.alpha_per_pa.ln() - log_alpha);
+            [1.0, (m.m / moes.m).ln(), dl, d_alpha, srr(s) - srr(point), plateau(s) - plateau(point)]
         })
         .collect();
     // min Σ w² d²  subject to  Σ w φ = (1, 0, 0, 0); a small ridge covers ranges in which a feature does not vary.
     let inverse: Vec<f64> = around.iter().map(|(_, d)| 1.0 / (d * d + 1e-9)).collect();
     let scale: f64 = inverse.iter().sum();
-    let normal = Mat::from_fn(4, 4, |r, c| {
+    let normal = Mat::from_fn(count, count, |r, c| {
         let sum: f64 = features.iter().zip(&inverse).map(|(f, v)| v * f[r] * f[c]).sum();
         sum / scale + if r == c && r > 0 { 1e-7 } else { 0.0 }
     });
-    let rhs = Mat::from_fn(4, 1, |r, _| if r == 0 { 1.0 } else { 0.0 });
+    let rhs = Mat::from_fn(count, 1, |r, _| if r == 0 { 1.0 } else { 0.0 });
     let multipliers = PartialPivLu::new(normal.as_ref()).solve(&rhs);
     let weights: Vec<f64> = features
         .iter()
         .zip(&inverse)
-        .map(|(f, v)| v / scale * (0..4).map(|k| f[k] * multipliers[(k, 0)]).sum::<f64>())
+        .map(|(f, v)| v / scale * (0..count).map(|k| f[k] * multipliers[(k, 0)]).sum::<f64>())
         .collect();
     if weights.iter().any(|w| !w.is_finite() || w.abs() > 3.0) {
         return None;

@@ -58,6 +58,9 @@ pub struct FilmIntegrals {
 /// sine at ten times its scale.
 const MOST_ITERATIONS: usize = 12;
 
+/// The largest first step, relative to τ_m, after which a start from a film nearby is trusted.
+const FIRST_STEP: f64 = 0.3;
+
 /// How many times as fluid as sliding the pressure gradient must make the film for a start that counts on the gradient.
 const MUCH_MORE_FLUID: f64 = 10.0;
 
@@ -81,10 +84,39 @@ struct Moments {
 impl Moments {
     #[inline]
     fn of(law: &Fluidity, rule: &FilmRule, load: &FilmLoad, mid: [f64; 2]) -> Self {
+        if load.b == 0.0 && mid[1] == 0.0 {
+            Self::along(law, rule, load.a, mid[0])
+        } else {
+            Self::plane(law, rule, load, mid)
+        }
+    }
+
+    /// Where nothing shears the film across the direction of sliding: the y parts vanish, stresses are scalars.
+    fn along(law: &Fluidity, rule: &FilmRule, a: f64, mid: f64) -> Self {
+        let mut out = Self::default();
+        for &(zeta, weight) in rule {
+            let stress = mid + a * zeta;
+            let (g, slope) = law.at(stress.abs());
+            let (wg, we) = (weight * g, weight * slope);
+            let sx = if stress == 0.0 { 0.0 } else { we / stress };
+            let (z2, z3) = (zeta * zeta, zeta * zeta * zeta);
+            for (sum, z) in out.fluidity.iter_mut().zip([1.0, zeta, z2]) {
+                *sum += z * wg;
+            }
+            for (sum, z) in out.slope.iter_mut().zip([1.0, zeta, z2, z3]) {
+                sum[0] += z * sx;
+            }
+            out.stiffness[0][0] += we;
+            out.stiffness[1][0] += zeta * we;
+        }
+        out
+    }
+
+    fn plane(law: &Fluidity, rule: &FilmRule, load: &FilmLoad, mid: [f64; 2]) -> Self {
         let mut out = Self::default();
         for &(zeta, weight) in rule {
             let (x, y) = (mid[0] + load.a * zeta, mid[1] + load.b * zeta);
-            let stress = if load.b == 0.0 { x.abs() } else { x.hypot(y) };
+            let stress = (x * x + y * y).sqrt();
             let (g, slope) = law.at(stress);
             let per = if stress > 0.0 { 1.0 / stress } else { 0.0 };
             let (nx, ny) = (x * per, y * per);
@@ -122,16 +154,40 @@ fn times(m: [f64; 3], v: [f64; 2]) -> [f64; 2] {
 
 /// Solves the inner problem and returns the integrals with their derivatives.
 pub fn film_integrals(law: &Fluidity, rule: &FilmRule, load: FilmLoad) -> FilmIntegrals {
-    let FilmLoad { a, b, sliding } = load;
-    let mut iterations = 0;
+    let (start, iterations) = cold_start(law, rule, &load);
+    solve(law, rule, load, start, iterations).1
+}
+
+/// The same from the τ_m of a film nearby.
+pub fn film_integrals_from(law: &Fluidity, rule: &FilmRule, load: FilmLoad, near: [f64; 2]) -> FilmIntegrals {
+    let (first, integrals) = solve(law, rule, load, near, 0);
+    // From too small a stress a steep law takes steps that never come back.
+    if first > FIRST_STEP * near[0].hypot(near[1]) { film_integrals(law, rule, load) } else { integrals }
+}
+
+/// A first τ_m, and the evaluations of the film that it took.
+fn cold_start(law: &Fluidity, rule: &FilmRule, load: &FilmLoad) -> ([f64; 2], usize) {
+    let FilmLoad { a, b, sliding } = *load;
     // The rates of a film under a pressure gradient lie above those of the stress at mid-film alone: this start is never too small.
-    let mut mid = [law.stress_near(sliding.abs()).copysign(sliding), 0.0];
+    let mid = [law.stress_near(sliding.abs()).copysign(sliding), 0.0];
     let edge = 0.5 * a.hypot(b);
     if sliding != 0.0 && edge > mid[0].abs() && law.at(edge).0 > MUCH_MORE_FLUID * law.at(mid[0].abs()).0 {
         // Nor is the one that takes the fluidity from the gradient alone, and here it is much closer.
-        iterations += 1;
-        mid = times(Moments::of(law, rule, &load, [0.0; 2]).inverse(), [sliding, 0.0]);
+        return (times(Moments::of(law, rule, load, [0.0; 2]).inverse(), [sliding, 0.0]), 1);
     }
+    (mid, 0)
+}
+
+/// Newton's method from a τ_m; returns the size of its first step as well.
+fn solve(
+    law: &Fluidity,
+    rule: &FilmRule,
+    load: FilmLoad,
+    mut mid: [f64; 2],
+    mut iterations: usize,
+) -> (f64, FilmIntegrals) {
+    let FilmLoad { a, b, sliding } = load;
+    let mut first = None;
     let mut moments = Moments::of(law, rule, &load, mid);
     let mut inverse = moments.inverse();
     while sliding != 0.0 && iterations < MOST_ITERATIONS {
@@ -139,6 +195,7 @@ pub fn film_integrals(law: &Fluidity, rule: &FilmRule, load: FilmLoad) -> FilmIn
         let [g_0, g_1, _] = moments.fluidity;
         let excess = [mid[0] * g_0 + a * g_1 - sliding, mid[1] * g_0 + b * g_1];
         let step = times(inverse, excess).map(|s| -s);
+        first.get_or_insert(step[0].hypot(step[1]));
         mid = [mid[0] + step[0], mid[1] + step[1]];
         let small = LAST_STEP * mid[0].hypot(mid[1]) + LAST_STEP_ACROSS * (a.abs() + b.abs());
         if step[0].hypot(step[1]) <= small {
@@ -171,7 +228,7 @@ pub fn film_integrals(law: &Fluidity, rule: &FilmRule, load: FilmLoad) -> FilmIn
         out.d_mobility[q] = 12.0 * (change[2] - 2.0 * shift * change[1] + shift * shift * change[0]);
         out.d_shift[q] = (change[1] - shift * change[0]) / g_0;
     }
-    out
+    (first.unwrap_or(0.0), out)
 }
 
 #[cfg(test)]

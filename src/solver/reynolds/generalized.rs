@@ -5,7 +5,7 @@
 //! the nodal gradients P_X and P_Y, which are central differences. So the row reaches from X −3 to +2, across to Y ±2 and to the diagonals,
 //! as ∂f/∂P + (∂f/∂P_X) G_X + (∂f/∂P_Y) G_Y with the fixed difference operators of [`NodalGradient`].
 
-use super::film_integrals::{FilmLoad, PRODUCTION_RULE, film_integrals};
+use super::film_integrals::{FilmLoad, FilmRule, PRODUCTION_RULE, film_integrals, film_integrals_from};
 use super::{CENTER, EAST, NORTH, Node, RowGeometry, SOUTH, STENCIL, WEST};
 use crate::solver::lubricant::{ScaledFluid, ScaledShear};
 
@@ -18,6 +18,23 @@ pub struct ShearNode {
     pub flow_gradient: [f64; 2],
     /// ∂ξ/∂(P_X, P_Y).
     pub mobility_gradient: [f64; 2],
+    /// τ_m of its film in units of the law's scale; zero where it was not asked for.
+    pub mid_stress: [f64; 2],
+}
+
+/// How the film integrals are taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilmTreatment {
+    /// The rule across the film.
+    pub rule: &'static FilmRule,
+    /// Whether they count as constants in the Jacobian: cheaper, and as good within rounding of the answer, but no longer quadratic.
+    pub frozen: bool,
+}
+
+impl Default for FilmTreatment {
+    fn default() -> Self {
+        Self { rule: &PRODUCTION_RULE, frozen: false }
+    }
 }
 
 /// What the film integrals of a node depend on.
@@ -32,14 +49,27 @@ pub struct NodeState {
 }
 
 impl ShearNode {
-    /// The node's quantities. With `frozen` the film integrals count as constants in all derivatives.
+    /// The node's quantities.
     #[inline]
     pub fn new(
         fluid: &ScaledFluid,
         shear: &ScaledShear,
         inverse_lambda: f64,
+        state: NodeState,
+        treatment: FilmTreatment,
+    ) -> Self {
+        Self::near([0.0; 2], fluid, shear, inverse_lambda, state, treatment)
+    }
+
+    /// The same where the film is like one whose τ_m is known; zero where none is.
+    #[inline]
+    pub fn near(
+        former: [f64; 2],
+        fluid: &ScaledFluid,
+        shear: &ScaledShear,
+        inverse_lambda: f64,
         NodeState { pressure, gradient, film }: NodeState,
-        frozen: bool,
+        treatment: FilmTreatment,
     ) -> Self {
         let state = fluid.at(pressure);
         let node = Node::of_state(&state, inverse_lambda, pressure, film);
@@ -52,7 +82,11 @@ impl ShearNode {
         if load == FilmLoad::default() {
             return newtonian;
         }
-        let integrals = film_integrals(&shear.fluidity, &PRODUCTION_RULE, load);
+        let integrals = if former == [0.0; 2] {
+            film_integrals(&shear.fluidity, treatment.rule, load)
+        } else {
+            film_integrals_from(&shear.fluidity, treatment.rule, load, former)
+        };
         let srr = shear.slide_to_roll_ratio;
         let carried = 1.0 - srr * integrals.shift;
         let mut out = Self {
@@ -65,9 +99,10 @@ impl ShearNode {
                 mobility_p: node.mobility_p * integrals.mobility,
                 mobility_h: node.mobility_h * integrals.mobility,
             },
+            mid_stress: integrals.mid_stress,
             ..Self::default()
         };
-        if frozen {
+        if treatment.frozen {
             return out;
         }
         let ([mobility_a, mobility_b, mobility_s], [shift_a, shift_b, shift_s]) =
@@ -204,7 +239,13 @@ mod tests {
         let gradient = NodalGradient::new(&X);
         let node = |i: usize| {
             let gradient = [gradient.at(p, i), 0.0];
-            ShearNode::new(&fluid, shear, 100.0, NodeState { pressure: p[i], gradient, film: h[i] }, false)
+            ShearNode::new(
+                &fluid,
+                shear,
+                100.0,
+                NodeState { pressure: p[i], gradient, film: h[i] },
+                FilmTreatment::default(),
+            )
         };
         let nodes: [ShearNode; 4] = std::array::from_fn(|m| node(m + 2));
         let geometry = RowGeometry::new([X[2], X[3], X[4], X[5]]);

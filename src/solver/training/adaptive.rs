@@ -33,7 +33,7 @@ use super::plan::{global_point, local_point};
 use super::state::{Part, TrainingState, WindowState};
 use super::{Plan, Progress, TrainingError};
 use crate::solver::contact::OperatingPoint;
-use crate::solver::reduced::{Sampling, Window, distance};
+use crate::solver::reduced::{Sampling, Window, separation};
 use fastrand::Rng;
 use serde::{Deserialize, Serialize};
 
@@ -277,9 +277,8 @@ fn worst_of_pool(
             break;
         }
         // One that is nearer to a point of this round than to any known solution may be good by then.
-        let moes = candidate.moes();
-        let nearest = window.nearest(moes).map_or(f64::INFINITY, |(_, d)| d);
-        if chosen.iter().all(|c| distance(c.moes(), moes) >= nearest) {
+        let nearest = window.nearest(&candidate).map_or(f64::INFINITY, |(_, d)| d);
+        if chosen.iter().all(|c| separation(c, &candidate) >= nearest) {
             chosen.push(candidate);
             own.search.bad.push(BadPoint { point: candidate, indicator, solutions: known, rung: own.search.rung });
         }

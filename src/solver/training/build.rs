@@ -8,9 +8,10 @@ use super::{Plan, Progress, Range, TrainingError, TrainingObserver, TrainingSpec
 use crate::solver::contact::OperatingPoint;
 use crate::solver::full::{ContactSolver, Start};
 use crate::solver::grid::ContactGrid;
+use crate::solver::lubricant::ShearLaw;
 use crate::solver::observer::Observer;
 use crate::solver::reduced::{
-    Domain, LEAST_EVIDENCE, PodBasis, ReducedModel, Sampling, Snapshot, TestSpace, Window, all_rows,
+    Domain, LEAST_EVIDENCE, PodBasis, ReducedModel, Sampling, SlidingDomain, Snapshot, TestSpace, Window, all_rows,
     deformation_weights,
 };
 use faer::Mat;
@@ -38,6 +39,7 @@ pub fn train(spec: &TrainingSpec, observer: &dyn TrainingObserver) -> Result<Red
 pub(super) fn check(spec: &TrainingSpec) -> Result<(), TrainingError> {
     spec.range.check()?;
     let refuse = |sentence: String| Err(TrainingError::Specification(sentence));
+    check_lubricant(spec)?;
     match &spec.windows {
         Windows::Given(windows) => check_given(spec, windows)?,
         Windows::Automatic { modes } if !(8..=1000).contains(modes) => {
@@ -92,6 +94,26 @@ pub(super) fn check(spec: &TrainingSpec) -> Result<(), TrainingError> {
     }
 }
 
+/// A range with SRR and NPR belongs to a lubricant that thins under shear, and only such a range does; its α is the lubricant's own.
+fn check_lubricant(spec: &TrainingSpec) -> Result<(), TrainingError> {
+    let refuse = |sentence: String| Err(TrainingError::Specification(sentence));
+    match (&spec.range, spec.lubricant.shear == ShearLaw::Newtonian) {
+        (Range::Sliding { .. }, true) => {
+            refuse("the range names SRR and NPR, but the lubricant has no shear constants".to_owned())
+        }
+        (Range::Sliding { alpha, .. }, false) => match spec.lubricant.own_coefficient() {
+            Some(own) if (alpha / own - 1.0).abs() > 1e-3 => refuse(format!(
+                "alpha is {alpha:.4e} 1/Pa, but the lubricant's viscosity law determines {own:.4e} 1/Pa; write that"
+            )),
+            _ => Ok(()),
+        },
+        (_, false) => {
+            refuse("a lubricant that thins under shear needs a range of SRR and NPR: `Sliding(…)`".to_owned())
+        }
+        (_, true) => Ok(()),
+    }
+}
+
 fn check_given(spec: &TrainingSpec, windows: &[WindowSpec]) -> Result<(), TrainingError> {
     let refuse = |sentence: String| Err(TrainingError::Specification(sentence));
     if windows.is_empty() {
@@ -124,7 +146,21 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
             max_hertz_pressure_pa: max_hertz_pressure,
             viscosity_pa_s: viscosity,
             lubricant: spec.lubricant,
+            sliding: None,
         },
+        Range::Sliding { m, l, srr, npr, modulus, viscosity, alpha, .. } => {
+            let alpha = spec.lubricant.own_coefficient().unwrap_or(alpha);
+            let heaviest = spec.range.at(spec.contact(), [1.0; 4]);
+            Domain {
+                m,
+                l,
+                alpha_per_pa: (alpha, alpha),
+                max_hertz_pressure_pa: heaviest.map_or(0.0, |point| point.hertz().pressure_pa),
+                viscosity_pa_s: viscosity,
+                lubricant: spec.lubricant,
+                sliding: Some(SlidingDomain { srr, npr, modulus_pa: modulus }),
+            }
+        }
         Range::Box { alpha, viscosity, .. } => {
             let corners = grid_points(&spec.range, spec.contact(), [2, 2, 2, 2]);
             let span = |value: &dyn Fn(&OperatingPoint) -> f64| {
@@ -137,6 +173,7 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
                 max_hertz_pressure_pa: span(&|p| p.hertz().pressure_pa).1,
                 viscosity_pa_s: viscosity,
                 lubricant: spec.lubricant,
+                sliding: None,
             }
         }
     }
@@ -247,9 +284,9 @@ impl<'a> Shop<'a> {
         observer.progress(Progress { stage: format!("Bases, M {}…{}", window.m.0, window.m.1), done: 0, total: 1 });
         let (from, to) = window.m;
         let failed = || TrainingError::Decomposition { from, to };
-        let (losses, grid, solutions) = (Losses::of(spec), grid.clone(), solutions.to_vec());
+        let (wanted, grid, solutions) = (Modes::of(spec), grid.clone(), solutions.to_vec());
         let mut model = aside(*observer, move || {
-            let (pressure, deformation, snapshots) = bases(losses, &grid, &solutions)?;
+            let (pressure, deformation, snapshots) = bases(wanted, &grid, &solutions)?;
             let rows = all_rows(&TestSpace::new(&pressure, &grid));
             Some(Window::new((from, to), grid, pressure, deformation, snapshots, Sampling::All, rows))
         })?
@@ -273,31 +310,41 @@ impl<'a> Shop<'a> {
     }
 }
 
-/// Losses of information that the modes may neglect.
+/// Losses of information that the modes may neglect, and whether they are made of max(P, 0).
 #[derive(Clone, Copy)]
-struct Losses {
-    pressure: f64,
-    deformation: f64,
+struct Modes {
+    pressure_loss: f64,
+    deformation_loss: f64,
+    positive: bool,
 }
 
-impl Losses {
+impl Modes {
     fn of(spec: &TrainingSpec) -> Self {
-        Self { pressure: spec.pressure_loss, deformation: spec.deformation_loss }
+        Self {
+            pressure_loss: spec.pressure_loss,
+            deformation_loss: spec.deformation_loss,
+            positive: spec.positive_modes,
+        }
     }
 }
 
 /// POD of pressures and deformations, and the snapshots in the pressure basis.
-fn bases(losses: Losses, grid: &ContactGrid, solutions: &[Solved]) -> Option<(PodBasis, PodBasis, Vec<Snapshot>)> {
+fn bases(wanted: Modes, grid: &ContactGrid, solutions: &[Solved]) -> Option<(PodBasis, PodBasis, Vec<Snapshot>)> {
     let (nodes, weights) = (grid.len(), grid.weights());
-    let pressures = Mat::from_fn(nodes, solutions.len(), |i, j| solutions[j].pressure[i]);
-    let pressure = PodBasis::new(pressures.as_ref(), weights, losses.pressure)?;
-    let deformation = PodBasis::new(grid.flex(&pressures).as_ref(), &deformation_weights(grid), losses.deformation)?;
+    let pressures = Mat::from_fn(nodes, solutions.len(), |i, j| {
+        let pressure = solutions[j].pressure[i];
+        if wanted.positive { pressure.max(0.0) } else { pressure }
+    });
+    let pressure = PodBasis::new(pressures.as_ref(), weights, wanted.pressure_loss)?;
+    let deformation =
+        PodBasis::new(grid.flex(&pressures).as_ref(), &deformation_weights(grid), wanted.deformation_loss)?;
     let snapshots = solutions
         .iter()
-        .map(|s| Snapshot {
+        .zip(pressures.col_iter())
+        .map(|(s, p)| Snapshot {
             point: s.point,
             coefficients: (0..pressure.modes.ncols())
-                .map(|k| (0..nodes).map(|i| weights[i] * pressure.modes[(i, k)] * s.pressure[i]).sum())
+                .map(|k| (0..nodes).map(|i| weights[i] * pressure.modes[(i, k)] * p[i]).sum())
                 .collect(),
             h_0: s.h_0,
             h_c: s.h_c,

@@ -130,6 +130,25 @@ pub enum Range {
         /// η₀ \[Pa·s\].
         viscosity: f64,
     },
+    /// All contacts of a shear-thinning lubricant with M, L, SRR and NPR in these intervals. M and L do not say all about them: E′ fixes the stress.
+    Sliding {
+        /// Load number.
+        m: (f64, f64),
+        /// Lubricant number.
+        l: (f64, f64),
+        /// Slide-to-roll ratio, at least 0: films are even in it.
+        srr: (f64, f64),
+        /// Newtonian plateau ratio.
+        npr: (f64, f64),
+        /// R \[m\].
+        radius: f64,
+        /// E′ \[Pa\].
+        modulus: f64,
+        /// η₀ \[Pa·s\].
+        viscosity: f64,
+        /// α \[1/Pa\]: the lubricant's own, where its viscosity law determines it.
+        alpha: f64,
+    },
 }
 
 /// Everything that determines a reduced model: the same specification gives the same model.
@@ -159,6 +178,10 @@ pub struct TrainingSpec {
     /// Penalty factor γ̄ of (2.36) in the reduced equations; the full solutions keep their own.
     #[serde(default = "penalty")]
     pub penalty: f64,
+    /// Whether modes are made of max(P, 0). What a penalty leaves of negative pressures goes with 1/γ̄: the full solutions' own contradict a softer
+    /// one, and the film takes the difference (2e-3 of H_c at M 60 for γ̄ 1e5).
+    #[serde(default)]
+    pub positive_modes: bool,
     /// Random points per window at which its errors are measured for the calibrated bound; 0 leaves the bound out.
     #[serde(default = "evidence")]
     pub evidence: usize,

@@ -1,7 +1,7 @@
 //! Sampling plans: which operating points of a range are solved in full, and which are tested.
 
 use super::{Range, TrainingError};
-use crate::solver::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
+use crate::solver::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
 use crate::solver::reduced::distance;
 use fastrand::Rng;
 use std::f64::consts::PI;
@@ -33,6 +33,23 @@ impl Range {
                 ("max_hertz_pressure", (*max_hertz_pressure, *max_hertz_pressure)),
                 ("viscosity", (*viscosity, *viscosity)),
             ],
+            Self::Sliding { m, l, srr, npr, radius, modulus, viscosity, alpha } => {
+                for (name, (low, high), most) in [("srr", *srr, 10.0), ("npr", *npr, 1.0)] {
+                    if !(0.0 <= low && low <= high && high <= most) {
+                        return Err(TrainingError::Specification(format!(
+                            "the range of {name} is {low}…{high}; both ends must lie between 0 and {most}, the first not above the second"
+                        )));
+                    }
+                }
+                &[
+                    ("m", *m),
+                    ("l", *l),
+                    ("radius", (*radius, *radius)),
+                    ("modulus", (*modulus, *modulus)),
+                    ("viscosity", (*viscosity, *viscosity)),
+                    ("alpha", (*alpha, *alpha)),
+                ]
+            }
         };
         for (name, (low, high)) in intervals {
             if !(low.is_finite() && high.is_finite() && *low > 0.0 && low <= high) {
@@ -50,15 +67,9 @@ impl Range {
         let logarithmic = |(low, high): (f64, f64), t: f64| low * (high / low).powf(t);
         match *self {
             Self::Box { radius, speed, load, alpha, modulus, viscosity } => {
-                let point = OperatingPoint {
-                    kind,
-                    radius_m: linear(radius, unit[0]),
-                    speed_m_per_s: linear(speed, unit[1]),
-                    load: linear(load, unit[2]),
-                    modulus_pa: modulus,
-                    viscosity_pa_s: viscosity,
-                    alpha_per_pa: linear(alpha, unit[3]),
-                };
+                let [radius, speed, load] = [linear(radius, unit[0]), linear(speed, unit[1]), linear(load, unit[2])];
+                let quantities = [radius, speed, load, modulus, viscosity, linear(alpha, unit[3])];
+                let point = OperatingPoint::from_quantities(kind, quantities, Sliding::NONE);
                 point.check().ok().map(|()| point)
             }
             Self::Moes { m, l, alpha, max_hertz_pressure, viscosity } => {
@@ -68,6 +79,20 @@ impl Range {
                     ..MoesRequest::new(kind, logarithmic(m, unit[0]), linear(l, unit[1]))
                 };
                 si_from_moes(&request).ok().filter(|p| p.hertz().pressure_pa <= max_hertz_pressure)
+            }
+            Self::Sliding { m, l, srr, npr, radius, modulus, viscosity, alpha } => {
+                let request = MoesRequest {
+                    radius_m: Some(radius),
+                    modulus_pa: Some(modulus),
+                    viscosity_pa_s: Some(viscosity),
+                    alpha_per_pa: Some(alpha),
+                    ..MoesRequest::new(kind, logarithmic(m, unit[0]), linear(l, unit[1]))
+                };
+                let sliding = Sliding {
+                    slide_to_roll_ratio: linear(srr, unit[2]),
+                    newtonian_plateau_ratio: Some(linear(npr, unit[3])),
+                };
+                si_from_moes(&request).ok().map(|point| OperatingPoint { sliding, ..point })
             }
         }
     }
@@ -132,14 +157,14 @@ pub(super) fn farther_points(
     // The corners of the range are its extremes, and a random pool never quite reaches them.
     let corners = (0..16u8).filter_map(|c| range.at(kind, std::array::from_fn(|k| f64::from(c >> k & 1))));
     pool.extend(corners.filter(|p| (m.0..=m.1).contains(&p.moes().m)));
-    let coordinates: Vec<_> = pool.iter().map(|p| (p.moes(), p.alpha_per_pa.ln())).collect();
+    let coordinates: Vec<_> = pool.iter().map(|p| (p.moes(), p.alpha_per_pa.ln(), p.sliding)).collect();
     let alpha_weight = if matches!(range, Range::Box { .. }) { 0.005 } else { ALPHA_WEIGHT };
     let mut nearest = vec![f64::INFINITY; pool.len()];
     let approach = |nearest: &mut [f64], point: &OperatingPoint| {
         let (moes, log_alpha) = (point.moes(), point.alpha_per_pa.ln());
-        for (best, (other, other_alpha)) in nearest.iter_mut().zip(&coordinates) {
+        for (best, (other, other_alpha, sliding)) in nearest.iter_mut().zip(&coordinates) {
             let d = distance(moes, *other) + alpha_weight * (log_alpha - other_alpha).powi(2);
-            *best = best.min(d);
+            *best = best.min(d + point.sliding.distance(*sliding));
         }
     };
     let farthest = |nearest: &[f64]| {

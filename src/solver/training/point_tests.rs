@@ -24,6 +24,7 @@ fn small(sampling: Sampling, snapshots: usize) -> TrainingSpec {
         windows: Windows::Given(vec![WindowSpec { m: (1.0, 2000.0), grid: ContactGridSpec::Point(GRID) }]),
         pressure_loss: 1e-4,
         deformation_loss: 1e-4,
+        positive_modes: false,
         sampling,
         rows_per_mode: 3.0,
         penalty: 1e5,

@@ -27,6 +27,7 @@ fn small(plan: Plan) -> TrainingSpec {
         sampling: Sampling::QDeim,
         rows_per_mode: 2.0,
         penalty: PENALTY,
+        positive_modes: false,
         evidence: 0,
         seed: 3,
     }

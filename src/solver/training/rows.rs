@@ -7,7 +7,7 @@ use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::contact::OperatingPoint;
 use crate::solver::reduced::{
     GoalEquations, Iterate, Online, ReducedModel, ReducedOptions, RowSnapshots, SampledRows, Sampling, Snapshot,
-    TestSpace, Window, all_rows, cubature, distance, greedy, is_finite, q_deim,
+    TestSpace, Window, all_rows, cubature, greedy, is_finite, q_deim, separation,
 };
 use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::{PartialPivLu, Solve};
@@ -39,7 +39,7 @@ impl<'a> Task<'a> {
     /// At training `k` of a window; `None` where it is the only one.
     fn beside(window: &'a Window, k: usize) -> Option<Self> {
         let point = window.snapshots[k].point;
-        let far = |other: &Snapshot| distance(point.moes(), other.point.moes());
+        let far = |other: &Snapshot| separation(&point, &other.point);
         let others = window.snapshots.iter().enumerate().filter(|(other, _)| *other != k).map(|(_, other)| other);
         others.min_by(|a, b| far(a).total_cmp(&far(b))).map(|nearest| Self::From(nearest, point))
     }

@@ -29,6 +29,7 @@ fn small(sampling: Sampling) -> TrainingSpec {
         sampling,
         rows_per_mode: 2.0,
         penalty: PENALTY,
+        positive_modes: false,
         evidence: 0,
         seed: 5,
     }

@@ -14,7 +14,7 @@ use crate::solver::reduced::{
 use crate::solver::reynolds::PENALTY;
 use faer::Mat;
 use fastrand::Rng;
-use std::cell::RefCell;
+use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Settings of such a training.
@@ -125,29 +125,33 @@ fn goal_equations(
     training: &TrajectoryTraining,
     observer: &dyn TrainingObserver,
 ) -> Result<GoalEquations, TrainingError> {
-    let equations = RefCell::new(GoalEquations::over(test));
-    // About three iterates in a step: every n-th is kept.
+    // About three iterates in a step, of which every n-th is kept.
     let steps: usize = trajectories.iter().map(|t| t.moments.len()).sum();
     let every = (3 * steps).div_ceil(ITERATES).max(1);
-    let rng = RefCell::new(Rng::with_seed(training.seed));
-    for (index, trajectory) in trajectories.iter().enumerate() {
-        let mut seen = 0;
-        let mut model = ReducedMarch::new(exact)?;
-        model.observe(Box::new(|iterate: &Iterate<'_>| {
-            if seen % every == 0 {
-                add_goals(&mut equations.borrow_mut(), test, iterate, &mut rng.borrow_mut());
-            }
-            seen += 1;
-        }));
-        let transient = Transient { keep: Keep::Scalars, ..trajectory.transient.clone() };
-        let stage = format!("Rows along training {} of {}", index + 1, trajectories.len());
-        let mut watch = Watch { observer, stage, duration: transient.duration };
-        march(&mut model, &transient, &mut watch)?;
-        if observer.cancelled() {
-            return Err(TrainingError::Cancelled);
-        }
-    }
-    Ok(equations.into_inner())
+    let collected: Vec<GoalEquations> = trajectories
+        .par_iter()
+        .enumerate()
+        .map(|(index, trajectory)| {
+            let mut equations = GoalEquations::over(test);
+            let mut rng = Rng::with_seed(training.seed.wrapping_add(index as u64));
+            let mut seen = 0;
+            let mut model = ReducedMarch::new(exact)?;
+            model.observe(Box::new(|iterate: &Iterate<'_>| {
+                if seen % every == 0 {
+                    add_goals(&mut equations, test, iterate, &mut rng);
+                }
+                seen += 1;
+            }));
+            let transient = Transient { keep: Keep::Scalars, ..trajectory.transient.clone() };
+            let stage = format!("Rows along training {} of {}", index + 1, trajectories.len());
+            march(&mut model, &transient, &mut Watch { observer, stage, duration: transient.duration })?;
+            drop(model);
+            if observer.cancelled() { Err(TrainingError::Cancelled) } else { Ok(equations) }
+        })
+        .collect::<Result<_, TrainingError>>()?;
+    let mut all = GoalEquations::over(test);
+    collected.iter().for_each(|equations| all.merge(equations));
+    Ok(all)
 }
 
 /// Tells how far a march is.

@@ -1,6 +1,6 @@
 //! The map for other programs: all nodes as a table, the picture with axes as SVG.
 
-use super::images::ContactMap;
+use super::images::{ContactMap, ticks};
 use super::{MapView, Shown, scale};
 use crate::app::export as tables;
 use crate::app::numbers;
@@ -122,9 +122,8 @@ fn legend(
     }
     let symbol = if view.shown == Shown::Pressure { "P" } else { "H" };
     line(format!("<text x=\"{x:.1}\" y=\"{:.1}\" font-style=\"italic\">{symbol}</text>", top - 8.0));
-    for k in 0..=4 {
-        let t = f64::from(k) / 4.0;
-        let value = low + (high - low) * t;
+    for value in ticks((low, high)) {
+        let t = (value - low) / (high - low);
         let text = format!("{}  ({})", numbers::digits(value, 2), scale::si(picture, view, value));
         line(format!(
             "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"11\">{text}</text>",

@@ -30,6 +30,15 @@ pub struct ContactMap {
 
 /// Contour lines wanted between both ends of the scale.
 const LINES: f64 = 8.0;
+/// Parts of a film's scale, of which those below the smallest film are left out.
+const UNITS: f64 = 8.0;
+
+/// Values that the scale names: round ones from its lower end to its upper one.
+pub fn ticks((low, high): (f64, f64)) -> Vec<f64> {
+    let unit = if low > 0.0 { high / UNITS } else { high / 4.0 };
+    let count = ((high - low) / unit).round() as usize;
+    (0..=count).map(|k| low + unit * k as f64).collect()
+}
 
 impl ContactMap {
     /// Makes image and contours anew where they are out of date.
@@ -90,7 +99,11 @@ impl ContactMap {
 fn range(solution: &Solution, shown: Shown) -> (f64, f64) {
     match shown {
         // Little more than the contact itself: its side lobes are what the colours are for.
-        Shown::Film => (0.0, numbers::round_up(1.5 * solution.scalars.h_c)),
+        Shown::Film => {
+            let high = numbers::round_up(1.5 * solution.scalars.h_c);
+            let unit = high / UNITS;
+            (unit * (solution.scalars.h_min / unit).floor().clamp(0.0, UNITS - 2.0), high)
+        }
         Shown::Interferogram => (0.0, numbers::round_up(2.5 * solution.scalars.h_c)),
         Shown::Pressure => (0.0, numbers::round_up(solution.scalars.p_max)),
     }
@@ -118,9 +131,12 @@ fn contours(solution: &Solution, shown: Shown, (low, high): (f64, f64)) -> Vec<C
     let values = if shown == Shown::Pressure { &solution.pressure } else { &solution.film };
     let field = Field { x: &solution.x, y: &solution.y, values };
     let step = numbers::round_up((high - low) / LINES);
-    let count = ((high - low) / step).floor() as usize;
+    let levels = (1..=(high / step).floor() as usize).filter(|&k| step * k as f64 > low);
     let mut all = Vec::new();
-    for level in (1..=count).map(|k| low + step * k as f64) {
+    for k in levels {
+        let level = step * k as f64;
+        // Names of neighbours stand apart: each the golden section of its line further on.
+        let place = (0.618 * k as f64).fract();
         let lines = field.contours(level);
         let longest = lines.iter().map(Vec::len).max().unwrap_or(0);
         let mut unnamed = true;
@@ -128,7 +144,9 @@ fn contours(solution: &Solution, shown: Shown, (low, high): (f64, f64)) -> Vec<C
             for sign in [1.0, -1.0] {
                 let points: Vec<PlotPoint> = line.iter().map(|p| PlotPoint::new(p[0], sign * p[1])).collect();
                 let name = (unnamed && line.len() == longest && longest > 12)
-                    .then(|| points.get(points.len() / 3).map(|at| (*at, numbers::digits(level, 2))))
+                    .then(|| {
+                        points.get((place * points.len() as f64) as usize).map(|at| (*at, numbers::digits(level, 2)))
+                    })
                     .flatten();
                 unnamed &= name.is_none();
                 all.push((name, points));
@@ -136,4 +154,17 @@ fn contours(solution: &Solution, shown: Shown, (low, high): (f64, f64)) -> Vec<C
         }
     }
     all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_scale_names_its_ends_and_round_values_between() {
+        assert_eq!(ticks((0.0, 1.2)).len(), 5);
+        let film = ticks((0.15, 0.4));
+        assert_eq!(film.len(), 6);
+        assert!((film[0] - 0.15).abs() < 1e-12 && (film[5] - 0.4).abs() < 1e-12 && (film[1] - 0.2).abs() < 1e-12);
+    }
 }

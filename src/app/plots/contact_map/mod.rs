@@ -11,6 +11,7 @@ mod scale;
 pub use images::ContactMap;
 
 use super::axes;
+use super::cut_line::snapped;
 use crate::app::controls::{described, named};
 use crate::app::files::Purpose;
 use crate::app::numbers;
@@ -322,18 +323,11 @@ fn drag_cuts(ui: &Ui, state: &mut State, response: &Response, transform: &PlotTr
         && ui.input(|i| i.pointer.press_origin()).is_some_and(|origin| origin.distance(pointer) > 1.0)
     {
         let value = transform.value_from_position(pointer);
-        let (from, to, edge) = state.document.plane().domain;
         if x {
-            state.display.cuts.x = snapped(value.x).clamp(from, to);
+            state.display.cuts.x = snapped(value.x);
         }
         if y {
-            state.display.cuts.y = snapped(value.y).clamp(edge, -edge);
+            state.display.cuts.y = snapped(value.y);
         }
     }
-}
-
-/// Hundredths, and the middle where it is near: a hand does not hit it.
-fn snapped(value: f64) -> f64 {
-    let rounded = (100.0 * value).round() / 100.0;
-    if rounded.abs() < 0.03 { 0.0 } else { rounded }
 }

@@ -1,6 +1,6 @@
 //! The colour bar beside the map, with its values and their SI twins.
 
-use super::images::{ContactMap, table};
+use super::images::{ContactMap, table, ticks};
 use super::raster;
 use super::{MapView, Shown};
 use crate::app::numbers;
@@ -35,10 +35,8 @@ pub fn ui(ui: &mut Ui, images: &ContactMap, picture: &Picture, view: &MapView, h
     }
     painter.rect_stroke(bar, 0.0, Stroke::new(1.0, palette.quiet), egui::StrokeKind::Outside);
     let small = FontId::proportional(11.5);
-    for k in 0..=4 {
-        let t = k as f32 / 4.0;
-        let value = low + (high - low) * f64::from(t);
-        let y = at(t);
+    for value in ticks((low, high)) {
+        let y = at(((value - low) / (high - low)) as f32);
         painter.line_segment([pos2(bar.right(), y), pos2(bar.right() + 4.0, y)], Stroke::new(1.0, palette.quiet));
         let label = numbers::digits(value, 2);
         painter.text(pos2(bar.right() + 7.0, y), Align2::LEFT_CENTER, label, small.clone(), text);

@@ -8,8 +8,8 @@ use crate::app::plots::training::fields::{Form, choose};
 use crate::app::state::State;
 use crate::app::theme::Palette;
 use crate::app::transient::input::Input;
-use crate::app::transient::method::{FRAMES, Method, frame_meaning, frame_name};
-use crate::scene::TransientStudy;
+use crate::app::transient::method::{FRAMES, frame_meaning, frame_name};
+use crate::scene::{ReducedTransient, TransientStudy};
 use crate::solver::full::transient::{Frame, Inputs, Signal, TimeStep};
 use egui::{Checkbox, Ui};
 use egui_plot::{Line, LineStyle, PlotPoints};
@@ -73,6 +73,7 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
         preview(ui, &study.inputs, study.duration);
         time_ui(ui, &mut form, &mut study);
         frames_ui(ui, &mut form, &mut study.frames);
+        methods_ui(ui, &mut form, &mut study.reduced);
     });
     if !state.document.saves_transient() && state.document.transient.is_some() {
         ui.weak("The open scene asks another question: it is saved without this set-up.");
@@ -278,5 +279,26 @@ fn frames_ui(ui: &mut Ui, form: &mut Form, frames: &mut Vec<Frame>) {
         }
     }
     form.message(ui, "Frames");
-    ui.weak(format!("Solved by: {}.", Method::ALL.map(Method::name).join(", ").to_lowercase()));
+}
+
+/// The methods: the full system, which a reduced model is trained by and compared with, and the reduced model.
+fn methods_ui(ui: &mut Ui, form: &mut Form, reduced: &mut Option<ReducedTransient>) {
+    heading(ui, "Methods");
+    let tip = "Always run: what is reduced is trained by it and compared with it";
+    ui.add_enabled(false, Checkbox::new(&mut true, "Full system")).on_disabled_hover_text(tip);
+    let mut on = reduced.is_some();
+    let tip = "Trained on the full trajectory of its frame, then taken through the same time (RNSA)";
+    if ui.add(Checkbox::new(&mut on, "Reduced model")).on_hover_text(tip).changed() {
+        *reduced = on.then(|| ReducedTransient { trainings: Vec::new(), loss: 1e-6, rows_per_mode: 2.0, seed: 1 });
+        form.changed = Some("Methods");
+    }
+    form.message(ui, "Methods");
+    if let Some(reduced) = reduced {
+        let plain = ("", 1.0);
+        form.row(ui, "Loss", plain, &mut reduced.loss, "Loss of information of the bases (2.90)");
+        form.row(ui, "Rows per mode", plain, &mut reduced.rows_per_mode, "Sampled rows per pressure mode");
+        if !reduced.trainings.is_empty() {
+            ui.weak(format!("Trained on {} trajectories of the scene.", reduced.trainings.len()));
+        }
+    }
 }

@@ -1,5 +1,7 @@
 //! The contact in time: what drives it, how film and pressure answer, and how the frames differ.
 
+mod cost;
+mod figure;
 mod form;
 mod profiles;
 mod series;
@@ -8,10 +10,10 @@ use crate::app::controls::{message_ui, named, sentence, warning_ui};
 use crate::app::files::Purpose;
 use crate::app::numbers;
 use crate::app::state::State;
-use crate::app::theme::{Palette, rich};
-use crate::app::transient::{Run, TransientView, export};
-use crate::solver::full::transient::{Ended, Quantity};
-use egui::{Button, Grid, ProgressBar, ScrollArea, Slider, Ui};
+use crate::app::theme::rich;
+use crate::app::transient::{TransientView, export};
+use crate::solver::full::transient::Ended;
+use egui::{Button, ProgressBar, ScrollArea, Slider, Ui};
 
 /// Width of the form.
 const FORM_WIDTH: f32 = 300.0;
@@ -51,8 +53,8 @@ fn results(ui: &mut Ui, state: &mut State) {
         return;
     }
     player(ui, &mut state.transient);
-    cost(ui, &state.transient);
-    let rest = height - (ui.cursor().top() - top) - 10.0;
+    cost::ui(ui, state);
+    let rest = height - (ui.cursor().top() - top) - 18.0;
     let several = state.transient.runs.len() > 1;
     let parts = if several { 2.7 } else { 2.0 };
     if ui.available_width() >= SIDE_BY_SIDE {
@@ -107,6 +109,12 @@ fn buttons(ui: &mut Ui, state: &mut State) {
             && let Some(text) = export::profiles(&state.transient)
         {
             state.ask_path(&ctx, Purpose::Csv { text });
+        }
+        let tip = "Series and profiles as a figure with axes and parameters";
+        if ui.add_enabled(there, Button::new("Export SVG…")).on_hover_text(tip).clicked()
+            && let Some(text) = figure::svg(&state.transient)
+        {
+            state.ask_path(&ctx, Purpose::Picture { bytes: text.into_bytes().into(), extension: "svg" });
         }
     });
 }
@@ -174,55 +182,10 @@ fn player(ui: &mut Ui, view: &mut TransientView) {
 
 /// Marks of an axis of this width that leave their labels room.
 fn marks(width: f32) -> f64 {
-    f64::from((width - 60.0).max(80.0) / 80.0)
+    f64::from((width - 60.0).max(60.0) / 60.0)
 }
 
-/// What each run took, and where it stands now.
-fn cost(ui: &mut Ui, view: &TransientView) {
-    let quiet = Palette::of(ui).quiet;
-    let time = view.player.time();
-    let title = |ui: &mut Ui, text: &str, tip: &str| {
-        ui.label(rich(text, 12.0, quiet)).on_hover_text(tip);
-    };
-    Grid::new("transient cost").num_columns(7).spacing([14.0, 2.0]).min_row_height(15.0).show(ui, |ui| {
-        title(ui, "", "");
-        title(ui, "{H_c}", "Central film at this moment");
-        title(ui, "{P_c}", "Central pressure at this moment");
-        title(
-            ui,
-            "Mean {H_c}",
-            "Over the scene’s window or else the second half of the duration, against the stationary start",
-        );
-        title(ui, "Steps", "Steps taken, and those discarded");
-        title(ui, "Per step", "Median of the time per step");
-        title(ui, "In all", "Time of the whole run");
-        ui.end_row();
-        for (k, run) in view.runs.iter().enumerate() {
-            ui.label(run.name()).on_hover_text(series::style_name(k));
-            let value =
-                |quantity| run.trajectory.at(quantity, time).map_or_else(|| "–".to_owned(), numbers::significant);
-            ui.label(value(Quantity::CentralFilm));
-            ui.label(value(Quantity::CentralPressure));
-            ui.label(
-                offset(run, view).map_or_else(|| "–".to_owned(), |offset| format!("{offset:+.2} %").replace('-', "−")),
-            );
-            let discarded = if run.trajectory.rejected_steps > 0 {
-                format!(" + {}", run.trajectory.rejected_steps)
-            } else {
-                String::new()
-            };
-            ui.label(format!("{}{discarded}", run.trajectory.moments.len().saturating_sub(1)));
-            ui.label(run.seconds_per_step().map_or_else(|| "–".to_owned(), numbers::duration));
-            ui.label(numbers::duration(run.seconds.iter().sum()));
-            ui.end_row();
-        }
-    });
-}
-
-/// Mean of H_c over the window over its stationary start, less 1, in percent.
-fn offset(run: &Run, view: &TransientView) -> Option<f64> {
-    let study = &view.setup.as_ref()?.study;
-    let window = study.window.unwrap_or((0.5 * study.duration, study.duration));
-    let mean = run.trajectory.mean(Quantity::CentralFilm, window)?;
-    Some(100.0 * (mean / run.trajectory.moments.first()?.h_c - 1.0))
+/// The same for an axis of this height.
+fn rows(height: f32) -> f64 {
+    f64::from((height - 24.0).max(48.0) / 24.0).min(6.0)
 }

@@ -1,12 +1,12 @@
 //! Pressure and film of every run at the moment that is looked at.
 
-use super::series::style;
+use super::series::{drawn, style};
 use crate::app::controls::named;
 use crate::app::numbers;
 use crate::app::plots::axes;
 use crate::app::state::State;
 use crate::app::theme::{Palette, THIN_WIDTH};
-use crate::app::transient::Run;
+use crate::app::transient::{Run, TransientView};
 use crate::solver::full::transient::{Moment, Quantity};
 use egui::{Color32, Id, Ui, Vec2b};
 use egui_plot::{Line, LineStyle, PlotPoint, PlotPoints, PlotUi};
@@ -44,12 +44,12 @@ pub fn ui(ui: &mut Ui, state: &State, height: f32) {
         if let Some(moment) = view.runs.first().and_then(|run| moment_at(run, time)) {
             hertz(plot, moment, &palette);
         }
-        curves(plot, &view.runs, time, (palette.pressure, &palette), |(x, p, _)| PlotPoint::new(x, p));
+        curves(plot, view, time, (palette.pressure, &palette), |(x, p, _)| PlotPoint::new(x, p));
     });
     named(ui, shown.response, "Pressure at this moment");
     let shown = film.show(ui, |plot| {
         axes::fit(plot, state.fit_plots);
-        curves(plot, &view.runs, time, (palette.film, &palette), |(x, _, h)| PlotPoint::new(x, h));
+        curves(plot, view, time, (palette.film, &palette), |(x, _, h)| PlotPoint::new(x, h));
     });
     named(ui, shown.response, "Film at this moment");
 }
@@ -71,15 +71,15 @@ fn hertz(plot: &mut PlotUi<'_>, moment: &Moment, palette: &Palette) {
 
 fn curves(
     plot: &mut PlotUi<'_>,
-    runs: &[Run],
+    view: &TransientView,
     time: f64,
     (color, palette): (Color32, &Palette),
     of: impl Fn((f64, f64, f64)) -> PlotPoint,
 ) {
-    for (k, run) in runs.iter().enumerate() {
+    for (k, run) in drawn(view) {
         let Some(state) = run.state_at(time) else { continue };
         let points = run.profile(state).map(&of).collect();
-        let (color, width, line_style) = style(k, color, palette);
+        let (color, width, line_style) = style(view, k, color, palette);
         let line = Line::new(run.name(), PlotPoints::Owned(points));
         plot.line(line.color(color).width(width).style(line_style).allow_band(false));
     }

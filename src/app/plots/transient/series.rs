@@ -1,35 +1,43 @@
-//! Central pressure and film against time, and how far the other runs lie from the first.
+//! Central pressure and film against time, and how far runs lie apart.
 
 use crate::app::controls::named;
 use crate::app::plots::axes;
 use crate::app::state::State;
 use crate::app::theme::{Palette, THIN_WIDTH};
-use crate::app::transient::Run;
-use crate::solver::full::transient::Quantity;
+use crate::app::transient::method::Method;
+use crate::app::transient::{Run, TransientView};
+use crate::solver::full::transient::{Frame, Interpolation, Quantity};
 use egui::{Color32, Id, Ui, Vec2b};
-use egui_plot::{Corner, HLine, Legend, Line, LineStyle, PlotPoint, PlotPoints, VLine};
+use egui_plot::{HLine, Line, LineStyle, PlotPoint, PlotPoints, VLine};
 
 /// Points of a curve beyond which only the extremes of neighbouring ones are drawn.
 const MOST_POINTS: usize = 3000;
 
-/// The line of the k-th run: the first is the thick one, the others are told apart without colour.
-pub fn style(k: usize, color: Color32, palette: &Palette) -> (Color32, f32, LineStyle) {
-    match k {
-        0 => (color, 2.4, LineStyle::Solid),
-        1 => (palette.over(color), 1.3, LineStyle::Solid),
-        2 => (palette.over(color), 1.5, LineStyle::dashed_loose()),
-        _ => (palette.over(color), 1.7, LineStyle::dotted_dense()),
-    }
+/// The line of a run: the frame by dashes; the reduced model thick and the full one thin over it, the first of full ones alone thick.
+pub fn style(view: &TransientView, k: usize, color: Color32, palette: &Palette) -> (Color32, f32, LineStyle) {
+    let Some(run) = view.runs.get(k) else { return (color, 1.0, LineStyle::Solid) };
+    let dashes = match run.frame() {
+        Frame::Fixed => LineStyle::Solid,
+        Frame::ArbitraryLagrangianEulerian => LineStyle::dashed_loose(),
+        Frame::Remeshed(Interpolation::CubicSpline) => LineStyle::dashed_dense(),
+        Frame::Remeshed(Interpolation::Linear) => LineStyle::dotted_dense(),
+    };
+    let thick = match run.method {
+        Method::Reduced => true,
+        Method::Full => k == 0 && !has_reduced(view),
+    };
+    let (color, width) = if thick { (color, 2.6) } else { (palette.over(color), 1.4) };
+    (color, width, dashes)
 }
 
-/// The same in words.
-pub fn style_name(k: usize) -> &'static str {
-    match k {
-        0 => "The thick line",
-        1 => "The thin line",
-        2 => "The dashed line",
-        _ => "The dotted line",
-    }
+fn has_reduced(view: &TransientView) -> bool {
+    view.runs.iter().any(|run| run.method == Method::Reduced)
+}
+
+/// The runs as they are drawn, thick ones first: a thin line stays visible over a thick one.
+pub fn drawn(view: &TransientView) -> impl Iterator<Item = (usize, &Run)> {
+    let of = |method: Method| view.runs.iter().enumerate().filter(move |(_, run)| run.method == method);
+    of(Method::Reduced).chain(of(Method::Full))
 }
 
 /// The plots; returns the time that was clicked at.
@@ -56,7 +64,7 @@ struct Chart {
 }
 
 impl Chart {
-    /// The quantity of all runs, or how far the others lie from the first in percent.
+    /// The quantity of all runs, or how far they lie from what they are compared with, in percent.
     fn show(&self, ui: &mut Ui, state: &State, height: f32, titles: (&str, &str), deviation: bool) -> Option<f64> {
         let palette = Palette::of(ui);
         let view = &state.transient;
@@ -65,19 +73,15 @@ impl Chart {
         let group = Id::unique(("transient", view.generation));
         let id = format!("transient {} {}", self.name, view.generation);
         let marks = super::marks(ui.available_width());
-        let mut plot = axes::plot(ui, &id, height, titles.0, titles.1)
+        let plot = axes::plot(ui, &id, height, titles.0, titles.1)
             .x_grid_spacer(move |input| axes::round_marks(input, marks))
+            .y_grid_spacer(move |input| axes::round_marks(input, super::rows(height)))
             .link_axis(group, Vec2b::new(true, false))
             .link_cursor(group, Vec2b::new(true, false))
             .include_x(0.0)
             .include_x(duration)
             .set_margin_fraction(egui::vec2(0.0, 0.08))
             .auto_bounds(Vec2b::TRUE);
-        if !deviation && view.runs.len() > 1 {
-            plot = plot.legend(
-                Legend::default().position(Corner::RightTop).follow_insertion_order(true).background_alpha(0.6),
-            );
-        }
         let shown = plot.show(ui, |plot| {
             if deviation {
                 plot.hline(
@@ -87,9 +91,13 @@ impl Chart {
                 let line = HLine::new("Stationary at T = 0", start.value(self.quantity)).color(palette.reference);
                 plot.hline(line.width(THIN_WIDTH).style(LineStyle::dashed_dense()).allow_hover(false));
             }
-            for (k, run) in view.runs.iter().enumerate().skip(usize::from(deviation)) {
-                let points = if deviation { deviations(run, first, self.quantity) } else { values(run, self.quantity) };
-                let (color, width, line_style) = style(k, self.color, &palette);
+            for (k, run) in drawn(view) {
+                let points = match (deviation, view.reference_of(k)) {
+                    (true, None) => continue,
+                    (true, Some(reference)) => deviations(run, reference, self.quantity),
+                    (false, _) => values(run, self.quantity),
+                };
+                let (color, width, line_style) = style(view, k, self.color, &palette);
                 let line = Line::new(run.name(), PlotPoints::Owned(thinned(points)));
                 plot.line(line.color(color).width(width).style(line_style).allow_band(false));
             }
@@ -100,7 +108,7 @@ impl Chart {
         let name = match self.name {
             "pressure" => "Central pressure against time",
             "film" => "Central film against time",
-            _ => "Deviation from the first run",
+            _ => "Deviation between runs",
         };
         named(ui, shown.response, name);
         shown.inner.map(|at| at.x)
@@ -111,9 +119,9 @@ fn values(run: &Run, quantity: Quantity) -> Vec<PlotPoint> {
     run.trajectory.moments.iter().map(|moment| PlotPoint::new(moment.time, moment.value(quantity))).collect()
 }
 
-fn deviations(run: &Run, first: &Run, quantity: Quantity) -> Vec<PlotPoint> {
+fn deviations(run: &Run, reference: &Run, quantity: Quantity) -> Vec<PlotPoint> {
     let percent = |time: f64, value: f64| {
-        Some(PlotPoint::new(time, 100.0 * (value / first.trajectory.at(quantity, time)? - 1.0)))
+        Some(PlotPoint::new(time, 100.0 * (value / reference.trajectory.at(quantity, time)? - 1.0)))
     };
     run.trajectory.moments.iter().filter_map(|moment| percent(moment.time, moment.value(quantity))).collect()
 }

@@ -20,6 +20,7 @@ use super::solution::{Problem, Report, Termination};
 use crate::solver::elasticity::PointScratch;
 use crate::solver::grid::{PointGrid, dot};
 use crate::solver::observer::{NewtonStep, Observer};
+use crate::solver::reynolds::generalized::FilmTreatment;
 use crate::solver::reynolds::{CENTER, Node, PENALTY, STENCIL, row};
 use preconditioner::PointPreconditioner;
 use rayon::prelude::*;
@@ -43,9 +44,8 @@ pub struct PointOptions {
     pub film_loss: f64,
     /// Accuracy of the linear solves, relative to the right-hand side.
     pub forcing: f64,
-    /// Whether the film integrals of a shear-thinning lubricant count as constants in the Jacobian: cheaper, and as good within rounding
-    /// of the answer, but no longer quadratic.
-    pub frozen_film_integrals: bool,
+    /// How the film integrals of a shear-thinning lubricant are taken.
+    pub film: FilmTreatment,
 }
 
 impl Default for PointOptions {
@@ -58,7 +58,7 @@ impl Default for PointOptions {
             largest_step: 0.4,
             film_loss: 0.8,
             forcing: 1e-2,
-            frozen_film_integrals: false,
+            film: FilmTreatment::default(),
         }
     }
 }
@@ -89,7 +89,7 @@ pub struct PointSystem {
     nodes: Vec<Node>,
     /// What shear-thinning adds; absent for a Newtonian problem.
     shear: Option<PointShear>,
-    frozen_film_integrals: bool,
+    treatment: FilmTreatment,
     /// f_p at the unknowns.
     pub residual: Vec<f64>,
     /// ∂f/∂P of each row at its six nodes.
@@ -121,7 +121,7 @@ impl PointSystem {
             parabola: (0..n).map(|node| grid.parabola(node)).collect(),
             nodes: vec![Node::default(); n],
             shear: None,
-            frozen_film_integrals: false,
+            treatment: FilmTreatment::default(),
             residual: vec![0.0; u],
             d_p: vec![[0.0; STENCIL]; u],
             d_h: vec![[0.0; STENCIL]; u],
@@ -177,7 +177,7 @@ impl PointSystem {
             Some(law) => {
                 let shear = self.shear.get_or_insert_with(|| PointShear::new(&self.grid));
                 let fields = (self.pressure.as_slice(), self.film.as_slice());
-                shear.evaluate(problem, law, fields, self.frozen_film_integrals, &mut self.nodes);
+                shear.evaluate(problem, law, fields, self.treatment, &mut self.nodes);
             }
         }
         let (grid, nodes) = (&*self.grid, &self.nodes);
@@ -204,7 +204,7 @@ impl PointSystem {
         observer: &mut dyn Observer,
         report: &mut Report,
     ) {
-        self.frozen_film_integrals = options.frozen_film_integrals;
+        self.treatment = options.film;
         let mut residual = self.evaluate(problem, options.penalty);
         let (mut recent, mut cycles) = ([f64::INFINITY; 2], 0);
         report.termination = Termination::IterationLimit;

@@ -4,7 +4,7 @@ use super::SHARE;
 use crate::solver::full::solution::Problem;
 use crate::solver::grid::PointGrid;
 use crate::solver::lubricant::ScaledShear;
-use crate::solver::reynolds::generalized::{NodeState, PlaneGradient, ShearNode, gradient_slopes};
+use crate::solver::reynolds::generalized::{FilmTreatment, NodeState, PlaneGradient, ShearNode, gradient_slopes};
 use crate::solver::reynolds::{Node, STENCIL};
 use rayon::prelude::*;
 
@@ -34,7 +34,7 @@ impl PointShear {
         problem: &Problem,
         law: &ScaledShear,
         (pressure, film): (&[f64], &[f64]),
-        frozen: bool,
+        treatment: FilmTreatment,
         nodes: &mut [Node],
     ) {
         let gradient = &self.gradient;
@@ -44,7 +44,7 @@ impl PointShear {
             for (j, (own, node)) in own.iter_mut().zip(nodes).enumerate() {
                 let k = i * ny + j;
                 let state = NodeState { pressure: pressure[k], gradient: gradient.at(pressure, i, j), film: film[k] };
-                *own = ShearNode::new(&problem.fluid, law, problem.inverse_lambda, state, frozen);
+                *own = ShearNode::new(&problem.fluid, law, problem.inverse_lambda, state, treatment);
                 *node = own.node;
             }
         });

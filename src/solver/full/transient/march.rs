@@ -4,7 +4,7 @@ use super::difference::BackwardDifference;
 use super::frame::{Conditions, Frame, Scales};
 use super::signal::{InputError, Inputs};
 use super::trajectory::{Effort, Ended, Moment, State, Trajectory};
-use crate::solver::contact::OperatingPoint;
+use crate::solver::contact::{ContactKind, OperatingPoint};
 use crate::solver::full::{Mesh, Problem, SolveError, Termination};
 use crate::solver::grid::LineGrid;
 use crate::solver::lubricant::Lubricant;
@@ -186,7 +186,7 @@ impl Transient {
     /// When the contact, the inputs, the times or the lubricant is refused.
     pub fn problem(&self) -> Result<Problem, TransientError> {
         self.check()?;
-        let problem = Problem::of_kind(crate::solver::contact::ContactKind::Line, &self.point, self.lubricant)?;
+        let problem = Problem::of_kind(ContactKind::Line, &self.point, self.lubricant)?;
         if problem.shear.is_some() {
             return Err(TransientError::Shear);
         }

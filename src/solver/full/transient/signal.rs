@@ -160,19 +160,6 @@ impl Signal {
         }
     }
 
-    /// The shortest time over which it changes its course: what a time step has to resolve. Infinite where nothing changes.
-    pub fn shortest_period(&self) -> f64 {
-        match self {
-            Self::Constant => f64::INFINITY,
-            Self::Harmonic { period, .. } => *period,
-            Self::TwoScale { periods, .. } => periods.0.min(periods.1),
-            Self::TriangleToSquare { period, s, .. } => period * (1.0 - s),
-            Self::Sampled { times, .. } => {
-                4.0 * times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min)
-            }
-        }
-    }
-
     fn check_constants(&self, input: &'static str) -> Result<(), InputError> {
         let positive = |constant, value: f64| {
             let accepted = "a finite number above zero";
@@ -226,11 +213,6 @@ impl Inputs {
     /// The inputs at T.
     pub fn at(&self, time: f64) -> Input {
         Input { radius: self.radius.at(time), speed: self.speed.at(time), load: self.load.at(time) }
-    }
-
-    /// The shortest time over which any of them changes its course.
-    pub fn shortest_period(&self) -> f64 {
-        [&self.radius, &self.speed, &self.load].map(Signal::shortest_period).into_iter().fold(f64::INFINITY, f64::min)
     }
 
     /// Refuses functions without sense, and a radius or a load that does not stay positive over 0 ≤ T ≤ `duration`. The speed may

@@ -6,8 +6,8 @@ use super::march::{Marching, Step, Transient, TransientError, TransientObserver,
 use super::spline::Interpolated;
 use super::trajectory::{Effort, Moment, State, Trajectory};
 use crate::solver::full::start::pressure_at;
-use crate::solver::full::{FullSolver, LineSystem, Problem, Report, SolveOptions, Start, Termination};
-use crate::solver::grid::{GridSpec, LineGrid, ReferenceGrid};
+use crate::solver::full::{FullSolver, LineSystem, Problem, Report, SolveError, SolveOptions, Start, Termination};
+use crate::solver::grid::{FIRST_UNKNOWN, GridSpec, LineGrid, ReferenceGrid};
 use crate::solver::observer::Observer;
 use crate::solver::reynolds::line::Upstream;
 use std::sync::Arc;
@@ -19,8 +19,6 @@ pub struct FullMarch {
     solver: FullSolver,
     reference: Problem,
     frame: Frame,
-    /// Settings of a step beside its extrapolation, and of a second attempt from the former state.
-    options: [SolveOptions; 2],
     /// The nearer one first.
     former: [Past; 2],
     start: Vec<f64>,
@@ -60,7 +58,7 @@ pub fn solve(
     transient: &Transient,
     observer: &mut dyn TransientObserver,
 ) -> Result<Trajectory, TransientError> {
-    let reference = spec.build().map_err(crate::solver::full::SolveError::from)?;
+    let reference = spec.build().map_err(SolveError::from)?;
     march(&mut FullMarch::new(reference, transient)?, transient, observer)
 }
 
@@ -73,15 +71,11 @@ impl FullMarch {
         let problem = transient.problem()?;
         let grid = reference.for_contact(problem.moes);
         let length = grid.len();
-        let beside =
-            SolveOptions { tolerance: STEP_TOLERANCE, max_newton: 12, shortest_step: 1.0, ..SolveOptions::default() };
-        let farther = SolveOptions { max_newton: 60, shortest_step: SolveOptions::default().shortest_step, ..beside };
         Ok(Self {
             system: LineSystem::new(grid),
             solver: FullSolver::on(reference),
             reference: problem,
             frame: transient.frame,
-            options: [beside, farther],
             former: Default::default(),
             start: vec![0.0; length],
             carried: [vec![0.0; length], vec![0.0; length]],
@@ -104,7 +98,7 @@ impl FullMarch {
         let unknowns = grid.unknowns();
         let [near, far] = step.history_weights();
         for (k, (row, upstream)) in rows.iter_mut().zip(upstream).enumerate() {
-            let node = k + crate::solver::grid::FIRST_UNKNOWN;
+            let node = k + FIRST_UNKNOWN;
             let velocity = step.velocity(grid.x[node]);
             *upstream = Upstream::of(velocity, k, unknowns);
             let geometry = match upstream {
@@ -117,9 +111,9 @@ impl FullMarch {
     }
 
     /// Newton from the state that is set.
-    fn newton(&mut self, at: &Conditions, attempt: usize, observer: &dyn TransientObserver) -> Report {
+    fn newton(&mut self, at: &Conditions, options: &SolveOptions, observer: &dyn TransientObserver) -> Report {
         let mut report = Report::empty();
-        self.system.newton(&at.problem, &self.options[attempt], &mut Cancel(observer), &mut report);
+        self.system.newton(&at.problem, options, &mut Cancel(observer), &mut report);
         report
     }
 
@@ -175,9 +169,7 @@ impl Marching for FullMarch {
         self.system.upstream.fill(Upstream::Inlet);
         self.set_state(at, 0.0);
         self.system.set_central_film(solution.scalars.h_c * at.input.load / at.scales.film);
-        self.options[1].tolerance = SolveOptions::default().tolerance;
-        let report = self.newton(at, 1, observer);
-        self.options[1].tolerance = STEP_TOLERANCE;
+        let report = self.newton(at, &SolveOptions::default(), observer);
         let mut effort = converged(&report)?;
         effort.newton_iterations += solution.report.newton_iterations;
         effort.linear_iterations += solution.report.linear_iterations;
@@ -194,14 +186,17 @@ impl Marching for FullMarch {
         }
         let h_0 = extrapolated(step.ratio, near.h_0, far.h_0);
         self.set_state(&step.now, h_0);
-        let first = self.newton(&step.now, 0, observer);
+        let farther = SolveOptions { tolerance: STEP_TOLERANCE, levelled_kernel: true, ..SolveOptions::default() };
+        let beside = SolveOptions { max_newton: 12, shortest_step: 1.0, ..farther };
+        let first = self.newton(&step.now, &beside, observer);
         if matches!(first.termination, Termination::Converged | Termination::Cancelled) {
             return converged(&first);
         }
         let (h_0, extrapolation) = (self.former[0].h_0, self.start.clone());
         self.start.copy_from_slice(&self.former[0].pressure);
         self.set_state(&step.now, h_0);
-        let second = self.newton(&step.now, 1, observer);
+        // The former state lies farther off: damped as from anywhere.
+        let second = self.newton(&step.now, &farther, observer);
         self.start = extrapolation;
         let mut effort = converged(&second)?;
         effort.newton_iterations += first.newton_iterations;

@@ -81,7 +81,7 @@ impl<'a> ReducedMarch<'a> {
         let modes = window.pressure.modes.ncols();
         let (unknowns, last) = (grid.unknowns(), grid.len() - 1);
         let further: Vec<usize> = window.sampled_rows.iter().map(|row| (row + 4).min(last)).collect();
-        let operators = Operators::with_support(window, modes, None, &further);
+        let operators = Operators::with_support(window, modes, None, false, &further);
         let mut support: Vec<usize> = window.sampled_rows.iter().flat_map(|&row| row..=(row + 4).min(last)).collect();
         support.sort_unstable();
         support.dedup();

@@ -1,0 +1,101 @@
+//! The two directions of profiles: along X, in the direction of motion, and across a point contact.
+
+use crate::app::numbers;
+use crate::app::picture::{Cuts, Picture};
+use egui_plot::PlotPoint;
+
+/// In which direction a profile runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// Along X, in the direction of motion.
+    Along,
+    /// Across, along Y, of a point contact.
+    Across,
+}
+
+impl Direction {
+    /// P along it.
+    pub fn pressure(self, picture: &Picture) -> &[PlotPoint] {
+        match self {
+            Self::Along => &picture.pressure,
+            Self::Across => &picture.across.pressure,
+        }
+    }
+
+    /// H along it.
+    pub fn film(self, picture: &Picture) -> &[PlotPoint] {
+        match self {
+            Self::Along => &picture.film,
+            Self::Across => &picture.across.film,
+        }
+    }
+
+    /// Name of the coordinate.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Along => "X",
+            Self::Across => "Y",
+        }
+    }
+
+    /// Range at first: the contact with its inlet and outlet, or with both sides.
+    pub fn range(self) -> (f64, f64) {
+        match self {
+            Self::Along => (-2.2, 1.6),
+            Self::Across => (-1.6, 1.6),
+        }
+    }
+
+    /// Names of the plots that share an axis; those of the other direction have their own.
+    pub fn id(self, plot: &str) -> String {
+        match self {
+            Self::Along => plot.to_owned(),
+            Self::Across => format!("{plot} across"),
+        }
+    }
+
+    /// Title of the axis, with the place of the cut.
+    pub fn x_title(self, picture: &Picture, cuts: Cuts) -> String {
+        match self {
+            Self::Along if picture.has_plane() => {
+                format!("{{X}} = {{x}}/{{a}} at {{Y}} = {}", numbers::digits(cuts.y, 3))
+            }
+            Self::Along => "{X} = {x}/{a}".to_owned(),
+            Self::Across => format!("{{Y}} = {{y}}/{{a}} at {{X}} = {}", numbers::digits(cuts.x, 3)),
+        }
+    }
+
+    /// Where on the other axis the profile lies.
+    pub fn elsewhere(self, cuts: Cuts) -> f64 {
+        match self {
+            Self::Along => cuts.y,
+            Self::Across => cuts.x,
+        }
+    }
+
+    /// Where on its own axis the other profile lies.
+    pub fn other(self, cuts: Cuts) -> f64 {
+        match self {
+            Self::Along => cuts.x,
+            Self::Across => cuts.y,
+        }
+    }
+
+    /// Moves the other profile.
+    pub fn move_other(self, cuts: &mut Cuts, to: f64) {
+        match self {
+            Self::Along => cuts.x = to,
+            Self::Across => cuts.y = to,
+        }
+    }
+
+    /// Where a profile meets the smallest film, if it does: within two hundredths of the contact.
+    pub fn minimum(self, picture: &Picture, cuts: Cuts) -> Option<f64> {
+        const NEAR: f64 = 0.02;
+        let s = picture.solution.scalars;
+        match self {
+            Self::Along => ((cuts.y.abs() + s.y_h_min).abs() < NEAR).then_some(s.x_h_min),
+            Self::Across => ((cuts.x - s.x_h_min).abs() < NEAR).then_some(s.y_h_min),
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! The runs as a table, which is the plots' legend too: where each stands at this moment, how far it lies from what it is compared with, and what
+//! it cost.
+
+use super::series;
+use crate::app::numbers;
+use crate::app::state::State;
+use crate::app::theme::{Palette, rich};
+use crate::app::transient::{Run, TransientView};
+use crate::solver::full::transient::Quantity;
+use egui::{Grid, Sense, Shape, Stroke, Ui, vec2};
+use egui_plot::LineStyle;
+
+/// Width below which the table leaves out what the plots show anyway.
+const WIDE: f32 = 520.0;
+
+/// The table.
+pub fn ui(ui: &mut Ui, state: &State) {
+    let view = &state.transient;
+    let wide = ui.available_width() >= WIDE;
+    let quiet = Palette::of(ui).quiet;
+    let title = |ui: &mut Ui, text: &str, tip: &str| {
+        ui.label(rich(text, 12.0, quiet)).on_hover_text(tip);
+    };
+    Grid::new(("transient cost", wide)).min_col_width(0.0).spacing([12.0, 2.0]).min_row_height(15.0).show(ui, |ui| {
+        title(ui, "", "");
+        title(ui, "", "");
+        if wide {
+            title(ui, "{H_c}", "Central film at this moment");
+            title(ui, "{P_c}", "Central pressure at this moment");
+        }
+        let tip = "Over the scene’s window or else the second half of the duration, against the stationary start";
+        title(ui, "Mean {H_c}", tip);
+        let tip = "Greatest relative difference of {H_c}: of a frame from the first run, of a reduced model from the full system in its frame";
+        title(ui, "Δ{H_c}", &tip.replace(['{', '}'], ""));
+        if wide {
+            title(ui, "Steps", "Steps taken, and those discarded");
+        }
+        title(ui, "Per step", "Median of the time per step");
+        title(ui, "In all", "Time of the whole run");
+        ui.end_row();
+        for (k, run) in view.runs.iter().enumerate() {
+            row(ui, view, k, run, wide);
+            ui.end_row();
+        }
+    });
+}
+
+fn row(ui: &mut Ui, view: &TransientView, k: usize, run: &Run, wide: bool) {
+    let none = || "–".to_owned();
+    sample(ui, view, k);
+    let name = ui.label(run.name());
+    if let Some(model) = run.model {
+        let trained = numbers::duration(model.training_s);
+        name.on_hover_text(format!("{} pressure modes, {} rows, trained in {trained}", model.modes, model.rows));
+    }
+    if wide {
+        let value = |quantity| run.trajectory.at(quantity, view.player.time()).map_or_else(none, numbers::significant);
+        ui.label(value(Quantity::CentralFilm));
+        ui.label(value(Quantity::CentralPressure));
+    }
+    let percent = |offset: f64| format!("{offset:+.2}{}%", numbers::THIN).replace('-', "−");
+    ui.label(offset(run, view).map_or_else(none, percent));
+    ui.label(run.difference.map_or_else(none, numbers::error_percent));
+    if wide {
+        let rejected = run.trajectory.rejected_steps;
+        let discarded = if rejected > 0 { format!(" + {rejected}") } else { String::new() };
+        ui.label(format!("{}{discarded}", run.trajectory.moments.len().saturating_sub(1)));
+    }
+    ui.label(run.seconds_per_step().map_or_else(none, numbers::duration));
+    ui.label(numbers::duration(run.seconds.iter().sum()));
+}
+
+/// A piece of the run's line.
+fn sample(ui: &mut Ui, view: &TransientView, k: usize) {
+    let palette = Palette::of(ui);
+    let (color, width, style) = series::style(view, k, palette.film, &palette);
+    let (rect, _) = ui.allocate_exact_size(vec2(30.0, 12.0), Sense::hover());
+    let ends = [rect.left_center(), rect.right_center()];
+    let stroke = Stroke::new(width, color);
+    match style {
+        LineStyle::Solid => {
+            ui.painter().line_segment(ends, stroke);
+        }
+        LineStyle::Dashed { length } => {
+            ui.painter().extend(Shape::dashed_line(&ends, stroke, length, length * 0.618));
+        }
+        LineStyle::Dotted { spacing } => {
+            ui.painter().extend(Shape::dotted_line(&ends, color, spacing, 0.5 * width));
+        }
+    }
+}
+
+/// Mean of H_c over the window over its stationary start, less 1, in percent.
+fn offset(run: &Run, view: &TransientView) -> Option<f64> {
+    let study = &view.setup.as_ref()?.study;
+    let window = study.window.unwrap_or((0.5 * study.duration, study.duration));
+    let mean = run.trajectory.mean(Quantity::CentralFilm, window)?;
+    Some(100.0 * (mean / run.trajectory.moments.first()?.h_c - 1.0))
+}

@@ -1,0 +1,147 @@
+//! The reduced system functions of d/dT g = f in one state, (4.16) under (4.19), and their derivatives: what (4.21) to (4.26) are made of.
+
+use super::space::{INPUTS, ReducedSpace, input_vector};
+use crate::solver::full::Problem;
+use crate::solver::full::transient::Input;
+use crate::solver::grid::FIRST_UNKNOWN;
+use crate::solver::reynolds::line::{LINE_STENCIL, Upstream};
+use crate::solver::reynolds::{CENTER, Node, PENALTY};
+use faer::{Mat, MatRef};
+
+/// Values and derivatives of g and f at (ỹ, u), tested with Vᵀ W. The last equation is the load's, w̄ π/2 − ∫P, which has no g.
+///
+/// In the dissertation's letters B = `storage_state`, C = `storage_input`, E = `flux_state`, F = `flux_input`; A and D follow from
+/// the values, see [`Linearisation::intercepts`].
+#[derive(Clone, Debug)]
+pub struct Linearisation {
+    /// g: ρ̄H.
+    pub storage: Vec<f64>,
+    /// f: diffusion, convection, penalty; load.
+    pub flux: Vec<f64>,
+    /// ∂g/∂ỹ, (4.22).
+    pub storage_state: Mat<f64>,
+    /// ∂f/∂ỹ, (4.25).
+    pub flux_state: Mat<f64>,
+    /// ∂g/∂u, one column per input, (4.23).
+    pub storage_input: Mat<f64>,
+    /// ∂f/∂u, (4.26).
+    pub flux_input: Mat<f64>,
+}
+
+/// g and f alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SystemFunctions {
+    /// g.
+    pub storage: Vec<f64>,
+    /// f.
+    pub flux: Vec<f64>,
+}
+
+/// The nodes of a reduced state.
+fn nodes(space: &ReducedSpace, problem: &Problem, state: &[f64], input: Input) -> Vec<Node> {
+    let length = space.grid.len();
+    let (mut pressure, mut film) = (vec![0.0; length], vec![0.0; length]);
+    space.fields(state, input, 0, &mut pressure, &mut film);
+    let node = |(&p, &h): (&f64, &f64)| Node::new(&problem.fluid, problem.inverse_lambda, p, h);
+    pressure.iter().zip(&film).map(node).collect()
+}
+
+/// Vᵀ W rows, with the load's equation below; `rows` belong to the unknowns, one column per right-hand side.
+fn tested(space: &ReducedSpace, rows: MatRef<'_, f64>) -> Mat<f64> {
+    let (modes, unknowns) = (space.modes(), rows.nrows());
+    let weighted = Mat::from_fn(unknowns, rows.ncols(), |i, j| space.grid.weights[i + FIRST_UNKNOWN] * rows[(i, j)]);
+    let basis = space.pressure.subrows(FIRST_UNKNOWN, unknowns);
+    let mut out = Mat::zeros(modes + 1, rows.ncols());
+    out.subrows_mut(0, modes).copy_from(basis.transpose() * &weighted);
+    out
+}
+
+/// The load's equation: w̄ π/2 − ∫P.
+fn load_defect(space: &ReducedSpace, problem: &Problem, state: &[f64], input: Input) -> f64 {
+    let carried: f64 = space.load.iter().zip(state).map(|(l, p)| l * p).sum();
+    problem.load * input.load - carried
+}
+
+impl SystemFunctions {
+    /// Evaluates the reduced system functions.
+    pub fn at(space: &ReducedSpace, problem: &Problem, state: &[f64], input: Input) -> Self {
+        let nodes = nodes(space, problem, state, input);
+        let unknowns = space.grid.unknowns();
+        let mut rows = Mat::zeros(unknowns, 2);
+        for k in 0..unknowns {
+            let geometry = space.grid.rows[k].in_time(input.speed, 0.0, 0.0);
+            rows[(k, 0)] = nodes[k + CENTER].flow;
+            rows[(k, 1)] = Upstream::Inlet.row(&geometry, PENALTY, &nodes, k).value;
+        }
+        let mut tested = tested(space, rows.as_ref());
+        let modes = space.modes();
+        tested[(modes, 1)] = load_defect(space, problem, state, input);
+        let column = |j: usize| tested.col(j).iter().copied().collect();
+        Self { storage: column(0), flux: column(1) }
+    }
+}
+
+impl Linearisation {
+    /// Evaluates and differentiates the reduced system functions.
+    pub fn at(space: &ReducedSpace, problem: &Problem, state: &[f64], input: Input) -> Self {
+        let nodes = nodes(space, problem, state, input);
+        let (grid, modes, unknowns) = (&space.grid, space.modes(), space.grid.unknowns());
+        let curvature_slope = |node: usize| 0.5 * grid.x[node] * grid.x[node];
+        // Columns: the state's, the inputs', the value.
+        let columns = modes + 1 + INPUTS + 1;
+        let (first_input, value) = (modes + 1, columns - 1);
+        let (mut storage, mut flux) = (Mat::zeros(unknowns, columns), Mat::zeros(unknowns, columns));
+        for k in 0..unknowns {
+            let geometry = grid.rows[k].in_time(input.speed, 0.0, 0.0);
+            let row = Upstream::Inlet.row(&geometry, PENALTY, &nodes, k);
+            let own = k + CENTER;
+            let (flow, flow_p, flow_h) = (nodes[own].flow, nodes[own].flow_p, nodes[own].flow_h);
+            for j in 0..modes {
+                storage[(k, j)] = flow_p * space.pressure[(own, j)] + flow_h * space.deformation[(own, j)];
+                flux[(k, j)] = (0..LINE_STENCIL)
+                    .map(|m| row.d_p[m] * space.pressure[(k + m, j)] + row.d_h[m] * space.deformation[(k + m, j)])
+                    .sum();
+            }
+            storage[(k, modes)] = flow_h;
+            flux[(k, modes)] = row.d_h.iter().sum();
+            storage[(k, first_input)] = flow_h * curvature_slope(own);
+            flux[(k, first_input)] = (0..LINE_STENCIL).map(|m| row.d_h[m] * curvature_slope(k + m)).sum();
+            // f is linear in ū.
+            flux[(k, first_input + 1)] =
+                -grid.rows[k].upwind.iter().zip(&nodes[k..]).map(|(w, n)| w * n.flow).sum::<f64>();
+            storage[(k, value)] = flow;
+            flux[(k, value)] = row.value;
+        }
+        let (storage, mut flux) = (tested(space, storage.as_ref()), tested(space, flux.as_ref()));
+        for (j, l) in space.load.iter().enumerate() {
+            flux[(modes, j)] = -l;
+        }
+        flux[(modes, first_input + 2)] = problem.load;
+        flux[(modes, value)] = load_defect(space, problem, state, input);
+        let column = |of: &Mat<f64>| of.col(value).iter().copied().collect();
+        Self {
+            storage: column(&storage),
+            flux: column(&flux),
+            storage_state: storage.subcols(0, modes + 1).to_owned(),
+            flux_state: flux.subcols(0, modes + 1).to_owned(),
+            storage_input: storage.subcols(first_input, INPUTS).to_owned(),
+            flux_input: flux.subcols(first_input, INPUTS).to_owned(),
+        }
+    }
+
+    /// What is subtracted from the values to give A and D, (4.21) and (4.24): B ỹ + C u and E ỹ + F u.
+    pub fn intercepts(&self, state: &[f64], input: Input) -> SystemFunctions {
+        let input = input_vector(input);
+        let product = |by_state: &Mat<f64>, by_input: &Mat<f64>| {
+            let row = |i: usize| -> f64 {
+                let own: f64 = state.iter().enumerate().map(|(j, y)| by_state[(i, j)] * y).sum();
+                own + input.iter().enumerate().map(|(j, u)| by_input[(i, j)] * u).sum::<f64>()
+            };
+            (0..by_state.nrows()).map(row).collect()
+        };
+        SystemFunctions {
+            storage: product(&self.storage_state, &self.storage_input),
+            flux: product(&self.flux_state, &self.flux_input),
+        }
+    }
+}

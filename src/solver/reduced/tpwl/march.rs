@@ -1,0 +1,245 @@
+//! The march of a trajectory-piecewise-linear model: weights, superposition, one linear system per step. Nothing in a step is of large
+//! scale, and nothing is allocated.
+
+use super::model::{TpwlError, TpwlModel, check_frame};
+use super::record::{TpwlRecord, TpwlStep};
+use super::search::Search;
+use super::space::{INPUTS, input_vector};
+use super::superposition::{SmallSystem, Superposition};
+use super::weights::{Weight, Weighting, square_distance};
+use crate::solver::full::Termination;
+use crate::solver::full::transient::{
+    Conditions, Effort, Input, Marching, Moment, State, Step, TimeStep, Trajectory, Transient, TransientObserver,
+    extrapolated, march,
+};
+use crate::solver::grid::LineGrid;
+
+/// A model in use for one contact.
+pub struct TpwlMarch<'a> {
+    model: &'a TpwlModel,
+    /// The reference load \[N/m\].
+    load: f64,
+    /// The two former states, the nearer one first.
+    former: [Past; 2],
+    trial: Past,
+    start: Vec<f64>,
+    search: Search,
+    superposition: Superposition,
+    system: SmallSystem,
+    step: TpwlStep,
+    /// Fields of the state found last, where scalars are drawn from them.
+    contact: ContactFields,
+    record: TpwlRecord,
+}
+
+/// A reduced state and its g.
+#[derive(Clone, Debug)]
+struct Past {
+    state: Vec<f64>,
+    storage: Vec<f64>,
+}
+
+/// Fields under the contact; zero elsewhere.
+struct ContactFields {
+    from: usize,
+    to: usize,
+    pressure: Vec<f64>,
+    film: Vec<f64>,
+}
+
+/// Where [`Moment`] looks for the smallest film, and where the largest pressure lies.
+const CONTACT: (f64, f64) = (-1.2, 1.5);
+/// Stop of the iteration for the stationary start, on ‖Δy‖/‖y‖.
+const REST_TOLERANCE: f64 = 1e-9;
+/// After so many iterations for the stationary start, weights that change to and fro are averaged.
+const REST_PLAIN: usize = 15;
+/// Most iterations for the stationary start.
+const REST_ITERATIONS: usize = 60;
+/// A stationary start that still moves by less than this between two sets of weights is one.
+const REST_ACCEPTED: f64 = 1e-3;
+/// Times at which the speed is watched.
+const WATCHED: usize = 2000;
+
+/// Takes a contact through time with a model.
+///
+/// # Errors
+/// When the contact, the inputs or the times are refused, or the model was not made for them.
+pub fn solve(
+    model: &TpwlModel,
+    transient: &Transient,
+    weighting: Weighting,
+    observer: &mut dyn TransientObserver,
+) -> Result<(Trajectory, TpwlRecord), TpwlError> {
+    let mut marching = TpwlMarch::new(model, transient, weighting)?;
+    let trajectory = march(&mut marching, transient, observer)?;
+    Ok((trajectory, marching.record))
+}
+
+impl<'a> TpwlMarch<'a> {
+    /// The model for one contact.
+    ///
+    /// # Errors
+    /// When the contact, the inputs or the times are refused, or the model was not made for them.
+    pub fn new(model: &'a TpwlModel, transient: &Transient, weighting: Weighting) -> Result<Self, TpwlError> {
+        let problem = transient.problem()?;
+        check_frame(transient.frame)?;
+        let watched = (0..=WATCHED).map(|k| transient.duration * k as f64 / WATCHED as f64);
+        if let Some(time) = watched.into_iter().find(|&time| transient.inputs.speed.at(time) <= 0.0) {
+            return Err(TpwlError::Reversal { speed: transient.inputs.speed.at(time), time });
+        }
+        let search = Search::new(model, weighting, model.shares(&problem)?);
+        let (len, most) = (model.space.len(), search.most_weights());
+        let past = || Past { state: vec![0.0; len], storage: vec![0.0; len] };
+        let (TimeStep::Fixed(step) | TimeStep::Adaptive { longest: step, .. }) = transient.time_step;
+        let steps = (transient.duration / step).ceil() as usize + 2;
+        Ok(Self {
+            model,
+            load: problem.point.load,
+            former: [past(), past()],
+            trial: past(),
+            start: vec![0.0; len],
+            superposition: Superposition::new(weighting, len, most),
+            system: SmallSystem::new(len),
+            step: TpwlStep::default(),
+            contact: ContactFields::new(&model.space.grid),
+            record: TpwlRecord::with_room(steps, most.min(8), len),
+            search,
+        })
+    }
+
+    /// What each step drew on so far.
+    pub fn record(&self) -> &TpwlRecord {
+        &self.record
+    }
+
+    /// Weights and superposition at `start`.
+    fn superpose(&mut self, time: f64) {
+        self.search.weights(self.model, &self.start, &mut self.superposition.weights);
+        self.assemble(time);
+    }
+
+    /// Superposition with the weights there are.
+    fn assemble(&mut self, time: f64) {
+        self.superposition.assemble(self.model, self.load);
+        let weights = self.superposition.weights.iter();
+        self.step = TpwlStep {
+            time,
+            distance: square_distance(&self.start, &self.superposition.state).sqrt(),
+            spacing: weights.map(|w| w.weight * self.model.points[w.point].spacing).sum(),
+        };
+    }
+
+    /// Solves the superposed system for `trial`.
+    fn advance(&mut self, now: f64, former: [f64; 2], input: [f64; INPUTS]) -> Result<(), Termination> {
+        let Self { superposition, system, trial, former: [near, far], .. } = self;
+        let history = [(former[0], near.storage.as_slice()), (former[1], far.storage.as_slice())];
+        let solved = superposition.solve((now, history), input, system, (&mut trial.state, &mut trial.storage));
+        if solved { Ok(()) } else { Err(Termination::Diverged) }
+    }
+
+    /// A first guess of the stationary state: of each set in use the point whose inputs are nearest. True where they are the inputs themselves.
+    fn guess(&mut self, input: [f64; INPUTS]) -> bool {
+        self.start.fill(0.0);
+        self.superposition.weights.clear();
+        let mut met = true;
+        for &(set, share) in self.search.shares() {
+            let points = self.model.sets[set].points.iter().map(|&point| (point, &self.model.points[point]));
+            let apart = |of: [f64; INPUTS]| square_distance(&of, &input);
+            if let Some((number, point)) = points.min_by(|(_, a), (_, b)| apart(a.input).total_cmp(&apart(b.input))) {
+                self.start.iter_mut().zip(&point.moment.state).for_each(|(y, own)| *y += share * own);
+                self.superposition.weights.push(Weight { point: number, weight: share });
+                met &= point.input == input;
+            }
+        }
+        met
+    }
+
+    /// Keeps the state under trial as the newest, with its record and the fields under the contact.
+    fn keep(&mut self, input: Input) {
+        self.record.push(self.step, &self.superposition.weights, &self.trial.state);
+        let ContactFields { from, to, pressure, film } = &mut self.contact;
+        let part = *from..*to;
+        self.model.space.fields(&self.trial.state, input, *from, &mut pressure[part.clone()], &mut film[part]);
+    }
+}
+
+impl ContactFields {
+    fn new(grid: &LineGrid) -> Self {
+        let from = grid.x.partition_point(|&x| x < CONTACT.0);
+        let to = grid.x.partition_point(|&x| x <= CONTACT.1);
+        Self { from, to, pressure: vec![0.0; grid.len()], film: vec![0.0; grid.len()] }
+    }
+}
+
+/// ‖a − b‖/‖a‖ over the leading `modes` entries, which is that of the pressures: their modes are orthonormal.
+fn relative_change(a: &[f64], b: &[f64], modes: usize) -> f64 {
+    let square = |values: &[f64]| values.iter().map(|v| v * v).sum::<f64>();
+    (square_distance(&a[..modes], &b[..modes]) / square(&a[..modes])).sqrt()
+}
+
+const LINEAR: Effort = Effort { newton_iterations: 1, linear_iterations: 0 };
+
+impl Marching for TpwlMarch<'_> {
+    fn grid(&self) -> &LineGrid {
+        &self.model.space.grid
+    }
+
+    fn rest(&mut self, at: &Conditions, observer: &dyn TransientObserver) -> Result<Effort, Termination> {
+        let (input, modes) = (input_vector(at.input), self.model.space.modes());
+        // Where training began with the same inputs, the stationary state is an operating point; else the weights follow the state.
+        let met = self.guess(input);
+        self.assemble(at.time);
+        self.advance(0.0, [0.0; 2], input)?;
+        let mut change = if met { 0.0 } else { f64::INFINITY };
+        let mut effort = LINEAR;
+        while change > REST_TOLERANCE && effort.newton_iterations < REST_ITERATIONS {
+            if observer.cancelled() {
+                return Err(Termination::Cancelled);
+            }
+            self.superpose(at.time);
+            self.advance(0.0, [0.0; 2], input)?;
+            change = relative_change(&self.trial.state, &self.start, modes);
+            let share = if effort.newton_iterations < REST_PLAIN { 1.0 } else { 0.5 };
+            self.start.iter_mut().zip(&self.trial.state).for_each(|(y, new)| *y += share * (new - *y));
+            effort.newton_iterations += 1;
+        }
+        if change > REST_ACCEPTED {
+            return Err(Termination::IterationLimit);
+        }
+        self.former = [self.trial.clone(), self.trial.clone()];
+        self.keep(at.input);
+        Ok(effort)
+    }
+
+    fn step(&mut self, step: &Step, _observer: &dyn TransientObserver) -> Result<Effort, Termination> {
+        let [near, far] = &self.former;
+        for (start, (near, far)) in self.start.iter_mut().zip(near.state.iter().zip(&far.state)) {
+            *start = extrapolated(step.ratio, *near, *far);
+        }
+        self.superpose(step.now.time);
+        self.advance(step.quotient.now, step.quotient.former, input_vector(step.now.input))?;
+        Ok(LINEAR)
+    }
+
+    fn deviation(&self) -> f64 {
+        relative_change(&self.trial.state, &self.start, self.model.space.modes())
+    }
+
+    fn accept(&mut self, at: &Conditions) {
+        self.keep(at.input);
+        self.former.swap(0, 1);
+        std::mem::swap(&mut self.former[0], &mut self.trial);
+    }
+
+    fn moment(&self, at: &Conditions, step: f64, effort: Effort) -> Moment {
+        Moment::of_fields(at, step, &self.model.space.grid, &self.contact.pressure, &self.contact.film, effort)
+    }
+
+    fn state(&self, at: &Conditions) -> State {
+        let length = self.model.space.grid.len();
+        let (mut pressure, mut film) = (vec![0.0; length], vec![0.0; length]);
+        let state = &self.former[0].state;
+        self.model.space.fields(state, at.input, 0, &mut pressure, &mut film);
+        State { time: at.time, scales: at.scales, pressure, film, h_0: state[self.model.space.modes()] }
+    }
+}

@@ -1,0 +1,311 @@
+//! The model: operating points of training trajectories with their linearised systems.
+
+use super::linearisation::{Linearisation, SystemFunctions};
+use super::selection::{Selection, TrainedMoment, select};
+use super::space::{INPUTS, ReducedSpace, input_vector, same_but_load};
+use super::weights::square_distance;
+use crate::solver::contact::OperatingPoint;
+use crate::solver::full::transient::{Frame, Trajectory, TransientError};
+use crate::solver::full::{Mesh, Problem, SolveError};
+use crate::solver::reduced::PodBasis;
+use faer::Mat;
+use serde::{Deserialize, Serialize};
+
+/// How a model is made of its training trajectories.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TpwlTraining {
+    /// Pressure modes.
+    pub modes: usize,
+    /// Which moments become operating points.
+    pub selection: Selection,
+}
+
+/// Why a model cannot be made, or not be used.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TpwlError {
+    /// The contact, the inputs or the times are refused.
+    #[error(transparent)]
+    Transient(#[from] TransientError),
+    /// There is nothing to learn from.
+    #[error("a trajectory-piecewise-linear model needs at least one training trajectory")]
+    NoTraining,
+    /// A trajectory kept no fields.
+    #[error("training trajectory {trajectory} keeps the fields of {states} moments, but at least {least} are needed")]
+    NoFields {
+        /// Which, from 1.
+        trajectory: usize,
+        /// Moments whose fields it has.
+        states: usize,
+        /// Fewest needed.
+        least: usize,
+    },
+    /// A moving frame.
+    #[error(
+        "trajectory-piecewise-linear models live in the fixed frame, not in the {} one: inputs would move the whole grid",
+        frame.name()
+    )]
+    Frame {
+        /// The frame asked for.
+        frame: Frame,
+    },
+    /// The surfaces turn round.
+    #[error(
+        "the speed falls to {speed:.4} times its reference at T = {time:.4}; a trajectory-piecewise-linear model needs one that stays above zero"
+    )]
+    Reversal {
+        /// ū.
+        speed: f64,
+        /// When.
+        time: f64,
+    },
+    /// Contacts that differ in more than their load.
+    #[error("the {what} differs from the first training trajectory's; only the load may")]
+    Other {
+        /// What differs.
+        what: &'static str,
+    },
+    /// A load outside the trained ones.
+    #[error("the load {load} N/m lies outside the trained {from}…{to} N/m")]
+    Load {
+        /// Load asked for.
+        load: f64,
+        /// Smallest trained.
+        from: f64,
+        /// Largest trained.
+        to: f64,
+    },
+    /// The snapshots hold a number that is none.
+    #[error("the basis cannot be built: a training trajectory holds numbers that are not finite")]
+    Basis,
+    /// The number of modes or the tolerance makes no sense.
+    #[error("the {quantity} of the model is {value}, but must be {accepted}")]
+    Setting {
+        /// Which.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// What would be accepted.
+        accepted: &'static str,
+    },
+}
+
+/// An operating point: a moment of a training trajectory with its linearised system, which is never changed.
+#[derive(Clone, Debug)]
+pub struct TrainedPoint {
+    /// Which parameter set it belongs to.
+    pub set: usize,
+    /// Which training trajectory it comes from, among all.
+    pub trajectory: usize,
+    /// Its moment.
+    pub moment: TrainedMoment,
+    /// Its input vector.
+    pub input: [f64; INPUTS],
+    /// Distance to the nearest other point of its trajectory.
+    pub spacing: f64,
+    /// Its linearised system.
+    pub system: Linearisation,
+    /// B ỹ + C u and E ỹ + F u at the point itself.
+    pub intercepts: SystemFunctions,
+    /// ∂g/∂w and ∂f/∂w per N/m of the reference load \[m/N\].
+    pub load_slope: SystemFunctions,
+}
+
+/// What was trained for one reference contact.
+#[derive(Clone, Debug)]
+pub struct ParameterSet {
+    /// The reference contact.
+    pub problem: Problem,
+    /// Its trajectories, as numbers among all.
+    pub trajectories: Vec<usize>,
+    /// Its operating points, as numbers among all.
+    pub points: Vec<usize>,
+}
+
+/// A trajectory-piecewise-linear model, (4.27), in the fixed frame.
+#[derive(Clone, Debug)]
+pub struct TpwlModel {
+    /// Basis and grid.
+    pub space: ReducedSpace,
+    /// Singular values of the training's pressures.
+    pub singular_values: Vec<f64>,
+    /// One per reference load, the smallest first.
+    pub sets: Vec<ParameterSet>,
+    /// All operating points, in the order of sets, trajectories and time.
+    pub points: Vec<TrainedPoint>,
+    /// The trajectories in the reduced space, every moment whose fields were kept.
+    pub trajectories: Vec<Vec<TrainedMoment>>,
+    /// How it was made.
+    pub training: TpwlTraining,
+}
+
+/// Most snapshots of all trajectories together the basis is made from; more would add work, not information.
+const MOST_SNAPSHOTS: usize = 600;
+/// Relative change of the reference load in the difference quotient of the load slopes.
+const LOAD_DIFFERENCE: f64 = 1e-3;
+
+impl TpwlModel {
+    /// Makes a model of training trajectories that kept their fields. They may differ in their inputs and in their reference load.
+    ///
+    /// # Errors
+    /// When the trajectories do not go together, or keep no fields, or the settings make no sense.
+    pub fn train(trajectories: &[&Trajectory], training: TpwlTraining) -> Result<Self, TpwlError> {
+        let first = check(trajectories, training)?;
+        let grid = match first.mesh {
+            Mesh::Line { spec, scale } => spec.build().map_err(refused)?.scaled(scale),
+            Mesh::Point(_) => return Err(TpwlError::Other { what: "kind of contact" }),
+        };
+        let count: usize = trajectories.iter().map(|t| t.states.len()).sum();
+        let stride = count.div_ceil(MOST_SNAPSHOTS);
+        let snapshots: Vec<&[f64]> =
+            trajectories.iter().flat_map(|t| &t.states).step_by(stride).map(|s| s.pressure.as_slice()).collect();
+        let matrix = Mat::from_fn(grid.len(), snapshots.len(), |i, j| snapshots[j][i]);
+        let basis = PodBasis::new(matrix.as_ref(), &grid.weights, 0.0).ok_or(TpwlError::Basis)?;
+        let space = ReducedSpace::new(grid, &basis, training.modes);
+        let moments: Vec<Vec<TrainedMoment>> = trajectories.iter().map(|t| moments(&space, t)).collect();
+        let mut model = Self {
+            space,
+            singular_values: basis.singular_values,
+            sets: Vec::new(),
+            points: Vec::new(),
+            trajectories: moments,
+            training,
+        };
+        let mut problems: Vec<Problem> = Vec::new();
+        for trajectory in trajectories {
+            if !problems.iter().any(|p| p.point == trajectory.problem.point) {
+                problems.push(trajectory.problem);
+            }
+        }
+        problems.sort_by(|a, b| a.point.load.total_cmp(&b.point.load));
+        for problem in problems {
+            let own = |t: &usize| trajectories[*t].problem.point == problem.point;
+            model.add_set(problem, (0..trajectories.len()).filter(own).collect())?;
+        }
+        Ok(model)
+    }
+
+    /// Chooses and linearises the operating points of one reference contact.
+    fn add_set(&mut self, problem: Problem, trajectories: Vec<usize>) -> Result<(), TpwlError> {
+        let load = problem.point.load;
+        let beside = |factor: f64| {
+            let point = OperatingPoint { load: load * factor, ..problem.point };
+            Problem::new(&point, problem.lubricant).map_err(refused)
+        };
+        let (less, more) = (beside(1.0 - LOAD_DIFFERENCE)?, beside(1.0 + LOAD_DIFFERENCE)?);
+        let first = self.points.len();
+        for &trajectory in &trajectories {
+            let moments = &self.trajectories[trajectory];
+            let chosen = select(self.training.selection, &self.space, &problem, moments);
+            for &i in &chosen {
+                let moment = moments[i].clone();
+                let others = chosen.iter().filter(|&&other| other != i);
+                let squares = others.map(|&other| square_distance(&moment.state, &moments[other].state));
+                let system = Linearisation::at(&self.space, &problem, &moment.state, moment.input);
+                let at = |problem| SystemFunctions::at(&self.space, problem, &moment.state, moment.input);
+                let (low, high) = (at(&less), at(&more));
+                let slope = |low: Vec<f64>, high: Vec<f64>| {
+                    low.iter().zip(&high).map(|(l, h)| (h - l) / (2.0 * LOAD_DIFFERENCE * load)).collect()
+                };
+                self.points.push(TrainedPoint {
+                    input: input_vector(moment.input),
+                    set: self.sets.len(),
+                    trajectory,
+                    spacing: squares.fold(f64::INFINITY, f64::min).sqrt(),
+                    intercepts: system.intercepts(&moment.state, moment.input),
+                    load_slope: SystemFunctions {
+                        storage: slope(low.storage, high.storage),
+                        flux: slope(low.flux, high.flux),
+                    },
+                    moment,
+                    system,
+                });
+            }
+        }
+        self.sets.push(ParameterSet { problem, trajectories, points: (first..self.points.len()).collect() });
+        Ok(())
+    }
+
+    /// The sets between which a reference contact lies, with their shares v of (4.27); one set where it is a trained one.
+    ///
+    /// # Errors
+    /// When the contact differs in more than its load, or its load lies outside the trained ones.
+    pub fn shares(&self, problem: &Problem) -> Result<Vec<(usize, f64)>, TpwlError> {
+        let (Some(first), Some(last)) = (self.sets.first(), self.sets.last()) else {
+            return Err(TpwlError::NoTraining);
+        };
+        if problem.lubricant != first.problem.lubricant {
+            return Err(TpwlError::Other { what: "lubricant" });
+        }
+        if !same_but_load(&problem.point, &first.problem.point) {
+            return Err(TpwlError::Other { what: "contact" });
+        }
+        let load_of = |set: &ParameterSet| set.problem.point.load;
+        let load = problem.point.load;
+        let above = self.sets.partition_point(|set| load_of(set) < load);
+        match (above.checked_sub(1), self.sets.get(above)) {
+            (_, Some(set)) if load_of(set) == load => Ok(vec![(above, 1.0)]),
+            (Some(below), Some(set)) => {
+                let low = load_of(&self.sets[below]);
+                let share = (load - low) / (load_of(set) - low);
+                Ok(vec![(below, 1.0 - share), (above, share)])
+            }
+            _ => Err(TpwlError::Load { load, from: load_of(first), to: load_of(last) }),
+        }
+    }
+}
+
+/// A contact or grid that was solved already cannot be refused later, except through a file.
+fn refused(error: impl Into<SolveError>) -> TpwlError {
+    TpwlError::Transient(error.into().into())
+}
+
+/// Fewest moments with fields a trajectory needs: a selection by steps looks at three at a time.
+const LEAST_STATES: usize = 3;
+
+/// Refuses trajectories that do not go together, and settings without sense; returns the first trajectory.
+fn check<'a>(trajectories: &[&'a Trajectory], training: TpwlTraining) -> Result<&'a Trajectory, TpwlError> {
+    let TpwlTraining { modes, selection } = training;
+    if modes == 0 {
+        return Err(TpwlError::Setting { quantity: "number of modes", value: 0.0, accepted: "at least 1" });
+    }
+    let tolerance = selection.tolerance();
+    if !(tolerance.is_finite() && tolerance > 0.0) {
+        let accepted = "a finite number above zero";
+        return Err(TpwlError::Setting { quantity: "tolerance of the selection", value: tolerance, accepted });
+    }
+    let Some(&first) = trajectories.first() else { return Err(TpwlError::NoTraining) };
+    for (k, trajectory) in trajectories.iter().enumerate() {
+        check_frame(trajectory.transient.frame)?;
+        if trajectory.states.len() < LEAST_STATES {
+            let states = trajectory.states.len();
+            return Err(TpwlError::NoFields { trajectory: k + 1, states, least: LEAST_STATES });
+        }
+        if let Some(moment) = trajectory.moments.iter().find(|moment| moment.input.speed <= 0.0) {
+            return Err(TpwlError::Reversal { speed: moment.input.speed, time: moment.time });
+        }
+        let what = match (trajectory, first) {
+            (a, b) if a.mesh != b.mesh => "grid",
+            (a, b) if a.problem.lubricant != b.problem.lubricant => "lubricant",
+            (a, b) if !same_but_load(&a.problem.point, &b.problem.point) => "contact",
+            _ => continue,
+        };
+        return Err(TpwlError::Other { what });
+    }
+    Ok(first)
+}
+
+/// Refuses a moving frame.
+pub fn check_frame(frame: Frame) -> Result<(), TpwlError> {
+    if frame == Frame::Fixed { Ok(()) } else { Err(TpwlError::Frame { frame }) }
+}
+
+/// A trajectory in the reduced space.
+fn moments(space: &ReducedSpace, trajectory: &Trajectory) -> Vec<TrainedMoment> {
+    let moment = |state: &crate::solver::full::transient::State| TrainedMoment {
+        time: state.time,
+        input: trajectory.transient.inputs.at(state.time),
+        state: space.project(state),
+    };
+    trajectory.states.iter().map(moment).collect()
+}

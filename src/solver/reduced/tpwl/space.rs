@@ -1,0 +1,100 @@
+//! The reduced space of a contact in time: its basis, and the passage between fields and reduced states.
+
+use crate::solver::contact::OperatingPoint;
+use crate::solver::elasticity::Scratch;
+use crate::solver::full::transient::{Input, State};
+use crate::solver::grid::LineGrid;
+use crate::solver::reduced::PodBasis;
+use faer::{Accum, Par};
+use faer::{ColMut, ColRef, Mat, MatRef, linalg::matmul::matmul};
+
+/// Entries of the input vector.
+pub const INPUTS: usize = 3;
+
+/// The input vector (1/R̄, ū, w̄) of the linearised systems. The curvature takes the radius' place because the film is linear in it.
+pub fn input_vector(input: Input) -> [f64; INPUTS] {
+    [1.0 / input.radius, input.speed, input.load]
+}
+
+/// A pressure basis on a grid with everything linear condensed: the reduced state is ỹ = (p̃, H₀), the film H₀ + X²/(2R̄) + K V p̃.
+#[derive(Clone, Debug)]
+pub struct ReducedSpace {
+    /// The grid of the fields.
+    pub grid: LineGrid,
+    /// V: one mode per column over the node array, Vᵀ W V = I.
+    pub pressure: Mat<f64>,
+    /// K V.
+    pub deformation: Mat<f64>,
+    /// wᵀ V: what each mode carries.
+    pub load: Vec<f64>,
+}
+
+impl ReducedSpace {
+    /// The space of the first `modes` modes of a basis.
+    pub fn new(grid: LineGrid, basis: &PodBasis, modes: usize) -> Self {
+        let modes = modes.clamp(1, basis.modes.ncols());
+        let pressure = basis.modes.get(.., ..modes).to_owned();
+        let mut deformation = Mat::zeros(grid.len(), modes);
+        let (mut column, mut bent, mut fft) = (vec![0.0; grid.len()], vec![0.0; grid.len()], Scratch::default());
+        for k in 0..modes {
+            column.iter_mut().enumerate().for_each(|(i, p)| *p = pressure[(i, k)]);
+            grid.deform(&column, &mut bent, &mut fft);
+            bent.iter().enumerate().for_each(|(i, d)| deformation[(i, k)] = *d);
+        }
+        let load =
+            (0..modes).map(|k| grid.weights.iter().enumerate().map(|(i, w)| w * pressure[(i, k)]).sum()).collect();
+        Self { grid, pressure, deformation, load }
+    }
+
+    /// Modes of the basis.
+    pub fn modes(&self) -> usize {
+        self.pressure.ncols()
+    }
+
+    /// Entries of a reduced state.
+    pub fn len(&self) -> usize {
+        self.modes() + 1
+    }
+
+    /// Never true: there is at least one mode.
+    pub fn is_empty(&self) -> bool {
+        false
+    }
+
+    /// The reduced state nearest to fields: Vᵀ W P and their H₀.
+    pub fn project(&self, state: &State) -> Vec<f64> {
+        let weighted = |k: usize| -> f64 {
+            let column = self.pressure.col(k);
+            column.iter().zip(&self.grid.weights).zip(&state.pressure).map(|((v, w), p)| v * w * p).sum()
+        };
+        (0..self.modes()).map(weighted).chain([state.h_0]).collect()
+    }
+
+    /// P and H of a reduced state on the nodes `from..`, as many as the slices hold.
+    pub fn fields(&self, state: &[f64], input: Input, from: usize, pressure: &mut [f64], film: &mut [f64]) {
+        let modes = self.modes();
+        let coefficients = ColRef::from_slice(&state[..modes]);
+        let part = |matrix: MatRef<'_, f64>, out: &mut [f64]| {
+            let rows = matrix.subrows(from, out.len());
+            matmul(
+                ColMut::from_slice_mut(out).as_mat_mut(),
+                Accum::Replace,
+                rows,
+                coefficients.as_mat(),
+                1.0,
+                Par::Seq,
+            );
+        };
+        part(self.pressure.as_ref(), pressure);
+        part(self.deformation.as_ref(), film);
+        let curvature = 1.0 / input.radius;
+        for (h, x) in film.iter_mut().zip(&self.grid.x[from..]) {
+            *h += state[modes] + 0.5 * curvature * x * x;
+        }
+    }
+}
+
+/// Whether two contacts differ in nothing but their load.
+pub fn same_but_load(a: &OperatingPoint, b: &OperatingPoint) -> bool {
+    OperatingPoint { load: b.load, ..*a } == *b
+}

@@ -1,0 +1,195 @@
+//! The superposition of linearised systems, (4.27), and the one linear system that a step solves.
+
+use super::model::{TpwlModel, TrainedPoint};
+use super::space::INPUTS;
+use super::weights::{Weight, Weighting};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::lu::partial_pivoting::{factor, solve};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, ColMut, ColRef, Conj, Mat, MatMut, MatRef, Par, Spec, unzip, zip};
+
+/// A superposed system g = ḡ + B (y − ȳ) + C (u − ū), f likewise with E and F, about the barycentre (ȳ, ū) of its points.
+pub struct Superposition {
+    weighting: Weighting,
+    /// The points in use.
+    pub weights: Vec<Weight>,
+    /// ȳ.
+    pub state: Vec<f64>,
+    /// ū.
+    pub input: [f64; INPUTS],
+    storage: Functions,
+    flux: Functions,
+}
+
+/// One of the two system functions.
+struct Functions {
+    value: Vec<f64>,
+    by_state: Mat<f64>,
+    by_input: Mat<f64>,
+}
+
+/// A dense system with all work space of its factorisation.
+pub struct SmallSystem {
+    matrix: Mat<f64>,
+    /// Right-hand side, then solution.
+    pub rhs: Vec<f64>,
+    perm: Vec<usize>,
+    perm_inverse: Vec<usize>,
+    memory: MemBuffer,
+}
+
+/// out += A x.
+fn add_product(a: MatRef<'_, f64>, x: &[f64], factor: f64, out: &mut [f64]) {
+    let (out, x) = (ColMut::from_slice_mut(out), ColRef::from_slice(x));
+    matmul(out.as_mat_mut(), Accum::Add, a, x.as_mat(), factor, Par::Seq);
+}
+
+impl Functions {
+    fn new(len: usize) -> Self {
+        Self { value: vec![0.0; len], by_state: Mat::zeros(len, len), by_input: Mat::zeros(len, INPUTS) }
+    }
+
+    /// Σ w (value − θ intercept + slope) and Σ w of the derivatives, then θ (A ȳ + B ū): θ = 1 expands about the points, ½ about points
+    /// and barycentre by halves.
+    fn superpose<'a>(&mut self, (state, input): (&[f64], &[f64]), theta: f64, parts: impl Iterator<Item = Part<'a>>) {
+        self.value.fill(0.0);
+        for (k, part) in parts.enumerate() {
+            let Part { weight, by_state, by_input, .. } = part;
+            let terms = part.value.iter().zip(part.intercept).zip(part.slope);
+            for (out, ((value, intercept), slope)) in self.value.iter_mut().zip(terms) {
+                *out += weight * (value - theta * intercept + part.load_difference * slope);
+            }
+            for (sum, part) in [(&mut self.by_state, by_state), (&mut self.by_input, by_input)] {
+                if k == 0 {
+                    zip!(sum, part).for_each(|unzip!(sum, part)| *sum = weight * *part);
+                } else {
+                    zip!(sum, part).for_each(|unzip!(sum, part)| *sum += weight * *part);
+                }
+            }
+        }
+        add_product(self.by_state.as_ref(), state, theta, &mut self.value);
+        add_product(self.by_input.as_ref(), input, theta, &mut self.value);
+    }
+}
+
+/// What one point adds to one system function.
+struct Part<'a> {
+    weight: f64,
+    value: &'a [f64],
+    intercept: &'a [f64],
+    slope: &'a [f64],
+    load_difference: f64,
+    by_state: &'a Mat<f64>,
+    by_input: &'a Mat<f64>,
+}
+
+impl Superposition {
+    /// Room for systems of `len` equations and up to `most` points.
+    pub fn new(weighting: Weighting, len: usize, most: usize) -> Self {
+        Self {
+            weighting,
+            weights: Vec::with_capacity(most),
+            state: vec![0.0; len],
+            input: [0.0; INPUTS],
+            storage: Functions::new(len),
+            flux: Functions::new(len),
+        }
+    }
+
+    /// Superposes the points in use for a reference load \[N/m\].
+    pub fn assemble(&mut self, model: &TpwlModel, load: f64) {
+        let Self { weighting, weights, state, input, storage, flux } = self;
+        state.fill(0.0);
+        input.fill(0.0);
+        let points = || weights.iter().map(|w| (w.weight, &model.points[w.point]));
+        for (weight, point) in points() {
+            state.iter_mut().zip(&point.moment.state).for_each(|(sum, y)| *sum += weight * y);
+            input.iter_mut().zip(point.input).for_each(|(sum, u)| *sum += weight * u);
+        }
+        // The joint barycentre lies at the load itself, so half of the slope remains.
+        let (theta, slope) = match weighting {
+            Weighting::DualTaylor => (0.5, 0.5),
+            Weighting::Dissertation => (1.0, 0.0),
+        };
+        let difference = |point: &TrainedPoint| slope * (load - model.sets[point.set].problem.point.load);
+        let about = (state.as_slice(), input.as_slice());
+        storage.superpose(
+            about,
+            theta,
+            points().map(|(weight, point)| Part {
+                weight,
+                value: &point.system.storage,
+                intercept: &point.intercepts.storage,
+                slope: &point.load_slope.storage,
+                load_difference: difference(point),
+                by_state: &point.system.storage_state,
+                by_input: &point.system.storage_input,
+            }),
+        );
+        flux.superpose(
+            about,
+            theta,
+            points().map(|(weight, point)| Part {
+                weight,
+                value: &point.system.flux,
+                intercept: &point.intercepts.flux,
+                slope: &point.load_slope.flux,
+                load_difference: difference(point),
+                by_state: &point.system.flux_state,
+                by_input: &point.system.flux_input,
+            }),
+        );
+    }
+
+    /// Solves q g(y, u) + `history` = f(y, u) for y and gives g there; q = 0 asks for the stationary state. False where the system is
+    /// singular.
+    pub fn solve(
+        &self,
+        (quotient, history): (f64, [(f64, &[f64]); 2]),
+        input: [f64; INPUTS],
+        system: &mut SmallSystem,
+        (state, storage): (&mut [f64], &mut [f64]),
+    ) -> bool {
+        let change: [f64; INPUTS] = std::array::from_fn(|k| input[k] - self.input[k]);
+        // g and f at (ȳ, u).
+        storage.copy_from_slice(&self.storage.value);
+        add_product(self.storage.by_input.as_ref(), &change, 1.0, storage);
+        system.rhs.copy_from_slice(&self.flux.value);
+        add_product(self.flux.by_input.as_ref(), &change, 1.0, &mut system.rhs);
+        for ((rhs, g), (near, far)) in system.rhs.iter_mut().zip(&*storage).zip(history[0].1.iter().zip(history[1].1)) {
+            *rhs -= quotient * g + history[0].0 * near + history[1].0 * far;
+        }
+        zip!(&mut system.matrix, &self.storage.by_state, &self.flux.by_state)
+            .for_each(|unzip!(m, b, e)| *m = quotient * *b - *e);
+        system.solve();
+        add_product(self.storage.by_state.as_ref(), &system.rhs, 1.0, storage);
+        for ((y, center), step) in state.iter_mut().zip(&self.state).zip(&system.rhs) {
+            *y = center + step;
+        }
+        state.iter().all(|y| y.is_finite())
+    }
+}
+
+impl SmallSystem {
+    /// Work space for `len` equations.
+    pub fn new(len: usize) -> Self {
+        let memory = factor::lu_in_place_scratch::<usize, f64>(len, len, Par::Seq, Spec::default())
+            .or(solve::solve_in_place_scratch::<usize, f64>(len, 1, Par::Seq));
+        Self {
+            matrix: Mat::zeros(len, len),
+            rhs: vec![0.0; len],
+            perm: vec![0; len],
+            perm_inverse: vec![0; len],
+            memory: MemBuffer::new(memory),
+        }
+    }
+
+    fn solve(&mut self) {
+        let stack = MemStack::new(&mut self.memory);
+        let (matrix, perms) = (self.matrix.as_mut(), (&mut self.perm, &mut self.perm_inverse));
+        let (_, perm) = factor::lu_in_place(matrix, perms.0, perms.1, Par::Seq, stack, Spec::default());
+        let lu = self.matrix.as_ref();
+        let rhs = MatMut::from_column_major_slice_mut(&mut self.rhs, lu.nrows(), 1);
+        solve::solve_in_place_with_conj(lu, lu, perm, Conj::No, rhs, Par::Seq, stack);
+    }
+}

@@ -1,0 +1,191 @@
+//! Weights of operating points with respect to the state: the dissertation's, and those of the nearest barycentre.
+
+use faer::Mat;
+use serde::{Deserialize, Serialize};
+
+/// How operating points are combined.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Weighting {
+    /// The barycentre of near points that lies nearest to the state, and expansions half about the points and half about it. Expansions
+    /// about points on one side of a curved trajectory err to one side; these do so only in third order.
+    #[default]
+    DualTaylor,
+    /// Sharp exponential weights of all points, (4.29), and interpolation between parameters, (4.27).
+    Dissertation,
+}
+
+impl Weighting {
+    /// The word that stands for it in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::DualTaylor => "dual_taylor",
+            Self::Dissertation => "dissertation",
+        }
+    }
+}
+
+/// Nearest points considered where a set has one trajectory.
+pub const NEAREST: usize = 5;
+/// Nearest points considered on each trajectory where a set has several.
+pub const NEAREST_EACH: usize = 2;
+/// Weights below this one count as none, section 4.2.
+const LEAST_WEIGHT: f64 = 1e-3;
+/// Exponent of (4.29).
+const SHARPNESS: f64 = 25.0;
+/// What a distant point costs beside the distance of the barycentre.
+const SPREAD: f64 = 1e-3;
+
+/// A point and its weight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weight {
+    /// Which operating point.
+    pub point: usize,
+    /// Its share.
+    pub weight: f64,
+}
+
+/// Squared Euclidean distance of two reduced states.
+pub fn square_distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum()
+}
+
+/// Weights (4.29) from the distances of all points: none below 0.001, their sum 1. A point that is met exactly has them all.
+pub fn exponential(distances: &[(usize, f64)], out: &mut Vec<Weight>) {
+    out.clear();
+    let nearest = distances.iter().fold(f64::INFINITY, |least, (_, d)| least.min(*d));
+    let raw = |d: f64| if nearest > 0.0 { (-SHARPNESS * d / nearest).exp() } else { f64::from(u8::from(d == nearest)) };
+    let total: f64 = distances.iter().map(|(_, d)| raw(*d)).sum();
+    out.extend(distances.iter().map(|&(point, d)| Weight { point, weight: raw(d) / total }));
+    out.retain(|w| w.weight >= LEAST_WEIGHT);
+    normalise(out);
+}
+
+fn normalise(weights: &mut [Weight]) {
+    let total: f64 = weights.iter().map(|w| w.weight).sum();
+    weights.iter_mut().for_each(|w| w.weight /= total);
+}
+
+/// Work space of [`Barycentre::weights`].
+#[derive(Debug)]
+pub struct Barycentre {
+    gram: Mat<f64>,
+    solution: Vec<f64>,
+}
+
+impl Barycentre {
+    /// Work space for up to `most` points at once.
+    pub fn new(most: usize) -> Self {
+        Self { gram: Mat::zeros(most, most + 1), solution: vec![0.0; most] }
+    }
+
+    /// The weights of `out`'s points that bring Σ wᵢ yᵢ nearest to `state` and prefer near points: min ‖y − Σ wᵢ yᵢ‖² + 10⁻³ Σ wᵢ² dᵢ²
+    /// with Σ wᵢ = 1, where points of negative weight are left out and the rest solved again. At most as many points as there is
+    /// room for.
+    pub fn weights<'a>(&mut self, state: &[f64], point: impl Fn(usize) -> &'a [f64], out: &mut Vec<Weight>) {
+        let nearest =
+            out.iter().map(|w| (w.point, square_distance(state, point(w.point)))).min_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((only, least)) = nearest else { return };
+        while out.len() > 1 && least > 0.0 {
+            if !self.solve(state, &point, out) {
+                break;
+            }
+            // Leaving out all negative ones at once may lose a point that a second solve would keep; the most negative one cannot.
+            let lowest = (0..out.len()).min_by(|&a, &b| out[a].weight.total_cmp(&out[b].weight));
+            match lowest {
+                Some(k) if out[k].weight < 0.0 => {
+                    out.remove(k);
+                }
+                _ => return,
+            }
+        }
+        out.clear();
+        out.push(Weight { point: only, weight: 1.0 });
+    }
+
+    /// Solves (G + 10⁻³ diag G) w ∝ 1 with Gᵢⱼ = (yᵢ − y)·(yⱼ − y); false where it is singular.
+    fn solve<'a>(&mut self, state: &[f64], point: &impl Fn(usize) -> &'a [f64], out: &mut [Weight]) -> bool {
+        let n = out.len();
+        let g = &mut self.gram;
+        for i in 0..n {
+            for j in 0..=i {
+                let pairs = point(out[i].point).iter().zip(point(out[j].point)).zip(state);
+                let product: f64 = pairs.map(|((a, b), y)| (a - y) * (b - y)).sum();
+                (g[(i, j)], g[(j, i)]) = (product, product);
+            }
+            g[(i, n)] = 1.0;
+        }
+        for i in 0..n {
+            g[(i, i)] *= 1.0 + SPREAD;
+        }
+        // Symmetric and positive definite: elimination needs no pivots.
+        for k in 0..n {
+            for i in k + 1..n {
+                let factor = g[(i, k)] / g[(k, k)];
+                for j in k..=n {
+                    let above = g[(k, j)];
+                    g[(i, j)] -= factor * above;
+                }
+            }
+        }
+        for k in (0..n).rev() {
+            let known: f64 = (k + 1..n).map(|j| g[(k, j)] * self.solution[j]).sum();
+            self.solution[k] = (g[(k, n)] - known) / g[(k, k)];
+        }
+        let total: f64 = self.solution[..n].iter().sum();
+        out.iter_mut().zip(&self.solution).for_each(|(w, s)| w.weight = s / total);
+        out.iter().all(|w| w.weight.is_finite())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const POINTS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [5.0, 5.0]];
+
+    fn barycentric(state: [f64; 2], points: &[usize]) -> Vec<Weight> {
+        let mut out: Vec<Weight> = points.iter().map(|&point| Weight { point, weight: 0.0 }).collect();
+        Barycentre::new(4).weights(&state, |point| &POINTS[point], &mut out);
+        out
+    }
+
+    fn sum(weights: &[Weight]) -> f64 {
+        weights.iter().map(|w| w.weight).sum()
+    }
+
+    #[test]
+    fn the_barycentre_lies_beside_a_state_among_the_points() {
+        let weights = barycentric([0.3, 0.2], &[0, 1, 2]);
+        assert!((sum(&weights) - 1.0).abs() < 1e-14);
+        for (axis, want) in [0.3, 0.2].into_iter().enumerate() {
+            let got: f64 = weights.iter().map(|w| w.weight * POINTS[w.point][axis]).sum();
+            assert!((got - want).abs() < 2e-3, "{weights:?}");
+        }
+    }
+
+    #[test]
+    fn points_of_negative_weight_are_left_out() {
+        let weights = barycentric([0.5, -0.5], &[0, 1, 2, 3]);
+        assert!(weights.iter().all(|w| w.weight >= 0.0 && w.point < 2), "{weights:?}");
+        assert!((weights[0].weight - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_point_met_exactly_has_all_the_weight() {
+        assert_eq!(barycentric([1.0, 0.0], &[0, 1, 2]), [Weight { point: 1, weight: 1.0 }]);
+        let mut out = Vec::new();
+        exponential(&[(4, 0.3), (7, 0.0), (9, 0.1)], &mut out);
+        assert_eq!(out, [Weight { point: 7, weight: 1.0 }]);
+    }
+
+    #[test]
+    fn exponential_weights_are_those_of_4_29() {
+        let mut out = Vec::new();
+        exponential(&[(0, 1.0), (1, 1.1), (2, 1.5)], &mut out);
+        // e^(−25) : e^(−27.5); the third, e^(−12.5) of the first, falls under 0.001.
+        assert_eq!(out.len(), 2);
+        assert!((out[1].weight / out[0].weight - (-2.5f64).exp()).abs() < 1e-12);
+        assert!((sum(&out) - 1.0).abs() < 1e-14);
+    }
+}
