@@ -43,7 +43,9 @@ fn a_cubature_of_few_rows_does_what_all_rows_do() {
     assert_eq!(value("all.rows"), 69.0 * 15.0);
     assert!(value("cubature.rows") <= 3.0 * modes + 1.0);
     assert_eq!((value("all.failures"), value("cubature.failures")), (0.0, 0.0));
-    assert!(value("all.H_c_error_max") < 3e-3 && value("cubature.H_c_error_max") < 6e-3);
+    // Ten modes limit the accuracy of either; interpolation by Q-DEIM does not carry a point contact.
+    let worst = |name: &str| value(&format!("{name}.H_c_error_max"));
+    assert!(worst("all") < 6e-3 && worst("cubature") < 1.5 * worst("all") && worst("q_deim") > 0.1);
     assert!(value("greedy.rows") > modes && value("q_deim.rows") > modes);
     assert!(outcome.tables.iter().any(|table| table.name == "samplings" && table.rows.len() == 4));
 
