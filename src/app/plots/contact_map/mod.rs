@@ -173,6 +173,9 @@ fn export_menu(ui: &mut Ui, state: &State) -> Option<Purpose> {
     }
 }
 
+/// Room for the name and the value of one cut.
+const CUT_WIDTH: f32 = 116.0;
+
 /// Where the contact is cut, as numbers.
 pub fn cuts_ui(ui: &mut Ui, state: &mut State) {
     let domain = state.document.plane().domain;
@@ -193,13 +196,15 @@ pub fn cuts_ui(ui: &mut Ui, state: &mut State) {
             "Where the profile along X is taken; drag the line in the map",
         ),
     ] {
-        ui.horizontal(|ui| {
-            let color = ui.visuals().text_color();
-            ui.label(rich(&format!("Cut {symbol}"), 13.5, color)).on_hover_text(tip);
-            let field = DragValue::new(value).range(range).speed(0.01).fixed_decimals(2);
-            let response = ui.add(field).on_hover_text(tip);
-            named(ui, response, name);
-        });
+        // In a toolbar that wraps, a name and its value stay in one row.
+        if ui.available_size_before_wrap().x < CUT_WIDTH {
+            ui.end_row();
+        }
+        let color = ui.visuals().text_color();
+        ui.add(egui::Label::new(rich(&format!("Cut {symbol}"), 13.5, color)).extend()).on_hover_text(tip);
+        let field = DragValue::new(value).range(range).speed(0.01).fixed_decimals(2);
+        let response = ui.add(field).on_hover_text(tip);
+        named(ui, response, name);
     }
 }
 
