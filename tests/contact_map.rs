@@ -102,7 +102,8 @@ fn the_map_shows_fields_and_fringes_and_its_cuts_feed_the_profiles() {
 
 /// Finds a line that can be moved sideways by walking along a row of the screen, and drags it to the right.
 fn drag_line(harness: &mut Window, (from, to): (f32, f32), y: f32, by: f32) {
-    let movable = (0..60).map(|k| from + (to - from) * k as f32 / 60.0).find(|&x| {
+    // In steps shorter than the reach of the line.
+    let movable = (0..((to - from) / 3.0) as usize).map(|k| from + 3.0 * k as f32).find(|&x| {
         harness.hover_at(egui::pos2(x, y));
         harness.step();
         harness.output().platform_output.cursor_icon == egui::CursorIcon::ResizeHorizontal
