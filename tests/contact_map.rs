@@ -128,7 +128,7 @@ fn cuts_are_dragged_by_the_hand_in_the_map_and_in_the_profiles() {
     assert!(x == 0.0 && y > 0.15, "{x} {y}");
     click(&mut harness, "Contact map");
     let map = harness.get_by_label("Map of the contact").rect();
-    drag_line(&mut harness, (map.left(), map.right()), map.top() + 0.3 * map.height(), 60.0);
+    drag_line(&mut harness, (map.left(), map.right()), map.top() + 0.8 * map.height(), 60.0);
     let (moved, same) = harness.state().cuts();
     assert!(moved > 0.15 && same == y, "{moved} {same}");
 }
