@@ -16,7 +16,7 @@ use crate::solver::grid::{GridSpec, PointGridSpec};
 use crate::solver::lubricant::{Lubricant, Sliding};
 use crate::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
 use crate::solver::reduced::transient::ReducedMarch;
-use crate::solver::reduced::{Online, ReducedOptions, distance};
+use crate::solver::reduced::{CurveVariable, Online, ReducedOptions, distance, traction_curve};
 use crate::solver::training::{TrajectoryTraining, train_trajectories};
 use serde::Serialize;
 use std::sync::Arc;
@@ -46,6 +46,8 @@ const POINT_POINTS: [usize; 2] = [50, 8];
 const POINT_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(5)];
 /// The trajectory-piecewise-linear model of the same march.
 const TPWL_TRAINING: TpwlTraining = TpwlTraining { modes: 100, selection: Selection::Step { tolerance: 1e-3 } };
+/// Contacts of a traction curve, SRR 0…1.
+const CURVE_POINTS: usize = 41;
 const SEED: u64 = 2026;
 /// Duration of the march whose steps are timed.
 const MARCH_DURATION: [f64; 2] = [1.5, 0.5];
@@ -126,13 +128,9 @@ pub fn run(quick: bool) -> Result<Bench, HarnessError> {
         Ok(model) => {
             let mut online = Online::new(model, ReducedOptions::default());
             let points: Vec<OperatingPoint> = shear.iter().map(|problem| problem.point).collect();
-            rows.push(reduced_row(
-                "line/shear/reduced",
-                &mut online,
-                (&points, named_lubricant::SQUALANE_PIP),
-                true,
-                ROW_BUDGET[size],
-            ));
+            let points = (points.as_slice(), named_lubricant::SQUALANE_PIP);
+            rows.push(reduced_row("line/shear/reduced", &mut online, points, true, ROW_BUDGET[size]));
+            rows.push(curve_row("line/shear/traction-curve", &mut online, points, ROW_BUDGET[size]));
         }
         Err(reason) => bench.notes.push(format!("line/shear/reduced is missing: {reason}")),
     }
@@ -307,6 +305,29 @@ fn reduced_row(
             Ok(solution) if fields => online.scalars(&solution).is_ok(),
             solved => solved.is_ok(),
         };
+        timing.record(clock, converged);
+    }
+    timing
+}
+
+/// Whole traction curves over SRR by a reduced model, one for the speed, load and plateau ratio of each point.
+fn curve_row(
+    name: &'static str,
+    online: &mut Online,
+    (points, lubricant): (&[OperatingPoint], Lubricant),
+    budget: Duration,
+) -> Timing {
+    let mut timing = Timing::new(name, budget);
+    let values: Vec<f64> = (0..CURVE_POINTS).map(|k| k as f64 / (CURVE_POINTS - 1) as f64).collect();
+    for point in points {
+        if timing.spent() {
+            break;
+        }
+        online.prepare(point.moes());
+        let clock = Instant::now();
+        let curve = traction_curve(online, point, lubricant, CurveVariable::SlideToRollRatio, &values);
+        let converged = curve.filter(|place| place.solution.as_ref().is_ok_and(|solved| solved.traction.is_some()));
+        let converged = converged.count() == values.len();
         timing.record(clock, converged);
     }
     timing
