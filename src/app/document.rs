@@ -2,8 +2,9 @@
 //! Undo and redo are snapshots of it.
 
 use super::transient;
+use crate::scene::named_lubricant::NamedLubricant;
 use crate::scene::{At, Grid, LoadFollower, LubricantFollower, Method, Scene, Study, TransientStudy, View};
-use crate::solver::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, si_from_moes};
+use crate::solver::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, Sliding, si_from_moes};
 use crate::solver::full::Problem;
 use crate::solver::grid::PointGridSpec;
 use crate::solver::lubricant::{Lubricant, ShearLaw};
@@ -49,13 +50,13 @@ impl Quantity {
 pub struct Document {
     /// Title for people.
     pub title: String,
-    /// The operating point.
+    /// The operating point with its sliding; its α is the one that counts.
     pub point: OperatingPoint,
     /// Laws of the lubricant.
     pub lubricant: Lubricant,
     /// Grid of full solutions; only a point contact's is edited here.
     pub grid: Grid,
-    /// What follows when M or L moves, the truncation, SRR and NPR.
+    /// What follows when M or L moves, and the truncation.
     pub view: View,
     /// The training it describes; `None` until one is opened or edited.
     pub training: Option<TrainingSpec>,
@@ -104,7 +105,7 @@ impl Document {
             viscosity_pa_s: Some(here.viscosity_pa_s),
             ..MoesRequest::new(here.kind, wanted.m, wanted.l)
         };
-        let (radius, speed, load, alpha) = match (self.view.when_m_moves, self.view.when_l_moves) {
+        let (radius, speed, load, alpha) = match self.followers() {
             (LoadFollower::Load, LubricantFollower::Realisation) => (true, false, false, false),
             (LoadFollower::Load, LubricantFollower::Speed) => (true, false, false, true),
             (LoadFollower::Load, LubricantFollower::Alpha) => (true, true, false, false),
@@ -119,7 +120,51 @@ impl Document {
         request.load = load.then_some(here.load);
         request.alpha_per_pa = alpha.then_some(here.alpha_per_pa);
         let point = si_from_moes(&request).map_err(|e| e.to_string())?;
-        self.accept(point)
+        self.accept(OperatingPoint { sliding: here.sliding, ..point })
+    }
+
+    /// What follows when M moves and when L moves: what was chosen, unless the lubricant determines α, which then cannot follow.
+    pub fn followers(&self) -> (LoadFollower, LubricantFollower) {
+        let chosen = (self.view.when_m_moves, self.view.when_l_moves);
+        match chosen {
+            _ if self.lubricant.own_coefficient().is_none() => chosen,
+            (LoadFollower::Load, LubricantFollower::Radius) => chosen,
+            (LoadFollower::Load | LoadFollower::Speed, _) => (LoadFollower::Load, LubricantFollower::Speed),
+            (LoadFollower::Radius, _) => (LoadFollower::Radius, LubricantFollower::Speed),
+        }
+    }
+
+    /// What may follow when M moves, and when L moves then.
+    pub fn possible_followers(&self) -> (&'static [LoadFollower], &'static [LubricantFollower]) {
+        let load = self.followers().0;
+        match (self.lubricant.own_coefficient().is_some(), load) {
+            (false, _) => (&LoadFollower::ALL, load.partners()),
+            (true, LoadFollower::Load) => (&FIXED_ALPHA, &[LubricantFollower::Speed, LubricantFollower::Radius]),
+            (true, _) => (&FIXED_ALPHA, &[LubricantFollower::Speed]),
+        }
+    }
+
+    /// Sets SRR.
+    ///
+    /// # Errors
+    /// A sentence when it is refused; the document is unchanged then.
+    pub fn set_slide_to_roll_ratio(&mut self, slide_to_roll_ratio: f64) -> Result<(), String> {
+        let sliding = Sliding { slide_to_roll_ratio, ..self.point.sliding };
+        self.accept(OperatingPoint { sliding, ..self.point })
+    }
+
+    /// Sets NPR; `None` is the lubricant's own.
+    ///
+    /// # Errors
+    /// A sentence when it is refused; the document is unchanged then.
+    pub fn set_plateau_ratio(&mut self, newtonian_plateau_ratio: Option<f64>) -> Result<(), String> {
+        let sliding = Sliding { newtonian_plateau_ratio, ..self.point.sliding };
+        self.accept(OperatingPoint { sliding, ..self.point })
+    }
+
+    /// The NPR that counts.
+    pub fn plateau_ratio(&self) -> f64 {
+        self.point.sliding.newtonian_plateau_ratio.unwrap_or(self.lubricant.shear.plateau())
     }
 
     /// Changes between line and point contact. M, L and the lubricant stay, E′ too; radius, speed and load are those of the other kind's
@@ -139,7 +184,8 @@ impl Document {
             alpha_per_pa: Some(here.alpha_per_pa),
             ..MoesRequest::new(kind, moes.m, moes.l)
         };
-        self.accept(si_from_moes(&request).map_err(|e| e.to_string())?)?;
+        let point = si_from_moes(&request).map_err(|e| e.to_string())?;
+        self.accept(OperatingPoint { sliding: here.sliding, ..point })?;
         self.grid = Grid::Graded;
         if self.title == default_title(here.kind) {
             default_title(kind).clone_into(&mut self.title);
@@ -172,19 +218,40 @@ impl Document {
     /// # Errors
     /// A sentence when it would be refused; the document is unchanged then.
     pub fn set_contact(&mut self, point: OperatingPoint, lubricant: Lubricant) -> Result<(), String> {
-        Problem::new(&point, lubricant).map_err(|e| e.to_string())?;
-        (self.point, self.lubricant) = (point, lubricant);
+        let problem = Problem::new(&point, lubricant).map_err(|e| e.to_string())?;
+        self.point = OperatingPoint { alpha_per_pa: problem.point.alpha_per_pa, ..point };
+        self.lubricant = lubricant;
         Ok(())
     }
 
-    /// Changes the laws.
+    /// Changes the laws. Without shear constants the fluid is Newtonian, and a plateau ratio has no sense.
     ///
     /// # Errors
     /// A sentence when a law is not defined here; the document is unchanged then.
     pub fn set_lubricant(&mut self, lubricant: Lubricant) -> Result<(), String> {
-        Problem::new(&self.point, lubricant).map_err(|e| e.to_string())?;
-        self.lubricant = lubricant;
-        Ok(())
+        let mut point = self.point;
+        if lubricant.shear == ShearLaw::Newtonian {
+            point.sliding.newtonian_plateau_ratio = None;
+        }
+        self.set_contact(point, lubricant)
+    }
+
+    /// Takes a named lubricant. One with an ambient viscosity of its own brings the contact in which its source studies it; laws that go with
+    /// any contact keep the present one, or at least its M and L where its viscosity belonged to the former lubricant.
+    ///
+    /// # Errors
+    /// A sentence when a law is not defined here; the document is unchanged then.
+    pub fn pick_lubricant(&mut self, named: &NamedLubricant) -> Result<(), String> {
+        let (here, moes) = (self.point, self.point.moes());
+        let point = match named.studied_contact(here.kind) {
+            Some(studied) => studied,
+            None if self.lubricant.own_coefficient().is_some() => {
+                si_from_moes(&MoesRequest::new(here.kind, moes.m, moes.l)).map_err(|e| e.to_string())?
+            }
+            None => here,
+        };
+        let sliding = Sliding { newtonian_plateau_ratio: None, ..here.sliding };
+        self.set_contact(OperatingPoint { sliding, ..point }, named.laws)
     }
 
     /// Changes the training it describes.
@@ -219,9 +286,7 @@ impl Document {
     }
 
     fn accept(&mut self, point: OperatingPoint) -> Result<(), String> {
-        Problem::new(&point, self.lubricant).map_err(|e| e.to_string())?;
-        self.point = point;
-        Ok(())
+        self.set_contact(point, self.lubricant)
     }
 
     /// The document of a scene; everything the explorer does not edit stays with it.
@@ -229,14 +294,8 @@ impl Document {
     /// # Errors
     /// A sentence that names what the explorer cannot solve.
     pub fn of_scene(scene: Scene) -> Result<Self, String> {
-        let point = scene.point().map_err(|e| e.to_string())?;
+        let point = OperatingPoint { sliding: scene.sliding(), ..scene.point().map_err(|e| e.to_string())? };
         Problem::new(&point, scene.lubricant).map_err(|e| e.to_string())?;
-        if scene.lubricant.shear != ShearLaw::Newtonian || scene.srr != 0.0 {
-            return Err(
-                "the explorer shows no sliding of shear-thinning lubricants in this version; use `ehl-explorer run`"
-                    .to_owned(),
-            );
-        }
         Ok(Self {
             title: scene.title.clone(),
             point,
@@ -258,8 +317,11 @@ impl Document {
         let mut scene = self.scene.clone().unwrap_or_else(|| Scene::at_moes(moes.m, moes.l));
         scene.title.clone_from(&self.title);
         scene.lubricant = self.lubricant;
-        if scene.contact != self.point.kind {
-            // Its question and what it expects belonged to the other kind of contact.
+        let Sliding { slide_to_roll_ratio, newtonian_plateau_ratio } = self.point.sliding;
+        (scene.srr, scene.npr) = (slide_to_roll_ratio, newtonian_plateau_ratio);
+        let in_time = matches!(scene.study, Study::Transient(_) | Study::Tpwl(_));
+        if scene.contact != self.point.kind || in_time && self.lubricant.shear != ShearLaw::Newtonian {
+            // Its question and what it expects belonged to the other kind of contact, or to a Newtonian fluid.
             scene.contact = self.point.kind;
             scene.study = Study::Point { methods: methods_of(self.point.kind) };
             scene.expect.clear();
@@ -273,7 +335,7 @@ impl Document {
             scene.grid = self.transient_grid();
             scene.study = Study::Transient(study.clone());
         }
-        if scene.point() != Ok(self.point) {
+        if scene.point() != Ok(OperatingPoint { sliding: Sliding::NONE, ..self.point }) {
             scene.at = At::from(self.point);
         }
         if scene.view.unwrap_or_default() != self.view {
@@ -298,6 +360,9 @@ impl Document {
         self.to_scene().to_ron().map_err(|e| e.to_string())
     }
 }
+
+/// What may follow M where the lubricant determines α.
+const FIXED_ALPHA: [LoadFollower; 2] = [LoadFollower::Load, LoadFollower::Radius];
 
 /// How a contact is solved headless when nothing else is asked: by all that is in the program.
 fn methods_of(kind: ContactKind) -> Vec<Method> {
@@ -372,6 +437,7 @@ impl History {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::named_lubricant::by_name;
     use crate::solver::training::Windows;
 
     #[test]
@@ -390,8 +456,9 @@ mod tests {
 
     #[test]
     fn saving_and_opening_again_loses_nothing() {
-        let view = View { pressure_loss: Some(1e-6), slide_to_roll_ratio: 0.2, ..View::default() };
+        let view = View { pressure_loss: Some(1e-6), ..View::default() };
         let mut document = Document { title: "a".into(), view, ..Document::default() };
+        document.set_slide_to_roll_ratio(0.2).unwrap();
         document.set_load_follower(LoadFollower::Speed);
         document.set_quantity(Quantity::Radius, 0.0123).unwrap();
         let text = document.to_ron().unwrap();
@@ -486,6 +553,50 @@ mod tests {
         let scene = document.to_scene();
         assert!(scene.expect.is_empty() && scene.check().is_ok());
         assert_eq!(Document::of_scene(scene).unwrap().point, document.point);
+    }
+
+    #[test]
+    fn a_lubricant_with_a_viscosity_of_its_own_brings_its_contact_and_keeps_alpha_when_m_and_l_move() {
+        let squalane = by_name("squalane-pip").unwrap();
+        let mut document = Document::default();
+        document.set_slide_to_roll_ratio(0.3).unwrap();
+        document.pick_lubricant(&squalane).unwrap();
+        let alpha = squalane.laws.own_coefficient().unwrap();
+        assert_eq!((document.point.alpha_per_pa, document.point.viscosity_pa_s), (alpha, 0.0705));
+        assert_eq!((document.plateau_ratio(), document.point.sliding.slide_to_roll_ratio), (0.2227, 0.3));
+        for load in document.possible_followers().0 {
+            document.set_load_follower(*load);
+            for follower in document.possible_followers().1 {
+                document.view.when_l_moves = *follower;
+                assert_eq!(document.followers(), (*load, *follower));
+                document.set_moes(Moes { m: 30.0, l: 8.0 }).unwrap();
+                let moes = document.point.moes();
+                assert!((moes.m / 30.0 - 1.0).abs() < 1e-9 && (moes.l / 8.0 - 1.0).abs() < 1e-9);
+                assert_eq!((document.point.alpha_per_pa, document.point.sliding.slide_to_roll_ratio), (alpha, 0.3));
+            }
+        }
+        document.set_plateau_ratio(Some(0.4)).unwrap();
+        let again = Document::from_ron(&document.to_ron().unwrap()).unwrap();
+        assert_eq!((again.point, again.lubricant), (document.point, document.lubricant));
+        let before = document.clone();
+        for (bad, word) in [(-0.1, "plateau ratio is -0.1"), (1.5, "plateau ratio is 1.5"), (f64::NAN, "NaN")] {
+            assert!(document.set_plateau_ratio(Some(bad)).unwrap_err().contains(word));
+        }
+        assert!(document.set_slide_to_roll_ratio(f64::INFINITY).is_err());
+        assert_eq!(document, before);
+        // Back to laws without a viscosity of their own: M and L stay, the rest is the default realisation.
+        document.pick_lubricant(&by_name("roelands-oil").unwrap()).unwrap();
+        assert_eq!((document.point.viscosity_pa_s, document.plateau_ratio()), (0.01, 1.0));
+        assert!((document.point.moes().m / before.point.moes().m - 1.0).abs() < 1e-9);
+        assert!(document.set_plateau_ratio(Some(0.5)).unwrap_err().contains("no shear constants"));
+    }
+
+    #[test]
+    fn a_contact_in_time_gives_way_to_a_lubricant_that_thins_under_shear() {
+        let scene = Scene::from_ron(include_str!("../../scenes/fig_2_6_right.ron")).unwrap();
+        let mut document = Document::of_scene(scene).unwrap();
+        document.pick_lubricant(&by_name("squalane-pip").unwrap()).unwrap();
+        assert!(document.to_scene().check().is_ok());
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::solvers::Solvers;
 use crate::solver::contact::{ContactKind, OperatingPoint};
 use crate::solver::full::{Solution, Start};
 use crate::solver::grid::{ContactGrid, ContactGridSpec};
-use crate::solver::lubricant::Lubricant;
+use crate::solver::lubricant::{Lubricant, ShearLaw};
 use crate::solver::observer::{NewtonStep, Observer};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -20,6 +20,22 @@ pub struct Key {
     pub point: OperatingPoint,
     /// The laws.
     pub lubricant: Lubricant,
+}
+
+impl Key {
+    /// Whether pressure and film are the same: a limiting stress cuts traction only, and a film that does not thin under shear does not feel
+    /// the sliding.
+    pub fn has_film_of(&self, other: &Self) -> bool {
+        let film = |key: &Self| {
+            let (mut point, law) = (key.point, key.lubricant.shear);
+            let plateau = point.sliding.newtonian_plateau_ratio.unwrap_or(law.plateau());
+            if law == ShearLaw::Newtonian || plateau == 1.0 {
+                point.sliding.slide_to_roll_ratio = 0.0;
+            }
+            (point, key.lubricant.of_the_film())
+        };
+        film(self) == film(other)
+    }
 }
 
 /// What a full solve is for.
@@ -338,12 +354,29 @@ impl Observer for Reporter<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::named_lubricant::SQUALANE_PIP;
     use crate::solver::grid::GridSpec;
+    use crate::solver::lubricant::{LimitingStress, Sliding};
 
     #[test]
     fn a_panic_becomes_a_sentence() {
         let message = guarded(|| -> i32 { panic!("index 7") }).unwrap_err();
         assert!(message.contains("index 7"), "{message}");
+    }
+
+    #[test]
+    fn sliding_changes_the_film_only_where_it_thins() {
+        let slid = |lubricant, srr, npr| {
+            let sliding = Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: npr };
+            Key { point: OperatingPoint { sliding, ..OperatingPoint::TABLE_2_1 }, lubricant }
+        };
+        let oil = Lubricant::default();
+        assert!(slid(oil, 0.0, None).has_film_of(&slid(oil, 0.7, None)));
+        assert!(!slid(SQUALANE_PIP, 0.0, None).has_film_of(&slid(SQUALANE_PIP, 0.7, None)));
+        assert!(slid(SQUALANE_PIP, 0.0, Some(1.0)).has_film_of(&slid(SQUALANE_PIP, 0.7, Some(1.0))));
+        let limited = Lubricant { limiting_stress: Some(LimitingStress { ambient: 5e6, slope: 0.0 }), ..SQUALANE_PIP };
+        assert!(slid(limited, 0.7, None).has_film_of(&slid(SQUALANE_PIP, 0.7, None)));
+        assert!(!slid(oil, 0.0, None).has_film_of(&slid(SQUALANE_PIP, 0.0, None)));
     }
 
     #[test]

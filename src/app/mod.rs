@@ -49,7 +49,7 @@ const APP_ID: &str = "ehl-explorer";
 /// # Errors
 /// One sentence when the scene cannot be read or there is no display.
 pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
-    let mut explorer = Explorer::with_models(Models::embedded());
+    let mut explorer = Explorer::with_embedded_models();
     if let Some(folder) = eframe::storage_dir(APP_ID) {
         explorer = explorer.keeping_trainings_in(&folder);
     }
@@ -96,9 +96,14 @@ pub struct Explorer {
 }
 
 impl Explorer {
-    /// A window with a reduced model of line contacts, or without one: the full solver then draws every picture.
+    /// A window with one reduced model, or without any: the full solver then draws every other picture.
     pub fn new(model: Option<Arc<ReducedModel>>) -> Self {
-        Self::with_models(Models::of_lines(model))
+        Self::with_models(Models::only(model))
+    }
+
+    /// A window with all models that are part of the program.
+    pub fn with_embedded_models() -> Self {
+        Self::with_models(Models::embedded())
     }
 
     fn with_models(models: Models) -> Self {
@@ -142,6 +147,7 @@ impl Explorer {
         Panel::left("sliders").default_size(312.0).size_range(250.0..=520.0).show(ui, |ui| {
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 panels::operating_point::ui(ui, &mut self.state);
+                panels::lubricant::ui(ui, &mut self.state);
                 panels::settings::ui(ui, &mut self.state);
                 panels::plane::ui(ui, &mut self.state);
                 ui.add_space(8.0);
@@ -177,15 +183,11 @@ impl Explorer {
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
             Command::Undo => {
                 state.history.undo(&mut state.document);
-                state.entries.clear();
-                state.training.refused = None;
-                state.transient.refused = None;
+                state.forget_entries();
             }
             Command::Redo => {
                 state.history.redo(&mut state.document);
-                state.entries.clear();
-                state.training.refused = None;
-                state.transient.refused = None;
+                state.forget_entries();
             }
             Command::CopyReadouts => ctx.copy_text(export::readouts_table(state)),
             Command::Pin => state.pin(),

@@ -105,6 +105,8 @@ pub struct State {
     pub jobs: Jobs,
     /// Text fields being edited and their messages.
     pub entries: Entries,
+    /// Whether laws and constants of the lubricant are edited, though it may still have a name.
+    pub own_lubricant: bool,
     /// The reduced models.
     pub models: Models,
     online: Option<Online>,
@@ -164,6 +166,7 @@ impl State {
             display: Display::default(),
             jobs: Jobs::default(),
             entries: Entries::default(),
+            own_lubricant: false,
             models,
             online: None,
             picture: None,
@@ -212,7 +215,7 @@ impl State {
 
     /// The reduced model that serves the contact on the screen.
     pub fn model(&self) -> Option<&Arc<ReducedModel>> {
-        self.models.of(self.document.point.kind)
+        self.models.of(self.document.point.kind, &self.document.lubricant)
     }
 
     /// Whether the picture is a full solution on another grid than the one that was chosen, and will be replaced by one on that.
@@ -235,7 +238,7 @@ impl State {
     /// What the grid costs, where that was estimated for the sliders and the chosen grid.
     pub fn grid_error(&self) -> Option<&GridError> {
         let mesh = self.full.as_ref().map(|full| full.solution.mesh);
-        self.grid_error.as_ref().filter(|error| error.key == self.key() && Some(error.mesh) == mesh)
+        self.grid_error.as_ref().filter(|error| error.key.has_film_of(&self.key()) && Some(error.mesh) == mesh)
     }
 
     /// Whether the full solution belongs to the sliders.
@@ -243,9 +246,20 @@ impl State {
         self.full.as_ref().is_some_and(|p| p.key == self.key())
     }
 
-    /// Puts a reduced model in use, or none, for a kind of contact: the picture and everything drawn of the model follow.
-    pub fn use_model(&mut self, kind: ContactKind, model: Option<Arc<ReducedModel>>) {
-        self.models.put(kind, model);
+    /// Puts a reduced model in use and returns the one it replaces: the picture and everything drawn of the model follow.
+    pub fn use_model(&mut self, model: Arc<ReducedModel>) -> Option<Arc<ReducedModel>> {
+        let former = self.models.put(model);
+        self.models_have_changed();
+        former
+    }
+
+    /// Does without a reduced model.
+    pub fn drop_model(&mut self, model: &Arc<ReducedModel>) {
+        self.models.remove(model);
+        self.models_have_changed();
+    }
+
+    fn models_have_changed(&mut self) {
         self.online = None;
         self.regimes = RegimeChart::default();
         self.comparison = None;
@@ -288,6 +302,7 @@ impl State {
         if moved {
             self.failure = None;
             self.verify_failure = None;
+            self.slide(key);
         }
         if self.refresh_reduced(key, options) {
             self.compare();
@@ -307,6 +322,20 @@ impl State {
             if self.verify_due {
                 ctx.request_repaint_after_secs(REST_S as f32);
             }
+        }
+    }
+
+    /// Takes the pictures along to a contact with the same film: they need no other solve.
+    fn slide(&mut self, key: Key) {
+        let along = |picture: &&mut Picture| picture.key != key && picture.key.has_film_of(&key);
+        let shared = matches!((&self.picture, &self.full), (Some(a), Some(b)) if Arc::ptr_eq(&a.solution, &b.solution));
+        if let Some(picture) = self.picture.as_mut().filter(along) {
+            picture.slide(key);
+        }
+        if shared {
+            self.full.clone_from(&self.picture);
+        } else if let Some(full) = self.full.as_mut().filter(along) {
+            full.slide(key);
         }
     }
 
@@ -436,7 +465,13 @@ impl State {
     pub fn replace_document(&mut self, document: Document) {
         self.history.restart(&document);
         self.document = document;
-        self.entries = Entries::default();
+        self.own_lubricant = false;
+        self.forget_entries();
+    }
+
+    /// Forgets what was typed and refused: the document is another one now.
+    pub fn forget_entries(&mut self) {
+        self.entries.clear();
         self.training.refused = None;
         self.transient.refused = None;
     }

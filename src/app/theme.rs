@@ -223,6 +223,7 @@ mod tests {
             include_str!("numbers.rs"),
             include_str!("picture.rs"),
             include_str!("panels/help.rs"),
+            include_str!("panels/lubricant.rs"),
             include_str!("panels/menu.rs"),
             include_str!("panels/operating_point.rs"),
             include_str!("panels/plane.rs"),
@@ -263,6 +264,7 @@ mod tests {
             include_str!("plots/transient/mod.rs"),
             include_str!("plots/transient/profiles.rs"),
             include_str!("plots/transient/series.rs"),
+            include_str!("../scene/named_lubricant.rs"),
             include_str!("../scene/view.rs"),
             include_str!("../solver/contact/film_formulas.rs"),
         ];

@@ -1,6 +1,6 @@
 //! Shear across the film, and the traction (3.41) it adds up to.
 
-use super::solution::Solution;
+use super::solution::{Problem, Solution};
 use crate::solver::lubricant::ScaledShear;
 use crate::solver::reynolds::film_integrals::{PRODUCTION_RULE, film_integrals};
 use crate::solver::reynolds::generalized::PlaneGradient;
@@ -98,12 +98,19 @@ impl Solution {
         }
     }
 
-    /// A sentence where the traction is no physics: at great α* p_H without a limiting stress.
+    /// A sentence where its traction is no physics; none in pure rolling, where there is no traction.
     pub fn traction_warning(&self) -> Option<String> {
         let slides = self.problem.point.sliding.slide_to_roll_ratio != 0.0;
-        let unlimited = self.problem.lubricant.limiting_stress.is_none();
-        let exponent = self.problem.fluid.reciprocal_asymptotic_exponent();
-        (slides && unlimited && exponent > PLAUSIBLE_EXPONENT).then(|| {
+        slides.then(|| self.problem.traction_warning()).flatten()
+    }
+}
+
+impl Problem {
+    /// A sentence where every traction is no physics: at great α* p_H without a limiting stress.
+    pub fn traction_warning(&self) -> Option<String> {
+        let unlimited = self.lubricant.limiting_stress.is_none();
+        let exponent = self.fluid.reciprocal_asymptotic_exponent();
+        (unlimited && exponent > PLAUSIBLE_EXPONENT).then(|| {
             format!(
                 "α* p_H is {exponent:.1}: beyond {PLAUSIBLE_EXPONENT} an isothermal traction without a limiting shear stress is unphysical"
             )

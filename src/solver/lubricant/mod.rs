@@ -185,6 +185,11 @@ impl Lubricant {
         self.limiting_stress.iter().try_for_each(LimitingStress::check)
     }
 
+    /// The laws that pressure and film answer to: all but the limiting stress, which cuts traction only.
+    pub fn of_the_film(self) -> Self {
+        Self { limiting_stress: None, ..self }
+    }
+
     /// The pressure–viscosity coefficient that follows from the viscosity law itself, α* \[1/Pa\]; `None` where it is a free constant.
     pub fn own_coefficient(&self) -> Option<f64> {
         match self.viscosity {
