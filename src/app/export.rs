@@ -1,5 +1,6 @@
 //! Tables for other programs: the data behind a plot as CSV, the read-outs as text.
 
+use super::jobs::Key;
 use super::numbers;
 use super::picture::{Picture, value_at};
 use super::state::State;
@@ -34,12 +35,17 @@ pub fn csv(comments: &[String], header: &[&str], rows: impl IntoIterator<Item = 
 
 /// The parameters of a picture in one line.
 pub fn describe(picture: &Picture) -> String {
-    let (point, moes) = (&picture.key.point, picture.key.point.moes());
+    describe_contact(&picture.key)
+}
+
+/// A contact and its lubricant in one line.
+pub fn describe_contact(key: &Key) -> String {
+    let (point, moes) = (&key.point, key.point.moes());
     let unit = match point.kind {
         ContactKind::Line => "N/m",
         ContactKind::Point => "N",
     };
-    let sliding = match (point.sliding.slide_to_roll_ratio, picture.key.lubricant.shear) {
+    let sliding = match (point.sliding.slide_to_roll_ratio, key.lubricant.shear) {
         (0.0, ShearLaw::Newtonian) => String::new(),
         (srr, ShearLaw::Newtonian) => format!("; SRR {srr:e}"),
         (srr, shear) => {
@@ -57,8 +63,8 @@ pub fn describe(picture: &Picture) -> String {
         point.modulus_pa,
         point.viscosity_pa_s,
         point.alpha_per_pa,
-        picture.key.lubricant.viscosity,
-        picture.key.lubricant.density
+        key.lubricant.viscosity,
+        key.lubricant.density
     )
 }
 

@@ -1,11 +1,12 @@
 //! Work that takes longer than a frame: one worker thread, newest request first, cancellable, and unable to take the window down.
 
 use super::solvers::Solvers;
-use crate::solver::contact::{ContactKind, OperatingPoint};
+use crate::solver::contact::{ContactKind, Moes, OperatingPoint};
 use crate::solver::full::{Solution, Start};
-use crate::solver::grid::{ContactGrid, ContactGridSpec};
+use crate::solver::grid::{ContactGrid, ContactGridSpec, GridSpec, PointGridSpec};
 use crate::solver::lubricant::{Lubricant, ShearLaw};
 use crate::solver::observer::{NewtonStep, Observer};
+use crate::solver::reduced::ReducedModel;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -70,6 +71,17 @@ pub enum GridChoice {
     Existing(ContactGrid),
     /// A specification.
     Spec(ContactGridSpec),
+}
+
+impl GridChoice {
+    /// The grid of the window of a model that serves a contact; without a model the chosen one of a point contact, or the explorer's.
+    pub fn of(model: Option<&ReducedModel>, plane: Option<PointGridSpec>, moes: Moes) -> Self {
+        match (model.and_then(|model| model.windows.get(model.window_for(moes))), plane) {
+            (Some(window), _) => Self::Existing(window.grid.clone()),
+            (None, None) => Self::Spec(ContactGridSpec::Line(GridSpec::EXPLORER)),
+            (None, Some(plane)) => Self::Spec(ContactGridSpec::Point(plane)),
+        }
+    }
 }
 
 /// A full solve that is wanted.
@@ -355,7 +367,6 @@ impl Observer for Reporter<'_> {
 mod tests {
     use super::*;
     use crate::scene::named_lubricant::SQUALANE_PIP;
-    use crate::solver::grid::GridSpec;
     use crate::solver::lubricant::{LimitingStress, Sliding};
 
     #[test]

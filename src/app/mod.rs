@@ -22,6 +22,7 @@ mod solvers;
 mod state;
 mod task;
 mod theme;
+mod traction;
 mod training;
 mod transient;
 
@@ -206,10 +207,7 @@ impl Explorer {
             }
             Command::Verify => state.verify(ctx),
             Command::Cancel => {
-                state.jobs.cancel_all();
-                state.training.stop();
-                state.accuracy.stop();
-                state.transient.stop();
+                state.stop_all();
             }
             Command::Keyboard => self.help.keyboard = true,
             Command::About => self.help.about = true,
@@ -309,6 +307,23 @@ impl Explorer {
     /// Whether a contact is taken through time.
     pub fn marching(&self) -> bool {
         self.state.transient.standing().is_some()
+    }
+
+    /// Contacts of the traction curve on the screen, when it is the one that was asked for last, and full solutions beside it.
+    pub fn traction_contacts(&self) -> (Option<usize>, usize) {
+        let view = &self.state.traction;
+        let curve = view.curve.as_ref().filter(|_| view.curve_is_current());
+        (curve.map(|curve| curve.samples.len()), view.markers.as_ref().map_or(0, |markers| markers.samples.len()))
+    }
+
+    /// SRR and NPR of the sliders.
+    pub fn sliding(&self) -> (f64, f64) {
+        (self.state.document.point.sliding.slide_to_roll_ratio, self.state.document.plateau_ratio())
+    }
+
+    /// Traction coefficient of the picture, when it belongs to the sliders.
+    pub fn traction(&self) -> Option<f64> {
+        self.state.picture.as_ref().filter(|_| self.state.picture_is_current()).map(|picture| picture.traction)
     }
 
     /// Moments that have been computed of contacts in time.

@@ -200,7 +200,8 @@ pub struct Comparison {
 impl Comparison {
     /// The errors in a line, with symbols in braces.
     pub fn describe(&self) -> String {
-        let traction = self.traction.map_or_else(String::new, |traction| format!(", Δ{{µ}} {}", numbers::small(traction)));
+        let traction =
+            self.traction.map_or_else(String::new, |traction| format!(", Δ{{µ}} {}", numbers::small(traction)));
         format!(
             "Δ{{H_c}} {}, Δ{{H_min}} {}, max |Δ{{P}}| {}{traction}",
             numbers::error_percent(self.h_c),
@@ -227,7 +228,7 @@ impl Comparison {
         Self {
             h_c: a.h_c / b.h_c - 1.0,
             h_min: a.h_min / b.h_min - 1.0,
-            traction: slides.then(|| picture.traction - full.traction),
+            traction: slides.then_some(picture.traction - full.traction),
             max_dp,
             cuts: picture.cuts,
             film: difference(&picture.film, &full.film, b.h_c),

@@ -12,11 +12,13 @@ use super::model_source::Models;
 use super::picture::{Comparison, Cuts, Origin, Picture};
 use super::plots::contact_map::{ContactMap, MapView};
 use super::plots::{accuracy::AccuracyView, basis::BasisView, regimes::RegimeChart};
+use super::task::Standing;
+use super::traction::TractionView;
 use super::training::Training;
 use super::transient::TransientView;
 use crate::solver::contact::ContactKind;
 use crate::solver::full::{Mesh, Problem, Report};
-use crate::solver::grid::{ContactGridSpec, GridSpec, PointGridSpec};
+use crate::solver::grid::PointGridSpec;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
 use egui::Context;
 use serde::{Deserialize, Serialize};
@@ -142,6 +144,8 @@ pub struct State {
     pub training: Training,
     /// Contacts in time.
     pub transient: TransientView,
+    /// Traction and film along one quantity.
+    pub traction: TractionView,
     /// What the Regimes tab keeps between frames.
     pub regimes: RegimeChart,
     /// Plots are to be fitted to their data in this frame.
@@ -185,6 +189,7 @@ impl State {
             accuracy: AccuracyView::default(),
             training: Training::default(),
             transient: TransientView::default(),
+            traction: TractionView::default(),
             regimes: RegimeChart::default(),
             fit_plots: true,
             wanted: None,
@@ -401,17 +406,12 @@ impl State {
 
     fn submit(&mut self, ctx: &Context, kind: JobKind) {
         let key = self.key();
-        let moes = key.point.moes();
         // A line contact is solved on the model's own grid wherever it lies, a point contact where the model serves it: elsewhere on the
         // grid that was chosen.
         let own = self.passed_over.is_none() || self.plane().is_none();
-        let window = self.model().filter(|_| own).and_then(|m| m.windows.get(m.window_for(moes)));
-        let grid = match (window, self.plane()) {
-            (Some(window), _) => GridChoice::Existing(window.grid.clone()),
-            (None, None) => GridChoice::Spec(ContactGridSpec::Line(GridSpec::EXPLORER)),
-            (None, Some(plane)) if kind == JobKind::Live => GridChoice::Spec(ContactGridSpec::Point(quick(plane))),
-            (None, Some(plane)) => GridChoice::Spec(ContactGridSpec::Point(plane)),
-        };
+        let plane = self.plane().map(|plane| if kind == JobKind::Live { quick(plane) } else { plane });
+        let model = self.model().filter(|_| own).map(Arc::as_ref);
+        let grid = GridChoice::of(model, plane, key.point.moes());
         let start = match kind {
             // The truth must not depend on what it checks.
             JobKind::Verify => None,
@@ -449,6 +449,20 @@ impl State {
         self.verify_due = false;
         self.verify_failure = None;
         self.submit(ctx, JobKind::Verify);
+    }
+
+    /// How far the study is that runs beside the picture; the first where there are several.
+    pub fn study(&self) -> Option<Standing> {
+        self.accuracy.standing().or(self.transient.standing()).or(self.traction.standing())
+    }
+
+    /// Stops everything that runs; what has been found stays.
+    pub fn stop_all(&mut self) {
+        self.jobs.cancel_all();
+        self.training.stop();
+        self.accuracy.stop();
+        self.transient.stop();
+        self.traction.stop();
     }
 
     /// Keeps the live curve for comparison.

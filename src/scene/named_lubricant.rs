@@ -81,7 +81,7 @@ pub static NAMED: [NamedLubricant; 5] = [
     },
     NamedLubricant {
         name: "squalane-pip",
-        title: "Squalane with polyisoprene",
+        title: "Squalane with PIP",
         laws: SQUALANE_PIP,
         viscosity_pa_s: Some(0.0705),
         studied: Some(StudiedContact {

@@ -1,6 +1,6 @@
 //! The lubricant: a named one, or laws and constants of one's own; the stress that limits its traction.
 
-use crate::app::controls::{NAME_WIDTH, choice, heading, number_field, row_name};
+use crate::app::controls::{NAME_WIDTH, choice, heading, number_field, row_name, sentence};
 use crate::app::state::State;
 use crate::app::theme::name_and_symbol;
 use crate::scene::named_lubricant::{self, NAMED, NamedLubricant};
@@ -35,7 +35,7 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
     picker(ui, state, known);
     match known {
         Some(lubricant) => {
-            ui.weak(lubricant.about);
+            ui.weak(sentence(lubricant.about));
         }
         None => own(ui, state),
     }
@@ -250,8 +250,22 @@ fn limiting_stress(ui: &mut Ui, state: &mut State) {
     }
     if let Some(limit) = &mut limit {
         let rows = [
-            ("Ambient limiting stress", ("At ambient", "τ", "L0"), "MPa", 1e6, &mut limit.ambient, "τ_L0, the limit at ambient pressure"),
-            ("Slope of the limiting stress", ("Slope", "Λ", ""), "", 1.0, &mut limit.slope, "Λ, how the limit rises with pressure"),
+            (
+                "Ambient limiting stress",
+                ("At ambient", "τ", "L0"),
+                "MPa",
+                1e6,
+                &mut limit.ambient,
+                "τ_L0, the limit at ambient pressure",
+            ),
+            (
+                "Slope of the limiting stress",
+                ("Slope", "Λ", ""),
+                "",
+                1.0,
+                &mut limit.slope,
+                "Λ, how the limit rises with pressure",
+            ),
         ];
         for (name, (row, base, subscript), unit, scale, value, tip) in rows {
             ui.horizontal(|ui| {

@@ -67,7 +67,7 @@ pub fn ui(ui: &mut Ui, state: &State) {
             symbol(ui, "µ", ""),
             numbers::significant(picture.traction),
             format!("at SRR {}{}", numbers::digits(srr, 3), if unphysical { ", unphysical" } else { "" }),
-            if unphysical { palette.reference } else { palette.text },
+            if unphysical { palette.reference } else { palette.traction },
             traction_delta,
             &traction_tip,
         );

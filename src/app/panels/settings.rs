@@ -25,7 +25,9 @@ fn model_ui(ui: &mut Ui, state: &mut State) {
     let moes = state.document.point.moes();
     let Some(model) = state.model().cloned() else {
         ui.weak(match (state.document.point.kind, state.document.lubricant.shear) {
-            (ContactKind::Line, ShearLaw::Newtonian) => "No reduced model is loaded; the full solver draws the picture.",
+            (ContactKind::Line, ShearLaw::Newtonian) => {
+                "No reduced model is loaded; the full solver draws the picture."
+            }
             (ContactKind::Point, ShearLaw::Newtonian) => {
                 "There is no reduced model of point contacts; the full solver draws the picture."
             }

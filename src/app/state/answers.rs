@@ -15,6 +15,7 @@ impl State {
     pub fn receive(&mut self) {
         self.accuracy.receive();
         self.transient.receive();
+        self.traction.receive();
         for (mut job, outcome) in self.jobs.poll() {
             // Another sliding does not make another film where it does not thin.
             if job.key.has_film_of(&self.key()) {
