@@ -316,6 +316,11 @@ impl Explorer {
         (curve.map(|curve| curve.samples.len()), view.markers.as_ref().map_or(0, |markers| markers.samples.len()))
     }
 
+    /// Whether full solutions along the traction curve are being computed.
+    pub fn solving_along(&self) -> bool {
+        self.state.traction.standing().is_some()
+    }
+
     /// SRR and NPR of the sliders.
     pub fn sliding(&self) -> (f64, f64) {
         (self.state.document.point.sliding.slide_to_roll_ratio, self.state.document.plateau_ratio())

@@ -11,6 +11,7 @@ use super::jobs::{GridChoice, JobKind, Jobs, Key, Request};
 use super::model_source::Models;
 use super::picture::{Comparison, Cuts, Origin, Picture};
 use super::plots::contact_map::{ContactMap, MapView};
+use super::plots::film_shear::{FilmShear, FilmShearImage};
 use super::plots::{accuracy::AccuracyView, basis::BasisView, regimes::RegimeChart};
 use super::task::Standing;
 use super::traction::TractionView;
@@ -40,6 +41,8 @@ pub struct Display {
     pub overlay: bool,
     /// Draw the difference below.
     pub difference: bool,
+    /// What is shown across the film.
+    pub film_shear: FilmShear,
     /// Where a point contact is cut.
     pub cuts: Cuts,
     /// What the contact map shows.
@@ -55,6 +58,7 @@ impl Default for Display {
         Self {
             overlay: false,
             difference: false,
+            film_shear: FilmShear::Off,
             cuts: Cuts::default(),
             map: MapView::default(),
             theme: egui::ThemePreference::System,
@@ -136,6 +140,8 @@ pub struct State {
     pub grid_error: Option<GridError>,
     /// Images of the Contact map tab.
     pub map: ContactMap,
+    /// Image of the shear across the film.
+    pub film_shear: FilmShearImage,
     /// State of the Reduced basis tab.
     pub basis: BasisView,
     /// The studies of the Accuracy tab.
@@ -185,6 +191,7 @@ impl State {
             full_wall_s: None,
             grid_error: None,
             map: ContactMap::default(),
+            film_shear: FilmShearImage::default(),
             basis: BasisView::default(),
             accuracy: AccuracyView::default(),
             training: Training::default(),

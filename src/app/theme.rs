@@ -250,6 +250,7 @@ mod tests {
             include_str!("plots/contact_map/optics.rs"),
             include_str!("plots/contact_map/scale.rs"),
             include_str!("plots/direction.rs"),
+            include_str!("plots/film_shear.rs"),
             include_str!("plots/formulas.rs"),
             include_str!("plots/profiles.rs"),
             include_str!("plots/regimes.rs"),

@@ -7,6 +7,7 @@ pub mod basis;
 pub mod contact_map;
 mod cut_line;
 mod direction;
+pub mod film_shear;
 mod formulas;
 pub mod profiles;
 mod regime_chart;

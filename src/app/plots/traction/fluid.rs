@@ -71,8 +71,7 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
 
 /// The largest shear stress along the axis of a solution \[Pa\]: across the film it is linear, so one of both surfaces has it.
 fn largest_stress(solution: &Solution) -> f64 {
-    let surfaces = [0.0, 1.0].map(|height| solution.shear_along_axis(height));
-    surfaces.iter().flatten().map(|shear| shear.stress_pa.abs()).fold(0.0, f64::max)
+    solution.shear_field(&[0.0, 1.0]).iter().map(|shear| shear.stress_pa.abs()).fold(0.0, f64::max)
 }
 
 fn logarithmic<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> Plot<'a> {
