@@ -206,6 +206,11 @@ impl Explorer {
                 ctx.memory_mut(|m| m.data.clear());
             }
             Command::Verify => state.verify(ctx),
+            Command::SolveAlong => {
+                if let Some((sweep, _)) = state.sweep() {
+                    state.start_markers(ctx, &sweep);
+                }
+            }
             Command::Cancel => {
                 state.stop_all();
             }

@@ -4,6 +4,7 @@ use crate::harness::model_file;
 use crate::solver::contact::ContactKind;
 use crate::solver::lubricant::{Lubricant, ShearLaw};
 use crate::solver::reduced::ReducedModel;
+use rayon::prelude::*;
 use std::sync::Arc;
 
 /// The reduced models in use. Where there is none for a contact and its fluid, the full solver draws the pictures.
@@ -15,9 +16,11 @@ pub struct Models {
 impl Models {
     /// The models embedded in the program. Without them (a damaged build) the full solver draws the pictures.
     pub fn embedded() -> Self {
-        let kinds = [ContactKind::Line, ContactKind::Point];
-        let newtonian = kinds.map(model_file::embedded_of).into_iter();
-        Self { models: newtonian.chain(kinds.map(model_file::embedded_shear_of)).flatten().collect() }
+        let of =
+            |(thins, kind)| if thins { model_file::embedded_shear_of(kind) } else { model_file::embedded_of(kind) };
+        let all = [false, true].map(|thins| [ContactKind::Line, ContactKind::Point].map(|kind| (thins, kind)));
+        // Operators are computed as a model is read: all of them at once, for the window waits.
+        Self { models: all.as_flattened().par_iter().filter_map(|wanted| of(*wanted).ok()).collect() }
     }
 
     /// Only this model, or none.

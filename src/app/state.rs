@@ -14,7 +14,7 @@ use super::plots::contact_map::{ContactMap, MapView};
 use super::plots::film_shear::{FilmShear, FilmShearImage};
 use super::plots::{accuracy::AccuracyView, basis::BasisView, regimes::RegimeChart};
 use super::task::Standing;
-use super::traction::TractionView;
+use super::traction::{Choices, TractionView};
 use super::training::Training;
 use super::transient::TransientView;
 use crate::solver::contact::ContactKind;
@@ -43,6 +43,8 @@ pub struct Display {
     pub difference: bool,
     /// What is shown across the film.
     pub film_shear: FilmShear,
+    /// How the Traction tab shows it.
+    pub traction: Choices,
     /// Where a point contact is cut.
     pub cuts: Cuts,
     /// What the contact map shows.
@@ -59,6 +61,7 @@ impl Default for Display {
             overlay: false,
             difference: false,
             film_shear: FilmShear::Off,
+            traction: Choices::default(),
             cuts: Cuts::default(),
             map: MapView::default(),
             theme: egui::ThemePreference::System,

@@ -8,6 +8,7 @@ pub use curve::Curve;
 
 use super::in_use::InUse;
 use super::jobs::Key;
+use super::numbers;
 use super::state::State;
 use super::task::{Standing, Task};
 use crate::solver::contact::{ContactKind, OperatingPoint};
@@ -15,6 +16,7 @@ use crate::solver::full::{Problem, Solution};
 use crate::solver::reduced::{Domain, Trust};
 use curve::Worker;
 use egui::Context;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Contacts of a curve by the reduced model.
@@ -41,7 +43,7 @@ pub enum Varied {
 }
 
 /// What the curves are drawn against; the last three are one quantity in three units.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Against {
     /// SRR.
     #[default]
@@ -90,9 +92,10 @@ pub struct Markers {
     pub samples: Vec<Sample>,
 }
 
-/// What the tab knows.
-#[derive(Default)]
-pub struct TractionView {
+/// How the tab shows it; not part of the document.
+#[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Choices {
     /// What the curves are drawn against.
     pub against: Against,
     /// Logarithmic axes: along, and of traction and film.
@@ -101,6 +104,11 @@ pub struct TractionView {
     pub shows_fluid: bool,
     /// Whether the note for teaching is shown.
     pub why: bool,
+}
+
+/// What the tab knows.
+#[derive(Default)]
+pub struct TractionView {
     /// The last curve by the reduced model.
     pub curve: Option<Curve>,
     /// Full solutions.
@@ -311,7 +319,7 @@ impl State {
     /// The sweep through the contact of the sliders, and the reduced model that serves all of it or why none does. `None` where the fluid does
     /// not answer to the quantity.
     pub fn sweep(&self) -> Option<(Sweep, Result<InUse, String>)> {
-        let varied = self.traction.against.varied();
+        let varied = self.display.traction.against.varied();
         let key = self.key();
         let mut point = key.point;
         point.sliding.slide_to_roll_ratio = point.sliding.slide_to_roll_ratio.abs();
@@ -326,7 +334,7 @@ impl State {
                 None => (varied.everywhere(&point), Err("the reduced model was trained for no such speed".to_owned())),
             },
         };
-        let logarithmic = self.traction.logarithmic.0;
+        let logarithmic = self.display.traction.logarithmic.0;
         let ends = match varied {
             Varied::SlideToRoll if logarithmic => (ends.0.max(LOG_SRR * ends.1), ends.1),
             Varied::Plateau if logarithmic => (ends.0.max(LOG_NPR), ends.1),
@@ -360,8 +368,8 @@ impl State {
     /// # Errors
     /// A sentence when the contact would be refused; the document is unchanged then.
     pub fn go_along(&mut self, place: f64) -> Result<(), String> {
-        let value = self.traction.against.value(&self.document.point, place);
-        match self.traction.against.varied() {
+        let value = numbers::rounded(self.display.traction.against.value(&self.document.point, place), 3);
+        match self.display.traction.against.varied() {
             Varied::SlideToRoll => {
                 let srr = self.document.point.sliding.slide_to_roll_ratio;
                 self.document.set_slide_to_roll_ratio(value.max(0.0).copysign(srr))

@@ -87,10 +87,9 @@ pub fn differences(curve: &Curve, markers: Option<&Markers>) -> Option<(f64, f64
 /// The plots; returns the place on the axis that was pressed.
 pub fn ui(ui: &mut Ui, state: &State, sweep: &Sweep, shown: &Shown<'_>) -> Option<f64> {
     let palette = Palette::of(ui);
-    let axes = Axes { against: state.traction.against, sweep, logarithmic: state.traction.logarithmic };
+    let axes = Axes { against: state.display.traction.against, sweep, logarithmic: state.display.traction.logarithmic };
     let unit = ((ui.available_height() - 6.0) / 2.0).max(LEAST_HEIGHT);
     let here = state.picture.as_ref().filter(|_| state.picture_is_current());
-    let own_film = |metre: f64| metre / MICRO;
     let grey = shown.unphysical.is_some();
     let traction = Chart {
         name: "Traction along the quantity",
@@ -98,16 +97,15 @@ pub fn ui(ui: &mut Ui, state: &State, sweep: &Sweep, shown: &Shown<'_>) -> Optio
         titles: ("", "Traction coefficient µ"),
         curves: &[("Traction", TRACTION, if grey { palette.reference } else { palette.traction }, LIVE_WIDTH)],
         here: here.map(|picture| picture.traction.abs()),
+        legend: Corner::LeftTop,
     };
     let film = Chart {
         name: "Film along the quantity",
         id: "film",
         titles: (axes.against.axis(sweep.base.point.kind), "Film in µm"),
-        curves: &[
-            ("Central {H_c}", CENTRAL, palette.film, LIVE_WIDTH),
-            ("Smallest {H_min}", SMALLEST, palette.film, 1.6),
-        ],
-        here: here.map(|picture| own_film(picture.central_film_m())),
+        curves: &[("Central film", CENTRAL, palette.film, LIVE_WIDTH), ("Smallest film", SMALLEST, palette.film, 1.6)],
+        here: here.map(|picture| picture.central_film_m() / MICRO),
+        legend: Corner::LeftBottom,
     };
     let pressed = traction.show(ui, state, &axes, shown, unit);
     film.show(ui, state, &axes, shown, unit).or(pressed).map(|place| axes.value(place))
@@ -121,6 +119,7 @@ struct Chart<'a> {
     curves: &'a [(&'static str, Quantity, Color32, f32)],
     /// The value of the contact on the screen.
     here: Option<f64>,
+    legend: Corner,
 }
 
 impl Chart<'_> {
@@ -135,11 +134,10 @@ impl Chart<'_> {
                 plot.vline(line.style(LineStyle::dashed_dense()).allow_hover(false));
             }
             for (k, &(name, of, color, width)) in self.curves.iter().enumerate() {
-                let name = plain(name);
                 if let Some(curve) = shown.curve {
                     let color = if shown.curve_stale { palette.reference } else { color };
                     let style = if k == 0 { LineStyle::Solid } else { LineStyle::dashed_loose() };
-                    let line = Line::new(name.clone(), axes.points(&curve.samples, of)).color(color).width(width);
+                    let line = Line::new(name, axes.points(&curve.samples, of)).color(color).width(width);
                     plot.line(line.style(style).id((self.id, k)).allow_band(false));
                 }
                 if let Some(markers) = shown.markers {
@@ -172,7 +170,7 @@ impl Chart<'_> {
             .allow_drag(false)
             .auto_bounds(Vec2b::TRUE)
             .set_margin_fraction(egui::vec2(0.02, 0.08))
-            .legend(Legend::default().position(Corner::LeftTop).follow_insertion_order(true).background_alpha(0.6))
+            .legend(Legend::default().position(self.legend).follow_insertion_order(true).background_alpha(0.6))
             .show_y(false)
             .label_formatter(move |at: &HoverPosition<'_>| {
                 let (name, position) = match at {
@@ -194,11 +192,6 @@ impl Chart<'_> {
             plot.include_y(0.0)
         }
     }
-}
-
-/// A name of the legend, which sets no symbols.
-fn plain(name: &str) -> String {
-    name.replace(['{', '}'], "")
 }
 
 fn rings(plot: &mut PlotUi<'_>, points: Points2, color: Color32, k: usize) {

@@ -10,7 +10,7 @@ use crate::app::in_use::InUse;
 use crate::app::numbers;
 use crate::app::state::{REST_S, State};
 use crate::app::theme::{Palette, rich};
-use crate::app::traction::{Against, Curve, Markers, Sweep, export};
+use crate::app::traction::{Against, Curve, Markers, Sweep, Varied, export};
 use egui::{Button, Checkbox, ComboBox, Context, ProgressBar, Ui};
 
 /// Seconds of rest after which a curve of other sliders is drawn grey.
@@ -19,16 +19,16 @@ const STALE_S: f64 = REST_S + 0.75;
 /// The tab.
 pub fn ui(ui: &mut Ui, state: &mut State) {
     ui.horizontal_wrapped(|ui| {
-        let fluid = &mut state.traction.shows_fluid;
+        let fluid = &mut state.display.traction.shows_fluid;
         ui.selectable_value(fluid, false, "Traction and film");
         ui.selectable_value(fluid, true, "Laws of the fluid");
-        ui.toggle_value(&mut state.traction.why, "Why").on_hover_text("What is seen here, in three sentences");
+        ui.toggle_value(&mut state.display.traction.why, "Why").on_hover_text("What is seen here, in three sentences");
     });
     ui.separator();
-    if state.traction.why {
-        why(ui, state.traction.shows_fluid);
+    if state.display.traction.why {
+        why(ui, state.display.traction.shows_fluid);
     }
-    if state.traction.shows_fluid {
+    if state.display.traction.shows_fluid {
         fluid::ui(ui, state);
         return;
     }
@@ -108,7 +108,7 @@ fn toolbar(ui: &mut Ui, state: &mut State, sweep: Option<&Sweep>) {
     let ctx = ui.ctx().clone();
     ui.horizontal_wrapped(|ui| {
         against_ui(ui, state);
-        let (along, up) = &mut state.traction.logarithmic;
+        let (along, up) = &mut state.display.traction.logarithmic;
         ui.add(Checkbox::new(along, "Log along")).on_hover_text("Equal ways along are equal ratios");
         ui.add(Checkbox::new(up, "Log up")).on_hover_text("Equal ways up are equal ratios of traction and of film");
         if state.traction.standing().is_some() {
@@ -130,8 +130,8 @@ fn toolbar(ui: &mut Ui, state: &mut State, sweep: Option<&Sweep>) {
 
 fn against_ui(ui: &mut Ui, state: &mut State) {
     let label = ui.label("Against").on_hover_text("What traction and film are drawn against");
-    let before = state.traction.against;
-    let chosen = &mut state.traction.against;
+    let before = state.display.traction.against;
+    let chosen = &mut state.display.traction.against;
     let response =
         ComboBox::from_id_salt("traction against").selected_text(before.name()).width(150.0).show_ui(ui, |ui| {
             for option in Against::ALL {
@@ -141,7 +141,8 @@ fn against_ui(ui: &mut Ui, state: &mut State) {
     response.response.labelled_by(label.id).on_hover_text(before.tip());
     if *chosen != before {
         // Speeds span decades, ratios do not.
-        state.traction.logarithmic.0 = !matches!(state.traction.against, Against::SlideToRoll | Against::Plateau);
+        state.display.traction.logarithmic.0 =
+            !matches!(state.display.traction.against, Against::SlideToRoll | Against::Plateau);
         state.fit_plots = true;
     }
 }
@@ -157,7 +158,7 @@ fn exports(ui: &mut Ui, state: &mut State, ctx: &Context, sweep: Option<&Sweep>)
     }
     let tip = "Traction and film as a figure with axes and parameters";
     if ui.add_enabled(there, Button::new("Export SVG…")).on_hover_text(tip).clicked()
-        && let Some(text) = sweep.and_then(|sweep| figure::svg(&state.traction, sweep))
+        && let Some(text) = sweep.and_then(|sweep| figure::svg(&state.traction, state.display.traction, sweep))
     {
         state.ask_path(ctx, Purpose::Picture { bytes: text.into_bytes().into(), extension: "svg" });
     }
@@ -180,6 +181,10 @@ fn status(ui: &mut Ui, state: &State, sweep: &Sweep, served: &Result<InUse, Stri
     }
     if let Some(unphysical) = sweep.unphysical() {
         warning_ui(ui, &format!("{unphysical}: it is drawn grey. Set a limiting shear stress, or take less load"));
+    }
+    let rolls = sweep.varied != Varied::SlideToRoll && sweep.base.point.sliding.slide_to_roll_ratio == 0.0;
+    if rolls {
+        ui.weak("Pure rolling: without a slide-to-roll ratio there is no traction");
     }
     if let Some(message) = &view.message {
         message_ui(ui, message);
