@@ -10,6 +10,7 @@ mod direction;
 pub mod film_shear;
 mod formulas;
 pub mod profiles;
+mod raster;
 mod regime_chart;
 pub mod regimes;
 mod svg;
