@@ -209,7 +209,8 @@ fn bad_constants_of_ones_own_lubricant_are_refused_with_the_reason() {
     wait(&mut harness, "the full solver", |app| app.badge() == "Outside the reduced model" && !app.busy());
     assert!(film(&harness) > 1.05 * before, "a lubricant that thins later keeps a thicker film");
     undo(&mut harness);
-    assert!((film(&harness) / before - 1.0).abs() < 1e-9);
+    // Newton starts elsewhere now: equal within its tolerance.
+    assert!((film(&harness) / before - 1.0).abs() < 1e-6, "{} and {before}", film(&harness));
 }
 
 #[test]

@@ -1,11 +1,10 @@
 //! Tables for other programs: the data behind a plot as CSV, the read-outs as text.
 
-use super::jobs::Key;
 use super::numbers;
 use super::picture::{Picture, value_at};
 use super::state::State;
-use crate::solver::contact::ContactKind;
-use crate::solver::lubricant::ShearLaw;
+use crate::solver::contact::{ContactKind, OperatingPoint};
+use crate::solver::lubricant::{Lubricant, ShearLaw};
 use std::fmt::Write as _;
 
 /// A CSV table: comment lines, header, rows of numbers with full precision; what is missing is an empty field.
@@ -35,17 +34,17 @@ pub fn csv(comments: &[String], header: &[&str], rows: impl IntoIterator<Item = 
 
 /// The parameters of a picture in one line.
 pub fn describe(picture: &Picture) -> String {
-    describe_contact(&picture.key)
+    describe_contact(&picture.key.point, &picture.key.lubricant)
 }
 
-/// A contact and its lubricant in one line.
-pub fn describe_contact(key: &Key) -> String {
-    let (point, moes) = (&key.point, key.point.moes());
+/// The parameters of a contact in one line.
+pub fn describe_contact(point: &OperatingPoint, lubricant: &Lubricant) -> String {
+    let moes = point.moes();
     let unit = match point.kind {
         ContactKind::Line => "N/m",
         ContactKind::Point => "N",
     };
-    let sliding = match (point.sliding.slide_to_roll_ratio, key.lubricant.shear) {
+    let sliding = match (point.sliding.slide_to_roll_ratio, lubricant.shear) {
         (0.0, ShearLaw::Newtonian) => String::new(),
         (srr, ShearLaw::Newtonian) => format!("; SRR {srr:e}"),
         (srr, shear) => {
@@ -63,8 +62,8 @@ pub fn describe_contact(key: &Key) -> String {
         point.modulus_pa,
         point.viscosity_pa_s,
         point.alpha_per_pa,
-        key.lubricant.viscosity,
-        key.lubricant.density
+        lubricant.viscosity,
+        lubricant.density
     )
 }
 

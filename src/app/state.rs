@@ -1,6 +1,9 @@
 //! Everything the window knows, and how a change of the document becomes a picture and its verification.
 
 mod answers;
+mod display;
+
+pub use display::Display;
 
 use super::controls::Entries;
 use super::document::{Document, History};
@@ -10,11 +13,11 @@ use super::in_use::InUse;
 use super::jobs::{GridChoice, JobKind, Jobs, Key, Request};
 use super::model_source::Models;
 use super::picture::{Comparison, Cuts, Origin, Picture};
-use super::plots::contact_map::{ContactMap, MapView};
-use super::plots::film_shear::{FilmShear, FilmShearImage};
+use super::plots::contact_map::ContactMap;
+use super::plots::film_shear::FilmShearImage;
 use super::plots::{accuracy::AccuracyView, basis::BasisView, regimes::RegimeChart};
 use super::task::Standing;
-use super::traction::{Choices, TractionView};
+use super::traction::TractionView;
 use super::training::Training;
 use super::transient::TransientView;
 use crate::solver::contact::ContactKind;
@@ -22,7 +25,6 @@ use crate::solver::full::{Mesh, Problem, Report};
 use crate::solver::grid::PointGridSpec;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
 use egui::Context;
-use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -32,43 +34,6 @@ pub const REST_S: f64 = 0.25;
 pub const AUTO_SAVE_S: u64 = 10;
 /// Curves that can be pinned at once.
 pub const MOST_PINS: usize = 8;
-
-/// How things are shown; not part of the document.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct Display {
-    /// Draw the full solution over the reduced one.
-    pub overlay: bool,
-    /// Draw the difference below.
-    pub difference: bool,
-    /// What is shown across the film.
-    pub film_shear: FilmShear,
-    /// How the Traction tab shows it.
-    pub traction: Choices,
-    /// Where a point contact is cut.
-    pub cuts: Cuts,
-    /// What the contact map shows.
-    pub map: MapView,
-    /// Theme wanted.
-    pub theme: egui::ThemePreference,
-    /// Size of everything.
-    pub zoom: f32,
-}
-
-impl Default for Display {
-    fn default() -> Self {
-        Self {
-            overlay: false,
-            difference: false,
-            film_shear: FilmShear::Off,
-            traction: Choices::default(),
-            cuts: Cuts::default(),
-            map: MapView::default(),
-            theme: egui::ThemePreference::System,
-            zoom: 1.0,
-        }
-    }
-}
 
 /// A curve that stays for comparison.
 pub struct Pin {

@@ -169,6 +169,7 @@ pub fn ui(ui: &mut Ui, image: &FilmShearImage, shown: FilmShear, stale: bool, he
 }
 
 fn scale_ui(ui: &mut Ui, image: &FilmShearImage, shown: FilmShear) {
+    let plane = image.made_of.as_ref().is_some_and(|(solution, _)| solution.y.len() > 1);
     let (low, high) = image.range;
     let [low, high] = if shown == FilmShear::Rate { [low, high].map(|log| 10f64.powf(log)) } else { [low, high] };
     ui.horizontal(|ui| {
@@ -187,7 +188,7 @@ fn scale_ui(ui: &mut Ui, image: &FilmShearImage, shown: FilmShear) {
         }
         ui.painter().rect_stroke(area, 0.0, egui::Stroke::new(1.0, Palette::of(ui).quiet), egui::StrokeKind::Outside);
         ui.weak(quantity(high, shown));
-        ui.weak("in the plane Y = 0, from the lower surface to the upper one");
+        ui.weak(if plane { "in the plane Y = 0, between the surfaces" } else { "between the surfaces" });
     });
 }
 

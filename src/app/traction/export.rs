@@ -6,13 +6,17 @@ use crate::app::jobs::Key;
 
 /// What a sweep belongs to, as lines over a table.
 pub fn describe(sweep: &Sweep) -> Vec<String> {
-    let mut lines = vec![tables::describe_contact(&sweep.base)];
+    let mut lines = vec![described(sweep)];
     lines.push(
         "traction is that of an isothermal film over the whole domain, (3.41); the first contact is described above"
             .to_owned(),
     );
     lines.extend(sweep.unphysical());
     lines
+}
+
+fn described(sweep: &Sweep) -> String {
+    tables::describe_contact(&sweep.base.point, &sweep.base.lubricant)
 }
 
 /// The curve and the full solutions, told apart by the column `full`; `None` where there is neither.
@@ -25,7 +29,7 @@ pub fn csv(view: &TractionView) -> Option<String> {
     let mut comments = describe(first);
     comments.extend(view.curve.iter().map(|curve| format!("full 0: {}", curve.in_use.describe())));
     if let Some(markers) = view.markers.as_ref().filter(|markers| markers.sweep != **first) {
-        comments.push(format!("full 1 belongs to {}", tables::describe_contact(&markers.sweep.base)));
+        comments.push(format!("full 1 belongs to {}", described(&markers.sweep)));
     }
     let rows = blocks
         .into_iter()

@@ -2,7 +2,6 @@
 
 use super::{Run, Setup, TransientView};
 use crate::app::export;
-use crate::app::jobs::Key;
 use crate::solver::full::transient::{Inputs, Signal};
 use crate::solver::grid::GridSpec;
 
@@ -93,7 +92,7 @@ pub fn describe(setup: &Setup) -> Vec<String> {
         other => format!("{other:?}"),
     };
     vec![
-        export::describe_contact(&Key { point: setup.point, lubricant: setup.lubricant }),
+        export::describe_contact(&setup.point, &setup.lubricant),
         format!("radius {}; speed {}; load {}", described(radius), described(speed), described(load)),
         format!("duration {}; time step {:?}; {grid}", setup.study.duration, setup.study.time_step),
     ]

@@ -4,10 +4,10 @@ use crate::app::controls::named;
 use crate::app::numbers;
 use crate::app::plots::axes;
 use crate::app::state::State;
-use crate::app::theme::{LIVE_WIDTH, Palette, THIN_WIDTH};
+use crate::app::theme::{LIVE_WIDTH, Palette, THIN_WIDTH, rich};
 use crate::solver::full::{Problem, Solution};
-use egui::Ui;
-use egui_plot::{Corner, HoverPosition, Legend, Line, LineStyle, Plot, Span, VLine};
+use egui::{Align2, Ui};
+use egui_plot::{Corner, HoverPosition, Legend, Line, LineStyle, Plot, PlotPoint, Span, Text, VLine};
 use std::sync::Arc;
 
 /// Points of a curve.
@@ -104,10 +104,17 @@ fn pressure_plot(ui: &mut Ui, met: &Met, height: f32, fit: bool) {
             })
             .show(ui, |plot| {
                 axes::fit(plot, fit);
-                plot.span(Span::new("met", 0.0..=1e-9 * met.pressure_pa).fill(palette.cavitated).border_width(0.0));
+                plot.span(
+                    Span::new("met here", 0.0..=1e-9 * met.pressure_pa)
+                        .fill(palette.accent.gamma_multiply(0.14))
+                        .border_width(0.0),
+                );
                 plot.line(Line::new("µ(p)", curve).color(palette.pressure).width(LIVE_WIDTH).allow_band(false));
                 let line = VLine::new("p_H", 1e-9 * hertz_pa).color(palette.reference).width(THIN_WIDTH);
                 plot.vline(line.style(LineStyle::dashed_dense()).allow_hover(false));
+                let at = PlotPoint::new(1e-9 * hertz_pa, viscosity(0.0).log10());
+                let name = Text::new("", at, rich(" {p_H}", 12.5, palette.quiet));
+                plot.text(name.anchor(Align2::LEFT_BOTTOM).id("Hertz").allow_hover(false));
             });
     named(ui, response.response, "Viscosity against pressure");
 }
@@ -147,7 +154,11 @@ fn flow_plot(ui: &mut Ui, met: &Met, height: f32, fit: bool) {
         .show(ui, |plot| {
             axes::fit(plot, fit);
             if let Some(stress) = met.stress_pa.filter(|stress| stress.log10() > from) {
-                plot.span(Span::new("met", from..=stress.log10()).fill(palette.cavitated).border_width(0.0));
+                plot.span(
+                    Span::new("met here", from..=stress.log10())
+                        .fill(palette.accent.gamma_multiply(0.14))
+                        .border_width(0.0),
+                );
             }
             for (name, p, color, width) in
                 [("at p_H", 1.0, palette.pressure, LIVE_WIDTH), ("at p = 0", 0.0, palette.film, LIVE_WIDTH)]

@@ -4,7 +4,7 @@ mod chart;
 mod figure;
 mod fluid;
 
-use crate::app::controls::{message_ui, named, sentence, warning_ui};
+use crate::app::controls::{message_ui, named, sentence, warning_ui, why};
 use crate::app::files::Purpose;
 use crate::app::in_use::InUse;
 use crate::app::numbers;
@@ -25,9 +25,7 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
         ui.toggle_value(&mut state.display.traction.why, "Why").on_hover_text("What is seen here, in three sentences");
     });
     ui.separator();
-    if state.display.traction.why {
-        why(ui, state.display.traction.shows_fluid);
-    }
+    why(ui, state.display.traction.why, WHY[usize::from(state.display.traction.shows_fluid)]);
     if state.display.traction.shows_fluid {
         fluid::ui(ui, state);
         return;
@@ -91,26 +89,23 @@ impl<'a> Shown<'a> {
     }
 }
 
-fn why(ui: &mut Ui, fluid: bool) {
-    let text = if fluid {
-        "Pressure in the contact lets the viscosity rise by many orders of magnitude, shear stress lets it fall again. The shaded parts are what \
-         this very contact meets: their ends decide how much of both the film feels. η({p}, τ) = µ({p}) [NPR + (1 − NPR)(1 + (τ/{G_c})^{β})^((1 − 1/{n})/{β})] (3.40)."
-    } else {
-        "Surfaces that slide shear the film, and its shear stress, summed up over the contact, is the traction. A lubricant that thins under shear \
-         gives way: the curve bends, and the film gets thinner because the inlet is sheared as well. Under high pressure a film without a limiting \
-         stress would carry more than any lubricant can, so look at {p_H} first. µ = (1/{w}) ∫ τ(h/2) dA (3.41)."
-    };
-    ui.label(rich(text, 12.5, Palette::of(ui).quiet));
-    ui.separator();
-}
+/// The notes for teaching: of the traction, and of the laws.
+const WHY: [&str; 2] = [
+    "Surfaces that slide shear the film, and its shear stress, summed up over the contact, is the traction. A lubricant that thins under shear \
+     gives way: the curve bends, and the film gets thinner because the inlet is sheared as well. Under high pressure a film without a limiting \
+     stress would carry more than any lubricant can, so look at p_H first. µ = (1/w) ∫ τ(h/2) dA (3.41)",
+    "Pressure in the contact lets the viscosity rise by many orders of magnitude, shear stress lets it fall again. The shaded parts are what this \
+     very contact meets: their ends decide how much of both the film feels. Where they end left of the bend the lubricant is as good as \
+     Newtonian. η(p, τ) = µ(p) (NPR + (1 − NPR)(1 + (τ/G_c)^β)^((1 − 1/n)/β)) (3.40)",
+];
 
 fn toolbar(ui: &mut Ui, state: &mut State, sweep: Option<&Sweep>) {
     let ctx = ui.ctx().clone();
     ui.horizontal_wrapped(|ui| {
         against_ui(ui, state);
         let (along, up) = &mut state.display.traction.logarithmic;
-        ui.add(Checkbox::new(along, "Log along")).on_hover_text("Equal ways along are equal ratios");
-        ui.add(Checkbox::new(up, "Log up")).on_hover_text("Equal ways up are equal ratios of traction and of film");
+        ui.add(Checkbox::new(along, "Log x")).on_hover_text("Equal ways along are equal ratios");
+        ui.add(Checkbox::new(up, "Log y")).on_hover_text("Equal ways up are equal ratios of traction and of film");
         if state.traction.standing().is_some() {
             if ui.button("Stop").on_hover_text("Full solutions so far stay (Esc)").clicked() {
                 state.traction.stop();
