@@ -267,7 +267,8 @@ impl Document {
     /// A sentence when the training makes no sense; the document is unchanged then.
     pub fn set_training(&mut self, spec: TrainingSpec) -> Result<(), String> {
         spec.check().map_err(|e| e.to_string())?;
-        let scene = Scene { study: Study::Training(spec.clone()), ..Scene::at_moes(HOME.m, HOME.l) };
+        let study = Study::Training(spec.clone());
+        let scene = Scene { contact: spec.contact(), study, ..Scene::at_moes(HOME.m, HOME.l) };
         scene.check().map_err(|e| e.to_string())?;
         self.training = Some(spec);
         Ok(())
@@ -276,10 +277,12 @@ impl Document {
     /// Whether its file holds the training: a scene that asks another question keeps that, a contact of the other kind asks its own, and a new
     /// one has room for one question.
     pub fn saves_training(&self) -> bool {
-        match &self.scene {
-            Some(scene) => scene.contact == self.point.kind && matches!(scene.study, Study::Training(_)),
-            None => self.point.kind == ContactKind::Line && self.transient.is_none(),
-        }
+        let kind = self.point.kind;
+        self.training.as_ref().is_none_or(|spec| spec.contact() == kind)
+            && match &self.scene {
+                Some(scene) => scene.contact == kind && matches!(scene.study, Study::Training(_)),
+                None => self.transient.is_none(),
+            }
     }
 
     /// Chooses what follows M; what follows L changes along where both cannot be had together.

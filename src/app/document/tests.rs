@@ -68,6 +68,17 @@ fn a_training_is_edited_saved_and_refused_like_the_rest() {
     assert_eq!(document.to_scene().study, other.study);
     let fresh = Document { training: training.clone(), ..Document::default() };
     assert_eq!(Document::of_scene(fresh.to_scene()).unwrap().training, training);
+    // A training of point contacts belongs to a point contact, and is not saved with a line.
+    let mut point = Document::default();
+    point.set_kind(ContactKind::Point).unwrap();
+    let scene = Scene::from_ron(include_str!("../../../scenes/table_3_4_model.ron")).unwrap();
+    let Study::Training(spec) = scene.study else { panic!() };
+    point.set_training(spec.clone()).unwrap();
+    let saved = point.to_scene();
+    saved.check().unwrap();
+    assert_eq!(Document::of_scene(saved).unwrap().training, Some(spec));
+    point.set_kind(ContactKind::Line).unwrap();
+    assert!(!point.saves_training() && point.to_scene().check().is_ok());
 }
 
 #[test]
