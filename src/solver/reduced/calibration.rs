@@ -406,3 +406,6 @@ impl TryFrom<&Calibration> for RollingCalibration {
         })
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -5,8 +5,6 @@
 //! contacts share all of it: what differs is in their grids ([`crate::solver::grid::ContactGrid`]) and in the penalty of a window.
 
 mod calibration;
-#[cfg(test)]
-mod calibration_tests;
 mod cubature;
 mod error_measures;
 mod error_split;

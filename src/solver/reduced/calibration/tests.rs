@@ -1,6 +1,6 @@
 //! Calibrated bounds on synthetic evidence: they cover fresh cases, follow what exceeds the evidence, and survive being stored.
 
-use super::calibration::*;
+use super::*;
 use fastrand::Rng;
 
 /// Errors that follow e_f^I and a bump in the place, with a scatter that is larger on one side.
@@ -74,8 +74,7 @@ fn sliding(count: usize, seed: u64) -> Vec<Evidence> {
     let mut cases = synthetic(count, seed);
     for case in &mut cases {
         let srr = if rng.f64() < 0.1 { 0.0 } else { rng.f64() };
-        (case.features.values[5], case.features.values[6], case.features.count) =
-            (srr, rng.f64(), SLIDING_FEATURES);
+        (case.features.values[5], case.features.values[6], case.features.count) = (srr, rng.f64(), SLIDING_FEATURES);
         case.errors.traction = (srr > 0.0).then(|| case.errors.h_c * (2.0 - 3.0 * srr + rng.f64()).exp());
     }
     cases
