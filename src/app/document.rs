@@ -193,7 +193,8 @@ impl Document {
     /// A sentence when the training makes no sense; the document is unchanged then.
     pub fn set_training(&mut self, spec: TrainingSpec) -> Result<(), String> {
         spec.check().map_err(|e| e.to_string())?;
-        let scene = Scene { study: Study::Training(spec.clone()), ..Scene::at_moes(HOME.m, HOME.l) };
+        let study = Study::Training(spec.clone());
+        let scene = Scene { contact: spec.contact(), study, ..Scene::at_moes(HOME.m, HOME.l) };
         scene.check().map_err(|e| e.to_string())?;
         self.training = Some(spec);
         Ok(())
@@ -202,10 +203,12 @@ impl Document {
     /// Whether its file holds the training: a scene that asks another question keeps that, a contact of the other kind asks its own, and a new
     /// one has room for one question.
     pub fn saves_training(&self) -> bool {
-        match &self.scene {
-            Some(scene) => scene.contact == self.point.kind && matches!(scene.study, Study::Training(_)),
-            None => self.point.kind == ContactKind::Line && self.transient.is_none(),
-        }
+        let kind = self.point.kind;
+        self.training.as_ref().is_none_or(|spec| spec.contact() == kind)
+            && match &self.scene {
+                Some(scene) => scene.contact == kind && matches!(scene.study, Study::Training(_)),
+                None => self.transient.is_none(),
+            }
     }
 
     /// Chooses what follows M; what follows L changes along where both cannot be had together.
@@ -437,6 +440,17 @@ mod tests {
         assert_eq!(document.to_scene().study, other.study);
         let fresh = Document { training: training.clone(), ..Document::default() };
         assert_eq!(Document::of_scene(fresh.to_scene()).unwrap().training, training);
+        // A training of point contacts belongs to a point contact, and is not saved with a line.
+        let mut point = Document::default();
+        point.set_kind(ContactKind::Point).unwrap();
+        let scene = Scene::from_ron(include_str!("../../scenes/table_3_4_model.ron")).unwrap();
+        let Study::Training(spec) = scene.study else { panic!() };
+        point.set_training(spec.clone()).unwrap();
+        let saved = point.to_scene();
+        saved.check().unwrap();
+        assert_eq!(Document::of_scene(saved).unwrap().training, Some(spec));
+        point.set_kind(ContactKind::Line).unwrap();
+        assert!(!point.saves_training() && point.to_scene().check().is_ok());
     }
 
     #[test]

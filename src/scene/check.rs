@@ -106,7 +106,7 @@ fn grid(grid: &Grid, contact: ContactKind) -> Checked {
 
 fn study(scene: &Scene) -> Checked {
     match &scene.study {
-        Study::ErrorSplit { .. } | Study::DistanceMeasure { .. } if scene.contact == ContactKind::Point => {
+        Study::DistanceMeasure { .. } if scene.contact == ContactKind::Point => {
             Err(refuse("study", "is made for line contacts only; write `contact: Line`, or another study"))
         }
         Study::Training(spec) if spec.contact() != scene.contact => Err(refuse(

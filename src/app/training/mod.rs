@@ -188,10 +188,9 @@ fn missed_tolerances(state: &TrainingState) -> Vec<String> {
 impl State {
     /// The training that the Training tab shows.
     pub fn training_spec(&self) -> Option<&TrainingSpec> {
-        match &self.document.training {
-            Some(spec) => Some(spec),
-            None => presets::table_3_1(),
-        }
+        let kind = self.document.point.kind;
+        let own = self.document.training.as_ref().filter(|spec| spec.contact() == kind);
+        own.or_else(|| presets::of_kind(kind).first().map(|preset| preset.1))
     }
 
     /// Starts the training that the tab shows, unless its specification is refused.

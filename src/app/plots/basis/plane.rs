@@ -62,7 +62,7 @@ impl ModeMap {
             });
         let tip = "The first of the chosen modes, coloured where it is positive and grey where it is negative; marks are the sampled rows of \
             the Reynolds equation and their mirror images, the dashed circle is the Hertzian contact";
-        named(ui, shown.response, "Mode and sampled rows in the plane").on_hover_text(tip);
+        named(ui, shown.response, "Mode and sampled rows on the plane").on_hover_text(tip);
     }
 }
 
