@@ -14,7 +14,7 @@ use crate::solver::lubricant::Sliding;
 use crate::solver::training::TrainingObserver;
 
 /// Values of each method in the table of a series.
-const COLUMNS: [&str; 18] = [
+const COLUMNS: [&str; 19] = [
     "converged",
     "H_c",
     "H_min",
@@ -32,6 +32,7 @@ const COLUMNS: [&str; 18] = [
     "reduced.residual_estimate",
     "reduced.h_c_error_bound",
     "reduced.h_min_error_bound",
+    "reduced.traction_error_bound",
     "wall_s",
 ];
 

@@ -20,6 +20,7 @@ mod split;
 mod state;
 #[cfg(test)]
 mod tests;
+mod traction;
 mod trajectories;
 #[cfg(test)]
 mod trajectories_tests;
