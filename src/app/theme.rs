@@ -21,6 +21,8 @@ pub struct Palette {
     pub film: Color32,
     /// Deformation.
     pub deformation: Color32,
+    /// Traction.
+    pub traction: Color32,
     /// Hertz and published formulas, always dashed.
     pub reference: Color32,
     /// What can be dragged, what is selected.
@@ -62,6 +64,7 @@ impl Palette {
                 pressure: Color32::from_rgb(0xF0, 0x7A, 0x28),
                 film: Color32::from_rgb(0x3C, 0x9F, 0xDE),
                 deformation: Color32::from_rgb(0x1F, 0xB8, 0x8C),
+                traction: Color32::from_rgb(0xD9, 0x8C, 0xB6),
                 reference: Color32::from_gray(0x93),
                 accent: Color32::from_rgb(0xA3, 0x8F, 0xF5),
                 verified: Color32::from_rgb(0x6F, 0xC0, 0x8B),
@@ -84,6 +87,7 @@ impl Palette {
                 pressure: Color32::from_rgb(0xD5, 0x5E, 0x00),
                 film: Color32::from_rgb(0x00, 0x72, 0xB2),
                 deformation: Color32::from_rgb(0x00, 0x9E, 0x73),
+                traction: Color32::from_rgb(0xA8, 0x47, 0x8A),
                 reference: Color32::from_gray(0x78),
                 accent: Color32::from_rgb(0x62, 0x4C, 0xC0),
                 verified: Color32::from_rgb(0x2E, 0x7D, 0x4F),
@@ -223,6 +227,7 @@ mod tests {
             include_str!("numbers.rs"),
             include_str!("picture.rs"),
             include_str!("panels/help.rs"),
+            include_str!("panels/lubricant.rs"),
             include_str!("panels/menu.rs"),
             include_str!("panels/operating_point.rs"),
             include_str!("panels/plane.rs"),
@@ -248,6 +253,7 @@ mod tests {
             include_str!("plots/contact_map/optics.rs"),
             include_str!("plots/contact_map/scale.rs"),
             include_str!("plots/direction.rs"),
+            include_str!("plots/film_shear.rs"),
             include_str!("plots/formulas.rs"),
             include_str!("plots/profiles.rs"),
             include_str!("plots/regimes.rs"),
@@ -257,6 +263,13 @@ mod tests {
             include_str!("plots/training/fields.rs"),
             include_str!("plots/training/form.rs"),
             include_str!("plots/training/mod.rs"),
+            include_str!("plots/traction/chart.rs"),
+            include_str!("plots/traction/figure.rs"),
+            include_str!("plots/traction/fluid.rs"),
+            include_str!("plots/traction/mod.rs"),
+            include_str!("traction/full.rs"),
+            include_str!("traction/mod.rs"),
+            include_str!("traction/sweep.rs"),
             include_str!("training/mod.rs"),
             include_str!("transient/method.rs"),
             include_str!("transient/mod.rs"),
@@ -266,6 +279,7 @@ mod tests {
             include_str!("plots/transient/mod.rs"),
             include_str!("plots/transient/profiles.rs"),
             include_str!("plots/transient/series.rs"),
+            include_str!("../scene/named_lubricant.rs"),
             include_str!("../scene/view.rs"),
             include_str!("../solver/contact/film_formulas.rs"),
         ];

@@ -402,8 +402,6 @@ fn view(view: &View) -> Checked {
     for (field, loss) in [("pressure_loss", view.pressure_loss), ("deformation_loss", view.deformation_loss)] {
         loss.iter().try_for_each(|&loss| number(&format!("view.{field}"), loss, 1e-16, 0.99))?;
     }
-    number("view.slide_to_roll_ratio", view.slide_to_roll_ratio, -100.0, 100.0)?;
-    number("view.newtonian_plateau_ratio", view.newtonian_plateau_ratio, 0.0, 1.0)?;
     if !view.when_m_moves.partners().contains(&view.when_l_moves) {
         let partners = view.when_m_moves.partners().iter().map(|p| format!("{p:?}")).collect::<Vec<_>>().join(", ");
         let problem =

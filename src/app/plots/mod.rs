@@ -7,11 +7,14 @@ pub mod basis;
 pub mod contact_map;
 mod cut_line;
 mod direction;
+pub mod film_shear;
 mod formulas;
 pub mod profiles;
 mod raster;
 mod regime_chart;
 pub mod regimes;
+mod svg;
+mod traction;
 mod training;
 mod transient;
 
@@ -29,6 +32,8 @@ pub enum Tab {
     ContactMap,
     /// The M–L chart.
     Regimes,
+    /// Friction along one quantity.
+    Traction,
     /// Singular values, modes, sampled rows.
     Basis,
     /// Residuals and errors.
@@ -41,8 +46,16 @@ pub enum Tab {
 
 impl Tab {
     /// All tabs in their order.
-    pub const ALL: [Self; 7] =
-        [Self::Profiles, Self::ContactMap, Self::Regimes, Self::Basis, Self::Accuracy, Self::Training, Self::Transient];
+    pub const ALL: [Self; 8] = [
+        Self::Profiles,
+        Self::ContactMap,
+        Self::Regimes,
+        Self::Traction,
+        Self::Basis,
+        Self::Accuracy,
+        Self::Training,
+        Self::Transient,
+    ];
 
     /// Title.
     pub fn title(self) -> &'static str {
@@ -50,6 +63,7 @@ impl Tab {
             Self::Profiles => "Profiles",
             Self::ContactMap => "Contact map",
             Self::Regimes => "Regimes",
+            Self::Traction => "Traction",
             Self::Basis => "Reduced basis",
             Self::Accuracy => "Accuracy",
             Self::Training => "Training",
@@ -83,6 +97,7 @@ impl Behavior<Tab> for Tabs<'_> {
                 Tab::Profiles => profiles::ui(ui, self.state),
                 Tab::ContactMap => contact_map::ui(ui, self.state),
                 Tab::Regimes => regimes::ui(ui, self.state),
+                Tab::Traction => traction::ui(ui, self.state),
                 Tab::Basis => basis::ui(ui, self.state),
                 Tab::Accuracy => accuracy::ui(ui, self.state),
                 Tab::Training => training::ui(ui, self.state),
