@@ -185,23 +185,14 @@ impl Fluidity {
     }
 }
 
-/// F = (1 + t^β)^q and t dF/dt. One function after the other for all t: each loop runs in vector registers, one over all four would not.
-#[inline(always)]
+/// F = (1 + t^β)^q and t dF/dt.
 fn power<const N: usize>(beta: f64, q: f64, t: &[f64; N]) -> ([f64; N], [f64; N]) {
-    let (mut log, mut y, mut factor, mut slope) = ([0.0; N], [0.0; N], [0.0; N], [0.0; N]);
-    for (log, t) in log.iter_mut().zip(t) {
-        *log = beta * elementary::ln(*t);
-    }
-    for (y, log) in y.iter_mut().zip(&log) {
-        *y = elementary::exp(*log);
-    }
-    // A y that is lost beside 1 changes nothing: ln(1 + y) need not be exact relative to itself.
-    for (log, y) in log.iter_mut().zip(&y) {
-        *log = q * elementary::ln(1.0 + y);
-    }
-    for (factor, log) in factor.iter_mut().zip(&log) {
-        *factor = elementary::exp(*log);
-    }
+    let mut y = *t;
+    elementary::raise(&mut y, beta);
+    // A y that is lost beside 1 changes nothing: 1 + y need not be exact relative to y.
+    let mut factor = y.map(|y| 1.0 + y);
+    elementary::raise(&mut factor, q);
+    let mut slope = [0.0; N];
     for i in 0..N {
         slope[i] = q * beta * factor[i] * (y[i] / (1.0 + y[i]));
     }

@@ -57,7 +57,7 @@ pub struct ErrorEstimate {
     pub h_min: Estimated,
     /// Of the state, e_z of (3.10).
     pub state: Estimated,
-    /// Of the traction coefficient (3.41), of a model that knows sliding.
+    /// Of the traction coefficient (3.41), of a model that knows sliding and where an isothermal traction has a meaning.
     pub traction: Option<Estimated>,
 }
 
@@ -79,7 +79,7 @@ pub struct Measured {
     pub h_min: f64,
     /// Of the state, e_z.
     pub state: f64,
-    /// Of the traction coefficient; not where nothing slides or the model has no rule for it.
+    /// Of the traction coefficient; not where nothing slides, the traction has no meaning, or the model has no rule for it.
     pub traction: Option<f64>,
 }
 

@@ -251,9 +251,13 @@ impl Online {
         self.former.remember(Known { window, point: problem.point, coefficients: coefficients.clone(), h_c });
         let trust = self.model.trust(problem);
         let calibration = self.model.windows.get(window).and_then(|w| w.calibration.as_ref());
-        let error = calibration
+        let mut error = calibration
             .filter(|_| trust == Trust::Trained && self.options == ReducedOptions::default())
             .map(|c| c.estimate(&Features::new(&problem.point, residual, &coefficients, c.sliding())));
+        if let Some(estimate) = error.as_mut().filter(|estimate| estimate.traction.is_some()) {
+            // Of a traction that is no physics nothing is promised.
+            estimate.traction = estimate.traction.filter(|_| problem.traction_warning().is_none());
+        }
         ReducedSolution {
             point: problem.point,
             lubricant: problem.lubricant,

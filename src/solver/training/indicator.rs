@@ -145,7 +145,7 @@ impl Corrector {
         Self { grid: window.grid.clone(), point: None }
     }
 
-    /// Relative errors of H_c, H_min, the state (e_z of (3.10)) and, where the model has a rule for it and the contact slides, the traction, as
+    /// Relative errors of H_c, H_min, the state (e_z of (3.10)) and, where the model has a rule for it and it has a meaning, the traction, as
     /// three full Newton steps from a reduced solution find them: nearly exact where the model is fair, and large where it is not.
     pub fn errors(&mut self, online: &Online, solved: &ReducedSolution) -> Option<Measured> {
         let before = online.reconstruct(solved).ok()?;
@@ -163,7 +163,8 @@ impl Corrector {
         let state = (difference / size).sqrt();
         let sound = [h_c, h_min, state].iter().all(|error| error.is_finite());
         let slides = solved.point.sliding.slide_to_roll_ratio != 0.0;
-        let traction = solved.traction.filter(|_| sound && slides).map(|own| {
+        let sensible = slides && before.problem.traction_warning().is_none();
+        let traction = solved.traction.filter(|_| sound && sensible).map(|own| {
             let Corrected { pressure, film, .. } = after;
             change(own, Solution { pressure, film, ..before }.traction_coefficient())
         });
