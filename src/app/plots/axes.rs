@@ -10,15 +10,19 @@ use egui_plot::{GridInput, GridMark, Plot, PlotResponse, PlotUi};
 /// Size of axis titles.
 pub const TITLE_SIZE: f32 = 12.5;
 
+/// Width that a number below an axis wants; closer ones are not shown.
+const LABEL_ROOM: f32 = 80.0;
+
 /// A plot in the explorer's manner with axis titles that may hold symbols (see [`rich`]); an empty title is left out.
 pub fn plot<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> Plot<'a> {
     let color = ui.visuals().text_color();
+    let columns = f64::from(ui.available_width() / LABEL_ROOM).clamp(2.0, 9.0);
     let mut plot = Plot::new(id)
         .height(height)
         .grid_color(Palette::of(ui).grid)
         .allow_scroll(false)
         .y_axis_min_width(62.0)
-        .x_grid_spacer(|input| round_marks(input, 9.0))
+        .x_grid_spacer(move |input| round_marks(input, columns))
         .y_grid_spacer(|input| round_marks(input, 6.0))
         .x_axis_formatter(|mark, _| tick(mark.value))
         .y_axis_formatter(|mark, _| tick(mark.value))

@@ -9,6 +9,7 @@ mod cut_line;
 mod direction;
 mod formulas;
 pub mod profiles;
+mod raster;
 mod regime_chart;
 pub mod regimes;
 pub mod tpwl;
