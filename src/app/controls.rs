@@ -54,6 +54,14 @@ pub fn warning_ui(ui: &mut Ui, message: &str) {
     ui.label(RichText::new(sentence(message)).small().color(color));
 }
 
+/// What a tab shows and why it is so, for teaching; where it is wanted.
+pub fn why(ui: &mut Ui, wanted: bool, text: &str) {
+    if wanted {
+        let frame = egui::Frame::new().inner_margin(6.0).corner_radius(4.0).fill(ui.visuals().faint_bg_color);
+        frame.show(ui, |ui| ui.label(text));
+    }
+}
+
 /// First letter large (unless it is a symbol), a full stop at the end.
 pub fn sentence(text: &str) -> String {
     let text = text.trim();

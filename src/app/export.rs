@@ -3,7 +3,8 @@
 use super::numbers;
 use super::picture::{Picture, value_at};
 use super::state::State;
-use crate::solver::contact::ContactKind;
+use crate::solver::contact::{ContactKind, OperatingPoint};
+use crate::solver::lubricant::Lubricant;
 use std::fmt::Write as _;
 
 /// A CSV table: comment lines, header, rows of numbers with full precision; what is missing is an empty field.
@@ -33,7 +34,12 @@ pub fn csv(comments: &[String], header: &[&str], rows: impl IntoIterator<Item = 
 
 /// The parameters of a picture in one line.
 pub fn describe(picture: &Picture) -> String {
-    let (point, moes) = (&picture.key.point, picture.key.point.moes());
+    describe_contact(&picture.key.point, &picture.key.lubricant)
+}
+
+/// The parameters of a contact in one line.
+pub fn describe_contact(point: &OperatingPoint, lubricant: &Lubricant) -> String {
+    let moes = point.moes();
     let unit = match point.kind {
         ContactKind::Line => "N/m",
         ContactKind::Point => "N",
@@ -48,8 +54,8 @@ pub fn describe(picture: &Picture) -> String {
         point.modulus_pa,
         point.viscosity_pa_s,
         point.alpha_per_pa,
-        picture.key.lubricant.viscosity,
-        picture.key.lubricant.density
+        lubricant.viscosity,
+        lubricant.density
     )
 }
 

@@ -4,6 +4,7 @@ mod answers;
 
 use super::controls::Entries;
 use super::document::{Document, History};
+use super::figure::Figures;
 use super::files::Files;
 use super::grid_error::GridError;
 use super::in_use::InUse;
@@ -11,7 +12,7 @@ use super::jobs::{GridChoice, JobKind, Jobs, Key, Request};
 use super::model_source::Models;
 use super::picture::{Comparison, Cuts, Origin, Picture};
 use super::plots::contact_map::{ContactMap, MapView};
-use super::plots::{accuracy::AccuracyView, basis::BasisView, regimes::RegimeChart};
+use super::plots::{accuracy::AccuracyView, basis::BasisView, regimes::RegimeChart, tpwl::TpwlView};
 use super::training::Training;
 use super::transient::TransientView;
 use crate::solver::contact::ContactKind;
@@ -140,6 +141,10 @@ pub struct State {
     pub training: Training,
     /// Contacts in time.
     pub transient: TransientView,
+    /// What the TPWL tab shows.
+    pub tpwl: TpwlView,
+    /// Plots that leave as pictures.
+    pub figures: Figures,
     /// What the Regimes tab keeps between frames.
     pub regimes: RegimeChart,
     /// Plots are to be fitted to their data in this frame.
@@ -182,6 +187,8 @@ impl State {
             accuracy: AccuracyView::default(),
             training: Training::default(),
             transient: TransientView::default(),
+            tpwl: TpwlView::default(),
+            figures: Figures::default(),
             regimes: RegimeChart::default(),
             fit_plots: true,
             wanted: None,

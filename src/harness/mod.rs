@@ -48,7 +48,7 @@ pub use run::run_scene;
 pub use sampling::{Random, random_points};
 pub use statistics::{median, percentile, rank_correlation};
 pub use table::Table;
-pub(crate) use transient_study::training_states;
+pub(crate) use transient_study::{TOO_STEEP, kept_states, train_linearised, training_states};
 pub use workbench::{Answer, ReducedFacts, Request, Workbench};
 
 use crate::solver::contact::ContactKind;

@@ -22,7 +22,7 @@ pub use study::{
     Variable,
 };
 pub use tpwl::{Drive, TpwlStudy};
-pub use transient::{ReducedTransient, TrainingInputs, TransientStudy};
+pub use transient::{LinearisedTransient, ReducedTransient, TrainingInputs, TransientStudy};
 pub use view::{LoadFollower, LubricantFollower, View};
 
 use crate::solver::contact::{ContactError, ContactKind, MoesRequest, OperatingPoint, si_from_moes};

@@ -17,6 +17,8 @@ pub fn ui(ui: &mut Ui, state: &mut State, chosen: &mut Vec<Command>) {
             item(ui, Command::Save, true, chosen);
             item(ui, Command::SaveAs, true, chosen);
             ui.separator();
+            item(ui, Command::ExportPlot, true, chosen);
+            ui.separator();
             item(ui, Command::Quit, true, chosen);
         });
         ui.menu_button("Edit", |ui| {
@@ -42,7 +44,8 @@ pub fn ui(ui: &mut Ui, state: &mut State, chosen: &mut Vec<Command>) {
         });
         ui.menu_button("Run", |ui| {
             item(ui, Command::Verify, true, chosen);
-            let background = state.training.job().is_some() || state.accuracy.standing().is_some();
+            let studies = [state.accuracy.standing(), state.transient.standing(), state.transient.number.standing()];
+            let background = state.training.job().is_some() || studies.iter().any(Option::is_some);
             item(ui, Command::Cancel, background || !state.jobs.running().is_empty(), chosen);
         });
         ui.menu_button("Help", |ui| {

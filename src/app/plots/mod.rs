@@ -9,8 +9,10 @@ mod cut_line;
 mod direction;
 mod formulas;
 pub mod profiles;
+mod raster;
 mod regime_chart;
 pub mod regimes;
+pub mod tpwl;
 mod training;
 mod transient;
 
@@ -36,12 +38,22 @@ pub enum Tab {
     Training,
     /// The contact in time.
     Transient,
+    /// The linearised model of it.
+    Tpwl,
 }
 
 impl Tab {
     /// All tabs in their order.
-    pub const ALL: [Self; 7] =
-        [Self::Profiles, Self::ContactMap, Self::Regimes, Self::Basis, Self::Accuracy, Self::Training, Self::Transient];
+    pub const ALL: [Self; 8] = [
+        Self::Profiles,
+        Self::ContactMap,
+        Self::Regimes,
+        Self::Basis,
+        Self::Accuracy,
+        Self::Training,
+        Self::Transient,
+        Self::Tpwl,
+    ];
 
     /// Title.
     pub fn title(self) -> &'static str {
@@ -53,6 +65,7 @@ impl Tab {
             Self::Accuracy => "Accuracy",
             Self::Training => "Training",
             Self::Transient => "Transient",
+            Self::Tpwl => "TPWL",
         }
     }
 }
@@ -86,6 +99,7 @@ impl Behavior<Tab> for Tabs<'_> {
                 Tab::Accuracy => accuracy::ui(ui, self.state),
                 Tab::Training => training::ui(ui, self.state),
                 Tab::Transient => transient::ui(ui, self.state),
+                Tab::Tpwl => tpwl::ui(ui, self.state),
             }
         });
         UiResponse::None

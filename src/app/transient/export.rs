@@ -82,7 +82,6 @@ fn table(setup: &Setup, more: &[String], columns: &[&str], blocks: Vec<Block>) -
 
 /// The set-up as lines over a table.
 pub fn describe(setup: &Setup) -> Vec<String> {
-    let (point, moes) = (&setup.point, setup.point.moes());
     let Inputs { radius, speed, load } = &setup.study.inputs;
     let grid = match setup.grid {
         GridSpec::Uniform { dx, domain } => format!("uniform grid of {dx} over {domain:?}"),
@@ -93,19 +92,7 @@ pub fn describe(setup: &Setup) -> Vec<String> {
         other => format!("{other:?}"),
     };
     vec![
-        format!(
-            "M {:e}; L {:e}; R {:e} m; u_m {:e} m/s; w {:e} N/m; E' {:e} Pa; eta_0 {:e} Pa s; alpha {:e} 1/Pa; {:?}; {:?}",
-            moes.m,
-            moes.l,
-            point.radius_m,
-            point.speed_m_per_s,
-            point.load,
-            point.modulus_pa,
-            point.viscosity_pa_s,
-            point.alpha_per_pa,
-            setup.lubricant.viscosity,
-            setup.lubricant.density
-        ),
+        export::describe_contact(&setup.point, &setup.lubricant),
         format!("radius {}; speed {}; load {}", described(radius), described(speed), described(load)),
         format!("duration {}; time step {:?}; {grid}", setup.study.duration, setup.study.time_step),
     ]

@@ -1,11 +1,11 @@
 //! The map as a texture and its contour lines, made anew only when the solution or what is shown of it changes.
 
 use super::contours::Field;
-use super::raster::Raster;
 use super::{MapView, Shown};
 use crate::app::color_map;
 use crate::app::numbers;
 use crate::app::picture::Picture;
+use crate::app::plots::raster::Raster;
 use crate::app::png;
 use crate::solver::full::Solution;
 use egui::{Color32, ColorImage, Context, TextureHandle, TextureId, TextureOptions};
@@ -116,11 +116,12 @@ pub fn table(shown: Shown) -> Vec<Color32> {
 
 fn draw(picture: &Picture, view: &MapView, range: (f64, f64)) -> ColorImage {
     let solution = &*picture.solution;
+    let nodes = (solution.x.as_slice(), solution.y.as_slice());
     match view.shown {
-        Shown::Film => Raster::new(solution, &solution.film, 1.0).colored(&table(view.shown), range),
-        Shown::Pressure => Raster::new(solution, &solution.pressure, 1.0).colored(&table(view.shown), range),
+        Shown::Film => Raster::new(nodes, &solution.film, 1.0).colored(&table(view.shown), range),
+        Shown::Pressure => Raster::new(nodes, &solution.pressure, 1.0).colored(&table(view.shown), range),
         Shown::Interferogram => {
-            let films = Raster::new(solution, &solution.film, picture.key.point.film_scale_m());
+            let films = Raster::new(nodes, &solution.film, picture.key.point.film_scale_m());
             films.interferogram(&view.rig, view.three_colors)
         }
     }

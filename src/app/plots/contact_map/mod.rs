@@ -5,7 +5,6 @@ mod contours;
 mod export;
 mod images;
 mod optics;
-mod raster;
 mod scale;
 
 pub use images::ContactMap;

@@ -1,10 +1,10 @@
 //! The colour bar beside the map, with its values and their SI twins.
 
 use super::images::{ContactMap, table, ticks};
-use super::raster;
 use super::{MapView, Shown};
 use crate::app::numbers;
 use crate::app::picture::Picture;
+use crate::app::plots::raster;
 use crate::app::theme::{Palette, rich};
 use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, Ui, pos2, vec2};
 

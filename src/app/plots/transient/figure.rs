@@ -5,6 +5,7 @@ use crate::app::plots::axes;
 use crate::app::transient::method::Method;
 use crate::app::transient::{Run, TransientView, export};
 use crate::solver::full::transient::{Frame, Interpolation, Quantity};
+use crate::solver::reduced::tpwl::Weighting;
 use egui_plot::GridInput;
 use std::fmt::Write as _;
 
@@ -123,9 +124,10 @@ fn text(out: &mut String, (x, y): (f64, f64), style: &str, content: &str) {
     let _ok = writeln!(out, "<text x=\"{x:.1}\" y=\"{y:.1}\" {style}>{content}</text>");
 }
 
-/// The line of a run: dashes by frame, the reduced model thick.
+/// The line of a run: dashes by frame, the reduced model thick, a linearised one thicker and paler.
 fn stroke(run: &Run, color: &str) -> String {
     let dashes = match run.frame() {
+        _ if run.method == Method::Linearised(Weighting::Dissertation) => "5 3",
         Frame::Fixed => "none",
         Frame::ArbitraryLagrangianEulerian => "10 6",
         Frame::Remeshed(Interpolation::CubicSpline) => "5 3",
@@ -134,6 +136,7 @@ fn stroke(run: &Run, color: &str) -> String {
     let (width, opacity) = match run.method {
         Method::Full => (1.4, 1.0),
         Method::Reduced => (3.6, 0.45),
+        Method::Linearised(_) => (6.0, 0.3),
     };
     format!(
         "fill=\"none\" stroke=\"{color}\" stroke-width=\"{width}\" stroke-opacity=\"{opacity}\" stroke-dasharray=\"{dashes}\""

@@ -217,6 +217,29 @@ fn both_rules_choose_more_points_where_less_is_tolerated() {
 }
 
 #[test]
+fn a_number_of_points_is_met_by_either_rule_in_the_same_space() {
+    for rule in [Selection::Distance { tolerance: 0.1 }, STEP_SELECTION] {
+        let selection = MODEL.selection_of(rule, 40);
+        let chosen = MODEL.selected(selection);
+        assert_eq!(selection.name(), rule.name());
+        assert!(chosen[0].len().abs_diff(40) <= 2, "{} points by {selection:?}", chosen[0].len());
+        let other = MODEL.reselected(selection).unwrap();
+        assert_eq!((other.points.len(), other.sets[0].points.clone()), (chosen[0].len(), (0..chosen[0].len()).collect()));
+        let times = chosen[0].iter().map(|&i| MODEL.trajectories[0][i].time);
+        assert!(other.points.iter().map(|point| point.moment.time).eq(times));
+    }
+    // The same rule again is the same model.
+    let again = MODEL.reselected(MODEL.training.selection).unwrap();
+    assert_eq!(again.points.len(), MODEL.points.len());
+    let still = transient(CASE_1, Inputs::load(sine(0.5)), 0.1);
+    let film = |model: &TpwlModel| solve(model, &still, Weighting::DualTaylor, &mut ()).unwrap().0.moments[20].h_c;
+    assert_eq!(film(&again), film(&MODEL));
+    let wanted = TpwlTraining { modes: 100, selection: STEP_SELECTION };
+    let wanted = TpwlModel::train_with_points(&[&SINE], wanted, 25).unwrap();
+    assert!(wanted.points.len().abs_diff(25) <= 2, "{} points", wanted.points.len());
+}
+
+#[test]
 fn what_a_model_cannot_do_is_refused() {
     let message = |transient: &Transient| match solve(&MODEL, transient, Weighting::DualTaylor, &mut ()) {
         Err(error) => error.to_string(),

@@ -1,6 +1,5 @@
 //! A field of a point contact as a picture of pixels, both halves: by a table of colours, or as the interferogram that a rig shows.
 
-use crate::solver::full::Solution;
 use crate::solver::optics::{Interferometer, RGB_WAVELENGTHS_M};
 use egui::{Color32, ColorImage};
 
@@ -30,15 +29,15 @@ fn places(nodes: &[f64], count: usize) -> Vec<(usize, f32)> {
 }
 
 impl Raster {
-    /// Samples a node array of a point contact bilinearly, times a scale.
-    pub fn new(solution: &Solution, field: &[f64], scale: f64) -> Self {
+    /// Samples a node array of a point contact bilinearly, times a scale. Node (i, j) at (X_i, Y_j) has the index i·n_y + j.
+    pub fn new((x, y): (&[f64], &[f64]), field: &[f64], scale: f64) -> Self {
         let pixels = |nodes: &[f64]| match nodes {
             [first, .., last] => ((last - first) * RESOLUTION).round().clamp(2.0, 4096.0) as usize,
             _ => 0,
         };
-        let (width, rows) = (pixels(&solution.x), pixels(&solution.y));
-        let (columns, ordinates) = (places(&solution.x, width), places(&solution.y, rows));
-        let ny = solution.y.len();
+        let (width, rows) = (pixels(x), pixels(y));
+        let (columns, ordinates) = (places(x, width), places(y, rows));
+        let ny = y.len();
         let mut values = Vec::with_capacity(width * rows);
         for &(j, t) in &ordinates {
             values.extend(columns.iter().map(|&(i, s)| {
@@ -132,7 +131,7 @@ mod tests {
         let spec = PointGridSpec::uniform(0.1, 0.1, (-3.0, 1.8, -1.4));
         let point = si_from_moes(&MoesRequest::new(ContactKind::Point, 30.0, 5.0)).unwrap();
         let s = PointSolver::new(spec).unwrap().solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
-        let raster = Raster::new(&s, &s.pressure, 1.0);
+        let raster = Raster::new((&s.x, &s.y), &s.pressure, 1.0);
         let top = s.scalars.p_max;
         let image = raster.colored(&color_map::table(false), (0.0, top));
         assert_eq!(image.size, [raster.width, 2 * raster.rows]);

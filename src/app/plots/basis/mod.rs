@@ -1,0 +1,178 @@
+//! The reduced basis: how fast the singular values fall, what the tolerances keep, what the modes look like, where rows are sampled.
+
+mod losses;
+mod modes;
+mod plane;
+
+use crate::app::export;
+use crate::app::files::Purpose;
+use crate::app::numbers;
+use crate::app::state::State;
+use crate::app::theme::Palette;
+use crate::solver::reduced::{PodBasis, ReducedModel, Window};
+use egui::{Color32, Ui};
+use egui_plot::PlotPoint;
+use losses::{loss_plot, singular_plot};
+use std::sync::Arc;
+
+/// Which of the two bases.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Field {
+    /// Pressure.
+    #[default]
+    Pressure,
+    /// Deformation.
+    Deformation,
+}
+
+impl Field {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Pressure => "Pressure",
+            Self::Deformation => "Deformation",
+        }
+    }
+
+    fn of(self, window: &Window) -> &PodBasis {
+        match self {
+            Self::Pressure => &window.pressure,
+            Self::Deformation => &window.deformation,
+        }
+    }
+
+    fn color(self, palette: &Palette) -> Color32 {
+        match self {
+            Self::Pressure => palette.pressure,
+            Self::Deformation => palette.deformation,
+        }
+    }
+}
+
+/// State of the tab, with the curves of one window.
+#[derive(Default)]
+pub struct BasisView {
+    field: Field,
+    first_mode: usize,
+    dragging: Option<Field>,
+    curves: Option<Curves>,
+}
+
+struct Curves {
+    window: usize,
+    model: Arc<ReducedModel>,
+    singular: [Vec<PlotPoint>; 2],
+    loss: [Vec<PlotPoint>; 2],
+    modes: Vec<(Field, usize, Vec<PlotPoint>)>,
+    plane: plane::ModeMap,
+    rows: Vec<PlotPoint>,
+}
+
+impl Curves {
+    fn new(model: &Arc<ReducedModel>, at: usize, window: &Window) -> Self {
+        let log = |values: &mut dyn Iterator<Item = f64>, from: usize| -> Vec<PlotPoint> {
+            values
+                .enumerate()
+                .filter(|(_, v)| *v > 1e-17)
+                .map(|(k, v)| PlotPoint::new((k + from) as f64, v.log10()))
+                .collect()
+        };
+        let singular = |basis: &PodBasis| {
+            let first = basis.singular_values.first().copied().unwrap_or(1.0);
+            log(&mut basis.singular_values.iter().map(|s| s / first), 1)
+        };
+        let loss = |basis: &PodBasis| log(&mut (1..=basis.singular_values.len()).map(|k| basis.loss(k)), 1);
+        let rows = window.sampled_rows.iter().map(|row| window.grid.place(window.grid.node(*row)));
+        Self {
+            window: at,
+            model: Arc::clone(model),
+            singular: [singular(&window.pressure), singular(&window.deformation)],
+            loss: [loss(&window.pressure), loss(&window.deformation)],
+            modes: Vec::new(),
+            plane: plane::ModeMap::default(),
+            rows: rows.flat_map(mirrored).collect(),
+        }
+    }
+}
+
+/// A place and, off the axis, its mirror image.
+fn mirrored((xi, y): (f64, f64)) -> impl Iterator<Item = PlotPoint> {
+    let image = (y != 0.0).then(|| PlotPoint::new(xi, -y));
+    std::iter::once(PlotPoint::new(xi, y)).chain(image)
+}
+
+/// The tab.
+pub fn ui(ui: &mut Ui, state: &mut State) {
+    let Some(model) = state.model().cloned() else {
+        ui.centered_and_justified(|ui| {
+            ui.weak("No reduced model is loaded, so there is no basis to show. The full solver draws every picture.")
+        });
+        return;
+    };
+    let at = model.window_for(state.document.point.moes());
+    let Some(window) = model.windows.get(at) else { return };
+    if state.basis.curves.as_ref().is_none_or(|c| c.window != at || !Arc::ptr_eq(&c.model, &model)) {
+        state.basis.curves = Some(Curves::new(&model, at, window));
+    }
+    toolbar(ui, state, &model, at, window);
+    let height = ui.available_height();
+    let upper = 0.52 * height;
+    if ui.available_width() > 640.0 {
+        let half = 0.5 * ui.available_width() - 6.0;
+        ui.horizontal(|ui| {
+            ui.vertical(|ui| {
+                ui.set_width(half);
+                loss_plot(ui, state, window, upper);
+            });
+            ui.vertical(|ui| {
+                ui.set_width(half);
+                singular_plot(ui, state, upper);
+            });
+        });
+    } else {
+        loss_plot(ui, state, window, upper);
+    }
+    modes::ui(ui, state, window, (ui.available_height() - 4.0).max(120.0));
+}
+
+fn toolbar(ui: &mut Ui, state: &mut State, model: &ReducedModel, at: usize, window: &Window) {
+    let ctx = ui.ctx().clone();
+    let options = state.reduced_options();
+    ui.horizontal_wrapped(|ui| {
+        super::badge::ui(ui, state);
+        ui.label(format!(
+            "Window {} of {}, M {}…{}, {} of {} modes",
+            at + 1,
+            model.windows.len(),
+            numbers::digits(window.m.0, 3),
+            numbers::digits(window.m.1, 3),
+            options.pressure_modes.unwrap_or(window.pressure.modes.ncols()),
+            window.pressure.modes.ncols()
+        ));
+        let truncated = state.document.view.pressure_loss.is_some() || state.document.view.deformation_loss.is_some();
+        if ui.add_enabled(truncated, egui::Button::new("Keep all modes")).clicked() {
+            state.document.view.pressure_loss = None;
+            state.document.view.deformation_loss = None;
+        }
+        if ui.button("Export CSV…").on_hover_text("Singular values and loss of information").clicked() {
+            let text = csv(window);
+            state.ask_path(&ctx, Purpose::Csv { text });
+        }
+    });
+}
+
+fn csv(window: &Window) -> String {
+    let count = window.pressure.singular_values.len().max(window.deformation.singular_values.len());
+    let row = |k: usize| {
+        let of = |basis: &PodBasis| {
+            let value = basis.singular_values.get(k).copied();
+            [value, value.map(|_| basis.loss(k + 1))]
+        };
+        let mut row = vec![Some(k as f64 + 1.0)];
+        row.extend(of(&window.pressure));
+        row.extend(of(&window.deformation));
+        row
+    };
+    let header = ["mode", "sigma_pressure", "loss_pressure", "sigma_deformation", "loss_deformation"];
+    let comment = format!("window M {:e} to {:e}", window.m.0, window.m.1);
+    export::csv(&[comment], &header, (0..count).map(row))
+}
