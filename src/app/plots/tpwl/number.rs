@@ -25,10 +25,9 @@ pub fn ui(ui: &mut Ui, shown: &Shown<'_>, height: f32) {
         study.rows.iter().filter(own).filter_map(place).collect()
     };
     let mut lines = Vec::new();
-    for (rule, style, shape) in [
-        (RULES[0], LineStyle::Solid, MarkerShape::Circle),
-        (RULES[1], LineStyle::dashed_dense(), MarkerShape::Square),
-    ] {
+    for (rule, style, shape) in
+        [(RULES[0], LineStyle::Solid, MarkerShape::Circle), (RULES[1], LineStyle::dashed_dense(), MarkerShape::Square)]
+    {
         for (k, &weighting) in WEIGHTINGS.iter().enumerate() {
             let name = format!("{}, {}", rule_name(rule).0, weighting_name(weighting).0);
             lines.push((name, curve(rule.name(), weighting), style, shape, shown.color(k)));

@@ -65,9 +65,8 @@ pub fn ui(ui: &mut Ui, shown: &Shown<'_>, sorting: &mut Sorting, height: f32) ->
     columns.push((Column::Distance, "Distance"));
     let count = columns.len() + usize::from(several);
     let width = ((ui.available_width() - 16.0) / count as f32 - 6.0).clamp(40.0, 110.0);
-    let grid = |id: &'static str| {
-        Grid::new(id).striped(true).min_col_width(width).max_col_width(width).spacing([6.0, 3.0])
-    };
+    let grid =
+        |id: &'static str| Grid::new(id).striped(true).min_col_width(width).max_col_width(width).spacing([6.0, 3.0]);
     let quiet = shown.palette.quiet;
     grid("tpwl heads").striped(false).show(ui, |ui| {
         for (column, name) in &columns {

@@ -90,13 +90,7 @@ fn chosen(ui: &mut Ui, shown: &Shown<'_>, rule: Selection, height: f32) -> Optio
 }
 
 /// The other rule, when it is to choose as many points.
-fn not_chosen(
-    ui: &mut Ui,
-    shown: &Shown<'_>,
-    rule: Selection,
-    chosen: &[usize],
-    height: f32,
-) -> Option<f64> {
+fn not_chosen(ui: &mut Ui, shown: &Shown<'_>, rule: Selection, chosen: &[usize], height: f32) -> Option<f64> {
     title(ui, rule, chosen.len(), "the other rule");
     let (color, symbol) = look(shown);
     let moments = shown.linearised.model.trajectories.get(shown.tab.trajectory).map_or(&[][..], Vec::as_slice);

@@ -36,12 +36,13 @@ pub fn ui(ui: &mut Ui, shown: &Shown<'_>, height: f32) -> Option<f64> {
         .collect();
     let count = shown.points.len() as f64;
     let quiet = shown.palette.quiet;
-    let plot = axes::plot(ui, &format!("tpwl weights {}", shown.view.generation), height - 22.0, "Operating point", "Weight")
-        .legend(Legend::default().position(Corner::RightTop).background_alpha(0.6))
-        .y_grid_spacer(|input| axes::round_marks(input, 4.0))
-        .default_x_bounds(0.0, count + 1.0)
-        .default_y_bounds(0.0, 1.15)
-        .include_y(0.0);
+    let plot =
+        axes::plot(ui, &format!("tpwl weights {}", shown.view.generation), height - 22.0, "Operating point", "Weight")
+            .legend(Legend::default().position(Corner::RightTop).background_alpha(0.6))
+            .y_grid_spacer(|input| axes::round_marks(input, 4.0))
+            .default_x_bounds(0.0, count + 1.0)
+            .default_y_bounds(0.0, 1.15)
+            .include_y(0.0);
     let shown_fit = shown.fit;
     let drawn = axes::show(ui, "Weights of the operating points", plot, move |plot| {
         if shown_fit {
@@ -67,9 +68,9 @@ fn head(ui: &mut Ui, shown: &Shown<'_>) {
         let record = run.record.as_ref()?;
         record.steps().get(run.step_at(shown.view.player.time())?).map(|step| step.reach())
     });
-    let said = reach.filter(|reach| reach.is_finite()).map_or_else(String::new, |reach| {
-        format!(", {} distances between points away", numbers::digits(reach, 2))
-    });
+    let said = reach
+        .filter(|reach| reach.is_finite())
+        .map_or_else(String::new, |reach| format!(", {} distances between points away", numbers::digits(reach, 2)));
     ui.weak(format!("Weights at this moment{said}")).on_hover_text(
         "The distance of the extrapolated state from the barycentre of the points that carry it, over the distance between those points: \
          beyond about two a linearised model knows nothing",

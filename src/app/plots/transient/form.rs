@@ -1,10 +1,10 @@
 //! What drives the contact as a form: the three inputs with a preview, duration, steps and frames. What makes no sense is refused
 //! beside its field.
 
+use super::methods;
 use crate::app::controls::{heading, named};
 use crate::app::files::Purpose;
 use crate::app::plots::axes;
-use super::methods;
 use crate::app::plots::training::fields::{Form, choose};
 use crate::app::state::State;
 use crate::app::theme::Palette;
