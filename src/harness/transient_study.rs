@@ -198,7 +198,10 @@ pub(crate) const TOO_STEEP: &str =
 ///
 /// # Errors
 /// When the trajectories do not go together.
-pub(crate) fn train_linearised(linearised: &LinearisedTransient, trajectories: &[&Trajectory]) -> Result<TpwlModel, TpwlError> {
+pub(crate) fn train_linearised(
+    linearised: &LinearisedTransient,
+    trajectories: &[&Trajectory],
+) -> Result<TpwlModel, TpwlError> {
     let training = TpwlTraining { modes: linearised.modes, selection: linearised.selection };
     match linearised.points {
         Some(points) => TpwlModel::train_with_points(trajectories, training, points),

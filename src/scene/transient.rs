@@ -169,7 +169,10 @@ impl TransientStudy {
         }
         let Some(linearised) = &self.linearised else { return Ok(()) };
         if !self.frames.contains(&Frame::Fixed) {
-            return Err(refuse("study.frames", "must hold Fixed for a linearised model, which lives in the fixed frame"));
+            return Err(refuse(
+                "study.frames",
+                "must hold Fixed for a linearised model, which lives in the fixed frame",
+            ));
         }
         let LinearisedTransient { modes, selection, points, weightings, trainings } = linearised;
         count("study.linearised.modes", *modes, 1, 1000)?;

@@ -8,7 +8,9 @@ use super::export;
 use super::files::Purpose;
 use super::png;
 use super::state::State;
-use egui::{Align2, ColorImage, Context, FontId, Id, LayerId, Modal, Order, Pos2, Rect, Ui, ViewportCommand, pos2, vec2};
+use egui::{
+    Align2, ColorImage, Context, FontId, Id, LayerId, Modal, Order, Pos2, Rect, Ui, ViewportCommand, pos2, vec2,
+};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 

@@ -27,7 +27,10 @@ pub fn drawing<'a>(
     let fill = fill(background);
     out.line(format_args!("<rect x=\"{left:.1}\" y=\"{top:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" {fill}/>"));
     let (x, first, second) = (left + 8.0, top + 20.0, top + 36.0);
-    out.line(format_args!("<text x=\"{x:.1}\" y=\"{first:.1}\" font-size=\"15\" fill=\"{ink}\">{}</text>", escaped(title)));
+    out.line(format_args!(
+        "<text x=\"{x:.1}\" y=\"{first:.1}\" font-size=\"15\" fill=\"{ink}\">{}</text>",
+        escaped(title)
+    ));
     out.line(format_args!(
         "<text x=\"{x:.1}\" y=\"{second:.1}\" font-size=\"9.5\" fill=\"{quiet}\">{}</text>",
         escaped(parameters)
@@ -82,7 +85,11 @@ fn fill(of: Color32) -> String {
 }
 
 fn stroke(width: f32, of: Color32) -> String {
-    if width > 0.0 { format!("stroke-width=\"{width:.2}\" {}", color("stroke", of)) } else { "stroke=\"none\"".to_owned() }
+    if width > 0.0 {
+        format!("stroke-width=\"{width:.2}\" {}", color("stroke", of))
+    } else {
+        "stroke=\"none\"".to_owned()
+    }
 }
 
 fn points(of: impl Iterator<Item = Pos2>) -> String {
@@ -224,7 +231,9 @@ impl Drawing {
     }
 
     fn run(&mut self, text: &TextShape, row: Pos2, run: Option<Run>) {
-        let Some(Run { section, from, end, letters }) = run.filter(|run| !run.letters.trim().is_empty()) else { return };
+        let Some(Run { section, from, end, letters }) = run.filter(|run| !run.letters.trim().is_empty()) else {
+            return;
+        };
         let Some(format) = section.and_then(|k| text.galley.job.sections.get(k)).map(|section| &section.format) else {
             return;
         };

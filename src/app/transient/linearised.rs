@@ -64,7 +64,8 @@ impl Linearised {
 
     /// All operating points as the runs draw on them at T, in their order.
     pub fn points_at<'a>(&self, runs: &[(Weighting, &'a Run)], time: f64) -> Vec<PointNow> {
-        let record = |(weighting, run): &(Weighting, &'a Run)| Some((*weighting, (run.record.as_ref()?, run.step_at(time)?)));
+        let record =
+            |(weighting, run): &(Weighting, &'a Run)| Some((*weighting, (run.record.as_ref()?, run.step_at(time)?)));
         let recorded: Vec<_> = runs.iter().filter_map(record).collect();
         let state = recorded.first().map_or(&[][..], |(_, (record, step))| record.state(*step));
         let norm = state.iter().map(|y| y * y).sum::<f64>().sqrt();
@@ -89,9 +90,8 @@ impl Linearised {
             return Some(trained.moment.time);
         }
         let record = runs.iter().find_map(|(_, run)| run.record.as_ref())?;
-        let weight = |step: usize| -> f64 {
-            record.weights(step).iter().filter(|w| w.point == point).map(|w| w.weight).sum()
-        };
+        let weight =
+            |step: usize| -> f64 { record.weights(step).iter().filter(|w| w.point == point).map(|w| w.weight).sum() };
         let steps = record.steps().iter().enumerate().map(|(k, step)| (step.time, weight(k)));
         steps.filter(|(_, weight)| *weight > 0.0).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(time, _)| time)
     }

@@ -93,9 +93,10 @@ pub const RULES: [Selection; 2] = [Selection::Distance { tolerance: 0.02 }, Sele
 /// A rule for people, and what it does.
 pub fn rule_name(rule: Selection) -> (&'static str, &'static str) {
     match rule {
-        Selection::Distance { .. } => {
-            ("Distance (2.85)", "A state becomes a point when it is far from all points, relative to the nearest one’s norm")
-        }
+        Selection::Distance { .. } => (
+            "Distance (2.85)",
+            "A state becomes a point when it is far from all points, relative to the nearest one’s norm",
+        ),
         Selection::Step { .. } => (
             "Missed step (4.30)",
             "A state becomes a point when the nearest point’s linearised system misses the step to it, relative to its norm",

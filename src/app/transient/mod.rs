@@ -2,8 +2,8 @@
 
 pub mod export;
 pub mod input;
-pub mod method;
 pub mod linearised;
+pub mod method;
 mod player;
 mod run;
 mod worker;

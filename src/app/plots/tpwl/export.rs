@@ -28,8 +28,22 @@ pub fn points(shown: &Shown<'_>) -> String {
     let model = &shown.linearised.model;
     let [across, up] = shown.tab.coordinates;
     let header = [
-        "point", "training", "load_ref_n_per_m", "T", "R_over_ref", "u_over_ref", "w_over_ref", "H_c", "P_c", "H_0",
-        "across", "up", "spacing", "distance", "weight_dual_taylor", "weight_dissertation",
+        "point",
+        "training",
+        "load_ref_n_per_m",
+        "T",
+        "R_over_ref",
+        "u_over_ref",
+        "w_over_ref",
+        "H_c",
+        "P_c",
+        "H_0",
+        "across",
+        "up",
+        "spacing",
+        "distance",
+        "weight_dual_taylor",
+        "weight_dissertation",
     ];
     let rows = shown.points.iter().filter_map(|now| {
         let trained = model.points.get(now.point)?;

@@ -26,14 +26,14 @@ pub fn ui(ui: &mut Ui, shown: &Shown<'_>, height: f32) -> Option<f64> {
     let [across, up] = shown.tab.coordinates;
     let modes = model.space.modes();
     let at = |state: &[f64]| Some(PlotPoint::new(*state.get(across)?, *state.get(up)?));
-    let places: Vec<(&PointNow, PlotPoint)> = shown
-        .points
-        .iter()
-        .filter_map(|now| Some((now, at(&model.points.get(now.point)?.moment.state)?)))
-        .collect();
+    let places: Vec<(&PointNow, PlotPoint)> =
+        shown.points.iter().filter_map(|now| Some((now, at(&model.points.get(now.point)?.moment.state)?))).collect();
     let (palette, film) = (shown.palette, shown.palette.film);
-    let trainings: Vec<Vec<PlotPoint>> =
-        model.trajectories.iter().map(|moments| moments.iter().filter_map(|moment| at(&moment.state)).collect()).collect();
+    let trainings: Vec<Vec<PlotPoint>> = model
+        .trajectories
+        .iter()
+        .map(|moments| moments.iter().filter_map(|moment| at(&moment.state)).collect())
+        .collect();
     let (path, now) = path(shown, at);
     let (dots, markers) = (places.iter().map(|(_, place)| *place).collect(), weighted(shown, &places));
     let id = format!("tpwl plane {} {across} {up}", shown.view.generation);
@@ -47,7 +47,7 @@ pub fn ui(ui: &mut Ui, shown: &Shown<'_>, height: f32) -> Option<f64> {
         .set_margin_fraction(egui::vec2(0.06, 0.06))
         .auto_bounds(Vec2b::TRUE);
     let fit = shown.fit;
-    let drawn = axes::show(ui, "Operating points in the plane", plot, move |plot| {
+    let drawn = axes::show(plot, ui, "Operating points in the plane", move |plot| {
         axes::fit(plot, fit);
         for (k, points) in trainings.into_iter().enumerate() {
             let line = Line::new("Training", PlotPoints::Owned(points)).id(("training", k)).color(film);

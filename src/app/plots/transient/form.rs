@@ -1,10 +1,10 @@
 //! What drives the contact as a form: the three inputs with a preview, duration, steps and frames. What makes no sense is refused
 //! beside its field.
 
-use crate::app::controls::{heading, named};
+use super::methods;
+use crate::app::controls::heading;
 use crate::app::files::Purpose;
 use crate::app::plots::axes;
-use super::methods;
 use crate::app::plots::training::fields::{Form, choose};
 use crate::app::state::State;
 use crate::app::theme::Palette;
@@ -210,7 +210,7 @@ fn preview(ui: &mut Ui, inputs: &Inputs, duration: f64) {
         .auto_bounds(egui::Vec2b::TRUE)
         .set_margin_fraction(egui::vec2(0.0, 0.1));
     let mut key = Vec::new();
-    let shown = plot.show(ui, |plot| {
+    axes::show(plot, ui, "Inputs against time", |plot| {
         for (input, (name, color, style)) in Input::ALL.into_iter().zip(looks) {
             let signal = input.of(inputs);
             let points: PlotPoints<'_> = (0..=PREVIEW)
@@ -224,7 +224,6 @@ fn preview(ui: &mut Ui, inputs: &Inputs, duration: f64) {
             plot.line(Line::new(name, points).color(color).width(width).style(style).allow_band(false));
         }
     });
-    named(ui, shown.response, "Inputs against time");
     if key.len() > 1 {
         ui.horizontal(|ui| {
             for (name, color) in key {

@@ -65,10 +65,18 @@ pub fn linearised_ui(ui: &mut Ui, form: &mut Form, study: &mut TransientStudy) {
     }
     form.message(ui, "How many");
     match &mut linearised.points {
-        Some(points) => form.count(ui, "Points", points, "Operating points wanted, of all training trajectories together"),
+        Some(points) => {
+            form.count(ui, "Points", points, "Operating points wanted, of all training trajectories together")
+        }
         None => {
             let mut tolerance = linearised.selection.tolerance();
-            form.row(ui, "Tolerance β", ("", 1.0), &mut tolerance, "Of the rule; half of it gives about twice the points");
+            form.row(
+                ui,
+                "Tolerance β",
+                ("", 1.0),
+                &mut tolerance,
+                "Of the rule; half of it gives about twice the points",
+            );
             linearised.selection = linearised.selection.with_tolerance(tolerance);
         }
     }

@@ -224,7 +224,10 @@ fn a_number_of_points_is_met_by_either_rule_in_the_same_space() {
         assert_eq!(selection.name(), rule.name());
         assert!(chosen[0].len().abs_diff(40) <= 2, "{} points by {selection:?}", chosen[0].len());
         let other = MODEL.reselected(selection).unwrap();
-        assert_eq!((other.points.len(), other.sets[0].points.clone()), (chosen[0].len(), (0..chosen[0].len()).collect()));
+        assert_eq!(
+            (other.points.len(), other.sets[0].points.clone()),
+            (chosen[0].len(), (0..chosen[0].len()).collect())
+        );
         let times = chosen[0].iter().map(|&i| MODEL.trajectories[0][i].time);
         assert!(other.points.iter().map(|point| point.moment.time).eq(times));
     }
