@@ -35,9 +35,9 @@ pub fn plot<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) ->
 
 /// Shows a plot under the name by which screen readers know it, and by which it can be exported as a picture.
 pub fn show<'a, R>(
+    plot: Plot<'a>,
     ui: &mut Ui,
     name: &str,
-    plot: Plot<'a>,
     content: impl FnOnce(&mut PlotUi<'a>) -> R + 'a,
 ) -> PlotResponse<R> {
     // The plot's own response is what lies within its axes; the scope's is the whole.

@@ -297,8 +297,8 @@ fn choices(ui: &mut Ui, state: &mut State, linearised: &Linearised) {
         combo(ui, &mut |ui| {
             let quantities = [Quantity::CentralFilm, Quantity::CentralPressure];
             let name = |quantity| match quantity {
-                Quantity::CentralPressure => ("P_c", "Central pressure"),
-                _ => ("H_c", "Central film"),
+                Quantity::CentralPressure => ("Central pressure", "P_c of the full system"),
+                _ => ("Central film", "H_c of the full system"),
             };
             choice(ui, "Along", "What is drawn along the training trajectory", &mut tab.quantity, &quantities, name);
         });

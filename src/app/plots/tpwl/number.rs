@@ -2,6 +2,7 @@
 
 use super::Shown;
 use crate::app::plots::axes;
+use crate::app::theme::rich;
 use crate::app::transient::linearised::NumberRow;
 use crate::app::transient::method::{RULES, WEIGHTINGS, rule_name, weighting_name};
 use egui::Ui;
@@ -18,7 +19,8 @@ pub fn ui(ui: &mut Ui, shown: &Shown<'_>, height: f32) {
         });
         return;
     }
-    ui.weak("Error of H_c against the full run").on_hover_text("Relative L2 difference over the whole run");
+    let head = rich("Error of {H_c} against the full run, the number in use dotted", 13.5, shown.palette.quiet);
+    ui.label(head).on_hover_text("Relative L2 difference of H_c over the whole run");
     let curve = |rule: &str, weighting| -> Vec<PlotPoint> {
         let own = |row: &&NumberRow| row.selection.name() == rule && row.weighting == weighting;
         let place = |row: &NumberRow| Some(PlotPoint::new((row.points as f64).log10(), row.difference?.log10()));
@@ -37,14 +39,14 @@ pub fn ui(ui: &mut Ui, shown: &Shown<'_>, height: f32) {
     let reference = shown.palette.reference;
     let id = format!("tpwl number {}", shown.view.generation);
     let plot = axes::plot(ui, &id, height - 22.0, "Operating points", "Error of {H_c}")
-        .legend(Legend::default().position(Corner::LeftBottom).background_alpha(0.6))
+        .legend(Legend::default().position(Corner::LeftBottom).follow_insertion_order(true).background_alpha(0.6))
         .x_grid_spacer(axes::log_marks)
         .x_axis_formatter(|mark, _| axes::log_label(mark))
         .y_grid_spacer(axes::decade_marks)
         .y_axis_formatter(|mark, _| axes::decade_label(mark))
         .set_margin_fraction(egui::vec2(0.05, 0.1))
         .auto_bounds(egui::Vec2b::TRUE);
-    axes::show(ui, "Error against the number of operating points", plot, move |plot| {
+    axes::show(plot, ui, "Error against the number of operating points", move |plot| {
         let line = VLine::new("", used).id("in use").color(reference).width(1.0).style(LineStyle::dotted_dense());
         plot.vline(line.allow_hover(false));
         for (k, (name, points, style, shape, color)) in lines.into_iter().enumerate() {

@@ -47,7 +47,7 @@ pub fn ui(ui: &mut Ui, shown: &Shown<'_>, height: f32) -> Option<f64> {
         .set_margin_fraction(egui::vec2(0.06, 0.06))
         .auto_bounds(Vec2b::TRUE);
     let fit = shown.fit;
-    let drawn = axes::show(ui, "Operating points in the plane", plot, move |plot| {
+    let drawn = axes::show(plot, ui, "Operating points in the plane", move |plot| {
         axes::fit(plot, fit);
         for (k, points) in trainings.into_iter().enumerate() {
             let line = Line::new("Training", PlotPoints::Owned(points)).id(("training", k)).color(film);

@@ -6,6 +6,7 @@ use crate::app::numbers;
 use crate::app::theme::rich;
 use crate::app::transient::linearised::PointNow;
 use crate::app::transient::method::{WEIGHTINGS, weighting_name};
+use crate::solver::reduced::tpwl::Weighting;
 use egui::{Grid, Label, ScrollArea, Sense, Ui};
 
 /// What the table is sorted by.
@@ -60,7 +61,7 @@ pub fn ui(ui: &mut Ui, shown: &Shown<'_>, sorting: &mut Sorting, height: f32) ->
     let several = shown.linearised.trainings.len() > 1;
     let mut columns = vec![(Column::Point, "Point"), (Column::Time, "{T}")];
     for (k, &weighting) in WEIGHTINGS.iter().enumerate().filter(|(k, _)| shown.was_run(*k)) {
-        columns.push((Column::Weight(k), weighting_name(weighting).0));
+        columns.push((Column::Weight(k), if weighting == Weighting::DualTaylor { "Dual Taylor" } else { "By (4.29)" }));
     }
     columns.push((Column::Distance, "Distance"));
     let count = columns.len() + usize::from(several);
@@ -71,8 +72,8 @@ pub fn ui(ui: &mut Ui, shown: &Shown<'_>, sorting: &mut Sorting, height: f32) ->
     grid("tpwl heads").striped(false).show(ui, |ui| {
         for (column, name) in &columns {
             let mark = match (sorting.by == *column, sorting.reversed) {
-                (true, false) => " ⏷",
-                (true, true) => " ⏶",
+                (true, false) => " ↓",
+                (true, true) => " ↑",
                 _ => "",
             };
             let tip = match column {

@@ -73,7 +73,7 @@ fn chosen(ui: &mut Ui, shown: &Shown<'_>, rule: Selection, height: f32) -> Optio
     let (palette, markers) = (shown.palette, weighted(shown, &places));
     let dots: Vec<PlotPoint> = places.iter().map(|(_, place)| *place).collect();
     let plot = plot(ui, shown, "tpwl chosen", ("", symbol), height - 22.0);
-    let drawn = axes::show(ui, "Operating points along the trajectory", plot, move |plot| {
+    let drawn = axes::show(plot, ui, "Operating points along the trajectory", move |plot| {
         plot.line(Line::new("Training", PlotPoints::Owned(line)).color(color).width(1.6).allow_hover(false));
         if own {
             plot.vline(VLine::new("", time).id("now").color(palette.accent).width(1.0).allow_hover(false));
@@ -100,7 +100,7 @@ fn not_chosen(ui: &mut Ui, shown: &Shown<'_>, rule: Selection, chosen: &[usize],
         (curve(shown), shown.palette.accent, shown.palette.quiet, shown.view.player.time(), shown.linearised.own);
     let plot = plot(ui, shown, "tpwl other", ("{T}", symbol), height - 22.0);
     let places = dots.clone();
-    let drawn = axes::show(ui, "Points of the other rule", plot, move |plot| {
+    let drawn = axes::show(plot, ui, "Points of the other rule", move |plot| {
         plot.line(Line::new("Training", PlotPoints::Owned(line)).color(color).width(THIN_WIDTH).allow_hover(false));
         if own {
             plot.vline(VLine::new("", time).id("now").color(reference).width(1.0).allow_hover(false));

@@ -1,68 +1,65 @@
-//! The weights of the operating points at this moment, both kinds beside each other.
+//! The weights of the operating points at this moment, both kinds over each other.
 
 use super::{Shown, near, point_under};
 use crate::app::numbers;
 use crate::app::plots::axes;
-use crate::app::transient::linearised::PointNow;
+use crate::app::theme::faded;
 use crate::app::transient::method::{WEIGHTINGS, weighting_name};
 use egui::{Align2, RichText, Ui};
-use egui_plot::{Bar, BarChart, Corner, Legend, PlotPoint, Text};
+use egui_plot::{Line, PlotBounds, PlotPoint, Text};
 
-/// Bars against the number of the point; returns the moment that was clicked at.
+/// Width of a stem, by its place in [`WEIGHTINGS`]: the one behind is broader.
+const STEMS: [f32; 2] = [4.0, 11.0];
+/// Top of the plot: room for the times over the stems.
+const TOP: f64 = 1.15;
+
+/// Stems over the numbers of the points; returns the moment that was clicked at.
 pub fn ui(ui: &mut Ui, shown: &Shown<'_>, height: f32) -> Option<f64> {
     head(ui, shown);
-    let both = (0..WEIGHTINGS.len()).filter(|&k| shown.was_run(k)).count() > 1;
-    let charts: Vec<BarChart> = (0..WEIGHTINGS.len())
-        .filter(|&k| shown.was_run(k))
-        .map(|k| {
-            let width = if both { 0.42 } else { 0.8 };
-            let aside = if both { [-0.22, 0.22][k] } else { 0.0 };
-            let bar = |now: &PointNow| Bar::new(now.point as f64 + 1.0 + aside, now.weights[k]).width(width);
-            let used = shown.points.iter().filter(|now| now.weights[k] > 0.0);
-            let chart = BarChart::new(weighting_name(WEIGHTINGS[k]).0, used.map(bar).collect());
-            chart.color(shown.color(k)).allow_hover(false)
-        })
-        .collect();
-    let labels: Vec<(PlotPoint, String)> = shown
-        .points
-        .iter()
-        .filter(|now| now.weights.iter().any(|w| *w > 0.0))
+    let number = |point: usize| point as f64 + 1.0;
+    let mut stems = Vec::new();
+    for k in (0..WEIGHTINGS.len()).rev() {
+        for now in shown.points.iter().filter(|now| now.weights[k] > 0.0) {
+            let ends = vec![[number(now.point), 0.0], [number(now.point), now.weights[k]]];
+            let color = if k == 0 { shown.color(k) } else { faded(shown.color(k), 0.6) };
+            let stem = Line::new(weighting_name(WEIGHTINGS[k]).0, ends).id(("stem", k, now.point));
+            stems.push(stem.color(color).width(STEMS[k]).allow_hover(false).allow_band(false));
+        }
+    }
+    let used = shown.points.iter().filter(|now| now.weights.iter().any(|w| *w > 0.0));
+    let labels: Vec<(PlotPoint, String)> = used
         .filter_map(|now| {
             let trained = shown.linearised.model.points.get(now.point)?;
             let top = now.weights.iter().copied().fold(0.0, f64::max);
             let time = format!("T {}", numbers::digits(trained.moment.time, 3));
-            Some((PlotPoint::new(now.point as f64 + 1.0, top), time))
+            Some((PlotPoint::new(number(now.point), top), time))
         })
         .collect();
-    let count = shown.points.len() as f64;
-    let quiet = shown.palette.quiet;
-    let plot =
-        axes::plot(ui, &format!("tpwl weights {}", shown.view.generation), height - 22.0, "Operating point", "Weight")
-            .legend(Legend::default().position(Corner::RightTop).background_alpha(0.6))
-            .y_grid_spacer(|input| axes::round_marks(input, 4.0))
-            .default_x_bounds(0.0, count + 1.0)
-            .default_y_bounds(0.0, 1.15)
-            .include_y(0.0);
-    let shown_fit = shown.fit;
-    let drawn = axes::show(ui, "Weights of the operating points", plot, move |plot| {
-        if shown_fit {
-            plot.set_plot_bounds(egui_plot::PlotBounds::from_min_max([0.0, 0.0], [count + 1.0, 1.15]));
+    let bounds = PlotBounds::from_min_max([0.0, 0.0], [number(shown.points.len()), TOP]);
+    let (quiet, fit) = (shown.palette.quiet, shown.fit);
+    let id = format!("tpwl weights {}", shown.view.generation);
+    let plot = axes::plot(ui, &id, height - 22.0, "Operating point", "Weight")
+        .y_grid_spacer(|input| axes::round_marks(input, 4.0))
+        .default_x_bounds(0.0, number(shown.points.len()))
+        .default_y_bounds(0.0, TOP);
+    let drawn = axes::show(plot, ui, "Weights of the operating points", move |plot| {
+        if fit {
+            plot.set_plot_bounds(bounds);
         }
-        charts.into_iter().for_each(|chart| plot.bar_chart(chart));
+        stems.into_iter().for_each(|stem| plot.line(stem));
         for (k, (place, time)) in labels.into_iter().enumerate() {
             let text = Text::new("", place, RichText::new(time).size(11.0).color(quiet)).anchor(Align2::CENTER_BOTTOM);
             plot.text(text.id(("time of a point", k)).allow_hover(false));
         }
     });
     let pointer = drawn.response.hover_pos()?;
-    let at = drawn.transform.value_from_position(pointer).x;
-    let bars = shown.points.iter().map(|now| (now, PlotPoint::new(now.point as f64 + 1.0, 0.0)));
-    let level = drawn.transform.position_from_point(&PlotPoint::new(at, 0.0)).y;
-    let under = near(bars, &drawn.transform, egui::pos2(pointer.x, level));
+    let level = drawn.transform.value_from_position(pointer).y;
+    let stems = shown.points.iter().map(|now| (now, PlotPoint::new(number(now.point), level)));
+    let under = near(stems, &drawn.transform, pointer);
     point_under(shown, drawn.response, under)
 }
 
-/// How far the step lies from what was trained.
+/// How far the step lies from what was trained, and the key of the colours.
 fn head(ui: &mut Ui, shown: &Shown<'_>) {
     let reach = shown.runs.iter().find_map(|(_, run)| {
         let record = run.record.as_ref()?;
@@ -71,8 +68,14 @@ fn head(ui: &mut Ui, shown: &Shown<'_>) {
     let said = reach
         .filter(|reach| reach.is_finite())
         .map_or_else(String::new, |reach| format!(", {} distances between points away", numbers::digits(reach, 2)));
-    ui.weak(format!("Weights at this moment{said}")).on_hover_text(
-        "The distance of the extrapolated state from the barycentre of the points that carry it, over the distance between those points: \
-         beyond about two a linearised model knows nothing",
-    );
+    ui.horizontal(|ui| {
+        ui.weak(format!("Weights{said}")).on_hover_text(
+            "The distance of the extrapolated state from the barycentre of the points that carry it, over the distance between those \
+             points: beyond about two a linearised model knows nothing",
+        );
+        for k in (0..WEIGHTINGS.len()).filter(|&k| shown.was_run(k)) {
+            let (name, meaning) = weighting_name(WEIGHTINGS[k]);
+            ui.label(RichText::new(name).color(shown.color(k))).on_hover_text(meaning);
+        }
+    });
 }

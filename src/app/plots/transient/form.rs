@@ -2,7 +2,7 @@
 //! beside its field.
 
 use super::methods;
-use crate::app::controls::{heading, named};
+use crate::app::controls::heading;
 use crate::app::files::Purpose;
 use crate::app::plots::axes;
 use crate::app::plots::training::fields::{Form, choose};
@@ -210,7 +210,7 @@ fn preview(ui: &mut Ui, inputs: &Inputs, duration: f64) {
         .auto_bounds(egui::Vec2b::TRUE)
         .set_margin_fraction(egui::vec2(0.0, 0.1));
     let mut key = Vec::new();
-    let shown = plot.show(ui, |plot| {
+    axes::show(plot, ui, "Inputs against time", |plot| {
         for (input, (name, color, style)) in Input::ALL.into_iter().zip(looks) {
             let signal = input.of(inputs);
             let points: PlotPoints<'_> = (0..=PREVIEW)
@@ -224,7 +224,6 @@ fn preview(ui: &mut Ui, inputs: &Inputs, duration: f64) {
             plot.line(Line::new(name, points).color(color).width(width).style(style).allow_band(false));
         }
     });
-    named(ui, shown.response, "Inputs against time");
     if key.len() > 1 {
         ui.horizontal(|ui| {
             for (name, color) in key {

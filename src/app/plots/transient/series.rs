@@ -1,6 +1,5 @@
 //! Central pressure and film against time, and how far runs lie apart.
 
-use crate::app::controls::named;
 use crate::app::plots::axes;
 use crate::app::state::State;
 use crate::app::theme::{Palette, THIN_WIDTH, faded};
@@ -84,7 +83,12 @@ impl Chart {
             .include_x(duration)
             .set_margin_fraction(egui::vec2(0.0, 0.08))
             .auto_bounds(Vec2b::TRUE);
-        let shown = plot.show(ui, |plot| {
+        let name = match self.name {
+            "pressure" => "Central pressure against time",
+            "film" => "Central film against time",
+            _ => "Deviation between runs",
+        };
+        let shown = axes::show(plot, ui, name, |plot| {
             if deviation {
                 plot.hline(
                     HLine::new("", 0.0).id("none").color(palette.reference).width(THIN_WIDTH).allow_hover(false),
@@ -107,12 +111,6 @@ impl Chart {
             plot.vline(now.allow_hover(false));
             plot.response().clicked().then(|| plot.pointer_coordinate()).flatten()
         });
-        let name = match self.name {
-            "pressure" => "Central pressure against time",
-            "film" => "Central film against time",
-            _ => "Deviation between runs",
-        };
-        named(ui, shown.response, name);
         shown.inner.map(|at| at.x)
     }
 }
