@@ -16,6 +16,7 @@ mod error_measure_study;
 mod formula_comparison;
 mod grid_accuracy;
 mod grid_study;
+mod march_costs;
 mod model_comparison;
 pub mod model_file;
 mod outcome;

@@ -9,6 +9,7 @@ pub mod check;
 pub mod document;
 mod expectation;
 pub mod named_lubricant;
+mod published;
 pub mod sampled;
 mod study;
 mod tpwl;
@@ -21,6 +22,7 @@ pub use study::{
     Axis, ComparedPlan, ComparedSampling, Contacts, Formula, OnlineScheme, QuantityBox, Steps, Study, TestRange,
     Variable,
 };
+pub use published::PublishedMarch;
 pub use tpwl::{Drive, TpwlStudy};
 pub use transient::{LinearisedTransient, ReducedTransient, TrainingInputs, TransientStudy};
 pub use view::{LoadFollower, LubricantFollower, View};

@@ -229,6 +229,7 @@ fn breathing() -> TransientStudy {
         reduced: None,
         linearised: None,
         mass_between: None,
+        published: Vec::new(),
     }
 }
 
