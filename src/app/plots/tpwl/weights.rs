@@ -35,12 +35,14 @@ pub fn ui(ui: &mut Ui, shown: &Shown<'_>, height: f32) -> Option<f64> {
             Some((PlotPoint::new(number(now.point), top), time))
         })
         .collect();
-    let bounds = PlotBounds::from_min_max([0.0, 0.0], [number(shown.points.len()), TOP]);
+    // Room at the end for the time over the last one.
+    let end = 1.05 * number(shown.points.len());
+    let bounds = PlotBounds::from_min_max([0.0, 0.0], [end, TOP]);
     let (quiet, fit) = (shown.palette.quiet, shown.fit);
     let id = format!("tpwl weights {}", shown.view.generation);
     let plot = axes::plot(ui, &id, height - 22.0, "Operating point", "Weight")
         .y_grid_spacer(|input| axes::round_marks(input, 4.0))
-        .default_x_bounds(0.0, number(shown.points.len()))
+        .default_x_bounds(0.0, end)
         .default_y_bounds(0.0, TOP);
     let drawn = axes::show(plot, ui, "Weights of the operating points", move |plot| {
         if fit {
