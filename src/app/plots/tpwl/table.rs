@@ -90,6 +90,7 @@ pub fn ui(ui: &mut Ui, shown: &Shown<'_>, sorting: &mut Sorting, height: f32) ->
         ui.end_row();
     });
     let mut wanted = None;
+    ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
     let row_height = ui.spacing().interact_size.y.max(18.0);
     let area = ScrollArea::vertical().id_salt("tpwl points").auto_shrink(false).max_height(height - 24.0);
     area.show_rows(ui, row_height - 4.0, rows.len(), |ui, range| {

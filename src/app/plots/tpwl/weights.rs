@@ -70,7 +70,7 @@ fn head(ui: &mut Ui, shown: &Shown<'_>) {
     let said = reach
         .filter(|reach| reach.is_finite())
         .map_or_else(String::new, |reach| format!(", {} distances between points away", numbers::digits(reach, 2)));
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         ui.weak(format!("Weights{said}")).on_hover_text(
             "The distance of the extrapolated state from the barycentre of the points that carry it, over the distance between those \
              points: beyond about two a linearised model knows nothing",
