@@ -5,6 +5,7 @@ use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
+use ehl_explorer::harness::{Workbench, run_scene};
 use ehl_explorer::scene::{LinearisedTransient, Scene, Study};
 use ehl_explorer::solver::reduced::tpwl::Selection;
 use std::path::{Path, PathBuf};
@@ -271,6 +272,23 @@ fn a_study_of_linearised_models_opens_with_its_first_model_and_keeps_its_questio
     let modes = harness.get_by_role_and_label(Role::SpinButton, "Modes").value().unwrap();
     assert_eq!(modes, asked.modes.to_string());
     std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn the_same_scene_runs_headless_and_is_refused_without_the_fixed_frame() {
+    let wanted = "reduced: (loss: 1e-6), linearised: (modes: 90, selection: Distance(tolerance: 0.1), points: 40)";
+    let run = |text: &str| run_scene(&Scene::from_ron(text).unwrap(), &mut Workbench::new(Path::new(".")), &());
+    let outcome = run(&scene(SINE, wanted)).unwrap();
+    assert!(outcome.converged && outcome.warnings.is_empty(), "{:?}", outcome.warnings);
+    let value = |name: &str| outcome.values.iter().find(|value| value.name == name).unwrap().value;
+    assert!((value("fixed.tpwl.points") - 40.0).abs() <= 2.0, "{} points", value("fixed.tpwl.points"));
+    assert_eq!((value("fixed.tpwl.modes"), value("fixed.tpwl.dual_taylor.steps")), (90.0, 100.0));
+    let difference = value("fixed.tpwl.dual_taylor.H_c.difference_l2");
+    assert!(difference < 1e-3 && difference > 0.0, "{difference:e}");
+    assert!(value("fixed.rnsa.H_c.difference_l2") < difference, "it solves the nonlinear equations");
+    assert!(outcome.tables.iter().any(|table| table.name == "transient_fixed_tpwl_dual_taylor"));
+    let moving = scene(SINE, &format!("frames: [ArbitraryLagrangianEulerian], {BOTH}"));
+    assert!(run(&moving).unwrap_err().to_string().contains("must hold Fixed for a linearised model"));
 }
 
 #[test]

@@ -57,7 +57,7 @@ fn a_live_verified_picture_appears_by_itself() {
 fn every_tab_opens() {
     let mut harness = open();
     settled(&mut harness);
-    for tab in ["Regimes", "Reduced basis", "Accuracy", "Training", "Transient", "Profiles"] {
+    for tab in ["Regimes", "Traction", "Reduced basis", "Accuracy", "Training", "Transient", "Profiles"] {
         click(&mut harness, tab);
     }
 }
@@ -76,7 +76,7 @@ fn a_model_draws_the_picture_and_a_full_solve_checks_it() {
     harness.get_by_label("Load number M").set_value_accesskit(50.0);
     wait(&mut harness, "the reduced model", |app| app.badge() == "Verified");
     settled(&mut harness);
-    for tab in ["Regimes", "Reduced basis", "Accuracy", "Training", "Transient", "Profiles"] {
+    for tab in ["Regimes", "Traction", "Reduced basis", "Accuracy", "Training", "Transient", "Profiles"] {
         click(&mut harness, tab);
     }
 }

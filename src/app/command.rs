@@ -45,6 +45,8 @@ pub enum Command {
     ResetLayout,
     /// Full solve now.
     Verify,
+    /// Full solutions along the traction curve.
+    SolveAlong,
     /// Stop what runs.
     Cancel,
     /// List of keys.
@@ -57,7 +59,7 @@ const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
 impl Command {
     /// All of them, longest shortcuts first so that Ctrl+Shift+Z is not taken for Ctrl+Z.
-    pub const ALL: [Self; 23] = [
+    pub const ALL: [Self; 24] = [
         Self::Redo,
         Self::SaveAs,
         Self::CopyReadouts,
@@ -78,6 +80,7 @@ impl Command {
         Self::NormalText,
         Self::ResetLayout,
         Self::Verify,
+        Self::SolveAlong,
         Self::Cancel,
         Self::Keyboard,
         Self::About,
@@ -106,6 +109,7 @@ impl Command {
             Self::NormalText => "Normal text",
             Self::ResetLayout => "Reset layout",
             Self::Verify => "Verify now",
+            Self::SolveAlong => "Full solutions along the traction curve",
             Self::Cancel => "Cancel",
             Self::Keyboard => "Keyboard",
             Self::About => "About EHL Explorer",

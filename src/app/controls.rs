@@ -1,4 +1,4 @@
-//! Widgets the panels share: a typed number with its message, a logarithmic slider with marked range, names for screen readers.
+//! Widgets the panels share: a typed number with its message, a slider with marked range, names for screen readers.
 
 use super::numbers;
 use super::theme::Palette;
@@ -168,8 +168,9 @@ pub fn number_field(
         if steps != 0.0 {
             entries.buffers.remove(name);
             entries.messages.remove(name);
-            let ratio: f64 = if large { 1.1 } else { 1.01 };
-            return Some(value * ratio.powf(steps));
+            let share: f64 = if large { 0.1 } else { 0.01 };
+            // Nothing is no percentage of zero.
+            return Some(if value == 0.0 { share * steps } else { value * (1.0 + share).powf(steps) });
         }
     }
     if response.lost_focus() {
@@ -188,7 +189,7 @@ pub fn number_field(
 }
 
 /// What a labelled slider needs to know.
-pub struct LogSlider<'a> {
+pub struct RangeSlider<'a> {
     /// Accessible name; the typed entry is called the same with " value" appended.
     pub name: &'a str,
     /// Ends of the slider.
@@ -199,16 +200,18 @@ pub struct LogSlider<'a> {
     pub home: f64,
     /// What the quantity is.
     pub tooltip: &'a str,
+    /// Whether equal ways are equal ratios.
+    pub logarithmic: bool,
 }
 
-impl LogSlider<'_> {
+impl RangeSlider<'_> {
     /// Shows the slider; returns the new value when it was moved.
     pub fn show(&self, ui: &mut Ui, value: f64, width: f32) -> Option<f64> {
         let mut moved = value;
         ui.spacing_mut().slider_width = width;
         let response = ui.add(
             Slider::new(&mut moved, self.range.clone())
-                .logarithmic(true)
+                .logarithmic(self.logarithmic)
                 .clamping(SliderClamping::Never)
                 .smart_aim(false)
                 .show_value(false),
@@ -219,8 +222,9 @@ impl LogSlider<'_> {
         if let Some((low, high)) = self.marked {
             let radius = rect.height() / 2.5;
             let at = |v: f64| {
-                let (a, b) = (self.range.start().ln(), self.range.end().ln());
-                let t = ((v.max(1e-12).ln() - a) / (b - a)).clamp(0.0, 1.0) as f32;
+                let place = |v: f64| if self.logarithmic { v.max(1e-12).ln() } else { v };
+                let (a, b) = (place(*self.range.start()), place(*self.range.end()));
+                let t = ((place(v) - a) / (b - a)).clamp(0.0, 1.0) as f32;
                 rect.left() + radius + t * (rect.width() - 2.0 * radius)
             };
             let y = rect.bottom() - 1.0;

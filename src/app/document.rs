@@ -1,9 +1,17 @@
 //! What the user edits and what a file holds: the operating point, what follows when M or L moves, the lubricant, the truncation.
 //! Undo and redo are snapshots of it.
 
+#[cfg(test)]
+mod tests;
+
+mod history;
+
+pub use history::History;
+
 use super::transient;
+use crate::scene::named_lubricant::NamedLubricant;
 use crate::scene::{At, Grid, LoadFollower, LubricantFollower, Method, Scene, Study, TransientStudy, View};
-use crate::solver::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, si_from_moes};
+use crate::solver::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, Sliding, si_from_moes};
 use crate::solver::full::Problem;
 use crate::solver::grid::PointGridSpec;
 use crate::solver::lubricant::{Lubricant, ShearLaw};
@@ -49,13 +57,13 @@ impl Quantity {
 pub struct Document {
     /// Title for people.
     pub title: String,
-    /// The operating point.
+    /// The operating point with its sliding; its α is the one that counts.
     pub point: OperatingPoint,
     /// Laws of the lubricant.
     pub lubricant: Lubricant,
     /// Grid of full solutions; only a point contact's is edited here.
     pub grid: Grid,
-    /// What follows when M or L moves, the truncation, SRR and NPR.
+    /// What follows when M or L moves, and the truncation.
     pub view: View,
     /// The training it describes; `None` until one is opened or edited.
     pub training: Option<TrainingSpec>,
@@ -104,7 +112,7 @@ impl Document {
             viscosity_pa_s: Some(here.viscosity_pa_s),
             ..MoesRequest::new(here.kind, wanted.m, wanted.l)
         };
-        let (radius, speed, load, alpha) = match (self.view.when_m_moves, self.view.when_l_moves) {
+        let (radius, speed, load, alpha) = match self.followers() {
             (LoadFollower::Load, LubricantFollower::Realisation) => (true, false, false, false),
             (LoadFollower::Load, LubricantFollower::Speed) => (true, false, false, true),
             (LoadFollower::Load, LubricantFollower::Alpha) => (true, true, false, false),
@@ -119,7 +127,51 @@ impl Document {
         request.load = load.then_some(here.load);
         request.alpha_per_pa = alpha.then_some(here.alpha_per_pa);
         let point = si_from_moes(&request).map_err(|e| e.to_string())?;
-        self.accept(point)
+        self.accept(OperatingPoint { sliding: here.sliding, ..point })
+    }
+
+    /// What follows when M moves and when L moves: what was chosen, unless the lubricant determines α, which then cannot follow.
+    pub fn followers(&self) -> (LoadFollower, LubricantFollower) {
+        let chosen = (self.view.when_m_moves, self.view.when_l_moves);
+        match chosen {
+            _ if self.lubricant.own_coefficient().is_none() => chosen,
+            (LoadFollower::Load, LubricantFollower::Radius) => chosen,
+            (LoadFollower::Load | LoadFollower::Speed, _) => (LoadFollower::Load, LubricantFollower::Speed),
+            (LoadFollower::Radius, _) => (LoadFollower::Radius, LubricantFollower::Speed),
+        }
+    }
+
+    /// What may follow when M moves, and when L moves then.
+    pub fn possible_followers(&self) -> (&'static [LoadFollower], &'static [LubricantFollower]) {
+        let load = self.followers().0;
+        match (self.lubricant.own_coefficient().is_some(), load) {
+            (false, _) => (&LoadFollower::ALL, load.partners()),
+            (true, LoadFollower::Load) => (&FIXED_ALPHA, &[LubricantFollower::Speed, LubricantFollower::Radius]),
+            (true, _) => (&FIXED_ALPHA, &[LubricantFollower::Speed]),
+        }
+    }
+
+    /// Sets SRR.
+    ///
+    /// # Errors
+    /// A sentence when it is refused; the document is unchanged then.
+    pub fn set_slide_to_roll_ratio(&mut self, slide_to_roll_ratio: f64) -> Result<(), String> {
+        let sliding = Sliding { slide_to_roll_ratio, ..self.point.sliding };
+        self.accept(OperatingPoint { sliding, ..self.point })
+    }
+
+    /// Sets NPR; `None` is the lubricant's own.
+    ///
+    /// # Errors
+    /// A sentence when it is refused; the document is unchanged then.
+    pub fn set_plateau_ratio(&mut self, newtonian_plateau_ratio: Option<f64>) -> Result<(), String> {
+        let sliding = Sliding { newtonian_plateau_ratio, ..self.point.sliding };
+        self.accept(OperatingPoint { sliding, ..self.point })
+    }
+
+    /// The NPR that counts.
+    pub fn plateau_ratio(&self) -> f64 {
+        self.point.sliding.newtonian_plateau_ratio.unwrap_or(self.lubricant.shear.plateau())
     }
 
     /// Changes between line and point contact. M, L and the lubricant stay, E′ too; radius, speed and load are those of the other kind's
@@ -139,7 +191,8 @@ impl Document {
             alpha_per_pa: Some(here.alpha_per_pa),
             ..MoesRequest::new(kind, moes.m, moes.l)
         };
-        self.accept(si_from_moes(&request).map_err(|e| e.to_string())?)?;
+        let point = si_from_moes(&request).map_err(|e| e.to_string())?;
+        self.accept(OperatingPoint { sliding: here.sliding, ..point })?;
         self.grid = Grid::Graded;
         if self.title == default_title(here.kind) {
             default_title(kind).clone_into(&mut self.title);
@@ -172,19 +225,40 @@ impl Document {
     /// # Errors
     /// A sentence when it would be refused; the document is unchanged then.
     pub fn set_contact(&mut self, point: OperatingPoint, lubricant: Lubricant) -> Result<(), String> {
-        Problem::new(&point, lubricant).map_err(|e| e.to_string())?;
-        (self.point, self.lubricant) = (point, lubricant);
+        let problem = Problem::new(&point, lubricant).map_err(|e| e.to_string())?;
+        self.point = OperatingPoint { alpha_per_pa: problem.point.alpha_per_pa, ..point };
+        self.lubricant = lubricant;
         Ok(())
     }
 
-    /// Changes the laws.
+    /// Changes the laws. Without shear constants the fluid is Newtonian, and a plateau ratio has no sense.
     ///
     /// # Errors
     /// A sentence when a law is not defined here; the document is unchanged then.
     pub fn set_lubricant(&mut self, lubricant: Lubricant) -> Result<(), String> {
-        Problem::new(&self.point, lubricant).map_err(|e| e.to_string())?;
-        self.lubricant = lubricant;
-        Ok(())
+        let mut point = self.point;
+        if lubricant.shear == ShearLaw::Newtonian {
+            point.sliding.newtonian_plateau_ratio = None;
+        }
+        self.set_contact(point, lubricant)
+    }
+
+    /// Takes a named lubricant. One with an ambient viscosity of its own brings the contact in which its source studies it; laws that go with
+    /// any contact keep the present one, or at least its M and L where its viscosity belonged to the former lubricant.
+    ///
+    /// # Errors
+    /// A sentence when a law is not defined here; the document is unchanged then.
+    pub fn pick_lubricant(&mut self, named: &NamedLubricant) -> Result<(), String> {
+        let (here, moes) = (self.point, self.point.moes());
+        let point = match named.studied_contact(here.kind) {
+            Some(studied) => studied,
+            None if self.lubricant.own_coefficient().is_some() => {
+                si_from_moes(&MoesRequest::new(here.kind, moes.m, moes.l)).map_err(|e| e.to_string())?
+            }
+            None => here,
+        };
+        let sliding = Sliding { newtonian_plateau_ratio: None, ..here.sliding };
+        self.set_contact(OperatingPoint { sliding, ..point }, named.laws)
     }
 
     /// Changes the training it describes.
@@ -193,7 +267,8 @@ impl Document {
     /// A sentence when the training makes no sense; the document is unchanged then.
     pub fn set_training(&mut self, spec: TrainingSpec) -> Result<(), String> {
         spec.check().map_err(|e| e.to_string())?;
-        let scene = Scene { study: Study::Training(spec.clone()), ..Scene::at_moes(HOME.m, HOME.l) };
+        let study = Study::Training(spec.clone());
+        let scene = Scene { contact: spec.contact(), study, ..Scene::at_moes(HOME.m, HOME.l) };
         scene.check().map_err(|e| e.to_string())?;
         self.training = Some(spec);
         Ok(())
@@ -202,10 +277,12 @@ impl Document {
     /// Whether its file holds the training: a scene that asks another question keeps that, a contact of the other kind asks its own, and a new
     /// one has room for one question.
     pub fn saves_training(&self) -> bool {
-        match &self.scene {
-            Some(scene) => scene.contact == self.point.kind && matches!(scene.study, Study::Training(_)),
-            None => self.point.kind == ContactKind::Line && self.transient.is_none(),
-        }
+        let kind = self.point.kind;
+        self.training.as_ref().is_none_or(|spec| spec.contact() == kind)
+            && match &self.scene {
+                Some(scene) => scene.contact == kind && matches!(scene.study, Study::Training(_)),
+                None => self.transient.is_none(),
+            }
     }
 
     /// Chooses what follows M; what follows L changes along where both cannot be had together.
@@ -219,9 +296,7 @@ impl Document {
     }
 
     fn accept(&mut self, point: OperatingPoint) -> Result<(), String> {
-        Problem::new(&point, self.lubricant).map_err(|e| e.to_string())?;
-        self.point = point;
-        Ok(())
+        self.set_contact(point, self.lubricant)
     }
 
     /// The document of a scene; everything the explorer does not edit stays with it.
@@ -229,14 +304,8 @@ impl Document {
     /// # Errors
     /// A sentence that names what the explorer cannot solve.
     pub fn of_scene(scene: Scene) -> Result<Self, String> {
-        let point = scene.point().map_err(|e| e.to_string())?;
+        let point = OperatingPoint { sliding: scene.sliding(), ..scene.point().map_err(|e| e.to_string())? };
         Problem::new(&point, scene.lubricant).map_err(|e| e.to_string())?;
-        if scene.lubricant.shear != ShearLaw::Newtonian || scene.srr != 0.0 {
-            return Err(
-                "the explorer shows no sliding of shear-thinning lubricants in this version; use `ehl-explorer run`"
-                    .to_owned(),
-            );
-        }
         Ok(Self {
             title: scene.title.clone(),
             point,
@@ -258,8 +327,11 @@ impl Document {
         let mut scene = self.scene.clone().unwrap_or_else(|| Scene::at_moes(moes.m, moes.l));
         scene.title.clone_from(&self.title);
         scene.lubricant = self.lubricant;
-        if scene.contact != self.point.kind {
-            // Its question and what it expects belonged to the other kind of contact.
+        let Sliding { slide_to_roll_ratio, newtonian_plateau_ratio } = self.point.sliding;
+        (scene.srr, scene.npr) = (slide_to_roll_ratio, newtonian_plateau_ratio);
+        let in_time = matches!(scene.study, Study::Transient(_) | Study::Tpwl(_));
+        if scene.contact != self.point.kind || in_time && self.lubricant.shear != ShearLaw::Newtonian {
+            // Its question and what it expects belonged to the other kind of contact, or to a Newtonian fluid.
             scene.contact = self.point.kind;
             scene.study = Study::Point { methods: methods_of(self.point.kind) };
             scene.expect.clear();
@@ -273,7 +345,7 @@ impl Document {
             scene.grid = self.transient_grid();
             scene.study = Study::Transient(study.clone());
         }
-        if scene.point() != Ok(self.point) {
+        if scene.point() != Ok(OperatingPoint { sliding: Sliding::NONE, ..self.point }) {
             scene.at = At::from(self.point);
         }
         if scene.view.unwrap_or_default() != self.view {
@@ -299,219 +371,13 @@ impl Document {
     }
 }
 
+/// What may follow M where the lubricant determines α.
+const FIXED_ALPHA: [LoadFollower; 2] = [LoadFollower::Load, LoadFollower::Radius];
+
 /// How a contact is solved headless when nothing else is asked: by all that is in the program.
 fn methods_of(kind: ContactKind) -> Vec<Method> {
     match kind {
         ContactKind::Line => vec![Method::Full, Method::EMBEDDED],
         ContactKind::Point => vec![Method::Full],
-    }
-}
-
-/// Undo and redo as snapshots. An edit is a whole gesture: it is recorded when the pointer is released.
-#[derive(Debug, Default)]
-pub struct History {
-    undo: Vec<Document>,
-    redo: Vec<Document>,
-    committed: Option<Document>,
-}
-
-/// Snapshots kept.
-const HISTORY_LIMIT: usize = 200;
-
-impl History {
-    /// Starts anew from a document.
-    pub fn restart(&mut self, document: &Document) {
-        *self = Self { committed: Some(document.clone()), ..Self::default() };
-    }
-
-    /// Records the document when it differs from the last recorded one, and tells whether it did.
-    pub fn commit(&mut self, document: &Document) -> bool {
-        match &self.committed {
-            Some(last) if last == document => return false,
-            Some(last) => {
-                self.undo.push(last.clone());
-                if self.undo.len() > HISTORY_LIMIT {
-                    self.undo.remove(0);
-                }
-                self.redo.clear();
-                self.committed = Some(document.clone());
-            }
-            None => self.committed = Some(document.clone()),
-        }
-        true
-    }
-
-    /// The document before the last edit.
-    pub fn undo(&mut self, document: &mut Document) {
-        self.commit(document);
-        if let Some(former) = self.undo.pop() {
-            self.redo.push(std::mem::replace(document, former));
-            self.committed = Some(document.clone());
-        }
-    }
-
-    /// The document before the last undo.
-    pub fn redo(&mut self, document: &mut Document) {
-        if let Some(next) = self.redo.pop() {
-            self.undo.push(std::mem::replace(document, next));
-            self.committed = Some(document.clone());
-        }
-    }
-
-    /// Whether there is something to undo.
-    pub fn can_undo(&self, document: &Document) -> bool {
-        !self.undo.is_empty() || self.committed.as_ref().is_some_and(|c| c != document)
-    }
-
-    /// Whether there is something to redo.
-    pub fn can_redo(&self) -> bool {
-        !self.redo.is_empty()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::solver::training::Windows;
-
-    #[test]
-    fn every_pair_of_followers_reaches_the_wanted_numbers_and_keeps_the_rest() {
-        for m_follower in LoadFollower::ALL {
-            for &l_follower in m_follower.partners() {
-                let view = View { when_m_moves: m_follower, when_l_moves: l_follower, ..View::default() };
-                let mut document = Document { view, ..Document::default() };
-                document.set_moes(Moes { m: 55.0, l: 8.0 }).unwrap();
-                let moes = document.point.moes();
-                assert!((moes.m / 55.0 - 1.0).abs() < 1e-9 && (moes.l / 8.0 - 1.0).abs() < 1e-9);
-                assert_eq!(document.point.modulus_pa, Document::default().point.modulus_pa);
-            }
-        }
-    }
-
-    #[test]
-    fn saving_and_opening_again_loses_nothing() {
-        let view = View { pressure_loss: Some(1e-6), slide_to_roll_ratio: 0.2, ..View::default() };
-        let mut document = Document { title: "a".into(), view, ..Document::default() };
-        document.set_load_follower(LoadFollower::Speed);
-        document.set_quantity(Quantity::Radius, 0.0123).unwrap();
-        let text = document.to_ron().unwrap();
-        let again = Document::from_ron(&text).unwrap();
-        assert_eq!((&again.title, again.point, again.view), (&document.title, document.point, document.view));
-        assert_eq!(again.to_ron().unwrap(), text);
-        assert!(Document::from_ron(&text.replace("title", "titel")).unwrap_err().contains("titel"));
-        assert!(Document::from_ron(&text.replace("pressure_loss: ", "pressure_loss: -")).is_err(), "{text}");
-    }
-
-    #[test]
-    fn a_scene_keeps_what_the_explorer_does_not_edit() {
-        let before = Scene::from_ron(include_str!("../../scenes/table_2_1.ron")).unwrap();
-        assert_eq!(before.view, None);
-        let mut document = Document::of_scene(before.clone()).unwrap();
-        assert_eq!(document.to_scene(), before);
-        document.set_moes(Moes { m: 55.0, l: 8.0 }).unwrap();
-        let after = document.to_scene();
-        assert_eq!((&after.study, &after.expect, after.view), (&before.study, &before.expect, None));
-        assert_eq!(Document::of_scene(after).unwrap().point, document.point);
-        document.view.projected_deformation = true;
-        assert_eq!(document.to_scene().view, Some(document.view));
-        document.view.projected_deformation = false;
-        assert_eq!(document.to_scene().view, None);
-    }
-
-    #[test]
-    fn a_training_is_edited_saved_and_refused_like_the_rest() {
-        let scene = Scene::from_ron(include_str!("../../scenes/embedded_model.ron")).unwrap();
-        let mut document = Document::of_scene(scene.clone()).unwrap();
-        assert_eq!(document.to_scene(), scene);
-        let mut spec = document.training.clone().unwrap();
-        spec.seed = 7;
-        document.set_training(spec.clone()).unwrap();
-        assert_eq!(Document::from_ron(&document.to_ron().unwrap()).unwrap().training, Some(spec.clone()));
-        spec.windows = Windows::Given(Vec::new());
-        assert!(document.set_training(spec.clone()).unwrap_err().contains("window"));
-        assert_eq!(document.training.as_ref().unwrap().seed, 7);
-        // A scene with another question keeps it; a fresh document takes the training along.
-        let other = Scene::from_ron(include_str!("../../scenes/table_2_1.ron")).unwrap();
-        let training = document.training.clone();
-        let document = Document { training: training.clone(), ..Document::of_scene(other.clone()).unwrap() };
-        assert_eq!(document.to_scene().study, other.study);
-        let fresh = Document { training: training.clone(), ..Document::default() };
-        assert_eq!(Document::of_scene(fresh.to_scene()).unwrap().training, training);
-    }
-
-    #[test]
-    fn a_contact_in_time_is_saved_with_its_grid_and_checked_like_the_rest() {
-        let mut document = Document::default();
-        let study = document.transient_study();
-        document.set_transient(study.clone()).unwrap();
-        let again = Document::of_scene(document.to_scene()).unwrap();
-        assert_eq!((again.transient.as_ref(), again.transient_grid()), (Some(&study), document.transient_grid()));
-        assert_eq!(again.to_scene(), document.to_scene());
-        let backwards = TransientStudy { duration: -1.0, ..study.clone() };
-        assert!(document.set_transient(backwards).unwrap_err().contains("duration"));
-        assert_eq!(document.transient, Some(study));
-        // A new scene has room for one question, a scene of another keeps its own.
-        assert!(!document.saves_training());
-        let other = Scene::from_ron(include_str!("../../scenes/table_2_1.ron")).unwrap();
-        let kept = Document { transient: document.transient.clone(), ..Document::of_scene(other.clone()).unwrap() };
-        assert_eq!(kept.to_scene().study, other.study);
-        document.set_kind(ContactKind::Point).unwrap();
-        assert!(document.to_scene().check().is_ok());
-    }
-
-    #[test]
-    fn the_other_kind_of_contact_keeps_the_numbers_and_the_lubricant() {
-        let mut document = Document::default();
-        let line = document.point;
-        document.set_kind(ContactKind::Point).unwrap();
-        let (before, after) = (line.moes(), document.point.moes());
-        assert!((after.m / before.m - 1.0).abs() < 1e-9 && (after.l / before.l - 1.0).abs() < 1e-9);
-        let kept = |p: &OperatingPoint| [p.modulus_pa, p.viscosity_pa_s, p.alpha_per_pa];
-        assert_eq!((document.point.kind, kept(&document.point)), (ContactKind::Point, kept(&line)));
-        assert_eq!((document.title.as_str(), document.plane()), ("Point contact", PointGridSpec::EXPLORER));
-        document.set_plane(PointGridSpec::DISSERTATION);
-        let again = Document::from_ron(&document.to_ron().unwrap()).unwrap();
-        assert_eq!((again.point, again.plane()), (document.point, PointGridSpec::DISSERTATION));
-        document.set_kind(ContactKind::Line).unwrap();
-        let [back, there] = [document.point, line].map(|p| p.quantities());
-        assert!(back.iter().zip(there).all(|(a, b)| (a / b - 1.0).abs() < 1e-9), "{back:?} {there:?}");
-    }
-
-    #[test]
-    fn a_scene_of_a_point_contact_opens_and_keeps_its_question_until_the_kind_changes() {
-        let scene = Scene::from_ron(include_str!("../../scenes/table_2_3.ron")).unwrap();
-        let mut document = Document::of_scene(scene.clone()).unwrap();
-        assert_eq!((document.point.kind, document.to_scene()), (ContactKind::Point, scene));
-        document.set_kind(ContactKind::Line).unwrap();
-        let scene = document.to_scene();
-        assert!(scene.expect.is_empty() && scene.check().is_ok());
-        assert_eq!(Document::of_scene(scene).unwrap().point, document.point);
-    }
-
-    #[test]
-    fn refused_values_leave_the_document_as_it_was() {
-        let mut document = Document::default();
-        let before = document.clone();
-        for bad in [f64::NAN, 0.0, -1.0, 1e300] {
-            assert!(document.set_quantity(Quantity::Radius, bad).is_err());
-            assert!(document.set_moes(Moes { m: bad, l: 10.0 }).is_err());
-        }
-        assert_eq!(document, before);
-    }
-
-    #[test]
-    fn history_goes_back_and_forth() {
-        let mut document = Document::default();
-        let first = document.clone();
-        let mut history = History::default();
-        history.restart(&document);
-        document.set_moes(Moes { m: 80.0, l: 10.0 }).unwrap();
-        let second = document.clone();
-        history.commit(&document);
-        history.undo(&mut document);
-        assert_eq!(document, first);
-        history.redo(&mut document);
-        assert_eq!(document, second);
-        assert!(!history.can_redo() && history.can_undo(&document));
     }
 }

@@ -4,7 +4,7 @@ use super::numbers;
 use super::picture::{Picture, value_at};
 use super::state::State;
 use crate::solver::contact::{ContactKind, OperatingPoint};
-use crate::solver::lubricant::Lubricant;
+use crate::solver::lubricant::{Lubricant, ShearLaw};
 use std::fmt::Write as _;
 
 /// A CSV table: comment lines, header, rows of numbers with full precision; what is missing is an empty field.
@@ -44,8 +44,16 @@ pub fn describe_contact(point: &OperatingPoint, lubricant: &Lubricant) -> String
         ContactKind::Line => "N/m",
         ContactKind::Point => "N",
     };
+    let sliding = match (point.sliding.slide_to_roll_ratio, lubricant.shear) {
+        (0.0, ShearLaw::Newtonian) => String::new(),
+        (srr, ShearLaw::Newtonian) => format!("; SRR {srr:e}"),
+        (srr, shear) => {
+            let plateau = point.sliding.newtonian_plateau_ratio.unwrap_or(shear.plateau());
+            format!("; SRR {srr:e}; NPR {plateau:e}; {shear:?}")
+        }
+    };
     format!(
-        "M {:e}; L {:e}; R {:e} m; u_m {:e} m/s; w {:e} {unit}; E' {:e} Pa; eta_0 {:e} Pa s; alpha {:e} 1/Pa; {:?}; {:?}",
+        "M {:e}; L {:e}; R {:e} m; u_m {:e} m/s; w {:e} {unit}; E' {:e} Pa; eta_0 {:e} Pa s; alpha {:e} 1/Pa; {:?}; {:?}{sliding}",
         moes.m,
         moes.l,
         point.radius_m,
@@ -124,12 +132,11 @@ pub fn readouts(state: &State) -> Vec<(&'static str, String, String)> {
     let Some(picture) = &state.picture else { return Vec::new() };
     let (scalars, scale, p_h) =
         (&picture.solution.scalars, picture.key.point.film_scale_m(), picture.key.point.hertz().pressure_pa);
-    let mu = picture.traction.per_srr * state.document.view.slide_to_roll_ratio;
     vec![
         ("H_c", numbers::significant(scalars.h_c), numbers::length(scalars.h_c * scale)),
         ("H_min", numbers::significant(scalars.h_min), numbers::length(scalars.h_min * scale)),
         ("P_max", numbers::significant(scalars.p_max), numbers::pressure(scalars.p_max * p_h)),
-        ("traction", numbers::significant(mu), String::new()),
+        ("traction", numbers::significant(picture.traction), String::new()),
     ]
 }
 

@@ -61,6 +61,32 @@ impl InUse {
     }
 }
 
+/// Reduced solves along a path, each from its neighbour; operators are made when first needed.
+pub struct Chain {
+    /// The model and its truncation.
+    pub in_use: InUse,
+    windows: Vec<Option<Online>>,
+}
+
+impl Chain {
+    /// A chain that nothing has been solved with.
+    pub fn new(in_use: &InUse) -> Self {
+        Self { in_use: in_use.clone(), windows: in_use.model.windows.iter().map(|_| None).collect() }
+    }
+
+    /// The reduced solution as fields.
+    ///
+    /// # Errors
+    /// When the point is refused or Newton does not converge.
+    pub fn solve(&mut self, point: &OperatingPoint, lubricant: Lubricant) -> Result<Solution, ReducedError> {
+        let (model, moes) = (&self.in_use.model, point.moes());
+        let place = self.windows.get_mut(model.window_for(moes)).ok_or(ReducedError::Empty)?;
+        let online = place.get_or_insert_with(|| Online::new(Arc::clone(model), self.in_use.options_at(moes)));
+        let solved = online.solve(point, lubricant)?;
+        online.reconstruct(&solved)
+    }
+}
+
 /// Reduced and full solvers of a model as it is used, for a study's own thread.
 pub struct Solvers {
     in_use: InUse,

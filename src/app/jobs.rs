@@ -1,11 +1,12 @@
 //! Work that takes longer than a frame: one worker thread, newest request first, cancellable, and unable to take the window down.
 
 use super::solvers::Solvers;
-use crate::solver::contact::{ContactKind, OperatingPoint};
+use crate::solver::contact::{ContactKind, Moes, OperatingPoint};
 use crate::solver::full::{Solution, Start};
-use crate::solver::grid::{ContactGrid, ContactGridSpec};
-use crate::solver::lubricant::Lubricant;
+use crate::solver::grid::{ContactGrid, ContactGridSpec, GridSpec, PointGridSpec};
+use crate::solver::lubricant::{Lubricant, ShearLaw};
 use crate::solver::observer::{NewtonStep, Observer};
+use crate::solver::reduced::ReducedModel;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -20,6 +21,22 @@ pub struct Key {
     pub point: OperatingPoint,
     /// The laws.
     pub lubricant: Lubricant,
+}
+
+impl Key {
+    /// Whether pressure and film are the same: a limiting stress cuts traction only, and a film that does not thin under shear does not feel
+    /// the sliding.
+    pub fn has_film_of(&self, other: &Self) -> bool {
+        let film = |key: &Self| {
+            let (mut point, law) = (key.point, key.lubricant.shear);
+            let plateau = point.sliding.newtonian_plateau_ratio.unwrap_or(law.plateau());
+            if law == ShearLaw::Newtonian || plateau == 1.0 {
+                point.sliding.slide_to_roll_ratio = 0.0;
+            }
+            (point, key.lubricant.of_the_film())
+        };
+        film(self) == film(other)
+    }
 }
 
 /// What a full solve is for.
@@ -54,6 +71,17 @@ pub enum GridChoice {
     Existing(ContactGrid),
     /// A specification.
     Spec(ContactGridSpec),
+}
+
+impl GridChoice {
+    /// The grid of the window of a model that serves a contact; without a model the chosen one of a point contact, or the explorer's.
+    pub fn of(model: Option<&ReducedModel>, plane: Option<PointGridSpec>, moes: Moes) -> Self {
+        match (model.and_then(|model| model.windows.get(model.window_for(moes))), plane) {
+            (Some(window), _) => Self::Existing(window.grid.clone()),
+            (None, None) => Self::Spec(ContactGridSpec::Line(GridSpec::EXPLORER)),
+            (None, Some(plane)) => Self::Spec(ContactGridSpec::Point(plane)),
+        }
+    }
 }
 
 /// A full solve that is wanted.
@@ -338,12 +366,28 @@ impl Observer for Reporter<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::grid::GridSpec;
+    use crate::scene::named_lubricant::SQUALANE_PIP;
+    use crate::solver::lubricant::{LimitingStress, Sliding};
 
     #[test]
     fn a_panic_becomes_a_sentence() {
         let message = guarded(|| -> i32 { panic!("index 7") }).unwrap_err();
         assert!(message.contains("index 7"), "{message}");
+    }
+
+    #[test]
+    fn sliding_changes_the_film_only_where_it_thins() {
+        let slid = |lubricant, srr, npr| {
+            let sliding = Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: npr };
+            Key { point: OperatingPoint { sliding, ..OperatingPoint::TABLE_2_1 }, lubricant }
+        };
+        let oil = Lubricant::default();
+        assert!(slid(oil, 0.0, None).has_film_of(&slid(oil, 0.7, None)));
+        assert!(!slid(SQUALANE_PIP, 0.0, None).has_film_of(&slid(SQUALANE_PIP, 0.7, None)));
+        assert!(slid(SQUALANE_PIP, 0.0, Some(1.0)).has_film_of(&slid(SQUALANE_PIP, 0.7, Some(1.0))));
+        let limited = Lubricant { limiting_stress: Some(LimitingStress { ambient: 5e6, slope: 0.0 }), ..SQUALANE_PIP };
+        assert!(slid(limited, 0.7, None).has_film_of(&slid(SQUALANE_PIP, 0.7, None)));
+        assert!(!slid(oil, 0.0, None).has_film_of(&slid(SQUALANE_PIP, 0.0, None)));
     }
 
     #[test]

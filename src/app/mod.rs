@@ -23,6 +23,7 @@ mod solvers;
 mod state;
 mod task;
 mod theme;
+mod traction;
 mod training;
 mod transient;
 
@@ -50,7 +51,7 @@ const APP_ID: &str = "ehl-explorer";
 /// # Errors
 /// One sentence when the scene cannot be read or there is no display.
 pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
-    let mut explorer = Explorer::with_models(Models::embedded());
+    let mut explorer = Explorer::with_embedded_models();
     if let Some(folder) = eframe::storage_dir(APP_ID) {
         explorer = explorer.keeping_trainings_in(&folder);
     }
@@ -97,9 +98,14 @@ pub struct Explorer {
 }
 
 impl Explorer {
-    /// A window with a reduced model of line contacts, or without one: the full solver then draws every picture.
+    /// A window with one reduced model, or without any: the full solver then draws every other picture.
     pub fn new(model: Option<Arc<ReducedModel>>) -> Self {
-        Self::with_models(Models::of_lines(model))
+        Self::with_models(Models::only(model))
+    }
+
+    /// A window with all models that are part of the program.
+    pub fn with_embedded_models() -> Self {
+        Self::with_models(Models::embedded())
     }
 
     fn with_models(models: Models) -> Self {
@@ -145,6 +151,7 @@ impl Explorer {
         Panel::left("sliders").default_size(312.0).size_range(250.0..=520.0).show(ui, |ui| {
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 panels::operating_point::ui(ui, &mut self.state);
+                panels::lubricant::ui(ui, &mut self.state);
                 panels::settings::ui(ui, &mut self.state);
                 panels::plane::ui(ui, &mut self.state);
                 ui.add_space(8.0);
@@ -182,15 +189,11 @@ impl Explorer {
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
             Command::Undo => {
                 state.history.undo(&mut state.document);
-                state.entries.clear();
-                state.training.refused = None;
-                state.transient.refused = None;
+                state.forget_entries();
             }
             Command::Redo => {
                 state.history.redo(&mut state.document);
-                state.entries.clear();
-                state.training.refused = None;
-                state.transient.refused = None;
+                state.forget_entries();
             }
             Command::CopyReadouts => ctx.copy_text(export::readouts_table(state)),
             Command::Pin => state.pin(),
@@ -208,11 +211,13 @@ impl Explorer {
                 ctx.memory_mut(|m| m.data.clear());
             }
             Command::Verify => state.verify(ctx),
+            Command::SolveAlong => {
+                if let Some((sweep, _)) = state.sweep() {
+                    state.start_markers(ctx, &sweep);
+                }
+            }
             Command::Cancel => {
-                state.jobs.cancel_all();
-                state.training.stop();
-                state.accuracy.stop();
-                state.transient.stop();
+                state.stop_all();
             }
             Command::Keyboard => self.help.keyboard = true,
             Command::About => self.help.about = true,
@@ -322,6 +327,28 @@ impl Explorer {
     /// Operating points of the linearised model that is shown.
     pub fn operating_points(&self) -> Option<usize> {
         self.state.transient.linearised.as_ref().map(|linearised| linearised.model.points.len())
+    }
+
+    /// Contacts of the traction curve on the screen, when it is the one that was asked for last, and full solutions beside it.
+    pub fn traction_contacts(&self) -> (Option<usize>, usize) {
+        let view = &self.state.traction;
+        let curve = view.curve.as_ref().filter(|_| view.curve_is_current());
+        (curve.map(|curve| curve.samples.len()), view.markers.as_ref().map_or(0, |markers| markers.samples.len()))
+    }
+
+    /// Whether full solutions along the traction curve are being computed.
+    pub fn solving_along(&self) -> bool {
+        self.state.traction.standing().is_some()
+    }
+
+    /// SRR and NPR of the sliders.
+    pub fn sliding(&self) -> (f64, f64) {
+        (self.state.document.point.sliding.slide_to_roll_ratio, self.state.document.plateau_ratio())
+    }
+
+    /// Traction coefficient of the picture, when it belongs to the sliders.
+    pub fn traction(&self) -> Option<f64> {
+        self.state.picture.as_ref().filter(|_| self.state.picture_is_current()).map(|picture| picture.traction)
     }
 
     /// Moments that have been computed of contacts in time.

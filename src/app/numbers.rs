@@ -31,6 +31,11 @@ pub fn digits(value: f64, count: usize) -> String {
     text.replace('-', "−")
 }
 
+/// The value with a number of significant digits.
+pub fn rounded(value: f64, count: usize) -> f64 {
+    format!("{value:.*e}", count.max(1) - 1).parse().unwrap_or(value)
+}
+
 /// A number and its unit.
 pub fn quantity(value: f64, unit: &str) -> String {
     if unit.is_empty() { significant(value) } else { format!("{}{THIN}{unit}", significant(value)) }
@@ -147,6 +152,7 @@ mod tests {
         ] {
             assert_eq!(significant(value), text);
         }
+        assert_eq!([rounded(0.123_45, 3), rounded(-98_765.0, 2), rounded(0.0, 3)], [0.123, -99_000.0, 0.0]);
         assert_eq!(pressure(1.1469e9), "1.147\u{2009}GPa");
         assert_eq!(length(2.28e-7), "0.2280\u{2009}µm");
     }

@@ -3,7 +3,7 @@
 use super::jobs::Key;
 use super::numbers;
 use crate::solver::full::point::resolution_warning;
-use crate::solver::full::{Mesh, Solution, Traction};
+use crate::solver::full::{Mesh, Problem, Solution};
 use crate::solver::reduced::ErrorEstimate;
 use egui_plot::PlotPoint;
 use serde::{Deserialize, Serialize};
@@ -81,8 +81,10 @@ pub struct Picture {
     pub film: Vec<PlotPoint>,
     /// P and H against Y.
     pub across: Across,
-    /// Newtonian traction.
-    pub traction: Traction,
+    /// Traction coefficient over the whole domain, (3.41).
+    pub traction: f64,
+    /// A sentence where that is no physics.
+    pub unphysical: Option<String>,
     /// Where the film ruptures.
     pub rupture: Option<f64>,
     /// The pressure spike.
@@ -93,7 +95,8 @@ pub struct Picture {
 
 impl Picture {
     /// Prepares a converged solution for drawing.
-    pub fn new(key: Key, origin: Origin, solution: Arc<Solution>, cuts: Cuts) -> Self {
+    pub fn new(key: Key, origin: Origin, mut solution: Arc<Solution>, cuts: Cuts) -> Self {
+        adopt(&mut solution, &key);
         let mut picture = Self {
             key,
             origin,
@@ -101,7 +104,8 @@ impl Picture {
             pressure: Vec::new(),
             film: Vec::new(),
             across: Across::default(),
-            traction: solution.traction(),
+            traction: solution.traction_coefficient(),
+            unphysical: solution.traction_warning(),
             rupture: solution.rupture(),
             spike: solution.spike(),
             unresolved: resolution_warning(&solution),
@@ -109,6 +113,14 @@ impl Picture {
         };
         picture.draw_curves();
         picture
+    }
+
+    /// Goes over to a contact with the same film ([`Key::has_film_of`]): only the traction is another one.
+    pub fn slide(&mut self, key: Key) {
+        adopt(&mut self.solution, &key);
+        self.key = key;
+        self.traction = self.solution.traction_coefficient();
+        self.unphysical = self.solution.traction_warning();
     }
 
     /// Lays the curves of a point contact elsewhere.
@@ -149,6 +161,15 @@ impl Picture {
     }
 }
 
+/// Makes a solution one of the very contact that it is shown for: the film may have been solved under other sliding.
+fn adopt(solution: &mut Arc<Solution>, key: &Key) {
+    if let Ok(problem) = Problem::new(&key.point, key.lubricant)
+        && problem != solution.problem
+    {
+        Arc::make_mut(solution).problem = problem;
+    }
+}
+
 /// Value of a curve at x, linearly between its points; `None` outside.
 pub fn value_at(curve: &[PlotPoint], x: f64) -> Option<f64> {
     let at = curve.partition_point(|p| p.x < x);
@@ -164,6 +185,8 @@ pub struct Comparison {
     pub h_c: f64,
     /// Relative error of H_min.
     pub h_min: f64,
+    /// Difference of the traction coefficients; `None` in pure rolling.
+    pub traction: Option<f64>,
     /// Largest |ΔP|; of a point contact over the whole plane.
     pub max_dp: f64,
     /// Where its curves lie in a point contact.
@@ -177,8 +200,10 @@ pub struct Comparison {
 impl Comparison {
     /// The errors in a line, with symbols in braces.
     pub fn describe(&self) -> String {
+        let traction =
+            self.traction.map_or_else(String::new, |traction| format!(", Δ{{µ}} {}", numbers::small(traction)));
         format!(
-            "Δ{{H_c}} {}, Δ{{H_min}} {}, max |Δ{{P}}| {}",
+            "Δ{{H_c}} {}, Δ{{H_min}} {}, max |Δ{{P}}| {}{traction}",
             numbers::error_percent(self.h_c),
             numbers::error_percent(self.h_min),
             numbers::small(self.max_dp)
@@ -188,6 +213,7 @@ impl Comparison {
     /// A picture against the truth.
     pub fn new(picture: &Picture, full: &Picture) -> Self {
         let (a, b) = (&picture.solution.scalars, &full.solution.scalars);
+        let slides = picture.key.point.sliding.slide_to_roll_ratio != 0.0 && picture.unphysical.is_none();
         let difference = |mine: &[PlotPoint], theirs: &[PlotPoint], scale: f64| -> Vec<PlotPoint> {
             mine.iter().filter_map(|p| value_at(theirs, p.x).map(|v| PlotPoint::new(p.x, (p.y - v) / scale))).collect()
         };
@@ -202,6 +228,7 @@ impl Comparison {
         Self {
             h_c: a.h_c / b.h_c - 1.0,
             h_min: a.h_min / b.h_min - 1.0,
+            traction: slides.then_some(picture.traction - full.traction),
             max_dp,
             cuts: picture.cuts,
             film: difference(&picture.film, &full.film, b.h_c),

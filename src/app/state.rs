@@ -1,6 +1,9 @@
 //! Everything the window knows, and how a change of the document becomes a picture and its verification.
 
 mod answers;
+mod display;
+
+pub use display::Display;
 
 use super::controls::Entries;
 use super::document::{Document, History};
@@ -11,16 +14,18 @@ use super::in_use::InUse;
 use super::jobs::{GridChoice, JobKind, Jobs, Key, Request};
 use super::model_source::Models;
 use super::picture::{Comparison, Cuts, Origin, Picture};
-use super::plots::contact_map::{ContactMap, MapView};
+use super::plots::contact_map::ContactMap;
+use super::plots::film_shear::FilmShearImage;
 use super::plots::{accuracy::AccuracyView, basis::BasisView, regimes::RegimeChart, tpwl::TpwlView};
+use super::task::Standing;
+use super::traction::TractionView;
 use super::training::Training;
 use super::transient::TransientView;
 use crate::solver::contact::ContactKind;
 use crate::solver::full::{Mesh, Problem, Report};
-use crate::solver::grid::{ContactGridSpec, GridSpec, PointGridSpec};
+use crate::solver::grid::PointGridSpec;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
 use egui::Context;
-use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -30,37 +35,6 @@ pub const REST_S: f64 = 0.25;
 pub const AUTO_SAVE_S: u64 = 10;
 /// Curves that can be pinned at once.
 pub const MOST_PINS: usize = 8;
-
-/// How things are shown; not part of the document.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct Display {
-    /// Draw the full solution over the reduced one.
-    pub overlay: bool,
-    /// Draw the difference below.
-    pub difference: bool,
-    /// Where a point contact is cut.
-    pub cuts: Cuts,
-    /// What the contact map shows.
-    pub map: MapView,
-    /// Theme wanted.
-    pub theme: egui::ThemePreference,
-    /// Size of everything.
-    pub zoom: f32,
-}
-
-impl Default for Display {
-    fn default() -> Self {
-        Self {
-            overlay: false,
-            difference: false,
-            cuts: Cuts::default(),
-            map: MapView::default(),
-            theme: egui::ThemePreference::System,
-            zoom: 1.0,
-        }
-    }
-}
 
 /// A curve that stays for comparison.
 pub struct Pin {
@@ -106,6 +80,8 @@ pub struct State {
     pub jobs: Jobs,
     /// Text fields being edited and their messages.
     pub entries: Entries,
+    /// Whether laws and constants of the lubricant are edited, though it may still have a name.
+    pub own_lubricant: bool,
     /// The reduced models.
     pub models: Models,
     online: Option<Online>,
@@ -133,6 +109,8 @@ pub struct State {
     pub grid_error: Option<GridError>,
     /// Images of the Contact map tab.
     pub map: ContactMap,
+    /// Image of the shear across the film.
+    pub film_shear: FilmShearImage,
     /// State of the Reduced basis tab.
     pub basis: BasisView,
     /// The studies of the Accuracy tab.
@@ -145,6 +123,8 @@ pub struct State {
     pub tpwl: TpwlView,
     /// Plots that leave as pictures.
     pub figures: Figures,
+    /// Traction and film along one quantity.
+    pub traction: TractionView,
     /// What the Regimes tab keeps between frames.
     pub regimes: RegimeChart,
     /// Plots are to be fitted to their data in this frame.
@@ -169,6 +149,7 @@ impl State {
             display: Display::default(),
             jobs: Jobs::default(),
             entries: Entries::default(),
+            own_lubricant: false,
             models,
             online: None,
             picture: None,
@@ -183,12 +164,14 @@ impl State {
             full_wall_s: None,
             grid_error: None,
             map: ContactMap::default(),
+            film_shear: FilmShearImage::default(),
             basis: BasisView::default(),
             accuracy: AccuracyView::default(),
             training: Training::default(),
             transient: TransientView::default(),
             tpwl: TpwlView::default(),
             figures: Figures::default(),
+            traction: TractionView::default(),
             regimes: RegimeChart::default(),
             fit_plots: true,
             wanted: None,
@@ -219,7 +202,7 @@ impl State {
 
     /// The reduced model that serves the contact on the screen.
     pub fn model(&self) -> Option<&Arc<ReducedModel>> {
-        self.models.of(self.document.point.kind)
+        self.models.of(self.document.point.kind, &self.document.lubricant)
     }
 
     /// Whether the picture is a full solution on another grid than the one that was chosen, and will be replaced by one on that.
@@ -242,7 +225,7 @@ impl State {
     /// What the grid costs, where that was estimated for the sliders and the chosen grid.
     pub fn grid_error(&self) -> Option<&GridError> {
         let mesh = self.full.as_ref().map(|full| full.solution.mesh);
-        self.grid_error.as_ref().filter(|error| error.key == self.key() && Some(error.mesh) == mesh)
+        self.grid_error.as_ref().filter(|error| error.key.has_film_of(&self.key()) && Some(error.mesh) == mesh)
     }
 
     /// Whether the full solution belongs to the sliders.
@@ -250,9 +233,20 @@ impl State {
         self.full.as_ref().is_some_and(|p| p.key == self.key())
     }
 
-    /// Puts a reduced model in use, or none, for a kind of contact: the picture and everything drawn of the model follow.
-    pub fn use_model(&mut self, kind: ContactKind, model: Option<Arc<ReducedModel>>) {
-        self.models.put(kind, model);
+    /// Puts a reduced model in use and returns the one it replaces: the picture and everything drawn of the model follow.
+    pub fn use_model(&mut self, model: Arc<ReducedModel>) -> Option<Arc<ReducedModel>> {
+        let former = self.models.put(model);
+        self.models_have_changed();
+        former
+    }
+
+    /// Does without a reduced model.
+    pub fn drop_model(&mut self, model: &Arc<ReducedModel>) {
+        self.models.remove(model);
+        self.models_have_changed();
+    }
+
+    fn models_have_changed(&mut self) {
         self.online = None;
         self.regimes = RegimeChart::default();
         self.comparison = None;
@@ -295,6 +289,7 @@ impl State {
         if moved {
             self.failure = None;
             self.verify_failure = None;
+            self.slide(key);
         }
         if self.refresh_reduced(key, options) {
             self.compare();
@@ -314,6 +309,20 @@ impl State {
             if self.verify_due {
                 ctx.request_repaint_after_secs(REST_S as f32);
             }
+        }
+    }
+
+    /// Takes the pictures along to a contact with the same film: they need no other solve.
+    fn slide(&mut self, key: Key) {
+        let along = |picture: &&mut Picture| picture.key != key && picture.key.has_film_of(&key);
+        let shared = matches!((&self.picture, &self.full), (Some(a), Some(b)) if Arc::ptr_eq(&a.solution, &b.solution));
+        if let Some(picture) = self.picture.as_mut().filter(along) {
+            picture.slide(key);
+        }
+        if shared {
+            self.full.clone_from(&self.picture);
+        } else if let Some(full) = self.full.as_mut().filter(along) {
+            full.slide(key);
         }
     }
 
@@ -379,17 +388,12 @@ impl State {
 
     fn submit(&mut self, ctx: &Context, kind: JobKind) {
         let key = self.key();
-        let moes = key.point.moes();
         // A line contact is solved on the model's own grid wherever it lies, a point contact where the model serves it: elsewhere on the
         // grid that was chosen.
         let own = self.passed_over.is_none() || self.plane().is_none();
-        let window = self.model().filter(|_| own).and_then(|m| m.windows.get(m.window_for(moes)));
-        let grid = match (window, self.plane()) {
-            (Some(window), _) => GridChoice::Existing(window.grid.clone()),
-            (None, None) => GridChoice::Spec(ContactGridSpec::Line(GridSpec::EXPLORER)),
-            (None, Some(plane)) if kind == JobKind::Live => GridChoice::Spec(ContactGridSpec::Point(quick(plane))),
-            (None, Some(plane)) => GridChoice::Spec(ContactGridSpec::Point(plane)),
-        };
+        let plane = self.plane().map(|plane| if kind == JobKind::Live { quick(plane) } else { plane });
+        let model = self.model().filter(|_| own).map(Arc::as_ref);
+        let grid = GridChoice::of(model, plane, key.point.moes());
         let start = match kind {
             // The truth must not depend on what it checks.
             JobKind::Verify => None,
@@ -429,6 +433,21 @@ impl State {
         self.submit(ctx, JobKind::Verify);
     }
 
+    /// How far the study is that runs beside the picture; the first where there are several.
+    pub fn study(&self) -> Option<Standing> {
+        let studied = self.accuracy.standing().or(self.transient.standing()).or(self.transient.number.standing());
+        studied.or(self.traction.standing())
+    }
+
+    /// Stops everything that runs; what has been found stays.
+    pub fn stop_all(&mut self) {
+        self.jobs.cancel_all();
+        self.training.stop();
+        self.accuracy.stop();
+        self.transient.stop();
+        self.traction.stop();
+    }
+
     /// Keeps the live curve for comparison.
     pub fn pin(&mut self) {
         if let Some(picture) = &self.picture
@@ -443,7 +462,13 @@ impl State {
     pub fn replace_document(&mut self, document: Document) {
         self.history.restart(&document);
         self.document = document;
-        self.entries = Entries::default();
+        self.own_lubricant = false;
+        self.forget_entries();
+    }
+
+    /// Forgets what was typed and refused: the document is another one now.
+    pub fn forget_entries(&mut self) {
+        self.entries.clear();
         self.training.refused = None;
         self.transient.refused = None;
     }

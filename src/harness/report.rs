@@ -261,10 +261,11 @@ const HEIGHTS: usize = 11;
 /// Shear across the film in the plane Y = 0: X, Z = z/h, the stress τ_zx and the shear rate ∂u/∂z.
 pub fn film_shear_table(name: impl Into<String>, solution: &Solution) -> Table {
     let mut table = Table::new(name, &["X", "Z", "tau_zx_pa", "rate_per_s"]);
-    for k in 0..HEIGHTS {
-        let height = k as f64 / (HEIGHTS - 1) as f64;
-        let places = solution.profile().zip(solution.shear_along_axis(height));
-        table.rows.extend(places.map(|((x, ..), shear)| vec![x, height, shear.stress_pa, shear.rate_per_s]));
+    let heights: [f64; HEIGHTS] = std::array::from_fn(|k| k as f64 / (HEIGHTS - 1) as f64);
+    let field = solution.shear_field(&heights);
+    for (k, height) in heights.into_iter().enumerate() {
+        let places = solution.profile().zip(field.chunks_exact(HEIGHTS));
+        table.rows.extend(places.map(|((x, ..), at)| vec![x, height, at[k].stress_pa, at[k].rate_per_s]));
     }
     table
 }

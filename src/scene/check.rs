@@ -105,7 +105,7 @@ fn grid(grid: &Grid, contact: ContactKind) -> Checked {
 
 fn study(scene: &Scene) -> Checked {
     match &scene.study {
-        Study::ErrorSplit { .. } | Study::DistanceMeasure { .. } if scene.contact == ContactKind::Point => {
+        Study::DistanceMeasure { .. } if scene.contact == ContactKind::Point => {
             Err(refuse("study", "is made for line contacts only; write `contact: Line`, or another study"))
         }
         Study::Training(spec) if spec.contact() != scene.contact => Err(refuse(
@@ -352,8 +352,6 @@ fn view(view: &View) -> Checked {
     for (field, loss) in [("pressure_loss", view.pressure_loss), ("deformation_loss", view.deformation_loss)] {
         loss.iter().try_for_each(|&loss| number(&format!("view.{field}"), loss, 1e-16, 0.99))?;
     }
-    number("view.slide_to_roll_ratio", view.slide_to_roll_ratio, -100.0, 100.0)?;
-    number("view.newtonian_plateau_ratio", view.newtonian_plateau_ratio, 0.0, 1.0)?;
     if !view.when_m_moves.partners().contains(&view.when_l_moves) {
         let partners = view.when_m_moves.partners().iter().map(|p| format!("{p:?}")).collect::<Vec<_>>().join(", ");
         let problem =

@@ -1,5 +1,6 @@
 //! Lubricants that have a name: a set of laws under a word that command lines and people can use.
 
+use crate::solver::contact::{ContactKind, OperatingPoint, Sliding};
 use crate::solver::lubricant::{DensityLaw, Doolittle, Lubricant, ShearLaw, Tait, ViscosityLaw};
 
 /// A lubricant with its name and one line about it.
@@ -7,12 +8,31 @@ use crate::solver::lubricant::{DensityLaw, Doolittle, Lubricant, ShearLaw, Tait,
 pub struct NamedLubricant {
     /// The word on the command line.
     pub name: &'static str,
+    /// Its name for people.
+    pub title: &'static str,
     /// Its laws.
     pub laws: Lubricant,
     /// Its viscosity at ambient pressure η₀ \[Pa·s\], where the name says that much.
     pub viscosity_pa_s: Option<f64>,
+    /// The contact in which its source studies it, where it has an ambient viscosity of its own.
+    pub studied: Option<StudiedContact>,
     /// What it is, for people.
     pub about: &'static str,
+}
+
+/// Bodies, speed and loads of a source.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StudiedContact {
+    /// R \[m\].
+    pub radius_m: f64,
+    /// E′ \[Pa\].
+    pub modulus_pa: f64,
+    /// u_m \[m/s\].
+    pub speed_m_per_s: f64,
+    /// w of the point contact \[N\].
+    pub load_n: f64,
+    /// w of the line contact with the same Hertzian pressure \[N/m\].
+    pub load_n_per_m: f64,
 }
 
 const NEWTONIAN: Lubricant = Lubricant {
@@ -34,33 +54,48 @@ pub const SQUALANE_PIP: Lubricant = Lubricant {
 };
 
 /// All named lubricants.
-pub const NAMED: [NamedLubricant; 5] = [
+pub static NAMED: [NamedLubricant; 5] = [
     NamedLubricant {
         name: "roelands-oil",
+        title: "Roelands oil",
         laws: NEWTONIAN,
         viscosity_pa_s: None,
+        studied: None,
         about: "the dissertation's Newtonian oil: Roelands (2.12), Dowson–Higginson (2.10)",
     },
     NamedLubricant {
         name: "barus-oil",
+        title: "Barus oil",
         laws: Lubricant { density: DensityLaw::Incompressible, viscosity: ViscosityLaw::Barus, ..NEWTONIAN },
         viscosity_pa_s: None,
+        studied: None,
         about: "the fluid of Moes' film formula: Barus (2.11), incompressible",
     },
     NamedLubricant {
         name: "compressible-barus-oil",
+        title: "Barus oil, compressible",
         laws: Lubricant { viscosity: ViscosityLaw::Barus, ..NEWTONIAN },
         viscosity_pa_s: None,
+        studied: None,
         about: "Barus (2.11), Dowson–Higginson (2.10)",
     },
     NamedLubricant {
         name: "squalane-pip",
+        title: "Squalane with PIP",
         laws: SQUALANE_PIP,
         viscosity_pa_s: Some(0.0705),
+        studied: Some(StudiedContact {
+            radius_m: 12.7e-3,
+            modulus_pa: 123.878213951e9,
+            speed_m_per_s: 0.74,
+            load_n: 23.0,
+            load_n_per_m: 144e3,
+        }),
         about: "squalane with polyisoprene, Table 3.5: Tait, Doolittle, modified Carreau, η₀ 0.0705 Pa·s, NPR 0.2227",
     },
     NamedLubricant {
         name: "pao-650",
+        title: "PAO 650",
         laws: Lubricant {
             density: DensityLaw::Tait(PAO_650_VOLUME),
             viscosity: ViscosityLaw::Doolittle(Doolittle { b: 4.422, r_0: 0.6694, volume: PAO_650_VOLUME }),
@@ -68,9 +103,35 @@ pub const NAMED: [NamedLubricant; 5] = [
             limiting_stress: None,
         },
         viscosity_pa_s: Some(1.42),
+        studied: Some(StudiedContact {
+            radius_m: 12.7e-3,
+            modulus_pa: 123.878213951e9,
+            speed_m_per_s: 0.074,
+            load_n: 32.0,
+            load_n_per_m: 179.5e3,
+        }),
         about: "PAO 650, Table 3.8: Tait, Doolittle, modified Carreau, η₀ 1.42 Pa·s, NPR 0",
     },
 ];
+
+impl NamedLubricant {
+    /// The contact in which its source studies it, in pure rolling; `None` for laws that go with any contact.
+    pub fn studied_contact(&self, kind: ContactKind) -> Option<OperatingPoint> {
+        let (viscosity, studied) = (self.viscosity_pa_s?, self.studied?);
+        let load = match kind {
+            ContactKind::Line => studied.load_n_per_m,
+            ContactKind::Point => studied.load_n,
+        };
+        let StudiedContact { radius_m, modulus_pa, speed_m_per_s, .. } = studied;
+        let quantities = [radius_m, speed_m_per_s, load, modulus_pa, viscosity, self.laws.own_coefficient()?];
+        Some(OperatingPoint::from_quantities(kind, quantities, Sliding::NONE))
+    }
+}
+
+/// The named lubricant with these laws, whatever stress limits its traction.
+pub fn of_laws(laws: &Lubricant) -> Option<&'static NamedLubricant> {
+    NAMED.iter().find(|named| named.laws.of_the_film() == laws.of_the_film())
+}
 
 /// The lubricant of a name.
 ///
@@ -80,4 +141,34 @@ pub fn by_name(name: &str) -> Result<NamedLubricant, String> {
     let accepted = || NAMED.map(|lubricant| lubricant.name).join(", ");
     let found = NAMED.iter().find(|lubricant| lubricant.name == name).copied();
     found.ok_or_else(|| format!("there is no lubricant of that name; accepted are {}", accepted()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::full::Problem;
+    use crate::solver::lubricant::LimitingStress;
+
+    #[test]
+    fn studied_contacts_have_the_pressures_of_their_sources() {
+        // Tables 3.5 and 3.8 (point contacts); the line contacts are those of the same Hertzian pressure.
+        for (name, pressure_pa) in [("squalane-pip", 0.4728e9), ("pao-650", 0.5278e9)] {
+            let named = by_name(name).unwrap();
+            for kind in [ContactKind::Line, ContactKind::Point] {
+                let point = named.studied_contact(kind).unwrap();
+                let problem = Problem::new(&point, named.laws).unwrap();
+                assert!((point.hertz().pressure_pa / pressure_pa - 1.0).abs() < 2e-3, "{name}, {kind:?}");
+                assert_eq!(problem.point.alpha_per_pa, point.alpha_per_pa);
+            }
+        }
+        assert_eq!(by_name("roelands-oil").unwrap().studied_contact(ContactKind::Line), None);
+    }
+
+    #[test]
+    fn a_lubricant_keeps_its_name_under_a_limiting_stress_and_loses_it_with_other_constants() {
+        let limited = Lubricant { limiting_stress: Some(LimitingStress { ambient: 5e6, slope: 0.05 }), ..SQUALANE_PIP };
+        assert_eq!(of_laws(&limited).map(|named| named.name), Some("squalane-pip"));
+        let thicker = Lubricant { shear: ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 }, ..SQUALANE_PIP };
+        assert_eq!(of_laws(&thicker), None);
+    }
 }

@@ -457,6 +457,14 @@ impl QuantityBox {
         viscosity: 0.01,
     };
 
+    /// The dissertation's box for a kind of contact.
+    pub fn of_tables(kind: ContactKind) -> Self {
+        match kind {
+            ContactKind::Line => Self::TABLE_3_1,
+            ContactKind::Point => Self::TABLE_3_4,
+        }
+    }
+
     /// The dissertation's Table 3.4, whose printed radii and loads contradict its M and L: with these they hold.
     pub const TABLE_3_4: Self = Self {
         radius: (10e-3, 20e-3),

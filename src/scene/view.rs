@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-/// How the explorer edits a scene: what follows when a slider moves, how the reduced model is truncated, and the sliders that a
-/// Newtonian line contact does not answer to. Running a scene without a screen does not use it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+/// How the explorer edits a scene: what follows when a slider moves, and how the reduced model is truncated. Running a scene without a
+/// screen does not use it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
 #[serde(deny_unknown_fields, default)]
 pub struct View {
     /// What follows when M moves.
@@ -22,12 +22,6 @@ pub struct View {
     /// Deformation of the reduced model through V_δ (the dissertation's) instead of exactly.
     #[serde(skip_serializing_if = "is_default")]
     pub projected_deformation: bool,
-    /// Slide-to-roll ratio SRR; 0 is pure rolling.
-    #[serde(skip_serializing_if = "is_default")]
-    pub slide_to_roll_ratio: f64,
-    /// Newtonian plateau ratio NPR; 1 is a Newtonian lubricant.
-    #[serde(skip_serializing_if = "is_one")]
-    pub newtonian_plateau_ratio: f64,
 }
 
 /// The quantity that follows when M moves.
@@ -56,28 +50,8 @@ pub enum LubricantFollower {
     Radius,
 }
 
-impl Default for View {
-    fn default() -> Self {
-        Self {
-            when_m_moves: LoadFollower::default(),
-            when_l_moves: LubricantFollower::default(),
-            pressure_loss: None,
-            deformation_loss: None,
-            projected_deformation: false,
-            slide_to_roll_ratio: 0.0,
-            newtonian_plateau_ratio: 1.0,
-        }
-    }
-}
-
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
-}
-
-// Serde hands fields over by reference.
-#[allow(clippy::trivially_copy_pass_by_ref)]
-fn is_one(value: &f64) -> bool {
-    *value == 1.0
 }
 
 impl LoadFollower {
@@ -137,8 +111,6 @@ mod tests {
             pressure_loss: Some(1.25e-7),
             deformation_loss: Some(3e-9),
             projected_deformation: true,
-            slide_to_roll_ratio: 0.3,
-            newtonian_plateau_ratio: 0.1,
         };
         for scene in [scene(view), scene(View::default()), Scene::at_moes(40.0, 10.0)] {
             let text = scene.to_ron().unwrap();
@@ -155,17 +127,16 @@ mod tests {
 
     #[test]
     fn unknown_fields_and_values_outside_any_sense_are_refused_by_name() {
-        let text = scene(View { slide_to_roll_ratio: 0.3, ..View::default() }).to_ron().unwrap();
+        let text = scene(View { pressure_loss: Some(0.25), ..View::default() }).to_ron().unwrap();
         let error = |text: String| Scene::from_ron(&text).unwrap_err().to_string();
-        assert!(error(text.replace("slide_to_roll_ratio", "slide_to_rol_ratio")).contains("slide_to_rol_ratio"));
+        assert!(error(text.replace("pressure_loss", "presure_loss")).contains("presure_loss"));
         for bad in ["NaN", "inf", "-inf"] {
-            assert!(error(text.replace("0.3", bad)).contains("view.slide_to_roll_ratio"), "{bad}");
+            assert!(error(text.replace("0.25", bad)).contains("view.pressure_loss"), "{bad}");
         }
         let message = |view: View| scene(view).check().unwrap_err().to_string();
         let base = View::default();
         assert!(message(View { pressure_loss: Some(f64::NAN), ..base }).contains("view.pressure_loss"));
         assert!(message(View { deformation_loss: Some(2.0), ..base }).contains("view.deformation_loss"));
-        assert!(message(View { newtonian_plateau_ratio: 1.5, ..base }).contains("view.newtonian_plateau_ratio"));
         assert!(message(View { when_m_moves: LoadFollower::Speed, ..base }).contains("view.when_l_moves"));
     }
 }

@@ -158,7 +158,7 @@ impl State {
     pub fn open_path(&mut self, path: &Path) -> Result<(), String> {
         if is_model(path) {
             let model = model_file::read(path).map_err(|e| format!("{}: {e}", path.display()))?;
-            self.use_model(model.contact(), Some(Arc::new(model)));
+            self.use_model(Arc::new(model));
             self.files.notice = Some(Ok(format!("Using the model {}", path.display())));
             return Ok(());
         }

@@ -44,8 +44,8 @@ pub fn ui(ui: &mut Ui, state: &mut State, chosen: &mut Vec<Command>) {
         });
         ui.menu_button("Run", |ui| {
             item(ui, Command::Verify, true, chosen);
-            let studies = [state.accuracy.standing(), state.transient.standing(), state.transient.number.standing()];
-            let background = state.training.job().is_some() || studies.iter().any(Option::is_some);
+            item(ui, Command::SolveAlong, state.sweep().is_some(), chosen);
+            let background = state.training.job().is_some() || state.study().is_some();
             item(ui, Command::Cancel, background || !state.jobs.running().is_empty(), chosen);
         });
         ui.menu_button("Help", |ui| {

@@ -1,6 +1,7 @@
 //! The panels around the tabs.
 
 pub mod help;
+pub mod lubricant;
 pub mod menu;
 pub mod operating_point;
 pub mod plane;

@@ -1,20 +1,24 @@
 //! M, L, SRR and NPR, the same state in SI units, and the Hertzian contact behind it.
 
 use crate::app::controls::{
-    LogSlider, NAME_WIDTH, choice, described, explained, heading, named, number_field, row_name, warning_ui,
+    NAME_WIDTH, RangeSlider, choice, described, explained, heading, named, number_field, row_name, warning_ui,
 };
 use crate::app::document::{HOME, Quantity};
 use crate::app::numbers;
 use crate::app::state::State;
 use crate::app::theme::{name_and_symbol, symbol};
-use crate::scene::LoadFollower;
 use crate::solver::contact::{ContactKind, Moes, PLAUSIBLE_HERTZ_PRESSURE_PA};
+use crate::solver::lubricant::ShearLaw;
 use egui::{Grid, Slider, Ui};
 
 /// Ends of the M slider.
 pub const M_RANGE: (f64, f64) = (1.0, 1000.0);
 /// Ends of the L slider.
 pub const L_RANGE: (f64, f64) = (0.5, 25.0);
+/// Ends of the SRR slider.
+const SRR_RANGE: (f64, f64) = (0.0, 2.0);
+/// Ends of the NPR slider.
+const NPR_RANGE: (f64, f64) = (0.0, 1.0);
 
 const M_TIP: &str = "Load number M = w/(E’R) · (2η₀u_m/(E’R))^(−1/2): how heavily the contact is loaded for its speed. \
     Small: nearly rigid bodies; large: nearly Hertzian. Double click: M 40";
@@ -30,10 +34,23 @@ const KINDS: [(ContactKind, &str, &str); 2] = [
 ];
 const L_TIP: &str = "Lubricant number L = αE’ · (2η₀u_m/(E’R))^(1/4): how strongly the viscosity rises with pressure. \
     Double click: L 10";
-const SRR_TIP: &str = "Not active yet: the lubricant is Newtonian, so sliding changes neither pressure nor film. \
-    The slide-to-roll ratio SRR becomes active with shear-thinning lubricants";
-const NPR_TIP: &str = "Not active yet: the lubricant is Newtonian, which is a Newtonian plateau ratio NPR of 1. \
-    Smaller ratios become active with shear-thinning lubricants";
+const SRR_TIP: &str = "Slide-to-roll ratio SRR = (u₂ − u₁)/u_m (3.25): how fast the surfaces slide past each other for their rolling. \
+    Negative values are typed: the film stays, the traction turns round. Double click: pure rolling";
+const SRR_NEWTONIAN_TIP: &str = "Slide-to-roll ratio SRR = (u₂ − u₁)/u_m (3.25). The lubricant is Newtonian: sliding changes neither \
+    pressure nor film, only the traction. Double click: pure rolling";
+const NPR_TIP: &str = "Newtonian plateau ratio NPR of (3.40): the share of its viscosity that the lubricant keeps however fast it is sheared. \
+    1 is Newtonian. Double click: the lubricant’s own";
+const NPR_NEWTONIAN_TIP: &str = "The lubricant has no shear constants, so it is Newtonian, which is a Newtonian plateau ratio NPR of 1; \
+    choose a lubricant that thins under shear below";
+
+/// One of the four sliders.
+#[derive(Clone, Copy, PartialEq)]
+enum Slid {
+    LoadNumber,
+    LubricantNumber,
+    SlideToRoll,
+    Plateau,
+}
 
 /// The panel's first group.
 pub fn ui(ui: &mut Ui, state: &mut State) {
@@ -41,53 +58,79 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
     kind_ui(ui, state);
     let kind = state.document.point.kind;
     let moes = state.document.point.moes();
-    let trained = state.model().map(|m| (m.domain.m, m.domain.l));
+    let domain = state.model().map(|model| &model.domain);
+    let (trained, sliding) = (domain.map(|domain| (domain.m, domain.l)), domain.and_then(|domain| domain.sliding));
+    let thins = state.document.lubricant.shear != ShearLaw::Newtonian;
+    let srr = state.document.point.sliding.slide_to_roll_ratio;
+    let (npr, own_npr) = (state.document.plateau_ratio(), state.document.lubricant.shear.plateau());
     let width = (ui.available_width() - 132.0).clamp(70.0, 420.0);
     let mut wanted = None;
     let m_tip = if kind == ContactKind::Line { M_TIP } else { M_POINT_TIP };
-    Grid::new("moes numbers").num_columns(3).spacing([8.0, 6.0]).show(ui, |ui| {
+    let srr_tip = if thins { SRR_TIP } else { SRR_NEWTONIAN_TIP };
+    Grid::new("sliders").num_columns(3).spacing([8.0, 6.0]).show(ui, |ui| {
+        let slider = |name, (low, high), marked, home, tooltip, logarithmic| RangeSlider {
+            name,
+            range: low..=high,
+            marked,
+            home,
+            tooltip,
+            logarithmic,
+        };
+        let m = slider("Load number M", M_RANGE, trained.map(|t| t.0), HOME.m, m_tip, true);
+        let l = slider("Lubricant number L", L_RANGE, trained.map(|t| t.1), HOME.l, L_TIP, true);
+        let marked = sliding.map(|sliding| sliding.srr);
+        let slide = slider("Slide-to-roll ratio SRR", SRR_RANGE, marked, 0.0, srr_tip, false);
+        let marked = sliding.map(|sliding| sliding.npr);
+        let plateau = slider("Newtonian plateau ratio NPR", NPR_RANGE, marked, own_npr, NPR_TIP, false);
         let rows = [
-            ("M", "Load number M", "M value", M_RANGE, trained.map(|t| t.0), HOME.m, moes.m, m_tip),
-            ("L", "Lubricant number L", "L value", L_RANGE, trained.map(|t| t.1), HOME.l, moes.l, L_TIP),
+            (Slid::LoadNumber, "M", "M value", m, moes.m),
+            (Slid::LubricantNumber, "L", "L value", l, moes.l),
+            (Slid::SlideToRoll, "SRR", "SRR value", slide, srr),
+            (Slid::Plateau, "NPR", "NPR value", plateau, npr),
         ];
-        for (base, name, value_name, range, marked, home, value, tooltip) in rows {
-            explained(ui, symbol(ui, base, ""), tooltip);
-            let slider = LogSlider { name, range: range.0..=range.1, marked, home, tooltip };
-            let moved = slider.show(ui, value, width).map(|v| (base, v));
-            let typed = number_field(ui, &mut state.entries, value_name, value, 62.0, tooltip).map(|v| (value_name, v));
-            if let Some((field, value)) = moved.or(typed) {
-                let numbers = if base == "M" { Moes { m: value, ..moes } } else { Moes { l: value, ..moes } };
-                wanted = Some((field, numbers));
+        for (slid, base, value_name, slider, value) in rows {
+            if slid == Slid::Plateau && !thins {
+                disabled_plateau(ui, width);
+                continue;
             }
-            ui.end_row();
-        }
-        let view = &mut state.document.view;
-        for (label, name, range, value, tip) in [
-            ("SRR", "Slide-to-roll ratio SRR", 0.0..=2.0, &mut view.slide_to_roll_ratio, SRR_TIP),
-            ("NPR", "Newtonian plateau ratio NPR", 0.0..=1.0, &mut view.newtonian_plateau_ratio, NPR_TIP),
-        ] {
-            ui.add_enabled(false, egui::Label::new(label)).on_disabled_hover_text(tip);
-            ui.spacing_mut().slider_width = width;
-            let response = ui.add_enabled(false, Slider::new(value, range).show_value(false));
-            let response = described(ui, named(ui, response, name), tip);
-            response.on_disabled_hover_text(tip);
-            ui.weak("not active").on_hover_text(tip);
+            explained(ui, symbol(ui, base, ""), slider.tooltip);
+            let moved = slider.show(ui, value, width).map(|v| (base, v));
+            let entry = number_field(ui, &mut state.entries, value_name, value, 62.0, slider.tooltip);
+            wanted = moved.or(entry.map(|v| (value_name, v))).map(|(field, value)| (slid, field, value)).or(wanted);
             ui.end_row();
         }
     });
-    if let Some((field, moes)) = wanted {
-        let result = state.document.set_moes(moes);
+    if let Some((slid, field, value)) = wanted {
+        let document = &mut state.document;
+        let result = match slid {
+            Slid::LoadNumber => document.set_moes(Moes { m: value, ..moes }),
+            Slid::LubricantNumber => document.set_moes(Moes { l: value, ..moes }),
+            Slid::SlideToRoll => document.set_slide_to_roll_ratio(value),
+            Slid::Plateau => document.set_plateau_ratio((value != own_npr).then_some(value)),
+        };
         if result.is_ok() {
             state.entries.clear();
         }
         state.entries.answer(field, result);
     }
-    for field in ["M", "L", "M value", "L value"] {
+    for field in ["M", "L", "SRR", "NPR", "M value", "L value", "SRR value", "NPR value"] {
         state.entries.message_ui(ui, field);
     }
     followers_ui(ui, state);
     si_ui(ui, state);
     hertz_ui(ui, state);
+}
+
+/// The slider of a fluid that keeps its viscosity: it stands at 1 and says why it does not move.
+fn disabled_plateau(ui: &mut Ui, width: f32) {
+    let tip = NPR_NEWTONIAN_TIP;
+    ui.add_enabled(false, egui::Label::new("NPR")).on_disabled_hover_text(tip);
+    ui.spacing_mut().slider_width = width;
+    let response = ui.add_enabled(false, Slider::new(&mut 1.0, NPR_RANGE.0..=NPR_RANGE.1).show_value(false));
+    let response = described(ui, named(ui, response, "Newtonian plateau ratio NPR"), tip);
+    response.on_disabled_hover_text(tip);
+    ui.weak("Newtonian").on_hover_text(tip);
+    ui.end_row();
 }
 
 /// Line or point.
@@ -114,19 +157,25 @@ fn followers_ui(ui: &mut Ui, state: &mut State) {
     let document = &mut state.document;
     Grid::new("followers").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
         let tip = "M fixes one combination of the SI values: this is the one that gives way";
-        let mut chosen = document.view.when_m_moves;
-        choice(ui, "When M moves", tip, &mut chosen, &LoadFollower::ALL, |f| (f.name(), ""));
-        if chosen != document.view.when_m_moves {
-            document.set_load_follower(chosen);
-        }
-        let tip = match document.point.kind {
-            ContactKind::Line => {
+        let (load_before, lubricant_before) = document.followers();
+        let (mut load, mut lubricant) = (load_before, lubricant_before);
+        let (loads, lubricants) = document.possible_followers();
+        choice(ui, "When M moves", tip, &mut load, loads, |f| (f.name(), ""));
+        let tip = match (document.lubricant.own_coefficient(), document.point.kind) {
+            (Some(_), _) => "L fixes another one; α follows from the lubricant’s viscosity law",
+            (None, ContactKind::Line) => {
                 "L fixes another one. “α and speed together” keeps to α = 5/GPa · L^0.463, along which the reduced model is trained"
             }
-            ContactKind::Point => "L fixes another one. “α and speed together” keeps to α = 5/GPa · (L/1.7)^0.655",
+            (None, ContactKind::Point) => {
+                "L fixes another one. “α and speed together” keeps to α = 5/GPa · (L/1.7)^0.655"
+            }
         };
-        let partners = document.view.when_m_moves.partners();
-        choice(ui, "When L moves", tip, &mut document.view.when_l_moves, partners, |f| (f.name(), ""));
+        choice(ui, "When L moves", tip, &mut lubricant, lubricants, |f| (f.name(), ""));
+        if load != load_before {
+            document.set_load_follower(load);
+        } else if lubricant != lubricant_before {
+            (document.view.when_m_moves, document.view.when_l_moves) = (load, lubricant);
+        }
     });
 }
 
@@ -210,12 +259,16 @@ fn rows(kind: ContactKind) -> impl Iterator<Item = &'static Row> {
 fn si_ui(ui: &mut Ui, state: &mut State) {
     ui.add_space(4.0);
     let mut changed = None;
+    let own_alpha = state.document.lubricant.own_coefficient().is_some();
     for row in rows(state.document.point.kind) {
         ui.horizontal(|ui| {
             let name = row.name.split(' ').next().unwrap_or(row.name);
             row_name(ui, name_and_symbol(ui, name, row.symbol.0, row.symbol.1), row.tooltip);
             let value = row.quantity.get(&state.document.point) / row.scale;
-            if let Some(value) = number_field(ui, &mut state.entries, row.name, value, 96.0, row.tooltip) {
+            if row.quantity == Quantity::Alpha && own_alpha {
+                let tip = "α* follows from the lubricant’s own viscosity law: 1/α* = ∫ η₀/μ dp, Blok 1963";
+                ui.label(numbers::significant(value)).on_hover_text(tip);
+            } else if let Some(value) = number_field(ui, &mut state.entries, row.name, value, 96.0, row.tooltip) {
                 changed = Some((row, value * row.scale));
             }
             ui.label(row.unit);

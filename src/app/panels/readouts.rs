@@ -1,5 +1,6 @@
 //! The read-outs under the plots: what the contact amounts to, and how it differs from the last pin.
 
+use crate::app::controls::sentence;
 use crate::app::numbers;
 use crate::app::picture::Picture;
 use crate::app::state::State;
@@ -16,7 +17,7 @@ pub fn ui(ui: &mut Ui, state: &State) {
     let stale = state.picture_is_stale(ui.input(|i| i.time));
     let pin = state.pins.last();
     let palette = Palette::of(ui);
-    let srr = state.document.view.slide_to_roll_ratio;
+    let srr = picture.key.point.sliding.slide_to_roll_ratio;
     let scalars = |p: &Picture| p.solution.scalars;
     let delta = |f: &dyn Fn(&Picture) -> f64| pin.map(|pin| f(picture) / f(&pin.picture) - 1.0);
     ui.horizontal_wrapped(|ui| {
@@ -28,6 +29,11 @@ pub fn ui(ui: &mut Ui, state: &State) {
         // What the grid costs stands beside the value it was estimated for.
         let shown_is_full = state.full.as_ref().is_some_and(|full| Arc::ptr_eq(&full.solution, &picture.solution));
         let grid_error = state.grid_error().filter(|_| shown_is_full).map(|error| error.accuracy);
+        let unphysical = picture.unphysical.is_some();
+        let traction_tip = "Traction coefficient (3.41): the shear stress at mid-film over the whole domain, over the load. In pure rolling \
+            there is none";
+        let traction_tip = picture.unphysical.as_ref().map_or_else(|| traction_tip.to_owned(), |why| sentence(why));
+        let traction_delta = delta(&|p| p.traction).filter(|delta| delta.is_finite() && !unphysical);
         let off = |error: Option<f64>| error.map_or_else(String::new, |e| format!(" ±{}", numbers::error_percent(e)));
         cell(
             ui,
@@ -59,12 +65,11 @@ pub fn ui(ui: &mut Ui, state: &State) {
         cell(
             ui,
             symbol(ui, "µ", ""),
-            if srr == 0.0 { "0".to_owned() } else { numbers::significant(picture.traction.per_srr * srr) },
-            format!("at SRR {}", numbers::digits(srr, 3)),
-            palette.quiet,
-            None,
-            "Traction coefficient (3.41): mean shear stress on the surfaces over the load. \
-             Without sliding there is none; SRR becomes active with shear-thinning lubricants",
+            numbers::significant(picture.traction),
+            format!("at SRR {}{}", numbers::digits(srr, 3), if unphysical { ", unphysical" } else { "" }),
+            if unphysical { palette.reference } else { palette.traction },
+            traction_delta,
+            &traction_tip,
         );
     });
 }

@@ -13,8 +13,7 @@ const NEWS_S: f64 = 0.12;
 pub fn ui(ui: &mut Ui, state: &State, frame_s: f64, chosen: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         let slow = state.jobs.running().iter().find(|j| j.since.elapsed().as_secs_f64() > NEWS_S);
-        let study = state.accuracy.standing().or(state.transient.standing()).or(state.transient.number.standing());
-        let study = study.filter(|standing| standing.since_s > NEWS_S);
+        let study = state.study().filter(|standing| standing.since_s > NEWS_S);
         match (slow, study) {
             (Some(job), _) => {
                 ui.label(job.kind.name());

@@ -7,15 +7,19 @@ pub mod basis;
 pub mod contact_map;
 mod cut_line;
 mod direction;
+pub mod film_shear;
 mod formulas;
 pub mod profiles;
 mod raster;
 mod regime_chart;
 pub mod regimes;
+mod svg;
 pub mod tpwl;
+mod traction;
 mod training;
 mod transient;
 
+use super::figure;
 use super::state::State;
 use egui::Ui;
 use egui_tiles::{Behavior, Tile, TileId, Tiles, Tree, UiResponse};
@@ -30,6 +34,8 @@ pub enum Tab {
     ContactMap,
     /// The M–L chart.
     Regimes,
+    /// Friction along one quantity.
+    Traction,
     /// Singular values, modes, sampled rows.
     Basis,
     /// Residuals and errors.
@@ -44,10 +50,11 @@ pub enum Tab {
 
 impl Tab {
     /// All tabs in their order.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Profiles,
         Self::ContactMap,
         Self::Regimes,
+        Self::Traction,
         Self::Basis,
         Self::Accuracy,
         Self::Training,
@@ -61,6 +68,7 @@ impl Tab {
             Self::Profiles => "Profiles",
             Self::ContactMap => "Contact map",
             Self::Regimes => "Regimes",
+            Self::Traction => "Traction",
             Self::Basis => "Reduced basis",
             Self::Accuracy => "Accuracy",
             Self::Training => "Training",
@@ -91,10 +99,12 @@ impl Behavior<Tab> for Tabs<'_> {
     fn pane_ui(&mut self, ui: &mut Ui, _tile_id: TileId, tab: &mut Tab) -> UiResponse {
         egui::Frame::new().fill(ui.visuals().panel_fill).inner_margin(egui::Margin::symmetric(10, 8)).show(ui, |ui| {
             ui.set_min_size(ui.available_size());
+            figure::offer(ui, &format!("The whole tab {}", tab.title()), ui.max_rect());
             match tab {
                 Tab::Profiles => profiles::ui(ui, self.state),
                 Tab::ContactMap => contact_map::ui(ui, self.state),
                 Tab::Regimes => regimes::ui(ui, self.state),
+                Tab::Traction => traction::ui(ui, self.state),
                 Tab::Basis => basis::ui(ui, self.state),
                 Tab::Accuracy => accuracy::ui(ui, self.state),
                 Tab::Training => training::ui(ui, self.state),

@@ -3,15 +3,16 @@
 use super::axes;
 use super::cut_line::CutLine;
 use super::direction::Direction;
+use super::film_shear::{self, FilmShear};
 use crate::app::command::Command;
-use crate::app::controls::warning_ui;
+use crate::app::controls::{named, warning_ui};
 use crate::app::export;
 use crate::app::files::Purpose;
 use crate::app::numbers;
 use crate::app::picture::{Comparison, Cuts, Origin, Picture, value_at};
 use crate::app::state::{Pin, State};
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, faded, rich};
-use egui::{Align2, Checkbox, Color32, Id, Ui, Vec2b};
+use egui::{Align2, Checkbox, Color32, ComboBox, Id, Ui, Vec2b};
 use egui_plot::{
     Corner, HoverPosition, Legend, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points, Span,
     Text,
@@ -32,7 +33,11 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
     let reduced = picture.origin != Origin::Full;
     let full = state.full.as_ref().filter(|_| state.display.overlay && reduced);
     let comparison = state.comparison.as_ref().filter(|_| state.display.difference);
-    let parts = if comparison.is_some() { 2.6 } else { 2.0 };
+    let shear = state.display.film_shear;
+    if shear != FilmShear::Off {
+        state.film_shear.follow(ui.ctx(), picture, shear);
+    }
+    let parts = 2.0 + if comparison.is_some() { 0.6 } else { 0.0 } + if shear == FilmShear::Off { 0.0 } else { 0.6 };
     let unit = (ui.available_height() - 6.0) / parts;
     let scene = Scene {
         picture,
@@ -66,6 +71,9 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
     if let Some(comparison) = comparison {
         difference_plot(ui, comparison, state.fit_plots, 0.6 * unit);
     }
+    if shear != FilmShear::Off {
+        film_shear::ui(ui, &state.film_shear, shear, stale, 0.6 * unit);
+    }
     if let Some((direction, to)) = moved {
         direction.move_other(&mut state.display.cuts, to);
     }
@@ -94,6 +102,14 @@ fn toolbar(ui: &mut Ui, state: &mut State) {
         for (name, tip, on) in switches {
             ui.add_enabled(reduced, Checkbox::new(on, name)).on_hover_text(tip).on_disabled_hover_text(why);
         }
+        let shear = &mut state.display.film_shear;
+        let tip = "A field between the surfaces below the profiles";
+        let choice = ComboBox::from_id_salt("film shear").selected_text(shear.name()).width(104.0).show_ui(ui, |ui| {
+            for option in FilmShear::ALL {
+                ui.selectable_value(shear, option, option.name()).on_hover_text(option.tip());
+            }
+        });
+        named(ui, choice.response, "Across the film").on_hover_text(tip);
         if ui.button(Command::Verify.name()).on_hover_text("Solve this contact in full now (F5)").clicked() {
             state.verify(&ctx);
         }
@@ -134,7 +150,7 @@ fn pins_ui(ui: &mut Ui, state: &mut State) {
             );
             ui.label(rich(&text, 12.5, color)).on_hover_text(export::describe(&pin.picture));
             let response = ui.small_button("×").on_hover_text("Remove this pin");
-            if crate::app::controls::named(ui, response, &format!("Remove pin {}", pin.number)).clicked() {
+            if named(ui, response, &format!("Remove pin {}", pin.number)).clicked() {
                 removed = Some(k);
             }
             ui.add_space(8.0);

@@ -9,18 +9,30 @@ use crate::app::numbers;
 use crate::app::state::State;
 use crate::app::theme::{Palette, faded, rich};
 use crate::solver::contact::{ContactKind, Moes};
+use crate::solver::reduced::ReducedModel;
 use egui::{Align2, RichText, TextureHandle, Ui};
 use egui_plot::{Line, LineStyle, MarkerShape, PlotImage, PlotPoint, PlotPoints, PlotUi, Points, Text};
+use std::sync::Arc;
 
 /// How near (in screen points) the pointer must be to take the contact along.
 const GRAB_RADIUS: f32 = 18.0;
+
+/// What lines and snapshots were made for: a kind of contact, and its reduced model where there is one.
+#[derive(Clone)]
+struct Owner(ContactKind, Option<Arc<ReducedModel>>);
+
+impl PartialEq for Owner {
+    fn eq(&self, other: &Self) -> bool {
+        self.0 == other.0 && self.1.as_ref().map(Arc::as_ptr) == other.1.as_ref().map(Arc::as_ptr)
+    }
+}
 
 /// What the chart keeps between frames: its shading as a picture and all lines, made once.
 #[derive(Default)]
 pub struct RegimeChart {
     texture: Option<(ContactKind, bool, TextureHandle)>,
-    lines: Option<(ContactKind, ChartLines)>,
-    snapshots: Option<(ContactKind, usize, Vec<PlotPoint>)>,
+    lines: Option<(Owner, ChartLines)>,
+    snapshots: Option<(Owner, Vec<PlotPoint>)>,
     dragging: bool,
     message: Option<String>,
 }
@@ -55,14 +67,15 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
         let texture = ctx.load_texture("regimes", shading(kind, &palette), egui::TextureOptions::LINEAR);
         state.regimes.texture = Some((kind, dark, texture));
     }
-    let model = state.model().cloned();
-    if state.regimes.lines.as_ref().is_none_or(|lines| lines.0 != kind) {
-        state.regimes.lines = Some((kind, ChartLines::new(kind, model.as_deref().map(|m| &m.domain))));
+    let owner = Owner(kind, state.model().cloned());
+    if state.regimes.lines.as_ref().is_none_or(|lines| lines.0 != owner) {
+        let lines = ChartLines::new(kind, owner.1.as_deref().map(|model| &model.domain));
+        state.regimes.lines = Some((owner.clone(), lines));
     }
-    let count = model.as_ref().map_or(0, |m| m.windows.iter().map(|w| w.snapshots.len()).sum());
-    if state.regimes.snapshots.as_ref().is_none_or(|s| (s.0, s.1) != (kind, count)) {
-        let points = model.iter().flat_map(|m| &m.windows).flat_map(|w| &w.snapshots);
-        state.regimes.snapshots = Some((kind, count, points.map(|s| at(s.point.moes())).collect()));
+    if state.regimes.snapshots.as_ref().is_none_or(|snapshots| snapshots.0 != owner) {
+        let points = owner.1.iter().flat_map(|model| &model.windows).flat_map(|w| &w.snapshots);
+        let points = points.map(|s| at(s.point.moes())).collect();
+        state.regimes.snapshots = Some((owner, points));
     }
     let mut toolbar_export = false;
     ui.horizontal_wrapped(|ui| {
@@ -89,7 +102,7 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
     let chart_height = (height - 34.0).max(160.0);
     let Some((_, lines)) = &state.regimes.lines else { return };
     let texture = state.regimes.texture.as_ref().map(|t| t.2.id());
-    let snapshots = state.regimes.snapshots.as_ref().map(|s| s.2.as_slice()).unwrap_or_default();
+    let snapshots = state.regimes.snapshots.as_ref().map(|s| s.1.as_slice()).unwrap_or_default();
     let response = axes::show(
         axes::plot(ui, "regimes", chart_height, "Load number {M}", "Lubricant number {L}")
             .default_x_bounds(M_AXIS.0.log10(), M_AXIS.1.log10())
@@ -210,7 +223,7 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
 }
 
 fn snapshots_of(state: &State) -> &[PlotPoint] {
-    state.regimes.snapshots.as_ref().map(|s| s.2.as_slice()).unwrap_or_default()
+    state.regimes.snapshots.as_ref().map(|s| s.1.as_slice()).unwrap_or_default()
 }
 
 fn at(moes: Moes) -> PlotPoint {

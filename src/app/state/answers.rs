@@ -15,7 +15,12 @@ impl State {
     pub fn receive(&mut self) {
         self.accuracy.receive();
         self.transient.receive();
-        for (job, outcome) in self.jobs.poll() {
+        self.traction.receive();
+        for (mut job, outcome) in self.jobs.poll() {
+            // Another sliding does not make another film where it does not thin.
+            if job.key.has_film_of(&self.key()) {
+                job.key = self.key();
+            }
             match job.kind {
                 JobKind::Live => self.receive_live(&job, outcome),
                 JobKind::Verify | JobKind::Refine => self.receive_verification(&job, outcome),

@@ -188,10 +188,9 @@ fn missed_tolerances(state: &TrainingState) -> Vec<String> {
 impl State {
     /// The training that the Training tab shows.
     pub fn training_spec(&self) -> Option<&TrainingSpec> {
-        match &self.document.training {
-            Some(spec) => Some(spec),
-            None => presets::table_3_1(),
-        }
+        let kind = self.document.point.kind;
+        let own = self.document.training.as_ref().filter(|spec| spec.contact() == kind);
+        own.or_else(|| presets::of_kind(kind).first().map(|preset| preset.1))
     }
 
     /// Starts the training that the tab shows, unless its specification is refused.
@@ -206,7 +205,8 @@ impl State {
     /// Compares the model that was made with the one in use, or with the one it replaced.
     pub fn compare_models(&mut self, ctx: &Context) {
         let (Some(made), Some(spec)) = (&self.training.made, &self.training.spec) else { return };
-        let in_use = self.models.of(made.model.contact()).filter(|model| !Arc::ptr_eq(model, &made.model));
+        let in_use = self.models.of(made.model.contact(), &spec.lubricant);
+        let in_use = in_use.filter(|model| !Arc::ptr_eq(model, &made.model));
         let Some(former) = in_use.or(self.training.former.as_ref()) else { return };
         let task = Task::Compare(Arc::clone(former), Arc::clone(&made.model), spec.clone());
         self.training.comparison = None;
@@ -216,25 +216,25 @@ impl State {
     /// Puts the model that was made in use.
     pub fn use_made_model(&mut self) {
         if let Some(made) = &self.training.made {
-            let (model, kind) = (Arc::clone(&made.model), made.model.contact());
-            self.training.former = self.models.of(kind).cloned();
-            self.use_model(kind, Some(model));
+            let model = Arc::clone(&made.model);
+            self.training.former = self.use_model(model);
         }
     }
 
     /// Puts the model in use that was before.
     pub fn use_former_model(&mut self) {
         if let Some(made) = &self.training.made {
-            let kind = made.model.contact();
-            let former = self.training.former.take();
-            self.use_model(kind, former);
+            let made = Arc::clone(&made.model);
+            match self.training.former.take() {
+                Some(former) => _ = self.use_model(former),
+                None => self.drop_model(&made),
+            }
         }
     }
 
     /// Whether the model that was made is in use.
     pub fn uses_made_model(&self) -> bool {
-        let Some(made) = self.training.made.as_ref().map(|made| &made.model) else { return false };
-        self.models.of(made.contact()).is_some_and(|model| Arc::ptr_eq(made, model))
+        self.training.made.as_ref().is_some_and(|made| self.models.contains(&made.model))
     }
 
     /// Answers a training or comparison that has ended. Called first in every frame.

@@ -1,18 +1,35 @@
 //! Trainings to begin with, read from the scenes that come with the program.
 
 use crate::scene::{Scene, Study};
+use crate::solver::contact::ContactKind;
 use crate::solver::training::{TrainingSpec, Windows};
 use std::sync::LazyLock;
 
-/// Table 3.1's box by the automatic algorithm: what the tab shows where the document describes no training.
-pub fn table_3_1() -> Option<&'static TrainingSpec> {
+/// What there is for a kind of contact, by name; the first is what the tab shows where the document describes no training.
+pub fn of_kind(kind: ContactKind) -> Vec<(&'static str, &'static TrainingSpec)> {
+    let all = match kind {
+        ContactKind::Line => vec![("Table 3.1’s box", table_3_1()), ("Whole slider range", slider_range())],
+        ContactKind::Point => vec![("Table 3.4’s box", table_3_4())],
+    };
+    all.into_iter().filter_map(|(name, spec)| Some((name, spec?))).collect()
+}
+
+/// Table 3.4's box, corrected: the embedded model of point contacts.
+fn table_3_4() -> Option<&'static TrainingSpec> {
+    static SPEC: LazyLock<Option<TrainingSpec>> =
+        LazyLock::new(|| spec_of(include_str!("../../../scenes/table_3_4_model.ron")));
+    SPEC.as_ref()
+}
+
+/// Table 3.1's box by the automatic algorithm.
+fn table_3_1() -> Option<&'static TrainingSpec> {
     static SPEC: LazyLock<Option<TrainingSpec>> =
         LazyLock::new(|| spec_of(include_str!("../../../scenes/table_3_2_adaptive_graded.ron")));
     SPEC.as_ref()
 }
 
 /// The embedded model's range: what the sliders reach.
-pub fn slider_range() -> Option<&'static TrainingSpec> {
+fn slider_range() -> Option<&'static TrainingSpec> {
     static SPEC: LazyLock<Option<TrainingSpec>> =
         LazyLock::new(|| spec_of(include_str!("../../../scenes/embedded_model.ron")));
     SPEC.as_ref()
@@ -53,8 +70,13 @@ mod tests {
 
     #[test]
     fn the_presets_are_trainings_that_can_be_started() {
-        for preset in [table_3_1(), slider_range()] {
-            preset.unwrap().check().unwrap();
+        for (kind, count) in [(ContactKind::Line, 2), (ContactKind::Point, 1)] {
+            let presets = of_kind(kind);
+            assert_eq!(presets.len(), count);
+            for (_, preset) in presets {
+                preset.check().unwrap();
+                assert_eq!(preset.contact(), kind);
+            }
         }
     }
 

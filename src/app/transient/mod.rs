@@ -18,7 +18,7 @@ use crate::scene::{At, Grid, Scene, Study, TransientStudy};
 use crate::solver::contact::{ContactKind, OperatingPoint};
 use crate::solver::full::transient::{Frame, Inputs, Keep, Quantity, Signal, TimeStep, Transient};
 use crate::solver::grid::GridSpec;
-use crate::solver::lubricant::Lubricant;
+use crate::solver::lubricant::{Lubricant, ShearLaw};
 use crate::solver::reduced::tpwl::Weighting;
 use egui::Context;
 use linearised::{Linearised, NumberStudy};
@@ -198,10 +198,11 @@ impl Document {
         Ok(())
     }
 
-    /// Whether its file holds the contact in time: a scene that asks another question keeps that, a point contact has none.
+    /// Whether its file holds the contact in time: a scene that asks another question keeps that; a point contact and a lubricant that thins
+    /// under shear have none.
     pub fn saves_transient(&self) -> bool {
         let asked = self.scene.as_ref().is_none_or(|scene| matches!(scene.study, Study::Transient(_)));
-        asked && self.point.kind == ContactKind::Line
+        asked && self.point.kind == ContactKind::Line && self.lubricant.shear == ShearLaw::Newtonian
     }
 
     /// The grid of contacts in time: that of a scene of one, else the dissertation's.
@@ -266,7 +267,10 @@ impl Window {
 
     /// Why there are no contacts in time of this kind; `None` where there are.
     pub fn no_transient(&self) -> Option<&'static str> {
-        (self.document.point.kind == ContactKind::Point)
-            .then_some("This version follows only line contacts in time; choose a line contact")
+        match (self.document.point.kind, self.document.lubricant.shear) {
+            (ContactKind::Point, _) => Some("This version follows only line contacts in time; choose a line contact"),
+            (ContactKind::Line, ShearLaw::Newtonian) => None,
+            _ => Some("This version follows only Newtonian lubricants in time; choose one without shear constants"),
+        }
     }
 }

@@ -77,6 +77,8 @@ impl Problem {
     /// When the point, its sliding or the lubricant is outside its valid range.
     pub fn new(point: &OperatingPoint, lubricant: Lubricant) -> Result<Self, SolveError> {
         lubricant.check()?;
+        // Before the coefficient that follows: that of a law which has ended is beyond any sense as well.
+        lubricant.check_pressure(point.hertz().pressure_pa)?;
         let alpha_per_pa = lubricant.own_coefficient().unwrap_or(point.alpha_per_pa);
         let mut point = OperatingPoint { alpha_per_pa, ..*point };
         point.check()?;

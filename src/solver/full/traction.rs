@@ -1,6 +1,6 @@
 //! Shear across the film, and the traction (3.41) it adds up to.
 
-use super::solution::Solution;
+use super::solution::{Problem, Solution};
 use crate::solver::lubricant::ScaledShear;
 use crate::solver::reynolds::film_integrals::{PRODUCTION_RULE, film_integrals};
 use crate::solver::reynolds::generalized::PlaneGradient;
@@ -36,10 +36,14 @@ impl Solution {
     /// Shear along the axis Y = 0 at height z = Z h above the lower surface, 0 ≤ Z ≤ 1, in the order of [`Solution::profile`]. A limiting
     /// stress, where the lubricant has one, cuts the stress; the rate is the one of the film without it.
     pub fn shear_along_axis(&self, height: f64) -> Vec<Shear> {
+        self.shear_field(&[height])
+    }
+
+    /// The same at several heights, those of a node one after the other.
+    pub fn shear_field(&self, heights: &[f64]) -> Vec<Shear> {
         let gradient = PlaneGradient::new(&self.x, &self.y);
         let axis = self.y.len() - 1;
-        let at = |i: usize| {
-            let film = self.film_stress(&gradient, i, axis);
+        let shear = |film: &FilmStress, height: f64| {
             let stress = film.at(height);
             let fluidity = self
                 .problem
@@ -48,7 +52,8 @@ impl Solution {
             let rate_per_s = stress[0] * fluidity / film.viscosity_pa_s;
             Shear { stress_pa: film.limited(stress)[0], rate_per_s }
         };
-        (self.first()..self.x.len()).map(at).collect()
+        let films = (self.first()..self.x.len()).map(|i| self.film_stress(&gradient, i, axis));
+        films.flat_map(|film| heights.iter().map(move |height| shear(&film, *height))).collect()
     }
 
     /// Traction coefficient (3.41): the shear stress at mid-film over the whole domain, both halves of a point contact's, by the trapezoidal rule,
@@ -98,12 +103,19 @@ impl Solution {
         }
     }
 
-    /// A sentence where the traction is no physics: at great α* p_H without a limiting stress.
+    /// A sentence where its traction is no physics; none in pure rolling, where there is no traction.
     pub fn traction_warning(&self) -> Option<String> {
         let slides = self.problem.point.sliding.slide_to_roll_ratio != 0.0;
-        let unlimited = self.problem.lubricant.limiting_stress.is_none();
-        let exponent = self.problem.fluid.reciprocal_asymptotic_exponent();
-        (slides && unlimited && exponent > PLAUSIBLE_EXPONENT).then(|| {
+        slides.then(|| self.problem.traction_warning()).flatten()
+    }
+}
+
+impl Problem {
+    /// A sentence where every traction is no physics: at great α* p_H without a limiting stress.
+    pub fn traction_warning(&self) -> Option<String> {
+        let unlimited = self.lubricant.limiting_stress.is_none();
+        let exponent = self.fluid.reciprocal_asymptotic_exponent();
+        (unlimited && exponent > PLAUSIBLE_EXPONENT).then(|| {
             format!(
                 "α* p_H is {exponent:.1}: beyond {PLAUSIBLE_EXPONENT} an isothermal traction without a limiting shear stress is unphysical"
             )

@@ -155,12 +155,7 @@ impl Lubricant {
         }
         self.check()?;
         let pressure = point.hertz().pressure_pa;
-        if let ViscosityLaw::Doolittle(doolittle) = self.viscosity {
-            let largest = doolittle.largest_pressure();
-            if pressure >= largest {
-                return Err(LubricantError::OccupiedVolume { pressure, largest });
-            }
-        }
+        self.check_pressure(pressure)?;
         Ok(ScaledFluid {
             laws: self,
             hertz_pressure_pa: pressure,
@@ -168,6 +163,16 @@ impl Lubricant {
             roelands_log,
             roelands_exponent: point.alpha_per_pa * ROELANDS_PRESSURE_PA / roelands_log,
         })
+    }
+
+    /// Refuses a Hertzian pressure \[Pa\] under which a law has ended.
+    pub(super) fn check_pressure(&self, pressure: f64) -> Result<(), LubricantError> {
+        match self.viscosity {
+            ViscosityLaw::Doolittle(law) if pressure >= law.largest_pressure() => {
+                Err(LubricantError::OccupiedVolume { pressure, largest: law.largest_pressure() })
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Refuses constants for which a law is not defined, naming them.
@@ -183,6 +188,11 @@ impl Lubricant {
         }
         self.shear.check()?;
         self.limiting_stress.iter().try_for_each(LimitingStress::check)
+    }
+
+    /// The laws that pressure and film answer to: all but the limiting stress, which cuts traction only.
+    pub fn of_the_film(self) -> Self {
+        Self { limiting_stress: None, ..self }
     }
 
     /// The pressure–viscosity coefficient that follows from the viscosity law itself, α* \[1/Pa\]; `None` where it is a free constant.

@@ -2,8 +2,8 @@
 
 use super::{ErrorSplitter, Online, ReducedModel, ReducedOptions, Sampling, SplitError};
 use crate::solver::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
-use crate::solver::full::{FullSolver, Solution, Start};
-use crate::solver::grid::{ContactGridSpec, GridSpec, ReferenceGrid};
+use crate::solver::full::{FullSolver, PointSolver, Solution, Start};
+use crate::solver::grid::{ContactGridSpec, GridSpec, PointGridSpec, ReferenceGrid};
 use crate::solver::lubricant::Lubricant;
 use crate::solver::reynolds::PENALTY;
 use crate::solver::training::{Plan, Range, TrainingSpec, WindowSpec, Windows, train};
@@ -109,6 +109,64 @@ fn the_discretisation_part_is_what_much_finer_grids_say() {
             split.h_min.discretisation
         );
     }
+}
+
+#[test]
+fn a_point_contacts_error_has_the_same_parts() {
+    let spec = PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5));
+    let training = TrainingSpec {
+        title: "Small points".to_owned(),
+        range: Range::Box {
+            radius: (10e-3, 11e-3),
+            speed: (2.0, 3.0),
+            load: (30.0, 45.0),
+            alpha: (8e-9, 11e-9),
+            modulus: 231e9,
+            viscosity: 0.01,
+        },
+        lubricant: Lubricant::default(),
+        plan: Plan::FarthestPoint { snapshots: 16 },
+        windows: Windows::Given(vec![WindowSpec { m: (1.0, 2000.0), grid: ContactGridSpec::Point(spec) }]),
+        pressure_loss: 1e-4,
+        deformation_loss: 1e-3,
+        sampling: Sampling::Cubature,
+        rows_per_mode: 4.0,
+        penalty: 1e5,
+        positive_modes: false,
+        evidence: 0,
+        seed: 2,
+    };
+    let model = Arc::new(train(&training, &()).unwrap());
+    let point = OperatingPoint {
+        kind: ContactKind::Point,
+        radius_m: 10.4e-3,
+        speed_m_per_s: 2.6,
+        load: 38.0,
+        alpha_per_pa: 9.7e-9,
+        ..points()[0]
+    };
+    let split = ErrorSplitter::new(Arc::clone(&model), ReducedOptions::default())
+        .split(&point, Lubricant::default(), &mut ())
+        .unwrap();
+    let solved = |spec| {
+        PointSolver::new(spec).unwrap().solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap().scalars
+    };
+    let (full, finer) = (solved(spec), solved(PointGridSpec::uniform(0.03, 0.05, (-2.7, 1.5, -1.5))));
+    let reduction = |reduced: f64, full: f64| reduced / full - 1.0;
+    assert!((split.h_c.reduction() - reduction(split.scalars.h_c, full.h_c)).abs() < 1e-6, "{:?}", split.h_c);
+    assert!((split.h_min.reduction() - reduction(split.scalars.h_min, full.h_min)).abs() < 1e-6, "{:?}", split.h_min);
+    let limit = finer.h_c + (finer.h_c - full.h_c) / 3.0;
+    assert!(
+        (split.h_c.discretisation - (full.h_c - limit) / full.h_c).abs() < 1e-5,
+        "{:?} {full:?} {finer:?}",
+        split.h_c
+    );
+    let pressure = split.pressure;
+    assert!(pressure.basis > 1e-6 && pressure.basis <= pressure.reduction * (1.0 + 1e-6), "{pressure:?}");
+    assert!(
+        split.h_c.discretisation.abs() > split.h_c.reduction().abs(),
+        "a coarse grid costs more than the reduction"
+    );
 }
 
 #[test]

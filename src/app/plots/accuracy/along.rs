@@ -22,18 +22,19 @@ use std::f64::consts::PI;
 /// Where the trajectory runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 enum Through {
-    /// Table 3.1's box, as in the dissertation.
+    /// Table 3.1's or 3.4's box, as in the dissertation.
     #[default]
-    Table31,
+    Dissertation,
     /// What the model was trained for.
     Trained,
 }
 
 impl Through {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Table31 => "Table 3.1’s box",
-            Self::Trained => "the trained range",
+    fn name(self, kind: ContactKind) -> &'static str {
+        match (self, kind) {
+            (Self::Dissertation, ContactKind::Line) => "Table 3.1’s box",
+            (Self::Dissertation, ContactKind::Point) => "Table 3.4’s box",
+            (Self::Trained, _) => "the trained range",
         }
     }
 }
@@ -115,8 +116,9 @@ fn contact(range: &Range, kind: ContactKind, c: f64) -> Option<OperatingPoint> {
 fn range_of(in_use: &InUse, through: Through) -> Range {
     match through {
         Through::Trained => trained_range(&in_use.model),
-        Through::Table31 => {
-            let QuantityBox { radius, speed, load, alpha, modulus, viscosity } = QuantityBox::TABLE_3_1;
+        Through::Dissertation => {
+            let QuantityBox { radius, speed, load, alpha, modulus, viscosity } =
+                QuantityBox::of_tables(in_use.model.contact());
             Range::Box { radius, speed, load, alpha, modulus, viscosity }
         }
     }
@@ -164,12 +166,13 @@ fn work(in_use: &InUse, plan: Plan, reporter: &Reporter<Step>) -> Ending {
 pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
     let ctx = ui.ctx().clone();
     let along = &mut state.accuracy.along;
+    let kind = in_use.model.contact();
     let mut export_now = false;
     ui.horizontal_wrapped(|ui| {
         let through = ui.label("Through").on_hover_text("The range in which the parameters swing by (3.21)");
-        let choice = ComboBox::from_id_salt("through").selected_text(along.plan.through.name()).show_ui(ui, |ui| {
-            for option in [Through::Table31, Through::Trained] {
-                ui.selectable_value(&mut along.plan.through, option, option.name());
+        let choice = ComboBox::from_id_salt("through").selected_text(along.plan.through.name(kind)).show_ui(ui, |ui| {
+            for option in [Through::Dissertation, Through::Trained] {
+                ui.selectable_value(&mut along.plan.through, option, option.name(kind));
             }
         });
         choice.response.labelled_by(through.id);
@@ -214,7 +217,7 @@ fn summary(results: &Results) -> String {
         "{} of {} contacts through {}, {failures} failures, largest error of {{H_c}} {}",
         steps.len(),
         plan.points,
-        plan.through.name(),
+        plan.through.name(results.in_use.model.contact()),
         crate::app::numbers::error_percent(worst)
     );
     if outside > 0 {
@@ -296,7 +299,10 @@ fn error_plot(ui: &mut Ui, results: &Results, stale: bool, height: f32) {
 fn csv(results: &Results) -> String {
     let comments = [
         results.in_use.describe(),
-        format!("trajectory (3.21) through {}", results.plan.through.name().replace('’', "'")),
+        format!(
+            "trajectory (3.21) through {}",
+            results.plan.through.name(results.in_use.model.contact()).replace('’', "'")
+        ),
     ];
     let own = ["trained", "H_c", "H_c_full", "H_c_error_bound", "H_c_error"];
     let header: Vec<&str> = ["c"].into_iter().chain(CONTACT_COLUMNS).chain(own).collect();

@@ -45,7 +45,7 @@ impl ModeMap {
                 .default_x_bounds(RANGE.0, RANGE.1)
                 .default_y_bounds(RANGE.0, RANGE.1),
             ui,
-            "Mode in the plane",
+            "Mode and sampled rows on the plane",
             |plot| {
                 axes::fit(plot, fit);
                 if let (Some(texture), [from, .., to], [edge, ..]) =

@@ -256,7 +256,7 @@ fn buttons(ui: &mut Ui, state: &mut State) {
                 state.ask_path(&ctx, Purpose::Csv { text });
             }
         }
-        let tip = "Any of these plots, or all of them, as SVG or PNG with axes and parameters";
+        let tip = "Any of these plots, or the whole tab, as SVG or PNG with axes and parameters";
         if enabled(ui, there, "Export plot…", tip).clicked() {
             state.ask_figure();
         }

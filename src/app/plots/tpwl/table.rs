@@ -7,7 +7,7 @@ use crate::app::theme::rich;
 use crate::app::transient::linearised::PointNow;
 use crate::app::transient::method::{WEIGHTINGS, weighting_name};
 use crate::solver::reduced::tpwl::Weighting;
-use egui::{Grid, Label, ScrollArea, Sense, Ui};
+use egui::{Button, Grid, ScrollArea, Ui};
 
 /// What the table is sorted by.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -71,18 +71,14 @@ pub fn ui(ui: &mut Ui, shown: &Shown<'_>, sorting: &mut Sorting, height: f32) ->
     let quiet = shown.palette.quiet;
     grid("tpwl heads").striped(false).show(ui, |ui| {
         for (column, name) in &columns {
-            let mark = match (sorting.by == *column, sorting.reversed) {
-                (true, false) => " ↓",
-                (true, true) => " ↑",
-                _ => "",
-            };
+            let color = if sorting.by == *column { shown.palette.accent } else { quiet };
             let tip = match column {
                 Column::Point => "Number of the point, in the order of trajectories and time",
                 Column::Time => "Moment of its training trajectory",
                 Column::Weight(k) => weighting_name(WEIGHTINGS[*k]).1,
                 Column::Distance => "‖y − y_i‖/‖y‖ of the state reached at this moment",
             };
-            let head = ui.add(Label::new(rich(&format!("{name}{mark}"), 12.0, quiet)).sense(Sense::click()));
+            let head = ui.add(Button::new(rich(name, 12.0, color)).frame(false));
             let plain = name.replace(['{', '}'], "");
             if named(ui, head, &format!("Sort by {plain}")).on_hover_text(tip).clicked() {
                 sorting.click(*column);
@@ -94,6 +90,7 @@ pub fn ui(ui: &mut Ui, shown: &Shown<'_>, sorting: &mut Sorting, height: f32) ->
         ui.end_row();
     });
     let mut wanted = None;
+    ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
     let row_height = ui.spacing().interact_size.y.max(18.0);
     let area = ScrollArea::vertical().id_salt("tpwl points").auto_shrink(false).max_height(height - 24.0);
     area.show_rows(ui, row_height - 4.0, rows.len(), |ui, range| {

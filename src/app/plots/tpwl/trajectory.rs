@@ -3,6 +3,7 @@
 use super::{Shown, near, point_under};
 use crate::app::numbers;
 use crate::app::plots::axes;
+use crate::app::plots::transient::series::thinned;
 use crate::app::theme::THIN_WIDTH;
 use crate::app::transient::linearised::PointNow;
 use crate::app::transient::method::rule_name;
@@ -43,7 +44,7 @@ fn plot<'a>(ui: &Ui, shown: &Shown<'_>, id: &str, titles: (&str, &str), height: 
 /// The trajectory as a line.
 fn curve(shown: &Shown<'_>) -> Vec<PlotPoint> {
     let moments = shown.linearised.trainings.get(shown.tab.trajectory).map_or(&[][..], Vec::as_slice);
-    moments.iter().map(|moment| PlotPoint::new(moment.time, moment.value(shown.tab.quantity))).collect()
+    thinned(moments.iter().map(|moment| PlotPoint::new(moment.time, moment.value(shown.tab.quantity))).collect())
 }
 
 fn place(shown: &Shown<'_>, time: f64) -> Option<PlotPoint> {

@@ -35,12 +35,14 @@ pub fn ui(ui: &mut Ui, shown: &Shown<'_>, height: f32) -> Option<f64> {
             Some((PlotPoint::new(number(now.point), top), time))
         })
         .collect();
-    let bounds = PlotBounds::from_min_max([0.0, 0.0], [number(shown.points.len()), TOP]);
+    // Room at the end for the time over the last one.
+    let end = 1.05 * number(shown.points.len());
+    let bounds = PlotBounds::from_min_max([0.0, 0.0], [end, TOP]);
     let (quiet, fit) = (shown.palette.quiet, shown.fit);
     let id = format!("tpwl weights {}", shown.view.generation);
     let plot = axes::plot(ui, &id, height - 22.0, "Operating point", "Weight")
         .y_grid_spacer(|input| axes::round_marks(input, 4.0))
-        .default_x_bounds(0.0, number(shown.points.len()))
+        .default_x_bounds(0.0, end)
         .default_y_bounds(0.0, TOP);
     let drawn = axes::show(plot, ui, "Weights of the operating points", move |plot| {
         if fit {
@@ -68,7 +70,7 @@ fn head(ui: &mut Ui, shown: &Shown<'_>) {
     let said = reach
         .filter(|reach| reach.is_finite())
         .map_or_else(String::new, |reach| format!(", {} distances between points away", numbers::digits(reach, 2)));
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         ui.weak(format!("Weights{said}")).on_hover_text(
             "The distance of the extrapolated state from the barycentre of the points that carry it, over the distance between those \
              points: beyond about two a linearised model knows nothing",

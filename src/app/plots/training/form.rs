@@ -5,6 +5,7 @@ use crate::app::controls::{heading, named};
 use crate::app::state::State;
 use crate::app::training::presets;
 use crate::scene::QuantityBox;
+use crate::solver::contact::ContactKind;
 use crate::solver::grid::{ContactGridSpec, GridSpec};
 use crate::solver::reduced::Sampling;
 use crate::solver::training::{Indicator, Plan, Range, TrainingSpec, Windows};
@@ -17,12 +18,8 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
     let mut form = Form { refused: state.training.refused.take(), changed: None };
     ui.add_enabled_ui(state.training.job().is_none(), |ui| {
         ui.horizontal(|ui| {
-            for (name, preset) in
-                [("Table 3.1’s box", presets::table_3_1()), ("Whole slider range", presets::slider_range())]
-            {
-                if ui.button(name).on_hover_text("Sets everything below").clicked()
-                    && let Some(preset) = preset
-                {
+            for (name, preset) in presets::of_kind(spec.contact()) {
+                if ui.button(name).on_hover_text("Sets everything below").clicked() {
                     spec = preset.clone();
                     form.changed = Some("presets");
                 }
@@ -75,7 +72,7 @@ fn range_ui(ui: &mut Ui, form: &mut Form, spec: &mut TrainingSpec) {
     let mut wanted = is_box;
     choose(ui, "Given by", "What the model shall be good for", &mut wanted, &[true, false], |is_box| {
         if is_box {
-            ("SI quantities", "A box of R, u_m, w and α, as Table 3.1")
+            ("SI quantities", "A box of R, u_m, w and α, as Tables 3.1 and 3.4")
         } else {
             ("M, L, α, p_H", "All contacts with these numbers up to a Hertzian pressure")
         }
@@ -85,12 +82,16 @@ fn range_ui(ui: &mut Ui, form: &mut Form, spec: &mut TrainingSpec) {
         form.changed = Some("Given by");
     }
     form.message(ui, "Given by");
+    let (load_unit, load_tip) = match spec.contact() {
+        ContactKind::Line => (("kN/m", 1e3), "Load per unit length (2.9)"),
+        ContactKind::Point => (("N", 1.0), "Load (2.9)"),
+    };
     let viscosity_tip = "Viscosity at ambient pressure, the same for the whole range";
     match &mut spec.range {
         Range::Box { radius, speed, load, alpha, modulus, viscosity } => {
             form.interval(ui, "Radius {R}", ("mm", 1e-3), radius, "Reduced radius of curvature (2.3)");
             form.interval(ui, "Speed {u_m}", ("m/s", 1.0), speed, "Mean entrainment speed (2.1)");
-            form.interval(ui, "Load {w}", ("kN/m", 1e3), load, "Load per unit length (2.9)");
+            form.interval(ui, "Load {w}", load_unit, load, load_tip);
             form.interval(ui, "Coefficient {α}", ALPHA, alpha, "Pressure–viscosity coefficient");
             form.row(ui, "Modulus {E'}", GIGAPASCAL, modulus, "Reduced modulus (2.5), the same for the whole range");
             form.row(ui, "Viscosity {η_0}", VISCOSITY, viscosity, viscosity_tip);
@@ -125,7 +126,10 @@ fn described_windows(windows: &Windows) -> String {
     let grid = given.first().map_or_else(String::new, |w| match w.grid {
         ContactGridSpec::Line(GridSpec::Graded { nodes, .. }) => format!(", {nodes} graded nodes"),
         ContactGridSpec::Line(GridSpec::Uniform { dx, .. }) => format!(", uniform grid of {dx}"),
-        ContactGridSpec::Point(spec) => format!(", point grid of {}×{}", spec.dx, spec.dy),
+        ContactGridSpec::Point(spec) => match spec.nodes() {
+            Ok((nx, ny)) => format!(", {nx}×{ny} nodes"),
+            Err(error) => format!(", {error}"),
+        },
     });
     format!("Windows of M: {}{grid}", ranges.join(", "))
 }
@@ -138,7 +142,7 @@ fn converted(spec: &TrainingSpec) -> Range {
             Range::Moes { m: domain.m, l: domain.l, alpha, max_hertz_pressure: domain.max_hertz_pressure_pa, viscosity }
         }
         Range::Moes { viscosity, .. } | Range::Sliding { viscosity, .. } => {
-            let QuantityBox { radius, speed, load, modulus, .. } = QuantityBox::TABLE_3_1;
+            let QuantityBox { radius, speed, load, modulus, .. } = QuantityBox::of_tables(spec.contact());
             Range::Box { radius, speed, load, alpha: domain.alpha_per_pa, modulus, viscosity }
         }
     }
@@ -327,4 +331,6 @@ fn reduction_ui(ui: &mut Ui, form: &mut Form, spec: &mut TrainingSpec) {
     }
     form.message(ui, "Rows by");
     form.row(ui, "Rows per mode", PLAIN, &mut spec.rows_per_mode, "Sampled rows per pressure mode");
+    let tip = "Penalty factor of (2.36) in the reduced equations; few rows of a point contact want it softer than the full system's";
+    form.row(ui, "Penalty {γ}", PLAIN, &mut spec.penalty, tip);
 }

@@ -5,7 +5,7 @@ mod figure;
 pub mod form;
 pub mod methods;
 mod profiles;
-mod series;
+pub mod series;
 
 use crate::app::controls::{message_ui, named, sentence, warning_ui};
 use crate::app::files::Purpose;
@@ -103,7 +103,7 @@ fn buttons(ui: &mut Ui, state: &mut State) {
         {
             state.ask_path(&ctx, Purpose::Csv { text });
         }
-        let tip = "One of these plots, or all as they are, as SVG or PNG with axes and parameters";
+        let tip = "Any of these plots, or the whole tab, as SVG or PNG with axes and parameters";
         if ui.add_enabled(there, Button::new("Export plot…")).on_hover_text(tip).clicked() {
             state.ask_figure();
         }

@@ -127,7 +127,7 @@ fn deviations(run: &Run, reference: &Run, quantity: Quantity) -> Vec<PlotPoint> 
 }
 
 /// As many points as a screen can show, with all extremes.
-fn thinned(points: Vec<PlotPoint>) -> Vec<PlotPoint> {
+pub fn thinned(points: Vec<PlotPoint>) -> Vec<PlotPoint> {
     if points.len() <= MOST_POINTS {
         return points;
     }

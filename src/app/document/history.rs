@@ -1,0 +1,65 @@
+//! Undo and redo as snapshots of the document.
+
+use super::Document;
+
+/// Undo and redo as snapshots. An edit is a whole gesture: it is recorded when the pointer is released.
+#[derive(Debug, Default)]
+pub struct History {
+    undo: Vec<Document>,
+    redo: Vec<Document>,
+    committed: Option<Document>,
+}
+
+/// Snapshots kept.
+const HISTORY_LIMIT: usize = 200;
+
+impl History {
+    /// Starts anew from a document.
+    pub fn restart(&mut self, document: &Document) {
+        *self = Self { committed: Some(document.clone()), ..Self::default() };
+    }
+
+    /// Records the document when it differs from the last recorded one, and tells whether it did.
+    pub fn commit(&mut self, document: &Document) -> bool {
+        match &self.committed {
+            Some(last) if last == document => return false,
+            Some(last) => {
+                self.undo.push(last.clone());
+                if self.undo.len() > HISTORY_LIMIT {
+                    self.undo.remove(0);
+                }
+                self.redo.clear();
+                self.committed = Some(document.clone());
+            }
+            None => self.committed = Some(document.clone()),
+        }
+        true
+    }
+
+    /// The document before the last edit.
+    pub fn undo(&mut self, document: &mut Document) {
+        self.commit(document);
+        if let Some(former) = self.undo.pop() {
+            self.redo.push(std::mem::replace(document, former));
+            self.committed = Some(document.clone());
+        }
+    }
+
+    /// The document before the last undo.
+    pub fn redo(&mut self, document: &mut Document) {
+        if let Some(next) = self.redo.pop() {
+            self.undo.push(std::mem::replace(document, next));
+            self.committed = Some(document.clone());
+        }
+    }
+
+    /// Whether there is something to undo.
+    pub fn can_undo(&self, document: &Document) -> bool {
+        !self.undo.is_empty() || self.committed.as_ref().is_some_and(|c| c != document)
+    }
+
+    /// Whether there is something to redo.
+    pub fn can_redo(&self) -> bool {
+        !self.redo.is_empty()
+    }
+}

@@ -1,0 +1,202 @@
+//! The document: edits, refusals, files, undo.
+
+use super::*;
+use crate::scene::named_lubricant::by_name;
+use crate::solver::training::Windows;
+
+#[test]
+fn every_pair_of_followers_reaches_the_wanted_numbers_and_keeps_the_rest() {
+    for m_follower in LoadFollower::ALL {
+        for &l_follower in m_follower.partners() {
+            let view = View { when_m_moves: m_follower, when_l_moves: l_follower, ..View::default() };
+            let mut document = Document { view, ..Document::default() };
+            document.set_moes(Moes { m: 55.0, l: 8.0 }).unwrap();
+            let moes = document.point.moes();
+            assert!((moes.m / 55.0 - 1.0).abs() < 1e-9 && (moes.l / 8.0 - 1.0).abs() < 1e-9);
+            assert_eq!(document.point.modulus_pa, Document::default().point.modulus_pa);
+        }
+    }
+}
+
+#[test]
+fn saving_and_opening_again_loses_nothing() {
+    let view = View { pressure_loss: Some(1e-6), ..View::default() };
+    let mut document = Document { title: "a".into(), view, ..Document::default() };
+    document.set_slide_to_roll_ratio(0.2).unwrap();
+    document.set_load_follower(LoadFollower::Speed);
+    document.set_quantity(Quantity::Radius, 0.0123).unwrap();
+    let text = document.to_ron().unwrap();
+    let again = Document::from_ron(&text).unwrap();
+    assert_eq!((&again.title, again.point, again.view), (&document.title, document.point, document.view));
+    assert_eq!(again.to_ron().unwrap(), text);
+    assert!(Document::from_ron(&text.replace("title", "titel")).unwrap_err().contains("titel"));
+    assert!(Document::from_ron(&text.replace("pressure_loss: ", "pressure_loss: -")).is_err(), "{text}");
+}
+
+#[test]
+fn a_scene_keeps_what_the_explorer_does_not_edit() {
+    let before = Scene::from_ron(include_str!("../../../scenes/table_2_1.ron")).unwrap();
+    assert_eq!(before.view, None);
+    let mut document = Document::of_scene(before.clone()).unwrap();
+    assert_eq!(document.to_scene(), before);
+    document.set_moes(Moes { m: 55.0, l: 8.0 }).unwrap();
+    let after = document.to_scene();
+    assert_eq!((&after.study, &after.expect, after.view), (&before.study, &before.expect, None));
+    assert_eq!(Document::of_scene(after).unwrap().point, document.point);
+    document.view.projected_deformation = true;
+    assert_eq!(document.to_scene().view, Some(document.view));
+    document.view.projected_deformation = false;
+    assert_eq!(document.to_scene().view, None);
+}
+
+#[test]
+fn a_training_is_edited_saved_and_refused_like_the_rest() {
+    let scene = Scene::from_ron(include_str!("../../../scenes/embedded_model.ron")).unwrap();
+    let mut document = Document::of_scene(scene.clone()).unwrap();
+    assert_eq!(document.to_scene(), scene);
+    let mut spec = document.training.clone().unwrap();
+    spec.seed = 7;
+    document.set_training(spec.clone()).unwrap();
+    assert_eq!(Document::from_ron(&document.to_ron().unwrap()).unwrap().training, Some(spec.clone()));
+    spec.windows = Windows::Given(Vec::new());
+    assert!(document.set_training(spec.clone()).unwrap_err().contains("window"));
+    assert_eq!(document.training.as_ref().unwrap().seed, 7);
+    // A scene with another question keeps it; a fresh document takes the training along.
+    let other = Scene::from_ron(include_str!("../../../scenes/table_2_1.ron")).unwrap();
+    let training = document.training.clone();
+    let document = Document { training: training.clone(), ..Document::of_scene(other.clone()).unwrap() };
+    assert_eq!(document.to_scene().study, other.study);
+    let fresh = Document { training: training.clone(), ..Document::default() };
+    assert_eq!(Document::of_scene(fresh.to_scene()).unwrap().training, training);
+    // A training of point contacts belongs to a point contact, and is not saved with a line.
+    let mut point = Document::default();
+    point.set_kind(ContactKind::Point).unwrap();
+    let scene = Scene::from_ron(include_str!("../../../scenes/table_3_4_model.ron")).unwrap();
+    let Study::Training(spec) = scene.study else { panic!() };
+    point.set_training(spec.clone()).unwrap();
+    let saved = point.to_scene();
+    saved.check().unwrap();
+    assert_eq!(Document::of_scene(saved).unwrap().training, Some(spec));
+    point.set_kind(ContactKind::Line).unwrap();
+    assert!(!point.saves_training() && point.to_scene().check().is_ok());
+}
+
+#[test]
+fn a_contact_in_time_is_saved_with_its_grid_and_checked_like_the_rest() {
+    let mut document = Document::default();
+    let study = document.transient_study();
+    document.set_transient(study.clone()).unwrap();
+    let again = Document::of_scene(document.to_scene()).unwrap();
+    assert_eq!((again.transient.as_ref(), again.transient_grid()), (Some(&study), document.transient_grid()));
+    assert_eq!(again.to_scene(), document.to_scene());
+    let backwards = TransientStudy { duration: -1.0, ..study.clone() };
+    assert!(document.set_transient(backwards).unwrap_err().contains("duration"));
+    assert_eq!(document.transient, Some(study));
+    // A new scene has room for one question, a scene of another keeps its own.
+    assert!(!document.saves_training());
+    let other = Scene::from_ron(include_str!("../../../scenes/table_2_1.ron")).unwrap();
+    let kept = Document { transient: document.transient.clone(), ..Document::of_scene(other.clone()).unwrap() };
+    assert_eq!(kept.to_scene().study, other.study);
+    document.set_kind(ContactKind::Point).unwrap();
+    assert!(document.to_scene().check().is_ok());
+}
+
+#[test]
+fn the_other_kind_of_contact_keeps_the_numbers_and_the_lubricant() {
+    let mut document = Document::default();
+    let line = document.point;
+    document.set_kind(ContactKind::Point).unwrap();
+    let (before, after) = (line.moes(), document.point.moes());
+    assert!((after.m / before.m - 1.0).abs() < 1e-9 && (after.l / before.l - 1.0).abs() < 1e-9);
+    let kept = |p: &OperatingPoint| [p.modulus_pa, p.viscosity_pa_s, p.alpha_per_pa];
+    assert_eq!((document.point.kind, kept(&document.point)), (ContactKind::Point, kept(&line)));
+    assert_eq!((document.title.as_str(), document.plane()), ("Point contact", PointGridSpec::EXPLORER));
+    document.set_plane(PointGridSpec::DISSERTATION);
+    let again = Document::from_ron(&document.to_ron().unwrap()).unwrap();
+    assert_eq!((again.point, again.plane()), (document.point, PointGridSpec::DISSERTATION));
+    document.set_kind(ContactKind::Line).unwrap();
+    let [back, there] = [document.point, line].map(|p| p.quantities());
+    assert!(back.iter().zip(there).all(|(a, b)| (a / b - 1.0).abs() < 1e-9), "{back:?} {there:?}");
+}
+
+#[test]
+fn a_scene_of_a_point_contact_opens_and_keeps_its_question_until_the_kind_changes() {
+    let scene = Scene::from_ron(include_str!("../../../scenes/table_2_3.ron")).unwrap();
+    let mut document = Document::of_scene(scene.clone()).unwrap();
+    assert_eq!((document.point.kind, document.to_scene()), (ContactKind::Point, scene));
+    document.set_kind(ContactKind::Line).unwrap();
+    let scene = document.to_scene();
+    assert!(scene.expect.is_empty() && scene.check().is_ok());
+    assert_eq!(Document::of_scene(scene).unwrap().point, document.point);
+}
+
+#[test]
+fn a_lubricant_with_a_viscosity_of_its_own_brings_its_contact_and_keeps_alpha_when_m_and_l_move() {
+    let squalane = by_name("squalane-pip").unwrap();
+    let mut document = Document::default();
+    document.set_slide_to_roll_ratio(0.3).unwrap();
+    document.pick_lubricant(&squalane).unwrap();
+    let alpha = squalane.laws.own_coefficient().unwrap();
+    assert_eq!((document.point.alpha_per_pa, document.point.viscosity_pa_s), (alpha, 0.0705));
+    assert_eq!((document.plateau_ratio(), document.point.sliding.slide_to_roll_ratio), (0.2227, 0.3));
+    for load in document.possible_followers().0 {
+        document.set_load_follower(*load);
+        for follower in document.possible_followers().1 {
+            document.view.when_l_moves = *follower;
+            assert_eq!(document.followers(), (*load, *follower));
+            document.set_moes(Moes { m: 30.0, l: 8.0 }).unwrap();
+            let moes = document.point.moes();
+            assert!((moes.m / 30.0 - 1.0).abs() < 1e-9 && (moes.l / 8.0 - 1.0).abs() < 1e-9);
+            assert_eq!((document.point.alpha_per_pa, document.point.sliding.slide_to_roll_ratio), (alpha, 0.3));
+        }
+    }
+    document.set_plateau_ratio(Some(0.4)).unwrap();
+    let again = Document::from_ron(&document.to_ron().unwrap()).unwrap();
+    assert_eq!((again.point, again.lubricant), (document.point, document.lubricant));
+    let before = document.clone();
+    for (bad, word) in [(-0.1, "plateau ratio is -0.1"), (1.5, "plateau ratio is 1.5"), (f64::NAN, "NaN")] {
+        assert!(document.set_plateau_ratio(Some(bad)).unwrap_err().contains(word));
+    }
+    assert!(document.set_slide_to_roll_ratio(f64::INFINITY).is_err());
+    assert_eq!(document, before);
+    // Back to laws without a viscosity of their own: M and L stay, the rest is the default realisation.
+    document.pick_lubricant(&by_name("roelands-oil").unwrap()).unwrap();
+    assert_eq!((document.point.viscosity_pa_s, document.plateau_ratio()), (0.01, 1.0));
+    assert!((document.point.moes().m / before.point.moes().m - 1.0).abs() < 1e-9);
+    assert!(document.set_plateau_ratio(Some(0.5)).unwrap_err().contains("no shear constants"));
+}
+
+#[test]
+fn a_contact_in_time_gives_way_to_a_lubricant_that_thins_under_shear() {
+    let scene = Scene::from_ron(include_str!("../../../scenes/fig_2_6_right.ron")).unwrap();
+    let mut document = Document::of_scene(scene).unwrap();
+    document.pick_lubricant(&by_name("squalane-pip").unwrap()).unwrap();
+    assert!(document.to_scene().check().is_ok());
+}
+
+#[test]
+fn refused_values_leave_the_document_as_it_was() {
+    let mut document = Document::default();
+    let before = document.clone();
+    for bad in [f64::NAN, 0.0, -1.0, 1e300] {
+        assert!(document.set_quantity(Quantity::Radius, bad).is_err());
+        assert!(document.set_moes(Moes { m: bad, l: 10.0 }).is_err());
+    }
+    assert_eq!(document, before);
+}
+
+#[test]
+fn history_goes_back_and_forth() {
+    let mut document = Document::default();
+    let first = document.clone();
+    let mut history = History::default();
+    history.restart(&document);
+    document.set_moes(Moes { m: 80.0, l: 10.0 }).unwrap();
+    let second = document.clone();
+    history.commit(&document);
+    history.undo(&mut document);
+    assert_eq!(document, first);
+    history.redo(&mut document);
+    assert_eq!(document, second);
+    assert!(!history.can_redo() && history.can_undo(&document));
+}

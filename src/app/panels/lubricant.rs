@@ -1,0 +1,325 @@
+//! The lubricant: a named one, or laws and constants of one's own; the stress that limits its traction.
+
+use crate::app::controls::{NAME_WIDTH, choice, heading, number_field, row_name, sentence};
+use crate::app::state::State;
+use crate::app::theme::name_and_symbol;
+use crate::scene::named_lubricant::{self, NAMED, NamedLubricant};
+use crate::solver::lubricant::{DensityLaw, Doolittle, LimitingStress, Lubricant, ShearLaw, Tait, ViscosityLaw};
+use egui::{Checkbox, Grid, Ui};
+
+/// Tait's constants that a lubricant of one's own begins with: squalane's, Table 3.5.
+const VOLUME: Tait = Tait { k_0: 1.007837e9, k_0_prime: 11.29 };
+/// Doolittle's, likewise.
+const DOOLITTLE: Doolittle = Doolittle { b: 4.2, r_0: 0.658, volume: VOLUME };
+/// Shear-thinning laws to begin with: the modified Carreau law of Table 3.5, and customary values for the others.
+const CARREAU: ShearLaw = ShearLaw::Carreau { critical_stress: 1e4, beta: 2.198, n: 0.8, npr: 0.2227 };
+const ELLIS: ShearLaw = ShearLaw::Ellis { critical_stress: 1e5, n: 0.6, npr: 0.0 };
+const EYRING: ShearLaw = ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 };
+/// A limiting stress to begin with: a slope as Bair and Winer found it for mineral oils.
+const LIMITING: LimitingStress = LimitingStress { ambient: 5e6, slope: 0.05 };
+
+const LIMITING_TIP: &str = "The film carries at most τ_L = τ_L0 + Λ p (Bair & Winer 1979): beyond it the lubricant slips or yields. \
+    It limits the traction; pressure and film are computed without it";
+
+/// A choice of the picker.
+#[derive(Clone, Copy, PartialEq)]
+enum Pick {
+    Named(&'static str),
+    Own,
+}
+
+/// The group Lubricant.
+pub fn ui(ui: &mut Ui, state: &mut State) {
+    heading(ui, "Lubricant");
+    let known = named_lubricant::of_laws(&state.document.lubricant).filter(|_| !state.own_lubricant);
+    picker(ui, state, known);
+    match known {
+        Some(lubricant) => {
+            ui.weak(sentence(lubricant.about));
+        }
+        None => own(ui, state),
+    }
+    state.entries.message_ui(ui, "lubricant");
+    limiting_stress(ui, state);
+}
+
+fn picker(ui: &mut Ui, state: &mut State, known: Option<&'static NamedLubricant>) {
+    let before = known.map_or(Pick::Own, |lubricant| Pick::Named(lubricant.name));
+    let mut wanted = before;
+    let options: Vec<Pick> = NAMED.iter().map(|named| Pick::Named(named.name)).chain([Pick::Own]).collect();
+    let of = |name: &str| NAMED.iter().find(|named| named.name == name);
+    Grid::new("lubricant").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
+        let tip = "The laws of density, viscosity and shear. A lubricant with a viscosity of its own brings the contact in which its \
+            source studies it; undo brings the former one back";
+        choice(ui, "Fluid", tip, &mut wanted, &options, |pick| match pick {
+            Pick::Named(name) => of(name).map_or(("", ""), |named| (named.title, named.about)),
+            Pick::Own => ("Own", "Laws and constants as you like, beginning with those of the present lubricant"),
+        });
+    });
+    if wanted == before {
+        return;
+    }
+    state.own_lubricant = wanted == Pick::Own;
+    if let Pick::Named(name) = wanted
+        && let Some(named) = of(name)
+    {
+        let result = state.document.pick_lubricant(named);
+        if result.is_ok() {
+            state.entries.clear();
+        }
+        state.entries.answer("lubricant", result);
+    }
+}
+
+/// A constant of the laws in use.
+struct Constant {
+    name: &'static str,
+    /// Name and symbol in the row, the symbol's base and subscript.
+    row: (&'static str, &'static str, &'static str),
+    unit: &'static str,
+    /// SI units per shown unit.
+    scale: f64,
+    tip: &'static str,
+    /// `None` where no law in use has it.
+    of: fn(&mut Lubricant) -> Option<&mut f64>,
+}
+
+const CONSTANTS: [Constant; 9] = [
+    Constant {
+        name: "Bulk modulus K_0",
+        row: ("Bulk modulus", "K", "0"),
+        unit: "GPa",
+        scale: 1e9,
+        tip: "Tait’s initial bulk modulus K₀ (3.37)",
+        of: |laws| density_volume(laws).map(|tait| &mut tait.k_0),
+    },
+    Constant {
+        name: "Rate of change K_0'",
+        row: ("Its rate", "K'", "0"),
+        unit: "",
+        scale: 1.0,
+        tip: "Rate of change of the bulk modulus with pressure, K’₀ (3.37)",
+        of: |laws| density_volume(laws).map(|tait| &mut tait.k_0_prime),
+    },
+    Constant {
+        name: "Doolittle's parameter B",
+        row: ("Parameter", "B", ""),
+        unit: "",
+        scale: 1.0,
+        tip: "Doolittle’s parameter B (3.39): how strongly the viscosity answers to the free volume",
+        of: |laws| doolittle(laws).map(|law| &mut law.b),
+    },
+    Constant {
+        name: "Occupied volume R_0",
+        row: ("Occupied volume", "R", "0"),
+        unit: "",
+        scale: 1.0,
+        tip: "Occupied volume over the volume at ambient pressure (3.39). Where the relative volume falls to it the viscosity is infinite",
+        of: |laws| doolittle(laws).map(|law| &mut law.r_0),
+    },
+    Constant {
+        name: "Volume's bulk modulus",
+        row: ("Volume’s modulus", "K", "0"),
+        unit: "GPa",
+        scale: 1e9,
+        tip: "Bulk modulus of the volume in Doolittle’s law, which is not that of the density law",
+        of: |laws| other_volume(laws).map(|tait| &mut tait.k_0),
+    },
+    Constant {
+        name: "Volume's rate of change",
+        row: ("Its rate", "K'", "0"),
+        unit: "",
+        scale: 1.0,
+        tip: "Its rate of change with pressure",
+        of: |laws| other_volume(laws).map(|tait| &mut tait.k_0_prime),
+    },
+    Constant {
+        name: "Critical stress",
+        row: ("Critical stress", "G", "c"),
+        unit: "MPa",
+        scale: 1e6,
+        tip: "Shear stress from which on the viscosity falls: G_c of (3.40), the stress of half the viscosity (Ellis), or τ_E (Eyring)",
+        of: |laws| match &mut laws.shear {
+            ShearLaw::Newtonian => None,
+            ShearLaw::Carreau { critical_stress, .. }
+            | ShearLaw::Ellis { critical_stress, .. }
+            | ShearLaw::Eyring { critical_stress, .. } => Some(critical_stress),
+        },
+    },
+    Constant {
+        name: "Exponent beta_c",
+        row: ("Exponent", "β", "c"),
+        unit: "",
+        scale: 1.0,
+        tip: "How sharply the viscosity turns at the critical stress, β_c of (3.40)",
+        of: |laws| match &mut laws.shear {
+            ShearLaw::Carreau { beta, .. } => Some(beta),
+            _ => None,
+        },
+    },
+    Constant {
+        name: "Exponent n_c",
+        row: ("Exponent", "n", "c"),
+        unit: "",
+        scale: 1.0,
+        tip: "Power-law exponent, stress over rate, n_c of (3.40); 1 is Newtonian",
+        of: |laws| match &mut laws.shear {
+            ShearLaw::Carreau { n, .. } | ShearLaw::Ellis { n, .. } => Some(n),
+            _ => None,
+        },
+    },
+];
+
+fn density_volume(laws: &mut Lubricant) -> Option<&mut Tait> {
+    if let DensityLaw::Tait(tait) = &mut laws.density { Some(tait) } else { None }
+}
+
+fn doolittle(laws: &mut Lubricant) -> Option<&mut Doolittle> {
+    if let ViscosityLaw::Doolittle(law) = &mut laws.viscosity { Some(law) } else { None }
+}
+
+/// The volume of Doolittle's law, where the density has another one.
+fn other_volume(laws: &mut Lubricant) -> Option<&mut Tait> {
+    let density = laws.density;
+    doolittle(laws).map(|law| &mut law.volume).filter(|volume| density != DensityLaw::Tait(**volume))
+}
+
+/// Laws and constants to edit.
+fn own(ui: &mut Ui, state: &mut State) {
+    let before = state.document.lubricant;
+    let mut wanted = before;
+    Grid::new("laws").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
+        let present = |law: ViscosityLaw| if let ViscosityLaw::Doolittle(own) = law { own } else { DOOLITTLE };
+        let laws = [ViscosityLaw::Roelands, ViscosityLaw::Barus, ViscosityLaw::Doolittle(present(before.viscosity))];
+        choice(ui, "Viscosity", "How the viscosity rises with pressure", &mut wanted.viscosity, &laws, viscosity_law);
+        let present = |law: DensityLaw| if let DensityLaw::Tait(own) = law { own } else { VOLUME };
+        let laws = [DensityLaw::DowsonHigginson, DensityLaw::Incompressible, DensityLaw::Tait(present(before.density))];
+        choice(ui, "Density", "How the density rises with pressure", &mut wanted.density, &laws, density_law);
+        let or = |default: ShearLaw| {
+            let same = std::mem::discriminant(&before.shear) == std::mem::discriminant(&default);
+            if same { before.shear } else { default }
+        };
+        let laws = [ShearLaw::Newtonian, or(CARREAU), or(ELLIS), or(EYRING)];
+        choice(ui, "Shear", "How the viscosity falls with shear stress", &mut wanted.shear, &laws, shear_law);
+    });
+    let mut field = "lubricant";
+    for constant in &CONSTANTS {
+        let Some(value) = (constant.of)(&mut wanted).map(|value| *value) else { continue };
+        ui.horizontal(|ui| {
+            let (name, base, subscript) = constant.row;
+            row_name(ui, name_and_symbol(ui, name, base, subscript), constant.tip);
+            let shown = value / constant.scale;
+            let entered = number_field(ui, &mut state.entries, constant.name, shown, 96.0, constant.tip);
+            if let Some(entered) = entered
+                && let Some(place) = (constant.of)(&mut wanted)
+            {
+                *place = entered * constant.scale;
+                field = constant.name;
+            }
+            ui.label(constant.unit);
+        });
+        state.entries.message_ui(ui, constant.name);
+    }
+    // One volume under both laws stays one.
+    if let (DensityLaw::Tait(volume), DensityLaw::Tait(former)) = (wanted.density, before.density)
+        && let Some(law) = doolittle(&mut wanted).filter(|law| law.volume == former)
+    {
+        law.volume = volume;
+    }
+    if wanted != before {
+        change(state, field, wanted);
+    }
+}
+
+fn change(state: &mut State, field: &'static str, wanted: Lubricant) {
+    let result = state.document.set_lubricant(wanted);
+    if result.is_ok() {
+        state.entries.clear();
+    }
+    state.entries.answer(field, result);
+}
+
+/// The stress that limits the traction, where one is wanted.
+fn limiting_stress(ui: &mut Ui, state: &mut State) {
+    let before = state.document.lubricant;
+    let mut limit = before.limiting_stress;
+    let mut field = "lubricant";
+    let mut on = limit.is_some();
+    if ui.add(Checkbox::new(&mut on, "Limiting shear stress")).on_hover_text(LIMITING_TIP).changed() {
+        limit = on.then_some(LIMITING);
+    }
+    if let Some(limit) = &mut limit {
+        let rows = [
+            (
+                "Ambient limiting stress",
+                ("At ambient", "τ", "L0"),
+                "MPa",
+                1e6,
+                &mut limit.ambient,
+                "τ_L0, the limit at ambient pressure",
+            ),
+            (
+                "Slope of the limiting stress",
+                ("Slope", "Λ", ""),
+                "",
+                1.0,
+                &mut limit.slope,
+                "Λ, how the limit rises with pressure",
+            ),
+        ];
+        for (name, (row, base, subscript), unit, scale, value, tip) in rows {
+            ui.horizontal(|ui| {
+                row_name(ui, name_and_symbol(ui, row, base, subscript), tip);
+                if let Some(entered) = number_field(ui, &mut state.entries, name, *value / scale, 96.0, tip) {
+                    *value = entered * scale;
+                    field = name;
+                }
+                ui.label(unit);
+            });
+            state.entries.message_ui(ui, name);
+        }
+    }
+    if limit != before.limiting_stress {
+        change(state, field, Lubricant { limiting_stress: limit, ..before });
+    }
+}
+
+fn viscosity_law(law: ViscosityLaw) -> (&'static str, &'static str) {
+    match law {
+        ViscosityLaw::Roelands => (
+            "Roelands",
+            "ln(η/η₀) = (ln η₀ + 9.67)((1 + p/0.196 GPa)^z − 1) (2.12), Roelands 1966; mineral oils to about 1 GPa",
+        ),
+        ViscosityLaw::Barus => ("Barus", "η = η₀ exp(αp) (2.11), Barus 1893; overestimates above some 0.5 GPa"),
+        ViscosityLaw::Doolittle(_) => {
+            ("Doolittle", "from the free volume that Tait’s equation leaves (3.39), Doolittle 1951; α follows from it")
+        }
+    }
+}
+
+fn density_law(law: DensityLaw) -> (&'static str, &'static str) {
+    match law {
+        DensityLaw::DowsonHigginson => (
+            "Dowson–Higginson",
+            "ρ/ρ₀ = (0.59 GPa + 1.34p)/(0.59 GPa + p) (2.10), Dowson & Higginson 1966; saturates at 1.34",
+        ),
+        DensityLaw::Incompressible => ("Incompressible", "ρ = ρ₀"),
+        DensityLaw::Tait(_) => ("Tait", "from the relative volume of Tait’s equation (3.37), Dymond & Malhotra 1988"),
+    }
+}
+
+fn shear_law(law: ShearLaw) -> (&'static str, &'static str) {
+    match law {
+        ShearLaw::Newtonian => ("Newtonian", "η does not depend on the shear stress"),
+        ShearLaw::Carreau { .. } => (
+            "Modified Carreau",
+            "η/µ = NPR + (1 − NPR)(1 + (τ/G_c)^β)^((1 − 1/n)/β) (3.40), Carreau 1972, as modified by Bair 2004",
+        ),
+        ShearLaw::Ellis { .. } => {
+            ("Ellis", "η/µ = NPR + (1 − NPR)/(1 + (τ/G)^(1/n − 1)), Matsuhisa & Bird 1965; Cross’s law in stress")
+        }
+        ShearLaw::Eyring { .. } => {
+            ("Eyring", "η/µ = NPR + (1 − NPR)(τ/τ_E)/sinh(τ/τ_E), Ree & Eyring 1955; Johnson & Tevaarwerk 1977")
+        }
+    }
+}

@@ -1,0 +1,231 @@
+//! Traction and film along one quantity, live by the reduced model, and the laws of the fluid behind them.
+
+mod chart;
+mod figure;
+mod fluid;
+
+use crate::app::controls::{message_ui, named, sentence, warning_ui, why};
+use crate::app::files::Purpose;
+use crate::app::in_use::InUse;
+use crate::app::numbers;
+use crate::app::state::{REST_S, State};
+use crate::app::theme::{Palette, rich};
+use crate::app::traction::{Against, Curve, Markers, Sweep, Varied, export};
+use egui::{Button, Checkbox, ComboBox, Context, ProgressBar, Ui};
+
+/// Seconds of rest after which a curve of other sliders is drawn grey.
+const STALE_S: f64 = REST_S + 0.75;
+
+/// The tab.
+pub fn ui(ui: &mut Ui, state: &mut State) {
+    ui.horizontal_wrapped(|ui| {
+        let fluid = &mut state.display.traction.shows_fluid;
+        ui.selectable_value(fluid, false, "Traction and film");
+        ui.selectable_value(fluid, true, "Laws of the fluid");
+        ui.toggle_value(&mut state.display.traction.why, "Why").on_hover_text("What is seen here, in three sentences");
+    });
+    ui.separator();
+    why(ui, state.display.traction.why, WHY[usize::from(state.display.traction.shows_fluid)]);
+    if state.display.traction.shows_fluid {
+        fluid::ui(ui, state);
+        return;
+    }
+    let Some((sweep, served)) = state.sweep() else {
+        toolbar(ui, state, None);
+        ui.centered_and_justified(|ui| {
+            ui.weak("The lubricant has no shear constants: it is Newtonian, and there is no plateau ratio to vary")
+        });
+        return;
+    };
+    let ctx = ui.ctx().clone();
+    if let Ok(in_use) = &served {
+        state.follow_sweep(&ctx, &sweep, in_use);
+    }
+    toolbar(ui, state, Some(&sweep));
+    status(ui, state, &sweep, &served);
+    let shown = Shown::of(state, &sweep, &served, ui.input(|i| i.time));
+    if shown.curve.is_none() && shown.markers.is_none() {
+        let waits = if served.is_ok() {
+            "The curve is being computed"
+        } else {
+            "Full solutions draw the curve here on request"
+        };
+        ui.centered_and_justified(|ui| ui.weak(waits));
+        return;
+    }
+    if let Some(place) = chart::ui(ui, state, &sweep, &shown) {
+        let result = state.go_along(place);
+        if result.is_ok() {
+            state.entries.clear();
+        }
+        state.entries.answer("traction", result);
+    }
+}
+
+/// What there is to draw, and what of it is old.
+struct Shown<'a> {
+    curve: Option<&'a Curve>,
+    markers: Option<&'a Markers>,
+    curve_stale: bool,
+    markers_stale: bool,
+    /// A sentence where the traction is no physics.
+    unphysical: Option<String>,
+}
+
+impl<'a> Shown<'a> {
+    fn of(state: &'a State, sweep: &Sweep, served: &Result<InUse, String>, now: f64) -> Self {
+        let view = &state.traction;
+        let varied = sweep.varied;
+        let curve = view.curve.as_ref().filter(|curve| curve.sweep.varied == varied && !curve.samples.is_empty());
+        let markers = view.markers.as_ref().filter(|markers| markers.sweep.varied == varied);
+        let late = served.is_err() || state.rested_s(now) > STALE_S;
+        Self {
+            curve_stale: !view.curve_is_current() && late,
+            markers_stale: markers.is_some_and(|markers| markers.sweep != *sweep),
+            curve,
+            markers: markers.filter(|markers| !markers.samples.is_empty()),
+            unphysical: sweep.unphysical(),
+        }
+    }
+}
+
+/// The notes for teaching: of the traction, and of the laws.
+const WHY: [&str; 2] = [
+    "Surfaces that slide shear the film, and its shear stress, summed up over the contact, is the traction. A lubricant that thins under shear \
+     gives way: the curve bends, and the film gets thinner because the inlet is sheared as well. Under high pressure a film without a limiting \
+     stress would carry more than any lubricant can, so look at p_H first. µ = (1/w) ∫ τ(h/2) dA (3.41)",
+    "Pressure in the contact lets the viscosity rise by many orders of magnitude, shear stress lets it fall again. The shaded parts are what this \
+     very contact meets: their ends decide how much of both the film feels. Where they end left of the bend the lubricant is as good as \
+     Newtonian. η(p, τ) = µ(p) (NPR + (1 − NPR)(1 + (τ/G_c)^β)^((1 − 1/n)/β)) (3.40)",
+];
+
+fn toolbar(ui: &mut Ui, state: &mut State, sweep: Option<&Sweep>) {
+    let ctx = ui.ctx().clone();
+    ui.horizontal_wrapped(|ui| {
+        against_ui(ui, state);
+        let (along, up) = &mut state.display.traction.logarithmic;
+        ui.add(Checkbox::new(along, "Log x")).on_hover_text("Equal ways along are equal ratios");
+        ui.add(Checkbox::new(up, "Log y")).on_hover_text("Equal ways up are equal ratios of traction and of film");
+        if state.traction.standing().is_some() {
+            if ui.button("Stop").on_hover_text("Full solutions so far stay (Esc)").clicked() {
+                state.traction.stop();
+            }
+        } else {
+            let tip = "Eleven full solutions along the curve, set on it as rings";
+            let button = ui.add_enabled(sweep.is_some(), Button::new("Add full solutions")).on_hover_text(tip);
+            if button.clicked()
+                && let Some(sweep) = sweep
+            {
+                state.start_markers(&ctx, sweep);
+            }
+        }
+        exports(ui, state, &ctx, sweep);
+    });
+}
+
+fn against_ui(ui: &mut Ui, state: &mut State) {
+    let label = ui.label("Against").on_hover_text("What traction and film are drawn against");
+    let before = state.display.traction.against;
+    let chosen = &mut state.display.traction.against;
+    let response =
+        ComboBox::from_id_salt("traction against").selected_text(before.name()).width(150.0).show_ui(ui, |ui| {
+            for option in Against::ALL {
+                ui.selectable_value(chosen, option, option.name()).on_hover_text(option.tip());
+            }
+        });
+    response.response.labelled_by(label.id).on_hover_text(before.tip());
+    if *chosen != before {
+        // Speeds span decades, ratios do not.
+        state.display.traction.logarithmic.0 =
+            !matches!(state.display.traction.against, Against::SlideToRoll | Against::Plateau);
+        state.fit_plots = true;
+    }
+}
+
+fn exports(ui: &mut Ui, state: &mut State, ctx: &Context, sweep: Option<&Sweep>) {
+    let there = state.traction.curve.as_ref().is_some_and(|curve| !curve.samples.is_empty())
+        || state.traction.markers.as_ref().is_some_and(|markers| !markers.samples.is_empty());
+    let tip = "The curve and the full solutions, every contact with its traction and films";
+    if ui.add_enabled(there, Button::new("Export CSV…")).on_hover_text(tip).clicked()
+        && let Some(text) = export::csv(&state.traction)
+    {
+        state.ask_path(ctx, Purpose::Csv { text });
+    }
+    let tip = "Traction and film as a figure with axes and parameters";
+    if ui.add_enabled(there, Button::new("Export SVG…")).on_hover_text(tip).clicked()
+        && let Some(text) = sweep.and_then(|sweep| figure::svg(&state.traction, state.display.traction, sweep))
+    {
+        state.ask_path(ctx, Purpose::Picture { bytes: text.into_bytes().into(), extension: "svg" });
+    }
+}
+
+/// What runs, what is amiss, and what the curve says in numbers.
+fn status(ui: &mut Ui, state: &State, sweep: &Sweep, served: &Result<InUse, String>) {
+    let view = &state.traction;
+    if let Some(standing) = view.standing() {
+        ui.horizontal(|ui| {
+            ui.label(&standing.stage);
+            let fraction = if standing.total > 0 { standing.done as f32 / standing.total as f32 } else { 0.0 };
+            let bar = ui.add(ProgressBar::new(fraction).desired_width(120.0).desired_height(8.0));
+            named(ui, bar, "Progress of the full solutions");
+            ui.weak(standing.describe());
+        });
+    }
+    if let Err(why) = served {
+        warning_ui(ui, &format!("no curve by the reduced model: {}", why.trim_end_matches('.')));
+    }
+    if let Some(unphysical) = sweep.unphysical() {
+        warning_ui(ui, &format!("{unphysical}: it is drawn grey. Set a limiting shear stress, or take less load"));
+    }
+    let rolls = sweep.varied != Varied::SlideToRoll && sweep.base.point.sliding.slide_to_roll_ratio == 0.0;
+    if rolls {
+        ui.weak("Pure rolling: without a slide-to-roll ratio there is no traction");
+    }
+    if let Some(message) = &view.message {
+        message_ui(ui, message);
+    }
+    state.entries.message_ui(ui, "traction");
+    if let Some(curve) = view.curve.as_ref().filter(|curve| curve.sweep.varied == sweep.varied) {
+        match &curve.failed {
+            Ok(0) => {}
+            Ok(failed) => {
+                warning_ui(ui, &format!("the reduced model did not converge at {failed} contacts, which are left out"))
+            }
+            Err(message) => message_ui(ui, message),
+        }
+    }
+    if let Some(markers) =
+        view.markers.as_ref().filter(|markers| markers.sweep != *sweep && !markers.samples.is_empty())
+    {
+        let of = numbers::moes(markers.sweep.base.point.moes());
+        ui.weak(sentence(&format!("the grey rings are full solutions of another sweep, beginning at {of}")));
+    }
+    ui.label(rich(&summary(state, sweep), 13.0, Palette::of(ui).quiet));
+}
+
+/// Traction here, the largest of the curve, and how far full solutions lie from it.
+fn summary(state: &State, sweep: &Sweep) -> String {
+    let mut parts = Vec::new();
+    let here = state.picture.as_ref().filter(|_| state.picture_is_current());
+    if let Some(picture) = here.filter(|picture| picture.unphysical.is_none()) {
+        parts.push(format!("µ {} here", numbers::significant(picture.traction)));
+    }
+    if let Some(curve) =
+        state.traction.curve.as_ref().filter(|curve| curve.sweep == *sweep && !curve.samples.is_empty())
+    {
+        let tractions = curve.samples.iter().map(|sample| sample.traction);
+        if sweep.unphysical().is_none() {
+            parts.push(format!("{} at most", numbers::significant(tractions.fold(0.0, f64::max))));
+        }
+        if let Some((traction, film)) = chart::differences(curve, state.traction.markers.as_ref()) {
+            parts.push(format!(
+                "full solutions differ by {} in µ and {} in {{H_c}}",
+                numbers::small(traction),
+                numbers::error_percent(film)
+            ));
+        }
+        parts.push(format!("{} contacts in {}", curve.samples.len(), numbers::duration(curve.wall_s)));
+    }
+    parts.push("over the whole domain (3.41), isothermal".to_owned());
+    parts.join(";  ")
+}

@@ -1,0 +1,150 @@
+//! The live curve: a thread that solves a sweep by the reduced model, each contact from its neighbour. The latest request counts.
+
+use super::{CURVE, Sample, Sweep};
+use crate::app::in_use::{Chain, InUse};
+use crate::app::jobs::guarded;
+use egui::Context;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// A curve that takes longer than this is given up for a newer one; a shorter one is finished, or it would never be seen while a slider moves.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// A sweep by the reduced model.
+pub struct Curve {
+    /// The sweep.
+    pub sweep: Sweep,
+    /// The model and its truncation.
+    pub in_use: InUse,
+    /// Its contacts, in their order.
+    pub samples: Vec<Sample>,
+    /// Contacts that the model did not converge at, or a sentence why there is no curve.
+    pub failed: Result<usize, String>,
+    /// Seconds it took.
+    pub wall_s: f64,
+}
+
+struct Request {
+    sweep: Sweep,
+    in_use: InUse,
+    ctx: Context,
+}
+
+#[derive(Default)]
+struct Mail {
+    wanted: Option<Request>,
+    closed: bool,
+}
+
+#[derive(Default)]
+struct Shared {
+    mail: Mutex<Mail>,
+    wake: Condvar,
+}
+
+impl Shared {
+    fn lock(&self) -> MutexGuard<'_, Mail> {
+        // Every change to it is one assignment: it is whole even where a thread panicked.
+        self.mail.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The thread.
+pub struct Worker {
+    shared: Arc<Shared>,
+    curves: Receiver<Curve>,
+}
+
+impl Default for Worker {
+    fn default() -> Self {
+        let shared = Arc::new(Shared::default());
+        let (sender, curves) = channel();
+        let theirs = Arc::clone(&shared);
+        // Where no thread can be had there is no curve, and the tab says that it waits.
+        let _handle = std::thread::Builder::new().name("traction curve".into()).spawn(move || work(&theirs, &sender));
+        Self { shared, curves }
+    }
+}
+
+impl Drop for Worker {
+    fn drop(&mut self) {
+        self.shared.lock().closed = true;
+        self.shared.wake.notify_all();
+    }
+}
+
+impl Worker {
+    /// Wants a curve; it replaces a request that has not begun.
+    pub fn ask(&self, ctx: &Context, sweep: Sweep, in_use: InUse) {
+        self.shared.lock().wanted = Some(Request { sweep, in_use, ctx: ctx.clone() });
+        self.shared.wake.notify_one();
+    }
+
+    /// The newest curve that came since the last call.
+    pub fn latest(&self) -> Option<Curve> {
+        self.curves.try_iter().last()
+    }
+}
+
+fn work(shared: &Shared, curves: &Sender<Curve>) {
+    let mut chain: Option<Chain> = None;
+    loop {
+        let request = {
+            let mut mail = shared.lock();
+            loop {
+                if mail.closed {
+                    return;
+                }
+                if let Some(request) = mail.wanted.take() {
+                    break request;
+                }
+                mail = shared.wake.wait(mail).unwrap_or_else(PoisonError::into_inner);
+            }
+        };
+        let Request { sweep, in_use, ctx } = request;
+        let begun = Instant::now();
+        let given_up = || {
+            let mail = shared.lock();
+            mail.closed || mail.wanted.is_some() && begun.elapsed() > PATIENCE
+        };
+        let mut solver = chain.take().filter(|chain| chain.in_use == in_use).unwrap_or_else(|| Chain::new(&in_use));
+        let solved = guarded(|| {
+            let solved = solve(&mut solver, &sweep, given_up);
+            (solver, solved)
+        });
+        let (samples, failed) = match solved {
+            Ok((solver, Some((samples, failed)))) => {
+                chain = Some(solver);
+                (samples, Ok(failed))
+            }
+            Ok((solver, None)) => {
+                chain = Some(solver);
+                continue;
+            }
+            Err(message) => (Vec::new(), Err(message)),
+        };
+        let curve = Curve { sweep, in_use, samples, failed, wall_s: begun.elapsed().as_secs_f64() };
+        if curves.send(curve).is_err() {
+            return;
+        }
+        ctx.request_repaint();
+    }
+}
+
+/// The contacts of a sweep and how many did not converge; `None` where it was given up.
+fn solve(chain: &mut Chain, sweep: &Sweep, given_up: impl Fn() -> bool) -> Option<(Vec<Sample>, usize)> {
+    let mut samples = Vec::with_capacity(CURVE);
+    let mut failed = 0;
+    for value in sweep.values(CURVE) {
+        if given_up() {
+            return None;
+        }
+        let point = sweep.point(value);
+        match chain.solve(&point, sweep.base.lubricant) {
+            Ok(solution) => samples.push(Sample::of(point, &solution)),
+            Err(_) => failed += 1,
+        }
+    }
+    Some((samples, failed))
+}

@@ -1,0 +1,48 @@
+//! Traction and film along a quantity for other programs.
+
+use super::{Sample, Sweep, TractionView};
+use crate::app::export as tables;
+use crate::app::jobs::Key;
+
+/// What a sweep belongs to, as lines over a table.
+pub fn describe(sweep: &Sweep) -> Vec<String> {
+    let mut lines = vec![described(sweep)];
+    lines.push(
+        "traction is that of an isothermal film over the whole domain, (3.41); the first contact is described above"
+            .to_owned(),
+    );
+    lines.extend(sweep.unphysical());
+    lines
+}
+
+fn described(sweep: &Sweep) -> String {
+    tables::describe_contact(&sweep.base.point, &sweep.base.lubricant)
+}
+
+/// The curve and the full solutions, told apart by the column `full`; `None` where there is neither.
+pub fn csv(view: &TractionView) -> Option<String> {
+    const COLUMNS: [&str; 9] = ["full", "SRR", "NPR", "u_m_m_per_s", "M", "L", "traction", "h_c_m", "h_min_m"];
+    let curve = view.curve.iter().map(|curve| (0.0, &curve.sweep, curve.samples.as_slice()));
+    let markers = view.markers.iter().map(|markers| (1.0, &markers.sweep, markers.samples.as_slice()));
+    let blocks: Vec<(f64, &Sweep, &[Sample])> = curve.chain(markers).collect();
+    let (_, first, _) = blocks.iter().find(|block| !block.2.is_empty())?;
+    let mut comments = describe(first);
+    comments.extend(view.curve.iter().map(|curve| format!("full 0: {}", curve.in_use.describe())));
+    if let Some(markers) = view.markers.as_ref().filter(|markers| markers.sweep != **first) {
+        comments.push(format!("full 1 belongs to {}", described(&markers.sweep)));
+    }
+    let rows = blocks
+        .into_iter()
+        .flat_map(|(full, sweep, samples)| samples.iter().map(move |sample| row(full, sweep, sample)));
+    Some(tables::csv(&comments, &COLUMNS, rows))
+}
+
+fn row(full: f64, sweep: &Sweep, sample: &Sample) -> Vec<Option<f64>> {
+    let (point, moes) = (&sample.point, sample.point.moes());
+    let key = Key { point: *point, lubricant: sweep.base.lubricant };
+    let npr = super::Varied::Plateau.of(&key);
+    let srr = point.sliding.slide_to_roll_ratio;
+    [full, srr, npr, point.speed_m_per_s, moes.m, moes.l, sample.traction, sample.h_c_m, sample.h_min_m]
+        .map(Some)
+        .to_vec()
+}

@@ -1,0 +1,58 @@
+//! Full solutions along a sweep, each from its neighbour.
+
+use super::{MARKERS, Sample, Sweep};
+use crate::app::jobs::GridChoice;
+use crate::app::solvers::Solvers;
+use crate::app::task::{Ending, Reporter, Task};
+use crate::solver::full::{Solution, Start, Termination};
+use crate::solver::grid::PointGridSpec;
+use crate::solver::reduced::ReducedModel;
+use egui::Context;
+use std::sync::Arc;
+
+const NAME: &str = "Full solutions along the curve";
+
+/// Starts them on the grid of a model where there is one, else on the chosen one.
+pub fn start(
+    ctx: &Context,
+    sweep: Sweep,
+    model: Option<Arc<ReducedModel>>,
+    plane: Option<PointGridSpec>,
+) -> Task<Sample> {
+    Task::start(ctx, NAME, move |reporter| work(&sweep, model.as_deref(), plane, reporter))
+}
+
+fn work(
+    sweep: &Sweep,
+    model: Option<&ReducedModel>,
+    plane: Option<PointGridSpec>,
+    reporter: &Reporter<Sample>,
+) -> Ending {
+    let mut solvers = Solvers::default();
+    let mut former: Option<Solution> = None;
+    let mut failed = 0;
+    for (k, value) in sweep.values(MARKERS).enumerate() {
+        reporter.stage(NAME, k, MARKERS);
+        let point = sweep.point(value);
+        let grid = GridChoice::of(model, plane, point.moes());
+        let solver = solvers.of(&grid).map_err(|refused| refused.to_string())?;
+        let start = former.as_ref().map_or(Start::Cold, Start::From);
+        let solution = solver.solve(&point, sweep.base.lubricant, start, &mut reporter.observer());
+        let solution = solution.map_err(|refused| refused.to_string())?;
+        if reporter.cancelled() {
+            return Ok(());
+        }
+        match solution.report.termination {
+            Termination::Converged => {
+                reporter.send(Sample::of(point, &solution));
+                former = Some(solution);
+            }
+            _ => failed += 1,
+        }
+    }
+    if failed > 0 {
+        Err(format!("{failed} of {MARKERS} full solutions did not converge and are left out"))
+    } else {
+        Ok(())
+    }
+}

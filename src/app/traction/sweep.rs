@@ -1,0 +1,285 @@
+//! Contacts along one quantity: which it is, between which values, and where they stand on an axis.
+
+use crate::app::jobs::Key;
+use crate::solver::contact::{ContactKind, OperatingPoint};
+use crate::solver::full::{Problem, Solution};
+use crate::solver::reduced::Domain;
+use serde::{Deserialize, Serialize};
+
+/// Ends of SRR and NPR where no model sets them.
+const SRR: (f64, f64) = (0.0, 2.0);
+const NPR: (f64, f64) = (0.0, 1.0);
+
+/// The quantity that a sweep varies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Varied {
+    /// |SRR|.
+    SlideToRoll,
+    /// NPR.
+    Plateau,
+    /// u_m \[m/s\] at constant load.
+    Speed,
+}
+
+/// What the curves are drawn against; the last three are one quantity in three units.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum Against {
+    /// SRR.
+    #[default]
+    SlideToRoll,
+    /// NPR.
+    Plateau,
+    /// u_m.
+    Speed,
+    /// η₀ u_m/w, as Stribeck drew friction.
+    Stribeck,
+    /// M.
+    LoadNumber,
+}
+
+/// The contacts between two values of a quantity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sweep {
+    /// What varies.
+    pub varied: Varied,
+    /// The contact at the first value, and the laws.
+    pub base: Key,
+    /// First and last value.
+    pub ends: (f64, f64),
+    /// Whether its contacts are spaced by equal ratios.
+    pub logarithmic: bool,
+}
+
+/// One contact of a sweep.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// The contact.
+    pub point: OperatingPoint,
+    /// Central film \[m\].
+    pub h_c_m: f64,
+    /// Smallest film \[m\].
+    pub h_min_m: f64,
+    /// Size of the traction coefficient over the whole domain, (3.41).
+    pub traction: f64,
+}
+
+impl Varied {
+    /// Its value of a contact.
+    pub fn of(self, key: &Key) -> f64 {
+        let sliding = key.point.sliding;
+        match self {
+            Self::SlideToRoll => sliding.slide_to_roll_ratio.abs(),
+            Self::Plateau => sliding.newtonian_plateau_ratio.unwrap_or(key.lubricant.shear.plateau()),
+            Self::Speed => key.point.speed_m_per_s,
+        }
+    }
+
+    /// The same contact with another value of it.
+    pub fn at(self, point: &OperatingPoint, value: f64) -> OperatingPoint {
+        let mut point = *point;
+        match self {
+            Self::SlideToRoll => point.sliding.slide_to_roll_ratio = value,
+            Self::Plateau => point.sliding.newtonian_plateau_ratio = Some(value),
+            Self::Speed => point.speed_m_per_s = value,
+        }
+        point
+    }
+
+    /// The values for which a model was trained; speeds at the load, the radius and the fluid of a contact. `None` where there are none.
+    pub(super) fn trained(self, domain: &Domain, point: &OperatingPoint) -> Option<(f64, f64)> {
+        match self {
+            Self::SlideToRoll => Some(domain.sliding.map_or(SRR, |sliding| sliding.srr)),
+            Self::Plateau => domain.sliding.map(|sliding| sliding.npr),
+            Self::Speed => {
+                let (e, r) = (point.modulus_pa, point.radius_m);
+                // Both Moes numbers hold the speed in 2 η₀ u/(E′ R) only: (3.19), (3.22).
+                let speed = |group: f64| group * e * r / (2.0 * point.viscosity_pa_s);
+                let of_l = |l: f64| speed((l / (point.alpha_per_pa * e)).powi(4));
+                let of_m = |m: f64| match point.kind {
+                    ContactKind::Line => speed((point.load / (e * r * m)).powi(2)),
+                    ContactKind::Point => speed((point.load / (e * r * r * m)).powf(4.0 / 3.0)),
+                };
+                let ends = (of_l(domain.l.0).max(of_m(domain.m.1)), of_l(domain.l.1).min(of_m(domain.m.0)));
+                (ends.0 < ends.1).then_some(ends)
+            }
+        }
+    }
+
+    /// The values where no model sets them; of the speed the decades around the present one.
+    pub(super) fn everywhere(self, point: &OperatingPoint) -> (f64, f64) {
+        match self {
+            Self::SlideToRoll => SRR,
+            Self::Plateau => NPR,
+            Self::Speed => {
+                let decade = point.speed_m_per_s.log10().round();
+                (10f64.powf(decade - 1.0), 10f64.powf(decade + 1.0))
+            }
+        }
+    }
+}
+
+impl Against {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::SlideToRoll, Self::Plateau, Self::Speed, Self::Stribeck, Self::LoadNumber];
+
+    /// The quantity behind it.
+    pub fn varied(self) -> Varied {
+        match self {
+            Self::SlideToRoll => Varied::SlideToRoll,
+            Self::Plateau => Varied::Plateau,
+            Self::Speed | Self::Stribeck | Self::LoadNumber => Varied::Speed,
+        }
+    }
+
+    /// For people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::SlideToRoll => "slide-to-roll ratio",
+            Self::Plateau => "plateau ratio",
+            Self::Speed => "speed",
+            Self::Stribeck => "Stribeck number",
+            Self::LoadNumber => "load number",
+        }
+    }
+
+    /// What it is.
+    pub fn tip(self) -> &'static str {
+        match self {
+            Self::SlideToRoll => "SRR = (u₂ − u₁)/u_m (3.25)",
+            Self::Plateau => "Newtonian plateau ratio NPR of (3.40)",
+            Self::Speed => "Mean entrainment speed u_m at constant load",
+            Self::Stribeck => "η₀ u_m/w at constant load, as Stribeck drew friction",
+            Self::LoadNumber => "M, (3.19) or (3.22), by the speed at constant load",
+        }
+    }
+
+    /// Title of its axis, with symbols in braces.
+    pub fn axis(self, kind: ContactKind) -> &'static str {
+        match (self, kind) {
+            (Self::SlideToRoll, _) => "Slide-to-roll ratio {SRR}",
+            (Self::Plateau, _) => "Newtonian plateau ratio {NPR}",
+            (Self::Speed, _) => "Speed {u_m} in m/s",
+            (Self::Stribeck, ContactKind::Line) => "Stribeck number η₀{u_m}/{w}",
+            (Self::Stribeck, ContactKind::Point) => "Stribeck number η₀{u_m}/{w} in 1/m",
+            (Self::LoadNumber, _) => "Load number {M}",
+        }
+    }
+
+    /// Where a contact stands.
+    pub fn of(self, key: &Key) -> f64 {
+        let point = &key.point;
+        match self {
+            Self::SlideToRoll | Self::Plateau | Self::Speed => self.varied().of(key),
+            Self::Stribeck => point.viscosity_pa_s * point.speed_m_per_s / point.load,
+            Self::LoadNumber => point.moes().m,
+        }
+    }
+
+    /// The value of the quantity behind a place on the axis.
+    pub fn value(self, point: &OperatingPoint, place: f64) -> f64 {
+        match self {
+            Self::SlideToRoll | Self::Plateau | Self::Speed => place,
+            Self::Stribeck => place * point.load / point.viscosity_pa_s,
+            Self::LoadNumber => {
+                let exponent = if point.kind == ContactKind::Line { 0.5f64 } else { 0.75 };
+                point.speed_m_per_s * (point.moes().m / place).powf(1.0 / exponent)
+            }
+        }
+    }
+}
+
+impl Sweep {
+    /// The values of so many contacts.
+    pub fn values(&self, count: usize) -> impl Iterator<Item = f64> + '_ {
+        let (from, to) = self.ends;
+        let share = move |k: usize| k as f64 / (count - 1) as f64;
+        (0..count).map(
+            move |k| {
+                if self.logarithmic { from * (to / from).powf(share(k)) } else { from + (to - from) * share(k) }
+            },
+        )
+    }
+
+    /// The contact of a value.
+    pub fn point(&self, value: f64) -> OperatingPoint {
+        self.varied.at(&self.base.point, value)
+    }
+
+    /// A sentence where every traction along it is no physics.
+    pub fn unphysical(&self) -> Option<String> {
+        Problem::new(&self.base.point, self.base.lubricant).ok()?.traction_warning()
+    }
+}
+
+impl Sample {
+    /// What a solution adds up to.
+    pub(super) fn of(point: OperatingPoint, solution: &Solution) -> Self {
+        let scale = point.film_scale_m();
+        Self {
+            point,
+            h_c_m: solution.scalars.h_c * scale,
+            h_min_m: solution.scalars.h_min * scale,
+            traction: solution.traction_coefficient().abs(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::harness::model_file;
+    use crate::scene::named_lubricant::SQUALANE_PIP;
+    use crate::solver::contact::Sliding;
+
+    /// Table 3.5's contact as a line or a point contact.
+    fn key(kind: ContactKind) -> Key {
+        let load = if kind == ContactKind::Line { 144e3 } else { 23.0 };
+        let sliding = Sliding { slide_to_roll_ratio: -0.3, newtonian_plateau_ratio: None };
+        let quantities = [12.7e-3, 0.74, load, 123.878213951e9, 0.0705, SQUALANE_PIP.own_coefficient().unwrap()];
+        Key { point: OperatingPoint::from_quantities(kind, quantities, sliding), lubricant: SQUALANE_PIP }
+    }
+
+    #[test]
+    fn trained_speeds_end_where_a_moes_number_does() {
+        let model = model_file::embedded_shear_of(ContactKind::Line).unwrap();
+        for kind in [ContactKind::Line, ContactKind::Point] {
+            let point = key(kind).point;
+            let here = point.moes();
+            // A box around the present contact, that the speed leaves by M at one end and by L at the other.
+            let domain =
+                Domain { m: (0.5 * here.m, 1.2 * here.m), l: (0.5 * here.l, 1.1 * here.l), ..model.domain.clone() };
+            let (from, to) = Varied::Speed.trained(&domain, &point).unwrap();
+            let [slow, fast] = [from, to].map(|speed| Varied::Speed.at(&point, speed).moes());
+            assert!((slow.m / domain.m.1 - 1.0).abs() < 1e-9, "{kind:?}: {slow:?}");
+            assert!((fast.l / domain.l.1 - 1.0).abs() < 1e-9, "{kind:?}: {fast:?}");
+            let elsewhere = Domain { m: (1e3 * here.m, 2e3 * here.m), ..domain };
+            assert_eq!(Varied::Speed.trained(&elsewhere, &point), None);
+        }
+        let point = key(ContactKind::Line).point;
+        assert_eq!(Varied::SlideToRoll.trained(&model.domain, &point), Some((0.0, 1.0)));
+        assert_eq!(Varied::Plateau.trained(&model.domain, &point), Some((0.2, 1.0)));
+    }
+
+    #[test]
+    fn a_place_on_an_axis_leads_back_to_its_contact() {
+        for kind in [ContactKind::Line, ContactKind::Point] {
+            let key = key(kind);
+            for against in Against::ALL {
+                let moved = Key { point: against.varied().at(&key.point, 0.47), ..key };
+                let value = against.value(&key.point, against.of(&moved));
+                assert!((value / 0.47 - 1.0).abs() < 1e-12, "{against:?}: {value}");
+            }
+        }
+        let key = key(ContactKind::Line);
+        assert_eq!((Varied::SlideToRoll.of(&key), Varied::Plateau.of(&key)), (0.3, 0.2227));
+    }
+
+    #[test]
+    fn contacts_lie_between_the_ends_by_differences_or_by_ratios() {
+        let sweep =
+            |logarithmic| Sweep { varied: Varied::Speed, base: key(ContactKind::Line), ends: (0.5, 8.0), logarithmic };
+        assert_eq!(sweep(false).values(4).collect::<Vec<_>>(), [0.5, 3.0, 5.5, 8.0]);
+        let values: Vec<f64> = sweep(true).values(5).collect();
+        assert!(values.iter().zip([0.5, 1.0, 2.0, 4.0, 8.0]).all(|(a, b)| (a / b - 1.0).abs() < 1e-12), "{values:?}");
+    }
+}

@@ -1,0 +1,297 @@
+//! Shear-thinning in the window: four live sliders, the picker of lubricants, the Traction tab.
+
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use ehl_explorer::app::Explorer;
+use ehl_explorer::harness::model_file;
+use ehl_explorer::scene::Scene;
+use ehl_explorer::solver::contact::ContactKind;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+use std::time::{Duration, Instant};
+
+type Window = Harness<'static, Explorer>;
+
+fn window(explorer: Explorer) -> Window {
+    let explorer = explorer.without_system_dialogs();
+    Harness::builder().with_size([1280.0, 1000.0]).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer)
+}
+
+/// The window on Table 3.5's lubricant under sliding, with the embedded models.
+fn squalane() -> Window {
+    let mut explorer = Explorer::with_embedded_models();
+    explorer.open_scene(Path::new("scenes/fig_3_14_line.ron")).unwrap();
+    let mut harness = window(explorer);
+    wait(&mut harness, "the picture", |app| app.central_film().is_some());
+    harness
+}
+
+fn wait(harness: &mut Window, what: &str, done: impl Fn(&Explorer) -> bool) {
+    let begin = Instant::now();
+    loop {
+        harness.step();
+        if done(harness.state()) {
+            harness.run_steps(2);
+            return;
+        }
+        assert!(begin.elapsed() < Duration::from_secs(60), "waited in vain for {what}: {}", harness.state().badge());
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+fn click(harness: &mut Window, name: &str) {
+    harness.get_by_label(name).click();
+    harness.run_steps(3);
+}
+
+fn choose(harness: &mut Window, picker: &str, option: &str) {
+    harness.get_by_role_and_label(Role::ComboBox, picker).click();
+    harness.run_steps(3);
+    harness.get_by_label(option).click();
+    harness.run_steps(3);
+}
+
+fn slide(harness: &mut Window, name: &str, to: f64) {
+    harness.get_by_label(name).set_value_accesskit(to);
+    harness.run_steps(2);
+}
+
+fn enter(harness: &mut Window, field: &str, text: &str) {
+    harness.get_by_role_and_label(Role::TextInput, field).focus();
+    harness.run_steps(2);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    harness.get_by_role_and_label(Role::TextInput, field).type_text(text);
+    harness.run_steps(2);
+    harness.key_press(egui::Key::Enter);
+    harness.run_steps(3);
+}
+
+fn undo(harness: &mut Window) {
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    harness.run_steps(3);
+}
+
+fn shows(harness: &Window, text: &str) -> bool {
+    harness.query_all_by_label_contains(text).next().is_some()
+}
+
+fn film(harness: &Window) -> f64 {
+    harness.state().central_film().expect("a picture of the sliders")
+}
+
+fn scratch(name: &str) -> PathBuf {
+    static FOLDER: OnceLock<PathBuf> = OnceLock::new();
+    let folder = FOLDER.get_or_init(|| std::env::temp_dir().join(format!("ehl-traction-tab-{}", std::process::id())));
+    std::fs::create_dir_all(folder).unwrap();
+    folder.join(name)
+}
+
+fn give_path(harness: &mut Window, path: &Path) {
+    harness.get_by_label("Path of the file").focus();
+    harness.run_steps(2);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    harness.get_by_label("Path of the file").type_text(&path.display().to_string());
+    harness.run_steps(2);
+    click(harness, "Export");
+}
+
+#[test]
+fn all_four_sliders_are_live_with_a_lubricant_that_thins_under_shear() {
+    let mut harness = squalane();
+    assert_eq!(harness.state().sliding(), (0.0, 0.2227));
+    assert_eq!(harness.state().traction(), Some(0.0));
+    let at_rest = film(&harness);
+    slide(&mut harness, "Slide-to-roll ratio SRR", 0.5);
+    let slid = film(&harness);
+    // Fig. 3.14: µ 0.0321 at 0.74 m/s; the model has its own grid.
+    let traction = harness.state().traction().unwrap();
+    assert!((traction / 0.0320523 - 1.0).abs() < 0.02, "{traction}");
+    assert!(slid < 0.995 * at_rest, "sliding thins the film: {slid} of {at_rest}");
+    slide(&mut harness, "Newtonian plateau ratio NPR", 0.6);
+    let thick = film(&harness);
+    assert!(thick > 1.1 * slid, "a higher plateau thickens it: {thick} of {slid}");
+    slide(&mut harness, "Load number M", 20.0);
+    assert!((film(&harness) / thick - 1.0).abs() > 0.05);
+    wait(&mut harness, "verification", |app| app.badge() == "Verified");
+    assert!(harness.state().badge_detail().contains("Δ{µ}"), "{}", harness.state().badge_detail());
+    // Beyond what the model was trained for the full solver takes over.
+    slide(&mut harness, "Slide-to-roll ratio SRR", 1.5);
+    wait(&mut harness, "the full solver", |app| app.badge() == "Outside the reduced model" && !app.busy());
+    assert!(harness.state().badge_detail().contains("SRR = 1.5"), "{}", harness.state().badge_detail());
+    for _ in 0..5 {
+        undo(&mut harness);
+    }
+    assert_eq!(harness.state().sliding(), (0.0, 0.2227));
+    assert!((film(&harness) / at_rest - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_newtonian_lubricant_keeps_npr_still_and_slides_without_another_film() {
+    let mut harness = window(Explorer::with_embedded_models());
+    wait(&mut harness, "verification", |app| app.badge() == "Verified");
+    let npr = harness.get_by_label("Newtonian plateau ratio NPR");
+    assert!(npr.accesskit_node().is_disabled());
+    assert!(npr.accesskit_node().description().unwrap().contains("no shear constants"));
+    let before = film(&harness);
+    slide(&mut harness, "Slide-to-roll ratio SRR", 0.3);
+    // Neither the film nor what is known of it changes: no other solve is needed.
+    assert!((film(&harness) / before - 1.0).abs() < 1e-12);
+    assert_eq!(harness.state().badge(), "Verified");
+    assert!(harness.state().traction().unwrap() > 0.0);
+    // α* p_H is 25 here: without a limiting stress the traction is no physics, and it is said.
+    click(&mut harness, "Traction");
+    assert!(shows(&harness, "isothermal traction without a limiting shear stress is unphysical"));
+    wait(&mut harness, "the curve", |app| app.traction_contacts().0 == Some(41));
+    let unlimited = harness.state().traction().unwrap();
+    click(&mut harness, "Limiting shear stress");
+    assert!(!shows(&harness, "without a limiting shear stress is unphysical"));
+    assert!((film(&harness) / before - 1.0).abs() < 1e-12);
+    let limited = harness.state().traction().unwrap();
+    assert!(limited < 0.2 && limited < unlimited, "{limited} of {unlimited}");
+    choose(&mut harness, "Against", "plateau ratio");
+    assert!(shows(&harness, "there is no plateau ratio to vary"));
+}
+
+#[test]
+fn the_picker_brings_a_lubricant_with_its_contact_and_undo_takes_it_back() {
+    let mut harness = window(Explorer::with_embedded_models());
+    wait(&mut harness, "the picture", |app| app.central_film().is_some());
+    let (moes, before) = (harness.state().moes(), film(&harness));
+    choose(&mut harness, "Fluid", "Squalane with PIP");
+    assert!((harness.state().moes().l / 6.69 - 1.0).abs() < 1e-3, "{:?}", harness.state().moes());
+    assert!(harness.state().badge_detail().contains("residual") || harness.state().badge() == "Verified");
+    slide(&mut harness, "Newtonian plateau ratio NPR", 0.5);
+    assert_eq!(harness.state().sliding().1, 0.5);
+    choose(&mut harness, "Fluid", "PAO 650");
+    assert_eq!(harness.state().sliding().1, 0.0);
+    wait(&mut harness, "the full solver", |app| app.badge() == "Outside the reduced model" && !app.busy());
+    assert!(harness.state().badge_detail().contains("other lubricant laws"));
+    let path = scratch("pao.ron");
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
+    harness.run_steps(2);
+    harness.get_by_label("Path of the file").focus();
+    harness.run_steps(2);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    harness.get_by_label("Path of the file").type_text(&path.display().to_string());
+    harness.run_steps(2);
+    click(&mut harness, "Save");
+    let scene = Scene::read(&path).unwrap();
+    assert_eq!(scene.lubricant, ehl_explorer::scene::named_lubricant::by_name("pao-650").unwrap().laws);
+    for _ in 0..3 {
+        undo(&mut harness);
+    }
+    assert_eq!(harness.state().moes(), moes);
+    assert!((film(&harness) / before - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn bad_constants_of_ones_own_lubricant_are_refused_with_the_reason() {
+    let mut harness = squalane();
+    let before = film(&harness);
+    choose(&mut harness, "Fluid", "Own");
+    for (field, bad, said) in [
+        ("Critical stress", "0", "critical shear stress is 0"),
+        ("Critical stress", "-1", "critical shear stress is -1000000"),
+        ("Exponent n_c", "1.4", "power-law exponent n is 1.4"),
+        ("Occupied volume R_0", "0.97", "relative volume falls under its occupied volume"),
+        ("Bulk modulus K_0", "abc", "is no number"),
+        ("NPR value", "1.2", "Newtonian plateau ratio is 1.2"),
+        ("NPR value", "-0.1", "Newtonian plateau ratio is -0.1"),
+        ("SRR value", "1e9", "slide-to-roll ratio is 1000000000"),
+    ] {
+        enter(&mut harness, field, bad);
+        assert!(shows(&harness, said), "no message about {field} {bad}");
+        assert_eq!(harness.state().central_film(), Some(before), "{field} {bad}");
+    }
+    enter(&mut harness, "Critical stress", "0.1");
+    assert!(!shows(&harness, "critical shear stress is"));
+    wait(&mut harness, "the full solver", |app| app.badge() == "Outside the reduced model" && !app.busy());
+    assert!(film(&harness) > 1.05 * before, "a lubricant that thins later keeps a thicker film");
+    undo(&mut harness);
+    // Newton starts elsewhere now: equal within its tolerance.
+    assert!((film(&harness) / before - 1.0).abs() < 1e-6, "{} and {before}", film(&harness));
+}
+
+#[test]
+fn the_curve_follows_the_sliders_full_solutions_lie_on_it_and_a_press_goes_there() {
+    let mut harness = squalane();
+    click(&mut harness, "Traction");
+    wait(&mut harness, "the curve", |app| app.traction_contacts().0 == Some(41));
+    slide(&mut harness, "Newtonian plateau ratio NPR", 0.4);
+    assert_eq!(harness.state().traction_contacts().0, None, "the former curve is not taken for the present one");
+    wait(&mut harness, "the next curve", |app| app.traction_contacts().0 == Some(41));
+    click(&mut harness, "Add full solutions");
+    wait(&mut harness, "the full solutions", |app| app.traction_contacts().1 == 11 && !app.solving_along());
+    assert!(shows(&harness, "full solutions differ by"));
+    click(&mut harness, "Export CSV…");
+    let path = scratch("traction.csv");
+    give_path(&mut harness, &path);
+    let rows = rows(&path);
+    assert_eq!(rows.len(), 41 + 11);
+    for full in rows.iter().filter(|row| row[0] == 1.0) {
+        let reduced = rows.iter().find(|row| row[0] == 0.0 && (row[1] - full[1]).abs() < 1e-9).unwrap();
+        assert!((reduced[6] - full[6]).abs() < 1e-4, "traction at SRR {}: {} and {}", full[1], reduced[6], full[6]);
+        assert!((reduced[7] / full[7] - 1.0).abs() < 1e-2, "film at SRR {}", full[1]);
+    }
+    click(&mut harness, "Export SVG…");
+    let path = scratch("traction.svg");
+    give_path(&mut harness, &path);
+    let figure = std::fs::read_to_string(&path).unwrap();
+    assert_eq!((figure.matches("<polyline").count(), figure.matches("<circle").count()), (3, 33));
+    // A press in a plot goes there.
+    let place = harness.get_by_label("Film along the quantity").rect().center();
+    harness.hover_at(place);
+    harness.run_steps(1);
+    harness.drag_at(place);
+    harness.run_steps(1);
+    harness.drop_at(place);
+    harness.run_steps(3);
+    let srr = harness.state().sliding().0;
+    assert!((0.3..0.7).contains(&srr), "{srr}");
+    assert_eq!(harness.state().traction_contacts(), (Some(41), 11), "along the curve nothing is computed anew");
+    slide(&mut harness, "Load number M", 15.0);
+    assert!(shows(&harness, "full solutions of another sweep"));
+    // Speeds in three units are one sweep.
+    choose(&mut harness, "Against", "speed");
+    wait(&mut harness, "the curve against speed", |app| app.traction_contacts().0 == Some(41));
+    choose(&mut harness, "Against", "Stribeck number");
+    assert_eq!(harness.state().traction_contacts().0, Some(41));
+    click(&mut harness, "Laws of the fluid");
+    for name in ["Viscosity against pressure", "Viscosity against shear stress"] {
+        assert!(harness.query_by_label(name).is_some(), "{name}");
+    }
+    assert!(shows(&harness, "This contact meets pressures up to"));
+    println!("a frame takes {:.2} ms", 1e3 * harness.state().frame_s());
+}
+
+#[test]
+fn a_point_contact_has_its_curve_where_there_is_a_model_and_says_so_where_there_is_none() {
+    let mut explorer = Explorer::with_embedded_models();
+    explorer.open_scene(Path::new("scenes/fig_3_14_point.ron")).unwrap();
+    let mut harness = window(explorer);
+    click(&mut harness, "Traction");
+    if model_file::embedded_shear_of(ContactKind::Point).is_ok() {
+        wait(&mut harness, "the curve", |app| app.traction_contacts().0 == Some(41));
+    } else {
+        assert!(shows(&harness, "No curve by the reduced model"));
+        assert!(shows(&harness, "Full solutions draw the curve here on request"));
+    }
+}
+
+#[test]
+fn shear_across_the_film_is_shown_on_request() {
+    let mut harness = squalane();
+    assert!(harness.query_by_label("Shear across the film").is_none());
+    choose(&mut harness, "Across the film", "shear stress");
+    assert!(harness.query_by_label("Shear across the film").is_some());
+    choose(&mut harness, "Across the film", "shear rate");
+    assert!(shows(&harness, "1/s"));
+}
+
+/// Rows of numbers under the names of their columns.
+fn rows(path: &Path) -> Vec<Vec<f64>> {
+    let text = std::fs::read_to_string(path).unwrap();
+    let lines = text.lines().filter(|line| !line.starts_with('#')).skip(1);
+    lines.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect()
+}
