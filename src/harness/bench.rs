@@ -122,23 +122,11 @@ pub fn run(quick: bool) -> Result<Bench, HarnessError> {
         }
         Err(reason) => bench.notes.push(format!("line/reduced is missing: {reason}")),
     }
-    match super::embedded_shear_model(ContactKind::Line) {
-        Ok(model) => {
-            let mut online = Online::new(model, ReducedOptions::default());
-            let points: Vec<OperatingPoint> = shear.iter().map(|problem| problem.point).collect();
-            rows.push(reduced_row(
-                "line/shear/reduced",
-                &mut online,
-                (&points, named_lubricant::SQUALANE_PIP),
-                true,
-                ROW_BUDGET[size],
-            ));
-        }
-        Err(reason) => bench.notes.push(format!("line/shear/reduced is missing: {reason}")),
-    }
+    rows.extend(bench.reduced_shear_row("line/shear/reduced", &shear, ROW_BUDGET[size]));
     bench.add(rows, BASELINE);
     bench.add(transient_rows(size)?, TRANSIENT_BASELINE);
-    let mut rows = point_rows(size)?;
+    let shear = shear_problems(ContactKind::Point, POINT_POINTS[size])?;
+    let mut rows = point_rows(size, &shear)?;
     match super::embedded_model(ContactKind::Point) {
         Ok(model) => {
             let range = TestRange::Box(QuantityBox::TABLE_3_4);
@@ -150,11 +138,28 @@ pub fn run(quick: bool) -> Result<Bench, HarnessError> {
         }
         Err(reason) => bench.notes.push(format!("point/reduced is missing: {reason}")),
     }
+    rows.extend(bench.reduced_shear_row("point/shear/reduced", &shear, POINT_BUDGET[size]));
     bench.add(rows, POINT_BASELINE);
     Ok(bench)
 }
 
 impl Bench {
+    /// Reduced solves of shear-thinning contacts of one kind, with all fields; a note where there is no model.
+    fn reduced_shear_row(&mut self, name: &'static str, problems: &[Problem], budget: Duration) -> Option<Timing> {
+        let contact = problems.first()?.point.kind;
+        match super::embedded_shear_model(contact) {
+            Ok(model) => {
+                let mut online = Online::new(model, ReducedOptions::default());
+                let points: Vec<OperatingPoint> = problems.iter().map(|problem| problem.point).collect();
+                Some(reduced_row(name, &mut online, (&points, named_lubricant::SQUALANE_PIP), true, budget))
+            }
+            Err(reason) => {
+                self.notes.push(format!("{name} is missing: {reason}"));
+                None
+            }
+        }
+    }
+
     /// Adds rows that are compared with the first of them.
     fn add(&mut self, rows: Vec<Timing>, baseline: &'static str) {
         let reference = rows.first().map_or(f64::NAN, |first| median(&first.seconds));
@@ -176,19 +181,19 @@ impl Bench {
 }
 
 /// Full solves of point contacts on 301×41 nodes, cold and from the nearest other solution.
-fn point_rows(size: usize) -> Result<Vec<Timing>, HarnessError> {
+fn point_rows(size: usize, shear: &[Problem]) -> Result<Vec<Timing>, HarnessError> {
     let range = TestRange::Box(QuantityBox::TABLE_3_4);
     let points = random_points(&range, ContactKind::Point, POINT_POINTS[size], SEED);
     let newtonian = |point: &OperatingPoint| Problem::new(point, Lubricant::default());
     let newtonian = points.iter().map(newtonian).collect::<Result<Vec<_>, _>>()?;
-    let shear = shear_problems(ContactKind::Point, POINT_POINTS[size])?;
     let mut solver = PointSolver::new(PointGridSpec::DISSERTATION)?;
     let mut rows = Vec::new();
-    for (names, problems) in
-        [([POINT_BASELINE, "point/full/warm"], newtonian), (["point/shear/full/cold", "point/shear/full/warm"], shear)]
-    {
+    for (names, problems) in [
+        ([POINT_BASELINE, "point/full/warm"], newtonian.as_slice()),
+        (["point/shear/full/cold", "point/shear/full/warm"], shear),
+    ] {
         let solve = |problem, start: Start<'_>| solver.solve_problem(problem, start, &mut ());
-        rows.extend(cold_and_warm(names, POINT_BUDGET[size], &problems, solve)?);
+        rows.extend(cold_and_warm(names, POINT_BUDGET[size], problems, solve)?);
     }
     Ok(rows)
 }

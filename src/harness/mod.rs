@@ -10,6 +10,7 @@
 
 pub mod bench;
 mod checked_file;
+mod dimension_study;
 mod distance_study;
 mod error;
 mod error_measure_study;
@@ -30,6 +31,7 @@ mod sampling_study;
 mod series;
 mod split_study;
 mod statistics;
+mod stored_matrix;
 pub mod table;
 mod tolerance_study;
 mod tpwl_study;
@@ -68,7 +70,7 @@ pub fn embedded_model(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFi
 /// The reduced model of one kind of contact with a shear-thinning lubricant in the program.
 ///
 /// # Errors
-/// When the program was built with a damaged one, or has none of that kind.
+/// When the program was built with a damaged one.
 pub fn embedded_shear_model(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileError> {
     model_file::embedded_shear_of(contact)
 }
