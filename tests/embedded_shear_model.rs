@@ -6,7 +6,7 @@ use ehl_explorer::solver::contact::{ContactKind, OperatingPoint, Sliding};
 use ehl_explorer::solver::full::{ContactSolver, Problem, Start};
 use ehl_explorer::solver::lubricant::Lubricant;
 use ehl_explorer::solver::reduced::{CurveVariable, Online, ReducedError, ReducedOptions, Trust, traction_curve};
-use ehl_explorer::solver::training::{Plan, Range, TrainingSpec, Windows, random_points};
+use ehl_explorer::solver::training::{Plan, Range, SlidingRange, TrainingSpec, Windows, random_points};
 use fastrand::Rng;
 
 fn online() -> Online {
@@ -14,7 +14,7 @@ fn online() -> Online {
 }
 
 fn points(count: usize) -> Vec<OperatingPoint> {
-    let range = Range::Sliding {
+    let range = Range::Sliding(SlidingRange {
         m: (4.0, 60.0),
         l: (5.0, 13.0),
         srr: (0.0, 1.0),
@@ -23,7 +23,8 @@ fn points(count: usize) -> Vec<OperatingPoint> {
         modulus: 123.878213951e9,
         viscosity: 0.0705,
         alpha: 1.8925e-8,
-    };
+        max_hertz_pressure: None,
+    });
     random_points(&range, ContactKind::Line, (4.0, 60.0), count, &mut Rng::with_seed(77))
 }
 
@@ -185,7 +186,7 @@ fn a_range_with_sliding_needs_a_lubricant_that_feels_it() {
     let model = embedded_shear_of(ContactKind::Line).unwrap();
     let spec = |lubricant: Lubricant, alpha: f64| TrainingSpec {
         title: String::new(),
-        range: Range::Sliding {
+        range: Range::Sliding(SlidingRange {
             m: (10.0, 20.0),
             l: (6.0, 8.0),
             srr: (0.0, 1.0),
@@ -194,7 +195,8 @@ fn a_range_with_sliding_needs_a_lubricant_that_feels_it() {
             modulus: 123.9e9,
             viscosity: 0.0705,
             alpha,
-        },
+            max_hertz_pressure: None,
+        }),
         lubricant,
         plan: Plan::FarthestPoint { snapshots: 10 },
         windows: Windows::Automatic { modes: 50 },

@@ -46,7 +46,7 @@ pub(super) fn run(
             test.tests
         )));
     }
-    if !matches!(test.range, TestRange::Sliding { .. }) {
+    if !matches!(test.range, TestRange::Sliding(_)) {
         points.iter_mut().for_each(|point| point.sliding = scene.sliding());
     }
     let template = request_of(scene)?;

@@ -1,14 +1,13 @@
 //! The door: every number of a scene is finite and sane before anything is computed from it.
 
 use super::{
-    Axis, Contacts, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, TransientStudy,
-    Variable, View, Within,
+    Axis, Contacts, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, Variable, View,
+    Within,
 };
 use crate::solver::contact::ContactKind;
-use crate::solver::full::transient::{Frame, Inputs, Keep, Transient};
 use crate::solver::grid::PointGridSpec;
 use crate::solver::lubricant::{LubricantError, ScaledShear, ShearLaw};
-use crate::solver::training::{Plan, Range, TrainingSpec, Windows};
+use crate::solver::training::{Plan, Range, SlidingRange, TrainingSpec, Windows};
 
 /// Most points of a sweep, a trajectory or a formula comparison.
 pub const MAX_POINTS: usize = 100_000;
@@ -38,7 +37,7 @@ pub(super) fn count(field: &str, value: usize, low: usize, high: usize) -> Check
     Err(refuse(field, format!("is {value}, but must lie between {low} and {high}")))
 }
 
-fn interval(field: &str, (from, to): (f64, f64), low: f64, high: f64) -> Checked {
+pub(super) fn interval(field: &str, (from, to): (f64, f64), low: f64, high: f64) -> Checked {
     number(&format!("{field}.0"), from, low, high)?;
     number(&format!("{field}.1"), to, low, high)?;
     if from > to {
@@ -120,16 +119,12 @@ fn study(scene: &Scene) -> Checked {
         Study::Point { methods: list } => methods("study.methods", list),
         Study::Sweep { over, methods: list, .. } => {
             methods("study.methods", list)?;
-            count("study.over (how many)", over.len(), 1, 3)?;
-            over.iter().try_for_each(axis)?;
-            if over.iter().any(|axis| axis.vary == Variable::Alpha) && scene.lubricant.own_coefficient().is_some() {
-                return Err(refuse(
-                    "study.over.alpha",
-                    "cannot be varied: the lubricant's viscosity law determines it",
-                ));
-            }
-            let points = over.iter().map(|axis| axis.values.len()).try_fold(1usize, usize::checked_mul);
-            count("study.over (points)", points.unwrap_or(usize::MAX), 1, MAX_POINTS)
+            axes(over, scene)
+        }
+        Study::Dimensions { over, losses } => {
+            axes(over, scene)?;
+            count("study.losses (how many)", losses.len(), 1, 32)?;
+            losses.iter().try_for_each(|&loss| number("study.losses", loss, 1e-15, 0.5))
         }
         Study::Trajectory { range, points, methods: list } => {
             methods("study.methods", list)?;
@@ -206,7 +201,7 @@ fn study(scene: &Scene) -> Checked {
             }
             quantity_box("study.range", range)
         }
-        Study::Transient(study) => transient(scene, study),
+        Study::Transient(study) => study.check(scene),
         Study::Tpwl(study) => study.check(scene),
         Study::FormulaComparison { formula, .. } if formula.film_formula().contact() != scene.contact => {
             let wanted = formula.film_formula().contact().name();
@@ -241,46 +236,15 @@ pub(super) fn newtonian_line_in_time(scene: &Scene) -> Checked {
     Ok(())
 }
 
-fn transient(scene: &Scene, study: &TransientStudy) -> Checked {
-    newtonian_line_in_time(scene)?;
-    count("study.frames (how many)", study.frames.len(), 1, 4)?;
-    if (1..study.frames.len()).any(|i| study.frames[..i].contains(&study.frames[i])) {
-        return Err(refuse("study.frames", "must not name a frame twice: results are named by it"));
+/// What a study varies.
+fn axes(over: &[Axis], scene: &Scene) -> Checked {
+    count("study.over (how many)", over.len(), 1, 3)?;
+    over.iter().try_for_each(axis)?;
+    if over.iter().any(|axis| axis.vary == Variable::Alpha) && scene.lubricant.own_coefficient().is_some() {
+        return Err(refuse("study.over.alpha", "cannot be varied: the lubricant's viscosity law determines it"));
     }
-    number("study.duration", study.duration, 1e-6, 1e6)?;
-    if let Some(window) = study.window {
-        interval("study.window", window, 0.0, study.duration)?;
-    }
-    if let Some(places) = study.mass_between {
-        interval("study.mass_between", places, -4.0, 1.0)?;
-    }
-    let (lubricant, time_step) = (scene.lubricant, study.time_step);
-    let march = |field: &str, point, inputs: &Inputs, duration| {
-        let (frame, keep) = (Frame::Fixed, Keep::Scalars);
-        let transient = Transient { point, lubricant, inputs: inputs.clone(), frame, duration, time_step, keep };
-        transient.check().map_err(|problem| refuse(field, format!("is refused: {problem}")))
-    };
-    march("study", scene.point()?, &study.inputs, study.duration)?;
-    let Some(reduced) = &study.reduced else { return Ok(()) };
-    if !matches!(scene.grid, Grid::Uniform { .. } | Grid::GradedNodes { registered: false, .. }) {
-        return Err(refuse(
-            "grid",
-            "must be Uniform, or GradedNodes without registration, for a reduced model in time",
-        ));
-    }
-    number("study.reduced.loss", reduced.loss, 1e-12, 0.5)?;
-    number("study.reduced.rows_per_mode", reduced.rows_per_mode, 1.0, 20.0)?;
-    count("study.reduced.trainings (how many)", reduced.trainings.len(), 0, 64)?;
-    for (i, training) in reduced.trainings.iter().enumerate() {
-        let point = match training.at {
-            Some(at) => at.with_alpha_of(&lubricant).point(ContactKind::Line)?,
-            None => scene.point()?,
-        };
-        let field = format!("study.reduced.trainings.{i}");
-        number(&format!("{field}.duration"), training.duration, 1e-6, 1e6)?;
-        march(&field, point, &training.inputs, training.duration)?;
-    }
-    Ok(())
+    let points = over.iter().map(|axis| axis.values.len()).try_fold(1usize, usize::checked_mul);
+    count("study.over (points)", points.unwrap_or(usize::MAX), 1, MAX_POINTS)
 }
 
 fn axis(axis: &Axis) -> Checked {
@@ -329,7 +293,8 @@ fn test_range(range: &TestRange) -> Checked {
             interval("study.range.alpha", *alpha, 1e-12, 1e-5)?;
             number("study.range.viscosity", *viscosity, 1e-6, 1e4)
         }
-        TestRange::Sliding { m, l, srr, npr, radius, modulus, viscosity, alpha } => {
+        TestRange::Sliding(range) => {
+            let SlidingRange { m, l, srr, npr, radius, modulus, viscosity, alpha, max_hertz_pressure } = range;
             interval("study.range.m", *m, 0.05, 1e5)?;
             interval("study.range.l", *l, 1e-3, 1e3)?;
             interval("study.range.srr", *srr, -10.0, 10.0)?;
@@ -337,7 +302,8 @@ fn test_range(range: &TestRange) -> Checked {
             number("study.range.radius", *radius, 1e-6, 1e3)?;
             number("study.range.modulus", *modulus, 1e5, 1e14)?;
             number("study.range.viscosity", *viscosity, 1e-6, 1e4)?;
-            number("study.range.alpha", *alpha, 1e-12, 1e-5)
+            number("study.range.alpha", *alpha, 1e-12, 1e-5)?;
+            max_hertz_pressure.iter().try_for_each(|&p| number("study.range.max_hertz_pressure", p, 1e5, 1e12))
         }
     }
 }
@@ -350,9 +316,7 @@ fn training(spec: &TrainingSpec) -> Checked {
         Range::Moes { m, l, alpha, max_hertz_pressure, viscosity } => {
             test_range(&TestRange::Moes { m, l, alpha, max_hertz_pressure, viscosity })?;
         }
-        Range::Sliding { m, l, srr, npr, radius, modulus, viscosity, alpha } => {
-            test_range(&TestRange::Sliding { m, l, srr, npr, radius, modulus, viscosity, alpha })?;
-        }
+        Range::Sliding(range) => test_range(&TestRange::Sliding(range))?,
     }
     match &spec.plan {
         Plan::FarthestPoint { snapshots } => count("study.plan.snapshots", *snapshots, 2, 100_000)?,
