@@ -150,11 +150,12 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
         },
         Range::Sliding(range) => {
             let SlidingRange { m, l, srr, npr, modulus, viscosity, alpha, .. } = range;
-            let alpha = spec.lubricant.own_coefficient().unwrap_or(alpha);
+            // The lubricant's own coefficient counts, and L goes with it.
+            let own = spec.lubricant.own_coefficient().unwrap_or(alpha);
             Domain {
                 m,
-                l,
-                alpha_per_pa: (alpha, alpha),
+                l: (l.0 * own / alpha, l.1 * own / alpha),
+                alpha_per_pa: (own, own),
                 max_hertz_pressure_pa: range.highest_pressure(spec.contact()),
                 viscosity_pa_s: viscosity,
                 lubricant: spec.lubricant,
