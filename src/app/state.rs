@@ -388,7 +388,8 @@ impl State {
                     iterations: reduced.iterations,
                     window: reduced.window,
                 };
-                self.picture = Some(Picture::new(key, origin, Arc::new(fields), self.display.cuts));
+                let (cuts, traction) = (self.display.cuts, reduced.traction);
+                self.picture = Some(Picture::new(key, origin, Arc::new(fields), cuts, traction));
                 true
             }
             Err(error) => {
