@@ -13,6 +13,8 @@ pub enum Command {
     Save,
     /// Save under a name to be given.
     SaveAs,
+    /// Export a plot as a picture.
+    ExportPlot,
     /// Close the program.
     Quit,
     /// Take the last edit back.
@@ -57,7 +59,7 @@ const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
 impl Command {
     /// All of them, longest shortcuts first so that Ctrl+Shift+Z is not taken for Ctrl+Z.
-    pub const ALL: [Self; 23] = [
+    pub const ALL: [Self; 24] = [
         Self::Redo,
         Self::SaveAs,
         Self::CopyReadouts,
@@ -65,6 +67,7 @@ impl Command {
         Self::New,
         Self::Open,
         Self::Save,
+        Self::ExportPlot,
         Self::Quit,
         Self::Undo,
         Self::Pin,
@@ -90,6 +93,7 @@ impl Command {
             Self::Open => "Open…",
             Self::Save => "Save",
             Self::SaveAs => "Save as…",
+            Self::ExportPlot => "Export plot…",
             Self::Quit => "Quit",
             Self::Undo => "Undo",
             Self::Redo => "Redo",
@@ -119,6 +123,7 @@ impl Command {
             Self::Open => (Modifiers::COMMAND, Key::O),
             Self::Save => (Modifiers::COMMAND, Key::S),
             Self::SaveAs => (CTRL_SHIFT, Key::S),
+            Self::ExportPlot => (Modifiers::COMMAND, Key::E),
             Self::Quit => (Modifiers::COMMAND, Key::Q),
             Self::Undo => (Modifiers::COMMAND, Key::Z),
             Self::Redo => (CTRL_SHIFT, Key::Z),

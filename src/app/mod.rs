@@ -7,6 +7,7 @@ mod command;
 mod controls;
 mod document;
 mod export;
+mod figure;
 mod files;
 mod grid_error;
 mod in_use;
@@ -140,9 +141,11 @@ impl Explorer {
             ctx.set_zoom_factor(self.state.display.zoom);
             self.state.training.look(&ctx);
         }
+        figure::begin(&ctx);
         self.state.receive();
         self.state.receive_training();
-        let mut chosen = if self.state.files.asks() { Vec::new() } else { Command::pressed(&ctx) };
+        let asked = self.state.files.asks() || self.state.asks_figure();
+        let mut chosen = if asked { Vec::new() } else { Command::pressed(&ctx) };
         Panel::top("menu").show(ui, |ui| panels::menu::ui(ui, &mut self.state, &mut chosen));
         Panel::bottom("jobs").show(ui, |ui| panels::strip::ui(ui, &self.state, self.frame_s, &mut chosen));
         Panel::left("sliders").default_size(312.0).size_range(250.0..=520.0).show(ui, |ui| {
@@ -162,6 +165,7 @@ impl Explorer {
             self.tree.ui(&mut Tabs { state: &mut self.state }, ui);
         });
         self.state.files_ui(ui);
+        self.state.figures_ui(&ctx);
         panels::help::ui(&ctx, &mut self.help);
         self.state.settle(&ctx);
         for command in chosen {
@@ -181,6 +185,7 @@ impl Explorer {
             Command::Open => state.request(ctx, Pending::OpenDialog),
             Command::Save => state.save(ctx),
             Command::SaveAs => state.ask_path(ctx, Purpose::Save),
+            Command::ExportPlot => state.ask_figure(),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
             Command::Undo => {
                 state.history.undo(&mut state.document);
@@ -312,6 +317,16 @@ impl Explorer {
     /// Whether a contact is taken through time.
     pub fn marching(&self) -> bool {
         self.state.transient.standing().is_some()
+    }
+
+    /// Whether the number of operating points is studied.
+    pub fn studying_points(&self) -> bool {
+        self.state.transient.number.standing().is_some()
+    }
+
+    /// Operating points of the linearised model that is shown.
+    pub fn operating_points(&self) -> Option<usize> {
+        self.state.transient.linearised.as_ref().map(|linearised| linearised.model.points.len())
     }
 
     /// Contacts of the traction curve on the screen, when it is the one that was asked for last, and full solutions beside it.

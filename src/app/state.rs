@@ -7,6 +7,7 @@ pub use display::Display;
 
 use super::controls::Entries;
 use super::document::{Document, History};
+use super::figure::Figures;
 use super::files::Files;
 use super::grid_error::GridError;
 use super::in_use::InUse;
@@ -15,7 +16,7 @@ use super::model_source::Models;
 use super::picture::{Comparison, Cuts, Origin, Picture};
 use super::plots::contact_map::ContactMap;
 use super::plots::film_shear::FilmShearImage;
-use super::plots::{accuracy::AccuracyView, basis::BasisView, regimes::RegimeChart};
+use super::plots::{accuracy::AccuracyView, basis::BasisView, regimes::RegimeChart, tpwl::TpwlView};
 use super::task::Standing;
 use super::traction::TractionView;
 use super::training::Training;
@@ -118,6 +119,10 @@ pub struct State {
     pub training: Training,
     /// Contacts in time.
     pub transient: TransientView,
+    /// What the TPWL tab shows.
+    pub tpwl: TpwlView,
+    /// Plots that leave as pictures.
+    pub figures: Figures,
     /// Traction and film along one quantity.
     pub traction: TractionView,
     /// What the Regimes tab keeps between frames.
@@ -164,6 +169,8 @@ impl State {
             accuracy: AccuracyView::default(),
             training: Training::default(),
             transient: TransientView::default(),
+            tpwl: TpwlView::default(),
+            figures: Figures::default(),
             traction: TractionView::default(),
             regimes: RegimeChart::default(),
             fit_plots: true,
@@ -428,7 +435,8 @@ impl State {
 
     /// How far the study is that runs beside the picture; the first where there are several.
     pub fn study(&self) -> Option<Standing> {
-        self.accuracy.standing().or(self.transient.standing()).or(self.traction.standing())
+        let studied = self.accuracy.standing().or(self.transient.standing()).or(self.transient.number.standing());
+        studied.or(self.traction.standing())
     }
 
     /// Stops everything that runs; what has been found stays.

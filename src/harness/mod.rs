@@ -17,6 +17,7 @@ mod error_measure_study;
 mod formula_comparison;
 mod grid_accuracy;
 mod grid_study;
+mod march_costs;
 mod model_comparison;
 pub mod model_file;
 mod outcome;
@@ -50,7 +51,7 @@ pub use run::run_scene;
 pub use sampling::{Random, random_points};
 pub use statistics::{median, percentile, rank_correlation};
 pub use table::Table;
-pub(crate) use transient_study::training_states;
+pub(crate) use transient_study::{TOO_STEEP, kept_states, train_linearised, training_states};
 pub use workbench::{Answer, ReducedFacts, Request, Workbench};
 
 use crate::solver::contact::ContactKind;

@@ -10,7 +10,8 @@ use crate::solver::contact::ContactKind;
 use crate::solver::grid::{ContactGrid, ContactGridError, ContactGridSpec};
 use crate::solver::lubricant::{LimitingStress, Lubricant, ShearLaw, Sliding};
 use crate::solver::reduced::{
-    Calibration, Domain, ReducedModel, SampledRows, Sampling, SlidingDomain, Snapshot, Window,
+    Calibration, Domain, ReducedModel, RollingCalibration, SampledRows, Sampling, SlidingDomain, Snapshot,
+    TractionRule, Window,
 };
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -128,6 +129,13 @@ struct StoredShear {
     snapshots: Vec<Vec<Sliding>>,
 }
 
+/// What follows that, one of each window.
+#[derive(Serialize, Deserialize)]
+struct StoredTraction {
+    rules: Vec<Option<TractionRule>>,
+    calibrations: Vec<Option<Calibration>>,
+}
+
 #[derive(Serialize, Deserialize)]
 struct StoredWindow {
     m: (f64, f64),
@@ -139,7 +147,8 @@ struct StoredWindow {
     sampled_rows: Vec<usize>,
     reconstruction: StoredMatrix,
     snapshots: Vec<Snapshot>,
-    calibration: Option<Calibration>,
+    /// That of a model that knows sliding is kept with its traction.
+    calibration: Option<RollingCalibration>,
 }
 
 impl StoredModel {
@@ -162,6 +171,24 @@ impl StoredModel {
         }
         self.domain.lubricant = lubricant;
         self.domain.sliding = Some(domain);
+        Ok(())
+    }
+}
+
+impl StoredTraction {
+    /// Hands every window its own.
+    fn give(self, windows: &mut [Window]) -> Result<(), ModelFileError> {
+        let damaged = Err(ModelFileError::Damaged { what: "traction" });
+        if [self.rules.len(), self.calibrations.len()] != [windows.len(); 2] {
+            return damaged;
+        }
+        for ((window, rule), calibration) in windows.iter_mut().zip(self.rules).zip(self.calibrations) {
+            let known = |c: &Calibration| c.sound() && c.sliding();
+            if !rule.as_ref().is_none_or(|rule| rule.sound(&window.grid)) || !calibration.as_ref().is_none_or(known) {
+                return damaged;
+            }
+            (window.traction, window.calibration) = (rule, calibration);
+        }
         Ok(())
     }
 }
@@ -197,12 +224,13 @@ impl StoredWindow {
         if self.snapshots.is_empty() || !snapshots_fit {
             return damaged("snapshots");
         }
-        if !self.calibration.as_ref().is_none_or(Calibration::sound) {
+        let calibration = self.calibration.map(Calibration::from);
+        if !calibration.as_ref().is_none_or(Calibration::sound) {
             return damaged("calibration");
         }
         let rows = SampledRows { rows: self.sampled_rows, reconstruction };
         let mut window = Window::new(self.m, grid, pressure, deformation, self.snapshots, self.sampling, rows);
-        (window.penalty, window.calibration) = (self.penalty, self.calibration);
+        (window.penalty, window.calibration) = (self.penalty, calibration);
         Ok(window)
     }
 }
@@ -282,7 +310,7 @@ pub fn to_bytes(model: &ReducedModel) -> Result<Vec<u8>, ModelFileError> {
                 sampled_rows: w.sampled_rows.clone(),
                 reconstruction: StoredMatrix::exact(&w.reconstruction),
                 snapshots: w.snapshots.clone(),
-                calibration: w.calibration.clone(),
+                calibration: w.calibration.as_ref().and_then(|c| RollingCalibration::try_from(c).ok()),
             })
             .collect(),
         scene: model.scene.clone(),
@@ -296,6 +324,11 @@ pub fn to_bytes(model: &ReducedModel) -> Result<Vec<u8>, ModelFileError> {
         let snapshots = model.windows.iter().map(of_window).collect();
         let shear = StoredShear { law, limiting_stress, domain, snapshots };
         payload = postcard::to_extend(&shear, payload).map_err(unwritable)?;
+        let traction = StoredTraction {
+            rules: model.windows.iter().map(|w| w.traction.clone()).collect(),
+            calibrations: model.windows.iter().map(|w| w.calibration.clone()).collect(),
+        };
+        payload = postcard::to_extend(&traction, payload).map_err(unwritable)?;
     }
     Ok(FORMAT.seal(&payload))
 }
@@ -308,18 +341,25 @@ pub fn from_bytes(bytes: &[u8]) -> Result<ReducedModel, ModelFileError> {
     let payload = FORMAT.open(bytes)?;
     let undecodable = |_| ModelFileError::Damaged { what: "its content cannot be decoded" };
     let (mut stored, rest): (StoredModel, &[u8]) = postcard::take_from_bytes(payload).map_err(undecodable)?;
+    let mut traction = None;
     if !rest.is_empty() {
-        let shear = postcard::from_bytes(rest).map_err(undecodable)?;
+        let (shear, rest) = postcard::take_from_bytes(rest).map_err(undecodable)?;
         stored.thin(shear)?;
+        if !rest.is_empty() {
+            traction = Some(postcard::from_bytes::<StoredTraction>(rest).map_err(undecodable)?);
+        }
     }
     let grids = grids(&stored.windows)?;
-    let windows: Vec<Window> =
+    let mut windows: Vec<Window> =
         stored.windows.into_par_iter().zip(grids).map(|(w, grid)| w.into_window(grid)).collect::<Result<_, _>>()?;
     if windows.is_empty() {
         return Err(ModelFileError::Damaged { what: "no windows" });
     }
     if windows.iter().any(|window| window.grid.kind() != windows[0].grid.kind()) {
         return Err(ModelFileError::Damaged { what: "windows of different contacts" });
+    }
+    if let Some(traction) = traction {
+        traction.give(&mut windows)?;
     }
     let StoredModel { title, domain, scene, log, .. } = StoredModel { windows: Vec::new(), ..stored };
     Ok(ReducedModel { title, domain, windows, scene, log })

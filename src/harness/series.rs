@@ -14,7 +14,7 @@ use crate::solver::lubricant::Sliding;
 use crate::solver::training::TrainingObserver;
 
 /// Values of each method in the table of a series.
-const COLUMNS: [&str; 18] = [
+const COLUMNS: [&str; 19] = [
     "converged",
     "H_c",
     "H_min",
@@ -32,6 +32,7 @@ const COLUMNS: [&str; 18] = [
     "reduced.residual_estimate",
     "reduced.h_c_error_bound",
     "reduced.h_min_error_bound",
+    "reduced.traction_error_bound",
     "wall_s",
 ];
 
@@ -153,7 +154,8 @@ fn along(
     columns.extend(["M", "L", "radius", "speed", "load", "alpha", "p_h_pa"].map(str::to_owned));
     let tags: Vec<String> = (0..methods.len()).map(|k| tag(methods, k)).collect();
     columns.extend(tags.iter().flat_map(|tag| COLUMNS.iter().map(move |column| format!("{tag}.{column}"))));
-    let mut table = Table { name: name.to_owned(), columns, rows: Vec::with_capacity(contacts.len()) };
+    let mut table =
+        Table { name: name.to_owned(), columns, rows: Vec::with_capacity(contacts.len()), labels: Vec::new() };
     let mut tallies = vec![Tally::default(); methods.len()];
     let mut former: Vec<Option<Solution>> = vec![None; methods.len()];
     let full = methods.iter().position(|method| *method == Method::Full);

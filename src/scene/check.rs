@@ -1,11 +1,10 @@
 //! The door: every number of a scene is finite and sane before anything is computed from it.
 
 use super::{
-    Axis, Contacts, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, TransientStudy,
-    Variable, View, Within,
+    Axis, Contacts, Expectation, Grid, Method, QuantityBox, Scene, SceneError, Steps, Study, TestRange, Variable, View,
+    Within,
 };
 use crate::solver::contact::ContactKind;
-use crate::solver::full::transient::{Frame, Inputs, Keep, Transient};
 use crate::solver::grid::PointGridSpec;
 use crate::solver::lubricant::{LubricantError, ScaledShear, ShearLaw};
 use crate::solver::training::{Plan, Range, SlidingRange, TrainingSpec, Windows};
@@ -38,7 +37,7 @@ pub(super) fn count(field: &str, value: usize, low: usize, high: usize) -> Check
     Err(refuse(field, format!("is {value}, but must lie between {low} and {high}")))
 }
 
-fn interval(field: &str, (from, to): (f64, f64), low: f64, high: f64) -> Checked {
+pub(super) fn interval(field: &str, (from, to): (f64, f64), low: f64, high: f64) -> Checked {
     number(&format!("{field}.0"), from, low, high)?;
     number(&format!("{field}.1"), to, low, high)?;
     if from > to {
@@ -202,7 +201,7 @@ fn study(scene: &Scene) -> Checked {
             }
             quantity_box("study.range", range)
         }
-        Study::Transient(study) => transient(scene, study),
+        Study::Transient(study) => study.check(scene),
         Study::Tpwl(study) => study.check(scene),
         Study::FormulaComparison { formula, .. } if formula.film_formula().contact() != scene.contact => {
             let wanted = formula.film_formula().contact().name();
@@ -233,48 +232,6 @@ pub(super) fn newtonian_line_in_time(scene: &Scene) -> Checked {
     }
     if scene.grid == Grid::Model {
         return Err(refuse("grid", "cannot be Model for a contact in time; write Uniform, Graded or GradedNodes"));
-    }
-    Ok(())
-}
-
-fn transient(scene: &Scene, study: &TransientStudy) -> Checked {
-    newtonian_line_in_time(scene)?;
-    count("study.frames (how many)", study.frames.len(), 1, 4)?;
-    if (1..study.frames.len()).any(|i| study.frames[..i].contains(&study.frames[i])) {
-        return Err(refuse("study.frames", "must not name a frame twice: results are named by it"));
-    }
-    number("study.duration", study.duration, 1e-6, 1e6)?;
-    if let Some(window) = study.window {
-        interval("study.window", window, 0.0, study.duration)?;
-    }
-    if let Some(places) = study.mass_between {
-        interval("study.mass_between", places, -4.0, 1.0)?;
-    }
-    let (lubricant, time_step) = (scene.lubricant, study.time_step);
-    let march = |field: &str, point, inputs: &Inputs, duration| {
-        let (frame, keep) = (Frame::Fixed, Keep::Scalars);
-        let transient = Transient { point, lubricant, inputs: inputs.clone(), frame, duration, time_step, keep };
-        transient.check().map_err(|problem| refuse(field, format!("is refused: {problem}")))
-    };
-    march("study", scene.point()?, &study.inputs, study.duration)?;
-    let Some(reduced) = &study.reduced else { return Ok(()) };
-    if !matches!(scene.grid, Grid::Uniform { .. } | Grid::GradedNodes { registered: false, .. }) {
-        return Err(refuse(
-            "grid",
-            "must be Uniform, or GradedNodes without registration, for a reduced model in time",
-        ));
-    }
-    number("study.reduced.loss", reduced.loss, 1e-12, 0.5)?;
-    number("study.reduced.rows_per_mode", reduced.rows_per_mode, 1.0, 20.0)?;
-    count("study.reduced.trainings (how many)", reduced.trainings.len(), 0, 64)?;
-    for (i, training) in reduced.trainings.iter().enumerate() {
-        let point = match training.at {
-            Some(at) => at.with_alpha_of(&lubricant).point(ContactKind::Line)?,
-            None => scene.point()?,
-        };
-        let field = format!("study.reduced.trainings.{i}");
-        number(&format!("{field}.duration"), training.duration, 1e-6, 1e6)?;
-        march(&field, point, &training.inputs, training.duration)?;
     }
     Ok(())
 }

@@ -9,6 +9,7 @@ pub mod check;
 pub mod document;
 mod expectation;
 pub mod named_lubricant;
+mod published;
 pub mod sampled;
 mod study;
 mod tpwl;
@@ -17,12 +18,13 @@ mod view;
 
 pub use document::{SceneError, SceneFileError};
 pub use expectation::{Expectation, Within};
+pub use published::PublishedMarch;
 pub use study::{
     Axis, ComparedPlan, ComparedSampling, Contacts, Formula, OnlineScheme, QuantityBox, Steps, Study, TestRange,
     Variable,
 };
 pub use tpwl::{Drive, TpwlStudy};
-pub use transient::{ReducedTransient, TrainingInputs, TransientStudy};
+pub use transient::{LinearisedTransient, ReducedTransient, TrainingInputs, TransientStudy};
 pub use view::{LoadFollower, LubricantFollower, View};
 
 use crate::solver::contact::{ContactError, ContactKind, MoesRequest, OperatingPoint, si_from_moes};

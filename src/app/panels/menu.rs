@@ -17,6 +17,8 @@ pub fn ui(ui: &mut Ui, state: &mut State, chosen: &mut Vec<Command>) {
             item(ui, Command::Save, true, chosen);
             item(ui, Command::SaveAs, true, chosen);
             ui.separator();
+            item(ui, Command::ExportPlot, true, chosen);
+            ui.separator();
             item(ui, Command::Quit, true, chosen);
         });
         ui.menu_button("Edit", |ui| {

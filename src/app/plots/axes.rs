@@ -1,9 +1,11 @@
 //! What all plots have in common: quiet grid, round ticks, logarithmic axes as transformed data.
 
+use crate::app::controls::named;
+use crate::app::figure;
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
 use egui::{Ui, Vec2b};
-use egui_plot::{GridInput, GridMark, Plot, PlotUi};
+use egui_plot::{GridInput, GridMark, Plot, PlotResponse, PlotUi};
 
 /// Size of axis titles.
 pub const TITLE_SIZE: f32 = 12.5;
@@ -29,6 +31,21 @@ pub fn plot<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) ->
         plot = plot.x_axis_label(rich(x_title, TITLE_SIZE, color));
     }
     plot
+}
+
+/// Shows a plot under the name by which screen readers know it, and by which it can be exported as a picture.
+pub fn show<'a, R>(
+    plot: Plot<'a>,
+    ui: &mut Ui,
+    name: &str,
+    content: impl FnOnce(&mut PlotUi<'a>) -> R + 'a,
+) -> PlotResponse<R> {
+    // The plot's own response is what lies within its axes; the scope's is the whole.
+    let whole = ui.scope(|ui| plot.show(ui, content));
+    figure::offer(ui, name, whole.response.rect);
+    let mut shown = whole.inner;
+    shown.response = named(ui, shown.response, name);
+    shown
 }
 
 /// Fits a plot to its data where `wanted` and when it is seen first; zooming and panning ends it, a double click brings it back.

@@ -38,6 +38,14 @@ impl Direction {
         }
     }
 
+    /// Name of a profile along it.
+    pub fn profile_name(self, of: &str) -> String {
+        match self {
+            Self::Along => format!("{of} profile"),
+            Self::Across => format!("{of} profile across"),
+        }
+    }
+
     /// Range at first: the contact with its inlet and outlet, or with both sides.
     pub fn range(self) -> (f64, f64) {
         match self {

@@ -3,7 +3,6 @@
 use super::axes;
 use super::direction::Direction;
 use crate::app::color_map;
-use crate::app::controls::named;
 use crate::app::numbers;
 use crate::app::picture::{Picture, value_at};
 use crate::app::theme::Palette;
@@ -147,25 +146,28 @@ pub fn ui(ui: &mut Ui, image: &FilmShearImage, shown: FilmShear, stale: bool, he
     let Some(texture) = image.texture.as_ref().map(TextureHandle::id) else { return };
     scale_ui(ui, image, shown);
     let (from, to) = Direction::Along.range();
-    let response = axes::plot(ui, "film shear", (height - 26.0).max(70.0), "", "Height {Z} = {z}/{h}")
-        .link_axis(Id::unique(Direction::Along.id("profiles")), Vec2b::new(true, false))
-        .link_cursor(Id::unique(Direction::Along.id("profiles")), Vec2b::new(true, false))
-        .y_grid_spacer(|input| axes::round_marks(input, 2.0))
-        .default_x_bounds(from, to)
-        .default_y_bounds(0.0, 1.0)
-        .show_y(false)
-        .label_formatter(|at| {
-            let (HoverPosition::NearDataPoint { position, .. } | HoverPosition::Elsewhere { position }) = at;
-            let value = image.at(position.x, position.y)?;
-            let (x, z) = (numbers::digits(position.x, 3), numbers::digits(position.y, 2));
-            Some(format!("X = {x}   Z = {z}\n{} {}", shown.name(), quantity(value, shown)))
-        })
-        .show(ui, |plot| {
+    axes::show(
+        axes::plot(ui, "film shear", (height - 26.0).max(70.0), "", "Height {Z} = {z}/{h}")
+            .link_axis(Id::unique(Direction::Along.id("profiles")), Vec2b::new(true, false))
+            .link_cursor(Id::unique(Direction::Along.id("profiles")), Vec2b::new(true, false))
+            .y_grid_spacer(|input| axes::round_marks(input, 2.0))
+            .default_x_bounds(from, to)
+            .default_y_bounds(0.0, 1.0)
+            .show_y(false)
+            .label_formatter(|at| {
+                let (HoverPosition::NearDataPoint { position, .. } | HoverPosition::Elsewhere { position }) = at;
+                let value = image.at(position.x, position.y)?;
+                let (x, z) = (numbers::digits(position.x, 3), numbers::digits(position.y, 2));
+                Some(format!("X = {x}   Z = {z}\n{} {}", shown.name(), quantity(value, shown)))
+            }),
+        ui,
+        "Shear across the film",
+        |plot| {
             let tint = if stale { Color32::from_gray(120) } else { Color32::WHITE };
             let (center, size) = (PlotPoint::new(0.5 * (from + to), 0.5), vec2((to - from) as f32, 1.0));
             plot.image(PlotImage::new("", texture, center, size).tint(tint).id("shear field").allow_hover(false));
-        });
-    named(ui, response.response, "Shear across the film");
+        },
+    );
 }
 
 fn scale_ui(ui: &mut Ui, image: &FilmShearImage, shown: FilmShear) {

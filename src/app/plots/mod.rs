@@ -14,10 +14,12 @@ mod raster;
 mod regime_chart;
 pub mod regimes;
 mod svg;
+pub mod tpwl;
 mod traction;
 mod training;
 mod transient;
 
+use super::figure;
 use super::state::State;
 use egui::Ui;
 use egui_tiles::{Behavior, Tile, TileId, Tiles, Tree, UiResponse};
@@ -42,11 +44,13 @@ pub enum Tab {
     Training,
     /// The contact in time.
     Transient,
+    /// The linearised model of it.
+    Tpwl,
 }
 
 impl Tab {
     /// All tabs in their order.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Profiles,
         Self::ContactMap,
         Self::Regimes,
@@ -55,6 +59,7 @@ impl Tab {
         Self::Accuracy,
         Self::Training,
         Self::Transient,
+        Self::Tpwl,
     ];
 
     /// Title.
@@ -68,6 +73,7 @@ impl Tab {
             Self::Accuracy => "Accuracy",
             Self::Training => "Training",
             Self::Transient => "Transient",
+            Self::Tpwl => "TPWL",
         }
     }
 }
@@ -93,6 +99,7 @@ impl Behavior<Tab> for Tabs<'_> {
     fn pane_ui(&mut self, ui: &mut Ui, _tile_id: TileId, tab: &mut Tab) -> UiResponse {
         egui::Frame::new().fill(ui.visuals().panel_fill).inner_margin(egui::Margin::symmetric(10, 8)).show(ui, |ui| {
             ui.set_min_size(ui.available_size());
+            figure::offer(ui, &format!("The whole tab {}", tab.title()), ui.max_rect());
             match tab {
                 Tab::Profiles => profiles::ui(ui, self.state),
                 Tab::ContactMap => contact_map::ui(ui, self.state),
@@ -102,6 +109,7 @@ impl Behavior<Tab> for Tabs<'_> {
                 Tab::Accuracy => accuracy::ui(ui, self.state),
                 Tab::Training => training::ui(ui, self.state),
                 Tab::Transient => transient::ui(ui, self.state),
+                Tab::Tpwl => tpwl::ui(ui, self.state),
             }
         });
         UiResponse::None

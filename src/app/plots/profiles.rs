@@ -281,12 +281,15 @@ fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f
     let (on_axis, height_here) = (elsewhere == 0.0 && direction == Direction::Along, 1.0 - elsewhere * elsewhere);
     let y_title = if direction == Direction::Along { "Pressure {P} = {p}/{p_H}" } else { "" };
     let cut = scene.cut_line(direction, "pressure");
-    let shown = with_legend(stacked(ui, direction, "pressure", height, "", y_title), direction, Corner::LeftTop)
-        .allow_drag(cut.as_ref().is_none_or(|cut| !cut.is_held(ui)))
-        .default_x_bounds(from, to)
-        .default_y_bounds(-0.04 * top, numbers::round_up(1.12 * top))
-        .label_formatter(hover(picture, direction))
-        .show(ui, |plot| {
+    let shown = axes::show(
+        with_legend(stacked(ui, direction, "pressure", height, "", y_title), direction, Corner::LeftTop)
+            .allow_drag(cut.as_ref().is_none_or(|cut| !cut.is_held(ui)))
+            .default_x_bounds(from, to)
+            .default_y_bounds(-0.04 * top, numbers::round_up(1.12 * top))
+            .label_formatter(hover(picture, direction)),
+        ui,
+        &direction.profile_name("Pressure"),
+        |plot| {
             axes::fit(plot, scene.fit);
             if on_axis {
                 cavitated(plot, picture, &palette);
@@ -303,7 +306,8 @@ fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f
             if let Some(cut) = &cut {
                 cut.draw(plot, palette.accent);
             }
-        });
+        },
+    );
     cut?.moved(ui, &shown.response, &shown.transform)
 }
 
@@ -326,12 +330,15 @@ fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) 
     let y_title = if direction == Direction::Along { "Film {H} = {h}{R}/{a}²" } else { "" };
     let cut = scene.cut_line(direction, "film");
     // The inlet's film comes down from the top left.
-    let shown = with_legend(stacked(ui, direction, "film", height, &x_title, y_title), direction, Corner::LeftBottom)
-        .allow_drag(cut.as_ref().is_none_or(|cut| !cut.is_held(ui)))
-        .default_x_bounds(from, to)
-        .default_y_bounds(0.0, numbers::round_up(4.0 * top))
-        .label_formatter(hover(picture, direction))
-        .show(ui, |plot| {
+    let shown = axes::show(
+        with_legend(stacked(ui, direction, "film", height, &x_title, y_title), direction, Corner::LeftBottom)
+            .allow_drag(cut.as_ref().is_none_or(|cut| !cut.is_held(ui)))
+            .default_x_bounds(from, to)
+            .default_y_bounds(0.0, numbers::round_up(4.0 * top))
+            .label_formatter(hover(picture, direction)),
+        ui,
+        &direction.profile_name("Film"),
+        |plot| {
             axes::fit(plot, scene.fit);
             if direction == Direction::Along && elsewhere == 0.0 {
                 cavitated(plot, picture, &palette);
@@ -349,7 +356,8 @@ fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) 
             let room = below < plot.response().rect.bottom();
             let anchor = if room { Align2::CENTER_TOP } else { Align2::RIGHT_BOTTOM };
             mark(plot, (at, scalars.h_min), "{H_min}", live, anchor);
-        });
+        },
+    );
     cut?.moved(ui, &shown.response, &shown.transform)
 }
 
@@ -357,12 +365,16 @@ fn difference_plot(ui: &mut Ui, comparison: &Comparison, wanted: bool, height: f
     let palette = Palette::of(ui);
     let (from, to) = Direction::Along.range();
     let plot = stacked(ui, Direction::Along, "difference", height, "", "Reduced − full");
-    with_legend(plot, Direction::Along, Corner::LeftTop)
-        .default_x_bounds(from, to)
-        .set_margin_fraction(egui::vec2(0.0, 0.08))
-        .show(ui, |plot| {
+    axes::show(
+        with_legend(plot, Direction::Along, Corner::LeftTop)
+            .default_x_bounds(from, to)
+            .set_margin_fraction(egui::vec2(0.0, 0.08)),
+        ui,
+        "Difference of the profiles",
+        |plot| {
             axes::fit(plot, wanted);
             plot.line(curve("ΔP".to_owned(), &comparison.pressure, palette.pressure, 1.4));
             plot.line(curve("ΔH/H_c".to_owned(), &comparison.film, palette.film, 1.4));
-        });
+        },
+    );
 }

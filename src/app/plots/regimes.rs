@@ -103,29 +103,32 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
     let Some((_, lines)) = &state.regimes.lines else { return };
     let texture = state.regimes.texture.as_ref().map(|t| t.2.id());
     let snapshots = state.regimes.snapshots.as_ref().map(|s| s.1.as_slice()).unwrap_or_default();
-    let response = axes::plot(ui, "regimes", chart_height, "Load number {M}", "Lubricant number {L}")
-        .default_x_bounds(M_AXIS.0.log10(), M_AXIS.1.log10())
-        .default_y_bounds(L_AXIS.0.log10(), L_AXIS.1.log10())
-        .allow_drag(!grabbed)
-        .x_grid_spacer(axes::log_marks)
-        .y_grid_spacer(axes::log_marks)
-        .x_axis_formatter(|mark, _| axes::log_label(mark))
-        .y_axis_formatter(|mark, _| axes::log_label(mark))
-        .y_axis_min_width(34.0)
-        .label_formatter(|hover| {
-            let at = match hover {
-                egui_plot::HoverPosition::NearDataPoint { position, .. }
-                | egui_plot::HoverPosition::Elsewhere { position } => position,
-            };
-            let moes = Moes { m: 10f64.powf(at.x), l: 10f64.powf(at.y) };
-            Some(format!(
-                "M {}   L {}\n{}",
-                numbers::significant(moes.m),
-                numbers::significant(moes.l),
-                Regime::of(kind, moes).name().replace('\n', " ")
-            ))
-        })
-        .show(ui, |plot| {
+    let response = axes::show(
+        axes::plot(ui, "regimes", chart_height, "Load number {M}", "Lubricant number {L}")
+            .default_x_bounds(M_AXIS.0.log10(), M_AXIS.1.log10())
+            .default_y_bounds(L_AXIS.0.log10(), L_AXIS.1.log10())
+            .allow_drag(!grabbed)
+            .x_grid_spacer(axes::log_marks)
+            .y_grid_spacer(axes::log_marks)
+            .x_axis_formatter(|mark, _| axes::log_label(mark))
+            .y_axis_formatter(|mark, _| axes::log_label(mark))
+            .y_axis_min_width(34.0)
+            .label_formatter(|hover| {
+                let at = match hover {
+                    egui_plot::HoverPosition::NearDataPoint { position, .. }
+                    | egui_plot::HoverPosition::Elsewhere { position } => position,
+                };
+                let moes = Moes { m: 10f64.powf(at.x), l: 10f64.powf(at.y) };
+                Some(format!(
+                    "M {}   L {}\n{}",
+                    numbers::significant(moes.m),
+                    numbers::significant(moes.l),
+                    Regime::of(kind, moes).name().replace('\n', " ")
+                ))
+            }),
+        ui,
+        "Chart of M and L",
+        |plot| {
             axes::fit(plot, fit);
             if let Some(texture) = texture {
                 image(plot, texture);
@@ -187,9 +190,10 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
             plot.points(
                 Points::new("", vec![current]).id("current").color(palette.accent).radius(5.0).allow_hover(false),
             );
-        });
+        },
+    );
     let transform = response.transform;
-    let response = crate::app::controls::named(ui, response.response, "Chart of M and L");
+    let response = response.response;
     let spot = transform.position_from_point(&at(here));
     let near = |p: egui::Pos2| p.distance(spot) < GRAB_RADIUS;
     let over = response.hover_pos().is_some_and(near) || state.regimes.dragging;

@@ -1,6 +1,7 @@
 //! The methods by which the steps of a contact in time can be solved, and the frames they are solved in, as people call them.
 
 use crate::solver::full::transient::{Frame, Interpolation};
+use crate::solver::reduced::tpwl::{Selection, Weighting};
 
 /// How the steps of a contact in time are solved. A further method slots in here and where the worker builds its model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -10,6 +11,8 @@ pub enum Method {
     Full,
     /// A reduced model that is trained beforehand (RNSA).
     Reduced,
+    /// A superposition of linearised systems (TPWL), by one of its weightings.
+    Linearised(Weighting),
 }
 
 impl Method {
@@ -18,6 +21,8 @@ impl Method {
         match self {
             Self::Full => "full",
             Self::Reduced => "rnsa",
+            Self::Linearised(Weighting::DualTaylor) => "tpwl_dual_taylor",
+            Self::Linearised(Weighting::Dissertation) => "tpwl_dissertation",
         }
     }
 }
@@ -60,5 +65,41 @@ pub fn run_name(method: Method, frame: Frame) -> String {
     match method {
         Method::Full => frame.to_owned(),
         Method::Reduced => format!("{frame}, reduced"),
+        // It lives in the fixed frame alone.
+        Method::Linearised(Weighting::DualTaylor) => "Linearised, dual Taylor".to_owned(),
+        Method::Linearised(Weighting::Dissertation) => "Linearised, weights (4.29)".to_owned(),
+    }
+}
+
+/// Both weightings, the one that errs less first.
+pub const WEIGHTINGS: [Weighting; 2] = [Weighting::DualTaylor, Weighting::Dissertation];
+
+/// A weighting for people, and what it does.
+pub fn weighting_name(weighting: Weighting) -> (&'static str, &'static str) {
+    match weighting {
+        Weighting::DualTaylor => (
+            "Dual Taylor",
+            "The barycentre of near points that is nearest to the state, expansions half about the points and half about it",
+        ),
+        Weighting::Dissertation => {
+            ("Weights (4.29)", "The dissertation’s: sharp exponential weights of all points, none below 0.001")
+        }
+    }
+}
+
+/// Both rules for operating points, with tolerances to begin with.
+pub const RULES: [Selection; 2] = [Selection::Distance { tolerance: 0.02 }, Selection::Step { tolerance: 1e-3 }];
+
+/// A rule for people, and what it does.
+pub fn rule_name(rule: Selection) -> (&'static str, &'static str) {
+    match rule {
+        Selection::Distance { .. } => (
+            "Distance (2.85)",
+            "A state becomes a point when it is far from all points, relative to the nearest one’s norm",
+        ),
+        Selection::Step { .. } => (
+            "Missed step (4.30)",
+            "A state becomes a point when the nearest point’s linearised system misses the step to it, relative to its norm",
+        ),
     }
 }

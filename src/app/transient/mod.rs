@@ -2,21 +2,26 @@
 
 pub mod export;
 pub mod input;
+pub mod linearised;
 pub mod method;
 mod player;
+mod run;
 mod worker;
 
 pub use player::Player;
+pub use run::{ModelSize, Run};
 
 use super::document::{Document, HOME};
 use super::state::State as Window;
 use super::task::{Standing, Task};
 use crate::scene::{At, Grid, Scene, Study, TransientStudy};
 use crate::solver::contact::{ContactKind, OperatingPoint};
-use crate::solver::full::transient::{Frame, Inputs, Keep, Quantity, Signal, State, TimeStep, Trajectory, Transient};
+use crate::solver::full::transient::{Frame, Inputs, Keep, Quantity, Signal, TimeStep, Transient};
 use crate::solver::grid::GridSpec;
 use crate::solver::lubricant::{Lubricant, ShearLaw};
+use crate::solver::reduced::tpwl::Weighting;
 use egui::Context;
+use linearised::{Linearised, NumberStudy};
 use method::Method;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -37,33 +42,6 @@ pub struct Setup {
     pub grid: GridSpec,
 }
 
-/// One method in one frame, as far as it has come.
-pub struct Run {
-    /// How its steps are solved.
-    pub method: Method,
-    /// What has come of it; how it ended counts once it has.
-    pub trajectory: Trajectory,
-    /// Seconds that each moment took.
-    pub seconds: Vec<f64>,
-    /// Whether it has ended.
-    pub ended: bool,
-    /// What a reduced model is made of.
-    pub model: Option<ModelSize>,
-    /// Greatest relative difference of H_c from [`TransientView::reference_of`] it, once it has ended.
-    pub difference: Option<f64>,
-}
-
-/// What a reduced model is made of, and what it took.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ModelSize {
-    /// Pressure modes.
-    pub modes: usize,
-    /// Sampled rows.
-    pub rows: usize,
-    /// Seconds of its training, with the full trajectories of its own.
-    pub training_s: f64,
-}
-
 /// What the window knows of contacts in time.
 #[derive(Default)]
 pub struct TransientView {
@@ -71,8 +49,14 @@ pub struct TransientView {
     pub setup: Option<Arc<Setup>>,
     /// The runs, in their order; the first is what the others are compared with.
     pub runs: Vec<Run>,
+    /// The linearised model of the runs, with what is shown of it.
+    pub linearised: Option<Arc<Linearised>>,
+    /// How many operating points it takes.
+    pub number: NumberStudy,
     /// Why there is nothing, or no more.
     pub message: Option<String>,
+    /// Why a model could not be had of a run.
+    pub notes: Vec<String>,
     /// A field of the form whose entry was refused, and why.
     pub refused: Option<(&'static str, String)>,
     /// The moment that is looked at.
@@ -96,54 +80,17 @@ impl Setup {
     }
 }
 
-impl Run {
-    /// Its name among others.
-    pub fn name(&self) -> String {
-        method::run_name(self.method, self.frame())
-    }
-
-    /// How its domain follows the contact.
-    pub fn frame(&self) -> Frame {
-        self.trajectory.transient.frame
-    }
-
-    /// The last T reached; 0 where not even the start was found.
-    pub fn reached(&self) -> f64 {
-        self.trajectory.moments.last().map_or(0.0, |moment| moment.time)
-    }
-
-    /// The fields last kept at or before T, else the first ones.
-    pub fn state_at(&self, time: f64) -> Option<&State> {
-        // Times of states are those of moments: rounding must not show the one before.
-        let next = self.trajectory.states.partition_point(|state| state.time <= time * (1.0 + 1e-12));
-        self.trajectory.states.get(next.saturating_sub(1))
-    }
-
-    /// X, P and H of its fields in the scales of the reference contact, without the node outside the inlet.
-    pub fn profile<'a>(&'a self, state: &'a State) -> impl Iterator<Item = (f64, f64, f64)> + 'a {
-        let scales = state.scales;
-        let fields = self.trajectory.x.iter().zip(&state.pressure).zip(&state.film).skip(1);
-        fields.map(move |((x, p), h)| (x * scales.half_width, p * scales.pressure, h * scales.film))
-    }
-
-    /// The median of the seconds per step, without the start; `None` before the first step.
-    pub fn seconds_per_step(&self) -> Option<f64> {
-        let mut seconds = self.seconds.get(1..)?.to_vec();
-        let middle = seconds.len() / 2;
-        (middle < seconds.len()).then(|| *seconds.select_nth_unstable_by(middle, f64::total_cmp).1)
-    }
-}
-
 impl TransientView {
     /// Takes in what came since the last frame.
     pub fn receive(&mut self) {
+        self.number.receive();
         let Some(task) = &mut self.task else { return };
-        let runs = &mut self.runs;
+        let (runs, linearised, notes) = (&mut self.runs, &mut self.linearised, &mut self.notes);
         let ending = task.poll(|news| match (news, runs.last_mut()) {
-            (News::Begun { method, trajectory, model }, _) => {
-                let trajectory = *trajectory;
-                runs.push(Run { method, trajectory, seconds: Vec::new(), ended: false, model, difference: None });
-            }
+            (News::Begun { method, trajectory, model }, _) => runs.push(Run::begun(method, *trajectory, model)),
+            (News::Linearised(model), _) => *linearised = Some(model),
+            (News::Refused(why), _) => notes.push(why),
+            (News::Record(record), Some(run)) => run.record = Some(*record),
             (News::Moment(moment, seconds), Some(run)) => {
                 run.trajectory.moments.push(moment);
                 run.seconds.push(seconds);
@@ -154,7 +101,7 @@ impl TransientView {
                 run.trajectory.ended = ended;
                 run.trajectory.rejected_steps = rejected;
             }
-            (News::Moment(..) | News::State(_) | News::Ended(..), None) => {}
+            (News::Moment(..) | News::State(_) | News::Ended(..) | News::Record(_), None) => {}
         });
         for k in 0..self.runs.len() {
             if self.runs[k].ended && self.runs[k].difference.is_none() {
@@ -169,12 +116,12 @@ impl TransientView {
         self.player.reached(reached);
     }
 
-    /// What a run is compared with: a reduced one with the full system in its frame, a full one with the first; `None` for the first itself.
+    /// What a run is compared with: a model with the full system in its frame, a full one with the first; `None` for the first itself.
     pub fn reference_of(&self, k: usize) -> Option<&Run> {
         let (run, earlier) = (self.runs.get(k)?, self.runs.get(..k)?);
         match run.method {
             Method::Full => earlier.first(),
-            Method::Reduced => {
+            Method::Reduced | Method::Linearised(_) => {
                 earlier.iter().find(|other| other.method == Method::Full && other.frame() == run.frame())
             }
         }
@@ -186,22 +133,40 @@ impl TransientView {
         Some(run.trajectory.difference(&reference.trajectory, Quantity::CentralFilm, whole)?.0)
     }
 
+    /// The runs of the linearised model, by their weightings.
+    pub fn linearised_runs(&self) -> impl Iterator<Item = (Weighting, &Run)> {
+        self.runs.iter().filter_map(|run| match run.method {
+            Method::Linearised(weighting) => Some((weighting, run)),
+            Method::Full | Method::Reduced => None,
+        })
+    }
+
+    /// The full run that the linearised ones are compared with.
+    pub fn reference_of_linearised(&self) -> Option<&Run> {
+        let first = self.runs.iter().position(|run| matches!(run.method, Method::Linearised(_)))?;
+        self.reference_of(first)
+    }
+
     /// How far the runs are.
     pub fn standing(&self) -> Option<Standing> {
         self.task.as_ref().map(Task::standing)
     }
 
-    /// Stops the runs; what they have found stays.
+    /// Stops the runs, and the study of their linearised model; what they have found stays.
     pub fn stop(&self) {
         if let Some(task) = &self.task {
             task.stop();
         }
+        self.number.stop();
     }
 
     fn start(&mut self, ctx: &Context, setup: Setup) {
         let setup = Arc::new(setup);
         self.message = None;
+        self.notes.clear();
         self.runs.clear();
+        self.linearised = None;
+        self.number = NumberStudy::default();
         self.generation += 1;
         self.player = Player::default();
         self.task = Some(worker::start(ctx, Arc::clone(&setup)));
@@ -242,7 +207,7 @@ impl Document {
 
     /// The grid of contacts in time: that of a scene of one, else the dissertation's.
     pub fn transient_grid(&self) -> Grid {
-        let scene = self.scene.as_ref().filter(|scene| matches!(scene.study, Study::Transient(_)));
+        let scene = self.scene.as_ref().filter(|scene| matches!(scene.study, Study::Transient(_) | Study::Tpwl(_)));
         scene.map_or(Grid::DISSERTATION, |scene| scene.grid)
     }
 }
@@ -263,14 +228,17 @@ fn breathing() -> TransientStudy {
         frames: vec![Frame::Fixed],
         window: None,
         reduced: None,
+        linearised: None,
         mass_between: None,
+        published: Vec::new(),
     }
 }
 
-/// The contact in time that a scene describes.
+/// The contact in time that a scene describes: of a study of linearised models its first model and its first test.
 pub fn of_scene(scene: &Scene) -> Option<TransientStudy> {
     match &scene.study {
         Study::Transient(study) => Some(study.clone()),
+        Study::Tpwl(study) => linearised::first_of(scene, study),
         _ => None,
     }
 }

@@ -1,20 +1,21 @@
 //! The march of every method in every frame on a thread of its own, told step by step.
 
+use super::linearised::{Linearised, OtherRule};
 use super::method::{Method, run_name};
 use super::{ModelSize, Setup};
 use crate::app::task::{Ending, Reporter, Task};
-use crate::harness::training_states;
-use crate::scene::{ReducedTransient, sampled};
+use crate::harness::{kept_states, train_linearised, training_states};
+use crate::scene::{LinearisedTransient, ReducedTransient, TrainingInputs, sampled};
 use crate::solver::full::Mesh;
 use crate::solver::full::transient::{
-    Ended, FullMarch, Keep, Marching, Moment, State, TimeStep, Trajectory, Transient, TransientObserver, march,
+    Ended, Frame, FullMarch, Keep, Marching, Moment, State, TimeStep, Trajectory, Transient, TransientObserver, march,
 };
 use crate::solver::grid::ReferenceGrid;
+use crate::solver::reduced::tpwl::{TpwlError, TpwlMarch, TpwlRecord};
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel};
-use crate::solver::training::{TrainingError, TrainingObserver, TrajectoryTraining, train_trajectories};
+use crate::solver::training::{TrainingError, TrajectoryTraining, aside, train_trajectories};
 use egui::Context;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// Fields that are kept of a run, evenly over its duration: what the player shows.
@@ -35,6 +36,12 @@ pub enum News {
     Moment(Moment, f64),
     /// Fields of the moment told last.
     State(State),
+    /// The linearised model that comes next.
+    Linearised(Arc<Linearised>),
+    /// What each step of the linearised run drew on.
+    Record(Box<TpwlRecord>),
+    /// A model could not be had, for this reason.
+    Refused(String),
     /// The run has ended, with this number of discarded steps.
     Ended(Ended, usize),
 }
@@ -52,26 +59,82 @@ fn work(setup: &Setup, reporter: &Reporter<News>) -> Ending {
     }
     let grid = setup.grid.build().map_err(said)?;
     for &frame in &study.frames {
-        let keep = match &study.reduced {
-            Some(reduced) if reduced.trainings.is_empty() => training_states(study.duration, study.time_step),
-            _ => Keep::Scalars,
-        };
-        let transient = Transient { inputs: inputs.clone(), keep, ..setup.march(frame) };
+        let transient = Transient { inputs: inputs.clone(), keep: kept_states(study), ..setup.march(frame) };
         let mut model = FullMarch::new(Arc::clone(&grid), &transient).map_err(said)?;
-        let full = run(Method::Full, None, &mut model, &transient, reporter)?;
-        let trained = match &study.reduced {
-            Some(reduced) if full.finished() => train(setup, reduced, &grid, &full, reporter)?,
-            _ => None,
-        };
-        if let Some((model, size)) = trained {
-            let transient = Transient { keep: Keep::Scalars, ..transient };
-            run(Method::Reduced, Some(size), &mut ReducedMarch::new(&model).map_err(said)?, &transient, reporter)?;
+        let full = Arc::new(vec![run(Method::Full, None, &mut model, &transient, reporter)?]);
+        if full.iter().all(Trajectory::finished) {
+            // A model that cannot be had leaves the runs that can.
+            if let Err(why) = models(setup, frame, &grid, &full, reporter) {
+                reporter.send(News::Refused(why));
+            }
         }
         if reporter.cancelled() {
             break;
         }
     }
     Ok(())
+}
+
+/// The reduced and the linearised model of a frame, each trained and marched, after its full run.
+fn models(
+    setup: &Setup,
+    frame: Frame,
+    grid: &Arc<ReferenceGrid>,
+    full: &Arc<Vec<Trajectory>>,
+    reporter: &Reporter<News>,
+) -> Ending {
+    let study = &setup.study;
+    let Some(Trajectory { transient, .. }) = full.first() else { return Ok(()) };
+    let transient = Transient { keep: Keep::Scalars, ..transient.clone() };
+    let linearised = study.linearised.as_ref().filter(|_| frame == Frame::Fixed);
+    let mut shared = None;
+    if let Some(reduced) = &study.reduced {
+        let clock = Instant::now();
+        let Some(trained) = trainings(setup, &reduced.trainings, grid, full, reporter)? else { return Ok(()) };
+        if let Some(model) = train(reduced, grid, &trained, reporter)? {
+            let modes = model.window.pressure.modes.ncols();
+            let (chosen, training_s) = (model.window.sampled_rows.len(), clock.elapsed().as_secs_f64());
+            let size = ModelSize { modes, chosen, what: "rows", training_s };
+            run(Method::Reduced, Some(size), &mut ReducedMarch::new(&model).map_err(said)?, &transient, reporter)?;
+        }
+        shared = linearised.is_some_and(|linearised| linearised.trainings == reduced.trainings).then_some(trained);
+    }
+    let Some(linearised) = linearised.filter(|_| !reporter.cancelled()) else { return Ok(()) };
+    let clock = Instant::now();
+    let trained = match shared {
+        Some(trained) => Some(trained),
+        None => trainings(setup, &linearised.trainings, grid, full, reporter)?,
+    };
+    let Some(trained) = trained else { return Ok(()) };
+    reporter.stage("Linearised model from the trajectories", 0, 0);
+    let Some(shown) = linearise(linearised, trained, reporter)? else { return Ok(()) };
+    let model = Arc::clone(&shown.model);
+    reporter.send(News::Linearised(Arc::new(shown)));
+    let (modes, chosen, training_s) = (model.space.modes(), model.points.len(), clock.elapsed().as_secs_f64());
+    let size = ModelSize { modes, chosen, what: "operating points", training_s };
+    for &weighting in &linearised.weightings {
+        let mut march = TpwlMarch::new(&model, &transient, weighting).map_err(said)?;
+        run(Method::Linearised(weighting), Some(size), &mut march, &transient, reporter)?;
+        reporter.send(News::Record(Box::new(march.record().clone())));
+    }
+    Ok(())
+}
+
+/// The linearised model of trajectories, with what the other rule would choose; `None` when it was stopped.
+fn linearise(
+    linearised: &LinearisedTransient,
+    trained: Arc<Vec<Trajectory>>,
+    reporter: &Reporter<News>,
+) -> Result<Option<Linearised>, String> {
+    let settings = linearised.clone();
+    let made = aside(&reporter.observer(), move || {
+        let model = train_linearised(&settings, &trained.iter().collect::<Vec<_>>())?;
+        let other = OtherRule::of(&model);
+        let trainings = trained.iter().map(|trajectory| trajectory.moments.clone()).collect();
+        Ok(Linearised { model: Arc::new(model), trainings, own: settings.trainings.is_empty(), other })
+    });
+    // What cannot be interrupted is left to itself when the work is stopped.
+    made.map_or(Ok(None), |made| made.map(Some).map_err(|error: TpwlError| said(error)))
 }
 
 fn said(error: impl std::fmt::Display) -> String {
@@ -104,17 +167,17 @@ fn run(
     Ok(trajectory)
 }
 
-/// The reduced model of a frame, from trainings of its own or from the full trajectory that it shall reproduce; `None` when it was stopped.
-fn train(
+/// The trajectories that a model of a frame is trained by: those along given inputs, else the full run itself; `None` when it was stopped.
+fn trainings(
     setup: &Setup,
-    reduced: &ReducedTransient,
+    trainings: &[TrainingInputs],
     grid: &Arc<ReferenceGrid>,
-    own: &Trajectory,
+    full: &Arc<Vec<Trajectory>>,
     reporter: &Reporter<News>,
-) -> Result<Option<(TrajectoryModel, ModelSize)>, String> {
-    let clock = Instant::now();
-    let mut trainings = Vec::new();
-    for (k, training) in reduced.trainings.iter().enumerate() {
+) -> Result<Option<Arc<Vec<Trajectory>>>, String> {
+    let Some(own) = full.first().filter(|_| !trainings.is_empty()) else { return Ok(Some(Arc::clone(full))) };
+    let mut marched = Vec::new();
+    for (k, training) in trainings.iter().enumerate() {
         let point = match training.at {
             Some(at) => at.with_alpha_of(&setup.lubricant).point(setup.point.kind).map_err(said)?,
             None => setup.point,
@@ -123,38 +186,37 @@ fn train(
             point,
             inputs: training.inputs.clone(),
             duration: training.duration,
-            keep: training_states(training.duration, setup.study.time_step),
+            keep: training_states(&setup.study, training.duration),
             ..own.transient.clone()
         };
-        let stage = format!("Training {} of {}", k + 1, reduced.trainings.len());
-        let mut watch = Watch::new(stage, &transient, reporter, false);
+        let stage = format!("Training {} of {}", k + 1, trainings.len());
+        let mut watch = Watch::new(stage.clone(), &transient, reporter, false);
         let mut model = FullMarch::new(Arc::clone(grid), &transient).map_err(said)?;
-        trainings.push(march(&mut model, &transient, &mut watch).map_err(said)?);
+        let trajectory = march(&mut model, &transient, &mut watch).map_err(said)?;
         if reporter.cancelled() {
             return Ok(None);
         }
-    }
-    reporter.stage("Reduced model from the trajectories", 0, 0);
-    let settings = TrajectoryTraining { loss: reduced.loss, rows_per_mode: reduced.rows_per_mode, seed: reduced.seed };
-    let all = if trainings.is_empty() { std::slice::from_ref(own) } else { &trainings[..] };
-    match train_trajectories(grid, all, &settings, &Stop(reporter.observer())) {
-        Ok(model) => {
-            let modes = model.window.pressure.modes.ncols();
-            let rows = model.window.sampled_rows.len();
-            let size = ModelSize { modes, rows, training_s: clock.elapsed().as_secs_f64() };
-            Ok(Some((model, size)))
+        if !trajectory.finished() {
+            return Err(format!("{stage} {}", trajectory.ended.describe()));
         }
-        Err(TrainingError::Cancelled) => Ok(None),
-        Err(error) => Err(said(error)),
+        marched.push(trajectory);
     }
+    Ok(Some(Arc::new(marched)))
 }
 
-/// Stops a training along with the work.
-struct Stop<'a>(&'a AtomicBool);
-
-impl TrainingObserver for Stop<'_> {
-    fn cancelled(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
+/// The reduced model of a frame; `None` when it was stopped.
+fn train(
+    reduced: &ReducedTransient,
+    grid: &Arc<ReferenceGrid>,
+    trained: &[Trajectory],
+    reporter: &Reporter<News>,
+) -> Result<Option<TrajectoryModel>, String> {
+    reporter.stage("Reduced model from the trajectories", 0, 0);
+    let settings = TrajectoryTraining { loss: reduced.loss, rows_per_mode: reduced.rows_per_mode, seed: reduced.seed };
+    match train_trajectories(grid, trained, &settings, &reporter.observer()) {
+        Ok(model) => Ok(Some(model)),
+        Err(TrainingError::Cancelled) => Ok(None),
+        Err(error) => Err(said(error)),
     }
 }
 

@@ -14,7 +14,7 @@ const PATIENCE: Duration = Duration::from_millis(10);
 ///
 /// # Errors
 /// When the observer cancels.
-pub(super) fn aside<T: Send + 'static>(
+pub fn aside<T: Send + 'static>(
     observer: &dyn TrainingObserver,
     work: impl FnOnce() -> T + Send + 'static,
 ) -> Result<T, TrainingError> {

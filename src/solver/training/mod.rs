@@ -20,11 +20,13 @@ mod split;
 mod state;
 #[cfg(test)]
 mod tests;
+mod traction;
 mod trajectories;
 #[cfg(test)]
 mod trajectories_tests;
 
 pub use adaptive::{BadPoint, Search};
+pub use aside::aside;
 pub use build::train;
 pub use calibrate::EVIDENCE;
 pub use indicator::Indicator;
@@ -39,6 +41,7 @@ use super::lubricant::Lubricant;
 use super::reduced::{Domain, Sampling};
 use super::reynolds::PENALTY;
 use serde::{Deserialize, Serialize};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Where the training solutions are taken.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -252,6 +255,13 @@ pub trait TrainingObserver: Sync {
 }
 
 impl TrainingObserver for () {}
+
+/// Stops a training from another thread.
+impl TrainingObserver for &AtomicBool {
+    fn cancelled(&self) -> bool {
+        self.load(Ordering::Relaxed)
+    }
+}
 
 /// Why a training gives no model.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

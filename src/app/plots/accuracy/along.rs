@@ -2,7 +2,7 @@
 
 use super::random_tests::trained_range;
 use super::{CONTACT_COLUMNS, Running, contact_cells, count, progress, run_or_stop, stale_note};
-use crate::app::controls::{message_ui, named};
+use crate::app::controls::message_ui;
 use crate::app::export;
 use crate::app::files::Purpose;
 use crate::app::in_use::{InUse, Solvers};
@@ -261,11 +261,15 @@ fn film_plot(ui: &mut Ui, results: &Results, stale: bool, height: f32) {
     let palette = Palette::of(ui);
     let color = if stale { palette.reference } else { palette.film };
     let full = if stale { palette.reference } else { palette.over(palette.film) };
-    let response = linked(ui, "trajectory film", height.max(90.0), "", "Film {H_c}").include_y(0.0).show(ui, |plot| {
-        draw(plot, "Reduced model", pieces(&results.steps, |s| s.reduced), (color, LIVE_WIDTH, LineStyle::Solid));
-        draw(plot, "Full solution", pieces(&results.steps, |s| s.full), (full, FULL_WIDTH, LineStyle::Solid));
-    });
-    named(ui, response.response, "Film along the trajectory");
+    axes::show(
+        linked(ui, "trajectory film", height.max(90.0), "", "Film {H_c}").include_y(0.0),
+        ui,
+        "Film along the trajectory",
+        |plot| {
+            draw(plot, "Reduced model", pieces(&results.steps, |s| s.reduced), (color, LIVE_WIDTH, LineStyle::Solid));
+            draw(plot, "Full solution", pieces(&results.steps, |s| s.full), (full, FULL_WIDTH, LineStyle::Solid));
+        },
+    );
 }
 
 fn error_plot(ui: &mut Ui, results: &Results, stale: bool, height: f32) {
@@ -273,10 +277,13 @@ fn error_plot(ui: &mut Ui, results: &Results, stale: bool, height: f32) {
     let grey = |color| if stale { palette.reference } else { color };
     // Smaller errors are the full solver's own tolerance, and zero has no logarithm.
     let log = |value: Option<f64>| value.map(|v| v.max(1e-12).log10());
-    let response = linked(ui, "trajectory error", height, "{c}", "Relative error of {H_c}")
-        .y_grid_spacer(axes::decade_marks)
-        .y_axis_formatter(|mark, _| axes::decade_label(mark))
-        .show(ui, |plot| {
+    axes::show(
+        linked(ui, "trajectory error", height, "{c}", "Relative error of {H_c}")
+            .y_grid_spacer(axes::decade_marks)
+            .y_axis_formatter(|mark, _| axes::decade_label(mark)),
+        ui,
+        "Error along the trajectory",
+        |plot| {
             let truth = pieces(&results.steps, |s| log(s.error()));
             draw(plot, "True error", truth, (grey(palette.film), 1.8, LineStyle::Solid));
             let bound = pieces(&results.steps, |s| log(s.bound));
@@ -285,8 +292,8 @@ fn error_plot(ui: &mut Ui, results: &Results, stale: bool, height: f32) {
             for (k, step) in failed.enumerate() {
                 plot.vline(VLine::new("failed", step.c).color(grey(palette.wrong)).width(1.0).id(("failed", k)));
             }
-        });
-    named(ui, response.response, "Error along the trajectory");
+        },
+    );
 }
 
 fn csv(results: &Results) -> String {

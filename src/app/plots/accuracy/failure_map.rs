@@ -3,7 +3,6 @@
 use super::random_tests::{Results, Test};
 use super::worst::Worst;
 use super::{CONTACT_COLUMNS, contact_cells, tests_toolbar, worst};
-use crate::app::controls::named;
 use crate::app::export;
 use crate::app::files::Purpose;
 use crate::app::in_use::InUse;
@@ -171,17 +170,20 @@ fn chart(ui: &mut Ui, map: &Map, results: &Results, here: Moes, height: f32, sta
     let palette = Palette::of(ui);
     let dark = ui.visuals().dark_mode;
     let grey = |color: Color32| if stale { palette.reference } else { color };
-    let response = axes::plot(ui, "failure map", height, "Load number {M}", "Lubricant number {L}")
-        .legend(Legend::default().position(Corner::RightTop).follow_insertion_order(true).background_alpha(0.6))
-        .x_grid_spacer(axes::log_marks)
-        .x_axis_formatter(|mark, _| axes::log_label(mark))
-        .y_axis_min_width(34.0)
-        .set_margin_fraction(egui::vec2(0.03, 0.05))
-        .label_formatter(|hover| match hover {
-            HoverPosition::NearDataPoint { position, .. } => label(results, *position),
-            HoverPosition::Elsewhere { .. } => None,
-        })
-        .show(ui, |plot| {
+    let response = axes::show(
+        axes::plot(ui, "failure map", height, "Load number {M}", "Lubricant number {L}")
+            .legend(Legend::default().position(Corner::RightTop).follow_insertion_order(true).background_alpha(0.6))
+            .x_grid_spacer(axes::log_marks)
+            .x_axis_formatter(|mark, _| axes::log_label(mark))
+            .y_axis_min_width(34.0)
+            .set_margin_fraction(egui::vec2(0.03, 0.05))
+            .label_formatter(|hover| match hover {
+                HoverPosition::NearDataPoint { position, .. } => label(results, *position),
+                HoverPosition::Elsewhere { .. } => None,
+            }),
+        ui,
+        "Map of the random tests",
+        |plot| {
             let unknown = Points::new("not compared", PlotPoints::Borrowed(&drawn.unknown));
             if !drawn.unknown.is_empty() {
                 plot.points(unknown.color(palette.grid).radius(2.0));
@@ -196,9 +198,10 @@ fn chart(ui: &mut Ui, map: &Map, results: &Results, here: Moes, height: f32, sta
             }
             let ring = Points::new("", vec![[at(here).x, at(here).y]]).id("here").color(palette.accent).radius(8.0);
             plot.points(ring.filled(false).shape(MarkerShape::Circle).allow_hover(false));
-        });
+        },
+    );
     let transform = response.transform;
-    let response = named(ui, response.response, "Map of the random tests");
+    let response = response.response;
     let response = response.on_hover_cursor(egui::CursorIcon::Crosshair);
     let pointer = response.interact_pointer_pos().filter(|_| response.clicked())?;
     nearest(results, |moes| transform.position_from_point(&at(moes)).distance(pointer)).map(|test| test.point)

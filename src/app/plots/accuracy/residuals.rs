@@ -86,12 +86,15 @@ fn residual_plot(ui: &mut Ui, residuals: &[f64], steps: &[f64], current: bool) {
     };
     let series = [("Residual", residuals, palette.accent), ("Relative step", steps, palette.reference)];
     let height = (ui.available_height() - 4.0).max(120.0);
-    axes::plot(ui, "residuals", height, "Newton step", "Residual, relative step")
-        .legend(Legend::default().position(Corner::RightTop).follow_insertion_order(true))
-        .y_grid_spacer(axes::decade_marks)
-        .y_axis_formatter(|mark, _| axes::decade_label(mark))
-        .auto_bounds(egui::Vec2b::TRUE)
-        .show(ui, |plot| {
+    axes::show(
+        axes::plot(ui, "residuals", height, "Newton step", "Residual, relative step")
+            .legend(Legend::default().position(Corner::RightTop).follow_insertion_order(true))
+            .y_grid_spacer(axes::decade_marks)
+            .y_axis_formatter(|mark, _| axes::decade_label(mark))
+            .auto_bounds(egui::Vec2b::TRUE),
+        ui,
+        "Newton residuals of the last solve",
+        |plot| {
             for (name, values, color) in series {
                 let color = if current { color } else { palette.reference };
                 let points = log(values);
@@ -100,5 +103,6 @@ fn residual_plot(ui: &mut Ui, residuals: &[f64], steps: &[f64], current: bool) {
                     Points::new(name, points).color(color).radius(3.0).shape(MarkerShape::Circle).id((name, 1)),
                 );
             }
-        });
+        },
+    );
 }

@@ -1,7 +1,7 @@
 //! Where the error of this contact comes from: basis, projection, sampling and discretisation beside each other.
 
 use super::{Running, run_or_stop, stale_note};
-use crate::app::controls::{message_ui, named, sentence, spoken, warning_ui};
+use crate::app::controls::{message_ui, sentence, spoken, warning_ui};
 use crate::app::export;
 use crate::app::files::Purpose;
 use crate::app::in_use::InUse;
@@ -241,23 +241,26 @@ fn bar_plot(ui: &mut Ui, (symbol, name): (&str, &str), values: &[f64; 6], look: 
         4 => palette.reference,
         _ => palette.film,
     };
-    let response = axes::plot(ui, name, height, &title, "")
-        .default_x_bounds(low, end)
-        .default_y_bounds(at(5) - 0.6, 0.6)
-        .auto_bounds(Vec2b::FALSE)
-        .allow_drag(false)
-        .allow_zoom(false)
-        .allow_boxed_zoom(false)
-        .allow_double_click_reset(false)
-        .show_x(false)
-        .show_y(false)
-        .x_grid_spacer(move |input| axes::few_decade_marks(input, marks))
-        .x_axis_formatter(|mark, _| axes::decade_label(mark))
-        .y_grid_spacer(|_| (0..ROWS.len()).map(|k| GridMark { value: -(k as f64), step_size: 1.0 }).collect())
-        .y_axis_formatter(move |mark, _| if rows { row_name(mark.value) } else { String::new() })
-        .y_axis_min_width(if rows { NAMES - 8.0 } else { 6.0 })
-        .label_formatter(|_| None)
-        .show(ui, |plot| {
+    axes::show(
+        axes::plot(ui, name, height, &title, "")
+            .default_x_bounds(low, end)
+            .default_y_bounds(at(5) - 0.6, 0.6)
+            .auto_bounds(Vec2b::FALSE)
+            .allow_drag(false)
+            .allow_zoom(false)
+            .allow_boxed_zoom(false)
+            .allow_double_click_reset(false)
+            .show_x(false)
+            .show_y(false)
+            .x_grid_spacer(move |input| axes::few_decade_marks(input, marks))
+            .x_axis_formatter(|mark, _| axes::decade_label(mark))
+            .y_grid_spacer(|_| (0..ROWS.len()).map(|k| GridMark { value: -(k as f64), step_size: 1.0 }).collect())
+            .y_axis_formatter(move |mark, _| if rows { row_name(mark.value) } else { String::new() })
+            .y_axis_min_width(if rows { NAMES - 8.0 } else { 6.0 })
+            .label_formatter(|_| None),
+        ui,
+        name,
+        |plot| {
             plot.set_plot_bounds_x(low..=end);
             let bars = values.iter().enumerate().filter_map(|(row, value)| {
                 let length = value.abs().log10() - low;
@@ -272,8 +275,8 @@ fn bar_plot(ui: &mut Ui, (symbol, name): (&str, &str), values: &[f64; 6], look: 
                 let label = Text::new("", PlotPoint::new(x, at(row)), text).anchor(Align2::LEFT_CENTER);
                 plot.text(label.id(("value", row)).allow_hover(false));
             }
-        });
-    named(ui, response.response, name);
+        },
+    );
 }
 
 fn ui_text(palette: &Palette, current: bool) -> egui::Color32 {

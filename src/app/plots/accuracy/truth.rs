@@ -3,7 +3,7 @@
 use super::failure_map::{By, csv, stamp, summary};
 use super::random_tests::Results;
 use super::tests_toolbar;
-use crate::app::controls::{named, spoken};
+use crate::app::controls::spoken;
 use crate::app::files::Purpose;
 use crate::app::in_use::InUse;
 use crate::app::numbers;
@@ -141,22 +141,25 @@ fn scatter(ui: &mut Ui, shown: &Shown, stale: bool) {
     let grey = |color| if stale { palette.reference } else { color };
     let (low, high) = shown.line;
     let height = (ui.available_height() - 4.0).max(150.0);
-    let response = axes::plot(ui, "truth", height, "True relative error of {H_c}", "Bound on the error of {H_c}")
-        .legend(Legend::default().position(Corner::LeftTop).follow_insertion_order(true).background_alpha(0.6))
-        .x_grid_spacer(axes::decade_marks)
-        .x_axis_formatter(|mark, _| axes::decade_label(mark))
-        .y_grid_spacer(axes::decade_marks)
-        .y_axis_formatter(|mark, _| axes::decade_label(mark))
-        .auto_bounds(Vec2b::TRUE)
-        .label_formatter(|hover| match hover {
-            egui_plot::HoverPosition::NearDataPoint { position, .. } => Some(format!(
-                "true error {}\nbound {}",
-                numbers::error_percent(10f64.powf(position.x)),
-                numbers::error_percent(10f64.powf(position.y))
-            )),
-            egui_plot::HoverPosition::Elsewhere { .. } => None,
-        })
-        .show(ui, |plot| {
+    axes::show(
+        axes::plot(ui, "truth", height, "True relative error of {H_c}", "Bound on the error of {H_c}")
+            .legend(Legend::default().position(Corner::LeftTop).follow_insertion_order(true).background_alpha(0.6))
+            .x_grid_spacer(axes::decade_marks)
+            .x_axis_formatter(|mark, _| axes::decade_label(mark))
+            .y_grid_spacer(axes::decade_marks)
+            .y_axis_formatter(|mark, _| axes::decade_label(mark))
+            .auto_bounds(Vec2b::TRUE)
+            .label_formatter(|hover| match hover {
+                egui_plot::HoverPosition::NearDataPoint { position, .. } => Some(format!(
+                    "true error {}\nbound {}",
+                    numbers::error_percent(10f64.powf(position.x)),
+                    numbers::error_percent(10f64.powf(position.y))
+                )),
+                egui_plot::HoverPosition::Elsewhere { .. } => None,
+            }),
+        ui,
+        "Bound against true error",
+        |plot| {
             // Perfect bounds, as far as there are truths.
             let identity = Line::new("bound = truth", vec![[low, low], [high, high]]).color(palette.reference);
             plot.line(identity.width(1.2).style(LineStyle::dashed_dense()).allow_hover(false));
@@ -168,8 +171,8 @@ fn scatter(ui: &mut Ui, shown: &Shown, stale: bool) {
                 let points = Points::new(name, PlotPoints::Borrowed(points));
                 plot.points(points.color(grey(color)).radius(2.8).shape(shape));
             }
-        });
-    named(ui, response.response, "Bound against true error");
+        },
+    );
 }
 
 #[cfg(test)]

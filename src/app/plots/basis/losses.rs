@@ -50,30 +50,35 @@ pub fn loss_plot(ui: &mut Ui, state: &mut State, window: &Window, height: f32) {
     let options = state.reduced_options();
     let dragging = state.basis.dragging;
     let fit = state.fit_plots;
-    let shown = log_plot(ui, "loss", height, "Loss of information").allow_drag(dragging.is_none()).show(ui, |plot| {
-        axes::fit(plot, fit);
-        for (field, points) in [Field::Pressure, Field::Deformation].into_iter().zip(&curves.loss) {
-            let color = field.color(&palette);
-            plot.line(Line::new(field.name(), PlotPoints::Borrowed(points)).color(color).width(1.8));
-        }
-        for (field, level) in &lines {
-            let color = field.color(&palette);
-            let width = if dragging == Some(*field) { 2.6 } else { 1.4 };
-            let line = HLine::new("", *level).id(("tolerance", field.name()));
-            plot.hline(line.color(color).width(width).style(LineStyle::dashed_dense()).allow_hover(false));
-            let place = PlotPoint::new(1.0, *level);
-            let text = RichText::new(format!("tolerance {}", numbers::digits(10f64.powf(*level), 1))).size(11.0);
-            let label = Text::new("", place, text.color(color)).anchor(Align2::LEFT_TOP);
-            plot.text(label.id(("tolerance label", field.name())).allow_hover(false));
-        }
-        if let Some(kept) = options.pressure_modes {
-            let line = VLine::new("", kept as f64).id("kept").color(palette.pressure).width(1.0);
-            plot.vline(line.style(LineStyle::dotted_dense()).allow_hover(false));
-        }
-    });
+    let shown = axes::show(
+        log_plot(ui, "loss", height, "Loss of information").allow_drag(dragging.is_none()),
+        ui,
+        "Loss of information and tolerances",
+        |plot| {
+            axes::fit(plot, fit);
+            for (field, points) in [Field::Pressure, Field::Deformation].into_iter().zip(&curves.loss) {
+                let color = field.color(&palette);
+                plot.line(Line::new(field.name(), PlotPoints::Borrowed(points)).color(color).width(1.8));
+            }
+            for (field, level) in &lines {
+                let color = field.color(&palette);
+                let width = if dragging == Some(*field) { 2.6 } else { 1.4 };
+                let line = HLine::new("", *level).id(("tolerance", field.name()));
+                plot.hline(line.color(color).width(width).style(LineStyle::dashed_dense()).allow_hover(false));
+                let place = PlotPoint::new(1.0, *level);
+                let text = RichText::new(format!("tolerance {}", numbers::digits(10f64.powf(*level), 1))).size(11.0);
+                let label = Text::new("", place, text.color(color)).anchor(Align2::LEFT_TOP);
+                plot.text(label.id(("tolerance label", field.name())).allow_hover(false));
+            }
+            if let Some(kept) = options.pressure_modes {
+                let line = VLine::new("", kept as f64).id("kept").color(palette.pressure).width(1.0);
+                plot.vline(line.style(LineStyle::dotted_dense()).allow_hover(false));
+            }
+        },
+    );
     let transform = shown.transform;
     let tip = "Drag the dashed tolerance: the model is truncated at once and profiles, error and time per solve answer";
-    let response = crate::app::controls::named(ui, shown.response, "Loss of information and tolerances");
+    let response = shown.response;
     let near = |y: f32| {
         lines.iter().find(|(_, level)| (transform.position_from_point(&PlotPoint::new(0.0, *level)).y - y).abs() < GRAB)
     };
@@ -105,7 +110,7 @@ pub fn singular_plot(ui: &mut Ui, state: &State, height: f32) {
     let palette = Palette::of(ui);
     let Some(curves) = &state.basis.curves else { return };
     let fit = state.fit_plots;
-    log_plot(ui, "singular values", height, "Singular value {σ}/{σ_1}").show(ui, |plot| {
+    axes::show(log_plot(ui, "singular values", height, "Singular value {σ}/{σ_1}"), ui, "Singular values", |plot| {
         axes::fit(plot, fit);
         for (field, points) in [Field::Pressure, Field::Deformation].into_iter().zip(&curves.singular) {
             let color = field.color(&palette);

@@ -93,10 +93,13 @@ fn shapes(
         Some(_) => ("Reference coordinate {ξ}", "modes"),
         None => ("{X} = {x}/{a}, on the axis {Y} = 0", "modes on the axis"),
     };
-    axes::plot(ui, id, height, x_title, "Mode, scaled to 1")
-        .legend(Legend::default().position(Corner::LeftTop).follow_insertion_order(true).background_alpha(0.6))
-        .default_x_bounds(-2.2, 1.6)
-        .show(ui, |plot| {
+    axes::show(
+        axes::plot(ui, id, height, x_title, "Mode, scaled to 1")
+            .legend(Legend::default().position(Corner::LeftTop).follow_insertion_order(true).background_alpha(0.6))
+            .default_x_bounds(-2.2, 1.6),
+        ui,
+        "Mode shapes",
+        |plot| {
             axes::fit(plot, fit);
             for (_, k, points) in shown {
                 let fade = 1.0 - 0.24 * (k - first) as f32;
@@ -107,7 +110,8 @@ fn shapes(
                 let marks = Points::new("Sampled rows", PlotPoints::Borrowed(rows));
                 plot.points(marks.color(color).radius(3.0).shape(MarkerShape::Up));
             }
-        });
+        },
+    );
 }
 
 /// One mode along the axis Y = 0, scaled to a largest magnitude of one: its weights make the columns themselves hard to compare.

@@ -1,7 +1,6 @@
 //! A mode of a point contact over the plane, with the rows that the reduced model evaluates.
 
 use super::Field;
-use crate::app::controls::named;
 use crate::app::plots::axes;
 use crate::app::plots::raster::Raster;
 use crate::app::theme::Palette;
@@ -40,11 +39,14 @@ impl ModeMap {
             self.texture = Some(ui.ctx().load_texture("mode", image, TextureOptions::LINEAR));
             self.made_of = Some((field, mode, ground));
         }
-        let shown = axes::plot(ui, "mode in the plane", height, "{X} = {x}/{a}", "{Y} = {y}/{a}")
-            .data_aspect(1.0)
-            .default_x_bounds(RANGE.0, RANGE.1)
-            .default_y_bounds(RANGE.0, RANGE.1)
-            .show(ui, |plot| {
+        let shown = axes::show(
+            axes::plot(ui, "mode in the plane", height, "{X} = {x}/{a}", "{Y} = {y}/{a}")
+                .data_aspect(1.0)
+                .default_x_bounds(RANGE.0, RANGE.1)
+                .default_y_bounds(RANGE.0, RANGE.1),
+            ui,
+            "Mode and sampled rows on the plane",
+            |plot| {
                 axes::fit(plot, fit);
                 if let (Some(texture), [from, .., to], [edge, ..]) =
                     (&self.texture, grid.x.as_slice(), grid.y.as_slice())
@@ -59,10 +61,11 @@ impl ModeMap {
                 plot.line(hertz.style(LineStyle::dashed_dense()).allow_hover(false));
                 let marks = Points::new("Sampled rows", PlotPoints::Borrowed(rows));
                 plot.points(marks.color(palette.accent).radius(1.6).shape(MarkerShape::Circle));
-            });
+            },
+        );
         let tip = "The first of the chosen modes, coloured where it is positive and grey where it is negative; marks are the sampled rows of \
             the Reynolds equation and their mirror images, the dashed circle is the Hertzian contact";
-        named(ui, shown.response, "Mode and sampled rows on the plane").on_hover_text(tip);
+        shown.response.on_hover_text(tip);
     }
 }
 

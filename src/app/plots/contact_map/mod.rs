@@ -221,13 +221,16 @@ impl Drawing<'_> {
     fn ui(&self, ui: &mut Ui, height: f32) -> (Response, PlotTransform) {
         let palette = Palette::of(ui);
         let Self { picture, images, view, cuts, fit, stale } = *self;
-        let shown = axes::plot(ui, "contact map", height, "{X} = {x}/{a}", "{Y} = {y}/{a}")
-            .data_aspect(1.0)
-            .default_x_bounds(X_RANGE.0, X_RANGE.1)
-            .default_y_bounds(Y_RANGE.0, Y_RANGE.1)
-            .allow_drag(!images.is_dragging())
-            .label_formatter(|at| hover(picture, &view, at))
-            .show(ui, |plot| {
+        let shown = axes::show(
+            axes::plot(ui, "contact map", height, "{X} = {x}/{a}", "{Y} = {y}/{a}")
+                .data_aspect(1.0)
+                .default_x_bounds(X_RANGE.0, X_RANGE.1)
+                .default_y_bounds(Y_RANGE.0, Y_RANGE.1)
+                .allow_drag(!images.is_dragging())
+                .label_formatter(|at| hover(picture, &view, at)),
+            ui,
+            "Map of the contact",
+            |plot| {
                 axes::fit(plot, fit);
                 image(plot, images, stale);
                 contour_lines(plot, images);
@@ -238,8 +241,9 @@ impl Drawing<'_> {
                 let color = if view.shown == Shown::Interferogram { Color32::WHITE } else { palette.accent };
                 plot.vline(VLine::new("", cuts.x).id("cut x").color(color).width(1.6).allow_hover(false));
                 plot.hline(HLine::new("", cuts.y).id("cut y").color(color).width(1.6).allow_hover(false));
-            });
-        let response = named(ui, shown.response, "Map of the contact");
+            },
+        );
+        let response = shown.response;
         (described(ui, response, &spoken(picture, &view)), shown.transform)
     }
 }

@@ -1,7 +1,6 @@
 //! The two plots: traction above, film below, on one axis; a press in either goes to a contact.
 
 use super::Shown;
-use crate::app::controls::named;
 use crate::app::jobs::Key;
 use crate::app::numbers;
 use crate::app::plots::axes;
@@ -127,7 +126,7 @@ impl Chart<'_> {
         let palette = Palette::of(ui);
         let marks = f64::from((ui.available_width() / 90.0).clamp(3.0, 9.0));
         let current = axes.along(axes.against.of(&state.key()));
-        let response = self.plot(ui, axes, height, marks).show(ui, |plot| {
+        let response = axes::show(self.plot(ui, axes, height, marks), ui, self.name, |plot| {
             axes::fit(plot, state.fit_plots);
             if let Some(current) = current {
                 let line = VLine::new("", current).id("here line").color(palette.accent).width(1.0);
@@ -152,7 +151,7 @@ impl Chart<'_> {
             }
         });
         let transform = response.transform;
-        let response = named(ui, response.response, self.name);
+        let response = response.response;
         let held = response.is_pointer_button_down_on() && ui.input(|i| i.pointer.button_down(PointerButton::Primary));
         if response.hovered() {
             ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);

@@ -1,6 +1,5 @@
 //! The laws of the fluid: how its viscosity rises with pressure and falls with shear stress, and how much of both this contact meets.
 
-use crate::app::controls::named;
 use crate::app::numbers;
 use crate::app::plots::axes;
 use crate::app::state::State;
@@ -92,7 +91,7 @@ fn pressure_plot(ui: &mut Ui, met: &Met, height: f32, fit: bool) {
     let curve: Vec<[f64; 2]> =
         (0..SAMPLES).map(|k| end * k as f64 / (SAMPLES - 1) as f64).map(|p| [1e-9 * p, viscosity(p).log10()]).collect();
     let marks = f64::from((ui.available_width() / 90.0).clamp(3.0, 8.0));
-    let response =
+    axes::show(
         logarithmic(ui, "viscosity and pressure", height, "Pressure {p} in GPa", "Viscosity at rest µ in Pa·s")
             .x_grid_spacer(move |input| axes::round_marks(input, marks))
             .label_formatter(|at| {
@@ -101,22 +100,24 @@ fn pressure_plot(ui: &mut Ui, met: &Met, height: f32, fit: bool) {
                     numbers::significant(place(at)[0]),
                     numbers::significant(10f64.powf(place(at)[1]))
                 ))
-            })
-            .show(ui, |plot| {
-                axes::fit(plot, fit);
-                plot.span(
-                    Span::new("met here", 0.0..=1e-9 * met.pressure_pa)
-                        .fill(palette.accent.gamma_multiply(0.14))
-                        .border_width(0.0),
-                );
-                plot.line(Line::new("µ(p)", curve).color(palette.pressure).width(LIVE_WIDTH).allow_band(false));
-                let line = VLine::new("p_H", 1e-9 * hertz_pa).color(palette.reference).width(THIN_WIDTH);
-                plot.vline(line.style(LineStyle::dashed_dense()).allow_hover(false));
-                let at = PlotPoint::new(1e-9 * hertz_pa, viscosity(0.0).log10());
-                let name = Text::new("", at, rich(" {p_H}", 12.5, palette.quiet));
-                plot.text(name.anchor(Align2::LEFT_BOTTOM).id("Hertz").allow_hover(false));
-            });
-    named(ui, response.response, "Viscosity against pressure");
+            }),
+        ui,
+        "Viscosity against pressure",
+        |plot| {
+            axes::fit(plot, fit);
+            plot.span(
+                Span::new("met here", 0.0..=1e-9 * met.pressure_pa)
+                    .fill(palette.accent.gamma_multiply(0.14))
+                    .border_width(0.0),
+            );
+            plot.line(Line::new("µ(p)", curve).color(palette.pressure).width(LIVE_WIDTH).allow_band(false));
+            let line = VLine::new("p_H", 1e-9 * hertz_pa).color(palette.reference).width(THIN_WIDTH);
+            plot.vline(line.style(LineStyle::dashed_dense()).allow_hover(false));
+            let at = PlotPoint::new(1e-9 * hertz_pa, viscosity(0.0).log10());
+            let name = Text::new("", at, rich(" {p_H}", 12.5, palette.quiet));
+            plot.text(name.anchor(Align2::LEFT_BOTTOM).id("Hertz").allow_hover(false));
+        },
+    );
 }
 
 fn place(at: &HoverPosition<'_>) -> [f64; 2] {
@@ -143,15 +144,18 @@ fn flow_plot(ui: &mut Ui, met: &Met, height: f32, fit: bool) {
     };
     let hertz_pa = problem.point.hertz().pressure_pa;
     let limit = problem.lubricant.limiting_stress;
-    let response = logarithmic(ui, "flow curve", height, "Shear stress τ in Pa", "Viscosity η in Pa·s")
-        .x_grid_spacer(|input| axes::few_decade_marks(input, 6.0))
-        .x_axis_formatter(|mark, _| axes::decade_label(mark))
-        .legend(Legend::default().position(Corner::LeftBottom).follow_insertion_order(true).background_alpha(0.6))
-        .label_formatter(|at| {
-            let [stress, viscosity] = place(at).map(|log| numbers::significant(10f64.powf(log)));
-            Some(format!("τ = {stress} Pa\nη = {viscosity} Pa·s"))
-        })
-        .show(ui, |plot| {
+    axes::show(
+        logarithmic(ui, "flow curve", height, "Shear stress τ in Pa", "Viscosity η in Pa·s")
+            .x_grid_spacer(|input| axes::few_decade_marks(input, 6.0))
+            .x_axis_formatter(|mark, _| axes::decade_label(mark))
+            .legend(Legend::default().position(Corner::LeftBottom).follow_insertion_order(true).background_alpha(0.6))
+            .label_formatter(|at| {
+                let [stress, viscosity] = place(at).map(|log| numbers::significant(10f64.powf(log)));
+                Some(format!("τ = {stress} Pa\nη = {viscosity} Pa·s"))
+            }),
+        ui,
+        "Viscosity against shear stress",
+        |plot| {
             axes::fit(plot, fit);
             if let Some(stress) = met.stress_pa.filter(|stress| stress.log10() > from) {
                 plot.span(
@@ -171,6 +175,6 @@ fn flow_plot(ui: &mut Ui, met: &Met, height: f32, fit: bool) {
                     plot.vline(line.style(LineStyle::dashed_dense()));
                 }
             }
-        });
-    named(ui, response.response, "Viscosity against shear stress");
+        },
+    );
 }

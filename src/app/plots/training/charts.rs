@@ -1,6 +1,5 @@
 //! The training as pictures: where its full solutions lie, and how bad the approximations were that led to them.
 
-use crate::app::controls::named;
 use crate::app::numbers;
 use crate::app::plots::axes;
 use crate::app::state::State;
@@ -58,17 +57,20 @@ pub fn plane(ui: &mut Ui, state: &State, height: f32) {
     let bad = |failed: bool| -> Vec<PlotPoint> {
         chart.bad.iter().filter(|bad| bad.indicator.is_none() == failed).map(|bad| bad.at).collect()
     };
-    let response = axes::plot(ui, "training plane", height, "Load number {M}", "Lubricant number {L}")
-        .x_grid_spacer(axes::log_marks)
-        .x_axis_formatter(|mark, _| axes::log_label(mark))
-        .y_axis_min_width(AXIS_WIDTH)
-        .auto_bounds(egui::Vec2b::TRUE)
-        .label_formatter(|hover| {
-            let (egui_plot::HoverPosition::NearDataPoint { position: at, .. }
-            | egui_plot::HoverPosition::Elsewhere { position: at }) = hover;
-            Some(format!("M {}   L {}", numbers::significant(10f64.powf(at.x)), numbers::significant(at.y)))
-        })
-        .show(ui, |plot| {
+    axes::show(
+        axes::plot(ui, "training plane", height, "Load number {M}", "Lubricant number {L}")
+            .x_grid_spacer(axes::log_marks)
+            .x_axis_formatter(|mark, _| axes::log_label(mark))
+            .y_axis_min_width(AXIS_WIDTH)
+            .auto_bounds(egui::Vec2b::TRUE)
+            .label_formatter(|hover| {
+                let (egui_plot::HoverPosition::NearDataPoint { position: at, .. }
+                | egui_plot::HoverPosition::Elsewhere { position: at }) = hover;
+                Some(format!("M {}   L {}", numbers::significant(10f64.powf(at.x)), numbers::significant(at.y)))
+            }),
+        ui,
+        "Chart of the training solutions",
+        |plot| {
             if let Some(range) = range.filter(|r| r.m.0 > 0.0 && r.m.0 <= r.m.1 && r.m.1.is_finite()) {
                 let ((left, right), (low, high)) = ((range.m.0.log10(), range.m.1.log10()), range.l);
                 let corners = vec![[left, low], [right, low], [right, high], [left, high], [left, low]];
@@ -95,8 +97,8 @@ pub fn plane(ui: &mut Ui, state: &State, height: f32) {
                 let ring = dots("", vec![last.at], palette.accent, 8.0).filled(false).id("newest");
                 plot.points(ring.shape(MarkerShape::Circle).allow_hover(false));
             }
-        });
-    named(ui, response.response, "Chart of the training solutions");
+        },
+    );
 }
 
 /// The indicator of every bad approximation against the number of full solutions when it was found; tolerances as lines.
@@ -118,13 +120,16 @@ pub fn indicator(ui: &mut Ui, state: &State, height: f32) {
     let failed: Vec<[f64; 2]> =
         chart.bad.iter().filter(|bad| bad.indicator.is_none()).map(|bad| [bad.solutions as f64, top + 0.5]).collect();
     let solved = chart.solved.len() as f64;
-    let response = axes::plot(ui, "training indicator", height, "Full solutions", "Indicator")
-        .x_grid_spacer(|input| whole(axes::round_marks(input, 6.0)))
-        .y_axis_min_width(AXIS_WIDTH)
-        .y_grid_spacer(move |input| legible(input, height))
-        .y_axis_formatter(|mark, _| axes::decade_label(mark))
-        .auto_bounds(egui::Vec2b::TRUE)
-        .show(ui, |plot| {
+    axes::show(
+        axes::plot(ui, "training indicator", height, "Full solutions", "Indicator")
+            .x_grid_spacer(|input| whole(axes::round_marks(input, 6.0)))
+            .y_axis_min_width(AXIS_WIDTH)
+            .y_grid_spacer(move |input| legible(input, height))
+            .y_axis_formatter(|mark, _| axes::decade_label(mark))
+            .auto_bounds(egui::Vec2b::TRUE),
+        ui,
+        "Indicator against full solutions",
+        |plot| {
             for tolerance in tolerances {
                 let line = HLine::new(format!("Tolerance {tolerance:e}"), tolerance.log10());
                 plot.hline(line.color(palette.quiet).width(1.0).style(LineStyle::dashed_dense()));
@@ -136,6 +141,6 @@ pub fn indicator(ui: &mut Ui, state: &State, height: f32) {
                 let crosses = Points::new("Reduced solve failed", failed).color(palette.wrong).radius(5.0);
                 plot.points(crosses.shape(MarkerShape::Cross));
             }
-        });
-    named(ui, response.response, "Indicator against full solutions");
+        },
+    );
 }

@@ -30,7 +30,7 @@ pub fn ui(ui: &mut Ui, state: &State) {
         }
         let tip = "Over the scene’s window or else the second half of the duration, against the stationary start";
         title(ui, "Mean {H_c}", tip);
-        let tip = "Greatest relative difference of {H_c}: of a frame from the first run, of a reduced model from the full system in its frame";
+        let tip = "Greatest relative difference of {H_c}: of a frame from the first run, of a model from the full system in its frame";
         title(ui, "Δ{H_c}", &tip.replace(['{', '}'], ""));
         if wide {
             title(ui, "Steps", "Steps taken, and those discarded");
@@ -51,7 +51,8 @@ fn row(ui: &mut Ui, view: &TransientView, k: usize, run: &Run, wide: bool) {
     let name = ui.label(run.name());
     if let Some(model) = run.model {
         let trained = numbers::duration(model.training_s);
-        name.on_hover_text(format!("{} pressure modes, {} rows, trained in {trained}", model.modes, model.rows));
+        let (modes, chosen, what) = (model.modes, model.chosen, model.what);
+        name.on_hover_text(format!("{modes} pressure modes, {chosen} {what}, trained in {trained}"));
     }
     if wide {
         let value = |quantity| run.trajectory.at(quantity, view.player.time()).map_or_else(none, numbers::significant);

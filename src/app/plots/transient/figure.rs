@@ -5,6 +5,7 @@ use crate::app::plots::svg::{self, Chart, Curve, FILM, PRESSURE, Page};
 use crate::app::transient::method::Method;
 use crate::app::transient::{Run, TransientView, export};
 use crate::solver::full::transient::{Frame, Interpolation, Quantity};
+use crate::solver::reduced::tpwl::Weighting;
 
 /// Page, left edge of the charts, their widths, top of the first, and the room between them.
 const PAGE_WIDTH: f64 = 1000.0;
@@ -99,9 +100,10 @@ fn range(curves: &[Vec<[f64; 2]>]) -> (f64, f64) {
     svg::range(curves.iter().flatten().map(|point| &point[1]))
 }
 
-/// The line of a run: dashes by frame, the reduced model thick.
+/// The line of a run: dashes by frame, the reduced model thick, a linearised one thicker and paler.
 fn stroke(run: &Run, color: &str) -> String {
     let dashes = match run.frame() {
+        _ if run.method == Method::Linearised(Weighting::Dissertation) => "5 3",
         Frame::Fixed => "none",
         Frame::ArbitraryLagrangianEulerian => "10 6",
         Frame::Remeshed(Interpolation::CubicSpline) => "5 3",
@@ -110,6 +112,7 @@ fn stroke(run: &Run, color: &str) -> String {
     let (width, opacity) = match run.method {
         Method::Full => (1.4, 1.0),
         Method::Reduced => (3.6, 0.45),
+        Method::Linearised(_) => (6.0, 0.3),
     };
     format!(
         "fill=\"none\" stroke=\"{color}\" stroke-width=\"{width}\" stroke-opacity=\"{opacity}\" stroke-dasharray=\"{dashes}\""

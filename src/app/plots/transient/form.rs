@@ -1,7 +1,8 @@
 //! What drives the contact as a form: the three inputs with a preview, duration, steps and frames. What makes no sense is refused
 //! beside its field.
 
-use crate::app::controls::{heading, named};
+use super::methods;
+use crate::app::controls::heading;
 use crate::app::files::Purpose;
 use crate::app::plots::axes;
 use crate::app::plots::training::fields::{Form, choose};
@@ -9,7 +10,7 @@ use crate::app::state::State;
 use crate::app::theme::Palette;
 use crate::app::transient::input::Input;
 use crate::app::transient::method::{FRAMES, frame_meaning, frame_name};
-use crate::scene::{ReducedTransient, TransientStudy};
+use crate::scene::TransientStudy;
 use crate::solver::full::transient::{Frame, Inputs, Signal, TimeStep};
 use egui::{Checkbox, Ui};
 use egui_plot::{Line, LineStyle, PlotPoints};
@@ -56,14 +57,11 @@ fn names(input: Input) -> Names {
 
 /// The form.
 pub fn ui(ui: &mut Ui, state: &mut State) {
-    let mut study = state.document.transient_study();
-    let before = study.clone();
-    let mut form = Form { refused: state.transient.refused.take(), changed: None };
     let mut read_table = false;
-    ui.add_enabled_ui(state.transient.standing().is_none(), |ui| {
+    edit(ui, state, |ui, form, study| {
         heading(ui, "Inputs");
         for input in Input::ALL {
-            signal_ui(ui, &mut form, &names(input), input.of_mut(&mut study.inputs));
+            signal_ui(ui, form, &names(input), input.of_mut(&mut study.inputs));
         }
         let tip = "A table with a title line: T and any of radius, speed, load, each relative to its reference";
         read_table = ui.button("Inputs from CSV…").on_hover_text(tip).clicked();
@@ -71,21 +69,29 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
             ui.weak(format!("At every run, inputs are read from {}.", path.display()));
         }
         preview(ui, &study.inputs, study.duration);
-        time_ui(ui, &mut form, &mut study);
-        frames_ui(ui, &mut form, &mut study.frames);
-        methods_ui(ui, &mut form, &mut study.reduced);
+        time_ui(ui, form, study);
+        frames_ui(ui, form, &mut study.frames);
+        methods::ui(ui, form, study);
     });
     if !state.document.saves_transient() && state.document.transient.is_some() {
         ui.weak("The open scene asks another question: it is saved without this set-up.");
     }
+    if read_table {
+        state.ask_path(&ui.ctx().clone(), Purpose::Inputs);
+    }
+}
+
+/// A form over the contact in time of the document, which takes what makes sense; the rest is refused beside its field.
+pub fn edit(ui: &mut Ui, state: &mut State, content: impl FnOnce(&mut Ui, &mut Form, &mut TransientStudy)) {
+    let mut study = state.document.transient_study();
+    let before = study.clone();
+    let mut form = Form { refused: state.transient.refused.take(), changed: None };
+    ui.add_enabled_ui(state.transient.standing().is_none(), |ui| content(ui, &mut form, &mut study));
     let Form { refused, changed } = form;
     state.transient.refused = refused;
     if study != before {
         let result = state.document.set_transient(study);
         state.transient.refused = result.err().map(|message| (changed.unwrap_or("Frames"), message));
-    }
-    if read_table {
-        state.ask_path(&ui.ctx().clone(), Purpose::Inputs);
     }
 }
 
@@ -204,7 +210,7 @@ fn preview(ui: &mut Ui, inputs: &Inputs, duration: f64) {
         .auto_bounds(egui::Vec2b::TRUE)
         .set_margin_fraction(egui::vec2(0.0, 0.1));
     let mut key = Vec::new();
-    let shown = plot.show(ui, |plot| {
+    axes::show(plot, ui, "Inputs against time", |plot| {
         for (input, (name, color, style)) in Input::ALL.into_iter().zip(looks) {
             let signal = input.of(inputs);
             let points: PlotPoints<'_> = (0..=PREVIEW)
@@ -218,7 +224,6 @@ fn preview(ui: &mut Ui, inputs: &Inputs, duration: f64) {
             plot.line(Line::new(name, points).color(color).width(width).style(style).allow_band(false));
         }
     });
-    named(ui, shown.response, "Inputs against time");
     if key.len() > 1 {
         ui.horizontal(|ui| {
             for (name, color) in key {
@@ -279,26 +284,4 @@ fn frames_ui(ui: &mut Ui, form: &mut Form, frames: &mut Vec<Frame>) {
         }
     }
     form.message(ui, "Frames");
-}
-
-/// The methods: the full system, which a reduced model is trained by and compared with, and the reduced model.
-fn methods_ui(ui: &mut Ui, form: &mut Form, reduced: &mut Option<ReducedTransient>) {
-    heading(ui, "Methods");
-    let tip = "Always run: what is reduced is trained by it and compared with it";
-    ui.add_enabled(false, Checkbox::new(&mut true, "Full system")).on_disabled_hover_text(tip);
-    let mut on = reduced.is_some();
-    let tip = "Trained on the full trajectory of its frame, then taken through the same time (RNSA)";
-    if ui.add(Checkbox::new(&mut on, "Reduced model")).on_hover_text(tip).changed() {
-        *reduced = on.then(|| ReducedTransient { trainings: Vec::new(), loss: 1e-6, rows_per_mode: 2.0, seed: 1 });
-        form.changed = Some("Methods");
-    }
-    form.message(ui, "Methods");
-    if let Some(reduced) = reduced {
-        let plain = ("", 1.0);
-        form.row(ui, "Loss", plain, &mut reduced.loss, "Loss of information of the bases (2.90)");
-        form.row(ui, "Rows per mode", plain, &mut reduced.rows_per_mode, "Sampled rows per pressure mode");
-        if !reduced.trainings.is_empty() {
-            ui.weak(format!("Trained on {} trajectories of the scene.", reduced.trainings.len()));
-        }
-    }
 }

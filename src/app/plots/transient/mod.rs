@@ -2,17 +2,20 @@
 
 mod cost;
 mod figure;
-mod form;
+pub mod form;
+pub mod methods;
 mod profiles;
-mod series;
+pub mod series;
 
 use crate::app::controls::{message_ui, named, sentence, warning_ui};
 use crate::app::files::Purpose;
 use crate::app::numbers;
 use crate::app::state::State;
 use crate::app::theme::rich;
-use crate::app::transient::{TransientView, export};
+use crate::app::transient::{Run, TransientView, export};
+use crate::harness::TOO_STEEP;
 use crate::solver::full::transient::Ended;
+use crate::solver::reduced::tpwl::TpwlRecord;
 use egui::{Button, ProgressBar, ScrollArea, Slider, Ui};
 
 /// Width of the form.
@@ -86,17 +89,7 @@ fn buttons(ui: &mut Ui, state: &mut State) {
         ui.toggle_value(&mut form, "Set-up")
             .on_hover_text("Shows what drives the contact, or leaves the room to plots");
         state.transient.form_hidden = !form;
-        if state.transient.standing().is_some() {
-            if ui.button("Stop").on_hover_text("What has been computed so far stays (Esc)").clicked() {
-                state.transient.stop();
-            }
-        } else if ui
-            .button("Run in time")
-            .on_hover_text("Takes the contact of the sliders through time, frame after frame")
-            .clicked()
-        {
-            state.start_transient(&ctx);
-        }
+        run_button(ui, state);
         let there = state.transient.runs.iter().any(|run| !run.trajectory.moments.is_empty());
         let tip = "All moments of every run with their SI twins, each run in columns of its own";
         if ui.add_enabled(there, Button::new("Export series…")).on_hover_text(tip).clicked()
@@ -110,6 +103,10 @@ fn buttons(ui: &mut Ui, state: &mut State) {
         {
             state.ask_path(&ctx, Purpose::Csv { text });
         }
+        let tip = "Any of these plots, or the whole tab, as SVG or PNG with axes and parameters";
+        if ui.add_enabled(there, Button::new("Export plot…")).on_hover_text(tip).clicked() {
+            state.ask_figure();
+        }
         let tip = "Series and profiles as a figure with axes and parameters";
         if ui.add_enabled(there, Button::new("Export SVG…")).on_hover_text(tip).clicked()
             && let Some(text) = figure::svg(&state.transient)
@@ -119,8 +116,23 @@ fn buttons(ui: &mut Ui, state: &mut State) {
     });
 }
 
+/// The runs, started or stopped.
+pub fn run_button(ui: &mut Ui, state: &mut State) {
+    if state.transient.standing().is_some() {
+        if ui.button("Stop").on_hover_text("What has been computed so far stays (Esc)").clicked() {
+            state.transient.stop();
+        }
+    } else if ui
+        .button("Run in time")
+        .on_hover_text("Takes the contact of the sliders through time, frame after frame, then by each model")
+        .clicked()
+    {
+        state.start_transient(&ui.ctx().clone());
+    }
+}
+
 /// What runs and how far it is; how runs ended that did not reach the end; whether all of it is still what the sliders say.
-fn status(ui: &mut Ui, state: &State) {
+pub fn status(ui: &mut Ui, state: &State) {
     let view = &state.transient;
     if let Some(standing) = view.standing() {
         ui.horizontal(|ui| {
@@ -134,6 +146,13 @@ fn status(ui: &mut Ui, state: &State) {
     }
     if let Some(message) = &view.message {
         message_ui(ui, message);
+    }
+    for note in &view.notes {
+        message_ui(ui, note);
+    }
+    let steep = |(_, run): (_, &Run)| run.record.as_ref().is_some_and(TpwlRecord::too_steep);
+    if view.linearised_runs().any(steep) {
+        warning_ui(ui, &format!("{TOO_STEEP}. Tick Reduced model, or train on inputs like these"));
     }
     for run in &view.runs {
         let said = |ended: &Ended| format!("{} {}", run.name(), ended.describe());
@@ -152,7 +171,7 @@ fn status(ui: &mut Ui, state: &State) {
 }
 
 /// The moment that is looked at: a slider over what was computed, and a button that plays it.
-fn player(ui: &mut Ui, view: &mut TransientView) {
+pub fn player(ui: &mut Ui, view: &mut TransientView) {
     let Some(setup) = view.setup.clone() else { return };
     let seconds = ui.input(|i| i.stable_dt).min(0.1);
     view.player.advance(f64::from(seconds), setup.study.duration);

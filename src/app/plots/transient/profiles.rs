@@ -1,7 +1,6 @@
 //! Pressure and film of every run at the moment that is looked at.
 
 use super::series::{drawn, style};
-use crate::app::controls::named;
 use crate::app::numbers;
 use crate::app::plots::axes;
 use crate::app::state::State;
@@ -39,19 +38,17 @@ pub fn ui(ui: &mut Ui, state: &State, height: f32) {
     };
     let pressure = stacked("profile of pressure", ("", "Pressure {P}"), most(Quantity::MaximumPressure));
     let film = stacked("profile of film", ("{X}", "Film {H}"), 3.0 * most(Quantity::CentralFilm));
-    let shown = pressure.show(ui, |plot| {
+    axes::show(pressure, ui, "Pressure at this moment", |plot| {
         axes::fit(plot, state.fit_plots);
         if let Some(moment) = view.runs.first().and_then(|run| moment_at(run, time)) {
             hertz(plot, moment, &palette);
         }
         curves(plot, view, time, (palette.pressure, &palette), |(x, p, _)| PlotPoint::new(x, p));
     });
-    named(ui, shown.response, "Pressure at this moment");
-    let shown = film.show(ui, |plot| {
+    axes::show(film, ui, "Film at this moment", |plot| {
         axes::fit(plot, state.fit_plots);
         curves(plot, view, time, (palette.film, &palette), |(x, _, h)| PlotPoint::new(x, h));
     });
-    named(ui, shown.response, "Film at this moment");
 }
 
 fn moment_at(run: &Run, time: f64) -> Option<&Moment> {

@@ -1,43 +1,44 @@
 //! Central pressure and film against time, and how far runs lie apart.
 
-use crate::app::controls::named;
 use crate::app::plots::axes;
 use crate::app::state::State;
-use crate::app::theme::{Palette, THIN_WIDTH};
+use crate::app::theme::{Palette, THIN_WIDTH, faded};
 use crate::app::transient::method::Method;
 use crate::app::transient::{Run, TransientView};
 use crate::solver::full::transient::{Frame, Interpolation, Quantity};
+use crate::solver::reduced::tpwl::Weighting;
 use egui::{Color32, Id, Ui, Vec2b};
 use egui_plot::{HLine, Line, LineStyle, PlotPoint, PlotPoints, VLine};
 
 /// Points of a curve beyond which only the extremes of neighbouring ones are drawn.
 const MOST_POINTS: usize = 3000;
 
-/// The line of a run: the frame by dashes; the reduced model thick and the full one thin over it, the first of full ones alone thick.
+/// The line of a run: the frame by dashes; a linearised model broad and pale, the reduced model thick, the full one thin over them, the
+/// first of full ones alone thick.
 pub fn style(view: &TransientView, k: usize, color: Color32, palette: &Palette) -> (Color32, f32, LineStyle) {
     let Some(run) = view.runs.get(k) else { return (color, 1.0, LineStyle::Solid) };
     let dashes = match run.frame() {
+        _ if run.method == Method::Linearised(Weighting::Dissertation) => LineStyle::dashed_dense(),
         Frame::Fixed => LineStyle::Solid,
         Frame::ArbitraryLagrangianEulerian => LineStyle::dashed_loose(),
         Frame::Remeshed(Interpolation::CubicSpline) => LineStyle::dashed_dense(),
         Frame::Remeshed(Interpolation::Linear) => LineStyle::dotted_dense(),
     };
     let thick = match run.method {
+        Method::Linearised(_) => return (faded(color, 0.5), 5.0, dashes),
         Method::Reduced => true,
-        Method::Full => k == 0 && !has_reduced(view),
+        Method::Full => k == 0 && view.runs.iter().all(|run| run.method == Method::Full),
     };
     let (color, width) = if thick { (color, 2.6) } else { (palette.over(color), 1.4) };
     (color, width, dashes)
 }
 
-fn has_reduced(view: &TransientView) -> bool {
-    view.runs.iter().any(|run| run.method == Method::Reduced)
-}
-
 /// The runs as they are drawn, thick ones first: a thin line stays visible over a thick one.
 pub fn drawn(view: &TransientView) -> impl Iterator<Item = (usize, &Run)> {
-    let of = |method: Method| view.runs.iter().enumerate().filter(move |(_, run)| run.method == method);
-    of(Method::Reduced).chain(of(Method::Full))
+    let of = |wanted: fn(Method) -> bool| view.runs.iter().enumerate().filter(move |(_, run)| wanted(run.method));
+    of(|method| matches!(method, Method::Linearised(_)))
+        .chain(of(|method| method == Method::Reduced))
+        .chain(of(|method| method == Method::Full))
 }
 
 /// The plots; returns the time that was clicked at.
@@ -82,7 +83,12 @@ impl Chart {
             .include_x(duration)
             .set_margin_fraction(egui::vec2(0.0, 0.08))
             .auto_bounds(Vec2b::TRUE);
-        let shown = plot.show(ui, |plot| {
+        let name = match self.name {
+            "pressure" => "Central pressure against time",
+            "film" => "Central film against time",
+            _ => "Deviation between runs",
+        };
+        let shown = axes::show(plot, ui, name, |plot| {
             if deviation {
                 plot.hline(
                     HLine::new("", 0.0).id("none").color(palette.reference).width(THIN_WIDTH).allow_hover(false),
@@ -105,12 +111,6 @@ impl Chart {
             plot.vline(now.allow_hover(false));
             plot.response().clicked().then(|| plot.pointer_coordinate()).flatten()
         });
-        let name = match self.name {
-            "pressure" => "Central pressure against time",
-            "film" => "Central film against time",
-            _ => "Deviation between runs",
-        };
-        named(ui, shown.response, name);
         shown.inner.map(|at| at.x)
     }
 }
@@ -127,7 +127,7 @@ fn deviations(run: &Run, reference: &Run, quantity: Quantity) -> Vec<PlotPoint> 
 }
 
 /// As many points as a screen can show, with all extremes.
-fn thinned(points: Vec<PlotPoint>) -> Vec<PlotPoint> {
+pub fn thinned(points: Vec<PlotPoint>) -> Vec<PlotPoint> {
     if points.len() <= MOST_POINTS {
         return points;
     }

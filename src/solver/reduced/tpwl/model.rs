@@ -1,7 +1,8 @@
 //! The model: operating points of training trajectories with their linearised systems.
 
 use super::linearisation::{Linearisation, SystemFunctions};
-use super::selection::{Selection, TrainedMoment, select};
+use super::rows::row_weights;
+use super::selection::{Selection, Selector, TrainedMoment, select, with_points};
 use super::space::{INPUTS, ReducedSpace, input_vector, same_but_load};
 use super::weights::square_distance;
 use crate::solver::contact::OperatingPoint;
@@ -150,6 +151,69 @@ impl TpwlModel {
     /// # Errors
     /// When the trajectories do not go together, or keep no fields, or the settings make no sense.
     pub fn train(trajectories: &[&Trajectory], training: TpwlTraining) -> Result<Self, TpwlError> {
+        let mut model = Self::reduce(trajectories, training)?;
+        model.choose_points()?;
+        Ok(model)
+    }
+
+    /// The same with a wanted number of operating points, at least 1, in place of the selection's tolerance.
+    ///
+    /// # Errors
+    /// As [`Self::train`].
+    pub fn train_with_points(
+        trajectories: &[&Trajectory],
+        training: TpwlTraining,
+        points: usize,
+    ) -> Result<Self, TpwlError> {
+        let mut model = Self::reduce(trajectories, training)?;
+        model.training.selection = model.selection_of(training.selection, points);
+        model.choose_points()?;
+        Ok(model)
+    }
+
+    /// The same trajectories in the same space with other operating points.
+    ///
+    /// # Errors
+    /// When the tolerance makes no sense.
+    pub fn reselected(&self, selection: Selection) -> Result<Self, TpwlError> {
+        let training = TpwlTraining { selection, ..self.training };
+        check_settings(training)?;
+        let without_points = |set: &ParameterSet| ParameterSet { points: Vec::new(), ..set.clone() };
+        let mut model = Self {
+            space: self.space.clone(),
+            singular_values: self.singular_values.clone(),
+            sets: self.sets.iter().map(without_points).collect(),
+            points: Vec::new(),
+            trajectories: self.trajectories.clone(),
+            training,
+        };
+        model.choose_points()?;
+        Ok(model)
+    }
+
+    /// A rule with the tolerance by which it chooses about so many points of all trajectories together.
+    pub fn selection_of(&self, rule: Selection, points: usize) -> Selection {
+        let mut selectors = Vec::with_capacity(self.trajectories.len());
+        for set in &self.sets {
+            let own = set.trajectories.iter().map(|&trajectory| &self.trajectories[trajectory]);
+            selectors.extend(own.map(|moments| Selector::new(&self.space, &set.problem, moments)));
+        }
+        with_points(rule, points, &mut selectors)
+    }
+
+    /// The moments that a rule chooses of each trajectory.
+    pub fn selected(&self, rule: Selection) -> Vec<Vec<usize>> {
+        let mut chosen = vec![Vec::new(); self.trajectories.len()];
+        for set in &self.sets {
+            for &trajectory in &set.trajectories {
+                chosen[trajectory] = select(rule, &self.space, &set.problem, &self.trajectories[trajectory]);
+            }
+        }
+        chosen
+    }
+
+    /// Space, trajectories in it and their sets, without operating points.
+    fn reduce(trajectories: &[&Trajectory], training: TpwlTraining) -> Result<Self, TpwlError> {
         let first = check(trajectories, training)?;
         let grid = match first.mesh {
             Mesh::Line { spec, scale } => spec.build().map_err(refused)?.scaled(scale),
@@ -161,16 +225,9 @@ impl TpwlModel {
             trajectories.iter().flat_map(|t| &t.states).step_by(stride).map(|s| s.pressure.as_slice()).collect();
         let matrix = Mat::from_fn(grid.len(), snapshots.len(), |i, j| snapshots[j][i]);
         let basis = PodBasis::new(matrix.as_ref(), &grid.weights, 0.0).ok_or(TpwlError::Basis)?;
-        let space = ReducedSpace::new(grid, &basis, training.modes);
+        let row_weights = row_weights(&grid, trajectories);
+        let space = ReducedSpace::new(grid, &basis, training.modes, row_weights);
         let moments: Vec<Vec<TrainedMoment>> = trajectories.iter().map(|t| moments(&space, t)).collect();
-        let mut model = Self {
-            space,
-            singular_values: basis.singular_values,
-            sets: Vec::new(),
-            points: Vec::new(),
-            trajectories: moments,
-            training,
-        };
         let mut problems: Vec<Problem> = Vec::new();
         for trajectory in trajectories {
             if !problems.iter().any(|p| p.point == trajectory.problem.point) {
@@ -178,52 +235,69 @@ impl TpwlModel {
             }
         }
         problems.sort_by(|a, b| a.point.load.total_cmp(&b.point.load));
-        for problem in problems {
+        let set = |problem: Problem| {
             let own = |t: &usize| trajectories[*t].problem.point == problem.point;
-            model.add_set(problem, (0..trajectories.len()).filter(own).collect())?;
-        }
-        Ok(model)
+            ParameterSet { problem, trajectories: (0..trajectories.len()).filter(own).collect(), points: Vec::new() }
+        };
+        Ok(Self {
+            space,
+            singular_values: basis.singular_values,
+            sets: problems.into_iter().map(set).collect(),
+            points: Vec::new(),
+            trajectories: moments,
+            training,
+        })
     }
 
-    /// Chooses and linearises the operating points of one reference contact.
-    fn add_set(&mut self, problem: Problem, trajectories: Vec<usize>) -> Result<(), TpwlError> {
-        let load = problem.point.load;
-        let beside = |factor: f64| {
-            let point = OperatingPoint { load: load * factor, ..problem.point };
-            Problem::new(&point, problem.lubricant).map_err(refused)
-        };
-        let (less, more) = (beside(1.0 - LOAD_DIFFERENCE)?, beside(1.0 + LOAD_DIFFERENCE)?);
-        let first = self.points.len();
-        for &trajectory in &trajectories {
-            let moments = &self.trajectories[trajectory];
-            let chosen = select(self.training.selection, &self.space, &problem, moments);
-            for &i in &chosen {
-                let moment = moments[i].clone();
-                let others = chosen.iter().filter(|&&other| other != i);
-                let squares = others.map(|&other| square_distance(&moment.state, &moments[other].state));
-                let system = Linearisation::at(&self.space, &problem, &moment.state, moment.input);
-                let at = |problem| SystemFunctions::at(&self.space, problem, &moment.state, moment.input);
-                let (low, high) = (at(&less), at(&more));
-                let slope = |low: Vec<f64>, high: Vec<f64>| {
-                    low.iter().zip(&high).map(|(l, h)| (h - l) / (2.0 * LOAD_DIFFERENCE * load)).collect()
-                };
-                self.points.push(TrainedPoint {
-                    input: input_vector(moment.input),
-                    set: self.sets.len(),
-                    trajectory,
-                    spacing: squares.fold(f64::INFINITY, f64::min).sqrt(),
-                    intercepts: system.intercepts(&moment.state, moment.input),
-                    load_slope: SystemFunctions {
-                        storage: slope(low.storage, high.storage),
-                        flux: slope(low.flux, high.flux),
-                    },
-                    moment,
-                    system,
-                });
-            }
+    /// Chooses and linearises the operating points of all sets, which have none yet.
+    fn choose_points(&mut self) -> Result<(), TpwlError> {
+        for number in 0..self.sets.len() {
+            let set = &self.sets[number];
+            let beside = |factor: f64| {
+                let point = OperatingPoint { load: set.problem.point.load * factor, ..set.problem.point };
+                Problem::new(&point, set.problem.lubricant).map_err(refused)
+            };
+            let beside = (beside(1.0 - LOAD_DIFFERENCE)?, beside(1.0 + LOAD_DIFFERENCE)?);
+            let first = self.points.len();
+            let chosen = set.trajectories.iter().flat_map(|&trajectory| self.points_of(number, trajectory, &beside));
+            let chosen: Vec<TrainedPoint> = chosen.collect();
+            self.points.extend(chosen);
+            self.sets[number].points = (first..self.points.len()).collect();
         }
-        self.sets.push(ParameterSet { problem, trajectories, points: (first..self.points.len()).collect() });
         Ok(())
+    }
+
+    /// The operating points of one trajectory; `less` and `more` are its set's contact under a little less and more load.
+    fn points_of(&self, set: usize, trajectory: usize, (less, more): &(Problem, Problem)) -> Vec<TrainedPoint> {
+        let problem = &self.sets[set].problem;
+        let moments = &self.trajectories[trajectory];
+        let mut selector = Selector::new(&self.space, problem, moments);
+        let chosen = selector.choose(self.training.selection);
+        let mut point = |i: usize| {
+            let moment = moments[i].clone();
+            let others = chosen.iter().filter(|&&other| other != i);
+            let squares = others.map(|&other| square_distance(&moment.state, &moments[other].state));
+            let system = selector.take_system(i);
+            let (low, high) = (moment.functions(&self.space, less), moment.functions(&self.space, more));
+            let slope = |low: Vec<f64>, high: Vec<f64>| {
+                let change = 2.0 * LOAD_DIFFERENCE * problem.point.load;
+                low.iter().zip(&high).map(|(l, h)| (h - l) / change).collect()
+            };
+            TrainedPoint {
+                input: input_vector(moment.input),
+                set,
+                trajectory,
+                spacing: squares.fold(f64::INFINITY, f64::min).sqrt(),
+                intercepts: system.intercepts(&moment.state, moment.input),
+                load_slope: SystemFunctions {
+                    storage: slope(low.storage, high.storage),
+                    flux: slope(low.flux, high.flux),
+                },
+                moment,
+                system,
+            }
+        };
+        chosen.iter().map(|&i| point(i)).collect()
     }
 
     /// The sets between which a reference contact lies, with their shares v of (4.27); one set where it is a trained one.
@@ -263,17 +337,22 @@ fn refused(error: impl Into<SolveError>) -> TpwlError {
 /// Fewest moments with fields a trajectory needs: a selection by steps looks at three at a time.
 const LEAST_STATES: usize = 3;
 
-/// Refuses trajectories that do not go together, and settings without sense; returns the first trajectory.
-fn check<'a>(trajectories: &[&'a Trajectory], training: TpwlTraining) -> Result<&'a Trajectory, TpwlError> {
-    let TpwlTraining { modes, selection } = training;
+/// Refuses settings without sense.
+fn check_settings(TpwlTraining { modes, selection }: TpwlTraining) -> Result<(), TpwlError> {
     if modes == 0 {
         return Err(TpwlError::Setting { quantity: "number of modes", value: 0.0, accepted: "at least 1" });
     }
     let tolerance = selection.tolerance();
-    if !(tolerance.is_finite() && tolerance > 0.0) {
-        let accepted = "a finite number above zero";
-        return Err(TpwlError::Setting { quantity: "tolerance of the selection", value: tolerance, accepted });
+    if tolerance.is_finite() && tolerance > 0.0 {
+        return Ok(());
     }
+    let accepted = "a finite number above zero";
+    Err(TpwlError::Setting { quantity: "tolerance of the selection", value: tolerance, accepted })
+}
+
+/// Refuses trajectories that do not go together, and settings without sense; returns the first trajectory.
+fn check<'a>(trajectories: &[&'a Trajectory], training: TpwlTraining) -> Result<&'a Trajectory, TpwlError> {
+    check_settings(training)?;
     let Some(&first) = trajectories.first() else { return Err(TpwlError::NoTraining) };
     for (k, trajectory) in trajectories.iter().enumerate() {
         check_frame(trajectory.transient.frame)?;
@@ -306,6 +385,7 @@ fn moments(space: &ReducedSpace, trajectory: &Trajectory) -> Vec<TrainedMoment> 
         time: state.time,
         input: trajectory.transient.inputs.at(state.time),
         state: space.project(state),
+        pressure: state.pressure.as_slice().into(),
     };
     trajectory.states.iter().map(moment).collect()
 }

@@ -1,13 +1,15 @@
 //! Which moments of a training trajectory become operating points.
 
-use super::linearisation::Linearisation;
+use super::linearisation::{Fields, Linearisation, SystemFunctions};
 use super::space::{ReducedSpace, input_vector};
 use super::weights::square_distance;
 use crate::solver::full::Problem;
 use crate::solver::full::transient::{BackwardDifference, Input};
+use crate::solver::reynolds::PENALTY;
 use faer::linalg::solvers::Solve;
 use faer::{Col, ColRef};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// A rule by which operating points are chosen, in the order of time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,6 +37,14 @@ impl Selection {
         }
     }
 
+    /// The same rule with another β.
+    pub fn with_tolerance(self, tolerance: f64) -> Self {
+        match self {
+            Self::Distance { .. } => Self::Distance { tolerance },
+            Self::Step { .. } => Self::Step { tolerance },
+        }
+    }
+
     /// β.
     pub fn tolerance(self) -> f64 {
         let (Self::Distance { tolerance } | Self::Step { tolerance }) = self;
@@ -51,14 +61,111 @@ pub struct TrainedMoment {
     pub input: Input,
     /// ỹ = (p̃, H₀).
     pub state: Vec<f64>,
+    /// P of the full system at all nodes, about which it is linearised.
+    pub pressure: Arc<[f64]>,
+}
+
+/// Chooses operating points of one trajectory, by several rules or tolerances one after the other.
+pub struct Selector<'a> {
+    space: &'a ReducedSpace,
+    problem: &'a Problem,
+    moments: &'a [TrainedMoment],
+    /// Linearised systems of moments that were asked for: the costly part, the same for every tolerance.
+    systems: Vec<Option<Linearisation>>,
 }
 
 /// Indices of the moments a rule chooses from one trajectory; the first moment is always one of them.
 pub fn select(rule: Selection, space: &ReducedSpace, problem: &Problem, moments: &[TrainedMoment]) -> Vec<usize> {
-    match rule {
-        Selection::Distance { tolerance } => by_distance(moments, tolerance),
-        Selection::Step { tolerance } => by_step(space, problem, moments, tolerance),
+    Selector::new(space, problem, moments).choose(rule)
+}
+
+impl<'a> Selector<'a> {
+    /// Nothing linearised yet.
+    pub fn new(space: &'a ReducedSpace, problem: &'a Problem, moments: &'a [TrainedMoment]) -> Self {
+        Self { space, problem, moments, systems: (0..moments.len()).map(|_| None).collect() }
     }
+
+    /// Indices of the moments a rule chooses; the first moment is always one of them.
+    pub fn choose(&mut self, rule: Selection) -> Vec<usize> {
+        let moments = self.moments;
+        let mut chosen: Vec<usize> = Vec::new();
+        for (i, moment) in moments.iter().enumerate() {
+            let covered = nearest(moments, &chosen, &moment.state).is_some_and(|(point, distance)| match rule {
+                Selection::Distance { tolerance } => distance < tolerance * norm(&moments[point].state),
+                Selection::Step { tolerance } => {
+                    step_error(self.system(point), &moments[point], moments, i) < tolerance * norm(&moment.state)
+                }
+            });
+            if !covered {
+                chosen.push(i);
+            }
+        }
+        chosen
+    }
+
+    /// The linearised system of a moment.
+    fn system(&mut self, moment: usize) -> &Linearisation {
+        let linearised = || self.moments[moment].linearised(self.space, self.problem);
+        self.systems[moment].get_or_insert_with(linearised)
+    }
+
+    /// The same, handed over.
+    pub fn take_system(&mut self, moment: usize) -> Linearisation {
+        self.systems[moment].take().unwrap_or_else(|| self.moments[moment].linearised(self.space, self.problem))
+    }
+}
+
+impl TrainedMoment {
+    /// Its system functions, also under another reference load than its own.
+    pub fn functions(&self, space: &ReducedSpace, problem: &Problem) -> SystemFunctions {
+        SystemFunctions::at(space, problem, self.fields(&self.film(space)), PENALTY)
+    }
+
+    fn linearised(&self, space: &ReducedSpace, problem: &Problem) -> Linearisation {
+        Linearisation::at(space, problem, self.fields(&self.film(space)))
+    }
+
+    fn film(&self, space: &ReducedSpace) -> Vec<f64> {
+        space.film(&self.pressure, self.state[space.modes()], self.input)
+    }
+
+    fn fields<'a>(&'a self, film: &'a [f64]) -> Fields<'a> {
+        Fields { pressure: &self.pressure, film, input: self.input }
+    }
+}
+
+/// Tolerance with which the search for a number of points begins.
+const COARSEST: f64 = 1.0;
+/// Most tolerances that are tried for a number of points.
+const MOST_TRIED: usize = 48;
+/// Ratio of two tolerances between which no further one is tried.
+const NEAR: f64 = 1.0005;
+
+/// The rule with the tolerance by which it chooses a number of points of some trajectories together, or as near to it as tolerances
+/// come: numbers can jump.
+pub fn with_points(rule: Selection, points: usize, selectors: &mut [Selector<'_>]) -> Selection {
+    let mut count = |tolerance: f64| -> usize {
+        selectors.iter_mut().map(|selector| selector.choose(rule.with_tolerance(tolerance)).len()).sum()
+    };
+    let (mut coarse, mut fine) = (COARSEST, None);
+    let mut best = (count(coarse).abs_diff(points), coarse);
+    for _ in 0..MOST_TRIED {
+        if best.0 == 0 || fine.is_some_and(|fine| coarse < NEAR * fine) {
+            break;
+        }
+        // Halved until there are enough, then between the last two.
+        let tolerance = fine.map_or(0.5 * coarse, |fine: f64| (fine * coarse).sqrt());
+        let found = count(tolerance);
+        if found.abs_diff(points) < best.0 {
+            best = (found.abs_diff(points), tolerance);
+        }
+        if found > points {
+            fine = Some(tolerance);
+        } else {
+            coarse = tolerance;
+        }
+    }
+    rule.with_tolerance(best.1)
 }
 
 fn norm(state: &[f64]) -> f64 {
@@ -67,36 +174,8 @@ fn norm(state: &[f64]) -> f64 {
 
 /// The chosen moment nearest to a state, and its distance.
 fn nearest(moments: &[TrainedMoment], chosen: &[usize], state: &[f64]) -> Option<(usize, f64)> {
-    let distances = chosen.iter().enumerate().map(|(k, &i)| (k, square_distance(state, &moments[i].state)));
-    distances.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, square)| (k, square.sqrt()))
-}
-
-fn by_distance(moments: &[TrainedMoment], tolerance: f64) -> Vec<usize> {
-    let mut chosen = Vec::new();
-    for (i, moment) in moments.iter().enumerate() {
-        let covered = nearest(moments, &chosen, &moment.state)
-            .is_some_and(|(k, distance)| distance < tolerance * norm(&moments[chosen[k]].state));
-        if !covered {
-            chosen.push(i);
-        }
-    }
-    chosen
-}
-
-fn by_step(space: &ReducedSpace, problem: &Problem, moments: &[TrainedMoment], tolerance: f64) -> Vec<usize> {
-    let mut chosen: Vec<usize> = Vec::new();
-    let mut systems: Vec<Linearisation> = Vec::new();
-    for (i, moment) in moments.iter().enumerate() {
-        let covered = nearest(moments, &chosen, &moment.state).is_some_and(|(k, _)| {
-            let point = &moments[chosen[k]];
-            step_error(&systems[k], point, moments, i) < tolerance * norm(&moment.state)
-        });
-        if !covered {
-            chosen.push(i);
-            systems.push(Linearisation::at(space, problem, &moment.state, moment.input));
-        }
-    }
-    chosen
+    let distances = chosen.iter().map(|&i| (i, square_distance(state, &moments[i].state)));
+    distances.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(i, square)| (i, square.sqrt()))
 }
 
 /// How far the step from the trajectory's own former moments to moment `i` ends from it, when one linearised system makes it.

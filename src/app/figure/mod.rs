@@ -1,0 +1,228 @@
+//! Any plot as a picture: every plot that is on the screen offers itself by its name; one that is asked for leaves as a drawing (SVG) or as
+//! an image (PNG), with its name and the contact's parameters above it.
+
+mod svg;
+
+use super::controls::named;
+use super::export;
+use super::files::Purpose;
+use super::png;
+use super::state::State;
+use egui::{
+    Align2, ColorImage, Context, FontId, Id, LayerId, Modal, Order, Pos2, Rect, Ui, ViewportCommand, pos2, vec2,
+};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
+/// Height of the lines above a picture.
+const CAPTION: f32 = 42.0;
+/// Frames after which whatever was open over the plot is gone.
+const SETTLED: u8 = 2;
+/// Frames after which a screenshot that was asked for does not come any more.
+const PATIENCE: u8 = 200;
+
+/// A plot on the screen.
+#[derive(Clone, Debug, PartialEq)]
+struct Offered {
+    name: String,
+    /// With its axes.
+    rect: Rect,
+    layer: LayerId,
+}
+
+/// The plots of this frame and of the one before.
+#[derive(Clone, Default)]
+struct Offers {
+    now: Vec<Offered>,
+    last: Vec<Offered>,
+}
+
+/// What a picture is made as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    Svg,
+    Png,
+}
+
+/// A picture that was asked for.
+struct Wanted {
+    name: String,
+    format: Format,
+    frames: u8,
+    screenshot: Option<(Receiver<Arc<ColorImage>>, Rect)>,
+}
+
+/// Pictures that are asked for.
+#[derive(Default)]
+pub struct Figures {
+    asks: bool,
+    wanted: Option<Wanted>,
+}
+
+fn offers(ctx: &Context, change: impl FnOnce(&mut Offers)) {
+    ctx.data_mut(|data| change(data.get_temp_mut_or_default(Id::unique("plots on the screen"))));
+}
+
+/// Lets a plot be exported under its name, as far as it can be seen.
+pub fn offer(ui: &Ui, name: &str, rect: Rect) {
+    let rect = rect.intersect(ui.clip_rect());
+    if rect.is_positive() {
+        let offered = Offered { name: name.to_owned(), rect, layer: ui.layer_id() };
+        offers(ui.ctx(), |offers| offers.now.push(offered));
+    }
+}
+
+/// Begins a frame.
+pub fn begin(ctx: &Context) {
+    offers(ctx, |offers| offers.last = std::mem::take(&mut offers.now));
+}
+
+impl State {
+    /// Asks which plot is to be exported.
+    pub fn ask_figure(&mut self) {
+        self.figures.asks = true;
+    }
+
+    /// Whether the question stands.
+    pub fn asks_figure(&self) -> bool {
+        self.figures.asks
+    }
+
+    /// The question, and the picture once the screen shows nothing but the plot. Called when everything else is drawn.
+    pub fn figures_ui(&mut self, ctx: &Context) {
+        if self.figures.asks {
+            self.choose_figure(ctx);
+        }
+        let Some(mut wanted) = self.figures.wanted.take() else { return };
+        wanted.frames += 1;
+        let mut plot = None;
+        offers(ctx, |offers| plot = offers.now.iter().find(|offered| offered.name == wanted.name).cloned());
+        let caption = [wanted.name.clone(), self.contact_line()];
+        match (&wanted.screenshot, plot) {
+            (Some((receiver, rect)), _) => match receiver.try_recv() {
+                Ok(image) => {
+                    let bytes = png::encode(&cropped(&image, *rect, ctx.pixels_per_point()));
+                    return self.ask_path(ctx, Purpose::Picture { bytes: bytes.into(), extension: "png" });
+                }
+                Err(TryRecvError::Empty) if wanted.frames < PATIENCE => draw_caption(ctx, *rect, &caption),
+                Err(_) => {
+                    let message = "the system gave no image of the window; the same plot can be exported as SVG";
+                    self.files.notice = Some(Err(message.to_owned()));
+                    return;
+                }
+            },
+            (None, None) if wanted.frames > SETTLED => {
+                self.files.notice = Some(Err(format!("the plot “{}” is not on the screen any more", wanted.name)));
+                return;
+            }
+            (None, Some(plot)) if wanted.frames > SETTLED && wanted.format == Format::Svg => {
+                let background = ctx.style_of(ctx.theme()).visuals.panel_fill;
+                let text = ctx.graphics(|graphics| {
+                    let shapes = graphics.get(plot.layer).map(|list| list.all_entries());
+                    svg::drawing(shapes.into_iter().flatten(), plot.rect, &caption, background)
+                });
+                return self.ask_path(ctx, Purpose::Picture { bytes: text.into_bytes().into(), extension: "svg" });
+            }
+            (None, Some(plot)) if wanted.frames > SETTLED => {
+                let top = (plot.rect.top() - CAPTION).max(0.0);
+                let rect = plot.rect.with_min_y(top);
+                draw_caption(ctx, rect, &caption);
+                let (sender, receiver) = channel();
+                let again = ctx.clone();
+                let callback = egui::ScreenshotCallback::new(move |image| {
+                    // The window may be gone by now.
+                    if sender.send(image).is_ok() {
+                        again.request_repaint();
+                    }
+                });
+                ctx.send_viewport_cmd(ViewportCommand::Screenshot(callback));
+                wanted.screenshot = Some((receiver, rect));
+            }
+            (None, _) => {}
+        }
+        self.figures.wanted = Some(wanted);
+        ctx.request_repaint();
+    }
+
+    fn choose_figure(&mut self, ctx: &Context) {
+        let mut plots = Vec::new();
+        offers(ctx, |offers| plots.clone_from(&offers.now));
+        let mut close = false;
+        let response = Modal::new(Id::unique("export a plot")).show(ctx, |ui| {
+            ui.set_width(420.0);
+            ui.heading("Export a plot");
+            ui.weak("With its axes, its name and the contact above it, in the colours of the theme.");
+            ui.add_space(4.0);
+            if plots.is_empty() {
+                ui.label("No plot is on the screen.");
+            }
+            egui::Grid::new("plots").num_columns(3).striped(true).show(ui, |ui| {
+                for plot in &plots {
+                    ui.label(&plot.name);
+                    for (format, word) in [(Format::Svg, "SVG…"), (Format::Png, "PNG…")] {
+                        let button = ui.button(word);
+                        if named(ui, button, &format!("{} as {}", plot.name, word)).clicked() {
+                            let name = plot.name.clone();
+                            self.figures.wanted = Some(Wanted { name, format, frames: 0, screenshot: None });
+                            close = true;
+                        }
+                    }
+                    ui.end_row();
+                }
+            });
+            ui.add_space(4.0);
+            close |= ui.button("Cancel").clicked();
+        });
+        if close || response.should_close() {
+            self.figures.asks = false;
+        }
+    }
+
+    /// The contact of the sliders in a line.
+    fn contact_line(&self) -> String {
+        let document = &self.document;
+        export::describe_contact(&document.point, &document.lubricant)
+    }
+}
+
+/// The lines above a picture, drawn over the window for the moment of the screenshot.
+fn draw_caption(ctx: &Context, rect: Rect, lines: &[String; 2]) {
+    let visuals = &ctx.style_of(ctx.theme()).visuals;
+    let painter = ctx.layer_painter(LayerId::new(Order::Foreground, Id::unique("caption of a picture")));
+    let strip = Rect::from_min_size(rect.min, vec2(rect.width(), CAPTION.min(rect.height())));
+    painter.rect_filled(strip, 0.0, visuals.panel_fill);
+    let [title, contact] = lines;
+    let painter = painter.with_clip_rect(strip);
+    let place = |down: f32| -> Pos2 { pos2(strip.left() + 8.0, strip.top() + down) };
+    painter.text(place(4.0), Align2::LEFT_TOP, title, FontId::proportional(15.0), visuals.text_color());
+    painter.text(place(24.0), Align2::LEFT_TOP, contact, FontId::proportional(10.0), visuals.weak_text_color());
+}
+
+/// The part of an image of the window under a rectangle in screen points.
+fn cropped(image: &ColorImage, rect: Rect, pixels_per_point: f32) -> ColorImage {
+    let [width, height] = image.size;
+    let pixel = |at: f32, most: usize| ((at * pixels_per_point).round().max(0.0) as usize).min(most);
+    let (left, right) = (pixel(rect.left(), width), pixel(rect.right(), width));
+    let (top, bottom) = (pixel(rect.top(), height), pixel(rect.bottom(), height));
+    let rows = image.pixels.chunks_exact(width.max(1)).take(bottom).skip(top);
+    let pixels = rows.flat_map(|row| row.get(left..right).unwrap_or(&[]).iter().copied()).collect();
+    ColorImage::new([right - left, bottom - top], pixels)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::Color32;
+
+    #[test]
+    fn a_screenshot_is_cut_to_the_plot_in_its_own_pixels() {
+        let color = |k: usize| Color32::from_rgb((k % 40) as u8, (k / 40) as u8, 0);
+        let image = ColorImage::new([40, 20], (0..800).map(color).collect());
+        let rect = Rect::from_min_max(pos2(5.0, 2.0), pos2(10.0, 4.0));
+        let part = cropped(&image, rect, 2.0);
+        assert_eq!(part.size, [10, 4]);
+        assert_eq!((part.pixels[0], part.pixels[39]), (Color32::from_rgb(10, 4, 0), Color32::from_rgb(19, 7, 0)));
+        let beyond = cropped(&image, Rect::from_min_max(pos2(-3.0, 0.0), pos2(90.0, 90.0)), 1.0);
+        assert_eq!(beyond.size, [40, 20]);
+    }
+}

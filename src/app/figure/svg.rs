@@ -1,0 +1,258 @@
+//! What was painted within a rectangle as a drawing for other programs (SVG): lines stay lines and text stays text.
+
+use egui::epaint::{ClippedShape, ColorMode, PathStroke, TextShape};
+use egui::{Color32, Pos2, Rect, Shape, Stroke};
+use std::fmt::Write as _;
+
+/// Height of the lines above the drawing.
+const CAPTION: f32 = 46.0;
+
+/// The drawing of all shapes that can be seen in `rect`, with a title and a line of parameters above.
+pub fn drawing<'a>(
+    shapes: impl Iterator<Item = &'a ClippedShape>,
+    rect: Rect,
+    [title, parameters]: &[String; 2],
+    background: Color32,
+) -> String {
+    let mut out = Drawing { text: String::new(), clips: 0 };
+    let (width, height) = (rect.width(), rect.height() + CAPTION);
+    let (left, top) = (rect.left(), rect.top() - CAPTION);
+    // Text that can be read on either background.
+    let light = background.intensity() > 0.5;
+    let (ink, quiet) = if light { ("#222", "#666") } else { ("#eee", "#aaa") };
+    out.line(format_args!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" viewBox=\"{left:.1} {top:.1} {width:.1} {height:.1}\" \
+         font-family=\"sans-serif\">"
+    ));
+    let fill = fill(background);
+    out.line(format_args!("<rect x=\"{left:.1}\" y=\"{top:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" {fill}/>"));
+    let (x, first, second) = (left + 8.0, top + 20.0, top + 36.0);
+    out.line(format_args!(
+        "<text x=\"{x:.1}\" y=\"{first:.1}\" font-size=\"15\" fill=\"{ink}\">{}</text>",
+        escaped(title)
+    ));
+    out.line(format_args!(
+        "<text x=\"{x:.1}\" y=\"{second:.1}\" font-size=\"9.5\" fill=\"{quiet}\">{}</text>",
+        escaped(parameters)
+    ));
+    let mut clip = None;
+    for ClippedShape { clip_rect, shape, .. } in shapes {
+        let within = clip_rect.intersect(rect);
+        if matches!(shape, Shape::Noop) || !within.is_positive() || !shape.visual_bounding_rect().intersects(within) {
+            continue;
+        }
+        // What fills more than the plot lies behind it.
+        if matches!(shape, Shape::Rect(behind) if behind.rect.contains_rect(rect) && behind.rect != rect) {
+            continue;
+        }
+        if clip != Some(within) {
+            if clip.is_some() {
+                out.line(format_args!("</g>"));
+            }
+            out.clip(within);
+            clip = Some(within);
+        }
+        out.shape(shape);
+    }
+    if clip.is_some() {
+        out.line(format_args!("</g>"));
+    }
+    out.line(format_args!("</svg>"));
+    out.text
+}
+
+struct Drawing {
+    text: String,
+    clips: usize,
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// A colour as attributes of that name.
+fn color(name: &str, color: Color32) -> String {
+    if color == Color32::TRANSPARENT {
+        return format!("{name}=\"none\"");
+    }
+    let [r, g, b, a] = color.to_srgba_unmultiplied();
+    let opacity = f32::from(a) / 255.0;
+    format!("{name}=\"#{r:02x}{g:02x}{b:02x}\" {name}-opacity=\"{opacity:.3}\"")
+}
+
+fn fill(of: Color32) -> String {
+    color("fill", of)
+}
+
+fn stroke(width: f32, of: Color32) -> String {
+    if width > 0.0 {
+        format!("stroke-width=\"{width:.2}\" {}", color("stroke", of))
+    } else {
+        "stroke=\"none\"".to_owned()
+    }
+}
+
+fn points(of: impl Iterator<Item = Pos2>) -> String {
+    of.map(|p| format!("{:.2},{:.2}", p.x, p.y)).collect::<Vec<_>>().join(" ")
+}
+
+impl Drawing {
+    fn line(&mut self, line: std::fmt::Arguments<'_>) {
+        // Writing to a string cannot fail.
+        let _ok = writeln!(self.text, "{line}");
+    }
+
+    /// Begins a group that is cut at a rectangle.
+    fn clip(&mut self, rect: Rect) {
+        self.clips += 1;
+        let (id, Pos2 { x, y }, size) = (self.clips, rect.min, rect.size());
+        self.line(format_args!(
+            "<clipPath id=\"c{id}\"><rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{:.1}\" height=\"{:.1}\"/></clipPath><g clip-path=\"url(#c{id})\">",
+            size.x, size.y
+        ));
+    }
+
+    fn shape(&mut self, shape: &Shape) {
+        match shape {
+            Shape::Noop | Shape::Callback(_) => {}
+            Shape::Vec(shapes) => shapes.iter().for_each(|shape| self.shape(shape)),
+            Shape::Circle(circle) => {
+                let (center, Stroke { width, color }) = (circle.center, circle.stroke);
+                self.line(format_args!(
+                    "<circle cx=\"{:.2}\" cy=\"{:.2}\" r=\"{:.2}\" {} {}/>",
+                    center.x,
+                    center.y,
+                    circle.radius,
+                    fill(circle.fill),
+                    stroke(width, color)
+                ));
+            }
+            Shape::Ellipse(ellipse) => {
+                let (center, radius, Stroke { width, color }) = (ellipse.center, ellipse.radius, ellipse.stroke);
+                self.line(format_args!(
+                    "<ellipse cx=\"{:.2}\" cy=\"{:.2}\" rx=\"{:.2}\" ry=\"{:.2}\" {} {}/>",
+                    center.x,
+                    center.y,
+                    radius.x,
+                    radius.y,
+                    fill(ellipse.fill),
+                    stroke(width, color)
+                ));
+            }
+            Shape::LineSegment { points: [a, b], stroke: Stroke { width, color } } => self.line(format_args!(
+                "<path d=\"M{:.2} {:.2}L{:.2} {:.2}\" {}/>",
+                a.x,
+                a.y,
+                b.x,
+                b.y,
+                stroke(*width, *color)
+            )),
+            Shape::Path(path) => self.path(path.points.iter().copied(), path.closed, path.fill, &path.stroke),
+            Shape::Band(band) => {
+                let upper = band.points.iter().map(|p| Pos2::new(p.x, p.y.min));
+                let lower = band.points.iter().rev().map(|p| Pos2::new(p.x, p.y.max));
+                self.path(upper.chain(lower), true, band.fill, &PathStroke::from(band.stroke));
+            }
+            Shape::Rect(rect) => {
+                let (size, Pos2 { x, y }) = (rect.rect.size(), rect.rect.min);
+                self.line(format_args!(
+                    "<rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{:.2}\" height=\"{:.2}\" rx=\"{}\" {} {}/>",
+                    size.x,
+                    size.y,
+                    rect.corner_radius.nw,
+                    fill(rect.fill),
+                    stroke(rect.stroke.width, rect.stroke.color)
+                ));
+            }
+            Shape::Text(text) => self.words(text),
+            Shape::Mesh(mesh) => {
+                for corners in mesh.indices.chunks_exact(3) {
+                    let corner = |k: usize| corners.get(k).and_then(|&i| mesh.vertices.get(i as usize));
+                    let (Some(a), Some(b), Some(c)) = (corner(0), corner(1), corner(2)) else { continue };
+                    let place = points([a.pos, b.pos, c.pos].into_iter());
+                    self.line(format_args!("<polygon points=\"{place}\" {}/>", fill(a.color)));
+                }
+            }
+            Shape::QuadraticBezier(curve) => {
+                let line = curve.flatten(None);
+                self.path(line.into_iter(), curve.closed, curve.fill, &curve.stroke);
+            }
+            Shape::CubicBezier(curve) => {
+                let line = curve.flatten(None);
+                self.path(line.into_iter(), curve.closed, curve.fill, &curve.stroke);
+            }
+        }
+    }
+
+    fn path(&mut self, line: impl Iterator<Item = Pos2>, closed: bool, inner: Color32, outline: &PathStroke) {
+        let element = if closed { "polygon" } else { "polyline" };
+        let color = match &outline.color {
+            ColorMode::Solid(color) => *color,
+            // A colour that changes along the path: none of this program's plots has one.
+            ColorMode::UV(_) => Color32::GRAY,
+        };
+        let (line, inner) = (points(line), if closed { inner } else { Color32::TRANSPARENT });
+        self.line(format_args!(
+            "<{element} points=\"{line}\" stroke-linejoin=\"round\" {} {}/>",
+            fill(inner),
+            stroke(outline.width, color)
+        ));
+    }
+
+    /// Text, each run of one look at its own place on the baseline: subscripts stay below, and nothing depends on the reader's fonts but
+    /// the shapes of letters.
+    fn words(&mut self, text: &TextShape) {
+        let job = &text.galley.job;
+        let Pos2 { x, y } = text.pos;
+        let turned = text.angle.to_degrees();
+        self.line(format_args!("<g transform=\"translate({x:.2} {y:.2}) rotate({turned:.1})\">"));
+        let mut byte = 0;
+        for placed in &text.galley.rows {
+            let mut run: Option<Run> = None;
+            for glyph in &placed.row.glyphs {
+                let section = job.sections.iter().position(|section| section.byte_range.contains(&byte.into()));
+                byte += glyph.chr.len_utf8();
+                let end = glyph.pos.x + glyph.advance_width;
+                match &mut run {
+                    Some(run) if run.section == section => {
+                        run.letters.push(glyph.chr);
+                        run.end = end;
+                    }
+                    _ => {
+                        self.run(text, placed.pos, run.take());
+                        run = Some(Run { section, from: glyph.pos, end, letters: glyph.chr.to_string() });
+                    }
+                }
+            }
+            self.run(text, placed.pos, run);
+            byte += usize::from(placed.ends_with_newline);
+        }
+        self.line(format_args!("</g>"));
+    }
+
+    fn run(&mut self, text: &TextShape, row: Pos2, run: Option<Run>) {
+        let Some(Run { section, from, end, letters }) = run.filter(|run| !run.letters.trim().is_empty()) else {
+            return;
+        };
+        let Some(format) = section.and_then(|k| text.galley.job.sections.get(k)).map(|section| &section.format) else {
+            return;
+        };
+        let own = if format.color == Color32::PLACEHOLDER { text.fallback_color } else { format.color };
+        let color = text.override_text_color.unwrap_or(own).gamma_multiply(text.opacity_factor);
+        let (x, y, length, size) = (row.x + from.x, row.y + from.y, end - from.x, format.font_id.size);
+        let slant = if format.italics { " font-style=\"italic\"" } else { "" };
+        self.line(format_args!(
+            "<text x=\"{x:.2}\" y=\"{y:.2}\" textLength=\"{length:.2}\" font-size=\"{size:.1}\"{slant} {}>{}</text>",
+            fill(color),
+            escaped(&letters)
+        ));
+    }
+}
+
+/// Letters of one look beside each other.
+struct Run {
+    section: Option<usize>,
+    from: Pos2,
+    end: f32,
+    letters: String,
+}

@@ -1,0 +1,361 @@
+//! The linearised model: where its operating points lie, which of them carry the present moment, and how many it takes.
+
+mod export;
+mod number;
+mod plane;
+mod table;
+mod trajectory;
+mod weights;
+
+use super::transient;
+use crate::app::controls::{choice, message_ui, why};
+use crate::app::files::Purpose;
+use crate::app::numbers;
+use crate::app::state::State;
+use crate::app::theme::Palette;
+use crate::app::transient::linearised::{Linearised, PointNow};
+use crate::app::transient::method::{WEIGHTINGS, weighting_name};
+use crate::app::transient::{Run, TransientView};
+use crate::solver::full::transient::Quantity;
+use crate::solver::reduced::tpwl::Weighting;
+use egui::{Button, Color32, Grid, Pos2, ProgressBar, Response, ScrollArea, Ui};
+use egui_plot::{PlotPoint, PlotTransform};
+use std::sync::Arc;
+
+/// Width of the settings.
+const FORM_WIDTH: f32 = 296.0;
+/// Width from which on pictures stand side by side.
+const SIDE_BY_SIDE: f32 = 560.0;
+/// Height below which a picture cannot be read.
+const LEAST_HEIGHT: f32 = 118.0;
+/// How near (in screen points) the pointer must be to a point.
+const GRAB: f32 = 12.0;
+
+/// What the tab keeps between frames; none of it belongs to the scene.
+pub struct TpwlView {
+    /// What is drawn along the training trajectory.
+    quantity: Quantity,
+    /// Coordinates of the plane, from 0; the last one is H_0.
+    coordinates: [usize; 2],
+    /// Which training trajectory is drawn.
+    trajectory: usize,
+    /// Whether the study of numbers stands in place of the weights.
+    numbers: bool,
+    sorting: table::Sorting,
+    /// Settings shown or hidden; shown until there is a model where nobody has decided.
+    form: Option<bool>,
+    why: bool,
+}
+
+impl Default for TpwlView {
+    fn default() -> Self {
+        Self {
+            quantity: Quantity::CentralFilm,
+            coordinates: [0, 1],
+            trajectory: 0,
+            numbers: false,
+            sorting: table::Sorting::default(),
+            form: None,
+            why: false,
+        }
+    }
+}
+
+/// What all pictures of one frame share.
+struct Shown<'a> {
+    view: &'a TransientView,
+    tab: &'a TpwlView,
+    linearised: &'a Linearised,
+    /// Its runs.
+    runs: Vec<(Weighting, &'a Run)>,
+    /// Its points at the moment that is looked at.
+    points: Vec<PointNow>,
+    palette: Palette,
+    fit: bool,
+}
+
+impl<'a> Shown<'a> {
+    fn new(ui: &Ui, state: &'a State, linearised: &'a Linearised) -> Self {
+        let view = &state.transient;
+        let runs: Vec<_> = view.linearised_runs().collect();
+        let points = linearised.points_at(&runs, view.player.time());
+        Self { view, tab: &state.tpwl, linearised, runs, points, palette: Palette::of(ui), fit: state.fit_plots }
+    }
+
+    /// The operating points of the trajectory that is drawn.
+    fn of_trajectory(&self) -> impl Iterator<Item = &PointNow> {
+        self.points.iter().filter(|now| {
+            let trained = self.linearised.model.points.get(now.point);
+            trained.is_some_and(|trained| trained.trajectory == self.tab.trajectory)
+        })
+    }
+
+    /// The colour of a weighting, by its place in [`WEIGHTINGS`].
+    fn color(&self, weighting: usize) -> Color32 {
+        [self.palette.accent, self.palette.warning][weighting]
+    }
+
+    /// Whether a weighting, by its place in [`WEIGHTINGS`], was run.
+    fn was_run(&self, weighting: usize) -> bool {
+        self.runs.iter().any(|(own, _)| *own == WEIGHTINGS[weighting])
+    }
+}
+
+const WHY: &str = "Near a state that has been seen, the contact answers a small change of load nearly in proportion: its equations can be \
+    replaced by their tangents there, d/dT Σ w_i (A_i + B_i y + C_i u) = Σ w_i (D_i + E_i y + F_i u), (4.27), so that a step is one small \
+    linear system. The tangents are taken at operating points along a trained trajectory, and the weights w follow the state: drag the \
+    time and watch them pass from point to point. Tangents on one side of a curved path err to one side; the dual Taylor form expands \
+    half about the points and half about their barycentre, which cancels that, while far from every point, under inputs steeper than the \
+    trained ones, no weights help and the reduced model is the right choice.";
+
+/// The tab.
+pub fn ui(ui: &mut Ui, state: &mut State) {
+    if let Some(why) = state.no_transient() {
+        ui.centered_and_justified(|ui| ui.weak(why));
+        return;
+    }
+    ui.horizontal_top(|ui| {
+        if form_shown(state) {
+            ui.vertical(|ui| {
+                ui.set_width(FORM_WIDTH);
+                ScrollArea::vertical().id_salt("tpwl form").auto_shrink(false).show(ui, |ui| {
+                    transient::form::edit(ui, state, |ui, form, study| {
+                        transient::methods::linearised_ui(ui, form, study);
+                        form.message(ui, "Methods");
+                        transient::methods::trainings_ui(ui, form, study);
+                    });
+                    ui.weak("Inputs, duration and steps are those of the Transient tab.");
+                });
+            });
+            ui.separator();
+        }
+        ui.vertical(|ui| {
+            ScrollArea::vertical().id_salt("tpwl").auto_shrink(false).show(ui, |ui| results(ui, state));
+        });
+    });
+}
+
+fn form_shown(state: &State) -> bool {
+    state.tpwl.form.unwrap_or(state.transient.linearised.is_none())
+}
+
+fn results(ui: &mut Ui, state: &mut State) {
+    let (top, height) = (ui.cursor().top(), ui.available_height());
+    buttons(ui, state);
+    why(ui, state.tpwl.why, WHY);
+    transient::status(ui, state);
+    number_status(ui, state);
+    let Some(linearised) = state.transient.linearised.clone() else {
+        nothing_yet(ui, state);
+        return;
+    };
+    transient::player(ui, &mut state.transient);
+    choices(ui, state, &linearised);
+    let rest = height - (ui.cursor().top() - top) - 30.0;
+    let shown = Shown::new(ui, state, &linearised);
+    let mut sorting = state.tpwl.sorting;
+    let mut wanted = None;
+    if ui.available_width() >= SIDE_BY_SIDE {
+        let unit = (0.5 * rest).max(2.0 * LEAST_HEIGHT);
+        let width = ui.available_width();
+        let halves = |ui: &mut Ui, left: &mut dyn FnMut(&mut Ui), right: &mut dyn FnMut(&mut Ui)| {
+            ui.horizontal_top(|ui| {
+                ui.vertical(|ui| {
+                    ui.set_width(0.54 * width);
+                    left(ui);
+                });
+                ui.vertical(|ui| right(ui));
+            });
+        };
+        let (mut first, mut second, mut third, mut fourth) = (None, None, None, None);
+        halves(ui, &mut |ui| first = trajectory::ui(ui, &shown, 0.5 * unit), &mut |ui| {
+            second = plane::ui(ui, &shown, unit);
+        });
+        halves(ui, &mut |ui| third = lower(ui, &shown, unit), &mut |ui| {
+            fourth = table::ui(ui, &shown, &mut sorting, unit);
+        });
+        wanted = first.or(second).or(third).or(fourth);
+    } else {
+        let unit = 1.2 * LEAST_HEIGHT;
+        wanted = trajectory::ui(ui, &shown, unit).or(wanted);
+        wanted = plane::ui(ui, &shown, 1.6 * unit).or(wanted);
+        wanted = lower(ui, &shown, 1.6 * unit).or(wanted);
+        wanted = table::ui(ui, &shown, &mut sorting, 1.6 * unit).or(wanted);
+    }
+    state.tpwl.sorting = sorting;
+    if let Some(time) = wanted {
+        state.transient.player.go_to(time);
+    }
+}
+
+/// The weights, or the study of numbers.
+fn lower(ui: &mut Ui, shown: &Shown<'_>, height: f32) -> Option<f64> {
+    if shown.tab.numbers {
+        number::ui(ui, shown, height);
+        None
+    } else {
+        weights::ui(ui, shown, height)
+    }
+}
+
+/// What to do where there is no linearised model yet.
+fn nothing_yet(ui: &mut Ui, state: &mut State) {
+    if state.transient.standing().is_some() {
+        return;
+    }
+    if state.document.transient_study().linearised.is_some() {
+        ui.weak("Run it in time: the full system first, whose trajectory is then linearised and followed.");
+        return;
+    }
+    ui.weak("Tick Linearised model to choose operating points along a trajectory, and run it in time.");
+}
+
+fn buttons(ui: &mut Ui, state: &mut State) {
+    let ctx = ui.ctx().clone();
+    let linearised = state.transient.linearised.clone();
+    ui.horizontal_wrapped(|ui| {
+        let mut form = form_shown(state);
+        let tip = "Shows how the linearised model is made, or leaves the room to pictures";
+        if ui.toggle_value(&mut form, "Model set-up").on_hover_text(tip).changed() {
+            state.tpwl.form = Some(form);
+        }
+        transient::run_button(ui, state);
+        let ready = linearised.is_some() && state.transient.standing().is_none();
+        let tip = "Error of H_c against the number of operating points: both rules on a ladder of tolerances, by both weightings, along \
+                   these inputs";
+        if state.transient.number.standing().is_some() {
+            if ui.button("Stop the study").on_hover_text("What has been found so far stays (Esc)").clicked() {
+                state.transient.number.stop();
+            }
+        } else if enabled(ui, ready, "Number against error", tip).clicked()
+            && let (Some(linearised), Some(full)) = (&linearised, state.transient.reference_of_linearised())
+        {
+            let (model, full) = (Arc::clone(&linearised.model), full.without_fields());
+            state.transient.number.start(&ctx, model, full);
+            state.tpwl.numbers = true;
+        }
+        let there = linearised.is_some();
+        let tip = "All operating points with inputs, state norms, weights and distances at this moment";
+        if enabled(ui, there, "Export points…", tip).clicked()
+            && let Some(linearised) = &linearised
+        {
+            let text = export::points(&Shown::new(ui, state, linearised));
+            state.ask_path(&ctx, Purpose::Csv { text });
+        }
+        let tip = "Every step’s operating points and weights, and how far it lies from them";
+        if enabled(ui, there, "Export weights…", tip).clicked()
+            && let Some(linearised) = &linearised
+        {
+            let text = export::weights(&Shown::new(ui, state, linearised));
+            state.ask_path(&ctx, Purpose::Csv { text });
+        }
+        if !state.transient.number.rows.is_empty() {
+            let tip = "Rule, tolerance, number of points, weights and error of every model tried";
+            if ui.button("Export numbers…").on_hover_text(tip).clicked() {
+                let text = export::numbers(&state.transient);
+                state.ask_path(&ctx, Purpose::Csv { text });
+            }
+        }
+        let tip = "Any of these plots, or the whole tab, as SVG or PNG with axes and parameters";
+        if enabled(ui, there, "Export plot…", tip).clicked() {
+            state.ask_figure();
+        }
+        ui.toggle_value(&mut state.tpwl.why, "Why").on_hover_text("What the model does, in three sentences");
+    });
+}
+
+fn enabled(ui: &mut Ui, on: bool, name: &str, tip: &str) -> Response {
+    ui.add_enabled(on, Button::new(name)).on_hover_text(tip).on_disabled_hover_text(tip)
+}
+
+fn number_status(ui: &mut Ui, state: &State) {
+    let study = &state.transient.number;
+    if let Some(standing) = study.standing() {
+        ui.horizontal(|ui| {
+            ui.label(&standing.stage);
+            let fraction = if standing.total > 0 { standing.done as f32 / standing.total as f32 } else { 0.0 };
+            ui.add(ProgressBar::new(fraction).desired_width(120.0).desired_height(8.0));
+            ui.weak(numbers::duration(standing.since_s));
+        });
+    }
+    if let Some(message) = &study.message {
+        message_ui(ui, message);
+    }
+}
+
+/// What is drawn: quantity, training, coordinates, and what stands below.
+fn choices(ui: &mut Ui, state: &mut State, linearised: &Linearised) {
+    let tab = &mut state.tpwl;
+    let modes = linearised.model.space.modes();
+    let trainings = linearised.trainings.len();
+    tab.trajectory = tab.trajectory.min(trainings.saturating_sub(1));
+    tab.coordinates = tab.coordinates.map(|k| k.min(modes));
+    ui.horizontal_wrapped(|ui| {
+        let combo = |ui: &mut Ui, content: &mut dyn FnMut(&mut Ui)| {
+            Grid::new(ui.next_auto_id()).spacing([6.0, 0.0]).min_col_width(0.0).show(ui, |ui| content(ui));
+        };
+        combo(ui, &mut |ui| {
+            let quantities = [Quantity::CentralFilm, Quantity::CentralPressure];
+            let name = |quantity| match quantity {
+                Quantity::CentralPressure => ("Central pressure", "P_c of the full system"),
+                _ => ("Central film", "H_c of the full system"),
+            };
+            choice(ui, "Along", "What is drawn along the training trajectory", &mut tab.quantity, &quantities, name);
+        });
+        if trainings > 1 {
+            let label = ui.label("Training");
+            egui::ComboBox::from_id_salt("training shown")
+                .selected_text((tab.trajectory + 1).to_string())
+                .width(56.0)
+                .show_ui(ui, |ui| {
+                    for k in 0..trainings {
+                        ui.selectable_value(&mut tab.trajectory, k, (k + 1).to_string());
+                    }
+                })
+                .response
+                .labelled_by(label.id);
+        }
+        for (name, at) in [("Across", 0), ("Up", 1)] {
+            let label = ui.label(name).on_hover_text("A reduced coordinate of the plane: a pressure mode’s, or H_0");
+            egui::ComboBox::from_id_salt(("coordinate", at))
+                .selected_text(plane::coordinate_name(tab.coordinates[at], modes))
+                .width(84.0)
+                .show_ui(ui, |ui| {
+                    for k in 0..=modes {
+                        ui.selectable_value(&mut tab.coordinates[at], k, plane::coordinate_name(k, modes));
+                    }
+                })
+                .response
+                .labelled_by(label.id);
+        }
+        ui.selectable_value(&mut tab.numbers, false, "Weights");
+        ui.selectable_value(&mut tab.numbers, true, "Number and error");
+    });
+}
+
+/// The point whose place on the screen is nearest to the pointer, if it is near.
+fn near<T>(places: impl Iterator<Item = (T, PlotPoint)>, transform: &PlotTransform, pointer: Pos2) -> Option<T> {
+    let distance = |place: &PlotPoint| transform.position_from_point(place).distance(pointer);
+    let measured = places.map(|(what, place)| (what, distance(&place)));
+    measured.filter(|(_, d)| *d < GRAB).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(what, _)| what)
+}
+
+/// What the weights of a point are, for people.
+fn weights_text(shown: &Shown<'_>, now: &PointNow) -> String {
+    let each = (0..WEIGHTINGS.len()).filter(|&k| shown.was_run(k));
+    let said = each.map(|k| format!("{} {}", weighting_name(WEIGHTINGS[k]).0, numbers::digits(now.weights[k], 3)));
+    said.collect::<Vec<_>>().join(", ")
+}
+
+/// Says which operating point lies under the pointer; returns the moment to go to when it is clicked.
+fn point_under(shown: &Shown<'_>, response: Response, under: Option<&PointNow>) -> Option<f64> {
+    let (now, trained) = under.and_then(|now| Some((now, shown.linearised.model.points.get(now.point)?)))?;
+    let clicked = response.clicked();
+    response.on_hover_text_at_pointer(format!(
+        "Operating point {}, T = {}\nWeights: {}\nA click goes to its moment",
+        now.point + 1,
+        numbers::significant(trained.moment.time),
+        weights_text(shown, now)
+    ));
+    if clicked { shown.linearised.moment_of(now.point, &shown.runs) } else { None }
+}

@@ -1,0 +1,267 @@
+//! The linearised model of a contact in time as it is looked into: its operating points, what the other rule would choose, and the study of
+//! how many points it takes.
+
+use super::Run;
+use super::method::{RULES, WEIGHTINGS, rule_name};
+use crate::app::task::{Ending, Reporter, Standing, Task};
+use crate::scene::{At, LinearisedTransient, ReducedTransient, Scene, TpwlStudy, TrainingInputs, TransientStudy};
+use crate::solver::contact::OperatingPoint;
+use crate::solver::full::transient::{Frame, Keep, Moment, Quantity, Trajectory, Transient, TransientObserver, march};
+use crate::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, Weight, Weighting};
+use crate::solver::training::aside;
+use egui::Context;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// A linearised model with what is shown of it.
+pub struct Linearised {
+    /// The model.
+    pub model: Arc<TpwlModel>,
+    /// Scalars of its training trajectories.
+    pub trainings: Vec<Vec<Moment>>,
+    /// Whether it was trained by the run that it is compared with.
+    pub own: bool,
+    /// What the other rule chooses when it is to choose as many points.
+    pub other: OtherRule,
+}
+
+/// A rule, and the moments it chooses of each training trajectory.
+pub struct OtherRule {
+    /// The rule.
+    pub selection: Selection,
+    /// Indices of moments, by trajectory.
+    pub chosen: Vec<Vec<usize>>,
+}
+
+/// An operating point at a moment of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointNow {
+    /// Which, among all of the model.
+    pub point: usize,
+    /// Its weights by [`WEIGHTINGS`]; 0 where that weighting was not run.
+    pub weights: [f64; 2],
+    /// ‖y − y_i‖/‖y‖ of the state reached, by the first weighting that was run.
+    pub distance: f64,
+}
+
+impl OtherRule {
+    /// The rule that a model was not made by.
+    pub fn of(model: &TpwlModel) -> Self {
+        let by_distance = matches!(model.training.selection, Selection::Distance { .. });
+        let selection = model.selection_of(RULES[usize::from(by_distance)], model.points.len());
+        Self { selection, chosen: model.selected(selection) }
+    }
+}
+
+impl Linearised {
+    /// A quantity of a training trajectory at T.
+    pub fn value(&self, trajectory: usize, quantity: Quantity, time: f64) -> Option<f64> {
+        let moments = self.trainings.get(trajectory)?;
+        // A state is that of a moment.
+        let at = moments.partition_point(|moment| moment.time < time - 1e-9 * time.abs());
+        moments.get(at).map(|moment| moment.value(quantity))
+    }
+
+    /// All operating points as the runs draw on them at T, in their order.
+    pub fn points_at<'a>(&self, runs: &[(Weighting, &'a Run)], time: f64) -> Vec<PointNow> {
+        let record =
+            |(weighting, run): &(Weighting, &'a Run)| Some((*weighting, (run.record.as_ref()?, run.step_at(time)?)));
+        let recorded: Vec<_> = runs.iter().filter_map(record).collect();
+        let state = recorded.first().map_or(&[][..], |(_, (record, step))| record.state(*step));
+        let norm = state.iter().map(|y| y * y).sum::<f64>().sqrt();
+        let points = self.model.points.iter().enumerate();
+        points
+            .map(|(point, trained)| {
+                let weight = |weighting: Weighting| -> f64 {
+                    let of = recorded.iter().find(|(own, _)| *own == weighting);
+                    let weights = of.map_or(&[][..], |(_, (record, step))| record.weights(*step));
+                    weights.iter().filter(|w: &&Weight| w.point == point).map(|w| w.weight).sum()
+                };
+                let square: f64 = state.iter().zip(&trained.moment.state).map(|(a, b)| (a - b) * (a - b)).sum();
+                PointNow { point, weights: WEIGHTINGS.map(weight), distance: square.sqrt() / norm }
+            })
+            .collect()
+    }
+
+    /// The moment of the runs that a point stands for: its own T where the model was trained by the run, else when it weighed most.
+    pub fn moment_of(&self, point: usize, runs: &[(Weighting, &Run)]) -> Option<f64> {
+        let trained = self.model.points.get(point)?;
+        if self.own {
+            return Some(trained.moment.time);
+        }
+        let record = runs.iter().find_map(|(_, run)| run.record.as_ref())?;
+        let weight =
+            |step: usize| -> f64 { record.weights(step).iter().filter(|w| w.point == point).map(|w| w.weight).sum() };
+        let steps = record.steps().iter().enumerate().map(|(k, step)| (step.time, weight(k)));
+        steps.filter(|(_, weight)| *weight > 0.0).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(time, _)| time)
+    }
+}
+
+/// The first model and the first test of a study of linearised models, as the tab can run it.
+pub fn first_of(scene: &Scene, study: &TpwlStudy) -> Option<TransientStudy> {
+    let (point, test) = (scene.point().ok()?, study.tests.first()?);
+    let at = |load: f64| (load != point.load).then(|| At::from(OperatingPoint { load, ..point }));
+    let training = |load: f64| {
+        study.training.iter().map(move |drive| TrainingInputs {
+            at: at(load),
+            inputs: drive.inputs.clone(),
+            duration: drive.duration,
+        })
+    };
+    let trainings: Vec<TrainingInputs> = study.loads(point.load).into_iter().flat_map(training).collect();
+    let reduced = |loss: f64| ReducedTransient { trainings: trainings.clone(), loss, rows_per_mode: 2.0, seed: 1 };
+    Some(TransientStudy {
+        inputs: test.inputs.clone(),
+        sampled: None,
+        duration: test.duration,
+        time_step: study.time_step,
+        frames: vec![Frame::Fixed],
+        window: None,
+        reduced: study.rnsa_loss.map(reduced),
+        linearised: Some(LinearisedTransient {
+            modes: study.modes,
+            selection: *study.selections.first()?,
+            points: None,
+            weightings: study.weightings.clone(),
+            trainings,
+        }),
+        mass_between: None,
+        published: Vec::new(),
+    })
+}
+
+/// A model of one number of points on the run's inputs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NumberRow {
+    /// Rule and tolerance.
+    pub selection: Selection,
+    /// Operating points it chose.
+    pub points: usize,
+    /// Weights.
+    pub weighting: Weighting,
+    /// Relative L2 difference of H_c from the full run; none where the march ended early.
+    pub difference: Option<f64>,
+    /// Median of the seconds per step.
+    pub step_s: f64,
+}
+
+/// How many operating points it takes: both rules on a ladder of tolerances, by both weightings, against the full run.
+#[derive(Default)]
+pub struct NumberStudy {
+    /// What has come of it.
+    pub rows: Vec<NumberRow>,
+    /// Why there is no more.
+    pub message: Option<String>,
+    task: Option<Task<NumberRow>>,
+}
+
+/// Most operating points that are tried.
+const MOST_POINTS: usize = 160;
+/// Fewest that are.
+const LEAST_POINTS: usize = 4;
+/// Tolerances of the first rung, by [`RULES`].
+const COARSEST: [f64; 2] = [0.5, 0.25];
+/// Rungs of the ladder at most, each half of the one before.
+const RUNGS: usize = 24;
+
+impl NumberStudy {
+    /// Starts it anew on the inputs of a full run.
+    pub fn start(&mut self, ctx: &Context, model: Arc<TpwlModel>, full: Trajectory) {
+        self.rows.clear();
+        self.message = None;
+        self.task = Some(Task::start(ctx, "Number of operating points", move |reporter| work(&model, &full, reporter)));
+    }
+
+    /// Takes in what came.
+    pub fn receive(&mut self) {
+        let Some(task) = &mut self.task else { return };
+        let rows = &mut self.rows;
+        if let Some(ending) = task.poll(|row| rows.push(row)) {
+            self.message = ending.err();
+            self.task = None;
+        }
+    }
+
+    /// How far it is.
+    pub fn standing(&self) -> Option<Standing> {
+        self.task.as_ref().map(Task::standing)
+    }
+
+    /// Stops it; what it has found stays.
+    pub fn stop(&self) {
+        if let Some(task) = &self.task {
+            task.stop();
+        }
+    }
+}
+
+fn work(model: &Arc<TpwlModel>, full: &Trajectory, reporter: &Reporter<NumberRow>) -> Ending {
+    let transient = Transient { keep: Keep::Scalars, ..full.transient.clone() };
+    let moments: usize = model.trajectories.iter().map(Vec::len).sum();
+    let most = MOST_POINTS.min(moments);
+    for (rule, coarsest) in RULES.into_iter().zip(COARSEST) {
+        let mut last = 0;
+        for rung in 0..RUNGS {
+            let selection = rule.with_tolerance(coarsest * 0.5f64.powi(rung as i32));
+            let stage = format!("Number of operating points, {}", rule_name(rule).0);
+            reporter.stage(&stage, last, most);
+            let shared = Arc::clone(model);
+            let Ok(made) = aside(&reporter.observer(), move || shared.reselected(selection)) else { return Ok(()) };
+            let made = made.map_err(|error| error.to_string())?;
+            let points = made.points.len();
+            if points >= LEAST_POINTS && points > last {
+                for weighting in WEIGHTINGS {
+                    let row = tried(&made, &transient, full, weighting, reporter)?;
+                    if reporter.cancelled() {
+                        return Ok(());
+                    }
+                    reporter.send(row);
+                }
+            }
+            last = last.max(points);
+            if points >= most {
+                break;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// One model by one weighting.
+fn tried(
+    model: &TpwlModel,
+    transient: &Transient,
+    full: &Trajectory,
+    weighting: Weighting,
+    reporter: &Reporter<NumberRow>,
+) -> Result<NumberRow, String> {
+    let mut marching = TpwlMarch::new(model, transient, weighting).map_err(|error| error.to_string())?;
+    let mut clock = Clock { reporter, since: Instant::now(), seconds: Vec::new() };
+    let trajectory = march(&mut marching, transient, &mut clock).map_err(|error| error.to_string())?;
+    let difference = trajectory.difference(full, Quantity::CentralFilm, (0.0, transient.duration));
+    Ok(NumberRow {
+        selection: model.training.selection,
+        points: model.points.len(),
+        weighting,
+        difference: difference.filter(|_| trajectory.finished()).map(|(_, l2)| l2),
+        step_s: crate::harness::median(clock.seconds.get(1..).unwrap_or(&[])),
+    })
+}
+
+/// Measures every step, and stops with the study.
+struct Clock<'a> {
+    reporter: &'a Reporter<NumberRow>,
+    since: Instant,
+    seconds: Vec<f64>,
+}
+
+impl TransientObserver for Clock<'_> {
+    fn moment(&mut self, _moment: &Moment) {
+        self.seconds.push(self.since.elapsed().as_secs_f64());
+        self.since = Instant::now();
+    }
+
+    fn cancelled(&self) -> bool {
+        self.reporter.cancelled()
+    }
+}

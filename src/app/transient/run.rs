@@ -1,0 +1,103 @@
+//! One method in one frame: what has come of it, and what it cost.
+
+use super::method::{self, Method};
+use crate::solver::full::transient::{Frame, State, Trajectory};
+use crate::solver::reduced::tpwl::TpwlRecord;
+
+/// Times are those of moments: rounding must not show the one before.
+const ROUNDING: f64 = 1e-12;
+
+/// One method in one frame, as far as it has come.
+pub struct Run {
+    /// How its steps are solved.
+    pub method: Method,
+    /// What has come of it; how it ended counts once it has.
+    pub trajectory: Trajectory,
+    /// Seconds that each moment took.
+    pub seconds: Vec<f64>,
+    /// Whether it has ended.
+    pub ended: bool,
+    /// What a reduced model is made of.
+    pub model: Option<ModelSize>,
+    /// Greatest relative difference of H_c from [`super::TransientView::reference_of`] it, once it has ended.
+    pub difference: Option<f64>,
+    /// What each step of a linearised model drew on; once it has ended.
+    pub record: Option<TpwlRecord>,
+}
+
+/// What a reduced model is made of, and what it took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModelSize {
+    /// Pressure modes.
+    pub modes: usize,
+    /// Sampled rows or operating points.
+    pub chosen: usize,
+    /// Which of both.
+    pub what: &'static str,
+    /// Seconds of its training, with the full trajectories of its own.
+    pub training_s: f64,
+}
+
+impl Run {
+    /// Its name among others.
+    pub fn name(&self) -> String {
+        method::run_name(self.method, self.frame())
+    }
+
+    /// A run of which nothing is known yet.
+    pub fn begun(method: Method, trajectory: Trajectory, model: Option<ModelSize>) -> Self {
+        Self { method, trajectory, seconds: Vec::new(), ended: false, model, difference: None, record: None }
+    }
+
+    /// The step of its record that led to T, or the last one before.
+    pub fn step_at(&self, time: f64) -> Option<usize> {
+        let steps = self.record.as_ref()?.steps();
+        let next = steps.partition_point(|step| step.time <= time * (1.0 + ROUNDING));
+        next.checked_sub(1).or((!steps.is_empty()).then_some(0))
+    }
+
+    /// How its domain follows the contact.
+    pub fn frame(&self) -> Frame {
+        self.trajectory.transient.frame
+    }
+
+    /// The last T reached; 0 where not even the start was found.
+    pub fn reached(&self) -> f64 {
+        self.trajectory.moments.last().map_or(0.0, |moment| moment.time)
+    }
+
+    /// The fields last kept at or before T, else the first ones.
+    pub fn state_at(&self, time: f64) -> Option<&State> {
+        let next = self.trajectory.states.partition_point(|state| state.time <= time * (1.0 + ROUNDING));
+        self.trajectory.states.get(next.saturating_sub(1))
+    }
+
+    /// X, P and H of its fields in the scales of the reference contact, without the node outside the inlet.
+    pub fn profile<'a>(&'a self, state: &'a State) -> impl Iterator<Item = (f64, f64, f64)> + 'a {
+        let scales = state.scales;
+        let fields = self.trajectory.x.iter().zip(&state.pressure).zip(&state.film).skip(1);
+        fields.map(move |((x, p), h)| (x * scales.half_width, p * scales.pressure, h * scales.film))
+    }
+
+    /// Its trajectory with no fields, to be compared with.
+    pub fn without_fields(&self) -> Trajectory {
+        let Trajectory { transient, problem, mesh, moments, rejected_steps, ended, .. } = &self.trajectory;
+        Trajectory {
+            transient: transient.clone(),
+            problem: *problem,
+            mesh: *mesh,
+            x: Vec::new(),
+            moments: moments.clone(),
+            states: Vec::new(),
+            rejected_steps: *rejected_steps,
+            ended: ended.clone(),
+        }
+    }
+
+    /// The median of the seconds per step, without the start; `None` before the first step.
+    pub fn seconds_per_step(&self) -> Option<f64> {
+        let mut seconds = self.seconds.get(1..)?.to_vec();
+        let middle = seconds.len() / 2;
+        (middle < seconds.len()).then(|| *seconds.select_nth_unstable_by(middle, f64::total_cmp).1)
+    }
+}

@@ -1,0 +1,318 @@
+//! Linearised models without a display: trained and run beside the full system, looked into, tried with other numbers of points, exported,
+//! stopped and saved; any plot as a picture.
+
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use ehl_explorer::app::Explorer;
+use ehl_explorer::harness::{Workbench, run_scene};
+use ehl_explorer::scene::{LinearisedTransient, Scene, Study};
+use ehl_explorer::solver::reduced::tpwl::Selection;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+type Window = Harness<'static, Explorer>;
+
+/// Case 1 of Table 4.5 on a coarse grid, its load over one period.
+fn scene(load: &str, linearised: &str) -> String {
+    format!(
+        "Scene(version: 1, title: \"linearised\", at: Si(radius: 0.01, speed: 2.5, load: 2e5, modulus: 231e9, viscosity: 0.01, alpha: 2e-8),
+            grid: Uniform(dx: 0.02, domain: (-4.0, 2.0)),
+            study: Transient(inputs: (load: {load}), duration: 0.5, time_step: Fixed(0.005), {linearised}))"
+    )
+}
+
+const SINE: &str = "Harmonic(amplitude: 0.1, period: 0.5)";
+const BOTH: &str = "linearised: (modes: 90, selection: Step(tolerance: 1e-3), weightings: [DualTaylor, Dissertation])";
+
+fn open(name: &str, text: &str, size: [f32; 2]) -> (Window, PathBuf) {
+    let folder = std::env::temp_dir().join(format!("ehl-tpwl-tab-{name}-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let path = folder.join("scene.ron");
+    std::fs::write(&path, text).unwrap();
+    let mut explorer = Explorer::new(None).without_system_dialogs();
+    explorer.open_scene(&path).unwrap();
+    let mut harness = Harness::builder().with_size(size).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer);
+    wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
+    click(&mut harness, "TPWL");
+    (harness, folder)
+}
+
+fn wait(harness: &mut Window, what: &str, done: impl Fn(&Explorer) -> bool) {
+    let begin = Instant::now();
+    loop {
+        harness.step();
+        if done(harness.state()) {
+            harness.run_steps(2);
+            return;
+        }
+        assert!(begin.elapsed() < Duration::from_secs(60), "waited in vain for {what}");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+fn click(harness: &mut Window, name: &str) {
+    harness.get_by_label(name).click();
+    harness.run_steps(3);
+}
+
+fn shows(harness: &Window, text: &str) -> bool {
+    harness.query_all_by_label_contains(text).next().is_some()
+}
+
+fn run(harness: &mut Window) {
+    click(harness, "Run in time");
+    wait(harness, "the run", |app| !app.marching());
+}
+
+fn time(harness: &Window) -> f64 {
+    harness.get_by_role_and_label(Role::Slider, "Time T").accesskit_node().numeric_value().unwrap()
+}
+
+/// Gives a path to the field that asks for one, and reads what was written there.
+fn export(harness: &mut Window, button: &str, path: &Path) -> String {
+    click(harness, button);
+    give_path(harness, path)
+}
+
+fn give_path(harness: &mut Window, path: &Path) -> String {
+    harness.get_by_label("Path of the file").focus();
+    harness.run_steps(2);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    harness.get_by_label("Path of the file").type_text(&path.display().to_string());
+    harness.run_steps(2);
+    click(harness, "Export");
+    std::fs::read_to_string(path).unwrap()
+}
+
+/// Rows of numbers under the names of their columns.
+struct Table {
+    header: Vec<String>,
+    rows: Vec<Vec<f64>>,
+}
+
+impl Table {
+    fn of(text: &str) -> Self {
+        let mut lines = text.lines().filter(|line| !line.starts_with('#'));
+        let header = lines.next().unwrap().split(',').map(str::to_owned).collect();
+        let row = |line: &str| line.split(',').map(|cell| cell.parse().unwrap_or(f64::NAN)).collect();
+        Self { header, rows: lines.map(row).collect() }
+    }
+
+    fn column(&self, name: &str) -> Vec<f64> {
+        let at = self.header.iter().position(|title| title == name).unwrap();
+        self.rows.iter().map(|row| row[at]).collect()
+    }
+}
+
+#[test]
+fn a_linearised_model_is_run_looked_into_and_exported() {
+    let (mut harness, folder) = open("look", &scene(SINE, BOTH), [1280.0, 900.0]);
+    assert!(shows(&harness, "Modes") && harness.state().operating_points().is_none());
+    run(&mut harness);
+    assert_eq!(harness.state().transient_moments(), 3 * 101, "full, dual Taylor, dissertation");
+    let points = harness.state().operating_points().unwrap();
+    assert!((10..=101).contains(&points), "{points} points");
+    for plot in [
+        "Operating points along the trajectory",
+        "Points of the other rule",
+        "Operating points in the plane",
+        "Weights of the operating points",
+    ] {
+        assert!(shows(&harness, plot), "{plot}");
+    }
+    assert!(shows(&harness, &format!("Missed step (4.30), in use: {points} points")));
+    assert!(shows(&harness, "Distance (2.85), the other rule"));
+    assert!(!shows(&harness, "too steep"), "it follows its own training");
+
+    // In the middle of the run: weights of both kinds add up to one, the nearest point carries most.
+    harness.get_by_role_and_label(Role::Slider, "Time T").set_value_accesskit(0.2);
+    harness.run_steps(2);
+    let table = Table::of(&export(&mut harness, "Export points…", &folder.join("points.csv")));
+    assert_eq!(table.rows.len(), points);
+    for name in ["weight_dual_taylor", "weight_dissertation"] {
+        let sum: f64 = table.column(name).iter().sum();
+        assert!((sum - 1.0).abs() < 1e-9, "{name}: {sum}");
+    }
+    let (times, distances) = (table.column("T"), table.column("distance"));
+    let nearest = (0..points).min_by(|&a, &b| distances[a].total_cmp(&distances[b])).unwrap();
+    assert!((times[nearest] - 0.2).abs() < 0.05, "T {} at T 0.2", times[nearest]);
+    assert!(table.column("weight_dissertation")[nearest] > 0.3);
+    // H_c of a point is that of the training at its moment: all lie in the range of a breathing film.
+    assert!(table.column("H_c").iter().all(|h| (0.08..0.12).contains(h)));
+
+    let weights = Table::of(&export(&mut harness, "Export weights…", &folder.join("weights.csv")));
+    let at = |weighting: f64, time: f64| -> f64 {
+        let (kinds, instants, shares) = (weights.column("weighting"), weights.column("T"), weights.column("weight"));
+        (0..shares.len())
+            .filter(|&k| kinds[k] == weighting && (instants[k] - time).abs() < 1e-9)
+            .map(|k| shares[k])
+            .sum()
+    };
+    for time in [0.0, 0.2, 0.5] {
+        assert!((at(1.0, time) - 1.0).abs() < 1e-9 && (at(2.0, time) - 1.0).abs() < 1e-9);
+    }
+
+    // A row goes to its moment; the table sorts either way.
+    click(&mut harness, "Sort by T");
+    click(&mut harness, "Go to operating point 3");
+    assert!((time(&harness) - times[2]).abs() < 1e-12);
+    click(&mut harness, "Why");
+    assert!(shows(&harness, "replaced by their tangents"));
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn more_points_err_less_and_the_study_can_be_stopped() {
+    let (mut harness, folder) = open("number", &scene(SINE, BOTH), [1280.0, 900.0]);
+    run(&mut harness);
+    click(&mut harness, "Number against error");
+    wait(&mut harness, "the study", |app| !app.studying_points());
+    let text = export(&mut harness, "Export numbers…", &folder.join("numbers.csv"));
+    let table = Table::of(&text);
+    let (rules, kinds) = (table.column("rule"), table.column("weighting"));
+    let (points, errors) = (table.column("points"), table.column("H_c_difference_l2"));
+    for rule in [1.0, 2.0] {
+        let of = |kind: f64| -> Vec<(f64, f64)> {
+            let own = (0..points.len()).filter(|&k| rules[k] == rule && kinds[k] == kind);
+            own.map(|k| (points[k], errors[k])).collect()
+        };
+        let (dual, dissertation) = (of(1.0), of(2.0));
+        assert!(dual.len() >= 3 && dual.len() == dissertation.len(), "rule {rule}: {dual:?}");
+        assert!(dual.windows(2).all(|pair| pair[0].0 < pair[1].0), "ever more points");
+        let (first, last) = (dual[0].1, dual[dual.len() - 1].1);
+        assert!(last < 0.1 * first && last < 1e-3, "rule {rule}: {first:e} with few points, {last:e} with many");
+        // The dual Taylor form needs fewer points for the same error.
+        let better = dual.iter().zip(&dissertation).filter(|(a, b)| a.1 < b.1).count();
+        assert!(2 * better > dual.len(), "{dual:?} {dissertation:?}");
+    }
+    assert!(shows(&harness, "Error against the number of operating points"));
+    let mut fastest = Duration::MAX;
+    // Another process may have the cores for a while: the best of a few counts.
+    for _ in 0..5 {
+        click(&mut harness, "Number against error");
+        let begin = Instant::now();
+        click(&mut harness, "Stop the study");
+        wait(&mut harness, "the end of the study", |app| !app.studying_points());
+        fastest = fastest.min(begin.elapsed());
+    }
+    println!("stopped after {fastest:.0?}");
+    assert!(fastest < Duration::from_millis(if cfg!(debug_assertions) { 3000 } else { 150 }), "{fastest:?}");
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn inputs_that_are_too_steep_are_said_to_be_so_and_reversals_are_refused_with_what_there_is() {
+    // Trained on a gentle sine, tried on a steep wave of three times its amplitude.
+    let other =
+        "linearised: (trainings: [(inputs: (load: Harmonic(amplitude: 0.1, period: 0.5)), duration: 0.5)], modes: 90,
+        selection: Step(tolerance: 1e-3))";
+    let steep = "TriangleToSquare(amplitude: 0.3, period: 0.2, s: 0.9)";
+    let (mut harness, folder) = open("steep", &scene(steep, other), [1024.0, 640.0]);
+    run(&mut harness);
+    assert!(shows(&harness, "The inputs are too steep for linearised models"));
+    assert!(shows(&harness, "Tick Reduced model"));
+    assert_eq!(harness.state().transient_moments(), 2 * 101);
+    std::fs::remove_dir_all(&folder).unwrap();
+
+    let turning = scene(SINE, BOTH).replace("inputs: (", "inputs: (speed: Harmonic(amplitude: 1.5, period: 0.5), ");
+    let (mut harness, folder) = open("turning", &turning, [1024.0, 640.0]);
+    run(&mut harness);
+    assert!(shows(&harness, "needs one that stays above zero"));
+    assert_eq!(harness.state().transient_moments(), 101, "the full run stays");
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn the_model_is_set_up_undone_refused_and_saved_with_the_scene() {
+    let (mut harness, folder) = open("document", &scene(SINE, ""), [1280.0, 900.0]);
+    assert!(shows(&harness, "Tick Linearised model"));
+    click(&mut harness, "Linearised model");
+    let value = |harness: &Window, name: &str| harness.get_by_role_and_label(Role::SpinButton, name).value().unwrap();
+    assert_eq!(value(&harness, "Modes"), "100");
+    harness.get_by_role_and_label(Role::SpinButton, "Tolerance β").set_value_accesskit(-1.0);
+    harness.run_steps(2);
+    assert!(shows(&harness, "study.linearised.selection.tolerance"));
+    assert_eq!(value(&harness, "Tolerance β"), "0.001");
+    click(&mut harness, "Dual Taylor");
+    assert!(shows(&harness, "At least one kind of weights is needed"));
+    click(&mut harness, "Weights (4.29)");
+    harness.get_by_role_and_label(Role::SpinButton, "Modes").set_value_accesskit(80.0);
+    harness.run_steps(2);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    harness.run_steps(2);
+    assert_eq!(value(&harness, "Modes"), "100");
+    click(&mut harness, "Train on these inputs");
+    assert!(shows(&harness, "Trained on other inputs"));
+    // A linearised model needs the fixed frame.
+    click(&mut harness, "Transient");
+    click(&mut harness, "Moving nodes (ALE)");
+    click(&mut harness, "Fixed frame");
+    assert!(shows(&harness, "must hold Fixed for a linearised model"));
+
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
+    harness.run_steps(2);
+    let Study::Transient(study) = Scene::read(&folder.join("scene.ron")).unwrap().study else { panic!() };
+    let linearised = study.linearised.unwrap();
+    assert_eq!(linearised.trainings.len(), 1);
+    assert_eq!((linearised.modes, linearised.weightings.len()), (100, 2));
+    assert_eq!(linearised.selection, LinearisedTransient::default().selection);
+    assert!(matches!(linearised.selection, Selection::Step { .. }));
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn a_study_of_linearised_models_opens_with_its_first_model_and_keeps_its_question() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/fig_4_17_quick.ron");
+    let text = std::fs::read_to_string(path).unwrap();
+    let Study::Tpwl(asked) = Scene::from_ron(&text).unwrap().study else { panic!() };
+    let (harness, folder) = open("study", &text, [1280.0, 900.0]);
+    let trainings = asked.training.len() * asked.loads.len().max(1);
+    assert!(shows(&harness, &format!("Trained on {trainings} other inputs")));
+    let modes = harness.get_by_role_and_label(Role::SpinButton, "Modes").value().unwrap();
+    assert_eq!(modes, asked.modes.to_string());
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn the_same_scene_runs_headless_and_is_refused_without_the_fixed_frame() {
+    let wanted = "reduced: (loss: 1e-6), linearised: (modes: 90, selection: Distance(tolerance: 0.1), points: 40)";
+    let run = |text: &str| run_scene(&Scene::from_ron(text).unwrap(), &mut Workbench::new(Path::new(".")), &());
+    let outcome = run(&scene(SINE, wanted)).unwrap();
+    assert!(outcome.converged && outcome.warnings.is_empty(), "{:?}", outcome.warnings);
+    let value = |name: &str| outcome.values.iter().find(|value| value.name == name).unwrap().value;
+    assert!((value("fixed.tpwl.points") - 40.0).abs() <= 2.0, "{} points", value("fixed.tpwl.points"));
+    assert_eq!((value("fixed.tpwl.modes"), value("fixed.tpwl.dual_taylor.steps")), (90.0, 100.0));
+    let difference = value("fixed.tpwl.dual_taylor.H_c.difference_l2");
+    assert!(difference < 1e-3 && difference > 0.0, "{difference:e}");
+    assert!(value("fixed.rnsa.H_c.difference_l2") < difference, "it solves the nonlinear equations");
+    assert!(outcome.tables.iter().any(|table| table.name == "transient_fixed_tpwl_dual_taylor"));
+    let moving = scene(SINE, &format!("frames: [ArbitraryLagrangianEulerian], {BOTH}"));
+    assert!(run(&moving).unwrap_err().to_string().contains("must hold Fixed for a linearised model"));
+}
+
+#[test]
+fn any_plot_leaves_as_a_drawing_with_its_name_axes_and_contact() {
+    let (mut harness, folder) = open("drawing", &scene(SINE, BOTH), [1280.0, 900.0]);
+    run(&mut harness);
+    click(&mut harness, "Export plot…");
+    click(&mut harness, "Operating points in the plane as SVG…");
+    harness.run_steps(6);
+    let drawing = give_path(&mut harness, &folder.join("plane.svg"));
+    assert!(drawing.starts_with("<svg ") && drawing.ends_with("</svg>\n"));
+    assert!(drawing.contains(">Operating points in the plane</text>"));
+    assert!(drawing.contains("w 2e5 N/m") && drawing.contains("E' 2.31e11 Pa"), "the contact");
+    assert!(drawing.contains("Pressure mode 1") && drawing.contains("Pressure mode 2"), "titles of the axes");
+    let points = harness.state().operating_points().unwrap();
+    assert!(drawing.matches("<circle ").count() >= points, "one dot for each operating point");
+    assert_eq!(drawing.matches("<g").count(), drawing.matches("</g>").count());
+    // The same mechanism serves every tab: a film profile by the key.
+    click(&mut harness, "Profiles");
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::E);
+    harness.run_steps(3);
+    click(&mut harness, "Film profile as SVG…");
+    harness.run_steps(6);
+    let drawing = give_path(&mut harness, &folder.join("film.svg"));
+    assert!(drawing.contains("<polyline ") && drawing.contains("font-style=\"italic\""));
+    std::fs::remove_dir_all(&folder).unwrap();
+}
