@@ -1,21 +1,36 @@
-//! An online Newton iteration must not allocate: more iterations, the same number of allocations.
+//! Online iterations and online steps in time must not allocate: more of them, the same number of allocations.
 
-use ehl_explorer::harness::model_file::embedded;
-use ehl_explorer::solver::contact::{ContactKind, MoesRequest, si_from_moes};
+use ehl_explorer::harness::model_file::{embedded, embedded_shear_of};
+use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
+use ehl_explorer::solver::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
+use ehl_explorer::solver::full::transient::{
+    self, Frame, Inputs, Keep, Marching, Moment, Signal, TimeStep, Transient, TransientObserver, march,
+};
+use ehl_explorer::solver::grid::GridSpec;
 use ehl_explorer::solver::lubricant::Lubricant;
-use ehl_explorer::solver::reduced::{Online, ReducedOptions};
+use ehl_explorer::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
+use ehl_explorer::solver::reduced::transient::ReducedMarch;
+use ehl_explorer::solver::reduced::{Online, ReducedModel, ReducedOptions};
+use ehl_explorer::solver::training::{TrajectoryTraining, train_trajectories};
 use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 struct Counting;
 
-static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
+thread_local! {
+    /// Of this thread only: the online phases are sequential, and tests run beside each other.
+    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+}
+
+fn allocations() -> usize {
+    ALLOCATIONS.with(Cell::get)
+}
 
 // SAFETY: every call is handed on to the system allocator unchanged; only a counter is added.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
+        ALLOCATIONS.with(|count| count.set(count.get() + 1));
         // SAFETY: the caller's contract is the system allocator's.
         unsafe { System.alloc(layout) }
     }
@@ -29,19 +44,82 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
+/// Allocations of a solve whose attempts all run to their limit: a tolerance of zero is never met.
+fn allocations_of_a_solve(
+    model: &Arc<ReducedModel>,
+    point: &OperatingPoint,
+    lubricant: Lubricant,
+    max_newton: usize,
+) -> usize {
+    let options = ReducedOptions { tolerance: 0.0, max_newton, ..ReducedOptions::default() };
+    let mut online = Online::new(Arc::clone(model), options);
+    assert!(online.solve(point, lubricant).is_err());
+    let before = allocations();
+    assert!(online.solve(point, lubricant).is_err());
+    allocations() - before
+}
+
 #[test]
 fn more_online_iterations_do_not_allocate_more() {
-    let model = embedded().unwrap();
-    let point = si_from_moes(&MoesRequest::new(ContactKind::Line, 40.0, 10.0)).unwrap();
-    let count = |max_newton: usize| {
-        // A tolerance of zero is never met: every attempt runs to its limit.
-        let options = ReducedOptions { tolerance: 0.0, max_newton, ..ReducedOptions::default() };
-        let mut online = Online::new(Arc::clone(&model), options);
-        assert!(online.solve(&point, Lubricant::default()).is_err());
-        let before = ALLOCATIONS.load(Ordering::Relaxed);
-        assert!(online.solve(&point, Lubricant::default()).is_err());
-        ALLOCATIONS.load(Ordering::Relaxed) - before
+    let newtonian = si_from_moes(&MoesRequest::new(ContactKind::Line, 40.0, 10.0)).unwrap();
+    let request = MoesRequest {
+        radius_m: Some(12.7e-3),
+        modulus_pa: Some(123.878213951e9),
+        viscosity_pa_s: Some(0.0705),
+        alpha_per_pa: Some(1.8925e-8),
+        ..MoesRequest::new(ContactKind::Line, 20.0, 9.0)
     };
-    let (few, many) = (count(3), count(11));
-    assert_eq!(few, many, "allocations of the same attempts with 3 and with 11 iterations each");
+    let sliding = Sliding { slide_to_roll_ratio: 0.5, newtonian_plateau_ratio: Some(0.3) };
+    let thinning = OperatingPoint { sliding, ..si_from_moes(&request).unwrap() };
+    for (model, point, lubricant) in [
+        (embedded().unwrap(), newtonian, Lubricant::default()),
+        (embedded_shear_of(ContactKind::Line).unwrap(), thinning, SQUALANE_PIP),
+    ] {
+        let [few, many] = [3, 11].map(|max_newton| allocations_of_a_solve(&model, &point, lubricant, max_newton));
+        assert_eq!(few, many, "allocations of the same attempts with 3 and with 11 iterations each");
+    }
+}
+
+/// Allocations up to each moment of a march.
+struct Counts(Vec<usize>);
+
+impl TransientObserver for Counts {
+    fn moment(&mut self, _: &Moment) {
+        self.0.push(allocations());
+    }
+}
+
+#[test]
+fn online_steps_in_time_do_not_allocate() {
+    let coarse = GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) };
+    let breathing = Transient {
+        point: OperatingPoint::TABLE_2_1,
+        lubricant: Lubricant::default(),
+        inputs: Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 1.0 }),
+        frame: Frame::Fixed,
+        duration: 0.62,
+        time_step: TimeStep::Fixed(0.01),
+        keep: Keep::Every(1),
+    };
+    let full = transient::solve(coarse, &breathing, &mut ()).unwrap();
+    assert!(full.finished());
+    let training = TpwlTraining { modes: 40, selection: Selection::Distance { tolerance: 0.02 } };
+    let linearised = TpwlModel::train(&[&full], training).unwrap();
+    let settings = TrajectoryTraining { loss: 1e-5, ..TrajectoryTraining::default() };
+    let sampled = train_trajectories(&coarse.build().unwrap(), &[full], &settings, &()).unwrap();
+
+    let online = Transient { keep: Keep::Scalars, ..breathing };
+    let steps_that_allocate = |model: &mut dyn Marching| {
+        let mut counts = Counts(Vec::with_capacity(100));
+        let trajectory = march(model, &online, &mut counts).unwrap();
+        assert!(trajectory.finished());
+        assert_eq!(counts.0.len(), 63);
+        // The list of moments doubles its room for the 33rd one and then holds 64.
+        counts.0[33..].windows(2).filter(|pair| pair[0] != pair[1]).count()
+    };
+    assert_eq!(steps_that_allocate(&mut ReducedMarch::new(&sampled).unwrap()), 0, "sampled rows");
+    for weighting in [Weighting::DualTaylor, Weighting::Dissertation] {
+        let mut march = TpwlMarch::new(&linearised, &online, weighting).unwrap();
+        assert_eq!(steps_that_allocate(&mut march), 0, "{weighting:?}");
+    }
 }

@@ -74,16 +74,21 @@ impl Chain {
         Self { in_use: in_use.clone(), windows: in_use.model.windows.iter().map(|_| None).collect() }
     }
 
-    /// The reduced solution as fields.
+    /// The reduced solution, and its fields.
     ///
     /// # Errors
     /// When the point is refused or Newton does not converge.
-    pub fn solve(&mut self, point: &OperatingPoint, lubricant: Lubricant) -> Result<Solution, ReducedError> {
+    pub fn solve(
+        &mut self,
+        point: &OperatingPoint,
+        lubricant: Lubricant,
+    ) -> Result<(ReducedSolution, Solution), ReducedError> {
         let (model, moes) = (&self.in_use.model, point.moes());
         let place = self.windows.get_mut(model.window_for(moes)).ok_or(ReducedError::Empty)?;
         let online = place.get_or_insert_with(|| Online::new(Arc::clone(model), self.in_use.options_at(moes)));
         let solved = online.solve(point, lubricant)?;
-        online.reconstruct(&solved)
+        let fields = online.reconstruct(&solved)?;
+        Ok((solved, fields))
     }
 }
 

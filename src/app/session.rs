@@ -56,6 +56,8 @@ pub fn restore(explorer: &mut Explorer, storage: &dyn Storage, with_document: bo
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::traction::Against;
+    use crate::scene::named_lubricant::by_name;
     use crate::solver::contact::Moes;
     use std::collections::HashMap;
 
@@ -82,14 +84,21 @@ mod tests {
     fn a_session_comes_back_with_its_unsaved_changes_and_its_truncation() {
         let mut explorer = Explorer::new(None);
         let document = &mut explorer.state.document;
+        document.pick_lubricant(&by_name("squalane-pip").unwrap()).unwrap();
         document.set_moes(Moes { m: 55.0, l: 8.0 }).unwrap();
+        document.set_slide_to_roll_ratio(0.3).unwrap();
+        document.set_plateau_ratio(Some(0.4)).unwrap();
         document.view.pressure_loss = Some(1e-6);
-        let (point, view) = (document.point, document.view);
+        let (point, view, lubricant) = (document.point, document.view, document.lubricant);
+        explorer.state.display.traction.against = Against::Stribeck;
+        let display = explorer.state.display.clone();
         let mut storage = Memory::default();
         save(&explorer, &mut storage);
         let mut again = Explorer::new(None);
         restore(&mut again, &storage, true);
-        assert_eq!((again.state.document.point, again.state.document.view), (point, view));
+        let document = &again.state.document;
+        assert_eq!((document.point, document.view, document.lubricant), (point, view, lubricant));
+        assert_eq!(again.state.display, display);
         assert!(again.state.dirty(), "what was not saved is still unsaved");
         explorer.state.files.set_saved(explorer.state.document.clone());
         save(&explorer, &mut storage);

@@ -86,6 +86,9 @@ fn describe(outcome: &SceneOutcome) -> String {
             let _ = writeln!(text, "         {:<26} {:<8} {}", value.name, method(&value.method), Number(value.value));
         }
     }
+    for table in outcome.tables.iter().filter(|table| !table.labels.is_empty()) {
+        text.push_str(&table.to_text("  "));
+    }
     for verdict in &outcome.verdicts {
         let word = if verdict.holds { "ok   " } else { "SHORT" };
         let value = verdict.value.map_or("no such value".to_owned(), |value| Number(value).to_string());

@@ -124,7 +124,12 @@ fn describe(report: &PointReport) -> String {
         if let Some(estimate) = reduced.residual_estimate {
             line("estimate e_f", format!("{estimate:.3e}"));
         }
-        for (name, bound) in [("H_c", reduced.h_c_error_bound), ("H_min", reduced.h_min_error_bound)] {
+        let bounds = [
+            ("H_c", reduced.h_c_error_bound),
+            ("H_min", reduced.h_min_error_bound),
+            ("traction", reduced.traction_error_bound),
+        ];
+        for (name, bound) in bounds {
             if let Some(bound) = bound {
                 line(&format!("error of {name}"), format!("below {:.2e} (99 of 100)", bound));
             }

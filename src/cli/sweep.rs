@@ -35,7 +35,7 @@ pub struct Varied {
 }
 
 /// Values in the table, as the report names them.
-const COLUMNS: [&str; 30] = [
+const COLUMNS: [&str; 31] = [
     "si.radius",
     "si.speed",
     "si.load",
@@ -65,6 +65,7 @@ const COLUMNS: [&str; 30] = [
     "reduced.residual_estimate",
     "reduced.h_c_error_bound",
     "reduced.h_min_error_bound",
+    "reduced.traction_error_bound",
     "wall_s",
 ];
 

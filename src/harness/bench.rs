@@ -16,7 +16,7 @@ use crate::solver::grid::{GridSpec, PointGridSpec};
 use crate::solver::lubricant::{Lubricant, Sliding};
 use crate::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
 use crate::solver::reduced::transient::ReducedMarch;
-use crate::solver::reduced::{Online, ReducedOptions, distance};
+use crate::solver::reduced::{CurveVariable, Online, ReducedOptions, distance, traction_curve};
 use crate::solver::training::{TrajectoryTraining, train_trajectories};
 use serde::Serialize;
 use std::sync::Arc;
@@ -46,6 +46,8 @@ const POINT_POINTS: [usize; 2] = [50, 8];
 const POINT_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(5)];
 /// The trajectory-piecewise-linear model of the same march.
 const TPWL_TRAINING: TpwlTraining = TpwlTraining { modes: 100, selection: Selection::Step { tolerance: 1e-3 } };
+/// Contacts of a traction curve, SRR 0…1.
+const CURVE_POINTS: usize = 41;
 const SEED: u64 = 2026;
 /// Duration of the march whose steps are timed.
 const MARCH_DURATION: [f64; 2] = [1.5, 0.5];
@@ -122,23 +124,15 @@ pub fn run(quick: bool) -> Result<Bench, HarnessError> {
         }
         Err(reason) => bench.notes.push(format!("line/reduced is missing: {reason}")),
     }
-    match super::embedded_shear_model(ContactKind::Line) {
-        Ok(model) => {
-            let mut online = Online::new(model, ReducedOptions::default());
-            let points: Vec<OperatingPoint> = shear.iter().map(|problem| problem.point).collect();
-            rows.push(reduced_row(
-                "line/shear/reduced",
-                &mut online,
-                (&points, named_lubricant::SQUALANE_PIP),
-                true,
-                ROW_BUDGET[size],
-            ));
-        }
-        Err(reason) => bench.notes.push(format!("line/shear/reduced is missing: {reason}")),
-    }
+    rows.extend(bench.reduced_shear_rows(
+        ["line/shear/reduced", "line/shear/traction-curve"],
+        &shear,
+        ROW_BUDGET[size],
+    ));
     bench.add(rows, BASELINE);
     bench.add(transient_rows(size)?, TRANSIENT_BASELINE);
-    let mut rows = point_rows(size)?;
+    let shear = shear_problems(ContactKind::Point, POINT_POINTS[size])?;
+    let mut rows = point_rows(size, &shear)?;
     match super::embedded_model(ContactKind::Point) {
         Ok(model) => {
             let range = TestRange::Box(QuantityBox::TABLE_3_4);
@@ -150,11 +144,36 @@ pub fn run(quick: bool) -> Result<Bench, HarnessError> {
         }
         Err(reason) => bench.notes.push(format!("point/reduced is missing: {reason}")),
     }
+    let names = ["point/shear/reduced", "point/shear/traction-curve"];
+    rows.extend(bench.reduced_shear_rows(names, &shear, POINT_BUDGET[size]));
     bench.add(rows, POINT_BASELINE);
     Ok(bench)
 }
 
 impl Bench {
+    /// Reduced solves of shear-thinning contacts of one kind, with all fields, and whole traction curves; a note where there is no model.
+    fn reduced_shear_rows(
+        &mut self,
+        [solve, curve]: [&'static str; 2],
+        problems: &[Problem],
+        budget: Duration,
+    ) -> Vec<Timing> {
+        let Some(first) = problems.first() else { return Vec::new() };
+        match super::embedded_shear_model(first.point.kind) {
+            Ok(model) => {
+                let mut online = Online::new(model, ReducedOptions::default());
+                let points: Vec<OperatingPoint> = problems.iter().map(|problem| problem.point).collect();
+                let points = (points.as_slice(), named_lubricant::SQUALANE_PIP);
+                let solves = reduced_row(solve, &mut online, points, true, budget);
+                vec![solves, curve_row(curve, &mut online, points, budget)]
+            }
+            Err(reason) => {
+                self.notes.push(format!("{solve} is missing: {reason}"));
+                Vec::new()
+            }
+        }
+    }
+
     /// Adds rows that are compared with the first of them.
     fn add(&mut self, rows: Vec<Timing>, baseline: &'static str) {
         let reference = rows.first().map_or(f64::NAN, |first| median(&first.seconds));
@@ -176,19 +195,19 @@ impl Bench {
 }
 
 /// Full solves of point contacts on 301×41 nodes, cold and from the nearest other solution.
-fn point_rows(size: usize) -> Result<Vec<Timing>, HarnessError> {
+fn point_rows(size: usize, shear: &[Problem]) -> Result<Vec<Timing>, HarnessError> {
     let range = TestRange::Box(QuantityBox::TABLE_3_4);
     let points = random_points(&range, ContactKind::Point, POINT_POINTS[size], SEED);
     let newtonian = |point: &OperatingPoint| Problem::new(point, Lubricant::default());
     let newtonian = points.iter().map(newtonian).collect::<Result<Vec<_>, _>>()?;
-    let shear = shear_problems(ContactKind::Point, POINT_POINTS[size])?;
     let mut solver = PointSolver::new(PointGridSpec::DISSERTATION)?;
     let mut rows = Vec::new();
-    for (names, problems) in
-        [([POINT_BASELINE, "point/full/warm"], newtonian), (["point/shear/full/cold", "point/shear/full/warm"], shear)]
-    {
+    for (names, problems) in [
+        ([POINT_BASELINE, "point/full/warm"], newtonian.as_slice()),
+        (["point/shear/full/cold", "point/shear/full/warm"], shear),
+    ] {
         let solve = |problem, start: Start<'_>| solver.solve_problem(problem, start, &mut ());
-        rows.extend(cold_and_warm(names, POINT_BUDGET[size], &problems, solve)?);
+        rows.extend(cold_and_warm(names, POINT_BUDGET[size], problems, solve)?);
     }
     Ok(rows)
 }
@@ -307,6 +326,29 @@ fn reduced_row(
             Ok(solution) if fields => online.scalars(&solution).is_ok(),
             solved => solved.is_ok(),
         };
+        timing.record(clock, converged);
+    }
+    timing
+}
+
+/// Whole traction curves over SRR by a reduced model, one for the speed, load and plateau ratio of each point.
+fn curve_row(
+    name: &'static str,
+    online: &mut Online,
+    (points, lubricant): (&[OperatingPoint], Lubricant),
+    budget: Duration,
+) -> Timing {
+    let mut timing = Timing::new(name, budget);
+    let values: Vec<f64> = (0..CURVE_POINTS).map(|k| k as f64 / (CURVE_POINTS - 1) as f64).collect();
+    for point in points {
+        if timing.spent() {
+            break;
+        }
+        online.prepare(point.moes());
+        let clock = Instant::now();
+        let curve = traction_curve(online, point, lubricant, CurveVariable::SlideToRollRatio, &values);
+        let converged = curve.filter(|place| place.solution.as_ref().is_ok_and(|solved| solved.traction.is_some()));
+        let converged = converged.count() == values.len();
         timing.record(clock, converged);
     }
     timing

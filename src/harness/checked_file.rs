@@ -13,8 +13,10 @@ pub(super) const HEADER: usize = 28;
 pub(super) struct Format {
     /// What every file of the kind begins with.
     pub magic: &'static [u8; 8],
-    /// The version that is written and read.
+    /// The version that is written.
     pub version: u32,
+    /// The oldest version that is read.
+    pub oldest: u32,
     /// Largest payload that is read \[bytes\].
     pub max_payload: u64,
 }
@@ -106,7 +108,7 @@ impl Format {
         if version > self.version {
             return Err(Flaw::Newer { found: version });
         }
-        if version < self.version {
+        if version < self.oldest {
             return Err(Flaw::Older { found: version });
         }
         let announced = u64_at(bytes, 12).unwrap_or_default();

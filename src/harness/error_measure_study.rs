@@ -4,7 +4,7 @@ use super::error::HarnessError;
 use super::outcome::SceneOutcome;
 use super::parallel::{full_solutions, reduced_solutions};
 use super::sampling::random_points;
-use super::statistics::{median, rank_correlation};
+use super::statistics::rank_correlation;
 use super::table::Table;
 use super::workbench::Workbench;
 use crate::scene::{ModelSource, OnlineScheme, Scene, TestRange};
@@ -111,9 +111,6 @@ fn judge_bounds(bounds: &[(ErrorEstimate, [f64; 3])], outcome: &mut SceneOutcome
     outcome.push("rank.estimate.e_z", None, rank_correlation(&states, &truths));
     let h_c: Vec<f64> = bounds.iter().map(|(e, truth)| e.h_c.bound / truth[1]).collect();
     let h_min: Vec<f64> = bounds.iter().map(|(e, truth)| e.h_min.bound / truth[2]).collect();
-    for (name, ratios) in [("H_c", h_c), ("H_min", h_min)] {
-        let held = ratios.iter().filter(|ratio| **ratio >= 1.0).count();
-        outcome.push(format!("{name}_bound_holds_percent"), None, 100.0 * held as f64 / ratios.len() as f64);
-        outcome.push(format!("{name}_bound_over_error_median"), None, median(&ratios));
-    }
+    outcome.push_bounds("H_c", None, &h_c);
+    outcome.push_bounds("H_min", None, &h_min);
 }

@@ -1,26 +1,31 @@
 //! Reduced model files (`.rom`): a checked header, then bases, rows, operators, snapshots and the training scene.
 //!
 //! The header is that of `checked_file`, the payload in postcard's encoding. K V_p is not stored: it is
-//! recomputed when a model is read. The bases of point contacts are stored in single precision, which moves their modes by 1e-8
-//! and the solutions in them by no more.
+//! recomputed when a model is read. Bases are stored to an accuracy of the fields they make (`stored_matrix`).
 
 use super::checked_file::{Flaw, Format, Unreadable};
+use super::stored_matrix::{StoredBasis, StoredMatrix};
 use crate::scene::atomic_file::{self, WriteError};
 use crate::solver::contact::ContactKind;
 use crate::solver::grid::{ContactGrid, ContactGridError, ContactGridSpec};
 use crate::solver::lubricant::{LimitingStress, Lubricant, ShearLaw, Sliding};
 use crate::solver::reduced::{
-    Calibration, Domain, PodBasis, ReducedModel, SampledRows, Sampling, SlidingDomain, Snapshot, Window,
+    Calibration, Domain, ReducedModel, RollingCalibration, SampledRows, Sampling, SlidingDomain, Snapshot,
+    TractionRule, Window,
 };
-use faer::Mat;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
+/// Its matrices were kept in other ways, which are still understood.
+const OLDEST: u32 = 3;
 /// Real models have a few MB.
-const FORMAT: Format = Format { magic: b"EHLROM\r\n", version: VERSION, max_payload: 512 << 20 };
+const FORMAT: Format = Format { magic: b"EHLROM\r\n", version: VERSION, oldest: OLDEST, max_payload: 512 << 20 };
+
+/// Relative accuracy of pressures and deformations at every node to which the bases of line and of point contacts are kept.
+const ACCURACY: [f64; 2] = [1e-13, 2e-10];
 
 /// The model that is part of the program, trained by `scenes/embedded_model.ron`.
 static EMBEDDED: &[u8] = include_bytes!("../../assets/line.rom");
@@ -28,7 +33,10 @@ static EMBEDDED: &[u8] = include_bytes!("../../assets/line.rom");
 /// The model of point contacts that is part of the program, trained by `scenes/table_3_4_model.ron`.
 static EMBEDDED_POINT: &[u8] = include_bytes!("../../assets/point.rom");
 
-/// The same for a lubricant that thins under shear, trained by `scenes/embedded_shear_model.ron`.
+/// The model of point contacts with a lubricant that thins under shear, trained by `scenes/embedded_point_shear_model.ron`.
+static EMBEDDED_POINT_SHEAR: &[u8] = include_bytes!("../../assets/point_shear.rom");
+
+/// That of line contacts, trained by `scenes/embedded_shear_model.ron`.
 static EMBEDDED_SHEAR: &[u8] = include_bytes!("../../assets/line_shear.rom");
 
 /// Why a model file is refused. Nothing is lost by it.
@@ -45,22 +53,21 @@ pub enum ModelFileError {
     /// Writing failed.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// The program has none.
-    #[error("there is no reduced model of shear-thinning point contacts in this version; use the full solver")]
-    NoShearPoint,
     /// Not a model file at all.
     #[error("this is not a reduced model file (.rom); train one with `ehl-explorer train SCENE.ron --out FILE.rom`")]
     Foreign,
     /// Written by a newer program.
     #[error(
-        "the model file has version {found}, but this program reads version {VERSION}; use a newer program or train it again"
+        "the model file has version {found}, but this program reads versions {OLDEST} to {VERSION}; use a newer program or train it again"
     )]
     Newer {
         /// Its version.
         found: u32,
     },
     /// Written by an older program.
-    #[error("the model file has version {found}, but this program reads version {VERSION}; train it again")]
+    #[error(
+        "the model file has version {found}, but this program reads versions {OLDEST} to {VERSION}; train it again"
+    )]
     Older {
         /// Its version.
         found: u32,
@@ -122,6 +129,13 @@ struct StoredShear {
     snapshots: Vec<Vec<Sliding>>,
 }
 
+/// What follows that, one of each window.
+#[derive(Serialize, Deserialize)]
+struct StoredTraction {
+    rules: Vec<Option<TractionRule>>,
+    calibrations: Vec<Option<Calibration>>,
+}
+
 #[derive(Serialize, Deserialize)]
 struct StoredWindow {
     m: (f64, f64),
@@ -133,33 +147,8 @@ struct StoredWindow {
     sampled_rows: Vec<usize>,
     reconstruction: StoredMatrix,
     snapshots: Vec<Snapshot>,
-    calibration: Option<Calibration>,
-}
-
-#[derive(Serialize, Deserialize)]
-struct StoredBasis {
-    modes: StoredMatrix,
-    singular_values: Vec<f64>,
-}
-
-#[derive(Serialize, Deserialize)]
-struct StoredMatrix {
-    rows: usize,
-    columns: usize,
-    values: Values,
-}
-
-#[derive(Serialize, Deserialize)]
-enum Values {
-    Double(Vec<f64>),
-    Single(Vec<f32>),
-}
-
-/// How many digits a matrix keeps.
-#[derive(Clone, Copy, PartialEq)]
-enum Precision {
-    Double,
-    Single,
+    /// That of a model that knows sliding is kept with its traction.
+    calibration: Option<RollingCalibration>,
 }
 
 impl StoredModel {
@@ -186,61 +175,40 @@ impl StoredModel {
     }
 }
 
-impl StoredMatrix {
-    fn from_mat(matrix: &Mat<f64>, precision: Precision) -> Self {
-        let values = matrix.col_iter().flat_map(|c| c.iter().copied());
-        let values = match precision {
-            Precision::Double => Values::Double(values.collect()),
-            Precision::Single => Values::Single(values.map(|v| v as f32).collect()),
-        };
-        Self { rows: matrix.nrows(), columns: matrix.ncols(), values }
-    }
-
-    fn into_mat(self, what: &'static str) -> Result<Mat<f64>, ModelFileError> {
-        let values = match self.values {
-            Values::Double(values) => values,
-            Values::Single(values) => values.into_iter().map(f64::from).collect(),
-        };
-        let fits = self.rows.checked_mul(self.columns) == Some(values.len());
-        if !fits || values.iter().any(|v| !v.is_finite()) {
-            return Err(ModelFileError::Damaged { what });
+impl StoredTraction {
+    /// Hands every window its own.
+    fn give(self, windows: &mut [Window]) -> Result<(), ModelFileError> {
+        let damaged = Err(ModelFileError::Damaged { what: "traction" });
+        if [self.rules.len(), self.calibrations.len()] != [windows.len(); 2] {
+            return damaged;
         }
-        Ok(Mat::from_fn(self.rows, self.columns, |i, j| values[j * self.rows + i]))
-    }
-}
-
-impl StoredBasis {
-    fn from_basis(basis: &PodBasis, precision: Precision) -> Self {
-        Self { modes: StoredMatrix::from_mat(&basis.modes, precision), singular_values: basis.singular_values.clone() }
-    }
-
-    fn into_basis(self, what: &'static str) -> Result<PodBasis, ModelFileError> {
-        if self.singular_values.iter().any(|v| !v.is_finite()) || self.singular_values.len() < self.modes.columns {
-            return Err(ModelFileError::Damaged { what });
+        for ((window, rule), calibration) in windows.iter_mut().zip(self.rules).zip(self.calibrations) {
+            let known = |c: &Calibration| c.sound() && c.sliding();
+            if !rule.as_ref().is_none_or(|rule| rule.sound(&window.grid)) || !calibration.as_ref().is_none_or(known) {
+                return damaged;
+            }
+            (window.traction, window.calibration) = (rule, calibration);
         }
-        Ok(PodBasis { modes: self.modes.into_mat(what)?, singular_values: self.singular_values })
+        Ok(())
     }
 }
 
 impl StoredWindow {
     fn into_window(self, grid: ContactGrid) -> Result<Window, ModelFileError> {
         let nodes = grid.len();
-        let pressure = self.pressure.into_basis("pressure basis")?;
-        let deformation = self.deformation.into_basis("deformation basis")?;
-        let reconstruction = self.reconstruction.into_mat("sampled rows")?;
-        let modes = pressure.modes.ncols();
         let damaged = |what| Err(ModelFileError::Damaged { what });
-        if modes == 0
-            || pressure.modes.nrows() != nodes
-            || deformation.modes.nrows() != nodes
-            || deformation.modes.ncols() == 0
-        {
-            return damaged("bases of another grid");
+        let (Some(pressure), Some(deformation)) = (self.pressure.into_basis(nodes), self.deformation.into_basis(nodes))
+        else {
+            return damaged("bases");
+        };
+        let modes = pressure.modes.ncols();
+        if modes == 0 || deformation.modes.ncols() == 0 {
+            return damaged("bases");
         }
+        let Some(reconstruction) = self.reconstruction.into_mat(modes) else { return damaged("sampled rows") };
         let rows_fit = self.sampled_rows.windows(2).all(|w| w[0] < w[1])
             && self.sampled_rows.last().is_some_and(|&r| r < grid.unknowns())
-            && reconstruction.ncols() == self.sampled_rows.len()
-            && reconstruction.nrows() == modes;
+            && reconstruction.ncols() == self.sampled_rows.len();
         if !rows_fit {
             return damaged("sampled rows");
         }
@@ -256,12 +224,13 @@ impl StoredWindow {
         if self.snapshots.is_empty() || !snapshots_fit {
             return damaged("snapshots");
         }
-        if !self.calibration.as_ref().is_none_or(Calibration::sound) {
+        let calibration = self.calibration.map(Calibration::from);
+        if !calibration.as_ref().is_none_or(Calibration::sound) {
             return damaged("calibration");
         }
         let rows = SampledRows { rows: self.sampled_rows, reconstruction };
         let mut window = Window::new(self.m, grid, pressure, deformation, self.snapshots, self.sampling, rows);
-        (window.penalty, window.calibration) = (self.penalty, self.calibration);
+        (window.penalty, window.calibration) = (self.penalty, calibration);
         Ok(window)
     }
 }
@@ -289,12 +258,13 @@ pub fn embedded_of(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileE
 /// The model of one kind of contact with a shear-thinning lubricant that is part of the program.
 ///
 /// # Errors
-/// When the program was built with a damaged asset, or has none of that kind.
+/// When the program was built with a damaged asset.
 pub fn embedded_shear_of(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileError> {
-    match contact {
-        ContactKind::Line => from_bytes(EMBEDDED_SHEAR).map(Arc::new),
-        ContactKind::Point => Err(ModelFileError::NoShearPoint),
-    }
+    let bytes = match contact {
+        ContactKind::Line => EMBEDDED_SHEAR,
+        ContactKind::Point => EMBEDDED_POINT_SHEAR,
+    };
+    from_bytes(bytes).map(Arc::new)
 }
 
 /// Reads a model file. Its announced size is checked before anything is allocated.
@@ -322,10 +292,8 @@ pub fn write(model: &ReducedModel, path: &Path) -> Result<(), ModelFileError> {
 /// # Errors
 /// When the model cannot be encoded.
 pub fn to_bytes(model: &ReducedModel) -> Result<Vec<u8>, ModelFileError> {
-    let precision = match model.contact() {
-        ContactKind::Line => Precision::Double,
-        ContactKind::Point => Precision::Single,
-    };
+    let accuracy = ACCURACY[usize::from(model.contact() == ContactKind::Point)];
+    let basis = |basis, grid: &ContactGrid| StoredBasis::new(basis, grid.nodes().1, accuracy);
     let stored = StoredModel {
         title: model.title.clone(),
         domain: model.domain.clone(),
@@ -336,13 +304,13 @@ pub fn to_bytes(model: &ReducedModel) -> Result<Vec<u8>, ModelFileError> {
                 m: w.m,
                 grid: w.grid.spec(),
                 penalty: w.penalty,
-                pressure: StoredBasis::from_basis(&w.pressure, precision),
-                deformation: StoredBasis::from_basis(&w.deformation, precision),
+                pressure: basis(&w.pressure, &w.grid),
+                deformation: basis(&w.deformation, &w.grid),
                 sampling: w.sampling,
                 sampled_rows: w.sampled_rows.clone(),
-                reconstruction: StoredMatrix::from_mat(&w.reconstruction, Precision::Double),
+                reconstruction: StoredMatrix::exact(&w.reconstruction),
                 snapshots: w.snapshots.clone(),
-                calibration: w.calibration.clone(),
+                calibration: w.calibration.as_ref().and_then(|c| RollingCalibration::try_from(c).ok()),
             })
             .collect(),
         scene: model.scene.clone(),
@@ -356,6 +324,11 @@ pub fn to_bytes(model: &ReducedModel) -> Result<Vec<u8>, ModelFileError> {
         let snapshots = model.windows.iter().map(of_window).collect();
         let shear = StoredShear { law, limiting_stress, domain, snapshots };
         payload = postcard::to_extend(&shear, payload).map_err(unwritable)?;
+        let traction = StoredTraction {
+            rules: model.windows.iter().map(|w| w.traction.clone()).collect(),
+            calibrations: model.windows.iter().map(|w| w.calibration.clone()).collect(),
+        };
+        payload = postcard::to_extend(&traction, payload).map_err(unwritable)?;
     }
     Ok(FORMAT.seal(&payload))
 }
@@ -368,18 +341,25 @@ pub fn from_bytes(bytes: &[u8]) -> Result<ReducedModel, ModelFileError> {
     let payload = FORMAT.open(bytes)?;
     let undecodable = |_| ModelFileError::Damaged { what: "its content cannot be decoded" };
     let (mut stored, rest): (StoredModel, &[u8]) = postcard::take_from_bytes(payload).map_err(undecodable)?;
+    let mut traction = None;
     if !rest.is_empty() {
-        let shear = postcard::from_bytes(rest).map_err(undecodable)?;
+        let (shear, rest) = postcard::take_from_bytes(rest).map_err(undecodable)?;
         stored.thin(shear)?;
+        if !rest.is_empty() {
+            traction = Some(postcard::from_bytes::<StoredTraction>(rest).map_err(undecodable)?);
+        }
     }
     let grids = grids(&stored.windows)?;
-    let windows: Vec<Window> =
+    let mut windows: Vec<Window> =
         stored.windows.into_par_iter().zip(grids).map(|(w, grid)| w.into_window(grid)).collect::<Result<_, _>>()?;
     if windows.is_empty() {
         return Err(ModelFileError::Damaged { what: "no windows" });
     }
     if windows.iter().any(|window| window.grid.kind() != windows[0].grid.kind()) {
         return Err(ModelFileError::Damaged { what: "windows of different contacts" });
+    }
+    if let Some(traction) = traction {
+        traction.give(&mut windows)?;
     }
     let StoredModel { title, domain, scene, log, .. } = StoredModel { windows: Vec::new(), ..stored };
     Ok(ReducedModel { title, domain, windows, scene, log })
@@ -403,10 +383,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_embedded_model_is_intact_small_and_survives_a_round_trip() {
-        assert!(EMBEDDED.len() < 6_000_000, "{} bytes", EMBEDDED.len());
-        let model = embedded().unwrap();
-        assert_eq!(to_bytes(&model).unwrap(), EMBEDDED);
+    fn the_embedded_models_are_intact_small_and_survive_a_round_trip() {
+        for bytes in [EMBEDDED, EMBEDDED_POINT, EMBEDDED_SHEAR, EMBEDDED_POINT_SHEAR] {
+            assert!(bytes.len() < 6_000_000, "{} bytes", bytes.len());
+            assert!(to_bytes(&from_bytes(bytes).unwrap()).unwrap() == bytes);
+        }
     }
 
     #[test]
@@ -422,9 +403,14 @@ mod tests {
         let mut huge = EMBEDDED.to_vec();
         huge[12..20].copy_from_slice(&u64::MAX.to_le_bytes());
         assert!(matches!(from_bytes(&huge), Err(ModelFileError::TooLarge { .. })));
-        let mut newer = EMBEDDED.to_vec();
-        newer[8] = 99;
-        assert!(from_bytes(&newer).unwrap_err().to_string().contains("99"));
+        let of_version = |version: u8| {
+            let mut bytes = EMBEDDED_SHEAR.to_vec();
+            bytes[8] = version;
+            from_bytes(&bytes)
+        };
+        assert!(matches!(of_version(99), Err(ModelFileError::Newer { found: 99 })));
+        assert!(matches!(of_version(OLDEST as u8 - 1), Err(ModelFileError::Older { found: 2 })));
+        assert!(of_version(OLDEST as u8).is_ok());
     }
 
     #[test]

@@ -71,6 +71,13 @@ impl SceneOutcome {
         self.push(format!("{name}_max"), None, percentile(values, 1.0));
     }
 
+    /// How often calibrated bounds hold, given each over the true error, and how far they lie above it in the median.
+    pub(super) fn push_bounds(&mut self, name: &str, method: Option<&Method>, ratios: &[f64]) {
+        let held = ratios.iter().filter(|ratio| **ratio >= 1.0).count();
+        self.push(format!("{name}_bound_holds_percent"), method, 100.0 * held as f64 / ratios.len() as f64);
+        self.push(format!("{name}_bound_over_error_median"), method, median(ratios));
+    }
+
     /// The value of a name: of the method where one is given, else the first of that name.
     pub fn value(&self, name: &str, method: Option<&Method>) -> Option<f64> {
         let fits = |v: &&NamedValue| v.name == name && method.is_none_or(|m| v.method.as_ref() == Some(m));

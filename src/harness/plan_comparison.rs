@@ -194,7 +194,7 @@ fn information(plans: &[Plan<'_>], outcome: &mut SceneOutcome) {
             std::iter::once(k as f64).chain(losses).collect()
         })
         .collect();
-    outcome.tables.push(Table { name: "loss_of_information".to_owned(), columns, rows });
+    outcome.tables.push(Table { name: "loss_of_information".to_owned(), columns, rows, labels: Vec::new() });
 }
 
 /// Relative film errors against full solutions.

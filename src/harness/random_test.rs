@@ -10,6 +10,7 @@ use super::table::Table;
 use super::workbench::{Request, Workbench};
 use crate::scene::{Method, Scene, TestRange};
 use crate::solver::contact::OperatingPoint;
+use crate::solver::reduced::ErrorEstimate;
 use crate::solver::training::TrainingObserver;
 
 /// What is tested.
@@ -45,7 +46,7 @@ pub(super) fn run(
             test.tests
         )));
     }
-    if !matches!(test.range, TestRange::Sliding { .. }) {
+    if !matches!(test.range, TestRange::Sliding(_)) {
         points.iter_mut().for_each(|point| point.sliding = scene.sliding());
     }
     let template = request_of(scene)?;
@@ -71,6 +72,7 @@ pub(super) fn run(
         ],
     );
     let mut untrained = 0;
+    let mut estimates = Vec::with_capacity(points.len());
     for (i, point) in points.iter().enumerate() {
         if i.is_multiple_of(REPORT_EVERY) {
             step(observer, "random tests", i, points.len())?;
@@ -78,6 +80,7 @@ pub(super) fn run(
         let request = Request { point: *point, ..template.clone() };
         let answer = workbench.answer(&request, test.method, None, observer)?;
         untrained += usize::from(answer.reduced.as_ref().is_some_and(|facts| !facts.trained));
+        estimates.push(answer.reduced.as_ref().and_then(|facts| facts.error));
         let scalars = answer.result().map(|solution| solution.scalars);
         let moes = point.moes();
         table.rows.push(vec![
@@ -115,8 +118,9 @@ pub(super) fn run(
         let grid = |point: &OperatingPoint| model.windows[model.window_for(point.moes())].grid.clone();
         let full = full_solutions(grid, &points[..test.compare], scene.lubricant, observer)?;
         let mut errors: [Vec<f64>; 3] = Default::default();
+        let mut bounds: [Vec<f64>; 3] = Default::default();
         let mut full_failures = 0;
-        for (row, full) in table.rows.iter_mut().zip(full) {
+        for ((row, full), estimate) in table.rows.iter_mut().zip(full).zip(&estimates) {
             full_failures += usize::from(full.is_none());
             if let Some(full) = full {
                 (row[8], row[10]) = (full.scalars.h_c, full.scalars.h_min);
@@ -124,19 +128,26 @@ pub(super) fn run(
                 row[14] = if full.traction_warning().is_none() { full.traction_coefficient() } else { f64::NAN };
             }
             let pairs = [(row[5], row[8]), (row[9], row[10]), (row[13], row[14])];
-            for (errors, (reduced, full)) in errors.iter_mut().zip(pairs) {
-                errors.extend(Some((reduced / full - 1.0).abs()).filter(|error| error.is_finite()));
+            let bound = |e: &ErrorEstimate| [Some(e.h_c), Some(e.h_min), e.traction].map(|e| e.map(|e| e.bound));
+            let promised = estimate.as_ref().map_or([None; 3], bound);
+            let kept = errors.iter_mut().zip(&mut bounds);
+            for (((errors, bounds), (reduced, full)), promised) in kept.zip(pairs).zip(promised) {
+                let error = Some((reduced / full - 1.0).abs()).filter(|error| error.is_finite());
+                errors.extend(error);
+                bounds.extend(error.zip(promised).map(|(error, bound)| bound / error));
             }
         }
         if test.compare > 0 {
             outcome.push("compared", of, errors[0].len() as f64);
             outcome.push("full_failures", of, full_failures as f64);
-            for (name, errors) in
-                ["H_c", "H_min", "traction"].iter().zip(&errors).filter(|(_, errors)| !errors.is_empty())
-            {
+            let all = ["H_c", "H_min", "traction"].into_iter().zip(&errors).zip(&bounds);
+            for ((name, errors), bounds) in all.filter(|((_, errors), _)| !errors.is_empty()) {
                 outcome.push(format!("{name}_error_median"), of, median(errors));
                 outcome.push(format!("{name}_error_p95"), of, percentile(errors, 0.95));
                 outcome.push(format!("{name}_error_max"), of, percentile(errors, 1.0));
+                if !bounds.is_empty() {
+                    outcome.push_bounds(name, of, bounds);
+                }
             }
         }
     }

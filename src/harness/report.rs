@@ -160,6 +160,9 @@ pub struct ReducedReport {
     /// Calibrated bound on the relative error of H_min.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub h_min_error_bound: Option<f64>,
+    /// Calibrated bound on the relative error of the traction coefficient.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub traction_error_bound: Option<f64>,
 }
 
 impl From<&Answer> for PointReport {
@@ -208,6 +211,7 @@ impl From<&Answer> for PointReport {
                 residual_estimate: facts.residual_estimate.and_then(finite),
                 h_c_error_bound: facts.error.and_then(|e| finite(e.h_c.bound)),
                 h_min_error_bound: facts.error.and_then(|e| finite(e.h_min.bound)),
+                traction_error_bound: facts.error.and_then(|e| e.traction).and_then(|e| finite(e.bound)),
             }),
             accuracy: None,
         }

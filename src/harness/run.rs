@@ -5,8 +5,8 @@ use super::outcome::SceneOutcome;
 use super::report::{PointReport, profile_table};
 use super::workbench::{Answer, Request, Workbench};
 use super::{
-    distance_study, error_measure_study, formula_comparison, grid_study, plan_comparison, random_test, sampling_study,
-    series, split_study, tolerance_study, tpwl_study, training_study, transient_study,
+    dimension_study, distance_study, error_measure_study, formula_comparison, grid_study, plan_comparison, random_test,
+    sampling_study, series, split_study, tolerance_study, tpwl_study, training_study, transient_study,
 };
 use crate::scene::{Method, Scene, Study};
 use crate::solver::contact::OperatingPoint;
@@ -43,6 +43,9 @@ pub fn run_scene(
             split_study::run(scene, contacts, method, workbench, observer, &mut outcome)?;
         }
         Study::GridStudy { dx } => grid_study::run(scene, dx, workbench, observer, &mut outcome)?,
+        Study::Dimensions { over, losses } => {
+            dimension_study::run(scene, (over, losses), workbench, observer, &mut outcome)?;
+        }
         Study::Training(spec) => training_study::run(spec, observer, &mut outcome)?,
         Study::ErrorMeasures { range, points, seed, model, online, norm } => {
             let (points, seed, online, norm) = (*points, *seed, *online, *norm);

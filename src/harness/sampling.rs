@@ -1,7 +1,7 @@
 //! Random operating points, (3.17), the same ones for the same seed on every machine.
 
 use crate::scene::TestRange;
-use crate::solver::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
+use crate::solver::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use std::f64::consts::PI;
 
 /// SplitMix64: a small generator whose sequence is fixed by its seed.
@@ -60,17 +60,8 @@ fn draw(range: &TestRange, kind: ContactKind, random: &mut Random) -> Option<Ope
             };
             (request, max_hertz_pressure)
         }
-        TestRange::Sliding { m, l, srr, npr, radius, modulus, viscosity, alpha } => {
-            let request = MoesRequest {
-                radius_m: Some(radius),
-                modulus_pa: Some(modulus),
-                viscosity_pa_s: Some(viscosity),
-                alpha_per_pa: Some(alpha),
-                ..MoesRequest::new(kind, logarithmic(m, fraction()), linear(l, fraction()))
-            };
-            let slide_to_roll_ratio = linear(srr, fraction());
-            let sliding = Sliding { slide_to_roll_ratio, newtonian_plateau_ratio: Some(linear(npr, fraction())) };
-            return si_from_moes(&request).ok().map(|point| OperatingPoint { sliding, ..point });
+        TestRange::Sliding(range) => {
+            return range.at(kind, [fraction(), fraction(), fraction(), fraction()]);
         }
     };
     si_from_moes(&request).ok().filter(|point| point.hertz().pressure_pa <= limit)

@@ -14,7 +14,7 @@ use crate::solver::lubricant::Sliding;
 use crate::solver::training::TrainingObserver;
 
 /// Values of each method in the table of a series.
-const COLUMNS: [&str; 18] = [
+const COLUMNS: [&str; 19] = [
     "converged",
     "H_c",
     "H_min",
@@ -32,8 +32,15 @@ const COLUMNS: [&str; 18] = [
     "reduced.residual_estimate",
     "reduced.h_c_error_bound",
     "reduced.h_min_error_bound",
+    "reduced.traction_error_bound",
     "wall_s",
 ];
+
+/// What a reduced method's errors against the first full one are stated of.
+const COMPARED: [&str; 3] = ["H_c", "H_min", "traction"];
+
+/// Errors of smaller tractions are relative to this.
+const LEAST_TRACTION: f64 = 0.005;
 
 /// Contacts one after the other: the name of the table, what is varied, the contacts, and whether full solves start cold.
 struct Path<'a> {
@@ -44,9 +51,9 @@ struct Path<'a> {
 }
 
 /// One contact of a path with the varied values.
-struct Contact {
+pub(super) struct Contact {
     values: Vec<f64>,
-    point: OperatingPoint,
+    pub point: OperatingPoint,
 }
 
 /// Runs a scene's sweep.
@@ -57,6 +64,14 @@ pub(super) fn sweep(
     observer: &dyn TrainingObserver,
     outcome: &mut SceneOutcome,
 ) -> Result<(), HarnessError> {
+    let contacts = contacts_of(scene, over)?;
+    let varied: Vec<&str> = over.iter().map(|axis| axis.vary.name()).collect();
+    let path = Path { name: "sweep", varied: &varied, contacts: &contacts, cold };
+    along(&path, scene, methods, workbench, observer, outcome)
+}
+
+/// All combinations of the values of the axes, the last one fastest.
+pub(super) fn contacts_of(scene: &Scene, over: &[Axis]) -> Result<Vec<Contact>, HarnessError> {
     let mut varied: Vec<Vec<f64>> = vec![Vec::new()];
     for axis in over {
         let values = axis.values.values();
@@ -71,9 +86,7 @@ pub(super) fn sweep(
         let point = at.with_alpha_of(&scene.lubricant).point(scene.contact)?;
         contacts.push(Contact { values, point: OperatingPoint { sliding, ..point } });
     }
-    let varied: Vec<&str> = over.iter().map(|axis| axis.vary.name()).collect();
-    let path = Path { name: "sweep", varied: &varied, contacts: &contacts, cold };
-    along(&path, scene, methods, workbench, observer, outcome)
+    Ok(contacts)
 }
 
 /// Runs the test trajectory.
@@ -141,7 +154,8 @@ fn along(
     columns.extend(["M", "L", "radius", "speed", "load", "alpha", "p_h_pa"].map(str::to_owned));
     let tags: Vec<String> = (0..methods.len()).map(|k| tag(methods, k)).collect();
     columns.extend(tags.iter().flat_map(|tag| COLUMNS.iter().map(move |column| format!("{tag}.{column}"))));
-    let mut table = Table { name: name.to_owned(), columns, rows: Vec::with_capacity(contacts.len()) };
+    let mut table =
+        Table { name: name.to_owned(), columns, rows: Vec::with_capacity(contacts.len()), labels: Vec::new() };
     let mut tallies = vec![Tally::default(); methods.len()];
     let mut former: Vec<Option<Solution>> = vec![None; methods.len()];
     let full = methods.iter().position(|method| *method == Method::Full);
@@ -151,14 +165,14 @@ fn along(
         let (moes, p_h) = (point.moes(), point.hertz().pressure_pa);
         let mut row = values.clone();
         row.extend([moes.m, moes.l, point.radius_m, point.speed_m_per_s, point.load, point.alpha_per_pa, p_h]);
-        let mut films = vec![f64::NAN; methods.len()];
+        let mut compared = vec![[f64::NAN; 3]; methods.len()];
         for (k, method) in methods.iter().enumerate() {
             let start = former[k].as_ref().filter(|_| !cold);
             let answer = workbench.answer(&request, method, start, observer)?;
             let named = PointReport::from(&answer).values();
             let value = |name: &str| named.iter().find(|(n, _)| n == name).map_or(f64::NAN, |(_, v)| *v);
             row.extend(COLUMNS.iter().map(|column| value(column)));
-            films[k] = value("H_c");
+            compared[k] = COMPARED.map(|name| value(name));
             // Single contacts, for the expectations that ask for them.
             for wanted in scene.expect.iter().filter_map(|e| e.name.strip_suffix(&format!("[{i}]"))) {
                 outcome.push(format!("{wanted}[{i}]"), Some(method), value(wanted));
@@ -174,8 +188,13 @@ fn along(
             }
         }
         if let Some(full) = full {
-            for (tally, film) in tallies.iter_mut().zip(&films) {
-                tally.errors.extend(Some((film / films[full] - 1.0).abs()).filter(|error| error.is_finite()));
+            for (tally, own) in tallies.iter_mut().zip(&compared) {
+                for (k, errors) in tally.errors.iter_mut().enumerate() {
+                    let (value, truth) = (own[k], compared[full][k]);
+                    // Next to nothing has no relative error.
+                    let size = if COMPARED[k] == "traction" { truth.abs().max(LEAST_TRACTION) } else { truth };
+                    errors.extend(Some(((value - truth) / size).abs()).filter(|error| error.is_finite()));
+                }
             }
         }
         table.rows.push(row);
@@ -203,7 +222,8 @@ struct Tally {
     failures_beyond: usize,
     newton: Vec<f64>,
     seconds: Vec<f64>,
-    errors: Vec<f64>,
+    /// Of what is [`COMPARED`].
+    errors: [Vec<f64>; 3],
 }
 
 impl Tally {
@@ -217,9 +237,11 @@ impl Tally {
         outcome.push("median_s", of, median(&self.seconds));
         outcome.push("p99_s", of, percentile(&self.seconds, 0.99));
         if compared && *method != Method::Full {
-            outcome.push("H_c_error_median", of, median(&self.errors));
-            outcome.push("H_c_error_p95", of, percentile(&self.errors, 0.95));
-            outcome.push("H_c_error_max", of, percentile(&self.errors, 1.0));
+            for (name, errors) in COMPARED.iter().zip(&self.errors) {
+                outcome.push(format!("{name}_error_median"), of, median(errors));
+                outcome.push(format!("{name}_error_p95"), of, percentile(errors, 0.95));
+                outcome.push(format!("{name}_error_max"), of, percentile(errors, 1.0));
+            }
         }
     }
 }

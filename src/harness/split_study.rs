@@ -36,7 +36,8 @@ pub(super) fn run(
     let mut columns: Vec<String> = ["c", "M", "L", "alpha", "H_c", "H_min"].map(str::to_owned).to_vec();
     let first = columns.len();
     columns.extend(films.chain(PRESSURE.map(str::to_owned)));
-    let mut table = Table { name: "error_split".to_owned(), columns, rows: Vec::with_capacity(points.len()) };
+    let mut table =
+        Table { name: "error_split".to_owned(), columns, rows: Vec::with_capacity(points.len()), labels: Vec::new() };
     let mut failures = 0;
     for (i, (c, point)) in points.iter().enumerate() {
         step(observer, "error splits", i, points.len())?;

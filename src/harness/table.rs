@@ -1,9 +1,7 @@
 //! Tables of numbers and their CSV.
 
-use std::fmt::Write;
-
 /// A named table; NaN stands for an empty cell.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
     /// Name, used in file names.
     pub name: String,
@@ -11,31 +9,64 @@ pub struct Table {
     pub columns: Vec<String>,
     /// Rows as long as the columns.
     pub rows: Vec<Vec<f64>>,
+    /// What each row is called, where rows have names; `run` prints such a table.
+    pub labels: Vec<String>,
 }
 
 impl Table {
     /// An empty table.
     pub fn new(name: impl Into<String>, columns: &[&str]) -> Self {
-        Self { name: name.into(), columns: columns.iter().map(|&c| c.to_owned()).collect(), rows: Vec::new() }
+        Self { name: name.into(), columns: columns.iter().map(|&c| c.to_owned()).collect(), ..Self::default() }
     }
 
-    /// As CSV with a title line; numbers in the shortest form that reads back exactly.
+    /// As CSV with a title line; numbers in the shortest form that reads back exactly. Names of rows make up the first column.
     pub fn to_csv(&self) -> String {
-        let mut text = self.columns.iter().map(|title| quoted(title)).collect::<Vec<_>>().join(",");
+        let named = (!self.labels.is_empty()).then_some("name");
+        let titles = named.into_iter().chain(self.columns.iter().map(String::as_str));
+        let mut text = titles.map(quoted).collect::<Vec<_>>().join(",");
         text.push('\n');
-        for row in &self.rows {
-            for (i, value) in row.iter().enumerate() {
-                if i > 0 {
-                    text.push(',');
-                }
-                if value.is_finite() {
-                    // Writing to a string cannot fail.
-                    let _ = write!(text, "{}", Number(*value));
-                }
-            }
+        for (k, row) in self.rows.iter().enumerate() {
+            let exact = |value: &f64| if value.is_finite() { Number(*value).to_string() } else { String::new() };
+            let cells = self.labels.get(k).map(|label| quoted(label)).into_iter().chain(row.iter().map(exact));
+            text.push_str(&cells.collect::<Vec<_>>().join(","));
             text.push('\n');
         }
         text
+    }
+
+    /// As columns for people, numbers with three digits, each line behind `indent`.
+    pub fn to_text(&self, indent: &str) -> String {
+        let short = |value: &f64| if value.is_finite() { three_digits(*value) } else { String::new() };
+        let mut lines = vec![std::iter::once(String::new()).chain(self.columns.iter().cloned()).collect::<Vec<_>>()];
+        lines.extend(self.rows.iter().enumerate().map(|(k, row)| {
+            let label = self.labels.get(k).cloned().unwrap_or_default();
+            std::iter::once(label).chain(row.iter().map(short)).collect()
+        }));
+        let width = |column: usize| lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0);
+        let widths: Vec<usize> = (0..=self.columns.len()).map(width).collect();
+        let mut text = String::new();
+        for line in &lines {
+            let cells = line.iter().zip(&widths).enumerate().map(|(column, (cell, width))| {
+                if column == 0 { format!("{cell:<width$}") } else { format!("{cell:>width$}") }
+            });
+            text.push_str(indent);
+            text.push_str(cells.collect::<Vec<_>>().join("  ").trim_end());
+            text.push('\n');
+        }
+        text
+    }
+}
+
+/// A number with three significant digits; whole ones below a million are written out.
+fn three_digits(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 || (value.fract() == 0.0 && size < 1e6) {
+        format!("{value}")
+    } else if (1e-3..1e5).contains(&size) {
+        let decimals = (2 - size.log10().floor() as i32).max(0) as usize;
+        format!("{value:.decimals$}")
+    } else {
+        format!("{value:.2e}")
     }
 }
 
@@ -64,5 +95,19 @@ mod tests {
         table.rows.push(vec![0.1, f64::NAN]);
         table.rows.push(vec![2.2e-8, 3.0]);
         assert_eq!(table.to_csv(), "a,\"b,c\"\n0.1,\n2.2e-8,3\n");
+        table.labels = vec!["first".to_owned(), "x, y".to_owned()];
+        assert_eq!(table.to_csv(), "name,a,\"b,c\"\nfirst,0.1,\n\"x, y\",2.2e-8,3\n");
+    }
+
+    #[test]
+    fn text_is_aligned_and_short() {
+        let mut table = Table::new("t", &["steps", "s"]);
+        table.labels = vec!["full".to_owned(), "reduced".to_owned()];
+        table.rows = vec![vec![12000.0, 24.123456], vec![f64::NAN, 2.2e-8]];
+        assert_eq!(
+            table.to_text("  "),
+            "           steps        s\n  full     12000     24.1\n  reduced         2.20e-8\n"
+        );
+        assert_eq!([0.0, 0.01234, 99.5, 123456.7].map(three_digits), ["0", "0.0123", "99.5", "1.23e5"]);
     }
 }

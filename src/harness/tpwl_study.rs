@@ -1,6 +1,7 @@
 //! Trajectory-piecewise-linear models against the full system: how near they come, with how many operating points, at what cost.
 
 use super::error::HarnessError;
+use super::march_costs::{self, March};
 use super::outcome::SceneOutcome;
 use super::run::request_of;
 use super::statistics::{median, percentile};
@@ -11,7 +12,7 @@ use crate::scene::{Drive, Grid, Scene, TpwlStudy};
 use crate::solver::contact::OperatingPoint;
 use crate::solver::full::transient::{Frame, FullMarch, Keep, Quantity, TimeStep, Trajectory, Transient};
 use crate::solver::grid::ReferenceGrid;
-use crate::solver::reduced::tpwl::{TpwlMarch, TpwlModel, TpwlStep, TpwlTraining};
+use crate::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, TpwlStep, TpwlTraining};
 use crate::solver::reduced::transient::ReducedMarch;
 use crate::solver::training::{TrainingObserver, TrajectoryTraining, train_trajectories};
 use std::sync::Arc;
@@ -26,11 +27,11 @@ struct Reference {
 }
 
 /// Runs the study. Values: `training_s` (full marches), and of each test `T.full.steps`, `T.full.step_s_median`, `T.full.march_s`. Of each model
-/// `points` and `model_s`, and of each of its weightings W (`dual_taylor`, `dissertation`) on each test `T.W.H_c.difference` (greatest,
+/// `modes`, `points` and `model_s`, and of each of its weightings W (`dual_taylor`, `dissertation`) on each test `T.W.H_c.difference` (greatest,
 /// relative), `T.W.H_c.difference_l2`, the same of P_c, `T.W.steps`, `T.W.step_s_median`, `T.W.step_s_p99`, `T.W.march_s`, `T.W.speedup` (of the
 /// whole march), and `T.W.reach_median` and `T.W.reach_max`: how far steps lie from the trained trajectories, in distances between
-/// operating points. Of a model with sampled rows `rnsa.model_s`, `rnsa.modes` and, with W = `rnsa`, the same values. With more than one model, all its names begin with its rule and tolerance, as in `step_0.001.points`. Tables: the time
-/// series of each test; the operating points of each model.
+/// operating points. Of a model with sampled rows `rnsa.model_s`, `rnsa.modes`, `rnsa.rows` and, with W = `rnsa`, the same values. With more than one model, all its names begin with its rule and tolerance, as in `step_0.001.points`. Tables: the time
+/// series of each test; the operating points of each model; what all marches cost.
 pub(super) fn run(
     scene: &Scene,
     study: &TpwlStudy,
@@ -79,12 +80,12 @@ pub(super) fn run(
     let mut series: Vec<Table> =
         study.tests.iter().zip(&references).map(|(test, reference)| reference_table(&test.name, reference)).collect();
     for &selection in &study.selections {
-        let label = format!("{}_{}", selection.name(), selection.tolerance());
-        let prefix = if study.selections.len() > 1 { format!("{label}.") } else { String::new() };
+        let (label, prefix) = (label_of(selection), prefix_of(study, selection));
         let begun = Instant::now();
         let model =
             TpwlModel::train(&trained.iter().collect::<Vec<_>>(), TpwlTraining { modes: study.modes, selection })?;
         outcome.push(format!("{prefix}model_s"), None, begun.elapsed().as_secs_f64());
+        outcome.push(format!("{prefix}modes"), None, model.space.modes() as f64);
         outcome.push(format!("{prefix}points"), None, model.points.len() as f64);
         outcome.tables.push(points_table(&label, &model));
         for ((test, reference), table) in study.tests.iter().zip(&references).zip(&mut series) {
@@ -116,6 +117,7 @@ pub(super) fn run(
         let model = train_trajectories(&grid, &trained, &settings, observer)?;
         outcome.push("rnsa.model_s", None, begun.elapsed().as_secs_f64());
         outcome.push("rnsa.modes", None, model.window.pressure.modes.ncols() as f64);
+        outcome.push("rnsa.rows", None, model.window.sampled_rows.len() as f64);
         for ((test, reference), table) in study.tests.iter().zip(&references).zip(&mut series) {
             let name = format!("{}.rnsa", test.name);
             let mut march = ReducedMarch::new(&model)?;
@@ -126,7 +128,40 @@ pub(super) fn run(
         }
     }
     outcome.tables.extend(series);
+    let table = march_costs::table(outcome, &marches_of(study), &study.published);
+    outcome.tables.push(table);
     Ok(())
+}
+
+/// What the values of a model begin with: nothing where it is the only one.
+fn prefix_of(study: &TpwlStudy, selection: Selection) -> String {
+    if study.selections.len() > 1 { format!("{}.", label_of(selection)) } else { String::new() }
+}
+
+fn label_of(selection: Selection) -> String {
+    format!("{}_{}", selection.name(), selection.tolerance())
+}
+
+/// The marches of a study: test by test, the full one first.
+fn marches_of(study: &TpwlStudy) -> Vec<March> {
+    let mut marches = Vec::new();
+    for test in &study.tests {
+        let mut add = |name: String, model: String, method: &str| {
+            let of = |method: &str| format!("{}.{method}", test.name);
+            marches.push(March { name, model, full: of("full"), published: of(method) });
+        };
+        add(format!("{}.full", test.name), "full.".to_owned(), "full");
+        if study.rnsa_loss.is_some() {
+            add(format!("{}.rnsa", test.name), "rnsa.".to_owned(), "rnsa");
+        }
+        for &selection in &study.selections {
+            let model = prefix_of(study, selection);
+            for weighting in &study.weightings {
+                add(format!("{model}{}.{}", test.name, weighting.name()), model.clone(), "tpwl");
+            }
+        }
+    }
+    marches
 }
 
 /// Most moments of a training trajectory whose fields are kept.

@@ -1,6 +1,7 @@
 //! A contact in time: one march for each frame, its statistics, and how far the frames lie apart.
 
 use super::error::HarnessError;
+use super::march_costs::{self, March};
 use super::outcome::SceneOutcome;
 use super::run::request_of;
 use super::statistics::{median, percentile};
@@ -33,7 +34,8 @@ const MOST_LOSSES: usize = 300;
 /// Runs the study. Values of each frame, after its name (`fixed`, `ale`, `remeshed`, `remeshed_linear`): `H_c.start`, `H_c.mean`,
 /// `H_c.amplitude`, `H_c.offset` (mean over start, less 1) over the window, and so on for H_min, P_c, P_max; `steps`, `rejected_steps`,
 /// `newton_per_step`, `krylov_per_step`, `step_s_median`, `step_s_p99`, `wall_s`, `mass_defect` where places are given. Of the second frame
-/// on: `H_c.difference` (greatest, relative) and `H_c.difference_l2` from the first one within the window. Tables: the time series of each frame.
+/// on: `H_c.difference` (greatest, relative) and `H_c.difference_l2` from the first one within the window. Tables: the time series of each frame;
+/// with other models beside the full system, what all of them cost.
 pub(super) fn run(
     scene: &Scene,
     study: &TransientStudy,
@@ -95,7 +97,32 @@ pub(super) fn run(
         }
         first.get_or_insert(trajectory);
     }
+    if study.reduced.is_some() || study.linearised.is_some() {
+        let table = march_costs::table(outcome, &marches_of(study), &study.published);
+        outcome.tables.push(table);
+    }
     Ok(())
+}
+
+/// The marches of a study, in the order they were made.
+fn marches_of(study: &TransientStudy) -> Vec<March> {
+    let mut marches = Vec::new();
+    for frame in &study.frames {
+        let frame = frame.name();
+        let mut add = |method: &str, weighting: &str| {
+            let of = if method == "full" { frame.to_owned() } else { format!("{frame}.{method}") };
+            let (name, model) = (format!("{of}{weighting}"), format!("{of}."));
+            marches.push(March { name, model, full: frame.to_owned(), published: format!("{frame}.{method}") });
+        };
+        add("full", "");
+        if study.reduced.is_some() {
+            add("rnsa", "");
+        }
+        for weighting in study.linearised.iter().filter(|_| frame == Frame::Fixed.name()).flat_map(|l| &l.weightings) {
+            add("tpwl", &format!(".{}", weighting.name()));
+        }
+    }
+    marches
 }
 
 /// Which states the study's own march keeps: those that models are to be trained by.

@@ -75,6 +75,8 @@ pub struct ReducedFacts {
     pub residual_estimate: Option<f64>,
     /// Calibrated errors, where the model has them.
     pub error: Option<ErrorEstimate>,
+    /// Traction coefficient by the model's own rule, where it has one.
+    pub traction: Option<f64>,
 }
 
 /// Grids, solvers and models, made when first needed and kept.
@@ -386,11 +388,13 @@ impl Workbench {
             trained: trust == Trust::Trained,
             residual_estimate: None,
             error: None,
+            traction: None,
         };
         let (solution, newton_iterations) = match solved {
             Ok(solved) => {
                 facts.residual_estimate = Some(solved.residual_estimate);
                 facts.error = solved.error;
+                facts.traction = solved.traction;
                 facts.basis_p = solved.coefficients.len();
                 let mut solution = online.reconstruct(&solved)?;
                 warnings.extend(resolution_warning(&solution));
@@ -442,8 +446,10 @@ impl Answer {
         self.solution.as_ref().filter(|_| self.converged)
     }
 
-    /// Traction coefficient (3.41) over the whole domain, at the request's slide-to-roll ratio.
+    /// Traction coefficient (3.41) over the whole domain, at the request's slide-to-roll ratio; a reduced model's by its own rule, which its bound
+    /// belongs to.
     pub fn traction(&self) -> Option<f64> {
-        self.result().map(Solution::traction_coefficient)
+        let by_rule = self.reduced.as_ref().and_then(|facts| facts.traction);
+        self.result().map(|solution| by_rule.unwrap_or_else(|| solution.traction_coefficient()))
     }
 }

@@ -7,7 +7,7 @@ use super::{
 use crate::solver::contact::ContactKind;
 use crate::solver::grid::PointGridSpec;
 use crate::solver::lubricant::{LubricantError, ScaledShear, ShearLaw};
-use crate::solver::training::{Plan, Range, TrainingSpec, Windows};
+use crate::solver::training::{Plan, Range, SlidingRange, TrainingSpec, Windows};
 
 /// Most points of a sweep, a trajectory or a formula comparison.
 pub const MAX_POINTS: usize = 100_000;
@@ -119,16 +119,12 @@ fn study(scene: &Scene) -> Checked {
         Study::Point { methods: list } => methods("study.methods", list),
         Study::Sweep { over, methods: list, .. } => {
             methods("study.methods", list)?;
-            count("study.over (how many)", over.len(), 1, 3)?;
-            over.iter().try_for_each(axis)?;
-            if over.iter().any(|axis| axis.vary == Variable::Alpha) && scene.lubricant.own_coefficient().is_some() {
-                return Err(refuse(
-                    "study.over.alpha",
-                    "cannot be varied: the lubricant's viscosity law determines it",
-                ));
-            }
-            let points = over.iter().map(|axis| axis.values.len()).try_fold(1usize, usize::checked_mul);
-            count("study.over (points)", points.unwrap_or(usize::MAX), 1, MAX_POINTS)
+            axes(over, scene)
+        }
+        Study::Dimensions { over, losses } => {
+            axes(over, scene)?;
+            count("study.losses (how many)", losses.len(), 1, 32)?;
+            losses.iter().try_for_each(|&loss| number("study.losses", loss, 1e-15, 0.5))
         }
         Study::Trajectory { range, points, methods: list } => {
             methods("study.methods", list)?;
@@ -240,6 +236,17 @@ pub(super) fn newtonian_line_in_time(scene: &Scene) -> Checked {
     Ok(())
 }
 
+/// What a study varies.
+fn axes(over: &[Axis], scene: &Scene) -> Checked {
+    count("study.over (how many)", over.len(), 1, 3)?;
+    over.iter().try_for_each(axis)?;
+    if over.iter().any(|axis| axis.vary == Variable::Alpha) && scene.lubricant.own_coefficient().is_some() {
+        return Err(refuse("study.over.alpha", "cannot be varied: the lubricant's viscosity law determines it"));
+    }
+    let points = over.iter().map(|axis| axis.values.len()).try_fold(1usize, usize::checked_mul);
+    count("study.over (points)", points.unwrap_or(usize::MAX), 1, MAX_POINTS)
+}
+
 fn axis(axis: &Axis) -> Checked {
     let field = format!("study.over.{}", axis.vary.name());
     let (least, most) = axis.vary.range();
@@ -286,7 +293,8 @@ fn test_range(range: &TestRange) -> Checked {
             interval("study.range.alpha", *alpha, 1e-12, 1e-5)?;
             number("study.range.viscosity", *viscosity, 1e-6, 1e4)
         }
-        TestRange::Sliding { m, l, srr, npr, radius, modulus, viscosity, alpha } => {
+        TestRange::Sliding(range) => {
+            let SlidingRange { m, l, srr, npr, radius, modulus, viscosity, alpha, max_hertz_pressure } = range;
             interval("study.range.m", *m, 0.05, 1e5)?;
             interval("study.range.l", *l, 1e-3, 1e3)?;
             interval("study.range.srr", *srr, -10.0, 10.0)?;
@@ -294,7 +302,8 @@ fn test_range(range: &TestRange) -> Checked {
             number("study.range.radius", *radius, 1e-6, 1e3)?;
             number("study.range.modulus", *modulus, 1e5, 1e14)?;
             number("study.range.viscosity", *viscosity, 1e-6, 1e4)?;
-            number("study.range.alpha", *alpha, 1e-12, 1e-5)
+            number("study.range.alpha", *alpha, 1e-12, 1e-5)?;
+            max_hertz_pressure.iter().try_for_each(|&p| number("study.range.max_hertz_pressure", p, 1e5, 1e12))
         }
     }
 }
@@ -307,9 +316,7 @@ fn training(spec: &TrainingSpec) -> Checked {
         Range::Moes { m, l, alpha, max_hertz_pressure, viscosity } => {
             test_range(&TestRange::Moes { m, l, alpha, max_hertz_pressure, viscosity })?;
         }
-        Range::Sliding { m, l, srr, npr, radius, modulus, viscosity, alpha } => {
-            test_range(&TestRange::Sliding { m, l, srr, npr, radius, modulus, viscosity, alpha })?;
-        }
+        Range::Sliding(range) => test_range(&TestRange::Sliding(range))?,
     }
     match &spec.plan {
         Plan::FarthestPoint { snapshots } => count("study.plan.snapshots", *snapshots, 2, 100_000)?,

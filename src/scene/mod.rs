@@ -9,6 +9,7 @@ pub mod check;
 pub mod document;
 mod expectation;
 pub mod named_lubricant;
+mod published;
 pub mod sampled;
 mod study;
 mod tpwl;
@@ -17,6 +18,7 @@ mod view;
 
 pub use document::{SceneError, SceneFileError};
 pub use expectation::{Expectation, Within};
+pub use published::PublishedMarch;
 pub use study::{
     Axis, ComparedPlan, ComparedSampling, Contacts, Formula, OnlineScheme, QuantityBox, Steps, Study, TestRange,
     Variable,

@@ -3,7 +3,7 @@
 use super::{Method, ModelSource, TpwlStudy, TransientStudy};
 use crate::solver::contact::{ContactKind, FilmFormula, OperatingPoint, Sliding};
 use crate::solver::reduced::{Norm, ReducedOptions, Sampling};
-use crate::solver::training::TrainingSpec;
+use crate::solver::training::{SlidingRange, TrainingSpec};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use std::path::PathBuf;
@@ -61,6 +61,13 @@ pub enum Study {
     GridStudy {
         /// Spacings ΔX, falling by one constant factor; at least three.
         dx: Vec<f64>,
+    },
+    /// How many modes the full solutions at all combinations of one to three varied quantities need at losses of information: Table 3.7.
+    Dimensions {
+        /// What is varied.
+        over: Vec<Axis>,
+        /// Losses of information, (2.92) and (2.93).
+        losses: Vec<f64>,
     },
     /// Training of a reduced model.
     Training(TrainingSpec),
@@ -313,25 +320,8 @@ pub enum TestRange {
         /// Viscosity at ambient pressure \[Pa·s\].
         viscosity: f64,
     },
-    /// M, L, SRR and NPR of a shear-thinning lubricant, (3.17) in ln M, L, SRR and NPR.
-    Sliding {
-        /// Load number.
-        m: (f64, f64),
-        /// Lubricant number.
-        l: (f64, f64),
-        /// Slide-to-roll ratio.
-        srr: (f64, f64),
-        /// Newtonian plateau ratio.
-        npr: (f64, f64),
-        /// Radius \[m\].
-        radius: f64,
-        /// Reduced modulus \[Pa\].
-        modulus: f64,
-        /// Viscosity at ambient pressure \[Pa·s\].
-        viscosity: f64,
-        /// Pressure–viscosity coefficient \[1/Pa\]; the lubricant's own, where its viscosity law determines it.
-        alpha: f64,
-    },
+    /// M, L, SRR and NPR of a shear-thinning lubricant, (3.17) in ln M, L, SRR and NPR; points beyond the pressure are drawn again.
+    Sliding(SlidingRange),
 }
 
 /// A published film formula.
@@ -358,6 +348,7 @@ impl Study {
             Self::Point { methods } | Self::Sweep { methods, .. } | Self::Trajectory { methods, .. } => methods,
             Self::RandomTest { method, .. } | Self::ErrorSplit { method, .. } => std::slice::from_ref(method),
             Self::GridStudy { .. }
+            | Self::Dimensions { .. }
             | Self::Training(_)
             | Self::FormulaComparison { .. }
             | Self::ErrorMeasures { .. }

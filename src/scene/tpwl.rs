@@ -1,7 +1,7 @@
 //! A trajectory-piecewise-linear model as part of a scene: what it is trained by, and what it is tried on.
 
-use super::Scene;
 use super::check::{Checked, count, newtonian_line_in_time, number, refuse};
+use super::{PublishedMarch, Scene, published};
 use crate::solver::contact::OperatingPoint;
 use crate::solver::full::transient::{Frame, Inputs, Keep, TimeStep, Transient};
 use crate::solver::reduced::tpwl::{Selection, Weighting};
@@ -30,6 +30,9 @@ pub struct TpwlStudy {
     pub weightings: Vec<Weighting>,
     /// What the models are tried on, at the scene's own load.
     pub tests: Vec<Drive>,
+    /// What was published of their marches.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub published: Vec<PublishedMarch>,
 }
 
 /// Inputs with a name, over a time.
@@ -71,6 +74,7 @@ impl TpwlStudy {
         count("study.selections (how many)", self.selections.len(), 1, 32)?;
         count("study.weightings (how many)", self.weightings.len(), 1, 2)?;
         count("study.tests (how many)", self.tests.len(), 1, 64)?;
+        published::check(&self.published, self.tests.iter().map(|test| test.name.as_str()))?;
         for selection in &self.selections {
             number("study.selections.tolerance", selection.tolerance(), 1e-9, 10.0)?;
         }

@@ -1,7 +1,7 @@
 //! A contact in time as part of a scene.
 
 use super::check::{Checked, count, interval, newtonian_line_in_time, number, refuse};
-use super::{At, Grid, Scene};
+use super::{At, Grid, PublishedMarch, Scene, published};
 use crate::solver::contact::ContactKind;
 use crate::solver::full::transient::{Frame, Inputs, Keep, TimeStep, Transient};
 use crate::solver::reduced::tpwl::{Selection, Weighting};
@@ -37,6 +37,9 @@ pub struct TransientStudy {
     /// Two places in units of a_ref, between which the balance of mass is drawn up.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mass_between: Option<(f64, f64)>,
+    /// What was published of the frames' marches.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub published: Vec<PublishedMarch>,
 }
 
 /// A reduced model of a contact in time: trained on the spot, then marched along the study's inputs.
@@ -148,6 +151,7 @@ impl TransientStudy {
         if (1..self.frames.len()).any(|i| self.frames[..i].contains(&self.frames[i])) {
             return Err(refuse("study.frames", "must not name a frame twice: results are named by it"));
         }
+        published::check(&self.published, self.frames.iter().map(|frame| frame.name()))?;
         number("study.duration", self.duration, 1e-6, 1e6)?;
         if let Some(window) = self.window {
             interval("study.window", window, 0.0, self.duration)?;

@@ -111,7 +111,7 @@ const CONSTANTS: [Constant; 9] = [
     },
     Constant {
         name: "Occupied volume R_0",
-        row: ("Occupied volume", "R", "0"),
+        row: ("Occupied", "R", "0"),
         unit: "",
         scale: 1.0,
         tip: "Occupied volume over the volume at ambient pressure (3.39). Where the relative volume falls to it the viscosity is infinite",
@@ -119,7 +119,7 @@ const CONSTANTS: [Constant; 9] = [
     },
     Constant {
         name: "Volume's bulk modulus",
-        row: ("Volume’s modulus", "K", "0"),
+        row: ("Of volume", "K", "0"),
         unit: "GPa",
         scale: 1e9,
         tip: "Bulk modulus of the volume in Doolittle’s law, which is not that of the density law",

@@ -142,7 +142,7 @@ fn solve(chain: &mut Chain, sweep: &Sweep, given_up: impl Fn() -> bool) -> Optio
         }
         let point = sweep.point(value);
         match chain.solve(&point, sweep.base.lubricant) {
-            Ok(solution) => samples.push(Sample::of(point, &solution)),
+            Ok((solved, fields)) => samples.push(Sample::of(point, &fields, solved.traction)),
             Err(_) => failed += 1,
         }
     }

@@ -44,7 +44,7 @@ fn work(
         }
         match solution.report.termination {
             Termination::Converged => {
-                reporter.send(Sample::of(point, &solution));
+                reporter.send(Sample::of(point, &solution, None));
                 former = Some(solution);
             }
             _ => failed += 1,

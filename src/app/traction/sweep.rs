@@ -212,14 +212,14 @@ impl Sweep {
 }
 
 impl Sample {
-    /// What a solution adds up to.
-    pub(super) fn of(point: OperatingPoint, solution: &Solution) -> Self {
+    /// What a solution adds up to; its traction where a reduced model knows it without all nodes.
+    pub(super) fn of(point: OperatingPoint, solution: &Solution, traction: Option<f64>) -> Self {
         let scale = point.film_scale_m();
         Self {
             point,
             h_c_m: solution.scalars.h_c * scale,
             h_min_m: solution.scalars.h_min * scale,
-            traction: solution.traction_coefficient().abs(),
+            traction: traction.unwrap_or_else(|| solution.traction_coefficient()).abs(),
         }
     }
 }

@@ -126,6 +126,7 @@ pub fn first_of(scene: &Scene, study: &TpwlStudy) -> Option<TransientStudy> {
             trainings,
         }),
         mass_between: None,
+        published: Vec::new(),
     })
 }
 

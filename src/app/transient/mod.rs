@@ -230,6 +230,7 @@ fn breathing() -> TransientStudy {
         reduced: None,
         linearised: None,
         mass_between: None,
+        published: Vec::new(),
     }
 }
 

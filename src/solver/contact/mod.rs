@@ -228,6 +228,15 @@ impl OperatingPoint {
         self.hertz().half_width_m.powi(2) / self.radius_m
     }
 
+    /// What turns the integral of a stress \[Pa\] over X, and Y, into a share of the load: a/w for a line, a²/w for a point contact \[1/Pa\].
+    pub fn area_per_load(&self) -> f64 {
+        let half_width = self.hertz().half_width_m;
+        match self.kind {
+            ContactKind::Line => half_width / self.load,
+            ContactKind::Point => half_width.powi(2) / self.load,
+        }
+    }
+
     /// α p_H \[-\], the exponent that decides how stiff the lubricant becomes in the contact.
     pub fn alpha_hertz(&self) -> f64 {
         self.alpha_per_pa * self.hertz().pressure_pa

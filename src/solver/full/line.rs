@@ -204,6 +204,9 @@ impl LineSystem {
         report: &mut Report,
     ) {
         self.treatment = options.film;
+        if let Some(shear) = &mut self.shear {
+            shear.forget();
+        }
         let mut residual = self.evaluate(problem, options.penalty, true);
         let mut previous = f64::NAN;
         report.termination = Termination::IterationLimit;

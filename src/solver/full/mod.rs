@@ -23,4 +23,5 @@ pub use solution::{
     Mesh, Problem, Report, Scalars, Solution, SolveError, Termination, Traction, point_scalars_of, scalars_of,
 };
 pub use start::{FullSolver, Start};
+pub(crate) use traction::mid_film_stress;
 pub use traction::{PLAUSIBLE_EXPONENT, Shear};

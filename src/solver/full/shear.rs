@@ -24,7 +24,12 @@ impl ShearState {
         }
     }
 
-    /// Evaluates all nodes and hands the row's part of them over.
+    /// Forgets the films of former iterates: those of another problem are no start.
+    pub fn forget(&mut self) {
+        self.nodes.fill(ShearNode::default());
+    }
+
+    /// Evaluates all nodes, each beside its film of the former iterate, and hands the row's part of them over.
     pub fn evaluate(
         &mut self,
         problem: &Problem,
@@ -36,7 +41,7 @@ impl ShearState {
         for (i, (own, node)) in self.nodes.iter_mut().zip(nodes).enumerate() {
             let gradient = [self.gradient.at(pressure, i), 0.0];
             let state = NodeState { pressure: pressure[i], gradient, film: film[i] };
-            *own = ShearNode::new(&problem.fluid, law, problem.inverse_lambda, state, treatment);
+            *own = ShearNode::near(&own.known, &problem.fluid, law, problem.inverse_lambda, state, treatment);
             *node = own.node;
         }
     }

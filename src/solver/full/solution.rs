@@ -329,7 +329,6 @@ impl Solution {
 
     /// ∫ of a stress \[Pa\] given at the nodes over the whole domain, both halves of a point contact's, by the trapezoidal rule, over the load.
     pub(super) fn force_per_load(&self, stress: impl Fn(usize) -> f64) -> f64 {
-        let point = &self.problem.point;
         let ny = self.y.len();
         // Across the contact: over both halves, where there is anything across.
         let at = |i: usize| {
@@ -343,12 +342,7 @@ impl Solution {
             integral += 0.5 * (upstream + here) * (self.x[i] - self.x[i - 1]);
             upstream = here;
         }
-        let half_width = point.hertz().half_width_m;
-        let area = match point.kind {
-            ContactKind::Line => half_width,
-            ContactKind::Point => half_width.powi(2),
-        };
-        area * integral / point.load
+        self.problem.point.area_per_load() * integral
     }
 }
 

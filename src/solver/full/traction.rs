@@ -3,7 +3,7 @@
 use super::solution::{Problem, Solution};
 use crate::solver::lubricant::ScaledShear;
 use crate::solver::reynolds::film_integrals::{PRODUCTION_RULE, film_integrals};
-use crate::solver::reynolds::generalized::PlaneGradient;
+use crate::solver::reynolds::generalized::{NodeState, PlaneGradient};
 use rayon::prelude::*;
 
 /// α* p_H beyond which an isothermal traction without a limiting stress is no physics: viscosity then outgrows every stress a
@@ -52,7 +52,8 @@ impl Solution {
             let rate_per_s = stress[0] * fluidity / film.viscosity_pa_s;
             Shear { stress_pa: film.limited(stress)[0], rate_per_s }
         };
-        let films = (self.first()..self.x.len()).map(|i| self.film_stress(&gradient, i, axis));
+        let films =
+            (self.first()..self.x.len()).map(|i| FilmStress::new(&self.problem, self.state(&gradient, i, axis)));
         films.flat_map(|film| heights.iter().map(move |height| shear(&film, *height))).collect()
     }
 
@@ -62,45 +63,25 @@ impl Solution {
         if self.problem.point.sliding.slide_to_roll_ratio == 0.0 {
             return 0.0;
         }
+        let stress = self.mid_film_stress();
+        self.force_per_load(|k| stress[k])
+    }
+
+    /// τ_zx \[Pa\] at mid-film, cut to the limiting stress where the lubricant has one, at every node of the arrays.
+    pub fn mid_film_stress(&self) -> Vec<f64> {
         let gradient = PlaneGradient::new(&self.x, &self.y);
         let ny = self.y.len();
         let mut stress = vec![0.0; self.pressure.len()];
         stress.par_iter_mut().enumerate().with_min_len(256).for_each(|(k, stress)| {
-            let film = self.film_stress(&gradient, k / ny, k % ny);
-            *stress = film.limited(film.mid_pa)[0];
+            *stress = mid_film_stress(&self.problem, self.state(&gradient, k / ny, k % ny));
         });
-        self.force_per_load(|k| stress[k])
+        stress
     }
 
-    /// The shear stress of the film at node (i, j).
-    fn film_stress(&self, gradient: &PlaneGradient, i: usize, j: usize) -> FilmStress {
-        let problem = &self.problem;
-        let (point, hertz) = (&problem.point, problem.point.hertz());
+    /// What the film at node (i, j) depends on.
+    fn state(&self, gradient: &PlaneGradient, i: usize, j: usize) -> NodeState {
         let k = i * self.y.len() + j;
-        let (pressure, film) = (self.pressure[k], self.film[k]);
-        let viscosity = problem.fluid.at(pressure.max(0.0)).viscosity;
-        let gradient = gradient.at(&self.pressure, i, j);
-        let (across_pa, mid_pa) = match &problem.shear {
-            None => {
-                // κ₁ and κ₂ of (3.27).
-                let kappa_1 = hertz.pressure_pa * hertz.half_width_m / point.radius_m;
-                let slip = point.speed_m_per_s * problem.point.sliding.slide_to_roll_ratio;
-                let kappa_2 = point.viscosity_pa_s * slip / point.film_scale_m();
-                (gradient.map(|p| kappa_1 * film * p), [kappa_2 * viscosity / film, 0.0])
-            }
-            Some(law @ ScaledShear { fluidity, stress_scale_pa: scale, .. }) => {
-                let load = law.film_load(gradient, film, viscosity);
-                let mid = film_integrals(fluidity, &PRODUCTION_RULE, load).mid_stress;
-                ([load.a * scale, load.b * scale], mid.map(|stress| stress * scale))
-            }
-        };
-        let limit = problem.lubricant.limiting_stress;
-        FilmStress {
-            mid_pa,
-            across_pa,
-            viscosity_pa_s: point.viscosity_pa_s * viscosity,
-            limit_pa: limit.map_or(f64::INFINITY, |limit| limit.at(pressure * hertz.pressure_pa)),
-        }
+        NodeState { pressure: self.pressure[k], gradient: gradient.at(&self.pressure, i, j), film: self.film[k] }
     }
 
     /// A sentence where its traction is no physics; none in pure rolling, where there is no traction.
@@ -123,7 +104,40 @@ impl Problem {
     }
 }
 
+/// τ_zx \[Pa\] at mid-film of one node, cut to the limiting stress where the lubricant has one.
+pub(crate) fn mid_film_stress(problem: &Problem, state: NodeState) -> f64 {
+    let film = FilmStress::new(problem, state);
+    film.limited(film.mid_pa)[0]
+}
+
 impl FilmStress {
+    /// The shear stress of a node's film.
+    fn new(problem: &Problem, NodeState { pressure, gradient, film }: NodeState) -> Self {
+        let (point, hertz) = (&problem.point, problem.point.hertz());
+        let viscosity = problem.fluid.at(pressure.max(0.0)).viscosity;
+        let (across_pa, mid_pa) = match &problem.shear {
+            None => {
+                // κ₁ and κ₂ of (3.27).
+                let kappa_1 = hertz.pressure_pa * hertz.half_width_m / point.radius_m;
+                let slip = point.speed_m_per_s * point.sliding.slide_to_roll_ratio;
+                let kappa_2 = point.viscosity_pa_s * slip / point.film_scale_m();
+                (gradient.map(|p| kappa_1 * film * p), [kappa_2 * viscosity / film, 0.0])
+            }
+            Some(law @ ScaledShear { fluidity, stress_scale_pa: scale, .. }) => {
+                let load = law.film_load(gradient, film, viscosity);
+                let mid = film_integrals(fluidity, &PRODUCTION_RULE, load).mid_stress;
+                ([load.a * scale, load.b * scale], mid.map(|stress| stress * scale))
+            }
+        };
+        let limit = problem.lubricant.limiting_stress;
+        Self {
+            mid_pa,
+            across_pa,
+            viscosity_pa_s: point.viscosity_pa_s * viscosity,
+            limit_pa: limit.map_or(f64::INFINITY, |limit| limit.at(pressure * hertz.pressure_pa)),
+        }
+    }
+
     /// (τ_zx, τ_zy) at height Z.
     fn at(&self, height: f64) -> [f64; 2] {
         [0, 1].map(|axis| self.mid_pa[axis] + (height - 0.5) * self.across_pa[axis])

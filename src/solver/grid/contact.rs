@@ -209,6 +209,14 @@ impl ContactGrid {
         }
     }
 
+    /// The abscissae ξ and the ordinates Y of node arrays; a line contact has the one Y = 0.
+    pub fn abscissae(&self) -> (&[f64], &[f64]) {
+        match self {
+            Self::Line(grid) => (&grid.xi, &[0.0]),
+            Self::Point(grid) => (&grid.x, &grid.y),
+        }
+    }
+
     /// The row of an unknown in ξ: the nodes it depends on and its coefficients. Where a node is lacking, another stands in its
     /// place with weight zero.
     pub fn row(&self, unknown: usize) -> ([usize; STENCIL], RowGeometry) {
@@ -244,10 +252,8 @@ impl ContactGrid {
 
     /// Nodal gradients of node arrays by ξ and Y; node (i, j) has the index i·n_y + j.
     pub fn gradient(&self) -> PlaneGradient {
-        match self {
-            Self::Line(grid) => PlaneGradient::new(&grid.xi, &[0.0]),
-            Self::Point(grid) => PlaneGradient::new(&grid.x, &grid.y),
-        }
+        let (xi, y) = self.abscissae();
+        PlaneGradient::new(xi, y)
     }
 
     /// K applied to every column, in ξ.

@@ -4,6 +4,7 @@
 //! solver's variable P = p/p_H. Slightly negative pressures (the penalty lets them reach about −1e-5 p_H) use the analytic laws;
 //! below [`CAVITATION_FLOOR_PA`] the laws are held constant so that no Newton iterate can leave their domain.
 
+mod elementary;
 mod free_volume;
 mod pressure_coefficient;
 mod shear_thinning;

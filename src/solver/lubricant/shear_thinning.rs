@@ -3,7 +3,7 @@
 //! Every law is a factor F(τ/τ₀) ≤ 1 on the viscosity, explicit in the effective shear stress τ, and is blended with a second
 //! Newtonian plateau as (3.40) does: η = μ(p) \[NPR + (1 − NPR) F\]. The film integrals (3.24) ask for the fluidity μ/η.
 
-use super::{LubricantError, check_constant};
+use super::{LubricantError, check_constant, elementary};
 use crate::solver::contact::{OperatingPoint, Sliding};
 use serde::{Deserialize, Serialize};
 
@@ -140,23 +140,24 @@ impl Fluidity {
     /// g and t dg/dt at t ≥ 0.
     #[inline]
     pub fn at(&self, t: f64) -> (f64, f64) {
+        let ([fluidity], [slope]) = self.at_all(&[t]);
+        (fluidity, slope)
+    }
+
+    /// The same at several t at once.
+    #[inline]
+    pub fn at_all<const N: usize>(&self, t: &[f64; N]) -> ([f64; N], [f64; N]) {
         let (factor, slope) = match self.factor {
-            Factor::Power { beta, q, .. } => {
-                let y = (beta * t.ln()).exp();
-                // A y that is lost beside 1 changes nothing: ln(1 + y) need not be exact relative to itself.
-                let factor = (q * (1.0 + y).ln()).exp();
-                // y/(1 + y) written so that an overflowing y is harmless.
-                (factor, q * beta * factor / (1.0 + 1.0 / y))
-            }
-            Factor::HyperbolicSine if t < 1e-4 => (1.0 - t * t / 6.0, -t * t / 3.0),
-            Factor::HyperbolicSine => {
-                let t = t.min(STEEPEST);
-                let factor = t / t.sinh();
-                (factor, if t < STEEPEST { factor * (1.0 - t / t.tanh()) } else { 0.0 })
-            }
+            Factor::Power { beta, q, .. } => power(beta, q, t),
+            Factor::HyperbolicSine => hyperbolic_sine(t),
         };
-        let fluidity = 1.0 / (self.plateau + (1.0 - self.plateau) * factor);
-        (fluidity, -fluidity * fluidity * (1.0 - self.plateau) * slope)
+        let (mut fluidity, mut fluidity_slope) = ([0.0; N], [0.0; N]);
+        let thinning = 1.0 - self.plateau;
+        for i in 0..N {
+            let g = 1.0 / (self.plateau + thinning * factor[i]);
+            (fluidity[i], fluidity_slope[i]) = (g, -g * g * thinning * slope[i]);
+        }
+        (fluidity, fluidity_slope)
     }
 
     /// A stress t near the one at which t g(t) is `rate` ≥ 0: Newton's method in logarithms, in which the laws are almost straight.
@@ -182,6 +183,35 @@ impl Fluidity {
         }
         log.exp()
     }
+}
+
+/// F = (1 + t^β)^q and t dF/dt.
+fn power<const N: usize>(beta: f64, q: f64, t: &[f64; N]) -> ([f64; N], [f64; N]) {
+    let mut y = *t;
+    elementary::raise(&mut y, beta);
+    // A y that is lost beside 1 changes nothing: 1 + y need not be exact relative to y.
+    let mut factor = y.map(|y| 1.0 + y);
+    elementary::raise(&mut factor, q);
+    let mut slope = [0.0; N];
+    for i in 0..N {
+        slope[i] = q * beta * factor[i] * (y[i] / (1.0 + y[i]));
+    }
+    (factor, slope)
+}
+
+/// F = t/sinh t and t dF/dt.
+fn hyperbolic_sine<const N: usize>(t: &[f64; N]) -> ([f64; N], [f64; N]) {
+    let (mut factors, mut slopes) = ([0.0; N], [0.0; N]);
+    for (i, &t) in t.iter().enumerate() {
+        (factors[i], slopes[i]) = if t < 1e-4 {
+            (1.0 - t * t / 6.0, -t * t / 3.0)
+        } else {
+            let t = t.min(STEEPEST);
+            let factor = t / t.sinh();
+            (factor, if t < STEEPEST { factor * (1.0 - t / t.tanh()) } else { 0.0 })
+        };
+    }
+    (factors, slopes)
 }
 
 /// A shear-thinning law at one operating point: what turns P, P_X and H into the scalars of the film integrals.

@@ -16,12 +16,12 @@ use faer::Mat;
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use serde::{Deserialize, Serialize};
 
-/// Coordinates of the place: ln M, L, ln α.
-const PLACE: usize = 3;
-/// Features: the place, ln e_f^I, and the logarithm of the last modes' share.
-const FEATURES: usize = PLACE + 2;
-/// Terms of a quadratic law in the features.
-const TERMS: usize = 1 + FEATURES + FEATURES * (FEATURES + 1) / 2;
+/// Features of a contact without sliding: ln M, L, ln α, ln e_f^I, and the logarithm of the last modes' share.
+const FEATURES: usize = 5;
+/// Those of one in a model that knows sliding: |SRR| and NPR as well.
+const SLIDING_FEATURES: usize = FEATURES + 2;
+/// The two features among them that are no place but a sign of the error.
+const SIGNS: std::ops::Range<usize> = 3..5;
 /// Modes at the end of the basis whose share is a sign of what it lacks.
 const LAST_MODES: usize = 3;
 /// Nearest evidence that corrects the law.
@@ -57,6 +57,8 @@ pub struct ErrorEstimate {
     pub h_min: Estimated,
     /// Of the state, e_z of (3.10).
     pub state: Estimated,
+    /// Of the traction coefficient (3.41), of a model that knows sliding and where an isothermal traction has a meaning.
+    pub traction: Option<Estimated>,
 }
 
 /// One measured case.
@@ -64,29 +66,63 @@ pub struct ErrorEstimate {
 pub struct Evidence {
     /// What was known of the reduced solution.
     pub features: Features,
-    /// Measured relative errors of H_c, H_min and the state.
-    pub errors: [f64; 3],
+    /// Measured relative errors.
+    pub errors: Measured,
 }
 
-/// What is cheap to know of a reduced solution.
+/// Measured relative errors of a reduced solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Features([f64; FEATURES]);
+pub struct Measured {
+    /// Of H_c.
+    pub h_c: f64,
+    /// Of H_min.
+    pub h_min: f64,
+    /// Of the state, e_z.
+    pub state: f64,
+    /// Of the traction coefficient; not where nothing slides, the traction has no meaning, or the model has no rule for it.
+    pub traction: Option<f64>,
+}
+
+impl Measured {
+    /// H_c, H_min, state and, of evidence about sliding, traction.
+    fn values(&self, sliding: bool) -> impl Iterator<Item = f64> {
+        let traction = sliding.then_some(self.traction.unwrap_or(f64::NAN));
+        [self.h_c, self.h_min, self.state].into_iter().chain(traction)
+    }
+}
+
+/// What is cheap to know of a reduced solution: ln M, L, ln α, ln e_f^I, the last modes' share, and of a model that knows sliding |SRR| and NPR.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Features {
+    values: [f64; SLIDING_FEATURES],
+    count: usize,
+}
 
 impl Features {
-    /// The features of a reduced solution.
-    pub fn of(solution: &ReducedSolution) -> Self {
-        Self::new(&solution.point, solution.residual_estimate, &solution.coefficients)
+    /// The features of a reduced solution; `sliding` where its model knows sliding.
+    pub fn of(solution: &ReducedSolution, sliding: bool) -> Self {
+        Self::new(&solution.point, solution.residual_estimate, &solution.coefficients, sliding)
     }
 
-    pub(super) fn new(point: &OperatingPoint, residual: f64, coefficients: &[f64]) -> Self {
+    pub(super) fn new(point: &OperatingPoint, residual: f64, coefficients: &[f64], sliding: bool) -> Self {
         let Moes { m, l } = point.moes();
         let norm = |c: &[f64]| c.iter().map(|v| v * v).sum::<f64>().sqrt();
         let last = norm(&coefficients[coefficients.len().saturating_sub(LAST_MODES)..]) / norm(coefficients);
-        Self([m.ln(), l, point.alpha_per_pa.ln(), residual.max(1e-300).ln(), last.max(1e-300).ln()])
+        let srr = point.sliding.slide_to_roll_ratio.abs();
+        let npr = point.sliding.newtonian_plateau_ratio.unwrap_or(1.0);
+        let (residual, last) = (residual.max(1e-300).ln(), last.max(1e-300).ln());
+        Self {
+            values: [m.ln(), l, point.alpha_per_pa.ln(), residual, last, srr, npr],
+            count: if sliding { SLIDING_FEATURES } else { FEATURES },
+        }
+    }
+
+    fn used(&self) -> &[f64] {
+        &self.values[..self.count]
     }
 
     fn finite(&self) -> bool {
-        self.0.iter().all(|v| v.is_finite())
+        self.used().iter().all(|v| v.is_finite())
     }
 }
 
@@ -94,82 +130,71 @@ impl Features {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Calibration {
     /// Smallest and largest value of each feature in the evidence.
-    ranges: [(f64, f64); FEATURES],
-    /// One law per quantity: coefficients of the quadratic's terms.
-    laws: [Vec<f64>; 3],
-    /// Scatter about the corrected law over all evidence, one variance per quantity.
-    variance: [f64; 3],
-    /// Bound in units of the local spread.
-    quantile: [f64; 3],
-    points: Vec<Known>,
+    ranges: Vec<(f64, f64)>,
+    /// Places of the evidence, each coordinate in −1…1, one after the other.
+    places: Vec<f32>,
+    /// H_c, H_min, state and, of a model that knows sliding, traction.
+    quantities: Vec<Quantity>,
 }
 
-/// What is kept of a measured case.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-struct Known {
-    /// Its place, each coordinate in −1…1.
-    place: [f32; PLACE],
-    /// How much larger the logarithms of its errors are than the law says.
-    surplus: [f32; 3],
-    /// Squares of what its neighbours leave of that.
-    scatter: [f32; 3],
+/// How one relative error depends on the features.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Quantity {
+    /// Coefficients of a quadratic law's terms.
+    law: Vec<f64>,
+    /// Scatter about the corrected law over all evidence: a variance.
+    variance: f64,
+    /// Bound in units of the local spread.
+    quantile: f64,
+    /// How much larger the logarithms of the evidence's errors are than the law says; not a number where none was measured.
+    surplus: Vec<f32>,
+    /// Squares of what their neighbours leave of that.
+    scatter: Vec<f32>,
+}
+
+impl Quantity {
+    fn sound(&self, terms: usize, evidence: usize) -> bool {
+        let spread = [self.variance, self.quantile].iter().all(|v| v.is_finite() && *v >= 0.0);
+        let known = self.surplus.iter().zip(&self.scatter).all(|(a, b)| a.is_finite() == b.is_finite());
+        let lengths = [self.law.len() == terms, self.surplus.len() == evidence, self.scatter.len() == evidence];
+        spread && known && lengths == [true; 3] && self.law.iter().all(|v| v.is_finite())
+    }
+
+    /// Standard deviation of the logarithm of an error here.
+    fn spread(&self, near: &Neighbours) -> f64 {
+        (near.mean(AROUND, &self.scatter) + COMMON_SPREAD * self.variance).sqrt()
+    }
+
+    fn estimate(&self, terms: &[f64], near: &Neighbours, beyond: f64) -> Estimated {
+        let log = dot(&self.law, terms) + BELIEF * near.mean(NEAR, &self.surplus) + beyond;
+        Estimated { likely: log.exp(), bound: (log + self.quantile * self.spread(near)).exp() }
+    }
 }
 
 impl Calibration {
-    /// Learns from evidence; `None` when there is too little, or it is degenerate.
+    /// Learns from evidence of one kind; `None` when there is too little, or it is degenerate.
     pub fn fit(evidence: &[Evidence]) -> Option<Self> {
-        let usable: Vec<&Evidence> =
-            evidence.iter().filter(|e| e.features.finite() && e.errors.iter().all(|v| v.is_finite())).collect();
+        let sliding = evidence.first()?.features.count == SLIDING_FEATURES;
+        let sound = |e: &&Evidence| e.features.finite() && e.errors.values(false).all(f64::is_finite);
+        let usable: Vec<&Evidence> = evidence.iter().filter(sound).collect();
         if usable.len() < LEAST_EVIDENCE {
             return None;
         }
-        let ranges = std::array::from_fn(|k| {
-            let values = usable.iter().map(|e| e.features.0[k]);
+        let range = |k: usize| {
+            let values = usable.iter().map(|e| e.features.values[k]);
             (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max))
-        });
-        let mut out = Self {
-            ranges,
-            laws: Default::default(),
-            variance: [0.0; 3],
-            quantile: [0.0; 3],
-            points: Vec::with_capacity(usable.len()),
         };
-        let terms: Vec<[f64; TERMS]> = usable.iter().map(|e| quadratic(&out.scaled(&e.features).0)).collect();
-        let logs: Vec<[f64; 3]> = usable.iter().map(|e| e.errors.map(|v| (v + FLOOR).ln())).collect();
-        for q in 0..3 {
-            out.laws[q] = least_squares(&terms, &logs, q)?;
-        }
-        for ((e, terms), logs) in usable.iter().zip(&terms).zip(&logs) {
-            let (scaled, _) = out.scaled(&e.features);
-            out.points.push(Known {
-                place: std::array::from_fn(|k| scaled[k] as f32),
-                surplus: std::array::from_fn(|q| (logs[q] - dot(&out.laws[q], terms)) as f32),
-                scatter: [0.0; 3],
-            });
-        }
+        let ranges = (0..if sliding { SLIDING_FEATURES } else { FEATURES }).map(range).collect();
+        let mut out = Self { ranges, places: Vec::new(), quantities: Vec::new() };
+        let scaled: Vec<Vec<f64>> = usable.iter().map(|e| out.scaled(&e.features).0).collect();
+        out.places = scaled.iter().flat_map(|scaled| place(scaled)).collect();
+        let terms: Vec<Vec<f64>> = scaled.iter().map(|scaled| quadratic(scaled)).collect();
         // Leave-one-out, so that fresh points find the same scatter.
         let neighbours: Vec<Neighbours> =
-            (0..out.points.len()).map(|i| out.neighbours(out.points[i].place, Some(i))).collect();
-        let left: Vec<[f64; 3]> = neighbours
-            .iter()
-            .zip(&out.points)
-            .map(|(near, own)| {
-                std::array::from_fn(|q| {
-                    f64::from(own.surplus[q]) - BELIEF * near.mean(NEAR, |i| f64::from(out.points[i].surplus[q]))
-                })
-            })
-            .collect();
-        for (point, left) in out.points.iter_mut().zip(&left) {
-            point.scatter = left.map(|v| (v * v) as f32);
-        }
-        let count = left.len();
-        for q in 0..3 {
-            out.variance[q] = left.iter().map(|v| v[q] * v[q]).sum::<f64>() / count as f64;
-            let mut scores: Vec<f64> =
-                left.iter().zip(&neighbours).map(|(v, near)| v[q] / out.spread(near, q)).collect();
-            scores.sort_by(f64::total_cmp);
-            let place = ((QUANTILE * (count + 1) as f64).ceil() as usize).clamp(1, count);
-            out.quantile[q] = scores[place - 1].max(0.0);
+            (0..usable.len()).map(|i| out.neighbours(&place(&scaled[i]).collect::<Vec<f32>>(), Some(i))).collect();
+        for q in 0..if sliding { 4 } else { 3 } {
+            let log = |e: &&Evidence| e.errors.values(sliding).nth(q).map_or(f64::NAN, |v| (v + FLOOR).ln());
+            out.quantities.push(quantity(&terms, &usable.iter().map(log).collect::<Vec<f64>>(), &neighbours)?);
         }
         out.sound().then_some(out)
     }
@@ -178,56 +203,93 @@ impl Calibration {
     pub fn estimate(&self, features: &Features) -> ErrorEstimate {
         let (scaled, beyond) = self.scaled(features);
         let terms = quadratic(&scaled);
-        let near = self.neighbours(std::array::from_fn(|k| scaled[k] as f32), None);
-        let of = |q: usize| {
-            let surplus = BELIEF * near.mean(NEAR, |i| f64::from(self.points[i].surplus[q]));
-            let log = dot(&self.laws[q], &terms) + surplus + beyond;
-            Estimated { likely: log.exp(), bound: (log + self.quantile[q] * self.spread(&near, q)).exp() }
-        };
-        ErrorEstimate { h_c: of(0), h_min: of(1), state: of(2) }
+        let near = self.neighbours(&place(&scaled).collect::<Vec<f32>>(), None);
+        let of = |quantity: &Quantity| quantity.estimate(&terms, &near, beyond);
+        ErrorEstimate {
+            h_c: of(&self.quantities[0]),
+            h_min: of(&self.quantities[1]),
+            state: of(&self.quantities[2]),
+            traction: self.quantities.get(3).map(of),
+        }
     }
 
     /// Cases it rests on.
     pub fn evidence(&self) -> usize {
-        self.points.len()
+        self.places.len() / (self.ranges.len() - SIGNS.len()).max(1)
+    }
+
+    /// Whether it belongs to a model that knows sliding.
+    pub fn sliding(&self) -> bool {
+        self.ranges.len() == SLIDING_FEATURES
     }
 
     /// Whether every number in it makes sense, as when it was read from a file.
     pub fn sound(&self) -> bool {
-        self.points.len() >= LEAST_EVIDENCE
+        let features = self.ranges.len();
+        let quantities = match features {
+            FEATURES => 3,
+            SLIDING_FEATURES => 4,
+            _ => return false,
+        };
+        let (evidence, terms) = (self.evidence(), 1 + features + features * (features + 1) / 2);
+        self.places.len() == evidence * (features - SIGNS.len())
+            && evidence >= LEAST_EVIDENCE
             && self.ranges.iter().all(|(low, high)| low.is_finite() && high.is_finite() && low <= high)
-            && self.laws.iter().all(|law| law.len() == TERMS && law.iter().all(|v| v.is_finite()))
-            && self.variance.iter().chain(&self.quantile).all(|v| v.is_finite() && *v >= 0.0)
-            && self.points.iter().all(|p| p.place.iter().chain(&p.surplus).chain(&p.scatter).all(|v| v.is_finite()))
+            && self.places.iter().all(|v| v.is_finite())
+            && self.quantities.len() == quantities
+            && self.quantities.iter().all(|quantity| quantity.sound(terms, evidence))
     }
 
     /// Features in −1…1 (clamped to the evidence), and by how much ln e_f^I and the last modes exceed it: errors are taken to grow with them.
-    fn scaled(&self, features: &Features) -> ([f64; FEATURES], f64) {
+    fn scaled(&self, features: &Features) -> (Vec<f64>, f64) {
         let mut beyond = 0.0;
-        let scaled = std::array::from_fn(|k| {
-            let ((low, high), value) = (self.ranges[k], features.0[k]);
-            if k >= PLACE {
+        let scale = |(k, (&(low, high), &value)): (usize, (&(f64, f64), &f64))| {
+            if SIGNS.contains(&k) {
                 beyond += (value - high).max(0.0);
             }
             if high > low { (2.0 * (value - low) / (high - low) - 1.0).clamp(-1.0, 1.0) } else { 0.0 }
-        });
+        };
+        let scaled = self.ranges.iter().zip(&features.values).enumerate().map(scale).collect();
         (scaled, beyond)
     }
 
-    /// Standard deviation of the logarithm of an error here.
-    fn spread(&self, near: &Neighbours, q: usize) -> f64 {
-        (near.mean(AROUND, |i| f64::from(self.points[i].scatter[q])) + COMMON_SPREAD * self.variance[q]).sqrt()
-    }
-
-    fn neighbours(&self, place: [f32; PLACE], except: Option<usize>) -> Neighbours {
+    fn neighbours(&self, place: &[f32], except: Option<usize>) -> Neighbours {
         let mut near = Neighbours { nearest: [(f32::INFINITY, 0); AROUND], count: 0 };
-        for (i, point) in self.points.iter().enumerate() {
+        for (i, other) in self.places.chunks_exact(place.len()).enumerate() {
             if except != Some(i) {
-                near.meet(point.place.iter().zip(&place).map(|(a, b)| (a - b) * (a - b)).sum(), i);
+                near.meet(other.iter().zip(place).map(|(a, b)| (a - b) * (a - b)).sum(), i);
             }
         }
         near
     }
+}
+
+/// The law of one quantity from the logarithms of its errors, not a number where none was measured.
+fn quantity(terms: &[Vec<f64>], logs: &[f64], neighbours: &[Neighbours]) -> Option<Quantity> {
+    let known: Vec<usize> = (0..logs.len()).filter(|&i| logs[i].is_finite()).collect();
+    if known.len() < LEAST_EVIDENCE {
+        return None;
+    }
+    let law = least_squares(terms, logs, &known)?;
+    let surplus: Vec<f32> = terms.iter().zip(logs).map(|(terms, log)| (log - dot(&law, terms)) as f32).collect();
+    let left: Vec<f64> = neighbours
+        .iter()
+        .zip(&surplus)
+        .map(|(near, own)| f64::from(*own) - BELIEF * near.mean(NEAR, &surplus))
+        .collect();
+    let scatter = left.iter().map(|v| (v * v) as f32).collect();
+    let variance = known.iter().map(|&i| left[i] * left[i]).sum::<f64>() / known.len() as f64;
+    let mut out = Quantity { law, variance, quantile: 0.0, surplus, scatter };
+    let mut scores: Vec<f64> = known.iter().map(|&i| left[i] / out.spread(&neighbours[i])).collect();
+    scores.sort_by(f64::total_cmp);
+    let place = ((QUANTILE * (known.len() + 1) as f64).ceil() as usize).clamp(1, known.len());
+    out.quantile = scores[place - 1].max(0.0);
+    Some(out)
+}
+
+/// The coordinates of the place among scaled features.
+fn place(scaled: &[f64]) -> impl Iterator<Item = f32> {
+    scaled.iter().enumerate().filter(|(k, _)| !SIGNS.contains(k)).map(|(_, v)| *v as f32)
 }
 
 /// The nearest evidence, by squared distance.
@@ -248,13 +310,15 @@ impl Neighbours {
         self.nearest[at] = (distance, index);
     }
 
-    /// Mean over the first `count`, near ones counting more.
-    fn mean(&self, count: usize, value: impl Fn(usize) -> f64) -> f64 {
+    /// Mean of what is known of the first `count`, near ones counting more.
+    fn mean(&self, count: usize, values: &[f32]) -> f64 {
         let (mut sum, mut weights) = (0.0, 0.0);
         for &(distance, index) in &self.nearest[..self.count.min(count)] {
-            let weight = 1.0 / (f64::from(distance) + 1e-2);
-            sum += weight * value(index);
-            weights += weight;
+            if values[index].is_finite() {
+                let weight = 1.0 / (f64::from(distance) + 1e-2);
+                sum += weight * f64::from(values[index]);
+                weights += weight;
+            }
         }
         if weights > 0.0 { sum / weights } else { 0.0 }
     }
@@ -265,104 +329,83 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// 1, features, and their products.
-fn quadratic(x: &[f64; FEATURES]) -> [f64; TERMS] {
-    let mut out = [1.0; TERMS];
-    out[1..=FEATURES].copy_from_slice(x);
-    let mut at = 1 + FEATURES;
-    for i in 0..FEATURES {
-        for j in i..FEATURES {
-            out[at] = x[i] * x[j];
-            at += 1;
-        }
-    }
-    out
+fn quadratic(x: &[f64]) -> Vec<f64> {
+    let products = (0..x.len()).flat_map(|i| (i..x.len()).map(move |j| x[i] * x[j]));
+    [1.0].into_iter().chain(x.iter().copied()).chain(products).collect()
 }
 
-/// Coefficients that fit quantity `q`, with a slight ridge for features that do not vary.
-fn least_squares(terms: &[[f64; TERMS]], logs: &[[f64; 3]], q: usize) -> Option<Vec<f64>> {
-    let normal = Mat::from_fn(TERMS, TERMS, |r, c| {
-        terms.iter().map(|t| t[r] * t[c]).sum::<f64>() + if r == c { 1e-3 } else { 0.0 }
+/// Coefficients that fit the known logarithms, with a slight ridge for features that do not vary.
+fn least_squares(terms: &[Vec<f64>], logs: &[f64], known: &[usize]) -> Option<Vec<f64>> {
+    let count = terms.first()?.len();
+    let normal = Mat::from_fn(count, count, |r, c| {
+        known.iter().map(|&i| terms[i][r] * terms[i][c]).sum::<f64>() + if r == c { 1e-3 } else { 0.0 }
     });
-    let rhs = Mat::from_fn(TERMS, 1, |r, _| terms.iter().zip(logs).map(|(t, l)| t[r] * l[q]).sum::<f64>());
+    let rhs = Mat::from_fn(count, 1, |r, _| known.iter().map(|&i| terms[i][r] * logs[i]).sum::<f64>());
     let solved = PartialPivLu::new(normal.as_ref()).solve(&rhs);
     let law: Vec<f64> = solved.col(0).iter().copied().collect();
     law.iter().all(|v| v.is_finite()).then_some(law)
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use fastrand::Rng;
+/// A calibration without sliding as model files keep it beside a window.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RollingCalibration {
+    ranges: [(f64, f64); FEATURES],
+    laws: [Vec<f64>; 3],
+    variance: [f64; 3],
+    quantile: [f64; 3],
+    points: Vec<RollingCase>,
+}
 
-    /// Errors that follow e_f^I and a bump in the place, with a scatter that is larger on one side.
-    fn synthetic(count: usize, seed: u64) -> Vec<Evidence> {
-        let mut rng = Rng::with_seed(seed);
-        let mut normal = move || {
-            let (a, b) = (rng.f64(), rng.f64());
-            ((-2.0 * (1.0 - a).ln()).sqrt() * (2.0 * std::f64::consts::PI * b).cos(), a, b)
+/// One case of its evidence.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct RollingCase {
+    place: [f32; FEATURES - SIGNS.end + SIGNS.start],
+    surplus: [f32; 3],
+    scatter: [f32; 3],
+}
+
+impl From<RollingCalibration> for Calibration {
+    fn from(kept: RollingCalibration) -> Self {
+        let RollingCalibration { ranges, laws, variance, quantile, points } = kept;
+        let quantity = |(q, law): (usize, Vec<f64>)| Quantity {
+            law,
+            variance: variance[q],
+            quantile: quantile[q],
+            surplus: points.iter().map(|case| case.surplus[q]).collect(),
+            scatter: points.iter().map(|case| case.scatter[q]).collect(),
         };
-        (0..count)
-            .map(|_| {
-                let ((n, a, b), (k, c, _)) = (normal(), normal());
-                let place = [2.0 + 3.0 * a, 2.0 + 18.0 * b, -19.0 + c];
-                let residual = -8.0 + k + (4.0 * a).sin();
-                let error = residual - 2.0 + (6.0 * a).cos() * b + (0.3 + b) * n;
-                Evidence {
-                    features: Features([place[0], place[1], place[2], residual, -12.0]),
-                    errors: [error.exp(), (error - 1.0).exp(), (error + 1.0).exp()],
-                }
-            })
-            .collect()
-    }
-
-    #[test]
-    fn the_bound_covers_fresh_cases_and_is_not_idle() {
-        let calibration = Calibration::fit(&synthetic(1000, 1)).unwrap();
-        let fresh = synthetic(4000, 2);
-        let mut ratios = Vec::new();
-        let mut medians = 0;
-        for case in &fresh {
-            let estimate = calibration.estimate(&case.features);
-            ratios.push(estimate.h_c.bound / case.errors[0]);
-            medians += usize::from(estimate.h_min.likely > case.errors[1]);
+        Self {
+            ranges: ranges.to_vec(),
+            places: points.iter().flat_map(|case| case.place).collect(),
+            quantities: laws.into_iter().enumerate().map(quantity).collect(),
         }
-        let covered = ratios.iter().filter(|r| **r >= 1.0).count();
-        assert!(covered >= 3960, "{covered} of 4000");
-        ratios.sort_by(f64::total_cmp);
-        // 2.65 standard deviations of 0.8 on average.
-        assert!(ratios[2000] < 10.0, "{}", ratios[2000]);
-        assert!((1800..2200).contains(&medians), "the likely error is the median: {medians} of 4000 below");
-    }
-
-    #[test]
-    fn a_residual_beyond_the_evidence_raises_the_bound_in_proportion() {
-        let evidence = synthetic(300, 3);
-        let calibration = Calibration::fit(&evidence).unwrap();
-        let mut features = evidence[0].features;
-        features.0[PLACE] = calibration.ranges[PLACE].1;
-        let at_the_edge = calibration.estimate(&features).h_c.bound;
-        features.0[PLACE] += 3.0;
-        assert!((calibration.estimate(&features).h_c.bound / at_the_edge / 3f64.exp() - 1.0).abs() < 1e-9);
-    }
-
-    #[test]
-    fn too_little_or_broken_evidence_gives_no_calibration() {
-        assert!(Calibration::fit(&synthetic(LEAST_EVIDENCE - 1, 1)).is_none());
-        let mut broken = synthetic(LEAST_EVIDENCE, 1);
-        broken[7].errors[0] = f64::NAN;
-        assert!(Calibration::fit(&broken).is_none());
-    }
-
-    #[test]
-    fn neighbours_are_the_nearest_in_order() {
-        let mut near = Neighbours { nearest: [(f32::INFINITY, 0); AROUND], count: 0 };
-        let mut rng = Rng::with_seed(5);
-        let distances: Vec<f32> = (0..300).map(|_| rng.f32()).collect();
-        for (i, d) in distances.iter().enumerate() {
-            near.meet(*d, i);
-        }
-        let mut sorted = distances.clone();
-        sorted.sort_by(f32::total_cmp);
-        assert!(near.nearest.iter().zip(&sorted).all(|((d, i), wanted)| d == wanted && distances[*i] == *d));
     }
 }
+
+impl TryFrom<&Calibration> for RollingCalibration {
+    type Error = std::array::TryFromSliceError;
+
+    /// Fails for the calibration of a model that knows sliding.
+    fn try_from(calibration: &Calibration) -> Result<Self, Self::Error> {
+        let Calibration { ranges, places, quantities } = calibration;
+        let ranges = <[(f64, f64); FEATURES]>::try_from(ranges.as_slice())?;
+        let each = |number: fn(&Quantity) -> f64| std::array::from_fn(|q| number(&quantities[q]));
+        let case = |(i, place): (usize, &[f32])| -> Result<RollingCase, Self::Error> {
+            Ok(RollingCase {
+                place: place.try_into()?,
+                surplus: std::array::from_fn(|q| quantities[q].surplus[i]),
+                scatter: std::array::from_fn(|q| quantities[q].scatter[i]),
+            })
+        };
+        Ok(Self {
+            ranges,
+            laws: std::array::from_fn(|q| quantities[q].law.clone()),
+            variance: each(|quantity| quantity.variance),
+            quantile: each(|quantity| quantity.quantile),
+            points: places.chunks_exact(ranges.len() - SIGNS.len()).enumerate().map(case).collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -19,6 +19,9 @@ const OVERSHOOT: f64 = 2.0;
 const RIDGE: f64 = 1e-12;
 /// Rows whose test functions √w ‖V_i‖ stay below this are no candidates: nothing happens there.
 const LEAST_TEST: f64 = 3e-4;
+/// Rounds per row of [`GoalEquations::fit`] at most, and the relative gradient at which nothing is left to gain.
+const ROUNDS: usize = 20;
+const CLOSE: f64 = 1e-9;
 /// Rounds without growth after which the greedy ends.
 const STALLS: usize = 8;
 
@@ -97,6 +100,56 @@ impl GoalEquations {
             fit.prune(&mut support, target)?;
         }
         let weights = fit.non_negative(&mut support)?;
+        let rule = support.iter().zip(&weights).map(|(&i, w)| (self.candidates[i], w / fit.norms[i]));
+        let mut pairs: Vec<(usize, f64)> = rule.collect();
+        pairs.sort_by_key(|p| p.0);
+        Some(pairs.into_iter().unzip())
+    }
+}
+
+impl GoalEquations {
+    /// Rows and relative weights, at most `most`, by the non-negative least squares of Lawson and Hanson (1974, chapter 23), which lowers the
+    /// residual with every row: for equations that can be met closely, whose neighbouring columns hardly differ. `None` when they are degenerate.
+    pub fn fit(&self, most: usize) -> Option<(Vec<usize>, Vec<f64>)> {
+        let mut fit = Fit::new(self);
+        let mut support: Vec<usize> = Vec::with_capacity(most);
+        let mut weights: Vec<f64> = Vec::with_capacity(most);
+        let mut refused = vec![false; self.candidates.len()];
+        let wanted = self.wanted.iter().map(|v| v * v).sum::<f64>().sqrt();
+        // Rows come and go; each round ends with a smaller residual, or refuses a row that would not stay.
+        for _ in 0..ROUNDS * most {
+            if support.len() == most {
+                break;
+            }
+            let gradient = fit.gradient(&support, &weights);
+            let free = (0..gradient.len()).filter(|i| !refused[*i] && !support.contains(i));
+            let Some(next) = free.max_by(|&a, &b| gradient[a].total_cmp(&gradient[b])) else { break };
+            if gradient[next] <= CLOSE * wanted {
+                break;
+            }
+            support.push(next);
+            weights.push(0.0);
+            fit.look_at(&support);
+            loop {
+                let fitted = fit.free(&support)?;
+                if fitted.iter().all(|w| *w > 0.0) {
+                    weights = fitted;
+                    refused.fill(false);
+                    break;
+                }
+                // As far as no weight changes its sign; those that vanish leave.
+                let steps =
+                    weights.iter().zip(&fitted).filter(|(_, to)| **to <= 0.0).map(|(from, to)| from / (from - to));
+                let share = steps.fold(1.0, f64::min);
+                weights.iter_mut().zip(&fitted).for_each(|(from, to)| *from += share * (to - *from));
+                let stays: Vec<bool> = weights.iter().zip(&fitted).map(|(w, to)| *to > 0.0 || *w > 1e-12).collect();
+                refused[next] |= support.iter().zip(&stays).any(|(row, stays)| *row == next && !stays);
+                let mut kept = stays.iter().copied();
+                support.retain(|_| kept.next().unwrap_or(false));
+                let mut kept = stays.iter().copied();
+                weights.retain(|_| kept.next().unwrap_or(false));
+            }
+        }
         let rule = support.iter().zip(&weights).map(|(&i, w)| (self.candidates[i], w / fit.norms[i]));
         let mut pairs: Vec<(usize, f64)> = rule.collect();
         pairs.sort_by_key(|p| p.0);
@@ -193,14 +246,20 @@ impl<'a> Fit<'a> {
         Some((gram, Mat::from_fn(m, 1, |r, _| self.right[places[r]])))
     }
 
+    /// Fit on a support, weights of any sign.
+    fn free(&self, support: &[usize]) -> Option<Vec<f64>> {
+        let (gram, right) = self.normal_equations(support)?;
+        let w = Llt::new(gram.as_ref(), Side::Lower).ok()?.solve(&right);
+        Some((0..support.len()).map(|k| w[(k, 0)]).collect())
+    }
+
     /// Non-negative fit on a support: drops the most negative until none is left.
     fn non_negative(&self, support: &mut Vec<usize>) -> Option<Vec<f64>> {
         loop {
-            let (gram, right) = self.normal_equations(support)?;
-            let w = Llt::new(gram.as_ref(), Side::Lower).ok()?.solve(&right);
-            let worst = (0..support.len()).min_by(|&a, &b| w[(a, 0)].total_cmp(&w[(b, 0)]))?;
-            if w[(worst, 0)] > 0.0 {
-                return Some((0..support.len()).map(|k| w[(k, 0)]).collect());
+            let w = self.free(support)?;
+            let worst = (0..support.len()).min_by(|&a, &b| w[a].total_cmp(&w[b]))?;
+            if w[worst] > 0.0 {
+                return Some(w);
             }
             support.swap_remove(worst);
         }
@@ -258,6 +317,27 @@ mod tests {
             let exact: f64 = (0..n).map(|i| block[(degree, i)]).sum();
             let rule: f64 = rows.iter().zip(&weights).map(|(&i, w)| w * block[(degree, i)]).sum();
             assert!((rule / exact - 1.0).abs() < 1e-4, "degree {degree}: {rule} against {exact}");
+        }
+    }
+
+    #[test]
+    fn a_close_fit_meets_smooth_equations_with_few_rows() {
+        // Bumps that move: neighbouring columns hardly differ, and the rule must hold for bumps it has not seen.
+        let n = 400;
+        let bump = |centre: f64, i: usize| (-((i as f64 / n as f64 - centre) * 8.0).powi(2)).exp();
+        let mut equations = GoalEquations::new((0..n).collect());
+        for k in 0..120 {
+            let centre = 0.3 + 0.4 * f64::from(k) / 119.0;
+            let whole: f64 = (0..n).map(|i| bump(centre, i)).sum();
+            equations.add(|i| bump(centre, i) / whole, n);
+        }
+        let (rows, weights) = equations.fit(24).unwrap();
+        assert!(rows.len() <= 24 && weights.iter().all(|w| *w > 0.0));
+        for k in 0..50 {
+            let centre = 0.305 + 0.39 * f64::from(k) / 49.0;
+            let whole: f64 = (0..n).map(|i| bump(centre, i)).sum();
+            let rule: f64 = rows.iter().zip(&weights).map(|(&i, w)| w * bump(centre, i)).sum();
+            assert!((rule / whole - 1.0).abs() < 1e-4, "centre {centre}: {rule} against {whole}");
         }
     }
 

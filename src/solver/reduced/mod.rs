@@ -17,9 +17,13 @@ mod pod;
 mod sampling;
 mod start;
 pub mod tpwl;
+mod traction;
+mod traction_curve;
 pub mod transient;
 
-pub use calibration::{Calibration, ErrorEstimate, Estimated, Evidence, Features, LEAST_EVIDENCE};
+pub use calibration::{
+    Calibration, ErrorEstimate, Estimated, Evidence, Features, LEAST_EVIDENCE, Measured, RollingCalibration,
+};
 pub use cubature::{GoalEquations, cubature};
 pub use error_measures::{ErrorMeasures, Norm, Residuals};
 pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
@@ -30,3 +34,5 @@ pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution, Starts};
 pub(crate) use operators::Iterate;
 pub use pod::PodBasis;
 pub use sampling::{RowSnapshots, SampledRows, Sampling, TestSpace, all_rows, greedy, is_finite, q_deim};
+pub use traction::TractionRule;
+pub use traction_curve::{CurvePoint, CurveVariable, traction_curve};

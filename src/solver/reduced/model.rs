@@ -3,6 +3,7 @@
 use super::calibration::Calibration;
 use super::pod::PodBasis;
 use super::sampling::{SampledRows, Sampling};
+use super::traction::TractionRule;
 use crate::solver::contact::{ContactKind, Moes, OperatingPoint};
 use crate::solver::full::Problem;
 use crate::solver::grid::{ContactGrid, FIRST_UNKNOWN};
@@ -119,6 +120,8 @@ pub struct Window {
     pub reconstruction: Mat<f64>,
     /// Training solutions.
     pub snapshots: Vec<Snapshot>,
+    /// Traction from few of the nodes that these rows depend on; none where the model does not know sliding.
+    pub traction: Option<TractionRule>,
     /// What it knows about its own errors, with all modes and these rows; none until it was measured.
     pub calibration: Option<Calibration>,
 }
@@ -185,16 +188,17 @@ impl Window {
             sampled_rows,
             reconstruction,
             snapshots,
+            traction: None,
             calibration: None,
         }
     }
 
-    /// Replaces the sampled rows, which ends a calibration.
+    /// Replaces the sampled rows, which ends a calibration and the rule for the traction on their nodes.
     pub fn set_rows(&mut self, sampling: Sampling, rows: SampledRows) {
         self.sampling = sampling;
         self.sampled_rows = rows.rows;
         self.reconstruction = rows.reconstruction;
-        self.calibration = None;
+        (self.traction, self.calibration) = (None, None);
     }
 
     /// The nearest training solution by [`separation`].

@@ -1,9 +1,9 @@
 //! The online phase: which window, which start, and back to fields.
 
 use super::calibration::{ErrorEstimate, Features};
-use super::model::{ReducedModel, Snapshot, Trust, Window, separation};
+use super::model::{ReducedModel, Snapshot, Trust, Window};
 use super::operators::{Case, OnlineOutcome, Operators, RowObserver, Stop};
-use super::start::{self, Guess, film_number};
+use super::start::{self, Former, Guess, Known, film_number};
 use crate::solver::contact::{ContactKind, Moes, OperatingPoint};
 use crate::solver::full::{
     Mesh, Problem, Report, Scalars, Solution, SolveError, Termination, point_scalars_of, scalars_of,
@@ -17,9 +17,6 @@ use std::sync::Arc;
 
 /// Newton steps before another start is tried: good starts need 4, and what needs more than 12 mostly never gets there.
 const FIRST_ATTEMPTS: usize = 12;
-
-/// How near by (3.20) the previous solution must be to be preferred to an interpolation.
-const DRAG_DISTANCE: f64 = 1e-3;
 
 /// Why a reduced solve gives no result.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -58,7 +55,8 @@ pub enum ReducedError {
 /// From where an online iteration is started.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Starts {
-    /// The previous solution where it is near, an interpolation between snapshots, the nearest snapshot, continuation from it.
+    /// The line through the last two solutions where the contact continues it, the last one where it is near, an interpolation between snapshots,
+    /// the nearest snapshot, continuation from it.
     #[default]
     Explorer,
     /// The nearest snapshot by (3.20) as it is, and nothing else: the dissertation's.
@@ -115,6 +113,10 @@ pub struct ReducedSolution {
     pub coefficients: Vec<f64>,
     /// H₀.
     pub h_0: f64,
+    /// Central film H_c.
+    pub h_c: f64,
+    /// Traction coefficient (3.41) by the window's rule on few nodes; none of a model that does not know sliding.
+    pub traction: Option<f64>,
     /// Newton steps.
     pub iterations: usize,
     /// e_f^I, (3.15), in the L2 norm over X restricted to the sampled rows.
@@ -133,22 +135,15 @@ pub struct Online {
     options: ReducedOptions,
     /// Operators of each window, made when it is first needed.
     windows: Vec<OnceCell<Operators>>,
-    previous: Option<Previous>,
-}
-
-/// The last converged solution: the start while somebody drags.
-struct Previous {
-    window: usize,
-    point: OperatingPoint,
-    coefficients: Vec<f64>,
-    h_c: f64,
+    /// The last converged solutions, where the next one starts while somebody drags or follows a curve.
+    former: Former,
 }
 
 impl Online {
     /// A solver for the model; operators are prepared per window when first needed.
     pub fn new(model: Arc<ReducedModel>, options: ReducedOptions) -> Self {
         let windows = model.windows.iter().map(|_| OnceCell::new()).collect();
-        Self { model, options, windows, previous: None }
+        Self { model, options, windows, former: Former::default() }
     }
 
     /// The settings in force.
@@ -164,13 +159,13 @@ impl Online {
         }
     }
 
-    /// Forgets the previous solution, so that the next solve starts from the nearest snapshot.
+    /// Forgets the previous solutions, so that the next solve starts from the snapshots.
     pub fn forget(&mut self) {
-        self.previous = None;
+        self.former = Former::default();
     }
 
-    /// Solves a contact: from the previous solution of this object where that is near, else from the snapshots around
-    /// the point, else from the nearest one by (3.20), else by continuation from that one.
+    /// Solves a contact: from the last two solutions of this object where it continues their line, from the last one where that is near, else
+    /// from the snapshots around the point, else from the nearest one by (3.20), else by continuation from that one.
     ///
     /// # Errors
     /// When the point is refused or Newton does not converge.
@@ -207,20 +202,12 @@ impl Online {
             let found = attempt(window, operators, &problem, &guess, usize::MAX, &self.options, &mut observer)?;
             return Ok(self.keep(&problem, index, found));
         }
-        // The previous solution while somebody drags, else an interpolation, else the nearest snapshot.
-        let previous =
-            self.previous.as_ref().filter(|p| p.window == index && separation(point, &p.point) < DRAG_DISTANCE).map(
-                |p| Guess {
-                    coefficients: p.coefficients.clone(),
-                    h_c: p.h_c * film_number(point) / film_number(&p.point),
-                },
-            );
         let thinning = self.model.domain.sliding.is_some();
         let mut last = ReducedError::Empty;
-        let starts: [&dyn Fn() -> Option<Guess>; 3] =
-            [&|| previous.clone(), &|| start::interpolated(window, point, thinning), &|| start::nearest(window, point)];
-        for guess in starts {
-            let Some(guess) = guess() else { continue };
+        let former = [self.former.continued(index, point), self.former.beside(index, point)];
+        let interpolated = std::iter::once_with(|| start::interpolated(window, point, thinning));
+        let nearest = std::iter::once_with(|| start::nearest(window, point));
+        for guess in former.into_iter().chain(interpolated).chain(nearest).flatten() {
             match attempt(window, operators, &problem, &guess, FIRST_ATTEMPTS, &self.options, &mut observer) {
                 Ok(found) => return Ok(self.keep(&problem, index, found)),
                 Err(error) => last = error,
@@ -233,7 +220,7 @@ impl Online {
         match walked {
             Some(found) => Ok(self.keep(&problem, index, found)),
             None => {
-                self.previous = None;
+                self.forget();
                 Err(last)
             }
         }
@@ -260,20 +247,25 @@ impl Online {
 
     /// Remembers a solution as the next start and returns it.
     fn keep(&mut self, problem: &Problem, window: usize, found: Found) -> ReducedSolution {
-        let Found { coefficients, h_0, h_c, iterations, residual } = found;
-        let previous = Previous { window, point: problem.point, coefficients: coefficients.clone(), h_c };
-        self.previous = Some(previous);
+        let Found { coefficients, h_0, h_c, iterations, residual, traction } = found;
+        self.former.remember(Known { window, point: problem.point, coefficients: coefficients.clone(), h_c });
         let trust = self.model.trust(problem);
         let calibration = self.model.windows.get(window).and_then(|w| w.calibration.as_ref());
-        let error = calibration
+        let mut error = calibration
             .filter(|_| trust == Trust::Trained && self.options == ReducedOptions::default())
-            .map(|c| c.estimate(&Features::new(&problem.point, residual, &coefficients)));
+            .map(|c| c.estimate(&Features::new(&problem.point, residual, &coefficients, c.sliding())));
+        if let Some(estimate) = error.as_mut().filter(|estimate| estimate.traction.is_some()) {
+            // Of a traction that is no physics nothing is promised.
+            estimate.traction = estimate.traction.filter(|_| problem.traction_warning().is_none());
+        }
         ReducedSolution {
             point: problem.point,
             lubricant: problem.lubricant,
             window,
             coefficients,
             h_0,
+            h_c,
+            traction,
             iterations,
             residual_estimate: residual,
             error,
@@ -388,6 +380,7 @@ struct Found {
     h_c: f64,
     iterations: usize,
     residual: f64,
+    traction: Option<f64>,
 }
 
 /// Newton from a guess, within `limit` steps and the options' own limit.
@@ -417,7 +410,8 @@ fn attempt(
     let h_c = h_0 + (dot(&lift, &coefficients) + offset);
     if outcome.converged && h_c > 0.0 {
         let OnlineOutcome { iterations, residual, .. } = outcome;
-        Ok(Found { coefficients, h_0, h_c, iterations, residual })
+        let traction = operators.traction(problem, scale);
+        Ok(Found { coefficients, h_0, h_c, iterations, residual, traction })
     } else {
         Err(ReducedError::NotConverged { iterations: outcome.iterations, step: outcome.step })
     }

@@ -3,14 +3,18 @@
 
 use super::model::{Window, deformation_weights};
 use crate::solver::contact::ContactKind;
-use crate::solver::full::Problem;
+use crate::solver::full::{Problem, mid_film_stress};
 use crate::solver::grid::dot;
+use crate::solver::reynolds::film_integrals::KnownFilm;
 use crate::solver::reynolds::generalized::{FilmTreatment, NodeState, ShearNode, gradient_slopes};
 use crate::solver::reynolds::{CENTER, Node, RowGeometry, STENCIL, row};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Conj, Mat, MatMut, MatRef, Par};
+
+/// The nodes of a row by twos: a row of the Jacobian is read and written half as often.
+const PAIRS: [(usize, usize); STENCIL / 2] = [(0, 1), (2, 3), (4, 5)];
 
 /// How an online Newton iteration ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,6 +85,8 @@ pub(crate) struct Operators {
     reconstruction: Mat<f64>,
     /// wᵀ V_p.
     load_row: Vec<f64>,
+    /// Places in the support, and weights, of the rule for the traction; empty without one.
+    traction: Vec<(usize, f64)>,
     /// V_δ V_δᵀ W K V_p over the whole node array, for reconstruction; none where the exact K V_p is used, which the window has.
     projected: Option<Mat<f64>>,
     /// E_δ of (3.13) with δ̃ condensed: what V_δ cannot represent of K V_p, as a quadratic form; empty for the exact operator.
@@ -151,7 +157,8 @@ impl Operators {
         };
         let rows = &window.sampled_rows;
         let (stencils, geometry): (Vec<_>, Vec<_>) = rows.iter().map(|&row| reference.row(row)).unzip();
-        let mut support: Vec<usize> = stencils.iter().flatten().chain(further).copied().collect();
+        let rule = window.traction.iter().flat_map(|rule| &rule.nodes);
+        let mut support: Vec<usize> = stencils.iter().flatten().chain(further).chain(rule).copied().collect();
         support.sort_unstable();
         support.dedup();
         let stencil = stencils.iter().map(|nodes| nodes.map(|node| support.partition_point(|&s| s < node))).collect();
@@ -178,6 +185,8 @@ impl Operators {
                 }
             }
         }
+        let traction = window.traction.iter().flat_map(|rule| rule.nodes.iter().zip(&rule.weights));
+        let traction = traction.map(|(&node, &weight)| (support.partition_point(|&s| s < node), weight)).collect();
         let weights = reference.weights();
         let load_row = (0..modes).map(|k| weights.iter().enumerate().map(|(i, w)| w * basis[(i, k)]).sum()).collect();
         let place = |node: &usize| {
@@ -197,6 +206,7 @@ impl Operators {
             axes,
             reconstruction: window.reconstruction.get(..modes, ..).to_owned(),
             load_row,
+            traction,
             projected,
             deformation_error,
             scratch: Scratch {
@@ -309,13 +319,15 @@ impl Operators {
             }
             Some(law) => {
                 let nodes = s.nodes.iter_mut().zip(&mut s.thinning);
+                let mut beside = KnownFilm::default();
                 for (k, ((node, own), (&pressure, &film))) in nodes.zip(states).enumerate() {
                     let gradient = [gradients[k] / scale, gradients.get(count + k).copied().unwrap_or(0.0)];
                     let state = NodeState { pressure, gradient, film };
                     let (fluid, inverse_lambda) = (&problem.fluid, problem.inverse_lambda);
-                    // Between two iterations the stress hardly changes.
-                    *own = ShearNode::near(own.mid_stress, fluid, law, inverse_lambda, state, FilmTreatment::default());
-                    *node = own.node;
+                    // Between two iterations the stress hardly changes; in the first one the node before is near.
+                    let known = if own.known.is_empty() { beside } else { own.known };
+                    *own = ShearNode::near(&known, fluid, law, inverse_lambda, state, FilmTreatment::default());
+                    (*node, beside) = (own.node, own.known);
                 }
             }
         }
@@ -330,23 +342,29 @@ impl Operators {
             if derivatives {
                 let target = &mut s.jacobian_rows[r * self.modes..(r + 1) * self.modes];
                 target.fill(0.0);
-                for (m, &node) in stencil.iter().enumerate() {
-                    let (a, b) = (out.d_p[m], scale * out.d_h[m]);
-                    if a == 0.0 && b == 0.0 {
+                for (m, n) in PAIRS {
+                    let [(one, a, b), (other, e, f)] = [m, n].map(|m| (stencil[m], out.d_p[m], scale * out.d_h[m]));
+                    if [a, b, e, f] == [0.0; 4] {
                         continue;
                     }
-                    let range = node * self.modes..(node + 1) * self.modes;
-                    for ((t, v), d) in target.iter_mut().zip(&v[range.clone()]).zip(&d[range]) {
-                        *t += a * v + b * d;
+                    let [one, other] = [one, other].map(|node| node * self.modes..(node + 1) * self.modes);
+                    let first = v[one.clone()].iter().zip(&d[one]);
+                    let second = v[other.clone()].iter().zip(&d[other]);
+                    for ((t, (v, d)), (w, g)) in target.iter_mut().zip(first).zip(second) {
+                        *t = (*t + (a * v + b * d)) + (e * w + f * g);
                     }
                 }
                 for axis in 0..if thinning.is_some() { self.axes } else { 0 } {
                     let per_gradient = if axis == 0 { 1.0 / scale } else { 1.0 };
                     let slopes = gradient_slopes(&geometry, stencil.map(|node| &s.thinning[node]), axis);
-                    for (&node, slope) in stencil.iter().zip(slopes).filter(|(_, slope)| *slope != 0.0) {
-                        let from = (axis * count + node) * self.modes;
-                        for (t, g) in target.iter_mut().zip(&g[from..from + self.modes]) {
-                            *t += per_gradient * slope * g;
+                    for (m, n) in PAIRS {
+                        let [a, b] = [m, n].map(|m| per_gradient * slopes[m]);
+                        if [a, b] == [0.0; 2] {
+                            continue;
+                        }
+                        let [one, other] = [m, n].map(|m| &g[(axis * count + stencil[m]) * self.modes..][..self.modes]);
+                        for ((t, v), w) in target.iter_mut().zip(one).zip(other) {
+                            *t = (*t + a * v) + b * w;
                         }
                     }
                 }
@@ -427,6 +445,21 @@ impl Operators {
             }
         }
         omega
+    }
+
+    /// Traction coefficient (3.41) of the state evaluated last, by the window's rule; `None` where it has none.
+    pub fn traction(&self, problem: &Problem, scale: f64) -> Option<f64> {
+        if self.traction.is_empty() || self.axes == 0 {
+            return None;
+        }
+        let (s, count) = (&self.scratch, self.support.len());
+        let gradients = &s.fields[2 * count..];
+        let stress = |&(k, weight): &(usize, f64)| {
+            let gradient = [gradients[k] / scale, gradients.get(count + k).copied().unwrap_or(0.0)];
+            weight * mid_film_stress(problem, NodeState { pressure: s.fields[k], gradient, film: s.films[k] })
+        };
+        let force: f64 = self.traction.iter().map(stress).sum();
+        Some(scale * force * problem.point.area_per_load())
     }
 
     /// J V Δz̃ on the sampled rows, for the row snapshots.

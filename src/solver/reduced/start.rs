@@ -10,6 +10,8 @@ use faer::linalg::solvers::{PartialPivLu, Solve};
 
 /// Snapshots that take part in the interpolation of Newtonian contacts, and in that of shear-thinning ones, which have two parameters more.
 const NEIGHBOURS: [usize; 2] = [6, 10];
+/// Weight of (ln α ratio)² beside (3.20).
+const ALPHA_WEIGHT: f64 = 0.02;
 /// Functions that it reproduces there.
 const FEATURES: [usize; 2] = [4, 6];
 
@@ -18,6 +20,87 @@ const FEATURES: [usize; 2] = [4, 6];
 pub(super) struct Guess {
     pub coefficients: Vec<f64>,
     pub h_c: f64,
+}
+
+/// How near by (3.20) the previous solution must be to be preferred to an interpolation.
+const DRAG_DISTANCE: f64 = 1e-3;
+/// The longest step, squared, of a curve that is followed: the distance of (3.20) between neighbours.
+const LONGEST_STEP: f64 = 0.03;
+/// How far a contact may lie beside the line through the last two, and ahead of them, in lengths of the way to it and of their distance.
+const BESIDE: f64 = 0.25;
+const AHEAD: f64 = 1.5;
+
+/// A converged solution.
+pub(super) struct Known {
+    pub window: usize,
+    pub point: OperatingPoint,
+    pub coefficients: Vec<f64>,
+    pub h_c: f64,
+}
+
+/// The last two converged solutions, the latest first.
+#[derive(Default)]
+pub(super) struct Former {
+    known: [Option<Known>; 2],
+}
+
+impl Former {
+    pub fn remember(&mut self, latest: Known) {
+        let [known, _] = std::mem::take(&mut self.known);
+        self.known = [Some(latest), known];
+    }
+
+    /// The latest one, where it is near.
+    pub fn beside(&self, window: usize, point: &OperatingPoint) -> Option<Guess> {
+        let near = |known: &&Known| known.window == window && separation(point, &known.point) < DRAG_DISTANCE;
+        self.known[0].as_ref().filter(near).map(|known| Guess {
+            coefficients: known.coefficients.clone(),
+            h_c: known.h_c * film_number(point) / film_number(&known.point),
+        })
+    }
+
+    /// The line through both, where a contact nearby continues it: along a curve that halves the iterations.
+    pub fn continued(&self, window: usize, point: &OperatingPoint) -> Option<Guess> {
+        let [Some(latest), Some(before)] = &self.known else { return None };
+        if latest.window != window || before.window != window {
+            return None;
+        }
+        let [there, here, was] = [point, &latest.point, &before.point].map(coordinates);
+        let (way, step) = (difference(there, here), difference(here, was));
+        let (length, stride) = (square(way), square(step));
+        if !(stride > 0.0 && stride < LONGEST_STEP && length < LONGEST_STEP) {
+            return None;
+        }
+        let t = way.iter().zip(step).map(|(a, b)| a * b).sum::<f64>() / stride;
+        let aside = square(difference(way, step.map(|s| t * s)));
+        if !(t > 0.0 && t < AHEAD && aside <= BESIDE * BESIDE * length) {
+            return None;
+        }
+        let ahead = |new: f64, old: f64| new + t * (new - old);
+        let film = |known: &Known| (known.h_c / film_number(&known.point)).ln();
+        let both = latest.coefficients.iter().zip(&before.coefficients);
+        Some(Guess {
+            coefficients: both.map(|(new, old)| ahead(*new, *old)).collect(),
+            h_c: ahead(film(latest), film(before)).exp() * film_number(point),
+        })
+    }
+}
+
+/// Where a contact lies, in lengths that add up to [`separation`] for contacts close together, and ln α.
+fn coordinates(point: &OperatingPoint) -> [f64; 5] {
+    let (moes, sliding) = (point.moes(), point.sliding);
+    let plateau = sliding.newtonian_plateau_ratio.unwrap_or(1.0);
+    let squares = [0.5, 0.001, ALPHA_WEIGHT, 0.03, 0.3];
+    let values = [moes.m.ln(), moes.l, point.alpha_per_pa.ln(), sliding.slide_to_roll_ratio.abs(), plateau];
+    std::array::from_fn(|k| f64::sqrt(squares[k]) * values[k])
+}
+
+fn difference(a: [f64; 5], b: [f64; 5]) -> [f64; 5] {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+
+fn square(v: [f64; 5]) -> f64 {
+    v.iter().map(|v| v * v).sum()
 }
 
 /// The film of a formula in the solver's scaling up to a constant, what films are compared by: Moes' for line, Hamrock and Dowson's for
@@ -59,7 +142,7 @@ pub(super) fn interpolated(window: &Window, point: &OperatingPoint, thinning: bo
         .iter()
         .enumerate()
         .map(|(i, s)| {
-            let d = separation(point, &s.point) + 0.02 * (s.point.alpha_per_pa.ln() - log_alpha).powi(2);
+            let d = separation(point, &s.point) + ALPHA_WEIGHT * (s.point.alpha_per_pa.ln() - log_alpha).powi(2);
             (i, d)
         })
         .collect();

@@ -8,7 +8,7 @@
 
 use crate::solver::lubricant::{Fluidity, GAUSS_6};
 
-/// Points ζ and weights of a rule over the film.
+/// Points ζ, ascending, and weights of a rule over the film; a panel ends at ζ = 0, so that the points above are a rule for the upper half.
 pub type FilmRule = [(f64, f64)];
 
 /// The production rule: two panels with six Gauss points each. The panels meet at ζ = 0, where the stress of pure rolling has its kink.
@@ -50,8 +50,45 @@ pub struct FilmIntegrals {
     pub d_shift: [f64; 3],
     /// τ_m: the shear stress (zx, zy) at mid-film.
     pub mid_stress: [f64; 2],
+    /// ∂τ_m/∂(a, b, S).
+    pub d_mid_stress: [[f64; 2]; 3],
     /// Iterations of the inner Newton method.
     pub iterations: usize,
+}
+
+/// A film that was solved already, as a start for one nearby.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct KnownFilm {
+    /// What it depended on.
+    pub load: FilmLoad,
+    /// Its τ_m; zero where none is known.
+    pub mid_stress: [f64; 2],
+    /// ∂τ_m/∂(a, b, S).
+    pub d_mid_stress: [[f64; 2]; 3],
+}
+
+impl KnownFilm {
+    /// Whether nothing is known.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        self.mid_stress == [0.0; 2]
+    }
+
+    /// τ_m of a film nearby, to first order where that changes it little; none without sliding, or where nothing is known.
+    #[inline]
+    fn near(&self, load: &FilmLoad) -> Option<[f64; 2]> {
+        let own = self.mid_stress;
+        if self.is_empty() || load.sliding == 0.0 {
+            return None;
+        }
+        let changes = [load.a - self.load.a, load.b - self.load.b, load.sliding - self.load.sliding];
+        let mut step = [0.0; 2];
+        for (slope, change) in self.d_mid_stress.iter().zip(changes) {
+            step = [step[0] + slope[0] * change, step[1] + slope[1] * change];
+        }
+        let follows = length(step) <= FIRST_STEP * length(own);
+        Some(if follows { [own[0] + step[0], own[1] + step[1]] } else { own })
+    }
 }
 
 /// Iterations of the inner Newton method at most. The named lubricants need five; a power law with n = 0.2 needs eight, and so does a hyperbolic
@@ -64,8 +101,8 @@ const FIRST_STEP: f64 = 0.3;
 /// How many times as fluid as sliding the pressure gradient must make the film for a start that counts on the gradient.
 const MUCH_MORE_FLUID: f64 = 10.0;
 
-/// A step, relative to τ_m, below which the next one, its square, would be below rounding: the integrals then follow it to first order.
-const LAST_STEP: f64 = 1e-7;
+/// A step, relative to τ_m, below which the next one, its square, does not matter: the integrals then follow it to first order.
+const LAST_STEP: f64 = 1e-6;
 
 /// The same relative to a and b, where τ_m is so much smaller that rounding hides it.
 const LAST_STEP_ACROSS: f64 = 1e-9;
@@ -81,59 +118,120 @@ struct Moments {
     stiffness: [[f64; 3]; 2],
 }
 
+/// Some points of a rule, whose law is evaluated at once; unused ones have no weight.
+struct Lanes<const N: usize> {
+    zeta: [f64; N],
+    weight: [f64; N],
+}
+
+/// A rule in portions of N points.
+fn portions<const N: usize>(rule: &FilmRule) -> impl Iterator<Item = Lanes<N>> + '_ {
+    rule.chunks(N).map(|points| {
+        let mut lanes = Lanes { zeta: [0.0; N], weight: [0.0; N] };
+        for (i, &(zeta, weight)) in points.iter().enumerate() {
+            (lanes.zeta[i], lanes.weight[i]) = (zeta, weight);
+        }
+        lanes
+    })
+}
+
+/// Points of the production rule.
+const POINTS: usize = PRODUCTION_RULE.len();
+/// Those in the upper half of the film.
+const HALF: usize = POINTS / 2;
+
 impl Moments {
     #[inline]
     fn of(law: &Fluidity, rule: &FilmRule, load: &FilmLoad, mid: [f64; 2]) -> Self {
-        if load.b == 0.0 && mid[1] == 0.0 {
+        if mid == [0.0; 2] {
+            Self::rolling(law, rule, load)
+        } else if load.b == 0.0 && mid[1] == 0.0 {
             Self::along(law, rule, load.a, mid[0])
         } else {
             Self::plane(law, rule, load, mid)
         }
     }
 
+    /// Without stress at mid-film: the fluidity is even across it, so that the upper half tells all, and odd moments vanish.
+    fn rolling(law: &Fluidity, rule: &FilmRule, load: &FilmLoad) -> Self {
+        let mut out = Self::default();
+        let across = length([load.a, load.b]);
+        let (nx, ny) = if across > 0.0 { (load.a / across, load.b / across) } else { (0.0, 0.0) };
+        let per = if across > 0.0 { 1.0 / across } else { 0.0 };
+        let upper = &rule[rule.partition_point(|(zeta, _)| *zeta < 0.0)..];
+        for Lanes { zeta, weight } in portions::<HALF>(upper) {
+            let (g, slope) = law.at_all(&zeta.map(|z| across * z));
+            for i in 0..HALF {
+                let (z, weight) = (zeta[i], 2.0 * weight[i]);
+                let (wg, we) = (weight * g[i], weight * slope[i]);
+                out.fluidity[0] += wg;
+                out.fluidity[2] += z * z * wg;
+                // ζ ∂g/∂|τ| = (|τ| ∂g/∂|τ|)/|(a, b)|.
+                let radial = we * per;
+                for (sum, moment) in [(1, radial), (3, z * z * radial)] {
+                    out.slope[sum][0] += moment * nx;
+                    out.slope[sum][1] += moment * ny;
+                }
+                for (sum, direction) in out.stiffness[0].iter_mut().zip([nx * nx, nx * ny, ny * ny]) {
+                    *sum += we * direction;
+                }
+            }
+        }
+        out
+    }
+
     /// Where nothing shears the film across the direction of sliding: the y parts vanish, stresses are scalars.
     fn along(law: &Fluidity, rule: &FilmRule, a: f64, mid: f64) -> Self {
         let mut out = Self::default();
-        for &(zeta, weight) in rule {
-            let stress = mid + a * zeta;
-            let (g, slope) = law.at(stress.abs());
-            let (wg, we) = (weight * g, weight * slope);
-            let sx = if stress == 0.0 { 0.0 } else { we / stress };
-            let (z2, z3) = (zeta * zeta, zeta * zeta * zeta);
-            for (sum, z) in out.fluidity.iter_mut().zip([1.0, zeta, z2]) {
-                *sum += z * wg;
+        for Lanes { zeta, weight } in portions::<POINTS>(rule) {
+            let stress = zeta.map(|z| mid + a * z);
+            let (g, slope) = law.at_all(&stress.map(f64::abs));
+            for i in 0..POINTS {
+                let z = zeta[i];
+                let (wg, we) = (weight[i] * g[i], weight[i] * slope[i]);
+                let sx = if stress[i] == 0.0 { 0.0 } else { we / stress[i] };
+                let (z2, z3) = (z * z, z * z * z);
+                for (sum, z) in out.fluidity.iter_mut().zip([1.0, z, z2]) {
+                    *sum += z * wg;
+                }
+                for (sum, z) in out.slope.iter_mut().zip([1.0, z, z2, z3]) {
+                    sum[0] += z * sx;
+                }
+                out.stiffness[0][0] += we;
+                out.stiffness[1][0] += z * we;
             }
-            for (sum, z) in out.slope.iter_mut().zip([1.0, zeta, z2, z3]) {
-                sum[0] += z * sx;
-            }
-            out.stiffness[0][0] += we;
-            out.stiffness[1][0] += zeta * we;
         }
         out
     }
 
     fn plane(law: &Fluidity, rule: &FilmRule, load: &FilmLoad, mid: [f64; 2]) -> Self {
         let mut out = Self::default();
-        for &(zeta, weight) in rule {
-            let (x, y) = (mid[0] + load.a * zeta, mid[1] + load.b * zeta);
-            let stress = (x * x + y * y).sqrt();
-            let (g, slope) = law.at(stress);
-            let per = if stress > 0.0 { 1.0 / stress } else { 0.0 };
-            let (nx, ny) = (x * per, y * per);
-            let (wg, we) = (weight * g, weight * slope);
-            let (sx, sy) = (we * nx * per, we * ny * per);
-            let (z2, z3) = (zeta * zeta, zeta * zeta * zeta);
-            for (sum, z) in out.fluidity.iter_mut().zip([1.0, zeta, z2]) {
-                *sum += z * wg;
+        for Lanes { zeta, weight } in portions::<POINTS>(rule) {
+            let (x, y) = (zeta.map(|z| mid[0] + load.a * z), zeta.map(|z| mid[1] + load.b * z));
+            let mut stress = [0.0; POINTS];
+            for i in 0..POINTS {
+                stress[i] = (x[i] * x[i] + y[i] * y[i]).sqrt();
             }
-            for (sum, z) in out.slope.iter_mut().zip([1.0, zeta, z2, z3]) {
-                sum[0] += z * sx;
-                sum[1] += z * sy;
-            }
-            for (sum, z) in out.stiffness.iter_mut().zip([1.0, zeta]) {
-                sum[0] += z * we * nx * nx;
-                sum[1] += z * we * nx * ny;
-                sum[2] += z * we * ny * ny;
+            let (g, slope) = law.at_all(&stress);
+            for i in 0..POINTS {
+                let z = zeta[i];
+                let per = if stress[i] > 0.0 { 1.0 / stress[i] } else { 0.0 };
+                let (nx, ny) = (x[i] * per, y[i] * per);
+                let (wg, we) = (weight[i] * g[i], weight[i] * slope[i]);
+                let (sx, sy) = (we * nx * per, we * ny * per);
+                let (z2, z3) = (z * z, z * z * z);
+                for (sum, z) in out.fluidity.iter_mut().zip([1.0, z, z2]) {
+                    *sum += z * wg;
+                }
+                for (sum, z) in out.slope.iter_mut().zip([1.0, z, z2, z3]) {
+                    sum[0] += z * sx;
+                    sum[1] += z * sy;
+                }
+                for (sum, z) in out.stiffness.iter_mut().zip([1.0, z]) {
+                    sum[0] += z * we * nx * nx;
+                    sum[1] += z * we * nx * ny;
+                    sum[2] += z * we * ny * ny;
+                }
             }
         }
         out
@@ -148,6 +246,12 @@ impl Moments {
     }
 }
 
+/// Stresses are far from overflowing: `hypot` would take longer than a sum over the rule.
+#[inline]
+fn length(v: [f64; 2]) -> f64 {
+    (v[0] * v[0] + v[1] * v[1]).sqrt()
+}
+
 fn times(m: [f64; 3], v: [f64; 2]) -> [f64; 2] {
     [m[0] * v[0] + m[1] * v[1], m[1] * v[0] + m[2] * v[1]]
 }
@@ -158,11 +262,16 @@ pub fn film_integrals(law: &Fluidity, rule: &FilmRule, load: FilmLoad) -> FilmIn
     solve(law, rule, load, start, iterations).1
 }
 
-/// The same from the τ_m of a film nearby.
-pub fn film_integrals_from(law: &Fluidity, rule: &FilmRule, load: FilmLoad, near: [f64; 2]) -> FilmIntegrals {
-    let (first, integrals) = solve(law, rule, load, near, 0);
-    // From too small a stress a steep law takes steps that never come back.
-    if first > FIRST_STEP * near[0].hypot(near[1]) { film_integrals(law, rule, load) } else { integrals }
+/// The same beside a film that is known.
+pub fn film_integrals_near(law: &Fluidity, rule: &FilmRule, load: FilmLoad, known: &KnownFilm) -> FilmIntegrals {
+    if let Some(near) = known.near(&load) {
+        let (first, integrals) = solve(law, rule, load, near, 0);
+        // From too small a stress a steep law takes steps that never come back.
+        if first <= FIRST_STEP * length(near) {
+            return integrals;
+        }
+    }
+    film_integrals(law, rule, load)
 }
 
 /// A first τ_m, and the evaluations of the film that it took.
@@ -170,7 +279,7 @@ fn cold_start(law: &Fluidity, rule: &FilmRule, load: &FilmLoad) -> ([f64; 2], us
     let FilmLoad { a, b, sliding } = *load;
     // The rates of a film under a pressure gradient lie above those of the stress at mid-film alone: this start is never too small.
     let mid = [law.stress_near(sliding.abs()).copysign(sliding), 0.0];
-    let edge = 0.5 * a.hypot(b);
+    let edge = 0.5 * length([a, b]);
     if sliding != 0.0 && edge > mid[0].abs() && law.at(edge).0 > MUCH_MORE_FLUID * law.at(mid[0].abs()).0 {
         // Nor is the one that takes the fluidity from the gradient alone, and here it is much closer.
         return (times(Moments::of(law, rule, load, [0.0; 2]).inverse(), [sliding, 0.0]), 1);
@@ -195,10 +304,10 @@ fn solve(
         let [g_0, g_1, _] = moments.fluidity;
         let excess = [mid[0] * g_0 + a * g_1 - sliding, mid[1] * g_0 + b * g_1];
         let step = times(inverse, excess).map(|s| -s);
-        first.get_or_insert(step[0].hypot(step[1]));
+        first.get_or_insert(length(step));
         mid = [mid[0] + step[0], mid[1] + step[1]];
-        let small = LAST_STEP * mid[0].hypot(mid[1]) + LAST_STEP_ACROSS * (a.abs() + b.abs());
-        if step[0].hypot(step[1]) <= small {
+        let small = LAST_STEP * length(mid) + LAST_STEP_ACROSS * (a.abs() + b.abs());
+        if length(step) <= small {
             for (g, slope) in moments.fluidity.iter_mut().zip(moments.slope) {
                 *g += slope[0] * step[0] + slope[1] * step[1];
             }
@@ -215,11 +324,13 @@ fn solve(
         shift,
         d_shift: [0.0; 3],
         mid_stress: mid,
+        d_mid_stress: [[0.0; 2]; 3],
         iterations,
     };
     // (3.33)–(3.36): how τ_m answers to each scalar, then the integrals directly and through τ_m.
     let [xx, xy, yy] = moments.stiffness[1];
     let answers = [times(inverse, [-(g_1 + xx), -xy]), times(inverse, [-xy, -(g_1 + yy)]), [inverse[0], inverse[1]]];
+    out.d_mid_stress = answers;
     for (q, answer) in answers.into_iter().enumerate() {
         let change: [f64; 3] = std::array::from_fn(|k| {
             let direct = if q < 2 { moments.slope[k + 1][q] } else { 0.0 };
@@ -350,6 +461,71 @@ mod tests {
                     assert!(error < 1e-6, "{law:?} {load:?} mobility by {q}: {error:e}");
                     let error = (shift - exact.d_shift[q]).abs() * place;
                     assert!(error < 1e-6, "{law:?} {load:?} shift by {q}: {error:e}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_film_beside_a_known_one_is_the_same_as_alone() {
+        for law in laws() {
+            for load in loads() {
+                let alone = film_integrals(&law, &PRODUCTION_RULE, load);
+                let FilmIntegrals { mid_stress, d_mid_stress, .. } = alone;
+                let known = KnownFilm { load, mid_stress, d_mid_stress };
+                for factor in [1.0, 1.0 + 1e-9, 1.001, 0.9, 4.0, 0.01, -1.0] {
+                    let FilmLoad { a, b, sliding } = load;
+                    let moved = FilmLoad { a: a * (2.0 - factor), b: b * factor, sliding: sliding * factor };
+                    let (own, near) = (
+                        film_integrals(&law, &PRODUCTION_RULE, moved),
+                        film_integrals_near(&law, &PRODUCTION_RULE, moved, &known),
+                    );
+                    assert!((near.mobility / own.mobility - 1.0).abs() < 1e-11, "{law:?} {load:?} {factor}");
+                    assert!((near.shift - own.shift).abs() < 1e-11, "{law:?} {load:?} {factor}");
+                }
+                let again = film_integrals_near(&law, &PRODUCTION_RULE, load, &known);
+                assert!(again.iterations <= 1, "{law:?} {load:?}: {} iterations", again.iterations);
+            }
+        }
+    }
+
+    #[test]
+    fn what_the_film_depends_on_moves_the_stress_at_mid_film_as_its_derivatives_say() {
+        for law in laws() {
+            for load in loads().into_iter().filter(|load| load.sliding != 0.0) {
+                let exact = film_integrals(&law, &PRODUCTION_RULE, load);
+                let size = load.a.abs().max(load.b.abs()).max(exact.mid_stress[0].abs());
+                for q in 0..3 {
+                    let step = 1e-5 * [size, size, load.sliding.abs().max(size)][q];
+                    let moved = |by: f64| {
+                        let mut moved = load;
+                        *[&mut moved.a, &mut moved.b, &mut moved.sliding][q] += by;
+                        film_integrals(&law, &PRODUCTION_RULE, moved).mid_stress
+                    };
+                    let (up, down) = (moved(step), moved(-step));
+                    for axis in 0..2 {
+                        let slope = (up[axis] - down[axis]) / (2.0 * step);
+                        let error = (slope - exact.d_mid_stress[q][axis]).abs();
+                        assert!(error < 1e-5 * (1.0 + slope.abs()), "{law:?} {load:?} axis {axis} by {q}: {error:e}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn without_sliding_the_upper_half_of_the_film_tells_all() {
+        for law in laws() {
+            for load in loads() {
+                let half = Moments::rolling(&law, &PRODUCTION_RULE, &load);
+                let whole = Moments::plane(&law, &PRODUCTION_RULE, &load, [0.0; 2]);
+                let flat = |m: &Moments| -> Vec<f64> {
+                    let slopes = m.slope.iter().flatten().chain(m.stiffness.iter().flatten());
+                    m.fluidity.iter().chain(slopes).copied().collect()
+                };
+                let largest = flat(&whole).iter().fold(0.0f64, |a, b| a.max(b.abs()));
+                for (one, other) in flat(&half).into_iter().zip(flat(&whole)) {
+                    assert!((one - other).abs() < 1e-13 * largest, "{law:?} {load:?}: {one} against {other}");
                 }
             }
         }

@@ -5,7 +5,7 @@
 //! the nodal gradients P_X and P_Y, which are central differences. So the row reaches from X −3 to +2, across to Y ±2 and to the diagonals,
 //! as ∂f/∂P + (∂f/∂P_X) G_X + (∂f/∂P_Y) G_Y with the fixed difference operators of [`NodalGradient`].
 
-use super::film_integrals::{FilmLoad, FilmRule, PRODUCTION_RULE, film_integrals, film_integrals_from};
+use super::film_integrals::{FilmLoad, FilmRule, KnownFilm, PRODUCTION_RULE, film_integrals_near};
 use super::{CENTER, EAST, NORTH, Node, RowGeometry, SOUTH, STENCIL, WEST};
 use crate::solver::lubricant::{ScaledFluid, ScaledShear};
 
@@ -18,8 +18,8 @@ pub struct ShearNode {
     pub flow_gradient: [f64; 2],
     /// ∂ξ/∂(P_X, P_Y).
     pub mobility_gradient: [f64; 2],
-    /// τ_m of its film in units of the law's scale; zero where it was not asked for.
-    pub mid_stress: [f64; 2],
+    /// Its film, in units of the law's scale.
+    pub known: KnownFilm,
 }
 
 /// How the film integrals are taken.
@@ -58,13 +58,13 @@ impl ShearNode {
         state: NodeState,
         treatment: FilmTreatment,
     ) -> Self {
-        Self::near([0.0; 2], fluid, shear, inverse_lambda, state, treatment)
+        Self::near(&KnownFilm::default(), fluid, shear, inverse_lambda, state, treatment)
     }
 
-    /// The same where the film is like one whose τ_m is known; zero where none is.
+    /// The same beside a film that is known, of a former iterate for instance.
     #[inline]
     pub fn near(
-        former: [f64; 2],
+        known: &KnownFilm,
         fluid: &ScaledFluid,
         shear: &ScaledShear,
         inverse_lambda: f64,
@@ -82,11 +82,7 @@ impl ShearNode {
         if load == FilmLoad::default() {
             return newtonian;
         }
-        let integrals = if former == [0.0; 2] {
-            film_integrals(&shear.fluidity, treatment.rule, load)
-        } else {
-            film_integrals_from(&shear.fluidity, treatment.rule, load, former)
-        };
+        let integrals = film_integrals_near(&shear.fluidity, treatment.rule, load, known);
         let srr = shear.slide_to_roll_ratio;
         let carried = 1.0 - srr * integrals.shift;
         let mut out = Self {
@@ -99,7 +95,7 @@ impl ShearNode {
                 mobility_p: node.mobility_p * integrals.mobility,
                 mobility_h: node.mobility_h * integrals.mobility,
             },
-            mid_stress: integrals.mid_stress,
+            known: KnownFilm { load, mid_stress: integrals.mid_stress, d_mid_stress: integrals.d_mid_stress },
             ..Self::default()
         };
         if treatment.frozen {

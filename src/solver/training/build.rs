@@ -4,7 +4,7 @@ use super::aside::aside;
 use super::plan::grid_points;
 use super::rows::sample_rows;
 use super::state::{FEWEST, Part, Solved, TrainingState, train_resumable};
-use super::{Plan, Progress, Range, TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows};
+use super::{Plan, Progress, Range, SlidingRange, TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows};
 use crate::solver::contact::OperatingPoint;
 use crate::solver::full::{ContactSolver, Start};
 use crate::solver::grid::ContactGrid;
@@ -98,10 +98,10 @@ pub(super) fn check(spec: &TrainingSpec) -> Result<(), TrainingError> {
 fn check_lubricant(spec: &TrainingSpec) -> Result<(), TrainingError> {
     let refuse = |sentence: String| Err(TrainingError::Specification(sentence));
     match (&spec.range, spec.lubricant.shear == ShearLaw::Newtonian) {
-        (Range::Sliding { .. }, true) => {
+        (Range::Sliding(_), true) => {
             refuse("the range names SRR and NPR, but the lubricant has no shear constants".to_owned())
         }
-        (Range::Sliding { alpha, .. }, false) => match spec.lubricant.own_coefficient() {
+        (Range::Sliding(SlidingRange { alpha, .. }), false) => match spec.lubricant.own_coefficient() {
             Some(own) if (alpha / own - 1.0).abs() > 1e-3 => refuse(format!(
                 "alpha is {alpha:.4e} 1/Pa, but the lubricant's viscosity law determines {own:.4e} 1/Pa; write that"
             )),
@@ -148,14 +148,15 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
             lubricant: spec.lubricant,
             sliding: None,
         },
-        Range::Sliding { m, l, srr, npr, modulus, viscosity, alpha, .. } => {
-            let alpha = spec.lubricant.own_coefficient().unwrap_or(alpha);
-            let heaviest = spec.range.at(spec.contact(), [1.0; 4]);
+        Range::Sliding(range) => {
+            let SlidingRange { m, l, srr, npr, modulus, viscosity, alpha, .. } = range;
+            // The lubricant's own coefficient counts, and L goes with it.
+            let own = spec.lubricant.own_coefficient().unwrap_or(alpha);
             Domain {
                 m,
-                l,
-                alpha_per_pa: (alpha, alpha),
-                max_hertz_pressure_pa: heaviest.map_or(0.0, |point| point.hertz().pressure_pa),
+                l: (l.0 * own / alpha, l.1 * own / alpha),
+                alpha_per_pa: (own, own),
+                max_hertz_pressure_pa: range.highest_pressure(spec.contact()),
                 viscosity_pa_s: viscosity,
                 lubricant: spec.lubricant,
                 sliding: Some(SlidingDomain { srr, npr, modulus_pa: modulus }),

@@ -32,6 +32,7 @@ pub(super) fn calibrate(
     let seed = spec.seed ^ 0x9E37_79B9_7F4A_7C15_u64.wrapping_mul(k as u64 + 1);
     let points =
         random_points(&spec.range, spec.contact(), served(k, last, window), spec.evidence, &mut Rng::with_seed(seed));
+    let sliding = model.domain.sliding.is_some();
     let stage = format!("Measuring errors, M {}…{}", window.m.0, window.m.1);
     let done = AtomicUsize::new(0);
     let measured: Vec<Option<Evidence>> = points
@@ -45,7 +46,7 @@ pub(super) fn calibrate(
                 online.forget();
                 let evidence = online.solve(point, spec.lubricant).ok().and_then(|solved| {
                     let errors = corrector.errors(online, &solved)?;
-                    Some(Evidence { features: Features::of(&solved), errors })
+                    Some(Evidence { features: Features::of(&solved, sliding), errors })
                 });
                 let done = done.fetch_add(1, Ordering::Relaxed) + 1;
                 if done.is_multiple_of(16) {

@@ -27,7 +27,7 @@ use crate::solver::full::{
 };
 use crate::solver::grid::ContactGrid;
 use crate::solver::lubricant::Lubricant;
-use crate::solver::reduced::{ErrorMeasures, Norm, Online, ReducedOptions, ReducedSolution, Window};
+use crate::solver::reduced::{ErrorMeasures, Measured, Norm, Online, ReducedOptions, ReducedSolution, Window};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -118,7 +118,7 @@ fn error_at(
             measures?.residuals(&solved.coefficients, &fields).sampled_rows
         }
         Indicator::Correction => {
-            let [h_c, h_min, state] = corrector.errors(online, &solved)?;
+            let Measured { h_c, h_min, state, .. } = corrector.errors(online, &solved)?;
             h_c.max(0.5 * h_min).max(state)
         }
     };
@@ -145,9 +145,9 @@ impl Corrector {
         Self { grid: window.grid.clone(), point: None }
     }
 
-    /// Relative errors of H_c, H_min and the state (e_z of (3.10)) as three full Newton steps from a reduced solution find them: nearly exact
-    /// where the model is fair, and large where it is not.
-    pub fn errors(&mut self, online: &Online, solved: &ReducedSolution) -> Option<[f64; 3]> {
+    /// Relative errors of H_c, H_min, the state (e_z of (3.10)) and, where the model has a rule for it and it has a meaning, the traction, as
+    /// three full Newton steps from a reduced solution find them: nearly exact where the model is fair, and large where it is not.
+    pub fn errors(&mut self, online: &Online, solved: &ReducedSolution) -> Option<Measured> {
         let before = online.reconstruct(solved).ok()?;
         let after = self.corrected(&before);
         let change = |from: f64, to: f64| (from / to - 1.0).abs();
@@ -159,8 +159,16 @@ impl Corrector {
             difference += (before.pressure[node] - after.pressure[node]).powi(2) + (was - is).powi(2);
             size += after.pressure[node].powi(2) + is * is;
         }
-        let errors = [change(from.h_c, to.h_c), change(from.h_min, to.h_min), (difference / size).sqrt()];
-        errors.iter().all(|e| e.is_finite()).then_some(errors)
+        let (h_c, h_min) = (change(from.h_c, to.h_c), change(from.h_min, to.h_min));
+        let state = (difference / size).sqrt();
+        let sound = [h_c, h_min, state].iter().all(|error| error.is_finite());
+        let slides = solved.point.sliding.slide_to_roll_ratio != 0.0;
+        let sensible = slides && before.problem.traction_warning().is_none();
+        let traction = solved.traction.filter(|_| sound && sensible).map(|own| {
+            let Corrected { pressure, film, .. } = after;
+            change(own, Solution { pressure, film, ..before }.traction_coefficient())
+        });
+        sound.then_some(Measured { h_c, h_min, state, traction: traction.filter(|error| error.is_finite()) })
     }
 
     /// Undamped where there is a line search: by the residual it would hide the error, since beside a solution the penalty makes it jump.

@@ -15,10 +15,12 @@ mod point_tests;
 #[cfg(test)]
 mod resume_tests;
 mod rows;
+mod sliding_range;
 mod split;
 mod state;
 #[cfg(test)]
 mod tests;
+mod traction;
 mod trajectories;
 #[cfg(test)]
 mod trajectories_tests;
@@ -29,6 +31,7 @@ pub use build::train;
 pub use calibrate::EVIDENCE;
 pub use indicator::Indicator;
 pub use plan::{farthest_points, grid_points, local_point, random_points, test_point};
+pub use sliding_range::SlidingRange;
 pub use state::{Solved, TrainingState, WindowState, train_resumable};
 pub use trajectories::{TrajectoryTraining, train_trajectories};
 
@@ -132,25 +135,8 @@ pub enum Range {
         /// η₀ \[Pa·s\].
         viscosity: f64,
     },
-    /// All contacts of a shear-thinning lubricant with M, L, SRR and NPR in these intervals. M and L do not say all about them: E′ fixes the stress.
-    Sliding {
-        /// Load number.
-        m: (f64, f64),
-        /// Lubricant number.
-        l: (f64, f64),
-        /// Slide-to-roll ratio, at least 0: films are even in it.
-        srr: (f64, f64),
-        /// Newtonian plateau ratio.
-        npr: (f64, f64),
-        /// R \[m\].
-        radius: f64,
-        /// E′ \[Pa\].
-        modulus: f64,
-        /// η₀ \[Pa·s\].
-        viscosity: f64,
-        /// α \[1/Pa\]: the lubricant's own, where its viscosity law determines it.
-        alpha: f64,
-    },
+    /// All contacts of a shear-thinning lubricant with M, L, SRR and NPR in intervals.
+    Sliding(SlidingRange),
 }
 
 /// Everything that determines a reduced model: the same specification gives the same model.

@@ -1,6 +1,6 @@
 //! Sampling plans: which operating points of a range are solved in full, and which are tested.
 
-use super::{Range, TrainingError};
+use super::{Range, SlidingRange, TrainingError};
 use crate::solver::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
 use crate::solver::reduced::distance;
 use fastrand::Rng;
@@ -33,7 +33,7 @@ impl Range {
                 ("max_hertz_pressure", (*max_hertz_pressure, *max_hertz_pressure)),
                 ("viscosity", (*viscosity, *viscosity)),
             ],
-            Self::Sliding { m, l, srr, npr, radius, modulus, viscosity, alpha } => {
+            Self::Sliding(SlidingRange { m, l, srr, npr, radius, modulus, viscosity, alpha, max_hertz_pressure }) => {
                 for (name, (low, high), most) in [("srr", *srr, 10.0), ("npr", *npr, 1.0)] {
                     if !(0.0 <= low && low <= high && high <= most) {
                         return Err(TrainingError::Specification(format!(
@@ -48,6 +48,7 @@ impl Range {
                     ("modulus", (*modulus, *modulus)),
                     ("viscosity", (*viscosity, *viscosity)),
                     ("alpha", (*alpha, *alpha)),
+                    ("max_hertz_pressure", max_hertz_pressure.map_or((1.0, 1.0), |limit| (limit, limit))),
                 ]
             }
         };
@@ -80,20 +81,7 @@ impl Range {
                 };
                 si_from_moes(&request).ok().filter(|p| p.hertz().pressure_pa <= max_hertz_pressure)
             }
-            Self::Sliding { m, l, srr, npr, radius, modulus, viscosity, alpha } => {
-                let request = MoesRequest {
-                    radius_m: Some(radius),
-                    modulus_pa: Some(modulus),
-                    viscosity_pa_s: Some(viscosity),
-                    alpha_per_pa: Some(alpha),
-                    ..MoesRequest::new(kind, logarithmic(m, unit[0]), linear(l, unit[1]))
-                };
-                let sliding = Sliding {
-                    slide_to_roll_ratio: linear(srr, unit[2]),
-                    newtonian_plateau_ratio: Some(linear(npr, unit[3])),
-                };
-                si_from_moes(&request).ok().map(|point| OperatingPoint { sliding, ..point })
-            }
+            Self::Sliding(range) => range.at(kind, unit),
         }
     }
 }

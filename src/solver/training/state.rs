@@ -6,7 +6,8 @@ use super::build::{Shop, alone, check, domain};
 use super::calibrate::calibrate;
 use super::plan::{farther_points, grid_points};
 use super::split::{may_split, split};
-use super::{Plan, TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows, layout};
+use super::traction::traction_rule;
+use super::{Plan, Range, TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows, layout};
 use crate::solver::contact::OperatingPoint;
 use crate::solver::full::Solution;
 use crate::solver::reduced::{ReducedModel, Window};
@@ -183,6 +184,10 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
             split(state, k, observer)?;
             continue;
         };
+        if matches!(spec.range, Range::Sliding { .. }) {
+            let (alone, reach) = (Arc::new(alone(&spec, &trained)), reach(&state.windows, k));
+            trained.traction = traction_rule(&spec, &alone, reach, state.windows[k].seed, observer)?;
+        }
         if spec.evidence > 0 {
             let last = k + 1 == state.windows.len();
             trained.calibration = calibrate(&spec, &Arc::new(alone(&spec, &trained)), k, last, observer)?;
@@ -198,6 +203,9 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
             trained.grid.unknowns(),
         ));
         log.extend(state.windows[k].search.describe(&spec.plan));
+        if let Some(rule) = &trained.traction {
+            log.push(format!("traction from the stress at {} nodes", rule.nodes.len()));
+        }
         log.push(match &trained.calibration {
             Some(c) => format!("errors measured at {} random points by three full Newton steps each", c.evidence()),
             None => "no error bound: errors were measured at too few points".to_owned(),

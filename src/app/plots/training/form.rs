@@ -8,7 +8,7 @@ use crate::scene::QuantityBox;
 use crate::solver::contact::ContactKind;
 use crate::solver::grid::{ContactGridSpec, GridSpec};
 use crate::solver::reduced::Sampling;
-use crate::solver::training::{Indicator, Plan, Range, TrainingSpec, Windows};
+use crate::solver::training::{Indicator, Plan, Range, SlidingRange, TrainingSpec, Windows};
 use egui::{TextEdit, Ui};
 
 /// The form.
@@ -103,12 +103,15 @@ fn range_ui(ui: &mut Ui, form: &mut Form, spec: &mut TrainingSpec) {
             form.row(ui, "Highest {p_H}", GIGAPASCAL, max_hertz_pressure, "Contacts beyond it are left out");
             form.row(ui, "Viscosity {η_0}", VISCOSITY, viscosity, viscosity_tip);
         }
-        Range::Sliding { m, l, srr, npr, .. } => {
+        Range::Sliding(SlidingRange { m, l, srr, npr, max_hertz_pressure, .. }) => {
             let ratio = "Of a shear-thinning lubricant";
             form.interval(ui, "Load number {M}", PLAIN, m, "Moes’ load number (3.19)");
             form.interval(ui, "Lubricant {L}", PLAIN, l, "Moes’ lubricant number (3.19)");
             form.interval(ui, "Slide-to-roll ratio", PLAIN, srr, ratio);
             form.interval(ui, "Plateau ratio", PLAIN, npr, ratio);
+            if let Some(limit) = max_hertz_pressure {
+                form.row(ui, "Highest {p_H}", GIGAPASCAL, limit, "Contacts beyond it are left out");
+            }
         }
     }
     ui.weak(described_windows(&spec.windows));
@@ -141,7 +144,7 @@ fn converted(spec: &TrainingSpec) -> Range {
         Range::Box { alpha, viscosity, .. } => {
             Range::Moes { m: domain.m, l: domain.l, alpha, max_hertz_pressure: domain.max_hertz_pressure_pa, viscosity }
         }
-        Range::Moes { viscosity, .. } | Range::Sliding { viscosity, .. } => {
+        Range::Moes { viscosity, .. } | Range::Sliding(SlidingRange { viscosity, .. }) => {
             let QuantityBox { radius, speed, load, modulus, .. } = QuantityBox::of_tables(spec.contact());
             Range::Box { radius, speed, load, alpha: domain.alpha_per_pa, modulus, viscosity }
         }

@@ -205,6 +205,9 @@ impl PointSystem {
         report: &mut Report,
     ) {
         self.treatment = options.film;
+        if let Some(shear) = &mut self.shear {
+            shear.forget();
+        }
         let mut residual = self.evaluate(problem, options.penalty);
         let (mut recent, mut cycles) = ([f64::INFINITY; 2], 0);
         report.termination = Termination::IterationLimit;

@@ -28,7 +28,12 @@ impl PointShear {
         }
     }
 
-    /// Evaluates all nodes and hands the row's part of them over.
+    /// Forgets the films of former iterates: those of another problem are no start.
+    pub fn forget(&mut self) {
+        self.nodes.fill(ShearNode::default());
+    }
+
+    /// Evaluates all nodes, each beside its film of the former iterate, and hands the row's part of them over.
     pub fn evaluate(
         &mut self,
         problem: &Problem,
@@ -44,7 +49,7 @@ impl PointShear {
             for (j, (own, node)) in own.iter_mut().zip(nodes).enumerate() {
                 let k = i * ny + j;
                 let state = NodeState { pressure: pressure[k], gradient: gradient.at(pressure, i, j), film: film[k] };
-                *own = ShearNode::new(&problem.fluid, law, problem.inverse_lambda, state, treatment);
+                *own = ShearNode::near(&own.known, &problem.fluid, law, problem.inverse_lambda, state, treatment);
                 *node = own.node;
             }
         });

@@ -2,13 +2,13 @@
 
 use super::difference::BackwardDifference;
 use super::frame::{Conditions, Frame, Scales};
+use super::pace::{Pace, TimeStep};
 use super::signal::{InputError, Inputs};
 use super::trajectory::{Effort, Ended, Moment, State, Trajectory};
 use crate::solver::contact::{ContactKind, OperatingPoint};
 use crate::solver::full::{Mesh, Problem, SolveError, Termination};
 use crate::solver::grid::LineGrid;
 use crate::solver::lubricant::Lubricant;
-use serde::{Deserialize, Serialize};
 
 /// A contact to be taken through time.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,21 +27,6 @@ pub struct Transient {
     pub time_step: TimeStep,
     /// Which fields are kept.
     pub keep: Keep,
-}
-
-/// How long steps are.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum TimeStep {
-    /// All the same; the duration is divided evenly.
-    Fixed(f64),
-    /// As long as the solution stays near the straight line through the two former ones.
-    Adaptive {
-        /// ‖P − extrapolation‖/‖P‖ aimed at.
-        tolerance: f64,
-        /// The longest step, and the first.
-        longest: f64,
-    },
 }
 
 /// Which fields a trajectory keeps; scalars are always kept.
@@ -146,12 +131,6 @@ pub trait Marching {
 
 /// Most steps of one march.
 const MOST_STEPS: f64 = 2e6;
-/// A step may be this much longer than the former one; (2.34) is stable up to 2.4.
-const GREATEST_RATIO: f64 = 1.8;
-/// An adaptive step is not made shorter than this part of the longest.
-const SHORTEST_PART: f64 = 1e-5;
-/// A step is repeated when it should have been shorter than this part of its length.
-const TOO_FAR: f64 = 0.5;
 
 impl Transient {
     /// Refuses inputs and times without sense.
@@ -264,70 +243,40 @@ fn walk(
     })?;
     trajectory.record(model, &at, 0.0, effort, observer);
     let mut former = at.scales;
-    let mut length = time_step.first(duration);
-    let mut length_before = length;
+    let mut pace = Pace::new(time_step, duration);
+    let mut recorded = at.time;
+    let mut effort = Effort::default();
     while at.time < duration {
         if observer.cancelled() {
             return Err(Ended::Cancelled { time: at.time });
         }
-        // What rounding leaves of the last step is no step of its own.
-        let last = duration - at.time <= length * (1.0 + 1e-6);
-        if last {
-            length = duration - at.time;
-        }
-        let now = conditions(if last { duration } else { at.time + length })?;
-        let step = Step::new(frame, now, [at.scales, former], length, length_before);
+        let now = conditions(pace.aim(at.time))?;
+        let step = Step::new(frame, now, [at.scales, former], pace.length, pace.before);
         match model.step(&step, observer) {
-            Ok(effort) => {
-                let wanted = time_step.wanted(length, model.deviation());
-                if wanted < TOO_FAR * length {
-                    length = wanted;
+            Ok(own) => {
+                effort = effort.and(own);
+                if !pace.accepts(|| model.deviation()) {
                     trajectory.rejected_steps += 1;
                     continue;
                 }
                 model.accept(&now);
                 (former, at) = (at.scales, now);
-                trajectory.record(model, &at, length, effort, observer);
-                (length_before, length) = (length, wanted);
+                if pace.records(at.time) {
+                    trajectory.record(model, &at, at.time - recorded, effort, observer);
+                    (recorded, effort) = (at.time, Effort::default());
+                }
             }
             Err(Termination::Cancelled) => return Err(Ended::Cancelled { time: at.time }),
             Err(termination) => {
-                let refused = Ended::StepRefused { time: now.time, step: length, termination };
-                length = time_step.shorter(length).ok_or(refused)?;
+                let refused = Ended::StepRefused { time: now.time, step: pace.length, termination };
+                if !pace.shorten() {
+                    return Err(refused);
+                }
                 trajectory.rejected_steps += 1;
             }
         }
     }
     Ok(())
-}
-
-impl TimeStep {
-    /// The first step of a march over `duration`.
-    fn first(self, duration: f64) -> f64 {
-        match self {
-            Self::Fixed(step) => duration / (duration / step).round().max(1.0),
-            Self::Adaptive { longest, .. } => longest,
-        }
-    }
-
-    /// The step that would have been right instead of `length`, by its deviation from the extrapolation, which is of second order in it.
-    fn wanted(self, length: f64, deviation: f64) -> f64 {
-        match self {
-            Self::Fixed(_) => length,
-            Self::Adaptive { tolerance, longest } => {
-                let factor = 0.9 * (tolerance / deviation).sqrt();
-                (length * factor.clamp(0.2, GREATEST_RATIO)).clamp(SHORTEST_PART * longest, longest)
-            }
-        }
-    }
-
-    /// A shorter step in place of one that could not be taken; `None` where that is not allowed.
-    fn shorter(self, length: f64) -> Option<f64> {
-        match self {
-            Self::Fixed(_) => None,
-            Self::Adaptive { longest, .. } => (length > SHORTEST_PART * longest).then_some(0.25 * length),
-        }
-    }
 }
 
 impl Trajectory {

@@ -8,6 +8,7 @@ mod difference;
 mod frame;
 mod march;
 mod mass;
+mod pace;
 mod signal;
 mod spline;
 mod system;
@@ -17,8 +18,9 @@ mod trajectory;
 
 pub use difference::{BackwardDifference, extrapolated};
 pub use frame::{Conditions, Frame, Scales, point_at};
-pub use march::{Keep, Marching, Step, TimeStep, Transient, TransientError, TransientObserver, march};
+pub use march::{Keep, Marching, Step, Transient, TransientError, TransientObserver, march};
 pub use mass::MassBalance;
+pub use pace::TimeStep;
 pub use signal::{Input, InputError, Inputs, Signal};
 pub use spline::{Interpolated, Interpolation};
 pub use system::{FullMarch, solve};

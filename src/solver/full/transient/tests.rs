@@ -169,11 +169,40 @@ fn what_was_computed_before_an_end_is_kept() {
     assert_eq!((trajectory.moments.len(), trajectory.states.len()), (6, 3));
     assert_eq!(trajectory.ended, Ended::Cancelled { time: trajectory.moments[5].time });
 
-    // A load that multiplies within one fixed step, far beyond what Newton follows.
+    // A load that makes a contact beyond all sense.
     let jump = Signal::Sampled { times: vec![0.0, 0.1, 0.1001], values: vec![1.0, 1.0, 1e-3] };
     let trajectory = solve(COARSE, &Transient { inputs: Inputs::load(jump), ..case_1(0.5, 0.01) }, &mut ()).unwrap();
     let sentence = trajectory.ended.describe();
     assert!(sentence.contains("T = 0.11") && sentence.contains("kept"), "{sentence}");
+    assert_eq!(trajectory.moments.len(), 11);
+}
+
+/// A load that changes by a factor within 0.01 from T = 0.1 on.
+fn jump(factor: f64) -> Inputs {
+    Inputs::load(Signal::Sampled { times: vec![0.0, 0.1, 0.11], values: vec![1.0, 1.0, factor] })
+}
+
+#[test]
+fn a_fixed_step_that_newton_cannot_take_is_taken_in_parts() {
+    let coarse = Transient { inputs: jump(4.0), ..case_1(0.4, 0.05) };
+    let trajectory = finished(COARSE, &coarse);
+    assert!(trajectory.rejected_steps > 0 && trajectory.moments.len() == 9, "{}", trajectory.rejected_steps);
+    for (k, moment) in trajectory.moments.iter().enumerate().skip(1) {
+        assert!((moment.time - 0.05 * k as f64).abs() < 1e-12 && (moment.step - 0.05).abs() < 1e-12, "{}", moment.time);
+    }
+    let fine = finished(COARSE, &Transient { time_step: TimeStep::Fixed(0.001), ..coarse });
+    assert_eq!(fine.rejected_steps, 0);
+    let (greatest, _) = trajectory.difference(&fine, Quantity::CentralFilm, ALL).unwrap();
+    assert!(greatest < 1e-3, "{greatest:e}");
+}
+
+#[test]
+fn a_step_that_no_part_of_can_be_taken_ends_the_march() {
+    let trajectory = solve(COARSE, &Transient { inputs: jump(10.0), ..case_1(0.5, 0.01) }, &mut ()).unwrap();
+    let Ended::StepRefused { time, step, .. } = trajectory.ended else { panic!("{:?}", trajectory.ended) };
+    assert!(time > 0.1 && time < 0.12 && step < 0.01 / 32.0, "{time}, {step}");
+    let sentence = trajectory.ended.describe();
+    assert!(sentence.contains("could not take the step") && sentence.contains("kept"), "{sentence}");
     assert_eq!(trajectory.moments.len(), 11);
 }
 

@@ -15,6 +15,16 @@ pub struct Effort {
     pub linear_iterations: usize,
 }
 
+impl Effort {
+    /// The work of this and another step.
+    pub(super) fn and(self, other: Self) -> Self {
+        Self {
+            newton_iterations: self.newton_iterations + other.newton_iterations,
+            linear_iterations: self.linear_iterations + other.linear_iterations,
+        }
+    }
+}
+
 /// The contact at one time: scalars in the scales of the reference contact, (2.22).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moment {

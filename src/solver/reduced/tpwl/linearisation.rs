@@ -3,12 +3,12 @@
 use super::space::{INPUTS, ReducedSpace, input_vector};
 use crate::solver::full::Problem;
 use crate::solver::full::transient::Input;
-use crate::solver::grid::FIRST_UNKNOWN;
+use crate::solver::grid::{FIRST_UNKNOWN, dot};
 use crate::solver::reynolds::line::{LINE_STENCIL, Upstream};
 use crate::solver::reynolds::{CENTER, Node, PENALTY};
 use faer::{Mat, MatRef};
 
-/// Values and derivatives of g and f at (ỹ, u), tested with Vᵀ W. The last equation is the load's, w̄ π/2 − ∫P, which has no g.
+/// Values and derivatives of g and f at (ỹ, u), tested with weighted rows of Vᵀ. The last equation is the load's, w̄ π/2 − ∫P, which has no g.
 ///
 /// In the dissertation's letters B = `storage_state`, C = `storage_input`, E = `flux_state`, F = `flux_input`; A and D follow from
 /// the values, see [`Linearisation::intercepts`].
@@ -37,54 +37,68 @@ pub struct SystemFunctions {
     pub flux: Vec<f64>,
 }
 
-/// The nodes of a reduced state.
-fn nodes(space: &ReducedSpace, problem: &Problem, state: &[f64], input: Input) -> Vec<Node> {
-    let length = space.grid.len();
-    let (mut pressure, mut film) = (vec![0.0; length], vec![0.0; length]);
-    space.fields(state, input, 0, &mut pressure, &mut film);
-    let node = |(&p, &h): (&f64, &f64)| Node::new(&problem.fluid, problem.inverse_lambda, p, h);
-    pressure.iter().zip(&film).map(node).collect()
+/// Slope of the penalty Λ = −γ̄ min(P, 0) in the linearised systems. Its value is the full system's, with γ̄ = 10⁶; but with that slope, too, each
+/// system presses the pressures on its side of the moving rupture down to zero, also where its neighbours have none of it, and what modes
+/// miss behind the rupture outweighs all else that rows have to say. There the film needs no more than to be held.
+pub const PENALTY_SLOPE: f64 = 1e3;
+
+/// Fields of a contact at all nodes.
+#[derive(Clone, Copy)]
+pub struct Fields<'a> {
+    /// P.
+    pub pressure: &'a [f64],
+    /// H.
+    pub film: &'a [f64],
+    /// Under these inputs.
+    pub input: Input,
 }
 
-/// Vᵀ W rows, with the load's equation below; `rows` belong to the unknowns, one column per right-hand side.
+impl Fields<'_> {
+    fn nodes(&self, problem: &Problem) -> Vec<Node> {
+        let node = |(&p, &h): (&f64, &f64)| Node::new(&problem.fluid, problem.inverse_lambda, p, h);
+        self.pressure.iter().zip(self.film).map(node).collect()
+    }
+
+    /// The load's equation: w̄ π/2 − ∫P.
+    fn load_defect(&self, space: &ReducedSpace, problem: &Problem) -> f64 {
+        problem.load * self.input.load - dot(&space.grid.weights, self.pressure)
+    }
+}
+
+/// The weighted rows tested with Vᵀ, the load's equation below; `rows` belong to the unknowns, one column per right-hand side.
 fn tested(space: &ReducedSpace, rows: MatRef<'_, f64>) -> Mat<f64> {
     let (modes, unknowns) = (space.modes(), rows.nrows());
-    let weighted = Mat::from_fn(unknowns, rows.ncols(), |i, j| space.grid.weights[i + FIRST_UNKNOWN] * rows[(i, j)]);
+    let weighted = Mat::from_fn(unknowns, rows.ncols(), |i, j| space.row_weights[i] * rows[(i, j)]);
     let basis = space.pressure.subrows(FIRST_UNKNOWN, unknowns);
     let mut out = Mat::zeros(modes + 1, rows.ncols());
     out.subrows_mut(0, modes).copy_from(basis.transpose() * &weighted);
     out
 }
 
-/// The load's equation: w̄ π/2 − ∫P.
-fn load_defect(space: &ReducedSpace, problem: &Problem, state: &[f64], input: Input) -> f64 {
-    let carried: f64 = space.load.iter().zip(state).map(|(l, p)| l * p).sum();
-    problem.load * input.load - carried
-}
-
 impl SystemFunctions {
-    /// Evaluates the reduced system functions.
-    pub fn at(space: &ReducedSpace, problem: &Problem, state: &[f64], input: Input) -> Self {
-        let nodes = nodes(space, problem, state, input);
+    /// Evaluates the reduced system functions with a penalty factor γ̄.
+    pub fn at(space: &ReducedSpace, problem: &Problem, fields: Fields<'_>, penalty: f64) -> Self {
+        let nodes = fields.nodes(problem);
         let unknowns = space.grid.unknowns();
         let mut rows = Mat::zeros(unknowns, 2);
         for k in 0..unknowns {
-            let geometry = space.grid.rows[k].in_time(input.speed, 0.0, 0.0);
+            let geometry = space.grid.rows[k].in_time(fields.input.speed, 0.0, 0.0);
             rows[(k, 0)] = nodes[k + CENTER].flow;
-            rows[(k, 1)] = Upstream::Inlet.row(&geometry, PENALTY, &nodes, k).value;
+            rows[(k, 1)] = Upstream::Inlet.row(&geometry, penalty, &nodes, k).value;
         }
         let mut tested = tested(space, rows.as_ref());
         let modes = space.modes();
-        tested[(modes, 1)] = load_defect(space, problem, state, input);
+        tested[(modes, 1)] = fields.load_defect(space, problem);
         let column = |j: usize| tested.col(j).iter().copied().collect();
         Self { storage: column(0), flux: column(1) }
     }
 }
 
 impl Linearisation {
-    /// Evaluates and differentiates the reduced system functions.
-    pub fn at(space: &ReducedSpace, problem: &Problem, state: &[f64], input: Input) -> Self {
-        let nodes = nodes(space, problem, state, input);
+    /// Evaluates the reduced system functions as the full system has them, and differentiates them with [`PENALTY_SLOPE`]. The fields need
+    /// not lie in the space: what it misses of them is then missing in the derivatives' argument only.
+    pub fn at(space: &ReducedSpace, problem: &Problem, fields: Fields<'_>) -> Self {
+        let nodes = fields.nodes(problem);
         let (grid, modes, unknowns) = (&space.grid, space.modes(), space.grid.unknowns());
         let curvature_slope = |node: usize| 0.5 * grid.x[node] * grid.x[node];
         // Columns: the state's, the inputs', the value.
@@ -92,8 +106,8 @@ impl Linearisation {
         let (first_input, value) = (modes + 1, columns - 1);
         let (mut storage, mut flux) = (Mat::zeros(unknowns, columns), Mat::zeros(unknowns, columns));
         for k in 0..unknowns {
-            let geometry = grid.rows[k].in_time(input.speed, 0.0, 0.0);
-            let row = Upstream::Inlet.row(&geometry, PENALTY, &nodes, k);
+            let geometry = grid.rows[k].in_time(fields.input.speed, 0.0, 0.0);
+            let row = Upstream::Inlet.row(&geometry, PENALTY_SLOPE, &nodes, k);
             let own = k + CENTER;
             let (flow, flow_p, flow_h) = (nodes[own].flow, nodes[own].flow_p, nodes[own].flow_h);
             for j in 0..modes {
@@ -110,14 +124,15 @@ impl Linearisation {
             flux[(k, first_input + 1)] =
                 -grid.rows[k].upwind.iter().zip(&nodes[k..]).map(|(w, n)| w * n.flow).sum::<f64>();
             storage[(k, value)] = flow;
-            flux[(k, value)] = row.value;
+            // The value's own penalty in place of the slope's.
+            flux[(k, value)] = row.value - (PENALTY - PENALTY_SLOPE) * fields.pressure[own].min(0.0);
         }
         let (storage, mut flux) = (tested(space, storage.as_ref()), tested(space, flux.as_ref()));
         for (j, l) in space.load.iter().enumerate() {
             flux[(modes, j)] = -l;
         }
         flux[(modes, first_input + 2)] = problem.load;
-        flux[(modes, value)] = load_defect(space, problem, state, input);
+        flux[(modes, value)] = fields.load_defect(space, problem);
         let column = |of: &Mat<f64>| of.col(value).iter().copied().collect();
         Self {
             storage: column(&storage),

@@ -8,6 +8,7 @@ mod linearisation;
 mod march;
 mod model;
 mod record;
+mod rows;
 mod search;
 mod selection;
 mod space;

@@ -1,6 +1,7 @@
 //! The model: operating points of training trajectories with their linearised systems.
 
 use super::linearisation::{Linearisation, SystemFunctions};
+use super::rows::row_weights;
 use super::selection::{Selection, Selector, TrainedMoment, select, with_points};
 use super::space::{INPUTS, ReducedSpace, input_vector, same_but_load};
 use super::weights::square_distance;
@@ -224,7 +225,8 @@ impl TpwlModel {
             trajectories.iter().flat_map(|t| &t.states).step_by(stride).map(|s| s.pressure.as_slice()).collect();
         let matrix = Mat::from_fn(grid.len(), snapshots.len(), |i, j| snapshots[j][i]);
         let basis = PodBasis::new(matrix.as_ref(), &grid.weights, 0.0).ok_or(TpwlError::Basis)?;
-        let space = ReducedSpace::new(grid, &basis, training.modes);
+        let row_weights = row_weights(&grid, trajectories);
+        let space = ReducedSpace::new(grid, &basis, training.modes, row_weights);
         let moments: Vec<Vec<TrainedMoment>> = trajectories.iter().map(|t| moments(&space, t)).collect();
         let mut problems: Vec<Problem> = Vec::new();
         for trajectory in trajectories {
@@ -276,8 +278,7 @@ impl TpwlModel {
             let others = chosen.iter().filter(|&&other| other != i);
             let squares = others.map(|&other| square_distance(&moment.state, &moments[other].state));
             let system = selector.take_system(i);
-            let at = |problem| SystemFunctions::at(&self.space, problem, &moment.state, moment.input);
-            let (low, high) = (at(less), at(more));
+            let (low, high) = (moment.functions(&self.space, less), moment.functions(&self.space, more));
             let slope = |low: Vec<f64>, high: Vec<f64>| {
                 let change = 2.0 * LOAD_DIFFERENCE * problem.point.load;
                 low.iter().zip(&high).map(|(l, h)| (h - l) / change).collect()
@@ -384,6 +385,7 @@ fn moments(space: &ReducedSpace, trajectory: &Trajectory) -> Vec<TrainedMoment> 
         time: state.time,
         input: trajectory.transient.inputs.at(state.time),
         state: space.project(state),
+        pressure: state.pressure.as_slice().into(),
     };
     trajectory.states.iter().map(moment).collect()
 }

@@ -1,13 +1,15 @@
 //! Which moments of a training trajectory become operating points.
 
-use super::linearisation::Linearisation;
+use super::linearisation::{Fields, Linearisation, SystemFunctions};
 use super::space::{ReducedSpace, input_vector};
 use super::weights::square_distance;
 use crate::solver::full::Problem;
 use crate::solver::full::transient::{BackwardDifference, Input};
+use crate::solver::reynolds::PENALTY;
 use faer::linalg::solvers::Solve;
 use faer::{Col, ColRef};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// A rule by which operating points are chosen, in the order of time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -59,6 +61,8 @@ pub struct TrainedMoment {
     pub input: Input,
     /// ỹ = (p̃, H₀).
     pub state: Vec<f64>,
+    /// P of the full system at all nodes, about which it is linearised.
+    pub pressure: Arc<[f64]>,
 }
 
 /// Chooses operating points of one trajectory, by several rules or tolerances one after the other.
@@ -101,14 +105,32 @@ impl<'a> Selector<'a> {
 
     /// The linearised system of a moment.
     fn system(&mut self, moment: usize) -> &Linearisation {
-        let TrainedMoment { state, input, .. } = &self.moments[moment];
-        self.systems[moment].get_or_insert_with(|| Linearisation::at(self.space, self.problem, state, *input))
+        let linearised = || self.moments[moment].linearised(self.space, self.problem);
+        self.systems[moment].get_or_insert_with(linearised)
     }
 
     /// The same, handed over.
     pub fn take_system(&mut self, moment: usize) -> Linearisation {
-        let TrainedMoment { state, input, .. } = &self.moments[moment];
-        self.systems[moment].take().unwrap_or_else(|| Linearisation::at(self.space, self.problem, state, *input))
+        self.systems[moment].take().unwrap_or_else(|| self.moments[moment].linearised(self.space, self.problem))
+    }
+}
+
+impl TrainedMoment {
+    /// Its system functions, also under another reference load than its own.
+    pub fn functions(&self, space: &ReducedSpace, problem: &Problem) -> SystemFunctions {
+        SystemFunctions::at(space, problem, self.fields(&self.film(space)), PENALTY)
+    }
+
+    fn linearised(&self, space: &ReducedSpace, problem: &Problem) -> Linearisation {
+        Linearisation::at(space, problem, self.fields(&self.film(space)))
+    }
+
+    fn film(&self, space: &ReducedSpace) -> Vec<f64> {
+        space.film(&self.pressure, self.state[space.modes()], self.input)
+    }
+
+    fn fields<'a>(&'a self, film: &'a [f64]) -> Fields<'a> {
+        Fields { pressure: &self.pressure, film, input: self.input }
     }
 }
 

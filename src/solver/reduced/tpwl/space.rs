@@ -27,11 +27,13 @@ pub struct ReducedSpace {
     pub deformation: Mat<f64>,
     /// wᵀ V: what each mode carries.
     pub load: Vec<f64>,
+    /// What each row of the full system counts when it is tested with Vᵀ, see [`super::rows::row_weights`].
+    pub row_weights: Vec<f64>,
 }
 
 impl ReducedSpace {
-    /// The space of the first `modes` modes of a basis.
-    pub fn new(grid: LineGrid, basis: &PodBasis, modes: usize) -> Self {
+    /// The space of the first `modes` modes of a basis; one weight per row of the full system.
+    pub fn new(grid: LineGrid, basis: &PodBasis, modes: usize, row_weights: Vec<f64>) -> Self {
         let modes = modes.clamp(1, basis.modes.ncols());
         let pressure = basis.modes.get(.., ..modes).to_owned();
         let mut deformation = Mat::zeros(grid.len(), modes);
@@ -43,7 +45,7 @@ impl ReducedSpace {
         }
         let load =
             (0..modes).map(|k| grid.weights.iter().enumerate().map(|(i, w)| w * pressure[(i, k)]).sum()).collect();
-        Self { grid, pressure, deformation, load }
+        Self { grid, pressure, deformation, load, row_weights }
     }
 
     /// Modes of the basis.
@@ -70,6 +72,14 @@ impl ReducedSpace {
         (0..self.modes()).map(weighted).chain([state.h_0]).collect()
     }
 
+    /// The film over pressures at all nodes.
+    pub fn film(&self, pressure: &[f64], h_0: f64, input: Input) -> Vec<f64> {
+        let mut film = vec![0.0; pressure.len()];
+        self.grid.deform(pressure, &mut film, &mut Scratch::default());
+        add_shape(&mut film, &self.grid.x, h_0, input);
+        film
+    }
+
     /// P and H of a reduced state on the nodes `from..`, as many as the slices hold.
     pub fn fields(&self, state: &[f64], input: Input, from: usize, pressure: &mut [f64], film: &mut [f64]) {
         let modes = self.modes();
@@ -87,10 +97,15 @@ impl ReducedSpace {
         };
         part(self.pressure.as_ref(), pressure);
         part(self.deformation.as_ref(), film);
-        let curvature = 1.0 / input.radius;
-        for (h, x) in film.iter_mut().zip(&self.grid.x[from..]) {
-            *h += state[modes] + 0.5 * curvature * x * x;
-        }
+        add_shape(film, &self.grid.x[from..], state[modes], input);
+    }
+}
+
+/// Adds H₀ + X²/(2R̄) to a deformation.
+fn add_shape(film: &mut [f64], x: &[f64], h_0: f64, input: Input) {
+    let curvature = 1.0 / input.radius;
+    for (h, x) in film.iter_mut().zip(x) {
+        *h += h_0 + 0.5 * curvature * x * x;
     }
 }
 

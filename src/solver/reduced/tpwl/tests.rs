@@ -1,5 +1,6 @@
 //! Linearised systems against finite differences, steps against Newton's, marches against the full system.
 
+use super::linearisation::{Fields, PENALTY_SLOPE};
 use super::superposition::{SmallSystem, Superposition};
 use super::*;
 use crate::solver::contact::OperatingPoint;
@@ -70,10 +71,19 @@ fn film_error(model: &TpwlModel, transient: &Transient, weighting: Weighting) ->
 #[test]
 fn linearised_systems_agree_with_finite_differences() {
     let model = &*MODEL;
-    let problem = &model.sets[0].problem;
+    let (space, problem) = (&model.space, &model.sets[0].problem);
     let base = Input { radius: 1.05, speed: 0.95, load: 1.02 };
-    let point = &model.points[model.points.len() / 2];
-    let exact = Linearisation::at(&model.space, problem, &point.moment.state, base);
+    let moment = &model.points[model.points.len() / 2].moment;
+    let film = space.film(&moment.pressure, moment.state[space.modes()], base);
+    let exact = Linearisation::at(space, problem, Fields { pressure: &moment.pressure, film: &film, input: base });
+    // g and f with the penalty's slope at the fields plus a multiple of others.
+    let beside = |(p, h): (&dyn Fn(usize) -> f64, &dyn Fn(usize) -> f64), input: Input, by: f64| {
+        let plus = |values: &[f64], more: &dyn Fn(usize) -> f64| -> Vec<f64> {
+            values.iter().enumerate().map(|(i, value)| value + by * more(i)).collect()
+        };
+        let (pressure, film) = (plus(&moment.pressure, p), plus(&film, h));
+        SystemFunctions::at(space, problem, Fields { pressure: &pressure, film: &film, input }, PENALTY_SLOPE)
+    };
     // Beside the cavitation front the penalty bends: a step must stay on one side of it.
     let step = 1e-7;
     let compare = |name: &str, exact: (Vec<f64>, Vec<f64>), at: &dyn Fn(f64) -> SystemFunctions| {
@@ -87,21 +97,22 @@ fn linearised_systems_agree_with_finite_differences() {
         }
     };
     let column = |of: &faer::Mat<f64>, j: usize| of.col(j).iter().copied().collect::<Vec<f64>>();
-    for j in [0, 1, 7, 40, model.space.modes()] {
-        compare(&format!("state {j}"), (column(&exact.storage_state, j), column(&exact.flux_state, j)), &|by| {
-            let mut state = point.moment.state.clone();
-            state[j] += by;
-            SystemFunctions::at(&model.space, problem, &state, base)
-        });
+    for j in [0, 1, 7, 40, space.modes()] {
+        let mode = |of: &faer::Mat<f64>, i: usize, h_0: f64| if j < space.modes() { of[(i, j)] } else { h_0 };
+        let fields = (&|i: usize| mode(&space.pressure, i, 0.0), &|i: usize| mode(&space.deformation, i, 1.0));
+        let exact = (column(&exact.storage_state, j), column(&exact.flux_state, j));
+        compare(&format!("state {j}"), exact, &|by| beside((fields.0, fields.1), base, by));
     }
     for (j, name) in ["curvature", "speed", "load"].into_iter().enumerate() {
+        let still = |_: usize| 0.0;
+        let shape = |i: usize| if j == 0 { 0.5 * space.grid.x[i] * space.grid.x[i] } else { 0.0 };
         compare(name, (column(&exact.storage_input, j), column(&exact.flux_input, j)), &|by| {
             let moved = match j {
-                0 => Input { radius: 1.0 / (1.0 / base.radius + by), ..base },
+                0 => base,
                 1 => Input { speed: base.speed + by, ..base },
                 _ => Input { load: base.load + by, ..base },
             };
-            SystemFunctions::at(&model.space, problem, &point.moment.state, moved)
+            beside((&still, &shape), moved, by)
         });
     }
     let load = problem.point.load;
@@ -110,7 +121,8 @@ fn linearised_systems_agree_with_finite_differences() {
         Problem::new(&point, problem.lubricant).unwrap()
     };
     let (low, high) = (heavier(-1.0), heavier(1.0));
-    let at = |problem| SystemFunctions::at(&model.space, problem, &point.moment.state, point.moment.input);
+    let point = &model.points[model.points.len() / 2];
+    let at = |problem| point.moment.functions(space, problem);
     for (slope, (low, high)) in [
         (&point.load_slope.storage, (at(&low).storage, at(&high).storage)),
         (&point.load_slope.flux, (at(&low).flux, at(&high).flux)),

@@ -1,0 +1,192 @@
+//! How long the steps of a march are, and at which times it is recorded.
+
+use serde::{Deserialize, Serialize};
+
+/// How long steps are.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum TimeStep {
+    /// All the same; the duration is divided evenly. A step that cannot be taken at once is taken in smaller ones, down to a 64th, and
+    /// only its end is recorded.
+    Fixed(f64),
+    /// As long as the solution stays near the straight line through the two former ones.
+    Adaptive {
+        /// ‖P − extrapolation‖/‖P‖ aimed at.
+        tolerance: f64,
+        /// The longest step, and the first.
+        longest: f64,
+    },
+}
+
+/// A step may be this much longer than the former one; (2.34) is stable up to 2.4.
+const GREATEST_RATIO: f64 = 1.8;
+/// An adaptive step is not made shorter than this part of the longest.
+const SHORTEST_PART: f64 = 1e-5;
+/// A step is repeated when it should have been shorter than this part of its length.
+const TOO_FAR: f64 = 0.5;
+/// Part of its length that a failed step is tried with again: adaptive ones were too long by much, fixed ones by little.
+const RETRIED: [f64; 2] = [0.25, 0.5];
+/// A fixed step is not divided into more.
+const MOST_PARTS: f64 = 64.0;
+/// Parts of a fixed step may double from one to the next.
+const DOUBLED: f64 = 2.0;
+/// What rounding leaves of a step is no step of its own.
+const ROUNDING: f64 = 1e-6;
+
+/// Lengths of the next and of the former step.
+pub struct Pace {
+    time_step: TimeStep,
+    duration: f64,
+    /// The time that steps have to meet: the end of a fixed step or of the march.
+    due: f64,
+    /// Length of the next step.
+    pub length: f64,
+    /// Length of the former one; of the first step its own.
+    pub before: f64,
+}
+
+impl Pace {
+    /// At T = 0.
+    pub fn new(time_step: TimeStep, duration: f64) -> Self {
+        let time_step = match time_step {
+            TimeStep::Fixed(step) => TimeStep::Fixed(duration / (duration / step).round().max(1.0)),
+            TimeStep::Adaptive { .. } => time_step,
+        };
+        let (TimeStep::Fixed(length) | TimeStep::Adaptive { longest: length, .. }) = time_step;
+        let mut pace = Self { time_step, duration, due: 0.0, length, before: length };
+        pace.set_due();
+        pace
+    }
+
+    fn set_due(&mut self) {
+        self.due = match self.time_step {
+            TimeStep::Fixed(step) if self.duration - self.due > step * (1.0 + ROUNDING) => self.due + step,
+            _ => self.duration,
+        };
+    }
+
+    /// End of the next step from `time`, whose length is fitted to the time that is due.
+    pub fn aim(&mut self, time: f64) -> f64 {
+        let left = self.due - time;
+        let parts = (left / self.length - ROUNDING).ceil();
+        if parts <= 1.0 {
+            self.length = left;
+            return self.due;
+        }
+        if let TimeStep::Fixed(_) = self.time_step {
+            self.length = left / parts;
+        }
+        time + self.length
+    }
+
+    /// Whether the step just solved is short enough, by its deviation from the extrapolation, which is of second order in its length. If it
+    /// is not, the next one will be shorter, else the next one follows on it.
+    pub fn accepts(&mut self, deviation: impl FnOnce() -> f64) -> bool {
+        let wanted = match self.time_step {
+            TimeStep::Fixed(step) => (DOUBLED * self.length).min(step),
+            TimeStep::Adaptive { tolerance, longest } => {
+                let factor = 0.9 * (tolerance / deviation()).sqrt();
+                (self.length * factor.clamp(0.2, GREATEST_RATIO)).clamp(SHORTEST_PART * longest, longest)
+            }
+        };
+        let accepted = wanted >= TOO_FAR * self.length;
+        if accepted {
+            self.before = self.length;
+        }
+        self.length = wanted;
+        accepted
+    }
+
+    /// Whether the moment `time`, which a step led to, is recorded.
+    pub fn records(&mut self, time: f64) -> bool {
+        let met = time >= self.due;
+        if met {
+            self.set_due();
+        }
+        met || matches!(self.time_step, TimeStep::Adaptive { .. })
+    }
+
+    /// Makes the next step shorter in place of one that could not be taken; false where that is not allowed.
+    pub fn shorten(&mut self) -> bool {
+        let (part, shortest) = match self.time_step {
+            TimeStep::Adaptive { longest, .. } => (RETRIED[0], SHORTEST_PART * longest),
+            TimeStep::Fixed(step) => (RETRIED[1], step / MOST_PARTS * (1.0 + ROUNDING)),
+        };
+        let allowed = self.length > shortest;
+        if allowed {
+            self.length *= part;
+        }
+        allowed
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ends of the steps tried, and times recorded, where steps longer than `longest(T)` fail.
+    fn walked(time_step: TimeStep, duration: f64, longest: impl Fn(f64) -> f64) -> (Vec<f64>, Vec<f64>, bool) {
+        let mut pace = Pace::new(time_step, duration);
+        let (mut time, mut ends, mut recorded) = (0.0, Vec::new(), Vec::new());
+        while time < duration {
+            let end = pace.aim(time);
+            if pace.length > longest(time) * (1.0 + 1e-9) {
+                if !pace.shorten() {
+                    return (ends, recorded, false);
+                }
+                continue;
+            }
+            let ratio = pace.length / pace.before;
+            assert!(ends.is_empty() || ratio < 2.4, "(2.34) is not stable at {ratio}");
+            assert!(pace.accepts(|| 0.0));
+            time = end;
+            ends.push(time);
+            if pace.records(time) {
+                recorded.push(time);
+            }
+        }
+        (ends, recorded, true)
+    }
+
+    #[test]
+    fn fixed_steps_divide_the_duration_evenly() {
+        let (ends, recorded, finished) = walked(TimeStep::Fixed(0.3), 1.0, |_| 1.0);
+        assert!(finished && ends == recorded && ends.len() == 3 && ends[2] == 1.0);
+        assert!((ends[0] - 1.0 / 3.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_fixed_step_that_fails_is_taken_in_parts_and_recorded_once() {
+        let steep = |time: f64| if (0.4..0.5).contains(&time) { 0.03 } else { 1.0 };
+        let (ends, recorded, finished) = walked(TimeStep::Fixed(0.1), 1.0, steep);
+        assert!(finished && ends.len() > recorded.len());
+        assert_eq!(recorded.len(), 10);
+        for (k, time) in recorded.iter().enumerate() {
+            assert!((time - 0.1 * (k + 1) as f64).abs() < 1e-12, "{recorded:?}");
+        }
+        for pair in ends.windows(2) {
+            assert!(pair[1] - pair[0] <= steep(pair[0]) + 1e-12, "{ends:?}");
+        }
+        let last = ends.windows(2).last().unwrap();
+        assert!((last[1] - last[0] - 0.1).abs() < 1e-12, "steps grow back to what was asked: {ends:?}");
+    }
+
+    #[test]
+    fn a_fixed_step_is_not_divided_for_ever() {
+        let wall = |time: f64| if time < 0.5 { 1.0 } else { 0.1 / 65.0 };
+        let (ends, recorded, finished) = walked(TimeStep::Fixed(0.1), 1.0, wall);
+        assert!(!finished);
+        assert_eq!((ends.len(), recorded.len()), (5, 5));
+        assert!(walked(TimeStep::Fixed(0.1), 1.0, |_| 0.1 / 64.0).2);
+    }
+
+    #[test]
+    fn all_adaptive_steps_are_recorded() {
+        let adaptive = TimeStep::Adaptive { tolerance: 1e-3, longest: 0.2 };
+        let (ends, recorded, finished) = walked(adaptive, 1.0, |_| 0.07);
+        assert!(finished && ends == recorded && ends.last() == Some(&1.0));
+        let mut pace = Pace::new(adaptive, 1.0);
+        pace.aim(0.0);
+        assert!(!pace.accepts(|| 1.0) && pace.length < 0.5 * pace.before);
+    }
+}

@@ -1,0 +1,119 @@
+//! Calibrated bounds on synthetic evidence: they cover fresh cases, follow what exceeds the evidence, and survive being stored.
+
+use super::*;
+use fastrand::Rng;
+
+/// Errors that follow e_f^I and a bump in the place, with a scatter that is larger on one side.
+fn synthetic(count: usize, seed: u64) -> Vec<Evidence> {
+    let mut rng = Rng::with_seed(seed);
+    let mut normal = move || {
+        let (a, b) = (rng.f64(), rng.f64());
+        ((-2.0 * (1.0 - a).ln()).sqrt() * (2.0 * std::f64::consts::PI * b).cos(), a, b)
+    };
+    (0..count)
+        .map(|_| {
+            let ((n, a, b), (k, c, _)) = (normal(), normal());
+            let place = [2.0 + 3.0 * a, 2.0 + 18.0 * b, -19.0 + c];
+            let residual = -8.0 + k + (4.0 * a).sin();
+            let error = residual - 2.0 + (6.0 * a).cos() * b + (0.3 + b) * n;
+            let values = [place[0], place[1], place[2], residual, -12.0, 0.0, 0.0];
+            Evidence {
+                features: Features { values, count: FEATURES },
+                errors: Measured {
+                    h_c: error.exp(),
+                    h_min: (error - 1.0).exp(),
+                    state: (error + 1.0).exp(),
+                    traction: None,
+                },
+            }
+        })
+        .collect()
+}
+
+#[test]
+fn the_bound_covers_fresh_cases_and_is_not_idle() {
+    let calibration = Calibration::fit(&synthetic(1000, 1)).unwrap();
+    let fresh = synthetic(4000, 2);
+    let mut ratios = Vec::new();
+    let mut medians = 0;
+    for case in &fresh {
+        let estimate = calibration.estimate(&case.features);
+        ratios.push(estimate.h_c.bound / case.errors.h_c);
+        medians += usize::from(estimate.h_min.likely > case.errors.h_min);
+    }
+    let covered = ratios.iter().filter(|r| **r >= 1.0).count();
+    assert!(covered >= 3960, "{covered} of 4000");
+    ratios.sort_by(f64::total_cmp);
+    // 2.65 standard deviations of 0.8 on average.
+    assert!(ratios[2000] < 10.0, "{}", ratios[2000]);
+    assert!((1800..2200).contains(&medians), "the likely error is the median: {medians} of 4000 below");
+}
+
+#[test]
+fn a_residual_beyond_the_evidence_raises_the_bound_in_proportion() {
+    let evidence = synthetic(300, 3);
+    let calibration = Calibration::fit(&evidence).unwrap();
+    let mut features = evidence[0].features;
+    features.values[SIGNS.start] = calibration.ranges[SIGNS.start].1;
+    let at_the_edge = calibration.estimate(&features).h_c.bound;
+    features.values[SIGNS.start] += 3.0;
+    assert!((calibration.estimate(&features).h_c.bound / at_the_edge / 3f64.exp() - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn too_little_or_broken_evidence_gives_no_calibration() {
+    assert!(Calibration::fit(&synthetic(LEAST_EVIDENCE - 1, 1)).is_none());
+    let mut broken = synthetic(LEAST_EVIDENCE, 1);
+    broken[7].errors.h_c = f64::NAN;
+    assert!(Calibration::fit(&broken).is_none());
+}
+
+/// The same under sliding: traction errs most where SRR is small, and some cases do not slide.
+fn sliding(count: usize, seed: u64) -> Vec<Evidence> {
+    let mut rng = Rng::with_seed(seed ^ 77);
+    let mut cases = synthetic(count, seed);
+    for case in &mut cases {
+        let srr = if rng.f64() < 0.1 { 0.0 } else { rng.f64() };
+        (case.features.values[5], case.features.values[6], case.features.count) = (srr, rng.f64(), SLIDING_FEATURES);
+        case.errors.traction = (srr > 0.0).then(|| case.errors.h_c * (2.0 - 3.0 * srr + rng.f64()).exp());
+    }
+    cases
+}
+
+#[test]
+fn traction_has_a_bound_of_its_own_where_a_model_knows_sliding() {
+    let calibration = Calibration::fit(&sliding(1000, 4)).unwrap();
+    assert!(calibration.sliding() && calibration.sound() && calibration.evidence() == 1000);
+    let fresh = sliding(4000, 5);
+    let slides: Vec<&Evidence> = fresh.iter().filter(|case| case.errors.traction.is_some()).collect();
+    let ratio = |case: &&Evidence| {
+        let bound = calibration.estimate(&case.features).traction.unwrap().bound;
+        bound / case.errors.traction.unwrap()
+    };
+    let mut ratios: Vec<f64> = slides.iter().map(ratio).collect();
+    let covered = ratios.iter().filter(|r| **r >= 1.0).count();
+    assert!(covered * 100 >= 99 * ratios.len(), "{covered} of {}", ratios.len());
+    ratios.sort_by(f64::total_cmp);
+    assert!(ratios[ratios.len() / 2] < 12.0, "{}", ratios[ratios.len() / 2]);
+}
+
+#[test]
+fn what_files_keep_beside_a_window_is_the_whole_calibration_without_sliding() {
+    let calibration = Calibration::fit(&synthetic(300, 6)).unwrap();
+    let kept = RollingCalibration::try_from(&calibration).unwrap();
+    assert_eq!(Calibration::from(kept), calibration);
+    assert!(RollingCalibration::try_from(&Calibration::fit(&sliding(300, 6)).unwrap()).is_err());
+}
+
+#[test]
+fn neighbours_are_the_nearest_in_order() {
+    let mut near = Neighbours { nearest: [(f32::INFINITY, 0); AROUND], count: 0 };
+    let mut rng = Rng::with_seed(5);
+    let distances: Vec<f32> = (0..300).map(|_| rng.f32()).collect();
+    for (i, d) in distances.iter().enumerate() {
+        near.meet(*d, i);
+    }
+    let mut sorted = distances.clone();
+    sorted.sort_by(f32::total_cmp);
+    assert!(near.nearest.iter().zip(&sorted).all(|((d, i), wanted)| d == wanted && distances[*i] == *d));
+}

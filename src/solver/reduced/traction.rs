@@ -1,0 +1,102 @@
+//! Traction (3.41) without large-scale work: the shear stress at mid-film of few nodes, with non-negative weights.
+//!
+//! The nodes are among those that the sampled rows depend on anyway, so that pressure, film and gradient are known there when the online iteration
+//! ends. The weights are fitted by non-negative least squares to ∫τ dX/∫τ dX = 1 over many reduced solutions under sliding: each
+//! contact counts the same, however large its traction is.
+
+use super::cubature::GoalEquations;
+use super::model::Window;
+use crate::solver::grid::ContactGrid;
+use serde::{Deserialize, Serialize};
+
+/// Nodes of a rule: with 60 the rule's own error lies far below that of the reduced fields.
+const NODES: usize = 60;
+
+/// Weights of the mid-film stress at few nodes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TractionRule {
+    /// Nodes of the window's grid, ascending.
+    pub nodes: Vec<usize>,
+    /// Weight of each in ξ and Y: lengths of a line contact, areas of both halves of a point contact.
+    pub weights: Vec<f64>,
+}
+
+impl TractionRule {
+    /// The rule that reproduces ∫τ for the stresses of many solutions, each given at every node of a window's grid. `None` when there are
+    /// too few solutions, or the fit fails.
+    pub fn fit(window: &Window, stresses: &[Vec<f64>]) -> Option<Self> {
+        let quadrature = quadrature(&window.grid);
+        let mut candidates: Vec<usize> = window
+            .sampled_rows
+            .iter()
+            .flat_map(|&row| window.grid.row(row).0)
+            .filter(|&node| quadrature[node] > 0.0)
+            .collect();
+        candidates.sort_unstable();
+        candidates.dedup();
+        let mut equations = GoalEquations::new(candidates);
+        for stress in stresses {
+            let force: f64 = quadrature.iter().zip(stress).map(|(weight, stress)| weight * stress).sum();
+            if force.is_finite() && force != 0.0 {
+                equations.add(|node| quadrature[node] * stress[node] / force, quadrature.len());
+            }
+        }
+        if equations.count() < NODES {
+            return None;
+        }
+        let (nodes, relative) = equations.fit(NODES)?;
+        let weights = nodes.iter().zip(relative).map(|(&node, relative)| relative * quadrature[node]).collect();
+        Some(Self { nodes, weights })
+    }
+
+    /// Whether it belongs to a grid, as when it was read from a file.
+    pub fn sound(&self, grid: &ContactGrid) -> bool {
+        self.nodes.len() == self.weights.len()
+            && self.nodes.windows(2).all(|pair| pair[0] < pair[1])
+            && self.nodes.last().is_some_and(|&last| last < grid.len())
+            && self.weights.iter().all(|weight| weight.is_finite() && *weight >= 0.0)
+    }
+}
+
+/// The trapezoidal rule over a whole grid in ξ and Y, both halves of a point contact's.
+fn quadrature(grid: &ContactGrid) -> Vec<f64> {
+    let (xi, y) = grid.abscissae();
+    // The node array of a line contact has one node outside the inlet.
+    let first = xi.len() - grid.nodes().0;
+    let cell = |at: &[f64], i: usize, first: usize| {
+        let west = if i > first { at[i] - at[i - 1] } else { 0.0 };
+        let east = at.get(i + 1).map_or(0.0, |next| next - at[i]);
+        0.5 * (west + east)
+    };
+    let across: Vec<f64> = if y.len() == 1 { vec![1.0] } else { (0..y.len()).map(|j| 2.0 * cell(y, j, 0)).collect() };
+    let along = (0..xi.len()).map(|i| if i < first { 0.0 } else { cell(xi, i, first) });
+    along.flat_map(|along| across.iter().map(move |across| along * across)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
+    use crate::solver::full::{ContactSolver, Start};
+    use crate::solver::grid::{ContactGridSpec, GridSpec, PointGridSpec};
+    use crate::solver::lubricant::Lubricant;
+
+    #[test]
+    fn the_whole_grids_rule_is_the_traction_of_a_solution() {
+        let plane = PointGridSpec::uniform(0.1, 0.1, (-3.0, 1.8, -1.4));
+        for (kind, spec) in [
+            (ContactKind::Line, ContactGridSpec::Line(GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) })),
+            (ContactKind::Point, ContactGridSpec::Point(plane)),
+        ] {
+            let grid = spec.build().unwrap();
+            let point = si_from_moes(&MoesRequest::new(kind, 30.0, 5.0)).unwrap();
+            let sliding = Sliding { slide_to_roll_ratio: 0.4, newtonian_plateau_ratio: None };
+            let point = OperatingPoint { sliding, ..point };
+            let solution = ContactSolver::on(&grid).solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+            let stress = solution.mid_film_stress();
+            let force: f64 = quadrature(&grid).iter().zip(&stress).map(|(weight, stress)| weight * stress).sum();
+            let wanted = solution.traction_coefficient();
+            assert!((force * solution.problem.point.area_per_load() / wanted - 1.0).abs() < 1e-12, "{kind:?}");
+        }
+    }
+}

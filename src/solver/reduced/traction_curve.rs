@@ -1,0 +1,51 @@
+//! Traction and film along a curve: contacts that differ in one quantity, each solved from its neighbours.
+
+use super::online::{Online, ReducedError, ReducedSolution};
+use crate::solver::contact::OperatingPoint;
+use crate::solver::lubricant::Lubricant;
+
+/// What varies along a curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CurveVariable {
+    /// SRR.
+    SlideToRollRatio,
+    /// NPR of (3.40).
+    NewtonianPlateauRatio,
+    /// u_m \[m/s\]; M and L follow it.
+    Speed,
+}
+
+impl CurveVariable {
+    /// The contact at a value of it.
+    pub fn at(self, point: &OperatingPoint, value: f64) -> OperatingPoint {
+        let mut point = *point;
+        match self {
+            Self::SlideToRollRatio => point.sliding.slide_to_roll_ratio = value,
+            Self::NewtonianPlateauRatio => point.sliding.newtonian_plateau_ratio = Some(value),
+            Self::Speed => point.speed_m_per_s = value,
+        }
+        point
+    }
+}
+
+/// One contact of a curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CurvePoint {
+    /// What varies, here.
+    pub value: f64,
+    /// Its solution, with H_c and traction among its scalars; why there is none where the contact is refused or Newton did not converge.
+    pub solution: Result<ReducedSolution, ReducedError>,
+}
+
+/// Solves the contacts of a curve in the order of the values, as they are asked for: whoever draws one may stop in between. What the solver
+/// solved before has no influence.
+pub fn traction_curve<'a>(
+    online: &'a mut Online,
+    point: &'a OperatingPoint,
+    lubricant: Lubricant,
+    vary: CurveVariable,
+    values: &'a [f64],
+) -> impl Iterator<Item = CurvePoint> + 'a {
+    online.forget();
+    values.iter().map(move |&value| CurvePoint { value, solution: online.solve(&vary.at(point, value), lubricant) })
+}

@@ -1,0 +1,51 @@
+//! The rule by which a finished window knows its traction without large-scale work.
+
+use super::aside::aside;
+use super::plan::random_points;
+use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
+use crate::solver::contact::OperatingPoint;
+use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, TractionRule};
+use fastrand::Rng;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// Reduced solutions that a rule is fitted to.
+const SOLUTIONS: usize = 300;
+/// Every second of them slides more slowly, down to this share of its SRR: there the stress gathers in the middle of the contact.
+const SLOWEST: f64 = 1e-3;
+
+/// Fits the rule of a window to reduced solutions, `model` being the model of it alone; `None` where the fit fails.
+///
+/// # Errors
+/// When the observer cancels.
+pub(super) fn traction_rule(
+    spec: &TrainingSpec,
+    model: &Arc<ReducedModel>,
+    reach: (f64, f64),
+    seed: u64,
+    observer: &dyn TrainingObserver,
+) -> Result<Option<TractionRule>, TrainingError> {
+    let mut rng = Rng::with_seed(seed ^ 0x7AC7_1041);
+    let mut points: Vec<OperatingPoint> = random_points(&spec.range, spec.contact(), reach, SOLUTIONS, &mut rng);
+    for point in points.iter_mut().step_by(2) {
+        point.sliding.slide_to_roll_ratio *= SLOWEST.powf(rng.f64());
+    }
+    observer.progress(Progress { stage: "Traction".to_owned(), done: 0, total: 1 });
+    let stresses: Vec<Option<Vec<f64>>> = points
+        .par_iter()
+        .map_init(
+            || Online::new(Arc::clone(model), ReducedOptions::default()),
+            |online, point| {
+                if observer.cancelled() {
+                    return Err(TrainingError::Cancelled);
+                }
+                online.forget();
+                let fields = online.solve(point, spec.lubricant).and_then(|solved| online.reconstruct(&solved));
+                Ok(fields.ok().map(|fields| fields.mid_film_stress()))
+            },
+        )
+        .collect::<Result<_, _>>()?;
+    let stresses: Vec<Vec<f64>> = stresses.into_iter().flatten().collect();
+    let model = Arc::clone(model);
+    aside(observer, move || TractionRule::fit(model.windows.first()?, &stresses))
+}

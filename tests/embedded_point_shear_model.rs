@@ -1,0 +1,232 @@
+//! The embedded model of shear-thinning point contacts: it solves its range, agrees with full solutions, and says where it ends. And training
+//! one of the kind on a coarse grid.
+
+use ehl_explorer::harness::model_file::{embedded_of, embedded_shear_of, from_bytes, to_bytes};
+use ehl_explorer::harness::{SceneOutcome, Workbench, run_scene};
+use ehl_explorer::scene::named_lubricant::{SQUALANE_PIP, by_name};
+use ehl_explorer::scene::{Axis, Scene, Steps, Study};
+use ehl_explorer::solver::contact::{ContactKind, OperatingPoint, Sliding};
+use ehl_explorer::solver::full::{ContactSolver, Problem, Start};
+use ehl_explorer::solver::grid::{ContactGridSpec, PointGridSpec};
+use ehl_explorer::solver::reduced::{Online, ReducedError, ReducedModel, ReducedOptions, Sampling, Trust};
+use ehl_explorer::solver::training::{
+    Plan, Range, SlidingRange, TrainingSpec, WindowSpec, Windows, random_points, train,
+};
+use fastrand::Rng;
+use std::path::Path;
+use std::sync::Arc;
+
+const POINT: ContactKind = ContactKind::Point;
+const RANGE: SlidingRange = SlidingRange {
+    m: (8.0, 240.0),
+    l: (4.0, 11.0),
+    srr: (0.0, 1.0),
+    npr: (0.2, 1.0),
+    radius: 12.7e-3,
+    modulus: 123.878213951e9,
+    viscosity: 0.0705,
+    alpha: 1.8925e-8,
+    max_hertz_pressure: Some(0.66e9),
+};
+
+fn online() -> Online {
+    Online::new(embedded_shear_of(POINT).unwrap(), ReducedOptions::default())
+}
+
+fn points(range: SlidingRange, count: usize, seed: u64) -> Vec<OperatingPoint> {
+    random_points(&Range::Sliding(range), POINT, (0.0, f64::INFINITY), count, &mut Rng::with_seed(seed))
+}
+
+/// Greatest errors of H_c, H_min and, under sliding, traction at the first of some points; all of them must converge.
+fn greatest_errors(online: &mut Online, points: &[OperatingPoint], compared: usize) -> [f64; 3] {
+    let mut full = ContactSolver::on(&online.model.windows[0].grid);
+    let mut worst = [0.0f64; 3];
+    for (k, point) in points.iter().enumerate() {
+        online.forget();
+        let solved = online.solve(point, SQUALANE_PIP).unwrap_or_else(|error| panic!("{point:?}: {error}"));
+        assert_eq!(solved.trust, Trust::Trained, "{point:?}");
+        if k >= compared {
+            continue;
+        }
+        let reduced = online.reconstruct(&solved).unwrap();
+        let truth = full.solve(point, SQUALANE_PIP, Start::Cold, &mut ()).unwrap();
+        assert!(truth.converged());
+        let off = |reduced: f64, full: f64| (reduced / full - 1.0).abs();
+        let sensible = truth.traction_warning().is_none() && point.sliding.slide_to_roll_ratio > 0.0;
+        let traction = if sensible { off(reduced.traction_coefficient(), truth.traction_coefficient()) } else { 0.0 };
+        let errors =
+            [off(reduced.scalars.h_c, truth.scalars.h_c), off(reduced.scalars.h_min, truth.scalars.h_min), traction];
+        for (worst, error) in worst.iter_mut().zip(errors) {
+            *worst = worst.max(error);
+        }
+    }
+    println!("greatest errors of H_c, H_min and traction: {worst:?}");
+    worst
+}
+
+#[test]
+fn it_solves_its_range_and_agrees_with_full_solutions() {
+    let [h_c, h_min, traction] = greatest_errors(&mut online(), &points(RANGE, 80, 78), 6);
+    assert!(h_c < 5e-3 && h_min < 2e-2 && traction < 5e-3, "{h_c:.1e} {h_min:.1e} {traction:.1e}");
+}
+
+#[test]
+fn it_is_mirrored_by_the_sliding_and_newtonian_at_a_plateau_of_one() {
+    let mut online = online();
+    let point = points(RANGE, 1, 3)[0];
+    let mut film = |srr: f64, npr: f64| {
+        online.forget();
+        let sliding = Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: Some(npr) };
+        let solved = online.solve(&OperatingPoint { sliding, ..point }, SQUALANE_PIP).unwrap();
+        let fields = online.reconstruct(&solved).unwrap();
+        (fields.scalars.h_c, fields.traction_coefficient())
+    };
+    // Starts differ, and the iteration ends with steps below 1e-5.
+    let (one, other) = (film(0.4, 0.3), film(-0.4, 0.3));
+    assert!((one.0 / other.0 - 1.0).abs() < 1e-5 && (one.1 / other.1 + 1.0).abs() < 1e-5, "{one:?} {other:?}");
+    assert!((film(0.0, 1.0).0 / film(0.9, 1.0).0 - 1.0).abs() < 1e-5);
+}
+
+#[test]
+fn what_it_was_not_trained_for_is_said() {
+    let online = online();
+    let base = points(RANGE, 1, 3)[0];
+    let trust = |point: OperatingPoint| online.model.trust(&Problem::new(&point, SQUALANE_PIP).unwrap());
+    let slid = |srr, npr| Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: Some(npr) };
+    for (point, word) in [
+        (OperatingPoint { sliding: slid(1.5, 0.5), ..base }, "SRR"),
+        (OperatingPoint { sliding: slid(0.5, 0.1), ..base }, "NPR"),
+        (OperatingPoint { modulus_pa: 2.0 * base.modulus_pa, ..base }, "modulus"),
+        (OperatingPoint { load: 1e3 * base.load, ..base }, "M ="),
+    ] {
+        assert!(matches!(trust(point), Trust::Outside(why) if why.contains(word)), "{word}");
+    }
+    // M and L of its range, but more pressure than it was trained for.
+    let unlimited = SlidingRange { max_hertz_pressure: None, ..RANGE };
+    let heavy = unlimited.at(POINT, [0.9, 0.9, 0.5, 0.5]).unwrap();
+    assert!(matches!(trust(heavy), Trust::Outside(why) if why.contains("p_H")));
+    let mut newtonian = Online::new(embedded_of(POINT).unwrap(), ReducedOptions::default());
+    let refused = newtonian.solve(&OperatingPoint { sliding: slid(0.5, 0.3), ..base }, SQUALANE_PIP);
+    assert_eq!(refused.unwrap_err(), ReducedError::ShearThinning);
+}
+
+#[test]
+fn another_lubricant_is_solved_with_its_own_equations_and_said_to_be_another() {
+    // Table 3.8, as Figs. 3.15 and 3.16 have it.
+    let pao = by_name("pao-650").unwrap();
+    let point = OperatingPoint {
+        kind: POINT,
+        radius_m: 12.7e-3,
+        speed_m_per_s: 0.074,
+        load: 32.0,
+        modulus_pa: 123.878213951e9,
+        viscosity_pa_s: 1.42,
+        alpha_per_pa: 1.9e-8,
+        sliding: Sliding { slide_to_roll_ratio: 0.1, newtonian_plateau_ratio: None },
+    };
+    let mut online = online();
+    let solved = online.solve(&point, pao.laws).unwrap();
+    assert!(matches!(&solved.trust, Trust::Outside(why) if why.contains("lubricant")), "{:?}", solved.trust);
+    let reduced = online.reconstruct(&solved).unwrap();
+    let grid = online.model.windows[0].grid.clone();
+    let full = ContactSolver::on(&grid).solve(&point, pao.laws, Start::Cold, &mut ()).unwrap();
+    let off = (reduced.scalars.h_c / full.scalars.h_c - 1.0).abs();
+    let friction = (reduced.traction_coefficient() / full.traction_coefficient() - 1.0).abs();
+    assert!(off < 5e-2 && friction < 5e-2, "H_c {off:.1e}, traction {friction:.1e}");
+    // Of its own lubricant it would be another film altogether.
+    let own = online.solve(&point, SQUALANE_PIP).unwrap();
+    assert!((online.scalars(&own).unwrap().h_c / full.scalars.h_c - 1.0).abs() > 2.0 * off);
+}
+
+#[test]
+fn its_file_keeps_what_a_shear_thinning_lubricant_adds() {
+    let model = embedded_shear_of(POINT).unwrap();
+    let bytes = to_bytes(&model).unwrap();
+    let again = from_bytes(&bytes).unwrap();
+    assert_eq!(again.domain, model.domain);
+    assert!(again.windows[0].snapshots == model.windows[0].snapshots && again.domain.sliding.is_some());
+    assert!(again.windows[0].pressure.modes == model.windows[0].pressure.modes);
+    assert!(from_bytes(&bytes[..bytes.len() - 8]).is_err());
+}
+
+fn small() -> (SlidingRange, TrainingSpec) {
+    let range = SlidingRange { m: (30.0, 45.0), l: (7.0, 9.0), npr: (0.2, 0.5), ..RANGE };
+    let grid = ContactGridSpec::Point(PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5)));
+    let spec = TrainingSpec {
+        title: "A corner of the range on a coarse grid".to_owned(),
+        range: Range::Sliding(range),
+        lubricant: SQUALANE_PIP,
+        plan: Plan::FarthestPoint { snapshots: 28 },
+        windows: Windows::Given(vec![WindowSpec { m: (30.0, 45.0), grid }]),
+        pressure_loss: 1e-4,
+        deformation_loss: 1e-4,
+        sampling: Sampling::Cubature,
+        rows_per_mode: 3.0,
+        penalty: 1e5,
+        positive_modes: true,
+        evidence: 0,
+        seed: 4,
+    };
+    (range, spec)
+}
+
+#[test]
+fn training_makes_such_a_model_and_makes_it_again() {
+    let (range, spec) = small();
+    let [model, again] = [1, 2].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| train(&spec, &()).unwrap())
+    });
+    assert!(to_bytes(&model).unwrap() == to_bytes(&again).unwrap());
+    let ReducedModel { windows, domain, .. } = &model;
+    assert!(windows[0].sampled_rows.len() <= 3 * windows[0].pressure.modes.ncols());
+    assert_eq!(domain.max_hertz_pressure_pa, range.highest_pressure(POINT));
+    let [h_c, h_min, traction] =
+        greatest_errors(&mut Online::new(Arc::new(model), ReducedOptions::default()), &points(range, 40, 11), 8);
+    assert!(h_c < 5e-3 && h_min < 1e-2 && traction < 5e-3, "{h_c:.1e} {h_min:.1e} {traction:.1e}");
+}
+
+fn scene(name: &str) -> Scene {
+    Scene::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name)).unwrap()
+}
+
+fn run(scene: &Scene) -> SceneOutcome {
+    run_scene(scene, &mut Workbench::new("scenes"), &()).unwrap()
+}
+
+#[test]
+fn figures_stand_side_by_side_in_full_and_reduced() {
+    // Two of each figure's contacts.
+    for name in ["fig_3_12_point.ron", "fig_3_16.ron"] {
+        let mut scene = scene(name);
+        scene.expect.retain(|expectation| !expectation.name.contains('['));
+        if let Study::Sweep { over, .. } = &mut scene.study {
+            over.iter_mut().for_each(|axis| axis.values = Steps::List(vec![axis.values.values()[0]]));
+            if let Some(Axis { values, .. }) = over.last_mut() {
+                *values = Steps::List(vec![0.1, 0.5]);
+            }
+        }
+        let outcome = run(&scene);
+        let short: Vec<_> = outcome.verdicts.iter().filter(|verdict| !verdict.holds).collect();
+        assert!(short.is_empty() && outcome.verdicts.len() >= 3, "{name}: {short:?}");
+    }
+}
+
+#[test]
+fn dimensions_grow_as_less_may_be_lost() {
+    let mut scene = scene("table_3_7.ron");
+    scene.grid = ehl_explorer::scene::Grid::Plane { dx: 0.06, dy: 0.1, domain: (-2.7, 1.5, -1.5), refinement: 1.0 };
+    if let Study::Dimensions { over, .. } = &mut scene.study {
+        over[0].values = Steps::Log { from: 0.4, to: 2.0, n: 4 };
+        over[1].values = Steps::List(vec![0.2, 0.6]);
+    }
+    let outcome = run(&scene);
+    let value = |name: &str| outcome.value(name, None).unwrap();
+    assert_eq!((value("snapshots"), value("full_failures")), (24.0, 0.0));
+    assert_eq!(value("dofs"), 2.0 * value("nodes_x") * value("nodes_y") + 1.0);
+    let of = |field: &str| ["1e-3", "1e-4", "1e-5"].map(|loss| value(&format!("basis_{field}[{loss}]")));
+    let (p, delta) = (of("p"), of("delta"));
+    assert!(p[0] < p[1] && p[1] <= p[2] && p[2] <= 24.0, "{p:?}");
+    // Deformations are smoother than pressures.
+    assert!(delta.iter().zip(&p).all(|(delta, p)| delta <= p) && delta[0] < p[0], "{delta:?} {p:?}");
+}
