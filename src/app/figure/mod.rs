@@ -4,8 +4,8 @@
 mod svg;
 
 use super::controls::named;
-use super::export;
 use super::files::Purpose;
+use super::numbers;
 use super::png;
 use super::state::State;
 use egui::{
@@ -14,8 +14,11 @@ use egui::{
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-/// Height of the lines above a picture.
-const CAPTION: f32 = 42.0;
+/// Names of axes and numbers at their ends stand out of a plot's rectangle by as much.
+const OVERHANG: egui::Vec2 = vec2(8.0, 2.0);
+/// Sizes of the title and of the parameters above a picture.
+const TITLE: f32 = 15.0;
+const PARAMETERS: f32 = 10.5;
 /// Frames after which whatever was open over the plot is gone.
 const SETTLED: u8 = 2;
 /// Frames after which a screenshot that was asked for does not come any more.
@@ -50,6 +53,8 @@ struct Wanted {
     format: Format,
     frames: u8,
     screenshot: Option<(Receiver<Arc<ColorImage>>, Rect)>,
+    /// The plot with the lines above it.
+    whole: Rect,
 }
 
 /// Pictures that are asked for.
@@ -65,7 +70,7 @@ fn offers(ctx: &Context, change: impl FnOnce(&mut Offers)) {
 
 /// Lets a plot be exported under its name, as far as it can be seen.
 pub fn offer(ui: &Ui, name: &str, rect: Rect) {
-    let rect = rect.intersect(ui.clip_rect());
+    let rect = rect.expand2(OVERHANG).intersect(ui.clip_rect().expand2(OVERHANG));
     if rect.is_positive() {
         let offered = Offered { name: name.to_owned(), rect, layer: ui.layer_id() };
         offers(ui.ctx(), |offers| offers.now.push(offered));
@@ -101,10 +106,12 @@ impl State {
         match (&wanted.screenshot, plot) {
             (Some((receiver, rect)), _) => match receiver.try_recv() {
                 Ok(image) => {
-                    let bytes = png::encode(&cropped(&image, *rect, ctx.pixels_per_point()));
+                    let bytes = png::encode(&cropped(&image, wanted.whole, ctx.pixels_per_point()));
                     return self.ask_path(ctx, Purpose::Picture { bytes: bytes.into(), extension: "png" });
                 }
-                Err(TryRecvError::Empty) if wanted.frames < PATIENCE => draw_caption(ctx, *rect, &caption),
+                Err(TryRecvError::Empty) if wanted.frames < PATIENCE => {
+                    draw_caption(ctx, *rect, &caption);
+                }
                 Err(_) => {
                     let message = "the system gave no image of the window; the same plot can be exported as SVG";
                     self.files.notice = Some(Err(message.to_owned()));
@@ -124,9 +131,7 @@ impl State {
                 return self.ask_path(ctx, Purpose::Picture { bytes: text.into_bytes().into(), extension: "svg" });
             }
             (None, Some(plot)) if wanted.frames > SETTLED => {
-                let top = (plot.rect.top() - CAPTION).max(0.0);
-                let rect = plot.rect.with_min_y(top);
-                draw_caption(ctx, rect, &caption);
+                let rect = draw_caption(ctx, plot.rect, &caption);
                 let (sender, receiver) = channel();
                 let again = ctx.clone();
                 let callback = egui::ScreenshotCallback::new(move |image| {
@@ -136,7 +141,8 @@ impl State {
                     }
                 });
                 ctx.send_viewport_cmd(ViewportCommand::Screenshot(callback));
-                wanted.screenshot = Some((receiver, rect));
+                wanted.screenshot = Some((receiver, plot.rect));
+                wanted.whole = rect;
             }
             (None, _) => {}
         }
@@ -163,7 +169,8 @@ impl State {
                         let button = ui.button(word);
                         if named(ui, button, &format!("{} as {}", plot.name, word)).clicked() {
                             let name = plot.name.clone();
-                            self.figures.wanted = Some(Wanted { name, format, frames: 0, screenshot: None });
+                            self.figures.wanted =
+                                Some(Wanted { name, format, frames: 0, screenshot: None, whole: Rect::NOTHING });
                             close = true;
                         }
                     }
@@ -180,22 +187,42 @@ impl State {
 
     /// The contact of the sliders in a line.
     fn contact_line(&self) -> String {
-        let document = &self.document;
-        export::describe_contact(&document.point, &document.lubricant)
+        let (point, lubricant) = (&self.document.point, &self.document.lubricant);
+        let unit = match point.kind {
+            ContactKind::Line => "N/m",
+            ContactKind::Point => "N",
+        };
+        let significant = numbers::significant;
+        format!(
+            "{}, R {}, u_m {} m/s, w {} {unit}, E′ {} GPa, η₀ {} Pa·s, α {} 1/GPa, {:?}, {:?}",
+            numbers::moes(point.moes()),
+            numbers::length(point.radius_m),
+            significant(point.speed_m_per_s),
+            significant(point.load),
+            significant(1e-9 * point.modulus_pa),
+            significant(point.viscosity_pa_s),
+            significant(1e9 * point.alpha_per_pa),
+            lubricant.viscosity,
+            lubricant.density
+        )
     }
 }
 
-/// The lines above a picture, drawn over the window for the moment of the screenshot.
-fn draw_caption(ctx: &Context, rect: Rect, lines: &[String; 2]) {
+/// The lines above a plot, drawn over the window for the moment of the screenshot; returns the plot with them.
+fn draw_caption(ctx: &Context, plot: Rect, [title, parameters]: &[String; 2]) -> Rect {
     let visuals = &ctx.style_of(ctx.theme()).visuals;
     let painter = ctx.layer_painter(LayerId::new(Order::Foreground, Id::unique("caption of a picture")));
-    let strip = Rect::from_min_size(rect.min, vec2(rect.width(), CAPTION.min(rect.height())));
+    let width = plot.width() - 16.0;
+    let (ink, quiet) = (visuals.text_color(), visuals.weak_text_color());
+    let title = painter.layout(title.clone(), FontId::proportional(TITLE), ink, width);
+    let parameters = painter.layout(parameters.clone(), FontId::proportional(PARAMETERS), quiet, width);
+    let height = title.size().y + parameters.size().y + 12.0;
+    let strip = Rect::from_min_max(pos2(plot.left(), (plot.top() - height).max(0.0)), plot.right_top());
     painter.rect_filled(strip, 0.0, visuals.panel_fill);
-    let [title, contact] = lines;
-    let painter = painter.with_clip_rect(strip);
-    let place = |down: f32| -> Pos2 { pos2(strip.left() + 8.0, strip.top() + down) };
-    painter.text(place(4.0), Align2::LEFT_TOP, title, FontId::proportional(15.0), visuals.text_color());
-    painter.text(place(24.0), Align2::LEFT_TOP, contact, FontId::proportional(10.0), visuals.weak_text_color());
+    let below = strip.top() + 4.0 + title.size().y;
+    painter.galley(pos2(strip.left() + 8.0, strip.top() + 4.0), title, ink);
+    painter.galley(pos2(strip.left() + 8.0, below), parameters, quiet);
+    plot.with_min_y(strip.top())
 }
 
 /// The part of an image of the window under a rectangle in screen points.

@@ -4,8 +4,11 @@ use egui::epaint::{ClippedShape, ColorMode, PathStroke, TextShape};
 use egui::{Color32, Pos2, Rect, Shape, Stroke};
 use std::fmt::Write as _;
 
-/// Height of the lines above the drawing.
-const CAPTION: f32 = 46.0;
+/// Height of the title above the drawing, and of each line of parameters.
+const TITLE: f32 = 28.0;
+const LINE: f32 = 13.0;
+/// Width of a letter of the parameters, about.
+const LETTER: f32 = 5.2;
 
 /// The drawing of all shapes that can be seen in `rect`, with a title and a line of parameters above.
 pub fn drawing<'a>(
@@ -15,8 +18,10 @@ pub fn drawing<'a>(
     background: Color32,
 ) -> String {
     let mut out = Drawing { text: String::new(), clips: 0 };
-    let (width, height) = (rect.width(), rect.height() + CAPTION);
-    let (left, top) = (rect.left(), rect.top() - CAPTION);
+    let lines = wrapped(parameters, ((rect.width() - 16.0) / LETTER) as usize);
+    let above = TITLE + LINE * lines.len() as f32 + 4.0;
+    let (width, height) = (rect.width(), rect.height() + above);
+    let (left, top) = (rect.left(), rect.top() - above);
     // Text that can be read on either background.
     let light = background.intensity() > 0.5;
     let (ink, quiet) = if light { ("#222", "#666") } else { ("#eee", "#aaa") };
@@ -26,15 +31,13 @@ pub fn drawing<'a>(
     ));
     let fill = fill(background);
     out.line(format_args!("<rect x=\"{left:.1}\" y=\"{top:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" {fill}/>"));
-    let (x, first, second) = (left + 8.0, top + 20.0, top + 36.0);
-    out.line(format_args!(
-        "<text x=\"{x:.1}\" y=\"{first:.1}\" font-size=\"15\" fill=\"{ink}\">{}</text>",
-        escaped(title)
-    ));
-    out.line(format_args!(
-        "<text x=\"{x:.1}\" y=\"{second:.1}\" font-size=\"9.5\" fill=\"{quiet}\">{}</text>",
-        escaped(parameters)
-    ));
+    let (x, y) = (left + 8.0, top + 20.0);
+    out.line(format_args!("<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"15\" fill=\"{ink}\">{}</text>", escaped(title)));
+    for (k, words) in lines.iter().enumerate() {
+        let y = top + TITLE + LINE * (k as f32 + 0.7);
+        let words = escaped(words);
+        out.line(format_args!("<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"9.5\" fill=\"{quiet}\">{words}</text>"));
+    }
     let mut clip = None;
     for ClippedShape { clip_rect, shape, .. } in shapes {
         let within = clip_rect.intersect(rect);
@@ -59,6 +62,21 @@ pub fn drawing<'a>(
     }
     out.line(format_args!("</svg>"));
     out.text
+}
+
+/// Text in lines of at most so many letters, broken between words.
+fn wrapped(text: &str, letters: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split(' ') {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + word.chars().count() < letters => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
 }
 
 struct Drawing {
@@ -242,7 +260,7 @@ impl Drawing {
         let (x, y, length, size) = (row.x + from.x, row.y + from.y, end - from.x, format.font_id.size);
         let slant = if format.italics { " font-style=\"italic\"" } else { "" };
         self.line(format_args!(
-            "<text x=\"{x:.2}\" y=\"{y:.2}\" textLength=\"{length:.2}\" font-size=\"{size:.1}\"{slant} {}>{}</text>",
+            "<text x=\"{x:.2}\" y=\"{y:.2}\" textLength=\"{length:.2}\" lengthAdjust=\"spacingAndGlyphs\" font-size=\"{size:.1}\"{slant} {}>{}</text>",
             fill(color),
             escaped(&letters)
         ));
@@ -255,4 +273,40 @@ struct Run {
     from: Pos2,
     end: f32,
     letters: String,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::epaint::CircleShape;
+    use egui::pos2;
+
+    #[test]
+    fn lines_are_broken_between_words_and_lose_none() {
+        let text = "M 40.00, L 10.00, R 3.000 mm, w 200000 N/m";
+        let lines = wrapped(text, 16);
+        assert!(lines.len() > 2 && lines.iter().all(|line| line.chars().count() <= 16), "{lines:?}");
+        assert_eq!(lines.join(" "), text);
+    }
+
+    #[test]
+    fn what_lies_outside_or_behind_is_left_out() {
+        let clip_rect = Rect::EVERYTHING;
+        let rect = Rect::from_min_max(pos2(10.0, 10.0), pos2(110.0, 60.0));
+        let dot = |at: Pos2| Shape::Circle(CircleShape::filled(at, 2.0, Color32::from_rgb(0xD5, 0x5E, 0x00)));
+        let panel = Shape::rect_filled(rect.expand(30.0), 0.0, Color32::GRAY);
+        let line = Shape::line_segment([pos2(20.0, 20.0), pos2(90.0, 50.0)], (1.5, Color32::BLACK));
+        let shapes = [panel, line, dot(pos2(50.0, 30.0)), dot(pos2(300.0, 30.0))].map(|shape| ClippedShape {
+            clip_rect,
+            shape,
+            transform: Default::default(),
+        });
+        let caption = ["P < 1 & more".to_owned(), "M 40".to_owned()];
+        let drawing = drawing(shapes.iter(), rect, &caption, Color32::WHITE);
+        assert_eq!((drawing.matches("<circle ").count(), drawing.matches("<path ").count()), (1, 1));
+        assert!(drawing.contains("fill=\"#d55e00\" fill-opacity=\"1.000\"") && drawing.contains("P &lt; 1 &amp; more"));
+        assert_eq!(drawing.matches("<g").count(), drawing.matches("</g>").count());
+        // The background and the clip: the panel behind is none of it.
+        assert_eq!(drawing.matches("<rect ").count(), 2, "{drawing}");
+    }
 }

@@ -124,7 +124,7 @@ impl Behavior<Tab> for Tabs<'_> {
     }
 
     fn tab_title_spacing(&self, _visuals: &egui::Visuals) -> f32 {
-        14.0
+        10.0
     }
 
     fn tab_bar_color(&self, visuals: &egui::Visuals) -> egui::Color32 {
