@@ -95,7 +95,7 @@ impl SystemFunctions {
 }
 
 impl Linearisation {
-    /// Evaluates the reduced system functions as the full system has them, and differentiates them with [`PENALTY_SLOPE`]. The fields need
+    /// Evaluates the reduced system functions as the full system has them, and differentiates them with `PENALTY_SLOPE`. The fields need
     /// not lie in the space: what it misses of them is then missing in the derivatives' argument only.
     pub fn at(space: &ReducedSpace, problem: &Problem, fields: Fields<'_>) -> Self {
         let nodes = fields.nodes(problem);
