@@ -8,9 +8,8 @@ use super::files::Purpose;
 use super::numbers;
 use super::png;
 use super::state::State;
-use egui::{
-    Align2, ColorImage, Context, FontId, Id, LayerId, Modal, Order, Pos2, Rect, Ui, ViewportCommand, pos2, vec2,
-};
+use crate::solver::contact::ContactKind;
+use egui::{ColorImage, Context, FontId, Id, LayerId, Modal, Order, Rect, Ui, ViewportCommand, pos2, vec2};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 

@@ -296,11 +296,8 @@ mod tests {
         let dot = |at: Pos2| Shape::Circle(CircleShape::filled(at, 2.0, Color32::from_rgb(0xD5, 0x5E, 0x00)));
         let panel = Shape::rect_filled(rect.expand(30.0), 0.0, Color32::GRAY);
         let line = Shape::line_segment([pos2(20.0, 20.0), pos2(90.0, 50.0)], (1.5, Color32::BLACK));
-        let shapes = [panel, line, dot(pos2(50.0, 30.0)), dot(pos2(300.0, 30.0))].map(|shape| ClippedShape {
-            clip_rect,
-            shape,
-            transform: Default::default(),
-        });
+        let shapes = [panel, line, dot(pos2(50.0, 30.0)), dot(pos2(300.0, 30.0))]
+            .map(|shape| ClippedShape::new(clip_rect, shape));
         let caption = ["P < 1 & more".to_owned(), "M 40".to_owned()];
         let drawing = drawing(shapes.iter(), rect, &caption, Color32::WHITE);
         assert_eq!((drawing.matches("<circle ").count(), drawing.matches("<path ").count()), (1, 1));
