@@ -95,7 +95,7 @@ impl SystemFunctions {
 }
 
 impl Linearisation {
-    /// Evaluates the reduced system functions as the full system has them, and differentiates them with [`PENALTY_SLOPE`]. The fields are the
+    /// Evaluates the reduced system functions as the full system has them, and differentiates them with `PENALTY_SLOPE`. The fields are the
     /// full system's and need not lie in the space, so that the values are free of what its modes miss.
     pub fn at(space: &ReducedSpace, problem: &Problem, fields: Fields<'_>) -> Self {
         let nodes = fields.nodes(problem);
