@@ -266,8 +266,8 @@ pub fn film_integrals(law: &Fluidity, rule: &FilmRule, load: FilmLoad) -> FilmIn
 pub fn film_integrals_near(law: &Fluidity, rule: &FilmRule, load: FilmLoad, known: &KnownFilm) -> FilmIntegrals {
     if let Some(near) = known.near(&load) {
         let (first, integrals) = solve(law, rule, load, near, 0);
-        // From too small a stress a steep law takes steps that never come back.
-        if first <= FIRST_STEP * length(near) {
+        // From too small a stress a steep law takes steps that never come back, from one of the other sign too many short ones.
+        if first <= FIRST_STEP * length(near) && integrals.iterations < MOST_ITERATIONS {
             return integrals;
         }
     }
