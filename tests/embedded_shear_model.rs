@@ -103,17 +103,22 @@ fn a_curve_is_what_its_contacts_are_one_by_one_in_fewer_iterations() {
     ] {
         let values: Vec<f64> = (0..41).map(|k| from + (to - from) * f64::from(k) / 40.0).collect();
         let curve: Vec<_> = traction_curve(&mut online, &base, SQUALANE_PIP, vary, &values).collect();
-        let (mut along, mut alone) = (0, 0);
+        let (mut along, mut alone, mut greatest) = (0, 0, 0.0f64);
         for (place, &value) in curve.iter().zip(&values) {
             assert_eq!(place.value, value);
             let on_curve = place.solution.as_ref().unwrap();
             online.forget();
             let single = online.solve(&vary.at(&base, value), SQUALANE_PIP).unwrap();
-            assert!((on_curve.h_c / single.h_c - 1.0).abs() < 1e-7, "{vary:?} {value}");
+            // Either iteration ends with a step below this.
+            let tolerance = ReducedOptions::default().tolerance;
+            let off = (on_curve.h_c / single.h_c - 1.0).abs();
+            assert!(off < tolerance, "{vary:?} {value}: H_c off by {off:e}");
             let (one, other) = (on_curve.traction.unwrap(), single.traction.unwrap());
-            assert!((one - other).abs() <= 1e-6 * other.abs(), "{vary:?} {value}: {one} against {other}");
+            assert!((one - other).abs() <= tolerance * other.abs(), "{vary:?} {value}: {one} against {other}");
+            greatest = greatest.max(off);
             (along, alone) = (along + on_curve.iterations, alone + single.iterations);
         }
+        println!("{vary:?}: {along} iterations along, {alone} one by one; H_c within {greatest:.1e}");
         assert!(along * 4 < alone * 3, "{vary:?}: {along} iterations along the curve, {alone} one by one");
     }
 }

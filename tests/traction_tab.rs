@@ -136,7 +136,7 @@ fn a_newtonian_lubricant_keeps_npr_still_and_slides_without_another_film() {
     let before = film(&harness);
     slide(&mut harness, "Slide-to-roll ratio SRR", 0.3);
     // Neither the film nor what is known of it changes: no other solve is needed.
-    assert!((film(&harness) / before - 1.0).abs() < 1e-12);
+    assert_eq!(film(&harness), before);
     assert_eq!(harness.state().badge(), "Verified");
     assert!(harness.state().traction().unwrap() > 0.0);
     // α* p_H is 25 here: without a limiting stress the traction is no physics, and it is said.
@@ -146,7 +146,7 @@ fn a_newtonian_lubricant_keeps_npr_still_and_slides_without_another_film() {
     let unlimited = harness.state().traction().unwrap();
     click(&mut harness, "Limiting shear stress");
     assert!(!shows(&harness, "without a limiting shear stress is unphysical"));
-    assert!((film(&harness) / before - 1.0).abs() < 1e-12);
+    assert_eq!(film(&harness), before);
     let limited = harness.state().traction().unwrap();
     assert!(limited < 0.2 && limited < unlimited, "{limited} of {unlimited}");
     choose(&mut harness, "Against", "plateau ratio");

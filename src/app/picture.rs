@@ -94,9 +94,10 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Prepares a converged solution for drawing.
-    pub fn new(key: Key, origin: Origin, mut solution: Arc<Solution>, cuts: Cuts) -> Self {
+    /// Prepares a converged solution for drawing; `traction` is its coefficient where a reduced model knows it without all nodes.
+    pub fn new(key: Key, origin: Origin, mut solution: Arc<Solution>, cuts: Cuts, traction: Option<f64>) -> Self {
         adopt(&mut solution, &key);
+        let slides = key.point.sliding.slide_to_roll_ratio != 0.0;
         let mut picture = Self {
             key,
             origin,
@@ -104,7 +105,7 @@ impl Picture {
             pressure: Vec::new(),
             film: Vec::new(),
             across: Across::default(),
-            traction: solution.traction_coefficient(),
+            traction: traction.filter(|_| slides).unwrap_or_else(|| solution.traction_coefficient()),
             unphysical: solution.traction_warning(),
             rupture: solution.rupture(),
             spike: solution.spike(),

@@ -282,6 +282,8 @@ impl State {
             return;
         }
         let moved = self.wanted != Some(key);
+        let drawn = self.picture.as_ref().is_some_and(|picture| self.wanted == Some(picture.key));
+        let same_means = self.wanted_plane == self.plane() && self.wanted_options == Some(options);
         self.wanted = Some(key);
         self.wanted_plane = self.plane();
         self.wanted_options = Some(options);
@@ -290,6 +292,11 @@ impl State {
             self.failure = None;
             self.verify_failure = None;
             self.slide(key);
+            // The same film by the same means is on the screen already, and what is known of it stays.
+            if drawn && same_means && self.picture_is_current() && self.untried() == self.passed_over {
+                self.compare();
+                return;
+            }
         }
         if self.refresh_reduced(key, options) {
             self.compare();
@@ -342,13 +349,18 @@ impl State {
         }
     }
 
-    /// Tries the reduced model; `false` when the full solver has to take over.
-    fn refresh_reduced(&mut self, key: Key, options: ReducedOptions) -> bool {
-        self.passed_over = match self.trust() {
+    /// Why the reduced model is not even tried; `None` where it is.
+    fn untried(&self) -> Option<PassedOver> {
+        match self.trust() {
             None => Some(PassedOver::NoModel),
             Some(Trust::Outside(why)) => Some(PassedOver::Outside(why)),
             Some(Trust::Trained) => None,
-        };
+        }
+    }
+
+    /// Tries the reduced model; `false` when the full solver has to take over.
+    fn refresh_reduced(&mut self, key: Key, options: ReducedOptions) -> bool {
+        self.passed_over = self.untried();
         let (None, Some(model)) = (&self.passed_over, self.model().cloned()) else { return false };
         if self.online.as_ref().is_none_or(|o| *o.options() != options || !Arc::ptr_eq(&o.model, &model)) {
             let first = self.online.is_none();
@@ -376,7 +388,8 @@ impl State {
                     iterations: reduced.iterations,
                     window: reduced.window,
                 };
-                self.picture = Some(Picture::new(key, origin, Arc::new(fields), self.display.cuts));
+                let (cuts, traction) = (self.display.cuts, reduced.traction);
+                self.picture = Some(Picture::new(key, origin, Arc::new(fields), cuts, traction));
                 true
             }
             Err(error) => {

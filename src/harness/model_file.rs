@@ -129,7 +129,7 @@ struct StoredShear {
     snapshots: Vec<Vec<Sliding>>,
 }
 
-/// What follows that, one of each window.
+/// What follows that where there is any, one of each window.
 #[derive(Serialize, Deserialize)]
 struct StoredTraction {
     rules: Vec<Option<TractionRule>>,
@@ -328,7 +328,9 @@ pub fn to_bytes(model: &ReducedModel) -> Result<Vec<u8>, ModelFileError> {
             rules: model.windows.iter().map(|w| w.traction.clone()).collect(),
             calibrations: model.windows.iter().map(|w| w.calibration.clone()).collect(),
         };
-        payload = postcard::to_extend(&traction, payload).map_err(unwritable)?;
+        if traction.rules.iter().any(Option::is_some) || traction.calibrations.iter().any(Option::is_some) {
+            payload = postcard::to_extend(&traction, payload).map_err(unwritable)?;
+        }
     }
     Ok(FORMAT.seal(&payload))
 }

@@ -172,7 +172,7 @@ fn along(
             let named = PointReport::from(&answer).values();
             let value = |name: &str| named.iter().find(|(n, _)| n == name).map_or(f64::NAN, |(_, v)| *v);
             row.extend(COLUMNS.iter().map(|column| value(column)));
-            compared[k] = COMPARED.map(|name| value(name));
+            compared[k] = COMPARED.map(&value);
             // Single contacts, for the expectations that ask for them.
             for wanted in scene.expect.iter().filter_map(|e| e.name.strip_suffix(&format!("[{i}]"))) {
                 outcome.push(format!("{wanted}[{i}]"), Some(method), value(wanted));

@@ -44,7 +44,7 @@ impl State {
                     // The chosen grid has answered before the quick one.
                     return;
                 }
-                let picture = Picture::new(job.key, Origin::Full, Arc::from(solution), self.display.cuts);
+                let picture = Picture::new(job.key, Origin::Full, Arc::from(solution), self.display.cuts, None);
                 self.full = Some(picture.clone());
                 self.picture = Some(picture);
                 self.comparison = None;
@@ -67,7 +67,7 @@ impl State {
                     // Another grid has been chosen meanwhile, and answers later.
                     return;
                 }
-                let full = Picture::new(job.key, Origin::Full, Arc::from(solution), self.display.cuts);
+                let full = Picture::new(job.key, Origin::Full, Arc::from(solution), self.display.cuts, None);
                 if job.key == self.key() && self.plane().is_some() && !reduced {
                     self.failure = None;
                     self.picture = Some(full.clone());

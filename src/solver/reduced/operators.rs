@@ -447,9 +447,10 @@ impl Operators {
         omega
     }
 
-    /// Traction coefficient (3.41) of the state evaluated last, by the window's rule; `None` where it has none.
+    /// Traction coefficient (3.41) of the state evaluated last, by the window's rule; `None` where it has none, and under a limiting stress: the
+    /// rule was fitted to stresses that nothing cuts.
     pub fn traction(&self, problem: &Problem, scale: f64) -> Option<f64> {
-        if self.traction.is_empty() || self.axes == 0 {
+        if self.traction.is_empty() || self.axes == 0 || problem.lubricant.limiting_stress.is_some() {
             return None;
         }
         let (s, count) = (&self.scratch, self.support.len());

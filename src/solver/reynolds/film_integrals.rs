@@ -101,8 +101,8 @@ const FIRST_STEP: f64 = 0.3;
 /// How many times as fluid as sliding the pressure gradient must make the film for a start that counts on the gradient.
 const MUCH_MORE_FLUID: f64 = 10.0;
 
-/// A step, relative to τ_m, below which the next one, its square, does not matter: the integrals then follow it to first order.
-const LAST_STEP: f64 = 1e-6;
+/// A step, relative to τ_m, below which the next one, its square, would be below rounding: the integrals then follow it to first order.
+const LAST_STEP: f64 = 1e-7;
 
 /// The same relative to a and b, where τ_m is so much smaller that rounding hides it.
 const LAST_STEP_ACROSS: f64 = 1e-9;

@@ -32,8 +32,10 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Full Newton steps of [`Indicator::Correction`].
-const CORRECTIONS: usize = 3;
+/// Full Newton steps of [`Indicator::Correction`], and of it under shear-thinning: traction follows the pressure exponentially, and wants more.
+const CORRECTIONS: [usize; 2] = [3, 6];
+/// Where the last of them still moves the state by more, the traction it leads to is no truth.
+const SETTLED: f64 = 1e-3;
 
 /// By what a training judges an approximation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
@@ -137,6 +139,7 @@ struct Corrected {
     pressure: Vec<f64>,
     film: Vec<f64>,
     scalars: Scalars,
+    settled: bool,
 }
 
 impl Corrector {
@@ -146,7 +149,7 @@ impl Corrector {
     }
 
     /// Relative errors of H_c, H_min, the state (e_z of (3.10)) and, where the model has a rule for it and it has a meaning, the traction, as
-    /// three full Newton steps from a reduced solution find them: nearly exact where the model is fair, and large where it is not.
+    /// a few full Newton steps from a reduced solution find them: nearly exact where the model is fair, and large where it is not.
     pub fn errors(&mut self, online: &Online, solved: &ReducedSolution) -> Option<Measured> {
         let before = online.reconstruct(solved).ok()?;
         let after = self.corrected(&before);
@@ -163,7 +166,7 @@ impl Corrector {
         let state = (difference / size).sqrt();
         let sound = [h_c, h_min, state].iter().all(|error| error.is_finite());
         let slides = solved.point.sliding.slide_to_roll_ratio != 0.0;
-        let sensible = slides && before.problem.traction_warning().is_none();
+        let sensible = slides && after.settled && before.problem.traction_warning().is_none();
         let traction = solved.traction.filter(|_| sound && sensible).map(|own| {
             let Corrected { pressure, film, .. } = after;
             change(own, Solution { pressure, film, ..before }.traction_coefficient())
@@ -175,24 +178,28 @@ impl Corrector {
     fn corrected(&mut self, before: &Solution) -> Corrected {
         let problem: &Problem = &before.problem;
         let mut report = Report::empty();
+        let max_newton = CORRECTIONS[usize::from(problem.shear.is_some())];
+        let settled = |report: &Report| report.steps.last().is_some_and(|step| *step < SETTLED);
         match &self.grid {
             ContactGrid::Line(grid) => {
                 let mut system = LineSystem::new(grid.scaled(before.mesh.scale()));
                 system.set_pressure(problem, &before.pressure);
                 system.set_central_film(before.scalars.h_c);
-                let options = SolveOptions { max_newton: CORRECTIONS, shortest_step: 1.0, ..SolveOptions::default() };
+                let options = SolveOptions { max_newton, shortest_step: 1.0, ..SolveOptions::default() };
                 system.newton(problem, &options, &mut (), &mut report);
                 let scalars = scalars_of(&system.grid, problem, &system.pressure, &system.film, system.h_0);
-                Corrected { pressure: system.pressure, film: system.film, scalars }
+                let settled = settled(&report);
+                Corrected { pressure: system.pressure, film: system.film, scalars, settled }
             }
             ContactGrid::Point(grid) => {
                 let system = self.point.get_or_insert_with(|| PointSystem::new(Arc::clone(grid)));
                 system.set_pressure(problem, &before.pressure);
                 system.set_central_film(before.scalars.h_c);
-                let options = PointOptions { max_newton: CORRECTIONS, ..PointOptions::default() };
+                let options = PointOptions { max_newton, ..PointOptions::default() };
                 system.newton(problem, &options, &mut (), &mut report);
                 let scalars = point_scalars_of(grid, problem, &system.pressure, &system.film, system.h_0);
-                Corrected { pressure: system.pressure.clone(), film: system.film.clone(), scalars }
+                let (pressure, film) = (system.pressure.clone(), system.film.clone());
+                Corrected { pressure, film, scalars, settled: settled(&report) }
             }
         }
     }

@@ -207,7 +207,10 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
             log.push(format!("traction from the stress at {} nodes", rule.nodes.len()));
         }
         log.push(match &trained.calibration {
-            Some(c) => format!("errors measured at {} random points by three full Newton steps each", c.evidence()),
+            Some(c) => {
+                let steps = if c.sliding() { "six" } else { "three" };
+                format!("errors measured at {} random points by {steps} full Newton steps each", c.evidence())
+            }
             None => "no error bound: errors were measured at too few points".to_owned(),
         });
         windows.push(trained);

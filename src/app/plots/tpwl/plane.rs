@@ -38,7 +38,7 @@ pub fn ui(ui: &mut Ui, shown: &Shown<'_>, height: f32) -> Option<f64> {
     let (dots, markers) = (places.iter().map(|(_, place)| *place).collect(), weighted(shown, &places));
     let id = format!("tpwl plane {} {across} {up}", shown.view.generation);
     ui.weak("Training, operating points and the run").on_hover_text(
-        "Reduced coordinates Vᵀ W P and H_0: blue the training trajectories, black the operating points, dashed the path of the run, a diamond \
+        "Reduced coordinates V^T W P and H_0: blue the training trajectories, black the operating points, dashed the path of the run, a diamond \
          the moment that is looked at",
     );
     let plot = axes::plot(ui, &id, height - 22.0, &axis_title(across, modes), &axis_title(up, modes))

@@ -76,7 +76,7 @@ pub fn ui(ui: &mut Ui, shown: &Shown<'_>, sorting: &mut Sorting, height: f32) ->
                 Column::Point => "Number of the point, in the order of trajectories and time",
                 Column::Time => "Moment of its training trajectory",
                 Column::Weight(k) => weighting_name(WEIGHTINGS[*k]).1,
-                Column::Distance => "‖y − y_i‖/‖y‖ of the state reached at this moment",
+                Column::Distance => "|y − y_i|/|y| of the state reached at this moment",
             };
             let head = ui.add(Button::new(rich(name, 12.0, color)).frame(false));
             let plain = name.replace(['{', '}'], "");

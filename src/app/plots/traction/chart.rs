@@ -102,7 +102,10 @@ pub fn ui(ui: &mut Ui, state: &State, sweep: &Sweep, shown: &Shown<'_>) -> Optio
         name: "Film along the quantity",
         id: "film",
         titles: (axes.against.axis(sweep.base.point.kind), "Film in µm"),
-        curves: &[("Central film", CENTRAL, palette.film, LIVE_WIDTH), ("Smallest film", SMALLEST, palette.film, 1.6)],
+        curves: &[
+            ("Central film", CENTRAL, palette.film, LIVE_WIDTH),
+            ("Smallest film (dashed)", SMALLEST, palette.film, 1.6),
+        ],
         here: here.map(|picture| picture.central_film_m() / MICRO),
         legend: Corner::LeftBottom,
     };

@@ -95,8 +95,8 @@ impl SystemFunctions {
 }
 
 impl Linearisation {
-    /// Evaluates the reduced system functions as the full system has them, and differentiates them with [`PENALTY_SLOPE`]. The fields need
-    /// not lie in the space: what it misses of them is then missing in the derivatives' argument only.
+    /// Evaluates the reduced system functions as the full system has them, and differentiates them with `PENALTY_SLOPE`. The fields are the
+    /// full system's and need not lie in the space, so that the values are free of what its modes miss.
     pub fn at(space: &ReducedSpace, problem: &Problem, fields: Fields<'_>) -> Self {
         let nodes = fields.nodes(problem);
         let (grid, modes, unknowns) = (&space.grid, space.modes(), space.grid.unknowns());

@@ -9,7 +9,7 @@ use crate::solver::reynolds::{CENTER, Node};
 /// States that the mean is taken over, about.
 const STATES: usize = 100;
 
-/// Cell sizes over the root of the rows' mean diagonals |∂r/∂P| in a time step of the training trajectories. In the far inlet a row changes 10⁸
+/// One weight per unknown: cell sizes over the root of the rows' mean diagonals |∂r/∂P| in a time step of the training trajectories. In the far inlet a row changes 10⁸
 /// times as much with its pressure as under the contact; tested with Vᵀ W alone, the little that modes miss there decides over the film.
 /// The root is halfway to rows of equal diagonals, with which the reduced system is no longer stable in time.
 pub fn row_weights(grid: &LineGrid, trajectories: &[&Trajectory]) -> Vec<f64> {
