@@ -193,7 +193,7 @@ impl State {
         };
         let significant = numbers::significant;
         format!(
-            "{}, R {}, u_m {} m/s, w {} {unit}, E′ {} GPa, η₀ {} Pa·s, α {} 1/GPa, {:?}, {:?}",
+            "{}, R {}, u_m {} m/s, w {} {unit}, E' {} GPa, η₀ {} Pa·s, α {} 1/GPa, {:?}, {:?}",
             numbers::moes(point.moes()),
             numbers::length(point.radius_m),
             significant(point.speed_m_per_s),
