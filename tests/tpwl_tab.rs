@@ -303,7 +303,7 @@ fn any_plot_leaves_as_a_drawing_with_its_name_axes_and_contact() {
     let drawing = give_path(&mut harness, &folder.join("plane.svg"));
     assert!(drawing.starts_with("<svg ") && drawing.ends_with("</svg>\n"));
     assert!(drawing.contains(">Operating points in the plane</text>"));
-    assert!(drawing.contains("w 200000 N/m") && drawing.contains("E′ 231.0 GPa"), "the contact");
+    assert!(drawing.contains("w 200000 N/m") && drawing.contains("E' 231.0 GPa"), "the contact");
     assert!(drawing.contains("Pressure mode 1") && drawing.contains("Pressure mode 2"), "titles of the axes");
     let points = harness.state().operating_points().unwrap();
     assert!(drawing.matches("<circle ").count() >= points, "one dot for each operating point");
