@@ -160,7 +160,7 @@ fn the_picker_brings_a_lubricant_with_its_contact_and_undo_takes_it_back() {
     let (moes, before) = (harness.state().moes(), film(&harness));
     choose(&mut harness, "Fluid", "Squalane with PIP");
     assert!((harness.state().moes().l / 6.69 - 1.0).abs() < 1e-3, "{:?}", harness.state().moes());
-    assert!(harness.state().badge_detail().contains("residual") || harness.state().badge() == "Verified");
+    assert!(harness.state().badge_detail().contains("within") || harness.state().badge() == "Verified");
     slide(&mut harness, "Newtonian plateau ratio NPR", 0.5);
     assert_eq!(harness.state().sliding().1, 0.5);
     choose(&mut harness, "Fluid", "PAO 650");
