@@ -151,7 +151,8 @@ pub fn run(quick: bool) -> Result<Bench, HarnessError> {
 }
 
 impl Bench {
-    /// Reduced solves of shear-thinning contacts of one kind, with all fields, and whole traction curves; a note where there is no model.
+    /// Reduced solves of shear-thinning contacts of one kind, H_c and traction without any field, and whole traction curves; a note where
+    /// there is no model.
     fn reduced_shear_rows(
         &mut self,
         [solve, curve]: [&'static str; 2],
@@ -164,7 +165,7 @@ impl Bench {
                 let mut online = Online::new(model, ReducedOptions::default());
                 let points: Vec<OperatingPoint> = problems.iter().map(|problem| problem.point).collect();
                 let points = (points.as_slice(), named_lubricant::SQUALANE_PIP);
-                let solves = reduced_row(solve, &mut online, points, true, budget);
+                let solves = reduced_row(solve, &mut online, points, false, budget);
                 vec![solves, curve_row(curve, &mut online, points, budget)]
             }
             Err(reason) => {
