@@ -1,8 +1,10 @@
 //! Linearised models without a display: trained and run beside the full system, looked into, tried with other numbers of points, exported,
 //! stopped and saved; any plot as a picture.
 
+mod driver;
+
+use driver::{Window, click, wait_within};
 use egui::accesskit::Role;
-use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
 use ehl_explorer::harness::{Workbench, run_scene};
@@ -10,8 +12,6 @@ use ehl_explorer::scene::{LinearisedTransient, Scene, Study};
 use ehl_explorer::solver::reduced::tpwl::Selection;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-
-type Window = Harness<'static, Explorer>;
 
 /// Case 1 of Table 4.5 on a coarse grid, its load over one period.
 fn scene(load: &str, linearised: &str) -> String {
@@ -32,28 +32,14 @@ fn open(name: &str, text: &str, size: [f32; 2]) -> (Window, PathBuf) {
     std::fs::write(&path, text).unwrap();
     let mut explorer = Explorer::new(None).without_system_dialogs();
     explorer.open_scene(&path).unwrap();
-    let mut harness = Harness::builder().with_size(size).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer);
+    let mut harness = driver::window(explorer, size);
     wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
     click(&mut harness, "TPWL");
     (harness, folder)
 }
 
 fn wait(harness: &mut Window, what: &str, done: impl Fn(&Explorer) -> bool) {
-    let begin = Instant::now();
-    loop {
-        harness.step();
-        if done(harness.state()) {
-            harness.run_steps(2);
-            return;
-        }
-        assert!(begin.elapsed() < Duration::from_secs(240), "waited in vain for {what}");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-}
-
-fn click(harness: &mut Window, name: &str) {
-    harness.get_by_label(name).click();
-    harness.run_steps(3);
+    wait_within(Duration::from_secs(240), harness, what, done);
 }
 
 fn shows(harness: &Window, text: &str) -> bool {

@@ -1,7 +1,9 @@
 //! Shear-thinning in the window: four live sliders, the picker of lubricants, the Traction tab.
 
+mod driver;
+
+use driver::{Window, click, wait_within};
 use egui::accesskit::Role;
-use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
 use ehl_explorer::harness::model_file;
@@ -9,13 +11,11 @@ use ehl_explorer::scene::Scene;
 use ehl_explorer::solver::contact::ContactKind;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
-use std::time::{Duration, Instant};
-
-type Window = Harness<'static, Explorer>;
+use std::time::Duration;
 
 fn window(explorer: Explorer) -> Window {
     let explorer = explorer.without_system_dialogs();
-    Harness::builder().with_size([1280.0, 1000.0]).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer)
+    driver::window(explorer, [1280.0, 1000.0])
 }
 
 /// The window on Table 3.5's lubricant under sliding, with the embedded models.
@@ -28,21 +28,7 @@ fn squalane() -> Window {
 }
 
 fn wait(harness: &mut Window, what: &str, done: impl Fn(&Explorer) -> bool) {
-    let begin = Instant::now();
-    loop {
-        harness.step();
-        if done(harness.state()) {
-            harness.run_steps(2);
-            return;
-        }
-        assert!(begin.elapsed() < Duration::from_secs(60), "waited in vain for {what}: {}", harness.state().badge());
-        std::thread::sleep(Duration::from_millis(5));
-    }
-}
-
-fn click(harness: &mut Window, name: &str) {
-    harness.get_by_label(name).click();
-    harness.run_steps(3);
+    wait_within(Duration::from_secs(60), harness, what, done);
 }
 
 fn choose(harness: &mut Window, picker: &str, option: &str) {

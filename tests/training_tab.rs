@@ -1,11 +1,13 @@
 //! The Training tab without a display: a training is started, watched, stopped, resumed, used, saved and compared.
 
-use egui_kittest::Harness;
+mod driver;
+
+use driver::{Window, click, wait_within};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
 use ehl_explorer::harness::{model_file, training_file};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// A scene with a training of a small box; full solves take about a millisecond.
 fn scene(title: &str, plan: &str) -> String {
@@ -32,37 +34,21 @@ fn scratch(name: &str) -> PathBuf {
 }
 
 /// The Training tab on a scene of its own.
-fn open(folder: &Path, title: &str, plan: &str) -> Harness<'static, Explorer> {
+fn open(folder: &Path, title: &str, plan: &str) -> Window {
     let path = folder.join("scene.ron");
     let nodes = if plan == LONG { "nodes: 500" } else { "nodes: 200" };
     std::fs::write(&path, scene(title, plan).replace("nodes: 200", nodes)).unwrap();
     let mut explorer =
         Explorer::new(Some(model_file::embedded().unwrap())).without_system_dialogs().keeping_trainings_in(folder);
     explorer.open_scene(&path).unwrap();
-    let mut harness =
-        Harness::builder().with_size([1280.0, 1400.0]).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer);
+    let mut harness = driver::window(explorer, [1280.0, 1400.0]);
     wait(&mut harness, "the first picture", |app| !app.training() && !app.busy() && app.central_film().is_some());
     click(&mut harness, "Training");
     harness
 }
 
-/// Steps until `done`, for at most a minute.
-fn wait(harness: &mut Harness<'_, Explorer>, what: &str, done: impl Fn(&Explorer) -> bool) {
-    let begin = Instant::now();
-    loop {
-        harness.step();
-        if done(harness.state()) {
-            harness.run_steps(2);
-            return;
-        }
-        assert!(begin.elapsed() < Duration::from_secs(60), "waited in vain for {what}");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-}
-
-fn click(harness: &mut Harness<'_, Explorer>, name: &str) {
-    harness.get_by_label(name).click();
-    harness.run_steps(3);
+fn wait(harness: &mut Window, what: &str, done: impl Fn(&Explorer) -> bool) {
+    wait_within(Duration::from_secs(60), harness, what, done);
 }
 
 #[test]
@@ -150,7 +136,7 @@ fn a_stopped_training_is_kept_used_and_resumed_after_a_crash() {
 fn a_bad_range_is_a_sentence_and_edits_can_be_undone() {
     let folder = scratch("range");
     let mut harness = open(&folder, "Small box", TINY);
-    let value = |harness: &Harness<'_, Explorer>, name: &str| harness.get_by_label(name).value().unwrap();
+    let value = |harness: &Window, name: &str| harness.get_by_label(name).value().unwrap();
     let before = value(&harness, "Radius R from");
     harness.get_by_label("Radius R from").set_value_accesskit(7.0);
     harness.run_steps(2);

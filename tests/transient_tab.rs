@@ -1,7 +1,9 @@
 //! The Transient tab without a display: a contact is taken through time, watched, stopped, looked at, exported and saved.
 
+mod driver;
+
+use driver::{Window, click, wait_within};
 use egui::accesskit::Role;
-use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
 use ehl_explorer::scene::{Scene, Study};
@@ -11,8 +13,6 @@ use std::time::{Duration, Instant};
 
 /// A run must stop within this; debug builds are many times slower.
 const STOP: Duration = Duration::from_millis(if cfg!(debug_assertions) { 3000 } else { 100 });
-
-type Window = Harness<'static, Explorer>;
 
 /// A scene on a coarse grid, on which a step takes about a millisecond.
 fn scene(inputs: &str, duration: f64, frames: &str) -> String {
@@ -37,29 +37,14 @@ fn open(name: &str, text: &str) -> (Window, PathBuf) {
     std::fs::write(&path, text).unwrap();
     let mut explorer = Explorer::new(None).without_system_dialogs();
     explorer.open_scene(&path).unwrap();
-    let mut harness =
-        Harness::builder().with_size([1280.0, 1000.0]).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer);
+    let mut harness = driver::window(explorer, [1280.0, 1000.0]);
     wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
     click(&mut harness, "Transient");
     (harness, folder)
 }
 
 fn wait(harness: &mut Window, what: &str, done: impl Fn(&Explorer) -> bool) {
-    let begin = Instant::now();
-    loop {
-        harness.step();
-        if done(harness.state()) {
-            harness.run_steps(2);
-            return;
-        }
-        assert!(begin.elapsed() < Duration::from_secs(60), "waited in vain for {what}");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-}
-
-fn click(harness: &mut Window, name: &str) {
-    harness.get_by_label(name).click();
-    harness.run_steps(3);
+    wait_within(Duration::from_secs(60), harness, what, done);
 }
 
 fn shows(harness: &Window, text: &str) -> bool {
@@ -236,8 +221,7 @@ fn the_set_up_is_edited_undone_refused_and_saved_with_the_scene() {
 #[test]
 fn a_fresh_window_has_something_to_run() {
     let explorer = Explorer::new(None).without_system_dialogs();
-    let mut harness =
-        Harness::builder().with_size([1024.0, 640.0]).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer);
+    let mut harness = driver::window(explorer, [1024.0, 640.0]);
     wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
     click(&mut harness, "Transient");
     assert!(shows(&harness, "Inputs against time"));
