@@ -5,6 +5,7 @@
 //! contacts share all of it: what differs is in their grids ([`crate::solver::grid::ContactGrid`]) and in the penalty of a window.
 
 mod calibration;
+mod contact_rows;
 mod cubature;
 mod error_measures;
 mod error_split;

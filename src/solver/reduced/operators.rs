@@ -12,6 +12,7 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Conj, Mat, MatMut, MatRef, Par};
+use pulp::Arch;
 
 /// The nodes of a row by twos: a row of the Jacobian is read and written half as often.
 const PAIRS: [(usize, usize); STENCIL / 2] = [(0, 1), (2, 3), (4, 5)];
@@ -348,11 +349,7 @@ impl Operators {
                         continue;
                     }
                     let [one, other] = [one, other].map(|node| node * self.modes..(node + 1) * self.modes);
-                    let first = v[one.clone()].iter().zip(&d[one]);
-                    let second = v[other.clone()].iter().zip(&d[other]);
-                    for ((t, (v, d)), (w, g)) in target.iter_mut().zip(first).zip(second) {
-                        *t = (*t + (a * v + b * d)) + (e * w + f * g);
-                    }
+                    add_rows(target, [(a, &v[one.clone()]), (b, &d[one])], [(e, &v[other.clone()]), (f, &d[other])]);
                 }
                 for axis in 0..if thinning.is_some() { self.axes } else { 0 } {
                     let per_gradient = if axis == 0 { 1.0 / scale } else { 1.0 };
@@ -363,9 +360,7 @@ impl Operators {
                             continue;
                         }
                         let [one, other] = [m, n].map(|m| &g[(axis * count + stencil[m]) * self.modes..][..self.modes]);
-                        for ((t, v), w) in target.iter_mut().zip(one).zip(other) {
-                            *t = (*t + a * v) + b * w;
-                        }
+                        add_gradients(target, (a, one), (b, other));
                     }
                 }
                 s.film_column[r] = out.d_h.iter().sum();
@@ -489,6 +484,24 @@ impl Operators {
             coefficients.iter_mut().for_each(|c| *c *= factor);
         }
     }
+}
+
+/// out += (a v + b d) + (e w + f g), in registers as wide as the machine has.
+fn add_rows(out: &mut [f64], [(a, v), (b, d)]: [(f64, &[f64]); 2], [(e, w), (f, g)]: [(f64, &[f64]); 2]) {
+    Arch::new().dispatch(|| {
+        for ((t, (v, d)), (w, g)) in out.iter_mut().zip(v.iter().zip(d)).zip(w.iter().zip(g)) {
+            *t = (*t + (a * v + b * d)) + (e * w + f * g);
+        }
+    });
+}
+
+/// out += a v + b w, likewise.
+fn add_gradients(out: &mut [f64], (a, v): (f64, &[f64]), (b, w): (f64, &[f64])) {
+    Arch::new().dispatch(|| {
+        for ((t, v), w) in out.iter_mut().zip(v).zip(w) {
+            *t = (*t + a * v) + b * w;
+        }
+    });
 }
 
 /// out = A x for a row-major A.

@@ -3,7 +3,7 @@
 use super::frame::{Conditions, Scales};
 use super::march::Transient;
 use super::signal::Input;
-use crate::solver::full::{Mesh, Problem, SolveError, Termination, scalars_of};
+use crate::solver::full::{Mesh, Problem, Scalars, SolveError, Termination, scalars_of};
 use crate::solver::grid::LineGrid;
 
 /// Work of one step.
@@ -159,7 +159,11 @@ impl Moment {
         film: &[f64],
         effort: Effort,
     ) -> Self {
-        let own = scalars_of(grid, &at.problem, pressure, film, 0.0);
+        Self::of_scalars(at, step, &scalars_of(grid, &at.problem, pressure, film, 0.0), effort)
+    }
+
+    /// Scalars in the frame's scales, in those of the reference contact.
+    pub fn of_scalars(at: &Conditions, step: f64, own: &Scalars, effort: Effort) -> Self {
         let Scales { half_width, pressure, film } = at.scales;
         Self {
             time: at.time,

@@ -7,12 +7,13 @@ use super::search::Search;
 use super::space::{INPUTS, input_vector};
 use super::superposition::{SmallSystem, Superposition};
 use super::weights::{Weight, Weighting, square_distance};
-use crate::solver::full::Termination;
 use crate::solver::full::transient::{
-    Conditions, Effort, Input, Marching, Moment, State, Step, TimeStep, Trajectory, Transient, TransientObserver,
+    Conditions, Effort, Marching, Moment, State, Step, TimeStep, Trajectory, Transient, TransientObserver,
     extrapolated, march,
 };
+use crate::solver::full::{Scalars, Termination};
 use crate::solver::grid::LineGrid;
+use crate::solver::reduced::contact_rows::ContactRows;
 
 /// A model in use for one contact.
 pub struct TpwlMarch<'a> {
@@ -27,8 +28,9 @@ pub struct TpwlMarch<'a> {
     superposition: Superposition,
     system: SmallSystem,
     step: TpwlStep,
-    /// Fields of the state found last, where scalars are drawn from them.
-    contact: ContactFields,
+    contact: ContactRows,
+    /// Scalars of the state found last.
+    scalars: Scalars,
     record: TpwlRecord,
 }
 
@@ -39,16 +41,6 @@ struct Past {
     storage: Vec<f64>,
 }
 
-/// Fields under the contact; zero elsewhere.
-struct ContactFields {
-    from: usize,
-    to: usize,
-    pressure: Vec<f64>,
-    film: Vec<f64>,
-}
-
-/// Where [`Moment`] looks for the smallest film, and where the largest pressure lies.
-const CONTACT: (f64, f64) = (-1.2, 1.5);
 /// Stop of the iteration for the stationary start, on ‖Δy‖/‖y‖.
 const REST_TOLERANCE: f64 = 1e-9;
 /// After so many iterations for the stationary start, weights that change to and fro are averaged.
@@ -101,7 +93,12 @@ impl<'a> TpwlMarch<'a> {
             superposition: Superposition::new(weighting, len, most),
             system: SmallSystem::new(len),
             step: TpwlStep::default(),
-            contact: ContactFields::new(&model.space.grid),
+            contact: ContactRows::new(
+                &model.space.grid,
+                model.space.pressure.as_ref(),
+                model.space.deformation.as_ref(),
+            ),
+            scalars: Scalars::default(),
             record: TpwlRecord::with_room(steps, most.min(8), len),
             search,
         })
@@ -154,20 +151,11 @@ impl<'a> TpwlMarch<'a> {
         met
     }
 
-    /// Keeps the state under trial as the newest, with its record and the fields under the contact.
-    fn keep(&mut self, input: Input) {
+    /// Keeps the state under trial as the newest, with its record and scalars.
+    fn keep(&mut self, at: &Conditions) {
         self.record.push(self.step, &self.superposition.weights, &self.trial.state);
-        let ContactFields { from, to, pressure, film } = &mut self.contact;
-        let part = *from..*to;
-        self.model.space.fields(&self.trial.state, input, *from, &mut pressure[part.clone()], &mut film[part]);
-    }
-}
-
-impl ContactFields {
-    fn new(grid: &LineGrid) -> Self {
-        let from = grid.x.partition_point(|&x| x < CONTACT.0);
-        let to = grid.x.partition_point(|&x| x <= CONTACT.1);
-        Self { from, to, pressure: vec![0.0; grid.len()], film: vec![0.0; grid.len()] }
+        let (coefficients, h_0) = self.trial.state.split_at(self.model.space.modes());
+        self.scalars = self.contact.scalars(at, coefficients, h_0[0]);
     }
 }
 
@@ -207,7 +195,7 @@ impl Marching for TpwlMarch<'_> {
             return Err(Termination::IterationLimit);
         }
         self.former = [self.trial.clone(), self.trial.clone()];
-        self.keep(at.input);
+        self.keep(at);
         Ok(effort)
     }
 
@@ -226,20 +214,20 @@ impl Marching for TpwlMarch<'_> {
     }
 
     fn accept(&mut self, at: &Conditions) {
-        self.keep(at.input);
+        self.keep(at);
         self.former.swap(0, 1);
         std::mem::swap(&mut self.former[0], &mut self.trial);
     }
 
     fn moment(&self, at: &Conditions, step: f64, effort: Effort) -> Moment {
-        Moment::of_fields(at, step, &self.model.space.grid, &self.contact.pressure, &self.contact.film, effort)
+        Moment::of_scalars(at, step, &self.scalars, effort)
     }
 
     fn state(&self, at: &Conditions) -> State {
         let length = self.model.space.grid.len();
         let (mut pressure, mut film) = (vec![0.0; length], vec![0.0; length]);
         let state = &self.former[0].state;
-        self.model.space.fields(state, at.input, 0, &mut pressure, &mut film);
+        self.model.space.fields(state, at.input, &mut pressure, &mut film);
         State { time: at.time, scales: at.scales, pressure, film, h_0: state[self.model.space.modes()] }
     }
 }

@@ -80,24 +80,17 @@ impl ReducedSpace {
         film
     }
 
-    /// P and H of a reduced state on the nodes `from..`, as many as the slices hold.
-    pub fn fields(&self, state: &[f64], input: Input, from: usize, pressure: &mut [f64], film: &mut [f64]) {
+    /// P and H of a reduced state at all nodes.
+    pub fn fields(&self, state: &[f64], input: Input, pressure: &mut [f64], film: &mut [f64]) {
         let modes = self.modes();
         let coefficients = ColRef::from_slice(&state[..modes]);
         let part = |matrix: MatRef<'_, f64>, out: &mut [f64]| {
-            let rows = matrix.subrows(from, out.len());
-            matmul(
-                ColMut::from_slice_mut(out).as_mat_mut(),
-                Accum::Replace,
-                rows,
-                coefficients.as_mat(),
-                1.0,
-                Par::Seq,
-            );
+            let out = ColMut::from_slice_mut(out);
+            matmul(out.as_mat_mut(), Accum::Replace, matrix, coefficients.as_mat(), 1.0, Par::Seq);
         };
         part(self.pressure.as_ref(), pressure);
         part(self.deformation.as_ref(), film);
-        add_shape(film, &self.grid.x[from..], state[modes], input);
+        add_shape(film, &self.grid.x, state[modes], input);
     }
 }
 

@@ -45,9 +45,26 @@ pub struct Weight {
     pub weight: f64,
 }
 
+/// Sums that run beside each other: one after the other, additions would wait for each other.
+const LANES: usize = 8;
+
+/// Σ (aᵢ − cᵢ)(bᵢ − cᵢ) over reduced states of one length.
+fn product_about(a: &[f64], b: &[f64], center: &[f64]) -> f64 {
+    let ((a, a_end), (b, b_end), (c, c_end)) =
+        (a.as_chunks::<LANES>(), b.as_chunks::<LANES>(), center.as_chunks::<LANES>());
+    let mut sums = [0.0; LANES];
+    for ((a, b), c) in a.iter().zip(b).zip(c) {
+        for (k, sum) in sums.iter_mut().enumerate() {
+            *sum += (a[k] - c[k]) * (b[k] - c[k]);
+        }
+    }
+    let end: f64 = a_end.iter().zip(b_end).zip(c_end).map(|((a, b), c)| (a - c) * (b - c)).sum();
+    sums.iter().sum::<f64>() + end
+}
+
 /// Squared Euclidean distance of two reduced states.
 pub fn square_distance(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum()
+    product_about(a, a, b)
 }
 
 /// Weights (4.29) from the distances of all points: none below 0.001, their sum 1. A point that is met exactly has them all.
@@ -69,6 +86,9 @@ fn normalise(weights: &mut [Weight]) {
 /// Work space of [`Barycentre::weights`].
 #[derive(Debug)]
 pub struct Barycentre {
+    /// G of all points, and which of them are left.
+    products: Mat<f64>,
+    kept: Vec<usize>,
     gram: Mat<f64>,
     solution: Vec<f64>,
 }
@@ -76,18 +96,24 @@ pub struct Barycentre {
 impl Barycentre {
     /// Work space for up to `most` points at once.
     pub fn new(most: usize) -> Self {
-        Self { gram: Mat::zeros(most, most + 1), solution: vec![0.0; most] }
+        Self {
+            products: Mat::zeros(most, most),
+            kept: Vec::with_capacity(most),
+            gram: Mat::zeros(most, most + 1),
+            solution: vec![0.0; most],
+        }
     }
 
     /// The weights of `out`'s points that bring Σ wᵢ yᵢ nearest to `state` and prefer near points: min ‖y − Σ wᵢ yᵢ‖² + 10⁻³ Σ wᵢ² dᵢ²
     /// with Σ wᵢ = 1, where points of negative weight are left out and the rest solved again. At most as many points as there is
     /// room for.
     pub fn weights<'a>(&mut self, state: &[f64], point: impl Fn(usize) -> &'a [f64], out: &mut Vec<Weight>) {
-        let nearest =
-            out.iter().map(|w| (w.point, square_distance(state, point(w.point)))).min_by(|a, b| a.1.total_cmp(&b.1));
-        let Some((only, least)) = nearest else { return };
+        self.set_products(state, &point, out);
+        let square = |k: usize| self.products[(k, k)];
+        let Some(nearest) = (0..out.len()).min_by(|&a, &b| square(a).total_cmp(&square(b))) else { return };
+        let (only, least) = (out[nearest].point, square(nearest));
         while out.len() > 1 && least > 0.0 {
-            if !self.solve(state, &point, out) {
+            if !self.solve(out) {
                 break;
             }
             // Leaving out all negative ones at once may lose a point that a second solve would keep; the most negative one cannot.
@@ -95,6 +121,7 @@ impl Barycentre {
             match lowest {
                 Some(k) if out[k].weight < 0.0 => {
                     out.remove(k);
+                    self.kept.remove(k);
                 }
                 _ => return,
             }
@@ -103,20 +130,28 @@ impl Barycentre {
         out.push(Weight { point: only, weight: 1.0 });
     }
 
-    /// Solves (G + 10⁻³ diag G) w ∝ 1 with Gᵢⱼ = (yᵢ − y)·(yⱼ − y); false where it is singular.
-    fn solve<'a>(&mut self, state: &[f64], point: &impl Fn(usize) -> &'a [f64], out: &mut [Weight]) -> bool {
+    /// Gᵢⱼ = (yᵢ − y)·(yⱼ − y).
+    fn set_products<'a>(&mut self, state: &[f64], point: &impl Fn(usize) -> &'a [f64], points: &[Weight]) {
+        self.kept.clear();
+        self.kept.extend(0..points.len());
+        for (i, own) in points.iter().enumerate() {
+            for (j, other) in points[..=i].iter().enumerate() {
+                let product = product_about(point(own.point), point(other.point), state);
+                (self.products[(i, j)], self.products[(j, i)]) = (product, product);
+            }
+        }
+    }
+
+    /// Solves (G + 10⁻³ diag G) w ∝ 1 for the points that are left; false where it is singular.
+    fn solve(&mut self, out: &mut [Weight]) -> bool {
         let n = out.len();
         let g = &mut self.gram;
-        for i in 0..n {
-            for j in 0..=i {
-                let pairs = point(out[i].point).iter().zip(point(out[j].point)).zip(state);
-                let product: f64 = pairs.map(|((a, b), y)| (a - y) * (b - y)).sum();
-                (g[(i, j)], g[(j, i)]) = (product, product);
+        for (i, &own) in self.kept.iter().enumerate() {
+            for (j, &other) in self.kept.iter().enumerate() {
+                g[(i, j)] = self.products[(own, other)];
             }
-            g[(i, n)] = 1.0;
-        }
-        for i in 0..n {
             g[(i, i)] *= 1.0 + SPREAD;
+            g[(i, n)] = 1.0;
         }
         // Symmetric and positive definite: elimination needs no pivots.
         for k in 0..n {

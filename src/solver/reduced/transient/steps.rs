@@ -2,11 +2,12 @@
 
 use super::model::TrajectoryModel;
 use crate::solver::contact::{ContactKind, OperatingPoint};
-use crate::solver::full::Termination;
 use crate::solver::full::transient::{
     Conditions, Effort, Frame, Interpolated, Marching, Moment, State, Step, TransientObserver, extrapolated,
 };
+use crate::solver::full::{Scalars, Termination};
 use crate::solver::grid::{FIRST_UNKNOWN, LineGrid, ReferenceGrid, dot};
+use crate::solver::reduced::contact_rows::ContactRows;
 use crate::solver::reduced::operators::{Case, Iterate, Operators, RowObserver, Stop};
 use crate::solver::reduced::{ReducedError, distance};
 use crate::solver::reynolds::line::Upstream;
@@ -43,7 +44,11 @@ pub struct ReducedMarch<'a> {
     h_0: f64,
     /// ρ̄H of the former states at the sampled rows' own nodes, which may move under it.
     carried: [Vec<f64>; 2],
-    fields: Fields,
+    /// P and H at all nodes, which only remeshing asks for.
+    fields: [Vec<f64>; 2],
+    contact: ContactRows,
+    /// Scalars of the present state.
+    scalars: Scalars,
     observer: Option<StepObserver<'a>>,
 }
 
@@ -61,12 +66,6 @@ struct Past {
     h_0: f64,
     flow: Vec<f64>,
     between: Interpolated,
-}
-
-/// P and H at all nodes.
-struct Fields {
-    pressure: Vec<f64>,
-    film: Vec<f64>,
 }
 
 impl<'a> ReducedMarch<'a> {
@@ -111,7 +110,9 @@ impl<'a> ReducedMarch<'a> {
             start: vec![0.0; modes],
             h_0: 0.0,
             carried: [vec![0.0; rows], vec![0.0; rows]],
-            fields: Fields { pressure: vec![0.0; grid.len()], film: vec![0.0; grid.len()] },
+            fields: [vec![0.0; grid.len()], vec![0.0; grid.len()]],
+            contact: ContactRows::new(&grid, window.pressure.modes.as_ref(), window.flexed.as_ref()),
+            scalars: Scalars::default(),
             grid,
             observer: None,
         })
@@ -176,25 +177,31 @@ impl<'a> ReducedMarch<'a> {
         past.h_0 = self.h_0;
         past.flow.clear();
         past.flow.extend(self.operators.flow());
-        self.fields.set(self.model, &self.grid, at, &self.coefficients, self.h_0);
         if let Frame::Remeshed(interpolation) = self.model.frame {
+            let [pressure, film] = &mut self.fields;
+            set_fields(self.model, &self.grid, at, (&self.coefficients, self.h_0), [pressure, film]);
             let fluid = &at.problem.fluid;
-            let states = self.fields.pressure.iter().zip(&self.fields.film);
-            past.between.set(interpolation, &self.grid.x, states.map(|(&p, &h)| fluid.at(p).density * h));
+            let flow = pressure.iter().zip(&*film).map(|(&p, &h)| fluid.at(p).density * h);
+            self.former[0].between.set(interpolation, &self.grid.x, flow);
         }
+        self.scalars = self.contact.scalars(at, &self.coefficients, self.h_0);
     }
 }
 
-impl Fields {
-    fn set(&mut self, model: &TrajectoryModel, grid: &LineGrid, at: &Conditions, coefficients: &[f64], h_0: f64) {
-        for (out, basis) in [(&mut self.pressure, &model.window.pressure.modes), (&mut self.film, &model.window.flexed)]
-        {
-            let (out, coefficients) = (ColMut::from_slice_mut(out), ColRef::from_slice(coefficients));
-            matmul(out.as_mat_mut(), Accum::Replace, basis, coefficients.as_mat(), 1.0, Par::Seq);
-        }
-        for (film, x) in self.film.iter_mut().zip(&grid.x) {
-            *film += h_0 + 0.5 * at.curvature * x * x;
-        }
+/// P and H of (p̃, H₀) at all nodes.
+fn set_fields(
+    model: &TrajectoryModel,
+    grid: &LineGrid,
+    at: &Conditions,
+    (coefficients, h_0): (&[f64], f64),
+    [pressure, film]: [&mut [f64]; 2],
+) {
+    for (out, basis) in [(pressure, &model.window.pressure.modes), (&mut *film, &model.window.flexed)] {
+        let (out, coefficients) = (ColMut::from_slice_mut(out), ColRef::from_slice(coefficients));
+        matmul(out.as_mat_mut(), Accum::Replace, basis, coefficients.as_mat(), 1.0, Par::Seq);
+    }
+    for (film, x) in film.iter_mut().zip(&grid.x) {
+        *film += h_0 + 0.5 * at.curvature * x * x;
     }
 }
 
@@ -248,16 +255,12 @@ impl Marching for ReducedMarch<'_> {
     }
 
     fn moment(&self, at: &Conditions, step: f64, effort: Effort) -> Moment {
-        Moment::of_fields(at, step, &self.grid, &self.fields.pressure, &self.fields.film, effort)
+        Moment::of_scalars(at, step, &self.scalars, effort)
     }
 
     fn state(&self, at: &Conditions) -> State {
-        State {
-            time: at.time,
-            scales: at.scales,
-            pressure: self.fields.pressure.clone(),
-            film: self.fields.film.clone(),
-            h_0: self.h_0,
-        }
+        let [mut pressure, mut film] = [vec![0.0; self.grid.len()], vec![0.0; self.grid.len()]];
+        set_fields(self.model, &self.grid, at, (&self.coefficients, self.h_0), [&mut pressure, &mut film]);
+        State { time: at.time, scales: at.scales, pressure, film, h_0: self.h_0 }
     }
 }

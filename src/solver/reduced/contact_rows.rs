@@ -1,0 +1,132 @@
+//! The scalars of a reduced state in time, from the nodes under the contact alone.
+
+use crate::solver::full::Scalars;
+use crate::solver::full::transient::Conditions;
+use crate::solver::grid::{LineGrid, dot};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, ColMut, ColRef, Mat, MatRef, Par};
+
+/// Where the smallest film is looked for, as [`crate::solver::full::scalars_of`] does, and where the largest pressure lies.
+const CONTACT: (f64, f64) = (-1.2, 1.5);
+
+/// The rows of a basis under the contact, and what it takes to draw scalars from them.
+///
+/// Where film and pressure have their extremes is found in single precision, which halves what must be read of the basis in a step; their values
+/// there, like those at X = 0, are those of double precision.
+pub(crate) struct ContactRows {
+    modes: usize,
+    /// X of the nodes.
+    x: Vec<f64>,
+    /// V on them, then K V: (2 · nodes) × modes.
+    coarse: Mat<f32>,
+    /// The same, row-major.
+    rows: Vec<f64>,
+    /// Places among the nodes around X = 0, and their weights.
+    centre: Vec<(usize, f64)>,
+    coefficients: Vec<f32>,
+    values: Vec<f32>,
+}
+
+impl ContactRows {
+    /// The rows of V and K V, both nodes × modes, on a grid.
+    pub fn new(grid: &LineGrid, pressure: MatRef<'_, f64>, deformation: MatRef<'_, f64>) -> Self {
+        let (first, weights) = grid.interpolation(0.0);
+        let from = grid.x.partition_point(|&x| x <= CONTACT.0).min(first);
+        let to = grid.x.partition_point(|&x| x < CONTACT.1).max(first + weights.len());
+        let (nodes, modes) = (to - from, pressure.ncols());
+        let at = |row: usize, k: usize| match row < nodes {
+            true => pressure[(from + row, k)],
+            false => deformation[(from + row - nodes, k)],
+        };
+        Self {
+            modes,
+            x: grid.x[from..to].to_vec(),
+            coarse: Mat::from_fn(2 * nodes, modes, |row, k| at(row, k) as f32),
+            rows: (0..2 * nodes).flat_map(|row| (0..modes).map(move |k| at(row, k))).collect(),
+            centre: weights.iter().enumerate().map(|(m, w)| (first + m - from, *w)).collect(),
+            coefficients: vec![0.0; modes],
+            values: vec![0.0; 2 * nodes],
+        }
+    }
+
+    /// Scalars of the state (p̃, H₀).
+    pub fn scalars(&mut self, at: &Conditions, coefficients: &[f64], h_0: f64) -> Scalars {
+        self.coefficients.iter_mut().zip(coefficients).for_each(|(single, c)| *single = *c as f32);
+        let values = ColMut::from_slice_mut(&mut self.values);
+        let single = ColRef::from_slice(&self.coefficients);
+        matmul(values.as_mat_mut(), Accum::Replace, self.coarse.as_ref(), single.as_mat(), 1.0, Par::Seq);
+        let nodes = self.x.len();
+        let (pressures, deformations) = self.values.split_at(nodes);
+        let shape = |x: f64| 0.5 * at.curvature * x * x;
+        let (mut highest, mut thinnest) = ((0, f64::NEG_INFINITY), (0, f64::INFINITY));
+        for (k, ((&p, &d), &x)) in pressures.iter().zip(deformations).zip(&self.x).enumerate() {
+            let film = shape(x) + f64::from(d);
+            if f64::from(p) > highest.1 {
+                highest = (k, f64::from(p));
+            }
+            if film < thinnest.1 && x > CONTACT.0 && x < CONTACT.1 {
+                thinnest = (k, film);
+            }
+        }
+        let (highest, thinnest) = (highest.0, thinnest.0);
+        let row = |k: usize| dot(&self.rows[k * self.modes..(k + 1) * self.modes], coefficients);
+        let film = |k: usize| h_0 + shape(self.x[k]) + row(nodes + k);
+        Scalars {
+            h_c: self.centre.iter().map(|&(k, w)| w * film(k)).sum(),
+            p_c: self.centre.iter().map(|&(k, w)| w * row(k)).sum(),
+            h_min: film(thinnest),
+            x_h_min: self.x[thinnest],
+            p_max: row(highest),
+            x_p_max: self.x[highest],
+            h_0,
+            ..Scalars::default()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::contact::{ContactKind, OperatingPoint};
+    use crate::solver::full::transient::{Frame, Input, Inputs};
+    use crate::solver::full::{Problem, scalars_of};
+    use crate::solver::grid::{FIRST_UNKNOWN, GridSpec};
+    use crate::solver::lubricant::{Lubricant, Sliding};
+
+    #[test]
+    fn they_give_the_scalars_of_the_fields() {
+        let quantities = [2e-3, 5.0, 2e5, 231e9, 0.01, 1e-8];
+        let point = OperatingPoint::from_quantities(ContactKind::Line, quantities, Sliding::NONE);
+        let problem = Problem::new(&point, Lubricant::default()).unwrap();
+        let at = Frame::Fixed.conditions(&problem, 0.0, Input { radius: 0.8, ..Inputs::default().at(0.0) }).unwrap();
+        // No node of the third grid lies at X = 0.
+        for (dx, domain) in [(0.005, (-4.0, 2.0)), (0.02, (-3.0, 1.6)), (0.017, (-3.0, 1.57))] {
+            let grid = GridSpec::Uniform { dx, domain }.build().unwrap().scaled(1.0);
+            let mut random = fastrand::Rng::with_seed(3);
+            let modes = 7;
+            let inner = FIRST_UNKNOWN..grid.len() - 1;
+            let waves: Vec<f64> = (0..2 * modes).map(|_| 9.0 * random.f64()).collect();
+            let hill = |x: f64| (1.0 - x * x).max(0.0).sqrt();
+            let pressure = Mat::from_fn(grid.len(), modes, |i, k| {
+                if inner.contains(&i) { hill(grid.x[i]) * (waves[k] * grid.x[i]).cos() } else { 0.0 }
+            });
+            let bent = Mat::from_fn(grid.len(), modes, |i, k| (waves[modes + k] * grid.x[i]).sin() - grid.x[i].abs());
+            let mut rows = ContactRows::new(&grid, pressure.as_ref(), bent.as_ref());
+            for _ in 0..20 {
+                let coefficients: Vec<f64> = (0..modes).map(|_| random.f64() - 0.3).collect();
+                let h_0 = random.f64();
+                let fields = |matrix: &Mat<f64>| -> Vec<f64> {
+                    (0..grid.len()).map(|i| (0..modes).map(|k| matrix[(i, k)] * coefficients[k]).sum()).collect()
+                };
+                let p = fields(&pressure);
+                let shape = |x: f64| h_0 + 0.5 * at.curvature * x * x;
+                let h: Vec<f64> = fields(&bent).iter().zip(&grid.x).map(|(d, &x)| d + shape(x)).collect();
+                let (own, want) = (rows.scalars(&at, &coefficients, h_0), scalars_of(&grid, &at.problem, &p, &h, h_0));
+                let values = |s: &Scalars| [s.h_c, s.p_c, s.h_min, s.p_max, s.x_h_min, s.x_p_max, s.h_0];
+                for (own, want) in values(&own).into_iter().zip(values(&want)) {
+                    assert!((own - want).abs() < 1e-12, "{own} against {want} on {} nodes", grid.len());
+                }
+            }
+        }
+    }
+}
