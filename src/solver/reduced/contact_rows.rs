@@ -108,7 +108,7 @@ mod tests {
             let waves: Vec<f64> = (0..2 * modes).map(|_| 9.0 * random.f64()).collect();
             let hill = |x: f64| (1.0 - x * x).max(0.0).sqrt();
             let pressure = Mat::from_fn(grid.len(), modes, |i, k| {
-                if inner.contains(&i) { hill(grid.x[i]) * (waves[k] * grid.x[i]).cos() } else { 0.0 }
+                if inner.contains(&i) { hill(grid.x[i]) * (waves[k] * grid.x[i] + k as f64).cos() } else { 0.0 }
             });
             let bent = Mat::from_fn(grid.len(), modes, |i, k| (waves[modes + k] * grid.x[i]).sin() - grid.x[i].abs());
             let mut rows = ContactRows::new(&grid, pressure.as_ref(), bent.as_ref());
