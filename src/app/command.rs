@@ -1,4 +1,6 @@
-//! Everything the user can ask for by menu or key, in one place.
+//! Everything the user can ask for by menu, key or palette, in one place.
+
+mod refusal;
 
 use egui::{Context, Key, KeyboardShortcut, Modifiers};
 
@@ -15,6 +17,8 @@ pub enum Command {
     SaveAs,
     /// Export a plot as a picture.
     ExportPlot,
+    /// Export the profiles as a table.
+    ExportProfiles,
     /// Close the program.
     Quit,
     /// Take the last edit back.
@@ -27,6 +31,14 @@ pub enum Command {
     Pin,
     /// Remove all pins.
     Unpin,
+    /// All of these by typing.
+    Palette,
+    /// Nothing but plots and sliders, large.
+    Presentation,
+    /// Draw the full solution over the reduced one, or no more.
+    Overlay,
+    /// Draw the difference of both, or no more.
+    Difference,
     /// Fit all plots to their data.
     FitPlots,
     /// Light theme.
@@ -45,8 +57,14 @@ pub enum Command {
     ResetLayout,
     /// Full solve now.
     Verify,
+    /// Solve on a second grid to see what the first one costs.
+    EstimateGridError,
     /// Full solutions along the traction curve.
     SolveAlong,
+    /// Take the contact through time.
+    RunInTime,
+    /// Train the model that the Training tab specifies.
+    Train,
     /// Stop what runs.
     Cancel,
     /// List of keys.
@@ -55,36 +73,42 @@ pub enum Command {
     About,
 }
 
+/// The menus from left to right, each in its groups.
+pub const MENUS: [(&str, &[&[Command]]); 5] = {
+    use Command as C;
+    [
+        (
+            "File",
+            &[&[C::New, C::Open], &[C::Save, C::SaveAs], &[C::ExportPlot, C::ExportProfiles], &[C::Quit]],
+        ),
+        ("Edit", &[&[C::Undo, C::Redo], &[C::Pin, C::Unpin], &[C::CopyReadouts]]),
+        (
+            "View",
+            &[
+                &[C::Palette, C::Presentation],
+                &[C::Overlay, C::Difference],
+                &[C::LightTheme, C::DarkTheme, C::SystemTheme],
+                &[C::LargerText, C::SmallerText, C::NormalText],
+                &[C::FitPlots, C::ResetLayout],
+            ],
+        ),
+        (
+            "Run",
+            &[&[C::Verify, C::EstimateGridError], &[C::SolveAlong, C::RunInTime, C::Train], &[C::Cancel]],
+        ),
+        ("Help", &[&[C::Keyboard, C::About]]),
+    ]
+};
+
 const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
 impl Command {
-    /// All of them, longest shortcuts first so that Ctrl+Shift+Z is not taken for Ctrl+Z.
-    pub const ALL: [Self; 24] = [
-        Self::Redo,
-        Self::SaveAs,
-        Self::CopyReadouts,
-        Self::Unpin,
-        Self::New,
-        Self::Open,
-        Self::Save,
-        Self::ExportPlot,
-        Self::Quit,
-        Self::Undo,
-        Self::Pin,
-        Self::FitPlots,
-        Self::LightTheme,
-        Self::DarkTheme,
-        Self::SystemTheme,
-        Self::LargerText,
-        Self::SmallerText,
-        Self::NormalText,
-        Self::ResetLayout,
-        Self::Verify,
-        Self::SolveAlong,
-        Self::Cancel,
-        Self::Keyboard,
-        Self::About,
-    ];
+    /// All of them with the names of their menus, in their order.
+    pub fn all() -> impl Iterator<Item = (&'static str, Self)> {
+        MENUS.into_iter().flat_map(|(menu, groups)| {
+            groups.iter().flat_map(move |group| group.iter().map(move |command| (menu, *command)))
+        })
+    }
 
     /// As menus show it; `…` where a dialog follows.
     pub fn name(self) -> &'static str {
@@ -94,12 +118,17 @@ impl Command {
             Self::Save => "Save",
             Self::SaveAs => "Save as…",
             Self::ExportPlot => "Export plot…",
+            Self::ExportProfiles => "Export profiles as CSV…",
             Self::Quit => "Quit",
             Self::Undo => "Undo",
             Self::Redo => "Redo",
             Self::CopyReadouts => "Copy read-outs",
             Self::Pin => "Pin curve",
             Self::Unpin => "Remove all pins",
+            Self::Palette => "Command palette…",
+            Self::Presentation => "Presentation",
+            Self::Overlay => "Show or hide the full solution",
+            Self::Difference => "Show or hide the difference",
             Self::FitPlots => "Fit plots to data",
             Self::LightTheme => "Light theme",
             Self::DarkTheme => "Dark theme",
@@ -109,10 +138,36 @@ impl Command {
             Self::NormalText => "Normal text",
             Self::ResetLayout => "Reset layout",
             Self::Verify => "Verify now",
+            Self::EstimateGridError => "Estimate grid error",
             Self::SolveAlong => "Full solutions along the traction curve",
+            Self::RunInTime => "Run in time",
+            Self::Train => "Start training",
             Self::Cancel => "Cancel",
             Self::Keyboard => "Keyboard",
             Self::About => "About EHL Explorer",
+        }
+    }
+
+    /// Other words that people look for it by.
+    pub fn synonyms(self) -> &'static str {
+        match self {
+            Self::ExportPlot => "picture figure image svg png",
+            Self::ExportProfiles => "table data",
+            Self::CopyReadouts => "clipboard table values",
+            Self::Pin => "compare keep",
+            Self::Presentation => "full screen projector lecture",
+            Self::Overlay | Self::Difference => "overlay reduced compare",
+            Self::FitPlots => "zoom reset axes",
+            Self::LightTheme | Self::DarkTheme | Self::SystemTheme => "colours colors mode",
+            Self::LargerText | Self::SmallerText | Self::NormalText => "zoom font size scale",
+            Self::ResetLayout => "tabs panels windows",
+            Self::Verify => "full solve check",
+            Self::EstimateGridError => "accuracy nodes refine",
+            Self::RunInTime => "transient march",
+            Self::Train => "reduced model snapshots",
+            Self::Cancel => "stop abort",
+            Self::Keyboard => "keys shortcuts help",
+            _ => "",
         }
     }
 
@@ -130,6 +185,8 @@ impl Command {
             Self::CopyReadouts => (CTRL_SHIFT, Key::C),
             Self::Pin => (Modifiers::COMMAND, Key::D),
             Self::Unpin => (CTRL_SHIFT, Key::D),
+            Self::Palette => (Modifiers::COMMAND, Key::P),
+            Self::Presentation => (Modifiers::NONE, Key::F11),
             Self::FitPlots => (Modifiers::NONE, Key::F2),
             Self::LargerText => (Modifiers::COMMAND, Key::Plus),
             Self::SmallerText => (Modifiers::COMMAND, Key::Minus),
@@ -147,10 +204,29 @@ impl Command {
         // A text field keeps its own undo, and Escape must still leave it.
         let typing = ctx.text_edit_focused();
         let left_to_fields = [Self::Undo, Self::Redo, Self::Cancel];
-        Self::ALL
-            .into_iter()
-            .filter(|command| !(typing && left_to_fields.contains(command)))
-            .filter(|command| command.shortcut().is_some_and(|s| ctx.input_mut(|i| i.consume_shortcut(&s))))
-            .collect()
+        let keys = Self::all().filter_map(|(_, command)| Some((command, command.shortcut()?)));
+        let keys = keys.filter(|(command, _)| !(typing && left_to_fields.contains(command)));
+        // Those with Shift first: Ctrl+Shift+Z must not be taken for Ctrl+Z.
+        let (shifted, plain): (Vec<_>, Vec<_>) = keys.partition(|(_, shortcut)| shortcut.modifiers.shift);
+        let pressed = |shortcut: &KeyboardShortcut| ctx.input_mut(|i| i.consume_shortcut(shortcut));
+        let both = shifted.into_iter().chain(plain);
+        both.filter(|(_, shortcut)| pressed(shortcut)).map(|(command, _)| command).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_command_stands_in_two_menus_and_no_key_or_name_means_two_things() {
+        let all: Vec<Command> = Command::all().map(|(_, command)| command).collect();
+        for (k, command) in all.iter().enumerate() {
+            for other in &all[..k] {
+                assert_ne!(command, other);
+                assert_ne!(command.name(), other.name());
+                assert!(command.shortcut().is_none() || command.shortcut() != other.shortcut(), "{}", command.name());
+            }
+        }
     }
 }

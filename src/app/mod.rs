@@ -6,6 +6,7 @@ mod color_map;
 mod command;
 mod controls;
 mod document;
+mod execute;
 mod export;
 mod figure;
 mod files;
@@ -14,10 +15,12 @@ mod in_use;
 mod jobs;
 mod model_source;
 mod numbers;
+mod palette;
 mod panels;
 mod picture;
 mod plots;
 mod png;
+mod presentation;
 mod session;
 mod solvers;
 mod state;
@@ -31,11 +34,11 @@ use crate::solver::contact::{ContactKind, Moes};
 use crate::solver::reduced::ReducedModel;
 use command::Command;
 use document::Document;
-use egui::{CentralPanel, Context, Panel, ScrollArea, Ui, ViewportCommand};
+use egui::{CentralPanel, Panel, ScrollArea, Ui};
 use egui_tiles::Tree;
-use files::{Pending, Purpose};
 use jobs::JobKind;
 use model_source::Models;
+use palette::Palette;
 use panels::help::Help;
 use plots::{Tab, Tabs};
 use state::State;
@@ -92,6 +95,7 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
 pub struct Explorer {
     state: State,
     tree: Tree<Tab>,
+    palette: Palette,
     help: Help,
     frame_s: f64,
     installed: bool,
@@ -112,6 +116,7 @@ impl Explorer {
         Self {
             state: State::new(Document::default(), models),
             tree: plots::default_tree(),
+            palette: Palette::default(),
             help: Help::default(),
             frame_s: 0.0,
             installed: false,
@@ -138,16 +143,52 @@ impl Explorer {
             self.installed = true;
             theme::install(&ctx);
             ctx.set_theme(self.state.display.theme);
-            ctx.set_zoom_factor(self.state.display.zoom);
             self.state.training.look(&ctx);
         }
+        self.scale(&ctx);
+        self.palette.begin(&ctx);
         figure::begin(&ctx);
         self.state.receive();
         self.state.receive_training();
-        let asked = self.state.files.asks() || self.state.asks_figure();
+        let asked = self.state.files.asks() || self.state.asks_figure() || self.palette.is_open();
         let mut chosen = if asked { Vec::new() } else { Command::pressed(&ctx) };
-        Panel::top("menu").show(ui, |ui| panels::menu::ui(ui, &mut self.state, &mut chosen));
-        Panel::bottom("jobs").show(ui, |ui| panels::strip::ui(ui, &self.state, self.frame_s, &mut chosen));
+        let presents = self.state.presentation.is_some();
+        if presents {
+            Panel::bottom("presentation").show(ui, |ui| panels::presentation::ui(ui, &mut self.state, &mut chosen));
+        } else {
+            self.panels(ui, &mut chosen);
+        }
+        // The picture follows within this frame: the panels that change the document are drawn before the plots.
+        self.state.refresh(&ctx);
+        self.state.follow_cuts();
+        if !presents {
+            Panel::bottom("readouts").show(ui, |ui| panels::readouts::ui(ui, &self.state));
+        }
+        CentralPanel::no_frame().show(ui, |ui| {
+            self.tree.ui(&mut Tabs { state: &mut self.state }, ui);
+        });
+        self.state.files_ui(ui);
+        self.state.figures_ui(&ctx);
+        panels::help::ui(&ctx, &mut self.help);
+        let action = self.palette.ui(&ctx, &self.state);
+        self.state.settle(&ctx);
+        for command in chosen {
+            self.execute(&ctx, command);
+        }
+        if let Some(action) = action {
+            self.act(&ctx, action);
+        }
+        // What a plot or a command changed shows in the next frame.
+        if !self.state.is_answered() {
+            ctx.request_repaint();
+        }
+        self.frame_s = begin.elapsed().as_secs_f64();
+    }
+
+    /// The panels around the tabs that are drawn before them.
+    fn panels(&mut self, ui: &mut Ui, chosen: &mut Vec<Command>) {
+        Panel::top("menu").show(ui, |ui| panels::menu::ui(ui, &mut self.state, chosen));
+        Panel::bottom("jobs").show(ui, |ui| panels::strip::ui(ui, &self.state, self.frame_s, chosen));
         Panel::left("sliders").default_size(312.0).size_range(250.0..=520.0).show(ui, |ui| {
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 panels::operating_point::ui(ui, &mut self.state);
@@ -157,82 +198,6 @@ impl Explorer {
                 ui.add_space(8.0);
             });
         });
-        // The picture follows within this frame: the panels that change the document are drawn before the plots.
-        self.state.refresh(&ctx);
-        self.state.follow_cuts();
-        Panel::bottom("readouts").show(ui, |ui| panels::readouts::ui(ui, &self.state));
-        CentralPanel::no_frame().show(ui, |ui| {
-            self.tree.ui(&mut Tabs { state: &mut self.state }, ui);
-        });
-        self.state.files_ui(ui);
-        self.state.figures_ui(&ctx);
-        panels::help::ui(&ctx, &mut self.help);
-        self.state.settle(&ctx);
-        for command in chosen {
-            self.execute(&ctx, command);
-        }
-        // What a plot or a command changed shows in the next frame.
-        if !self.state.is_answered() {
-            ctx.request_repaint();
-        }
-        self.frame_s = begin.elapsed().as_secs_f64();
-    }
-
-    fn execute(&mut self, ctx: &Context, command: Command) {
-        let state = &mut self.state;
-        match command {
-            Command::New => state.request(ctx, Pending::New),
-            Command::Open => state.request(ctx, Pending::OpenDialog),
-            Command::Save => state.save(ctx),
-            Command::SaveAs => state.ask_path(ctx, Purpose::Save),
-            Command::ExportPlot => state.ask_figure(),
-            Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
-            Command::Undo => {
-                state.history.undo(&mut state.document);
-                state.forget_entries();
-            }
-            Command::Redo => {
-                state.history.redo(&mut state.document);
-                state.forget_entries();
-            }
-            Command::CopyReadouts => ctx.copy_text(export::readouts_table(state)),
-            Command::Pin => state.pin(),
-            Command::Unpin => state.pins.clear(),
-            Command::FitPlots => state.fit_plots = true,
-            Command::LightTheme => self.set_theme(ctx, egui::ThemePreference::Light),
-            Command::DarkTheme => self.set_theme(ctx, egui::ThemePreference::Dark),
-            Command::SystemTheme => self.set_theme(ctx, egui::ThemePreference::System),
-            Command::LargerText => self.set_zoom(ctx, self.state.display.zoom * 1.1),
-            Command::SmallerText => self.set_zoom(ctx, self.state.display.zoom / 1.1),
-            Command::NormalText => self.set_zoom(ctx, 1.0),
-            Command::ResetLayout => {
-                self.tree = plots::default_tree();
-                self.state.fit_plots = true;
-                ctx.memory_mut(|m| m.data.clear());
-            }
-            Command::Verify => state.verify(ctx),
-            Command::SolveAlong => {
-                if let Some((sweep, _)) = state.sweep() {
-                    state.start_markers(ctx, &sweep);
-                }
-            }
-            Command::Cancel => {
-                state.stop_all();
-            }
-            Command::Keyboard => self.help.keyboard = true,
-            Command::About => self.help.about = true,
-        }
-        ctx.request_repaint();
-    }
-
-    fn set_theme(&mut self, ctx: &Context, theme: egui::ThemePreference) {
-        self.state.display.theme = theme;
-        ctx.set_theme(theme);
-    }
-
-    fn set_zoom(&mut self, ctx: &Context, zoom: f32) {
-        self.state.display.zoom = zoom.clamp(0.6, 3.0);
-        ctx.set_zoom_factor(self.state.display.zoom);
     }
 
     /// M and L of the sliders.

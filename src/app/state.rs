@@ -17,6 +17,7 @@ use super::picture::{Comparison, Cuts, Origin, Picture};
 use super::plots::contact_map::ContactMap;
 use super::plots::film_shear::FilmShearImage;
 use super::plots::{accuracy::AccuracyView, basis::BasisView, regimes::RegimeChart, tpwl::TpwlView};
+use super::presentation::Presentation;
 use super::task::Standing;
 use super::traction::TractionView;
 use super::training::Training;
@@ -127,6 +128,8 @@ pub struct State {
     pub traction: TractionView,
     /// What the Regimes tab keeps between frames.
     pub regimes: RegimeChart,
+    /// A presentation under way: plots and sliders only.
+    pub presentation: Option<Presentation>,
     /// Plots are to be fitted to their data in this frame.
     pub fit_plots: bool,
     wanted: Option<Key>,
@@ -173,6 +176,7 @@ impl State {
             figures: Figures::default(),
             traction: TractionView::default(),
             regimes: RegimeChart::default(),
+            presentation: None,
             fit_plots: true,
             wanted: None,
             wanted_plane: None,

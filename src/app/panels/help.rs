@@ -16,7 +16,7 @@ pub struct Help {
 pub fn ui(ctx: &Context, help: &mut Help) {
     Window::new("Keyboard").open(&mut help.keyboard).resizable(false).show(ctx, |ui| {
         Grid::new("keys").num_columns(2).striped(true).show(ui, |ui| {
-            for command in Command::ALL {
+            for (_, command) in Command::all() {
                 if let Some(shortcut) = command.shortcut() {
                     ui.label(command.name().trim_end_matches('…'));
                     ui.monospace(ui.ctx().format_shortcut(&shortcut));

@@ -59,16 +59,20 @@ fn picker(ui: &mut Ui, state: &mut State, known: Option<&'static NamedLubricant>
     if wanted == before {
         return;
     }
-    state.own_lubricant = wanted == Pick::Own;
-    if let Pick::Named(name) = wanted
-        && let Some(named) = of(name)
-    {
-        let result = state.document.pick_lubricant(named);
-        if result.is_ok() {
-            state.entries.clear();
-        }
-        state.entries.answer("lubricant", result);
+    match wanted {
+        Pick::Own => state.own_lubricant = true,
+        Pick::Named(name) => of(name).into_iter().for_each(|named| take(state, named)),
     }
+}
+
+/// Takes a named lubricant; a refusal stands under the picker.
+pub fn take(state: &mut State, named: &NamedLubricant) {
+    state.own_lubricant = false;
+    let result = state.document.pick_lubricant(named);
+    if result.is_ok() {
+        state.entries.clear();
+    }
+    state.entries.answer("lubricant", result);
 }
 
 /// A constant of the laws in use.

@@ -1,67 +1,46 @@
 //! The menu bar.
 
-use crate::app::command::Command;
+use crate::app::command::{Command, MENUS};
+use crate::app::controls::named;
 use crate::app::files::Pending;
 use crate::app::state::State;
 use crate::app::theme::Palette;
-use egui::{Button, MenuBar, RichText, Ui};
+use egui::{Align, Button, Label, Layout, MenuBar, RichText, Ui};
 
 /// The menu bar; chosen commands are added to `chosen`.
 pub fn ui(ui: &mut Ui, state: &mut State, chosen: &mut Vec<Command>) {
     MenuBar::new().ui(ui, |ui| {
-        ui.menu_button("File", |ui| {
-            item(ui, Command::New, true, chosen);
-            item(ui, Command::Open, true, chosen);
-            recent(ui, state);
-            ui.separator();
-            item(ui, Command::Save, true, chosen);
-            item(ui, Command::SaveAs, true, chosen);
-            ui.separator();
-            item(ui, Command::ExportPlot, true, chosen);
-            ui.separator();
-            item(ui, Command::Quit, true, chosen);
+        for (menu, groups) in MENUS {
+            ui.menu_button(menu, |ui| {
+                for (k, group) in groups.iter().enumerate() {
+                    if k > 0 {
+                        ui.separator();
+                    }
+                    group.iter().for_each(|command| item(ui, state, *command, chosen));
+                    if group.contains(&Command::Open) {
+                        recent(ui, state);
+                    }
+                }
+            });
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            palette(ui, chosen);
+            title(ui, state);
         });
-        ui.menu_button("Edit", |ui| {
-            item(ui, Command::Undo, state.history.can_undo(&state.document), chosen);
-            item(ui, Command::Redo, state.history.can_redo(), chosen);
-            ui.separator();
-            item(ui, Command::Pin, state.picture.is_some(), chosen);
-            item(ui, Command::Unpin, !state.pins.is_empty(), chosen);
-            ui.separator();
-            item(ui, Command::CopyReadouts, state.picture.is_some(), chosen);
-        });
-        ui.menu_button("View", |ui| {
-            item(ui, Command::LightTheme, true, chosen);
-            item(ui, Command::DarkTheme, true, chosen);
-            item(ui, Command::SystemTheme, true, chosen);
-            ui.separator();
-            item(ui, Command::LargerText, true, chosen);
-            item(ui, Command::SmallerText, true, chosen);
-            item(ui, Command::NormalText, true, chosen);
-            ui.separator();
-            item(ui, Command::FitPlots, true, chosen);
-            item(ui, Command::ResetLayout, true, chosen);
-        });
-        ui.menu_button("Run", |ui| {
-            item(ui, Command::Verify, true, chosen);
-            item(ui, Command::SolveAlong, state.sweep().is_some(), chosen);
-            let background = state.training.job().is_some() || state.study().is_some();
-            item(ui, Command::Cancel, background || !state.jobs.running().is_empty(), chosen);
-        });
-        ui.menu_button("Help", |ui| {
-            item(ui, Command::Keyboard, true, chosen);
-            item(ui, Command::About, true, chosen);
-        });
-        title(ui, state);
     });
 }
 
-fn item(ui: &mut Ui, command: Command, enabled: bool, chosen: &mut Vec<Command>) {
+fn item(ui: &mut Ui, state: &State, command: Command, chosen: &mut Vec<Command>) {
     let mut button = Button::new(command.name());
     if let Some(shortcut) = command.shortcut() {
         button = button.shortcut_text(ui.ctx().format_shortcut(&shortcut));
     }
-    if ui.add_enabled(enabled, button).clicked() {
+    let refusal = command.refusal(state);
+    let mut response = ui.add_enabled(refusal.is_none(), button);
+    if let Some(why) = refusal {
+        response = response.on_disabled_hover_text(why);
+    }
+    if response.clicked() {
         chosen.push(command);
         ui.close();
     }
@@ -86,7 +65,20 @@ fn recent(ui: &mut Ui, state: &mut State) {
     }
 }
 
-/// Name of the document and what the last file action did, at the right end.
+/// What opens the command palette, at the very right.
+fn palette(ui: &mut Ui, chosen: &mut Vec<Command>) {
+    let quiet = |text: String| RichText::new(text).color(Palette::of(ui).quiet);
+    let mut button = Button::new(quiet("Find a command".to_owned()));
+    if let Some(shortcut) = Command::Palette.shortcut() {
+        button = button.shortcut_text(quiet(ui.ctx().format_shortcut(&shortcut)));
+    }
+    let response = ui.add(button).on_hover_text("Everything that can be done now, by typing a part of its name");
+    if named(ui, response, "Command palette").clicked() {
+        chosen.push(Command::Palette);
+    }
+}
+
+/// Name of the document and what the last file action did, right of the menus.
 fn title(ui: &mut Ui, state: &mut State) {
     let palette = Palette::of(ui);
     let name = match &state.files.path {
@@ -94,23 +86,18 @@ fn title(ui: &mut Ui, state: &mut State) {
         None => state.document.title.clone(),
     };
     let mark = if state.dirty() { " •" } else { "" };
-    ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-        ui.label(RichText::new(format!("{name}{mark}")).color(palette.quiet)).on_hover_text(if state.dirty() {
-            "Changed since it was last saved"
-        } else {
-            "Saved"
-        });
-        let mut dismissed = false;
-        if let Some(notice) = &state.files.notice {
-            let (text, color) = match notice {
-                Ok(text) => (text, palette.quiet),
-                Err(text) => (text, palette.wrong),
-            };
-            dismissed = ui.small_button("Dismiss").clicked();
-            ui.add(egui::Label::new(RichText::new(text).small().color(color)).truncate()).on_hover_text(text);
-        }
-        if dismissed {
-            state.files.notice = None;
-        }
-    });
+    let label = Label::new(RichText::new(format!("{name}{mark}")).color(palette.quiet)).truncate();
+    ui.add(label).on_hover_text(if state.dirty() { "Changed since it was last saved" } else { "Saved" });
+    let mut dismissed = false;
+    if let Some(notice) = &state.files.notice {
+        let (text, color) = match notice {
+            Ok(text) => (text, palette.quiet),
+            Err(text) => (text, palette.wrong),
+        };
+        dismissed = ui.small_button("Dismiss").clicked();
+        ui.add(Label::new(RichText::new(text).small().color(color)).truncate()).on_hover_text(text);
+    }
+    if dismissed {
+        state.files.notice = None;
+    }
 }

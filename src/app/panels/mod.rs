@@ -5,6 +5,8 @@ pub mod lubricant;
 pub mod menu;
 pub mod operating_point;
 pub mod plane;
+pub mod presentation;
 pub mod readouts;
 pub mod settings;
+pub mod sliders;
 pub mod strip;

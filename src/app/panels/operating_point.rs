@@ -1,29 +1,14 @@
-//! M, L, SRR and NPR, the same state in SI units, and the Hertzian contact behind it.
+//! The same state in SI units beside the sliders, what follows what, and the Hertzian contact behind it.
 
-use crate::app::controls::{
-    NAME_WIDTH, RangeSlider, choice, described, explained, heading, named, number_field, row_name, warning_ui,
-};
-use crate::app::document::{HOME, Quantity};
+use super::sliders;
+use crate::app::controls::{NAME_WIDTH, choice, explained, heading, number_field, row_name, warning_ui};
+use crate::app::document::Quantity;
 use crate::app::numbers;
 use crate::app::state::State;
-use crate::app::theme::{name_and_symbol, symbol};
-use crate::solver::contact::{ContactKind, Moes, PLAUSIBLE_HERTZ_PRESSURE_PA};
-use crate::solver::lubricant::ShearLaw;
-use egui::{Grid, Slider, Ui};
+use crate::app::theme::name_and_symbol;
+use crate::solver::contact::{ContactKind, PLAUSIBLE_HERTZ_PRESSURE_PA};
+use egui::{Grid, Ui};
 
-/// Ends of the M slider.
-pub const M_RANGE: (f64, f64) = (1.0, 1000.0);
-/// Ends of the L slider.
-pub const L_RANGE: (f64, f64) = (0.5, 25.0);
-/// Ends of the SRR slider.
-const SRR_RANGE: (f64, f64) = (0.0, 2.0);
-/// Ends of the NPR slider.
-const NPR_RANGE: (f64, f64) = (0.0, 1.0);
-
-const M_TIP: &str = "Load number M = w/(E’R) · (2η₀u_m/(E’R))^(−1/2): how heavily the contact is loaded for its speed. \
-    Small: nearly rigid bodies; large: nearly Hertzian. Double click: M 40";
-const M_POINT_TIP: &str = "Load number M = w/(E’R²) · (2η₀u_m/(E’R))^(−3/4): how heavily the contact is loaded for its speed. \
-    Small: nearly rigid bodies; large: nearly Hertzian. Double click: M 40";
 const KINDS: [(ContactKind, &str, &str); 2] = [
     (ContactKind::Line, "Line contact", "A long roller on a raceway: load per unit length, the same at every Y"),
     (
@@ -32,105 +17,17 @@ const KINDS: [(ContactKind, &str, &str); 2] = [
         "A ball on a raceway or a disc, circular: the film has its horseshoe and side lobes",
     ),
 ];
-const L_TIP: &str = "Lubricant number L = αE’ · (2η₀u_m/(E’R))^(1/4): how strongly the viscosity rises with pressure. \
-    Double click: L 10";
-const SRR_TIP: &str = "Slide-to-roll ratio SRR = (u₂ − u₁)/u_m (3.25): how fast the surfaces slide past each other for their rolling. \
-    Negative values are typed: the film stays, the traction turns round. Double click: pure rolling";
-const SRR_NEWTONIAN_TIP: &str = "Slide-to-roll ratio SRR = (u₂ − u₁)/u_m (3.25). The lubricant is Newtonian: sliding changes neither \
-    pressure nor film, only the traction. Double click: pure rolling";
-const NPR_TIP: &str = "Newtonian plateau ratio NPR of (3.40): the share of its viscosity that the lubricant keeps however fast it is sheared. \
-    1 is Newtonian. Double click: the lubricant’s own";
-const NPR_NEWTONIAN_TIP: &str = "The lubricant has no shear constants, so it is Newtonian, which is a Newtonian plateau ratio NPR of 1; \
-    choose a lubricant that thins under shear below";
-
-/// One of the four sliders.
-#[derive(Clone, Copy, PartialEq)]
-enum Slid {
-    LoadNumber,
-    LubricantNumber,
-    SlideToRoll,
-    Plateau,
-}
+/// Under this name the switch between both is refused.
+const KIND: &str = "kind of contact";
 
 /// The panel's first group.
 pub fn ui(ui: &mut Ui, state: &mut State) {
     heading(ui, "Operating point");
     kind_ui(ui, state);
-    let kind = state.document.point.kind;
-    let moes = state.document.point.moes();
-    let domain = state.model().map(|model| &model.domain);
-    let (trained, sliding) = (domain.map(|domain| (domain.m, domain.l)), domain.and_then(|domain| domain.sliding));
-    let thins = state.document.lubricant.shear != ShearLaw::Newtonian;
-    let srr = state.document.point.sliding.slide_to_roll_ratio;
-    let (npr, own_npr) = (state.document.plateau_ratio(), state.document.lubricant.shear.plateau());
-    let width = (ui.available_width() - 132.0).clamp(70.0, 420.0);
-    let mut wanted = None;
-    let m_tip = if kind == ContactKind::Line { M_TIP } else { M_POINT_TIP };
-    let srr_tip = if thins { SRR_TIP } else { SRR_NEWTONIAN_TIP };
-    Grid::new("sliders").num_columns(3).spacing([8.0, 6.0]).show(ui, |ui| {
-        let slider = |name, (low, high), marked, home, tooltip, logarithmic| RangeSlider {
-            name,
-            range: low..=high,
-            marked,
-            home,
-            tooltip,
-            logarithmic,
-        };
-        let m = slider("Load number M", M_RANGE, trained.map(|t| t.0), HOME.m, m_tip, true);
-        let l = slider("Lubricant number L", L_RANGE, trained.map(|t| t.1), HOME.l, L_TIP, true);
-        let marked = sliding.map(|sliding| sliding.srr);
-        let slide = slider("Slide-to-roll ratio SRR", SRR_RANGE, marked, 0.0, srr_tip, false);
-        let marked = sliding.map(|sliding| sliding.npr);
-        let plateau = slider("Newtonian plateau ratio NPR", NPR_RANGE, marked, own_npr, NPR_TIP, false);
-        let rows = [
-            (Slid::LoadNumber, "M", "M value", m, moes.m),
-            (Slid::LubricantNumber, "L", "L value", l, moes.l),
-            (Slid::SlideToRoll, "SRR", "SRR value", slide, srr),
-            (Slid::Plateau, "NPR", "NPR value", plateau, npr),
-        ];
-        for (slid, base, value_name, slider, value) in rows {
-            if slid == Slid::Plateau && !thins {
-                disabled_plateau(ui, width);
-                continue;
-            }
-            explained(ui, symbol(ui, base, ""), slider.tooltip);
-            let moved = slider.show(ui, value, width).map(|v| (base, v));
-            let entry = number_field(ui, &mut state.entries, value_name, value, 62.0, slider.tooltip);
-            wanted = moved.or(entry.map(|v| (value_name, v))).map(|(field, value)| (slid, field, value)).or(wanted);
-            ui.end_row();
-        }
-    });
-    if let Some((slid, field, value)) = wanted {
-        let document = &mut state.document;
-        let result = match slid {
-            Slid::LoadNumber => document.set_moes(Moes { m: value, ..moes }),
-            Slid::LubricantNumber => document.set_moes(Moes { l: value, ..moes }),
-            Slid::SlideToRoll => document.set_slide_to_roll_ratio(value),
-            Slid::Plateau => document.set_plateau_ratio((value != own_npr).then_some(value)),
-        };
-        if result.is_ok() {
-            state.entries.clear();
-        }
-        state.entries.answer(field, result);
-    }
-    for field in ["M", "L", "SRR", "NPR", "M value", "L value", "SRR value", "NPR value"] {
-        state.entries.message_ui(ui, field);
-    }
+    sliders::column(ui, state);
     followers_ui(ui, state);
     si_ui(ui, state);
     hertz_ui(ui, state);
-}
-
-/// The slider of a fluid that keeps its viscosity: it stands at 1 and says why it does not move.
-fn disabled_plateau(ui: &mut Ui, width: f32) {
-    let tip = NPR_NEWTONIAN_TIP;
-    ui.add_enabled(false, egui::Label::new("NPR")).on_disabled_hover_text(tip);
-    ui.spacing_mut().slider_width = width;
-    let response = ui.add_enabled(false, Slider::new(&mut 1.0, NPR_RANGE.0..=NPR_RANGE.1).show_value(false));
-    let response = described(ui, named(ui, response, "Newtonian plateau ratio NPR"), tip);
-    response.on_disabled_hover_text(tip);
-    ui.weak("Newtonian").on_hover_text(tip);
-    ui.end_row();
 }
 
 /// Line or point.
@@ -143,14 +40,19 @@ fn kind_ui(ui: &mut Ui, state: &mut State) {
         }
     });
     if wanted != state.document.point.kind {
-        let result = state.document.set_kind(wanted);
-        if result.is_ok() {
-            state.entries.clear();
-            state.fit_plots = true;
-        }
-        state.entries.answer("kind of contact", result);
+        go_over(state, wanted);
     }
-    state.entries.message_ui(ui, "kind of contact");
+    state.entries.message_ui(ui, KIND);
+}
+
+/// Goes over to a kind of contact; a refusal stands under the switch.
+pub fn go_over(state: &mut State, kind: ContactKind) {
+    let result = state.document.set_kind(kind);
+    if result.is_ok() {
+        state.entries.clear();
+        state.fit_plots = true;
+    }
+    state.entries.answer(KIND, result);
 }
 
 fn followers_ui(ui: &mut Ui, state: &mut State) {

@@ -76,6 +76,21 @@ impl Tab {
             Self::Tpwl => "TPWL",
         }
     }
+
+    /// Words for what it shows.
+    pub fn subjects(self) -> &'static str {
+        match self {
+            Self::Profiles => "pressure film spike shear",
+            Self::ContactMap => "interferogram fringes contours horseshoe side lobes",
+            Self::Regimes => "chart film formulas Moes asymptotes",
+            Self::Traction => "friction Stribeck slide-to-roll fluid viscosity",
+            Self::Basis => "singular values modes truncation sampled rows",
+            Self::Accuracy => "error failure map residuals bound",
+            Self::Training => "snapshots model plan range",
+            Self::Transient => "time load speed radius frames",
+            Self::Tpwl => "linearised operating points weights",
+        }
+    }
 }
 
 /// The tabs as they are at first.

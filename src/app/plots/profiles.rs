@@ -89,6 +89,9 @@ fn toolbar(ui: &mut Ui, state: &mut State) {
     let ctx = ui.ctx().clone();
     ui.horizontal_wrapped(|ui| {
         super::badge::ui(ui, state);
+        if state.presentation.is_some() {
+            return;
+        }
         if ui.button("Pin curve").on_hover_text("Keep this curve and its parameters for comparison (Ctrl+D)").clicked()
         {
             state.pin();
@@ -133,7 +136,7 @@ fn toolbar(ui: &mut Ui, state: &mut State) {
 }
 
 fn pins_ui(ui: &mut Ui, state: &mut State) {
-    if state.pins.is_empty() {
+    if state.pins.is_empty() || state.presentation.is_some() {
         return;
     }
     let mut removed = None;

@@ -1,0 +1,81 @@
+//! What the palette offers: commands, tabs, kinds of contact, lubricants, recent scenes.
+
+use crate::app::command::Command;
+use crate::app::plots::Tab;
+use crate::app::state::State;
+use crate::scene::named_lubricant::{NAMED, NamedLubricant, of_laws};
+use crate::solver::contact::ContactKind;
+use egui::KeyboardShortcut;
+use std::path::{Path, PathBuf};
+
+/// What is done when an entry is chosen.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Action {
+    /// A command.
+    Command(Command),
+    /// Show a tab.
+    Tab(Tab),
+    /// Go over to a kind of contact.
+    Kind(ContactKind),
+    /// Take a named lubricant.
+    Lubricant(&'static NamedLubricant),
+    /// Open a scene.
+    Scene(PathBuf),
+}
+
+/// A line of the palette.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// What it is called.
+    pub name: String,
+    /// Where else it is found.
+    pub group: &'static str,
+    /// Other words by which it is found.
+    pub synonyms: String,
+    /// Its key, when it has one.
+    pub shortcut: Option<KeyboardShortcut>,
+    /// Why it cannot be done now.
+    pub refusal: Option<&'static str>,
+    /// What it does.
+    pub action: Action,
+}
+
+impl Entry {
+    fn new(group: &'static str, name: String, synonyms: &str, action: Action) -> Self {
+        Self { name, group, synonyms: synonyms.to_owned(), shortcut: None, refusal: None, action }
+    }
+
+    fn refused_where(self, refused: bool, why: &'static str) -> Self {
+        Self { refusal: refused.then_some(why), ..self }
+    }
+}
+
+/// Everything there is, in its order.
+pub fn all(state: &State) -> Vec<Entry> {
+    let tabs = Tab::ALL.map(|tab| Entry::new("Tab", format!("Go to {}", tab.title()), tab.subjects(), Action::Tab(tab)));
+    // The palette itself is open already.
+    let commands = Command::all().filter(|(_, command)| *command != Command::Palette);
+    let commands = commands.map(|(menu, command)| Entry {
+        shortcut: command.shortcut(),
+        refusal: command.refusal(state),
+        ..Entry::new(menu, command.name().to_owned(), command.synonyms(), Action::Command(command))
+    });
+    let mut entries: Vec<Entry> = tabs.into_iter().chain(commands).collect();
+    let kinds = [(ContactKind::Line, "Line contact", "roller"), (ContactKind::Point, "Point contact", "ball")];
+    entries.extend(kinds.map(|(kind, name, synonyms)| {
+        let entry = Entry::new("Contact", name.to_owned(), synonyms, Action::Kind(kind));
+        entry.refused_where(kind == state.document.point.kind, "It is one")
+    }));
+    let present = of_laws(&state.document.lubricant).filter(|_| !state.own_lubricant);
+    entries.extend(NAMED.iter().map(|named| {
+        let name = format!("Lubricant: {}", named.title);
+        let entry = Entry::new("Lubricant", name, named.about, Action::Lubricant(named));
+        entry.refused_where(present == Some(named), "It is the present one")
+    }));
+    entries.extend(state.files.recent.iter().map(|path| {
+        let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
+        let folder = path.parent().unwrap_or(Path::new("")).display().to_string();
+        Entry::new("Recent scene", format!("Open {name}"), &folder, Action::Scene(path.clone()))
+    }));
+    entries
+}

@@ -1,0 +1,79 @@
+//! Which entries are meant by what has been typed.
+
+use super::entry::Entry;
+
+/// The entries that hold every word of a query, best first: beginnings of words before parts of them, names before other words, and what
+/// cannot be done now last. Without a query all of them.
+pub fn find<'a>(entries: &'a [Entry], query: &str) -> Vec<&'a Entry> {
+    let query = folded(query);
+    let words: Vec<&str> = query.split_whitespace().collect();
+    let mut found: Vec<(u32, &Entry)> =
+        entries.iter().filter_map(|entry| Some((distance(entry, &words)?, entry))).collect();
+    found.sort_by_key(|(distance, entry)| (entry.refusal.is_some(), *distance));
+    found.into_iter().map(|(_, entry)| entry).collect()
+}
+
+/// How far an entry is from some words; `None` where one of them is missing.
+fn distance(entry: &Entry, words: &[&str]) -> Option<u32> {
+    let (name, other) = (folded(&entry.name), folded(&format!("{} {}", entry.group, entry.synonyms)));
+    let begins = |text: &str, word: &str| text.split(|c: char| !c.is_alphanumeric()).any(|own| own.starts_with(word));
+    let of = |word: &&str| match () {
+        () if begins(&name, word) => Some(0),
+        () if name.contains(word) => Some(1),
+        () if begins(&other, word) => Some(2),
+        () => other.contains(word).then_some(3),
+    };
+    words.iter().map(of).sum()
+}
+
+/// Text without what nobody types alike: capitals, hyphens, ellipses.
+fn folded(text: &str) -> String {
+    text.to_lowercase().chars().filter(|c| !matches!(c, '-' | '…' | '’' | '\'')).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::entry;
+    use super::*;
+    use crate::app::document::Document;
+    use crate::app::model_source::Models;
+    use crate::app::state::State;
+    use std::path::PathBuf;
+
+    fn names(state: &State, query: &str) -> Vec<String> {
+        find(&entry::all(state), query).into_iter().map(|entry| entry.name.clone()).collect()
+    }
+
+    #[test]
+    fn words_are_found_in_any_order_and_beginnings_come_first() {
+        let mut state = State::new(Document::default(), Models::only(None));
+        state.files.recent.push(PathBuf::from("/home/me/contacts/bearing_47.ron"));
+        assert_eq!(names(&state, "theme dark"), ["Dark theme"]);
+        assert_eq!(names(&state, "READOUTS")[0], "Copy read-outs");
+        assert_eq!(names(&state, "trac")[0], "Go to Traction");
+        assert_eq!(names(&state, "pip squa"), ["Lubricant: Squalane with PIP"]);
+        assert_eq!(names(&state, "47"), ["Open bearing_47.ron"]);
+        assert_eq!(names(&state, "interferogram"), ["Go to Contact map"]);
+        assert_eq!(names(&state, "contacts bearing"), ["Open bearing_47.ron"]);
+        assert!(names(&state, "no such thing").is_empty());
+        assert_eq!(names(&state, " ").len(), entry::all(&state).len());
+    }
+
+    #[test]
+    fn what_cannot_be_done_says_why_and_comes_last() {
+        let state = State::new(Document::default(), Models::only(None));
+        let entries = entry::all(&state);
+        let found = find(&entries, "contact");
+        let at = |name: &str| found.iter().position(|entry| entry.name == name).unwrap();
+        assert!(at("Point contact") < at("Line contact"));
+        assert_eq!(found[at("Line contact")].refusal, Some("It is one"));
+        let undo = find(&entries, "undo")[0];
+        assert_eq!((undo.name.as_str(), undo.refusal), ("Undo", Some("Nothing has been changed")));
+        // Without a picture nothing can be pinned, and nothing is.
+        let why = |name: &str| entries.iter().find(|entry| entry.name == name).unwrap().refusal;
+        assert_eq!(why("Pin curve"), Some("There is no picture yet"));
+        assert_eq!(why("Remove all pins"), Some("Nothing is pinned"));
+        assert_eq!(why("Cancel"), Some("Nothing runs"));
+        assert_eq!(why("Run in time"), None);
+    }
+}

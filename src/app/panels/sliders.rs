@@ -1,0 +1,179 @@
+//! The sliders of M, L, SRR and NPR with their typed entries: one below the other in the panel, side by side in a presentation.
+
+use crate::app::controls::{RangeSlider, described, explained, named, number_field};
+use crate::app::document::HOME;
+use crate::app::state::State;
+use crate::app::theme::symbol;
+use crate::solver::contact::{ContactKind, Moes};
+use crate::solver::lubricant::ShearLaw;
+use egui::{Grid, Slider, Ui};
+
+/// Ends of the M slider.
+const M_RANGE: (f64, f64) = (1.0, 1000.0);
+/// Ends of the L slider.
+const L_RANGE: (f64, f64) = (0.5, 25.0);
+/// Ends of the SRR slider.
+const SRR_RANGE: (f64, f64) = (0.0, 2.0);
+/// Ends of the NPR slider.
+const NPR_RANGE: (f64, f64) = (0.0, 1.0);
+
+const M_TIP: &str = "Load number M = w/(E’R) · (2η₀u_m/(E’R))^(−1/2): how heavily the contact is loaded for its speed. \
+    Small: nearly rigid bodies; large: nearly Hertzian. Double click: M 40";
+const M_POINT_TIP: &str = "Load number M = w/(E’R²) · (2η₀u_m/(E’R))^(−3/4): how heavily the contact is loaded for its speed. \
+    Small: nearly rigid bodies; large: nearly Hertzian. Double click: M 40";
+const L_TIP: &str = "Lubricant number L = αE’ · (2η₀u_m/(E’R))^(1/4): how strongly the viscosity rises with pressure. \
+    Double click: L 10";
+const SRR_TIP: &str = "Slide-to-roll ratio SRR = (u₂ − u₁)/u_m (3.25): how fast the surfaces slide past each other for their rolling. \
+    Negative values are typed: the film stays, the traction turns round. Double click: pure rolling";
+const SRR_NEWTONIAN_TIP: &str = "Slide-to-roll ratio SRR = (u₂ − u₁)/u_m (3.25). The lubricant is Newtonian: sliding changes neither \
+    pressure nor film, only the traction. Double click: pure rolling";
+const NPR_TIP: &str = "Newtonian plateau ratio NPR of (3.40): the share of its viscosity that the lubricant keeps however fast it is sheared. \
+    1 is Newtonian. Double click: the lubricant’s own";
+const NPR_NEWTONIAN_TIP: &str = "The lubricant has no shear constants, so it is Newtonian, which is a Newtonian plateau ratio NPR of 1; \
+    choose a lubricant that thins under shear below";
+
+/// One of the four sliders.
+#[derive(Clone, Copy, PartialEq)]
+enum Slid {
+    LoadNumber,
+    LubricantNumber,
+    SlideToRoll,
+    Plateau,
+}
+
+/// Under these names entries are refused.
+const FIELDS: [&str; 8] = ["M", "L", "SRR", "NPR", "M value", "L value", "SRR value", "NPR value"];
+/// Widths of a symbol, of a typed entry, and of what stands between.
+const SYMBOL_WIDTH: f32 = 32.0;
+const ENTRY_WIDTH: f32 = 62.0;
+const GAPS: f32 = 24.0;
+
+/// A slider with all that belongs to it.
+struct Row {
+    slid: Slid,
+    symbol: &'static str,
+    entry: &'static str,
+    slider: RangeSlider<'static>,
+    value: f64,
+}
+
+/// A value that was asked for, and the field it came from.
+type Wanted = (Slid, &'static str, f64);
+
+fn thins(state: &State) -> bool {
+    state.document.lubricant.shear != ShearLaw::Newtonian
+}
+
+fn rows(state: &State) -> [Row; 4] {
+    let (moes, kind) = (state.document.point.moes(), state.document.point.kind);
+    let domain = state.model().map(|model| &model.domain);
+    let (trained, sliding) = (domain.map(|domain| (domain.m, domain.l)), domain.and_then(|domain| domain.sliding));
+    let srr = state.document.point.sliding.slide_to_roll_ratio;
+    let (npr, own_npr) = (state.document.plateau_ratio(), state.document.lubricant.shear.plateau());
+    let slider = |name, (low, high), marked, home, tooltip, logarithmic| RangeSlider {
+        name,
+        range: low..=high,
+        marked,
+        home,
+        tooltip,
+        logarithmic,
+    };
+    let m_tip = if kind == ContactKind::Line { M_TIP } else { M_POINT_TIP };
+    let srr_tip = if thins(state) { SRR_TIP } else { SRR_NEWTONIAN_TIP };
+    let m = slider("Load number M", M_RANGE, trained.map(|t| t.0), HOME.m, m_tip, true);
+    let l = slider("Lubricant number L", L_RANGE, trained.map(|t| t.1), HOME.l, L_TIP, true);
+    let marked = sliding.map(|sliding| sliding.srr);
+    let slide = slider("Slide-to-roll ratio SRR", SRR_RANGE, marked, 0.0, srr_tip, false);
+    let marked = sliding.map(|sliding| sliding.npr);
+    let plateau = slider("Newtonian plateau ratio NPR", NPR_RANGE, marked, own_npr, NPR_TIP, false);
+    [
+        Row { slid: Slid::LoadNumber, symbol: "M", entry: "M value", slider: m, value: moes.m },
+        Row { slid: Slid::LubricantNumber, symbol: "L", entry: "L value", slider: l, value: moes.l },
+        Row { slid: Slid::SlideToRoll, symbol: "SRR", entry: "SRR value", slider: slide, value: srr },
+        Row { slid: Slid::Plateau, symbol: "NPR", entry: "NPR value", slider: plateau, value: npr },
+    ]
+}
+
+/// All four, one below the other.
+pub fn column(ui: &mut Ui, state: &mut State) {
+    let width = (ui.available_width() - 132.0).clamp(70.0, 420.0);
+    let mut wanted = None;
+    Grid::new("sliders").num_columns(3).spacing([8.0, 6.0]).show(ui, |ui| {
+        for row in rows(state) {
+            if row.slid == Slid::Plateau && !thins(state) {
+                disabled_plateau(ui, width);
+            } else {
+                wanted = row.ui(ui, state, width).or(wanted);
+            }
+            ui.end_row();
+        }
+    });
+    take(ui, state, wanted);
+}
+
+/// Those that change the picture, side by side, and at the end of their row something else that needs `room`.
+pub fn in_use(ui: &mut Ui, state: &mut State, room: f32, rest: impl FnOnce(&mut Ui)) {
+    let slides = thins(state) || state.document.point.sliding.slide_to_roll_ratio != 0.0;
+    let used = |row: &Row| match row.slid {
+        Slid::LoadNumber | Slid::LubricantNumber => true,
+        Slid::SlideToRoll => slides,
+        Slid::Plateau => thins(state),
+    };
+    let rows: Vec<Row> = rows(state).into_iter().filter(used).collect();
+    let each = (ui.available_width() - room) / rows.len() as f32;
+    let width = (each - SYMBOL_WIDTH - ENTRY_WIDTH - GAPS).max(60.0);
+    let mut wanted = None;
+    ui.horizontal(|ui| {
+        for row in rows {
+            wanted = row.ui(ui, state, width).or(wanted);
+            ui.add_space(8.0);
+        }
+        rest(ui);
+    });
+    take(ui, state, wanted);
+}
+
+impl Row {
+    /// Symbol, slider and entry; returns what was asked for.
+    fn ui(&self, ui: &mut Ui, state: &mut State, width: f32) -> Option<Wanted> {
+        let tip = self.slider.tooltip;
+        explained(ui, symbol(ui, self.symbol, ""), tip);
+        let moved = self.slider.show(ui, self.value, width).map(|value| (self.symbol, value));
+        let entered = number_field(ui, &mut state.entries, self.entry, self.value, ENTRY_WIDTH, tip);
+        let (field, value) = moved.or(entered.map(|value| (self.entry, value)))?;
+        Some((self.slid, field, value))
+    }
+}
+
+/// Sets what was asked for, and says what was refused.
+fn take(ui: &mut Ui, state: &mut State, wanted: Option<Wanted>) {
+    if let Some((slid, field, value)) = wanted {
+        let document = &mut state.document;
+        let moes = document.point.moes();
+        let own_npr = document.lubricant.shear.plateau();
+        let result = match slid {
+            Slid::LoadNumber => document.set_moes(Moes { m: value, ..moes }),
+            Slid::LubricantNumber => document.set_moes(Moes { l: value, ..moes }),
+            Slid::SlideToRoll => document.set_slide_to_roll_ratio(value),
+            Slid::Plateau => document.set_plateau_ratio((value != own_npr).then_some(value)),
+        };
+        if result.is_ok() {
+            state.entries.clear();
+        }
+        state.entries.answer(field, result);
+    }
+    for field in FIELDS {
+        state.entries.message_ui(ui, field);
+    }
+}
+
+/// The slider of a fluid that keeps its viscosity: it stands at 1 and says why it does not move.
+fn disabled_plateau(ui: &mut Ui, width: f32) {
+    let tip = NPR_NEWTONIAN_TIP;
+    ui.add_enabled(false, egui::Label::new("NPR")).on_disabled_hover_text(tip);
+    ui.spacing_mut().slider_width = width;
+    let response = ui.add_enabled(false, Slider::new(&mut 1.0, NPR_RANGE.0..=NPR_RANGE.1).show_value(false));
+    let response = described(ui, named(ui, response, "Newtonian plateau ratio NPR"), tip);
+    response.on_disabled_hover_text(tip);
+    ui.weak("Newtonian").on_hover_text(tip);
+}
