@@ -1,14 +1,17 @@
 //! Any plot as a picture: every plot that is on the screen offers itself by its name; one that is asked for leaves as a drawing (SVG) or as
 //! an image (PNG), with its name and the contact's parameters above it.
 
+mod subject;
 mod svg;
+mod texture;
+
+pub use subject::Subject;
+pub use texture::Texture;
 
 use super::controls::named;
 use super::files::Purpose;
-use super::numbers;
 use super::png;
 use super::state::State;
-use crate::solver::contact::ContactKind;
 use egui::{ColorImage, Context, FontId, Id, LayerId, Modal, Order, Rect, Ui, ViewportCommand, pos2, vec2};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
@@ -30,6 +33,7 @@ struct Offered {
     /// With its axes.
     rect: Rect,
     layer: LayerId,
+    subject: Subject,
 }
 
 /// The plots of this frame and of the one before.
@@ -56,6 +60,12 @@ struct Wanted {
     whole: Rect,
 }
 
+impl Wanted {
+    fn new(name: &str, format: Format) -> Self {
+        Self { name: name.to_owned(), format, frames: 0, screenshot: None, whole: Rect::NOTHING }
+    }
+}
+
 /// Pictures that are asked for.
 #[derive(Default)]
 pub struct Figures {
@@ -69,11 +79,25 @@ fn offers(ctx: &Context, change: impl FnOnce(&mut Offers)) {
 
 /// Lets a plot be exported under its name, as far as it can be seen.
 pub fn offer(ui: &Ui, name: &str, rect: Rect) {
+    offer_of(ui, name, rect, Subject::Sliders);
+}
+
+/// The same for plots of something else than the contact of the sliders. Plots within it are of the same, and one of its name gives way to
+/// it: it is that plot with what belongs to it.
+pub fn offer_of(ui: &Ui, name: &str, rect: Rect, subject: Subject) {
     let rect = rect.expand2(OVERHANG).intersect(ui.clip_rect().expand2(OVERHANG));
-    if rect.is_positive() {
-        let offered = Offered { name: name.to_owned(), rect, layer: ui.layer_id() };
-        offers(ui.ctx(), |offers| offers.now.push(offered));
+    if !rect.is_positive() {
+        return;
     }
+    let offered = Offered { name: name.to_owned(), rect, layer: ui.layer_id(), subject };
+    offers(ui.ctx(), |Offers { now, .. }| {
+        now.retain(|other| other.name != name || !rect.contains_rect(other.rect));
+        let within = now.iter_mut().filter(|other| rect.contains_rect(other.rect));
+        if subject != Subject::Sliders {
+            within.for_each(|other| other.subject = subject);
+        }
+        now.push(offered);
+    });
 }
 
 /// Begins a frame.
@@ -82,6 +106,11 @@ pub fn begin(ctx: &Context) {
 }
 
 impl State {
+    /// Exports a plot that is on the screen as a drawing.
+    pub fn draw_figure(&mut self, name: &str) {
+        self.figures.wanted = Some(Wanted::new(name, Format::Svg));
+    }
+
     /// Asks which plot is to be exported.
     pub fn ask_figure(&mut self) {
         self.figures.asks = true;
@@ -101,7 +130,8 @@ impl State {
         wanted.frames += 1;
         let mut plot = None;
         offers(ctx, |offers| plot = offers.now.iter().find(|offered| offered.name == wanted.name).cloned());
-        let caption = [wanted.name.clone(), self.contact_line()];
+        let subject = plot.as_ref().map_or(Subject::Sliders, |plot| plot.subject);
+        let caption = [wanted.name.clone(), self.parameters(subject)];
         match (&wanted.screenshot, plot) {
             (Some((receiver, rect)), _) => match receiver.try_recv() {
                 Ok(image) => {
@@ -123,9 +153,10 @@ impl State {
             }
             (None, Some(plot)) if wanted.frames > SETTLED && wanted.format == Format::Svg => {
                 let background = ctx.style_of(ctx.theme()).visuals.panel_fill;
+                let textures = texture::known(ctx);
                 let text = ctx.graphics(|graphics| {
                     let shapes = graphics.get(plot.layer).map(|list| list.all_entries());
-                    svg::drawing(shapes.into_iter().flatten(), plot.rect, &caption, background)
+                    svg::drawing(shapes.into_iter().flatten(), plot.rect, &caption, background, &textures)
                 });
                 return self.ask_path(ctx, Purpose::Picture { bytes: text.into_bytes().into(), extension: "svg" });
             }
@@ -167,9 +198,7 @@ impl State {
                     for (format, word) in [(Format::Svg, "SVG…"), (Format::Png, "PNG…")] {
                         let button = ui.button(word);
                         if named(ui, button, &format!("{} as {}", plot.name, word)).clicked() {
-                            let name = plot.name.clone();
-                            self.figures.wanted =
-                                Some(Wanted { name, format, frames: 0, screenshot: None, whole: Rect::NOTHING });
+                            self.figures.wanted = Some(Wanted::new(&plot.name, format));
                             close = true;
                         }
                     }
@@ -182,28 +211,6 @@ impl State {
         if close || response.should_close() {
             self.figures.asks = false;
         }
-    }
-
-    /// The contact of the sliders in a line.
-    fn contact_line(&self) -> String {
-        let (point, lubricant) = (&self.document.point, &self.document.lubricant);
-        let unit = match point.kind {
-            ContactKind::Line => "N/m",
-            ContactKind::Point => "N",
-        };
-        let significant = numbers::significant;
-        format!(
-            "{}, R {}, u_m {} m/s, w {} {unit}, E' {} GPa, η₀ {} Pa·s, α {} 1/GPa, {:?}, {:?}",
-            numbers::moes(point.moes()),
-            numbers::length(point.radius_m),
-            significant(point.speed_m_per_s),
-            significant(point.load),
-            significant(1e-9 * point.modulus_pa),
-            significant(point.viscosity_pa_s),
-            significant(1e9 * point.alpha_per_pa),
-            lubricant.viscosity,
-            lubricant.density
-        )
     }
 }
 

@@ -1,7 +1,9 @@
 //! What was painted within a rectangle as a drawing for other programs (SVG): lines stay lines and text stays text.
 
+use super::texture::Known;
+use crate::app::png;
 use egui::epaint::{ClippedShape, ColorMode, PathStroke, TextShape};
-use egui::{Color32, Pos2, Rect, Shape, Stroke};
+use egui::{Color32, ColorImage, Mesh, Pos2, Rect, Shape, Stroke, TextureId, vec2};
 use std::fmt::Write as _;
 
 /// Height of the title above the drawing, and of each line of parameters.
@@ -16,8 +18,9 @@ pub fn drawing<'a>(
     rect: Rect,
     [title, parameters]: &[String; 2],
     background: Color32,
+    textures: &Known,
 ) -> String {
-    let mut out = Drawing { text: String::new(), clips: 0 };
+    let mut out = Drawing { text: String::new(), clips: 0, textures };
     let lines = wrapped(parameters, ((rect.width() - 16.0) / LETTER) as usize);
     let above = TITLE + LINE * lines.len() as f32 + 4.0;
     let (width, height) = (rect.width(), rect.height() + above);
@@ -79,9 +82,10 @@ fn wrapped(text: &str, letters: usize) -> Vec<String> {
     lines
 }
 
-struct Drawing {
+struct Drawing<'a> {
     text: String,
     clips: usize,
+    textures: &'a Known,
 }
 
 fn escaped(text: &str) -> String {
@@ -114,7 +118,7 @@ fn points(of: impl Iterator<Item = Pos2>) -> String {
     of.map(|p| format!("{:.2},{:.2}", p.x, p.y)).collect::<Vec<_>>().join(" ")
 }
 
-impl Drawing {
+impl Drawing<'_> {
     fn line(&mut self, line: std::fmt::Arguments<'_>) {
         // Writing to a string cannot fail.
         let _ok = writeln!(self.text, "{line}");
@@ -183,6 +187,7 @@ impl Drawing {
                 ));
             }
             Shape::Text(text) => self.words(text),
+            Shape::Mesh(mesh) if mesh.texture_id != TextureId::default() => self.image(mesh),
             Shape::Mesh(mesh) => {
                 for corners in mesh.indices.chunks_exact(3) {
                     let corner = |k: usize| corners.get(k).and_then(|&i| mesh.vertices.get(i as usize));
@@ -200,6 +205,19 @@ impl Drawing {
                 self.path(line.into_iter(), curve.closed, curve.fill, &curve.stroke);
             }
         }
+    }
+
+    /// An upright image with its pixels, in the tint of its corners.
+    fn image(&mut self, mesh: &Mesh) {
+        let image = self.textures.get(&mesh.texture_id).and_then(std::sync::Weak::upgrade);
+        let (Some(image), Some(corner)) = (image, mesh.vertices.first()) else { return };
+        let pixels = image.pixels.iter().map(|pixel| *pixel * corner.color).collect();
+        let file = base64(&png::encode(&ColorImage::new(image.size, pixels)));
+        let (Pos2 { x, y }, size) = (mesh.calc_bounds().min, mesh.calc_bounds().size());
+        self.line(format_args!(
+            "<image x=\"{x:.2}\" y=\"{y:.2}\" width=\"{:.2}\" height=\"{:.2}\" preserveAspectRatio=\"none\" href=\"data:image/png;base64,{file}\"/>",
+            size.x, size.y
+        ));
     }
 
     fn path(&mut self, line: impl Iterator<Item = Pos2>, closed: bool, inner: Color32, outline: &PathStroke) {
@@ -258,6 +276,10 @@ impl Drawing {
         let own = if format.color == Color32::PLACEHOLDER { text.fallback_color } else { format.color };
         let color = text.override_text_color.unwrap_or(own).gamma_multiply(text.opacity_factor);
         let (x, y, length, size) = (row.x + from.x, row.y + from.y, end - from.x, format.font_id.size);
+        if format.background != Color32::TRANSPARENT {
+            let behind = Rect::from_min_size(Pos2::new(x, y - 0.95 * size), vec2(length, 1.2 * size));
+            self.shape(&Shape::rect_filled(behind, 0.0, format.background));
+        }
         let slant = if format.italics { " font-style=\"italic\"" } else { "" };
         self.line(format_args!(
             "<text x=\"{x:.2}\" y=\"{y:.2}\" textLength=\"{length:.2}\" lengthAdjust=\"spacingAndGlyphs\" font-size=\"{size:.1}\"{slant} {}>{}</text>",
@@ -265,6 +287,20 @@ impl Drawing {
             escaped(&letters)
         ));
     }
+}
+
+/// Base64 of RFC 4648.
+fn base64(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut out = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for triple in bytes.chunks(3) {
+        let word = (0..3).fold(0u32, |word, k| word << 8 | u32::from(triple.get(k).copied().unwrap_or(0)));
+        for k in 0..4 {
+            let digit = DIGITS[(word >> (18 - 6 * k) & 63) as usize];
+            out.push(if k <= triple.len() { char::from(digit) } else { '=' });
+        }
+    }
+    out
 }
 
 /// Letters of one look beside each other.
@@ -280,6 +316,7 @@ mod tests {
     use super::*;
     use egui::epaint::CircleShape;
     use egui::pos2;
+    use std::sync::Arc;
 
     #[test]
     fn lines_are_broken_between_words_and_lose_none() {
@@ -299,11 +336,38 @@ mod tests {
         let shapes = [panel, line, dot(pos2(50.0, 30.0)), dot(pos2(300.0, 30.0))]
             .map(|shape| ClippedShape::new(clip_rect, shape));
         let caption = ["P < 1 & more".to_owned(), "M 40".to_owned()];
-        let drawing = drawing(shapes.iter(), rect, &caption, Color32::WHITE);
+        let drawing = drawing(shapes.iter(), rect, &caption, Color32::WHITE, &Known::new());
         assert_eq!((drawing.matches("<circle ").count(), drawing.matches("<path ").count()), (1, 1));
         assert!(drawing.contains("fill=\"#d55e00\" fill-opacity=\"1.000\"") && drawing.contains("P &lt; 1 &amp; more"));
         assert_eq!(drawing.matches("<g").count(), drawing.matches("</g>").count());
         // The background and the clip: the panel behind is none of it.
         assert_eq!(drawing.matches("<rect ").count(), 2, "{drawing}");
+    }
+
+    #[test]
+    fn an_image_leaves_with_its_pixels_in_its_tint() {
+        let image = Arc::new(ColorImage::new([2, 1], vec![Color32::WHITE, Color32::BLACK]));
+        let id = TextureId::Managed(7);
+        let known = Known::from([(id, Arc::downgrade(&image))]);
+        let rect = Rect::from_min_max(pos2(0.0, 0.0), pos2(100.0, 50.0));
+        let mut mesh = Mesh::with_texture(id);
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        mesh.add_rect_with_uv(rect.shrink(10.0), whole, Color32::from_gray(128));
+        let shapes = [ClippedShape::new(rect, Shape::mesh(mesh))];
+        let caption = ["Map".to_owned(), String::new()];
+        let text = drawing(shapes.iter(), rect, &caption, Color32::WHITE, &known);
+        let grey = ColorImage::new([2, 1], vec![Color32::from_gray(128), Color32::BLACK]);
+        assert!(text.contains("<image x=\"10.00\" y=\"10.00\" width=\"80.00\" height=\"30.00\""), "{text}");
+        assert!(text.contains(&base64(&png::encode(&grey))) && !text.contains("<polygon"));
+        // What is not known any more leaves nothing rather than something else.
+        drop(image);
+        assert!(!drawing(shapes.iter(), rect, &caption, Color32::WHITE, &known).contains("<image"));
+    }
+
+    #[test]
+    fn base64_is_that_of_the_standard() {
+        for (plain, coded) in [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")] {
+            assert_eq!(base64(plain.as_bytes()), coded);
+        }
     }
 }

@@ -3,11 +3,12 @@
 use super::axes;
 use super::direction::Direction;
 use crate::app::color_map;
+use crate::app::figure::Texture;
 use crate::app::numbers;
 use crate::app::picture::{Picture, value_at};
 use crate::app::theme::Palette;
 use crate::solver::full::Solution;
-use egui::{Color32, ColorImage, Context, Id, Sense, TextureHandle, TextureOptions, Ui, Vec2b, vec2};
+use egui::{Color32, ColorImage, Context, Id, Sense, Ui, Vec2b, vec2};
 use egui_plot::{HoverPosition, PlotImage, PlotPoint};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -58,7 +59,7 @@ impl FilmShear {
 /// What is kept between frames: the picture and the values it was made of.
 #[derive(Default)]
 pub struct FilmShearImage {
-    texture: Option<TextureHandle>,
+    texture: Option<Texture>,
     made_of: Option<(Arc<Solution>, FilmShear)>,
     /// Stress \[Pa\] or rate \[1/s\], row after row from Z = 0.
     values: Vec<f64>,
@@ -83,10 +84,7 @@ impl FilmShearImage {
             colors[(t * (colors.len() - 1) as f64).round() as usize]
         };
         let image = ColorImage::new([COLUMNS, ROWS], (0..COLUMNS * ROWS).map(pixel).collect());
-        match &mut self.texture {
-            Some(texture) => texture.set(image, TextureOptions::LINEAR),
-            None => self.texture = Some(ctx.load_texture("film shear", image, TextureOptions::LINEAR)),
-        }
+        Texture::put(&mut self.texture, ctx, "film shear", image);
         self.made_of = Some((Arc::clone(solution), shown));
     }
 
@@ -143,7 +141,7 @@ fn quantity(value: f64, shown: FilmShear) -> String {
 
 /// The view: its scale, and the film between its surfaces on the profiles' axis.
 pub fn ui(ui: &mut Ui, image: &FilmShearImage, shown: FilmShear, stale: bool, height: f32) {
-    let Some(texture) = image.texture.as_ref().map(TextureHandle::id) else { return };
+    let Some(texture) = image.texture.as_ref().map(|texture| texture.shown(ui.ctx())) else { return };
     scale_ui(ui, image, shown);
     let (from, to) = Direction::Along.range();
     axes::show(

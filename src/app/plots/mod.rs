@@ -13,7 +13,6 @@ pub mod profiles;
 mod raster;
 mod regime_chart;
 pub mod regimes;
-mod svg;
 pub mod tpwl;
 mod traction;
 mod training;

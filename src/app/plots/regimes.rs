@@ -4,13 +4,14 @@
 use super::axes;
 use super::formulas;
 use super::regime_chart::{ChartLines, L_AXIS, M_AXIS, Regime, shading};
+use crate::app::figure::Texture;
 use crate::app::files::Purpose;
 use crate::app::numbers;
 use crate::app::state::State;
 use crate::app::theme::{Palette, faded, rich};
 use crate::solver::contact::{ContactKind, Moes};
 use crate::solver::reduced::ReducedModel;
-use egui::{Align2, RichText, TextureHandle, Ui};
+use egui::{Align2, RichText, Ui};
 use egui_plot::{Line, LineStyle, MarkerShape, PlotImage, PlotPoint, PlotPoints, PlotUi, Points, Text};
 use std::sync::Arc;
 
@@ -30,7 +31,7 @@ impl PartialEq for Owner {
 /// What the chart keeps between frames: its shading as a picture and all lines, made once.
 #[derive(Default)]
 pub struct RegimeChart {
-    texture: Option<(ContactKind, bool, TextureHandle)>,
+    texture: Option<(ContactKind, bool, Texture)>,
     lines: Option<(Owner, ChartLines)>,
     snapshots: Option<(Owner, Vec<PlotPoint>)>,
     dragging: bool,
@@ -64,7 +65,7 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
     let dark = ui.visuals().dark_mode;
     let kind = state.document.point.kind;
     if state.regimes.texture.as_ref().is_none_or(|t| (t.0, t.1) != (kind, dark)) {
-        let texture = ctx.load_texture("regimes", shading(kind, &palette), egui::TextureOptions::LINEAR);
+        let texture = Texture::new(&ctx, "regimes", shading(kind, &palette));
         state.regimes.texture = Some((kind, dark, texture));
     }
     let owner = Owner(kind, state.model().cloned());
@@ -101,7 +102,7 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
         .collect();
     let chart_height = (height - 34.0).max(160.0);
     let Some((_, lines)) = &state.regimes.lines else { return };
-    let texture = state.regimes.texture.as_ref().map(|t| t.2.id());
+    let texture = state.regimes.texture.as_ref().map(|t| t.2.shown(&ctx));
     let snapshots = state.regimes.snapshots.as_ref().map(|s| s.1.as_slice()).unwrap_or_default();
     let response = axes::show(
         axes::plot(ui, "regimes", chart_height, "Load number {M}", "Lubricant number {L}")

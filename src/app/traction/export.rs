@@ -15,6 +15,12 @@ pub fn describe(sweep: &Sweep) -> Vec<String> {
     lines
 }
 
+/// The same of the curve that is drawn, or else of the full solutions.
+pub fn parameters(view: &TractionView) -> Option<Vec<String>> {
+    let curve = view.curve.as_ref().map(|curve| &curve.sweep);
+    curve.or(view.markers.as_ref().map(|markers| &markers.sweep)).map(describe)
+}
+
 fn described(sweep: &Sweep) -> String {
     tables::describe_contact(&sweep.base.point, &sweep.base.lubricant)
 }

@@ -1,12 +1,13 @@
 //! A mode of a point contact over the plane, with the rows that the reduced model evaluates.
 
 use super::Field;
+use crate::app::figure::Texture;
 use crate::app::plots::axes;
 use crate::app::plots::raster::Raster;
 use crate::app::theme::Palette;
 use crate::solver::grid::PointGrid;
 use crate::solver::reduced::PodBasis;
-use egui::{Color32, TextureHandle, TextureOptions, Ui};
+use egui::{Color32, Ui};
 use egui_plot::{Line, LineStyle, MarkerShape, PlotImage, PlotPoint, PlotPoints, Points};
 
 /// Colours between the two signs.
@@ -17,7 +18,7 @@ const RANGE: (f64, f64) = (-1.5, 1.5);
 /// One mode as a picture, kept while it is the one to show.
 #[derive(Default)]
 pub struct ModeMap {
-    texture: Option<TextureHandle>,
+    texture: Option<Texture>,
     made_of: Option<(Field, usize, Color32)>,
 }
 
@@ -36,7 +37,7 @@ impl ModeMap {
         if self.made_of != Some((field, mode, ground)) {
             let raster = Raster::new((&grid.x, &grid.y), &scaled(basis, mode), 1.0);
             let image = raster.colored(&shades(palette.reference, ground, field.color(&palette)), (-1.0, 1.0));
-            self.texture = Some(ui.ctx().load_texture("mode", image, TextureOptions::LINEAR));
+            Texture::put(&mut self.texture, ui.ctx(), "mode", image);
             self.made_of = Some((field, mode, ground));
         }
         let shown = axes::show(
@@ -53,6 +54,7 @@ impl ModeMap {
                 {
                     let center = PlotPoint::new(0.5 * (from + to), 0.0);
                     let size = egui::vec2((to - from) as f32, (-2.0 * edge) as f32);
+                    let texture = texture.shown(plot.ctx());
                     plot.image(PlotImage::new("", texture, center, size).id("mode").allow_hover(false));
                 }
                 let circle = |t: f64| (t.cos(), t.sin());

@@ -6,9 +6,10 @@ use crate::app::color_map;
 use crate::app::numbers;
 use crate::app::picture::Picture;
 use crate::app::plots::raster::Raster;
+use crate::app::figure::Texture;
 use crate::app::png;
 use crate::solver::full::Solution;
-use egui::{Color32, ColorImage, Context, TextureHandle, TextureId, TextureOptions};
+use egui::{Color32, ColorImage, Context, TextureId};
 use egui_plot::PlotPoint;
 use std::sync::Arc;
 
@@ -18,8 +19,7 @@ pub type Contour = (Option<(PlotPoint, String)>, Vec<PlotPoint>);
 /// What the tab keeps between frames.
 #[derive(Default)]
 pub struct ContactMap {
-    texture: Option<TextureHandle>,
-    image: Option<Arc<ColorImage>>,
+    texture: Option<Texture>,
     contours: Vec<Contour>,
     range: (f64, f64),
     domain: (f64, f64, f64),
@@ -52,21 +52,15 @@ impl ContactMap {
             ([from, .., to], [edge, ..]) => (*from, *to, *edge),
             _ => (0.0, 0.0, 0.0),
         };
-        let image = Arc::new(draw(picture, view, self.range));
-        let options = TextureOptions::LINEAR;
-        match &mut self.texture {
-            Some(texture) => texture.set(Arc::clone(&image), options),
-            None => self.texture = Some(ctx.load_texture("contact map", Arc::clone(&image), options)),
-        }
-        self.image = Some(image);
+        Texture::put(&mut self.texture, ctx, "contact map", draw(picture, view, self.range));
         let lines = view.contours && view.shown != Shown::Interferogram;
         self.contours = if lines { contours(solution, view.shown, self.range) } else { Vec::new() };
         self.made_of = Some((Arc::clone(solution), *view));
     }
 
     /// The texture and the domain it covers: inlet, outlet, outer edge.
-    pub fn texture(&self) -> Option<(TextureId, (f64, f64, f64))> {
-        self.texture.as_ref().map(|texture| (texture.id(), self.domain))
+    pub fn texture(&self, ctx: &Context) -> Option<(TextureId, (f64, f64, f64))> {
+        self.texture.as_ref().map(|texture| (texture.shown(ctx), self.domain))
     }
 
     /// The contour lines of both halves.
@@ -79,11 +73,6 @@ impl ContactMap {
         self.range
     }
 
-    /// The domain of the image: inlet, outlet, outer edge.
-    pub fn domain(&self) -> (f64, f64, f64) {
-        self.domain
-    }
-
     /// Whether the pointer holds a cut.
     pub fn is_dragging(&self) -> bool {
         self.dragging.contains(&true)
@@ -91,7 +80,7 @@ impl ContactMap {
 
     /// The image as a PNG file; empty where there is none.
     pub fn png(&self) -> Vec<u8> {
-        self.image.as_ref().map_or_else(Vec::new, |image| png::encode(image))
+        self.texture.as_ref().map_or_else(Vec::new, |texture| png::encode(texture.image()))
     }
 }
 

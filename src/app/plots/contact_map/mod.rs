@@ -7,11 +7,13 @@ mod images;
 mod optics;
 mod scale;
 
+pub use export::particulars;
 pub use images::ContactMap;
 
 use super::axes;
 use super::cut_line::snapped;
 use crate::app::controls::{described, named};
+use crate::app::figure::{self, Subject};
 use crate::app::files::Purpose;
 use crate::app::numbers;
 use crate::app::picture::{Cuts, Picture};
@@ -33,6 +35,9 @@ const Y_RANGE: (f64, f64) = (-1.45, 1.45);
 const GRAB: f32 = 7.0;
 /// Width of the colour bar with its numbers.
 const SCALE_WIDTH: f32 = 118.0;
+
+/// By which the map is known to screen readers and as a picture.
+const NAME: &str = "Map of the contact";
 
 /// What the map shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -97,7 +102,7 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
         return;
     }
     toolbar(ui, state);
-    if state.display.map.shown == Shown::Interferogram {
+    if state.display.map.shown == Shown::Interferogram && state.presentation.is_none() {
         optics::ui(ui, &mut state.display.map);
     }
     let stale = state.picture_is_stale(ui.input(|i| i.time));
@@ -118,40 +123,41 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
         stale,
     };
     let height = ui.available_height();
-    let (response, transform) = ui
-        .horizontal_top(|ui| {
-            let width = (ui.available_width() - SCALE_WIDTH - 8.0).max(200.0);
-            let drawn = ui.vertical(|ui| {
-                ui.set_width(width);
-                drawing.ui(ui, height)
-            });
-            scale::ui(ui, drawing.images, picture, &drawing.view, height);
-            drawn.inner
-        })
-        .inner;
+    let whole = ui.horizontal_top(|ui| {
+        let width = (ui.available_width() - SCALE_WIDTH - 8.0).max(200.0);
+        let drawn = ui.vertical(|ui| {
+            ui.set_width(width);
+            drawing.ui(ui, height)
+        });
+        scale::ui(ui, drawing.images, picture, &drawing.view, height);
+        drawn.inner
+    });
+    figure::offer_of(ui, NAME, whole.response.rect, Subject::Map);
+    let (response, transform) = whole.inner;
     drag_cuts(ui, state, &response, &transform);
 }
 
 fn toolbar(ui: &mut Ui, state: &mut State) {
-    let ctx = ui.ctx().clone();
     ui.horizontal_wrapped(|ui| {
         super::badge::ui(ui, state);
         for shown in Shown::ALL {
             ui.selectable_value(&mut state.display.map.shown, shown, shown.name()).on_hover_text(shown.tip());
+        }
+        if state.presentation.is_some() {
+            return;
         }
         let field = state.display.map.shown != Shown::Interferogram;
         ui.add_enabled(field, egui::Checkbox::new(&mut state.display.map.contours, "Contours"))
             .on_hover_text("Lines of equal value")
             .on_disabled_hover_text("Fringes are lines of equal film already");
         cuts_ui(ui, state);
-        let Some(purpose) = ui.menu_button("Export map", |ui| export_menu(ui, state)).inner.flatten() else { return };
-        state.ask_path(&ctx, purpose);
+        ui.menu_button("Export map", |ui| export_menu(ui, state));
     });
 }
 
 /// The three forms in which the map leaves.
-fn export_menu(ui: &mut Ui, state: &State) -> Option<Purpose> {
-    let picture = state.picture.as_ref().filter(|picture| picture.has_plane())?;
+fn export_menu(ui: &mut Ui, state: &mut State) {
+    let Some(picture) = state.picture.as_ref().filter(|picture| picture.has_plane()) else { return };
     let item = |ui: &mut Ui, name: &str, tip: &str| {
         let clicked = ui.button(name).on_hover_text(tip).clicked();
         if clicked {
@@ -159,16 +165,17 @@ fn export_menu(ui: &mut Ui, state: &State) -> Option<Purpose> {
         }
         clicked
     };
-    let csv = item(ui, "Data as CSV…", "X, Y, P, H of all nodes of both halves, with their SI twins");
-    let svg = item(ui, "Figure as SVG…", "The map with its axes, contours, scale and parameters");
-    let png = item(ui, "Image as PNG…", "The map alone, pixel by pixel");
-    if csv {
-        Some(Purpose::Csv { text: export::csv(picture) })
-    } else if svg {
-        let text = export::svg(picture, &state.map, &state.display.map);
-        Some(Purpose::Picture { bytes: text.into_bytes().into(), extension: "svg" })
-    } else {
-        png.then(|| Purpose::Picture { bytes: state.map.png().into(), extension: "png" })
+    let ctx = ui.ctx().clone();
+    if item(ui, "Data as CSV…", "X, Y, P, H of all nodes of both halves, with their SI twins") {
+        let text = export::csv(picture);
+        state.ask_path(&ctx, Purpose::Csv { text });
+    }
+    if item(ui, "Figure as SVG…", "The map with its axes, contours, scale and parameters") {
+        state.draw_figure(NAME);
+    }
+    if item(ui, "Image as PNG…", "The map alone, pixel by pixel") {
+        let bytes = state.map.png().into();
+        state.ask_path(&ctx, Purpose::Picture { bytes, extension: "png" });
     }
 }
 
@@ -229,7 +236,7 @@ impl Drawing<'_> {
                 .allow_drag(!images.is_dragging())
                 .label_formatter(|at| hover(picture, &view, at)),
             ui,
-            "Map of the contact",
+            NAME,
             |plot| {
                 axes::fit(plot, fit);
                 image(plot, images, stale);
@@ -262,7 +269,7 @@ fn contour_lines<'a>(plot: &mut PlotUi<'a>, images: &'a ContactMap) {
 }
 
 fn image(plot: &mut PlotUi<'_>, images: &ContactMap, stale: bool) {
-    let Some((texture, (from, to, edge))) = images.texture() else { return };
+    let Some((texture, (from, to, edge))) = images.texture(plot.ctx()) else { return };
     let center = PlotPoint::new(0.5 * (from + to), 0.0);
     let size = egui::vec2((to - from) as f32, (-2.0 * edge) as f32);
     let tint = if stale { Color32::from_gray(120) } else { Color32::WHITE };

@@ -1,6 +1,7 @@
 //! The two plots: traction above, film below, on one axis; a press in either goes to a contact.
 
 use super::Shown;
+use crate::app::figure::{self, Subject};
 use crate::app::jobs::Key;
 use crate::app::numbers;
 use crate::app::plots::axes;
@@ -23,10 +24,10 @@ type Quantity = fn(&Sample) -> f64;
 
 /// Where samples stand on the axes, logarithms included.
 #[derive(Clone, Copy)]
-pub struct Axes<'a> {
-    pub against: Against,
-    pub sweep: &'a Sweep,
-    pub logarithmic: (bool, bool),
+struct Axes<'a> {
+    against: Against,
+    sweep: &'a Sweep,
+    logarithmic: (bool, bool),
 }
 
 impl Axes<'_> {
@@ -45,7 +46,7 @@ impl Axes<'_> {
     }
 
     /// The points of a quantity of samples.
-    pub fn points(&self, samples: &[Sample], of: Quantity) -> Points2 {
+    fn points(&self, samples: &[Sample], of: Quantity) -> Points2 {
         let point = |sample: &Sample| Some([self.place(sample)?, drawn(of(sample), self.logarithmic.1)?]);
         samples.iter().filter_map(point).collect()
     }
@@ -56,9 +57,9 @@ fn drawn(value: f64, logarithmic: bool) -> Option<f64> {
 }
 
 /// Traction, and both films in µm.
-pub const TRACTION: Quantity = |sample| sample.traction;
-pub const CENTRAL: Quantity = |sample| sample.h_c_m / MICRO;
-pub const SMALLEST: Quantity = |sample| sample.h_min_m / MICRO;
+const TRACTION: Quantity = |sample| sample.traction;
+const CENTRAL: Quantity = |sample| sample.h_c_m / MICRO;
+const SMALLEST: Quantity = |sample| sample.h_min_m / MICRO;
 
 /// Largest differences of traction and, relative, of H_c between full solutions and the curve they belong to.
 pub fn differences(curve: &Curve, markers: Option<&Markers>) -> Option<(f64, f64)> {
@@ -109,8 +110,12 @@ pub fn ui(ui: &mut Ui, state: &State, sweep: &Sweep, shown: &Shown<'_>) -> Optio
         here: here.map(|picture| picture.central_film_m() / MICRO),
         legend: Corner::LeftBottom,
     };
-    let pressed = traction.show(ui, state, &axes, shown, unit);
-    film.show(ui, state, &axes, shown, unit).or(pressed).map(|place| axes.value(place))
+    let both = ui.vertical(|ui| {
+        let pressed = traction.show(ui, state, &axes, shown, unit);
+        film.show(ui, state, &axes, shown, unit).or(pressed)
+    });
+    figure::offer_of(ui, "Traction and film", both.response.rect, Subject::Sweep);
+    both.inner.map(|place| axes.value(place))
 }
 
 /// One of both plots.

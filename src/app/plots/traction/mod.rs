@@ -1,7 +1,6 @@
 //! Traction and film along one quantity, live by the reduced model, and the laws of the fluid behind them.
 
 mod chart;
-mod figure;
 mod fluid;
 
 use crate::app::controls::{message_ui, named, sentence, warning_ui, why};
@@ -119,7 +118,7 @@ fn toolbar(ui: &mut Ui, state: &mut State, sweep: Option<&Sweep>) {
                 state.start_markers(&ctx, sweep);
             }
         }
-        exports(ui, state, &ctx, sweep);
+        exports(ui, state, &ctx);
     });
 }
 
@@ -142,7 +141,7 @@ fn against_ui(ui: &mut Ui, state: &mut State) {
     }
 }
 
-fn exports(ui: &mut Ui, state: &mut State, ctx: &Context, sweep: Option<&Sweep>) {
+fn exports(ui: &mut Ui, state: &mut State, ctx: &Context) {
     let there = state.traction.curve.as_ref().is_some_and(|curve| !curve.samples.is_empty())
         || state.traction.markers.as_ref().is_some_and(|markers| !markers.samples.is_empty());
     let tip = "The curve and the full solutions, every contact with its traction and films";
@@ -151,11 +150,9 @@ fn exports(ui: &mut Ui, state: &mut State, ctx: &Context, sweep: Option<&Sweep>)
     {
         state.ask_path(ctx, Purpose::Csv { text });
     }
-    let tip = "Traction and film as a figure with axes and parameters";
-    if ui.add_enabled(there, Button::new("Export SVG…")).on_hover_text(tip).clicked()
-        && let Some(text) = sweep.and_then(|sweep| figure::svg(&state.traction, state.display.traction, sweep))
-    {
-        state.ask_path(ctx, Purpose::Picture { bytes: text.into_bytes().into(), extension: "svg" });
+    let tip = "Traction, film or both, as SVG or PNG with axes and parameters";
+    if ui.add_enabled(there, Button::new("Export plot…")).on_hover_text(tip).clicked() {
+        state.ask_figure();
     }
 }
 

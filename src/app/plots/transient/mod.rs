@@ -1,13 +1,13 @@
 //! The contact in time: what drives it, how film and pressure answer, and how the frames differ.
 
 mod cost;
-mod figure;
 pub mod form;
 pub mod methods;
 mod profiles;
 pub mod series;
 
 use crate::app::controls::{message_ui, named, sentence, warning_ui};
+use crate::app::figure::{self, Subject};
 use crate::app::files::Purpose;
 use crate::app::numbers;
 use crate::app::state::State;
@@ -56,30 +56,35 @@ fn results(ui: &mut Ui, state: &mut State) {
         return;
     }
     player(ui, &mut state.transient);
-    cost::ui(ui, state);
-    let rest = height - (ui.cursor().top() - top) - 18.0;
+    let all = ui.vertical(|ui| {
+        cost::ui(ui, state);
+        plots(ui, state, height - (ui.cursor().top() - top) - 18.0)
+    });
+    figure::offer_of(ui, "Series and profiles", all.response.rect, Subject::InTime);
+    if let Some(time) = all.inner {
+        state.transient.player.go_to(time);
+    }
+}
+
+/// Series and profiles, beside each other where there is room; returns the time that was clicked at.
+fn plots(ui: &mut Ui, state: &State, height: f32) -> Option<f64> {
     let several = state.transient.runs.len() > 1;
     let parts = if several { 2.7 } else { 2.0 };
-    if ui.available_width() >= SIDE_BY_SIDE {
-        let unit = (rest / parts).max(LEAST_HEIGHT);
-        let width = ui.available_width();
-        let mut clicked = None;
-        ui.horizontal_top(|ui| {
-            ui.vertical(|ui| {
-                ui.set_width(0.56 * width);
-                clicked = series::ui(ui, state, unit);
-            });
-            ui.vertical(|ui| profiles::ui(ui, state, 0.5 * unit * parts));
-        });
-        clicked
-    } else {
-        let unit = (0.55 * rest / parts).max(LEAST_HEIGHT);
-        let clicked = series::ui(ui, state, unit);
-        profiles::ui(ui, state, (0.5 * rest).max(LEAST_HEIGHT));
-        clicked
+    if ui.available_width() < SIDE_BY_SIDE {
+        let clicked = series::ui(ui, state, (0.55 * height / parts).max(LEAST_HEIGHT));
+        profiles::ui(ui, state, (0.5 * height).max(LEAST_HEIGHT));
+        return clicked;
     }
-    .into_iter()
-    .for_each(|time| state.transient.player.go_to(time));
+    let (unit, width) = ((height / parts).max(LEAST_HEIGHT), ui.available_width());
+    let both = ui.horizontal_top(|ui| {
+        let series = ui.vertical(|ui| {
+            ui.set_width(0.56 * width);
+            series::ui(ui, state, unit)
+        });
+        ui.vertical(|ui| profiles::ui(ui, state, 0.5 * unit * parts));
+        series.inner
+    });
+    both.inner
 }
 
 fn buttons(ui: &mut Ui, state: &mut State) {
@@ -106,12 +111,6 @@ fn buttons(ui: &mut Ui, state: &mut State) {
         let tip = "Any of these plots, or the whole tab, as SVG or PNG with axes and parameters";
         if ui.add_enabled(there, Button::new("Export plot…")).on_hover_text(tip).clicked() {
             state.ask_figure();
-        }
-        let tip = "Series and profiles as a figure with axes and parameters";
-        if ui.add_enabled(there, Button::new("Export SVG…")).on_hover_text(tip).clicked()
-            && let Some(text) = figure::svg(&state.transient)
-        {
-            state.ask_path(&ctx, Purpose::Picture { bytes: text.into_bytes().into(), extension: "svg" });
         }
     });
 }
