@@ -77,10 +77,7 @@ pub enum Command {
 pub const MENUS: [(&str, &[&[Command]]); 5] = {
     use Command as C;
     [
-        (
-            "File",
-            &[&[C::New, C::Open], &[C::Save, C::SaveAs], &[C::ExportPlot, C::ExportProfiles], &[C::Quit]],
-        ),
+        ("File", &[&[C::New, C::Open], &[C::Save, C::SaveAs], &[C::ExportPlot, C::ExportProfiles], &[C::Quit]]),
         ("Edit", &[&[C::Undo, C::Redo], &[C::Pin, C::Unpin], &[C::CopyReadouts]]),
         (
             "View",
@@ -92,10 +89,7 @@ pub const MENUS: [(&str, &[&[Command]]); 5] = {
                 &[C::FitPlots, C::ResetLayout],
             ],
         ),
-        (
-            "Run",
-            &[&[C::Verify, C::EstimateGridError], &[C::SolveAlong, C::RunInTime, C::Train], &[C::Cancel]],
-        ),
+        ("Run", &[&[C::Verify, C::EstimateGridError], &[C::SolveAlong, C::RunInTime, C::Train], &[C::Cancel]]),
         ("Help", &[&[C::Keyboard, C::About]]),
     ]
 };

@@ -281,12 +281,12 @@ impl Explorer {
 
     /// Whether a contact is taken through time.
     pub fn marching(&self) -> bool {
-        self.state.transient.standing().is_some()
+        self.state.transient.work.standing().is_some()
     }
 
     /// Whether the number of operating points is studied.
     pub fn studying_points(&self) -> bool {
-        self.state.transient.number.standing().is_some()
+        self.state.transient.number.work.standing().is_some()
     }
 
     /// Operating points of the linearised model that is shown.
@@ -303,7 +303,7 @@ impl Explorer {
 
     /// Whether full solutions along the traction curve are being computed.
     pub fn solving_along(&self) -> bool {
-        self.state.traction.standing().is_some()
+        self.state.traction.full.standing().is_some()
     }
 
     /// SRR and NPR of the sliders.

@@ -45,7 +45,10 @@ mod tests {
         let screens = [vec2(600.0, 400.0), vec2(1024.0, 640.0), vec2(1280.0, 800.0), vec2(1920.0, 1080.0)];
         let factors = screens.map(enlargement);
         assert!((factors[0] - 1.0).abs() < 1e-6 && (factors[3] - 2.0).abs() < 1e-6, "{factors:?}");
-        assert!(factors[1] > 1.25 && factors[2] > 1.6 && factors.windows(2).all(|pair| pair[0] < pair[1]), "{factors:?}");
+        assert!(
+            factors[1] > 1.25 && factors[2] > 1.6 && factors.windows(2).all(|pair| pair[0] < pair[1]),
+            "{factors:?}"
+        );
         for (screen, factor) in screens.iter().zip(factors).skip(1) {
             assert!((*screen / factor).x >= LEAST.x && (*screen / factor).y >= LEAST.y);
         }

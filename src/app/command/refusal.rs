@@ -26,11 +26,11 @@ impl Command {
                 (full, "The picture is the full solution itself")
             }
             Self::EstimateGridError => return grid_error(state),
-            Self::SolveAlong => match state.traction.standing() {
+            Self::SolveAlong => match state.traction.full.standing() {
                 Some(_) => (true, RUNS_ALREADY),
                 None => (state.sweep().is_none(), "A Newtonian lubricant has no plateau ratio to vary"),
             },
-            Self::RunInTime => match state.transient.standing() {
+            Self::RunInTime => match state.transient.work.standing() {
                 Some(_) => (true, RUNS_ALREADY),
                 None => return state.no_transient(),
             },

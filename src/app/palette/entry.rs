@@ -52,7 +52,8 @@ impl Entry {
 
 /// Everything there is, in its order.
 pub fn all(state: &State) -> Vec<Entry> {
-    let tabs = Tab::ALL.map(|tab| Entry::new("Tab", format!("Go to {}", tab.title()), tab.subjects(), Action::Tab(tab)));
+    let tabs =
+        Tab::ALL.map(|tab| Entry::new("Tab", format!("Go to {}", tab.title()), tab.subjects(), Action::Tab(tab)));
     // The palette itself is open already.
     let commands = Command::all().filter(|(_, command)| *command != Command::Palette);
     let commands = commands.map(|(menu, command)| Entry {
@@ -73,7 +74,8 @@ pub fn all(state: &State) -> Vec<Entry> {
         entry.refused_where(present == Some(named), "It is the present one")
     }));
     entries.extend(state.files.recent.iter().map(|path| {
-        let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
+        let name =
+            path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
         let folder = path.parent().unwrap_or(Path::new("")).display().to_string();
         Entry::new("Recent scene", format!("Open {name}"), &folder, Action::Scene(path.clone()))
     }));

@@ -12,7 +12,8 @@ use super::theme::Palette as Colors;
 use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{
-    Align2, Context, FontId, Id, Key, Modal, Modifiers, Response, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, pos2, vec2,
+    Align2, Context, FontId, Id, Key, Modal, Modifiers, Response, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, pos2,
+    vec2,
 };
 use entry::Entry;
 
@@ -81,7 +82,8 @@ impl Palette {
             ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 40.0));
             action = open.content(ui, &entries);
         });
-        let again = Command::Palette.shortcut().is_some_and(|shortcut| ctx.input_mut(|i| i.consume_shortcut(&shortcut)));
+        let again =
+            Command::Palette.shortcut().is_some_and(|shortcut| ctx.input_mut(|i| i.consume_shortcut(&shortcut)));
         if action.is_some() || again || response.should_close() {
             self.returns = open.former_focus.map(|id| (id, RELEASE));
             self.open = None;
@@ -115,10 +117,8 @@ impl Open {
         let wanted = if moved.abs() == 1 { wanted.rem_euclid(count) } else { wanted.clamp(0, count - 1) };
         self.chosen = wanted as usize;
         let mut clicked = None;
-        // As high with few entries as with many: nothing jumps while one types.
         let height = (LINES * LINE).min(ui.ctx().content_rect().height() - TOP - 80.0);
-        ui.set_min_height(height + edit.rect.height());
-        let mut list = ScrollArea::vertical().max_height(height).auto_shrink(false);
+        let mut list = ScrollArea::vertical().max_height(height).auto_shrink([false, true]);
         if edit.changed() {
             list = list.vertical_scroll_offset(0.0);
         }
@@ -132,7 +132,8 @@ impl Open {
                 }
                 if chosen {
                     // A screen reader follows the arrows while the focus stays in the field.
-                    ui.ctx().accesskit_node_builder(field, |node| node.set_active_descendant(response.id.accesskit_id()));
+                    ui.ctx()
+                        .accesskit_node_builder(field, |node| node.set_active_descendant(response.id.accesskit_id()));
                 }
                 if response.clicked() {
                     clicked = Some(*entry);
@@ -160,7 +161,8 @@ fn line(ui: &mut Ui, entry: &Entry, chosen: bool) -> Response {
     let colors = Colors::of(ui);
     let sense = if enabled { Sense::click() } else { Sense::hover() };
     let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), LINE), sense);
-    response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, enabled, chosen, &entry.name));
+    response.widget_info(|| WidgetInfo::labeled(Role::ListBoxOption, enabled, &entry.name));
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_selected(chosen));
     if ui.is_rect_visible(area) {
         if chosen {
             ui.painter().rect_filled(area, 4.0, ui.visuals().selection.bg_fill);
@@ -169,11 +171,23 @@ fn line(ui: &mut Ui, entry: &Entry, chosen: bool) -> Response {
         }
         let ink = if enabled { colors.text } else { colors.quiet };
         let middle = |x: f32| pos2(x, area.center().y);
-        let name = ui.painter().text(middle(area.left() + 10.0), Align2::LEFT_CENTER, &entry.name, FontId::proportional(13.5), ink);
+        let name = ui.painter().text(
+            middle(area.left() + 10.0),
+            Align2::LEFT_CENTER,
+            &entry.name,
+            FontId::proportional(13.5),
+            ink,
+        );
         let right = area.right() - KEY_WIDTH;
         if let Some(shortcut) = entry.shortcut {
             let key = ui.ctx().format_shortcut(&shortcut);
-            ui.painter().text(middle(area.right() - 10.0), Align2::RIGHT_CENTER, key, FontId::proportional(12.0), colors.quiet);
+            ui.painter().text(
+                middle(area.right() - 10.0),
+                Align2::RIGHT_CENTER,
+                key,
+                FontId::proportional(12.0),
+                colors.quiet,
+            );
         }
         let mut detail = LayoutJob::simple_singleline(
             entry.refusal.unwrap_or(entry.group).to_owned(),

@@ -40,8 +40,10 @@ pub struct RegimeChart {
 
 /// The tab.
 pub fn ui(ui: &mut Ui, state: &mut State) {
-    let wide = ui.available_width() > 760.0;
-    if wide {
+    if state.presentation.is_some() {
+        // An audience looks at the chart.
+        chart(ui, state, ui.available_height());
+    } else if ui.available_width() > 760.0 {
         ui.horizontal_top(|ui| {
             let table = if state.document.point.kind == ContactKind::Line { 350.0 } else { 384.0 };
             let width = ui.available_width() - table - 14.0;
@@ -85,7 +87,8 @@ fn chart(ui: &mut Ui, state: &mut State, height: f32) {
             ContactKind::Point => "Drag the contact. Contours: ({h}/{R})/√(2{U}) of Nijenbanning, Venner and Moes",
         };
         ui.label(rich(hint, 12.5, palette.quiet));
-        toolbar_export = ui.button("Export CSV…").on_hover_text("Contours, boundaries and snapshots").clicked();
+        toolbar_export = state.presentation.is_none()
+            && ui.button("Export CSV…").on_hover_text("Contours, boundaries and snapshots").clicked();
     });
     if let Some(message) = &state.regimes.message {
         crate::app::controls::message_ui(ui, message);

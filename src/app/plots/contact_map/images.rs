@@ -3,10 +3,10 @@
 use super::contours::Field;
 use super::{MapView, Shown};
 use crate::app::color_map;
+use crate::app::figure::Texture;
 use crate::app::numbers;
 use crate::app::picture::Picture;
 use crate::app::plots::raster::Raster;
-use crate::app::figure::Texture;
 use crate::app::png;
 use crate::solver::full::Solution;
 use egui::{Color32, ColorImage, Context, TextureId};
