@@ -21,6 +21,9 @@ const LIMITING: LimitingStress = LimitingStress { ambient: 5e6, slope: 0.05 };
 const LIMITING_TIP: &str = "The film carries at most τ_L = τ_L0 + Λ p (Bair & Winer 1979): beyond it the lubricant slips or yields. \
     It limits the traction; pressure and film are computed without it";
 
+/// Under this name a lubricant as a whole is refused.
+const GROUP: &str = "lubricant";
+
 /// A choice of the picker.
 #[derive(Clone, Copy, PartialEq)]
 enum Pick {
@@ -39,7 +42,7 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
         }
         None => own(ui, state),
     }
-    state.entries.message_ui(ui, "lubricant");
+    state.entries.message_ui(ui, GROUP);
     limiting_stress(ui, state);
 }
 
@@ -72,7 +75,7 @@ pub fn take(state: &mut State, named: &NamedLubricant) {
     if result.is_ok() {
         state.entries.clear();
     }
-    state.entries.answer("lubricant", result);
+    state.entries.answer(GROUP, result);
 }
 
 /// A constant of the laws in use.
@@ -80,99 +83,87 @@ struct Constant {
     name: &'static str,
     /// Name and symbol in the row, the symbol's base and subscript.
     row: (&'static str, &'static str, &'static str),
-    unit: &'static str,
-    /// SI units per shown unit.
-    scale: f64,
+    /// Unit that is shown, and SI units in it.
+    unit: (&'static str, f64),
     tip: &'static str,
     /// `None` where no law in use has it.
     of: fn(&mut Lubricant) -> Option<&mut f64>,
 }
 
+const fn constant(
+    name: &'static str,
+    row: (&'static str, &'static str, &'static str),
+    unit: (&'static str, f64),
+    tip: &'static str,
+    of: fn(&mut Lubricant) -> Option<&mut f64>,
+) -> Constant {
+    Constant { name, row, unit, tip, of }
+}
+
+const GPA: (&str, f64) = ("GPa", 1e9);
+const MPA: (&str, f64) = ("MPa", 1e6);
+const NUMBER: (&str, f64) = ("", 1.0);
+
+const BULK_TIP: &str = "Tait’s initial bulk modulus K₀ (3.37)";
+const RATE_TIP: &str = "Rate of change of the bulk modulus with pressure, K’₀ (3.37)";
+const B_TIP: &str = "Doolittle’s parameter B (3.39): how strongly the viscosity answers to the free volume";
+const OCCUPIED_TIP: &str = "Occupied volume over the volume at ambient pressure (3.39). Where the relative volume falls to it the viscosity is infinite";
+const VOLUME_BULK_TIP: &str = "Bulk modulus of the volume in Doolittle’s law, which is not that of the density law";
+const VOLUME_RATE_TIP: &str = "Its rate of change with pressure";
+const CRITICAL_TIP: &str = "Shear stress from which on the viscosity falls: G_c of (3.40), the stress of half the viscosity (Ellis), or τ_E (Eyring)";
+const BETA_TIP: &str = "How sharply the viscosity turns at the critical stress, β_c of (3.40)";
+const N_TIP: &str = "Power-law exponent, stress over rate, n_c of (3.40); 1 is Newtonian";
+
 const CONSTANTS: [Constant; 9] = [
-    Constant {
-        name: "Bulk modulus K_0",
-        row: ("Bulk modulus", "K", "0"),
-        unit: "GPa",
-        scale: 1e9,
-        tip: "Tait’s initial bulk modulus K₀ (3.37)",
-        of: |laws| density_volume(laws).map(|tait| &mut tait.k_0),
-    },
-    Constant {
-        name: "Rate of change K_0'",
-        row: ("Its rate", "K'", "0"),
-        unit: "",
-        scale: 1.0,
-        tip: "Rate of change of the bulk modulus with pressure, K’₀ (3.37)",
-        of: |laws| density_volume(laws).map(|tait| &mut tait.k_0_prime),
-    },
-    Constant {
-        name: "Doolittle's parameter B",
-        row: ("Parameter", "B", ""),
-        unit: "",
-        scale: 1.0,
-        tip: "Doolittle’s parameter B (3.39): how strongly the viscosity answers to the free volume",
-        of: |laws| doolittle(laws).map(|law| &mut law.b),
-    },
-    Constant {
-        name: "Occupied volume R_0",
-        row: ("Occupied", "R", "0"),
-        unit: "",
-        scale: 1.0,
-        tip: "Occupied volume over the volume at ambient pressure (3.39). Where the relative volume falls to it the viscosity is infinite",
-        of: |laws| doolittle(laws).map(|law| &mut law.r_0),
-    },
-    Constant {
-        name: "Volume's bulk modulus",
-        row: ("Of volume", "K", "0"),
-        unit: "GPa",
-        scale: 1e9,
-        tip: "Bulk modulus of the volume in Doolittle’s law, which is not that of the density law",
-        of: |laws| other_volume(laws).map(|tait| &mut tait.k_0),
-    },
-    Constant {
-        name: "Volume's rate of change",
-        row: ("Its rate", "K'", "0"),
-        unit: "",
-        scale: 1.0,
-        tip: "Its rate of change with pressure",
-        of: |laws| other_volume(laws).map(|tait| &mut tait.k_0_prime),
-    },
-    Constant {
-        name: "Critical stress",
-        row: ("Critical stress", "G", "c"),
-        unit: "MPa",
-        scale: 1e6,
-        tip: "Shear stress from which on the viscosity falls: G_c of (3.40), the stress of half the viscosity (Ellis), or τ_E (Eyring)",
-        of: |laws| match &mut laws.shear {
-            ShearLaw::Newtonian => None,
-            ShearLaw::Carreau { critical_stress, .. }
-            | ShearLaw::Ellis { critical_stress, .. }
-            | ShearLaw::Eyring { critical_stress, .. } => Some(critical_stress),
-        },
-    },
-    Constant {
-        name: "Exponent beta_c",
-        row: ("Exponent", "β", "c"),
-        unit: "",
-        scale: 1.0,
-        tip: "How sharply the viscosity turns at the critical stress, β_c of (3.40)",
-        of: |laws| match &mut laws.shear {
-            ShearLaw::Carreau { beta, .. } => Some(beta),
-            _ => None,
-        },
-    },
-    Constant {
-        name: "Exponent n_c",
-        row: ("Exponent", "n", "c"),
-        unit: "",
-        scale: 1.0,
-        tip: "Power-law exponent, stress over rate, n_c of (3.40); 1 is Newtonian",
-        of: |laws| match &mut laws.shear {
-            ShearLaw::Carreau { n, .. } | ShearLaw::Ellis { n, .. } => Some(n),
-            _ => None,
-        },
-    },
+    constant("Bulk modulus K_0", ("Bulk modulus", "K", "0"), GPA, BULK_TIP, |l| Some(&mut density_volume(l)?.k_0)),
+    constant("Rate of change K_0'", ("Its rate", "K'", "0"), NUMBER, RATE_TIP, |l| {
+        Some(&mut density_volume(l)?.k_0_prime)
+    }),
+    constant("Doolittle's parameter B", ("Parameter", "B", ""), NUMBER, B_TIP, |l| Some(&mut doolittle(l)?.b)),
+    constant("Occupied volume R_0", ("Occupied", "R", "0"), NUMBER, OCCUPIED_TIP, |l| Some(&mut doolittle(l)?.r_0)),
+    constant("Volume's bulk modulus", ("Of volume", "K", "0"), GPA, VOLUME_BULK_TIP, |l| {
+        Some(&mut other_volume(l)?.k_0)
+    }),
+    constant("Volume's rate of change", ("Its rate", "K'", "0"), NUMBER, VOLUME_RATE_TIP, |l| {
+        Some(&mut other_volume(l)?.k_0_prime)
+    }),
+    constant("Critical stress", ("Critical stress", "G", "c"), MPA, CRITICAL_TIP, critical_stress),
+    constant("Exponent beta_c", ("Exponent", "β", "c"), NUMBER, BETA_TIP, beta),
+    constant("Exponent n_c", ("Exponent", "n", "c"), NUMBER, N_TIP, exponent),
 ];
+
+const AMBIENT_TIP: &str = "τ_L0, the limit at ambient pressure";
+const SLOPE_TIP: &str = "Λ, how the limit rises with pressure";
+
+/// The constants of the stress that limits the traction.
+const LIMITS: [Constant; 2] = [
+    constant("Ambient limiting stress", ("At ambient", "τ", "L0"), MPA, AMBIENT_TIP, |l| {
+        Some(&mut l.limiting_stress.as_mut()?.ambient)
+    }),
+    constant("Slope of the limiting stress", ("Slope", "Λ", ""), NUMBER, SLOPE_TIP, |l| {
+        Some(&mut l.limiting_stress.as_mut()?.slope)
+    }),
+];
+
+fn critical_stress(laws: &mut Lubricant) -> Option<&mut f64> {
+    match &mut laws.shear {
+        ShearLaw::Newtonian => None,
+        ShearLaw::Carreau { critical_stress, .. }
+        | ShearLaw::Ellis { critical_stress, .. }
+        | ShearLaw::Eyring { critical_stress, .. } => Some(critical_stress),
+    }
+}
+
+fn beta(laws: &mut Lubricant) -> Option<&mut f64> {
+    if let ShearLaw::Carreau { beta, .. } = &mut laws.shear { Some(beta) } else { None }
+}
+
+fn exponent(laws: &mut Lubricant) -> Option<&mut f64> {
+    match &mut laws.shear {
+        ShearLaw::Carreau { n, .. } | ShearLaw::Ellis { n, .. } => Some(n),
+        ShearLaw::Newtonian | ShearLaw::Eyring { .. } => None,
+    }
+}
 
 fn density_volume(laws: &mut Lubricant) -> Option<&mut Tait> {
     if let DensityLaw::Tait(tait) = &mut laws.density { Some(tait) } else { None }
@@ -206,24 +197,7 @@ fn own(ui: &mut Ui, state: &mut State) {
         let laws = [ShearLaw::Newtonian, or(CARREAU), or(ELLIS), or(EYRING)];
         choice(ui, "Shear", "How the viscosity falls with shear stress", &mut wanted.shear, &laws, shear_law);
     });
-    let mut field = "lubricant";
-    for constant in &CONSTANTS {
-        let Some(value) = (constant.of)(&mut wanted).map(|value| *value) else { continue };
-        ui.horizontal(|ui| {
-            let (name, base, subscript) = constant.row;
-            row_name(ui, name_and_symbol(ui, name, base, subscript), constant.tip);
-            let shown = value / constant.scale;
-            let entered = number_field(ui, &mut state.entries, constant.name, shown, 96.0, constant.tip);
-            if let Some(entered) = entered
-                && let Some(place) = (constant.of)(&mut wanted)
-            {
-                *place = entered * constant.scale;
-                field = constant.name;
-            }
-            ui.label(constant.unit);
-        });
-        state.entries.message_ui(ui, constant.name);
-    }
+    let field = constants_ui(ui, state, &CONSTANTS, &mut wanted);
     // One volume under both laws stays one.
     if let (DensityLaw::Tait(volume), DensityLaw::Tait(former)) = (wanted.density, before.density)
         && let Some(law) = doolittle(&mut wanted).filter(|law| law.volume == former)
@@ -233,6 +207,24 @@ fn own(ui: &mut Ui, state: &mut State) {
     if wanted != before {
         change(state, field, wanted);
     }
+}
+
+/// A row for each constant that the laws have; returns the name of the last one that was entered, else that of the whole group.
+fn constants_ui(ui: &mut Ui, state: &mut State, constants: &[Constant], laws: &mut Lubricant) -> &'static str {
+    let mut field = GROUP;
+    for Constant { name, row: (row, base, subscript), unit: (unit, scale), tip, of } in constants {
+        let Some(value) = of(laws) else { continue };
+        ui.horizontal(|ui| {
+            row_name(ui, name_and_symbol(ui, row, base, subscript), tip);
+            if let Some(entered) = number_field(ui, &mut state.entries, name, *value / scale, 96.0, tip) {
+                *value = entered * scale;
+                field = name;
+            }
+            ui.label(*unit);
+        });
+        state.entries.message_ui(ui, name);
+    }
+    field
 }
 
 fn change(state: &mut State, field: &'static str, wanted: Lubricant) {
@@ -246,45 +238,14 @@ fn change(state: &mut State, field: &'static str, wanted: Lubricant) {
 /// The stress that limits the traction, where one is wanted.
 fn limiting_stress(ui: &mut Ui, state: &mut State) {
     let before = state.document.lubricant;
-    let mut limit = before.limiting_stress;
-    let mut field = "lubricant";
-    let mut on = limit.is_some();
+    let mut wanted = before;
+    let mut on = wanted.limiting_stress.is_some();
     if ui.add(Checkbox::new(&mut on, "Limiting shear stress")).on_hover_text(LIMITING_TIP).changed() {
-        limit = on.then_some(LIMITING);
+        wanted.limiting_stress = on.then_some(LIMITING);
     }
-    if let Some(limit) = &mut limit {
-        let rows = [
-            (
-                "Ambient limiting stress",
-                ("At ambient", "τ", "L0"),
-                "MPa",
-                1e6,
-                &mut limit.ambient,
-                "τ_L0, the limit at ambient pressure",
-            ),
-            (
-                "Slope of the limiting stress",
-                ("Slope", "Λ", ""),
-                "",
-                1.0,
-                &mut limit.slope,
-                "Λ, how the limit rises with pressure",
-            ),
-        ];
-        for (name, (row, base, subscript), unit, scale, value, tip) in rows {
-            ui.horizontal(|ui| {
-                row_name(ui, name_and_symbol(ui, row, base, subscript), tip);
-                if let Some(entered) = number_field(ui, &mut state.entries, name, *value / scale, 96.0, tip) {
-                    *value = entered * scale;
-                    field = name;
-                }
-                ui.label(unit);
-            });
-            state.entries.message_ui(ui, name);
-        }
-    }
-    if limit != before.limiting_stress {
-        change(state, field, Lubricant { limiting_stress: limit, ..before });
+    let field = constants_ui(ui, state, &LIMITS, &mut wanted);
+    if wanted != before {
+        change(state, field, wanted);
     }
 }
 

@@ -18,42 +18,22 @@ struct Dial {
     unit: &'static str,
 }
 
-const WAVELENGTH: Dial = Dial {
-    symbol: "{λ}",
-    name: "Wavelength",
-    tip: "Wavelength of the monochromatic light in vacuum",
-    scale: 1e-9,
-    range: (380.0, 780.0),
-    speed: 1.0,
-    unit: " nm",
-};
-const REFRACTIVE_INDEX: Dial = Dial {
-    symbol: "{n}",
-    name: "Refractive index",
-    tip: "Of the oil; under 1 GPa it is some per cent higher",
-    scale: 1.0,
-    range: (1.0, 2.5),
-    speed: 0.005,
-    unit: "",
-};
-const PHASE: Dial = Dial {
-    symbol: "{φ}",
-    name: "Phase",
-    tip: "What the reflections at coating and ball add; 180° makes touching surfaces dark",
-    scale: std::f64::consts::PI / 180.0,
-    range: (0.0, 360.0),
-    speed: 1.0,
-    unit: "°",
-};
-const VISIBILITY: Dial = Dial {
-    symbol: "{V}",
-    name: "Visibility",
-    tip: "Contrast of the fringes: 1 where both beams are equally strong",
-    scale: 1.0,
-    range: (0.0, 1.0),
-    speed: 0.01,
-    unit: "",
-};
+/// A dial in SI units.
+const fn dial(symbol: &'static str, name: &'static str, range: (f64, f64), speed: f64, tip: &'static str) -> Dial {
+    Dial { symbol, name, tip, scale: 1.0, range, speed, unit: "" }
+}
+
+const WAVELENGTH_TIP: &str = "Wavelength of the monochromatic light in vacuum";
+const INDEX_TIP: &str = "Of the oil; under 1 GPa it is some per cent higher";
+const PHASE_TIP: &str = "What the reflections at coating and ball add; 180° makes touching surfaces dark";
+const VISIBILITY_TIP: &str = "Contrast of the fringes: 1 where both beams are equally strong";
+
+const WAVELENGTH: Dial =
+    Dial { scale: 1e-9, unit: " nm", ..dial("{λ}", "Wavelength", (380.0, 780.0), 1.0, WAVELENGTH_TIP) };
+const REFRACTIVE_INDEX: Dial = dial("{n}", "Refractive index", (1.0, 2.5), 0.005, INDEX_TIP);
+const PHASE: Dial =
+    Dial { scale: std::f64::consts::PI / 180.0, unit: "°", ..dial("{φ}", "Phase", (0.0, 360.0), 1.0, PHASE_TIP) };
+const VISIBILITY: Dial = dial("{V}", "Visibility", (0.0, 1.0), 0.01, VISIBILITY_TIP);
 
 impl Dial {
     fn ui(&self, ui: &mut Ui, value: &mut f64) {

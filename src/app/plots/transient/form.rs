@@ -29,29 +29,31 @@ struct Names {
     steepness: &'static str,
 }
 
+/// Names of an input's fields from its own.
+macro_rules! names {
+    ($kind:literal, $tip:literal) => {
+        Names {
+            kind: $kind,
+            tip: $tip,
+            one: [concat!($kind, " {A}"), concat!($kind, " {T_ex}")],
+            two: [
+                concat!($kind, " {A_1}"),
+                concat!($kind, " {T_1}"),
+                concat!($kind, " {A_2}"),
+                concat!($kind, " {T_2}"),
+            ],
+            steepness: concat!($kind, " {s}"),
+        }
+    };
+}
+
 fn names(input: Input) -> Names {
     match input {
-        Input::Load => Names {
-            kind: "Load",
-            tip: "w over that of the sliders, as a function of time (2.20)",
-            one: ["Load {A}", "Load {T_ex}"],
-            two: ["Load {A_1}", "Load {T_1}", "Load {A_2}", "Load {T_2}"],
-            steepness: "Load {s}",
-        },
-        Input::Speed => Names {
-            kind: "Speed",
-            tip: "u_m over that of the sliders, as a function of time (2.19); it may turn round",
-            one: ["Speed {A}", "Speed {T_ex}"],
-            two: ["Speed {A_1}", "Speed {T_1}", "Speed {A_2}", "Speed {T_2}"],
-            steepness: "Speed {s}",
-        },
-        Input::Radius => Names {
-            kind: "Radius",
-            tip: "R over that of the sliders, as a function of time (2.18)",
-            one: ["Radius {A}", "Radius {T_ex}"],
-            two: ["Radius {A_1}", "Radius {T_1}", "Radius {A_2}", "Radius {T_2}"],
-            steepness: "Radius {s}",
-        },
+        Input::Load => names!("Load", "w over that of the sliders, as a function of time (2.20)"),
+        Input::Speed => {
+            names!("Speed", "u_m over that of the sliders, as a function of time (2.19); it may turn round")
+        }
+        Input::Radius => names!("Radius", "R over that of the sliders, as a function of time (2.18)"),
     }
 }
 
@@ -86,7 +88,7 @@ pub fn edit(ui: &mut Ui, state: &mut State, content: impl FnOnce(&mut Ui, &mut F
     let mut study = state.document.transient_study();
     let before = study.clone();
     let mut form = Form { refused: state.transient.refused.take(), changed: None };
-    ui.add_enabled_ui(state.transient.standing().is_none(), |ui| content(ui, &mut form, &mut study));
+    ui.add_enabled_ui(state.transient.work.standing().is_none(), |ui| content(ui, &mut form, &mut study));
     let Form { refused, changed } = form;
     state.transient.refused = refused;
     if study != before {
