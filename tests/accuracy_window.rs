@@ -1,23 +1,21 @@
 //! The Accuracy tab without a display: its studies run, can be stopped, lead to the contacts they found, and know when they are old.
 
+mod driver;
+
+use driver::{Window, choose, click, give_path, scratch, set, shows, undo, wait_until};
 use egui::accesskit::Role;
-use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use ehl_explorer::app::Explorer;
 use ehl_explorer::harness::model_file;
-use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 /// A study must stop within this; debug builds are many times slower.
 const STOP: Duration = Duration::from_millis(if cfg!(debug_assertions) { 3000 } else { 100 });
 
-type Window = Harness<'static, Explorer>;
-
 /// The Accuracy tab at one of its views, over a settled picture.
 fn open(view: &str) -> Window {
     let explorer = Explorer::new(Some(model_file::embedded().unwrap())).without_system_dialogs();
-    let mut harness =
-        Harness::builder().with_size([1280.0, 800.0]).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer);
+    let mut harness = driver::window(explorer, [1280.0, 800.0]);
     wait(&mut harness, "verification", |h| h.state().badge() == "Verified" && !h.state().busy());
     click(&mut harness, "Accuracy");
     click(&mut harness, view);
@@ -25,51 +23,25 @@ fn open(view: &str) -> Window {
 }
 
 fn wait(harness: &mut Window, what: &str, done: impl Fn(&Window) -> bool) {
-    let begin = Instant::now();
-    loop {
-        harness.step();
-        if done(harness) {
-            return;
-        }
-        assert!(begin.elapsed() < Duration::from_secs(30), "waited in vain for {what}");
-        std::thread::sleep(Duration::from_millis(5));
-    }
+    wait_until(Duration::from_secs(30), harness, what, done);
 }
 
-/// Clicks and draws two frames: while a study runs there is always another one to come.
-fn click(harness: &mut Window, name: &str) {
-    harness.get_by_label(name).click();
-    harness.run_steps(2);
-}
-
-fn choose(harness: &mut Window, name: &str, value: f64) {
-    harness.get_by_role_and_label(Role::SpinButton, name).set_value_accesskit(value);
-    harness.run_steps(2);
-}
-
-fn shows(harness: &Window, text: &str) -> bool {
-    harness.query_by_label_contains(text).is_some()
+fn count(harness: &mut Window, name: &str, value: f64) {
+    set(harness, Role::SpinButton, name, value);
 }
 
 fn run_tests(harness: &mut Window, tests: f64, compared: f64) {
-    choose(harness, "Random tests", tests);
-    choose(harness, "Compared in full", compared);
+    count(harness, "Random tests", tests);
+    count(harness, "Compared in full", compared);
     click(harness, "Run tests");
     wait(harness, "the random tests", |h| !h.state().studying());
 }
 
 /// Writes the table of the view through the path field and reads it back.
 fn exported(harness: &mut Window, name: &str) -> Vec<String> {
-    let folder = std::env::temp_dir().join(format!("ehl-explorer-accuracy-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    let path: PathBuf = folder.join(name);
+    let path = scratch("accuracy").join(name);
     click(harness, "Export CSV…");
-    harness.get_by_label("Path of the file").focus();
-    harness.run_steps(2);
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
-    harness.get_by_label("Path of the file").type_text(&path.display().to_string());
-    harness.run_steps(2);
-    click(harness, "Export");
+    give_path(harness, &path, "Export");
     let text = std::fs::read_to_string(&path).unwrap();
     std::fs::remove_file(&path).unwrap();
     text.lines().map(str::to_owned).collect()
@@ -120,8 +92,7 @@ fn the_failure_map_counts_and_its_worst_case_is_a_click_away() {
     let worst = harness.state().moes();
     assert_ne!(before, worst);
     wait(&mut harness, "its picture", |h| h.state().central_film().is_some());
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
-    harness.run_steps(2);
+    undo(&mut harness);
     assert_eq!(harness.state().moes(), before);
     let table = exported(&mut harness, "map.csv");
     assert_eq!(table.len(), 4 + 200);
@@ -166,7 +137,7 @@ fn the_bound_is_held_against_the_truth() {
 #[test]
 fn the_trajectory_is_followed_in_both_ranges() {
     let mut harness = open("Along the trajectory");
-    choose(&mut harness, "Contacts", 11.0);
+    count(&mut harness, "Contacts", 11.0);
     click(&mut harness, "Follow the trajectory");
     wait(&mut harness, "the trajectory", |h| !h.state().studying());
     assert!(shows(&harness, "11 of 11 contacts through Table 3.1’s box, 0 failures"));
@@ -174,9 +145,7 @@ fn the_trajectory_is_followed_in_both_ranges() {
     assert_eq!(table.len(), 3 + 11);
     harness.get_by_label("Film along the trajectory");
     harness.get_by_label("Error along the trajectory");
-    harness.get_by_role_and_label(Role::ComboBox, "Through").click();
-    harness.run_steps(2);
-    click(&mut harness, "the trained range");
+    choose(&mut harness, "Through", "the trained range");
     click(&mut harness, "Follow the trajectory");
     wait(&mut harness, "the other trajectory", |h| !h.state().studying());
     assert!(shows(&harness, "11 of 11 contacts through the trained range, 0 failures"));
@@ -185,7 +154,7 @@ fn the_trajectory_is_followed_in_both_ranges() {
 #[test]
 fn a_study_stops_at_once_and_keeps_what_it_found_while_the_picture_lives() {
     let mut harness = open("Failure map");
-    choose(&mut harness, "Random tests", 10_000.0);
+    count(&mut harness, "Random tests", 10_000.0);
     // On a busy machine the window's own frames take long: one of several attempts must show the study's share.
     let mut fastest = Duration::MAX;
     for attempt in 0..8 {
@@ -211,9 +180,7 @@ fn a_study_stops_at_once_and_keeps_what_it_found_while_the_picture_lives() {
 fn residuals_are_still_there_and_without_a_model_there_is_a_sentence() {
     let harness = open("Newton residuals");
     assert!(shows(&harness, "Last full solve"));
-    let explorer = Explorer::new(None).without_system_dialogs();
-    let mut harness =
-        Harness::builder().with_size([1280.0, 800.0]).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer);
+    let mut harness = driver::window(Explorer::new(None).without_system_dialogs(), [1280.0, 800.0]);
     harness.run_steps(2);
     for view in ["Where the error comes from", "Failure map", "Bound against truth", "Along the trajectory"] {
         click(&mut harness, "Accuracy");

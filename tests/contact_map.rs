@@ -1,30 +1,16 @@
 //! The point contact in the window: the switch, the map, its cuts, the grids, the interferogram.
 
+mod driver;
+
+use driver::{Window, choose, click, frame_times, give_path, rest, scratch, undo, wait};
 use egui::accesskit::Role;
-use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
 use std::path::Path;
-use std::time::{Duration, Instant};
-
-type Window = Harness<'static, Explorer>;
+use std::time::Duration;
 
 fn open() -> Window {
-    let explorer = Explorer::new(None).without_system_dialogs();
-    Harness::builder().with_size([1280.0, 800.0]).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer)
-}
-
-/// Steps until `done`, as a screen would, for at most a minute.
-fn wait(harness: &mut Window, what: &str, done: impl Fn(&Explorer) -> bool) {
-    let begin = Instant::now();
-    loop {
-        harness.step();
-        if done(harness.state()) {
-            return;
-        }
-        assert!(begin.elapsed() < Duration::from_secs(60), "waited in vain for {what}: {}", harness.state().badge());
-        std::thread::sleep(Duration::from_millis(10));
-    }
+    driver::window(Explorer::new(None).without_system_dialogs(), [1280.0, 800.0])
 }
 
 /// Waits for a full solution on so many nodes.
@@ -35,22 +21,11 @@ fn solved(harness: &mut Window, nodes: (usize, usize)) {
     harness.run();
 }
 
-fn click(harness: &mut Window, name: &str) {
-    harness.get_by_label(name).click();
-    harness.run();
-}
-
-fn choose_grid(harness: &mut Window, name: &str) {
-    harness.get_by_role_and_label(Role::ComboBox, "Nodes").click();
-    harness.run();
-    click(harness, name);
-}
-
 /// A window on a point contact, solved on the quick grid.
 fn quick_point() -> Window {
     let mut harness = open();
     click(&mut harness, "Point contact");
-    choose_grid(&mut harness, "Quick, 151×41");
+    choose(&mut harness, "Nodes", "Quick, 151×41");
     solved(&mut harness, (151, 41));
     harness
 }
@@ -70,7 +45,7 @@ fn the_switch_keeps_m_and_l_and_undo_brings_the_line_back() {
     assert_eq!(harness.state().badge(), "Verified");
     let load = harness.get_by_role_and_label(Role::TextInput, "Load w").accesskit_node().value();
     assert!(load.is_some_and(|w| w.parse::<f64>().is_ok_and(|w| (10.0..100.0).contains(&w))), "in newtons");
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    undo(&mut harness);
     wait(&mut harness, "the line contact", |app| !app.is_point() && app.central_film().is_some() && !app.busy());
     assert_eq!(harness.state().nodes().map(|n| n.1), Some(1));
 }
@@ -141,13 +116,13 @@ fn grids_are_chosen_estimated_and_taken_back() {
     wait(&mut harness, "the estimate", |app| app.grid_errors().is_some());
     let (h_c, h_min) = harness.state().grid_errors().unwrap();
     assert!((1e-3..0.1).contains(&h_c) && (1e-3..0.5).contains(&h_min), "{h_c} {h_min}");
-    choose_grid(&mut harness, "Dissertation, 301×41");
+    choose(&mut harness, "Nodes", "Dissertation, 301×41");
     solved(&mut harness, (301, 41));
     assert!(harness.state().grid_errors().is_none(), "the estimate belonged to the other grid");
     let fine = harness.state().central_film().unwrap();
     // Halving ΔX takes three quarters of the error in X away.
     assert!((fine / coarse - 1.0).abs() < 1.2 * h_c && fine > coarse, "{coarse} {fine} {h_c}");
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    undo(&mut harness);
     solved(&mut harness, (151, 41));
 }
 
@@ -171,7 +146,7 @@ fn the_scenes_of_point_contacts_open_with_their_own_grid() {
     for tab in ["Contact map", "Regimes", "Reduced basis", "Accuracy", "Training", "Profiles"] {
         click(&mut harness, tab);
     }
-    let idle = harness.output().viewport_output.values().map(|v| v.repaint_delay).min().unwrap();
+    let idle = rest(&mut harness);
     assert!(idle > Duration::from_secs(60), "repaint after {idle:?}");
 }
 
@@ -179,24 +154,21 @@ fn the_scenes_of_point_contacts_open_with_their_own_grid() {
 fn the_map_leaves_as_table_and_picture() {
     let mut harness = quick_point();
     click(&mut harness, "Contact map");
-    let folder = std::env::temp_dir().join(format!("ehl-explorer-map-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
+    let folder = scratch("map");
     for (button, name) in [("Data as CSV…", "map.csv"), ("Figure as SVG…", "map.svg"), ("Image as PNG…", "map.png")]
     {
         click(&mut harness, "Export map");
         click(&mut harness, button);
-        harness.get_by_label("Path of the file").focus();
-        harness.run();
-        harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
-        harness.get_by_label("Path of the file").type_text(&folder.join(name).display().to_string());
-        harness.run();
-        click(&mut harness, "Export");
+        harness.run_steps(4);
+        give_path(&mut harness, &folder.join(name), "Export");
     }
     let table = std::fs::read_to_string(folder.join("map.csv")).unwrap();
     assert_eq!(table.lines().nth(2), Some("X,Y,P,H,x_m,y_m,p_pa,h_m"));
     assert_eq!(table.lines().count(), 3 + 151 * 81);
     let drawing = std::fs::read_to_string(folder.join("map.svg")).unwrap();
     assert!(drawing.starts_with("<svg") && drawing.contains("polyline") && drawing.trim_end().ends_with("</svg>"));
+    assert!(drawing.contains("href=\"data:image/png;base64,") && drawing.contains("151×41 nodes"), "field and grid");
+    assert!(drawing.contains(">nm<") || drawing.contains("nm</text>"), "the scale stands beside it");
     let picture = std::fs::read(folder.join("map.png")).unwrap();
     assert_eq!(&picture[1..4], b"PNG");
     std::fs::remove_dir_all(&folder).unwrap();
@@ -207,15 +179,10 @@ fn a_frame_with_the_map_is_cheap() {
     let mut harness = quick_point();
     click(&mut harness, "Contact map");
     click(&mut harness, "Interferogram");
-    let mut times: Vec<f64> = (0..40)
-        .map(|k| {
-            // A new phase every frame: the picture is made anew every time.
-            harness.get_by_label("Phase").set_value_accesskit(f64::from(9 * k));
-            harness.step();
-            harness.state().frame_s()
-        })
-        .collect();
-    times.sort_by(f64::total_cmp);
+    // A new phase every frame: the picture is made anew every time.
+    let times = frame_times(&mut harness, 40, |harness, k| {
+        harness.get_by_label("Phase").set_value_accesskit(f64::from(9 * k));
+    });
     println!("interferogram made anew: best {:.2} ms, median {:.2} ms", 1e3 * times[0], 1e3 * times[20]);
     // Other work on the machine only ever makes it slower.
     let bar = if cfg!(debug_assertions) { 0.6 } else { 0.012 };

@@ -3,9 +3,10 @@
 
 mod driver;
 
-use driver::{Window, click, wait_within};
+use driver::{Table, Window, click, press, run_in_time, set, shows, time, undo, wait, wait_within};
 use egui::accesskit::Role;
-use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable as _;
 use ehl_explorer::app::Explorer;
 use ehl_explorer::harness::{Workbench, run_scene};
 use ehl_explorer::scene::{LinearisedTransient, Scene, Study};
@@ -26,8 +27,7 @@ const SINE: &str = "Harmonic(amplitude: 0.1, period: 0.5)";
 const BOTH: &str = "linearised: (modes: 90, selection: Step(tolerance: 1e-3), weightings: [DualTaylor, Dissertation])";
 
 fn open(name: &str, text: &str, size: [f32; 2]) -> (Window, PathBuf) {
-    let folder = std::env::temp_dir().join(format!("ehl-tpwl-tab-{name}-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
+    let folder = driver::scratch(&format!("tpwl-tab-{name}"));
     let path = folder.join("scene.ron");
     std::fs::write(&path, text).unwrap();
     let mut explorer = Explorer::new(None).without_system_dialogs();
@@ -38,23 +38,6 @@ fn open(name: &str, text: &str, size: [f32; 2]) -> (Window, PathBuf) {
     (harness, folder)
 }
 
-fn wait(harness: &mut Window, what: &str, done: impl Fn(&Explorer) -> bool) {
-    wait_within(Duration::from_secs(240), harness, what, done);
-}
-
-fn shows(harness: &Window, text: &str) -> bool {
-    harness.query_all_by_label_contains(text).next().is_some()
-}
-
-fn run(harness: &mut Window) {
-    click(harness, "Run in time");
-    wait(harness, "the run", |app| !app.marching());
-}
-
-fn time(harness: &Window) -> f64 {
-    harness.get_by_role_and_label(Role::Slider, "Time T").accesskit_node().numeric_value().unwrap()
-}
-
 /// Gives a path to the field that asks for one, and reads what was written there.
 fn export(harness: &mut Window, button: &str, path: &Path) -> String {
     click(harness, button);
@@ -62,40 +45,15 @@ fn export(harness: &mut Window, button: &str, path: &Path) -> String {
 }
 
 fn give_path(harness: &mut Window, path: &Path) -> String {
-    harness.get_by_label("Path of the file").focus();
-    harness.run_steps(2);
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
-    harness.get_by_label("Path of the file").type_text(&path.display().to_string());
-    harness.run_steps(2);
-    click(harness, "Export");
+    driver::give_path(harness, path, "Export");
     std::fs::read_to_string(path).unwrap()
-}
-
-/// Rows of numbers under the names of their columns.
-struct Table {
-    header: Vec<String>,
-    rows: Vec<Vec<f64>>,
-}
-
-impl Table {
-    fn of(text: &str) -> Self {
-        let mut lines = text.lines().filter(|line| !line.starts_with('#'));
-        let header = lines.next().unwrap().split(',').map(str::to_owned).collect();
-        let row = |line: &str| line.split(',').map(|cell| cell.parse().unwrap_or(f64::NAN)).collect();
-        Self { header, rows: lines.map(row).collect() }
-    }
-
-    fn column(&self, name: &str) -> Vec<f64> {
-        let at = self.header.iter().position(|title| title == name).unwrap();
-        self.rows.iter().map(|row| row[at]).collect()
-    }
 }
 
 #[test]
 fn a_linearised_model_is_run_looked_into_and_exported() {
     let (mut harness, folder) = open("look", &scene(SINE, BOTH), [1280.0, 900.0]);
     assert!(shows(&harness, "Modes") && harness.state().operating_points().is_none());
-    run(&mut harness);
+    run_in_time(&mut harness);
     assert_eq!(harness.state().transient_moments(), 3 * 101, "full, dual Taylor, dissertation");
     let points = harness.state().operating_points().unwrap();
     assert!((10..=101).contains(&points), "{points} points");
@@ -112,8 +70,7 @@ fn a_linearised_model_is_run_looked_into_and_exported() {
     assert!(!shows(&harness, "too steep"), "it follows its own training");
 
     // In the middle of the run: weights of both kinds add up to one, the nearest point carries most.
-    harness.get_by_role_and_label(Role::Slider, "Time T").set_value_accesskit(0.2);
-    harness.run_steps(2);
+    set(&mut harness, Role::Slider, "Time T", 0.2);
     let table = Table::of(&export(&mut harness, "Export points…", &folder.join("points.csv")));
     assert_eq!(table.rows.len(), points);
     for name in ["weight_dual_taylor", "weight_dissertation"] {
@@ -153,9 +110,9 @@ fn more_points_err_less_and_the_study_can_be_stopped() {
     // The film answers in the second period: there the weightings differ.
     let twice = scene(SINE, BOTH).replace("duration: 0.5", "duration: 1.0");
     let (mut harness, folder) = open("number", &twice, [1280.0, 900.0]);
-    run(&mut harness);
+    run_in_time(&mut harness);
     click(&mut harness, "Number against error");
-    wait(&mut harness, "the study", |app| !app.studying_points());
+    wait_within(Duration::from_secs(240), &mut harness, "the study", |app| !app.studying_points());
     let text = export(&mut harness, "Export numbers…", &folder.join("numbers.csv"));
     let table = Table::of(&text);
     let (rules, kinds) = (table.column("rule"), table.column("weighting"));
@@ -197,7 +154,7 @@ fn inputs_that_are_too_steep_are_said_to_be_so_and_reversals_are_refused_with_wh
         selection: Step(tolerance: 1e-3))";
     let steep = "TriangleToSquare(amplitude: 0.3, period: 0.2, s: 0.9)";
     let (mut harness, folder) = open("steep", &scene(steep, other), [1024.0, 640.0]);
-    run(&mut harness);
+    run_in_time(&mut harness);
     assert!(shows(&harness, "The inputs are too steep for linearised models"));
     assert!(shows(&harness, "Tick Reduced model"));
     assert_eq!(harness.state().transient_moments(), 2 * 101);
@@ -205,7 +162,7 @@ fn inputs_that_are_too_steep_are_said_to_be_so_and_reversals_are_refused_with_wh
 
     let turning = scene(SINE, BOTH).replace("inputs: (", "inputs: (speed: Harmonic(amplitude: 1.5, period: 0.5), ");
     let (mut harness, folder) = open("turning", &turning, [1024.0, 640.0]);
-    run(&mut harness);
+    run_in_time(&mut harness);
     assert!(shows(&harness, "needs one that stays above zero"));
     assert_eq!(harness.state().transient_moments(), 101, "the full run stays");
     std::fs::remove_dir_all(&folder).unwrap();
@@ -218,17 +175,14 @@ fn the_model_is_set_up_undone_refused_and_saved_with_the_scene() {
     click(&mut harness, "Linearised model");
     let value = |harness: &Window, name: &str| harness.get_by_role_and_label(Role::SpinButton, name).value().unwrap();
     assert_eq!(value(&harness, "Modes"), "100");
-    harness.get_by_role_and_label(Role::SpinButton, "Tolerance β").set_value_accesskit(-1.0);
-    harness.run_steps(2);
+    set(&mut harness, Role::SpinButton, "Tolerance β", -1.0);
     assert!(shows(&harness, "study.linearised.selection.tolerance"));
     assert_eq!(value(&harness, "Tolerance β"), "0.001");
     click(&mut harness, "Dual Taylor");
     assert!(shows(&harness, "At least one kind of weights is needed"));
     click(&mut harness, "Weights (4.29)");
-    harness.get_by_role_and_label(Role::SpinButton, "Modes").set_value_accesskit(80.0);
-    harness.run_steps(2);
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
-    harness.run_steps(2);
+    set(&mut harness, Role::SpinButton, "Modes", 80.0);
+    undo(&mut harness);
     assert_eq!(value(&harness, "Modes"), "100");
     click(&mut harness, "Train on these inputs");
     assert!(shows(&harness, "Trained on other inputs"));
@@ -238,8 +192,7 @@ fn the_model_is_set_up_undone_refused_and_saved_with_the_scene() {
     click(&mut harness, "Fixed frame");
     assert!(shows(&harness, "must hold Fixed for a linearised model"));
 
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
-    harness.run_steps(2);
+    press(&mut harness, Modifiers::COMMAND, Key::S);
     let Study::Transient(study) = Scene::read(&folder.join("scene.ron")).unwrap().study else { panic!() };
     let linearised = study.linearised.unwrap();
     assert_eq!(linearised.trainings.len(), 1);
@@ -282,7 +235,7 @@ fn the_same_scene_runs_headless_and_is_refused_without_the_fixed_frame() {
 #[test]
 fn any_plot_leaves_as_a_drawing_with_its_name_axes_and_contact() {
     let (mut harness, folder) = open("drawing", &scene(SINE, BOTH), [1280.0, 900.0]);
-    run(&mut harness);
+    run_in_time(&mut harness);
     click(&mut harness, "Export plot…");
     click(&mut harness, "Operating points in the plane as SVG…");
     harness.run_steps(6);
@@ -296,8 +249,7 @@ fn any_plot_leaves_as_a_drawing_with_its_name_axes_and_contact() {
     assert_eq!(drawing.matches("<g").count(), drawing.matches("</g>").count());
     // The same mechanism serves every tab: a film profile by the key.
     click(&mut harness, "Profiles");
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::E);
-    harness.run_steps(3);
+    press(&mut harness, Modifiers::COMMAND, Key::E);
     click(&mut harness, "Film profile as SVG…");
     harness.run_steps(6);
     let drawing = give_path(&mut harness, &folder.join("film.svg"));

@@ -2,16 +2,15 @@
 
 mod driver;
 
-use driver::{Window, click, wait_within};
+use driver::{Table, Window, choose, click, give_path, press, set, shows, undo, wait, write};
 use egui::accesskit::Role;
+use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
 use ehl_explorer::harness::model_file;
 use ehl_explorer::scene::Scene;
 use ehl_explorer::solver::contact::ContactKind;
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
-use std::time::Duration;
 
 fn window(explorer: Explorer) -> Window {
     let explorer = explorer.without_system_dialogs();
@@ -27,39 +26,13 @@ fn squalane() -> Window {
     harness
 }
 
-fn wait(harness: &mut Window, what: &str, done: impl Fn(&Explorer) -> bool) {
-    wait_within(Duration::from_secs(60), harness, what, done);
-}
-
-fn choose(harness: &mut Window, picker: &str, option: &str) {
-    harness.get_by_role_and_label(Role::ComboBox, picker).click();
-    harness.run_steps(3);
-    harness.get_by_label(option).click();
-    harness.run_steps(3);
-}
-
 fn slide(harness: &mut Window, name: &str, to: f64) {
-    harness.get_by_label(name).set_value_accesskit(to);
-    harness.run_steps(2);
+    set(harness, Role::Slider, name, to);
 }
 
 fn enter(harness: &mut Window, field: &str, text: &str) {
-    harness.get_by_role_and_label(Role::TextInput, field).focus();
-    harness.run_steps(2);
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
-    harness.get_by_role_and_label(Role::TextInput, field).type_text(text);
-    harness.run_steps(2);
-    harness.key_press(egui::Key::Enter);
-    harness.run_steps(3);
-}
-
-fn undo(harness: &mut Window) {
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
-    harness.run_steps(3);
-}
-
-fn shows(harness: &Window, text: &str) -> bool {
-    harness.query_all_by_label_contains(text).next().is_some()
+    write(harness, field, text);
+    press(harness, Modifiers::NONE, Key::Enter);
 }
 
 fn film(harness: &Window) -> f64 {
@@ -67,19 +40,7 @@ fn film(harness: &Window) -> f64 {
 }
 
 fn scratch(name: &str) -> PathBuf {
-    static FOLDER: OnceLock<PathBuf> = OnceLock::new();
-    let folder = FOLDER.get_or_init(|| std::env::temp_dir().join(format!("ehl-traction-tab-{}", std::process::id())));
-    std::fs::create_dir_all(folder).unwrap();
-    folder.join(name)
-}
-
-fn give_path(harness: &mut Window, path: &Path) {
-    harness.get_by_label("Path of the file").focus();
-    harness.run_steps(2);
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
-    harness.get_by_label("Path of the file").type_text(&path.display().to_string());
-    harness.run_steps(2);
-    click(harness, "Export");
+    driver::scratch("traction-tab").join(name)
 }
 
 #[test]
@@ -154,14 +115,8 @@ fn the_picker_brings_a_lubricant_with_its_contact_and_undo_takes_it_back() {
     wait(&mut harness, "the full solver", |app| app.badge() == "Outside the reduced model" && !app.busy());
     assert!(harness.state().badge_detail().contains("other lubricant laws"));
     let path = scratch("pao.ron");
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
-    harness.run_steps(2);
-    harness.get_by_label("Path of the file").focus();
-    harness.run_steps(2);
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
-    harness.get_by_label("Path of the file").type_text(&path.display().to_string());
-    harness.run_steps(2);
-    click(&mut harness, "Save");
+    press(&mut harness, Modifiers::COMMAND, Key::S);
+    give_path(&mut harness, &path, "Save");
     let scene = Scene::read(&path).unwrap();
     assert_eq!(scene.lubricant, ehl_explorer::scene::named_lubricant::by_name("pao-650").unwrap().laws);
     for _ in 0..3 {
@@ -212,19 +167,24 @@ fn the_curve_follows_the_sliders_full_solutions_lie_on_it_and_a_press_goes_there
     assert!(shows(&harness, "full solutions differ by"));
     click(&mut harness, "Export CSV…");
     let path = scratch("traction.csv");
-    give_path(&mut harness, &path);
-    let rows = rows(&path);
+    give_path(&mut harness, &path, "Export");
+    let rows = Table::read(&path).rows;
     assert_eq!(rows.len(), 41 + 11);
     for full in rows.iter().filter(|row| row[0] == 1.0) {
         let reduced = rows.iter().find(|row| row[0] == 0.0 && (row[1] - full[1]).abs() < 1e-9).unwrap();
         assert!((reduced[6] - full[6]).abs() < 1e-4, "traction at SRR {}: {} and {}", full[1], reduced[6], full[6]);
         assert!((reduced[7] / full[7] - 1.0).abs() < 1e-2, "film at SRR {}", full[1]);
     }
-    click(&mut harness, "Export SVG…");
+    click(&mut harness, "Export plot…");
+    click(&mut harness, "Traction and film as SVG…");
+    harness.run_steps(6);
     let path = scratch("traction.svg");
-    give_path(&mut harness, &path);
+    give_path(&mut harness, &path, "Export");
     let figure = std::fs::read_to_string(&path).unwrap();
-    assert_eq!((figure.matches("<polyline").count(), figure.matches("<circle").count()), (3, 33));
+    // Traction and central film are solid, and each full solution has a ring for its traction and both films.
+    let curves = figure.lines().filter(|line| line.starts_with("<polyline") && line.matches(',').count() > 30);
+    assert_eq!((curves.count(), figure.matches("r=\"4.00\" fill=\"none\"").count()), (2, 33));
+    assert!(figure.contains("first contact is described above"));
     // A press in a plot goes there.
     let place = harness.get_by_label("Film along the quantity").rect().center();
     harness.hover_at(place);
@@ -273,11 +233,4 @@ fn shear_across_the_film_is_shown_on_request() {
     assert!(harness.query_by_label("Shear across the film").is_some());
     choose(&mut harness, "Across the film", "shear rate");
     assert!(shows(&harness, "1/s"));
-}
-
-/// Rows of numbers under the names of their columns.
-fn rows(path: &Path) -> Vec<Vec<f64>> {
-    let text = std::fs::read_to_string(path).unwrap();
-    let lines = text.lines().filter(|line| !line.starts_with('#')).skip(1);
-    lines.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect()
 }

@@ -2,12 +2,11 @@
 
 mod driver;
 
-use driver::{Window, click, wait_within};
+use driver::{Window, click, frame_times, give_path, scratch, undo, wait};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
 use ehl_explorer::harness::{model_file, training_file};
-use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::path::Path;
 
 /// A scene with a training of a small box; full solves take about a millisecond.
 fn scene(title: &str, plan: &str) -> String {
@@ -27,12 +26,6 @@ const TINY: &str = "Adaptive(start: 12, indicator: Correction, tolerances: [1e-7
 /// More than is waited for, on a grid on which a full solve takes some milliseconds.
 const LONG: &str = "FarthestPoint(snapshots: 1500)";
 
-fn scratch(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("ehl-training-tab-{name}-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
 /// The Training tab on a scene of its own.
 fn open(folder: &Path, title: &str, plan: &str) -> Window {
     let path = folder.join("scene.ron");
@@ -47,13 +40,9 @@ fn open(folder: &Path, title: &str, plan: &str) -> Window {
     harness
 }
 
-fn wait(harness: &mut Window, what: &str, done: impl Fn(&Explorer) -> bool) {
-    wait_within(Duration::from_secs(60), harness, what, done);
-}
-
 #[test]
 fn a_small_training_is_watched_used_compared_and_saved() {
-    let folder = scratch("small");
+    let folder = scratch("training-tab-small");
     let mut harness = open(&folder, "Small box", TINY);
     let embedded = harness.state().model_title().unwrap().to_owned();
     click(&mut harness, "Start training");
@@ -74,12 +63,7 @@ fn a_small_training_is_watched_used_compared_and_saved() {
     assert_eq!(harness.state().model_title(), Some(embedded.as_str()));
     click(&mut harness, "Save model…");
     let path = folder.join("small.rom");
-    harness.get_by_label("Path of the file").focus();
-    harness.run();
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
-    harness.get_by_label("Path of the file").type_text(&path.display().to_string());
-    harness.run();
-    click(&mut harness, "Save");
+    give_path(&mut harness, &path, "Save");
     assert_eq!(model_file::read(&path).unwrap().title, "Small box");
     assert!(!folder.join("unfinished.training").exists());
     harness.state_mut().open_scene(&path).unwrap();
@@ -89,7 +73,7 @@ fn a_small_training_is_watched_used_compared_and_saved() {
 
 #[test]
 fn a_stopped_training_is_kept_used_and_resumed_after_a_crash() {
-    let folder = scratch("stopped");
+    let folder = scratch("training-tab-stopped");
     let kept = folder.join("unfinished.training");
     let mut harness = open(&folder, "Long box", LONG);
     click(&mut harness, "Start training");
@@ -97,15 +81,11 @@ fn a_stopped_training_is_kept_used_and_resumed_after_a_crash() {
     assert!(harness.query_by_label("Progress of the training").is_some());
     assert!(harness.query_by_label("Start training").is_none());
     // The picture is dragged meanwhile, and follows within the frame.
-    let mut times: Vec<f64> = (0..40)
-        .map(|k| {
-            harness.get_by_label("Load number M").set_value_accesskit(20.0 * 1.02f64.powi(k));
-            harness.step();
-            assert!(harness.state().training() && harness.state().central_film().is_some());
-            harness.state().frame_s()
-        })
-        .collect();
-    times.sort_by(f64::total_cmp);
+    let times = frame_times(&mut harness, 40, |harness, k| {
+        assert!(harness.state().training() && harness.state().central_film().is_some());
+        harness.get_by_label("Load number M").set_value_accesskit(20.0 * 1.02f64.powi(k.into()));
+    });
+    assert!(harness.state().training() && harness.state().central_film().is_some());
     println!("dragging beside a training: median {:.2} ms, worst {:.2} ms", 1e3 * times[20], 1e3 * times[39]);
     let bar = if cfg!(debug_assertions) { 0.5 } else { 0.012 };
     assert!(times[20] < bar, "a frame takes {} s", times[20]);
@@ -134,7 +114,7 @@ fn a_stopped_training_is_kept_used_and_resumed_after_a_crash() {
 
 #[test]
 fn a_bad_range_is_a_sentence_and_edits_can_be_undone() {
-    let folder = scratch("range");
+    let folder = scratch("training-tab-range");
     let mut harness = open(&folder, "Small box", TINY);
     let value = |harness: &Window, name: &str| harness.get_by_label(name).value().unwrap();
     let before = value(&harness, "Radius R from");
@@ -146,21 +126,19 @@ fn a_bad_range_is_a_sentence_and_edits_can_be_undone() {
     harness.run_steps(2);
     assert!(harness.query_by_label_contains("The range of radius").is_none());
     let after = value(&harness, "Radius R to");
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
-    harness.run_steps(2);
+    undo(&mut harness);
     assert_ne!(value(&harness, "Radius R to"), after);
     // The presets fill the form; the sliders' range is given in M and L.
     click(&mut harness, "Whole slider range");
     assert_eq!(value(&harness, "Load number M to"), "500");
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
-    harness.run_steps(2);
+    undo(&mut harness);
     assert_eq!(value(&harness, "Radius R from"), before);
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]
 fn a_range_where_full_solves_fail_is_named_and_what_there_is_stays() {
-    let folder = scratch("failing");
+    let folder = scratch("training-tab-failing");
     // A grid far too coarse for the heavy end: somewhere there is no full solution.
     let text = scene("Failing box", "FarthestPoint(snapshots: 60)")
         .replace("load: (1e5, 2e5)", "load: (1e5, 4e6)")

@@ -1,7 +1,9 @@
 //! The window without a display: what people do first, and what they do wrong.
 
-use egui::accesskit::Role;
-use egui_kittest::Harness;
+mod driver;
+
+use driver::{Window, click, frame_times, give_path, press, rest, scratch, undo, wait, write};
+use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
 use ehl_explorer::harness::model_file;
@@ -10,38 +12,20 @@ use ehl_explorer::solver::grid::{ContactGridSpec, GridSpec};
 use ehl_explorer::solver::lubricant::Lubricant;
 use ehl_explorer::solver::reduced::{ReducedModel, Sampling};
 use ehl_explorer::solver::training::{Plan, Range, TrainingSpec, WindowSpec, Windows, train};
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-fn open_with(model: Option<Arc<ReducedModel>>) -> Harness<'static, Explorer> {
-    let explorer = Explorer::new(model).without_system_dialogs();
-    Harness::builder().with_size([1280.0, 800.0]).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer)
+fn open_with(model: Option<Arc<ReducedModel>>) -> Window {
+    driver::window(Explorer::new(model).without_system_dialogs(), [1280.0, 800.0])
 }
 
-fn open() -> Harness<'static, Explorer> {
+fn open() -> Window {
     open_with(None)
 }
 
-/// Steps until `done`, as a screen would, for at most twenty seconds.
-fn wait(harness: &mut Harness<'_, Explorer>, what: &str, done: impl Fn(&Explorer) -> bool) {
-    let begin = Instant::now();
-    loop {
-        harness.step();
-        if done(harness.state()) {
-            return;
-        }
-        assert!(begin.elapsed() < Duration::from_secs(20), "waited in vain for {what}: {}", harness.state().badge());
-        std::thread::sleep(Duration::from_millis(10));
-    }
-}
-
-fn settled(harness: &mut Harness<'_, Explorer>) {
+fn settled(harness: &mut Window) {
     wait(harness, "the picture", |app| app.central_film().is_some() && !app.busy());
-    harness.run();
-}
-
-fn click(harness: &mut Harness<'_, Explorer>, name: &str) {
-    harness.get_by_label(name).click();
     harness.run();
 }
 
@@ -92,11 +76,9 @@ fn the_slider_moves_the_load_and_undo_brings_it_back() {
     assert!((harness.state().moes().m / 80.0 - 1.0).abs() < 1e-6);
     assert!((after / before - 2.0).abs() < 1e-6, "{before} to {after}");
     wait(&mut harness, "the new picture", |app| app.central_film().is_some());
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
-    harness.run();
+    undo(&mut harness);
     assert!((harness.state().load_n_per_m() / before - 1.0).abs() < 1e-12);
-    harness.key_press_modifiers(egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::Z);
-    harness.run();
+    press(&mut harness, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     assert!((harness.state().load_n_per_m() / after - 1.0).abs() < 1e-12);
 }
 
@@ -106,14 +88,8 @@ fn a_refused_entry_leaves_a_message_and_the_last_picture() {
     settled(&mut harness);
     let film = harness.state().central_film();
     for bad in ["abc", "-3", "0", "NaN", "1e99"] {
-        let field = harness.get_by_role_and_label(Role::TextInput, "Radius R");
-        field.focus();
-        harness.run();
-        harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
-        harness.get_by_role_and_label(Role::TextInput, "Radius R").type_text(bad);
-        harness.run();
-        harness.key_press(egui::Key::Enter);
-        harness.run();
+        write(&mut harness, "Radius R", bad);
+        press(&mut harness, Modifiers::NONE, Key::Enter);
         let said = harness.query_by_label_contains("is no number").is_some()
             || harness.query_by_label_contains("Radius is").is_some();
         assert!(said, "no message about {bad}");
@@ -131,16 +107,10 @@ fn pinning_comparing_and_exporting_survive() {
     settled(&mut harness);
     click(&mut harness, "Pin curve");
     click(&mut harness, "Remove pin 1");
-    let folder = temporary("export");
+    let folder = scratch("export");
     let path = folder.join("profiles.csv");
     click(&mut harness, "Export CSV…");
-    let field = harness.get_by_label("Path of the file");
-    field.focus();
-    harness.run();
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
-    harness.get_by_label("Path of the file").type_text(&path.display().to_string());
-    harness.run();
-    click(&mut harness, "Export");
+    give_path(&mut harness, &path, "Export");
     let text = std::fs::read_to_string(&path).unwrap();
     let head: Vec<&str> = text.lines().take(4).collect();
     assert!(head[2].starts_with("# pin2: M ") && head[2].contains("; L "), "{head:?}");
@@ -154,12 +124,8 @@ fn pinning_comparing_and_exporting_survive() {
 fn an_unwritable_path_is_a_sentence() {
     let mut harness = open();
     settled(&mut harness);
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
-    harness.run();
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
-    harness.get_by_label("Path of the file").type_text("/no/such/folder/contact.ron");
-    harness.run();
-    click(&mut harness, "Save");
+    press(&mut harness, Modifiers::COMMAND, Key::S);
+    give_path(&mut harness, Path::new("/no/such/folder/contact.ron"), "Save");
     assert!(harness.query_by_label_contains("Cannot write").is_some());
 }
 
@@ -168,7 +134,7 @@ fn idle_means_idle() {
     let mut harness = open();
     settled(&mut harness);
     harness.run_steps(4);
-    let delay = harness.output().viewport_output.values().map(|v| v.repaint_delay).min().unwrap();
+    let delay = rest(&mut harness);
     assert!(delay > Duration::from_secs(60), "repaint after {delay:?}");
 }
 
@@ -176,13 +142,7 @@ fn idle_means_idle() {
 fn a_frame_is_cheap() {
     let mut harness = open();
     settled(&mut harness);
-    let mut times: Vec<f64> = (0..40)
-        .map(|_| {
-            harness.step();
-            harness.state().frame_s()
-        })
-        .collect();
-    times.sort_by(f64::total_cmp);
+    let times = frame_times(&mut harness, 40, |_, _| ());
     println!("idle: median {:.2} ms, worst {:.2} ms", 1e3 * times[20], 1e3 * times[39]);
     // Four milliseconds are allowed in release; debug builds are many times slower.
     let bar = if cfg!(debug_assertions) { 0.2 } else { 0.008 };
@@ -193,16 +153,12 @@ fn a_frame_is_cheap() {
 fn a_dragged_frame_of_the_embedded_model_is_cheap() {
     let mut harness = open_embedded();
     settled(&mut harness);
-    let mut times: Vec<f64> = (0..120)
-        .map(|k| {
-            // Through the windows of the model, from nearly rigid to nearly Hertzian.
-            harness.get_by_label("Load number M").set_value_accesskit(5.0 * 1.027f64.powi(k));
-            harness.step();
-            assert!(harness.state().central_film().is_some(), "the picture follows within the frame");
-            harness.state().frame_s()
-        })
-        .collect();
-    times.sort_by(f64::total_cmp);
+    let times = frame_times(&mut harness, 120, |harness, k| {
+        assert!(harness.state().central_film().is_some(), "the picture follows within the frame");
+        // Through the windows of the model, from nearly rigid to nearly Hertzian.
+        harness.get_by_label("Load number M").set_value_accesskit(5.0 * 1.027f64.powi(k.into()));
+    });
+    assert!(harness.state().central_film().is_some(), "the picture follows within the frame");
     println!("dragging: median {:.2} ms, worst {:.2} ms", 1e3 * times[60], 1e3 * times[119]);
     // Four milliseconds are allowed in release; debug builds are many times slower.
     let bar = if cfg!(debug_assertions) { 0.5 } else { 0.004 };
@@ -261,7 +217,7 @@ fn a_reduced_solve_that_fails_hands_over_to_the_full_solver() {
     // One mode cannot carry the load: the reduced equations have no solution.
     let text = "Scene(version: 1, title: \"t\", at: Moes(m: 400.0, l: 3.0), study: Point(methods: [Full]), \
         view: (pressure_loss: 0.9))";
-    let folder = temporary("failing");
+    let folder = scratch("failing");
     let path = folder.join("failing.ron");
     std::fs::write(&path, text).unwrap();
     let mut harness = open_embedded();
@@ -307,21 +263,13 @@ fn a_whole_drag_is_one_step_back() {
     assert!(passed.windows(2).all(|w| w[0] < w[1]), "{passed:?}");
     let after = harness.state().load_n_per_m();
     assert!(after > 2.0 * before, "{before} to {after}");
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
-    harness.run_steps(2);
+    undo(&mut harness);
     assert!((harness.state().load_n_per_m() / before - 1.0).abs() < 1e-12, "one step back is the whole drag");
-    harness.key_press_modifiers(egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::Z);
-    harness.run_steps(2);
+    press(&mut harness, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     assert!((harness.state().load_n_per_m() / after - 1.0).abs() < 1e-12);
 }
 
-fn temporary(name: &str) -> std::path::PathBuf {
-    let folder = std::env::temp_dir().join(format!("ehl-explorer-{name}-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
-fn open_embedded() -> Harness<'static, Explorer> {
+fn open_embedded() -> Window {
     open_with(Some(model_file::embedded().unwrap()))
 }
 

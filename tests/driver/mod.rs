@@ -1,8 +1,12 @@
 //! Driving the window without a display: what the tests of its tabs have in common.
+#![allow(dead_code, reason = "every test file drives with its own part of these")]
 
+use egui::accesskit::Role;
+use egui::{Key, Modifiers};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// The explorer in a window of its own.
@@ -14,11 +18,11 @@ pub fn window(explorer: Explorer, size: [f32; 2]) -> Window {
 }
 
 /// Steps until `done`, for at most a while.
-pub fn wait_within(patience: Duration, harness: &mut Window, what: &str, done: impl Fn(&Explorer) -> bool) {
+pub fn wait_until(patience: Duration, harness: &mut Window, what: &str, done: impl Fn(&Window) -> bool) {
     let begin = Instant::now();
     loop {
         harness.step();
-        if done(harness.state()) {
+        if done(harness) {
             harness.run_steps(2);
             return;
         }
@@ -27,8 +31,126 @@ pub fn wait_within(patience: Duration, harness: &mut Window, what: &str, done: i
     }
 }
 
+/// The same for what the explorer says of itself.
+pub fn wait_within(patience: Duration, harness: &mut Window, what: &str, done: impl Fn(&Explorer) -> bool) {
+    wait_until(patience, harness, what, |harness| done(harness.state()));
+}
+
+/// The same for at most a minute.
+pub fn wait(harness: &mut Window, what: &str, done: impl Fn(&Explorer) -> bool) {
+    wait_within(Duration::from_secs(60), harness, what, done);
+}
+
 /// Clicks what bears a name.
 pub fn click(harness: &mut Window, name: &str) {
     harness.get_by_label(name).click();
     harness.run_steps(3);
+}
+
+/// Whether a text is on the screen, be it a part of a longer one.
+pub fn shows(harness: &Window, text: &str) -> bool {
+    harness.query_all_by_label_contains(text).next().is_some()
+}
+
+/// Presses a key.
+pub fn press(harness: &mut Window, modifiers: Modifiers, key: Key) {
+    harness.key_press_modifiers(modifiers, key);
+    harness.run_steps(3);
+}
+
+/// Takes the last edit back.
+pub fn undo(harness: &mut Window) {
+    press(harness, Modifiers::COMMAND, Key::Z);
+}
+
+/// Sets a slider or a number to a value.
+pub fn set(harness: &mut Window, role: Role, name: &str, value: f64) {
+    harness.get_by_role_and_label(role, name).set_value_accesskit(value);
+    harness.run_steps(2);
+}
+
+/// Chooses an option of a box.
+pub fn choose(harness: &mut Window, picker: &str, option: &str) {
+    harness.get_by_role_and_label(Role::ComboBox, picker).click();
+    harness.run_steps(3);
+    click(harness, option);
+}
+
+/// Writes a text in place of what stands in a field.
+pub fn write(harness: &mut Window, field: &str, text: &str) {
+    harness.get_by_role_and_label(Role::TextInput, field).focus();
+    harness.run_steps(2);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.get_by_role_and_label(Role::TextInput, field).type_text(text);
+    harness.run_steps(2);
+}
+
+/// Gives a path to the field that asks for one, and does what the window asks it for.
+pub fn give_path(harness: &mut Window, path: &Path, action: &str) {
+    write(harness, "Path of the file", &path.display().to_string());
+    click(harness, action);
+}
+
+/// Takes the contact through time, to the end of all runs.
+pub fn run_in_time(harness: &mut Window) {
+    click(harness, "Run in time");
+    wait_within(Duration::from_secs(240), harness, "the run", |app| !app.marching());
+}
+
+/// The moment that is looked at.
+pub fn time(harness: &Window) -> f64 {
+    harness.get_by_role_and_label(Role::Slider, "Time T").accesskit_node().numeric_value().unwrap()
+}
+
+/// Seconds that frames take to build, sorted; before each something is done.
+pub fn frame_times(harness: &mut Window, frames: u16, mut change: impl FnMut(&mut Window, u16)) -> Vec<f64> {
+    let mut frame = |k: u16| {
+        change(harness, k);
+        harness.step();
+        harness.state().frame_s()
+    };
+    let mut times: Vec<f64> = (0..frames).map(&mut frame).collect();
+    times.sort_by(f64::total_cmp);
+    times
+}
+
+/// How long nothing is drawn once everything has come to rest.
+pub fn rest(harness: &mut Window) -> Duration {
+    harness.run();
+    harness.output().viewport_output.values().map(|viewport| viewport.repaint_delay).min().unwrap()
+}
+
+/// An empty folder of this process.
+pub fn scratch(name: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("ehl-explorer-{name}-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// Rows of numbers under the names of their columns, without comments.
+pub struct Table {
+    pub header: Vec<String>,
+    pub rows: Vec<Vec<f64>>,
+}
+
+impl Table {
+    pub fn of(text: &str) -> Self {
+        let mut lines = text.lines().filter(|line| !line.starts_with('#'));
+        let header = lines.next().unwrap().split(',').map(str::to_owned).collect();
+        let row = |line: &str| line.split(',').map(|cell| cell.parse().unwrap_or(f64::NAN)).collect();
+        Self { header, rows: lines.map(row).collect() }
+    }
+
+    pub fn read(path: &Path) -> Self {
+        Self::of(&std::fs::read_to_string(path).unwrap())
+    }
+
+    pub fn at(&self, name: &str) -> usize {
+        self.header.iter().position(|title| title == name).unwrap()
+    }
+
+    pub fn column(&self, name: &str) -> Vec<f64> {
+        let at = self.at(name);
+        self.rows.iter().map(|row| row[at]).collect()
+    }
 }
