@@ -1,7 +1,8 @@
-//! Everything the window knows, and how a change of the document becomes a picture and its verification.
+//! Everything the window knows.
 
 mod answers;
 mod display;
+mod following;
 
 pub use display::Display;
 
@@ -11,9 +12,9 @@ use super::figure::Figures;
 use super::files::Files;
 use super::grid_error::GridError;
 use super::in_use::InUse;
-use super::jobs::{GridChoice, JobKind, Jobs, Key, Request};
+use super::jobs::{Jobs, Key};
 use super::model_source::Models;
-use super::picture::{Comparison, Cuts, Origin, Picture};
+use super::picture::{Comparison, Origin, Picture};
 use super::plots::contact_map::ContactMap;
 use super::plots::film_shear::FilmShearImage;
 use super::plots::{accuracy::AccuracyView, basis::BasisView, regimes::RegimeChart, tpwl::TpwlView};
@@ -26,9 +27,7 @@ use crate::solver::contact::ContactKind;
 use crate::solver::full::{Mesh, Problem, Report};
 use crate::solver::grid::PointGridSpec;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
-use egui::Context;
 use std::sync::Arc;
-use std::time::Instant;
 
 /// Seconds of rest after which a verification starts by itself.
 pub const REST_S: f64 = 0.25;
@@ -279,181 +278,11 @@ impl State {
         now - self.changed_at
     }
 
-    /// Answers a changed document: at once by the reduced model, else by the full solver in the worker. Called after the panels.
-    pub fn refresh(&mut self, ctx: &Context) {
-        let (key, options) = (self.key(), self.reduced_options());
-        if self.is_answered() {
-            return;
-        }
-        let moved = self.wanted != Some(key);
-        let drawn = self.picture.as_ref().is_some_and(|picture| self.wanted == Some(picture.key));
-        let same_means = self.wanted_plane == self.plane() && self.wanted_options == Some(options);
-        self.wanted = Some(key);
-        self.wanted_plane = self.plane();
-        self.wanted_options = Some(options);
-        self.changed_at = ctx.input(|i| i.time);
-        if moved {
-            self.failure = None;
-            self.verify_failure = None;
-            self.slide(key);
-            // The same film by the same means is on the screen already, and what is known of it stays.
-            if drawn && same_means && self.picture_is_current() && self.untried() == self.passed_over {
-                self.compare();
-                return;
-            }
-        }
-        if self.refresh_reduced(key, options) {
-            self.compare();
-            self.verify_due = !self.full_is_current();
-            if self.verify_due {
-                ctx.request_repaint_after_secs(REST_S as f32);
-            }
-        } else {
-            self.comparison = None;
-            let live = self.picture.as_ref().is_none_or(|p| p.key != key || p.origin != Origin::Full);
-            if live {
-                self.submit(ctx, JobKind::Live);
-            }
-            // A quick grid follows the hand; the chosen one answers when it rests.
-            let finer = self.plane().is_some_and(|plane| !live || plane != quick(plane));
-            self.verify_due = finer && !self.is_settled(&key);
-            if self.verify_due {
-                ctx.request_repaint_after_secs(REST_S as f32);
-            }
-        }
-    }
-
-    /// Takes the pictures along to a contact with the same film: they need no other solve.
-    fn slide(&mut self, key: Key) {
-        let along = |picture: &&mut Picture| picture.key != key && picture.key.has_film_of(&key);
-        let shared = matches!((&self.picture, &self.full), (Some(a), Some(b)) if Arc::ptr_eq(&a.solution, &b.solution));
-        if let Some(picture) = self.picture.as_mut().filter(along) {
-            picture.slide(key);
-        }
-        if shared {
-            self.full.clone_from(&self.picture);
-        } else if let Some(full) = self.full.as_mut().filter(along) {
-            full.slide(key);
-        }
-    }
-
-    /// Lays all curves where the point contact is cut, within its domain. Called before the plots.
-    pub fn follow_cuts(&mut self) {
-        if let Some(PointGridSpec { domain: (from, to, edge), .. }) = self.plane() {
-            let Cuts { x, y } = self.display.cuts;
-            self.display.cuts = Cuts { x: x.clamp(from, to), y: y.clamp(edge, -edge) };
-        }
-        let cuts = self.display.cuts;
-        let pinned = self.pins.iter_mut().map(|pin| &mut pin.picture);
-        for picture in self.picture.iter_mut().chain(&mut self.full).chain(pinned) {
-            picture.cut(cuts);
-        }
-        if self.comparison.as_ref().is_some_and(|c| c.cuts != cuts) {
-            self.compare();
-        }
-    }
-
-    /// Why the reduced model is not even tried; `None` where it is.
-    fn untried(&self) -> Option<PassedOver> {
-        match self.trust() {
-            None => Some(PassedOver::NoModel),
-            Some(Trust::Outside(why)) => Some(PassedOver::Outside(why)),
-            Some(Trust::Trained) => None,
-        }
-    }
-
-    /// Tries the reduced model; `false` when the full solver has to take over.
-    fn refresh_reduced(&mut self, key: Key, options: ReducedOptions) -> bool {
-        self.passed_over = self.untried();
-        let (None, Some(model)) = (&self.passed_over, self.model().cloned()) else { return false };
-        if self.online.as_ref().is_none_or(|o| *o.options() != options || !Arc::ptr_eq(&o.model, &model)) {
-            let first = self.online.is_none();
-            let mut online = Online::new(model, options);
-            if first {
-                // The very first solve pays for cold caches and code; the time shown should be that of every later one.
-                let _ = online.solve(&key.point, key.lubricant);
-                online.forget();
-            }
-            self.online = Some(online);
-        }
-        let Some(online) = &mut self.online else { return false };
-        // Operators belong to the model and its truncation: the time shown is the solve's alone.
-        online.prepare(key.point.moes());
-        let begin = Instant::now();
-        let solved = online.solve(&key.point, key.lubricant);
-        let wall_s = begin.elapsed().as_secs_f64();
-        let result = solved.and_then(|reduced| online.reconstruct(&reduced).map(|fields| (reduced, fields)));
-        match result {
-            Ok((reduced, fields)) => {
-                self.reduced_wall_s = Some(wall_s);
-                let origin = Origin::Reduced {
-                    residual_estimate: reduced.residual_estimate,
-                    error: reduced.error,
-                    iterations: reduced.iterations,
-                    window: reduced.window,
-                };
-                let (cuts, traction) = (self.display.cuts, reduced.traction);
-                self.picture = Some(Picture::new(key, origin, Arc::new(fields), cuts, traction));
-                true
-            }
-            Err(error) => {
-                self.passed_over = Some(PassedOver::Failed(error.to_string()));
-                false
-            }
-        }
-    }
-
-    fn submit(&mut self, ctx: &Context, kind: JobKind) {
-        let key = self.key();
-        // A line contact is solved on the model's own grid wherever it lies, a point contact where the model serves it: elsewhere on the
-        // grid that was chosen.
-        let own = self.passed_over.is_none() || self.plane().is_none();
-        let plane = self.plane().map(|plane| if kind == JobKind::Live { quick(plane) } else { plane });
-        let model = self.model().filter(|_| own).map(Arc::as_ref);
-        let grid = GridChoice::of(model, plane, key.point.moes());
-        let start = match kind {
-            // The truth must not depend on what it checks.
-            JobKind::Verify => None,
-            _ => self.picture.as_ref().map(|p| Arc::clone(&p.solution)),
-        };
-        self.jobs.submit(ctx, Request { kind, key, grid, start });
-    }
-
-    /// Starts the verification when the sliders have rested, and records finished gestures. Called last in every frame.
-    pub fn settle(&mut self, ctx: &Context) {
-        let gesture = ctx.input(|i| i.pointer.any_down());
-        if !gesture && self.history.commit(&self.document) {
-            // The session is written with the next frame after its interval: see to it that there is one.
-            ctx.request_repaint_after_secs(AUTO_SAVE_S as f32 + 1.0);
-        }
-        if self.verify_due {
-            let rest = ctx.input(|i| i.time) - self.changed_at;
-            if rest >= REST_S {
-                self.verify_due = false;
-                let reduced = self.passed_over.is_none();
-                if reduced && !self.full_is_current() {
-                    self.submit(ctx, JobKind::Verify);
-                } else if !reduced && !self.is_settled(&self.key()) {
-                    self.submit(ctx, JobKind::Refine);
-                }
-            } else {
-                ctx.request_repaint_after_secs((REST_S - rest) as f32);
-            }
-        }
-        self.fit_plots = false;
-    }
-
-    /// Verifies now, even when a full solution is there.
-    pub fn verify(&mut self, ctx: &Context) {
-        self.verify_due = false;
-        self.verify_failure = None;
-        self.submit(ctx, JobKind::Verify);
-    }
-
     /// How far the study is that runs beside the picture; the first where there are several.
     pub fn study(&self) -> Option<Standing> {
-        let studied = self.accuracy.standing().or(self.transient.standing()).or(self.transient.number.standing());
-        studied.or(self.traction.standing())
+        let transient = &self.transient;
+        let studied = self.accuracy.standing().or(transient.work.standing()).or(transient.number.work.standing());
+        studied.or(self.traction.full.standing())
     }
 
     /// Stops everything that runs; what has been found stays.
@@ -462,7 +291,7 @@ impl State {
         self.training.stop();
         self.accuracy.stop();
         self.transient.stop();
-        self.traction.stop();
+        self.traction.full.stop();
     }
 
     /// Keeps the live curve for comparison.
@@ -489,10 +318,4 @@ impl State {
         self.training.refused = None;
         self.transient.refused = None;
     }
-}
-
-/// The grid of pictures that follow the hand: the quick one, unless the chosen one is as quick.
-fn quick(chosen: PointGridSpec) -> PointGridSpec {
-    let nodes = |spec: PointGridSpec| spec.nodes().map_or(usize::MAX, |(nx, ny)| nx * ny * ny);
-    if nodes(chosen) <= nodes(PointGridSpec::QUICK) { chosen } else { PointGridSpec::QUICK }
 }

@@ -122,6 +122,57 @@ impl<M> Drop for Task<M> {
     }
 }
 
+/// A task that can be started ever anew, and why the last one ended early.
+pub struct Background<M> {
+    /// Why there is nothing, or no more.
+    pub message: Option<String>,
+    task: Option<Task<M>>,
+}
+
+impl<M> Default for Background<M> {
+    fn default() -> Self {
+        Self { message: None, task: None }
+    }
+}
+
+impl<M: Send + 'static> Background<M> {
+    /// Lets a task run in the place of the former one, which stops.
+    pub fn run(&mut self, task: Task<M>) {
+        self.message = None;
+        self.task = Some(task);
+    }
+
+    /// Hands over what came since the last call.
+    pub fn receive(&mut self, receive: impl FnMut(M)) {
+        let Some(task) = &mut self.task else { return };
+        if let Some(ending) = task.poll(receive) {
+            if let Err(why) = ending {
+                self.message = Some(why);
+            }
+            self.task = None;
+        }
+    }
+
+    /// What runs.
+    pub fn task(&self) -> Option<&Task<M>> {
+        self.task.as_ref()
+    }
+
+    /// How far it is.
+    pub fn standing(&self) -> Option<Standing> {
+        self.task.as_ref().map(Task::standing)
+    }
+}
+
+impl<M> Background<M> {
+    /// Asks it to stop; what it has sent stays.
+    pub fn stop(&self) {
+        if let Some(task) = &self.task {
+            task.stop();
+        }
+    }
+}
+
 /// The work's line to its task.
 pub struct Reporter<M> {
     events: Sender<Event<M>>,

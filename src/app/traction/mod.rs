@@ -12,7 +12,7 @@ use super::in_use::InUse;
 use super::jobs::Key;
 use super::numbers;
 use super::state::State;
-use super::task::{Standing, Task};
+use super::task::Background;
 use crate::solver::full::{Problem, Solution};
 use crate::solver::lubricant::ShearLaw;
 use crate::solver::reduced::Trust;
@@ -59,13 +59,12 @@ pub struct TractionView {
     pub curve: Option<Curve>,
     /// Full solutions.
     pub markers: Option<Markers>,
-    /// Why there are no more of them.
-    pub message: Option<String>,
+    /// Their work.
+    pub full: Background<Sample>,
     /// The largest shear stress of a solution.
     pub stress_met: Option<(Arc<Solution>, f64)>,
     worker: Option<Worker>,
     wanted: Option<(Sweep, InUse)>,
-    task: Option<Task<Sample>>,
 }
 
 impl TractionView {
@@ -74,22 +73,8 @@ impl TractionView {
         if let Some(curve) = self.worker.as_ref().and_then(Worker::latest) {
             self.curve = Some(curve);
         }
-        let (Some(task), Some(markers)) = (&mut self.task, &mut self.markers) else { return };
-        if let Some(ending) = task.poll(|sample| markers.samples.push(sample)) {
-            self.message = ending.err();
-            self.task = None;
-        }
-    }
-
-    /// How far the full solutions are.
-    pub fn standing(&self) -> Option<Standing> {
-        self.task.as_ref().map(Task::standing)
-    }
-
-    /// Stops the full solutions; what has been solved stays.
-    pub fn stop(&self) {
-        if let Some(task) = &self.task {
-            task.stop();
+        if let Some(markers) = &mut self.markers {
+            self.full.receive(|sample| markers.samples.push(sample));
         }
     }
 
@@ -145,9 +130,8 @@ impl State {
     pub fn start_markers(&mut self, ctx: &Context, sweep: &Sweep) {
         let serves = self.passed_over.is_none() || self.plane().is_none();
         let model = self.model().filter(|_| serves).cloned();
-        self.traction.message = None;
         self.traction.markers = Some(Markers { sweep: sweep.clone(), samples: Vec::new() });
-        self.traction.task = Some(full::start(ctx, sweep.clone(), model, self.plane()));
+        self.traction.full.run(full::start(ctx, sweep.clone(), model, self.plane()));
     }
 
     /// Goes to a place on the axis.

@@ -3,7 +3,7 @@
 
 use super::Run;
 use super::method::{RULES, WEIGHTINGS, rule_name};
-use crate::app::task::{Ending, Reporter, Standing, Task};
+use crate::app::task::{Background, Ending, Reporter, Task};
 use crate::scene::{At, LinearisedTransient, ReducedTransient, Scene, TpwlStudy, TrainingInputs, TransientStudy};
 use crate::solver::contact::OperatingPoint;
 use crate::solver::full::transient::{Frame, Keep, Moment, Quantity, Trajectory, Transient, TransientObserver, march};
@@ -150,9 +150,8 @@ pub struct NumberRow {
 pub struct NumberStudy {
     /// What has come of it.
     pub rows: Vec<NumberRow>,
-    /// Why there is no more.
-    pub message: Option<String>,
-    task: Option<Task<NumberRow>>,
+    /// Its work.
+    pub work: Background<NumberRow>,
 }
 
 /// Most operating points that are tried.
@@ -168,30 +167,12 @@ impl NumberStudy {
     /// Starts it anew on the inputs of a full run.
     pub fn start(&mut self, ctx: &Context, model: Arc<TpwlModel>, full: Trajectory) {
         self.rows.clear();
-        self.message = None;
-        self.task = Some(Task::start(ctx, "Number of operating points", move |reporter| work(&model, &full, reporter)));
+        self.work.run(Task::start(ctx, "Number of operating points", move |reporter| work(&model, &full, reporter)));
     }
 
     /// Takes in what came.
     pub fn receive(&mut self) {
-        let Some(task) = &mut self.task else { return };
-        let rows = &mut self.rows;
-        if let Some(ending) = task.poll(|row| rows.push(row)) {
-            self.message = ending.err();
-            self.task = None;
-        }
-    }
-
-    /// How far it is.
-    pub fn standing(&self) -> Option<Standing> {
-        self.task.as_ref().map(Task::standing)
-    }
-
-    /// Stops it; what it has found stays.
-    pub fn stop(&self) {
-        if let Some(task) = &self.task {
-            task.stop();
-        }
+        self.work.receive(|row| self.rows.push(row));
     }
 }
 

@@ -10,10 +10,11 @@ mod worker;
 
 pub use player::Player;
 pub use run::{ModelSize, Run};
+pub use worker::News;
 
 use super::document::{Document, HOME};
 use super::state::State as Window;
-use super::task::{Standing, Task};
+use super::task::Background;
 use crate::scene::{At, Grid, Scene, Study, TransientStudy};
 use crate::solver::contact::{ContactKind, OperatingPoint};
 use crate::solver::full::transient::{Frame, Inputs, Keep, Quantity, Signal, TimeStep, Transient};
@@ -25,7 +26,6 @@ use linearised::{Linearised, NumberStudy};
 use method::Method;
 use std::path::PathBuf;
 use std::sync::Arc;
-use worker::News;
 
 /// What runs belong to.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,8 +53,8 @@ pub struct TransientView {
     pub linearised: Option<Arc<Linearised>>,
     /// How many operating points it takes.
     pub number: NumberStudy,
-    /// Why there is nothing, or no more.
-    pub message: Option<String>,
+    /// What runs, and why there is nothing or no more.
+    pub work: Background<News>,
     /// Why a model could not be had of a run.
     pub notes: Vec<String>,
     /// A field of the form whose entry was refused, and why.
@@ -65,7 +65,6 @@ pub struct TransientView {
     pub form_hidden: bool,
     /// Counts the starts: plots of new results forget how the former ones were zoomed.
     pub generation: u64,
-    task: Option<Task<News>>,
 }
 
 impl Setup {
@@ -84,9 +83,8 @@ impl TransientView {
     /// Takes in what came since the last frame.
     pub fn receive(&mut self) {
         self.number.receive();
-        let Some(task) = &mut self.task else { return };
         let (runs, linearised, notes) = (&mut self.runs, &mut self.linearised, &mut self.notes);
-        let ending = task.poll(|news| match (news, runs.last_mut()) {
+        self.work.receive(|news| match (news, runs.last_mut()) {
             (News::Begun { method, trajectory, model }, _) => runs.push(Run::begun(method, *trajectory, model)),
             (News::Linearised(model), _) => *linearised = Some(model),
             (News::Refused(why), _) => notes.push(why),
@@ -107,10 +105,6 @@ impl TransientView {
             if self.runs[k].ended && self.runs[k].difference.is_none() {
                 self.runs[k].difference = self.difference(k);
             }
-        }
-        if let Some(ending) = ending {
-            self.message = ending.err();
-            self.task = None;
         }
         let reached = self.runs.iter().map(Run::reached).fold(0.0, f64::max);
         self.player.reached(reached);
@@ -147,29 +141,21 @@ impl TransientView {
         self.reference_of(first)
     }
 
-    /// How far the runs are.
-    pub fn standing(&self) -> Option<Standing> {
-        self.task.as_ref().map(Task::standing)
-    }
-
     /// Stops the runs, and the study of their linearised model; what they have found stays.
     pub fn stop(&self) {
-        if let Some(task) = &self.task {
-            task.stop();
-        }
-        self.number.stop();
+        self.work.stop();
+        self.number.work.stop();
     }
 
     fn start(&mut self, ctx: &Context, setup: Setup) {
         let setup = Arc::new(setup);
-        self.message = None;
         self.notes.clear();
         self.runs.clear();
         self.linearised = None;
         self.number = NumberStudy::default();
         self.generation += 1;
         self.player = Player::default();
-        self.task = Some(worker::start(ctx, Arc::clone(&setup)));
+        self.work.run(worker::start(ctx, Arc::clone(&setup)));
         self.setup = Some(setup);
     }
 }
@@ -261,7 +247,7 @@ impl Window {
         let setup = self.transient_setup();
         match setup.march(Frame::Fixed).problem() {
             Ok(_) => self.transient.start(ctx, setup),
-            Err(error) => self.transient.message = Some(error.to_string()),
+            Err(error) => self.transient.work.message = Some(error.to_string()),
         }
     }
 

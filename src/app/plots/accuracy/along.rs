@@ -8,7 +8,7 @@ use crate::app::files::Purpose;
 use crate::app::in_use::{InUse, Solvers};
 use crate::app::plots::axes;
 use crate::app::state::State;
-use crate::app::task::{Ending, Reporter, Task};
+use crate::app::task::{Background, Ending, Reporter, Task};
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, rich};
 use crate::scene::QuantityBox;
 use crate::solver::contact::{ContactKind, OperatingPoint};
@@ -72,38 +72,34 @@ struct Results {
 /// State of the view.
 pub struct Along {
     plan: Plan,
-    task: Option<Task<Step>>,
+    work: Background<Step>,
     results: Option<Results>,
-    message: Option<String>,
 }
 
 impl Default for Along {
     fn default() -> Self {
-        Self { plan: Plan { through: Through::default(), points: 201 }, task: None, results: None, message: None }
+        Self { plan: Plan { through: Through::default(), points: 201 }, work: Background::default(), results: None }
     }
 }
 
 impl Along {
     /// Takes in what came.
     pub fn receive(&mut self) {
-        let (Some(task), Some(results)) = (&mut self.task, &mut self.results) else { return };
-        if let Some(ending) = task.poll(|step| results.steps.push(step)) {
-            self.message = ending.err();
-            self.task = None;
+        if let Some(results) = &mut self.results {
+            self.work.receive(|step| results.steps.push(step));
         }
     }
 
     /// The run under way.
     pub fn task(&self) -> Option<&dyn Running> {
-        self.task.as_ref().map(|task| task as &dyn Running)
+        self.work.task().map(|task| task as &dyn Running)
     }
 
     fn start(&mut self, ctx: &Context, in_use: &InUse) {
         let plan = self.plan;
-        self.message = None;
         self.results = Some(Results { in_use: in_use.clone(), plan, steps: Vec::new() });
         let in_use = in_use.clone();
-        self.task = Some(Task::start(ctx, "Trajectory", move |reporter| work(&in_use, plan, reporter)));
+        self.work.run(Task::start(ctx, "Trajectory", move |reporter| work(&in_use, plan, reporter)));
     }
 }
 
@@ -185,7 +181,7 @@ pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
         export_now = button.on_hover_text("Every contact with both films, bound and true error").clicked();
         progress(ui, along.task());
     });
-    if let Some(message) = &along.message {
+    if let Some(message) = &along.work.message {
         message_ui(ui, message);
     }
     let Some(results) = &along.results else {

@@ -145,7 +145,7 @@ pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
     let text = export_now.then(|| csv(results));
     let lubricant = results.in_use.model.domain.lubricant;
     if let Some(point) = wanted {
-        state.accuracy.tests.message = state.document.set_contact(point, lubricant).err();
+        state.accuracy.tests.say(state.document.set_contact(point, lubricant).err());
         state.entries.clear();
     }
     if let Some(text) = text {

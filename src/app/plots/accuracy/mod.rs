@@ -174,7 +174,7 @@ fn tests_toolbar(ui: &mut Ui, ctx: &Context, tests: &mut RandomTests, in_use: &I
         export = button.on_hover_text("Every test with its contact, films, bound and true errors").clicked();
         progress(ui, tests.task());
     });
-    if let Some(message) = &tests.message {
+    if let Some(message) = tests.message() {
         message_ui(ui, message);
     }
     if let Some(results) = tests.results.as_ref().filter(|r| r.in_use != *in_use) {

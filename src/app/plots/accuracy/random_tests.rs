@@ -1,7 +1,7 @@
 //! Random tests (3.17) of the reduced model over what it was trained for: the work on its own thread, and what came of it.
 
 use crate::app::in_use::{InUse, Solvers};
-use crate::app::task::{Ending, Reporter, Task};
+use crate::app::task::{Background, Ending, Reporter, Task};
 use crate::scene::{Scene, Study};
 use crate::solver::contact::OperatingPoint;
 use crate::solver::full::Start;
@@ -128,25 +128,23 @@ pub struct RandomTests {
     pub plan: Plan,
     /// The present or last run.
     pub results: Option<Results>,
-    /// Why the last run ended early.
-    pub message: Option<String>,
-    task: Option<Task<Message>>,
+    /// What runs, and why the last run ended early.
+    work: Background<Message>,
 }
 
 impl RandomTests {
     /// Starts anew.
     pub fn start(&mut self, ctx: &Context, in_use: &InUse) {
         let plan = self.plan;
-        self.message = None;
         self.results = Some(Results { in_use: in_use.clone(), plan, tests: Vec::new(), revision: 0 });
         let in_use = in_use.clone();
-        self.task = Some(Task::start(ctx, "Random tests", move |reporter| work(&in_use, plan, reporter)));
+        self.work.run(Task::start(ctx, "Random tests", move |reporter| work(&in_use, plan, reporter)));
     }
 
     /// Takes in what came.
     pub fn receive(&mut self) {
-        let (Some(task), Some(results)) = (&mut self.task, &mut self.results) else { return };
-        let ending = task.poll(|message| {
+        let Some(results) = &mut self.results else { return };
+        self.work.receive(|message| {
             results.revision += 1;
             match message {
                 Message::Tested(batch) => results.tests.extend(batch),
@@ -157,15 +155,21 @@ impl RandomTests {
                 }
             }
         });
-        if let Some(ending) = ending {
-            self.message = ending.err();
-            self.task = None;
-        }
+    }
+
+    /// Why the last run ended early, or the last one was not gone to.
+    pub fn message(&self) -> Option<&str> {
+        self.work.message.as_deref()
+    }
+
+    /// Says why something could not be done.
+    pub fn say(&mut self, message: Option<String>) {
+        self.work.message = message;
     }
 
     /// The run under way.
     pub fn task(&self) -> Option<&dyn super::Running> {
-        self.task.as_ref().map(|task| task as &dyn super::Running)
+        self.work.task().map(|task| task as &dyn super::Running)
     }
 }
 

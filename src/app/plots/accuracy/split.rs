@@ -9,7 +9,7 @@ use crate::app::jobs::Key;
 use crate::app::numbers;
 use crate::app::plots::axes;
 use crate::app::state::{REST_S, State};
-use crate::app::task::{Ending, Reporter, Task};
+use crate::app::task::{Background, Ending, Reporter, Task};
 use crate::app::theme::{Palette, rich};
 use crate::solver::full::Problem;
 use crate::solver::reduced::{ErrorSplit, ErrorSplitter, Parts, SplitError, Trust};
@@ -64,42 +64,37 @@ type Kept = Arc<Mutex<Option<(InUse, Vec<Option<ErrorSplitter>>)>>>;
 #[derive(Default)]
 pub struct Split {
     kept: Kept,
-    task: Option<Task<Found>>,
+    work: Background<Found>,
     /// What was last asked for, answered or not.
     asked: Option<Asked>,
     shown: Option<(Asked, Box<ErrorSplit>)>,
-    message: Option<String>,
 }
 
 impl Split {
     /// Takes in what came.
     pub fn receive(&mut self) {
-        let (Some(task), Some(asked)) = (&mut self.task, &self.asked) else { return };
-        let (shown, message) = (&mut self.shown, &mut self.message);
-        let ending = task.poll(|found| match found {
-            Ok(split) => *shown = Some((asked.clone(), split)),
-            Err(SplitError::Cancelled) => *message = Some("stopped before it was done".to_owned()),
-            Err(error) => *message = Some(error.to_string()),
+        let Some(asked) = &self.asked else { return };
+        let mut refused = None;
+        self.work.receive(|found| match found {
+            Ok(split) => self.shown = Some((asked.clone(), split)),
+            Err(SplitError::Cancelled) => refused = Some("stopped before it was done".to_owned()),
+            Err(error) => refused = Some(error.to_string()),
         });
-        if let Some(ending) = ending {
-            if let Err(error) = ending {
-                self.message = Some(error);
-            }
-            self.task = None;
+        if refused.is_some() {
+            self.work.message = refused;
         }
     }
 
     /// The split under way.
     pub fn task(&self) -> Option<&dyn Running> {
-        self.task.as_ref().map(|task| task as &dyn Running)
+        self.work.task().map(|task| task as &dyn Running)
     }
 
     fn start(&mut self, ctx: &Context, asked: Asked) {
-        self.message = None;
         self.asked = Some(asked.clone());
         let kept = Arc::clone(&self.kept);
         // A task that is replaced stops; the new one waits for the splitter until it has.
-        self.task = Some(Task::start(ctx, "Splitting the error", move |reporter| work(&kept, &asked, reporter)));
+        self.work.run(Task::start(ctx, "Splitting the error", move |reporter| work(&kept, &asked, reporter)));
     }
 }
 
@@ -139,7 +134,9 @@ pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
             ui.label(numbers::moes(asked.key.point.moes()));
         }
     });
-    if let (Some(message), true) = (&state.accuracy.split.message, state.accuracy.split.asked.as_ref() == Some(&now)) {
+    if let (Some(message), true) =
+        (&state.accuracy.split.work.message, state.accuracy.split.asked.as_ref() == Some(&now))
+    {
         message_ui(ui, message);
     }
     if let Some(Trust::Outside(why)) = state.trust() {

@@ -200,7 +200,7 @@ fn lower(ui: &mut Ui, shown: &Shown<'_>, height: f32) -> Option<f64> {
 
 /// What to do where there is no linearised model yet.
 fn nothing_yet(ui: &mut Ui, state: &mut State) {
-    if state.transient.standing().is_some() {
+    if state.transient.work.standing().is_some() {
         return;
     }
     if state.document.transient_study().linearised.is_some() {
@@ -220,12 +220,12 @@ fn buttons(ui: &mut Ui, state: &mut State) {
             state.tpwl.form = Some(form);
         }
         transient::run_button(ui, state);
-        let ready = linearised.is_some() && state.transient.standing().is_none();
+        let ready = linearised.is_some() && state.transient.work.standing().is_none();
         let tip = "Error of H_c against the number of operating points: both rules on a ladder of tolerances, by both weightings, along \
                    these inputs";
-        if state.transient.number.standing().is_some() {
+        if state.transient.number.work.standing().is_some() {
             if ui.button("Stop the study").on_hover_text("What has been found so far stays (Esc)").clicked() {
-                state.transient.number.stop();
+                state.transient.number.work.stop();
             }
         } else if enabled(ui, ready, "Number against error", tip).clicked()
             && let (Some(linearised), Some(full)) = (&linearised, state.transient.reference_of_linearised())
@@ -270,7 +270,7 @@ fn enabled(ui: &mut Ui, on: bool, name: &str, tip: &str) -> Response {
 
 fn number_status(ui: &mut Ui, state: &State) {
     let study = &state.transient.number;
-    if let Some(standing) = study.standing() {
+    if let Some(standing) = study.work.standing() {
         ui.horizontal(|ui| {
             ui.label(&standing.stage);
             let fraction = if standing.total > 0 { standing.done as f32 / standing.total as f32 } else { 0.0 };
@@ -278,7 +278,7 @@ fn number_status(ui: &mut Ui, state: &State) {
             ui.weak(numbers::duration(standing.since_s));
         });
     }
-    if let Some(message) = &study.message {
+    if let Some(message) = &study.work.message {
         message_ui(ui, message);
     }
 }

@@ -12,7 +12,7 @@ use egui_plot::{Corner, Legend, Line, LineStyle, MarkerShape, PlotPoint, PlotPoi
 pub fn ui(ui: &mut Ui, shown: &Shown<'_>, height: f32) {
     let study = &shown.view.number;
     if study.rows.is_empty() {
-        ui.weak(if study.standing().is_some() {
+        ui.weak(if study.work.standing().is_some() {
             "The coarsest models come first."
         } else {
             "Number against error tries both rules on a ladder of tolerances, along these inputs."

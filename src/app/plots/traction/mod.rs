@@ -105,9 +105,9 @@ fn toolbar(ui: &mut Ui, state: &mut State, sweep: Option<&Sweep>) {
         let (along, up) = &mut state.display.traction.logarithmic;
         ui.add(Checkbox::new(along, "Log x")).on_hover_text("Equal ways along are equal ratios");
         ui.add(Checkbox::new(up, "Log y")).on_hover_text("Equal ways up are equal ratios of traction and of film");
-        if state.traction.standing().is_some() {
+        if state.traction.full.standing().is_some() {
             if ui.button("Stop").on_hover_text("Full solutions so far stay (Esc)").clicked() {
-                state.traction.stop();
+                state.traction.full.stop();
             }
         } else {
             let tip = "Eleven full solutions along the curve, set on it as rings";
@@ -159,7 +159,7 @@ fn exports(ui: &mut Ui, state: &mut State, ctx: &Context) {
 /// What runs, what is amiss, and what the curve says in numbers.
 fn status(ui: &mut Ui, state: &State, sweep: &Sweep, served: &Result<InUse, String>) {
     let view = &state.traction;
-    if let Some(standing) = view.standing() {
+    if let Some(standing) = view.full.standing() {
         ui.horizontal(|ui| {
             ui.label(&standing.stage);
             let fraction = if standing.total > 0 { standing.done as f32 / standing.total as f32 } else { 0.0 };
@@ -178,7 +178,7 @@ fn status(ui: &mut Ui, state: &State, sweep: &Sweep, served: &Result<InUse, Stri
     if rolls {
         ui.weak("Pure rolling: without a slide-to-roll ratio there is no traction");
     }
-    if let Some(message) = &view.message {
+    if let Some(message) = &view.full.message {
         message_ui(ui, message);
     }
     state.entries.message_ui(ui, "traction");

@@ -50,7 +50,7 @@ fn results(ui: &mut Ui, state: &mut State) {
     buttons(ui, state);
     status(ui, state);
     if state.transient.runs.iter().all(|run| run.trajectory.moments.is_empty()) {
-        if state.transient.standing().is_none() {
+        if state.transient.work.standing().is_none() {
             ui.weak("Run it in time to see pressure and film follow the inputs.");
         }
         return;
@@ -117,7 +117,7 @@ fn buttons(ui: &mut Ui, state: &mut State) {
 
 /// The runs, started or stopped.
 pub fn run_button(ui: &mut Ui, state: &mut State) {
-    if state.transient.standing().is_some() {
+    if state.transient.work.standing().is_some() {
         if ui.button("Stop").on_hover_text("What has been computed so far stays (Esc)").clicked() {
             state.transient.stop();
         }
@@ -133,7 +133,7 @@ pub fn run_button(ui: &mut Ui, state: &mut State) {
 /// What runs and how far it is; how runs ended that did not reach the end; whether all of it is still what the sliders say.
 pub fn status(ui: &mut Ui, state: &State) {
     let view = &state.transient;
-    if let Some(standing) = view.standing() {
+    if let Some(standing) = view.work.standing() {
         ui.horizontal(|ui| {
             ui.label(&standing.stage);
             let fraction = if standing.total > 0 { standing.done as f32 / standing.total as f32 } else { 0.0 };
@@ -143,7 +143,7 @@ pub fn status(ui: &mut Ui, state: &State) {
             ui.weak(standing.describe());
         });
     }
-    if let Some(message) = &view.message {
+    if let Some(message) = &view.work.message {
         message_ui(ui, message);
     }
     for note in &view.notes {
