@@ -130,7 +130,9 @@ fn recent_scenes_are_in_the_palette_and_unsaved_work_is_asked_about() {
 
 fn full_screen(harness: &Window) -> Option<bool> {
     let commands = harness.output().viewport_output.values().flat_map(|viewport| &viewport.commands);
-    commands.filter_map(|command| if let ViewportCommand::Fullscreen(on) = command { Some(*on) } else { None }).last()
+    commands
+        .filter_map(|command| if let ViewportCommand::Fullscreen(on) = command { Some(*on) } else { None })
+        .next_back()
 }
 
 #[test]

@@ -4,6 +4,7 @@ use crate::app::numbers;
 use crate::app::plots::contact_map;
 use crate::app::state::State;
 use crate::app::{traction, transient};
+use crate::scene::named_lubricant;
 use crate::solver::contact::ContactKind;
 use crate::solver::lubricant::ShearLaw;
 
@@ -40,24 +41,30 @@ impl State {
             ContactKind::Point => "N",
         };
         let significant = numbers::significant;
+        let laws = named_lubricant::of_laws(lubricant).map_or_else(
+            || match lubricant.shear {
+                ShearLaw::Newtonian => format!("{:?}, {:?}", lubricant.viscosity, lubricant.density),
+                shear => format!("{:?}, {:?}, {shear:?}", lubricant.viscosity, lubricant.density),
+            },
+            |named| named.title.to_owned(),
+        );
+        let limit = lubricant.limiting_stress.map_or_else(String::new, |limit| {
+            format!(", limiting stress {} MPa + {} p", significant(1e-6 * limit.ambient), significant(limit.slope))
+        });
         let slides = match (point.sliding.slide_to_roll_ratio, lubricant.shear) {
             (0.0, ShearLaw::Newtonian) => String::new(),
             (srr, ShearLaw::Newtonian) => format!(", SRR {}", significant(srr)),
-            (srr, shear) => {
-                format!(", SRR {}, NPR {}, {shear:?}", significant(srr), significant(self.document.plateau_ratio()))
-            }
+            (srr, _) => format!(", SRR {}, NPR {}", significant(srr), significant(self.document.plateau_ratio())),
         };
         format!(
-            "{}, R {}, u_m {} m/s, w {} {unit}, E' {} GPa, η₀ {} Pa·s, α {} 1/GPa, {:?}, {:?}{slides}",
+            "{}, R {}, u_m {} m/s, w {} {unit}, E' {} GPa, η₀ {} Pa·s, α {} 1/GPa, {laws}{limit}{slides}",
             numbers::moes(point.moes()),
             numbers::length(point.radius_m),
             significant(point.speed_m_per_s),
             significant(point.load),
             significant(1e-9 * point.modulus_pa),
             significant(point.viscosity_pa_s),
-            significant(1e9 * point.alpha_per_pa),
-            lubricant.viscosity,
-            lubricant.density
+            significant(1e9 * point.alpha_per_pa)
         )
     }
 }

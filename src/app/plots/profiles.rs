@@ -354,10 +354,13 @@ fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) 
                 cut.draw(plot, palette.accent);
             }
             let Some(at) = direction.minimum(picture, scene.cuts) else { return };
-            // Below the curve, unless the axis would cut the name off.
-            let below = plot.transform().position_from_point(&PlotPoint::new(0.0, scalars.h_min)).y + 34.0;
-            let room = below < plot.response().rect.bottom();
-            let anchor = if room { Align2::CENTER_TOP } else { Align2::RIGHT_BOTTOM };
+            // Below the curve, or below its outlet, unless the axis would cut the name off.
+            let point = plot.transform().position_from_point(&PlotPoint::new(0.0, scalars.h_min));
+            let anchor = match plot.response().rect.bottom() - point.y {
+                room if room > 34.0 => Align2::CENTER_TOP,
+                room if room > 20.0 => Align2::LEFT_TOP,
+                _ => Align2::RIGHT_BOTTOM,
+            };
             mark(plot, (at, scalars.h_min), "{H_min}", live, anchor);
         },
     );

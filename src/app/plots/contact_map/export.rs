@@ -2,7 +2,8 @@
 
 use super::Shown;
 use crate::app::export as tables;
-use crate::app::picture::Picture;
+use crate::app::numbers;
+use crate::app::picture::{Origin, Picture};
 use crate::app::state::State;
 
 /// All nodes of both halves, X after X, with their SI twins.
@@ -36,5 +37,12 @@ pub fn particulars(state: &State) -> Option<String> {
         _ => String::new(),
     };
     let (nx, ny) = (solution.x.len(), solution.y.len());
-    Some(format!("{}; {nx}×{ny} nodes; {}{light}", view.shown.name(), picture.origin.describe()))
+    let means = match picture.origin {
+        Origin::Full => "full solution".to_owned(),
+        Origin::Reduced { error: Some(error), .. } => {
+            format!("reduced model, H_c within {}", numbers::error_percent(error.h_c.bound))
+        }
+        Origin::Reduced { error: None, .. } => "reduced model".to_owned(),
+    };
+    Some(format!("{}; {nx}×{ny} nodes; {means}{light}", view.shown.name()))
 }
