@@ -101,6 +101,6 @@ fn what_makes_no_sense_is_refused_by_name() {
     let numbers =
         "linearised: (modes: 60, selection: Step(tolerance: 0.003), further: [Step(tolerance: 0.1)], points: 40)";
     assert!(refusal(numbers).contains("step_40_points twice"));
-    assert!(refusal("published: [(name: \"triangle.fixed.full\", steps: 9)]").contains("must be one of fixed with"));
+    assert!(refusal("published: [(name: \"triangle.fixed.full\", steps: 9)]").contains("study.published.0.name"));
     assert!(scene(&format!("{SINE}, published: [(name: \"fixed.full\", steps: 9)]")).is_ok());
 }

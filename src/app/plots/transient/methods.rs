@@ -2,7 +2,6 @@
 //! one with their settings, and what they are trained on.
 
 use crate::app::controls::heading;
-use crate::app::numbers;
 use crate::app::plots::training::fields::{Form, choose};
 use crate::app::transient::method::{RULES, WEIGHTINGS, rule_name, weighting_name};
 use crate::scene::{Drive, LinearisedTransient, ReducedTransient, TransientStudy};
@@ -117,7 +116,7 @@ pub fn trainings_ui(ui: &mut Ui, form: &mut Form, study: &mut TransientStudy) {
         count => format!("Trained on {count} other inputs."),
     });
     if !study.training_loads.is_empty() {
-        let loads = study.training_loads.iter().map(|load| format!("{} kN/m", numbers::significant(1e-3 * load)));
+        let loads = study.training_loads.iter().map(|load| format!("{} kN/m", load / 1e3));
         ui.weak(format!("At reference loads of {}.", loads.collect::<Vec<_>>().join(", ")));
     }
     ui.horizontal(|ui| {
