@@ -143,9 +143,9 @@ fn is_fixed(frames: &Vec<Frame>) -> bool {
 }
 
 impl Drive {
-    /// What results of it in a frame are called: the frame's name, behind its own where it has one.
-    pub fn name_in(&self, frame: Frame) -> String {
-        if self.name.is_empty() { frame.name().to_owned() } else { format!("{}.{}", self.name, frame.name()) }
+    /// What a result of it is called: a frame's or a model's name, behind its own where it has one.
+    pub fn result(&self, name: &str) -> String {
+        if self.name.is_empty() { name.to_owned() } else { format!("{}.{name}", self.name) }
     }
 }
 
@@ -206,7 +206,7 @@ impl TransientStudy {
         self.check_names()?;
         let drives = self.drives();
         // A frame that was left out may have been published of.
-        let names = Frame::ALL.iter().flat_map(|&frame| drives.iter().map(move |drive| drive.name_in(frame)));
+        let names = Frame::ALL.iter().flat_map(|&frame| drives.iter().map(move |drive| drive.result(frame.name())));
         let names: Vec<String> = names.collect();
         published::check(&self.published, names.iter().map(String::as_str))?;
         number("study.duration", self.duration, 1e-6, 1e6)?;

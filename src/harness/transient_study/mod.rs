@@ -13,7 +13,7 @@ use super::run::request_of;
 use super::timed_march::{Timed, timed_march};
 use super::workbench::Workbench;
 use crate::scene::{Drive, Scene, TransientStudy, sampled};
-use crate::solver::full::transient::{Frame, FullMarch, Keep, Trajectory};
+use crate::solver::full::transient::{FullMarch, Keep, Trajectory};
 use crate::solver::grid::ReferenceGrid;
 use crate::solver::training::TrainingObserver;
 use costs::March;
@@ -75,7 +75,7 @@ pub(super) fn run(
             if study.mass_between.is_some() {
                 transient.keep = Keep::Every(1);
             }
-            let name = drive.name_in(frame);
+            let name = drive.result(frame.name());
             let mut model = FullMarch::new(Arc::clone(&runner.grid), &transient)?;
             let full = timed_march(&mut model, &transient, format!("{name}, full"), observer)?;
             runner.full(&name, &full, first.get(k));
@@ -122,7 +122,7 @@ impl Runner<'_> {
 
     /// Takes in a model's march beside the full one of its frame and inputs.
     fn compared(&mut self, name: &str, model: String, method: &str, march: &Timed, drive: &Drive, full: &Timed) {
-        let of = drive.name_in(full.trajectory.transient.frame);
+        let of = drive.result(full.trajectory.transient.frame.name());
         values::costs(name, march, self.outcome);
         self.outcome.push(format!("{name}.speed_up"), None, full.step_s() / march.step_s());
         // A march that ended early agrees with nothing.
@@ -134,14 +134,4 @@ impl Runner<'_> {
         self.outcome.tables.push(values::series(name, &march.trajectory));
         self.costs.push(March { name: name.to_owned(), model, published: format!("{of}.{method}"), full: of });
     }
-}
-
-/// A name behind that of further inputs.
-fn named(drive: &Drive, name: &str) -> String {
-    if drive.name.is_empty() { name.to_owned() } else { format!("{}.{name}", drive.name) }
-}
-
-/// What values of the models of a frame begin with.
-fn rnsa(frame: Frame) -> String {
-    format!("{}.rnsa", frame.name())
 }

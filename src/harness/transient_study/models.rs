@@ -1,6 +1,6 @@
 //! The models of a contact in time: trained on the spot, then marched beside the full system.
 
-use super::{Runner, named, rnsa, values};
+use super::{Runner, values};
 use crate::harness::error::HarnessError;
 use crate::harness::statistics::{median, percentile};
 use crate::harness::table::Table;
@@ -91,7 +91,7 @@ impl Runner<'_> {
         let ReducedTransient { loss, rows_per_mode, seed } = *reduced;
         let settings = TrajectoryTraining { loss, rows_per_mode, seed };
         let model = train_trajectories(&self.grid, trainings, &settings, self.observer)?;
-        let (name, window) = (rnsa(frame), &model.window);
+        let (name, window) = (format!("{}.rnsa", frame.name()), &model.window);
         let modes = window.pressure.modes.ncols() as f64;
         for (what, value) in [
             ("modes", modes),
@@ -148,13 +148,13 @@ impl Runner<'_> {
         let transient = Transient { keep: Keep::Scalars, ..full.trajectory.transient.clone() };
         match model {
             Model::Reduced(of, model) => {
-                let name = named(drive, of);
+                let name = drive.result(of);
                 let march = timed_march(&mut ReducedMarch::new(model)?, &transient, name.clone(), self.observer)?;
                 self.compared(&name, format!("{of}."), "rnsa", &march, drive, full);
             }
             Model::Linearised(of, model, weightings) => {
                 for &weighting in weightings {
-                    let name = format!("{}.{}", named(drive, of), weighting.name());
+                    let name = format!("{}.{}", drive.result(of), weighting.name());
                     let mut marching = TpwlMarch::new(model, &transient, weighting)?;
                     let march = timed_march(&mut marching, &transient, name.clone(), self.observer)?;
                     self.compared(&name, format!("{of}."), "tpwl", &march, drive, full);
