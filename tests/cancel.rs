@@ -6,8 +6,8 @@ use ehl_explorer::solver::grid::{ContactGridSpec, GridSpec, PointGridSpec};
 use ehl_explorer::solver::observer::Observer;
 use ehl_explorer::solver::reduced::Sampling;
 use ehl_explorer::solver::training::{
-    Indicator, Plan, Progress, Range, TrainingError, TrainingObserver, TrainingSpec, TrainingState, WindowSpec,
-    Windows, train_resumable,
+    Indicator, Plan, Progress, QuantityBox, Range, TrainingError, TrainingObserver, TrainingSpec, TrainingState,
+    WindowSpec, Windows, train_resumable,
 };
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,14 +17,7 @@ use std::time::{Duration, Instant};
 fn spec(sampling: Sampling) -> TrainingSpec {
     TrainingSpec {
         title: "cancelled".to_owned(),
-        range: Range::Box {
-            radius: (2e-3, 4e-3),
-            speed: (1.0, 10.0),
-            load: (1e5, 5e5),
-            alpha: (5e-9, 20e-9),
-            modulus: 231e9,
-            viscosity: 0.01,
-        },
+        range: Range::Box(QuantityBox::TABLE_3_1),
         lubricant: Default::default(),
         plan: Plan::Adaptive {
             start: 60,

@@ -27,11 +27,10 @@ impl Folder {
     }
 
     fn training(&self, name: &str, plan: Plan) -> PathBuf {
-        let QuantityBox { radius, speed, load, alpha, modulus, viscosity } = BOX;
         let mut scene = Scene::at_moes(40.0, 10.0);
         scene.study = Study::Training(TrainingSpec {
             title: name.to_owned(),
-            range: Range::Box { radius, speed, load, alpha, modulus, viscosity },
+            range: Range::Box(BOX),
             lubricant: Default::default(),
             plan,
             windows: Windows::Given(vec![WindowSpec {

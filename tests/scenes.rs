@@ -119,9 +119,7 @@ fn a_reduced_model_reproduces_a_trained_load_in_time() {
     let mut scene = Scene::read(&folder().join("rnsa_table_4_2_sine.ron")).unwrap();
     if let Study::Transient(study) = &mut scene.study {
         (study.duration, study.frames) = (0.5, vec![Frame::Fixed]);
-        if let Some(reduced) = &mut study.reduced {
-            reduced.trainings.clear();
-        }
+        study.trainings.clear();
     }
     scene.grid = Grid::Uniform { dx: 0.01, domain: (-4.0, 2.0) };
     let outcome = run_scene(&scene, &mut Workbench::new(folder()), &()).unwrap();

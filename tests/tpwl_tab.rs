@@ -149,9 +149,8 @@ fn more_points_err_less_and_the_study_can_be_stopped() {
 #[test]
 fn inputs_that_are_too_steep_are_said_to_be_so_and_reversals_are_refused_with_what_there_is() {
     // Trained on a gentle sine, tried on a steep wave of three times its amplitude.
-    let other =
-        "linearised: (trainings: [(inputs: (load: Harmonic(amplitude: 0.1, period: 0.5)), duration: 0.5)], modes: 90,
-        selection: Step(tolerance: 1e-3))";
+    let other = "trainings: [(inputs: (load: Harmonic(amplitude: 0.1, period: 0.5)), duration: 0.5)],
+        linearised: (modes: 90, selection: Step(tolerance: 1e-3))";
     let steep = "TriangleToSquare(amplitude: 0.3, period: 0.2, s: 0.9)";
     let (mut harness, folder) = open("steep", &scene(steep, other), [1024.0, 640.0]);
     run_in_time(&mut harness);
@@ -194,8 +193,8 @@ fn the_model_is_set_up_undone_refused_and_saved_with_the_scene() {
 
     press(&mut harness, Modifiers::COMMAND, Key::S);
     let Study::Transient(study) = Scene::read(&folder.join("scene.ron")).unwrap().study else { panic!() };
+    assert_eq!(study.trainings.len(), 1);
     let linearised = study.linearised.unwrap();
-    assert_eq!(linearised.trainings.len(), 1);
     assert_eq!((linearised.modes, linearised.weightings.len()), (100, 2));
     assert_eq!(linearised.selection, LinearisedTransient::default().selection);
     assert!(matches!(linearised.selection, Selection::Step { .. }));
@@ -203,15 +202,26 @@ fn the_model_is_set_up_undone_refused_and_saved_with_the_scene() {
 }
 
 #[test]
-fn a_study_of_linearised_models_opens_with_its_first_model_and_keeps_its_question() {
+fn a_study_of_several_inputs_opens_on_its_own_and_is_saved_whole() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/fig_4_17_quick.ron");
-    let text = std::fs::read_to_string(path).unwrap();
-    let Study::Tpwl(asked) = Scene::from_ron(&text).unwrap().study else { panic!() };
-    let (harness, folder) = open("study", &text, [1280.0, 900.0]);
-    let trainings = asked.training.len() * asked.loads.len().max(1);
-    assert!(shows(&harness, &format!("Trained on {trainings} other inputs")));
-    let modes = harness.get_by_role_and_label(Role::SpinButton, "Modes").value().unwrap();
-    assert_eq!(modes, asked.modes.to_string());
+    let asked = Scene::read(&path).unwrap();
+    let Study::Transient(study) = &asked.study else { panic!() };
+    let (mut harness, folder) = open("study", &std::fs::read_to_string(path).unwrap(), [1280.0, 900.0]);
+    let trainings = study.trainings.len() * study.training_loads.len();
+    assert!(trainings > study.trainings.len() && shows(&harness, &format!("Trained on {trainings} other inputs")));
+    assert!(shows(&harness, "At reference loads of 400 kN/m, 600 kN/m"));
+    let modes = harness.get_by_role_and_label(Role::SpinButton, "Modes");
+    assert_eq!(modes.value().unwrap(), study.linearised.as_ref().unwrap().modes.to_string());
+    modes.set_value_accesskit(80.0);
+    harness.run_steps(2);
+    click(&mut harness, "Transient");
+    assert!(shows(&harness, "Headless runs follow further inputs too: s_0_5, s_0_9"));
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
+    harness.run_steps(2);
+    let mut wanted = study.clone();
+    wanted.linearised.as_mut().unwrap().modes = 80;
+    let saved = Scene::read(&folder.join("scene.ron")).unwrap();
+    assert_eq!(saved, Scene { study: Study::Transient(wanted), ..asked });
     std::fs::remove_dir_all(&folder).unwrap();
 }
 

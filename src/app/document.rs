@@ -8,7 +8,6 @@ mod history;
 
 pub use history::History;
 
-use super::transient;
 use crate::scene::named_lubricant::NamedLubricant;
 use crate::scene::{At, Grid, LoadFollower, LubricantFollower, Method, Scene, Study, TransientStudy, View};
 use crate::solver::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, Sliding, si_from_moes};
@@ -316,7 +315,10 @@ impl Document {
                 Study::Training(spec) => Some(spec.clone()),
                 _ => None,
             },
-            transient: transient::of_scene(&scene),
+            transient: match &scene.study {
+                Study::Transient(study) => Some(study.clone()),
+                _ => None,
+            },
             scene: Some(scene),
         })
     }
@@ -329,7 +331,7 @@ impl Document {
         scene.lubricant = self.lubricant;
         let Sliding { slide_to_roll_ratio, newtonian_plateau_ratio } = self.point.sliding;
         (scene.srr, scene.npr) = (slide_to_roll_ratio, newtonian_plateau_ratio);
-        let in_time = matches!(scene.study, Study::Transient(_) | Study::Tpwl(_));
+        let in_time = matches!(scene.study, Study::Transient(_));
         if scene.contact != self.point.kind || in_time && self.lubricant.shear != ShearLaw::Newtonian {
             // Its question and what it expects belonged to the other kind of contact, or to a Newtonian fluid.
             scene.contact = self.point.kind;

@@ -3,33 +3,17 @@
 use super::numbers;
 use super::picture::{Picture, value_at};
 use super::state::State;
+use crate::harness::Table;
 use crate::solver::contact::{ContactKind, OperatingPoint};
 use crate::solver::lubricant::{Lubricant, ShearLaw};
 use std::fmt::Write as _;
 
 /// A CSV table: comment lines, header, rows of numbers with full precision; what is missing is an empty field.
 pub fn csv(comments: &[String], header: &[&str], rows: impl IntoIterator<Item = Vec<Option<f64>>>) -> String {
-    let mut out = String::new();
-    for line in comments {
-        out.push_str("# ");
-        out.push_str(line);
-        out.push('\n');
-    }
-    out.push_str(&header.join(","));
-    out.push('\n');
-    for row in rows {
-        for (k, value) in row.iter().enumerate() {
-            if k > 0 {
-                out.push(',');
-            }
-            if let Some(value) = value {
-                // Writing to a string cannot fail.
-                let _ok = write!(out, "{value:e}");
-            }
-        }
-        out.push('\n');
-    }
-    out
+    let mut table = Table::new("", header);
+    let row = |row: Vec<Option<f64>>| row.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect();
+    table.rows.extend(rows.into_iter().map(row));
+    comments.iter().map(|line| format!("# {line}\n")).chain([table.to_csv()]).collect()
 }
 
 /// The parameters of a picture in one line.

@@ -4,7 +4,7 @@ use super::Verdict;
 use super::failure::Failure;
 use super::options::PointOptions;
 use super::output::{self, ProgressLine};
-use crate::harness::{PointReport, Request, Table, Workbench};
+use crate::harness::{PointReport, RESULT_COLUMNS, Request, Table, Workbench};
 use crate::scene::check::MAX_POINTS;
 use crate::scene::{Method, Steps, atomic_file};
 use crate::solver::training::{Progress, TrainingObserver};
@@ -34,8 +34,8 @@ pub struct Varied {
     steps: Steps,
 }
 
-/// Values in the table, as the report names them.
-const COLUMNS: [&str; 31] = [
+/// Values of the contact in the table, before those of its result, as the report names them.
+const CONTACT_COLUMNS: [&str; 10] = [
     "si.radius",
     "si.speed",
     "si.load",
@@ -46,27 +46,6 @@ const COLUMNS: [&str; 31] = [
     "moes.L",
     "hertz.a_m",
     "hertz.p_h_pa",
-    "converged",
-    "H_c",
-    "H_min",
-    "X_H_min",
-    "Y_H_min",
-    "P_c",
-    "P_max",
-    "X_P_max",
-    "H_0",
-    "h_c_m",
-    "h_min_m",
-    "traction",
-    "load_residual",
-    "residual_norm",
-    "newton_iterations",
-    "linear_iterations",
-    "reduced.residual_estimate",
-    "reduced.h_c_error_bound",
-    "reduced.h_min_error_bound",
-    "reduced.traction_error_bound",
-    "wall_s",
 ];
 
 fn varied(text: &str) -> Result<Varied, String> {
@@ -98,7 +77,8 @@ fn varied(text: &str) -> Result<Varied, String> {
 pub fn run(args: &SweepArgs) -> Result<Verdict, Failure> {
     let requests = requests(args)?;
     let names: Vec<&str> = args.varied.iter().map(|v| v.name.as_str()).collect();
-    let mut table = Table::new("sweep", &[names.as_slice(), &COLUMNS].concat());
+    let columns = [&CONTACT_COLUMNS[..], &RESULT_COLUMNS].concat();
+    let mut table = Table::new("sweep", &[&names[..], &columns].concat());
     let mut workbench = Workbench::new("");
     let progress = ProgressLine::new(false);
     let (mut former, mut failures) = (None, 0);
@@ -110,9 +90,7 @@ pub fn run(args: &SweepArgs) -> Result<Verdict, Failure> {
         if args.json {
             output::print_json(&report)?;
         }
-        let named = report.values();
-        let value = |name: &&str| named.iter().find(|(n, _)| n == name).map_or(f64::NAN, |(_, v)| *v);
-        table.rows.push(values.into_iter().chain(COLUMNS.iter().map(value)).collect());
+        table.rows.push([values, report.row(&columns)].concat());
         if answer.converged {
             former = answer.solution;
         } else {
@@ -139,11 +117,7 @@ fn requests(args: &SweepArgs) -> Result<Vec<Point>, Failure> {
     if product.is_none_or(|points| points > MAX_POINTS) {
         return Err(Failure::Request(format!("the sweep has too many points; at most {MAX_POINTS} are accepted")));
     }
-    let mut tuples: Vec<Vec<f64>> = vec![Vec::new()];
-    for axis in &args.varied {
-        let values = axis.steps.values();
-        tuples = tuples.iter().flat_map(|head| values.iter().map(move |&v| [head.as_slice(), &[v]].concat())).collect();
-    }
+    let tuples = Steps::combinations(args.varied.iter().map(|axis| &axis.steps));
     let point = |values: Vec<f64>| {
         let mut options = args.point.clone();
         for (axis, &value) in args.varied.iter().zip(&values) {

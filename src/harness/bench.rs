@@ -3,7 +3,7 @@
 use super::error::HarnessError;
 use super::sampling::random_points;
 use super::statistics::{median, percentile};
-use super::transient_study::timed_march;
+use super::timed_march::{Timed, timed_march};
 use crate::scene::{QuantityBox, TestRange, named_lubricant};
 use crate::solver::contact::ContactKind;
 use crate::solver::contact::OperatingPoint;
@@ -391,7 +391,7 @@ impl Timing {
 
     /// Marches and records every step.
     fn add_steps(&mut self, model: &mut dyn Marching, transient: &Transient) -> Result<Trajectory, HarnessError> {
-        let (trajectory, seconds) = timed_march(model, transient, String::new(), &())?;
+        let Timed { trajectory, seconds } = timed_march(model, transient, String::new(), &())?;
         self.seconds.extend(seconds);
         self.failures += usize::from(!trajectory.finished());
         Ok(trajectory)

@@ -1,11 +1,12 @@
 //! Full solutions against a published film formula.
 
+use super::answer::Request;
 use super::error::HarnessError;
 use super::outcome::SceneOutcome;
 use super::run::{request_of, step};
 use super::statistics::median;
 use super::table::Table;
-use super::workbench::{Request, Workbench};
+use super::workbench::Workbench;
 use crate::scene::{At, Formula, Method, Scene};
 use crate::solver::contact::OperatingPoint;
 use crate::solver::full::Solution;

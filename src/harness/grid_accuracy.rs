@@ -1,7 +1,8 @@
 //! What the grid costs the film of a point contact, from a second solve on another grid.
 
+use super::answer::{Answer, Request};
 use super::error::HarnessError;
-use super::workbench::{Answer, Request, Workbench};
+use super::workbench::Workbench;
 use crate::scene::Grid;
 use crate::solver::full::point::{Accuracy, resolution_warning, second_grid};
 use crate::solver::full::{Mesh, Solution};

@@ -1,10 +1,11 @@
 //! Observed order of H_c on ever finer uniform grids, and the value they tend to.
 
+use super::answer::Request;
 use super::error::HarnessError;
 use super::outcome::SceneOutcome;
 use super::run::{request_of, step};
 use super::table::Table;
-use super::workbench::{Request, Workbench};
+use super::workbench::Workbench;
 use crate::scene::{Grid, Method, Scene};
 use crate::solver::full::Solution;
 use crate::solver::training::TrainingObserver;

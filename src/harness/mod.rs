@@ -8,6 +8,7 @@
 //!
 //! Wall time is measured here and nowhere below.
 
+mod answer;
 pub mod bench;
 mod checked_file;
 mod dimension_study;
@@ -17,7 +18,6 @@ mod error_measure_study;
 mod formula_comparison;
 mod grid_accuracy;
 mod grid_study;
-mod march_costs;
 mod model_comparison;
 pub mod model_file;
 mod outcome;
@@ -33,26 +33,28 @@ mod split_study;
 mod statistics;
 mod stored_matrix;
 pub mod table;
+mod timed_march;
 mod tolerance_study;
-mod tpwl_study;
 pub mod training_file;
 mod training_study;
 mod transient_study;
 mod workbench;
 
+pub use answer::{Answer, ReducedFacts, Request};
 pub use error::HarnessError;
 pub use grid_accuracy::GridAccuracy;
 pub use model_comparison::{ModelComparison, ModelScore, Spread, compare_models};
 pub use outcome::{NamedValue, SceneOutcome, Verdict};
 pub use report::{
-    GridReport, HertzReport, MoesReport, PointReport, ReducedReport, SiReport, film_shear_table, profile_table,
+    GridReport, HertzReport, MoesReport, PointReport, RESULT_COLUMNS, ReducedReport, SiReport, film_shear_table,
+    profile_table,
 };
 pub use run::run_scene;
 pub use sampling::{Random, random_points};
 pub use statistics::{median, percentile, rank_correlation};
 pub use table::Table;
-pub(crate) use transient_study::{TOO_STEEP, kept_states, train_linearised, training_states};
-pub use workbench::{Answer, ReducedFacts, Request, Workbench};
+pub(crate) use transient_study::{TOO_STEEP, train_linearised};
+pub use workbench::Workbench;
 
 use crate::solver::contact::ContactKind;
 use crate::solver::reduced::ReducedModel;

@@ -1,5 +1,6 @@
 //! Random points (3.17): failures, speed, and errors against full solutions.
 
+use super::answer::Request;
 use super::error::HarnessError;
 use super::outcome::SceneOutcome;
 use super::parallel::full_solutions;
@@ -7,7 +8,7 @@ use super::run::{request_of, step};
 use super::sampling::random_points;
 use super::statistics::{median, percentile};
 use super::table::Table;
-use super::workbench::{Request, Workbench};
+use super::workbench::Workbench;
 use crate::scene::{Method, Scene, TestRange};
 use crate::solver::contact::OperatingPoint;
 use crate::solver::reduced::ErrorEstimate;

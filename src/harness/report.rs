@@ -1,8 +1,8 @@
 //! One result as the command line prints it.
 
+use super::answer::Answer;
 use super::grid_accuracy::GridAccuracy;
 use super::table::Table;
-use super::workbench::Answer;
 use crate::solver::contact::ContactKind;
 use crate::solver::full::Solution;
 use serde::Serialize;
@@ -218,7 +218,38 @@ impl From<&Answer> for PointReport {
     }
 }
 
+/// What tables hold of a result, by the names of [`PointReport::values`].
+pub const RESULT_COLUMNS: [&str; 21] = [
+    "converged",
+    "H_c",
+    "H_min",
+    "X_H_min",
+    "Y_H_min",
+    "P_c",
+    "P_max",
+    "X_P_max",
+    "H_0",
+    "h_c_m",
+    "h_min_m",
+    "traction",
+    "load_residual",
+    "residual_norm",
+    "newton_iterations",
+    "linear_iterations",
+    "reduced.residual_estimate",
+    "reduced.h_c_error_bound",
+    "reduced.h_min_error_bound",
+    "reduced.traction_error_bound",
+    "wall_s",
+];
+
 impl PointReport {
+    /// The values of some names; NaN where there is none.
+    pub fn row(&self, names: &[&str]) -> Vec<f64> {
+        let values = self.values();
+        names.iter().map(|name| values.iter().find(|(own, _)| own == name).map_or(f64::NAN, |(_, v)| *v)).collect()
+    }
+
     /// Every number by its dotted name, `moes.M` for instance; truth as 1 and 0. Expectations and tables use these names.
     pub fn values(&self) -> Vec<(String, f64)> {
         let mut out = Vec::new();

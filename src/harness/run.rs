@@ -1,12 +1,13 @@
 //! A scene in, its outcome out.
 
+use super::answer::{Answer, Request};
 use super::error::HarnessError;
 use super::outcome::SceneOutcome;
 use super::report::{PointReport, profile_table};
-use super::workbench::{Answer, Request, Workbench};
+use super::workbench::Workbench;
 use super::{
     dimension_study, distance_study, error_measure_study, formula_comparison, grid_study, plan_comparison, random_test,
-    sampling_study, series, split_study, tolerance_study, tpwl_study, training_study, transient_study,
+    sampling_study, series, split_study, tolerance_study, training_study, transient_study,
 };
 use crate::scene::{Method, Scene, Study};
 use crate::solver::contact::OperatingPoint;
@@ -73,7 +74,6 @@ pub fn run_scene(
             sampling_study::run(scene, &study, observer, &mut outcome)?;
         }
         Study::Transient(study) => transient_study::run(scene, study, workbench, observer, &mut outcome)?,
-        Study::Tpwl(study) => tpwl_study::run(scene, study, workbench, observer, &mut outcome)?,
         Study::FormulaComparison { formula, m, l } => {
             formula_comparison::run(scene, *formula, m, l, workbench, observer, &mut outcome)?;
         }

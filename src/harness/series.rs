@@ -1,40 +1,18 @@
 //! Contacts along a path: sweeps and the test trajectory (3.21), each solve from its neighbour.
 
+use super::answer::Request;
 use super::error::HarnessError;
 use super::outcome::SceneOutcome;
-use super::report::PointReport;
+use super::report::{PointReport, RESULT_COLUMNS};
 use super::run::{request_of, step};
 use super::statistics::{median, percentile};
 use super::table::Table;
-use super::workbench::{Request, Workbench};
-use crate::scene::{At, Axis, Method, QuantityBox, Scene, Variable};
+use super::workbench::Workbench;
+use crate::scene::{At, Axis, Method, QuantityBox, Scene, Steps, Variable};
 use crate::solver::contact::{OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
 use crate::solver::full::Solution;
 use crate::solver::lubricant::Sliding;
 use crate::solver::training::TrainingObserver;
-
-/// Values of each method in the table of a series.
-const COLUMNS: [&str; 19] = [
-    "converged",
-    "H_c",
-    "H_min",
-    "X_H_min",
-    "P_c",
-    "P_max",
-    "X_P_max",
-    "H_0",
-    "h_c_m",
-    "h_min_m",
-    "traction",
-    "load_residual",
-    "newton_iterations",
-    "linear_iterations",
-    "reduced.residual_estimate",
-    "reduced.h_c_error_bound",
-    "reduced.h_min_error_bound",
-    "reduced.traction_error_bound",
-    "wall_s",
-];
 
 /// What a reduced method's errors against the first full one are stated of.
 const COMPARED: [&str; 3] = ["H_c", "H_min", "traction"];
@@ -72,13 +50,8 @@ pub(super) fn sweep(
 
 /// All combinations of the values of the axes, the last one fastest.
 pub(super) fn contacts_of(scene: &Scene, over: &[Axis]) -> Result<Vec<Contact>, HarnessError> {
-    let mut varied: Vec<Vec<f64>> = vec![Vec::new()];
-    for axis in over {
-        let values = axis.values.values();
-        varied = varied.iter().flat_map(|head| values.iter().map(move |&v| [head.as_slice(), &[v]].concat())).collect();
-    }
-    let mut contacts = Vec::with_capacity(varied.len());
-    for values in varied {
+    let mut contacts = Vec::new();
+    for values in Steps::combinations(over.iter().map(|axis| &axis.values)) {
         let (mut at, mut sliding) = (scene.at, scene.sliding());
         for (axis, &value) in over.iter().zip(&values) {
             set(&mut at, &mut sliding, axis.vary, value)?;
@@ -153,7 +126,7 @@ fn along(
     let mut columns: Vec<String> = varied.iter().map(|&v| v.to_owned()).collect();
     columns.extend(["M", "L", "radius", "speed", "load", "alpha", "p_h_pa"].map(str::to_owned));
     let tags: Vec<String> = (0..methods.len()).map(|k| tag(methods, k)).collect();
-    columns.extend(tags.iter().flat_map(|tag| COLUMNS.iter().map(move |column| format!("{tag}.{column}"))));
+    columns.extend(tags.iter().flat_map(|tag| RESULT_COLUMNS.iter().map(move |column| format!("{tag}.{column}"))));
     let mut table =
         Table { name: name.to_owned(), columns, rows: Vec::with_capacity(contacts.len()), labels: Vec::new() };
     let mut tallies = vec![Tally::default(); methods.len()];
@@ -169,13 +142,12 @@ fn along(
         for (k, method) in methods.iter().enumerate() {
             let start = former[k].as_ref().filter(|_| !cold);
             let answer = workbench.answer(&request, method, start, observer)?;
-            let named = PointReport::from(&answer).values();
-            let value = |name: &str| named.iter().find(|(n, _)| n == name).map_or(f64::NAN, |(_, v)| *v);
-            row.extend(COLUMNS.iter().map(|column| value(column)));
-            compared[k] = COMPARED.map(&value);
+            let report = PointReport::from(&answer);
+            row.extend(report.row(&RESULT_COLUMNS));
+            compared[k].copy_from_slice(&report.row(&COMPARED));
             // Single contacts, for the expectations that ask for them.
             for wanted in scene.expect.iter().filter_map(|e| e.name.strip_suffix(&format!("[{i}]"))) {
-                outcome.push(format!("{wanted}[{i}]"), Some(method), value(wanted));
+                report.row(&[wanted]).into_iter().for_each(|v| outcome.push(format!("{wanted}[{i}]"), Some(method), v));
             }
             let tally = &mut tallies[k];
             if !answer.converged {

@@ -1,15 +1,16 @@
 //! Solving single contacts by any method, with everything that can be kept between solves.
 
+use super::answer::{Answer, ReducedFacts, Request};
 use super::error::HarnessError;
 use super::model_file;
 use crate::scene::{Grid, Method, ModelSource, Scene, Study};
-use crate::solver::contact::{ContactKind, Moes, OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
+use crate::solver::contact::{ContactKind, Moes, PLAUSIBLE_HERTZ_PRESSURE_PA};
 use crate::solver::full::point::resolution_warning;
 use crate::solver::full::{FullSolver, PointSolver, Problem, Solution, Start};
 use crate::solver::grid::{ContactGrid, GridSpec, PointGrid, PointGridSpec, ReferenceGrid};
 use crate::solver::lubricant::{Lubricant, ShearLaw};
 use crate::solver::observer::Observer;
-use crate::solver::reduced::{ErrorEstimate, Online, ReducedError, ReducedModel, ReducedOptions, Trust, Window};
+use crate::solver::reduced::{Online, ReducedError, ReducedModel, ReducedOptions, Trust, Window};
 use crate::solver::training::{TrainingObserver, TrainingSpec, train};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -17,67 +18,6 @@ use std::time::Instant;
 
 /// Newtonian traction coefficients beyond this are no physics: real oils yield or thin long before.
 const PLAUSIBLE_TRACTION: f64 = 0.2;
-
-/// What is to be solved.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Request {
-    /// The operating point.
-    pub point: OperatingPoint,
-    /// The lubricant's laws.
-    pub lubricant: Lubricant,
-    /// Grid of a full solution.
-    pub grid: Grid,
-    /// The model that [`Grid::Model`] means.
-    pub grid_model: ModelSource,
-}
-
-/// What came of it.
-#[derive(Clone, Debug)]
-pub struct Answer {
-    /// What was asked.
-    pub request: Request,
-    /// How it was solved.
-    pub method: Method,
-    /// Fields and scalars; for a full solve that did not converge the last state, for such a reduced solve nothing.
-    pub solution: Option<Solution>,
-    /// Whether the solution is one.
-    pub converged: bool,
-    /// What a reader must know, one sentence each.
-    pub warnings: Vec<String>,
-    /// Nodes of the grid along X, both ends counted.
-    pub nodes: usize,
-    /// Nodes across, outer edge and axis counted; 1 for a line contact.
-    pub nodes_across: usize,
-    /// Unknowns that were iterated on.
-    pub dofs: usize,
-    /// Newton steps.
-    pub newton_iterations: usize,
-    /// Krylov iterations of a full solve.
-    pub linear_iterations: Option<usize>,
-    /// Seconds of the solve alone.
-    pub wall_s: f64,
-    /// What only a reduced solve has.
-    pub reduced: Option<ReducedFacts>,
-}
-
-/// What a reduced solve adds to its answer.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ReducedFacts {
-    /// Pressure modes.
-    pub basis_p: usize,
-    /// Deformation modes.
-    pub basis_delta: usize,
-    /// Sampled rows.
-    pub sampled_rows: usize,
-    /// Whether the model was trained for the point.
-    pub trained: bool,
-    /// e_f^I, (3.15); none without convergence.
-    pub residual_estimate: Option<f64>,
-    /// Calibrated errors, where the model has them.
-    pub error: Option<ErrorEstimate>,
-    /// Traction coefficient by the model's own rule, where it has one.
-    pub traction: Option<f64>,
-}
 
 /// Grids, solvers and models, made when first needed and kept.
 pub struct Workbench {
@@ -438,18 +378,4 @@ fn window_of(model: &ReducedModel, moes: Moes) -> Result<&Window, HarnessError> 
 /// A model asked about the other kind of contact.
 fn other_contact(model: &ReducedModel, given: ContactKind) -> HarnessError {
     ReducedError::OtherContact { model: model.contact(), given }.into()
-}
-
-impl Answer {
-    /// The solution, if it may be shown as a result.
-    pub fn result(&self) -> Option<&Solution> {
-        self.solution.as_ref().filter(|_| self.converged)
-    }
-
-    /// Traction coefficient (3.41) over the whole domain, at the request's slide-to-roll ratio; a reduced model's by its own rule, which its bound
-    /// belongs to.
-    pub fn traction(&self) -> Option<f64> {
-        let by_rule = self.reduced.as_ref().and_then(|facts| facts.traction);
-        self.result().map(|solution| by_rule.unwrap_or_else(|| solution.traction_coefficient()))
-    }
 }

@@ -5,27 +5,30 @@
 //! beyond the experiment to open a scene as it was saved stands in its [`View`]; windows, themes and zoom are not part of it.
 
 pub mod atomic_file;
+mod axis;
 pub mod check;
 pub mod document;
 mod expectation;
+mod marches;
 pub mod named_lubricant;
 mod published;
+mod range;
 pub mod sampled;
 mod study;
-mod tpwl;
+mod study_check;
 mod transient;
 mod view;
 
+pub use axis::{Axis, Steps, Variable};
 pub use document::{SceneError, SceneFileError};
 pub use expectation::{Expectation, Within};
 pub use published::PublishedMarch;
-pub use study::{
-    Axis, ComparedPlan, ComparedSampling, Contacts, Formula, OnlineScheme, QuantityBox, Steps, Study, TestRange,
-    Variable,
-};
-pub use tpwl::{Drive, TpwlStudy};
-pub use transient::{LinearisedTransient, ReducedTransient, TrainingInputs, TransientStudy};
+pub use range::TestRange;
+pub use study::{ComparedPlan, ComparedSampling, Contacts, Formula, OnlineScheme, Study};
+pub use transient::{Drive, LinearisedTransient, ReducedTransient, TransientStudy};
 pub use view::{LoadFollower, LubricantFollower, View};
+
+pub use crate::solver::training::QuantityBox;
 
 use crate::solver::contact::{ContactError, ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::grid::{GridSpec, PointGridSpec};

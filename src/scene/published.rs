@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PublishedMarch {
-    /// Of what and by which method: a test or a frame, then `full`, `rnsa` or `tpwl`, as in `sine.rnsa`.
+    /// Of what and by which method: a frame, then `full`, `rnsa` or `tpwl`, as in `fixed.rnsa`; behind the name of further inputs where it is
+    /// of these, as in `triangle.fixed.rnsa`.
     pub name: String,
     /// Pressure modes, or unknowns of the reduced system where only these are known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -36,7 +37,7 @@ impl PublishedMarch {
     }
 }
 
-/// Refuses numbers without sense, names given twice and names of no march; `subjects` are the study's tests or frames.
+/// Refuses numbers without sense, names given twice and names of no march; `subjects` are the names of full marches.
 pub(super) fn check<'a>(published: &[PublishedMarch], subjects: impl Iterator<Item = &'a str> + Clone) -> Checked {
     for (i, march) in published.iter().enumerate() {
         let field = |name: &str| format!("study.published.{i}.{name}");

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::scene::named_lubricant::by_name;
+use crate::solver::full::transient::Frame;
 use crate::solver::training::Windows;
 
 #[test]
@@ -99,6 +100,25 @@ fn a_contact_in_time_is_saved_with_its_grid_and_checked_like_the_rest() {
     assert_eq!(kept.to_scene().study, other.study);
     document.set_kind(ContactKind::Point).unwrap();
     assert!(document.to_scene().check().is_ok());
+}
+
+#[test]
+fn every_contact_in_time_of_the_repository_opens_and_is_saved_as_it_was() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let paths = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut count = 0;
+    for path in paths.filter(|path| path.extension().is_some_and(|extension| extension == "ron")) {
+        let scene = Scene::read(&path).unwrap();
+        let Study::Transient(study) = &scene.study else { continue };
+        count += 1;
+        let mut document = Document::of_scene(scene.clone()).unwrap();
+        assert_eq!(document.to_scene(), scene, "{}", path.display());
+        // What is edited changes; further inputs and rules, trainings, published figures and expectations stay.
+        let edited = TransientStudy { frames: vec![Frame::Fixed], duration: 2.0 * study.duration, ..study.clone() };
+        document.set_transient(edited.clone()).unwrap();
+        assert_eq!(document.to_scene(), Scene { study: Study::Transient(edited), ..scene }, "{}", path.display());
+    }
+    assert!(count >= 15, "{count} contacts in time");
 }
 
 #[test]

@@ -17,16 +17,6 @@ pub const L_AXIS: (f64, f64) = (0.2, 32.0);
 /// Film numbers of the contours.
 const CONTOURS: [f64; 9] = [0.7, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0];
 
-/// The box of Table 3.4, with R 10–20 mm and w 20–100 N, which give the M and L it states.
-const TABLE_3_4: QuantityBox = QuantityBox {
-    radius: (10e-3, 20e-3),
-    speed: (1.0, 10.0),
-    load: (20.0, 100.0),
-    alpha: (5e-9, 20e-9),
-    modulus: 231e9,
-    viscosity: 0.01,
-};
-
 /// An asymptotic regime.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Regime {
@@ -104,7 +94,7 @@ impl ChartLines {
         let contour = |h: f64| (format!("{h}"), contour(kind, h));
         let (table, trajectory) = match kind {
             ContactKind::Line => (Vec::new(), Vec::new()),
-            ContactKind::Point => (outline(&TABLE_3_4, kind), trajectory(&TABLE_3_4, kind)),
+            ContactKind::Point => (outline(&QuantityBox::TABLE_3_4, kind), trajectory(&QuantityBox::TABLE_3_4, kind)),
         };
         Self {
             boundaries: boundaries(kind),

@@ -4,9 +4,7 @@
 use super::Run;
 use super::method::{RULES, WEIGHTINGS, rule_name};
 use crate::app::task::{Background, Ending, Reporter, Task};
-use crate::scene::{At, LinearisedTransient, ReducedTransient, Scene, TpwlStudy, TrainingInputs, TransientStudy};
-use crate::solver::contact::OperatingPoint;
-use crate::solver::full::transient::{Frame, Keep, Moment, Quantity, Trajectory, Transient, TransientObserver, march};
+use crate::solver::full::transient::{Keep, Moment, Quantity, Trajectory, Transient, TransientObserver, march};
 use crate::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, Weight, Weighting};
 use crate::solver::training::aside;
 use egui::Context;
@@ -95,39 +93,6 @@ impl Linearised {
         let steps = record.steps().iter().enumerate().map(|(k, step)| (step.time, weight(k)));
         steps.filter(|(_, weight)| *weight > 0.0).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(time, _)| time)
     }
-}
-
-/// The first model and the first test of a study of linearised models, as the tab can run it.
-pub fn first_of(scene: &Scene, study: &TpwlStudy) -> Option<TransientStudy> {
-    let (point, test) = (scene.point().ok()?, study.tests.first()?);
-    let at = |load: f64| (load != point.load).then(|| At::from(OperatingPoint { load, ..point }));
-    let training = |load: f64| {
-        study.training.iter().map(move |drive| TrainingInputs {
-            at: at(load),
-            inputs: drive.inputs.clone(),
-            duration: drive.duration,
-        })
-    };
-    let trainings: Vec<TrainingInputs> = study.loads(point.load).into_iter().flat_map(training).collect();
-    let reduced = |loss: f64| ReducedTransient { trainings: trainings.clone(), loss, rows_per_mode: 2.0, seed: 1 };
-    Some(TransientStudy {
-        inputs: test.inputs.clone(),
-        sampled: None,
-        duration: test.duration,
-        time_step: study.time_step,
-        frames: vec![Frame::Fixed],
-        window: None,
-        reduced: study.rnsa_loss.map(reduced),
-        linearised: Some(LinearisedTransient {
-            modes: study.modes,
-            selection: *study.selections.first()?,
-            points: None,
-            weightings: study.weightings.clone(),
-            trainings,
-        }),
-        mass_between: None,
-        published: Vec::new(),
-    })
 }
 
 /// A model of one number of points on the run's inputs.

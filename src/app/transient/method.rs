@@ -27,14 +27,6 @@ impl Method {
     }
 }
 
-/// All frames, the one the others are compared with first.
-pub const FRAMES: [Frame; 4] = [
-    Frame::Fixed,
-    Frame::ArbitraryLagrangianEulerian,
-    Frame::Remeshed(Interpolation::CubicSpline),
-    Frame::Remeshed(Interpolation::Linear),
-];
-
 /// A frame for people.
 pub fn frame_name(frame: Frame) -> &'static str {
     match frame {

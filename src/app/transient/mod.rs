@@ -17,7 +17,7 @@ use super::state::State as Window;
 use super::task::Background;
 use crate::scene::{At, Grid, Scene, Study, TransientStudy};
 use crate::solver::contact::{ContactKind, OperatingPoint};
-use crate::solver::full::transient::{Frame, Inputs, Keep, Quantity, Signal, TimeStep, Transient};
+use crate::solver::full::transient::{Frame, Inputs, Quantity, Signal, TimeStep};
 use crate::solver::grid::GridSpec;
 use crate::solver::lubricant::{Lubricant, ShearLaw};
 use crate::solver::reduced::tpwl::Weighting;
@@ -68,11 +68,6 @@ pub struct TransientView {
 }
 
 impl Setup {
-    /// The march in one of its frames.
-    pub fn march(&self, frame: Frame) -> Transient {
-        march_of(self.point, self.lubricant, &self.study, frame)
-    }
-
     /// Seconds per unit of T: a/u_m of the reference contact.
     pub fn time_scale_s(&self) -> f64 {
         self.point.hertz().half_width_m / self.point.speed_m_per_s
@@ -171,7 +166,7 @@ impl Document {
     /// # Errors
     /// A sentence when it makes no sense; the document is unchanged then.
     pub fn set_transient(&mut self, study: TransientStudy) -> Result<(), String> {
-        march_of(self.point, self.lubricant, &study, Frame::Fixed).problem().map_err(|e| e.to_string())?;
+        study.own_march(self.point, self.lubricant, Frame::Fixed).problem().map_err(|e| e.to_string())?;
         let scene = Scene {
             at: At::from(self.point),
             lubricant: self.lubricant,
@@ -193,15 +188,9 @@ impl Document {
 
     /// The grid of contacts in time: that of a scene of one, else the dissertation's.
     pub fn transient_grid(&self) -> Grid {
-        let scene = self.scene.as_ref().filter(|scene| matches!(scene.study, Study::Transient(_) | Study::Tpwl(_)));
+        let scene = self.scene.as_ref().filter(|scene| matches!(scene.study, Study::Transient(_)));
         scene.map_or(Grid::DISSERTATION, |scene| scene.grid)
     }
-}
-
-fn march_of(point: OperatingPoint, lubricant: Lubricant, study: &TransientStudy, frame: Frame) -> Transient {
-    let TransientStudy { inputs, duration, time_step, .. } = study;
-    let (inputs, duration, time_step) = (inputs.clone(), *duration, *time_step);
-    Transient { point, lubricant, inputs, frame, duration, time_step, keep: Keep::Scalars }
 }
 
 /// What the tab begins with: a load that breathes by a tenth, as in Fig. 2.6 (right), twice as long and in coarser steps.
@@ -210,22 +199,16 @@ fn breathing() -> TransientStudy {
         inputs: Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 4.0 }),
         sampled: None,
         duration: 8.0,
+        further: Vec::new(),
         time_step: TimeStep::Fixed(0.05),
         frames: vec![Frame::Fixed],
         window: None,
+        trainings: Vec::new(),
+        training_loads: Vec::new(),
         reduced: None,
         linearised: None,
         mass_between: None,
         published: Vec::new(),
-    }
-}
-
-/// The contact in time that a scene describes: of a study of linearised models its first model and its first test.
-pub fn of_scene(scene: &Scene) -> Option<TransientStudy> {
-    match &scene.study {
-        Study::Transient(study) => Some(study.clone()),
-        Study::Tpwl(study) => linearised::first_of(scene, study),
-        _ => None,
     }
 }
 
@@ -245,7 +228,7 @@ impl Window {
     /// Runs the contact in time that the tab shows, unless it is refused.
     pub fn start_transient(&mut self, ctx: &Context) {
         let setup = self.transient_setup();
-        match setup.march(Frame::Fixed).problem() {
+        match setup.study.own_march(setup.point, setup.lubricant, Frame::Fixed).problem() {
             Ok(_) => self.transient.start(ctx, setup),
             Err(error) => self.transient.work.message = Some(error.to_string()),
         }

@@ -4,8 +4,8 @@ use super::linearised::{Linearised, OtherRule};
 use super::method::{Method, run_name};
 use super::{ModelSize, Setup};
 use crate::app::task::{Ending, Reporter, Task};
-use crate::harness::{kept_states, train_linearised, training_states};
-use crate::scene::{LinearisedTransient, ReducedTransient, TrainingInputs, sampled};
+use crate::harness::train_linearised;
+use crate::scene::{LinearisedTransient, ReducedTransient, TransientStudy, sampled};
 use crate::solver::full::Mesh;
 use crate::solver::full::transient::{
     Ended, Frame, FullMarch, Keep, Marching, Moment, State, TimeStep, Trajectory, Transient, TransientObserver, march,
@@ -52,19 +52,18 @@ pub fn start(ctx: &Context, setup: Arc<Setup>) -> Task<News> {
 }
 
 fn work(setup: &Setup, reporter: &Reporter<News>) -> Ending {
-    let study = &setup.study;
-    let mut inputs = study.inputs.clone();
+    let mut study = setup.study.clone();
     if let Some(path) = &setup.sampled {
-        sampled::read_into(&mut inputs, path).map_err(said)?;
+        sampled::read_into(&mut study.inputs, path).map_err(said)?;
     }
     let grid = setup.grid.build().map_err(said)?;
     for &frame in &study.frames {
-        let transient = Transient { inputs: inputs.clone(), keep: kept_states(study), ..setup.march(frame) };
+        let transient = study.own_march(setup.point, setup.lubricant, frame);
         let mut model = FullMarch::new(Arc::clone(&grid), &transient).map_err(said)?;
         let full = Arc::new(vec![run(Method::Full, None, &mut model, &transient, reporter)?]);
         if full.iter().all(Trajectory::finished) {
             // A model that cannot be had leaves the runs that can.
-            if let Err(why) = models(setup, frame, &grid, &full, reporter) {
+            if let Err(why) = models(&study, transient, &grid, full, reporter) {
                 reporter.send(News::Refused(why));
             }
         }
@@ -77,40 +76,37 @@ fn work(setup: &Setup, reporter: &Reporter<News>) -> Ending {
 
 /// The reduced and the linearised model of a frame, each trained and marched, after its full run.
 fn models(
-    setup: &Setup,
-    frame: Frame,
+    study: &TransientStudy,
+    own: Transient,
     grid: &Arc<ReferenceGrid>,
-    full: &Arc<Vec<Trajectory>>,
+    full: Arc<Vec<Trajectory>>,
     reporter: &Reporter<News>,
 ) -> Ending {
-    let study = &setup.study;
-    let Some(Trajectory { transient, .. }) = full.first() else { return Ok(()) };
-    let transient = Transient { keep: Keep::Scalars, ..transient.clone() };
-    let linearised = study.linearised.as_ref().filter(|_| frame == Frame::Fixed);
-    let mut shared = None;
+    let linearised = study.linearised.as_ref().filter(|_| own.frame == Frame::Fixed);
+    if study.reduced.is_none() && linearised.is_none() {
+        return Ok(());
+    }
+    let clock = Instant::now();
+    let Some(trained) = trainings(study, &own, grid, full, reporter)? else { return Ok(()) };
+    let training_s = clock.elapsed().as_secs_f64();
+    let transient = Transient { keep: Keep::Scalars, ..own };
     if let Some(reduced) = &study.reduced {
         let clock = Instant::now();
-        let Some(trained) = trainings(setup, &reduced.trainings, grid, full, reporter)? else { return Ok(()) };
         if let Some(model) = train(reduced, grid, &trained, reporter)? {
             let modes = model.window.pressure.modes.ncols();
-            let (chosen, training_s) = (model.window.sampled_rows.len(), clock.elapsed().as_secs_f64());
+            let (chosen, training_s) = (model.window.sampled_rows.len(), training_s + clock.elapsed().as_secs_f64());
             let size = ModelSize { modes, chosen, what: "rows", training_s };
             run(Method::Reduced, Some(size), &mut ReducedMarch::new(&model).map_err(said)?, &transient, reporter)?;
         }
-        shared = linearised.is_some_and(|linearised| linearised.trainings == reduced.trainings).then_some(trained);
     }
     let Some(linearised) = linearised.filter(|_| !reporter.cancelled()) else { return Ok(()) };
     let clock = Instant::now();
-    let trained = match shared {
-        Some(trained) => Some(trained),
-        None => trainings(setup, &linearised.trainings, grid, full, reporter)?,
-    };
-    let Some(trained) = trained else { return Ok(()) };
     reporter.stage("Linearised model from the trajectories", 0, 0);
-    let Some(shown) = linearise(linearised, trained, reporter)? else { return Ok(()) };
+    let Some(shown) = linearise(linearised, study.trains_on_itself(), trained, reporter)? else { return Ok(()) };
     let model = Arc::clone(&shown.model);
     reporter.send(News::Linearised(Arc::new(shown)));
-    let (modes, chosen, training_s) = (model.space.modes(), model.points.len(), clock.elapsed().as_secs_f64());
+    let training_s = training_s + clock.elapsed().as_secs_f64();
+    let (modes, chosen) = (model.space.modes(), model.points.len());
     let size = ModelSize { modes, chosen, what: "operating points", training_s };
     for &weighting in &linearised.weightings {
         let mut march = TpwlMarch::new(&model, &transient, weighting).map_err(said)?;
@@ -123,6 +119,7 @@ fn models(
 /// The linearised model of trajectories, with what the other rule would choose; `None` when it was stopped.
 fn linearise(
     linearised: &LinearisedTransient,
+    own: bool,
     trained: Arc<Vec<Trajectory>>,
     reporter: &Reporter<News>,
 ) -> Result<Option<Linearised>, String> {
@@ -131,7 +128,7 @@ fn linearise(
         let model = train_linearised(&settings, &trained.iter().collect::<Vec<_>>())?;
         let other = OtherRule::of(&model);
         let trainings = trained.iter().map(|trajectory| trajectory.moments.clone()).collect();
-        Ok(Linearised { model: Arc::new(model), trainings, own: settings.trainings.is_empty(), other })
+        Ok(Linearised { model: Arc::new(model), trainings, own, other })
     });
     // What cannot be interrupted is left to itself when the work is stopped.
     made.map_or(Ok(None), |made| made.map(Some).map_err(|error: TpwlError| said(error)))
@@ -167,32 +164,24 @@ fn run(
     Ok(trajectory)
 }
 
-/// The trajectories that a model of a frame is trained by: those along given inputs, else the full run itself; `None` when it was stopped.
+/// The trajectories that models of a frame are trained by: those along given inputs, else the full run itself; `None` when it was stopped.
 fn trainings(
-    setup: &Setup,
-    trainings: &[TrainingInputs],
+    study: &TransientStudy,
+    own: &Transient,
     grid: &Arc<ReferenceGrid>,
-    full: &Arc<Vec<Trajectory>>,
+    full: Arc<Vec<Trajectory>>,
     reporter: &Reporter<News>,
 ) -> Result<Option<Arc<Vec<Trajectory>>>, String> {
-    let Some(own) = full.first().filter(|_| !trainings.is_empty()) else { return Ok(Some(Arc::clone(full))) };
-    let mut marched = Vec::new();
-    for (k, training) in trainings.iter().enumerate() {
-        let point = match training.at {
-            Some(at) => at.with_alpha_of(&setup.lubricant).point(setup.point.kind).map_err(said)?,
-            None => setup.point,
-        };
-        let transient = Transient {
-            point,
-            inputs: training.inputs.clone(),
-            duration: training.duration,
-            keep: training_states(&setup.study, training.duration),
-            ..own.transient.clone()
-        };
-        let stage = format!("Training {} of {}", k + 1, trainings.len());
-        let mut watch = Watch::new(stage.clone(), &transient, reporter, false);
-        let mut model = FullMarch::new(Arc::clone(grid), &transient).map_err(said)?;
-        let trajectory = march(&mut model, &transient, &mut watch).map_err(said)?;
+    let transients = study.training_marches(own);
+    if transients.is_empty() {
+        return Ok(Some(full));
+    }
+    let mut marched = Vec::with_capacity(transients.len());
+    for (k, transient) in transients.iter().enumerate() {
+        let stage = format!("Training {} of {}", k + 1, transients.len());
+        let mut watch = Watch::new(stage.clone(), transient, reporter, false);
+        let mut model = FullMarch::new(Arc::clone(grid), transient).map_err(said)?;
+        let trajectory = march(&mut model, transient, &mut watch).map_err(said)?;
         if reporter.cancelled() {
             return Ok(None);
         }

@@ -153,20 +153,20 @@ mod tests {
     use crate::solver::grid::{ContactGridSpec, GridSpec};
     use crate::solver::lubricant::Lubricant;
     use crate::solver::reynolds::PENALTY;
-    use crate::solver::training::{Plan, Range, TrainingSpec, WindowSpec, Windows, random_points, train};
+    use crate::solver::training::{Plan, QuantityBox, Range, TrainingSpec, WindowSpec, Windows, random_points, train};
     use std::sync::Arc;
 
     fn spec(sampling: Sampling, registered: bool) -> TrainingSpec {
         TrainingSpec {
             title: String::new(),
-            range: Range::Box {
+            range: Range::Box(QuantityBox {
                 radius: (3e-3, 4e-3),
                 speed: (2.0, 4.0),
                 load: (2e5, 4e5),
                 alpha: (8e-9, 12e-9),
                 modulus: 231e9,
                 viscosity: 0.01,
-            },
+            }),
             lubricant: Lubricant::default(),
             plan: Plan::FarthestPoint { snapshots: 24 },
             windows: Windows::Given(vec![WindowSpec {

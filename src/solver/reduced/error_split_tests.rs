@@ -6,7 +6,7 @@ use crate::solver::full::{FullSolver, PointSolver, Solution, Start};
 use crate::solver::grid::{ContactGridSpec, GridSpec, PointGridSpec, ReferenceGrid};
 use crate::solver::lubricant::Lubricant;
 use crate::solver::reynolds::PENALTY;
-use crate::solver::training::{Plan, Range, TrainingSpec, WindowSpec, Windows, train};
+use crate::solver::training::{Plan, QuantityBox, Range, TrainingSpec, WindowSpec, Windows, train};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -116,14 +116,14 @@ fn a_point_contacts_error_has_the_same_parts() {
     let spec = PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5));
     let training = TrainingSpec {
         title: "Small points".to_owned(),
-        range: Range::Box {
+        range: Range::Box(QuantityBox {
             radius: (10e-3, 11e-3),
             speed: (2.0, 3.0),
             load: (30.0, 45.0),
             alpha: (8e-9, 11e-9),
             modulus: 231e9,
             viscosity: 0.01,
-        },
+        }),
         lubricant: Lubricant::default(),
         plan: Plan::FarthestPoint { snapshots: 16 },
         windows: Windows::Given(vec![WindowSpec { m: (1.0, 2000.0), grid: ContactGridSpec::Point(spec) }]),

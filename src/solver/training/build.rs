@@ -4,7 +4,10 @@ use super::aside::aside;
 use super::plan::grid_points;
 use super::rows::sample_rows;
 use super::state::{FEWEST, Part, Solved, TrainingState, train_resumable};
-use super::{Plan, Progress, Range, SlidingRange, TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows};
+use super::{
+    Plan, Progress, QuantityBox, Range, SlidingRange, TrainingError, TrainingObserver, TrainingSpec, WindowSpec,
+    Windows,
+};
 use crate::solver::contact::OperatingPoint;
 use crate::solver::full::{ContactSolver, Start};
 use crate::solver::grid::ContactGrid;
@@ -71,7 +74,7 @@ pub(super) fn check(spec: &TrainingSpec) -> Result<(), TrainingError> {
         Plan::Grid { nodes } if nodes.iter().product::<usize>() < 4 || nodes.iter().any(|n| *n > 100) => {
             refuse("the grid plan needs at least 4 points and at most 100 along each quantity".to_owned())
         }
-        Plan::Grid { .. } if !matches!(spec.range, Range::Box { .. }) => {
+        Plan::Grid { .. } if !matches!(spec.range, Range::Box(_)) => {
             refuse("the grid plan of Table 3.2 needs a box of SI quantities".to_owned())
         }
         Plan::Adaptive { start, tolerances, local_sigma, limit, .. } => {
@@ -162,7 +165,7 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
                 sliding: Some(SlidingDomain { srr, npr, modulus_pa: modulus }),
             }
         }
-        Range::Box { alpha, viscosity, .. } => {
+        Range::Box(QuantityBox { alpha, viscosity, .. }) => {
             let corners = grid_points(&spec.range, spec.contact(), [2, 2, 2, 2]);
             let span = |value: &dyn Fn(&OperatingPoint) -> f64| {
                 corners.iter().map(value).fold((f64::INFINITY, 0.0f64), |(a, b), v| (a.min(v), b.max(v)))

@@ -141,7 +141,7 @@ fn non_negative(q: &[Vec<f64>], a: &[f64]) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Range, random_points};
+    use super::super::{QuantityBox, Range, random_points};
     use super::*;
     use crate::solver::contact::ContactKind;
     use crate::solver::full::{FullSolver, Start};
@@ -150,14 +150,7 @@ mod tests {
     use fastrand::Rng;
 
     fn points() -> Vec<OperatingPoint> {
-        let range = Range::Box {
-            radius: (2e-3, 4e-3),
-            speed: (1.0, 10.0),
-            load: (1e5, 5e5),
-            alpha: (5e-9, 20e-9),
-            modulus: 231e9,
-            viscosity: 0.01,
-        };
+        let range = Range::Box(QuantityBox::TABLE_3_1);
         random_points(&range, ContactKind::Line, (0.0, f64::INFINITY), 40, &mut Rng::with_seed(5))
     }
 

@@ -12,6 +12,7 @@ mod layout;
 mod plan;
 #[cfg(test)]
 mod point_tests;
+mod quantity_box;
 #[cfg(test)]
 mod resume_tests;
 mod rows;
@@ -31,6 +32,7 @@ pub use build::train;
 pub use calibrate::EVIDENCE;
 pub use indicator::Indicator;
 pub use plan::{farthest_points, grid_points, local_point, random_points, test_point};
+pub use quantity_box::QuantityBox;
 pub use sliding_range::SlidingRange;
 pub use state::{Solved, TrainingState, WindowState, train_resumable};
 pub use trajectories::{TrajectoryTraining, train_trajectories};
@@ -106,22 +108,8 @@ impl Plan {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Range {
-    /// A box of SI quantities, (3.16): R \[m\], u_m \[m/s\], w \[N/m\] (line) or \[N\] (point), α \[1/Pa\] at fixed E′ and η₀. Tables 3.1
-    /// and 3.4.
-    Box {
-        /// Smallest and largest radius \[m\].
-        radius: (f64, f64),
-        /// Smallest and largest speed \[m/s\].
-        speed: (f64, f64),
-        /// Smallest and largest load \[N/m\] (line) or \[N\] (point).
-        load: (f64, f64),
-        /// Smallest and largest α \[1/Pa\].
-        alpha: (f64, f64),
-        /// E′ \[Pa\].
-        modulus: f64,
-        /// η₀ \[Pa·s\].
-        viscosity: f64,
-    },
+    /// A box of SI quantities, (3.16). Tables 3.1 and 3.4.
+    Box(QuantityBox),
     /// All contacts with M, L, α in these intervals and p_H up to a limit, at η₀.
     Moes {
         /// Load number.

@@ -1,7 +1,7 @@
 //! Sampling plans: which operating points of a range are solved in full, and which are tested.
 
-use super::{Range, SlidingRange, TrainingError};
-use crate::solver::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
+use super::{QuantityBox, Range, SlidingRange, TrainingError};
+use crate::solver::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::reduced::distance;
 use fastrand::Rng;
 use std::f64::consts::PI;
@@ -18,7 +18,7 @@ impl Range {
     /// Naming the interval.
     pub fn check(&self) -> Result<(), TrainingError> {
         let intervals: &[(&str, (f64, f64))] = match self {
-            Self::Box { radius, speed, load, alpha, modulus, viscosity } => &[
+            Self::Box(QuantityBox { radius, speed, load, alpha, modulus, viscosity }) => &[
                 ("radius", *radius),
                 ("speed", *speed),
                 ("load", *load),
@@ -67,10 +67,8 @@ impl Range {
         let linear = |(low, high): (f64, f64), t: f64| low + (high - low) * t;
         let logarithmic = |(low, high): (f64, f64), t: f64| low * (high / low).powf(t);
         match *self {
-            Self::Box { radius, speed, load, alpha, modulus, viscosity } => {
-                let [radius, speed, load] = [linear(radius, unit[0]), linear(speed, unit[1]), linear(load, unit[2])];
-                let quantities = [radius, speed, load, modulus, viscosity, linear(alpha, unit[3])];
-                let point = OperatingPoint::from_quantities(kind, quantities, Sliding::NONE);
+            Self::Box(range) => {
+                let point = range.at(kind, unit);
                 point.check().ok().map(|()| point)
             }
             Self::Moes { m, l, alpha, max_hertz_pressure, viscosity } => {
@@ -146,7 +144,7 @@ pub(super) fn farther_points(
     let corners = (0..16u8).filter_map(|c| range.at(kind, std::array::from_fn(|k| f64::from(c >> k & 1))));
     pool.extend(corners.filter(|p| (m.0..=m.1).contains(&p.moes().m)));
     let coordinates: Vec<_> = pool.iter().map(|p| (p.moes(), p.alpha_per_pa.ln(), p.sliding)).collect();
-    let alpha_weight = if matches!(range, Range::Box { .. }) { 0.005 } else { ALPHA_WEIGHT };
+    let alpha_weight = if matches!(range, Range::Box(_)) { 0.005 } else { ALPHA_WEIGHT };
     let mut nearest = vec![f64::INFINITY; pool.len()];
     let approach = |nearest: &mut [f64], point: &OperatingPoint| {
         let (moes, log_alpha) = (point.moes(), point.alpha_per_pa.ln());
@@ -175,7 +173,7 @@ pub(super) fn farther_points(
 
 /// The tensor grid of Table 3.2 over a box: equidistant in R, u_m and α, logarithmic in w. Empty for a range given in M and L.
 pub fn grid_points(range: &Range, kind: ContactKind, nodes: [usize; 4]) -> Vec<OperatingPoint> {
-    let Range::Box { load, .. } = range else { return Vec::new() };
+    let Range::Box(QuantityBox { load, .. }) = range else { return Vec::new() };
     let unit = |i: usize, n: usize| if n < 2 { 0.5 } else { i as f64 / (n - 1) as f64 };
     let log_unit = |t: f64| {
         let width = load.1 - load.0;
@@ -200,14 +198,7 @@ mod tests {
     use super::*;
 
     const LINE: ContactKind = ContactKind::Line;
-    const TABLE_3_1: Range = Range::Box {
-        radius: (2e-3, 4e-3),
-        speed: (1.0, 10.0),
-        load: (1e5, 5e5),
-        alpha: (5e-9, 20e-9),
-        modulus: 231e9,
-        viscosity: 0.01,
-    };
+    const TABLE_3_1: Range = Range::Box(QuantityBox::TABLE_3_1);
 
     #[test]
     fn table_3_1_has_the_moes_numbers_the_dissertation_prints() {
@@ -265,8 +256,7 @@ mod tests {
     #[test]
     fn empty_and_inverted_ranges_are_refused() {
         for load in [(5e5, 1e5), (0.0, 1.0), (f64::NAN, 1.0), (1.0, f64::INFINITY)] {
-            let Range::Box { radius, speed, alpha, modulus, viscosity, .. } = TABLE_3_1 else { unreachable!() };
-            let range = Range::Box { radius, speed, load, alpha, modulus, viscosity };
+            let range = Range::Box(QuantityBox { load, ..QuantityBox::TABLE_3_1 });
             assert!(range.check().unwrap_err().to_string().contains("load"));
         }
     }

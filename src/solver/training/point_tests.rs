@@ -11,14 +11,14 @@ const GRID: PointGridSpec = PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5))
 fn small(sampling: Sampling, snapshots: usize) -> TrainingSpec {
     TrainingSpec {
         title: "A corner of Table 3.4".to_owned(),
-        range: Range::Box {
+        range: Range::Box(QuantityBox {
             radius: (10e-3, 11e-3),
             speed: (2.0, 3.0),
             load: (30.0, 45.0),
             alpha: (8e-9, 11e-9),
             modulus: 231e9,
             viscosity: 0.01,
-        },
+        }),
         lubricant: Lubricant::default(),
         plan: Plan::FarthestPoint { snapshots },
         windows: Windows::Given(vec![WindowSpec { m: (1.0, 2000.0), grid: ContactGridSpec::Point(GRID) }]),

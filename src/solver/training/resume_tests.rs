@@ -11,14 +11,14 @@ fn small(plan: Plan) -> TrainingSpec {
     let grid = ContactGridSpec::Line(GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) });
     TrainingSpec {
         title: "small".to_owned(),
-        range: Range::Box {
+        range: Range::Box(QuantityBox {
             radius: (2e-3, 3e-3),
             speed: (3.0, 5.0),
             load: (1e5, 2e5),
             alpha: (6e-9, 10e-9),
             modulus: 231e9,
             viscosity: 0.01,
-        },
+        }),
         lubricant: Default::default(),
         plan,
         windows: Windows::Given(vec![WindowSpec { m: (5.0, 25.0), grid }, WindowSpec { m: (25.0, 200.0), grid }]),

@@ -10,14 +10,14 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 fn small(sampling: Sampling) -> TrainingSpec {
     TrainingSpec {
         title: "A corner of Table 3.1".to_owned(),
-        range: Range::Box {
+        range: Range::Box(QuantityBox {
             radius: (3e-3, 4e-3),
             speed: (2.0, 4.0),
             load: (2e5, 4e5),
             alpha: (8e-9, 12e-9),
             modulus: 231e9,
             viscosity: 0.01,
-        },
+        }),
         lubricant: Lubricant::default(),
         plan: Plan::FarthestPoint { snapshots: 50 },
         windows: Windows::Given(vec![WindowSpec {

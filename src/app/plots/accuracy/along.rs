@@ -112,11 +112,7 @@ fn contact(range: &Range, kind: ContactKind, c: f64) -> Option<OperatingPoint> {
 fn range_of(in_use: &InUse, through: Through) -> Range {
     match through {
         Through::Trained => trained_range(&in_use.model),
-        Through::Dissertation => {
-            let QuantityBox { radius, speed, load, alpha, modulus, viscosity } =
-                QuantityBox::of_tables(in_use.model.contact());
-            Range::Box { radius, speed, load, alpha, modulus, viscosity }
-        }
+        Through::Dissertation => Range::Box(QuantityBox::of_tables(in_use.model.contact())),
     }
 }
 
@@ -317,8 +313,7 @@ mod tests {
 
     #[test]
     fn the_path_is_the_dissertations_and_gaps_break_lines() {
-        let QuantityBox { radius, speed, load, alpha, modulus, viscosity } = QuantityBox::TABLE_3_1;
-        let range = Range::Box { radius, speed, load, alpha, modulus, viscosity };
+        let range = Range::Box(QuantityBox::TABLE_3_1);
         for c in [0.0, 0.37, 1.9] {
             assert_eq!(
                 contact(&range, ContactKind::Line, c),

@@ -68,7 +68,7 @@ const GIGAPASCAL: (&str, f64) = ("GPa", 1e9);
 
 fn range_ui(ui: &mut Ui, form: &mut Form, spec: &mut TrainingSpec) {
     heading(ui, "Range");
-    let is_box = matches!(spec.range, Range::Box { .. });
+    let is_box = matches!(spec.range, Range::Box(_));
     let mut wanted = is_box;
     choose(ui, "Given by", "What the model shall be good for", &mut wanted, &[true, false], |is_box| {
         if is_box {
@@ -88,7 +88,7 @@ fn range_ui(ui: &mut Ui, form: &mut Form, spec: &mut TrainingSpec) {
     };
     let viscosity_tip = "Viscosity at ambient pressure, the same for the whole range";
     match &mut spec.range {
-        Range::Box { radius, speed, load, alpha, modulus, viscosity } => {
+        Range::Box(QuantityBox { radius, speed, load, alpha, modulus, viscosity }) => {
             form.interval(ui, "Radius {R}", ("mm", 1e-3), radius, "Reduced radius of curvature (2.3)");
             form.interval(ui, "Speed {u_m}", ("m/s", 1.0), speed, "Mean entrainment speed (2.1)");
             form.interval(ui, "Load {w}", load_unit, load, load_tip);
@@ -141,12 +141,12 @@ fn described_windows(windows: &Windows) -> String {
 fn converted(spec: &TrainingSpec) -> Range {
     let domain = spec.domain();
     match spec.range {
-        Range::Box { alpha, viscosity, .. } => {
+        Range::Box(QuantityBox { alpha, viscosity, .. }) => {
             Range::Moes { m: domain.m, l: domain.l, alpha, max_hertz_pressure: domain.max_hertz_pressure_pa, viscosity }
         }
         Range::Moes { viscosity, .. } | Range::Sliding(SlidingRange { viscosity, .. }) => {
-            let QuantityBox { radius, speed, load, modulus, .. } = QuantityBox::of_tables(spec.contact());
-            Range::Box { radius, speed, load, alpha: domain.alpha_per_pa, modulus, viscosity }
+            let table = QuantityBox::of_tables(spec.contact());
+            Range::Box(QuantityBox { alpha: domain.alpha_per_pa, viscosity, ..table })
         }
     }
 }

@@ -9,7 +9,7 @@ use crate::app::plots::training::fields::{Form, choose};
 use crate::app::state::State;
 use crate::app::theme::Palette;
 use crate::app::transient::input::Input;
-use crate::app::transient::method::{FRAMES, frame_meaning, frame_name};
+use crate::app::transient::method::{frame_meaning, frame_name};
 use crate::scene::TransientStudy;
 use crate::solver::full::transient::{Frame, Inputs, Signal, TimeStep};
 use egui::{Checkbox, Ui};
@@ -71,6 +71,10 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
             ui.weak(format!("At every run, inputs are read from {}.", path.display()));
         }
         preview(ui, &study.inputs, study.duration);
+        if !study.further.is_empty() {
+            let names: Vec<&str> = study.further.iter().map(|drive| drive.name.as_str()).collect();
+            ui.weak(format!("Headless runs follow further inputs too: {}.", names.join(", ")));
+        }
         time_ui(ui, form, study);
         frames_ui(ui, form, &mut study.frames);
         methods::ui(ui, form, study);
@@ -272,11 +276,11 @@ fn time_ui(ui: &mut Ui, form: &mut Form, study: &mut TransientStudy) {
 /// The frames, each a run of its own.
 fn frames_ui(ui: &mut Ui, form: &mut Form, frames: &mut Vec<Frame>) {
     heading(ui, "Frames");
-    for frame in FRAMES {
+    for frame in Frame::ALL {
         let mut on = frames.contains(&frame);
         if ui.add(Checkbox::new(&mut on, frame_name(frame))).on_hover_text(frame_meaning(frame)).changed() {
             let chosen: Vec<Frame> =
-                FRAMES.into_iter().filter(|f| if *f == frame { on } else { frames.contains(f) }).collect();
+                Frame::ALL.into_iter().filter(|f| if *f == frame { on } else { frames.contains(f) }).collect();
             if chosen.is_empty() {
                 form.refused = Some(("Frames", "at least one frame is needed".to_owned()));
             } else {

@@ -4,7 +4,7 @@
 use crate::app::controls::heading;
 use crate::app::plots::training::fields::{Form, choose};
 use crate::app::transient::method::{RULES, WEIGHTINGS, rule_name, weighting_name};
-use crate::scene::{LinearisedTransient, ReducedTransient, TrainingInputs, TransientStudy};
+use crate::scene::{Drive, LinearisedTransient, ReducedTransient, TransientStudy};
 use crate::solver::reduced::tpwl::Weighting;
 use egui::{Checkbox, Ui};
 
@@ -16,8 +16,7 @@ pub fn ui(ui: &mut Ui, form: &mut Form, study: &mut TransientStudy) {
     let mut on = study.reduced.is_some();
     let tip = "Solves the nonlinear equations in a reduced space, at sampled rows (RNSA); trained beforehand";
     if ui.add(Checkbox::new(&mut on, "Reduced model")).on_hover_text(tip).changed() {
-        let trainings = trainings_of(study).to_vec();
-        study.reduced = on.then_some(ReducedTransient { trainings, loss: 1e-6, rows_per_mode: 2.0, seed: 1 });
+        study.reduced = on.then_some(ReducedTransient { loss: 1e-6, rows_per_mode: 2.0, seed: 1 });
         form.changed = Some("Methods");
     }
     if let Some(reduced) = &mut study.reduced {
@@ -35,8 +34,7 @@ pub fn linearised_ui(ui: &mut Ui, form: &mut Form, study: &mut TransientStudy) {
     let mut on = study.linearised.is_some();
     let tip = "Superposes linearised systems of trained moments (TPWL, 4.27): one small linear system per step; in the fixed frame";
     if ui.add(Checkbox::new(&mut on, "Linearised model")).on_hover_text(tip).changed() {
-        let trainings = trainings_of(study).to_vec();
-        study.linearised = on.then(|| LinearisedTransient { trainings, ..LinearisedTransient::default() });
+        study.linearised = on.then(LinearisedTransient::default);
         form.changed = Some("Methods");
     }
     let Some(linearised) = &mut study.linearised else { return };
@@ -99,13 +97,11 @@ pub fn linearised_ui(ui: &mut Ui, form: &mut Form, study: &mut TransientStudy) {
         linearised.weightings = chosen;
     }
     form.message(ui, "Weights");
-}
-
-/// The training trajectories of whichever model has some.
-fn trainings_of(study: &TransientStudy) -> &[TrainingInputs] {
-    let reduced = study.reduced.as_ref().map(|reduced| &reduced.trainings);
-    let linearised = study.linearised.as_ref().map(|linearised| &linearised.trainings);
-    reduced.or(linearised).map_or(&[], Vec::as_slice)
+    if !linearised.further.is_empty() {
+        let count = linearised.further.len();
+        let rules = if count == 1 { "rule" } else { "rules" };
+        ui.weak(format!("Headless runs also compare {count} further {rules}."));
+    }
 }
 
 /// What the models are trained on: the run itself, or other inputs that were kept for it.
@@ -113,34 +109,29 @@ pub fn trainings_ui(ui: &mut Ui, form: &mut Form, study: &mut TransientStudy) {
     if study.reduced.is_none() && study.linearised.is_none() {
         return;
     }
-    let trainings = trainings_of(study).len();
-    ui.label(match trainings {
-        0 => "Trained on the run itself.".to_owned(),
+    let own = study.trains_on_itself();
+    ui.label(match study.trainings.len().max(1) * study.training_loads.len().max(1) {
+        _ if own => "Trained on the run itself.".to_owned(),
         1 => "Trained on other inputs.".to_owned(),
         count => format!("Trained on {count} other inputs."),
     });
+    if !study.training_loads.is_empty() {
+        let loads = study.training_loads.iter().map(|load| format!("{} kN/m", load / 1e3));
+        ui.weak(format!("At reference loads of {}.", loads.collect::<Vec<_>>().join(", ")));
+    }
     ui.horizontal(|ui| {
         let tip = "Keeps the present inputs as a training trajectory: change them then, and see what the models make of others";
         if ui.button("Train on these inputs").on_hover_text(tip).clicked() {
             let (inputs, duration) = (study.inputs.clone(), study.duration);
-            let training = TrainingInputs { at: None, inputs, duration };
-            each(study, |trainings| {
-                if !trainings.contains(&training) {
-                    trainings.push(training.clone());
-                }
-            });
-            form.changed = Some("Methods");
+            if !study.trainings.iter().any(|kept| kept.inputs == inputs && kept.duration == duration) {
+                study.trainings.push(Drive { name: String::new(), inputs, duration });
+                form.changed = Some("Methods");
+            }
         }
-        if trainings > 0 && ui.button("On the run itself").on_hover_text("Forgets the other inputs").clicked() {
-            each(study, Vec::clear);
+        if !own && ui.button("On the run itself").on_hover_text("Forgets the other inputs").clicked() {
+            study.trainings.clear();
+            study.training_loads.clear();
             form.changed = Some("Methods");
         }
     });
-}
-
-/// Changes the trainings of all models.
-fn each(study: &mut TransientStudy, change: impl Fn(&mut Vec<TrainingInputs>)) {
-    let reduced = study.reduced.iter_mut().map(|reduced| &mut reduced.trainings);
-    let linearised = study.linearised.iter_mut().map(|linearised| &mut linearised.trainings);
-    reduced.chain(linearised).for_each(change);
 }

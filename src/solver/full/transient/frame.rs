@@ -49,6 +49,14 @@ pub struct Conditions {
 }
 
 impl Frame {
+    /// All of them, the one that the others are compared with first.
+    pub const ALL: [Self; 4] = [
+        Self::Fixed,
+        Self::ArbitraryLagrangianEulerian,
+        Self::Remeshed(Interpolation::CubicSpline),
+        Self::Remeshed(Interpolation::Linear),
+    ];
+
     /// The word that stands for it in results.
     pub fn name(self) -> &'static str {
         match self {

@@ -1,7 +1,7 @@
 //! What marches in time cost by each method, beside what was published of them: Tables 4.4, 4.6, 4.7 and 4.9.
 
-use super::outcome::SceneOutcome;
-use super::table::Table;
+use crate::harness::outcome::SceneOutcome;
+use crate::harness::table::Table;
 use crate::scene::PublishedMarch;
 
 /// A row of the table. Its numbers are values of the outcome, found by what their names begin with.
