@@ -78,6 +78,8 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
             if let Some(storage) = creation.storage {
                 session::restore(&mut explorer, storage, restore);
             }
+            // A session that ended in the midst of a presentation begins in a window.
+            creation.egui_ctx.send_viewport_cmd(egui::ViewportCommand::Fullscreen(false));
             Ok(Box::new(explorer))
         }),
     )
