@@ -213,6 +213,11 @@ impl Calibration {
         }
     }
 
+    /// The largest e_f^I, (3.15), of the evidence.
+    pub fn largest_residual(&self) -> f64 {
+        self.ranges.get(SIGNS.start).map_or(f64::INFINITY, |range| range.1.exp())
+    }
+
     /// Cases it rests on.
     pub fn evidence(&self) -> usize {
         self.places.len() / (self.ranges.len() - SIGNS.len()).max(1)
