@@ -30,6 +30,7 @@ fn it_solves_its_range_and_agrees_with_full_solutions() {
     let mut full = ContactSolver::on(&grid);
     let mut worst = [0.0f64; 3];
     let (mut kept, mut promises) = (0, 0);
+    let mut tightness: [Vec<f64>; 3] = Default::default();
     for (k, point) in points(400).iter().enumerate() {
         online.forget();
         let solved = online.solve(point, SQUALANE_PIP).unwrap();
@@ -46,9 +47,10 @@ fn it_solves_its_range_and_agrees_with_full_solutions() {
         let sensible = truth.traction_warning().is_none();
         assert!(promised.traction.is_some() == sensible || !slides);
         let bounds = [Some(promised.h_c), Some(promised.h_min), promised.traction].map(|e| e.map(|e| e.bound));
-        for (error, bound) in [h_c, h_min, traction].into_iter().zip(bounds) {
+        for ((error, bound), ratios) in [h_c, h_min, traction].into_iter().zip(bounds).zip(&mut tightness) {
             promises += usize::from(bound.is_some());
             kept += usize::from(bound.is_some_and(|bound| error <= bound));
+            ratios.extend(bound.map(|bound| bound / error));
         }
         let errors = [h_c, h_min, if sensible { traction } else { 0.0 }];
         for (worst, error) in worst.iter_mut().zip(errors) {
@@ -58,6 +60,14 @@ fn it_solves_its_range_and_agrees_with_full_solutions() {
     println!("greatest errors of H_c, H_min and traction: {worst:?}");
     assert!(worst.iter().all(|&error| error < 5e-3), "{worst:?}");
     assert!(kept * 50 >= 49 * promises, "{kept} of {promises} bounds hold");
+    // A bound many times too large says as little as none: the best there can be is 4 times the error in the median.
+    let median = |mut ratios: Vec<f64>| {
+        ratios.sort_by(f64::total_cmp);
+        ratios[ratios.len() / 2]
+    };
+    let medians = tightness.map(median);
+    println!("bounds of H_c, H_min and traction over the errors, medians: {medians:.1?}");
+    assert!(medians.iter().all(|&ratio| ratio < 12.0), "{medians:.1?}");
 }
 
 #[test]

@@ -294,6 +294,25 @@ fn a_sketch_goes_along_with_ones_own_constants_and_with_other_newtonian_fluids()
 }
 
 #[test]
+fn contacts_that_a_sketch_cannot_give_are_left_out_with_the_reason() {
+    let mut harness = window(Explorer::with_embedded_models());
+    click(&mut harness, "Traction");
+    wait(&mut harness, "the curve", |app| app.traction_contacts().0 == Some(41));
+    // Barus' viscosity under 25/α* of pressure is far from anything that was trained.
+    choose(&mut harness, "Fluid", "Barus oil");
+    wait(&mut harness, "the end of the sketch", |app| app.traction_contacts().0 == Some(0));
+    assert!(shows(&harness, "did not converge at 41 contacts, which are left out"));
+    assert!(shows(&harness, "The reduced model has no answer along here"));
+    choose(&mut harness, "Fluid", "Barus oil, compressible");
+    wait(&mut harness, "the sketch", |app| app.traction_contacts().0 == Some(41));
+    // The iteration ends there, but at a residual that belies it.
+    enter(&mut harness, "L value", "15");
+    enter(&mut harness, "M value", "100");
+    wait(&mut harness, "the end of the sketch", |app| app.traction_contacts().0 == Some(0));
+    assert!(shows(&harness, "residual is far beyond any that the model was measured with at 41 contacts"));
+}
+
+#[test]
 fn shear_across_the_film_is_shown_on_request() {
     let mut harness = squalane();
     assert!(harness.query_by_label("Shear across the film").is_none());
