@@ -14,7 +14,7 @@ const PATIENCE: Duration = Duration::from_secs(1);
 
 /// How many times the largest residual that was measured when a model was trained an answer may have where it was not trained. Answers with
 /// more are none: they are left out.
-const RESIDUAL: f64 = 10.0;
+const RESIDUAL: f64 = 2.0;
 
 /// Contacts that a curve lacks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]

@@ -43,10 +43,10 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
     status(ui, state, &sweep, &served);
     let shown = Shown::of(state, &sweep, &served, ui.input(|i| i.time));
     if shown.curve.is_none() && shown.markers.is_none() {
-        let waits = if served.is_ok() {
-            "The curve is being computed"
-        } else {
-            "Full solutions draw the curve here on request"
+        let waits = match served {
+            Ok(_) if !state.traction.curve_is_current() => "The curve is being computed",
+            Ok(_) => "The reduced model has no answer along here: full solutions draw the curve on request",
+            Err(_) => "Full solutions draw the curve here on request",
         };
         ui.centered_and_justified(|ui| ui.weak(waits));
         return;
