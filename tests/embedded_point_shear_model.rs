@@ -1,40 +1,32 @@
 //! The embedded model of shear-thinning point contacts: it solves its range, agrees with full solutions, and says where it ends. And training
 //! one of the kind on a coarse grid.
 
-use ehl_explorer::harness::model_file::{embedded_of, embedded_shear_of, from_bytes, to_bytes};
+mod shear_models;
+
+use ehl_explorer::harness::model_file::to_bytes;
 use ehl_explorer::harness::{SceneOutcome, Workbench, run_scene};
 use ehl_explorer::scene::named_lubricant::{SQUALANE_PIP, by_name};
 use ehl_explorer::scene::{Axis, Scene, Steps, Study};
 use ehl_explorer::solver::contact::{ContactKind, OperatingPoint, Sliding};
-use ehl_explorer::solver::full::{ContactSolver, Problem, Start};
+use ehl_explorer::solver::full::{ContactSolver, Start};
 use ehl_explorer::solver::grid::{ContactGridSpec, PointGridSpec};
-use ehl_explorer::solver::reduced::{Online, ReducedError, ReducedModel, ReducedOptions, Sampling, Trust};
-use ehl_explorer::solver::training::{
-    Plan, Range, SlidingRange, TrainingSpec, WindowSpec, Windows, random_points, train,
-};
-use fastrand::Rng;
+use ehl_explorer::solver::reduced::{Online, ReducedModel, ReducedOptions, Sampling, Trust};
+use ehl_explorer::solver::training::{Plan, Range, SlidingRange, TrainingSpec, WindowSpec, Windows, train};
+use shear_models::{assert_file_keeps_everything, assert_limits_are_said, assert_mirrored, errors};
 use std::path::Path;
 use std::sync::Arc;
 
 const POINT: ContactKind = ContactKind::Point;
-const RANGE: SlidingRange = SlidingRange {
-    m: (8.0, 240.0),
-    l: (4.0, 11.0),
-    srr: (0.0, 1.0),
-    npr: (0.2, 1.0),
-    radius: 12.7e-3,
-    modulus: 123.878213951e9,
-    viscosity: 0.0705,
-    alpha: 1.8925e-8,
-    max_hertz_pressure: Some(0.66e9),
-};
+fn range() -> SlidingRange {
+    shear_models::range(POINT)
+}
 
 fn online() -> Online {
-    Online::new(embedded_shear_of(POINT).unwrap(), ReducedOptions::default())
+    shear_models::online(POINT)
 }
 
 fn points(range: SlidingRange, count: usize, seed: u64) -> Vec<OperatingPoint> {
-    random_points(&Range::Sliding(range), POINT, (0.0, f64::INFINITY), count, &mut Rng::with_seed(seed))
+    shear_models::points(POINT, range, count, seed)
 }
 
 /// Greatest errors of H_c, H_min and, under sliding, traction at the first of some points; all of them must converge.
@@ -51,12 +43,9 @@ fn greatest_errors(online: &mut Online, points: &[OperatingPoint], compared: usi
         let reduced = online.reconstruct(&solved).unwrap();
         let truth = full.solve(point, SQUALANE_PIP, Start::Cold, &mut ()).unwrap();
         assert!(truth.converged());
-        let off = |reduced: f64, full: f64| (reduced / full - 1.0).abs();
-        let sensible = truth.traction_warning().is_none() && point.sliding.slide_to_roll_ratio > 0.0;
-        let traction = if sensible { off(reduced.traction_coefficient(), truth.traction_coefficient()) } else { 0.0 };
-        let errors =
-            [off(reduced.scalars.h_c, truth.scalars.h_c), off(reduced.scalars.h_min, truth.scalars.h_min), traction];
-        for (worst, error) in worst.iter_mut().zip(errors) {
+        let [h_c, h_min, traction] = errors(&reduced, reduced.traction_coefficient(), &truth);
+        let traction = if truth.traction_warning().is_none() { traction } else { 0.0 };
+        for (worst, error) in worst.iter_mut().zip([h_c, h_min, traction]) {
             *worst = worst.max(error);
         }
     }
@@ -66,48 +55,23 @@ fn greatest_errors(online: &mut Online, points: &[OperatingPoint], compared: usi
 
 #[test]
 fn it_solves_its_range_and_agrees_with_full_solutions() {
-    let [h_c, h_min, traction] = greatest_errors(&mut online(), &points(RANGE, 80, 78), 6);
+    let [h_c, h_min, traction] = greatest_errors(&mut online(), &points(range(), 80, 78), 6);
     assert!(h_c < 5e-3 && h_min < 2e-2 && traction < 5e-3, "{h_c:.1e} {h_min:.1e} {traction:.1e}");
 }
 
 #[test]
 fn it_is_mirrored_by_the_sliding_and_newtonian_at_a_plateau_of_one() {
-    let mut online = online();
-    let point = points(RANGE, 1, 3)[0];
-    let mut film = |srr: f64, npr: f64| {
-        online.forget();
-        let sliding = Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: Some(npr) };
-        let solved = online.solve(&OperatingPoint { sliding, ..point }, SQUALANE_PIP).unwrap();
-        let fields = online.reconstruct(&solved).unwrap();
-        (fields.scalars.h_c, fields.traction_coefficient())
-    };
     // Starts differ, and the iteration ends with steps below 1e-5.
-    let (one, other) = (film(0.4, 0.3), film(-0.4, 0.3));
-    assert!((one.0 / other.0 - 1.0).abs() < 1e-5 && (one.1 / other.1 + 1.0).abs() < 1e-5, "{one:?} {other:?}");
-    assert!((film(0.0, 1.0).0 / film(0.9, 1.0).0 - 1.0).abs() < 1e-5);
+    assert_mirrored(online(), points(range(), 1, 3)[0], 1e-5);
 }
 
 #[test]
 fn what_it_was_not_trained_for_is_said() {
-    let online = online();
-    let base = points(RANGE, 1, 3)[0];
-    let trust = |point: OperatingPoint| online.model.trust(&Problem::new(&point, SQUALANE_PIP).unwrap());
-    let slid = |srr, npr| Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: Some(npr) };
-    for (point, word) in [
-        (OperatingPoint { sliding: slid(1.5, 0.5), ..base }, "SRR"),
-        (OperatingPoint { sliding: slid(0.5, 0.1), ..base }, "NPR"),
-        (OperatingPoint { modulus_pa: 2.0 * base.modulus_pa, ..base }, "modulus"),
-        (OperatingPoint { load: 1e3 * base.load, ..base }, "M ="),
-    ] {
-        assert!(matches!(trust(point), Trust::Outside(why) if why.contains(word)), "{word}");
-    }
+    let base = points(range(), 1, 3)[0];
     // M and L of its range, but more pressure than it was trained for.
-    let unlimited = SlidingRange { max_hertz_pressure: None, ..RANGE };
-    let heavy = unlimited.at(POINT, [0.9, 0.9, 0.5, 0.5]).unwrap();
-    assert!(matches!(trust(heavy), Trust::Outside(why) if why.contains("p_H")));
-    let mut newtonian = Online::new(embedded_of(POINT).unwrap(), ReducedOptions::default());
-    let refused = newtonian.solve(&OperatingPoint { sliding: slid(0.5, 0.3), ..base }, SQUALANE_PIP);
-    assert_eq!(refused.unwrap_err(), ReducedError::ShearThinning);
+    let heavy = SlidingRange { max_hertz_pressure: None, ..range() }.at(POINT, [0.9, 0.9, 0.5, 0.5]).unwrap();
+    let further = [(OperatingPoint { load: 1e3 * base.load, ..base }, "M ="), (heavy, "p_H")];
+    assert_limits_are_said(&online(), base, &further);
 }
 
 #[test]
@@ -140,17 +104,11 @@ fn another_lubricant_is_solved_with_its_own_equations_and_said_to_be_another() {
 
 #[test]
 fn its_file_keeps_what_a_shear_thinning_lubricant_adds() {
-    let model = embedded_shear_of(POINT).unwrap();
-    let bytes = to_bytes(&model).unwrap();
-    let again = from_bytes(&bytes).unwrap();
-    assert_eq!(again.domain, model.domain);
-    assert!(again.windows[0].snapshots == model.windows[0].snapshots && again.domain.sliding.is_some());
-    assert!(again.windows[0].pressure.modes == model.windows[0].pressure.modes);
-    assert!(from_bytes(&bytes[..bytes.len() - 8]).is_err());
+    assert_file_keeps_everything(POINT);
 }
 
 fn small() -> (SlidingRange, TrainingSpec) {
-    let range = SlidingRange { m: (30.0, 45.0), l: (7.0, 9.0), npr: (0.2, 0.5), ..RANGE };
+    let range = SlidingRange { m: (30.0, 45.0), l: (7.0, 9.0), npr: (0.2, 0.5), ..range() };
     let grid = ContactGridSpec::Point(PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5)));
     let spec = TrainingSpec {
         title: "A corner of the range on a coarse grid".to_owned(),

@@ -226,6 +226,93 @@ fn a_point_contact_has_its_curve_where_there_is_a_model_and_says_so_where_there_
 }
 
 #[test]
+fn a_fluid_that_the_model_was_not_trained_with_has_a_curve_that_says_so() {
+    let mut explorer = Explorer::with_embedded_models();
+    // PAO 650's point contact; the model knows squalane with polyisoprene.
+    explorer.open_scene(Path::new("scenes/fig_3_16.ron")).unwrap();
+    let mut harness = window(explorer);
+    click(&mut harness, "Traction");
+    wait(&mut harness, "the curve", |app| app.traction_contacts().0 == Some(41));
+    let said = "was not trained for it: the model was trained with other lubricant laws";
+    assert!(shows(&harness, said) && shows(&harness, "no bound on its errors is known"));
+    click(&mut harness, "Add full solutions");
+    wait(&mut harness, "the full solutions", |app| app.traction_contacts().1 == 11 && !app.solving_along());
+    assert!(shows(&harness, "full solutions differ by"));
+    click(&mut harness, "Export CSV…");
+    let path = scratch("sketch.csv");
+    give_path(&mut harness, &path, "Export");
+    assert!(std::fs::read_to_string(&path).unwrap().contains("no bound on its errors is known"));
+    let rows = Table::read(&path).rows;
+    assert_eq!(rows.len(), 41 + 11);
+    for full in rows.iter().filter(|row| row[0] == 1.0) {
+        let reduced = rows.iter().find(|row| row[0] == 0.0 && (row[1] - full[1]).abs() < 1e-9).unwrap();
+        assert!((reduced[6] - full[6]).abs() <= 1e-2 * full[6], "traction at SRR {}", full[1]);
+        assert!((reduced[7] / full[7] - 1.0).abs() < 1e-2, "film at SRR {}", full[1]);
+    }
+    click(&mut harness, "Export plot…");
+    click(&mut harness, "Traction and film as SVG…");
+    harness.run_steps(6);
+    let path = scratch("sketch.svg");
+    give_path(&mut harness, &path, "Export");
+    let figure = std::fs::read_to_string(&path).unwrap();
+    let curves = figure.lines().filter(|line| line.starts_with("<polyline") && line.matches(',').count() > 30);
+    assert_eq!(curves.count(), 0, "no line is firm");
+    assert!(figure.contains("was not trained for this curve"));
+    // Pictures are full solutions all the same.
+    wait(&mut harness, "the full solver", |app| app.badge() == "Outside the reduced model" && !app.busy());
+    // Its own fluid brings firm lines back; its plateau ratio is one of the range.
+    choose(&mut harness, "Fluid", "Squalane with PIP");
+    wait(&mut harness, "the curve of its own fluid", |app| app.traction_contacts().0 == Some(41));
+    assert!(!shows(&harness, "not trained for it"));
+}
+
+#[test]
+fn a_sketch_goes_along_with_ones_own_constants_and_with_other_newtonian_fluids() {
+    let mut harness = squalane();
+    click(&mut harness, "Traction");
+    choose(&mut harness, "Fluid", "Own");
+    enter(&mut harness, "Critical stress", "0.02");
+    wait(&mut harness, "the curve of one's own", |app| app.traction_contacts().0 == Some(41));
+    assert!(shows(&harness, "not trained for it"));
+    // A plateau ratio below all that were trained belongs to the fluid: the sweep reaches down to it.
+    enter(&mut harness, "NPR value", "0.1");
+    choose(&mut harness, "Against", "plateau ratio");
+    wait(&mut harness, "the curve against NPR", |app| app.traction_contacts().0 == Some(41));
+    click(&mut harness, "Export CSV…");
+    let path = scratch("plateau.csv");
+    give_path(&mut harness, &path, "Export");
+    let rows = Table::read(&path).rows;
+    assert!((rows[0][2] - 0.1).abs() < 1e-9 && (rows[40][2] - 1.0).abs() < 1e-9, "{:?}", rows[0]);
+    choose(&mut harness, "Against", "slide-to-roll ratio");
+    choose(&mut harness, "Fluid", "Barus oil, compressible");
+    enter(&mut harness, "L value", "5");
+    wait(&mut harness, "the curve of a Newtonian fluid", |app| app.traction_contacts().0 == Some(41));
+    assert!(shows(&harness, "not trained for it"));
+    // Where the shapes of pressure and film are none that were trained there is no curve.
+    enter(&mut harness, "M value", "1");
+    assert!(shows(&harness, "No curve by the reduced model: M = 1 lies outside"));
+}
+
+#[test]
+fn contacts_that_a_sketch_cannot_give_are_left_out_with_the_reason() {
+    let mut harness = window(Explorer::with_embedded_models());
+    click(&mut harness, "Traction");
+    wait(&mut harness, "the curve", |app| app.traction_contacts().0 == Some(41));
+    // Barus' viscosity under 25/α* of pressure is far from anything that was trained.
+    choose(&mut harness, "Fluid", "Barus oil");
+    wait(&mut harness, "the end of the sketch", |app| app.traction_contacts().0 == Some(0));
+    assert!(shows(&harness, "did not converge at 41 contacts, which are left out"));
+    assert!(shows(&harness, "The reduced model has no answer along here"));
+    choose(&mut harness, "Fluid", "Barus oil, compressible");
+    wait(&mut harness, "the sketch", |app| app.traction_contacts().0 == Some(41));
+    // The iteration ends there, but at a residual that belies it.
+    enter(&mut harness, "L value", "15");
+    enter(&mut harness, "M value", "100");
+    wait(&mut harness, "the end of the sketch", |app| app.traction_contacts().0 == Some(0));
+    assert!(shows(&harness, "residual is far beyond any that the model was measured with at 41 contacts"));
+}
+
+#[test]
 fn shear_across_the_film_is_shown_on_request() {
     let mut harness = squalane();
     assert!(harness.query_by_label("Shear across the film").is_none());

@@ -74,8 +74,8 @@ impl Explorer {
             Command::Verify => state.verify(ctx),
             Command::EstimateGridError => state.estimate_grid_error(ctx),
             Command::SolveAlong => {
-                if let Some((sweep, _)) = state.sweep() {
-                    state.start_markers(ctx, &sweep);
+                if let Some((sweep, served)) = state.sweep() {
+                    state.start_markers(ctx, &sweep, &served);
                     self.show(Tab::Traction);
                 }
             }

@@ -281,6 +281,7 @@ mod tests {
             include_str!("plots/traction/mod.rs"),
             include_str!("traction/full.rs"),
             include_str!("traction/mod.rs"),
+            include_str!("traction/served.rs"),
             include_str!("traction/sweep.rs"),
             include_str!("training/mod.rs"),
             include_str!("transient/linearised.rs"),

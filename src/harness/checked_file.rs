@@ -70,6 +70,11 @@ impl Format {
         bytes
     }
 
+    /// The version of a file's content that [`Self::open`] accepts; its own for anything else.
+    pub fn version_of(&self, bytes: &[u8]) -> u32 {
+        bytes.get(8..12).and_then(|word| word.try_into().ok()).map_or(self.version, u32::from_le_bytes)
+    }
+
     /// The payload of a file's content.
     pub fn open<'a>(&self, bytes: &'a [u8]) -> Result<&'a [u8], Flaw> {
         let announced = self.announced(bytes)?;

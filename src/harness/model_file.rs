@@ -18,9 +18,11 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 /// Its matrices were kept in other ways, which are still understood.
 const OLDEST: u32 = 3;
+/// The first version whose bounds count in mean squares of errors; under sliding those of older ones rest on errors that were none.
+const MEAN_SQUARES: u32 = 5;
 /// Real models have a few MB.
 const FORMAT: Format = Format { magic: b"EHLROM\r\n", version: VERSION, oldest: OLDEST, max_payload: 512 << 20 };
 
@@ -177,7 +179,7 @@ impl StoredModel {
 
 impl StoredTraction {
     /// Hands every window its own.
-    fn give(self, windows: &mut [Window]) -> Result<(), ModelFileError> {
+    fn give(self, windows: &mut [Window], version: u32) -> Result<(), ModelFileError> {
         let damaged = Err(ModelFileError::Damaged { what: "traction" });
         if [self.rules.len(), self.calibrations.len()] != [windows.len(); 2] {
             return damaged;
@@ -187,14 +189,14 @@ impl StoredTraction {
             if !rule.as_ref().is_none_or(|rule| rule.sound(&window.grid)) || !calibration.as_ref().is_none_or(known) {
                 return damaged;
             }
-            (window.traction, window.calibration) = (rule, calibration);
+            (window.traction, window.calibration) = (rule, calibration.filter(|_| version >= MEAN_SQUARES));
         }
         Ok(())
     }
 }
 
 impl StoredWindow {
-    fn into_window(self, grid: ContactGrid) -> Result<Window, ModelFileError> {
+    fn into_window(self, grid: ContactGrid, version: u32) -> Result<Window, ModelFileError> {
         let nodes = grid.len();
         let damaged = |what| Err(ModelFileError::Damaged { what });
         let (Some(pressure), Some(deformation)) = (self.pressure.into_basis(nodes), self.deformation.into_basis(nodes))
@@ -224,8 +226,12 @@ impl StoredWindow {
         if self.snapshots.is_empty() || !snapshots_fit {
             return damaged("snapshots");
         }
-        let calibration = self.calibration.map(Calibration::from);
-        if !calibration.as_ref().is_none_or(Calibration::sound) {
+        let mut calibration = self.calibration.map(Calibration::from);
+        let sound = |calibration: &Option<Calibration>| calibration.as_ref().is_none_or(Calibration::sound);
+        if sound(&calibration) && version < MEAN_SQUARES {
+            calibration.iter_mut().for_each(Calibration::measure_again);
+        }
+        if !sound(&calibration) {
             return damaged("calibration");
         }
         let rows = SampledRows { rows: self.sampled_rows, reconstruction };
@@ -341,6 +347,7 @@ pub fn to_bytes(model: &ReducedModel) -> Result<Vec<u8>, ModelFileError> {
 /// As [`read`].
 pub fn from_bytes(bytes: &[u8]) -> Result<ReducedModel, ModelFileError> {
     let payload = FORMAT.open(bytes)?;
+    let version = FORMAT.version_of(bytes);
     let undecodable = |_| ModelFileError::Damaged { what: "its content cannot be decoded" };
     let (mut stored, rest): (StoredModel, &[u8]) = postcard::take_from_bytes(payload).map_err(undecodable)?;
     let mut traction = None;
@@ -352,8 +359,12 @@ pub fn from_bytes(bytes: &[u8]) -> Result<ReducedModel, ModelFileError> {
         }
     }
     let grids = grids(&stored.windows)?;
-    let mut windows: Vec<Window> =
-        stored.windows.into_par_iter().zip(grids).map(|(w, grid)| w.into_window(grid)).collect::<Result<_, _>>()?;
+    let mut windows: Vec<Window> = stored
+        .windows
+        .into_par_iter()
+        .zip(grids)
+        .map(|(w, grid)| w.into_window(grid, version))
+        .collect::<Result<_, _>>()?;
     if windows.is_empty() {
         return Err(ModelFileError::Damaged { what: "no windows" });
     }
@@ -361,7 +372,7 @@ pub fn from_bytes(bytes: &[u8]) -> Result<ReducedModel, ModelFileError> {
         return Err(ModelFileError::Damaged { what: "windows of different contacts" });
     }
     if let Some(traction) = traction {
-        traction.give(&mut windows)?;
+        traction.give(&mut windows, version)?;
     }
     let StoredModel { title, domain, scene, log, .. } = StoredModel { windows: Vec::new(), ..stored };
     Ok(ReducedModel { title, domain, windows, scene, log })
@@ -412,7 +423,13 @@ mod tests {
         };
         assert!(matches!(of_version(99), Err(ModelFileError::Newer { found: 99 })));
         assert!(matches!(of_version(OLDEST as u8 - 1), Err(ModelFileError::Older { found: 2 })));
-        assert!(of_version(OLDEST as u8).is_ok());
+        let old = of_version(OLDEST as u8).unwrap();
+        assert!(old.windows[0].calibration.is_none(), "what older files promise under sliding is not believed");
+        // Without sliding the same evidence gives the same bounds, whatever an older file kept of its scatter.
+        let mut bytes = EMBEDDED.to_vec();
+        bytes[8] = MEAN_SQUARES as u8 - 1;
+        let (old, new) = (from_bytes(&bytes).unwrap(), embedded().unwrap());
+        assert!(old.windows.iter().zip(&new.windows).all(|(old, new)| old.calibration == new.calibration));
     }
 
     #[test]

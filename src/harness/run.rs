@@ -30,8 +30,9 @@ pub fn run_scene(
     outcome.warnings.extend(scene.unused_alpha());
     match &scene.study {
         Study::Point { methods } => point(scene, methods, workbench, observer, &mut outcome)?,
-        Study::Sweep { over, methods, cold } => {
-            series::sweep(scene, (over, methods, *cold), workbench, observer, &mut outcome)?;
+        Study::Sweep { over, methods, cold, compare_on_model_grid } => {
+            let how = (*cold, *compare_on_model_grid);
+            series::sweep(scene, (over, methods, how), workbench, observer, &mut outcome)?;
         }
         Study::Trajectory { range, points, methods } => {
             series::trajectory(scene, range, *points, methods, workbench, observer, &mut outcome)?;

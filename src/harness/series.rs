@@ -7,8 +7,8 @@ use super::report::{PointReport, RESULT_COLUMNS};
 use super::run::{request_of, step};
 use super::statistics::{median, percentile};
 use super::table::Table;
-use super::workbench::Workbench;
-use crate::scene::{At, Axis, Method, QuantityBox, Scene, Steps, Variable};
+use super::workbench::{Request, Workbench};
+use crate::scene::{At, Axis, Grid, Method, QuantityBox, Scene, Steps, Variable};
 use crate::solver::contact::{OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
 use crate::solver::full::Solution;
 use crate::solver::lubricant::Sliding;
@@ -20,12 +20,14 @@ const COMPARED: [&str; 3] = ["H_c", "H_min", "traction"];
 /// Errors of smaller tractions are relative to this.
 const LEAST_TRACTION: f64 = 0.005;
 
-/// Contacts one after the other: the name of the table, what is varied, the contacts, and whether full solves start cold.
+/// Contacts one after the other: the name of the table, what is varied, the contacts, whether full solves start cold, and whether reduced ones
+/// are compared with full ones on their model's grid.
 struct Path<'a> {
     name: &'a str,
     varied: &'a [&'a str],
     contacts: &'a [Contact],
     cold: bool,
+    on_model_grid: bool,
 }
 
 /// One contact of a path with the varied values.
@@ -37,14 +39,14 @@ pub(super) struct Contact {
 /// Runs a scene's sweep.
 pub(super) fn sweep(
     scene: &Scene,
-    (over, methods, cold): (&[Axis], &[Method], bool),
+    (over, methods, (cold, on_model_grid)): (&[Axis], &[Method], (bool, bool)),
     workbench: &mut Workbench,
     observer: &dyn TrainingObserver,
     outcome: &mut SceneOutcome,
 ) -> Result<(), HarnessError> {
     let contacts = contacts_of(scene, over)?;
     let varied: Vec<&str> = over.iter().map(|axis| axis.vary.name()).collect();
-    let path = Path { name: "sweep", varied: &varied, contacts: &contacts, cold };
+    let path = Path { name: "sweep", varied: &varied, contacts: &contacts, cold, on_model_grid };
     along(&path, scene, methods, workbench, observer, outcome)
 }
 
@@ -79,7 +81,7 @@ pub(super) fn trajectory(
         point.check()?;
         contacts.push(Contact { values: vec![c], point: OperatingPoint { sliding: scene.sliding(), ..point } });
     }
-    let path = Path { name: "trajectory", varied: &["c"], contacts: &contacts, cold: false };
+    let path = Path { name: "trajectory", varied: &["c"], contacts: &contacts, cold: false, on_model_grid: false };
     along(&path, scene, methods, workbench, observer, outcome)
 }
 
@@ -112,7 +114,7 @@ fn set(at: &mut At, sliding: &mut Sliding, variable: Variable, value: f64) -> Re
     Ok(())
 }
 
-/// Solves all points by all methods: table, failures, and the reduced methods' errors against the first full one.
+/// Solves all points by all methods: table, failures, and the reduced methods' errors against the first full one, or one on the model's grid.
 fn along(
     path: &Path<'_>,
     scene: &Scene,
@@ -121,7 +123,7 @@ fn along(
     observer: &dyn TrainingObserver,
     outcome: &mut SceneOutcome,
 ) -> Result<(), HarnessError> {
-    let &Path { name, varied, contacts, cold } = path;
+    let &Path { name, varied, contacts, cold, on_model_grid } = path;
     let template = request_of(scene)?;
     let mut columns: Vec<String> = varied.iter().map(|&v| v.to_owned()).collect();
     columns.extend(["M", "L", "radius", "speed", "load", "alpha", "p_h_pa"].map(str::to_owned));
@@ -132,6 +134,7 @@ fn along(
     let mut tallies = vec![Tally::default(); methods.len()];
     let mut former: Vec<Option<Solution>> = vec![None; methods.len()];
     let full = methods.iter().position(|method| *method == Method::Full);
+    let mut beside = on_model_grid.then(Beside::default);
     for (i, Contact { values, point }) in contacts.iter().enumerate() {
         step(observer, name, i, contacts.len())?;
         let request = Request { point: *point, ..template.clone() };
@@ -159,10 +162,14 @@ fn along(
                 former[k] = answer.solution;
             }
         }
-        if let Some(full) = full {
+        let truths = match &mut beside {
+            Some(beside) => Some(beside.solve(&request, cold, workbench, observer)?),
+            None => full.map(|full| compared[full]),
+        };
+        if let Some(truths) = truths {
             for (tally, own) in tallies.iter_mut().zip(&compared) {
                 for (k, errors) in tally.errors.iter_mut().enumerate() {
-                    let (value, truth) = (own[k], compared[full][k]);
+                    let (value, truth) = (own[k], truths[k]);
                     // Next to nothing has no relative error.
                     let size = if COMPARED[k] == "traction" { truth.abs().max(LEAST_TRACTION) } else { truth };
                     errors.extend(Some(((value - truth) / size).abs()).filter(|error| error.is_finite()));
@@ -172,11 +179,45 @@ fn along(
         table.rows.push(row);
     }
     outcome.push("points", None, contacts.len() as f64);
+    if let Some(Beside { failures, .. }) = beside {
+        outcome.converged &= failures == 0;
+        outcome.push("failures_on_model_grid", None, failures as f64);
+    }
     for (method, tally) in methods.iter().zip(&tallies) {
-        tally.report(method, full.is_some(), outcome);
+        tally.report(method, full.is_some() || on_model_grid, outcome);
     }
     outcome.tables.push(table);
     Ok(())
+}
+
+/// Full solutions on the model's grid, beside the methods of a path.
+#[derive(Default)]
+struct Beside {
+    former: Option<Solution>,
+    failures: usize,
+}
+
+impl Beside {
+    /// What is [`COMPARED`] of the contact of a request; not a number where the solve fails.
+    fn solve(
+        &mut self,
+        request: &Request,
+        cold: bool,
+        workbench: &mut Workbench,
+        observer: &dyn TrainingObserver,
+    ) -> Result<[f64; 3], HarnessError> {
+        let request = Request { grid: Grid::Model, ..request.clone() };
+        let start = self.former.as_ref().filter(|_| !cold);
+        let answer = workbench.answer(&request, &Method::Full, start, observer)?;
+        if !answer.converged {
+            self.failures += 1;
+            return Ok([f64::NAN; 3]);
+        }
+        let mut compared = [f64::NAN; 3];
+        compared.copy_from_slice(&PointReport::from(&answer).row(&COMPARED));
+        self.former = answer.solution;
+        Ok(compared)
+    }
 }
 
 /// `full`, `reduced`, and with a number where a kind occurs again.

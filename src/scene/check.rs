@@ -143,8 +143,16 @@ mod tests {
             over: vec![Axis { vary: Variable::M, values: Steps::Log { from: 1.0, to: 9.0, n: usize::MAX } }],
             methods: vec![Method::Full],
             cold: false,
+            compare_on_model_grid: false,
         };
         assert!(message(Scene { study: huge, ..good.clone() }).contains("study.over.M"));
+        let alone = Study::Sweep {
+            over: vec![Axis { vary: Variable::M, values: Steps::List(vec![20.0]) }],
+            methods: vec![Method::Full],
+            cold: false,
+            compare_on_model_grid: true,
+        };
+        assert!(message(Scene { study: alone, ..good.clone() }).contains("study.compare_on_model_grid"));
         let range = QuantityBox { load: (2.0, f64::NAN), ..QuantityBox::TABLE_3_1 };
         let study = Study::Trajectory { range, points: 10, methods: vec![Method::Full] };
         assert!(message(Scene { study, ..good.clone() }).contains("study.range.load.1"));

@@ -25,6 +25,9 @@ pub enum Study {
         /// Whether full solves start cold instead.
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
         cold: bool,
+        /// Whether reduced methods are compared with full solutions on the model's own grid: then what the grids differ by is no part of the error.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        compare_on_model_grid: bool,
     },
     /// The test trajectory (3.21) through a box, 0 ≤ c ≤ 2.
     Trajectory {

@@ -20,8 +20,14 @@ pub(super) fn study(scene: &Scene) -> Checked {
             ),
         )),
         Study::Point { methods: list } => methods("study.methods", list),
-        Study::Sweep { over, methods: list, .. } => {
+        Study::Sweep { over, methods: list, compare_on_model_grid, .. } => {
             methods("study.methods", list)?;
+            if *compare_on_model_grid && list.iter().all(|method| method.model().is_none()) {
+                return Err(refuse(
+                    "study.compare_on_model_grid",
+                    "needs a reduced method to compare; add Reduced(…) to the methods, or leave it out",
+                ));
+            }
             axes(over, scene)
         }
         Study::Dimensions { over, losses } => {

@@ -1,6 +1,6 @@
 //! Traction and film along a quantity for other programs.
 
-use super::{Sample, Sweep, TractionView};
+use super::{Sample, Served, Sweep, TractionView};
 use crate::app::export as tables;
 use crate::app::jobs::Key;
 
@@ -17,8 +17,16 @@ pub fn describe(sweep: &Sweep) -> Vec<String> {
 
 /// The same of the curve that is drawn, or else of the full solutions.
 pub fn parameters(view: &TractionView) -> Option<Vec<String>> {
-    let curve = view.curve.as_ref().map(|curve| &curve.sweep);
-    curve.or(view.markers.as_ref().map(|markers| &markers.sweep)).map(describe)
+    match (&view.curve, &view.markers) {
+        (Some(curve), _) => Some(describe(&curve.sweep).into_iter().chain(untrained(&curve.served)).collect()),
+        (None, markers) => markers.as_ref().map(|markers| describe(&markers.sweep)),
+    }
+}
+
+/// The line that a curve needs whose model was not trained for it.
+fn untrained(served: &Served) -> Option<String> {
+    let why = served.untrained.as_ref()?;
+    Some(format!("the reduced model was not trained for this curve ({why}): no bound on its errors is known"))
 }
 
 fn described(sweep: &Sweep) -> String {
@@ -33,7 +41,10 @@ pub fn csv(view: &TractionView) -> Option<String> {
     let blocks: Vec<(f64, &Sweep, &[Sample])> = curve.chain(markers).collect();
     let (_, first, _) = blocks.iter().find(|block| !block.2.is_empty())?;
     let mut comments = describe(first);
-    comments.extend(view.curve.iter().map(|curve| format!("full 0: {}", curve.in_use.describe())));
+    for served in view.curve.iter().map(|curve| &curve.served) {
+        comments.push(format!("full 0: {}", served.by.describe()));
+        comments.extend(untrained(served));
+    }
     if let Some(markers) = view.markers.as_ref().filter(|markers| markers.sweep != **first) {
         comments.push(format!("full 1 belongs to {}", described(&markers.sweep)));
     }

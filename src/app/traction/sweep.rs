@@ -105,6 +105,14 @@ impl Varied {
         }
     }
 
+    /// A range that holds the contact's own ratio as well; of speeds it is the range itself, which ends where M or L do.
+    pub(super) fn around(self, key: &Key, (from, to): (f64, f64)) -> (f64, f64) {
+        match self {
+            Self::SlideToRoll | Self::Plateau => (from.min(self.of(key)), to.max(self.of(key))),
+            Self::Speed => (from, to),
+        }
+    }
+
     /// The values where no model sets them; of the speed the decades around the present one.
     pub(super) fn everywhere(self, point: &OperatingPoint) -> (f64, f64) {
         match self {

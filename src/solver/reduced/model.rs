@@ -240,24 +240,52 @@ impl Domain {
         if let Some(outside) = self.sliding.and_then(|sliding| sliding.outside(point)) {
             return Trust::Outside(outside);
         }
-        let p_h = point.hertz().pressure_pa;
-        let checks = [
-            ("M", problem.moes.m, self.m, 1.0, ""),
-            ("L", problem.moes.l, self.l, 1.0, ""),
-            ("α", point.alpha_per_pa, self.alpha_per_pa, 1e9, "/GPa"),
-            ("p_H", p_h, (0.0, self.max_hertz_pressure_pa), 1e-9, " GPa"),
-        ];
-        for (name, value, (low, high), scale, unit) in checks {
-            if value < low * (1.0 - 1e-6) || value > high * (1.0 + 1e-6) {
-                let range = if low > 0.0 {
-                    format!("outside the trained range {}…{}{unit}", digits(low * scale), digits(high * scale))
-                } else {
-                    format!("above the trained {}{unit}", digits(high * scale))
-                };
-                return Trust::Outside(format!("{name} = {}{unit} lies {range}", digits(value * scale)));
-            }
+        let [m, l, p_h] = self.shapes(problem);
+        let alpha =
+            Bounded { name: "α", value: point.alpha_per_pa, range: self.alpha_per_pa, scale: 1e9, unit: "/GPa" };
+        [m, l, alpha, p_h].iter().find_map(Bounded::outside).map_or(Trust::Trained, Trust::Outside)
+    }
+
+    /// A sentence where M, L or p_H lie outside, with any fluid: pressures and films of such shapes were never trained. Of another fluid inside,
+    /// the bases still know the shapes, and the reduced equations are its own.
+    pub fn strange_shape(&self, problem: &Problem) -> Option<String> {
+        self.shapes(problem).iter().find_map(Bounded::outside)
+    }
+
+    /// What the shapes of pressure and film depend on most.
+    fn shapes(&self, problem: &Problem) -> [Bounded; 3] {
+        let (p_h, highest) = (problem.point.hertz().pressure_pa, self.max_hertz_pressure_pa);
+        [
+            Bounded { name: "M", value: problem.moes.m, range: self.m, scale: 1.0, unit: "" },
+            Bounded { name: "L", value: problem.moes.l, range: self.l, scale: 1.0, unit: "" },
+            Bounded { name: "p_H", value: p_h, range: (0.0, highest), scale: 1e-9, unit: " GPa" },
+        ]
+    }
+}
+
+/// A quantity with the range it was trained in.
+struct Bounded {
+    name: &'static str,
+    value: f64,
+    range: (f64, f64),
+    /// Shown units per SI unit.
+    scale: f64,
+    unit: &'static str,
+}
+
+impl Bounded {
+    /// A sentence where it lies outside.
+    fn outside(&self) -> Option<String> {
+        let Self { name, value, range: (low, high), scale, unit } = *self;
+        if value >= low * (1.0 - 1e-6) && value <= high * (1.0 + 1e-6) {
+            return None;
         }
-        Trust::Trained
+        let range = if low > 0.0 {
+            format!("outside the trained range {}…{}{unit}", digits(low * scale), digits(high * scale))
+        } else {
+            format!("above the trained {}{unit}", digits(high * scale))
+        };
+        Some(format!("{name} = {}{unit} lies {range}", digits(value * scale)))
     }
 }
 
@@ -288,6 +316,7 @@ fn digits(value: f64) -> String {
 mod tests {
     use super::*;
     use crate::solver::contact::{MoesRequest, si_from_moes};
+    use crate::solver::lubricant::ViscosityLaw;
 
     #[test]
     fn what_lies_outside_is_said_with_sensible_digits() {
@@ -308,6 +337,19 @@ mod tests {
         assert_eq!(trust(1.0, 10.0), Trust::Outside("M = 1 lies outside the trained range 2…500".to_owned()));
         let Trust::Outside(why) = trust(200.0, 15.0) else { panic!("beyond the pressure limit") };
         assert!(why.starts_with("p_H = 4.8") && why.ends_with("GPa lies above the trained 3.2 GPa"), "{why}");
+        // Another fluid, or another α, may have shapes that are known.
+        let barus = Lubricant { viscosity: ViscosityLaw::Barus, ..Lubricant::default() };
+        let shape = |m, l, lubricant| {
+            let point = si_from_moes(&MoesRequest::new(ContactKind::Line, m, l)).unwrap();
+            let domain = Domain { alpha_per_pa: (1e-9, 2e-9), ..domain.clone() };
+            let problem = Problem::new(&point, lubricant).unwrap();
+            assert!(matches!(domain.trust(&problem), Trust::Outside(_)));
+            domain.strange_shape(&problem)
+        };
+        assert_eq!(shape(40.0, 10.0, barus), None);
+        assert_eq!(shape(40.0, 10.0, Lubricant::default()), None);
+        assert!(shape(1.0, 10.0, barus).is_some_and(|why| why.starts_with("M = 1 lies outside")));
+        assert!(shape(200.0, 15.0, barus).is_some_and(|why| why.starts_with("p_H")));
     }
 
     #[test]

@@ -1,74 +1,19 @@
-//! The reduced operators of one window for a chosen truncation, and the Newton iteration on them. Nothing here is of large scale, and
-//! nothing is allocated inside an iteration.
+//! The reduced operators of one window for a chosen truncation. Nothing in them is of large scale.
+
+mod newton;
+
+pub(crate) use newton::{Case, Iterate, OnlineOutcome, RowObserver, Stop};
 
 use super::model::{Window, deformation_weights};
 use crate::solver::contact::ContactKind;
 use crate::solver::full::{Problem, mid_film_stress};
-use crate::solver::grid::dot;
-use crate::solver::reynolds::film_integrals::KnownFilm;
-use crate::solver::reynolds::generalized::{FilmTreatment, NodeState, ShearNode, gradient_slopes};
-use crate::solver::reynolds::{CENTER, Node, RowGeometry, STENCIL, row};
-use faer::dyn_stack::{MemBuffer, MemStack};
+use crate::solver::reynolds::generalized::{NodeState, ShearNode};
+use crate::solver::reynolds::{CENTER, Node, RowGeometry, STENCIL};
+use faer::dyn_stack::MemBuffer;
 use faer::linalg::lu::partial_pivoting::{factor, solve};
-use faer::linalg::matmul::matmul;
-use faer::{Accum, ColMut, ColRef, Conj, Mat, MatMut, MatRef, Par};
-use pulp::Arch;
+use faer::{Mat, MatRef, Par};
 
-/// The nodes of a row by twos: a row of the Jacobian is read and written half as often.
-const PAIRS: [(usize, usize); STENCIL / 2] = [(0, 1), (2, 3), (4, 5)];
-
-/// How an online Newton iteration ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct OnlineOutcome {
-    pub converged: bool,
-    pub iterations: usize,
-    pub step: f64,
-    /// e_f^I, (3.15), with rows weighted by √w.
-    pub residual: f64,
-}
-
-/// One contact as the reduced operators see it.
-#[derive(Clone, Copy)]
-pub(crate) struct Case<'a> {
-    pub problem: &'a Problem,
-    /// Registration scale s.
-    pub scale: f64,
-    /// 1/R̄ of (2.24); 1 where the radius does not vary.
-    pub curvature: f64,
-    /// Penalty factor γ̄.
-    pub penalty: f64,
-    /// s K V_p at X = 0 (and Y = 0): what the film there gains per unit of each coefficient.
-    pub lift: &'a [f64],
-}
-
-/// When an online iteration stops.
-#[derive(Clone, Copy)]
-pub(crate) struct Stop {
-    pub tolerance: f64,
-    pub max_newton: usize,
-}
-
-/// One online iterate, as the training sees it.
-pub(crate) struct Iterate<'a> {
-    /// f_I on the sampled rows.
-    pub residual: &'a [f64],
-    /// J V Δz̃ on the sampled rows.
-    pub jacobian_step: &'a [f64],
-    /// The reduced Jacobian, load row included.
-    pub jacobian: MatRef<'a, f64>,
-    /// (Δp̃, ΔH₀).
-    pub step: &'a [f64],
-    /// p̃ before the step.
-    pub coefficients: &'a [f64],
-    /// What the film at X = 0 gains per unit of each coefficient.
-    pub lift: &'a [f64],
-    /// H_c before the step.
-    pub h_c: f64,
-}
-
-/// Sees each iterate.
-pub(crate) type RowObserver<'a> = &'a mut dyn FnMut(&Iterate<'_>);
-
+/// What Newton's iteration needs of a window, and its work space.
 pub(crate) struct Operators {
     pub modes: usize,
     /// The nodes the sampled rows depend on.
@@ -241,207 +186,6 @@ impl Operators {
         self.stencil.iter().map(|stencil| self.scratch.nodes[stencil[CENTER]].flow)
     }
 
-    /// Newton's method on (p̃, H₀) for one case, damped by the largest pressure change.
-    pub fn newton(
-        &mut self,
-        case: &Case<'_>,
-        coefficients: &mut [f64],
-        h_0: &mut f64,
-        stop: Stop,
-        mut observer: Option<RowObserver<'_>>,
-    ) -> OnlineOutcome {
-        let mut outcome = OnlineOutcome { converged: false, iterations: 0, step: f64::NAN, residual: f64::NAN };
-        product(&self.state_rows, self.modes, coefficients, &mut self.scratch.fields);
-        // The films of another contact are no start.
-        self.scratch.thinning.fill(ShearNode::default());
-        for iteration in 1..=stop.max_newton {
-            self.evaluate(case, coefficients, *h_0, true);
-            if !self.linear_step(case.problem, case.scale, coefficients, observer.is_some()) {
-                return outcome;
-            }
-            outcome.iterations = iteration;
-            if let Some(observer) = observer.as_mut() {
-                self.jacobian_times_step();
-                let s = &self.scratch;
-                observer(&Iterate {
-                    residual: &s.values,
-                    jacobian_step: &s.product,
-                    jacobian: s.jacobian.as_ref(),
-                    step: &s.rhs,
-                    coefficients,
-                    lift: case.lift,
-                    h_c: *h_0 - 0.5 * case.scale.ln() + dot(case.lift, coefficients),
-                });
-            }
-            let omega = self.damping(case.scale);
-            let s = &mut self.scratch;
-            s.fields.iter_mut().zip(&s.step_fields).for_each(|(field, step)| *field += omega * step);
-            let (mut change, mut size) = (0.0, 0.0);
-            for (c, d) in coefficients.iter_mut().zip(&self.scratch.rhs) {
-                *c += omega * d;
-                change += d * d;
-                size += *c * *c;
-            }
-            *h_0 += omega * self.scratch.rhs[self.modes];
-            outcome.step = (change / size).sqrt();
-            if !outcome.step.is_finite() {
-                return outcome;
-            }
-            if omega == 1.0 && outcome.step < stop.tolerance {
-                outcome.converged = true;
-                break;
-            }
-        }
-        outcome.residual = self.evaluate(case, coefficients, *h_0, false);
-        // A converged iteration with an absurd residual has found garbage.
-        outcome.converged &= outcome.residual.is_finite() && outcome.residual < 1e3;
-        outcome
-    }
-
-    /// Evaluates the sampled rows at the fields; returns e_f^I.
-    fn evaluate(&mut self, case: &Case<'_>, coefficients: &[f64], h_0: f64, derivatives: bool) -> f64 {
-        let Case { problem, scale, curvature, penalty, .. } = *case;
-        let s = &mut self.scratch;
-        let count = self.support.len();
-        let (pressure, rest) = s.fields.split_at(count);
-        let (deformation, gradients) = rest.split_at(count);
-        let offset = h_0 - 0.5 * scale.ln();
-        for ((film, place), deformation) in s.films.iter_mut().zip(&self.support).zip(deformation) {
-            let x = -1.0 + (place.xi + 1.0) * scale;
-            *film = offset + (0.5 * curvature * x * x + place.across) + scale * deformation;
-        }
-        let thinning = problem.shear.as_ref().filter(|_| self.axes > 0);
-        let states = pressure.iter().zip(&s.films);
-        match thinning {
-            None => {
-                for (node, (&pressure, &film)) in s.nodes.iter_mut().zip(states) {
-                    *node = Node::new(&problem.fluid, problem.inverse_lambda, pressure, film);
-                }
-            }
-            Some(law) => {
-                let nodes = s.nodes.iter_mut().zip(&mut s.thinning);
-                let mut beside = KnownFilm::default();
-                for (k, ((node, own), (&pressure, &film))) in nodes.zip(states).enumerate() {
-                    let gradient = [gradients[k] / scale, gradients.get(count + k).copied().unwrap_or(0.0)];
-                    let state = NodeState { pressure, gradient, film };
-                    let (fluid, inverse_lambda) = (&problem.fluid, problem.inverse_lambda);
-                    // Between two iterations the stress hardly changes; in the first one the node before is near.
-                    let known = if own.known.is_empty() { beside } else { own.known };
-                    *own = ShearNode::near(&known, fluid, law, inverse_lambda, state, FilmTreatment::default());
-                    (*node, beside) = (own.node, own.known);
-                }
-            }
-        }
-        let (v, d) = self.state_rows.split_at(count * self.modes);
-        let (d, g) = d.split_at(count * self.modes);
-        let mut sum = 0.0;
-        for (r, (stencil, geometry)) in self.stencil.iter().zip(&self.geometry).enumerate() {
-            let geometry = geometry.scaled(scale);
-            let out = row(&geometry, penalty, stencil.map(|node| &s.nodes[node]));
-            s.values[r] = out.value;
-            sum += self.row_weights[r] * scale * out.value * out.value;
-            if derivatives {
-                let target = &mut s.jacobian_rows[r * self.modes..(r + 1) * self.modes];
-                target.fill(0.0);
-                for (m, n) in PAIRS {
-                    let [(one, a, b), (other, e, f)] = [m, n].map(|m| (stencil[m], out.d_p[m], scale * out.d_h[m]));
-                    if [a, b, e, f] == [0.0; 4] {
-                        continue;
-                    }
-                    let [one, other] = [one, other].map(|node| node * self.modes..(node + 1) * self.modes);
-                    add_rows(target, [(a, &v[one.clone()]), (b, &d[one])], [(e, &v[other.clone()]), (f, &d[other])]);
-                }
-                for axis in 0..if thinning.is_some() { self.axes } else { 0 } {
-                    let per_gradient = if axis == 0 { 1.0 / scale } else { 1.0 };
-                    let slopes = gradient_slopes(&geometry, stencil.map(|node| &s.thinning[node]), axis);
-                    for (m, n) in PAIRS {
-                        let [a, b] = [m, n].map(|m| per_gradient * slopes[m]);
-                        if [a, b] == [0.0; 2] {
-                            continue;
-                        }
-                        let [one, other] = [m, n].map(|m| &g[(axis * count + stencil[m]) * self.modes..][..self.modes]);
-                        add_gradients(target, (a, one), (b, other));
-                    }
-                }
-                s.film_column[r] = out.d_h.iter().sum();
-            }
-        }
-        if let Some(error) = &self.deformation_error {
-            let c = ColRef::from_slice(coefficients);
-            sum += scale * (c.transpose() * (error * c)).max(0.0);
-        }
-        let carried: f64 = self.load_row.iter().zip(coefficients).map(|(l, c)| l * c).sum();
-        sum += (scale * carried - problem.load).powi(2);
-        sum.sqrt()
-    }
-
-    /// Solves the reduced linear system; the step is left in `scratch.rhs`. False when it is singular.
-    /// `keep` keeps a copy of the reduced Jacobian for an observer.
-    fn linear_step(&mut self, problem: &Problem, scale: f64, coefficients: &[f64], keep: bool) -> bool {
-        let modes = self.modes;
-        let s = &mut self.scratch;
-        let rows = s.values.len();
-        let jacobian = MatRef::from_row_major_slice(&s.jacobian_rows, rows, modes);
-        let g = self.reconstruction.as_ref();
-        matmul(s.reduced.get_mut(..modes, ..modes), Accum::Replace, g, jacobian, 1.0, Par::Seq);
-        matmul(
-            s.reduced.get_mut(..modes, modes..),
-            Accum::Replace,
-            g,
-            ColRef::from_slice(&s.film_column).as_mat(),
-            1.0,
-            Par::Seq,
-        );
-        matmul(
-            ColMut::from_slice_mut(&mut s.rhs[..modes]).as_mat_mut(),
-            Accum::Replace,
-            g,
-            ColRef::from_slice(&s.values).as_mat(),
-            -1.0,
-            Par::Seq,
-        );
-        let mut carried = 0.0;
-        for (k, (l, c)) in self.load_row.iter().zip(coefficients).enumerate() {
-            s.reduced[(modes, k)] = scale * l;
-            carried += scale * l * c;
-        }
-        s.reduced[(modes, modes)] = 0.0;
-        s.rhs[modes] = problem.load - carried;
-        if keep {
-            s.jacobian.copy_from(&s.reduced);
-        }
-        let stack = MemStack::new(&mut s.memory);
-        let (_, perm) = factor::lu_in_place(
-            s.reduced.as_mut(),
-            &mut s.perm,
-            &mut s.perm_inverse,
-            Par::Seq,
-            stack,
-            faer::Spec::default(),
-        );
-        let lu = s.reduced.as_ref();
-        let rhs = MatMut::from_column_major_slice_mut(&mut s.rhs, modes + 1, 1);
-        solve::solve_in_place_with_conj(lu, lu, perm, Conj::No, rhs, Par::Seq, stack);
-        s.rhs.iter().all(|v| v.is_finite())
-    }
-
-    /// ω = min(1, 0.3/max|ΔP|), and no sampled film loses more than 70 %.
-    fn damping(&mut self, scale: f64) -> f64 {
-        let s = &mut self.scratch;
-        product(&self.state_rows, self.modes, &s.rhs[..self.modes], &mut s.step_fields);
-        let (pressure, deformation) = s.step_fields.split_at(self.support.len());
-        let largest = pressure.iter().fold(0.0f64, |a, b| a.max(b.abs()));
-        let mut omega = if largest > 0.3 { 0.3 / largest } else { 1.0 };
-        let dh_0 = s.rhs[self.modes];
-        for (&film, d) in s.films.iter().zip(deformation) {
-            let change = dh_0 + scale * d;
-            if change < -0.7 * film && film > 0.0 {
-                omega = omega.min(-0.7 * film / change);
-            }
-        }
-        omega
-    }
-
     /// Traction coefficient (3.41) of the state evaluated last, by the window's rule; `None` where it has none, and under a limiting stress: the
     /// rule was fitted to stresses that nothing cuts.
     pub fn traction(&self, problem: &Problem, scale: f64) -> Option<f64> {
@@ -456,16 +200,6 @@ impl Operators {
         };
         let force: f64 = self.traction.iter().map(stress).sum();
         Some(scale * force * problem.point.area_per_load())
-    }
-
-    /// J V Δz̃ on the sampled rows, for the row snapshots.
-    fn jacobian_times_step(&mut self) {
-        let s = &mut self.scratch;
-        let dh_0 = s.rhs[self.modes];
-        for (r, out) in s.product.iter_mut().enumerate() {
-            let row = &s.jacobian_rows[r * self.modes..(r + 1) * self.modes];
-            *out = s.film_column[r] * dh_0 + row.iter().zip(&s.rhs).map(|(a, b)| a * b).sum::<f64>();
-        }
     }
 
     /// K V_p or V_δ V_δᵀ W K V_p over the whole node array of the window these operators are of.
@@ -484,34 +218,4 @@ impl Operators {
             coefficients.iter_mut().for_each(|c| *c *= factor);
         }
     }
-}
-
-/// out += (a v + b d) + (e w + f g), in registers as wide as the machine has.
-fn add_rows(out: &mut [f64], [(a, v), (b, d)]: [(f64, &[f64]); 2], [(e, w), (f, g)]: [(f64, &[f64]); 2]) {
-    Arch::new().dispatch(|| {
-        for ((t, (v, d)), (w, g)) in out.iter_mut().zip(v.iter().zip(d)).zip(w.iter().zip(g)) {
-            *t = (*t + (a * v + b * d)) + (e * w + f * g);
-        }
-    });
-}
-
-/// out += a v + b w, likewise.
-fn add_gradients(out: &mut [f64], (a, v): (f64, &[f64]), (b, w): (f64, &[f64])) {
-    Arch::new().dispatch(|| {
-        for ((t, v), w) in out.iter_mut().zip(v).zip(w) {
-            *t = (*t + a * v) + b * w;
-        }
-    });
-}
-
-/// out = A x for a row-major A.
-fn product(rows: &[f64], columns: usize, x: &[f64], out: &mut [f64]) {
-    matmul(
-        ColMut::from_slice_mut(out).as_mat_mut(),
-        Accum::Replace,
-        MatRef::from_row_major_slice(rows, rows.len() / columns, columns),
-        ColRef::from_slice(x).as_mat(),
-        1.0,
-        Par::Seq,
-    );
 }

@@ -1,8 +1,7 @@
 //! What a finished window finds out about its own errors.
 //!
-//! At random points (3.17) of the window's own range the reduced solution is carried on by three full Newton steps, six under shear-thinning; what they change is its
-//! error. That is evidence for [`Calibration`], and nothing else: no basis sees these points, and they are not full solutions (three steps
-//! from the reduced solution, a cold full solution takes about 15).
+//! At random points (3.17) of the window's own range the reduced solution is carried on by three full Newton steps, under shear-thinning until
+//! they converge; what they change is its error. That is evidence for [`Calibration`], and nothing else: no basis sees these points.
 
 use super::aside::aside;
 use super::indicator::Corrector;

@@ -208,8 +208,8 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
         }
         log.push(match &trained.calibration {
             Some(c) => {
-                let steps = if c.sliding() { "six" } else { "three" };
-                format!("errors measured at {} random points by {steps} full Newton steps each", c.evidence())
+                let by = if c.sliding() { "a full solution" } else { "three full Newton steps" };
+                format!("errors measured at {} random points by {by} each", c.evidence())
             }
             None => "no error bound: errors were measured at too few points".to_owned(),
         });

@@ -6,7 +6,7 @@ use crate::app::jobs::Key;
 use crate::app::numbers;
 use crate::app::plots::axes;
 use crate::app::state::State;
-use crate::app::theme::{LIVE_WIDTH, Palette};
+use crate::app::theme::{LIVE_WIDTH, Palette, faded};
 use crate::app::traction::{Against, Curve, Markers, Sample, Sweep};
 use egui::{Color32, CursorIcon, Id, PointerButton, Ui, Vec2b};
 use egui_plot::{Corner, HoverPosition, Legend, Line, LineStyle, MarkerShape, Plot, PlotUi, Points, VLine};
@@ -15,6 +15,9 @@ use egui_plot::{Corner, HoverPosition, Legend, Line, LineStyle, MarkerShape, Plo
 const LEAST_HEIGHT: f32 = 110.0;
 /// Metres in the micrometres that films are drawn in.
 const MICRO: f64 = 1e-6;
+
+/// Strength of a curve by a model that was not trained for it.
+const SKETCH: f32 = 0.7;
 
 /// Points in the units of the axes.
 type Points2 = Vec<[f64; 2]>;
@@ -91,11 +94,17 @@ pub fn ui(ui: &mut Ui, state: &State, sweep: &Sweep, shown: &Shown<'_>) -> Optio
     let unit = ((ui.available_height() - 6.0) / 2.0).max(LEAST_HEIGHT);
     let here = state.picture.as_ref().filter(|_| state.picture_is_current());
     let grey = shown.unphysical.is_some();
+    let sketch = shown.curve.is_some_and(|curve| curve.served.untrained.is_some());
     let traction = Chart {
         name: "Traction along the quantity",
         id: "traction",
         titles: ("", "Traction coefficient µ"),
-        curves: &[("Traction", TRACTION, if grey { palette.reference } else { palette.traction }, LIVE_WIDTH)],
+        curves: &[(
+            if sketch { "Traction, model not trained for it" } else { "Traction" },
+            TRACTION,
+            if grey { palette.reference } else { palette.traction },
+            LIVE_WIDTH,
+        )],
         here: here.map(|picture| picture.traction.abs()),
         legend: Corner::LeftTop,
     };
@@ -104,8 +113,13 @@ pub fn ui(ui: &mut Ui, state: &State, sweep: &Sweep, shown: &Shown<'_>) -> Optio
         id: "film",
         titles: (axes.against.axis(sweep.base.point.kind), "Film in µm"),
         curves: &[
-            ("Central film", CENTRAL, palette.film, LIVE_WIDTH),
-            ("Smallest film (dashed)", SMALLEST, palette.film, 1.6),
+            (
+                if sketch { "Central film, model not trained for it" } else { "Central film" },
+                CENTRAL,
+                palette.film,
+                LIVE_WIDTH,
+            ),
+            (if sketch { "Smallest film (dotted)" } else { "Smallest film (dashed)" }, SMALLEST, palette.film, 1.6),
         ],
         here: here.map(|picture| picture.central_film_m() / MICRO),
         legend: Corner::LeftBottom,
@@ -143,7 +157,13 @@ impl Chart<'_> {
             for (k, &(name, of, color, width)) in self.curves.iter().enumerate() {
                 if let Some(curve) = shown.curve {
                     let color = if shown.curve_stale { palette.reference } else { color };
-                    let style = if k == 0 { LineStyle::Solid } else { LineStyle::dashed_loose() };
+                    // What nobody has measured is no firm line.
+                    let (color, style) = match (curve.served.untrained.is_some(), k) {
+                        (false, 0) => (color, LineStyle::Solid),
+                        (false, _) => (color, LineStyle::dashed_loose()),
+                        (true, 0) => (faded(color, SKETCH), LineStyle::dashed_dense()),
+                        (true, _) => (faded(color, SKETCH), LineStyle::dotted_dense()),
+                    };
                     let line = Line::new(name, axes.points(&curve.samples, of)).color(color).width(width);
                     plot.line(line.style(style).id((self.id, k)).allow_band(false));
                 }

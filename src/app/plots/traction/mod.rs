@@ -5,11 +5,10 @@ mod fluid;
 
 use crate::app::controls::{message_ui, named, sentence, warning_ui, why};
 use crate::app::files::Purpose;
-use crate::app::in_use::InUse;
 use crate::app::numbers;
 use crate::app::state::{REST_S, State};
 use crate::app::theme::{Palette, rich};
-use crate::app::traction::{Against, Curve, Markers, Sweep, Varied, export};
+use crate::app::traction::{Against, Curve, LeftOut, Markers, Served, Sweep, Varied, export};
 use egui::{Button, Checkbox, ComboBox, Context, ProgressBar, Ui};
 
 /// Seconds of rest after which a curve of other sliders is drawn grey.
@@ -37,17 +36,17 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
         return;
     };
     let ctx = ui.ctx().clone();
-    if let Ok(in_use) = &served {
-        state.follow_sweep(&ctx, &sweep, in_use);
+    if let Ok(served) = &served {
+        state.follow_sweep(&ctx, &sweep, served);
     }
-    toolbar(ui, state, Some(&sweep));
+    toolbar(ui, state, Some((&sweep, &served)));
     status(ui, state, &sweep, &served);
     let shown = Shown::of(state, &sweep, &served, ui.input(|i| i.time));
     if shown.curve.is_none() && shown.markers.is_none() {
-        let waits = if served.is_ok() {
-            "The curve is being computed"
-        } else {
-            "Full solutions draw the curve here on request"
+        let waits = match served {
+            Ok(_) if !state.traction.curve_is_current() => "The curve is being computed",
+            Ok(_) => "The reduced model has no answer along here: full solutions draw the curve on request",
+            Err(_) => "Full solutions draw the curve here on request",
         };
         ui.centered_and_justified(|ui| ui.weak(waits));
         return;
@@ -72,7 +71,7 @@ struct Shown<'a> {
 }
 
 impl<'a> Shown<'a> {
-    fn of(state: &'a State, sweep: &Sweep, served: &Result<InUse, String>, now: f64) -> Self {
+    fn of(state: &'a State, sweep: &Sweep, served: &Result<Served, String>, now: f64) -> Self {
         let view = &state.traction;
         let varied = sweep.varied;
         let curve = view.curve.as_ref().filter(|curve| curve.sweep.varied == varied && !curve.samples.is_empty());
@@ -98,7 +97,7 @@ const WHY: [&str; 2] = [
      Newtonian. η(p, τ) = µ(p) (NPR + (1 − NPR)(1 + (τ/G_c)^β)^((1 − 1/n)/β)) (3.40)",
 ];
 
-fn toolbar(ui: &mut Ui, state: &mut State, sweep: Option<&Sweep>) {
+fn toolbar(ui: &mut Ui, state: &mut State, sweep: Option<(&Sweep, &Result<Served, String>)>) {
     let ctx = ui.ctx().clone();
     ui.horizontal_wrapped(|ui| {
         against_ui(ui, state);
@@ -113,9 +112,9 @@ fn toolbar(ui: &mut Ui, state: &mut State, sweep: Option<&Sweep>) {
             let tip = "Eleven full solutions along the curve, set on it as rings";
             let button = ui.add_enabled(sweep.is_some(), Button::new("Add full solutions")).on_hover_text(tip);
             if button.clicked()
-                && let Some(sweep) = sweep
+                && let Some((sweep, served)) = sweep
             {
-                state.start_markers(&ctx, sweep);
+                state.start_markers(&ctx, sweep, served);
             }
         }
         exports(ui, state, &ctx);
@@ -157,7 +156,7 @@ fn exports(ui: &mut Ui, state: &mut State, ctx: &Context) {
 }
 
 /// What runs, what is amiss, and what the curve says in numbers.
-fn status(ui: &mut Ui, state: &State, sweep: &Sweep, served: &Result<InUse, String>) {
+fn status(ui: &mut Ui, state: &State, sweep: &Sweep, served: &Result<Served, String>) {
     let view = &state.traction;
     if let Some(standing) = view.full.standing() {
         ui.horizontal(|ui| {
@@ -168,8 +167,16 @@ fn status(ui: &mut Ui, state: &State, sweep: &Sweep, served: &Result<InUse, Stri
             ui.weak(standing.describe());
         });
     }
-    if let Err(why) = served {
-        warning_ui(ui, &format!("no curve by the reduced model: {}", why.trim_end_matches('.')));
+    match served {
+        Ok(Served { untrained: None, .. }) => {}
+        Ok(Served { untrained: Some(why), .. }) => warning_ui(
+            ui,
+            &format!(
+                "the curve is a sketch, for the model was not trained for it: {why}. It solves the equations of these contacts, but no bound on \
+                 its errors is known; full solutions check it"
+            ),
+        ),
+        Err(why) => warning_ui(ui, &format!("no curve by the reduced model: {}", why.trim_end_matches('.'))),
     }
     if let Some(unphysical) = sweep.unphysical() {
         warning_ui(ui, &format!("{unphysical}: it is drawn grey. Set a limiting shear stress, or take less load"));
@@ -183,11 +190,8 @@ fn status(ui: &mut Ui, state: &State, sweep: &Sweep, served: &Result<InUse, Stri
     }
     state.entries.message_ui(ui, "traction");
     if let Some(curve) = view.curve.as_ref().filter(|curve| curve.sweep.varied == sweep.varied) {
-        match &curve.failed {
-            Ok(0) => {}
-            Ok(failed) => {
-                warning_ui(ui, &format!("the reduced model did not converge at {failed} contacts, which are left out"))
-            }
+        match &curve.left_out {
+            Ok(left_out) => left_out_ui(ui, *left_out),
             Err(message) => message_ui(ui, message),
         }
     }
@@ -198,6 +202,22 @@ fn status(ui: &mut Ui, state: &State, sweep: &Sweep, served: &Result<InUse, Stri
         ui.weak(sentence(&format!("the grey rings are full solutions of another sweep, beginning at {of}")));
     }
     ui.label(rich(&summary(state, sweep), 13.0, Palette::of(ui).quiet));
+}
+
+/// Why there are fewer contacts than the curve should have.
+fn left_out_ui(ui: &mut Ui, LeftOut { failed, doubtful }: LeftOut) {
+    let contacts =
+        |count: usize| if count == 1 { "1 contact, which is".into() } else { format!("{count} contacts, which are") };
+    if failed > 0 {
+        warning_ui(ui, &format!("the reduced model did not converge at {} left out", contacts(failed)));
+    }
+    if doubtful > 0 {
+        let contacts = contacts(doubtful);
+        warning_ui(
+            ui,
+            &format!("the residual is far beyond any that the model was measured with at {contacts} left out"),
+        );
+    }
 }
 
 /// Traction here, the largest of the curve, and how far full solutions lie from it.

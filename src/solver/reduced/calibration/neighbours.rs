@@ -1,0 +1,40 @@
+//! The evidence around a place.
+
+use super::AROUND;
+
+/// The nearest evidence, by squared distance.
+pub(super) struct Neighbours {
+    pub(super) nearest: [(f32, usize); AROUND],
+    pub(super) count: usize,
+}
+
+impl Neighbours {
+    /// Nobody so far.
+    pub fn none() -> Self {
+        Self { nearest: [(f32::INFINITY, 0); AROUND], count: 0 }
+    }
+
+    pub fn meet(&mut self, distance: f32, index: usize) {
+        if self.count == AROUND && distance >= self.nearest[AROUND - 1].0 {
+            return;
+        }
+        let known = &self.nearest[..self.count];
+        let at = known.partition_point(|(d, _)| *d <= distance);
+        self.count = (self.count + 1).min(AROUND);
+        self.nearest[at..self.count].rotate_right(1);
+        self.nearest[at] = (distance, index);
+    }
+
+    /// Mean of what is known of the first `count`, near ones counting more.
+    pub fn mean(&self, count: usize, values: &[f32]) -> f64 {
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for &(distance, index) in &self.nearest[..self.count.min(count)] {
+            if values[index].is_finite() {
+                let weight = 1.0 / (f64::from(distance) + 1e-2);
+                sum += weight * f64::from(values[index]);
+                weights += weight;
+            }
+        }
+        if weights > 0.0 { sum / weights } else { 0.0 }
+    }
+}

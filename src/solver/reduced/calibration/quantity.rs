@@ -1,0 +1,103 @@
+//! How one relative error depends on what is known of a reduced solution.
+
+use super::neighbours::Neighbours;
+use super::{AROUND, Estimated, LEAST_EVIDENCE};
+use faer::Mat;
+use faer::linalg::solvers::{PartialPivLu, Solve};
+use serde::{Deserialize, Serialize};
+
+/// Nearest evidence that corrects the likely error.
+const NEAR: usize = 16;
+/// Share of the local surplus that is believed.
+const BELIEF: f64 = 0.8;
+/// Share of the overall mean square in the local one.
+const COMMON: f64 = 0.1;
+/// Part of the evidence that must lie below the bound; more than the 99 % promised, since fresh points scatter.
+const QUANTILE: f64 = 0.996;
+
+/// How one relative error depends on the features.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Quantity {
+    /// Coefficients of a quadratic law's terms.
+    pub law: Vec<f64>,
+    /// Mean over all evidence of `squares`.
+    pub mean_square: f64,
+    /// Bound in units of the law times the root of the local mean square.
+    pub quantile: f64,
+    /// How much larger the logarithms of the evidence's errors are than the law says; not a number where none was measured.
+    pub surplus: Vec<f32>,
+    /// Squares of how many times as large as the law says the errors are.
+    pub squares: Vec<f32>,
+}
+
+impl Quantity {
+    /// Learns the law from the logarithms of errors, not a number where none was measured; `None` where too few were.
+    pub fn fit(terms: &[Vec<f64>], logs: &[f64], neighbours: &[Neighbours]) -> Option<Self> {
+        let known: Vec<usize> = (0..logs.len()).filter(|&i| logs[i].is_finite()).collect();
+        if known.len() < LEAST_EVIDENCE {
+            return None;
+        }
+        let law = least_squares(terms, logs, &known)?;
+        let surplus = terms.iter().zip(logs).map(|(terms, log)| (log - dot(&law, terms)) as f32).collect();
+        let mut out = Self { law, surplus, ..Self::default() };
+        out.measure(neighbours);
+        Some(out)
+    }
+
+    /// What a bound needs beside the law, from the surpluses. Errors change their sign over the range and are tiny beside the places where they
+    /// do: logarithms scatter much there and say nothing about how large an error can be. So the bound counts in the root mean square of the
+    /// errors around, relative to the law.
+    pub fn measure(&mut self, neighbours: &[Neighbours]) {
+        self.squares = self.surplus.iter().map(|surplus| (2.0 * surplus).exp()).collect();
+        let known: Vec<usize> = (0..self.surplus.len()).filter(|&i| self.surplus[i].is_finite()).collect();
+        let squares = known.iter().map(|&i| f64::from(self.squares[i]));
+        self.mean_square = squares.sum::<f64>() / known.len().max(1) as f64;
+        let score = |&i: &usize| f64::from(self.surplus[i]).exp() / self.size(&neighbours[i]);
+        let mut scores: Vec<f64> = known.iter().map(score).collect();
+        scores.sort_by(f64::total_cmp);
+        let place = ((QUANTILE * (known.len() + 1) as f64).ceil() as usize).clamp(1, known.len().max(1));
+        self.quantile = scores.get(place - 1).copied().unwrap_or(0.0);
+    }
+
+    /// Whether every number in it makes sense.
+    pub fn sound(&self, terms: usize, evidence: usize) -> bool {
+        let sizes = [self.mean_square, self.quantile].iter().all(|v| v.is_finite() && *v >= 0.0);
+        let known = self.surplus.iter().zip(&self.squares).all(|(a, b)| a.is_finite() == b.is_finite());
+        let lengths = [self.law.len() == terms, self.surplus.len() == evidence, self.squares.len() == evidence];
+        sizes && known && lengths == [true; 3] && self.law.iter().all(|v| v.is_finite())
+    }
+
+    /// Root mean square of the errors around a place, relative to the law.
+    fn size(&self, near: &Neighbours) -> f64 {
+        ((1.0 - COMMON) * near.mean(AROUND, &self.squares) + COMMON * self.mean_square).sqrt()
+    }
+
+    /// The error of a case with these terms and this evidence around it; `beyond` is by how much the signs of its logarithm exceed the evidence.
+    pub fn estimate(&self, terms: &[f64], near: &Neighbours, beyond: f64) -> Estimated {
+        let law = dot(&self.law, terms) + beyond;
+        let likely = (law + BELIEF * near.mean(NEAR, &self.surplus)).exp();
+        Estimated { likely, bound: self.quantile * law.exp() * self.size(near) }
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// 1, features, and their products.
+pub(super) fn quadratic(x: &[f64]) -> Vec<f64> {
+    let products = (0..x.len()).flat_map(|i| (i..x.len()).map(move |j| x[i] * x[j]));
+    [1.0].into_iter().chain(x.iter().copied()).chain(products).collect()
+}
+
+/// Coefficients that fit the known logarithms, with a slight ridge for features that do not vary.
+fn least_squares(terms: &[Vec<f64>], logs: &[f64], known: &[usize]) -> Option<Vec<f64>> {
+    let count = terms.first()?.len();
+    let normal = Mat::from_fn(count, count, |r, c| {
+        known.iter().map(|&i| terms[i][r] * terms[i][c]).sum::<f64>() + if r == c { 1e-3 } else { 0.0 }
+    });
+    let rhs = Mat::from_fn(count, 1, |r, _| known.iter().map(|&i| terms[i][r] * logs[i]).sum::<f64>());
+    let solved = PartialPivLu::new(normal.as_ref()).solve(&rhs);
+    let law: Vec<f64> = solved.col(0).iter().copied().collect();
+    law.iter().all(|v| v.is_finite()).then_some(law)
+}

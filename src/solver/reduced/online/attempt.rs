@@ -1,0 +1,94 @@
+//! One run of the online iteration, from a guess or along a path from a known contact.
+
+use super::{ReducedError, ReducedOptions};
+use crate::solver::contact::OperatingPoint;
+use crate::solver::full::Problem;
+use crate::solver::grid::dot;
+use crate::solver::reduced::model::{Snapshot, Window};
+use crate::solver::reduced::operators::{Case, OnlineOutcome, Operators, RowObserver, Stop};
+use crate::solver::reduced::start::{Guess, film_number};
+
+/// A converged online iteration.
+pub(super) struct Found {
+    pub coefficients: Vec<f64>,
+    pub h_0: f64,
+    pub h_c: f64,
+    pub iterations: usize,
+    pub residual: f64,
+    pub traction: Option<f64>,
+}
+
+/// Newton from a guess, within `limit` steps and the options' own limit.
+pub(super) fn attempt(
+    window: &Window,
+    operators: &mut Operators,
+    problem: &Problem,
+    start: &Guess,
+    limit: usize,
+    options: &ReducedOptions,
+    observer: &mut Option<RowObserver<'_>>,
+) -> Result<Found, ReducedError> {
+    let scale = window.grid.scale(problem.moes);
+    let zero = window.grid.at_zero(scale);
+    let mut coefficients = start.coefficients[..operators.modes].to_vec();
+    operators.carry_load(problem, scale, &mut coefficients);
+    // H(0) = H₀ − ½ ln s + s δ(0).
+    let deformation = operators.deformation(window);
+    let at_zero = |k: usize| scale * zero.iter().map(|(node, w)| w * deformation[(*node, k)]).sum::<f64>();
+    let lift: Vec<f64> = (0..operators.modes).map(at_zero).collect();
+    let offset = -0.5 * scale.ln();
+    let mut h_0 = start.h_c - (dot(&lift, &coefficients) + offset);
+    let watch = observer.as_mut().map(|o| &mut **o as RowObserver<'_>);
+    let case = Case { problem, scale, curvature: 1.0, penalty: options.penalty.unwrap_or(window.penalty), lift: &lift };
+    let stop = Stop { tolerance: options.tolerance, max_newton: options.max_newton.min(limit) };
+    let outcome = operators.newton(&case, &mut coefficients, &mut h_0, stop, watch);
+    let h_c = h_0 + (dot(&lift, &coefficients) + offset);
+    if outcome.converged && h_c > 0.0 {
+        let OnlineOutcome { iterations, residual, .. } = outcome;
+        let traction = operators.traction(problem, scale);
+        Ok(Found { coefficients, h_0, h_c, iterations, residual, traction })
+    } else {
+        Err(ReducedError::NotConverged { iterations: outcome.iterations, step: outcome.step })
+    }
+}
+
+/// Continuation in the logarithms of the SI quantities from a snapshot's point, with steps that shrink on failure.
+pub(super) fn walk(
+    window: &Window,
+    operators: &mut Operators,
+    target: &Problem,
+    snapshot: &Snapshot,
+    options: &ReducedOptions,
+    observer: &mut Option<RowObserver<'_>>,
+) -> Option<Found> {
+    let (from, to) = (snapshot.point.quantities(), target.point.quantities());
+    let at = |t: f64| {
+        let q: [f64; 6] = std::array::from_fn(|i| from[i] * (to[i] / from[i]).powf(t));
+        let sliding = snapshot.point.sliding.towards(target.point.sliding, t);
+        let point = OperatingPoint::from_quantities(target.point.kind, q, sliding);
+        Problem::new(&point, target.lubricant).ok()
+    };
+    let (mut t, mut stride) = (0.0, 0.25);
+    let mut guess = Guess { coefficients: snapshot.coefficients.clone(), h_c: snapshot.h_c };
+    let mut from_point = snapshot.point;
+    let mut iterations = 0;
+    while stride > 0.01 {
+        let next = f64::min(t + stride, 1.0);
+        let problem = if next >= 1.0 { *target } else { at(next)? };
+        let h_c = guess.h_c * film_number(&problem.point) / film_number(&from_point);
+        let start = Guess { h_c, ..guess.clone() };
+        match attempt(window, operators, &problem, &start, usize::MAX, options, observer) {
+            Ok(found) => {
+                iterations += found.iterations;
+                if next >= 1.0 {
+                    return Some(Found { iterations, ..found });
+                }
+                (t, stride) = (next, 1.5 * stride);
+                guess = Guess { coefficients: found.coefficients, h_c: found.h_c };
+                from_point = problem.point;
+            }
+            Err(_) => stride *= 0.4,
+        }
+    }
+    None
+}

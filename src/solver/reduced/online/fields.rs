@@ -1,0 +1,103 @@
+//! From a reduced solution back to fields: the only large-scale work online, on request.
+
+use super::{Online, ReducedError, ReducedSolution, operators_of};
+use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, Termination, point_scalars_of, scalars_of};
+use crate::solver::grid::ContactGrid;
+use faer::linalg::matmul::matmul;
+use faer::{Accum, ColMut, ColRef, Par};
+
+impl Online {
+    /// Fields and scalars of a reduced solution, on the window's grid; `report.newton_iterations` holds the online iterations.
+    ///
+    /// # Errors
+    /// When the solution's point is refused or it belongs to another model.
+    pub fn reconstruct(&self, solution: &ReducedSolution) -> Result<Solution, ReducedError> {
+        let fields = self.fields(solution)?;
+        let scalars = fields.scalars(solution.h_0);
+        let Fields { problem, grid, scale, pressure, film } = fields;
+        let (mesh, x, y) = match &grid {
+            ContactGrid::Line(grid) => (Mesh::Line { spec: grid.spec, scale }, grid.scaled(scale).x, vec![0.0]),
+            ContactGrid::Point(grid) => (Mesh::Point(grid.spec), grid.x.clone(), grid.y.clone()),
+        };
+        Ok(Solution {
+            problem,
+            mesh,
+            scalars,
+            x,
+            y,
+            pressure,
+            film,
+            report: Report {
+                termination: Termination::Converged,
+                newton_iterations: solution.iterations,
+                linear_iterations: 0,
+                attempts: 1,
+                residuals: Vec::new(),
+                steps: Vec::new(),
+                residual_norm: solution.residual_estimate,
+            },
+        })
+    }
+
+    /// Scalars only.
+    ///
+    /// # Errors
+    /// When the solution's point is refused or it belongs to another model.
+    pub fn scalars(&self, solution: &ReducedSolution) -> Result<Scalars, ReducedError> {
+        Ok(self.fields(solution)?.scalars(solution.h_0))
+    }
+
+    fn fields(&self, solution: &ReducedSolution) -> Result<Fields, ReducedError> {
+        let problem = Problem::new(&solution.point, solution.lubricant)?;
+        let (Some(window), Some(cell)) = (self.model.windows.get(solution.window), self.windows.get(solution.window))
+        else {
+            return Err(ReducedError::Empty);
+        };
+        let operators = cell.get_or_init(|| operators_of(&self.model, window, &self.options));
+        let modes = solution.coefficients.len();
+        if modes > window.pressure.modes.ncols() || modes != operators.modes {
+            return Err(ReducedError::Empty);
+        }
+        let scale = window.grid.scale(problem.moes);
+        let multiply = |matrix: faer::MatRef<'_, f64>| {
+            let mut out = vec![0.0; matrix.nrows()];
+            matmul(
+                ColMut::from_slice_mut(&mut out).as_mat_mut(),
+                Accum::Replace,
+                matrix,
+                ColRef::from_slice(&solution.coefficients).as_mat(),
+                1.0,
+                Par::Seq,
+            );
+            out
+        };
+        let pressure = multiply(window.pressure.modes.get(.., ..modes));
+        let mut film = multiply(operators.deformation(window));
+        let offset = solution.h_0 - 0.5 * scale.ln();
+        for (node, h) in film.iter_mut().enumerate() {
+            let (xi, y) = window.grid.place(node);
+            let x = -1.0 + (xi + 1.0) * scale;
+            *h = offset + 0.5 * (x * x + y * y) + scale * *h;
+        }
+        Ok(Fields { problem, grid: window.grid.clone(), scale, pressure, film })
+    }
+}
+
+/// Reconstructed node arrays.
+struct Fields {
+    problem: Problem,
+    grid: ContactGrid,
+    scale: f64,
+    pressure: Vec<f64>,
+    film: Vec<f64>,
+}
+
+impl Fields {
+    fn scalars(&self, h_0: f64) -> Scalars {
+        let Self { problem, grid, scale, pressure, film } = self;
+        match grid {
+            ContactGrid::Line(grid) => scalars_of(&grid.scaled(*scale), problem, pressure, film, h_0),
+            ContactGrid::Point(grid) => point_scalars_of(grid, problem, pressure, film, h_0),
+        }
+    }
+}

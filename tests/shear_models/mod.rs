@@ -1,0 +1,100 @@
+//! The embedded models of shear-thinning contacts: what the tests of both have in common.
+
+use ehl_explorer::harness::model_file::{embedded_of, embedded_shear_of, from_bytes, to_bytes};
+use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
+use ehl_explorer::solver::contact::{ContactKind, OperatingPoint, Sliding};
+use ehl_explorer::solver::full::{Problem, Solution};
+use ehl_explorer::solver::reduced::{Calibration, Online, ReducedError, ReducedOptions, Trust, Window};
+use ehl_explorer::solver::training::{Range, SlidingRange, random_points};
+use fastrand::Rng;
+
+/// What the model of a kind of contact was trained for.
+pub fn range(kind: ContactKind) -> SlidingRange {
+    let (m, l, max_hertz_pressure) = match kind {
+        ContactKind::Line => ((4.0, 60.0), (5.0, 13.0), None),
+        ContactKind::Point => ((8.0, 240.0), (4.0, 11.0), Some(0.66e9)),
+    };
+    SlidingRange {
+        m,
+        l,
+        srr: (0.0, 1.0),
+        npr: (0.2, 1.0),
+        radius: 12.7e-3,
+        modulus: 123.878213951e9,
+        viscosity: 0.0705,
+        alpha: 1.8925e-8,
+        max_hertz_pressure,
+    }
+}
+
+/// Random contacts of a range.
+pub fn points(kind: ContactKind, range: SlidingRange, count: usize, seed: u64) -> Vec<OperatingPoint> {
+    random_points(&Range::Sliding(range), kind, (0.0, f64::INFINITY), count, &mut Rng::with_seed(seed))
+}
+
+/// The embedded model.
+pub fn online(kind: ContactKind) -> Online {
+    Online::new(embedded_shear_of(kind).unwrap(), ReducedOptions::default())
+}
+
+/// Relative errors of H_c, H_min and a traction coefficient; that of the traction is zero where nothing slides.
+pub fn errors(reduced: &Solution, traction: f64, truth: &Solution) -> [f64; 3] {
+    let off = |reduced: f64, full: f64| (reduced / full - 1.0).abs();
+    let slides = truth.problem.point.sliding.slide_to_roll_ratio > 0.0;
+    let traction = if slides { off(traction, truth.traction_coefficient()) } else { 0.0 };
+    [off(reduced.scalars.h_c, truth.scalars.h_c), off(reduced.scalars.h_min, truth.scalars.h_min), traction]
+}
+
+/// Asserts that sliding the other way gives the same film and the opposite traction, and that a plateau of one ignores sliding.
+pub fn assert_mirrored(mut online: Online, point: OperatingPoint, tolerance: f64) {
+    let mut film = |srr: f64, npr: f64| {
+        online.forget();
+        let solved = online.solve(&OperatingPoint { sliding: sliding(srr, npr), ..point }, SQUALANE_PIP).unwrap();
+        let fields = online.reconstruct(&solved).unwrap();
+        (fields.scalars.h_c, fields.traction_coefficient())
+    };
+    let (one, other) = (film(0.4, 0.3), film(-0.4, 0.3));
+    assert!(
+        (one.0 / other.0 - 1.0).abs() < tolerance && (one.1 / other.1 + 1.0).abs() < tolerance,
+        "{one:?} {other:?}"
+    );
+    assert!((film(0.0, 1.0).0 / film(0.9, 1.0).0 - 1.0).abs() < tolerance);
+}
+
+/// Asserts that each contact lies outside by what a word names, as SRR, NPR and the modulus do beside `base`, and that the model of Newtonian
+/// contacts refuses the lubricant.
+pub fn assert_limits_are_said(online: &Online, base: OperatingPoint, further: &[(OperatingPoint, &str)]) {
+    let trust = |point: &OperatingPoint| online.model.trust(&Problem::new(point, SQUALANE_PIP).unwrap());
+    let common = [
+        (OperatingPoint { sliding: sliding(1.5, 0.5), ..base }, "SRR"),
+        (OperatingPoint { sliding: sliding(0.5, 0.1), ..base }, "NPR"),
+        (OperatingPoint { modulus_pa: 2.0 * base.modulus_pa, ..base }, "modulus"),
+    ];
+    for (point, word) in common.iter().chain(further) {
+        assert!(matches!(trust(point), Trust::Outside(why) if why.contains(word)), "{word}");
+    }
+    let mut newtonian = Online::new(embedded_of(base.kind).unwrap(), ReducedOptions::default());
+    let refused = newtonian.solve(&OperatingPoint { sliding: sliding(0.5, 0.3), ..base }, SQUALANE_PIP);
+    assert_eq!(refused.unwrap_err(), ReducedError::ShearThinning);
+}
+
+/// Asserts that a file keeps all of the model.
+pub fn assert_file_keeps_everything(kind: ContactKind) {
+    let model = embedded_shear_of(kind).unwrap();
+    let bytes = to_bytes(&model).unwrap();
+    let again = from_bytes(&bytes).unwrap();
+    assert_eq!(again.domain, model.domain);
+    let (own, kept) = (&model.windows[0], &again.windows[0]);
+    assert!(kept.snapshots == own.snapshots && again.domain.sliding.is_some());
+    assert!(kept.pressure.modes == own.pressure.modes);
+    assert!(kept.traction == own.traction && kept.traction.is_some());
+    // What was not measured is no number, and equals nothing: the bytes below tell more.
+    let evidence = |window: &Window| window.calibration.as_ref().map(Calibration::evidence);
+    assert!(evidence(kept) == evidence(own) && evidence(kept).is_some());
+    assert_eq!(to_bytes(&again).unwrap(), bytes);
+    assert!(from_bytes(&bytes[..bytes.len() - 8]).is_err());
+}
+
+fn sliding(slide_to_roll_ratio: f64, npr: f64) -> Sliding {
+    Sliding { slide_to_roll_ratio, newtonian_plateau_ratio: Some(npr) }
+}
