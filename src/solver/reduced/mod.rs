@@ -15,6 +15,7 @@ mod model;
 mod online;
 mod operators;
 mod pod;
+mod row_sizes;
 mod sampling;
 mod start;
 pub mod tpwl;
@@ -34,6 +35,7 @@ pub use model::{
 pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution, Starts};
 pub(crate) use operators::Iterate;
 pub use pod::PodBasis;
+pub(crate) use row_sizes::mean_diagonals;
 pub use sampling::{RowSnapshots, SampledRows, Sampling, TestSpace, all_rows, greedy, is_finite, q_deim};
 pub use traction::TractionRule;
 pub use traction_curve::{CurvePoint, CurveVariable, traction_curve};

@@ -31,6 +31,20 @@ impl PodBasis {
         Some(basis)
     }
 
+    /// As many modes as `loss` asks of [`Self::new`], orthonormal under `weights` and with its singular values, but chosen so that they miss least
+    /// under `emphasis`, other weights that are positive where `weights` are: for equations to which some places matter more than others.
+    /// Returns `None` when a decomposition fails (non-finite snapshots).
+    pub fn emphasised(snapshots: MatRef<'_, f64>, weights: &[f64], emphasis: &[f64], loss: f64) -> Option<Self> {
+        let plain = Self::new(snapshots, weights, loss)?;
+        let keep = plain.modes.ncols();
+        let chosen = Self::new(snapshots, emphasis, 0.0)?;
+        let chosen = chosen.modes.get(.., ..keep.min(chosen.modes.ncols()));
+        let weighted = Mat::from_fn(snapshots.nrows(), snapshots.ncols(), |i, j| emphasis[i] * snapshots[(i, j)]);
+        let projected: Mat<f64> = chosen * (chosen.transpose() * &weighted);
+        let modes = Self::new(projected.as_ref(), weights, 0.0)?.modes;
+        Some(Self { modes: modes.get(.., ..keep.min(modes.ncols())).to_owned(), ..plain })
+    }
+
     /// Loss of information when only the first `k` modes are kept, (2.90).
     pub fn loss(&self, k: usize) -> f64 {
         let total: f64 = self.singular_values.iter().sum();
@@ -91,6 +105,34 @@ mod tests {
         assert_eq!(basis.modes_for(0.2 + 1e-12), 1);
         assert_eq!(basis.modes_for(0.05), 3);
         assert_eq!(basis.modes_for(0.0), 3, "no more than what is kept");
+    }
+
+    #[test]
+    fn emphasised_modes_miss_least_under_the_emphasis_and_are_orthonormal_without() {
+        let weights: Vec<f64> = (0..40).map(|i| 0.01 + 0.002 * f64::from(i)).collect();
+        let strong: Vec<f64> = (0..40).map(|i| if i >= 30 { 1e4 * weights[i] } else { weights[i] }).collect();
+        let snapshots = Mat::from_fn(40, 12, |i, j| (-(i as f64 / 40.0 - j as f64 / 12.0).powi(2) * 30.0).exp());
+        // What the span of a basis misses of the snapshots at least, under weights.
+        let missed = |basis: &PodBasis, weights: &[f64]| -> f64 {
+            let own = PodBasis::new(basis.modes.as_ref(), weights, 0.0).unwrap().modes;
+            let weighted = Mat::from_fn(40, 12, |i, j| weights[i] * snapshots[(i, j)]);
+            let rest = &snapshots - &own * (own.transpose() * &weighted);
+            Mat::from_fn(40, 12, |i, j| weights[i].sqrt() * rest[(i, j)]).norm_l2()
+        };
+        let plain = PodBasis::new(snapshots.as_ref(), &weights, 0.05).unwrap();
+        let emphasised = PodBasis::emphasised(snapshots.as_ref(), &weights, &strong, 0.05).unwrap();
+        let keep = plain.modes.ncols();
+        assert_eq!((emphasised.modes.ncols(), &emphasised.singular_values), (keep, &plain.singular_values));
+        // Eckart and Young: no span of as many modes misses less than the further singular values.
+        let singular_values = PodBasis::new(snapshots.as_ref(), &strong, 0.0).unwrap().singular_values;
+        let least = singular_values[keep..].iter().map(|s| s * s).sum::<f64>().sqrt();
+        assert!((missed(&emphasised, &strong) / least - 1.0).abs() < 1e-6);
+        assert!(missed(&plain, &strong) > 1.01 * least);
+        let weighted = Mat::from_fn(40, keep, |i, k| weights[i] * emphasised.modes[(i, k)]);
+        let products: Mat<f64> = emphasised.modes.transpose() * &weighted;
+        assert!((products - Mat::<f64>::identity(keep, keep)).norm_l2() < 1e-10);
+        let same = PodBasis::emphasised(snapshots.as_ref(), &weights, &weights, 0.05).unwrap();
+        assert!((missed(&same, &weights) - missed(&plain, &weights)).abs() < 1e-10);
     }
 
     #[test]

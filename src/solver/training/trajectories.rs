@@ -1,15 +1,15 @@
 //! Training of a reduced model of contacts in time: bases from the steps of full trajectories, rows by a cubature that carries the steps
-//! which the all-rows model takes along the same inputs (`NUMERICS` 6).
+//! which the all-rows model takes along the same inputs (`NUMERICS` 6). Both know how strongly each row answers to its pressure.
 
 use super::aside::aside;
 use super::rows::add_goals;
 use super::{Progress, TrainingError, TrainingObserver};
 use crate::solver::full::transient::{Frame, Keep, Moment, Trajectory, Transient, TransientObserver, march};
-use crate::solver::grid::{ContactGrid, ReferenceGrid, dot};
+use crate::solver::grid::{ContactGrid, FIRST_UNKNOWN, ReferenceGrid, dot};
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel, TrajectoryStart};
 use crate::solver::reduced::{
     GoalEquations, Iterate, PodBasis, SampledRows, Sampling, TestSpace, Window, all_rows, cubature,
-    deformation_weights, is_finite,
+    deformation_weights, is_finite, mean_diagonals,
 };
 use crate::solver::reynolds::PENALTY;
 use faer::Mat;
@@ -58,8 +58,9 @@ pub fn train_trajectories(
     if !trajectories.iter().all(of_one_kind) {
         return Err(TrainingError::NoTrajectories);
     }
-    let exact = bases(grid, trajectories, training, frame, observer)?;
-    let test = TestSpace::new(&exact.window.pressure, &exact.window.grid);
+    let sizes = mean_diagonals(&grid.scaled(1.0), &trajectories.iter().collect::<Vec<_>>(), PENALTY);
+    let exact = bases(grid, trajectories, (&sizes, training), frame, observer)?;
+    let test = test_space(&exact.window.pressure, &exact.window.grid, &sizes);
     let equations = goal_equations(&exact, &test, trajectories, training, observer)?;
     observer.progress(Progress { stage: "Row sampling".to_owned(), done: 0, total: 1 });
     let target = (test.modes.ncols() as f64 * training.rows_per_mode).round() as usize;
@@ -70,11 +71,28 @@ pub fn train_trajectories(
     Ok(model)
 }
 
-/// The model with all rows.
+/// What the rows are tested with: V, each row by its cell's size over the fourth root of its own size. With the emphasis of [`emphasis`] on the other
+/// side, rows and modes meet halfway: the far inlet and the nodes that the rupture passes, whose rows answer up to 10⁸ times as
+/// strongly as those under the contact, no longer decide over the film by the little that modes miss there.
+fn test_space(basis: &PodBasis, grid: &ContactGrid, sizes: &[f64]) -> TestSpace {
+    let mut test = TestSpace::new(basis, grid);
+    test.weights.iter_mut().zip(sizes).for_each(|(weight, size)| *weight /= size.sqrt().sqrt());
+    test
+}
+
+/// The weights under which modes are chosen: cell sizes times the root of the rows' sizes, where pressures are to be met best.
+fn emphasis(grid: &ReferenceGrid, sizes: &[f64]) -> Vec<f64> {
+    let mut weights = grid.weights.clone();
+    let unknowns = weights[FIRST_UNKNOWN..].iter_mut();
+    unknowns.zip(sizes).for_each(|(weight, size)| *weight *= size.sqrt());
+    weights
+}
+
+/// The model with all rows, whose sizes are given.
 fn bases(
     grid: &Arc<ReferenceGrid>,
     trajectories: &[Trajectory],
-    training: &TrajectoryTraining,
+    (sizes, training): (&[f64], &TrajectoryTraining),
     frame: Frame,
     observer: &dyn TrainingObserver,
 ) -> Result<TrajectoryModel, TrainingError> {
@@ -85,11 +103,11 @@ fn bases(
         trajectories.iter().flat_map(|t| t.states.iter().step_by(every)).map(|s| s.pressure.as_slice()).collect();
     let pressures = Mat::from_fn(grid.xi.len(), chosen.len(), |i, j| chosen[j][i]);
     let (contact, loss) = (ContactGrid::Line(Arc::clone(grid)), training.loss);
-    let weights = grid.weights.clone();
+    let (weights, emphasis) = (grid.weights.clone(), emphasis(grid, sizes));
     let (pressure, deformation) = aside(observer, {
         let contact = contact.clone();
         move || {
-            let pressure = PodBasis::new(pressures.as_ref(), &weights, loss);
+            let pressure = PodBasis::emphasised(pressures.as_ref(), &weights, &emphasis, loss);
             let deformations = contact.flex(&pressures);
             let deformation = PodBasis::new(deformations.as_ref(), &deformation_weights(&contact), loss);
             (pressure, deformation)
@@ -111,7 +129,7 @@ fn bases(
             Some(TrajectoryStart { point: t.transient.point, coefficients, h_0: state.h_0 })
         })
         .collect();
-    let rows = all_rows(&TestSpace::new(&pressure, &contact));
+    let rows = all_rows(&test_space(&pressure, &contact, sizes));
     let mut window = Window::new((0.0, f64::INFINITY), contact, pressure, deformation, Vec::new(), Sampling::All, rows);
     window.penalty = PENALTY;
     Ok(TrajectoryModel { frame, window, starts })
@@ -125,6 +143,8 @@ fn goal_equations(
     training: &TrajectoryTraining,
     observer: &dyn TrainingObserver,
 ) -> Result<GoalEquations, TrainingError> {
+    // Rows are candidates by what happens there, not by what they count.
+    let none = GoalEquations::over(&TestSpace::new(&exact.window.pressure, &exact.window.grid));
     // About three iterates in a step, of which every n-th is kept.
     let steps: usize = trajectories.iter().map(|t| t.moments.len()).sum();
     let every = (3 * steps).div_ceil(ITERATES).max(1);
@@ -132,7 +152,7 @@ fn goal_equations(
         .par_iter()
         .enumerate()
         .map(|(index, trajectory)| {
-            let mut equations = GoalEquations::over(test);
+            let mut equations = none.clone();
             let mut rng = Rng::with_seed(training.seed.wrapping_add(index as u64));
             let mut seen = 0;
             let mut model = ReducedMarch::new(exact)?;
@@ -149,7 +169,7 @@ fn goal_equations(
             if observer.cancelled() { Err(TrainingError::Cancelled) } else { Ok(equations) }
         })
         .collect::<Result<_, TrainingError>>()?;
-    let mut all = GoalEquations::over(test);
+    let mut all = none;
     collected.iter().for_each(|equations| all.merge(equations));
     Ok(all)
 }

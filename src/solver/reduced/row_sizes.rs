@@ -1,0 +1,92 @@
+//! How strongly the rows of the full system answer to their own pressures along trajectories.
+
+use crate::solver::full::transient::Trajectory;
+use crate::solver::grid::LineGrid;
+use crate::solver::reynolds::line::Upstream;
+use crate::solver::reynolds::{CENTER, Node};
+
+/// States that the mean is taken over, about.
+const STATES: usize = 100;
+
+/// The mean of |∂r/∂P| of each row by its own pressure, its film included, in a time step along trajectories that kept fields; one value per unknown,
+/// in the scales of the trajectories' frame. `penalty` is the slope of Λ = −γ̄ min(P, 0) behind the rupture. In the far inlet it is 10⁸ times as
+/// large as under the contact: the little that modes miss there would decide over the film, if every row counted by its cell's size.
+/// The flow is taken from the inlet throughout: the other side hardly changes a size.
+pub(crate) fn mean_diagonals(grid: &LineGrid, trajectories: &[&Trajectory], penalty: f64) -> Vec<f64> {
+    let mut sums = vec![0.0; grid.unknowns()];
+    let mut count = 0.0;
+    let states: usize = trajectories.iter().map(|t| t.states.len()).sum();
+    let stride = states.div_ceil(STATES).max(1);
+    for trajectory in trajectories {
+        let steps = trajectory.moments.len().saturating_sub(1).max(1);
+        let storage = 1.5 * steps as f64 / trajectory.transient.duration;
+        let (frame, inputs) = (trajectory.transient.frame, &trajectory.transient.inputs);
+        for state in trajectory.states.iter().step_by(stride) {
+            // What was marched through was accepted then.
+            let Ok(at) = frame.conditions(&trajectory.problem, state.time, inputs.at(state.time)) else { continue };
+            let node = |(&p, &h): (&f64, &f64)| Node::new(&at.problem.fluid, at.problem.inverse_lambda, p, h);
+            let nodes: Vec<Node> = state.pressure.iter().zip(&state.film).map(node).collect();
+            for (k, sum) in sums.iter_mut().enumerate() {
+                let geometry = grid.rows[k].in_time(at.speed.abs(), storage, 0.0);
+                let row = Upstream::Inlet.row(&geometry, penalty, &nodes, k);
+                let by_film = row.d_h.iter().enumerate().map(|(m, d)| d * grid.kernel_entry(k + m, k + CENTER));
+                *sum += (row.d_p[CENTER] + by_film.sum::<f64>()).abs();
+            }
+            count += 1.0;
+        }
+    }
+    sums.iter().map(|sum| sum / count).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::contact::OperatingPoint;
+    use crate::solver::elasticity::Scratch;
+    use crate::solver::full::transient::{self, Frame, Inputs, Keep, Signal, TimeStep, Transient};
+    use crate::solver::grid::{FIRST_UNKNOWN, GridSpec};
+    use crate::solver::lubricant::Lubricant;
+
+    #[test]
+    fn sizes_are_difference_quotients_of_whole_rows_and_span_many_orders() {
+        let spec = GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) };
+        let step = 0.01;
+        let load = Signal::Harmonic { amplitude: 0.1, period: 0.2 };
+        let asked = Transient {
+            point: OperatingPoint::TABLE_2_1,
+            lubricant: Lubricant::default(),
+            inputs: Inputs::load(load),
+            frame: Frame::Fixed,
+            duration: 0.1,
+            time_step: TimeStep::Fixed(step),
+            keep: Keep::Every(5),
+        };
+        let trajectory = transient::solve(spec, &asked, &mut ()).unwrap();
+        let grid = spec.build().unwrap().scaled(1.0);
+        let penalty = 1e4;
+        let sizes = mean_diagonals(&grid, &[&trajectory], penalty);
+        let problem = &trajectory.problem;
+        // The row with one pressure changed and the film bent by it.
+        let value = |state: &transient::State, k: usize, by: f64| {
+            let (mut pressure, mut bent) = (vec![0.0; grid.len()], vec![0.0; grid.len()]);
+            pressure[k + FIRST_UNKNOWN] = by;
+            grid.deform(&pressure, &mut bent, &mut Scratch::default());
+            let nodes: Vec<Node> = (0..grid.len())
+                .map(|i| {
+                    let (p, h) = (state.pressure[i] + pressure[i], state.film[i] + bent[i]);
+                    Node::new(&problem.fluid, problem.inverse_lambda, p, h)
+                })
+                .collect();
+            let geometry = grid.rows[k].in_time(1.0, 1.5 / step, 0.0);
+            Upstream::Inlet.row(&geometry, penalty, &nodes, k).value
+        };
+        assert_eq!(trajectory.states.len(), 3);
+        for k in (0..grid.unknowns()).step_by(13) {
+            let quotient = |state| (value(state, k, 1e-7) - value(state, k, -1e-7)) / 2e-7;
+            let mean = trajectory.states.iter().map(|state| f64::abs(quotient(state))).sum::<f64>() / 3.0;
+            assert!((sizes[k] / mean - 1.0).abs() < 1e-4, "row {k}: {:e} against {mean:e}", sizes[k]);
+        }
+        let at = |x: f64| sizes[grid.x.partition_point(|&own| own < x) - FIRST_UNKNOWN];
+        assert!(at(-3.5) > 1e5 * at(0.0), "{:e} and {:e}", at(-3.5), at(0.0));
+    }
+}
