@@ -7,7 +7,7 @@ use super::report::{PointReport, RESULT_COLUMNS};
 use super::run::{request_of, step};
 use super::statistics::{median, percentile};
 use super::table::Table;
-use super::workbench::{Request, Workbench};
+use super::workbench::Workbench;
 use crate::scene::{At, Axis, Grid, Method, QuantityBox, Scene, Steps, Variable};
 use crate::solver::contact::{OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
 use crate::solver::full::Solution;
