@@ -60,14 +60,15 @@ fn it_solves_its_range_and_agrees_with_full_solutions() {
     println!("greatest errors of H_c, H_min and traction: {worst:?}");
     assert!(worst.iter().all(|&error| error < 5e-3), "{worst:?}");
     assert!(kept * 50 >= 49 * promises, "{kept} of {promises} bounds hold");
-    // A bound many times too large says as little as none: the best there can be is 4 times the error in the median.
+    // A bound many times too large says as little as none: the best there can be is 4 times the error in the median. Too few of these contacts
+    // have a traction to judge its bound by; the scene of random tests does.
     let median = |mut ratios: Vec<f64>| {
         ratios.sort_by(f64::total_cmp);
         ratios[ratios.len() / 2]
     };
-    let medians = tightness.map(median);
-    println!("bounds of H_c, H_min and traction over the errors, medians: {medians:.1?}");
-    assert!(medians.iter().all(|&ratio| ratio < 12.0), "{medians:.1?}");
+    let [h_c, h_min, _] = tightness.map(median);
+    println!("bounds of H_c and H_min over the errors, medians: {h_c:.1} and {h_min:.1}");
+    assert!(h_c < 8.0 && h_min < 10.0, "{h_c:.1} and {h_min:.1}");
 }
 
 #[test]
