@@ -2,23 +2,18 @@
 //!
 //! The power laws of a shear-thinning film take two of each at every point of the rule across it: with the C library's functions, one number after
 //! the other, they made up two thirds of a reduced solve. Reductions and coefficients are those of fdlibm (Sun Microsystems 1993,
-//! `e_log.c`, `e_exp.c`); both functions are within 1e-15 relative of the library's where these do not vanish. The registers are as wide as the
-//! machine's; the numbers are the same in all of them.
-
-use pulp::Arch;
+//! `e_log.c`, `e_exp.c`); both functions are within 1e-15 relative of the library's where these do not vanish.
 
 /// Raises every x > 0 to a power. A slice, and a function of its own: unrolled over an array of twelve it would not run in vector registers, which takes
 /// half as long again.
 #[inline(never)]
 pub(super) fn raise(values: &mut [f64], exponent: f64) {
-    Arch::new().dispatch(|| {
-        for x in values.iter_mut() {
-            *x = exponent * ln(*x);
-        }
-        for x in values {
-            *x = exp(*x);
-        }
-    });
+    for x in values.iter_mut() {
+        *x = exponent * ln(*x);
+    }
+    for x in values {
+        *x = exp(*x);
+    }
 }
 
 const LN_2_HIGH: f64 = 6.931_471_803_691_238e-1;

@@ -10,7 +10,6 @@ use faer::dyn_stack::MemStack;
 use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Conj, MatMut, MatRef, Par};
-use pulp::Arch;
 
 /// The nodes of a row by twos: a row of the Jacobian is read and written half as often.
 const PAIRS: [(usize, usize); STENCIL / 2] = [(0, 1), (2, 3), (4, 5)];
@@ -176,7 +175,11 @@ impl Operators {
                         continue;
                     }
                     let [one, other] = [one, other].map(|node| node * self.modes..(node + 1) * self.modes);
-                    add_rows(target, [(a, &v[one.clone()]), (b, &d[one])], [(e, &v[other.clone()]), (f, &d[other])]);
+                    let first = v[one.clone()].iter().zip(&d[one]);
+                    let second = v[other.clone()].iter().zip(&d[other]);
+                    for ((t, (v, d)), (w, g)) in target.iter_mut().zip(first).zip(second) {
+                        *t = (*t + (a * v + b * d)) + (e * w + f * g);
+                    }
                 }
                 for axis in 0..if thinning.is_some() { self.axes } else { 0 } {
                     let per_gradient = if axis == 0 { 1.0 / scale } else { 1.0 };
@@ -187,7 +190,9 @@ impl Operators {
                             continue;
                         }
                         let [one, other] = [m, n].map(|m| &g[(axis * count + stencil[m]) * self.modes..][..self.modes]);
-                        add_gradients(target, (a, one), (b, other));
+                        for ((t, v), w) in target.iter_mut().zip(one).zip(other) {
+                            *t = (*t + a * v) + b * w;
+                        }
                     }
                 }
                 s.film_column[r] = out.d_h.iter().sum();
@@ -278,24 +283,6 @@ impl Operators {
             *out = s.film_column[r] * dh_0 + row.iter().zip(&s.rhs).map(|(a, b)| a * b).sum::<f64>();
         }
     }
-}
-
-/// out += (a v + b d) + (e w + f g), in registers as wide as the machine has.
-fn add_rows(out: &mut [f64], [(a, v), (b, d)]: [(f64, &[f64]); 2], [(e, w), (f, g)]: [(f64, &[f64]); 2]) {
-    Arch::new().dispatch(|| {
-        for ((t, (v, d)), (w, g)) in out.iter_mut().zip(v.iter().zip(d)).zip(w.iter().zip(g)) {
-            *t = (*t + (a * v + b * d)) + (e * w + f * g);
-        }
-    });
-}
-
-/// out += a v + b w, likewise.
-fn add_gradients(out: &mut [f64], (a, v): (f64, &[f64]), (b, w): (f64, &[f64])) {
-    Arch::new().dispatch(|| {
-        for ((t, v), w) in out.iter_mut().zip(v).zip(w) {
-            *t = (*t + a * v) + b * w;
-        }
-    });
 }
 
 /// out = A x for a row-major A.
