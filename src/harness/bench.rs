@@ -37,10 +37,12 @@ const BASELINE_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_
 const ROW_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(8)];
 /// Points of the full rows and of the reduced row.
 const FULL_POINTS: [usize; 2] = [400, 120];
-const REDUCED_POINTS: [usize; 2] = [10_000, 2_000];
+const REDUCED_POINTS: [usize; 2] = [10_000, 1_000];
 const BASELINE_POINTS: [usize; 2] = [40, 12];
-/// Shear-thinning line contacts.
+/// Shear-thinning line contacts, of either kind for their reduced models, and how many of these have a traction curve.
 const SHEAR_POINTS: [usize; 2] = [150, 40];
+const REDUCED_SHEAR_POINTS: [usize; 2] = [1000, 150];
+const CURVES: [usize; 2] = [50, 20];
 /// Point contacts: solves, and the time after which no further ones are begun.
 const POINT_POINTS: [usize; 2] = [50, 8];
 const POINT_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(5)];
@@ -126,11 +128,8 @@ pub fn run(quick: bool) -> Result<Bench, HarnessError> {
         }
         Err(reason) => bench.notes.push(format!("line/reduced is missing: {reason}")),
     }
-    rows.extend(bench.reduced_shear_rows(
-        ["line/shear/reduced", "line/shear/traction-curve"],
-        &shear,
-        ROW_BUDGET[size],
-    ));
+    let names = ["line/shear/reduced", "line/shear/traction-curve"];
+    rows.extend(bench.reduced_shear_rows(names, ContactKind::Line, size)?);
     bench.add(rows, BASELINE);
     bench.add(transient_rows(size)?, TRANSIENT_BASELINE);
     let shear = shear_problems(ContactKind::Point, POINT_POINTS[size])?;
@@ -147,7 +146,7 @@ pub fn run(quick: bool) -> Result<Bench, HarnessError> {
         Err(reason) => bench.notes.push(format!("point/reduced is missing: {reason}")),
     }
     let names = ["point/shear/reduced", "point/shear/traction-curve"];
-    rows.extend(bench.reduced_shear_rows(names, &shear, POINT_BUDGET[size]));
+    rows.extend(bench.reduced_shear_rows(names, ContactKind::Point, size)?);
     bench.add(rows, POINT_BASELINE);
     Ok(bench)
 }
@@ -158,21 +157,22 @@ impl Bench {
     fn reduced_shear_rows(
         &mut self,
         [solve, curve]: [&'static str; 2],
-        problems: &[Problem],
-        budget: Duration,
-    ) -> Vec<Timing> {
-        let Some(first) = problems.first() else { return Vec::new() };
-        match super::embedded_shear_model(first.point.kind) {
+        kind: ContactKind,
+        size: usize,
+    ) -> Result<Vec<Timing>, HarnessError> {
+        match super::embedded_shear_model(kind) {
             Ok(model) => {
                 let mut online = Online::new(model, ReducedOptions::default());
+                let problems = shear_problems(kind, REDUCED_SHEAR_POINTS[size])?;
                 let points: Vec<OperatingPoint> = problems.iter().map(|problem| problem.point).collect();
-                let points = (points.as_slice(), named_lubricant::SQUALANE_PIP);
-                let solves = reduced_row(solve, &mut online, points, false, budget);
-                vec![solves, curve_row(curve, &mut online, points, budget)]
+                let lubricant = named_lubricant::SQUALANE_PIP;
+                let solves = reduced_row(solve, &mut online, (&points, lubricant), false, POINT_BUDGET[size]);
+                let curves = (&points[..CURVES[size]], lubricant);
+                Ok(vec![solves, curve_row(curve, &mut online, curves, POINT_BUDGET[size])])
             }
             Err(reason) => {
                 self.notes.push(format!("{solve} is missing: {reason}"));
-                Vec::new()
+                Ok(Vec::new())
             }
         }
     }
