@@ -9,8 +9,9 @@ use super::model::Window;
 use crate::solver::grid::ContactGrid;
 use serde::{Deserialize, Serialize};
 
-/// Nodes of a rule: with 60 the rule's own error lies far below that of the reduced fields.
-const NODES: usize = 60;
+/// Nodes of a rule. They cost little, being evaluated anyway. Of shear-thinning point contacts 60 left errors of 2.7e-3 (95 %) and 1.2e-2 (max)
+/// of 1,446 random ones, more than the reduced fields themselves.
+const NODES: usize = 180;
 
 /// Weights of the mid-film stress at few nodes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

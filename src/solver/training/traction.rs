@@ -9,8 +9,8 @@ use fastrand::Rng;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Reduced solutions that a rule is fitted to.
-const SOLUTIONS: usize = 300;
+/// Reduced solutions that a rule is fitted to, several per node.
+const SOLUTIONS: usize = 1000;
 /// Every second of them slides more slowly, down to this share of its SRR: there the stress gathers in the middle of the contact.
 const SLOWEST: f64 = 1e-3;
 
