@@ -75,6 +75,20 @@ fn what_is_typed_is_found_and_done() {
 }
 
 #[test]
+fn a_short_list_of_matches_does_not_keep_a_longer_one_short() {
+    let mut harness = open();
+    ask(&mut harness, "regim");
+    press(&mut harness, Modifiers::NONE, Key::Escape);
+    harness.run_steps(3);
+    press(&mut harness, Modifiers::COMMAND, Key::P);
+    harness.run_steps(3);
+    // A press on a line that is cut off would fall beside the palette.
+    harness.get_by_role_and_label(Role::ListBoxOption, "Go to Transient").click();
+    harness.run_steps(3);
+    assert!(!palette_is_open(&harness) && shows(&harness, "Run in time"));
+}
+
+#[test]
 fn arrows_choose_escape_leaves_everything_as_it_was_and_keys_belong_to_the_palette() {
     let mut harness = open();
     harness.get_by_role_and_label(Role::TextInput, "Radius R").focus();

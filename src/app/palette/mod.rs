@@ -118,7 +118,9 @@ impl Open {
         self.chosen = wanted as usize;
         let mut clicked = None;
         let height = (LINES * LINE).min(ui.ctx().content_rect().height() - TOP - 80.0);
-        let mut list = ScrollArea::vertical().max_height(height).auto_shrink([false, true]);
+        // The area remembers its size; a few matches before must not keep a longer list short.
+        let list = ScrollArea::vertical().max_height(height).min_scrolled_height(height);
+        let mut list = list.auto_shrink([false, true]);
         if edit.changed() {
             list = list.vertical_scroll_offset(0.0);
         }
