@@ -19,6 +19,7 @@ pub mod transient;
 pub use contact_solver::ContactSolver;
 pub use line::{LineSystem, SolveOptions};
 pub use point::{PointOptions, PointSolver, PointSystem};
+pub(crate) use solution::under_contact;
 pub use solution::{
     Mesh, Problem, Report, Scalars, Solution, SolveError, Termination, Traction, point_scalars_of, scalars_of,
 };

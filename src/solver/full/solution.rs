@@ -359,7 +359,7 @@ pub fn point_scalars_of(grid: &PointGrid, problem: &Problem, pressure: &[f64], f
     };
     for node in (0..grid.unknowns()).map(|unknown| grid.node(unknown)) {
         let (x, y) = (grid.x[node / grid.ny()], grid.y[node % grid.ny()]);
-        if film[node] < out.h_min && x > -1.2 && x < 1.5 {
+        if film[node] < out.h_min && under_contact(x) {
             (out.h_min, out.x_h_min, out.y_h_min) = (film[node], x, y);
         }
         if pressure[node] > out.p_max {
@@ -367,6 +367,11 @@ pub fn point_scalars_of(grid: &PointGrid, problem: &Problem, pressure: &[f64], f
         }
     }
     out
+}
+
+/// Where the smallest film is looked for: −1.2 < X < 1.5.
+pub(crate) fn under_contact(x: f64) -> bool {
+    x > -1.2 && x < 1.5
 }
 
 /// Scalars of fields on a line grid.
@@ -382,7 +387,7 @@ pub fn scalars_of(grid: &LineGrid, problem: &Problem, pressure: &[f64], film: &[
     };
     for i in FIRST_UNKNOWN..grid.len() - 1 {
         let x = grid.x[i];
-        if film[i] < out.h_min && x > -1.2 && x < 1.5 {
+        if film[i] < out.h_min && under_contact(x) {
             (out.h_min, out.x_h_min) = (film[i], x);
         }
         if pressure[i] > out.p_max {

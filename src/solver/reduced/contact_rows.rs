@@ -1,13 +1,10 @@
 //! The scalars of a reduced state in time, from the nodes under the contact alone.
 
-use crate::solver::full::Scalars;
 use crate::solver::full::transient::Conditions;
+use crate::solver::full::{Scalars, under_contact};
 use crate::solver::grid::{LineGrid, dot};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Mat, MatRef, Par};
-
-/// Where the smallest film is looked for, as [`crate::solver::full::scalars_of`] does, and where the largest pressure lies.
-const CONTACT: (f64, f64) = (-1.2, 1.5);
 
 /// The rows of a basis under the contact, and what it takes to draw scalars from them.
 ///
@@ -31,8 +28,10 @@ impl ContactRows {
     /// The rows of V and K V, both nodes × modes, on a grid.
     pub fn new(grid: &LineGrid, pressure: MatRef<'_, f64>, deformation: MatRef<'_, f64>) -> Self {
         let (first, weights) = grid.interpolation(0.0);
-        let from = grid.x.partition_point(|&x| x <= CONTACT.0).min(first);
-        let to = grid.x.partition_point(|&x| x < CONTACT.1).max(first + weights.len());
+        // The largest pressure lies where the smallest film is looked for.
+        let under = |&x: &f64| under_contact(x);
+        let from = grid.x.iter().position(under).map_or(first, |from| from.min(first));
+        let to = grid.x.iter().rposition(under).map_or(0, |last| last + 1).max(first + weights.len());
         let (nodes, modes) = (to - from, pressure.ncols());
         let at = |row: usize, k: usize| match row < nodes {
             true => pressure[(from + row, k)],
@@ -64,7 +63,7 @@ impl ContactRows {
             if f64::from(p) > highest.1 {
                 highest = (k, f64::from(p));
             }
-            if film < thinnest.1 && x > CONTACT.0 && x < CONTACT.1 {
+            if film < thinnest.1 && under_contact(x) {
                 thinnest = (k, film);
             }
         }
