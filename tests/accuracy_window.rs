@@ -6,7 +6,7 @@ use driver::{Window, choose, click, give_path, scratch, set, shows, undo, wait_u
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
 use ehl_explorer::app::Explorer;
-use ehl_explorer::harness::model_file;
+use ehl_explorer::engine::model_file;
 use std::time::{Duration, Instant};
 
 /// A study must stop within this; debug builds are many times slower.

@@ -1,13 +1,13 @@
 //! Online iterations and online steps in time must not allocate: more of them, the same number of allocations.
 
-use ehl_explorer::harness::model_file::{embedded, embedded_shear_of};
+use ehl_explorer::engine::model_file::{embedded, embedded_shear_of};
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
-use ehl_explorer::solver::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
+use ehl_explorer::solver::discrete::grid::GridSpec;
 use ehl_explorer::solver::full::transient::{
     self, Frame, Inputs, Keep, Marching, Moment, Signal, TimeStep, Transient, TransientObserver, march,
 };
-use ehl_explorer::solver::grid::GridSpec;
-use ehl_explorer::solver::lubricant::Lubricant;
+use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
+use ehl_explorer::solver::physics::lubricant::Lubricant;
 use ehl_explorer::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
 use ehl_explorer::solver::reduced::transient::ReducedMarch;
 use ehl_explorer::solver::reduced::{Online, ReducedModel, ReducedOptions};

@@ -1,9 +1,9 @@
 //! How soon a cancelled training or full solve returns, whatever it was doing.
 
-use ehl_explorer::solver::contact::{ContactKind, MoesRequest, si_from_moes};
+use ehl_explorer::solver::discrete::grid::{ContactGridSpec, GridSpec, PointGridSpec};
 use ehl_explorer::solver::full::{PointSolver, Start, Termination};
-use ehl_explorer::solver::grid::{ContactGridSpec, GridSpec, PointGridSpec};
 use ehl_explorer::solver::observer::Observer;
+use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, si_from_moes};
 use ehl_explorer::solver::reduced::Sampling;
 use ehl_explorer::solver::training::{
     Indicator, Plan, Progress, QuantityBox, Range, TrainingError, TrainingObserver, TrainingSpec, TrainingState,

@@ -1,9 +1,9 @@
 //! The embedded reduced model against full solutions on its own grid, across window edges, and as a dragged slider meets it.
 
-use ehl_explorer::harness::model_file::embedded;
-use ehl_explorer::solver::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
+use ehl_explorer::engine::model_file::embedded;
 use ehl_explorer::solver::full::{ContactSolver, Solution, Start};
-use ehl_explorer::solver::lubricant::Lubricant;
+use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
+use ehl_explorer::solver::physics::lubricant::Lubricant;
 use ehl_explorer::solver::reduced::{Online, ReducedOptions, Trust};
 use std::sync::Arc;
 

@@ -1,11 +1,11 @@
 //! The embedded reduced model of point contacts against full solutions on its own grid.
 
-use ehl_explorer::harness::model_file::embedded_of;
-use ehl_explorer::harness::{median, percentile, random_points};
+use ehl_explorer::engine::model_file::embedded_of;
+use ehl_explorer::engine::{median, percentile, random_points};
 use ehl_explorer::scene::{QuantityBox, TestRange};
-use ehl_explorer::solver::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use ehl_explorer::solver::full::{ContactSolver, Start};
-use ehl_explorer::solver::lubricant::Lubricant;
+use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
+use ehl_explorer::solver::physics::lubricant::Lubricant;
 use ehl_explorer::solver::reduced::{Online, ReducedError, ReducedOptions, Trust};
 
 fn online() -> Online {

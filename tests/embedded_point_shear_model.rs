@@ -3,13 +3,13 @@
 
 mod shear_models;
 
-use ehl_explorer::harness::model_file::to_bytes;
-use ehl_explorer::harness::{SceneOutcome, Workbench, run_scene};
+use ehl_explorer::engine::model_file::to_bytes;
+use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene};
 use ehl_explorer::scene::named_lubricant::{SQUALANE_PIP, by_name};
 use ehl_explorer::scene::{Axis, Scene, Steps, Study};
-use ehl_explorer::solver::contact::{ContactKind, OperatingPoint, Sliding};
+use ehl_explorer::solver::discrete::grid::{ContactGridSpec, PointGridSpec};
 use ehl_explorer::solver::full::{ContactSolver, Start};
-use ehl_explorer::solver::grid::{ContactGridSpec, PointGridSpec};
+use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use ehl_explorer::solver::reduced::{Online, ReducedModel, ReducedOptions, Sampling, Trust};
 use ehl_explorer::solver::training::{Plan, Range, SlidingRange, TrainingSpec, WindowSpec, Windows, train};
 use shear_models::{assert_file_keeps_everything, assert_limits_are_said, assert_mirrored, errors};

@@ -2,12 +2,12 @@
 
 mod shear_models;
 
-use ehl_explorer::harness::{SceneOutcome, Workbench, run_scene};
+use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene};
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
 use ehl_explorer::scene::{Method, Scene, Study};
-use ehl_explorer::solver::contact::{ContactKind, OperatingPoint, Sliding};
 use ehl_explorer::solver::full::{ContactSolver, Start};
-use ehl_explorer::solver::lubricant::Lubricant;
+use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
+use ehl_explorer::solver::physics::lubricant::Lubricant;
 use ehl_explorer::solver::reduced::{CurveVariable, Online, ReducedOptions, Sampling, Trust, traction_curve};
 use ehl_explorer::solver::training::{Plan, Range, SlidingRange, TrainingSpec, Windows};
 use shear_models::{assert_file_keeps_everything, assert_limits_are_said, assert_mirrored, errors};

@@ -1,8 +1,8 @@
 //! Studies of training at a small size: plans side by side and an adaptive training cut at its tolerances.
 
-use ehl_explorer::harness::{SceneOutcome, Workbench, run_scene};
+use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene};
 use ehl_explorer::scene::{ComparedPlan, OnlineScheme, QuantityBox, Scene, Study};
-use ehl_explorer::solver::grid::{ContactGridSpec, GridSpec};
+use ehl_explorer::solver::discrete::grid::{ContactGridSpec, GridSpec};
 use ehl_explorer::solver::reduced::Sampling;
 use ehl_explorer::solver::training::{Indicator, Plan, Range, TrainingSpec, WindowSpec, Windows};
 use std::path::{Path, PathBuf};

@@ -1,10 +1,10 @@
 //! Full solutions of point contacts against independent ones on the same grid, and the corners of the dissertation's box.
 
 use ehl_explorer::scene::QuantityBox;
-use ehl_explorer::solver::contact::{ContactKind, OperatingPoint, Sliding};
+use ehl_explorer::solver::discrete::grid::PointGridSpec;
 use ehl_explorer::solver::full::{PointSolver, Start};
-use ehl_explorer::solver::grid::PointGridSpec;
-use ehl_explorer::solver::lubricant::Lubricant;
+use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
+use ehl_explorer::solver::physics::lubricant::Lubricant;
 use serde_json::Value;
 
 #[test]

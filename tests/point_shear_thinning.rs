@@ -1,10 +1,10 @@
 //! Shear-thinning point contacts: against independent solutions on the same grid, and their symmetries.
 
 use ehl_explorer::scene::named_lubricant::by_name;
-use ehl_explorer::solver::contact::{ContactKind, OperatingPoint, reduced_modulus};
+use ehl_explorer::solver::discrete::grid::PointGridSpec;
 use ehl_explorer::solver::full::{PointSolver, Problem, Solution, Start};
-use ehl_explorer::solver::grid::PointGridSpec;
-use ehl_explorer::solver::lubricant::{LimitingStress, Lubricant, Sliding};
+use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, reduced_modulus};
+use ehl_explorer::solver::physics::lubricant::{LimitingStress, Lubricant, Sliding};
 use serde_json::Value;
 
 const COARSE: PointGridSpec = PointGridSpec::uniform(0.04, 0.1, (-4.0, 2.0, -2.0));

@@ -1,10 +1,10 @@
 //! The full solver against independent solutions on the same grid, and against published mathematics.
 
 use ehl_explorer::scene::Scene;
-use ehl_explorer::solver::contact::{ContactKind, OperatingPoint, Sliding};
+use ehl_explorer::solver::discrete::grid::GridSpec;
 use ehl_explorer::solver::full::{FullSolver, Start};
-use ehl_explorer::solver::grid::GridSpec;
-use ehl_explorer::solver::lubricant::Lubricant;
+use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
+use ehl_explorer::solver::physics::lubricant::Lubricant;
 
 /// A contact and its reference solution.
 struct Reference {

@@ -1,6 +1,6 @@
 //! Ways of sampling rows side by side, on a small point contact: what all rows can, a cubature of few rows can too.
 
-use ehl_explorer::harness::{Workbench, run_scene};
+use ehl_explorer::engine::{Workbench, run_scene};
 use ehl_explorer::scene::Scene;
 
 const TRAINING: &str = "Scene(

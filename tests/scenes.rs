@@ -1,6 +1,6 @@
 //! Every scene of the repository: it parses, survives writing, and the quick ones give what they expect.
 
-use ehl_explorer::harness::{SceneOutcome, Workbench, run_scene};
+use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene};
 use ehl_explorer::scene::{Grid, Method, ModelSource, Scene, Study, TransientStudy};
 use ehl_explorer::solver::full::transient::{Frame, Signal, TimeStep};
 use std::path::{Path, PathBuf};

@@ -1,11 +1,11 @@
 //! Shear-thinning line contacts: against independent solutions on the same grid, over the whole range of Table 3.6, and their symmetries.
 
 use ehl_explorer::scene::named_lubricant::by_name;
-use ehl_explorer::solver::contact::{ContactKind, OperatingPoint, reduced_modulus};
+use ehl_explorer::solver::discrete::grid::GridSpec;
+use ehl_explorer::solver::discrete::reynolds::film_integrals::{FilmRule, PRODUCTION_RULE};
 use ehl_explorer::solver::full::{FullSolver, Problem, Solution, Start};
-use ehl_explorer::solver::grid::GridSpec;
-use ehl_explorer::solver::lubricant::{LimitingStress, Lubricant, Sliding};
-use ehl_explorer::solver::reynolds::film_integrals::{FilmRule, PRODUCTION_RULE};
+use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, reduced_modulus};
+use ehl_explorer::solver::physics::lubricant::{LimitingStress, Lubricant, Sliding};
 use serde_json::Value;
 
 const GRID: GridSpec = GridSpec::Uniform { dx: 0.01, domain: (-4.0, 2.0) };

@@ -8,7 +8,7 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use ehl_explorer::app::Explorer;
-use ehl_explorer::harness::{Workbench, run_scene};
+use ehl_explorer::engine::{Workbench, run_scene};
 use ehl_explorer::scene::{LinearisedTransient, Scene, Study};
 use ehl_explorer::solver::reduced::tpwl::Selection;
 use std::path::{Path, PathBuf};

@@ -7,9 +7,9 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
-use ehl_explorer::harness::model_file;
+use ehl_explorer::engine::model_file;
 use ehl_explorer::scene::Scene;
-use ehl_explorer::solver::contact::ContactKind;
+use ehl_explorer::solver::physics::contact::ContactKind;
 use std::path::{Path, PathBuf};
 
 fn window(explorer: Explorer) -> Window {

@@ -5,7 +5,7 @@ mod driver;
 use driver::{Window, click, frame_times, give_path, scratch, undo, wait};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
-use ehl_explorer::harness::{model_file, training_file};
+use ehl_explorer::engine::{model_file, training_file};
 use std::path::Path;
 
 /// A scene with a training of a small box; full solves take about a millisecond.

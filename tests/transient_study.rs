@@ -1,6 +1,6 @@
 //! A study of a contact in time with several frames, inputs, rules and trained loads: what it gives, and what it refuses.
 
-use ehl_explorer::harness::{SceneOutcome, Workbench, run_scene};
+use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene};
 use ehl_explorer::scene::Scene;
 use std::collections::BTreeSet;
 

@@ -6,10 +6,10 @@ use driver::{Window, click, frame_times, give_path, press, rest, scratch, undo, 
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
-use ehl_explorer::harness::model_file;
-use ehl_explorer::solver::contact::PLAUSIBLE_HERTZ_PRESSURE_PA;
-use ehl_explorer::solver::grid::{ContactGridSpec, GridSpec};
-use ehl_explorer::solver::lubricant::Lubricant;
+use ehl_explorer::engine::model_file;
+use ehl_explorer::solver::discrete::grid::{ContactGridSpec, GridSpec};
+use ehl_explorer::solver::physics::contact::PLAUSIBLE_HERTZ_PRESSURE_PA;
+use ehl_explorer::solver::physics::lubricant::Lubricant;
 use ehl_explorer::solver::reduced::{ReducedModel, Sampling};
 use ehl_explorer::solver::training::{Plan, Range, TrainingSpec, WindowSpec, Windows, train};
 use std::path::Path;

@@ -10,10 +10,10 @@ pub use history::History;
 
 use crate::scene::named_lubricant::NamedLubricant;
 use crate::scene::{At, Grid, LoadFollower, LubricantFollower, Method, Scene, Study, TransientStudy, View};
-use crate::solver::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, Sliding, si_from_moes};
+use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::Problem;
-use crate::solver::grid::PointGridSpec;
-use crate::solver::lubricant::{Lubricant, ShearLaw};
+use crate::solver::physics::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, Sliding, si_from_moes};
+use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use crate::solver::training::TrainingSpec;
 
 /// One of the six SI quantities, in the order of [`OperatingPoint::quantities`].

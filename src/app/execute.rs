@@ -6,8 +6,8 @@ use super::export;
 use super::files::{Pending, Purpose};
 use super::palette::Action;
 use super::panels;
-use super::plots::{self, Tab};
 use super::presentation::{Presentation, enlargement};
+use super::tabs::{self, Tab};
 use egui::{Context, ThemePreference, ViewportCommand};
 use egui_tiles::Tile;
 
@@ -67,7 +67,7 @@ impl Explorer {
             Command::SmallerText => self.set_zoom(self.state.display.zoom / 1.1),
             Command::NormalText => self.set_zoom(1.0),
             Command::ResetLayout => {
-                self.tree = plots::default_tree();
+                self.tree = tabs::default_tree();
                 self.state.fit_plots = true;
                 ctx.memory_mut(|m| m.data.clear());
             }

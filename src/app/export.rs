@@ -3,9 +3,9 @@
 use super::numbers;
 use super::picture::{Picture, value_at};
 use super::state::State;
-use crate::harness::Table;
-use crate::solver::contact::{ContactKind, OperatingPoint};
-use crate::solver::lubricant::{Lubricant, ShearLaw};
+use crate::engine::Table;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use std::fmt::Write as _;
 
 /// A CSV table: comment lines, header, rows of numbers with full precision; what is missing is an empty field.

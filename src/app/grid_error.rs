@@ -2,7 +2,7 @@
 
 use super::jobs::Key;
 use super::picture::Picture;
-use crate::harness::GridAccuracy;
+use crate::engine::GridAccuracy;
 use crate::solver::full::{Mesh, Solution};
 
 /// An estimate from a second grid.

@@ -1,10 +1,10 @@
 //! The reduced model as it is used: with the truncation that the document asks for.
 
 use crate::scene::View;
-use crate::solver::contact::{Moes, OperatingPoint};
 use crate::solver::full::{ContactSolver, Scalars, Solution, SolveError, Start};
-use crate::solver::lubricant::Lubricant;
 use crate::solver::observer::Observer;
+use crate::solver::physics::contact::{Moes, OperatingPoint};
+use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{Online, ReducedError, ReducedModel, ReducedOptions, ReducedSolution, Window};
 use std::sync::Arc;
 

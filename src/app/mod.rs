@@ -18,19 +18,19 @@ mod numbers;
 mod palette;
 mod panels;
 mod picture;
-mod plots;
 mod png;
 mod presentation;
 mod session;
 mod solvers;
 mod state;
+mod tabs;
 mod task;
 mod theme;
 mod traction;
 mod training;
 mod transient;
 
-use crate::solver::contact::{ContactKind, Moes};
+use crate::solver::physics::contact::{ContactKind, Moes};
 use crate::solver::reduced::ReducedModel;
 use command::Command;
 use document::Document;
@@ -40,11 +40,11 @@ use jobs::JobKind;
 use model_source::Models;
 use palette::Palette;
 use panels::help::Help;
-use plots::{Tab, Tabs};
 use state::State;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
+use tabs::{Tab, Tabs};
 
 /// By which the system knows the window, and the session its folder.
 const APP_ID: &str = "ehl-explorer";
@@ -117,7 +117,7 @@ impl Explorer {
     fn with_models(models: Models) -> Self {
         Self {
             state: State::new(Document::default(), models),
-            tree: plots::default_tree(),
+            tree: tabs::default_tree(),
             palette: Palette::default(),
             help: Help::default(),
             frame_s: 0.0,
@@ -245,12 +245,12 @@ impl Explorer {
 
     /// The first words of the trust badge.
     pub fn badge(&self) -> String {
-        plots::badge::verdict(&self.state).title
+        tabs::badge::verdict(&self.state).title
     }
 
     /// What the trust badge says after its first words; symbols stand in braces.
     pub fn badge_detail(&self) -> String {
-        plots::badge::verdict(&self.state).detail
+        tabs::badge::verdict(&self.state).detail
     }
 
     /// Opens a scene, as File → Open does.

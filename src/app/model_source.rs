@@ -1,8 +1,8 @@
 //! Where the explorer's reduced models come from: one for each kind of contact and each fluid, or none.
 
-use crate::harness::model_file;
-use crate::solver::contact::ContactKind;
-use crate::solver::lubricant::{Lubricant, ShearLaw};
+use crate::engine::model_file;
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use crate::solver::reduced::ReducedModel;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -69,7 +69,7 @@ impl Models {
 mod tests {
     use super::*;
     use crate::scene::named_lubricant::{SQUALANE_PIP, by_name};
-    use crate::solver::lubricant::{LimitingStress, ViscosityLaw};
+    use crate::solver::physics::lubricant::{LimitingStress, ViscosityLaw};
 
     #[test]
     fn the_fluid_picks_the_model_and_another_fluid_gets_the_one_akin() {

@@ -1,6 +1,6 @@
 //! Numbers as people read them: four significant digits, a thin space before the unit, and typed numbers back again.
 
-use crate::solver::contact::Moes;
+use crate::solver::physics::contact::Moes;
 
 /// Thin space between a number and its unit.
 pub const THIN: char = '\u{2009}';

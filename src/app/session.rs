@@ -1,8 +1,8 @@
 //! The last session: what is written as the program runs, so that a crash costs ten seconds at most.
 
 use super::document::Document;
-use super::plots::{self, Tab};
 use super::state::Display;
+use super::tabs::{self, Tab};
 use super::{Explorer, state::State};
 use eframe::Storage;
 use egui_tiles::Tree;
@@ -43,7 +43,7 @@ pub fn restore(explorer: &mut Explorer, storage: &dyn Storage, with_document: bo
     let state: &mut State = &mut explorer.state;
     state.display = session.display;
     state.files.recent = session.recent;
-    if plots::is_complete(&session.tree) {
+    if tabs::is_complete(&session.tree) {
         explorer.tree = session.tree;
     }
     if with_document && let Ok(document) = Document::from_ron(&session.document) {
@@ -58,7 +58,7 @@ mod tests {
     use super::*;
     use crate::app::traction::Against;
     use crate::scene::named_lubricant::by_name;
-    use crate::solver::contact::Moes;
+    use crate::solver::physics::contact::Moes;
     use std::collections::HashMap;
 
     #[derive(Default)]

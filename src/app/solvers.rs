@@ -1,9 +1,9 @@
 //! The worker's full solvers, kept between solves: their grids and kernels cost more than a solve.
 
 use super::jobs::GridChoice;
-use crate::solver::contact::ContactKind;
+use crate::solver::discrete::grid::{ContactGridError, ContactGridSpec};
 use crate::solver::full::ContactSolver;
-use crate::solver::grid::{ContactGridError, ContactGridSpec};
+use crate::solver::physics::contact::ContactKind;
 
 /// Solvers of line contacts kept.
 const KEPT_LINES: usize = 4;

@@ -214,89 +214,27 @@ pub fn faded(color: Color32, strength: f32) -> Color32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::path::Path;
 
-    /// Characters outside ASCII that the screen uses must be in the fonts, in light of symbols, units and quotation marks.
+    /// The text of every source below a folder, tests left out.
+    fn collect_sources(folder: &Path, sources: &mut Vec<String>) {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                collect_sources(&path, sources);
+            } else if !path.ends_with("tests.rs") {
+                let text = std::fs::read_to_string(&path).unwrap();
+                sources.push(text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default().to_owned());
+            }
+        }
+    }
+
+    /// Characters outside ASCII that the screen uses must be in the fonts: symbols, units and quotation marks.
     #[test]
     fn every_character_on_the_screen_has_a_glyph() {
-        let sources = [
-            include_str!("command.rs"),
-            include_str!("command/refusal.rs"),
-            include_str!("controls.rs"),
-            include_str!("document.rs"),
-            include_str!("files/mod.rs"),
-            include_str!("files/path_window.rs"),
-            include_str!("numbers.rs"),
-            include_str!("picture.rs"),
-            include_str!("palette/entry.rs"),
-            include_str!("palette/mod.rs"),
-            include_str!("panels/help.rs"),
-            include_str!("panels/lubricant.rs"),
-            include_str!("panels/menu.rs"),
-            include_str!("panels/operating_point.rs"),
-            include_str!("panels/plane.rs"),
-            include_str!("panels/presentation.rs"),
-            include_str!("panels/readouts.rs"),
-            include_str!("panels/settings.rs"),
-            include_str!("panels/sliders.rs"),
-            include_str!("panels/strip.rs"),
-            include_str!("in_use.rs"),
-            include_str!("task.rs"),
-            include_str!("plots/accuracy/mod.rs"),
-            include_str!("plots/accuracy/along.rs"),
-            include_str!("plots/accuracy/failure_map.rs"),
-            include_str!("plots/accuracy/random_tests.rs"),
-            include_str!("plots/accuracy/residuals.rs"),
-            include_str!("plots/accuracy/split.rs"),
-            include_str!("plots/accuracy/truth.rs"),
-            include_str!("plots/accuracy/worst.rs"),
-            include_str!("plots/badge.rs"),
-            include_str!("plots/basis/losses.rs"),
-            include_str!("plots/basis/mod.rs"),
-            include_str!("plots/basis/modes.rs"),
-            include_str!("plots/basis/plane.rs"),
-            include_str!("plots/contact_map/mod.rs"),
-            include_str!("plots/contact_map/optics.rs"),
-            include_str!("plots/contact_map/scale.rs"),
-            include_str!("plots/direction.rs"),
-            include_str!("plots/film_shear.rs"),
-            include_str!("plots/formulas.rs"),
-            include_str!("plots/profiles.rs"),
-            include_str!("plots/regimes.rs"),
-            include_str!("plots/regime_chart.rs"),
-            include_str!("plots/training/charts.rs"),
-            include_str!("plots/training/comparison.rs"),
-            include_str!("plots/training/fields.rs"),
-            include_str!("plots/training/form.rs"),
-            include_str!("plots/training/mod.rs"),
-            include_str!("plots/tpwl/mod.rs"),
-            include_str!("plots/tpwl/number.rs"),
-            include_str!("plots/tpwl/plane.rs"),
-            include_str!("plots/tpwl/table.rs"),
-            include_str!("plots/tpwl/trajectory.rs"),
-            include_str!("plots/tpwl/weights.rs"),
-            include_str!("figure/mod.rs"),
-            include_str!("figure/subject.rs"),
-            include_str!("plots/traction/chart.rs"),
-            include_str!("plots/traction/fluid.rs"),
-            include_str!("plots/traction/mod.rs"),
-            include_str!("traction/full.rs"),
-            include_str!("traction/mod.rs"),
-            include_str!("traction/served.rs"),
-            include_str!("traction/sweep.rs"),
-            include_str!("training/mod.rs"),
-            include_str!("transient/linearised.rs"),
-            include_str!("transient/method.rs"),
-            include_str!("transient/mod.rs"),
-            include_str!("plots/transient/cost.rs"),
-            include_str!("plots/transient/form.rs"),
-            include_str!("plots/transient/methods.rs"),
-            include_str!("plots/transient/mod.rs"),
-            include_str!("plots/transient/profiles.rs"),
-            include_str!("plots/transient/series.rs"),
-            include_str!("../scene/named_lubricant.rs"),
-            include_str!("../scene/view.rs"),
-            include_str!("../solver/contact/film_formulas.rs"),
-        ];
+        let mut sources = Vec::new();
+        collect_sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut sources);
+        assert!(sources.len() > 100, "the sources are where they are looked for");
         let mut used: Vec<char> = sources
             .iter()
             .flat_map(|s| s.lines())

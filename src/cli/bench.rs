@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::{Verdict, output};
-use crate::harness::bench;
+use crate::engine::bench;
 use clap::Args;
 use std::fmt::Write;
 

@@ -1,6 +1,6 @@
 //! Why a command gives no result, each as one sentence.
 
-use crate::harness::HarnessError;
+use crate::engine::EngineError;
 use crate::scene::SceneFileError;
 use crate::scene::atomic_file::WriteError;
 
@@ -10,9 +10,9 @@ pub enum Failure {
     /// The request is wrong.
     #[error("{0}")]
     Request(String),
-    /// The harness refuses it.
+    /// The engine refuses it.
     #[error(transparent)]
-    Harness(HarnessError),
+    Harness(EngineError),
     /// Somebody stopped it.
     #[error("the run was stopped before it was done")]
     Stopped,
@@ -24,8 +24,8 @@ pub enum Failure {
     Output(std::io::Error),
 }
 
-impl From<HarnessError> for Failure {
-    fn from(error: HarnessError) -> Self {
+impl From<EngineError> for Failure {
+    fn from(error: EngineError) -> Self {
         if error.cancelled() { Self::Stopped } else { Self::Harness(error) }
     }
 }

@@ -2,15 +2,15 @@
 
 use super::failure::Failure;
 use super::{Verdict, output};
-use crate::harness::{HarnessError, model_file};
-use crate::solver::grid::{ContactGridSpec, GridSpec};
+use crate::engine::{EngineError, model_file};
+use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
 use crate::solver::reduced::ReducedModel;
 use std::fmt::Write;
 use std::path::Path;
 
 /// Runs the command.
 pub fn run(path: &Path) -> Result<Verdict, Failure> {
-    let model = model_file::read(path).map_err(|reason| HarnessError::Model { path: path.to_owned(), reason })?;
+    let model = model_file::read(path).map_err(|reason| EngineError::Model { path: path.to_owned(), reason })?;
     output::print(&describe(&model))?;
     Ok(Verdict::Done)
 }

@@ -1,4 +1,4 @@
-//! The commands. Each turns options into a request for the harness and its answer into text, JSON or files.
+//! The commands. Each turns options into a request for the engine and its answer into text, JSON or files.
 //!
 //! Exit codes: 0 done and converged; 1 ran, but did not converge or an expectation fell short; 2 the request is wrong, with one
 //! sentence on standard error.

@@ -1,12 +1,12 @@
 //! The options of an operating point and how it is solved, shared by `solve` and `sweep`.
 
 use super::failure::Failure;
-use crate::harness::Request;
+use crate::engine::Request;
 use crate::scene::named_lubricant::{NAMED, NamedLubricant, by_name};
 use crate::scene::{At, Grid, Method, ModelSource};
-use crate::solver::contact::{ContactKind, OperatingPoint, reduced_modulus};
-use crate::solver::grid::{GridSpec, PointGridSpec};
-use crate::solver::lubricant::{DensityLaw, Lubricant, ShearLaw, Sliding, ViscosityLaw};
+use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint, reduced_modulus};
+use crate::solver::physics::lubricant::{DensityLaw, Lubricant, ShearLaw, Sliding, ViscosityLaw};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 

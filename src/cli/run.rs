@@ -3,8 +3,8 @@
 use super::Verdict;
 use super::failure::Failure;
 use super::output::{self, ProgressLine};
-use crate::harness::table::Number;
-use crate::harness::{SceneOutcome, Workbench, run_scene};
+use crate::engine::table::Number;
+use crate::engine::{SceneOutcome, Workbench, run_scene};
 use crate::scene::atomic_file::{self, WriteError};
 use crate::scene::{Method, Scene};
 use clap::Args;

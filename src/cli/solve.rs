@@ -3,10 +3,10 @@
 use super::failure::Failure;
 use super::options::PointOptions;
 use super::{Verdict, output};
-use crate::harness::{PointReport, Table, Workbench, film_shear_table, profile_table};
+use crate::engine::{PointReport, Table, Workbench, film_shear_table, profile_table};
 use crate::scene::{Method, atomic_file};
-use crate::solver::contact::ContactKind;
 use crate::solver::full::Solution;
+use crate::solver::physics::contact::ContactKind;
 use clap::Args;
 use std::fmt::Write;
 use std::path::PathBuf;

@@ -4,7 +4,7 @@ use super::Verdict;
 use super::failure::Failure;
 use super::options::PointOptions;
 use super::output::{self, ProgressLine};
-use crate::harness::{PointReport, RESULT_COLUMNS, Request, Table, Workbench};
+use crate::engine::{PointReport, RESULT_COLUMNS, Request, Table, Workbench};
 use crate::scene::check::MAX_POINTS;
 use crate::scene::{Method, Steps, atomic_file};
 use crate::solver::training::{Progress, TrainingObserver};

@@ -4,8 +4,8 @@
 use super::failure::Failure;
 use super::output::{self, ProgressLine};
 use super::{Verdict, info};
-use crate::harness::training_file::{self, TrainingKeeper};
-use crate::harness::{HarnessError, model_file};
+use crate::engine::training_file::{self, TrainingKeeper};
+use crate::engine::{EngineError, model_file};
 use crate::scene::{Scene, Study};
 use crate::solver::training::{Progress, TrainingObserver, TrainingState, train_resumable};
 use clap::Args;
@@ -25,7 +25,7 @@ pub struct TrainArgs {
 /// Runs the command.
 pub fn run(args: &TrainArgs) -> Result<Verdict, Failure> {
     let Study::Training(spec) = Scene::read(&args.scene)?.study else {
-        return Err(HarnessError::NoTraining { path: args.scene.clone() }.into());
+        return Err(EngineError::NoTraining { path: args.scene.clone() }.into());
     };
     let folder = args.out.parent().filter(|folder| !folder.as_os_str().is_empty());
     if args.out.is_dir() || folder.is_some_and(|folder| !folder.is_dir()) {
@@ -36,7 +36,7 @@ pub fn run(args: &TrainArgs) -> Result<Verdict, Failure> {
         )));
     }
     let kept = training_file::beside(&args.out);
-    let mut state = match training_file::unfinished(&kept, &spec).map_err(HarnessError::from)? {
+    let mut state = match training_file::unfinished(&kept, &spec).map_err(EngineError::from)? {
         Some(state) => {
             let sentence = format!("going on with {}: {} full solutions are there", kept.display(), state.solutions());
             output::complain(&sentence);
@@ -55,11 +55,11 @@ pub fn run(args: &TrainArgs) -> Result<Verdict, Failure> {
             {
                 output::complain(&reason.to_string());
             }
-            return Err(HarnessError::from(error).into());
+            return Err(EngineError::from(error).into());
         }
     };
-    model_file::write(&model, &args.out).map_err(|reason| HarnessError::Model { path: args.out.clone(), reason })?;
-    watch.keeper.discard().map_err(HarnessError::from)?;
+    model_file::write(&model, &args.out).map_err(|reason| EngineError::Model { path: args.out.clone(), reason })?;
+    watch.keeper.discard().map_err(EngineError::from)?;
     output::print(&info::describe(&model))?;
     Ok(Verdict::Done)
 }

@@ -1,9 +1,9 @@
 //! The door: every number of a scene is finite and sane before anything is computed from it.
 
 use super::{Expectation, Grid, Scene, SceneError, View, Within, study_check};
-use crate::solver::contact::ContactKind;
-use crate::solver::grid::PointGridSpec;
-use crate::solver::lubricant::{LubricantError, ScaledShear};
+use crate::solver::discrete::grid::PointGridSpec;
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::lubricant::{LubricantError, ScaledShear};
 
 /// Most points of a sweep, a trajectory or a formula comparison.
 pub const MAX_POINTS: usize = 100_000;
@@ -84,7 +84,7 @@ fn grid(grid: &Grid, contact: ContactKind) -> Checked {
             domain(ends)
         }
         Grid::GradedNodes { nodes, domain: ends, .. } => {
-            count("grid.nodes", nodes, 61, crate::solver::grid::MAX_GRADED_NODES)?;
+            count("grid.nodes", nodes, 61, crate::solver::discrete::grid::MAX_GRADED_NODES)?;
             domain(ends)
         }
         Grid::Plane { dx, dy, domain, refinement } => PointGridSpec { dx, dy, refinement, domain }

@@ -1,7 +1,7 @@
 //! Reading and writing scenes as RON.
 
 use super::{Scene, VERSION, atomic_file};
-use crate::solver::contact::ContactError;
+use crate::solver::physics::contact::ContactError;
 use ron::Options;
 use ron::extensions::Extensions;
 use ron::ser::PrettyConfig;

@@ -1,9 +1,9 @@
 //! The marches that a study of a contact in time asks for.
 
 use super::{Drive, TransientStudy};
-use crate::solver::contact::OperatingPoint;
 use crate::solver::full::transient::{Frame, Keep, TimeStep, Transient};
-use crate::solver::lubricant::Lubricant;
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::Lubricant;
 
 /// States of a training trajectory that are kept, about.
 const TRAINING_STATES: f64 = 700.0;

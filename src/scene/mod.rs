@@ -1,6 +1,6 @@
 //! The experiment as a document: one contact, one question about it, and what is expected of the answer.
 //!
-//! A [`Scene`] is plain data. The explorer builds, changes and saves it; the harness runs it; [`document`] reads and writes it as RON
+//! A [`Scene`] is plain data. The explorer builds, changes and saves it; the engine runs it; [`document`] reads and writes it as RON
 //! with line and column in every error; [`check`] refuses values that make no sense, naming the field. What the explorer needs
 //! beyond the experiment to open a scene as it was saved stands in its [`View`]; windows, themes and zoom are not part of it.
 
@@ -30,9 +30,9 @@ pub use view::{LoadFollower, LubricantFollower, View};
 
 pub use crate::solver::training::QuantityBox;
 
-use crate::solver::contact::{ContactError, ContactKind, MoesRequest, OperatingPoint, si_from_moes};
-use crate::solver::grid::{GridSpec, PointGridSpec};
-use crate::solver::lubricant::{Lubricant, Sliding};
+use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
+use crate::solver::physics::contact::{ContactError, ContactKind, MoesRequest, OperatingPoint, si_from_moes};
+use crate::solver::physics::lubricant::{Lubricant, Sliding};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 

@@ -1,7 +1,7 @@
 //! Lubricants that have a name: a set of laws under a word that command lines and people can use.
 
-use crate::solver::contact::{ContactKind, OperatingPoint, Sliding};
-use crate::solver::lubricant::{DensityLaw, Doolittle, Lubricant, ShearLaw, Tait, ViscosityLaw};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
+use crate::solver::physics::lubricant::{DensityLaw, Doolittle, Lubricant, ShearLaw, Tait, ViscosityLaw};
 
 /// A lubricant with its name and one line about it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -147,7 +147,7 @@ pub fn by_name(name: &str) -> Result<NamedLubricant, String> {
 mod tests {
     use super::*;
     use crate::solver::full::Problem;
-    use crate::solver::lubricant::LimitingStress;
+    use crate::solver::physics::lubricant::LimitingStress;
 
     #[test]
     fn studied_contacts_have_the_pressures_of_their_sources() {

@@ -1,7 +1,7 @@
 //! The questions a scene can ask.
 
 use super::{Axis, Method, ModelSource, QuantityBox, TestRange, TransientStudy};
-use crate::solver::contact::FilmFormula;
+use crate::solver::physics::contact::FilmFormula;
 use crate::solver::reduced::{Norm, ReducedOptions, Sampling};
 use crate::solver::training::TrainingSpec;
 use serde::{Deserialize, Serialize};

@@ -2,7 +2,7 @@
 
 use super::check::{Checked, MAX_COMPARED, MAX_POINTS, MAX_TESTS, count, interval, number, refuse};
 use super::{Axis, Contacts, Grid, Method, QuantityBox, Scene, Steps, Study, TestRange, Variable};
-use crate::solver::contact::ContactKind;
+use crate::solver::physics::contact::ContactKind;
 use crate::solver::training::{Plan, Range, SlidingRange, TrainingSpec, Windows};
 
 /// Refuses a question that makes no sense, naming the field.

@@ -2,9 +2,9 @@
 
 use super::check::{Checked, count, interval, number, refuse};
 use super::{Grid, PublishedMarch, Scene, published};
-use crate::solver::contact::ContactKind;
 use crate::solver::full::transient::{Frame, Inputs, TimeStep, Transient};
-use crate::solver::lubricant::ShearLaw;
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::lubricant::ShearLaw;
 use crate::solver::reduced::tpwl::{Selection, Weighting};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;

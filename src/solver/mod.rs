@@ -1,12 +1,10 @@
 //! The core: pure mathematics and physics of elastohydrodynamic contacts. It knows no screen, file, clock or terminal.
+//!
+//! Arrows point one way: `training` → `reduced` → `full` → `discrete` → `physics`.
 
-pub mod contact;
-pub mod elasticity;
+pub mod discrete;
 pub mod full;
-pub mod grid;
-pub mod lubricant;
 pub mod observer;
-pub mod optics;
+pub mod physics;
 pub mod reduced;
-pub mod reynolds;
 pub mod training;

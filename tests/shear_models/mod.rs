@@ -1,9 +1,9 @@
 //! The embedded models of shear-thinning contacts: what the tests of both have in common.
 
-use ehl_explorer::harness::model_file::{embedded_of, embedded_shear_of, from_bytes, to_bytes};
+use ehl_explorer::engine::model_file::{embedded_of, embedded_shear_of, from_bytes, to_bytes};
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
-use ehl_explorer::solver::contact::{ContactKind, OperatingPoint, Sliding};
 use ehl_explorer::solver::full::{Problem, Solution};
+use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use ehl_explorer::solver::reduced::{Calibration, Online, ReducedError, ReducedOptions, Trust, Window};
 use ehl_explorer::solver::training::{Range, SlidingRange, random_points};
 use fastrand::Rng;

@@ -4,7 +4,7 @@ use super::Command;
 use crate::app::jobs::JobKind;
 use crate::app::picture::Origin;
 use crate::app::state::{MOST_PINS, State};
-use crate::solver::contact::ContactKind;
+use crate::solver::physics::contact::ContactKind;
 
 const NO_PICTURE: &str = "There is no picture yet";
 const RUNS_ALREADY: &str = "It runs already";

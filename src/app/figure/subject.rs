@@ -1,12 +1,12 @@
 //! What a plot is of, in the line of parameters above its picture.
 
 use crate::app::numbers;
-use crate::app::plots::contact_map;
 use crate::app::state::State;
+use crate::app::tabs::contact_map;
 use crate::app::{traction, transient};
 use crate::scene::named_lubricant;
-use crate::solver::contact::ContactKind;
-use crate::solver::lubricant::ShearLaw;
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::lubricant::ShearLaw;
 
 /// What a plot is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

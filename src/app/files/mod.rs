@@ -4,7 +4,7 @@ mod path_window;
 
 use super::document::Document;
 use super::state::State;
-use crate::harness::model_file;
+use crate::engine::model_file;
 use crate::scene::Scene;
 use egui::{Context, Id, Modal, Ui, ViewportCommand};
 use path_window::PathWindow;

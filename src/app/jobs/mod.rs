@@ -6,8 +6,8 @@ mod worker;
 pub use request::{GridChoice, JobKind, Key, Outcome, Request};
 pub use worker::guarded;
 
-use crate::solver::contact::ContactKind;
 use crate::solver::observer::NewtonStep;
+use crate::solver::physics::contact::ContactKind;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, channel};
@@ -148,9 +148,9 @@ impl Jobs {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::contact::OperatingPoint;
-    use crate::solver::grid::{ContactGridSpec, GridSpec};
-    use crate::solver::lubricant::Lubricant;
+    use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
+    use crate::solver::physics::contact::OperatingPoint;
+    use crate::solver::physics::lubricant::Lubricant;
 
     #[test]
     fn a_job_comes_back_with_what_it_was_for() {

@@ -1,9 +1,9 @@
 //! What is asked of the worker, and what comes back.
 
-use crate::solver::contact::{Moes, OperatingPoint};
+use crate::solver::discrete::grid::{ContactGrid, ContactGridSpec, GridSpec, PointGridSpec};
 use crate::solver::full::Solution;
-use crate::solver::grid::{ContactGrid, ContactGridSpec, GridSpec, PointGridSpec};
-use crate::solver::lubricant::{Lubricant, ShearLaw};
+use crate::solver::physics::contact::{Moes, OperatingPoint};
+use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use crate::solver::reduced::ReducedModel;
 use std::sync::Arc;
 
@@ -102,7 +102,7 @@ pub enum Outcome {
 mod tests {
     use super::*;
     use crate::scene::named_lubricant::SQUALANE_PIP;
-    use crate::solver::lubricant::{LimitingStress, Sliding};
+    use crate::solver::physics::lubricant::{LimitingStress, Sliding};
 
     #[test]
     fn sliding_changes_the_film_only_where_it_thins() {

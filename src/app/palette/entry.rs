@@ -1,10 +1,10 @@
 //! What the palette offers: commands, tabs, kinds of contact, lubricants, recent scenes.
 
 use crate::app::command::Command;
-use crate::app::plots::Tab;
 use crate::app::state::State;
+use crate::app::tabs::Tab;
 use crate::scene::named_lubricant::{NAMED, NamedLubricant, of_laws};
-use crate::solver::contact::ContactKind;
+use crate::solver::physics::contact::ContactKind;
 use egui::KeyboardShortcut;
 use std::path::{Path, PathBuf};
 

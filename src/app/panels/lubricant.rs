@@ -4,7 +4,9 @@ use crate::app::controls::{NAME_WIDTH, choice, heading, number_field, row_name, 
 use crate::app::state::State;
 use crate::app::theme::name_and_symbol;
 use crate::scene::named_lubricant::{self, NAMED, NamedLubricant};
-use crate::solver::lubricant::{DensityLaw, Doolittle, LimitingStress, Lubricant, ShearLaw, Tait, ViscosityLaw};
+use crate::solver::physics::lubricant::{
+    DensityLaw, Doolittle, LimitingStress, Lubricant, ShearLaw, Tait, ViscosityLaw,
+};
 use egui::{Checkbox, Grid, Ui};
 
 /// Tait's constants that a lubricant of one's own begins with: squalane's, Table 3.5.

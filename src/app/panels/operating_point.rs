@@ -6,7 +6,7 @@ use crate::app::document::Quantity;
 use crate::app::numbers;
 use crate::app::state::State;
 use crate::app::theme::name_and_symbol;
-use crate::solver::contact::{ContactKind, PLAUSIBLE_HERTZ_PRESSURE_PA};
+use crate::solver::physics::contact::{ContactKind, PLAUSIBLE_HERTZ_PRESSURE_PA};
 use egui::{Grid, Ui};
 
 const KINDS: [(ContactKind, &str, &str); 2] = [

@@ -5,10 +5,10 @@ use crate::app::jobs::JobKind;
 use crate::app::numbers;
 use crate::app::state::State;
 use crate::app::theme::{Palette, rich};
-use crate::solver::contact::ContactKind;
+use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::Mesh;
 use crate::solver::full::point::second_grid;
-use crate::solver::grid::PointGridSpec;
+use crate::solver::physics::contact::ContactKind;
 use egui::{Grid, Ui};
 
 /// A grid by name, and what is to be said of it.

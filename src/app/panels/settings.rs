@@ -2,8 +2,8 @@
 
 use crate::app::controls::{NAME_WIDTH, choice, heading, warning_ui};
 use crate::app::state::State;
-use crate::solver::contact::ContactKind;
-use crate::solver::lubricant::ShearLaw;
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::lubricant::ShearLaw;
 use crate::solver::reduced::Trust;
 use egui::{Grid, Ui};
 

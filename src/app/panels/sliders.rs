@@ -4,8 +4,8 @@ use crate::app::controls::{RangeSlider, described, explained, named, number_fiel
 use crate::app::document::HOME;
 use crate::app::state::State;
 use crate::app::theme::symbol;
-use crate::solver::contact::{ContactKind, Moes};
-use crate::solver::lubricant::ShearLaw;
+use crate::solver::physics::contact::{ContactKind, Moes};
+use crate::solver::physics::lubricant::ShearLaw;
 use egui::{Grid, Slider, Ui};
 
 /// Ends of the M slider.

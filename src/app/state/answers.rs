@@ -4,9 +4,9 @@ use super::{Failure, State};
 use crate::app::grid_error::GridError;
 use crate::app::jobs::{GridChoice, JobKind, Key, Outcome, Request, Running};
 use crate::app::picture::{Comparison, Origin, Picture};
+use crate::solver::discrete::grid::ContactGridSpec;
 use crate::solver::full::point::second_grid;
 use crate::solver::full::{Mesh, Report};
-use crate::solver::grid::ContactGridSpec;
 use egui::Context;
 use std::sync::Arc;
 

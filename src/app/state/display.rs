@@ -1,8 +1,8 @@
 //! How the window shows things: kept with the session, not part of the document.
 
 use crate::app::picture::Cuts;
-use crate::app::plots::contact_map::MapView;
-use crate::app::plots::film_shear::FilmShear;
+use crate::app::tabs::contact_map::MapView;
+use crate::app::tabs::film_shear::FilmShear;
 use crate::app::traction::Choices;
 use serde::{Deserialize, Serialize};
 

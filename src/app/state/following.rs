@@ -4,7 +4,7 @@
 use super::{AUTO_SAVE_S, PassedOver, REST_S, State};
 use crate::app::jobs::{GridChoice, JobKind, Key, Request};
 use crate::app::picture::{Cuts, Origin, Picture};
-use crate::solver::grid::PointGridSpec;
+use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::reduced::{Online, ReducedOptions, Trust};
 use egui::Context;
 use std::sync::Arc;

@@ -5,7 +5,7 @@ use crate::app::in_use::InUse;
 use crate::app::jobs::Key;
 use crate::app::state::State;
 use crate::solver::full::Problem;
-use crate::solver::lubricant::ShearLaw;
+use crate::solver::physics::lubricant::ShearLaw;
 use crate::solver::reduced::{Domain, Trust};
 
 /// What a logarithmic axis of SRR begins with, as a share of its end.

@@ -1,8 +1,8 @@
 //! Contacts along one quantity: which it is, between which values, and where they stand on an axis.
 
 use crate::app::jobs::Key;
-use crate::solver::contact::{ContactKind, OperatingPoint};
 use crate::solver::full::{Problem, Solution};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::reduced::Domain;
 use serde::{Deserialize, Serialize};
 
@@ -235,9 +235,9 @@ impl Sample {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::harness::model_file;
+    use crate::engine::model_file;
     use crate::scene::named_lubricant::SQUALANE_PIP;
-    use crate::solver::contact::Sliding;
+    use crate::solver::physics::contact::Sliding;
 
     /// Table 3.5's contact as a line or a point contact.
     fn key(kind: ContactKind) -> Key {

@@ -1,6 +1,6 @@
 //! What a training has found so far, as points of a chart.
 
-use crate::solver::contact::OperatingPoint;
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::training::{Plan, TrainingState};
 use egui_plot::PlotPoint;
 

@@ -7,7 +7,7 @@ mod worker;
 pub use worker::{Job, Made};
 
 use super::state::State;
-use crate::harness::{ModelComparison, training_file};
+use crate::engine::{ModelComparison, training_file};
 use crate::solver::reduced::ReducedModel;
 use crate::solver::training::{Plan, TrainingSpec, TrainingState, WindowState};
 use chart::Chart;

@@ -1,7 +1,7 @@
 //! Trainings to begin with, read from the scenes that come with the program.
 
 use crate::scene::{Scene, Study};
-use crate::solver::contact::ContactKind;
+use crate::solver::physics::contact::ContactKind;
 use crate::solver::training::{TrainingSpec, Windows};
 use std::sync::LazyLock;
 
@@ -65,7 +65,7 @@ pub fn fit_windows(spec: &mut TrainingSpec) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::grid::{ContactGridSpec, GridSpec};
+    use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
     use crate::solver::training::{Range, WindowSpec};
 
     #[test]

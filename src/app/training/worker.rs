@@ -2,8 +2,8 @@
 
 use super::chart::Chart;
 use crate::app::jobs::guarded;
-use crate::harness::training_file::{self, TrainingKeeper};
-use crate::harness::{ModelComparison, compare_models, model_file};
+use crate::engine::training_file::{self, TrainingKeeper};
+use crate::engine::{ModelComparison, compare_models, model_file};
 use crate::solver::reduced::ReducedModel;
 use crate::solver::training::{
     Plan, Progress, TrainingError, TrainingObserver, TrainingSpec, TrainingState, Windows, train_resumable,

@@ -2,8 +2,8 @@
 
 use super::{Run, Setup, TransientView};
 use crate::app::export;
+use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::transient::{Inputs, Signal};
-use crate::solver::grid::GridSpec;
 
 /// A block of columns: its name, and its rows.
 type Block = (String, Vec<Vec<Option<f64>>>);

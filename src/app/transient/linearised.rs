@@ -190,7 +190,7 @@ fn tried(
         points: model.points.len(),
         weighting,
         difference: difference.filter(|_| trajectory.finished()).map(|(_, l2)| l2),
-        step_s: crate::harness::median(clock.seconds.get(1..).unwrap_or(&[])),
+        step_s: crate::engine::median(clock.seconds.get(1..).unwrap_or(&[])),
     })
 }
 

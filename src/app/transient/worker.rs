@@ -4,13 +4,13 @@ use super::linearised::{Linearised, OtherRule};
 use super::method::{Method, run_name};
 use super::{ModelSize, Setup};
 use crate::app::task::{Ending, Reporter, Task};
-use crate::harness::train_linearised;
+use crate::engine::train_linearised;
 use crate::scene::{LinearisedTransient, ReducedTransient, TransientStudy, sampled};
+use crate::solver::discrete::grid::ReferenceGrid;
 use crate::solver::full::Mesh;
 use crate::solver::full::transient::{
     Ended, Frame, FullMarch, Keep, Marching, Moment, State, TimeStep, Trajectory, Transient, TransientObserver, march,
 };
-use crate::solver::grid::ReferenceGrid;
 use crate::solver::reduced::tpwl::{TpwlError, TpwlMarch, TpwlRecord};
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel};
 use crate::solver::training::{TrainingError, TrajectoryTraining, aside, train_trajectories};

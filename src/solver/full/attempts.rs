@@ -2,8 +2,8 @@
 //! continuation from an easier contact.
 
 use super::solution::{Problem, Report, Solution, Termination};
-use crate::solver::contact::{Moes, MoesRequest, si_from_moes};
 use crate::solver::observer::Observer;
+use crate::solver::physics::contact::{Moes, MoesRequest, si_from_moes};
 
 /// What one attempt begins with.
 #[derive(Clone, Copy)]

@@ -3,10 +3,10 @@
 use super::point::PointSolver;
 use super::solution::{Solution, SolveError};
 use super::start::{FullSolver, Start};
-use crate::solver::contact::OperatingPoint;
-use crate::solver::grid::{ContactGrid, ContactGridSpec};
-use crate::solver::lubricant::Lubricant;
+use crate::solver::discrete::grid::{ContactGrid, ContactGridSpec};
 use crate::solver::observer::Observer;
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::Lubricant;
 use std::sync::Arc;
 
 /// The full solver of whichever kind of contact a grid is of; keeps the work space between solves.

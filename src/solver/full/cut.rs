@@ -47,9 +47,9 @@ impl Solution {
 #[cfg(test)]
 mod tests {
     use super::super::{PointSolver, Start};
-    use crate::solver::contact::{ContactKind, MoesRequest, si_from_moes};
-    use crate::solver::grid::PointGridSpec;
-    use crate::solver::lubricant::Lubricant;
+    use crate::solver::discrete::grid::PointGridSpec;
+    use crate::solver::physics::contact::{ContactKind, MoesRequest, si_from_moes};
+    use crate::solver::physics::lubricant::Lubricant;
 
     #[test]
     fn cuts_meet_the_nodes_and_each_other_and_are_symmetric() {

@@ -2,7 +2,7 @@
 
 use super::line::{LineSystem, SolveOptions};
 use super::solution::Problem;
-use crate::solver::grid::{FIRST_UNKNOWN, LineGrid};
+use crate::solver::discrete::grid::{FIRST_UNKNOWN, LineGrid};
 use faer::linalg::solvers::Solve;
 use faer::{Mat, linalg::solvers::PartialPivLu};
 

@@ -1,6 +1,6 @@
 //! GMRES with right preconditioning: the linear solver of the full system. No dense n × n matrix is ever formed.
 
-use crate::solver::grid::dot;
+use crate::solver::discrete::grid::dot;
 
 /// Work space; allocated once, reused by every solve.
 #[derive(Clone, Debug, Default)]

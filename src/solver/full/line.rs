@@ -5,12 +5,12 @@ mod preconditioner;
 use super::gmres::{Gmres, LinearOutcome};
 use super::shear::ShearState;
 use super::solution::{Problem, Report, Termination};
-use crate::solver::elasticity::Scratch;
-use crate::solver::grid::{FIRST_UNKNOWN, LineGrid, dot};
+use crate::solver::discrete::elasticity::Scratch;
+use crate::solver::discrete::grid::{FIRST_UNKNOWN, LineGrid, dot};
+use crate::solver::discrete::reynolds::generalized::FilmTreatment;
+use crate::solver::discrete::reynolds::line::{LINE_STENCIL, Upstream};
+use crate::solver::discrete::reynolds::{CENTER, Node, PENALTY, RowGeometry};
 use crate::solver::observer::{NewtonStep, Observer};
-use crate::solver::reynolds::generalized::FilmTreatment;
-use crate::solver::reynolds::line::{LINE_STENCIL, Upstream};
-use crate::solver::reynolds::{CENTER, Node, PENALTY, RowGeometry};
 use preconditioner::Preconditioner;
 
 /// Settings of a full solve.

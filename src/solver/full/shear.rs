@@ -1,10 +1,12 @@
 //! What a shear-thinning lubricant adds to the line system: nodes with film integrals, and the derivatives by nodal gradients.
 
 use super::solution::Problem;
-use crate::solver::grid::LineGrid;
-use crate::solver::lubricant::ScaledShear;
-use crate::solver::reynolds::generalized::{FilmTreatment, NodalGradient, NodeState, ShearNode, gradient_slopes};
-use crate::solver::reynolds::{CENTER, Node};
+use crate::solver::discrete::grid::LineGrid;
+use crate::solver::discrete::reynolds::generalized::{
+    FilmTreatment, NodalGradient, NodeState, ShearNode, gradient_slopes,
+};
+use crate::solver::discrete::reynolds::{CENTER, Node};
+use crate::solver::physics::lubricant::ScaledShear;
 
 /// State of the generalized rows: ∂f/∂P = `d_p` + `slopes` G.
 pub(super) struct ShearState {

@@ -1,10 +1,10 @@
 //! What is solved and what comes out: a problem and a solution are values that know what they belong to.
 
-use crate::solver::contact::{ContactError, ContactKind, Moes, OperatingPoint};
-use crate::solver::grid::{
+use crate::solver::discrete::grid::{
     ContactGridError, FIRST_UNKNOWN, GridError, GridSpec, LineGrid, PointGrid, PointGridError, PointGridSpec, dot,
 };
-use crate::solver::lubricant::{Lubricant, LubricantError, ScaledFluid, ScaledShear, ShearLaw, Sliding};
+use crate::solver::physics::contact::{ContactError, ContactKind, Moes, OperatingPoint};
+use crate::solver::physics::lubricant::{Lubricant, LubricantError, ScaledFluid, ScaledShear, ShearLaw, Sliding};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 

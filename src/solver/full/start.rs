@@ -3,10 +3,10 @@
 use super::attempts::{self, Attempts, Beginning, lifted};
 use super::line::{LineSystem, SolveOptions};
 use super::solution::{Mesh, Problem, Report, Solution, SolveError, scalars_of};
-use crate::solver::contact::{ContactKind, OperatingPoint, moes_line_film};
-use crate::solver::grid::{GridSpec, LineGrid, ReferenceGrid};
-use crate::solver::lubricant::Lubricant;
+use crate::solver::discrete::grid::{GridSpec, LineGrid, ReferenceGrid};
 use crate::solver::observer::Observer;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint, moes_line_film};
+use crate::solver::physics::lubricant::Lubricant;
 use std::sync::Arc;
 
 /// The start of a full solve.

@@ -2,10 +2,10 @@
 
 use super::line::LineSystem;
 use super::*;
-use crate::solver::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
-use crate::solver::grid::{FIRST_UNKNOWN, GridSpec};
-use crate::solver::lubricant::{DensityLaw, Lubricant, ViscosityLaw};
+use crate::solver::discrete::grid::{FIRST_UNKNOWN, GridSpec};
 use crate::solver::observer::{NewtonStep, Observer};
+use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
+use crate::solver::physics::lubricant::{DensityLaw, Lubricant, ViscosityLaw};
 use std::sync::atomic::AtomicBool;
 
 const COARSE: GridSpec = GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) };

@@ -1,9 +1,9 @@
 //! Shear across the film, and the traction (3.41) it adds up to.
 
 use super::solution::{Problem, Solution};
-use crate::solver::lubricant::ScaledShear;
-use crate::solver::reynolds::film_integrals::{PRODUCTION_RULE, film_integrals};
-use crate::solver::reynolds::generalized::{NodeState, PlaneGradient};
+use crate::solver::discrete::reynolds::film_integrals::{PRODUCTION_RULE, film_integrals};
+use crate::solver::discrete::reynolds::generalized::{NodeState, PlaneGradient};
+use crate::solver::physics::lubricant::ScaledShear;
 use rayon::prelude::*;
 
 /// α* p_H beyond which an isothermal traction without a limiting stress is no physics: viscosity then outgrows every stress a

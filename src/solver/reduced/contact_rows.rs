@@ -1,8 +1,8 @@
 //! The scalars of a reduced state in time, from the nodes under the contact alone.
 
+use crate::solver::discrete::grid::{LineGrid, dot};
 use crate::solver::full::transient::Conditions;
 use crate::solver::full::{Scalars, under_contact};
-use crate::solver::grid::{LineGrid, dot};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Mat, MatRef, Par};
 
@@ -86,11 +86,11 @@ impl ContactRows {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::contact::{ContactKind, OperatingPoint};
+    use crate::solver::discrete::grid::{FIRST_UNKNOWN, GridSpec};
     use crate::solver::full::transient::{Frame, Input, Inputs};
     use crate::solver::full::{Problem, scalars_of};
-    use crate::solver::grid::{FIRST_UNKNOWN, GridSpec};
-    use crate::solver::lubricant::{Lubricant, Sliding};
+    use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+    use crate::solver::physics::lubricant::{Lubricant, Sliding};
 
     #[test]
     fn they_give_the_scalars_of_the_fields() {

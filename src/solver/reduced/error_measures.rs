@@ -9,9 +9,9 @@
 
 use super::model::{Window, deformation_weights};
 use super::online::ReducedOptions;
+use crate::solver::discrete::grid::ContactGrid;
+use crate::solver::discrete::reynolds::{Node, row};
 use crate::solver::full::Solution;
-use crate::solver::grid::ContactGrid;
-use crate::solver::reynolds::{Node, row};
 use faer::{ColRef, Mat};
 use serde::{Deserialize, Serialize};
 
@@ -148,11 +148,11 @@ impl ErrorMeasures {
 mod tests {
     use super::super::{Online, Sampling, Starts};
     use super::*;
-    use crate::solver::contact::ContactKind;
+    use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
+    use crate::solver::discrete::reynolds::PENALTY;
     use crate::solver::full::{ContactSolver, Start};
-    use crate::solver::grid::{ContactGridSpec, GridSpec};
-    use crate::solver::lubricant::Lubricant;
-    use crate::solver::reynolds::PENALTY;
+    use crate::solver::physics::contact::ContactKind;
+    use crate::solver::physics::lubricant::Lubricant;
     use crate::solver::training::{Plan, QuantityBox, Range, TrainingSpec, WindowSpec, Windows, random_points, train};
     use std::sync::Arc;
 

@@ -28,12 +28,12 @@
 use super::model::{ReducedModel, Window};
 use super::online::{Online, ReducedError, ReducedOptions, ReducedSolution};
 use super::sampling::{Sampling, TestSpace, all_rows};
-use crate::solver::contact::OperatingPoint;
+use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN, GridError, PointGridError, dot};
 use crate::solver::full::point::{Accuracy, second_grid};
 use crate::solver::full::{ContactSolver, FullSolver, PointSolver, Scalars, Solution, SolveError, Start, Termination};
-use crate::solver::grid::{ContactGrid, FIRST_UNKNOWN, GridError, PointGridError, dot};
-use crate::solver::lubricant::Lubricant;
 use crate::solver::observer::Observer;
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::Lubricant;
 use std::sync::Arc;
 
 /// 2² − 1: an error of second order on a grid and on the one with half its spacing.

@@ -1,11 +1,11 @@
 //! The parts of an error: they add up, the best approximation is the best, and the discretisation part is what much finer grids say.
 
 use super::{ErrorSplitter, Online, ReducedModel, ReducedOptions, Sampling, SplitError};
-use crate::solver::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
+use crate::solver::discrete::grid::{ContactGridSpec, GridSpec, PointGridSpec, ReferenceGrid};
+use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::full::{FullSolver, PointSolver, Solution, Start};
-use crate::solver::grid::{ContactGridSpec, GridSpec, PointGridSpec, ReferenceGrid};
-use crate::solver::lubricant::Lubricant;
-use crate::solver::reynolds::PENALTY;
+use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
+use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::training::{Plan, QuantityBox, Range, TrainingSpec, WindowSpec, Windows, train};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;

@@ -4,11 +4,11 @@ use super::calibration::Calibration;
 use super::pod::PodBasis;
 use super::sampling::{SampledRows, Sampling};
 use super::traction::TractionRule;
-use crate::solver::contact::{ContactKind, Moes, OperatingPoint};
+use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN};
+use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::full::Problem;
-use crate::solver::grid::{ContactGrid, FIRST_UNKNOWN};
-use crate::solver::lubricant::Lubricant;
-use crate::solver::reynolds::PENALTY;
+use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint};
+use crate::solver::physics::lubricant::Lubricant;
 use faer::Mat;
 use serde::{Deserialize, Serialize};
 
@@ -46,7 +46,7 @@ pub struct SlidingDomain {
 
 /// Encodes the laws of density and viscosity only: what a shear-thinning lubricant has beside them is stored with what it was trained for.
 mod laws_at_rest {
-    use crate::solver::lubricant::{DensityLaw, Lubricant, ViscosityLaw};
+    use crate::solver::physics::lubricant::{DensityLaw, Lubricant, ViscosityLaw};
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
     pub fn serialize<S: Serializer>(lubricant: &Lubricant, serializer: S) -> Result<S::Ok, S::Error> {
@@ -84,7 +84,7 @@ pub struct Snapshot {
 
 /// Encodes an operating point without its sliding.
 mod without_sliding {
-    use crate::solver::contact::{ContactKind, OperatingPoint, Sliding};
+    use crate::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
     pub fn serialize<S: Serializer>(point: &OperatingPoint, serializer: S) -> Result<S::Ok, S::Error> {
@@ -315,8 +315,8 @@ fn digits(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::contact::{MoesRequest, si_from_moes};
-    use crate::solver::lubricant::ViscosityLaw;
+    use crate::solver::physics::contact::{MoesRequest, si_from_moes};
+    use crate::solver::physics::lubricant::ViscosityLaw;
 
     #[test]
     fn what_lies_outside_is_said_with_sensible_digits() {

@@ -5,10 +5,10 @@ mod newton;
 pub(crate) use newton::{Case, Iterate, OnlineOutcome, RowObserver, Stop};
 
 use super::model::{Window, deformation_weights};
-use crate::solver::contact::ContactKind;
+use crate::solver::discrete::reynolds::generalized::{NodeState, ShearNode};
+use crate::solver::discrete::reynolds::{CENTER, Node, RowGeometry, STENCIL};
 use crate::solver::full::{Problem, mid_film_stress};
-use crate::solver::reynolds::generalized::{NodeState, ShearNode};
-use crate::solver::reynolds::{CENTER, Node, RowGeometry, STENCIL};
+use crate::solver::physics::contact::ContactKind;
 use faer::dyn_stack::MemBuffer;
 use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::{Mat, MatRef, Par};

@@ -1,9 +1,9 @@
 //! How strongly the rows of the full system answer to their own pressures along trajectories.
 
+use crate::solver::discrete::grid::LineGrid;
+use crate::solver::discrete::reynolds::line::Upstream;
+use crate::solver::discrete::reynolds::{CENTER, Node};
 use crate::solver::full::transient::Trajectory;
-use crate::solver::grid::LineGrid;
-use crate::solver::reynolds::line::Upstream;
-use crate::solver::reynolds::{CENTER, Node};
 
 /// States that the mean is taken over, about.
 const STATES: usize = 100;
@@ -41,11 +41,11 @@ pub(crate) fn mean_diagonals(grid: &LineGrid, trajectories: &[&Trajectory], pena
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::contact::OperatingPoint;
-    use crate::solver::elasticity::Scratch;
+    use crate::solver::discrete::elasticity::Scratch;
+    use crate::solver::discrete::grid::{FIRST_UNKNOWN, GridSpec};
     use crate::solver::full::transient::{self, Frame, Inputs, Keep, Signal, TimeStep, Transient};
-    use crate::solver::grid::{FIRST_UNKNOWN, GridSpec};
-    use crate::solver::lubricant::Lubricant;
+    use crate::solver::physics::contact::OperatingPoint;
+    use crate::solver::physics::lubricant::Lubricant;
 
     #[test]
     fn sizes_are_difference_quotients_of_whole_rows_and_span_many_orders() {

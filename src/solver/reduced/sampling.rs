@@ -4,7 +4,7 @@
 //! used.
 
 use super::pod::PodBasis;
-use crate::solver::grid::ContactGrid;
+use crate::solver::discrete::grid::ContactGrid;
 use faer::linalg::solvers::{ColPivQr, PartialPivLu, Solve, Svd};
 use faer::{Mat, MatRef};
 use serde::{Deserialize, Serialize};

@@ -4,7 +4,7 @@
 //! embedded model's range; with the interpolation it is 6 and 9, because film and spike are carried along.
 
 use super::model::{Snapshot, Window, separation};
-use crate::solver::contact::{ContactKind, OperatingPoint, hamrock_dowson_central, moes_line_film};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint, hamrock_dowson_central, moes_line_film};
 use faer::Mat;
 use faer::linalg::solvers::{PartialPivLu, Solve};
 

@@ -6,7 +6,7 @@
 
 use super::cubature::GoalEquations;
 use super::model::Window;
-use crate::solver::grid::ContactGrid;
+use crate::solver::discrete::grid::ContactGrid;
 use serde::{Deserialize, Serialize};
 
 /// Nodes of a rule. They cost little, being evaluated anyway. Of shear-thinning point contacts 60 left errors of 2.7e-3 (95 %) and 1.2e-2 (max)
@@ -77,10 +77,10 @@ fn quadrature(grid: &ContactGrid) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
+    use crate::solver::discrete::grid::{ContactGridSpec, GridSpec, PointGridSpec};
     use crate::solver::full::{ContactSolver, Start};
-    use crate::solver::grid::{ContactGridSpec, GridSpec, PointGridSpec};
-    use crate::solver::lubricant::Lubricant;
+    use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
+    use crate::solver::physics::lubricant::Lubricant;
 
     #[test]
     fn the_whole_grids_rule_is_the_traction_of_a_solution() {

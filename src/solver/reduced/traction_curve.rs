@@ -1,8 +1,8 @@
 //! Traction and film along a curve: contacts that differ in one quantity, each solved from its neighbours.
 
 use super::online::{Online, ReducedError, ReducedSolution};
-use crate::solver::contact::OperatingPoint;
-use crate::solver::lubricant::Lubricant;
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::Lubricant;
 
 /// What varies along a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

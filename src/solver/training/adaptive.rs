@@ -32,7 +32,7 @@ use super::indicator::{Indicator, Judges};
 use super::plan::{global_point, local_point};
 use super::state::{Part, TrainingState, WindowState};
 use super::{Plan, Progress, TrainingError};
-use crate::solver::contact::OperatingPoint;
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{Sampling, Window, separation};
 use fastrand::Rng;
 use serde::{Deserialize, Serialize};

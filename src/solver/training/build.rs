@@ -8,11 +8,11 @@ use super::{
     Plan, Progress, QuantityBox, Range, SlidingRange, TrainingError, TrainingObserver, TrainingSpec, WindowSpec,
     Windows,
 };
-use crate::solver::contact::OperatingPoint;
+use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::{ContactSolver, Start};
-use crate::solver::grid::ContactGrid;
-use crate::solver::lubricant::ShearLaw;
 use crate::solver::observer::Observer;
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::ShearLaw;
 use crate::solver::reduced::{
     Domain, LEAST_EVIDENCE, PodBasis, ReducedModel, Sampling, SlidingDomain, Snapshot, TestSpace, Window, all_rows,
     deformation_weights,

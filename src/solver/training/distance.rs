@@ -11,7 +11,7 @@
 //! uniform one. All ten functions together reach 0.880 and 0.932, of which |ΔM|/√(M₁² + M₂²) alone gives 0.854 and 0.903: distances
 //! (3.6) are not squared, and its root fits them better than (3.20)'s square on the uniform grid.
 
-use crate::solver::contact::OperatingPoint;
+use crate::solver::physics::contact::OperatingPoint;
 
 /// A candidate function g_s,k of two contacts.
 #[derive(Clone, Copy, Debug)]
@@ -143,10 +143,10 @@ fn non_negative(q: &[Vec<f64>], a: &[f64]) -> Vec<f64> {
 mod tests {
     use super::super::{QuantityBox, Range, random_points};
     use super::*;
-    use crate::solver::contact::ContactKind;
+    use crate::solver::discrete::grid::GridSpec;
     use crate::solver::full::{FullSolver, Start};
-    use crate::solver::grid::GridSpec;
-    use crate::solver::lubricant::Lubricant;
+    use crate::solver::physics::contact::ContactKind;
+    use crate::solver::physics::lubricant::Lubricant;
     use fastrand::Rng;
 
     fn points() -> Vec<OperatingPoint> {

@@ -22,13 +22,13 @@
 
 use super::build::alone;
 use super::{TrainingError, TrainingObserver, TrainingSpec};
-use crate::solver::contact::OperatingPoint;
+use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::{
     ContactSolver, LineSystem, PointOptions, PointSystem, Problem, Report, Scalars, Solution, SolveOptions, Start,
     point_scalars_of, scalars_of,
 };
-use crate::solver::grid::ContactGrid;
-use crate::solver::lubricant::Lubricant;
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{ErrorMeasures, Measured, Norm, Online, ReducedOptions, ReducedSolution, Window};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};

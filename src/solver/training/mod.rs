@@ -37,11 +37,11 @@ pub use sliding_range::SlidingRange;
 pub use state::{Solved, TrainingState, WindowState, train_resumable};
 pub use trajectories::{TrajectoryTraining, train_trajectories};
 
-use super::contact::ContactKind;
-use super::grid::ContactGridSpec;
-use super::lubricant::Lubricant;
+use super::discrete::grid::ContactGridSpec;
+use super::discrete::reynolds::PENALTY;
+use super::physics::contact::ContactKind;
+use super::physics::lubricant::Lubricant;
 use super::reduced::{Domain, Sampling};
-use super::reynolds::PENALTY;
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicBool, Ordering};
 

@@ -1,7 +1,7 @@
 //! Sampling plans: which operating points of a range are solved in full, and which are tested.
 
 use super::{QuantityBox, Range, SlidingRange, TrainingError};
-use crate::solver::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
+use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::reduced::distance;
 use fastrand::Rng;
 use std::f64::consts::PI;

@@ -1,8 +1,8 @@
 //! Training a model of point contacts on a coarse grid: every sampling method, fresh points, and what is refused.
 
 use super::*;
+use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 use crate::solver::full::{ContactSolver, Start};
-use crate::solver::grid::{GridSpec, PointGridSpec};
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Sampling};
 use std::sync::Arc;
 

@@ -1,6 +1,6 @@
 //! The range of Tables 3.1 and 3.4: a box of SI quantities.
 
-use crate::solver::contact::{ContactKind, OperatingPoint, Sliding};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 

@@ -1,7 +1,7 @@
 //! Trainings as a whole: stopped and resumed, on any number of threads, with tolerances out of reach.
 
 use super::*;
-use crate::solver::grid::{ContactGridSpec, GridSpec};
+use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
 use crate::solver::reduced::{ReducedModel, Window};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};

@@ -4,7 +4,7 @@
 use super::aside::aside;
 use super::plan::random_points;
 use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
-use crate::solver::contact::OperatingPoint;
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{
     GoalEquations, Iterate, Online, ReducedModel, ReducedOptions, RowSnapshots, SampledRows, Sampling, Snapshot,
     TestSpace, Window, all_rows, cubature, greedy, is_finite, q_deim, separation,

@@ -1,6 +1,6 @@
 //! The range of shear-thinning contacts: M, L, SRR and NPR of one lubricant between bodies of one material.
 
-use crate::solver::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
+use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
 use serde::{Deserialize, Serialize};
 
 /// All contacts of a shear-thinning lubricant with M, L, SRR and NPR in these intervals and p_H up to a limit. M and L do not say all about

@@ -25,7 +25,7 @@
 use super::aside::aside;
 use super::state::{OVERLAP, Solved, TrainingState, WindowState};
 use super::{TrainingError, TrainingObserver};
-use crate::solver::grid::ContactGrid;
+use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::reduced::PodBasis;
 use faer::Mat;
 use fastrand::Rng;
@@ -103,8 +103,8 @@ fn balanced_edge(solved: &[Solved], whole: (f64, f64), grid: &ContactGrid) -> Op
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::contact::ContactKind;
-    use crate::solver::grid::{ContactGridSpec, GridSpec};
+    use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
+    use crate::solver::physics::contact::ContactKind;
     use crate::solver::training::{Range, farthest_points};
 
     /// Solutions whose pressures have nothing in common: every one needs a mode.

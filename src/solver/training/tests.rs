@@ -1,8 +1,8 @@
 //! Behaviour of training: the same specification gives the same model, models reproduce what they were trained on, bad requests are refused.
 
 use super::*;
+use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
 use crate::solver::full::{ContactSolver, Start};
-use crate::solver::grid::{ContactGridSpec, GridSpec};
 use crate::solver::reduced::{Online, ReducedOptions, Sampling};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -3,7 +3,7 @@
 use super::aside::aside;
 use super::plan::random_points;
 use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
-use crate::solver::contact::OperatingPoint;
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, TractionRule};
 use fastrand::Rng;
 use rayon::prelude::*;

@@ -4,14 +4,14 @@
 use super::aside::aside;
 use super::rows::add_goals;
 use super::{Progress, TrainingError, TrainingObserver};
+use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN, ReferenceGrid, dot};
+use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::full::transient::{Frame, Keep, Moment, Trajectory, Transient, TransientObserver, march};
-use crate::solver::grid::{ContactGrid, FIRST_UNKNOWN, ReferenceGrid, dot};
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel, TrajectoryStart};
 use crate::solver::reduced::{
     GoalEquations, Iterate, PodBasis, SampledRows, Sampling, TestSpace, Window, all_rows, cubature,
     deformation_weights, is_finite, mean_diagonals,
 };
-use crate::solver::reynolds::PENALTY;
 use faer::Mat;
 use fastrand::Rng;
 use rayon::prelude::*;

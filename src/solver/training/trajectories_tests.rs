@@ -1,12 +1,12 @@
 //! Reduced models in time: they reproduce what they were trained with, follow what they never saw, and are the same again.
 
 use super::{TrajectoryTraining, train_trajectories};
-use crate::solver::contact::OperatingPoint;
+use crate::solver::discrete::grid::{GridSpec, ReferenceGrid};
 use crate::solver::full::transient::{
     Frame, FullMarch, Inputs, Interpolation, Keep, Quantity, Signal, TimeStep, Trajectory, Transient, march,
 };
-use crate::solver::grid::{GridSpec, ReferenceGrid};
-use crate::solver::lubricant::Lubricant;
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel};
 use std::sync::Arc;
 

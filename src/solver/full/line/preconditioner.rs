@@ -1,10 +1,10 @@
 //! The preconditioner of line contacts: the rows' own derivatives and a band of the elastic kernel, bordered by the load.
 
+use crate::solver::discrete::grid::{FIRST_UNKNOWN, LineGrid, dot};
+use crate::solver::discrete::reynolds::CENTER;
+use crate::solver::discrete::reynolds::line::{LINE_STENCIL, Upstream};
 use crate::solver::full::band::BandLu;
 use crate::solver::full::shear::ShearState;
-use crate::solver::grid::{FIRST_UNKNOWN, LineGrid, dot};
-use crate::solver::reynolds::CENTER;
-use crate::solver::reynolds::line::{LINE_STENCIL, Upstream};
 
 /// A bordered band matrix near the Jacobian, factorised.
 #[derive(Default)]

@@ -1,7 +1,7 @@
 //! How far a point contact's solution is from the limit of fine grids: estimated from two grids, and a warning from one.
 
+use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::solution::{Mesh, Solution};
-use crate::solver::grid::PointGridSpec;
 
 /// Curvature of the film across the side lobes beyond which they are called unresolved.
 ///

@@ -17,11 +17,11 @@ pub use start::PointSolver;
 
 use super::gmres::{Gmres, LinearOutcome};
 use super::solution::{Problem, Report, Termination};
-use crate::solver::elasticity::PointScratch;
-use crate::solver::grid::{PointGrid, dot};
+use crate::solver::discrete::elasticity::PointScratch;
+use crate::solver::discrete::grid::{PointGrid, dot};
+use crate::solver::discrete::reynolds::generalized::FilmTreatment;
+use crate::solver::discrete::reynolds::{CENTER, Node, PENALTY, STENCIL, row};
 use crate::solver::observer::{NewtonStep, Observer};
-use crate::solver::reynolds::generalized::FilmTreatment;
-use crate::solver::reynolds::{CENTER, Node, PENALTY, STENCIL, row};
 use preconditioner::PointPreconditioner;
 use rayon::prelude::*;
 use shear::PointShear;

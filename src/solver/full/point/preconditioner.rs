@@ -2,8 +2,8 @@
 //! bordered by the load row.
 
 use super::block_tridiagonal::BlockTridiagonal;
-use crate::solver::grid::{PointGrid, dot};
-use crate::solver::reynolds::{CENTER, EAST, NORTH, SOUTH, STENCIL, WEST, WEST2};
+use crate::solver::discrete::grid::{PointGrid, dot};
+use crate::solver::discrete::reynolds::{CENTER, EAST, NORTH, SOUTH, STENCIL, WEST, WEST2};
 use rayon::prelude::*;
 
 /// Columns of the product B K that are kept on either side: with one, contacts of low load and thick oil fail; three are no faster.

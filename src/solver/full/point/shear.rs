@@ -1,11 +1,13 @@
 //! What a shear-thinning lubricant adds to the point system: nodes with film integrals, and the derivatives by nodal gradients.
 
 use super::SHARE;
+use crate::solver::discrete::grid::PointGrid;
+use crate::solver::discrete::reynolds::generalized::{
+    FilmTreatment, NodeState, PlaneGradient, ShearNode, gradient_slopes,
+};
+use crate::solver::discrete::reynolds::{Node, STENCIL};
 use crate::solver::full::solution::Problem;
-use crate::solver::grid::PointGrid;
-use crate::solver::lubricant::ScaledShear;
-use crate::solver::reynolds::generalized::{FilmTreatment, NodeState, PlaneGradient, ShearNode, gradient_slopes};
-use crate::solver::reynolds::{Node, STENCIL};
+use crate::solver::physics::lubricant::ScaledShear;
 use rayon::prelude::*;
 
 /// State of the generalized rows: ∂f/∂P = `d_p` + `slopes` · (G_X, G_Y).

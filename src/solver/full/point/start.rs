@@ -1,13 +1,13 @@
 //! Solving point contacts: where Newton starts.
 
 use super::{PointOptions, PointSystem};
-use crate::solver::contact::{ContactKind, OperatingPoint, hamrock_dowson_central};
+use crate::solver::discrete::grid::{PointGrid, PointGridSpec};
 use crate::solver::full::attempts::{self, Attempts, Beginning, lifted};
 use crate::solver::full::solution::{Mesh, Problem, Report, Solution, SolveError, point_scalars_of};
 use crate::solver::full::start::Start;
-use crate::solver::grid::{PointGrid, PointGridSpec};
-use crate::solver::lubricant::Lubricant;
 use crate::solver::observer::Observer;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint, hamrock_dowson_central};
+use crate::solver::physics::lubricant::Lubricant;
 use std::sync::Arc;
 
 /// Solves point contacts on one grid; keeps the grid and the work space between solves.

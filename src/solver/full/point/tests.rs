@@ -1,11 +1,13 @@
 //! Behaviour of full point solves: derivatives, limits, starts, grids, cancellation, what the estimates say.
 
 use super::*;
-use crate::solver::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
+use crate::solver::discrete::grid::PointGridSpec;
+use crate::solver::discrete::reynolds::RowGeometry;
 use crate::solver::full::{Solution, SolveError, Start};
-use crate::solver::grid::PointGridSpec;
-use crate::solver::lubricant::{DensityLaw, Fluidity, Lubricant, ScaledFluid, ShearLaw, Sliding, ViscosityLaw};
-use crate::solver::reynolds::RowGeometry;
+use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
+use crate::solver::physics::lubricant::{
+    DensityLaw, Fluidity, Lubricant, ScaledFluid, ShearLaw, Sliding, ViscosityLaw,
+};
 use std::sync::atomic::AtomicBool;
 
 const COARSE: PointGridSpec = PointGridSpec::uniform(0.04, 0.1, (-4.0, 2.0, -2.0));

@@ -2,8 +2,8 @@
 
 use super::signal::Input;
 use super::spline::Interpolation;
-use crate::solver::contact::OperatingPoint;
 use crate::solver::full::{Problem, SolveError};
+use crate::solver::physics::contact::OperatingPoint;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -114,7 +114,7 @@ pub fn point_at(reference: &OperatingPoint, input: Input) -> OperatingPoint {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::lubricant::Lubricant;
+    use crate::solver::physics::lubricant::Lubricant;
 
     #[test]
     fn scales_are_those_of_the_dry_contact_of_the_moment() {

@@ -5,10 +5,10 @@ use super::frame::{Conditions, Frame, Scales};
 use super::pace::{Pace, TimeStep};
 use super::signal::{InputError, Inputs};
 use super::trajectory::{Effort, Ended, Moment, State, Trajectory};
-use crate::solver::contact::{ContactKind, OperatingPoint};
+use crate::solver::discrete::grid::LineGrid;
 use crate::solver::full::{Mesh, Problem, SolveError, Termination};
-use crate::solver::grid::LineGrid;
-use crate::solver::lubricant::Lubricant;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::lubricant::Lubricant;
 
 /// A contact to be taken through time.
 #[derive(Clone, Debug, PartialEq)]

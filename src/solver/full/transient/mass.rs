@@ -2,8 +2,8 @@
 
 use super::frame::Conditions;
 use super::trajectory::{State, Trajectory};
-use crate::solver::grid::{FIRST_UNKNOWN, cubic};
-use crate::solver::reynolds::Node;
+use crate::solver::discrete::grid::{FIRST_UNKNOWN, cubic};
+use crate::solver::discrete::reynolds::Node;
 
 /// Mass between two places that rest, over the kept states of a trajectory; in units of ρ₀ (a³/R)_ref.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

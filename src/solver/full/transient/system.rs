@@ -5,11 +5,11 @@ use super::frame::{Conditions, Frame, point_at};
 use super::march::{Marching, Step, Transient, TransientError, TransientObserver, march};
 use super::spline::Interpolated;
 use super::trajectory::{Effort, Moment, State, Trajectory};
+use crate::solver::discrete::grid::{FIRST_UNKNOWN, GridSpec, LineGrid, ReferenceGrid};
+use crate::solver::discrete::reynolds::line::Upstream;
 use crate::solver::full::start::pressure_at;
 use crate::solver::full::{FullSolver, LineSystem, Problem, Report, SolveError, SolveOptions, Start, Termination};
-use crate::solver::grid::{FIRST_UNKNOWN, GridSpec, LineGrid, ReferenceGrid};
 use crate::solver::observer::Observer;
-use crate::solver::reynolds::line::Upstream;
 use std::sync::Arc;
 
 /// The full system, ready to march.

@@ -1,10 +1,10 @@
 //! Marches of the full system: against an independent solution, in the time step, between frames, and what ends them.
 
 use super::*;
-use crate::solver::contact::OperatingPoint;
+use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::{FullSolver, Start};
-use crate::solver::grid::GridSpec;
-use crate::solver::lubricant::{Lubricant, ShearLaw};
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 
 const COARSE: GridSpec = GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) };
 const MIDDLE: GridSpec = GridSpec::Uniform { dx: 0.01, domain: (-4.0, 2.0) };

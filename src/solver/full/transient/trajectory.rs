@@ -3,8 +3,8 @@
 use super::frame::{Conditions, Scales};
 use super::march::Transient;
 use super::signal::Input;
+use crate::solver::discrete::grid::LineGrid;
 use crate::solver::full::{Mesh, Problem, Scalars, SolveError, Termination, scalars_of};
-use crate::solver::grid::LineGrid;
 
 /// Work of one step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! What is known of a reduced solution, and what was measured of it.
 
-use crate::solver::contact::{Moes, OperatingPoint};
+use crate::solver::physics::contact::{Moes, OperatingPoint};
 use crate::solver::reduced::ReducedSolution;
 
 /// Features of a contact without sliding: ln M, L, ln α, ln e_f^I, and the logarithm of the last modes' share.

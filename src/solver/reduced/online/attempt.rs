@@ -1,9 +1,9 @@
 //! One run of the online iteration, from a guess or along a path from a known contact.
 
 use super::{ReducedError, ReducedOptions};
-use crate::solver::contact::OperatingPoint;
+use crate::solver::discrete::grid::dot;
 use crate::solver::full::Problem;
-use crate::solver::grid::dot;
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::model::{Snapshot, Window};
 use crate::solver::reduced::operators::{Case, OnlineOutcome, Operators, RowObserver, Stop};
 use crate::solver::reduced::start::{Guess, film_number};

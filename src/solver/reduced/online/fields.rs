@@ -1,8 +1,8 @@
 //! From a reduced solution back to fields: the only large-scale work online, on request.
 
 use super::{Online, ReducedError, ReducedSolution, operators_of};
+use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, Termination, point_scalars_of, scalars_of};
-use crate::solver::grid::ContactGrid;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Par};
 

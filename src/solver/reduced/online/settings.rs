@@ -1,7 +1,7 @@
 //! How the online phase is run, and why it may give no result.
 
-use crate::solver::contact::ContactKind;
 use crate::solver::full::SolveError;
+use crate::solver::physics::contact::ContactKind;
 
 /// Why a reduced solve gives no result.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -1,11 +1,11 @@
 //! The Newton iteration on reduced operators. Nothing here is of large scale, and nothing is allocated inside an iteration.
 
 use super::Operators;
+use crate::solver::discrete::grid::dot;
+use crate::solver::discrete::reynolds::film_integrals::KnownFilm;
+use crate::solver::discrete::reynolds::generalized::{FilmTreatment, NodeState, ShearNode, gradient_slopes};
+use crate::solver::discrete::reynolds::{Node, STENCIL, row};
 use crate::solver::full::Problem;
-use crate::solver::grid::dot;
-use crate::solver::reynolds::film_integrals::KnownFilm;
-use crate::solver::reynolds::generalized::{FilmTreatment, NodeState, ShearNode, gradient_slopes};
-use crate::solver::reynolds::{Node, STENCIL, row};
 use faer::dyn_stack::MemStack;
 use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::linalg::matmul::matmul;

@@ -1,11 +1,11 @@
 //! The reduced system functions of d/dT g = f in one state, (4.16) under (4.19), and their derivatives: what (4.21) to (4.26) are made of.
 
 use super::space::{INPUTS, ReducedSpace, input_vector};
+use crate::solver::discrete::grid::{FIRST_UNKNOWN, dot};
+use crate::solver::discrete::reynolds::line::{LINE_STENCIL, Upstream};
+use crate::solver::discrete::reynolds::{CENTER, Node, PENALTY};
 use crate::solver::full::Problem;
 use crate::solver::full::transient::Input;
-use crate::solver::grid::{FIRST_UNKNOWN, dot};
-use crate::solver::reynolds::line::{LINE_STENCIL, Upstream};
-use crate::solver::reynolds::{CENTER, Node, PENALTY};
 use faer::{Mat, MatRef};
 
 /// Values and derivatives of g and f at (ỹ, u), tested with weighted rows of Vᵀ. The last equation is the load's, w̄ π/2 − ∫P, which has no g.

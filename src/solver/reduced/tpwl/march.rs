@@ -7,12 +7,12 @@ use super::search::Search;
 use super::space::{INPUTS, input_vector};
 use super::superposition::{SmallSystem, Superposition};
 use super::weights::{Weight, Weighting, square_distance};
+use crate::solver::discrete::grid::LineGrid;
 use crate::solver::full::transient::{
     Conditions, Effort, Marching, Moment, State, Step, TimeStep, Trajectory, Transient, TransientObserver,
     extrapolated, march,
 };
 use crate::solver::full::{Scalars, Termination};
-use crate::solver::grid::LineGrid;
 use crate::solver::reduced::contact_rows::ContactRows;
 
 /// A model in use for one contact.

@@ -1,8 +1,8 @@
 //! What each row of the full system counts in the reduced one.
 
 use super::linearisation::PENALTY_SLOPE;
+use crate::solver::discrete::grid::{FIRST_UNKNOWN, LineGrid};
 use crate::solver::full::transient::Trajectory;
-use crate::solver::grid::{FIRST_UNKNOWN, LineGrid};
 use crate::solver::reduced::mean_diagonals;
 
 /// One weight per unknown: cell sizes over the root of the rows' mean diagonals in a time step of the training trajectories.

@@ -3,9 +3,9 @@
 use super::linearisation::{Fields, Linearisation, SystemFunctions};
 use super::space::{ReducedSpace, input_vector};
 use super::weights::square_distance;
+use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::full::Problem;
 use crate::solver::full::transient::{BackwardDifference, Input};
-use crate::solver::reynolds::PENALTY;
 use faer::linalg::solvers::Solve;
 use faer::{Col, ColRef};
 use serde::{Deserialize, Serialize};

@@ -1,9 +1,9 @@
 //! The reduced space of a contact in time: its basis, and the passage between fields and reduced states.
 
-use crate::solver::contact::OperatingPoint;
-use crate::solver::elasticity::Scratch;
+use crate::solver::discrete::elasticity::Scratch;
+use crate::solver::discrete::grid::LineGrid;
 use crate::solver::full::transient::{Input, State};
-use crate::solver::grid::LineGrid;
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::PodBasis;
 use faer::{Accum, Par};
 use faer::{ColMut, ColRef, Mat, MatRef, linalg::matmul::matmul};

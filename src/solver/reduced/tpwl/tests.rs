@@ -3,13 +3,13 @@
 use super::linearisation::{Fields, PENALTY_SLOPE};
 use super::superposition::{SmallSystem, Superposition};
 use super::*;
-use crate::solver::contact::OperatingPoint;
+use crate::solver::discrete::grid::{FIRST_UNKNOWN, GridSpec};
 use crate::solver::full::Problem;
 use crate::solver::full::transient::{
     self, BackwardDifference, Frame, Input, Inputs, Keep, Quantity, Signal, TimeStep, Trajectory, Transient,
 };
-use crate::solver::grid::{FIRST_UNKNOWN, GridSpec};
-use crate::solver::lubricant::Lubricant;
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::Lubricant;
 use faer::linalg::solvers::Solve;
 use std::sync::LazyLock;
 

@@ -1,7 +1,7 @@
 //! What a reduced model of trajectories is made of.
 
-use crate::solver::contact::OperatingPoint;
 use crate::solver::full::transient::Frame;
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::Window;
 
 /// A reduced model of a line contact in time, in one frame.

@@ -1,17 +1,17 @@
 //! The online phase in time: Newton on the sampled rows from the extrapolation of the two former steps.
 
 use super::model::TrajectoryModel;
-use crate::solver::contact::{ContactKind, OperatingPoint};
+use crate::solver::discrete::grid::{FIRST_UNKNOWN, LineGrid, ReferenceGrid, dot};
+use crate::solver::discrete::reynolds::line::Upstream;
+use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
 use crate::solver::full::transient::{
     Conditions, Effort, Frame, Interpolated, Marching, Moment, State, Step, TransientObserver, extrapolated,
 };
 use crate::solver::full::{Scalars, Termination};
-use crate::solver::grid::{FIRST_UNKNOWN, LineGrid, ReferenceGrid, dot};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::reduced::contact_rows::ContactRows;
 use crate::solver::reduced::operators::{Case, Iterate, Operators, RowObserver, Stop};
 use crate::solver::reduced::{ReducedError, distance};
-use crate::solver::reynolds::line::Upstream;
-use crate::solver::reynolds::{RowGeometry, STENCIL};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Par};
 use std::sync::Arc;

@@ -1,0 +1,269 @@
+//! Random tests in the M–L plane: where the reduced model fails, and how large its error is elsewhere. A click goes there.
+
+use super::random_tests::{Results, Test};
+use super::worst::Worst;
+use super::{CONTACT_COLUMNS, contact_cells, tests_toolbar, worst};
+use crate::app::export;
+use crate::app::files::Purpose;
+use crate::app::in_use::InUse;
+use crate::app::numbers;
+use crate::app::state::State;
+use crate::app::tabs::axes;
+use crate::app::theme::{Palette, rich, sequential};
+use crate::solver::physics::contact::{Moes, OperatingPoint};
+use egui::{Color32, Ui};
+use egui_plot::{Corner, HoverPosition, Legend, MarkerShape, PlotPoint, PlotPoints, Points};
+
+/// How near (in screen points) a click must come to a test.
+const NEAR: f32 = 12.0;
+/// Decades that have a colour of their own, from 10^FIRST on; what is smaller or larger shares the end ones.
+const FIRST: i32 = -7;
+const CLASSES: usize = 7;
+
+/// By what a test is judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum By {
+    /// The calibrated bound on the error of H_c.
+    #[default]
+    Bound,
+    /// Its true error, where a full solution was compared.
+    Truth,
+}
+
+impl By {
+    /// The error it looks at.
+    pub fn of(self, test: &Test) -> Option<f64> {
+        match self {
+            Self::Bound => test.bound(),
+            Self::Truth => test.true_error(),
+        }
+    }
+}
+
+/// State of the view.
+#[derive(Default)]
+pub struct Map {
+    by: By,
+    drawn: Option<Drawn>,
+    worst: Worst,
+}
+
+/// The tests as series of points, made when something changed.
+struct Drawn {
+    of: (usize, usize, By),
+    classes: [Vec<PlotPoint>; CLASSES],
+    unknown: Vec<PlotPoint>,
+    failures: Vec<PlotPoint>,
+}
+
+impl Drawn {
+    fn new(results: &Results, by: By) -> Self {
+        let mut drawn =
+            Self { of: stamp(results, by), classes: Default::default(), unknown: Vec::new(), failures: Vec::new() };
+        for test in &results.tests {
+            let place = match (test.solved, by.of(test)) {
+                (None, _) => &mut drawn.failures,
+                (_, Some(error)) => &mut drawn.classes[class(error)],
+                (_, None) => &mut drawn.unknown,
+            };
+            place.push(at(test.point.moes()));
+        }
+        drawn
+    }
+}
+
+/// By which drawings and lists know that they are out of date.
+pub fn stamp(results: &Results, by: By) -> (usize, usize, By) {
+    (results.revision, results.tests.len(), by)
+}
+
+fn class(error: f64) -> usize {
+    let decade = error.max(f64::MIN_POSITIVE).log10().floor() as i32 - FIRST + 1;
+    decade.clamp(0, CLASSES as i32 - 1) as usize
+}
+
+fn class_name(class: usize) -> String {
+    let power = |k: i32| format!("1e−{}", -k);
+    let from = FIRST - 1 + class as i32;
+    match class {
+        0 => format!("below {}", power(FIRST)),
+        c if c + 1 == CLASSES => format!("{} and more", power(from)),
+        _ => format!("{}…{}", power(from), power(from + 1)),
+    }
+}
+
+fn at(moes: Moes) -> PlotPoint {
+    PlotPoint::new(moes.m.log10(), moes.l)
+}
+
+/// The view.
+pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
+    let ctx = ui.ctx().clone();
+    let export_now = tests_toolbar(ui, &ctx, &mut state.accuracy.tests, in_use);
+    let Some(results) = &state.accuracy.tests.results else {
+        super::nothing_yet(
+            ui,
+            "Run tests to see where the model fails and how large its error is over its whole range",
+        );
+        return;
+    };
+    let map = &mut state.accuracy.map;
+    ui.horizontal_wrapped(|ui| {
+        ui.label("Judged by").on_hover_text("Colours the map and sorts the list");
+        let bound = rich("bound on the error of {H_c}", 13.5, ui.visuals().text_color());
+        ui.selectable_value(&mut map.by, By::Bound, bound);
+        let truth = rich("true error of {H_c}", 13.5, ui.visuals().text_color());
+        ui.selectable_value(&mut map.by, By::Truth, truth)
+            .on_hover_text("Only tests that were compared with full solutions have a colour");
+        ui.weak(summary(results));
+    });
+    if map.by == By::Bound {
+        super::bound_note(ui, results.tests.iter().map(|t| t.bound()));
+    }
+    if map.drawn.as_ref().is_none_or(|d| d.of != stamp(results, map.by)) {
+        map.drawn = Some(Drawn::new(results, map.by));
+    }
+    map.worst.sort(results, map.by);
+    let stale = results.in_use != *in_use;
+    let here = state.document.point.moes();
+    let mut wanted = None;
+    if ui.available_width() > 700.0 {
+        let list = 300.0;
+        ui.horizontal_top(|ui| {
+            ui.vertical(|ui| {
+                ui.set_width(ui.available_width() - list - 14.0);
+                let height = ui.available_height();
+                wanted = chart(ui, map, results, here, height, stale);
+            });
+            ui.vertical(|ui| wanted = wanted.or(worst::ui(ui, &map.worst, results)));
+        });
+    } else {
+        let height = (ui.available_height() - 150.0).max(180.0);
+        wanted = chart(ui, map, results, here, height, stale);
+        wanted = wanted.or(worst::ui(ui, &map.worst, results));
+    }
+    let text = export_now.then(|| csv(results));
+    let lubricant = results.in_use.model.domain.lubricant;
+    if let Some(point) = wanted {
+        state.accuracy.tests.say(state.document.set_contact(point, lubricant).err());
+        state.entries.clear();
+    }
+    if let Some(text) = text {
+        state.ask_path(&ctx, Purpose::Csv { text });
+    }
+}
+
+/// Numbers of tests, failures and comparisons.
+pub fn summary(results: &Results) -> String {
+    let (made, wanted) = (results.tests.len(), results.plan.tests);
+    let failures = match results.failures() {
+        0 => "no failures".to_owned(),
+        1 => "1 failure".to_owned(),
+        n => format!("{n} failures"),
+    };
+    let compared = results.tests.iter().filter(|t| t.truth.is_some()).count();
+    format!("{made} of {wanted} tests, {failures}, {compared} compared")
+}
+
+fn chart(ui: &mut Ui, map: &Map, results: &Results, here: Moes, height: f32, stale: bool) -> Option<OperatingPoint> {
+    let drawn = map.drawn.as_ref()?;
+    let palette = Palette::of(ui);
+    let dark = ui.visuals().dark_mode;
+    let grey = |color: Color32| if stale { palette.reference } else { color };
+    let response = axes::show(
+        axes::plot(ui, "failure map", height, "Load number {M}", "Lubricant number {L}")
+            .legend(Legend::default().position(Corner::RightTop).follow_insertion_order(true).background_alpha(0.6))
+            .x_grid_spacer(axes::log_marks)
+            .x_axis_formatter(|mark, _| axes::log_label(mark))
+            .y_axis_min_width(34.0)
+            .set_margin_fraction(egui::vec2(0.03, 0.05))
+            .label_formatter(|hover| match hover {
+                HoverPosition::NearDataPoint { position, .. } => label(results, *position),
+                HoverPosition::Elsewhere { .. } => None,
+            }),
+        ui,
+        "Map of the random tests",
+        |plot| {
+            let unknown = Points::new("not compared", PlotPoints::Borrowed(&drawn.unknown));
+            if !drawn.unknown.is_empty() {
+                plot.points(unknown.color(palette.grid).radius(2.0));
+            }
+            for (k, points) in drawn.classes.iter().enumerate().filter(|(_, points)| !points.is_empty()) {
+                let color = grey(sequential(k as f32 / (CLASSES - 1) as f32, dark));
+                plot.points(Points::new(class_name(k), PlotPoints::Borrowed(points)).color(color).radius(2.4));
+            }
+            if !drawn.failures.is_empty() {
+                let failures = Points::new("failed", PlotPoints::Borrowed(&drawn.failures));
+                plot.points(failures.color(grey(palette.wrong)).radius(5.0).shape(MarkerShape::Cross));
+            }
+            let ring = Points::new("", vec![[at(here).x, at(here).y]]).id("here").color(palette.accent).radius(8.0);
+            plot.points(ring.filled(false).shape(MarkerShape::Circle).allow_hover(false));
+        },
+    );
+    let transform = response.transform;
+    let response = response.response;
+    let response = response.on_hover_cursor(egui::CursorIcon::Crosshair);
+    let pointer = response.interact_pointer_pos().filter(|_| response.clicked())?;
+    nearest(results, |moes| transform.position_from_point(&at(moes)).distance(pointer)).map(|test| test.point)
+}
+
+/// The test nearest by a distance on the screen, if it is near.
+fn nearest(results: &Results, distance: impl Fn(Moes) -> f32) -> Option<&Test> {
+    let distances = results.tests.iter().map(|test| (test, distance(test.point.moes())));
+    distances.filter(|(_, d)| *d < NEAR).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(test, _)| test)
+}
+
+/// What is known of the test at a place of the map.
+fn label(results: &Results, place: PlotPoint) -> Option<String> {
+    let test = results.tests.iter().find(|test| at(test.point.moes()) == place)?;
+    let error = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), numbers::error_percent);
+    Some(format!(
+        "{}, α {}/GPa\nerror of H_c within {}, truly {}\nclick to go there",
+        numbers::moes(test.point.moes()),
+        numbers::digits(test.point.alpha_per_pa * 1e9, 3),
+        error(test.bound()),
+        error(test.true_error())
+    ))
+}
+
+/// Every test as a row.
+pub fn csv(results: &Results) -> String {
+    let comments = [
+        results.in_use.describe(),
+        format!("random tests (3.17) of the trained range, seed {}", results.plan.seed),
+        "converged 0: the reduced model failed; empty errors: not compared, or no full solution".to_owned(),
+    ];
+    let own = ["converged", "newton_steps", "H_c", "H_min", "H_c_error_bound", "H_c_error", "H_min_error"];
+    let header: Vec<&str> = CONTACT_COLUMNS.into_iter().chain(own).collect();
+    let rows = results.tests.iter().map(|test| {
+        let mut row = contact_cells(&test.point).map(Some).to_vec();
+        let errors = match test.truth {
+            Some(super::random_tests::Truth::Known(errors)) => Some(errors),
+            _ => None,
+        };
+        row.extend([
+            Some(f64::from(u8::from(test.solved.is_some()))),
+            test.solved.map(|s| s.iterations as f64),
+            test.solved.map(|s| s.h_c),
+            test.solved.map(|s| s.h_min),
+            test.bound(),
+            errors.map(|e| e.h_c),
+            errors.map(|e| e.h_min),
+        ]);
+        row
+    });
+    export::csv(&comments, &header, rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_error_has_a_class_with_a_name() {
+        assert_eq!((class(0.0), class(3e-8), class(3e-7), class(9e-3), class(0.5)), (0, 0, 1, 5, 6));
+        assert_eq!(class_name(0), "below 1e−7");
+        assert_eq!(class_name(class(3e-7)), "1e−7…1e−6");
+        assert_eq!(class_name(6), "1e−2 and more");
+    }
+}

@@ -1,0 +1,211 @@
+//! How far results can be believed: where the error of this contact comes from, how the model does over its whole range, what its calibrated
+//! bound is worth, and how the last full solve converged.
+
+mod along;
+mod failure_map;
+mod random_tests;
+mod residuals;
+mod split;
+mod truth;
+mod worst;
+
+use crate::app::controls::{message_ui, named, warning_ui};
+use crate::app::in_use::InUse;
+use crate::app::state::State;
+use crate::app::task::{Standing, Task};
+use crate::app::theme::{Palette, rich};
+use crate::solver::physics::contact::OperatingPoint;
+use egui::{Context, DragValue, ProgressBar, Ui};
+use random_tests::{MOST_COMPARED, RandomTests, TESTS};
+
+/// A view of the tab.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+enum View {
+    /// The parts of this contact's error.
+    #[default]
+    Split,
+    /// Random tests in the M–L plane.
+    FailureMap,
+    /// Calibrated bound against true error.
+    Truth,
+    /// Errors along (3.21).
+    Along,
+    /// Newton residuals of the last full solve.
+    Residuals,
+}
+
+impl View {
+    const ALL: [Self; 5] = [Self::Split, Self::FailureMap, Self::Truth, Self::Along, Self::Residuals];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Split => "Where the error comes from",
+            Self::FailureMap => "Failure map",
+            Self::Truth => "Bound against truth",
+            Self::Along => "Along the trajectory",
+            Self::Residuals => "Newton residuals",
+        }
+    }
+}
+
+/// Work under way, whatever its messages are.
+pub trait Running {
+    /// How far it is.
+    fn standing(&self) -> Standing;
+    /// Asks it to stop.
+    fn stop(&self);
+}
+
+impl<M: Send + 'static> Running for Task<M> {
+    fn standing(&self) -> Standing {
+        Self::standing(self)
+    }
+
+    fn stop(&self) {
+        Self::stop(self);
+    }
+}
+
+/// The tab's studies and what they found.
+#[derive(Default)]
+pub struct AccuracyView {
+    view: View,
+    split: split::Split,
+    tests: RandomTests,
+    map: failure_map::Map,
+    truth: Option<truth::Shown>,
+    along: along::Along,
+}
+
+impl AccuracyView {
+    /// Takes in what the studies have found since the last frame.
+    pub fn receive(&mut self) {
+        self.split.receive();
+        self.tests.receive();
+        self.along.receive();
+    }
+
+    /// How far the study is that runs; the first where there are several.
+    pub fn standing(&self) -> Option<Standing> {
+        self.running().next().map(Running::standing)
+    }
+
+    /// Stops every study; what they have found stays.
+    pub fn stop(&self) {
+        self.running().for_each(Running::stop);
+    }
+
+    fn running(&self) -> impl Iterator<Item = &dyn Running> {
+        [self.tests.task(), self.along.task(), self.split.task()].into_iter().flatten()
+    }
+}
+
+/// The tab.
+pub fn ui(ui: &mut Ui, state: &mut State) {
+    ui.horizontal_wrapped(|ui| {
+        for view in View::ALL {
+            ui.selectable_value(&mut state.accuracy.view, view, view.name());
+        }
+    });
+    ui.separator();
+    if state.accuracy.view == View::Residuals {
+        residuals::ui(ui, state);
+        return;
+    }
+    let Some(in_use) = state.in_use() else {
+        ui.centered_and_justified(|ui| {
+            ui.weak("No reduced model is loaded: every picture is a full solution, and there is nothing to judge")
+        });
+        return;
+    };
+    match state.accuracy.view {
+        View::Split => split::ui(ui, state, &in_use),
+        View::FailureMap => failure_map::ui(ui, state, &in_use),
+        View::Truth => truth::ui(ui, state, &in_use),
+        View::Along => along::ui(ui, state, &in_use),
+        View::Residuals => {}
+    }
+}
+
+/// A number to choose with its name before it.
+fn count(ui: &mut Ui, name: &str, tip: &str, value: &mut usize, range: std::ops::RangeInclusive<usize>) {
+    ui.label(name).on_hover_text(tip);
+    let response = ui.add(DragValue::new(value).range(range).speed(10.0));
+    named(ui, response, name).on_hover_text(tip);
+}
+
+/// Run, or Stop while it runs. Returns whether a run is wanted.
+fn run_or_stop(ui: &mut Ui, run: &str, tip: &str, task: Option<&dyn Running>) -> bool {
+    let Some(task) = task else {
+        return ui.button(run).on_hover_text(tip).clicked();
+    };
+    if ui.button("Stop").on_hover_text("What has been found so far stays (Esc)").clicked() {
+        task.stop();
+    }
+    false
+}
+
+/// How far a run is and how long the rest takes; last in its row, so that nothing else moves with it.
+fn progress(ui: &mut Ui, task: Option<&dyn Running>) {
+    let Some(standing) = task.map(Running::standing) else { return };
+    let fraction = if standing.total > 0 { standing.done as f32 / standing.total as f32 } else { 0.0 };
+    ui.add(ProgressBar::new(fraction).desired_width(90.0).desired_height(8.0));
+    ui.weak(standing.describe()).on_hover_text(standing.stage);
+}
+
+/// The row over both views of the random tests. Returns whether the table is wanted as a file.
+fn tests_toolbar(ui: &mut Ui, ctx: &Context, tests: &mut RandomTests, in_use: &InUse) -> bool {
+    let mut export = false;
+    ui.horizontal_wrapped(|ui| {
+        let plan = &mut tests.plan;
+        let tip = "Reduced solves at random contacts (3.17) of the range the model was trained for";
+        count(ui, "Random tests", tip, &mut plan.tests, TESTS);
+        let tip = "How many of them are compared with full solutions on the model’s own grid";
+        count(ui, "Compared in full", tip, &mut plan.compared, 0..=MOST_COMPARED);
+        let tip = "The same seed gives the same contacts";
+        ui.label("Seed").on_hover_text(tip);
+        let seed = ui.add(DragValue::new(&mut plan.seed));
+        named(ui, seed, "Seed").on_hover_text(tip);
+        if run_or_stop(ui, "Run tests", "Tests the model as it is truncated now", tests.task()) {
+            tests.start(ctx, in_use);
+        }
+        let there = tests.results.as_ref().is_some_and(|r| !r.tests.is_empty());
+        let button = ui.add_enabled(there, egui::Button::new("Export CSV…"));
+        export = button.on_hover_text("Every test with its contact, films, bound and true errors").clicked();
+        progress(ui, tests.task());
+    });
+    if let Some(message) = tests.message() {
+        message_ui(ui, message);
+    }
+    if let Some(results) = tests.results.as_ref().filter(|r| r.in_use != *in_use) {
+        stale_note(ui, &results.in_use);
+    }
+    export
+}
+
+/// Says that what is shown was made with another model or truncation.
+fn stale_note(ui: &mut Ui, of: &InUse) {
+    warning_ui(ui, &format!("Found with {}; the model or its truncation has changed since", of.describe()));
+}
+
+/// Says why there are no bounds, where there are none.
+fn bound_note(ui: &mut Ui, mut bounds: impl Iterator<Item = Option<f64>>) {
+    if !bounds.any(|bound| bound.is_some()) {
+        let note = "No calibrated bounds: the model is truncated, or its training measured no errors";
+        ui.label(rich(note, 11.0, Palette::of(ui).quiet));
+    }
+}
+
+/// Columns that say which contact a row of an exported table is.
+const CONTACT_COLUMNS: [&str; 8] = ["M", "L", "R_m", "u_m_m_per_s", "w_n_per_m", "E_pa", "eta_0_pa_s", "alpha_per_pa"];
+
+/// The values of [`CONTACT_COLUMNS`].
+fn contact_cells(point: &OperatingPoint) -> [f64; 8] {
+    let (moes, [r, u, w, e, eta, alpha]) = (point.moes(), point.quantities());
+    [moes.m, moes.l, r, u, w, e, eta, alpha]
+}
+
+/// Says why there is nothing yet.
+fn nothing_yet(ui: &mut Ui, text: &str) {
+    ui.centered_and_justified(|ui| ui.weak(text));
+}

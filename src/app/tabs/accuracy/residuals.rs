@@ -1,0 +1,108 @@
+//! How the last full solve converged.
+
+use crate::app::export;
+use crate::app::files::Purpose;
+use crate::app::jobs::Running;
+use crate::app::numbers;
+use crate::app::state::State;
+use crate::app::tabs::axes;
+use crate::app::theme::{Palette, rich};
+use egui::{Grid, Ui};
+use egui_plot::{Corner, Legend, Line, MarkerShape, Points};
+
+/// A solve younger than this is no news: showing it would only flicker.
+const NEWS_S: f64 = 0.12;
+
+/// The view: the solve that runs, else the last one that ended.
+pub fn ui(ui: &mut Ui, state: &mut State) {
+    let news = |job: &&Running| job.since.elapsed().as_secs_f64() > NEWS_S && !job.steps.is_empty();
+    if let Some(job) = state.jobs.running().iter().find(news) {
+        running_ui(ui, job);
+        return;
+    }
+    let ctx = ui.ctx().clone();
+    let Some((key, report)) = &state.last_report else {
+        ui.centered_and_justified(|ui| ui.weak("No full solve has finished yet"));
+        return;
+    };
+    let moes = key.point.moes();
+    let current = *key == state.key();
+    let mut export_now = false;
+    ui.horizontal_wrapped(|ui| {
+        ui.strong("Last full solve");
+        ui.label(format!("{}: {}", numbers::moes(moes), report.termination.describe()));
+        if !current {
+            ui.weak("(of other parameters than the sliders’)");
+        }
+        export_now = ui.button("Export CSV…").on_hover_text("Residual and step of every Newton step").clicked();
+    });
+    Grid::new("solve").num_columns(4).spacing([14.0, 3.0]).show(ui, |ui| {
+        let cells = [
+            ("Newton steps", report.newton_iterations.to_string()),
+            ("Krylov steps", report.linear_iterations.to_string()),
+            ("Starts tried", report.attempts.to_string()),
+            ("Final residual", numbers::digits(report.residual_norm, 3)),
+        ];
+        for (name, _) in &cells {
+            ui.weak(*name);
+        }
+        ui.end_row();
+        for (_, value) in &cells {
+            ui.label(value);
+        }
+        ui.end_row();
+    });
+    if let Some(c) = &state.comparison {
+        let text = format!("Reduced against full: {}", c.describe());
+        ui.label(rich(&text, 13.5, ui.visuals().text_color()));
+    }
+    residual_plot(ui, &report.residuals, &report.steps, current);
+    if export_now {
+        let rows = report.residuals.iter().zip(&report.steps).enumerate();
+        let rows = rows.map(|(k, (r, s))| vec![Some(k as f64 + 1.0), Some(*r), Some(*s)]);
+        let comment = format!("M {:e}; L {:e}; {}", moes.m, moes.l, report.termination.describe());
+        let text = export::csv(&[comment], &["newton_step", "residual", "relative_step"], rows);
+        state.ask_path(&ctx, Purpose::Csv { text });
+    }
+}
+
+/// A solve at work: its parameters and its residuals so far.
+fn running_ui(ui: &mut Ui, job: &Running) {
+    ui.horizontal_wrapped(|ui| {
+        ui.strong(job.kind.name());
+        ui.label(format!("{}: at work", numbers::moes(job.key.point.moes())));
+        if let Some(step) = job.steps.last() {
+            ui.weak(format!("Newton step {}, residual {}", step.iteration, numbers::digits(step.residual, 3)));
+        }
+    });
+    let (residuals, steps): (Vec<f64>, Vec<f64>) = job.steps.iter().map(|s| (s.residual, s.step)).unzip();
+    residual_plot(ui, &residuals, &steps, true);
+}
+
+fn residual_plot(ui: &mut Ui, residuals: &[f64], steps: &[f64], current: bool) {
+    let palette = Palette::of(ui);
+    let log = |values: &[f64]| -> Vec<[f64; 2]> {
+        values.iter().enumerate().filter(|(_, v)| **v > 0.0).map(|(k, v)| [k as f64 + 1.0, v.log10()]).collect()
+    };
+    let series = [("Residual", residuals, palette.accent), ("Relative step", steps, palette.reference)];
+    let height = (ui.available_height() - 4.0).max(120.0);
+    axes::show(
+        axes::plot(ui, "residuals", height, "Newton step", "Residual, relative step")
+            .legend(Legend::default().position(Corner::RightTop).follow_insertion_order(true))
+            .y_grid_spacer(axes::decade_marks)
+            .y_axis_formatter(|mark, _| axes::decade_label(mark))
+            .auto_bounds(egui::Vec2b::TRUE),
+        ui,
+        "Newton residuals of the last solve",
+        |plot| {
+            for (name, values, color) in series {
+                let color = if current { color } else { palette.reference };
+                let points = log(values);
+                plot.line(Line::new(name, points.clone()).color(color).width(1.6));
+                plot.points(
+                    Points::new(name, points).color(color).radius(3.0).shape(MarkerShape::Circle).id((name, 1)),
+                );
+            }
+        },
+    );
+}

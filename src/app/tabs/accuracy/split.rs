@@ -1,0 +1,348 @@
+//! Where the error of this contact comes from: basis, projection, sampling and discretisation beside each other.
+
+use super::{Running, run_or_stop, stale_note};
+use crate::app::controls::{message_ui, sentence, spoken, warning_ui};
+use crate::app::export;
+use crate::app::files::Purpose;
+use crate::app::in_use::InUse;
+use crate::app::jobs::Key;
+use crate::app::numbers;
+use crate::app::state::{REST_S, State};
+use crate::app::tabs::axes;
+use crate::app::task::{Background, Ending, Reporter, Task};
+use crate::app::theme::{Palette, rich};
+use crate::solver::full::Problem;
+use crate::solver::reduced::{ErrorSplit, ErrorSplitter, Parts, SplitError, Trust};
+use egui::{Align2, Context, Grid, Ui, Vec2b};
+use egui_plot::{Bar, BarChart, GridMark, PlotPoint, Text};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Decades that the bars show at most: what is smaller than the rest by more does not matter.
+const DECADES: f64 = 7.0;
+/// Width that a label of the logarithmic axis needs.
+const LABEL: f32 = 66.0;
+/// Width of the rows' names beside the bars.
+const NAMES: f32 = 152.0;
+
+/// The rows of bars and table, from top to bottom: name, explanation.
+const ROWS: [(&str, &str); 6] = [
+    (
+        "Basis",
+        "The full solution’s best approximation in the pressure basis, under the basis’ own weights, against the full \
+         solution: no reduced solution has a nearer pressure. More snapshots or modes lower it",
+    ),
+    (
+        "Projection",
+        "The reduced solution with all rows of the Reynolds equation against that best approximation: Galerkin’s \
+         conditions choose another element of the same basis, often one with a better film",
+    ),
+    (
+        "Sampling",
+        "The reduced solution with its sampled rows against the one with all rows. More or better rows lower it",
+    ),
+    ("Reduced against full", "The three above together, with their signs: what the verification shows"),
+    (
+        "Discretisation",
+        "The full solution on the model’s grid against the value to which this grid and the next finer one tend \
+         (Richardson, order two). No reduced model can be nearer to the equations than its grid",
+    ),
+    ("Reduced against the limit", "All four together, with their signs"),
+];
+
+/// What a split is of.
+#[derive(Clone, PartialEq)]
+struct Asked {
+    key: Key,
+    in_use: InUse,
+}
+
+type Found = Result<Box<ErrorSplit>, SplitError>;
+/// The splitter of the last model, handed from one job to the next: its operators and finer grids are worth keeping.
+type Kept = Arc<Mutex<Option<(InUse, Vec<Option<ErrorSplitter>>)>>>;
+
+/// State of the view.
+#[derive(Default)]
+pub struct Split {
+    kept: Kept,
+    work: Background<Found>,
+    /// What was last asked for, answered or not.
+    asked: Option<Asked>,
+    shown: Option<(Asked, Box<ErrorSplit>)>,
+}
+
+impl Split {
+    /// Takes in what came.
+    pub fn receive(&mut self) {
+        let Some(asked) = &self.asked else { return };
+        let mut refused = None;
+        self.work.receive(|found| match found {
+            Ok(split) => self.shown = Some((asked.clone(), split)),
+            Err(SplitError::Cancelled) => refused = Some("stopped before it was done".to_owned()),
+            Err(error) => refused = Some(error.to_string()),
+        });
+        if refused.is_some() {
+            self.work.message = refused;
+        }
+    }
+
+    /// The split under way.
+    pub fn task(&self) -> Option<&dyn Running> {
+        self.work.task().map(|task| task as &dyn Running)
+    }
+
+    fn start(&mut self, ctx: &Context, asked: Asked) {
+        self.asked = Some(asked.clone());
+        let kept = Arc::clone(&self.kept);
+        // A task that is replaced stops; the new one waits for the splitter until it has.
+        self.work.run(Task::start(ctx, "Splitting the error", move |reporter| work(&kept, &asked, reporter)));
+    }
+}
+
+fn work(kept: &Kept, asked: &Asked, reporter: &Reporter<Found>) -> Ending {
+    // A job that panicked may have left half a state: the splitter is taken out while it works.
+    let taken = kept.lock().unwrap_or_else(PoisonError::into_inner).take();
+    let windows = asked.in_use.model.windows.len();
+    let mut splitters = match taken {
+        Some((in_use, splitters)) if in_use == asked.in_use => splitters,
+        _ => (0..windows).map(|_| None).collect(),
+    };
+    let at = asked.in_use.model.window_for(asked.key.point.moes());
+    let options = asked.in_use.options_at(asked.key.point.moes());
+    let Some(place) = splitters.get_mut(at) else { return Err("the reduced model holds no bases".to_owned()) };
+    let splitter = place.get_or_insert_with(|| ErrorSplitter::new(Arc::clone(&asked.in_use.model), options));
+    let found = splitter.split(&asked.key.point, asked.key.lubricant, &mut reporter.observer());
+    reporter.send(found.map(Box::new));
+    *kept.lock().unwrap_or_else(PoisonError::into_inner) = Some((asked.in_use.clone(), splitters));
+    Ok(())
+}
+
+/// The view.
+pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
+    let ctx = ui.ctx().clone();
+    let now = Asked { key: state.key(), in_use: in_use.clone() };
+    start_when_rested(ui, state, &now);
+    let mut export_now = false;
+    ui.horizontal_wrapped(|ui| {
+        let tip = "Solves this contact reduced, reduced with all rows, in full, and in full on the next finer grid";
+        if run_or_stop(ui, "Split the error", tip, state.accuracy.split.task()) {
+            state.accuracy.split.start(&ctx, now.clone());
+        }
+        let there = state.accuracy.split.shown.is_some();
+        let button = ui.add_enabled(there, egui::Button::new("Export CSV…"));
+        export_now = button.on_hover_text("All parts for H_c, H_min and the pressure").clicked();
+        if let Some((asked, _)) = &state.accuracy.split.shown {
+            ui.label(numbers::moes(asked.key.point.moes()));
+        }
+    });
+    if let (Some(message), true) =
+        (&state.accuracy.split.work.message, state.accuracy.split.asked.as_ref() == Some(&now))
+    {
+        message_ui(ui, message);
+    }
+    if let Some(Trust::Outside(why)) = state.trust() {
+        warning_ui(ui, &format!("{why}; the split is made on request only"));
+    }
+    let Some((asked, split)) = &state.accuracy.split.shown else {
+        super::nothing_yet(ui, "The parts appear when the sliders rest");
+        return;
+    };
+    let current = *asked == now;
+    if asked.in_use != now.in_use {
+        stale_note(ui, &asked.in_use);
+    } else if !current {
+        warning_ui(ui, &format!("The parts belong to {}, not to the sliders", numbers::moes(asked.key.point.moes())));
+    }
+    bars(ui, split, current);
+    table(ui, split, current);
+    if export_now {
+        let text = csv(asked, split);
+        state.ask_path(&ctx, Purpose::Csv { text });
+    }
+}
+
+/// Starts by itself once per contact and model, when the sliders rest where the model was trained.
+fn start_when_rested(ui: &Ui, state: &mut State, now: &Asked) {
+    let known = state.accuracy.split.asked.as_ref() == Some(now);
+    let trained = Problem::new(&now.key.point, now.key.lubricant)
+        .is_ok_and(|problem| now.in_use.model.trust(&problem) == Trust::Trained);
+    if known || !trained {
+        return;
+    }
+    if let Some(task) = state.accuracy.split.task() {
+        task.stop();
+    }
+    let rested = state.rested_s(ui.input(|i| i.time));
+    if rested >= REST_S {
+        state.accuracy.split.start(ui.ctx(), now.clone());
+    } else {
+        ui.ctx().request_repaint_after_secs((REST_S - rested) as f32);
+    }
+}
+
+/// A scalar's value for each of [`ROWS`].
+fn values(parts: &Parts) -> [f64; 6] {
+    let Parts { basis, projection, sampling, discretisation } = *parts;
+    [basis, projection, sampling, parts.reduction(), discretisation, parts.whole()]
+}
+
+fn bars(ui: &mut Ui, split: &ErrorSplit, current: bool) {
+    let both =
+        [("{H_c}", "Parts of the error of H_c", &split.h_c), ("{H_min}", "Parts of the error of H_min", &split.h_min)];
+    let logs = both.iter().flat_map(|(_, _, parts)| values(parts)).map(|v| v.abs().log10()).filter(|v| v.is_finite());
+    let (low, high) = logs.fold((0.0f64, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+    let high = if high.is_finite() { high.ceil() } else { 0.0 };
+    // One axis for both, so that they can be compared; room on the right for the numbers.
+    let low = low.floor().max(high - DECADES).min(high - 2.0);
+    let end = high + 0.32 * (high - low);
+    let wide = ui.available_width() > 560.0;
+    let room = (ui.available_height() - 190.0).max(150.0);
+    let one = |ui: &mut Ui, k: usize, height: f32, rows: bool| {
+        let (symbol, name, parts) = both[k];
+        let look = Look { range: (low, end), height, rows, current };
+        bar_plot(ui, (symbol, name), &values(parts), &look);
+    };
+    if wide {
+        // The rows' names stand once, on the left.
+        let bars = 0.5 * (ui.available_width() - NAMES - 22.0);
+        ui.horizontal_top(|ui| {
+            for (k, width) in [NAMES + bars, bars].into_iter().enumerate() {
+                ui.vertical(|ui| {
+                    ui.set_width(width);
+                    one(ui, k, room, k == 0);
+                });
+            }
+        });
+    } else {
+        one(ui, 0, 0.5 * room, true);
+        one(ui, 1, 0.5 * room, true);
+    }
+}
+
+/// How one plot of bars is drawn: its axis (log10), its height, whether rows have their names, whether it is up to date.
+struct Look {
+    range: (f64, f64),
+    height: f32,
+    rows: bool,
+    current: bool,
+}
+
+fn bar_plot(ui: &mut Ui, (symbol, name): (&str, &str), values: &[f64; 6], look: &Look) {
+    let &Look { range: (low, end), height, rows, current } = look;
+    let palette = Palette::of(ui);
+    let title = format!("Relative error of {symbol}");
+    let marks = f64::from((ui.available_width() - if rows { NAMES } else { 0.0 }) / LABEL).max(2.0);
+    let at = |row: usize| -(row as f64);
+    let color = |row: usize| match row {
+        _ if !current => palette.reference,
+        3 | 5 => palette.accent,
+        4 => palette.reference,
+        _ => palette.film,
+    };
+    axes::show(
+        axes::plot(ui, name, height, &title, "")
+            .default_x_bounds(low, end)
+            .default_y_bounds(at(5) - 0.6, 0.6)
+            .auto_bounds(Vec2b::FALSE)
+            .allow_drag(false)
+            .allow_zoom(false)
+            .allow_boxed_zoom(false)
+            .allow_double_click_reset(false)
+            .show_x(false)
+            .show_y(false)
+            .x_grid_spacer(move |input| axes::few_decade_marks(input, marks))
+            .x_axis_formatter(|mark, _| axes::decade_label(mark))
+            .y_grid_spacer(|_| (0..ROWS.len()).map(|k| GridMark { value: -(k as f64), step_size: 1.0 }).collect())
+            .y_axis_formatter(move |mark, _| if rows { row_name(mark.value) } else { String::new() })
+            .y_axis_min_width(if rows { NAMES - 8.0 } else { 6.0 })
+            .label_formatter(|_| None),
+        ui,
+        name,
+        |plot| {
+            plot.set_plot_bounds_x(low..=end);
+            let bars = values.iter().enumerate().filter_map(|(row, value)| {
+                let length = value.abs().log10() - low;
+                (length > 0.0).then(|| {
+                    Bar::new(at(row), length).base_offset(low).width(0.62).fill(color(row)).stroke(egui::Stroke::NONE)
+                })
+            });
+            plot.bar_chart(BarChart::new("", bars.collect()).horizontal().allow_hover(false));
+            for (row, value) in values.iter().enumerate() {
+                let x = value.abs().log10().max(low);
+                let text = rich(&format!(" {}", relative(*value)), 12.0, ui_text(&palette, current));
+                let label = Text::new("", PlotPoint::new(x, at(row)), text).anchor(Align2::LEFT_CENTER);
+                plot.text(label.id(("value", row)).allow_hover(false));
+            }
+        },
+    );
+}
+
+fn ui_text(palette: &Palette, current: bool) -> egui::Color32 {
+    if current { palette.text } else { palette.quiet }
+}
+
+fn row_name(value: f64) -> String {
+    let row = (-value).round();
+    ROWS.iter()
+        .enumerate()
+        .find(|(k, _)| *k as f64 == row)
+        .map_or_else(String::new, |(_, (name, _))| (*name).to_owned())
+}
+
+/// A signed relative error in the units of the axis.
+fn relative(value: f64) -> String {
+    let text = numbers::digits(value, 2);
+    if value > 0.0 { format!("+{text}") } else { text }
+}
+
+/// A signed relative error in percent.
+fn signed(value: f64) -> String {
+    let sign = if value < 0.0 { "−" } else { "+" };
+    let size = numbers::error_percent(value);
+    if value == 0.0 || size.starts_with('<') { size } else { format!("{sign}{size}") }
+}
+
+fn table(ui: &mut Ui, split: &ErrorSplit, current: bool) {
+    let palette = Palette::of(ui);
+    let color = ui_text(&palette, current);
+    let p = &split.pressure;
+    let pressure = [Some(p.basis), Some(p.projection), Some(p.sampling), Some(p.reduction), None, None];
+    let (h_c, h_min) = (values(&split.h_c), values(&split.h_min));
+    Grid::new("parts").num_columns(4).spacing([22.0, 3.0]).striped(true).show(ui, |ui| {
+        for title in ["Part", "of {H_c}", "of {H_min}", "of {P}, in the norm"] {
+            ui.label(rich(title, 12.5, palette.quiet));
+        }
+        ui.end_row();
+        for (row, (name, why)) in ROWS.iter().enumerate() {
+            ui.label(rich(name, 13.0, color)).on_hover_text(sentence(why));
+            for (of, value) in [("H_c", h_c[row]), ("H_min", h_min[row])] {
+                let text = signed(value);
+                let label = ui.label(rich(&text, 13.0, color)).on_hover_text(format!("{value:.3e}"));
+                spoken(ui, label, &format!("{name}, {of}: {text}"));
+            }
+            let text = pressure[row].map_or_else(String::new, numbers::error_percent);
+            ui.label(rich(&text, 13.0, color));
+            ui.end_row();
+        }
+    });
+}
+
+fn csv(asked: &Asked, split: &ErrorSplit) -> String {
+    let moes = asked.key.point.moes();
+    let rows: Vec<&str> = ROWS.iter().map(|row| row.0).collect();
+    let comments = [
+        format!(
+            "M {:e}; L {:e}; alpha {:e} 1/Pa; {}",
+            moes.m,
+            moes.l,
+            asked.key.point.alpha_per_pa,
+            asked.in_use.describe()
+        ),
+        format!("rows: {}", rows.join(", ")),
+        "signed, relative to the full solution on the model's grid; P as lengths in the weighted norm".to_owned(),
+    ];
+    let p = &split.pressure;
+    let pressure = [Some(p.basis), Some(p.projection), Some(p.sampling), Some(p.reduction), None, None];
+    let (h_c, h_min) = (values(&split.h_c), values(&split.h_min));
+    let rows = (0..ROWS.len()).map(|k| vec![Some(k as f64 + 1.0), Some(h_c[k]), Some(h_min[k]), pressure[k]]);
+    export::csv(&comments, &["row", "H_c", "H_min", "P"], rows)
+}

@@ -1,0 +1,193 @@
+//! What the calibrated bound is worth: bound against true error of H_c wherever both are known.
+
+use super::failure_map::{By, csv, stamp, summary};
+use super::random_tests::Results;
+use super::tests_toolbar;
+use crate::app::controls::spoken;
+use crate::app::files::Purpose;
+use crate::app::in_use::InUse;
+use crate::app::numbers;
+use crate::app::state::State;
+use crate::app::tabs::axes;
+use crate::app::theme::Palette;
+use crate::engine::{median, rank_correlation};
+use egui::{Grid, Ui, Vec2b};
+use egui_plot::{Corner, Legend, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points};
+
+/// Smaller errors are the full solver's own tolerance.
+const FLOOR: f64 = 1e-11;
+
+/// What a set of pairs (bound, truth) says of the bound.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Worth {
+    /// Pairs.
+    count: usize,
+    /// Spearman's rank correlation.
+    correlation: f64,
+    /// Share of pairs whose bound is not below the truth.
+    holds: f64,
+    /// Median of bound over truth.
+    effectivity: f64,
+}
+
+impl Worth {
+    fn of(pairs: &[(f64, f64)]) -> Self {
+        let (bounds, truths): (Vec<f64>, Vec<f64>) = pairs.iter().copied().unzip();
+        let effectivities: Vec<f64> = pairs.iter().map(|(e, t)| e / t.max(FLOOR)).collect();
+        Self {
+            count: pairs.len(),
+            correlation: rank_correlation(&bounds, &truths),
+            holds: pairs.iter().filter(|(e, t)| e >= t).count() as f64 / pairs.len() as f64,
+            effectivity: median(&effectivities),
+        }
+    }
+}
+
+/// What the view shows, made when something changed.
+pub struct Shown {
+    of: (usize, usize, By),
+    worth: Worth,
+    /// (log10 of the truth, log10 of the bound) where the bound holds.
+    holds: Vec<PlotPoint>,
+    /// The same where it is.
+    fails: Vec<PlotPoint>,
+    /// Where the line of perfect bounds begins and ends.
+    line: (f64, f64),
+}
+
+impl Shown {
+    /// `None` without any pair.
+    fn new(results: &Results) -> Option<Self> {
+        let pairs: Vec<(f64, f64)> = results.pairs().collect();
+        if pairs.is_empty() {
+            return None;
+        }
+        let log = |v: f64| v.max(FLOOR).log10();
+        let place = |&(bound, truth): &(f64, f64)| PlotPoint::new(log(truth), log(bound));
+        let (holds, fails): (Vec<_>, Vec<_>) = pairs.iter().partition(|(bound, truth)| bound >= truth);
+        let truths = pairs.iter().map(|pair| log(pair.1));
+        let (low, high) = truths.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+        Some(Self {
+            of: stamp(results, By::Truth),
+            worth: Worth::of(&pairs),
+            holds: holds.iter().map(place).collect(),
+            fails: fails.iter().map(place).collect(),
+            line: (low.floor(), high.ceil()),
+        })
+    }
+}
+
+/// The view.
+pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
+    let ctx = ui.ctx().clone();
+    let export_now = tests_toolbar(ui, &ctx, &mut state.accuracy.tests, in_use);
+    let Some(results) = &state.accuracy.tests.results else {
+        super::nothing_yet(ui, "Run tests with some of them compared in full to see what the bound is worth");
+        return;
+    };
+    ui.weak(summary(results));
+    super::bound_note(ui, results.tests.iter().map(|t| t.bound()));
+    let shown = &mut state.accuracy.truth;
+    if shown.as_ref().is_none_or(|s| s.of != stamp(results, By::Truth)) {
+        *shown = Shown::new(results);
+    }
+    match shown {
+        Some(shown) => {
+            worth_ui(ui, &shown.worth);
+            scatter(ui, shown, results.in_use != *in_use);
+        }
+        None => super::nothing_yet(ui, "No test has been compared with a full solution yet"),
+    }
+    if export_now {
+        let text = csv(results);
+        state.ask_path(&ctx, Purpose::Csv { text });
+    }
+}
+
+fn worth_ui(ui: &mut Ui, worth: &Worth) {
+    let cells = [
+        ("Compared", worth.count.to_string(), "Tests with a bound and a true error"),
+        (
+            "Rank correlation",
+            numbers::digits(worth.correlation, 3),
+            "Spearman’s: 1 when the bound orders all errors rightly",
+        ),
+        (
+            "Bound holds",
+            format!("{}{}%", numbers::digits(100.0 * worth.holds, 3), numbers::THIN),
+            "Share of tests whose true error is not larger; the promise is 99 %",
+        ),
+        (
+            "Median effectivity",
+            numbers::digits(worth.effectivity, 3),
+            "Bound over true error: 1 would be perfect, below 10 it is worth something",
+        ),
+    ];
+    Grid::new("worth").num_columns(cells.len()).spacing([22.0, 2.0]).show(ui, |ui| {
+        for (name, _, tip) in &cells {
+            ui.weak(*name).on_hover_text(*tip);
+        }
+        ui.end_row();
+        for (name, value, tip) in &cells {
+            let label = ui.strong(value).on_hover_text(*tip);
+            spoken(ui, label, &format!("{name}: {value}"));
+        }
+        ui.end_row();
+    });
+}
+
+fn scatter(ui: &mut Ui, shown: &Shown, stale: bool) {
+    let palette = Palette::of(ui);
+    let grey = |color| if stale { palette.reference } else { color };
+    let (low, high) = shown.line;
+    let height = (ui.available_height() - 4.0).max(150.0);
+    axes::show(
+        axes::plot(ui, "truth", height, "True relative error of {H_c}", "Bound on the error of {H_c}")
+            .legend(Legend::default().position(Corner::LeftTop).follow_insertion_order(true).background_alpha(0.6))
+            .x_grid_spacer(axes::decade_marks)
+            .x_axis_formatter(|mark, _| axes::decade_label(mark))
+            .y_grid_spacer(axes::decade_marks)
+            .y_axis_formatter(|mark, _| axes::decade_label(mark))
+            .auto_bounds(Vec2b::TRUE)
+            .label_formatter(|hover| match hover {
+                egui_plot::HoverPosition::NearDataPoint { position, .. } => Some(format!(
+                    "true error {}\nbound {}",
+                    numbers::error_percent(10f64.powf(position.x)),
+                    numbers::error_percent(10f64.powf(position.y))
+                )),
+                egui_plot::HoverPosition::Elsewhere { .. } => None,
+            }),
+        ui,
+        "Bound against true error",
+        |plot| {
+            // Perfect bounds, as far as there are truths.
+            let identity = Line::new("bound = truth", vec![[low, low], [high, high]]).color(palette.reference);
+            plot.line(identity.width(1.2).style(LineStyle::dashed_dense()).allow_hover(false));
+            let series = [
+                ("holds", &shown.holds, palette.film, MarkerShape::Circle),
+                ("does not hold", &shown.fails, palette.warning, MarkerShape::Down),
+            ];
+            for (name, points, color, shape) in series.into_iter().filter(|s| !s.1.is_empty()) {
+                let points = Points::new(name, PlotPoints::Borrowed(points));
+                plot.points(points.color(grey(color)).radius(2.8).shape(shape));
+            }
+        },
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_worth_of_a_bound_twice_too_large_and_once_too_small() {
+        let mut pairs: Vec<(f64, f64)> = (1..=9).map(|k| (2e-6 * f64::from(k), 1e-6 * f64::from(k))).collect();
+        let worth = Worth::of(&pairs);
+        assert!(
+            (worth.correlation - 1.0).abs() < 1e-12 && worth.holds == 1.0 && (worth.effectivity - 2.0).abs() < 1e-9
+        );
+        pairs.push((1e-9, 1e-3));
+        let worth = Worth::of(&pairs);
+        assert!(worth.correlation < 0.9 && (worth.holds - 0.9).abs() < 1e-12 && worth.count == 10);
+    }
+}

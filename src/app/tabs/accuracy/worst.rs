@@ -1,0 +1,76 @@
+//! The worst of the random tests, failures first. A click goes there.
+
+use super::failure_map::{By, stamp};
+use super::random_tests::Results;
+use crate::app::controls::named;
+use crate::app::numbers;
+use crate::app::theme::{Palette, rich};
+use crate::solver::physics::contact::OperatingPoint;
+use egui::{Grid, ScrollArea, Ui};
+
+/// Cases that are listed.
+const LISTED: usize = 60;
+
+/// Indices of the worst tests, sorted when something changed.
+#[derive(Default)]
+pub struct Worst {
+    of: Option<(usize, usize, By)>,
+    order: Vec<usize>,
+}
+
+impl Worst {
+    /// Sorts the tests: failures, then by falling error; what has none is left out.
+    pub fn sort(&mut self, results: &Results, by: By) {
+        if self.of == Some(stamp(results, by)) {
+            return;
+        }
+        self.of = Some(stamp(results, by));
+        let badness = |k: &usize| match &results.tests[*k] {
+            test if test.solved.is_none() => Some(f64::INFINITY),
+            test => by.of(test),
+        };
+        let mut rated: Vec<(usize, f64)> =
+            (0..results.tests.len()).filter_map(|k| badness(&k).map(|error| (k, error))).collect();
+        rated.sort_by(|a, b| b.1.total_cmp(&a.1));
+        self.order = rated.into_iter().take(LISTED).map(|(k, _)| k).collect();
+    }
+}
+
+/// The list; returns the contact that was chosen.
+pub fn ui(ui: &mut Ui, worst: &Worst, results: &Results) -> Option<OperatingPoint> {
+    let palette = Palette::of(ui);
+    let mut wanted = None;
+    ui.strong("Worst cases").on_hover_text("Failures first. A click on M and L goes there");
+    ScrollArea::vertical().id_salt("worst").auto_shrink(false).show(ui, |ui| {
+        Grid::new("worst").num_columns(4).spacing([10.0, 3.0]).striped(true).show(ui, |ui| {
+            for title in ["", "{M}, {L}", "Bound", "True Δ{H_c}"] {
+                ui.label(rich(title, 12.0, palette.quiet));
+            }
+            ui.end_row();
+            for (place, test) in worst.order.iter().filter_map(|k| results.tests.get(*k)).enumerate() {
+                let moes = test.point.moes();
+                ui.weak((place + 1).to_string());
+                let text = format!("{}, {}", numbers::digits(moes.m, 3), numbers::digits(moes.l, 3));
+                let tip = format!(
+                    "Go there: {}, α {}/GPa (Ctrl+Z comes back)",
+                    numbers::moes(moes),
+                    numbers::digits(test.point.alpha_per_pa * 1e9, 3)
+                );
+                let link = ui.link(text).on_hover_text(tip);
+                if named(ui, link, &format!("Go to worst case {}", place + 1)).clicked() {
+                    wanted = Some(test.point);
+                }
+                let error = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), numbers::error_percent);
+                if test.solved.is_some() {
+                    ui.label(error(test.bound()));
+                    ui.label(error(test.true_error()));
+                } else {
+                    ui.colored_label(palette.wrong, "failed");
+                    ui.label("");
+                }
+                ui.end_row();
+            }
+        });
+    });
+    wanted
+}

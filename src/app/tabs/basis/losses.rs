@@ -1,0 +1,122 @@
+//! Singular values and the loss of information, with the tolerances that can be dragged.
+
+use super::Field;
+use crate::app::numbers;
+use crate::app::state::State;
+use crate::app::tabs::axes;
+use crate::app::theme::Palette;
+use crate::solver::reduced::Window;
+use egui::{Align2, RichText, Ui};
+use egui_plot::{
+    Corner, HLine, Legend, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, Points, Text, VLine,
+};
+
+/// How near (in screen points) the pointer must be to take a tolerance along.
+const GRAB: f32 = 9.0;
+/// Smallest tolerance that can be dragged to, log10.
+const LEAST_LOG_LOSS: f64 = -14.0;
+
+fn log_plot<'a>(ui: &Ui, id: &str, height: f32, title: &str) -> Plot<'a> {
+    axes::plot(ui, id, height, "Modes {k}", title)
+        .legend(Legend::default().position(Corner::RightTop).follow_insertion_order(true).background_alpha(0.6))
+        .y_grid_spacer(axes::decade_marks)
+        .y_axis_formatter(|mark, _| axes::decade_label(mark))
+        .label_formatter(|at| match at {
+            egui_plot::HoverPosition::NearDataPoint { plot_name, position, .. } => {
+                Some(format!("{plot_name}\nk = {:.0}\n{}", position.x, numbers::digits(10f64.powf(position.y), 3)))
+            }
+            egui_plot::HoverPosition::Elsewhere { .. } => None,
+        })
+}
+
+/// Loss of information against the number of modes, with the tolerances.
+pub fn loss_plot(ui: &mut Ui, state: &mut State, window: &Window, height: f32) {
+    let palette = Palette::of(ui);
+    let Some(curves) = &state.basis.curves else { return };
+    let projected = state.document.view.projected_deformation;
+    // Without a tolerance every mode is kept: the line rests at the loss of the kept modes.
+    let resting = |field: Field| {
+        let curve = match field {
+            Field::Pressure => &curves.loss[0],
+            Field::Deformation => &curves.loss[1],
+        };
+        curve.get(field.of(window).modes.ncols().saturating_sub(1)).or(curve.last()).map_or(LEAST_LOG_LOSS, |p| p.y)
+    };
+    let tolerance = |loss: Option<f64>, field: Field| loss.map_or_else(|| resting(field), f64::log10);
+    let mut lines = vec![(Field::Pressure, tolerance(state.document.view.pressure_loss, Field::Pressure))];
+    if projected {
+        lines.push((Field::Deformation, tolerance(state.document.view.deformation_loss, Field::Deformation)));
+    }
+    let options = state.reduced_options();
+    let dragging = state.basis.dragging;
+    let fit = state.fit_plots;
+    let shown = axes::show(
+        log_plot(ui, "loss", height, "Loss of information").allow_drag(dragging.is_none()),
+        ui,
+        "Loss of information and tolerances",
+        |plot| {
+            axes::fit(plot, fit);
+            for (field, points) in [Field::Pressure, Field::Deformation].into_iter().zip(&curves.loss) {
+                let color = field.color(&palette);
+                plot.line(Line::new(field.name(), PlotPoints::Borrowed(points)).color(color).width(1.8));
+            }
+            for (field, level) in &lines {
+                let color = field.color(&palette);
+                let width = if dragging == Some(*field) { 2.6 } else { 1.4 };
+                let line = HLine::new("", *level).id(("tolerance", field.name()));
+                plot.hline(line.color(color).width(width).style(LineStyle::dashed_dense()).allow_hover(false));
+                let place = PlotPoint::new(1.0, *level);
+                let text = RichText::new(format!("tolerance {}", numbers::digits(10f64.powf(*level), 1))).size(11.0);
+                let label = Text::new("", place, text.color(color)).anchor(Align2::LEFT_TOP);
+                plot.text(label.id(("tolerance label", field.name())).allow_hover(false));
+            }
+            if let Some(kept) = options.pressure_modes {
+                let line = VLine::new("", kept as f64).id("kept").color(palette.pressure).width(1.0);
+                plot.vline(line.style(LineStyle::dotted_dense()).allow_hover(false));
+            }
+        },
+    );
+    let transform = shown.transform;
+    let tip = "Drag the dashed tolerance: the model is truncated at once and profiles, error and time per solve answer";
+    let response = shown.response;
+    let near = |y: f32| {
+        lines.iter().find(|(_, level)| (transform.position_from_point(&PlotPoint::new(0.0, *level)).y - y).abs() < GRAB)
+    };
+    let hovered = response.hover_pos().and_then(|p| near(p.y)).map(|(field, _)| *field);
+    if hovered.is_some() || dragging.is_some() {
+        ui.ctx().set_cursor_icon(egui::CursorIcon::ResizeVertical);
+        response.on_hover_text(tip);
+    }
+    if ui.input(|i| i.pointer.primary_pressed()) && hovered.is_some() {
+        state.basis.dragging = hovered;
+    }
+    if !ui.input(|i| i.pointer.primary_down()) {
+        state.basis.dragging = None;
+    }
+    if let (Some(field), Some(pointer)) = (state.basis.dragging, ui.input(|i| i.pointer.latest_pos()))
+        && ui.input(|i| i.pointer.press_origin()).is_some_and(|origin| origin.distance(pointer) > 1.0)
+    {
+        let level = transform.value_from_position(pointer).y.clamp(LEAST_LOG_LOSS, -0.3);
+        let loss = Some(10f64.powf(level));
+        match field {
+            Field::Pressure => state.document.view.pressure_loss = loss,
+            Field::Deformation => state.document.view.deformation_loss = loss,
+        }
+    }
+}
+
+/// Singular values against their number.
+pub fn singular_plot(ui: &mut Ui, state: &State, height: f32) {
+    let palette = Palette::of(ui);
+    let Some(curves) = &state.basis.curves else { return };
+    let fit = state.fit_plots;
+    axes::show(log_plot(ui, "singular values", height, "Singular value {σ}/{σ_1}"), ui, "Singular values", |plot| {
+        axes::fit(plot, fit);
+        for (field, points) in [Field::Pressure, Field::Deformation].into_iter().zip(&curves.singular) {
+            let color = field.color(&palette);
+            plot.line(Line::new(field.name(), PlotPoints::Borrowed(points)).color(color).width(1.4));
+            let dots = Points::new(field.name(), PlotPoints::Borrowed(points)).id((field.name(), 1));
+            plot.points(dots.color(color).radius(2.0).shape(MarkerShape::Circle));
+        }
+    });
+}

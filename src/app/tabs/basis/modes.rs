@@ -1,0 +1,123 @@
+//! Shapes of the modes, and where the rows are sampled: along ξ, and over the plane for a point contact.
+
+use super::{Field, plane};
+use crate::app::state::State;
+use crate::app::tabs::axes;
+use crate::app::theme::Palette;
+use crate::solver::discrete::grid::ContactGrid;
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::reduced::{PodBasis, Window};
+use egui::{Color32, ComboBox, Ui};
+use egui_plot::{Corner, Legend, Line, MarkerShape, PlotPoint, PlotPoints, Points};
+
+/// Modes drawn at once.
+const SHOWN_MODES: usize = 4;
+/// Room that the row of choices takes.
+const CHOICES: f32 = 30.0;
+/// Least height of a plot.
+const LEAST: f32 = 90.0;
+
+/// Choices and plots.
+pub fn ui(ui: &mut Ui, state: &mut State, window: &Window, height: f32) {
+    let palette = Palette::of(ui);
+    let fit = state.fit_plots;
+    let view = &mut state.basis;
+    let of_points = window.grid.kind() == ContactKind::Point;
+    ui.horizontal(|ui| {
+        let label = ui.label("Modes of");
+        ComboBox::from_id_salt("field of the modes")
+            .selected_text(view.field.name())
+            .show_ui(ui, |ui| {
+                for field in [Field::Pressure, Field::Deformation] {
+                    ui.selectable_value(&mut view.field, field, field.name());
+                }
+            })
+            .response
+            .labelled_by(label.id);
+        let most = view.field.of(window).modes.ncols().saturating_sub(1);
+        view.first_mode = view.first_mode.min(most);
+        let label = ui.label("from number");
+        let mut number = view.first_mode + 1;
+        let drag = egui::DragValue::new(&mut number).range(1..=most + 1).speed(0.1);
+        ui.add(drag).labelled_by(label.id);
+        view.first_mode = number.clamp(1, most + 1) - 1;
+        let rows = window.sampled_rows.len();
+        ui.weak(match (of_points, rows == window.grid.unknowns()) {
+            (_, true) => format!("all {rows} rows are used"),
+            (true, false) => format!("{rows} of {} rows are sampled, the marks in the plane", window.grid.unknowns()),
+            (false, false) => format!("{rows} sampled rows as marks along ξ"),
+        });
+    });
+    let (field, first) = (view.field, view.first_mode);
+    let Some(curves) = &mut view.curves else { return };
+    let last = (first + SHOWN_MODES).min(field.of(window).modes.ncols());
+    for k in first..last {
+        if !curves.modes.iter().any(|m| m.0 == field && m.1 == k) {
+            let points = mode_points(field.of(window), &window.grid, k);
+            curves.modes.push((field, k, points));
+        }
+    }
+    let shown: Vec<_> = curves.modes.iter().filter(|m| m.0 == field && (first..last).contains(&m.1)).collect();
+    let height = (height - CHOICES).max(LEAST);
+    let color = field.color(&palette);
+    let Some(grid) = window.grid.point() else {
+        shapes(ui, &shown, first, color, (height, fit), Some((&curves.rows, palette.accent)));
+        return;
+    };
+    ui.horizontal(|ui| {
+        let half = 0.5 * ui.available_width() - 6.0;
+        ui.vertical(|ui| {
+            ui.set_width(half);
+            // All rows would hide the mode.
+            let sampled = curves.rows.len() < grid.unknowns();
+            let rows = if sampled { curves.rows.as_slice() } else { &[] };
+            curves.plane.ui(ui, (grid, field.of(window)), (field, first), rows, (height, fit));
+        });
+        ui.vertical(|ui| {
+            ui.set_width(half);
+            shapes(ui, &shown, first, color, (height, fit), None);
+        });
+    });
+}
+
+/// Modes along ξ, the first one strongest, with the sampled rows of a line contact as marks.
+fn shapes(
+    ui: &mut Ui,
+    shown: &[&(Field, usize, Vec<PlotPoint>)],
+    first: usize,
+    color: Color32,
+    (height, fit): (f32, bool),
+    rows: Option<(&[PlotPoint], Color32)>,
+) {
+    let (x_title, id) = match rows {
+        Some(_) => ("Reference coordinate {ξ}", "modes"),
+        None => ("{X} = {x}/{a}, on the axis {Y} = 0", "modes on the axis"),
+    };
+    axes::show(
+        axes::plot(ui, id, height, x_title, "Mode, scaled to 1")
+            .legend(Legend::default().position(Corner::LeftTop).follow_insertion_order(true).background_alpha(0.6))
+            .default_x_bounds(-2.2, 1.6),
+        ui,
+        "Mode shapes",
+        |plot| {
+            axes::fit(plot, fit);
+            for (_, k, points) in shown {
+                let fade = 1.0 - 0.24 * (k - first) as f32;
+                let line = Line::new(format!("Mode {}", k + 1), PlotPoints::Borrowed(points));
+                plot.line(line.color(color.gamma_multiply(fade)).width(if *k == first { 2.2 } else { 1.3 }));
+            }
+            if let Some((rows, color)) = rows {
+                let marks = Points::new("Sampled rows", PlotPoints::Borrowed(rows));
+                plot.points(marks.color(color).radius(3.0).shape(MarkerShape::Up));
+            }
+        },
+    );
+}
+
+/// One mode along the axis Y = 0, scaled to a largest magnitude of one: its weights make the columns themselves hard to compare.
+fn mode_points(basis: &PodBasis, grid: &ContactGrid, k: usize) -> Vec<PlotPoint> {
+    let points = plane::scaled(basis, k).into_iter().enumerate().map(|(node, v)| (grid.place(node), v));
+    // A line contact's node arrays begin with one outside the inlet.
+    let outside = usize::from(grid.kind() == ContactKind::Line);
+    points.filter(|((_, y), _)| *y == 0.0).skip(outside).map(|((xi, _), v)| PlotPoint::new(xi, v)).collect()
+}

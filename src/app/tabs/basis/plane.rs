@@ -1,0 +1,89 @@
+//! A mode of a point contact over the plane, with the rows that the reduced model evaluates.
+
+use super::Field;
+use crate::app::figure::Texture;
+use crate::app::tabs::axes;
+use crate::app::tabs::raster::Raster;
+use crate::app::theme::Palette;
+use crate::solver::discrete::grid::PointGrid;
+use crate::solver::reduced::PodBasis;
+use egui::{Color32, Ui};
+use egui_plot::{Line, LineStyle, MarkerShape, PlotImage, PlotPoint, PlotPoints, Points};
+
+/// Colours between the two signs.
+const SHADES: usize = 257;
+/// Range of X and Y at first.
+const RANGE: (f64, f64) = (-1.5, 1.5);
+
+/// One mode as a picture, kept while it is the one to show.
+#[derive(Default)]
+pub struct ModeMap {
+    texture: Option<Texture>,
+    made_of: Option<(Field, usize, Color32)>,
+}
+
+impl ModeMap {
+    /// The mode in colour with the sampled rows over it.
+    pub fn ui(
+        &mut self,
+        ui: &mut Ui,
+        (grid, basis): (&PointGrid, &PodBasis),
+        (field, mode): (Field, usize),
+        rows: &[PlotPoint],
+        (height, fit): (f32, bool),
+    ) {
+        let palette = Palette::of(ui);
+        let ground = ui.visuals().extreme_bg_color;
+        if self.made_of != Some((field, mode, ground)) {
+            let raster = Raster::new((&grid.x, &grid.y), &scaled(basis, mode), 1.0);
+            let image = raster.colored(&shades(palette.reference, ground, field.color(&palette)), (-1.0, 1.0));
+            Texture::put(&mut self.texture, ui.ctx(), "mode", image);
+            self.made_of = Some((field, mode, ground));
+        }
+        let shown = axes::show(
+            axes::plot(ui, "mode in the plane", height, "{X} = {x}/{a}", "{Y} = {y}/{a}")
+                .data_aspect(1.0)
+                .default_x_bounds(RANGE.0, RANGE.1)
+                .default_y_bounds(RANGE.0, RANGE.1),
+            ui,
+            "Mode and sampled rows on the plane",
+            |plot| {
+                axes::fit(plot, fit);
+                if let (Some(texture), [from, .., to], [edge, ..]) =
+                    (&self.texture, grid.x.as_slice(), grid.y.as_slice())
+                {
+                    let center = PlotPoint::new(0.5 * (from + to), 0.0);
+                    let size = egui::vec2((to - from) as f32, (-2.0 * edge) as f32);
+                    let texture = texture.shown(plot.ctx());
+                    plot.image(PlotImage::new("", texture, center, size).id("mode").allow_hover(false));
+                }
+                let circle = |t: f64| (t.cos(), t.sin());
+                let hertz = PlotPoints::from_parametric_callback(circle, 0.0..=std::f64::consts::TAU, 181);
+                let hertz = Line::new("", hertz).id("hertz").color(palette.reference).width(1.0);
+                plot.line(hertz.style(LineStyle::dashed_dense()).allow_hover(false));
+                let marks = Points::new("Sampled rows", PlotPoints::Borrowed(rows));
+                plot.points(marks.color(palette.accent).radius(1.6).shape(MarkerShape::Circle));
+            },
+        );
+        let tip = "The first of the chosen modes, coloured where it is positive and grey where it is negative; marks are the sampled rows of \
+            the Reynolds equation and their mirror images, the dashed circle is the Hertzian contact";
+        shown.response.on_hover_text(tip);
+    }
+}
+
+/// Colours from one through a second to a third.
+fn shades(negative: Color32, zero: Color32, positive: Color32) -> Vec<Color32> {
+    let middle = (SHADES / 2) as f32;
+    let at = |k: usize| {
+        let t = k as f32 / middle - 1.0;
+        zero.lerp_to_gamma(if t < 0.0 { negative } else { positive }, t.abs())
+    };
+    (0..SHADES).map(at).collect()
+}
+
+/// A mode over the node array, scaled so that its value of largest magnitude is one: the sign of a mode means nothing.
+pub fn scaled(basis: &PodBasis, k: usize) -> Vec<f64> {
+    let column = (0..basis.modes.nrows()).map(|i| basis.modes[(i, k)]);
+    let largest = column.clone().fold(0.0, |most: f64, v| if v.abs() > most.abs() { v } else { most });
+    column.map(|v| if largest == 0.0 { 0.0 } else { v / largest }).collect()
+}

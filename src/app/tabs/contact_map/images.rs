@@ -1,0 +1,160 @@
+//! The map as a texture and its contour lines, made anew only when the solution or what is shown of it changes.
+
+use super::contours::Field;
+use super::{MapView, Shown};
+use crate::app::color_map;
+use crate::app::figure::Texture;
+use crate::app::numbers;
+use crate::app::picture::Picture;
+use crate::app::png;
+use crate::app::tabs::raster::Raster;
+use crate::solver::full::Solution;
+use egui::{Color32, ColorImage, Context, TextureId};
+use egui_plot::PlotPoint;
+use std::sync::Arc;
+
+/// A contour line, with its name and where that stands on the longest of its level.
+pub type Contour = (Option<(PlotPoint, String)>, Vec<PlotPoint>);
+
+/// What the tab keeps between frames.
+#[derive(Default)]
+pub struct ContactMap {
+    texture: Option<Texture>,
+    contours: Vec<Contour>,
+    range: (f64, f64),
+    domain: (f64, f64, f64),
+    made_of: Option<(Arc<Solution>, MapView)>,
+    /// Which of both cuts the pointer holds: that at X, that at Y.
+    pub dragging: [bool; 2],
+}
+
+/// Contour lines wanted between both ends of the scale.
+const LINES: f64 = 8.0;
+/// Parts of a film's scale, of which those below the smallest film are left out.
+const UNITS: f64 = 8.0;
+
+/// Values that the scale names: round ones from its lower end to its upper one.
+pub fn ticks((low, high): (f64, f64)) -> Vec<f64> {
+    let unit = if low > 0.0 { high / UNITS } else { high / 4.0 };
+    let count = ((high - low) / unit).round() as usize;
+    (0..=count).map(|k| low + unit * k as f64).collect()
+}
+
+impl ContactMap {
+    /// Makes image and contours anew where they are out of date.
+    pub fn follow(&mut self, ctx: &Context, picture: &Picture, view: &MapView) {
+        let solution = &picture.solution;
+        if self.made_of.as_ref().is_some_and(|(of, with)| Arc::ptr_eq(of, solution) && with == view) {
+            return;
+        }
+        self.range = range(solution, view.shown);
+        self.domain = match (solution.x.as_slice(), solution.y.as_slice()) {
+            ([from, .., to], [edge, ..]) => (*from, *to, *edge),
+            _ => (0.0, 0.0, 0.0),
+        };
+        Texture::put(&mut self.texture, ctx, "contact map", draw(picture, view, self.range));
+        let lines = view.contours && view.shown != Shown::Interferogram;
+        self.contours = if lines { contours(solution, view.shown, self.range) } else { Vec::new() };
+        self.made_of = Some((Arc::clone(solution), *view));
+    }
+
+    /// The texture and the domain it covers: inlet, outlet, outer edge.
+    pub fn texture(&self, ctx: &Context) -> Option<(TextureId, (f64, f64, f64))> {
+        self.texture.as_ref().map(|texture| (texture.shown(ctx), self.domain))
+    }
+
+    /// The contour lines of both halves.
+    pub fn contours(&self) -> &[Contour] {
+        &self.contours
+    }
+
+    /// Values at the ends of the scale.
+    pub fn range(&self) -> (f64, f64) {
+        self.range
+    }
+
+    /// Whether the pointer holds a cut.
+    pub fn is_dragging(&self) -> bool {
+        self.dragging.contains(&true)
+    }
+
+    /// The image as a PNG file; empty where there is none.
+    pub fn png(&self) -> Vec<u8> {
+        self.texture.as_ref().map_or_else(Vec::new, |texture| png::encode(texture.image()))
+    }
+}
+
+/// Ends of the scale: round, so that colours stay still while the contact moves.
+fn range(solution: &Solution, shown: Shown) -> (f64, f64) {
+    match shown {
+        // Little more than the contact itself: its side lobes are what the colours are for.
+        Shown::Film => {
+            let high = numbers::round_up(1.5 * solution.scalars.h_c);
+            let unit = high / UNITS;
+            (unit * (solution.scalars.h_min / unit).floor().clamp(0.0, UNITS - 2.0), high)
+        }
+        Shown::Interferogram => (0.0, numbers::round_up(2.5 * solution.scalars.h_c)),
+        Shown::Pressure => (0.0, numbers::round_up(solution.scalars.p_max)),
+    }
+}
+
+/// The colours of a field's scale: film is bright where it is thin, pressure where it is high.
+pub fn table(shown: Shown) -> Vec<Color32> {
+    color_map::table(shown == Shown::Film)
+}
+
+fn draw(picture: &Picture, view: &MapView, range: (f64, f64)) -> ColorImage {
+    let solution = &*picture.solution;
+    let nodes = (solution.x.as_slice(), solution.y.as_slice());
+    match view.shown {
+        Shown::Film => Raster::new(nodes, &solution.film, 1.0).colored(&table(view.shown), range),
+        Shown::Pressure => Raster::new(nodes, &solution.pressure, 1.0).colored(&table(view.shown), range),
+        Shown::Interferogram => {
+            let films = Raster::new(nodes, &solution.film, picture.key.point.film_scale_m());
+            films.interferogram(&view.rig, view.three_colors)
+        }
+    }
+}
+
+/// Contours at round levels, each with its mirror image.
+fn contours(solution: &Solution, shown: Shown, (low, high): (f64, f64)) -> Vec<Contour> {
+    let values = if shown == Shown::Pressure { &solution.pressure } else { &solution.film };
+    let field = Field { x: &solution.x, y: &solution.y, values };
+    let step = numbers::round_up((high - low) / LINES);
+    let levels = (1..=(high / step).floor() as usize).filter(|&k| step * k as f64 > low);
+    let mut all = Vec::new();
+    for k in levels {
+        let level = step * k as f64;
+        // Names of neighbours stand apart: each the golden section of its line further on.
+        let place = (0.618 * k as f64).fract();
+        let lines = field.contours(level);
+        let longest = lines.iter().map(Vec::len).max().unwrap_or(0);
+        let mut unnamed = true;
+        for line in lines {
+            for sign in [1.0, -1.0] {
+                let points: Vec<PlotPoint> = line.iter().map(|p| PlotPoint::new(p[0], sign * p[1])).collect();
+                let name = (unnamed && line.len() == longest && longest > 12)
+                    .then(|| {
+                        points.get((place * points.len() as f64) as usize).map(|at| (*at, numbers::digits(level, 2)))
+                    })
+                    .flatten();
+                unnamed &= name.is_none();
+                all.push((name, points));
+            }
+        }
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_scale_names_its_ends_and_round_values_between() {
+        assert_eq!(ticks((0.0, 1.2)).len(), 5);
+        let film = ticks((0.15, 0.4));
+        assert_eq!(film.len(), 6);
+        assert!((film[0] - 0.15).abs() < 1e-12 && (film[5] - 0.4).abs() < 1e-12 && (film[1] - 0.2).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,348 @@
+//! The contact map: film or pressure of a point contact over the whole plane, and the interferogram that a rig shows of it. Two lines that
+//! can be dragged say where Profiles cuts it.
+
+mod contours;
+mod export;
+mod images;
+mod optics;
+mod scale;
+
+pub use export::particulars;
+pub use images::ContactMap;
+
+use super::axes;
+use super::cut_line::snapped;
+use crate::app::controls::{described, named};
+use crate::app::figure::{self, Subject};
+use crate::app::files::Purpose;
+use crate::app::numbers;
+use crate::app::picture::{Cuts, Picture};
+use crate::app::state::State;
+use crate::app::theme::{Palette, faded, rich};
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::optics::Interferometer;
+use egui::{Color32, CursorIcon, DragValue, Response, RichText, Ui};
+use egui_plot::{
+    HLine, HoverPosition, Line, LineStyle, PlotImage, PlotPoint, PlotPoints, PlotTransform, PlotUi, Text, VLine,
+};
+use serde::{Deserialize, Serialize};
+
+/// X range at first.
+const X_RANGE: (f64, f64) = (-2.0, 1.6);
+/// Y range at first.
+const Y_RANGE: (f64, f64) = (-1.45, 1.45);
+/// How near (in screen points) the pointer must be to take a cut along.
+const GRAB: f32 = 7.0;
+/// Width of the colour bar with its numbers.
+const SCALE_WIDTH: f32 = 118.0;
+
+/// By which the map is known to screen readers and as a picture.
+const NAME: &str = "Map of the contact";
+
+/// What the map shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum Shown {
+    /// Film thickness.
+    #[default]
+    Film,
+    /// Pressure.
+    Pressure,
+    /// Interference of light in the film.
+    Interferogram,
+}
+
+impl Shown {
+    const ALL: [Self; 3] = [Self::Film, Self::Pressure, Self::Interferogram];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Film => "Film map",
+            Self::Pressure => "Pressure map",
+            Self::Interferogram => "Interferogram",
+        }
+    }
+
+    fn tip(self) -> &'static str {
+        match self {
+            Self::Film => "H over the plane, bright where the film is thin: the horseshoe with its side lobes",
+            Self::Pressure => "P over the plane",
+            Self::Interferogram => {
+                "What an optical rig shows: a glass disc in place of one body, light reflected at both sides of the film"
+            }
+        }
+    }
+}
+
+/// Settings of the map; not part of the document.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct MapView {
+    /// What is drawn.
+    pub shown: Shown,
+    /// Whether contour lines are drawn over it.
+    pub contours: bool,
+    /// The optics of the interferogram.
+    pub rig: Interferometer,
+    /// Whether it is drawn in three colours rather than in one.
+    pub three_colors: bool,
+}
+
+impl Default for MapView {
+    fn default() -> Self {
+        Self { shown: Shown::Film, contours: true, rig: Interferometer::default(), three_colors: true }
+    }
+}
+
+/// The tab.
+pub fn ui(ui: &mut Ui, state: &mut State) {
+    if state.document.point.kind == ContactKind::Line {
+        let text = "A line contact is the same at every Y: its profiles say everything. Choose the point contact under Operating point to \
+            see a map";
+        ui.centered_and_justified(|ui| ui.weak(text));
+        return;
+    }
+    toolbar(ui, state);
+    if state.display.map.shown == Shown::Interferogram && state.presentation.is_none() {
+        optics::ui(ui, &mut state.display.map);
+    }
+    let stale = state.picture_is_stale(ui.input(|i| i.time));
+    let Some(picture) = state.picture.as_ref().filter(|picture| picture.has_plane()) else {
+        ui.centered_and_justified(|ui| ui.weak("The first picture is being computed"));
+        return;
+    };
+    if stale {
+        super::profiles::stale_note(ui, picture);
+    }
+    state.map.follow(ui.ctx(), picture, &state.display.map);
+    let drawing = Drawing {
+        picture,
+        images: &state.map,
+        view: state.display.map,
+        cuts: state.display.cuts,
+        fit: state.fit_plots,
+        stale,
+    };
+    let height = ui.available_height();
+    let whole = ui.horizontal_top(|ui| {
+        let width = (ui.available_width() - SCALE_WIDTH - 8.0).max(200.0);
+        let drawn = ui.vertical(|ui| {
+            ui.set_width(width);
+            drawing.ui(ui, height)
+        });
+        scale::ui(ui, drawing.images, picture, &drawing.view, height);
+        drawn.inner
+    });
+    figure::offer_of(ui, NAME, whole.response.rect, Subject::Map);
+    let (response, transform) = whole.inner;
+    drag_cuts(ui, state, &response, &transform);
+}
+
+fn toolbar(ui: &mut Ui, state: &mut State) {
+    ui.horizontal_wrapped(|ui| {
+        super::badge::ui(ui, state);
+        for shown in Shown::ALL {
+            ui.selectable_value(&mut state.display.map.shown, shown, shown.name()).on_hover_text(shown.tip());
+        }
+        if state.presentation.is_some() {
+            return;
+        }
+        let field = state.display.map.shown != Shown::Interferogram;
+        ui.add_enabled(field, egui::Checkbox::new(&mut state.display.map.contours, "Contours"))
+            .on_hover_text("Lines of equal value")
+            .on_disabled_hover_text("Fringes are lines of equal film already");
+        cuts_ui(ui, state);
+        ui.menu_button("Export map", |ui| export_menu(ui, state));
+    });
+}
+
+/// The three forms in which the map leaves.
+fn export_menu(ui: &mut Ui, state: &mut State) {
+    let Some(picture) = state.picture.as_ref().filter(|picture| picture.has_plane()) else { return };
+    let item = |ui: &mut Ui, name: &str, tip: &str| {
+        let clicked = ui.button(name).on_hover_text(tip).clicked();
+        if clicked {
+            ui.close();
+        }
+        clicked
+    };
+    let ctx = ui.ctx().clone();
+    if item(ui, "Data as CSV…", "X, Y, P, H of all nodes of both halves, with their SI twins") {
+        let text = export::csv(picture);
+        state.ask_path(&ctx, Purpose::Csv { text });
+    }
+    if item(ui, "Figure as SVG…", "The map with its axes, contours, scale and parameters") {
+        state.draw_figure(NAME);
+    }
+    if item(ui, "Image as PNG…", "The map alone, pixel by pixel") {
+        let bytes = state.map.png().into();
+        state.ask_path(&ctx, Purpose::Picture { bytes, extension: "png" });
+    }
+}
+
+/// Room for the name and the value of one cut.
+const CUT_WIDTH: f32 = 116.0;
+
+/// Where the contact is cut, as numbers.
+pub fn cuts_ui(ui: &mut Ui, state: &mut State) {
+    let domain = state.document.plane().domain;
+    let cuts = &mut state.display.cuts;
+    for (name, symbol, value, range, tip) in [
+        (
+            "Cut across at X",
+            "at {X}",
+            &mut cuts.x,
+            domain.0..=domain.1,
+            "Where the profile across the contact is taken; drag the line in the map",
+        ),
+        (
+            "Cut along at Y",
+            "at {Y}",
+            &mut cuts.y,
+            domain.2..=-domain.2,
+            "Where the profile along X is taken; drag the line in the map",
+        ),
+    ] {
+        // In a toolbar that wraps, a name and its value stay in one row.
+        if ui.available_size_before_wrap().x < CUT_WIDTH {
+            ui.end_row();
+        }
+        let color = ui.visuals().text_color();
+        ui.add(egui::Label::new(rich(&format!("Cut {symbol}"), 13.5, color)).extend()).on_hover_text(tip);
+        let field = DragValue::new(value).range(range).speed(0.01).fixed_decimals(2);
+        let response = ui.add(field).on_hover_text(tip);
+        named(ui, response, name);
+    }
+}
+
+/// What is drawn in one frame.
+struct Drawing<'a> {
+    picture: &'a Picture,
+    images: &'a ContactMap,
+    view: MapView,
+    cuts: Cuts,
+    fit: bool,
+    stale: bool,
+}
+
+impl Drawing<'_> {
+    fn ui(&self, ui: &mut Ui, height: f32) -> (Response, PlotTransform) {
+        let palette = Palette::of(ui);
+        let Self { picture, images, view, cuts, fit, stale } = *self;
+        let shown = axes::show(
+            axes::plot(ui, "contact map", height, "{X} = {x}/{a}", "{Y} = {y}/{a}")
+                .data_aspect(1.0)
+                .default_x_bounds(X_RANGE.0, X_RANGE.1)
+                .default_y_bounds(Y_RANGE.0, Y_RANGE.1)
+                .allow_drag(!images.is_dragging())
+                .label_formatter(|at| hover(picture, &view, at)),
+            ui,
+            NAME,
+            |plot| {
+                axes::fit(plot, fit);
+                image(plot, images, stale);
+                contour_lines(plot, images);
+                let circle = |t: f64| (t.cos(), t.sin());
+                let hertz = PlotPoints::from_parametric_callback(circle, 0.0..=std::f64::consts::TAU, 181);
+                let hertz = Line::new("", hertz).id("hertz").color(faded(Color32::WHITE, 0.75)).width(1.0);
+                plot.line(hertz.style(LineStyle::dashed_dense()).allow_hover(false));
+                let color = if view.shown == Shown::Interferogram { Color32::WHITE } else { palette.accent };
+                plot.vline(VLine::new("", cuts.x).id("cut x").color(color).width(1.6).allow_hover(false));
+                plot.hline(HLine::new("", cuts.y).id("cut y").color(color).width(1.6).allow_hover(false));
+            },
+        );
+        let response = shown.response;
+        (described(ui, response, &spoken(picture, &view)), shown.transform)
+    }
+}
+
+/// Lines that show on every colour of the map.
+fn contour_lines<'a>(plot: &mut PlotUi<'a>, images: &'a ContactMap) {
+    let color = Color32::from_white_alpha(170);
+    for (k, (name, line)) in images.contours().iter().enumerate() {
+        let line = Line::new("", PlotPoints::Borrowed(line)).id(("contour", k)).color(color).width(1.0);
+        plot.line(line.allow_hover(false));
+        if let Some((at, text)) = name {
+            let text = RichText::new(text).size(10.5).color(color).background_color(Color32::from_black_alpha(110));
+            plot.text(Text::new("", *at, text).id(("contour name", k)).allow_hover(false));
+        }
+    }
+}
+
+fn image(plot: &mut PlotUi<'_>, images: &ContactMap, stale: bool) {
+    let Some((texture, (from, to, edge))) = images.texture(plot.ctx()) else { return };
+    let center = PlotPoint::new(0.5 * (from + to), 0.0);
+    let size = egui::vec2((to - from) as f32, (-2.0 * edge) as f32);
+    let tint = if stale { Color32::from_gray(120) } else { Color32::WHITE };
+    plot.image(PlotImage::new("", texture, center, size).tint(tint).id("field").allow_hover(false));
+}
+
+fn hover(picture: &Picture, view: &MapView, at: &HoverPosition<'_>) -> Option<String> {
+    let (HoverPosition::NearDataPoint { position, .. } | HoverPosition::Elsewhere { position }) = at;
+    let (p, h) = picture.solution.at(position.x, position.y)?;
+    let (hertz, scale) = (picture.key.point.hertz(), picture.key.point.film_scale_m());
+    let order = match view.shown {
+        Shown::Interferogram if !view.three_colors => {
+            format!("\norder {}", numbers::digits(view.rig.order(h * scale, view.rig.wavelength_m), 3))
+        }
+        _ => String::new(),
+    };
+    Some(format!(
+        "X = {}   ({})\nY = {}   ({})\nP = {}   ({})\nH = {}   ({}){order}",
+        numbers::digits(position.x, 3),
+        numbers::length(position.x * hertz.half_width_m),
+        numbers::digits(position.y, 3),
+        numbers::length(position.y * hertz.half_width_m),
+        numbers::significant(p),
+        numbers::pressure(p * hertz.pressure_pa),
+        numbers::significant(h),
+        numbers::length(h * scale)
+    ))
+}
+
+/// The map in words.
+fn spoken(picture: &Picture, view: &MapView) -> String {
+    let (s, scale) = (picture.solution.scalars, picture.key.point.film_scale_m());
+    format!(
+        "{} of {}: central film {}, smallest {} at X {}, Y ±{}",
+        view.shown.name(),
+        numbers::moes(picture.key.point.moes()),
+        numbers::length(s.h_c * scale),
+        numbers::length(s.h_min * scale),
+        numbers::digits(s.x_h_min, 3),
+        numbers::digits(s.y_h_min.abs(), 3)
+    )
+}
+
+fn drag_cuts(ui: &Ui, state: &mut State, response: &Response, transform: &PlotTransform) {
+    let cuts = state.display.cuts;
+    let spot = transform.position_from_point(&PlotPoint::new(cuts.x, cuts.y));
+    let near = |p: egui::Pos2| [(p.x - spot.x).abs() < GRAB, (p.y - spot.y).abs() < GRAB];
+    let hovered = response.hover_pos().map_or([false; 2], near);
+    let [x, y] = if state.map.is_dragging() { state.map.dragging } else { hovered };
+    if x || y {
+        ui.ctx().set_cursor_icon(match (x, y) {
+            (true, true) => CursorIcon::Move,
+            (true, false) => CursorIcon::ResizeHorizontal,
+            _ => CursorIcon::ResizeVertical,
+        });
+    }
+    // Taking hold before the drag begins keeps the map itself still.
+    if ui.input(|i| i.pointer.primary_pressed()) {
+        state.map.dragging = hovered;
+    }
+    if !ui.input(|i| i.pointer.primary_down()) {
+        state.map.dragging = [false; 2];
+    }
+    if state.map.is_dragging()
+        && let Some(pointer) = ui.input(|i| i.pointer.latest_pos())
+        && ui.input(|i| i.pointer.press_origin()).is_some_and(|origin| origin.distance(pointer) > 1.0)
+    {
+        let value = transform.value_from_position(pointer);
+        if x {
+            state.display.cuts.x = snapped(value.x);
+        }
+        if y {
+            state.display.cuts.y = snapped(value.y);
+        }
+    }
+}

@@ -1,0 +1,47 @@
+//! Published film formulas beside the current contact.
+
+use crate::app::numbers;
+use crate::app::state::State;
+use crate::app::theme::symbol;
+use crate::solver::physics::contact::FilmFormula;
+use egui::{Grid, RichText, Ui};
+
+/// The table.
+pub fn ui(ui: &mut Ui, state: &State) {
+    ui.strong("Film by published formulas");
+    let picture = state.picture.as_ref().filter(|_| state.picture_is_current());
+    let central = picture.map(|p| p.central_film_m());
+    let minimum = picture.map(|p| p.minimum_film_m());
+    Grid::new("formulas").num_columns(4).spacing([10.0, 5.0]).striped(true).show(ui, |ui| {
+        ui.weak("Formula");
+        ui.weak("Of");
+        ui.weak("Film");
+        ui.weak("Deviation").on_hover_text("Formula over this contact's film, minus one");
+        ui.end_row();
+        for formula in FilmFormula::of(state.document.point.kind) {
+            let prediction = formula.predict(&state.document.point);
+            let (name, own) = if formula.predicts_minimum() { ("min", minimum) } else { ("c", central) };
+            let tip = if prediction.in_range {
+                formula.source().to_owned()
+            } else {
+                format!("{}. This contact lies outside its range of validity", formula.source())
+            };
+            let text = |t: String| if prediction.in_range { RichText::new(t) } else { RichText::new(t).weak() };
+            ui.label(text(formula.name().to_owned())).on_hover_text(&tip);
+            ui.label(symbol(ui, "h", name));
+            ui.label(text(numbers::length(prediction.film_m))).on_hover_text(&tip);
+            let against = own.map_or_else(|| "–".to_owned(), |h| numbers::percent(prediction.film_m / h - 1.0));
+            ui.label(text(against)).on_hover_text(&tip);
+            ui.end_row();
+        }
+        for (name, subscript, own) in [("This contact", "c", central), ("This contact", "min", minimum)] {
+            ui.strong(name);
+            ui.label(symbol(ui, "h", subscript));
+            ui.strong(own.map_or_else(|| "–".to_owned(), numbers::length));
+            ui.label("");
+            ui.end_row();
+        }
+    });
+    ui.add_space(4.0);
+    ui.weak(RichText::new("Grey: outside the range a formula was fitted to. Sources appear on hover.").small());
+}

@@ -1,0 +1,58 @@
+//! Error against the number of operating points: both rules, both weightings.
+
+use super::Shown;
+use crate::app::tabs::axes;
+use crate::app::theme::rich;
+use crate::app::transient::linearised::NumberRow;
+use crate::app::transient::method::{RULES, WEIGHTINGS, rule_name, weighting_name};
+use egui::Ui;
+use egui_plot::{Corner, Legend, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points, VLine};
+
+/// The plot, with logarithmic axes.
+pub fn ui(ui: &mut Ui, shown: &Shown<'_>, height: f32) {
+    let study = &shown.view.number;
+    if study.rows.is_empty() {
+        ui.weak(if study.work.standing().is_some() {
+            "The coarsest models come first."
+        } else {
+            "Number against error tries both rules on a ladder of tolerances, along these inputs."
+        });
+        return;
+    }
+    let head = rich("Error of {H_c} against the full run, the number in use dotted", 13.5, shown.palette.quiet);
+    ui.label(head).on_hover_text("Relative L2 difference of H_c over the whole run");
+    let curve = |rule: &str, weighting| -> Vec<PlotPoint> {
+        let own = |row: &&NumberRow| row.selection.name() == rule && row.weighting == weighting;
+        let place = |row: &NumberRow| Some(PlotPoint::new((row.points as f64).log10(), row.difference?.log10()));
+        study.rows.iter().filter(own).filter_map(place).collect()
+    };
+    let mut lines = Vec::new();
+    for (rule, style, shape) in
+        [(RULES[0], LineStyle::Solid, MarkerShape::Circle), (RULES[1], LineStyle::dashed_dense(), MarkerShape::Square)]
+    {
+        for (k, &weighting) in WEIGHTINGS.iter().enumerate() {
+            let name = format!("{}, {}", rule_name(rule).0, weighting_name(weighting).0);
+            lines.push((name, curve(rule.name(), weighting), style, shape, shown.color(k)));
+        }
+    }
+    let used = (shown.linearised.model.points.len().max(1) as f64).log10();
+    let reference = shown.palette.reference;
+    let id = format!("tpwl number {}", shown.view.generation);
+    let plot = axes::plot(ui, &id, height - 22.0, "Operating points", "Error of {H_c}")
+        .legend(Legend::default().position(Corner::LeftBottom).follow_insertion_order(true).background_alpha(0.6))
+        .x_grid_spacer(axes::log_marks)
+        .x_axis_formatter(|mark, _| axes::log_label(mark))
+        .y_grid_spacer(axes::decade_marks)
+        .y_axis_formatter(|mark, _| axes::decade_label(mark))
+        .set_margin_fraction(egui::vec2(0.05, 0.1))
+        .auto_bounds(egui::Vec2b::TRUE);
+    axes::show(plot, ui, "Error against the number of operating points", move |plot| {
+        let line = VLine::new("", used).id("in use").color(reference).width(1.0).style(LineStyle::dotted_dense());
+        plot.vline(line.allow_hover(false));
+        for (k, (name, points, style, shape, color)) in lines.into_iter().enumerate() {
+            let dots = Points::new(name.clone(), PlotPoints::Owned(points.clone())).id(("dots", k)).shape(shape);
+            plot.line(Line::new(name, PlotPoints::Owned(points)).id(("line", k)).color(color).style(style).width(1.6));
+            plot.points(dots.color(color).radius(3.2).allow_hover(false));
+        }
+    });
+}

@@ -1,0 +1,134 @@
+//! The training trajectory with its operating points, chosen by the rule in use, and what the other rule would choose instead.
+
+use super::{Shown, near, point_under};
+use crate::app::numbers;
+use crate::app::tabs::axes;
+use crate::app::tabs::transient::series::thinned;
+use crate::app::theme::THIN_WIDTH;
+use crate::app::transient::linearised::PointNow;
+use crate::app::transient::method::rule_name;
+use crate::solver::full::transient::Quantity;
+use crate::solver::reduced::tpwl::Selection;
+use egui::{Color32, Id, Ui, Vec2b};
+use egui_plot::{Line, MarkerShape, Plot, PlotPoint, PlotPoints, Points, VLine};
+
+/// Both plots, each as high as given; returns the moment that was clicked at.
+pub fn ui(ui: &mut Ui, shown: &Shown<'_>, height: f32) -> Option<f64> {
+    let own = shown.linearised.model.training.selection;
+    let first = chosen(ui, shown, own, height);
+    let other = &shown.linearised.other;
+    let moments = other.chosen.get(shown.tab.trajectory).map_or(&[][..], Vec::as_slice);
+    first.or(not_chosen(ui, shown, other.selection, moments, height))
+}
+
+/// The colour of what is drawn, and its symbol.
+fn look(shown: &Shown<'_>) -> (Color32, &'static str) {
+    match shown.tab.quantity {
+        Quantity::CentralPressure => (shown.palette.pressure, "{P_c}"),
+        _ => (shown.palette.film, "{H_c}"),
+    }
+}
+
+fn plot<'a>(ui: &Ui, shown: &Shown<'_>, id: &str, titles: (&str, &str), height: f32) -> Plot<'a> {
+    let group = Id::unique(("tpwl trajectory", shown.view.generation, shown.tab.trajectory));
+    let (generation, quantity, trajectory) = (shown.view.generation, shown.tab.quantity, shown.tab.trajectory);
+    axes::plot(ui, &format!("{id} {generation} {quantity:?} {trajectory}"), height, titles.0, titles.1)
+        .x_grid_spacer(|input| axes::round_marks(input, 6.0))
+        .y_grid_spacer(|input| axes::round_marks(input, 3.0))
+        .link_axis(group, Vec2b::new(true, false))
+        .link_cursor(group, Vec2b::new(true, false))
+        .set_margin_fraction(egui::vec2(0.02, 0.12))
+        .auto_bounds(Vec2b::TRUE)
+}
+
+/// The trajectory as a line.
+fn curve(shown: &Shown<'_>) -> Vec<PlotPoint> {
+    let moments = shown.linearised.trainings.get(shown.tab.trajectory).map_or(&[][..], Vec::as_slice);
+    thinned(moments.iter().map(|moment| PlotPoint::new(moment.time, moment.value(shown.tab.quantity))).collect())
+}
+
+fn place(shown: &Shown<'_>, time: f64) -> Option<PlotPoint> {
+    let value = shown.linearised.value(shown.tab.trajectory, shown.tab.quantity, time)?;
+    Some(PlotPoint::new(time, value))
+}
+
+fn title(ui: &mut Ui, rule: Selection, points: usize, used: &str) {
+    let tolerance = numbers::digits(rule.tolerance(), 3);
+    let plural = if points == 1 { "" } else { "s" };
+    ui.weak(format!("{}, {used}: {points} point{plural}, β = {tolerance}", rule_name(rule).0))
+        .on_hover_text(rule_name(rule).1);
+}
+
+/// The rule in use: points grow with their weights, and a click goes to their moment.
+fn chosen(ui: &mut Ui, shown: &Shown<'_>, rule: Selection, height: f32) -> Option<f64> {
+    let places: Vec<(&PointNow, PlotPoint)> = shown
+        .of_trajectory()
+        .filter_map(|now| {
+            let trained = shown.linearised.model.points.get(now.point)?;
+            Some((now, place(shown, trained.moment.time)?))
+        })
+        .collect();
+    title(ui, rule, places.len(), "in use");
+    let (color, symbol) = look(shown);
+    let (line, time, own) = (curve(shown), shown.view.player.time(), shown.linearised.own);
+    let (palette, markers) = (shown.palette, weighted(shown, &places));
+    let dots: Vec<PlotPoint> = places.iter().map(|(_, place)| *place).collect();
+    let plot = plot(ui, shown, "tpwl chosen", ("", symbol), height - 22.0);
+    let drawn = axes::show(plot, ui, "Operating points along the trajectory", move |plot| {
+        plot.line(Line::new("Training", PlotPoints::Owned(line)).color(color).width(1.6).allow_hover(false));
+        if own {
+            plot.vline(VLine::new("", time).id("now").color(palette.accent).width(1.0).allow_hover(false));
+        }
+        plot.points(marks("Operating points", dots, 2.6, palette.text));
+        markers.into_iter().for_each(|marker| plot.points(marker));
+    });
+    let pointer = drawn.response.hover_pos();
+    let under = pointer.and_then(|pointer| near(places.into_iter(), &drawn.transform, pointer));
+    if under.is_none() && own && drawn.response.clicked() {
+        return pointer.map(|pointer| drawn.transform.value_from_position(pointer).x);
+    }
+    point_under(shown, drawn.response, under)
+}
+
+/// The other rule, when it is to choose as many points.
+fn not_chosen(ui: &mut Ui, shown: &Shown<'_>, rule: Selection, chosen: &[usize], height: f32) -> Option<f64> {
+    title(ui, rule, chosen.len(), "the other rule");
+    let (color, symbol) = look(shown);
+    let moments = shown.linearised.model.trajectories.get(shown.tab.trajectory).map_or(&[][..], Vec::as_slice);
+    let times = chosen.iter().filter_map(|&i| moments.get(i)).map(|moment| moment.time);
+    let dots: Vec<PlotPoint> = times.filter_map(|time| place(shown, time)).collect();
+    let (line, reference, quiet, time, own) =
+        (curve(shown), shown.palette.accent, shown.palette.quiet, shown.view.player.time(), shown.linearised.own);
+    let plot = plot(ui, shown, "tpwl other", ("{T}", symbol), height - 22.0);
+    let places = dots.clone();
+    let drawn = axes::show(plot, ui, "Points of the other rule", move |plot| {
+        plot.line(Line::new("Training", PlotPoints::Owned(line)).color(color).width(THIN_WIDTH).allow_hover(false));
+        if own {
+            plot.vline(VLine::new("", time).id("now").color(reference).width(1.0).allow_hover(false));
+        }
+        plot.points(marks("Other rule", dots, 2.6, quiet));
+    });
+    let clicked = own && drawn.response.clicked();
+    let pointer = drawn.response.hover_pos().filter(|_| clicked)?;
+    let under = near(places.iter().map(|place| (place.x, *place)), &drawn.transform, pointer);
+    under.or(Some(drawn.transform.value_from_position(pointer).x))
+}
+
+/// Dots of one size.
+pub fn marks(name: &str, dots: Vec<PlotPoint>, radius: f32, color: Color32) -> Points<'static> {
+    let points = Points::new(name.to_owned(), PlotPoints::Owned(dots)).shape(MarkerShape::Circle);
+    points.color(color).radius(radius).allow_hover(false)
+}
+
+/// Points that carry the present moment: as large as their weight; of the second weighting as rings.
+pub fn weighted(shown: &Shown<'_>, places: &[(&PointNow, PlotPoint)]) -> Vec<Points<'static>> {
+    let mut markers = Vec::new();
+    for weighting in 0..2 {
+        for (now, place) in places.iter().filter(|(now, _)| now.weights[weighting] > 0.0) {
+            let radius = 3.0 + 7.0 * (now.weights[weighting] as f32).sqrt();
+            let marker = marks("Weight", vec![*place], radius, shown.color(weighting)).filled(weighting == 0);
+            markers.push(marker.id(("weight", weighting, now.point)));
+        }
+    }
+    markers
+}

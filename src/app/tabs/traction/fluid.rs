@@ -1,0 +1,180 @@
+//! The laws of the fluid: how its viscosity rises with pressure and falls with shear stress, and how much of both this contact meets.
+
+use crate::app::numbers;
+use crate::app::state::State;
+use crate::app::tabs::axes;
+use crate::app::theme::{LIVE_WIDTH, Palette, THIN_WIDTH, rich};
+use crate::solver::full::{Problem, Solution};
+use egui::{Align2, Ui};
+use egui_plot::{Corner, HoverPosition, Legend, Line, LineStyle, Plot, PlotPoint, Span, Text, VLine};
+use std::sync::Arc;
+
+/// Points of a curve.
+const SAMPLES: usize = 161;
+/// Width from which on the plots stand side by side.
+const SIDE_BY_SIDE: f32 = 620.0;
+/// Decades of stress that are drawn below the critical one, and at least above it.
+const BELOW: f64 = 2.0;
+const ABOVE: f64 = 3.0;
+/// Stress in Pa that a Newtonian flow curve, which has no critical one, is drawn around.
+const NEWTONIAN_STRESS: f64 = 1e5;
+
+/// What the contact meets.
+struct Met {
+    problem: Problem,
+    /// Largest pressure \[Pa\].
+    pressure_pa: f64,
+    /// Largest shear stress \[Pa\]; `None` without a picture.
+    stress_pa: Option<f64>,
+}
+
+/// Both plots.
+pub fn ui(ui: &mut Ui, state: &mut State) {
+    let key = state.key();
+    let Ok(problem) = Problem::new(&key.point, key.lubricant) else { return };
+    let picture = state.picture.as_ref().filter(|picture| picture.key == key);
+    let stress_pa =
+        picture.map(|picture| Arc::clone(&picture.solution)).map(|solution| match &state.traction.stress_met {
+            Some((of, stress)) if Arc::ptr_eq(of, &solution) => *stress,
+            _ => {
+                let stress = largest_stress(&solution);
+                state.traction.stress_met = Some((solution, stress));
+                stress
+            }
+        });
+    let picture = state.picture.as_ref().filter(|picture| picture.key == key);
+    let pressure_pa = picture.map_or(key.point.hertz().pressure_pa, |picture| picture.largest_pressure_pa());
+    let met = Met { problem, pressure_pa, stress_pa };
+    let mut text = format!("This contact meets pressures up to {}", numbers::pressure(pressure_pa));
+    if let Some(stress) = stress_pa {
+        text.push_str(&format!(" and shear stresses up to {} on its surfaces", numbers::pressure(stress)));
+    }
+    ui.weak(text);
+    let fit = state.fit_plots;
+    if ui.available_width() >= SIDE_BY_SIDE {
+        let (width, height) = (0.5 * (ui.available_width() - 10.0), ui.available_height() - 4.0);
+        ui.horizontal_top(|ui| {
+            for plot in [pressure_plot, flow_plot] {
+                ui.vertical(|ui| {
+                    ui.set_width(width);
+                    plot(ui, &met, height, fit);
+                });
+            }
+        });
+    } else {
+        let height = 0.5 * (ui.available_height() - 8.0);
+        pressure_plot(ui, &met, height, fit);
+        flow_plot(ui, &met, height, fit);
+    }
+}
+
+/// The largest shear stress along the axis of a solution \[Pa\]: across the film it is linear, so one of both surfaces has it.
+fn largest_stress(solution: &Solution) -> f64 {
+    solution.shear_field(&[0.0, 1.0]).iter().map(|shear| shear.stress_pa.abs()).fold(0.0, f64::max)
+}
+
+fn logarithmic<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> Plot<'a> {
+    axes::plot(ui, id, height.max(120.0), x_title, y_title)
+        .y_grid_spacer(|input| axes::few_decade_marks(input, 7.0))
+        .y_axis_formatter(|mark, _| axes::decade_label(mark))
+        .auto_bounds(egui::Vec2b::TRUE)
+        .set_margin_fraction(egui::vec2(0.0, 0.06))
+        .show_y(false)
+}
+
+/// µ(p) at rest.
+fn pressure_plot(ui: &mut Ui, met: &Met, height: f32, fit: bool) {
+    let palette = Palette::of(ui);
+    let (problem, hertz_pa) = (&met.problem, met.problem.point.hertz().pressure_pa);
+    let end = (1.3 * met.pressure_pa.max(hertz_pa)).min(0.999 * problem.fluid.largest_pressure() * hertz_pa);
+    let viscosity = |p: f64| problem.point.viscosity_pa_s * problem.fluid.at(p / hertz_pa).viscosity;
+    let curve: Vec<[f64; 2]> =
+        (0..SAMPLES).map(|k| end * k as f64 / (SAMPLES - 1) as f64).map(|p| [1e-9 * p, viscosity(p).log10()]).collect();
+    let marks = f64::from((ui.available_width() / 90.0).clamp(3.0, 8.0));
+    axes::show(
+        logarithmic(ui, "viscosity and pressure", height, "Pressure {p} in GPa", "Viscosity at rest µ in Pa·s")
+            .x_grid_spacer(move |input| axes::round_marks(input, marks))
+            .label_formatter(|at| {
+                Some(format!(
+                    "p = {} GPa\nµ = {} Pa·s",
+                    numbers::significant(place(at)[0]),
+                    numbers::significant(10f64.powf(place(at)[1]))
+                ))
+            }),
+        ui,
+        "Viscosity against pressure",
+        |plot| {
+            axes::fit(plot, fit);
+            plot.span(
+                Span::new("met here", 0.0..=1e-9 * met.pressure_pa)
+                    .fill(palette.accent.gamma_multiply(0.14))
+                    .border_width(0.0),
+            );
+            plot.line(Line::new("µ(p)", curve).color(palette.pressure).width(LIVE_WIDTH).allow_band(false));
+            let line = VLine::new("p_H", 1e-9 * hertz_pa).color(palette.reference).width(THIN_WIDTH);
+            plot.vline(line.style(LineStyle::dashed_dense()).allow_hover(false));
+            let at = PlotPoint::new(1e-9 * hertz_pa, viscosity(0.0).log10());
+            let name = Text::new("", at, rich(" {p_H}", 12.5, palette.quiet));
+            plot.text(name.anchor(Align2::LEFT_BOTTOM).id("Hertz").allow_hover(false));
+        },
+    );
+}
+
+fn place(at: &HoverPosition<'_>) -> [f64; 2] {
+    match at {
+        HoverPosition::NearDataPoint { position, .. } | HoverPosition::Elsewhere { position } => {
+            [position.x, position.y]
+        }
+    }
+}
+
+/// η(τ) at ambient and at Hertzian pressure.
+fn flow_plot(ui: &mut Ui, met: &Met, height: f32, fit: bool) {
+    let palette = Palette::of(ui);
+    let problem = &met.problem;
+    let critical = problem.shear.map_or(NEWTONIAN_STRESS, |shear| shear.stress_scale_pa);
+    let from = critical.log10() - BELOW;
+    let to = met.stress_pa.map_or(f64::NEG_INFINITY, f64::log10).max(critical.log10() + ABOVE) + 0.5;
+    let curve = |p: f64| -> Vec<[f64; 2]> {
+        let at_rest = problem.point.viscosity_pa_s * problem.fluid.at(p).viscosity;
+        let log = |k: usize| from + (to - from) * k as f64 / (SAMPLES - 1) as f64;
+        let fluidity =
+            |log: f64| problem.shear.map_or(1.0, |law| law.fluidity.at(10f64.powf(log) / law.stress_scale_pa).0);
+        (0..SAMPLES).map(log).map(|log| [log, (at_rest / fluidity(log)).log10()]).collect()
+    };
+    let hertz_pa = problem.point.hertz().pressure_pa;
+    let limit = problem.lubricant.limiting_stress;
+    axes::show(
+        logarithmic(ui, "flow curve", height, "Shear stress τ in Pa", "Viscosity η in Pa·s")
+            .x_grid_spacer(|input| axes::few_decade_marks(input, 6.0))
+            .x_axis_formatter(|mark, _| axes::decade_label(mark))
+            .legend(Legend::default().position(Corner::LeftBottom).follow_insertion_order(true).background_alpha(0.6))
+            .label_formatter(|at| {
+                let [stress, viscosity] = place(at).map(|log| numbers::significant(10f64.powf(log)));
+                Some(format!("τ = {stress} Pa\nη = {viscosity} Pa·s"))
+            }),
+        ui,
+        "Viscosity against shear stress",
+        |plot| {
+            axes::fit(plot, fit);
+            if let Some(stress) = met.stress_pa.filter(|stress| stress.log10() > from) {
+                plot.span(
+                    Span::new("met here", from..=stress.log10())
+                        .fill(palette.accent.gamma_multiply(0.14))
+                        .border_width(0.0),
+                );
+            }
+            for (name, p, color, width) in
+                [("at p_H", 1.0, palette.pressure, LIVE_WIDTH), ("at p = 0", 0.0, palette.film, LIVE_WIDTH)]
+            {
+                plot.line(Line::new(name, curve(p)).color(color).width(width).allow_band(false));
+            }
+            for (name, p) in [("τ_L at p = 0", 0.0), ("τ_L at p_H", hertz_pa)] {
+                if let Some(stress) = limit.map(|limit| limit.at(p)).filter(|stress| *stress > 0.0) {
+                    let line = VLine::new(name, stress.log10()).color(palette.warning).width(THIN_WIDTH);
+                    plot.vline(line.style(LineStyle::dashed_dense()));
+                }
+            }
+        },
+    );
+}

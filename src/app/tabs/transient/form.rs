@@ -1,0 +1,293 @@
+//! What drives the contact as a form: the three inputs with a preview, duration, steps and frames. What makes no sense is refused
+//! beside its field.
+
+use super::methods;
+use crate::app::controls::heading;
+use crate::app::files::Purpose;
+use crate::app::state::State;
+use crate::app::tabs::axes;
+use crate::app::tabs::training::fields::{Form, choose};
+use crate::app::theme::Palette;
+use crate::app::transient::input::Input;
+use crate::app::transient::method::{frame_meaning, frame_name};
+use crate::scene::TransientStudy;
+use crate::solver::full::transient::{Frame, Inputs, Signal, TimeStep};
+use egui::{Checkbox, Ui};
+use egui_plot::{Line, LineStyle, PlotPoints};
+
+/// Points of a curve of the preview.
+const PREVIEW: usize = 400;
+
+/// Names of the fields of one input.
+struct Names {
+    kind: &'static str,
+    tip: &'static str,
+    /// A and T_ex.
+    one: [&'static str; 2],
+    /// A₁, T₁, A₂, T₂.
+    two: [&'static str; 4],
+    steepness: &'static str,
+}
+
+/// Names of an input's fields from its own.
+macro_rules! names {
+    ($kind:literal, $tip:literal) => {
+        Names {
+            kind: $kind,
+            tip: $tip,
+            one: [concat!($kind, " {A}"), concat!($kind, " {T_ex}")],
+            two: [
+                concat!($kind, " {A_1}"),
+                concat!($kind, " {T_1}"),
+                concat!($kind, " {A_2}"),
+                concat!($kind, " {T_2}"),
+            ],
+            steepness: concat!($kind, " {s}"),
+        }
+    };
+}
+
+fn names(input: Input) -> Names {
+    match input {
+        Input::Load => names!("Load", "w over that of the sliders, as a function of time (2.20)"),
+        Input::Speed => {
+            names!("Speed", "u_m over that of the sliders, as a function of time (2.19); it may turn round")
+        }
+        Input::Radius => names!("Radius", "R over that of the sliders, as a function of time (2.18)"),
+    }
+}
+
+/// The form.
+pub fn ui(ui: &mut Ui, state: &mut State) {
+    let mut read_table = false;
+    edit(ui, state, |ui, form, study| {
+        heading(ui, "Inputs");
+        for input in Input::ALL {
+            signal_ui(ui, form, &names(input), input.of_mut(&mut study.inputs));
+        }
+        let tip = "A table with a title line: T and any of radius, speed, load, each relative to its reference";
+        read_table = ui.button("Inputs from CSV…").on_hover_text(tip).clicked();
+        if let Some(path) = &study.sampled {
+            ui.weak(format!("At every run, inputs are read from {}.", path.display()));
+        }
+        preview(ui, &study.inputs, study.duration);
+        if !study.further.is_empty() {
+            let names: Vec<&str> = study.further.iter().map(|drive| drive.name.as_str()).collect();
+            ui.weak(format!("Headless runs follow further inputs too: {}.", names.join(", ")));
+        }
+        time_ui(ui, form, study);
+        frames_ui(ui, form, &mut study.frames);
+        methods::ui(ui, form, study);
+    });
+    if !state.document.saves_transient() && state.document.transient.is_some() {
+        ui.weak("The open scene asks another question: it is saved without this set-up.");
+    }
+    if read_table {
+        state.ask_path(&ui.ctx().clone(), Purpose::Inputs);
+    }
+}
+
+/// A form over the contact in time of the document, which takes what makes sense; the rest is refused beside its field.
+pub fn edit(ui: &mut Ui, state: &mut State, content: impl FnOnce(&mut Ui, &mut Form, &mut TransientStudy)) {
+    let mut study = state.document.transient_study();
+    let before = study.clone();
+    let mut form = Form { refused: state.transient.refused.take(), changed: None };
+    ui.add_enabled_ui(state.transient.work.standing().is_none(), |ui| content(ui, &mut form, &mut study));
+    let Form { refused, changed } = form;
+    state.transient.refused = refused;
+    if study != before {
+        let result = state.document.set_transient(study);
+        state.transient.refused = result.err().map(|message| (changed.unwrap_or("Frames"), message));
+    }
+}
+
+/// Which function of time.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Constant,
+    Harmonic,
+    TwoScale,
+    TriangleToSquare,
+    Sampled,
+}
+
+impl Kind {
+    const GIVEN: [Self; 4] = [Self::Constant, Self::Harmonic, Self::TwoScale, Self::TriangleToSquare];
+
+    fn of(signal: &Signal) -> Self {
+        match signal {
+            Signal::Constant => Self::Constant,
+            Signal::Harmonic { .. } => Self::Harmonic,
+            Signal::TwoScale { .. } => Self::TwoScale,
+            Signal::TriangleToSquare { .. } => Self::TriangleToSquare,
+            Signal::Sampled { .. } => Self::Sampled,
+        }
+    }
+
+    fn describe(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Constant => ("Constant", "Its reference throughout"),
+            Self::Harmonic => ("Harmonic", "1 + A sin(2π T/T_ex), (2.49)"),
+            Self::TwoScale => ("Two-scale", "1 + A₁ sin(2π T/T₁) + A₂ sin(2π T/T₂), (4.33)"),
+            Self::TriangleToSquare => {
+                ("Triangle to square", "A triangle for s = 0, ever steeper flanks towards s = 1 (Fig. 4.16)")
+            }
+            Self::Sampled => ("From a table", "Given values, joined by straight lines"),
+        }
+    }
+
+    /// A function of this kind with as much of another as it can take over.
+    fn signal(self, former: &Signal) -> Signal {
+        let (amplitude, period) = match former {
+            Signal::Harmonic { amplitude, period } | Signal::TriangleToSquare { amplitude, period, .. } => {
+                (*amplitude, *period)
+            }
+            Signal::TwoScale { amplitudes, periods } => (amplitudes.0, periods.0),
+            Signal::Constant | Signal::Sampled { .. } => (0.1, 4.0),
+        };
+        match self {
+            Self::Constant => Signal::Constant,
+            Self::Harmonic => Signal::Harmonic { amplitude, period },
+            Self::TwoScale => {
+                Signal::TwoScale { amplitudes: (amplitude, 0.125 * amplitude), periods: (period, 0.0625 * period) }
+            }
+            Self::TriangleToSquare => Signal::TriangleToSquare { amplitude, period, s: 0.5 },
+            Self::Sampled => former.clone(),
+        }
+    }
+}
+
+/// One input: which function of time, and its constants.
+fn signal_ui(ui: &mut Ui, form: &mut Form, names: &Names, signal: &mut Signal) {
+    let kind = Kind::of(signal);
+    let mut wanted = kind;
+    let mut options = Kind::GIVEN.to_vec();
+    if kind == Kind::Sampled {
+        options.push(Kind::Sampled);
+    }
+    choose(ui, names.kind, names.tip, &mut wanted, &options, Kind::describe);
+    if wanted != kind {
+        *signal = wanted.signal(signal);
+        form.changed = Some(names.kind);
+    }
+    form.message(ui, names.kind);
+    const AMPLITUDE: &str = "Relative to the reference";
+    const PERIOD: &str = "In units of a/u_m of the reference contact";
+    let plain = ("", 1.0);
+    match signal {
+        Signal::Constant => {}
+        Signal::Harmonic { amplitude, period } => {
+            form.row(ui, names.one[0], plain, amplitude, AMPLITUDE);
+            form.row(ui, names.one[1], plain, period, PERIOD);
+        }
+        Signal::TwoScale { amplitudes, periods } => {
+            form.row(ui, names.two[0], plain, &mut amplitudes.0, AMPLITUDE);
+            form.row(ui, names.two[1], plain, &mut periods.0, PERIOD);
+            form.row(ui, names.two[2], plain, &mut amplitudes.1, AMPLITUDE);
+            form.row(ui, names.two[3], plain, &mut periods.1, PERIOD);
+        }
+        Signal::TriangleToSquare { amplitude, period, s } => {
+            form.row(ui, names.one[0], plain, amplitude, AMPLITUDE);
+            form.row(ui, names.one[1], plain, period, PERIOD);
+            form.row(ui, names.steepness, plain, s, "0 is a triangle; at least 0 and below 1");
+        }
+        Signal::Sampled { times, .. } => {
+            ui.weak(format!("{} values.", times.len()));
+        }
+    }
+}
+
+/// The inputs against time; those that vary are told apart without colour.
+fn preview(ui: &mut Ui, inputs: &Inputs, duration: f64) {
+    let palette = Palette::of(ui);
+    let looks = [
+        ("Load", palette.accent, LineStyle::Solid),
+        ("Speed", palette.verified, LineStyle::dashed_loose()),
+        ("Radius", palette.warning, LineStyle::dotted_dense()),
+    ];
+    let plot = axes::plot(ui, "transient inputs", 96.0, "", "")
+        .y_axis_min_width(36.0)
+        .x_grid_spacer(|input| axes::round_marks(input, 4.0))
+        .y_grid_spacer(|input| axes::round_marks(input, 2.0))
+        .allow_zoom(false)
+        .allow_drag(false)
+        .include_y(0.95)
+        .include_y(1.05)
+        .auto_bounds(egui::Vec2b::TRUE)
+        .set_margin_fraction(egui::vec2(0.0, 0.1));
+    let mut key = Vec::new();
+    axes::show(plot, ui, "Inputs against time", |plot| {
+        for (input, (name, color, style)) in Input::ALL.into_iter().zip(looks) {
+            let signal = input.of(inputs);
+            let points: PlotPoints<'_> = (0..=PREVIEW)
+                .map(|k| duration * k as f64 / PREVIEW as f64)
+                .map(|time| [time, signal.at(time)])
+                .collect();
+            if *signal != Signal::Constant {
+                key.push((name, color));
+            }
+            let width = if *signal == Signal::Constant { 0.8 } else { 1.6 };
+            plot.line(Line::new(name, points).color(color).width(width).style(style).allow_band(false));
+        }
+    });
+    if key.len() > 1 {
+        ui.horizontal(|ui| {
+            for (name, color) in key {
+                ui.label(egui::RichText::new(name).small().color(color));
+            }
+        });
+    }
+}
+
+fn time_ui(ui: &mut Ui, form: &mut Form, study: &mut TransientStudy) {
+    heading(ui, "Time");
+    let plain = ("", 1.0);
+    form.row(ui, "Duration {T}", plain, &mut study.duration, "The last T, in units of a/u_m of the reference contact");
+    study.window = study.window.filter(|window| window.1 <= study.duration);
+    let adaptive = matches!(study.time_step, TimeStep::Adaptive { .. });
+    let mut wanted = adaptive;
+    choose(ui, "Steps", "How long the steps are", &mut wanted, &[false, true], |adaptive| {
+        if adaptive {
+            ("Adaptive", "As long as the solution stays near the straight line through the two former ones")
+        } else {
+            ("All the same", "The duration is divided evenly")
+        }
+    });
+    if wanted != adaptive {
+        study.time_step = match study.time_step {
+            TimeStep::Fixed(step) => TimeStep::Adaptive { tolerance: 1e-3, longest: step },
+            TimeStep::Adaptive { longest, .. } => TimeStep::Fixed(longest),
+        };
+        form.changed = Some("Steps");
+    }
+    form.message(ui, "Steps");
+    match &mut study.time_step {
+        TimeStep::Fixed(step) => {
+            form.row(ui, "Step {ΔT}", plain, step, "A twentieth of the shortest period is coarse, a hundredth fine");
+        }
+        TimeStep::Adaptive { tolerance, longest } => {
+            let tip = "How far P may lie from its extrapolation, relative";
+            form.row(ui, "Tolerance", plain, tolerance, tip);
+            form.row(ui, "Longest {ΔT}", plain, longest, "The longest step, and the first");
+        }
+    }
+}
+
+/// The frames, each a run of its own.
+fn frames_ui(ui: &mut Ui, form: &mut Form, frames: &mut Vec<Frame>) {
+    heading(ui, "Frames");
+    for frame in Frame::ALL {
+        let mut on = frames.contains(&frame);
+        if ui.add(Checkbox::new(&mut on, frame_name(frame))).on_hover_text(frame_meaning(frame)).changed() {
+            let chosen: Vec<Frame> =
+                Frame::ALL.into_iter().filter(|f| if *f == frame { on } else { frames.contains(f) }).collect();
+            if chosen.is_empty() {
+                form.refused = Some(("Frames", "at least one frame is needed".to_owned()));
+            } else {
+                *frames = chosen;
+                form.changed = Some("Frames");
+            }
+        }
+    }
+    form.message(ui, "Frames");
+}

@@ -1,0 +1,83 @@
+//! Pressure and film of every run at the moment that is looked at.
+
+use super::series::{drawn, style};
+use crate::app::numbers;
+use crate::app::state::State;
+use crate::app::tabs::axes;
+use crate::app::theme::{Palette, THIN_WIDTH};
+use crate::app::transient::{Run, TransientView};
+use crate::solver::full::transient::{Moment, Quantity};
+use egui::{Color32, Id, Ui, Vec2b};
+use egui_plot::{Line, LineStyle, PlotPoint, PlotPoints, PlotUi};
+
+/// X range at first, as in the Profiles tab.
+const X_RANGE: (f64, f64) = (-2.2, 1.6);
+
+/// Both plots, each as high as given.
+pub fn ui(ui: &mut Ui, state: &State, height: f32) {
+    let palette = Palette::of(ui);
+    let view = &state.transient;
+    let most = |quantity: Quantity| {
+        let values = view.runs.iter().flat_map(|run| &run.trajectory.moments).map(|moment| moment.value(quantity));
+        numbers::round_up(1.12 * values.fold(0.0, f64::max))
+    };
+    let time = view.player.time();
+    let generation = view.generation;
+    let marks = super::marks(ui.available_width());
+    let stacked = |name: &str, titles: (&str, &str), top: f64| {
+        // The axis stays still while the profiles play.
+        let id = format!("transient {name} {generation}");
+        axes::plot(ui, &id, height, titles.0, titles.1)
+            .x_grid_spacer(move |input| axes::round_marks(input, marks))
+            .y_axis_min_width(48.0)
+            .link_axis(Id::unique(("transient profiles", generation)), Vec2b::new(true, false))
+            .link_cursor(Id::unique(("transient profiles", generation)), Vec2b::new(true, false))
+            .set_margin_fraction(egui::vec2(0.0, 0.0))
+            .default_x_bounds(X_RANGE.0, X_RANGE.1)
+            .default_y_bounds(0.0, top)
+    };
+    let pressure = stacked("profile of pressure", ("", "Pressure {P}"), most(Quantity::MaximumPressure));
+    let film = stacked("profile of film", ("{X}", "Film {H}"), 3.0 * most(Quantity::CentralFilm));
+    axes::show(pressure, ui, "Pressure at this moment", |plot| {
+        axes::fit(plot, state.fit_plots);
+        if let Some(moment) = view.runs.first().and_then(|run| moment_at(run, time)) {
+            hertz(plot, moment, &palette);
+        }
+        curves(plot, view, time, (palette.pressure, &palette), |(x, p, _)| PlotPoint::new(x, p));
+    });
+    axes::show(film, ui, "Film at this moment", |plot| {
+        axes::fit(plot, state.fit_plots);
+        curves(plot, view, time, (palette.film, &palette), |(x, _, h)| PlotPoint::new(x, h));
+    });
+}
+
+fn moment_at(run: &Run, time: f64) -> Option<&Moment> {
+    let state = run.state_at(time)?;
+    run.trajectory.moments.iter().find(|moment| moment.time == state.time)
+}
+
+/// The dry contact of the moment, in the scales of the reference contact (4.1).
+fn hertz(plot: &mut PlotUi<'_>, moment: &Moment, palette: &Palette) {
+    let input = moment.input;
+    let (half_width, top) = ((input.load * input.radius).sqrt(), (input.load / input.radius).sqrt());
+    let shape = move |x: f64| top * (1.0 - (x / half_width).powi(2)).max(0.0).sqrt();
+    let curve = PlotPoints::from_explicit_callback(shape, -half_width..=half_width, 160);
+    let line = Line::new("Hertz", curve).color(palette.reference).width(THIN_WIDTH);
+    plot.line(line.style(LineStyle::dashed_dense()));
+}
+
+fn curves(
+    plot: &mut PlotUi<'_>,
+    view: &TransientView,
+    time: f64,
+    (color, palette): (Color32, &Palette),
+    of: impl Fn((f64, f64, f64)) -> PlotPoint,
+) {
+    for (k, run) in drawn(view) {
+        let Some(state) = run.state_at(time) else { continue };
+        let points = run.profile(state).map(&of).collect();
+        let (color, width, line_style) = style(view, k, color, palette);
+        let line = Line::new(run.name(), PlotPoints::Owned(points));
+        plot.line(line.color(color).width(width).style(line_style).allow_band(false));
+    }
+}

@@ -1,0 +1,399 @@
+//! The speed table: full and reduced side by side, against a dense Newton measured in the same run.
+
+use super::error::EngineError;
+use super::sampling::random_points;
+use super::statistics::{median, percentile};
+use super::timed_march::{Timed, timed_march};
+use crate::scene::{QuantityBox, TestRange, named_lubricant};
+use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
+use crate::solver::full::dense::{dense_kernel, dense_newton};
+use crate::solver::full::transient::{
+    Frame, FullMarch, Inputs, Keep, Marching, Signal, TimeStep, Trajectory, Transient,
+};
+use crate::solver::full::{FullSolver, PointSolver, Problem, Solution, SolveError, SolveOptions, Start};
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::{Lubricant, Sliding};
+use crate::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
+use crate::solver::reduced::transient::ReducedMarch;
+use crate::solver::reduced::{CurveVariable, Online, ReducedOptions, distance, traction_curve};
+use crate::solver::training::{TrajectoryTraining, train_trajectories};
+use serde::Serialize;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// What all rows of line contacts are compared with: Newton with a dense LU per step on the same 1201 nodes, as the dissertation has it.
+pub const BASELINE: &str = "line/dense-newton";
+
+/// What all rows of point contacts are compared with: the cold full solve. A dense LU of 11960 unknowns would take minutes.
+pub const POINT_BASELINE: &str = "point/full/cold";
+
+/// What all rows of steps in time are compared with: the full step on the same 1201 nodes.
+pub const TRANSIENT_BASELINE: &str = "line/transient/full-step";
+
+/// The dense baseline may take this long; at least three runs are made whatever they take.
+const BASELINE_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(10)];
+/// Each other row stops drawing further points after this.
+const ROW_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(8)];
+/// Points of the full rows and of the reduced row.
+const FULL_POINTS: [usize; 2] = [400, 120];
+const REDUCED_POINTS: [usize; 2] = [10_000, 1_000];
+const BASELINE_POINTS: [usize; 2] = [40, 12];
+/// Shear-thinning line contacts, of either kind for their reduced models, and how many of these have a traction curve.
+const SHEAR_POINTS: [usize; 2] = [150, 40];
+const REDUCED_SHEAR_POINTS: [usize; 2] = [1000, 150];
+const CURVES: [usize; 2] = [50, 20];
+/// Point contacts: solves, and the time after which no further ones are begun.
+const POINT_POINTS: [usize; 2] = [50, 8];
+const POINT_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(5)];
+/// The trajectory-piecewise-linear model of the same march.
+const TPWL_TRAINING: TpwlTraining = TpwlTraining { modes: 100, selection: Selection::Step { tolerance: 1e-3 } };
+/// Contacts of a traction curve, SRR 0…1.
+const CURVE_POINTS: usize = 41;
+const SEED: u64 = 2026;
+/// Marches of a reduced model: one of them is over too soon for a median that can be repeated.
+const MARCHES: usize = 10;
+/// Duration of the march whose steps are timed.
+const MARCH_DURATION: [f64; 2] = [1.5, 0.5];
+
+/// One line of the table.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    /// `line/full/cold` and so on.
+    pub name: &'static str,
+    /// Median \[s\].
+    pub median_s: f64,
+    /// 99th percentile \[s\].
+    pub p99_s: f64,
+    /// Solves measured.
+    pub runs: usize,
+    /// What the ratio refers to.
+    pub baseline: &'static str,
+    /// Median of the baseline over this median: how many times faster.
+    pub ratio: f64,
+}
+
+/// The table, and what a reader must know about it.
+#[derive(Clone, Debug, PartialEq, Serialize, Default)]
+pub struct Bench {
+    /// The lines.
+    pub rows: Vec<Row>,
+    /// Lines that are missing and why; solves that did not converge.
+    #[serde(skip)]
+    pub notes: Vec<String>,
+}
+
+/// Measures the table over random points of Table 3.1's box for line and of Table 3.4's for point contacts, and of Table 3.6's ranges for
+/// shear-thinning ones: the same points for every row of a kind.
+///
+/// `quick` takes fewer points and ends within 40 s.
+///
+/// # Errors
+/// When a solver refuses a point of the box, which it never should.
+pub fn run(quick: bool) -> Result<Bench, EngineError> {
+    let size = usize::from(quick);
+    let points = random_points(&TestRange::Box(QuantityBox::TABLE_3_1), ContactKind::Line, REDUCED_POINTS[size], SEED);
+    let lubricant = Lubricant::default();
+    let mut solver = FullSolver::new(GridSpec::DISSERTATION)?;
+    let mut bench = Bench::default();
+
+    let mut dense = Timing::new(BASELINE, BASELINE_BUDGET[size]);
+    let kernel = dense_kernel(&solver.reference().scaled(1.0));
+    let options = SolveOptions::default();
+    for point in &points[..BASELINE_POINTS[size]] {
+        if dense.spent() && dense.seconds.len() >= 3 {
+            break;
+        }
+        let clock = Instant::now();
+        let (mut system, problem) = solver.cold_system(point, lubricant)?;
+        let steps = dense_newton(&mut system, &problem, &options, &kernel);
+        dense.record(clock, steps < options.max_newton);
+    }
+
+    let mut rows = vec![dense];
+    let newtonian = |point: &OperatingPoint| Problem::new(point, lubricant);
+    let problems = points[..FULL_POINTS[size]].iter().map(newtonian).collect::<Result<Vec<_>, _>>()?;
+    rows.extend(cold_and_warm(["line/full/cold", "line/full/warm"], ROW_BUDGET[size], &problems, |problem, start| {
+        Ok(solver.solve_problem(problem, start, &mut ()))
+    })?);
+    let shear = shear_problems(ContactKind::Line, SHEAR_POINTS[size])?;
+    let names = ["line/shear/full/cold", "line/shear/full/warm"];
+    rows.extend(cold_and_warm(names, ROW_BUDGET[size], &shear, |problem, start| {
+        Ok(solver.solve_problem(problem, start, &mut ()))
+    })?);
+    match super::embedded_model(ContactKind::Line) {
+        Ok(model) => {
+            let mut online = Online::new(model, ReducedOptions::default());
+            rows.push(reduced_row("line/reduced", &mut online, (&points, lubricant), true, ROW_BUDGET[size]));
+        }
+        Err(reason) => bench.notes.push(format!("line/reduced is missing: {reason}")),
+    }
+    let names = ["line/shear/reduced", "line/shear/traction-curve"];
+    rows.extend(bench.reduced_shear_rows(names, ContactKind::Line, size)?);
+    bench.add(rows, BASELINE);
+    bench.add(transient_rows(size)?, TRANSIENT_BASELINE);
+    let shear = shear_problems(ContactKind::Point, POINT_POINTS[size])?;
+    let mut rows = point_rows(size, &shear)?;
+    match super::embedded_model(ContactKind::Point) {
+        Ok(model) => {
+            let range = TestRange::Box(QuantityBox::TABLE_3_4);
+            let points = random_points(&range, ContactKind::Point, REDUCED_POINTS[size], SEED);
+            let mut online = Online::new(model, ReducedOptions::default());
+            for (name, fields) in [("point/reduced", false), ("point/reduced/fields", true)] {
+                rows.push(reduced_row(name, &mut online, (&points, Lubricant::default()), fields, POINT_BUDGET[size]));
+            }
+        }
+        Err(reason) => bench.notes.push(format!("point/reduced is missing: {reason}")),
+    }
+    let names = ["point/shear/reduced", "point/shear/traction-curve"];
+    rows.extend(bench.reduced_shear_rows(names, ContactKind::Point, size)?);
+    bench.add(rows, POINT_BASELINE);
+    Ok(bench)
+}
+
+impl Bench {
+    /// Reduced solves of shear-thinning contacts of one kind, H_c and traction without any field, and whole traction curves; a note where
+    /// there is no model.
+    fn reduced_shear_rows(
+        &mut self,
+        [solve, curve]: [&'static str; 2],
+        kind: ContactKind,
+        size: usize,
+    ) -> Result<Vec<Timing>, EngineError> {
+        match super::embedded_shear_model(kind) {
+            Ok(model) => {
+                let mut online = Online::new(model, ReducedOptions::default());
+                let problems = shear_problems(kind, REDUCED_SHEAR_POINTS[size])?;
+                let points: Vec<OperatingPoint> = problems.iter().map(|problem| problem.point).collect();
+                let lubricant = named_lubricant::SQUALANE_PIP;
+                let solves = reduced_row(solve, &mut online, (&points, lubricant), false, POINT_BUDGET[size]);
+                let curves = (&points[..CURVES[size]], lubricant);
+                Ok(vec![solves, curve_row(curve, &mut online, curves, POINT_BUDGET[size])])
+            }
+            Err(reason) => {
+                self.notes.push(format!("{solve} is missing: {reason}"));
+                Ok(Vec::new())
+            }
+        }
+    }
+
+    /// Adds rows that are compared with the first of them.
+    fn add(&mut self, rows: Vec<Timing>, baseline: &'static str) {
+        let reference = rows.first().map_or(f64::NAN, |first| median(&first.seconds));
+        for timing in rows {
+            if timing.failures > 0 {
+                self.notes.push(format!("{}: {} solves did not converge", timing.name, timing.failures));
+            }
+            let median_s = median(&timing.seconds);
+            self.rows.push(Row {
+                name: timing.name,
+                median_s,
+                p99_s: percentile(&timing.seconds, 0.99),
+                runs: timing.seconds.len(),
+                baseline,
+                ratio: reference / median_s,
+            });
+        }
+    }
+}
+
+/// Full solves of point contacts on 301×41 nodes, cold and from the nearest other solution.
+fn point_rows(size: usize, shear: &[Problem]) -> Result<Vec<Timing>, EngineError> {
+    let range = TestRange::Box(QuantityBox::TABLE_3_4);
+    let points = random_points(&range, ContactKind::Point, POINT_POINTS[size], SEED);
+    let newtonian = |point: &OperatingPoint| Problem::new(point, Lubricant::default());
+    let newtonian = points.iter().map(newtonian).collect::<Result<Vec<_>, _>>()?;
+    let mut solver = PointSolver::new(PointGridSpec::DISSERTATION)?;
+    let mut rows = Vec::new();
+    for (names, problems) in [
+        ([POINT_BASELINE, "point/full/warm"], newtonian.as_slice()),
+        (["point/shear/full/cold", "point/shear/full/warm"], shear),
+    ] {
+        let solve = |problem, start: Start<'_>| solver.solve_problem(problem, start, &mut ());
+        rows.extend(cold_and_warm(names, POINT_BUDGET[size], problems, solve)?);
+    }
+    Ok(rows)
+}
+
+/// Random contacts of Table 3.5 in the ranges of Table 3.6: u_m with a constant ratio, SRR and NPR equidistant.
+fn shear_problems(kind: ContactKind, count: usize) -> Result<Vec<Problem>, EngineError> {
+    let lubricant = named_lubricant::SQUALANE_PIP;
+    let mut random = fastrand::Rng::with_seed(SEED);
+    let problem = |_| {
+        let point = OperatingPoint {
+            kind,
+            radius_m: 12.7e-3,
+            speed_m_per_s: 0.1 * 50f64.powf(random.f64()),
+            // The line's load makes the Hertzian pressure of the point's 23 N.
+            load: if kind == ContactKind::Line { 144e3 } else { 23.0 },
+            modulus_pa: 1.2388e11,
+            viscosity_pa_s: 0.0705,
+            alpha_per_pa: 2e-8,
+            sliding: Sliding {
+                slide_to_roll_ratio: random.f64(),
+                newtonian_plateau_ratio: Some(0.2 + 0.8 * random.f64()),
+            },
+        };
+        Ok(Problem::new(&point, lubricant)?)
+    };
+    (0..count).map(problem).collect()
+}
+
+/// Solves cold, then each again from the nearest other solution.
+fn cold_and_warm(
+    names: [&'static str; 2],
+    budget: Duration,
+    problems: &[Problem],
+    mut solve: impl FnMut(Problem, Start<'_>) -> Result<Solution, SolveError>,
+) -> Result<[Timing; 2], EngineError> {
+    let [mut cold, mut warm] = names.map(|name| Timing::new(name, budget));
+    let mut solutions: Vec<Solution> = Vec::new();
+    for &problem in problems {
+        if cold.spent() && cold.seconds.len() >= 4 {
+            break;
+        }
+        let clock = Instant::now();
+        let solution = solve(problem, Start::Cold)?;
+        cold.record(clock, solution.converged());
+        solutions.extend(Some(solution).filter(Solution::converged));
+    }
+    warm.begun = Instant::now();
+    for (k, own) in solutions.iter().enumerate() {
+        let Some(start) = nearest_other(&solutions, k) else { break };
+        if warm.spent() && warm.seconds.len() >= 4 {
+            break;
+        }
+        let clock = Instant::now();
+        let solution = solve(own.problem, Start::From(start))?;
+        warm.record(clock, solution.converged());
+    }
+    Ok([cold, warm])
+}
+
+/// Steps in time, of the full system and of the reduced models that reproduce them: the load of case 1 of Table 4.1 on the contact of Table
+/// 4.2, fixed frame.
+fn transient_rows(size: usize) -> Result<Vec<Timing>, EngineError> {
+    let [radius_m, speed_m_per_s, load] = [2e-3, 5.0, 2e5];
+    let [modulus_pa, viscosity_pa_s, alpha_per_pa] = [231e9, 0.01, 1e-8];
+    let kind = ContactKind::Line;
+    let transient = Transient {
+        point: OperatingPoint::from_quantities(
+            kind,
+            [radius_m, speed_m_per_s, load, modulus_pa, viscosity_pa_s, alpha_per_pa],
+            Sliding::NONE,
+        ),
+        lubricant: Lubricant::default(),
+        inputs: Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 1.0 / 3.0 }),
+        frame: Frame::Fixed,
+        duration: MARCH_DURATION[size],
+        time_step: TimeStep::Fixed(2.5e-3),
+        keep: Keep::Every(1),
+    };
+    let grid = GridSpec::DISSERTATION.build().map_err(SolveError::from)?;
+    let mut full = Timing::new(TRANSIENT_BASELINE, ROW_BUDGET[size]);
+    let trajectory = full.add_steps(&mut FullMarch::new(Arc::clone(&grid), &transient)?, &transient)?;
+    let settings = TrajectoryTraining { loss: 1e-5, ..TrajectoryTraining::default() };
+    let linearised = TpwlModel::train(&[&trajectory], TPWL_TRAINING)?;
+    let model = train_trajectories(&grid, &[trajectory], &settings, &())?;
+    // Models are used for what they cost least: nobody asks for fields at every step.
+    let transient = Transient { keep: Keep::Scalars, ..transient };
+    let [mut reduced, mut superposed] =
+        ["line/transient/rnsa-step", "line/transient/tpwl-step"].map(|name| Timing::new(name, ROW_BUDGET[size]));
+    for _ in 0..MARCHES {
+        reduced.add_steps(&mut ReducedMarch::new(&model)?, &transient)?;
+        superposed.add_steps(&mut TpwlMarch::new(&linearised, &transient, Weighting::DualTaylor)?, &transient)?;
+    }
+    Ok(vec![full, reduced, superposed])
+}
+
+/// Reduced solves one after the other, with all fields and the scalars read off them where `fields` says so.
+fn reduced_row(
+    name: &'static str,
+    online: &mut Online,
+    (points, lubricant): (&[OperatingPoint], Lubricant),
+    fields: bool,
+    budget: Duration,
+) -> Timing {
+    let mut timing = Timing::new(name, budget);
+    if let Some(first) = points.first() {
+        // Operators belong to the model, not to its solves.
+        online.prepare(first.moes());
+    }
+    for point in points {
+        if timing.spent() {
+            break;
+        }
+        let clock = Instant::now();
+        let solved = online.solve(point, lubricant);
+        let converged = match solved {
+            Ok(solution) if fields => online.scalars(&solution).is_ok(),
+            solved => solved.is_ok(),
+        };
+        timing.record(clock, converged);
+    }
+    timing
+}
+
+/// Whole traction curves over SRR by a reduced model, one for the speed, load and plateau ratio of each point.
+fn curve_row(
+    name: &'static str,
+    online: &mut Online,
+    (points, lubricant): (&[OperatingPoint], Lubricant),
+    budget: Duration,
+) -> Timing {
+    let mut timing = Timing::new(name, budget);
+    let values: Vec<f64> = (0..CURVE_POINTS).map(|k| k as f64 / (CURVE_POINTS - 1) as f64).collect();
+    for point in points {
+        if timing.spent() {
+            break;
+        }
+        online.prepare(point.moes());
+        let clock = Instant::now();
+        let curve = traction_curve(online, point, lubricant, CurveVariable::SlideToRollRatio, &values);
+        let converged = curve.filter(|place| place.solution.as_ref().is_ok_and(|solved| solved.traction.is_some()));
+        let converged = converged.count() == values.len();
+        timing.record(clock, converged);
+    }
+    timing
+}
+
+/// The solution nearest to number `k` by (3.20) and in SRR and NPR, other than itself.
+fn nearest_other(solutions: &[Solution], k: usize) -> Option<&Solution> {
+    let far = |other: &Solution| {
+        let (a, b) = (&solutions[k].problem, &other.problem);
+        distance(a.moes, b.moes) + a.point.sliding.distance(b.point.sliding)
+    };
+    let others = solutions.iter().enumerate().filter(|&(i, _)| i != k).map(|(_, solution)| solution);
+    others.min_by(|a, b| far(a).total_cmp(&far(b)))
+}
+
+struct Timing {
+    name: &'static str,
+    begun: Instant,
+    budget: Duration,
+    seconds: Vec<f64>,
+    failures: usize,
+}
+
+impl Timing {
+    fn new(name: &'static str, budget: Duration) -> Self {
+        Self { name, begun: Instant::now(), budget, seconds: Vec::new(), failures: 0 }
+    }
+
+    fn spent(&self) -> bool {
+        self.begun.elapsed() > self.budget
+    }
+
+    fn record(&mut self, clock: Instant, converged: bool) {
+        self.seconds.push(clock.elapsed().as_secs_f64());
+        self.failures += usize::from(!converged);
+    }
+
+    /// Marches and records every step.
+    fn add_steps(&mut self, model: &mut dyn Marching, transient: &Transient) -> Result<Trajectory, EngineError> {
+        let Timed { trajectory, seconds } = timed_march(model, transient, String::new(), &())?;
+        self.seconds.extend(seconds);
+        self.failures += usize::from(!trajectory.finished());
+        Ok(trajectory)
+    }
+}

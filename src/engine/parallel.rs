@@ -1,0 +1,106 @@
+//! Many contacts on all cores, full and reduced. Every solve starts afresh, so that neither order nor threads matter.
+
+use super::error::EngineError;
+use super::workbench::Cancel;
+use crate::solver::discrete::grid::ContactGrid;
+use crate::solver::full::{ContactSolver, Solution, Start};
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::reduced::{Online, ReducedError, ReducedModel, ReducedOptions, ReducedSolution};
+use crate::solver::training::{Progress, TrainingObserver};
+use rayon::prelude::*;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Solves without telling the observer, every so many.
+const REPORT_EVERY: usize = 32;
+/// Points a reduced solver is made for at a time; its operators cost as much as a few solves.
+const CHUNK: usize = 128;
+
+/// Counts solves of a stage for the observer.
+struct Count<'a> {
+    stage: &'static str,
+    done: AtomicUsize,
+    total: usize,
+    observer: &'a dyn TrainingObserver,
+}
+
+impl Count<'_> {
+    fn one_more(&self) -> Result<(), EngineError> {
+        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+        if done.is_multiple_of(REPORT_EVERY) {
+            self.observer.progress(Progress { stage: self.stage.to_owned(), done, total: self.total });
+        }
+        if self.observer.cancelled() { Err(EngineError::Cancelled) } else { Ok(()) }
+    }
+}
+
+/// Cold full solutions, none where the solver does not converge; `grid` gives the grid of a point. Cold, so that no reduced solution can
+/// lead them to its root.
+pub(super) fn full_solutions(
+    grid: impl Fn(&OperatingPoint) -> ContactGrid + Sync,
+    points: &[OperatingPoint],
+    lubricant: Lubricant,
+    observer: &dyn TrainingObserver,
+) -> Result<Vec<Option<Solution>>, EngineError> {
+    let count =
+        Count { stage: "full solutions to compare with", done: AtomicUsize::new(0), total: points.len(), observer };
+    points
+        .par_iter()
+        .map_init(Vec::<ContactSolver>::new, |solvers, point| {
+            let grid = grid(point);
+            let place = match solvers.iter().position(|solver| solver.grid_spec() == grid.spec()) {
+                Some(place) => place,
+                None => {
+                    solvers.push(ContactSolver::on(&grid));
+                    solvers.len() - 1
+                }
+            };
+            let solution = solvers[place].solve(point, lubricant, Start::Cold, &mut Cancel(observer))?;
+            count.one_more()?;
+            Ok(Some(solution).filter(Solution::converged))
+        })
+        .collect()
+}
+
+/// Reduced solutions with their fields where `fields` wants them by the point's index, none where the iteration does not converge.
+pub(super) fn reduced_solutions(
+    model: &Arc<ReducedModel>,
+    options: ReducedOptions,
+    points: &[OperatingPoint],
+    lubricant: Lubricant,
+    fields: impl Fn(usize) -> bool + Sync,
+    observer: &dyn TrainingObserver,
+) -> Result<Vec<Option<Reduced>>, EngineError> {
+    let count = Count { stage: "reduced solutions", done: AtomicUsize::new(0), total: points.len(), observer };
+    let parts: Vec<Vec<Option<Reduced>>> = points
+        .par_chunks(CHUNK)
+        .enumerate()
+        .map(|(chunk, points)| {
+            let mut online = Online::new(Arc::clone(model), options);
+            let solve = |(i, point): (usize, &OperatingPoint)| {
+                count.one_more()?;
+                online.forget();
+                match online.solve(point, lubricant) {
+                    Ok(solved) => {
+                        let wanted = fields(chunk * CHUNK + i);
+                        let fields = if wanted { Some(online.reconstruct(&solved)?) } else { None };
+                        Ok(Some(Reduced { solved, fields }))
+                    }
+                    Err(ReducedError::NotConverged { .. }) => Ok(None),
+                    Err(refused) => Err(refused.into()),
+                }
+            };
+            points.iter().enumerate().map(solve).collect()
+        })
+        .collect::<Result<_, EngineError>>()?;
+    Ok(parts.into_iter().flatten().collect())
+}
+
+/// A reduced solution, with fields where they were wanted.
+pub(super) struct Reduced {
+    /// Coefficients and what came with them.
+    pub solved: ReducedSolution,
+    /// Fields on the window's grid.
+    pub fields: Option<Solution>,
+}

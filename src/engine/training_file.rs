@@ -1,0 +1,326 @@
+//! Unfinished trainings on disk (`.training`), so that a crash or a cancel loses no finished full solution.
+//!
+//! The header is that of `checked_file`, the payload a [`TrainingState`] in postcard's encoding. Writing waits for
+//! the disk, so it is done by a thread of its own, at most once a second; the training itself pays for a copy only.
+
+use super::checked_file::{Flaw, Format, Unreadable};
+use crate::scene::atomic_file::{self, WriteError};
+use crate::solver::training::{TrainingObserver, TrainingSpec, TrainingState, Windows};
+use std::collections::HashSet;
+use std::ffi::OsString;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{SyncSender, TrySendError, sync_channel};
+use std::sync::{Mutex, PoisonError};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+const VERSION: u32 = 4;
+/// 5000 full solutions in each of some windows, on the finest grids that are used.
+const FORMAT: Format = Format { magic: b"EHLTRN\r\n", version: VERSION, oldest: VERSION, max_payload: 2 << 30 };
+
+/// Shortest time between two writes.
+const INTERVAL: Duration = Duration::from_secs(1);
+
+/// Why an unfinished training cannot be kept or gone on with.
+#[derive(Debug, thiserror::Error)]
+pub enum TrainingFileError {
+    /// Reading or deleting failed.
+    #[error("cannot use the unfinished training {}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// Writing failed.
+    #[error("the unfinished training cannot be kept: {0}")]
+    Write(#[from] WriteError),
+    /// It cannot be understood.
+    #[error("{} is no unfinished training to go on with ({what}); delete it to train from the beginning", path.display())]
+    Refused {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        what: String,
+    },
+    /// It belongs to another specification.
+    #[error(
+        "{} keeps {solutions} full solutions of another training, “{title}”; finish that one with its own scene, delete the file, or choose another --out",
+        path.display()
+    )]
+    Another {
+        /// The file.
+        path: PathBuf,
+        /// Title of the training it belongs to.
+        title: String,
+        /// Full solutions in it.
+        solutions: usize,
+    },
+}
+
+/// Where the training of a model file is kept until it is done: `FILE.rom.training`.
+pub fn beside(model: &Path) -> PathBuf {
+    let mut name = OsString::from(model);
+    name.push(".training");
+    name.into()
+}
+
+/// Reads an unfinished training.
+///
+/// # Errors
+/// When the file cannot be read or understood.
+pub fn read(path: &Path) -> Result<TrainingState, TrainingFileError> {
+    let refused = |what: String| TrainingFileError::Refused { path: path.to_owned(), what };
+    let flawed = |flaw| {
+        refused(match flaw {
+            Flaw::Foreign => "it is another kind of file".to_owned(),
+            Flaw::Newer { found } | Flaw::Older { found } => {
+                format!("it has version {found}, this program reads version {VERSION}")
+            }
+            Flaw::Truncated { found, wanted } => format!("it is cut off: {found} of {wanted} bytes are there"),
+            Flaw::TooLarge { bytes } => format!("it announces {bytes} bytes, more than any training has"),
+            Flaw::Changed => "its content does not match its hash".to_owned(),
+        })
+    };
+    let bytes = FORMAT.read(path).map_err(|reason| match reason {
+        Unreadable::Io(source) => TrainingFileError::Io { path: path.to_owned(), source },
+        Unreadable::Flaw(flaw) => flawed(flaw),
+    })?;
+    let payload = FORMAT.open(&bytes).map_err(flawed)?;
+    let state: TrainingState =
+        postcard::from_bytes(payload).map_err(|_| refused("its content cannot be decoded".to_owned()))?;
+    if is_sound(&state) { Ok(state) } else { Err(refused("its content contradicts itself".to_owned())) }
+}
+
+/// Whether a state can be trained on from: what a right hash cannot promise.
+fn is_sound(state: &TrainingState) -> bool {
+    let windows_fit = match &state.spec.windows {
+        Windows::Given(given) => state.windows.is_empty() || state.windows.iter().map(|w| &w.window).eq(given),
+        Windows::Automatic { .. } => true,
+    };
+    windows_fit
+        && state.windows.iter().chain(&state.trials).all(|window| {
+            let places = window.solved.iter().map(|s| s.place).chain(window.pending.iter().map(|p| p.0));
+            let points = window.solved.iter().map(|s| &s.point).chain(window.pending.iter().map(|p| &p.1));
+            let numbers = window.solved.iter().flat_map(|s| s.pressure.iter().chain([&s.h_0, &s.h_c]));
+            let count = window.solved.len() + window.pending.len();
+            let places: HashSet<usize> = places.filter(|place| *place < count).collect();
+            places.len() == count
+                && points.into_iter().all(|point| point.check().is_ok())
+                && numbers.into_iter().all(|number| number.is_finite())
+        })
+}
+
+/// What was kept of a training, if anything was.
+///
+/// # Errors
+/// When the file cannot be read, or belongs to another training: it is never overwritten unasked.
+pub fn unfinished(path: &Path, spec: &TrainingSpec) -> Result<Option<TrainingState>, TrainingFileError> {
+    if !path.exists() {
+        return Ok(None);
+    }
+    let state = read(path)?;
+    if state.spec == *spec {
+        return Ok(Some(state));
+    }
+    let (title, solutions) = (state.spec.title.clone(), state.solutions());
+    Err(TrainingFileError::Another { path: path.to_owned(), title, solutions })
+}
+
+/// Writes an unfinished training as a whole or not at all.
+///
+/// # Errors
+/// When the file cannot be written.
+pub fn write(state: &TrainingState, path: &Path) -> Result<(), TrainingFileError> {
+    let encoded = postcard::to_allocvec(state)
+        .map_err(|_| TrainingFileError::Refused { path: path.to_owned(), what: "it cannot be encoded".to_owned() })?;
+    Ok(atomic_file::replace(path, &FORMAT.seal(&encoded))?)
+}
+
+/// Keeps a training on disk while it runs.
+pub struct TrainingKeeper {
+    path: PathBuf,
+    states: SyncSender<TrainingState>,
+    handed_over: Mutex<Option<Instant>>,
+    writer: Option<JoinHandle<Result<(), TrainingFileError>>>,
+}
+
+impl TrainingKeeper {
+    /// A keeper that writes to `path`; nothing is written before the first full solutions are there.
+    pub fn new(path: PathBuf) -> Self {
+        let (states, waiting) = sync_channel::<TrainingState>(1);
+        let target = path.clone();
+        let write_all = move || waiting.iter().try_for_each(|state| write(&state, &target));
+        // Without a thread only the end is written.
+        let writer = std::thread::Builder::new().name("training file".to_owned()).spawn(write_all).ok();
+        Self { path, states, handed_over: Mutex::new(None), writer }
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Ends with a training that is not done: what there is stays on disk.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn keep(self, state: &TrainingState) -> Result<(), TrainingFileError> {
+        let path = self.path.clone();
+        self.settle()?;
+        write(state, &path)
+    }
+
+    /// Ends with a training that is done: nothing is left on disk.
+    ///
+    /// # Errors
+    /// When the file cannot be deleted.
+    pub fn discard(self) -> Result<(), TrainingFileError> {
+        let path = self.path.clone();
+        // What could not be written need not be deleted.
+        let _ = self.settle();
+        remove(&path)
+    }
+
+    /// Waits until the writer has written what it was given.
+    fn settle(self) -> Result<(), TrainingFileError> {
+        let Self { states, writer, .. } = self;
+        drop(states);
+        // A writer that panicked has written nothing more: the end is written by the caller.
+        writer.and_then(|thread| thread.join().ok()).unwrap_or(Ok(()))
+    }
+}
+
+impl TrainingObserver for TrainingKeeper {
+    fn checkpoint(&self, state: &TrainingState) {
+        let mut handed_over = self.handed_over.lock().unwrap_or_else(PoisonError::into_inner);
+        if state.solutions() == 0 || handed_over.is_some_and(|at| at.elapsed() < INTERVAL) {
+            return;
+        }
+        // A writer that is still at work gets the next state instead; one that gave up says so at the end.
+        if !matches!(self.states.try_send(state.clone()), Err(TrySendError::Full(_))) {
+            *handed_over = Some(Instant::now());
+        }
+    }
+}
+
+/// Deletes an unfinished training, if there is one.
+///
+/// # Errors
+/// When the file cannot be deleted.
+pub fn remove(path: &Path) -> Result<(), TrainingFileError> {
+    match std::fs::remove_file(path) {
+        Err(source) if source.kind() != io::ErrorKind::NotFound => {
+            Err(TrainingFileError::Io { path: path.to_owned(), source })
+        }
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
+    use crate::solver::physics::contact::OperatingPoint;
+    use crate::solver::reduced::Sampling;
+    use crate::solver::training::{Plan, Range, Search, Solved, WindowSpec, WindowState};
+
+    fn state(folder: &str) -> (TrainingState, PathBuf) {
+        let spec = TrainingSpec {
+            title: "kept".to_owned(),
+            range: Range::Moes {
+                m: (10.0, 20.0),
+                l: (2.0, 3.0),
+                alpha: (1e-8, 2e-8),
+                max_hertz_pressure: 3e9,
+                viscosity: 0.01,
+            },
+            lubricant: Default::default(),
+            plan: Plan::FarthestPoint { snapshots: 8 },
+            windows: Windows::Given(vec![WindowSpec {
+                m: (10.0, 20.0),
+                grid: ContactGridSpec::Line(GridSpec::EXPLORER),
+            }]),
+            pressure_loss: 1e-6,
+            deformation_loss: 1e-6,
+            sampling: Sampling::QDeim,
+            rows_per_mode: 2.0,
+            penalty: 1e6,
+            positive_modes: false,
+            evidence: 0,
+            seed: 1,
+        };
+        let point = OperatingPoint::TABLE_2_1;
+        let solved = Solved { place: 0, point, pressure: vec![0.5; 633], h_0: -0.1, h_c: 0.04 };
+        let window = WindowState {
+            window: WindowSpec { m: (10.0, 20.0), grid: ContactGridSpec::Line(GridSpec::EXPLORER) },
+            seed: 1,
+            inherited: 0,
+            solved: vec![solved],
+            pending: vec![(1, point)],
+            planned: true,
+            search: Search::default(),
+        };
+        let folder = std::env::temp_dir().join(format!("ehl-training-file-{folder}-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        (TrainingState { windows: vec![window], solves: 1, ..TrainingState::new(spec) }, folder.join("a.rom.training"))
+    }
+
+    #[test]
+    fn what_is_kept_comes_back_only_for_its_own_training() {
+        let (state, path) = state("own");
+        assert!(unfinished(&path, &state.spec).unwrap().is_none());
+        write(&state, &path).unwrap();
+        assert_eq!(unfinished(&path, &state.spec).unwrap().as_ref(), Some(&state));
+        let other = TrainingSpec { seed: 2, ..state.spec.clone() };
+        let sentence = unfinished(&path, &other).unwrap_err().to_string();
+        assert!(sentence.contains("another training, “kept”") && sentence.contains("1 full"), "{sentence}");
+        std::fs::remove_dir_all(path.parent().unwrap()).unwrap();
+    }
+
+    #[test]
+    fn damage_and_contradictions_are_refused() {
+        let (good, path) = state("damage");
+        let refused = |bytes: &[u8]| {
+            std::fs::write(&path, bytes).unwrap();
+            assert!(matches!(read(&path), Err(TrainingFileError::Refused { .. })));
+        };
+        write(&good, &path).unwrap();
+        let bytes = std::fs::read(&path).unwrap();
+        refused(b"");
+        refused(&bytes[..bytes.len() - 3]);
+        let mut flipped = bytes.clone();
+        flipped[100] ^= 1;
+        refused(&flipped);
+        for spoil in [
+            (|s: &mut TrainingState| s.windows[0].pending[0].0 = 7) as fn(&mut TrainingState),
+            |s| s.windows[0].solved[0].pressure[9] = f64::NAN,
+            |s| s.windows[0].window.m.1 = 30.0,
+            |s| s.windows[0].solved[0].point.radius_m = -1.0,
+        ] {
+            let mut bad = good.clone();
+            spoil(&mut bad);
+            write(&bad, &path).unwrap();
+            assert!(read(&path).unwrap_err().to_string().contains("contradicts itself"));
+        }
+        std::fs::remove_dir_all(path.parent().unwrap()).unwrap();
+    }
+
+    #[test]
+    fn a_keeper_writes_the_first_and_the_last_state_and_cleans_up() {
+        let (state, path) = state("keeper");
+        let keeper = TrainingKeeper::new(path.clone());
+        keeper.checkpoint(&TrainingState::new(state.spec.clone()));
+        keeper.checkpoint(&state);
+        let mut later = state.clone();
+        later.windows[0].search.judged = 3;
+        keeper.keep(&later).unwrap();
+        assert_eq!(read(&path).unwrap(), later);
+        TrainingKeeper::new(path.clone()).discard().unwrap();
+        assert!(!path.exists());
+        let (folder, _) = (path.parent().unwrap(), &path);
+        assert_eq!(std::fs::read_dir(folder).unwrap().count(), 0);
+        std::fs::remove_dir_all(folder).unwrap();
+    }
+}

@@ -1,0 +1,316 @@
+//! Elastic deformation of the half-space under a pressure that is constant on rectangles, and its mirror image: Δ = K P, (2.38).
+//!
+//! Along X the nodes are equidistant and K is Toeplitz: it is applied by FFT, zero-padded. Across there are few nodes, so each
+//! frequency has a small dense matrix of its own, with the mirror at Y = 0 included. That costs as much as a second FFT over the mirrored
+//! domain would, halves the number of transforms, and leaves the spacing across free.
+
+use super::fft_length;
+use rayon::prelude::*;
+use realfft::num_complex::Complex64;
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// The kernel of a half domain: deformation of every node by the pressure of every cell and of its mirror image.
+#[derive(Clone)]
+pub struct PointFlexibility {
+    nx: usize,
+    ny: usize,
+    hx: f64,
+    /// Ordinates of the nodes.
+    y: Vec<f64>,
+    /// Upper edge of each node's cell; 0 on the axis.
+    edges: Vec<f64>,
+    /// Per frequency a matrix of n_y rows and n_y − 1 columns (cell j + 1), column after column; real, since K is even in X.
+    spectrum: Vec<f64>,
+    forward: Arc<dyn RealToComplex<f64>>,
+    inverse: Arc<dyn ComplexToReal<f64>>,
+}
+
+impl std::fmt::Debug for PointFlexibility {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "PointFlexibility({}×{})", self.nx, self.ny)
+    }
+}
+
+/// Buffers of the fast convolution; grow on first use, then nothing is allocated.
+#[derive(Default, Clone, Debug)]
+pub struct PointScratch {
+    /// One padded signal along X per ordinate.
+    real: Vec<f64>,
+    /// One spectrum per ordinate.
+    pressure: Vec<Complex64>,
+    /// Per frequency the spectra of the deformation at all ordinates.
+    deformation: Vec<Complex64>,
+    /// Work space of the transforms, one per ordinate.
+    work: Vec<Complex64>,
+}
+
+/// Deformation at distance (x, y) from the centre of a rectangle of size `hx` × `hy` under unit pressure, (2.40):
+/// (2/π²) ∫∫ dX dY / r in closed form.
+pub fn rectangle_kernel(x: f64, y: f64, hx: f64, hy: f64) -> f64 {
+    strip(x, y + 0.5 * hy, hx) - strip(x, y - 0.5 * hy, hx)
+}
+
+/// (2/π²) times the integral of 1/r over the strip of width `hx` around x and from 0 to v across; odd in v.
+fn strip(x: f64, v: f64, hx: f64) -> f64 {
+    // u asinh(v/|u|) + v asinh(u/|v|) differs from the usual u ln(v + r) + v ln(u + r) by terms that cancel between the corners.
+    let corner = |u: f64| {
+        let along = if u == 0.0 { 0.0 } else { u * (v / u.abs()).asinh() };
+        let across = if v == 0.0 { 0.0 } else { v * (u / v.abs()).asinh() };
+        along + across
+    };
+    2.0 / (PI * PI) * (corner(x + 0.5 * hx) - corner(x - 0.5 * hx))
+}
+
+impl PointFlexibility {
+    /// The kernel of `nx` nodes with spacing `hx` along X and nodes at the ordinates `y` across, whose cells end at `edges` (upper edge
+    /// of each; the first node carries no pressure). Pressures at both ends along X are taken as zero.
+    pub fn new(hx: f64, nx: usize, y: &[f64], edges: &[f64]) -> Self {
+        let (ny, m) = (y.len(), y.len() - 1);
+        let length = fft_length(2 * nx - 3);
+        let mut planner = RealFftPlanner::new();
+        let (forward, inverse) = (planner.plan_fft_forward(length), planner.plan_fft_inverse(length));
+        let mut kernel = Self {
+            nx,
+            ny,
+            hx,
+            y: y.to_vec(),
+            edges: edges.to_vec(),
+            spectrum: Vec::new(),
+            forward: Arc::clone(&forward),
+            inverse,
+        };
+        let frequencies = length / 2 + 1;
+        // Spectra of the kernels of one ordinate j against all cells, in parallel over j.
+        let rows: Vec<Vec<f64>> = (0..ny)
+            .into_par_iter()
+            .map(|j| {
+                let mut out = vec![0.0; frequencies * m];
+                let mut circular = vec![0.0; length * m];
+                for d in 0..nx - 1 {
+                    let upper = (length - d) % length;
+                    kernel.row_entries(d, j, |cell, value| {
+                        let signal = &mut circular[cell * length..(cell + 1) * length];
+                        signal[d] = value / length as f64;
+                        signal[upper] = value / length as f64;
+                    });
+                }
+                let mut complex = forward.make_output_vec();
+                let mut work = forward.make_scratch_vec();
+                for (cell, signal) in circular.chunks_exact_mut(length).enumerate() {
+                    // Lengths come from the plan itself, so the transform cannot refuse them.
+                    if forward.process_with_scratch(signal, &mut complex, &mut work).is_ok() {
+                        for (k, value) in complex.iter().enumerate() {
+                            out[k * m + cell] = value.re;
+                        }
+                    }
+                }
+                out
+            })
+            .collect();
+        let mut spectrum = vec![0.0; frequencies * ny * m];
+        spectrum.par_chunks_mut(ny * m).enumerate().for_each(|(k, matrix)| {
+            for (cell, column) in matrix.chunks_exact_mut(ny).enumerate() {
+                for (value, row) in column.iter_mut().zip(&rows) {
+                    *value = row[k * m + cell];
+                }
+            }
+        });
+        kernel.spectrum = spectrum;
+        kernel
+    }
+
+    /// Hands out the deformation of a node of ordinate `j` by unit pressure on each cell and its mirror image, `d` columns away.
+    /// Cell c belongs to ordinate c + 1.
+    fn row_entries(&self, d: usize, j: usize, mut put: impl FnMut(usize, f64)) {
+        let (x, y) = (d as f64 * self.hx, self.y[j]);
+        let near = |edge: f64| strip(x, y - edge, self.hx);
+        let mirror = |edge: f64| strip(x, y + edge, self.hx);
+        let (mut near_lower, mut mirror_lower) = (near(self.edges[0]), mirror(self.edges[0]));
+        for (cell, &edge) in self.edges[1..].iter().enumerate() {
+            let (near_upper, mirror_upper) = (near(edge), mirror(edge));
+            put(cell, (near_lower - near_upper) + (mirror_upper - mirror_lower));
+            (near_lower, mirror_lower) = (near_upper, mirror_upper);
+        }
+    }
+
+    /// Deformations of all ordinates by the cells of all unknowns, `d` columns away: a matrix of n_y rows and n_y − 1 columns, column after
+    /// column, as the preconditioner needs it for small d.
+    pub fn column_block(&self, d: usize) -> Vec<f64> {
+        let mut block = vec![0.0; self.ny * (self.ny - 1)];
+        for j in 0..self.ny {
+            self.row_entries(d, j, |cell, value| block[cell * self.ny + j] = value);
+        }
+        block
+    }
+
+    /// One entry of K: deformation of a node by unit pressure at another; both are indices of node arrays.
+    pub fn entry(&self, node: usize, other: usize) -> f64 {
+        let (i, j) = (node / self.ny, node % self.ny);
+        let (k, l) = (other / self.ny, other % self.ny);
+        if l == 0 || k == 0 || k + 1 == self.nx {
+            return 0.0;
+        }
+        let (x, y) = (i.abs_diff(k) as f64 * self.hx, self.y[j]);
+        let (lower, upper) = (self.edges[l - 1], self.edges[l]);
+        let at = |v: f64| strip(x, v, self.hx);
+        (at(y - lower) - at(y - upper)) + (at(y + upper) - at(y + lower))
+    }
+
+    /// Δ = K P over node arrays.
+    pub fn apply(&self, pressure: &[f64], deformation: &mut [f64], scratch: &mut PointScratch) {
+        let (nx, ny, m) = (self.nx, self.ny, self.ny - 1);
+        let (length, frequencies) = (self.forward.len(), self.forward.len() / 2 + 1);
+        let needed = self.forward.get_scratch_len().max(self.inverse.get_scratch_len()).max(1);
+        scratch.real.resize(ny * length, 0.0);
+        scratch.pressure.resize(ny * frequencies, Complex64::default());
+        scratch.deformation.resize(ny * frequencies, Complex64::default());
+        scratch.work.resize(ny * needed, Complex64::default());
+        let share = ny.div_ceil(4).max(8);
+        let PointScratch { real, pressure: spectra, deformation: deformed, work } = scratch;
+        real.par_chunks_exact_mut(length)
+            .zip(spectra.par_chunks_exact_mut(frequencies))
+            .zip(work.par_chunks_exact_mut(needed))
+            .enumerate()
+            .skip(1)
+            .with_min_len(share)
+            .for_each(|(j, ((signal, spectrum), work))| {
+                for (i, value) in signal[1..nx - 1].iter_mut().enumerate() {
+                    *value = pressure[(i + 1) * ny + j];
+                }
+                signal[0] = 0.0;
+                signal[nx - 1..].fill(0.0);
+                let done = self.forward.process_with_scratch(signal, spectrum, work);
+                debug_assert!(done.is_ok());
+            });
+        let spectra = &*spectra;
+        deformed
+            .par_chunks_exact_mut(ny)
+            .zip(self.spectrum.par_chunks_exact(ny * m))
+            .enumerate()
+            .with_min_len(frequencies.div_ceil(4))
+            .for_each(|(k, (out, matrix))| {
+                out.fill(Complex64::default());
+                for (cell, column) in matrix.chunks_exact(ny).enumerate() {
+                    let value = spectra[(cell + 1) * frequencies + k];
+                    for (out, &kernel) in out.iter_mut().zip(column) {
+                        out.re += kernel * value.re;
+                        out.im += kernel * value.im;
+                    }
+                }
+            });
+        let deformed = &*deformed;
+        real.par_chunks_exact_mut(length)
+            .zip(scratch.pressure.par_chunks_exact_mut(frequencies))
+            .zip(work.par_chunks_exact_mut(needed))
+            .enumerate()
+            .with_min_len(share)
+            .for_each(|(j, ((signal, spectrum), work))| {
+                for (k, value) in spectrum.iter_mut().enumerate() {
+                    *value = deformed[k * ny + j];
+                }
+                // The end bins of a real signal's spectrum are real; rounding must not make the inverse refuse them.
+                spectrum[0].im = 0.0;
+                spectrum[frequencies - 1].im = 0.0;
+                let done = self.inverse.process_with_scratch(spectrum, signal, work);
+                debug_assert!(done.is_ok());
+            });
+        for (i, column) in deformation.chunks_exact_mut(ny).enumerate() {
+            for (j, value) in column.iter_mut().enumerate() {
+                *value = real[j * length + i];
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::discrete::grid::PointGridSpec;
+
+    /// ∫∫ 1/r over a rectangle by a composite midpoint rule fine enough for 1e-5.
+    fn quadrature(x: f64, y: f64, hx: f64, hy: f64) -> f64 {
+        let n = 1000;
+        let mut sum = 0.0;
+        for i in 0..n {
+            for j in 0..n {
+                let u = x - hx * ((f64::from(i) + 0.5) / f64::from(n) - 0.5);
+                let v = y - hy * ((f64::from(j) + 0.5) / f64::from(n) - 0.5);
+                sum += 1.0 / u.hypot(v);
+            }
+        }
+        2.0 / (PI * PI) * sum * hx * hy / f64::from(n * n)
+    }
+
+    #[test]
+    fn the_rectangle_kernel_agrees_with_quadrature() {
+        for (x, y) in [(0.0, 0.0), (0.02, 0.0), (0.0, 0.05), (0.06, -0.1), (0.3, 0.2), (4.0, 1.0)] {
+            let (got, want) = (rectangle_kernel(x, y, 0.02, 0.05), quadrature(x, y, 0.02, 0.05));
+            assert!((got / want - 1.0).abs() < 2e-3 * (-20.0 * f64::hypot(x, y)).exp() + 2e-6, "{x} {y}: {got} {want}");
+        }
+    }
+
+    #[test]
+    fn the_fast_convolution_is_the_direct_sum_with_mirror() {
+        for refinement in [1.0, 2.5] {
+            direct_sum(PointGridSpec { refinement, ..PointGridSpec::uniform(0.1, 0.2, (-2.0, 1.5, -1.4)) });
+        }
+    }
+
+    fn direct_sum(spec: PointGridSpec) {
+        let grid = spec.build().unwrap();
+        let n = grid.len();
+        let p: Vec<f64> =
+            (0..n).map(|k| if grid.weights[k] > 0.0 { (k * 37 % 19) as f64 / 19.0 } else { 0.0 }).collect();
+        let (mut fast, mut scratch) = (vec![0.0; n], PointScratch::default());
+        for _ in 0..2 {
+            grid.deform(&p, &mut fast, &mut scratch);
+        }
+        let (ny, block) = (grid.ny(), grid.flexibility.column_block(3));
+        for (a, fast) in fast.iter().enumerate() {
+            let direct: f64 = (0..n).map(|b| grid.flexibility.entry(a, b) * p[b]).sum();
+            assert!((fast - direct).abs() < 1e-12, "{a}: {fast} against {direct}");
+        }
+        for j in 0..ny {
+            for l in 1..ny {
+                let entry = grid.flexibility.entry(5 * ny + j, 8 * ny + l);
+                assert!((block[(l - 1) * ny + j] - entry).abs() < 1e-15);
+                if spec.refinement != 1.0 {
+                    continue;
+                }
+                let mirrored = |y: f64| rectangle_kernel(0.3, grid.y[j] - y, 0.1, 0.2);
+                let expected = if l + 1 == ny { mirrored(0.0) } else { mirrored(grid.y[l]) + mirrored(-grid.y[l]) };
+                assert!((entry - expected).abs() < 1e-14, "{j} {l}");
+            }
+        }
+    }
+
+    #[test]
+    fn hertz_pressure_flattens_the_contact_and_leaves_the_known_gap_outside() {
+        let uniform = PointGridSpec::uniform(0.02, 0.025, (-2.5, 2.0, -2.0));
+        for refinement in [1.0, 3.0] {
+            hertz_gap(PointGridSpec { refinement, ..uniform });
+        }
+    }
+
+    fn hertz_gap(spec: PointGridSpec) {
+        let grid = spec.build().unwrap();
+        let ny = grid.ny();
+        let at = |node: usize| (grid.x[node / ny], grid.y[node % ny]);
+        let p: Vec<f64> = (0..grid.len()).map(|k| (1.0 - at(k).0.powi(2) - at(k).1.powi(2)).max(0.0).sqrt()).collect();
+        let mut deformation = vec![0.0; grid.len()];
+        grid.deform(&p, &mut deformation, &mut PointScratch::default());
+        for (node, got) in deformation.iter().enumerate() {
+            let (x, y) = at(node);
+            let r = x.hypot(y);
+            // Hertz's half-space: 1 − r²/2 inside, (1/π)((2 − r²) asin(1/r) + √(r² − 1)) outside.
+            let want = if r <= 1.0 {
+                1.0 - 0.5 * r * r
+            } else {
+                ((2.0 - r * r) * (1.0 / r).asin() + (r * r - 1.0).sqrt()) / PI
+            };
+            assert!((got - want).abs() < 2e-3, "{x} {y}: {got} against {want}");
+        }
+    }
+}

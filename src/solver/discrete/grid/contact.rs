@@ -1,0 +1,337 @@
+//! The grid of either kind of contact, as a reduced model sees it: node arrays with weights, rows of the Reynolds equation, and the
+//! deformation operator, whatever their layout.
+//!
+//! Along X everything is told in a reference coordinate ξ with X = −1 + (ξ + 1)s and H = H₀ − ½ ln s + (X² + Y²)/2 + s K P: the scale s
+//! registers line contacts by their spike. A point contact is the case s = 1.
+
+use super::line::{FIRST_UNKNOWN, GridError, GridSpec, ReferenceGrid, registration_scale};
+use super::point::{PointGrid, PointGridError, PointGridSpec};
+use crate::solver::discrete::elasticity::{Flexibility, PointScratch, Scratch};
+use crate::solver::discrete::reynolds::generalized::PlaneGradient;
+use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
+use crate::solver::physics::contact::{ContactKind, Moes};
+use faer::Mat;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// A description of the grid of either kind of contact. Scenes write it as the line grids `Uniform` and `Graded`, or as the `Plane` of a point
+/// contact.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(from = "Written", into = "Written")]
+pub enum ContactGridSpec {
+    /// Of a line contact.
+    Line(GridSpec),
+    /// Of the half Y ≤ 0 of a point contact.
+    Point(PointGridSpec),
+}
+
+/// How a grid is written: one enum over both kinds.
+#[derive(Clone, Copy, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+enum Written {
+    Uniform {
+        dx: f64,
+        domain: (f64, f64),
+    },
+    Graded {
+        nodes: usize,
+        domain: (f64, f64),
+        registered: bool,
+    },
+    Plane {
+        dx: f64,
+        dy: f64,
+        domain: (f64, f64, f64),
+        #[serde(default = "equidistant")]
+        refinement: f64,
+    },
+}
+
+fn equidistant() -> f64 {
+    1.0
+}
+
+impl From<Written> for ContactGridSpec {
+    fn from(written: Written) -> Self {
+        match written {
+            Written::Uniform { dx, domain } => Self::Line(GridSpec::Uniform { dx, domain }),
+            Written::Graded { nodes, domain, registered } => Self::Line(GridSpec::Graded { nodes, domain, registered }),
+            Written::Plane { dx, dy, domain, refinement } => Self::Point(PointGridSpec { dx, dy, refinement, domain }),
+        }
+    }
+}
+
+impl From<ContactGridSpec> for Written {
+    fn from(spec: ContactGridSpec) -> Self {
+        match spec {
+            ContactGridSpec::Line(GridSpec::Uniform { dx, domain }) => Self::Uniform { dx, domain },
+            ContactGridSpec::Line(GridSpec::Graded { nodes, domain, registered }) => {
+                Self::Graded { nodes, domain, registered }
+            }
+            ContactGridSpec::Point(PointGridSpec { dx, dy, refinement, domain }) => {
+                Self::Plane { dx, dy, domain, refinement }
+            }
+        }
+    }
+}
+
+/// Why a grid is refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ContactGridError {
+    /// The grid of a line contact.
+    #[error(transparent)]
+    Line(#[from] GridError),
+    /// The grid of a point contact.
+    #[error(transparent)]
+    Point(#[from] PointGridError),
+}
+
+impl ContactGridSpec {
+    /// The kind of contact it is a grid of.
+    pub fn kind(&self) -> ContactKind {
+        match self {
+            Self::Line(_) => ContactKind::Line,
+            Self::Point(_) => ContactKind::Point,
+        }
+    }
+
+    /// Builds the grid and its kernel; the costly part, done once per specification.
+    ///
+    /// # Errors
+    /// When the specification is refused.
+    pub fn build(&self) -> Result<ContactGrid, ContactGridError> {
+        Ok(match self {
+            Self::Line(spec) => ContactGrid::Line(spec.build()?),
+            Self::Point(spec) => ContactGrid::Point(spec.build()?),
+        })
+    }
+}
+
+/// The grid of either kind of contact with its kernel; cheap to clone.
+#[derive(Clone, Debug)]
+pub enum ContactGrid {
+    /// The reference grid of line contacts.
+    Line(Arc<ReferenceGrid>),
+    /// The grid of the half Y ≤ 0 of a point contact.
+    Point(Arc<PointGrid>),
+}
+
+impl ContactGrid {
+    /// What it was built from.
+    pub fn spec(&self) -> ContactGridSpec {
+        match self {
+            Self::Line(grid) => ContactGridSpec::Line(grid.spec),
+            Self::Point(grid) => ContactGridSpec::Point(grid.spec),
+        }
+    }
+
+    /// The kind of contact it is a grid of.
+    pub fn kind(&self) -> ContactKind {
+        self.spec().kind()
+    }
+
+    /// The reference grid, of a line contact.
+    pub fn line(&self) -> Option<&Arc<ReferenceGrid>> {
+        match self {
+            Self::Line(grid) => Some(grid),
+            Self::Point(_) => None,
+        }
+    }
+
+    /// The grid, of a point contact.
+    pub fn point(&self) -> Option<&Arc<PointGrid>> {
+        match self {
+            Self::Line(_) => None,
+            Self::Point(grid) => Some(grid),
+        }
+    }
+
+    /// Entries of node arrays.
+    pub fn len(&self) -> usize {
+        self.weights().len()
+    }
+
+    /// Never true.
+    pub fn is_empty(&self) -> bool {
+        self.weights().is_empty()
+    }
+
+    /// Nodes along X, both ends counted, and across, outer edge and axis counted; a line contact has one across.
+    pub fn nodes(&self) -> (usize, usize) {
+        match self {
+            // Its node arrays have one node outside the inlet.
+            Self::Line(grid) => (grid.xi.len() - 1, 1),
+            Self::Point(grid) => (grid.nx(), grid.ny()),
+        }
+    }
+
+    /// Number of unknown pressures.
+    pub fn unknowns(&self) -> usize {
+        match self {
+            Self::Line(grid) => grid.xi.len() - 3,
+            Self::Point(grid) => grid.unknowns(),
+        }
+    }
+
+    /// Node index of an unknown.
+    pub fn node(&self, unknown: usize) -> usize {
+        match self {
+            Self::Line(_) => unknown + FIRST_UNKNOWN,
+            Self::Point(grid) => grid.node(unknown),
+        }
+    }
+
+    /// Quadrature weights of node arrays in ξ and Y; zero where P vanishes.
+    pub fn weights(&self) -> &[f64] {
+        match self {
+            Self::Line(grid) => &grid.weights,
+            Self::Point(grid) => &grid.weights,
+        }
+    }
+
+    /// Scale s of the map X = −1 + (ξ + 1)s for a contact.
+    pub fn scale(&self, moes: Moes) -> f64 {
+        match self {
+            Self::Line(grid) => match grid.spec {
+                GridSpec::Graded { registered: true, .. } => registration_scale(moes),
+                _ => 1.0,
+            },
+            Self::Point(_) => 1.0,
+        }
+    }
+
+    /// ξ and Y of a node.
+    pub fn place(&self, node: usize) -> (f64, f64) {
+        match self {
+            Self::Line(grid) => (grid.xi[node], 0.0),
+            Self::Point(grid) => (grid.x[node / grid.ny()], grid.y[node % grid.ny()]),
+        }
+    }
+
+    /// The abscissae ξ and the ordinates Y of node arrays; a line contact has the one Y = 0.
+    pub fn abscissae(&self) -> (&[f64], &[f64]) {
+        match self {
+            Self::Line(grid) => (&grid.xi, &[0.0]),
+            Self::Point(grid) => (&grid.x, &grid.y),
+        }
+    }
+
+    /// The row of an unknown in ξ: the nodes it depends on and its coefficients. Where a node is lacking, another stands in its
+    /// place with weight zero.
+    pub fn row(&self, unknown: usize) -> ([usize; STENCIL], RowGeometry) {
+        match self {
+            Self::Line(grid) => {
+                let node = unknown + FIRST_UNKNOWN;
+                let xi = |offset: usize| grid.xi[unknown + offset];
+                let geometry = RowGeometry::new([xi(0), xi(1), xi(2), xi(3)]);
+                ([unknown, unknown + 1, node, unknown + 3, node, node], geometry)
+            }
+            Self::Point(grid) => grid.row(unknown),
+        }
+    }
+
+    /// Nodes and weights of the cubic interpolation at X = 0 (and Y = 0) under scale s; a single unit weight where a node of a point
+    /// contact lies there.
+    pub fn at_zero(&self, scale: f64) -> [(usize, f64); 4] {
+        match self {
+            Self::Line(grid) => {
+                let xi = &grid.xi;
+                let at = 1.0 / scale - 1.0;
+                let upper = xi.partition_point(|&v| v < at).clamp(3, xi.len() - 2);
+                let first = upper - 2;
+                std::array::from_fn(|k| {
+                    let others = (0..4).filter(|&j| j != k);
+                    let weight = others.map(|j| (at - xi[first + j]) / (xi[first + k] - xi[first + j])).product();
+                    (first + k, weight)
+                })
+            }
+            Self::Point(grid) => grid.interpolation_on_axis(0.0),
+        }
+    }
+
+    /// Nodal gradients of node arrays by ξ and Y; node (i, j) has the index i·n_y + j.
+    pub fn gradient(&self) -> PlaneGradient {
+        let (xi, y) = self.abscissae();
+        PlaneGradient::new(xi, y)
+    }
+
+    /// K applied to every column, in ξ.
+    pub fn flex(&self, columns: &Mat<f64>) -> Mat<f64> {
+        match self {
+            Self::Line(grid) => {
+                if let Flexibility::Dense(kernel) = &grid.flexibility {
+                    return kernel * columns;
+                }
+                let apply = |input: &[f64], output: &mut [f64], scratch: &mut Scratch| {
+                    grid.flexibility.apply(input, output, scratch);
+                };
+                column_by_column(columns, apply)
+            }
+            Self::Point(grid) => {
+                let apply = |input: &[f64], output: &mut [f64], scratch: &mut PointScratch| {
+                    grid.deform(input, output, scratch);
+                };
+                column_by_column(columns, apply)
+            }
+        }
+    }
+}
+
+/// Applies an operator to every column.
+fn column_by_column<S: Default + Send>(
+    columns: &Mat<f64>,
+    apply: impl Fn(&[f64], &mut [f64], &mut S) + Sync,
+) -> Mat<f64> {
+    let n = columns.nrows();
+    let done: Vec<Vec<f64>> = (0..columns.ncols())
+        .into_par_iter()
+        .map_init(S::default, |scratch, j| {
+            let input: Vec<f64> = columns.col(j).iter().copied().collect();
+            let mut output = vec![0.0; n];
+            apply(&input, &mut output, scratch);
+            output
+        })
+        .collect();
+    Mat::from_fn(n, columns.ncols(), |i, j| done[j][i])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_grid_is_written_as_scenes_write_it() {
+        for (spec, text) in [
+            (
+                ContactGridSpec::Line(GridSpec::Graded { nodes: 200, domain: (-6.0, 1.9), registered: true }),
+                "Graded(nodes:200,domain:(-6.0,1.9),registered:true)",
+            ),
+            (
+                ContactGridSpec::Point(PointGridSpec::DISSERTATION),
+                "Plane(dx:0.02,dy:0.05,domain:(-4.0,2.0,-2.0),refinement:1.0)",
+            ),
+        ] {
+            assert_eq!(ron::to_string(&spec).unwrap(), text);
+            assert_eq!(ron::from_str::<ContactGridSpec>(text).unwrap(), spec);
+        }
+        let short: ContactGridSpec = ron::from_str("Plane(dx:0.02,dy:0.05,domain:(-4.0,2.0,-2.0))").unwrap();
+        assert_eq!(short, ContactGridSpec::Point(PointGridSpec::DISSERTATION));
+        assert!(ron::from_str::<ContactGridSpec>("Plane(dx:0.02,dy:0.05,domain:(-4,2,-2),depth:1)").is_err());
+    }
+
+    #[test]
+    fn rows_and_weights_of_both_kinds_refer_to_their_node_arrays() {
+        let line = ContactGridSpec::Line(GridSpec::DISSERTATION).build().unwrap();
+        let point = ContactGridSpec::Point(PointGridSpec::uniform(0.1, 0.1, (-2.0, 1.5, -1.5))).build().unwrap();
+        for grid in [line, point] {
+            for unknown in [0, 1, grid.unknowns() / 2, grid.unknowns() - 1] {
+                let (stencil, _) = grid.row(unknown);
+                assert_eq!(stencil[crate::solver::discrete::reynolds::CENTER], grid.node(unknown));
+                assert!(stencil.iter().all(|&node| node < grid.len()) && grid.weights()[grid.node(unknown)] > 0.0);
+            }
+            let zero: f64 = grid.at_zero(1.0).iter().map(|(node, w)| w * (grid.place(*node).0 + 1.0)).sum();
+            assert!((zero - 1.0).abs() < 1e-12, "interpolation at X = 0: {zero}");
+        }
+    }
+}

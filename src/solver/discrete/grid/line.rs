@@ -1,0 +1,383 @@
+//! The computational domain of a line contact: uniform as in the dissertation, or graded towards the ends of the Hertzian zone.
+//!
+//! A grid is a *reference* grid in ξ, built once with its elastic kernel, and an affine map X = −1 + (ξ + 1) s. For s = 1 they are the
+//! same. Registration chooses s so that the pressure spike always sits at ξ = 1 (`NUMERICS` 5.2): the contacts of a whole range
+//! of M and L then look alike to a reduced basis, and one fine patch of nodes serves all their spikes.
+//!
+//! Node arrays everywhere in the solver have one extra leading node: index 0 lies outside the inlet (the upwind stencil of the first
+//! unknown reaches it), index 1 is the inlet, the last index the outlet. P vanishes at all three.
+
+mod refined;
+
+use super::dot;
+use crate::solver::discrete::elasticity::{Flexibility, Scratch};
+use crate::solver::discrete::reynolds::RowGeometry;
+use crate::solver::physics::contact::Moes;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Index of the inlet node in node arrays.
+pub const INLET: usize = 1;
+/// Index of the first unknown pressure in node arrays.
+pub const FIRST_UNKNOWN: usize = 2;
+/// Largest number of nodes a graded grid may have: its kernel is stored dense.
+pub const MAX_GRADED_NODES: usize = 4001;
+/// Largest number of nodes a uniform grid may have.
+pub const MAX_UNIFORM_NODES: usize = 200_001;
+
+const EXPLORER_NODES: usize = 632;
+const EXPLORER_INLET: f64 = -20.0;
+const EXPLORER_OUTLET: f64 = 3.2;
+
+/// A description of a line grid, as scenes and the command line give it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum GridSpec {
+    /// Equidistant nodes from the inlet to the outlet, both ends counted; kernel (2.39).
+    Uniform {
+        /// Spacing ΔX.
+        dx: f64,
+        /// Inlet and outlet.
+        domain: (f64, f64),
+    },
+    /// Nodes graded towards X = ±1, kernel of hat functions, registered by the pressure spike when `registered`.
+    Graded {
+        /// Number of nodes, both ends counted.
+        nodes: usize,
+        /// Inlet and outlet in the reference coordinate ξ.
+        domain: (f64, f64),
+        /// Whether the spike is mapped to ξ = 1.
+        registered: bool,
+    },
+}
+
+/// Why a grid is refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum GridError {
+    /// The domain does not hold the contact.
+    #[error(
+        "the domain {from}…{to} cuts the contact; its inlet must lie between −200 and −1.5 and its outlet between 1.2 and 20"
+    )]
+    Domain {
+        /// Inlet.
+        from: f64,
+        /// Outlet.
+        to: f64,
+    },
+    /// Too few or too many nodes.
+    #[error("the grid would have {nodes} nodes; between {min} and {max} are accepted")]
+    Size {
+        /// Nodes asked for.
+        nodes: f64,
+        /// Fewest accepted.
+        min: usize,
+        /// Most accepted.
+        max: usize,
+    },
+}
+
+impl GridSpec {
+    /// The dissertation's grid: 1201 nodes from −4 to 2.
+    pub const DISSERTATION: Self = Self::Uniform { dx: 0.005, domain: (-4.0, 2.0) };
+
+    /// The explorer's default for every contact: 632 registered nodes, fine at ξ = ±1, with an inlet long enough for M = 2.
+    pub const EXPLORER: Self =
+        Self::Graded { nodes: EXPLORER_NODES, domain: (EXPLORER_INLET, EXPLORER_OUTLET), registered: true };
+
+    /// [`GridSpec::EXPLORER`]'s spacing and outlet with another inlet: as many nodes as that takes.
+    pub fn explorer_from(inlet: f64, registered: bool) -> Self {
+        let count = |from: f64| cells(from, EXPLORER_OUTLET, FINE_SAMPLES);
+        let share = count(inlet) / count(EXPLORER_INLET);
+        let nodes = ((EXPLORER_NODES - 1) as f64 * share).round().max(0.0) as usize + 1;
+        Self::Graded { nodes, domain: (inlet, EXPLORER_OUTLET), registered }
+    }
+
+    /// Builds the reference grid and its kernel; the costly part, done once per specification.
+    ///
+    /// # Errors
+    /// When the domain cuts the contact or the number of nodes is out of range.
+    pub fn build(&self) -> Result<Arc<ReferenceGrid>, GridError> {
+        let (from, to) = match *self {
+            Self::Uniform { domain, .. } | Self::Graded { domain, .. } => domain,
+        };
+        if !((-200.0..=-1.5).contains(&from) && (1.2..=20.0).contains(&to)) {
+            return Err(GridError::Domain { from, to });
+        }
+        let xi = match *self {
+            Self::Uniform { dx, .. } => {
+                let cells = ((to - from) / dx).round();
+                if !(cells.is_finite() && dx > 0.0 && cells >= 60.0 && cells < MAX_UNIFORM_NODES as f64) {
+                    return Err(GridError::Size { nodes: cells + 1.0, min: 61, max: MAX_UNIFORM_NODES });
+                }
+                let cells = cells as usize;
+                let step = (to - from) / cells as f64;
+                (0..cells + 2).map(|i| from + (i as f64 - 1.0) * step).collect()
+            }
+            Self::Graded { nodes, .. } => {
+                if !(61..=MAX_GRADED_NODES).contains(&nodes) {
+                    return Err(GridError::Size { nodes: nodes as f64, min: 61, max: MAX_GRADED_NODES });
+                }
+                graded_nodes(nodes, from, to)
+            }
+        };
+        Ok(Arc::new(ReferenceGrid::of_nodes(*self, xi)))
+    }
+}
+
+/// A reference grid with its elastic kernel; shared by all the grids mapped from it.
+#[derive(Debug)]
+pub struct ReferenceGrid {
+    /// What it was built from.
+    pub spec: GridSpec,
+    /// Node abscissae ξ with the leading outside node.
+    pub xi: Vec<f64>,
+    /// Quadrature weights (cell sizes) in ξ; zero at the three nodes where P vanishes.
+    pub weights: Vec<f64>,
+    /// Deformation of every node by every pressure, in ξ.
+    pub flexibility: Flexibility,
+}
+
+/// A grid for one contact: a reference grid under the map X = −1 + (ξ + 1) s.
+#[derive(Clone, Debug)]
+pub struct LineGrid {
+    /// The reference grid.
+    pub reference: Arc<ReferenceGrid>,
+    /// The scale s of the map; 1 without registration.
+    pub scale: f64,
+    /// Node abscissae X with the leading outside node.
+    pub x: Vec<f64>,
+    /// Quadrature weights in X.
+    pub weights: Vec<f64>,
+    /// Difference coefficients of the rows at the unknowns; entry k belongs to node k + [`FIRST_UNKNOWN`].
+    pub rows: Vec<RowGeometry>,
+}
+
+impl ReferenceGrid {
+    /// Weights and kernel for given abscissae, the outside node among them.
+    fn of_nodes(spec: GridSpec, xi: Vec<f64>) -> Self {
+        let flexibility = match spec {
+            GridSpec::Uniform { .. } => Flexibility::uniform(xi[1] - xi[0], xi.len()),
+            GridSpec::Graded { .. } => Flexibility::graded(&xi),
+        };
+        Self { spec, weights: node_weights(&xi), xi, flexibility }
+    }
+
+    /// The grid for a contact: registered by its Moes numbers where the specification says so.
+    pub fn for_contact(self: &Arc<Self>, moes: Moes) -> LineGrid {
+        let scale = match self.spec {
+            GridSpec::Graded { registered: true, .. } => registration_scale(moes),
+            _ => 1.0,
+        };
+        self.scaled(scale)
+    }
+
+    /// The grid under the map with scale s.
+    pub fn scaled(self: &Arc<Self>, scale: f64) -> LineGrid {
+        let x: Vec<f64> = self.xi.iter().map(|xi| -1.0 + (xi + 1.0) * scale).collect();
+        let weights = self.weights.iter().map(|w| w * scale).collect();
+        let rows = x.windows(4).map(|w| RowGeometry::new([w[0], w[1], w[2], w[3]])).collect();
+        LineGrid { reference: Arc::clone(self), scale, x, weights, rows }
+    }
+}
+
+impl LineGrid {
+    /// Number of entries of node arrays: nodes of the grid plus the one outside.
+    pub fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    /// Never true: every grid has at least 61 nodes.
+    pub fn is_empty(&self) -> bool {
+        self.x.is_empty()
+    }
+
+    /// Number of unknown pressures.
+    pub fn unknowns(&self) -> usize {
+        self.x.len() - 3
+    }
+
+    /// Deformation δ = K P at every node, (2.37). Both slices are node arrays.
+    pub fn deform(&self, pressure: &[f64], deformation: &mut [f64], scratch: &mut Scratch) {
+        self.reference.flexibility.apply(pressure, deformation, scratch);
+        if self.scale != 1.0 {
+            let shift = self.kernel_shift() * dot(&self.reference.weights, pressure);
+            for d in deformation.iter_mut() {
+                *d = self.scale * *d + shift;
+            }
+        }
+    }
+
+    /// −s ln s / π: what the logarithmic kernel gains under the map, times ∫P dξ.
+    pub fn kernel_shift(&self) -> f64 {
+        if self.scale == 1.0 { 0.0 } else { -self.scale * self.scale.ln() / std::f64::consts::PI }
+    }
+
+    /// One entry of K: deformation of node `i` by unit pressure at node `j`.
+    pub fn kernel_entry(&self, i: usize, j: usize) -> f64 {
+        self.scale * self.reference.flexibility.entry(i, j) + self.kernel_shift() * self.reference.weights[j]
+    }
+
+    /// Weights and first index of the cubic (4-point Lagrange) interpolation at X; a single unit weight where X is a node.
+    pub fn interpolation(&self, x: f64) -> (usize, [f64; 4]) {
+        let (first, weights) = super::cubic(&self.x[INLET..], x);
+        (first + INLET, weights)
+    }
+
+    /// Value of a node array at X by cubic interpolation.
+    pub fn at(&self, values: &[f64], x: f64) -> f64 {
+        let (first, weights) = self.interpolation(x);
+        weights.iter().zip(&values[first..]).map(|(w, v)| w * v).sum()
+    }
+}
+
+/// Cell sizes of the unknowns' nodes, zero elsewhere.
+fn node_weights(xi: &[f64]) -> Vec<f64> {
+    let n = xi.len();
+    (0..n).map(|i| if (FIRST_UNKNOWN..n - 1).contains(&i) { 0.5 * (xi[i + 1] - xi[i - 1]) } else { 0.0 }).collect()
+}
+
+/// Wanted relative spacing at ξ: fine at ±1, moderate inside, growing with the distance into the inlet.
+fn wanted_spacing(xi: f64) -> f64 {
+    let bump = |center: f64, depth: f64, width: f64| depth / (1.0 + ((xi - center) / width).powi(2));
+    // The inlet of heavy loads is what limits H_c: with this distribution 560 nodes leave 0.2 % at M = 165 and 0.7 % at M = 500.
+    let base =
+        0.016 / (1.0 + bump(-1.02, 14.0, 0.04) + bump(-1.0, 2.0, 0.3) + bump(1.0, 3.0, 0.05) + bump(0.93, 1.0, 0.2));
+    let inlet = (-1.15 - xi).max(0.0);
+    let outlet = (xi - 1.25).max(0.0);
+    base + 0.028 * inlet * inlet / (inlet + 0.5) + 0.03 * outlet
+}
+
+/// Samples over which the cells of a whole grid are counted.
+const FINE_SAMPLES: usize = 20_000;
+
+/// ∫ dξ/spacing over a short interval by Simpson's rule: the cells between its ends, up to a factor.
+fn cells_between(a: f64, b: f64) -> f64 {
+    let middle = 0.5 * (a + b);
+    (b - a) / 6.0 * (1.0 / wanted_spacing(a) + 4.0 / wanted_spacing(middle) + 1.0 / wanted_spacing(b))
+}
+
+/// ∫ dξ/spacing over a whole domain in `samples` intervals.
+fn cells(from: f64, to: f64, samples: usize) -> f64 {
+    let step = (to - from) / samples as f64;
+    let at = |i: usize| from + i as f64 * step;
+    (0..samples).map(|i| cells_between(at(i), at(i + 1))).sum()
+}
+
+/// `nodes` abscissae (and the outside one) that equidistribute 1/spacing, with one node exactly at ξ = 1 where registration puts the spike:
+/// grids of equal resolution then share their nodes in the contact, whatever their inlets. The ends move by half a cell at most.
+fn graded_nodes(nodes: usize, from: f64, to: f64) -> Vec<f64> {
+    // ∫ dξ/spacing on fine samples; all later steps are exact to rounding.
+    let samples = 40 * nodes;
+    let step = (to - from) / samples as f64;
+    let at = |i: usize| from + i as f64 * step;
+    let total = cells(from, to, samples);
+    let before: f64 = {
+        let whole = ((1.0 - from) / step).floor() as usize;
+        (0..whole).map(|i| cells_between(at(i), at(i + 1))).sum::<f64>() + cells_between(at(whole), 1.0)
+    };
+    let per_node = total / (nodes - 1) as f64;
+    // March from the anchor both ways; each node solves cells_between(previous, node) = per_node by Newton's method.
+    let next = |x: f64, sign: f64| {
+        let mut y = x + sign * per_node * wanted_spacing(x);
+        for _ in 0..4 {
+            y -= (cells_between(x, y) - sign * per_node) * wanted_spacing(y);
+        }
+        y
+    };
+    let upstream = ((before / per_node).round() as usize).clamp(2, nodes - 3);
+    let mut x = vec![0.0; nodes + 1];
+    let anchor = upstream + 1;
+    x[anchor] = 1.0;
+    for i in (0..anchor).rev() {
+        x[i] = next(x[i + 1], -1.0);
+    }
+    for i in anchor + 1..=nodes {
+        x[i] = next(x[i - 1], 1.0);
+    }
+    x
+}
+
+/// Scale s = (1 + X_s)/2 of the registration map, X_s the fitted position of the pressure spike.
+pub fn registration_scale(moes: Moes) -> f64 {
+    0.5 * (1.0 + spike_position(moes))
+}
+
+/// Fitted position X_s of the pressure spike, in (0.2, 1).
+///
+/// ln((1 − X_s)/X_s) is a cubic in ln M plus a term that fades with L, fitted to the spikes of 75 full solutions with M 2…500 and L 10…22
+/// (Roelands, Dowson–Higginson, default realisation, ΔX = 0.0025, spike refined by a parabola): root mean square deviation 0.015.
+/// Below L ≈ 12 the spike fades and the fit continues smoothly at its value there. Only smoothness matters to the method: the
+/// map moves nodes, never the equations.
+pub fn spike_position(Moes { m, l }: Moes) -> f64 {
+    let x = m.clamp(1.5, 1000.0).ln();
+    let effective_l = 12.0 + 2.0 * (0.5 * (l.min(40.0) - 12.0)).exp().ln_1p();
+    let fade = (3.0 - 0.25 * effective_l).exp();
+    let log_ratio = 1.8728 + x * (-2.3636 + x * (0.42316 - 0.03449 * x)) + fade * (0.79158 - 0.19788 * x);
+    1.0 / (1.0 + log_ratio.exp())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_dissertations_grid_has_1201_nodes_with_both_ends() {
+        let grid = GridSpec::DISSERTATION.build().unwrap().scaled(1.0);
+        assert_eq!(grid.len() - 1, 1201);
+        assert_eq!(grid.unknowns(), 1199);
+        assert!((grid.x[INLET] + 4.0).abs() < 1e-12 && (grid.x[1201] - 2.0).abs() < 1e-12);
+        assert!((grid.weights.iter().sum::<f64>() - 1199.0 * 0.005).abs() < 1e-12);
+    }
+
+    #[test]
+    fn graded_nodes_increase_smoothly_and_are_fine_where_the_pressure_turns() {
+        let grid = GridSpec::Graded { nodes: 720, domain: (-8.0, 1.9), registered: false }.build().unwrap();
+        let xi = &grid.xi;
+        let steps: Vec<f64> = xi.windows(2).map(|w| w[1] - w[0]).collect();
+        assert!(steps.iter().all(|&h| h > 0.0));
+        assert!(steps.windows(2).skip(1).all(|w| (w[1] / w[0] - 1.0).abs() < 0.12));
+        let spacing_at = |x: f64| steps[xi.partition_point(|&v| v < x) - 1];
+        assert!(spacing_at(1.0) < 0.35 * spacing_at(0.0) && spacing_at(-1.0) < 0.6 * spacing_at(0.0));
+    }
+
+    #[test]
+    fn another_inlet_keeps_the_explorers_nodes_in_the_contact() {
+        assert_eq!(GridSpec::explorer_from(-20.0, true), GridSpec::EXPLORER);
+        let (long, short) =
+            (GridSpec::EXPLORER.build().unwrap(), GridSpec::explorer_from(-10.0, true).build().unwrap());
+        assert!(short.xi.len() < long.xi.len());
+        let from_the_spike = |xi: &[f64]| {
+            let spike = xi.iter().position(|&v| v == 1.0).unwrap();
+            xi[spike - 300..spike + 50].to_vec()
+        };
+        let pairs = from_the_spike(&long.xi).into_iter().zip(from_the_spike(&short.xi));
+        assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 5e-3));
+    }
+
+    #[test]
+    fn interpolation_is_exact_for_cubics_and_at_nodes() {
+        let grid = GridSpec::Graded { nodes: 300, domain: (-8.0, 1.9), registered: true }
+            .build()
+            .unwrap()
+            .for_contact(Moes { m: 20.0, l: 8.0 });
+        let cubic = |x: f64| 1.0 + x * (0.5 + x * (-0.3 + x * 0.1));
+        let values: Vec<f64> = grid.x.iter().map(|&x| cubic(x)).collect();
+        for x in [-0.4, 0.0, 0.77, grid.x[40], grid.x[INLET]] {
+            assert!((grid.at(&values, x) - cubic(x)).abs() < 1e-11);
+        }
+    }
+
+    #[test]
+    fn bad_grids_are_refused_with_a_sentence() {
+        for spec in [
+            GridSpec::Uniform { dx: 0.005, domain: (-0.5, 2.0) },
+            GridSpec::Uniform { dx: f64::NAN, domain: (-4.0, 2.0) },
+            GridSpec::Uniform { dx: 0.0, domain: (-4.0, 2.0) },
+            GridSpec::Uniform { dx: 1e-9, domain: (-4.0, 2.0) },
+            GridSpec::Graded { nodes: 10, domain: (-8.0, 2.0), registered: true },
+            GridSpec::Graded { nodes: 500, domain: (f64::NAN, 2.0), registered: true },
+        ] {
+            assert!(spec.build().is_err(), "{spec:?}");
+        }
+    }
+}

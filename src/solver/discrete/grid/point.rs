@@ -1,0 +1,341 @@
+//! The computational domain of a circular point contact: by symmetry the half Y ≤ 0, with P = 0 at inlet, outlet and outer edge.
+//!
+//! Node arrays run over all nodes, Y fastest: node (i, j) has the index i·n_y + j, with j = 0 on the outer edge and j = n_y − 1 on
+//! the symmetry axis Y = 0. The unknown pressures are those inside and on the axis, in the same order.
+
+use super::cubic;
+use crate::solver::discrete::elasticity::{PointFlexibility, PointScratch};
+use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Most memory \[bytes\] a point grid's kernel and factors may take.
+pub const MAX_BYTES: f64 = 3e9;
+
+/// A description of a point grid, as scenes and the command line give it: equidistant along X, equidistant or finer in the side lobes
+/// across.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PointGridSpec {
+    /// Spacing ΔX.
+    pub dx: f64,
+    /// Spacing ΔY; away from the side lobes where they are refined.
+    pub dy: f64,
+    /// How many times finer the spacing across is in the side lobes, in which H_min lies; 1 is equidistant.
+    pub refinement: f64,
+    /// Inlet, outlet and outer edge (Y₀ < 0) of the half domain.
+    pub domain: (f64, f64, f64),
+}
+
+/// Why a point grid is refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PointGridError {
+    /// The domain does not hold the contact.
+    #[error(
+        "the half domain {from} ≤ X ≤ {to}, {edge} ≤ Y ≤ 0 cuts the contact; its inlet must lie between −50 and −1.5, its outlet between 1.2 and 20, its edge between −20 and −1.2"
+    )]
+    Domain {
+        /// Inlet.
+        from: f64,
+        /// Outlet.
+        to: f64,
+        /// Outer edge.
+        edge: f64,
+    },
+    /// The refinement is none.
+    #[error("the refinement of the side lobes is {0}, but must lie between 1 (equidistant) and 8")]
+    Refinement(f64),
+    /// The spacing is no spacing, or too wide for the contact.
+    #[error("{name} is {spacing}, but must lie between 1e-4 and {widest}: fewer nodes cannot hold the contact")]
+    Spacing {
+        /// Which spacing.
+        name: &'static str,
+        /// Its value.
+        spacing: f64,
+        /// Widest accepted.
+        widest: f64,
+    },
+    /// The kernel and the factors would not fit into memory.
+    #[error(
+        "a grid of {nx}×{ny} nodes would need {:.1} GB of memory; at most {:.1} GB are accepted: take a wider spacing, above all across (dy)",
+        bytes / 1e9, MAX_BYTES / 1e9
+    )]
+    Memory {
+        /// Nodes along X.
+        nx: usize,
+        /// Nodes across.
+        ny: usize,
+        /// Bytes needed.
+        bytes: f64,
+    },
+}
+
+/// Widest spacing along X.
+const WIDEST_DX: f64 = 0.1;
+/// Widest spacing across.
+const WIDEST_DY: f64 = 0.2;
+/// Where the side lobes lie in heavily loaded contacts, and how wide the refined zone around them is.
+const SIDE_LOBE: f64 = -0.95;
+const SIDE_LOBE_WIDTH: f64 = 0.1;
+
+impl PointGridSpec {
+    /// The dissertation's grid of section 3.2: 301×41 nodes.
+    pub const DISSERTATION: Self = Self::uniform(0.02, 0.05, (-4.0, 2.0, -2.0));
+
+    /// The same with a spacing across that is four times finer in the side lobes: 301×59 nodes, whose H_min lies
+    /// within 2 % of that on 301×161.
+    pub const EXPLORER: Self = Self { refinement: 4.0, ..Self::DISSERTATION };
+
+    /// The coarse one of Table 2.3, 151×41 nodes: for pictures that follow the hand. H_c is 5 % too small there at M = 200.
+    pub const QUICK: Self = Self::uniform(0.04, 0.05, (-4.0, 2.0, -2.0));
+
+    /// 601×81 nodes.
+    pub const FINE: Self = Self::uniform(0.01, 0.025, (-4.0, 2.0, -2.0));
+
+    /// 601×116 nodes, four times finer in the side lobes than the former.
+    pub const FINEST: Self = Self { refinement: 4.0, ..Self::FINE };
+
+    /// Equidistant nodes in both directions; the domain is inlet, outlet and outer edge.
+    pub const fn uniform(dx: f64, dy: f64, domain: (f64, f64, f64)) -> Self {
+        Self { dx, dy, refinement: 1.0, domain }
+    }
+
+    /// Nodes along X and across, boundaries and axis included.
+    ///
+    /// # Errors
+    /// When the domain cuts the contact, or the spacing is too wide or too narrow.
+    pub fn nodes(&self) -> Result<(usize, usize), PointGridError> {
+        let (from, to, edge) = self.domain;
+        if !((-50.0..=-1.5).contains(&from) && (1.2..=20.0).contains(&to) && (-20.0..=-1.2).contains(&edge)) {
+            return Err(PointGridError::Domain { from, to, edge });
+        }
+        for (name, spacing, widest) in [("ΔX", self.dx, WIDEST_DX), ("ΔY", self.dy, WIDEST_DY)] {
+            if !(1e-4..=widest).contains(&spacing) {
+                return Err(PointGridError::Spacing { name, spacing, widest });
+            }
+        }
+        if !(1.0..=8.0).contains(&self.refinement) {
+            return Err(PointGridError::Refinement(self.refinement));
+        }
+        let cells = self.cells_beyond(edge).round();
+        Ok((((to - from) / self.dx).round() as usize + 1, cells as usize + 1))
+    }
+
+    /// Cells between an ordinate Y ≤ 0 and the axis: ∫ dY/spacing, the spacing being dy/(1 + (refinement − 1)/(1 + t²)) with t the
+    /// distance to the side lobe in units of its width.
+    fn cells_beyond(&self, y: f64) -> f64 {
+        let angle = |y: f64| ((y - SIDE_LOBE) / SIDE_LOBE_WIDTH).atan();
+        (-y + (self.refinement - 1.0) * SIDE_LOBE_WIDTH * (angle(0.0) - angle(y))) / self.dy
+    }
+
+    /// Ordinates from the outer edge to the axis, each a fixed share of the cells apart.
+    fn ordinates(&self, ny: usize) -> Vec<f64> {
+        let edge = self.domain.2;
+        let all = self.cells_beyond(edge);
+        let at = |j: usize| {
+            let wanted = all * (ny - 1 - j) as f64 / (ny - 1) as f64;
+            // The count of cells falls steadily from the edge to the axis: bisection to rounding.
+            let (mut low, mut high) = (edge, 0.0);
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if self.cells_beyond(middle) > wanted { low = middle } else { high = middle }
+            }
+            0.5 * (low + high)
+        };
+        let uniform = |j: usize| edge - edge * j as f64 / (ny - 1) as f64;
+        (0..ny)
+            .map(|j| match j {
+                0 => edge,
+                // The last node lies on the axis exactly.
+                j if j + 1 == ny => 0.0,
+                j if self.refinement == 1.0 => uniform(j),
+                j => at(j),
+            })
+            .collect()
+    }
+
+    /// Refuses what [`PointGridSpec::build`] would refuse, without building it.
+    ///
+    /// # Errors
+    /// When the domain cuts the contact, or the grid is too coarse to hold it or too fine for memory.
+    pub fn check(&self) -> Result<(usize, usize), PointGridError> {
+        let (nx, ny) = self.nodes()?;
+        let bytes = Self::bytes(nx, ny);
+        if bytes > MAX_BYTES { Err(PointGridError::Memory { nx, ny, bytes }) } else { Ok((nx, ny)) }
+    }
+
+    /// Bytes that the kernel and the preconditioner of nx × ny nodes take: they grow as nx·ny², all else as nx·ny.
+    fn bytes(nx: usize, ny: usize) -> f64 {
+        let (nx, ny) = (nx as f64, ny as f64);
+        nx * ny * ny * (8.0 + 24.0) + nx * ny * 8.0 * 160.0
+    }
+
+    /// Builds the grid and its kernel; the costly part, done once per specification.
+    ///
+    /// # Errors
+    /// When the domain cuts the contact, or the grid is too coarse to hold it or too fine for memory.
+    pub fn build(&self) -> Result<Arc<PointGrid>, PointGridError> {
+        let (nx, ny) = self.check()?;
+        let (from, to, _) = self.domain;
+        let x: Vec<f64> = (0..nx).map(|i| from + (to - from) * i as f64 / (nx - 1) as f64).collect();
+        Ok(Arc::new(PointGrid::new(*self, x, self.ordinates(ny))))
+    }
+}
+
+/// A grid on the half domain of a point contact, with its kernel.
+#[derive(Debug)]
+pub struct PointGrid {
+    /// What it was built from.
+    pub spec: PointGridSpec,
+    /// Abscissae X, equidistant.
+    pub x: Vec<f64>,
+    /// Ordinates Y from the outer edge to 0.
+    pub y: Vec<f64>,
+    /// Quadrature weights of node arrays: the cells of both halves, so that wᵀP is the integral (2.29). Zero where P vanishes.
+    pub weights: Vec<f64>,
+    /// Deformation of every node by every pressure.
+    pub flexibility: PointFlexibility,
+    /// Difference coefficients along X of the unknowns' columns.
+    columns: Vec<RowGeometry>,
+}
+
+impl PointGrid {
+    fn new(spec: PointGridSpec, x: Vec<f64>, y: Vec<f64>) -> Self {
+        let (nx, ny) = (x.len(), y.len());
+        let edges: Vec<f64> = (0..ny).map(|j| if j + 1 < ny { 0.5 * (y[j] + y[j + 1]) } else { 0.0 }).collect();
+        let hx = (x[nx - 1] - x[0]) / (nx - 1) as f64;
+        let mut weights = vec![0.0; nx * ny];
+        for column in weights.chunks_exact_mut(ny).skip(1).take(nx - 2) {
+            for (j, weight) in column.iter_mut().enumerate().skip(1) {
+                *weight = 2.0 * hx * (edges[j] - edges[j - 1]);
+            }
+        }
+        let columns = (1..nx - 1)
+            .map(|i| match i {
+                1 => RowGeometry::first_column([x[0], x[1], x[2]]),
+                _ => RowGeometry::new([x[i - 2], x[i - 1], x[i], x[i + 1]]),
+            })
+            .collect();
+        let flexibility = PointFlexibility::new(hx, nx, &y, &edges);
+        Self { spec, x, y, weights, flexibility, columns }
+    }
+
+    /// Nodes along X, both ends counted.
+    pub fn nx(&self) -> usize {
+        self.x.len()
+    }
+
+    /// Nodes across, outer edge and axis counted.
+    pub fn ny(&self) -> usize {
+        self.y.len()
+    }
+
+    /// Entries of node arrays.
+    pub fn len(&self) -> usize {
+        self.x.len() * self.y.len()
+    }
+
+    /// Never true.
+    pub fn is_empty(&self) -> bool {
+        self.x.is_empty()
+    }
+
+    /// Unknown pressures in one column of nodes.
+    pub fn column_unknowns(&self) -> usize {
+        self.y.len() - 1
+    }
+
+    /// Number of unknown pressures.
+    pub fn unknowns(&self) -> usize {
+        (self.x.len() - 2) * self.column_unknowns()
+    }
+
+    /// Node index of an unknown.
+    pub fn node(&self, unknown: usize) -> usize {
+        let m = self.column_unknowns();
+        (unknown / m + 1) * self.ny() + unknown % m + 1
+    }
+
+    /// The row of an unknown: the nodes it depends on and its coefficients. Where the first column or the axis lacks a node, a
+    /// neighbour stands in its place with weight zero.
+    pub fn row(&self, unknown: usize) -> ([usize; STENCIL], RowGeometry) {
+        let (m, ny) = (self.column_unknowns(), self.ny());
+        let (column, j) = (unknown / m, unknown % m + 1);
+        let node = (column + 1) * ny + j;
+        let on_axis = j + 1 == ny;
+        let south = self.y[j] - self.y[j - 1];
+        let north = (!on_axis).then(|| self.y[j + 1] - self.y[j]);
+        let west2 = if column == 0 { node - ny } else { node - 2 * ny };
+        let stencil = [west2, node - ny, node, node + ny, node - 1, if on_axis { node - 1 } else { node + 1 }];
+        (stencil, self.columns[column].across(south, north))
+    }
+
+    /// Deformation Δ = K P at every node, (2.38). Both slices are node arrays.
+    pub fn deform(&self, pressure: &[f64], deformation: &mut [f64], scratch: &mut PointScratch) {
+        self.flexibility.apply(pressure, deformation, scratch);
+    }
+
+    /// The gap of the undeformed bodies (X² + Y²)/2 at a node, (2.24).
+    pub fn parabola(&self, node: usize) -> f64 {
+        let (x, y) = (self.x[node / self.ny()], self.y[node % self.ny()]);
+        0.5 * (x * x + y * y)
+    }
+
+    /// Value of a node array on the axis at X by cubic interpolation.
+    pub fn on_axis(&self, values: &[f64], x: f64) -> f64 {
+        self.interpolation_on_axis(x).iter().map(|(node, w)| w * values[*node]).sum()
+    }
+
+    /// Nodes and weights of the cubic interpolation on the axis at X; a single unit weight where X is a node.
+    pub fn interpolation_on_axis(&self, x: f64) -> [(usize, f64); 4] {
+        let (first, weights) = cubic(&self.x, x);
+        let ny = self.ny();
+        std::array::from_fn(|k| ((first + k) * ny + ny - 1, weights[k]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_dissertations_grid_has_11960_unknowns_and_weighs_the_whole_domain() {
+        let grid = PointGridSpec::DISSERTATION.build().unwrap();
+        assert_eq!((grid.nx(), grid.ny(), grid.unknowns()), (301, 41, 11960));
+        let area: f64 = grid.weights.iter().sum();
+        assert!((area - 299.0 * 0.02 * 79.0 * 0.05).abs() < 1e-9, "{area}");
+        let axis = grid.weights[150 * 41 + 40];
+        assert!((axis - 0.02 * 0.05).abs() < 1e-15 && (grid.weights[150 * 41 + 39] - 2.0 * axis).abs() < 1e-15);
+        assert_eq!(grid.node(0), 42);
+        assert_eq!(grid.node(11959), 299 * 41 + 40);
+    }
+
+    #[test]
+    fn a_graded_grid_is_finer_in_the_side_lobes_and_smooth() {
+        let grid = PointGridSpec::EXPLORER.build().unwrap();
+        let steps: Vec<f64> = grid.y.windows(2).map(|w| w[1] - w[0]).collect();
+        let near = |y: f64| steps[grid.y.partition_point(|&node| node < y) - 1];
+        assert!((0.012..0.0145).contains(&near(-0.95)) && near(-0.01) > 0.045 && near(-1.9) > 0.045);
+        assert!(steps.windows(2).all(|w| (0.8..1.25).contains(&(w[1] / w[0]))), "{steps:?}");
+        assert_eq!((grid.y[0], grid.y[grid.ny() - 1]), (-2.0, 0.0));
+        let area: f64 = grid.weights.iter().sum();
+        assert!((area - 299.0 * 0.02 * (4.0 - steps[0])).abs() < 1e-9, "{area}");
+    }
+
+    #[test]
+    fn bad_grids_are_refused_with_a_sentence() {
+        let good = PointGridSpec::DISSERTATION;
+        for (spec, word) in [
+            (PointGridSpec { domain: (-0.5, 2.0, -2.0), ..good }, "cuts the contact"),
+            (PointGridSpec { domain: (-4.0, 2.0, f64::NAN), ..good }, "cuts the contact"),
+            (PointGridSpec { domain: (-4.0, 2.0, -0.9), ..good }, "cuts the contact"),
+            (PointGridSpec { dx: 0.5, ..good }, "cannot hold the contact"),
+            (PointGridSpec { dy: f64::NAN, ..good }, "ΔY"),
+            (PointGridSpec { refinement: 0.5, ..good }, "refinement"),
+            (PointGridSpec { dx: 1e-3, dy: 1e-3, ..good }, "GB of memory"),
+        ] {
+            let message = spec.build().unwrap_err().to_string();
+            assert!(message.contains(word), "{message}");
+        }
+    }
+}

@@ -1,0 +1,5 @@
+//! Grids, the discrete Reynolds equation on them, and how they deform.
+
+pub mod elasticity;
+pub mod grid;
+pub mod reynolds;

@@ -1,0 +1,84 @@
+//! Starting beside a film that is known: between two iterations, and from node to node, the stress hardly changes.
+
+use super::{FilmIntegrals, FilmLoad, FilmRule, MOST_ITERATIONS, film_integrals, length, solve};
+use crate::solver::physics::lubricant::Fluidity;
+
+/// The largest first step, relative to τ_m, after which a start from a film nearby is trusted.
+const FIRST_STEP: f64 = 0.3;
+
+/// A film that was solved already, as a start for one nearby.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct KnownFilm {
+    /// What it depended on.
+    pub load: FilmLoad,
+    /// Its τ_m; zero where none is known.
+    pub mid_stress: [f64; 2],
+    /// ∂τ_m/∂(a, b, S).
+    pub d_mid_stress: [[f64; 2]; 3],
+}
+
+impl KnownFilm {
+    /// Whether nothing is known.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        self.mid_stress == [0.0; 2]
+    }
+
+    /// τ_m of a film nearby, to first order where that changes it little; none without sliding, or where nothing is known.
+    #[inline]
+    fn near(&self, load: &FilmLoad) -> Option<[f64; 2]> {
+        let own = self.mid_stress;
+        if self.is_empty() || load.sliding == 0.0 {
+            return None;
+        }
+        let changes = [load.a - self.load.a, load.b - self.load.b, load.sliding - self.load.sliding];
+        let mut step = [0.0; 2];
+        for (slope, change) in self.d_mid_stress.iter().zip(changes) {
+            step = [step[0] + slope[0] * change, step[1] + slope[1] * change];
+        }
+        let follows = length(step) <= FIRST_STEP * length(own);
+        Some(if follows { [own[0] + step[0], own[1] + step[1]] } else { own })
+    }
+}
+
+/// [`film_integrals`] beside a film that is known.
+pub fn film_integrals_near(law: &Fluidity, rule: &FilmRule, load: FilmLoad, known: &KnownFilm) -> FilmIntegrals {
+    if let Some(near) = known.near(&load) {
+        let (first, integrals) = solve(law, rule, load, near, 0);
+        // From too small a stress a steep law takes steps that never come back, from one of the other sign too many short ones.
+        if first <= FIRST_STEP * length(near) && integrals.iterations < MOST_ITERATIONS {
+            return integrals;
+        }
+    }
+    film_integrals(law, rule, load)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::PRODUCTION_RULE;
+    use super::super::tests::{laws, loads};
+    use super::*;
+
+    #[test]
+    fn a_film_beside_a_known_one_is_the_same_as_alone() {
+        for law in laws() {
+            for load in loads() {
+                let alone = film_integrals(&law, &PRODUCTION_RULE, load);
+                let FilmIntegrals { mid_stress, d_mid_stress, .. } = alone;
+                let known = KnownFilm { load, mid_stress, d_mid_stress };
+                for factor in [1.0, 1.0 + 1e-9, 1.001, 0.9, 4.0, 0.01, -1.0] {
+                    let FilmLoad { a, b, sliding } = load;
+                    let moved = FilmLoad { a: a * (2.0 - factor), b: b * factor, sliding: sliding * factor };
+                    let (own, near) = (
+                        film_integrals(&law, &PRODUCTION_RULE, moved),
+                        film_integrals_near(&law, &PRODUCTION_RULE, moved, &known),
+                    );
+                    assert!((near.mobility / own.mobility - 1.0).abs() < 1e-11, "{law:?} {load:?} {factor}");
+                    assert!((near.shift - own.shift).abs() < 1e-11, "{law:?} {load:?} {factor}");
+                }
+                let again = film_integrals_near(&law, &PRODUCTION_RULE, load, &known);
+                assert!(again.iterations <= 1, "{law:?} {load:?}: {} iterations", again.iterations);
+            }
+        }
+    }
+}

@@ -1,0 +1,326 @@
+//! Generalized-Newtonian laws: how viscosity falls with shear stress, and the conditions that decide by how much.
+//!
+//! Every law is a factor F(τ/τ₀) ≤ 1 on the viscosity, explicit in the effective shear stress τ, and is blended with a second
+//! Newtonian plateau as (3.40) does: η = μ(p) \[NPR + (1 − NPR) F\]. The film integrals (3.24) ask for the fluidity μ/η.
+
+use super::{LubricantError, check_constant, elementary};
+use crate::solver::physics::contact::{OperatingPoint, Sliding};
+use serde::{Deserialize, Serialize};
+
+/// How viscosity depends on shear stress. `npr` is the lubricant's own Newtonian plateau ratio, used where the operating conditions
+/// name none.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
+pub enum ShearLaw {
+    /// η = μ.
+    #[default]
+    Newtonian,
+    /// Modified Carreau law (3.40): F = (1 + (τ/G_c)^β)^((1 − 1/n)/β); Carreau 1972, as modified by Bair 2004.
+    Carreau {
+        /// Critical shear stress G_c \[Pa\].
+        critical_stress: f64,
+        /// β_c \[-\].
+        beta: f64,
+        /// Power-law exponent n_c \[-\], in (0, 1\].
+        n: f64,
+        /// Newtonian plateau ratio \[-\].
+        #[serde(default)]
+        npr: f64,
+    },
+    /// Ellis' law, F = 1/(1 + (τ/G)^(1/n − 1)): a Newtonian plateau followed by a power law. It is Cross's law (1965) written in stress
+    /// instead of rate; Matsuhisa & Bird 1965.
+    Ellis {
+        /// Shear stress G \[Pa\] at which half of the viscosity is left.
+        critical_stress: f64,
+        /// Power-law exponent n \[-\], in (0, 1\].
+        n: f64,
+        /// Newtonian plateau ratio \[-\].
+        #[serde(default)]
+        npr: f64,
+    },
+    /// Ree & Eyring 1955, F = (τ/τ_E)/sinh(τ/τ_E); in lubrication since Johnson & Tevaarwerk 1977.
+    Eyring {
+        /// Eyring stress τ_E \[Pa\].
+        critical_stress: f64,
+        /// Newtonian plateau ratio \[-\].
+        #[serde(default)]
+        npr: f64,
+    },
+}
+
+/// The stress that a film carries at most, τ_L = τ_L0 + Λ p: beyond it the lubricant slips or yields. It limits traction; pressure and film,
+/// which the inlet makes, are computed without it. Bair & Winer 1979.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LimitingStress {
+    /// τ_L0 \[Pa\].
+    pub ambient: f64,
+    /// Λ \[-\].
+    pub slope: f64,
+}
+
+impl ShearLaw {
+    /// The lubricant's own Newtonian plateau ratio.
+    pub fn plateau(&self) -> f64 {
+        match *self {
+            Self::Newtonian => 1.0,
+            Self::Carreau { npr, .. } | Self::Ellis { npr, .. } | Self::Eyring { npr, .. } => npr,
+        }
+    }
+
+    /// Refuses constants for which the law is not defined.
+    pub(super) fn check(&self) -> Result<(), LubricantError> {
+        let exponent = |n| check_constant("the power-law exponent n", n, 0.05, 1.0);
+        let stress = |g| check_constant("the critical shear stress", g, 1.0, 1e12);
+        match *self {
+            Self::Newtonian => return Ok(()),
+            Self::Carreau { critical_stress, beta, n, .. } => {
+                stress(critical_stress)?;
+                check_constant("the exponent beta", beta, 0.1, 20.0)?;
+                exponent(n)?;
+            }
+            Self::Ellis { critical_stress, n, .. } => {
+                stress(critical_stress)?;
+                exponent(n)?;
+            }
+            Self::Eyring { critical_stress, .. } => stress(critical_stress)?,
+        }
+        check_plateau(self.plateau())
+    }
+}
+
+/// Refuses Newtonian plateau ratios outside 0…1.
+fn check_plateau(ratio: f64) -> Result<(), LubricantError> {
+    check_constant("the Newtonian plateau ratio", ratio, 0.0, 1.0)
+}
+
+impl LimitingStress {
+    pub(super) fn check(&self) -> Result<(), LubricantError> {
+        check_constant("the limiting stress at ambient pressure", self.ambient, 0.0, 1e10)?;
+        check_constant("the slope of the limiting stress", self.slope, 0.0, 1.0)
+    }
+
+    /// τ_L \[Pa\] at p \[Pa\].
+    pub fn at(&self, p: f64) -> f64 {
+        self.ambient + self.slope * p.max(0.0)
+    }
+}
+
+/// Fluidity g = μ/η of a law as a function of t = τ/τ₀, its plateau included.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fluidity {
+    factor: Factor,
+    plateau: f64,
+}
+
+/// The factor F in the form that is evaluated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Factor {
+    /// F = (1 + t^β)^q.
+    Power { beta: f64, q: f64, n: f64 },
+    /// F = t/sinh t.
+    HyperbolicSine,
+}
+
+/// Largest t of the hyperbolic sine: no state gets there, only passing iterates of Newton's method, and they must stay finite.
+const STEEPEST: f64 = 150.0;
+
+impl Fluidity {
+    /// The law's fluidity with a Newtonian plateau ratio, and its stress scale τ₀ \[Pa\]; `None` for a Newtonian fluid.
+    pub fn of(law: ShearLaw, plateau: f64) -> Option<(Self, f64)> {
+        let power = |beta: f64, n: f64| Factor::Power { beta, q: (1.0 - 1.0 / n) / beta, n };
+        let (factor, scale) = match law {
+            ShearLaw::Newtonian => return None,
+            ShearLaw::Carreau { critical_stress, beta, n, .. } => (power(beta, n), critical_stress),
+            ShearLaw::Ellis { critical_stress, n, .. } => (power((1.0 / n - 1.0).max(1e-3), n), critical_stress),
+            ShearLaw::Eyring { critical_stress, .. } => (Factor::HyperbolicSine, critical_stress),
+        };
+        Some((Self { factor, plateau }, scale))
+    }
+
+    /// g and t dg/dt at t ≥ 0.
+    #[inline]
+    pub fn at(&self, t: f64) -> (f64, f64) {
+        let ([fluidity], [slope]) = self.at_all(&[t]);
+        (fluidity, slope)
+    }
+
+    /// The same at several t at once.
+    #[inline]
+    pub fn at_all<const N: usize>(&self, t: &[f64; N]) -> ([f64; N], [f64; N]) {
+        let (factor, slope) = match self.factor {
+            Factor::Power { beta, q, .. } => power(beta, q, t),
+            Factor::HyperbolicSine => hyperbolic_sine(t),
+        };
+        let (mut fluidity, mut fluidity_slope) = ([0.0; N], [0.0; N]);
+        let thinning = 1.0 - self.plateau;
+        for i in 0..N {
+            let g = 1.0 / (self.plateau + thinning * factor[i]);
+            (fluidity[i], fluidity_slope[i]) = (g, -g * g * thinning * slope[i]);
+        }
+        (fluidity, fluidity_slope)
+    }
+
+    /// A stress t near the one at which t g(t) is `rate` ≥ 0: Newton's method in logarithms, in which the laws are almost straight.
+    #[inline]
+    pub fn stress_near(&self, rate: f64) -> f64 {
+        if rate < 1e-9 {
+            return rate;
+        }
+        let alone = match self.factor {
+            Factor::Power { n, .. } if rate > 1.0 => rate.powf(n),
+            Factor::Power { .. } => rate,
+            Factor::HyperbolicSine => rate.asinh(),
+        };
+        let wanted = rate.ln();
+        let mut log = alone.max(self.plateau * rate).ln();
+        for _ in 0..4 {
+            let (g, slope) = self.at(log.exp());
+            let step = (log + g.ln() - wanted) / (1.0 + slope / g);
+            log -= step;
+            if step.abs() < 1e-3 {
+                break;
+            }
+        }
+        log.exp()
+    }
+}
+
+/// F = (1 + t^β)^q and t dF/dt.
+fn power<const N: usize>(beta: f64, q: f64, t: &[f64; N]) -> ([f64; N], [f64; N]) {
+    let mut y = *t;
+    elementary::raise(&mut y, beta);
+    // A y that is lost beside 1 changes nothing: 1 + y need not be exact relative to y.
+    let mut factor = y.map(|y| 1.0 + y);
+    elementary::raise(&mut factor, q);
+    let mut slope = [0.0; N];
+    for i in 0..N {
+        slope[i] = q * beta * factor[i] * (y[i] / (1.0 + y[i]));
+    }
+    (factor, slope)
+}
+
+/// F = t/sinh t and t dF/dt.
+fn hyperbolic_sine<const N: usize>(t: &[f64; N]) -> ([f64; N], [f64; N]) {
+    let (mut factors, mut slopes) = ([0.0; N], [0.0; N]);
+    for (i, &t) in t.iter().enumerate() {
+        (factors[i], slopes[i]) = if t < 1e-4 {
+            (1.0 - t * t / 6.0, -t * t / 3.0)
+        } else {
+            let t = t.min(STEEPEST);
+            let factor = t / t.sinh();
+            (factor, if t < STEEPEST { factor * (1.0 - t / t.tanh()) } else { 0.0 })
+        };
+    }
+    (factors, slopes)
+}
+
+/// A shear-thinning law at one operating point: what turns P, P_X and H into the scalars of the film integrals.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScaledShear {
+    /// The law.
+    pub fluidity: Fluidity,
+    /// Its stress scale τ₀ \[Pa\].
+    pub stress_scale_pa: f64,
+    /// κ₁/τ₀ with κ₁ = p_H a/R: the difference of stress between the surfaces is this times H P_X.
+    pub gradient: f64,
+    /// κ₂/τ₀ with κ₂ = η₀ (u₂ − u₁) R/a²: the Newtonian stress of sliding is this times μ̄/H.
+    pub sliding: f64,
+    /// SRR.
+    pub slide_to_roll_ratio: f64,
+}
+
+impl ScaledShear {
+    /// The law of a lubricant under operating conditions; `None` where the fluid is Newtonian: without a law, or for NPR = 1.
+    ///
+    /// # Errors
+    /// When NPR lies outside 0…1 or SRR is no sensible number.
+    pub fn new(law: ShearLaw, sliding: Sliding, point: &OperatingPoint) -> Result<Option<Self>, LubricantError> {
+        let srr = sliding.slide_to_roll_ratio;
+        check_constant("the slide-to-roll ratio", srr, -10.0, 10.0)?;
+        let plateau = sliding.newtonian_plateau_ratio.unwrap_or(law.plateau());
+        check_plateau(plateau)?;
+        if plateau < 1.0 && law == ShearLaw::Newtonian {
+            return Err(LubricantError::NoShearLaw { ratio: plateau });
+        }
+        let Some((fluidity, stress_scale_pa)) = Fluidity::of(law, plateau).filter(|_| plateau < 1.0) else {
+            return Ok(None);
+        };
+        let hertz = point.hertz();
+        Ok(Some(Self {
+            fluidity,
+            stress_scale_pa,
+            gradient: hertz.pressure_pa * hertz.half_width_m / point.radius_m / stress_scale_pa,
+            sliding: point.viscosity_pa_s * point.speed_m_per_s * srr / point.film_scale_m() / stress_scale_pa,
+            slide_to_roll_ratio: srr,
+        }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn laws() -> [ShearLaw; 4] {
+        [
+            ShearLaw::Carreau { critical_stress: 1e4, beta: 2.198, n: 0.8, npr: 0.2227 },
+            ShearLaw::Carreau { critical_stress: 3.1e4, beta: 2.0, n: 0.74, npr: 0.0 },
+            ShearLaw::Ellis { critical_stress: 1e5, n: 0.6, npr: 0.1 },
+            ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 },
+        ]
+    }
+
+    #[test]
+    fn slopes_agree_with_finite_differences_and_fluidity_grows_between_its_plateaus() {
+        for law in laws() {
+            let (fluidity, _) = Fluidity::of(law, law.plateau()).unwrap();
+            let mut former = 1.0;
+            for t in [1e-3, 0.1, 0.9, 1.0, 3.0, 20.0, 100.0] {
+                let (g, slope) = fluidity.at(t);
+                let step = 1e-6 * t;
+                let difference = (fluidity.at(t + step).0 - fluidity.at(t - step).0) / 2e-6;
+                assert!((difference - slope).abs() < 1e-6 * slope.abs().max(1e-3), "{law:?} at {t}");
+                assert!(g >= former && g * law.plateau() <= 1.0, "{law:?} at {t}");
+                former = g;
+            }
+            assert_eq!(fluidity.at(0.0).0, 1.0);
+        }
+    }
+
+    #[test]
+    fn the_printed_law_at_its_critical_stress() {
+        // (3.40) at τ = G_c: NPR + (1 − NPR) 2^((1 − 1/n)/β).
+        let (fluidity, scale) = Fluidity::of(laws()[0], 0.2227).unwrap();
+        assert_eq!(scale, 1e4);
+        let wanted = 0.2227 + 0.7773 * 2f64.powf((1.0 - 1.0 / 0.8) / 2.198);
+        assert!((1.0 / fluidity.at(1.0).0 - wanted).abs() < 1e-14);
+    }
+
+    #[test]
+    fn the_stress_of_a_rate_is_found_over_all_magnitudes() {
+        for law in laws() {
+            let (fluidity, _) = Fluidity::of(law, law.plateau()).unwrap();
+            for exponent in -12..12 {
+                let rate = 10f64.powi(exponent);
+                let t = fluidity.stress_near(rate);
+                assert!((t * fluidity.at(t).0 / rate - 1.0).abs() < 2e-2, "{law:?} at {rate}: {t}");
+            }
+        }
+    }
+
+    #[test]
+    fn constants_outside_their_sense_are_refused_by_name() {
+        let carreau = |critical_stress, n, npr| ShearLaw::Carreau { critical_stress, beta: 2.0, n, npr };
+        for (law, word) in [
+            (carreau(0.0, 0.8, 0.2), "critical shear stress"),
+            (carreau(-1e4, 0.8, 0.2), "critical shear stress"),
+            (carreau(f64::NAN, 0.8, 0.2), "critical shear stress"),
+            (carreau(1e4, 1.3, 0.2), "exponent n"),
+            (carreau(1e4, 0.8, 1.2), "plateau"),
+            (ShearLaw::Eyring { critical_stress: -5e6, npr: 0.0 }, "critical shear stress"),
+        ] {
+            let message = law.check().unwrap_err().to_string();
+            assert!(message.contains(word), "{message}");
+        }
+        assert!(laws().iter().all(|law| law.check().is_ok()));
+    }
+}

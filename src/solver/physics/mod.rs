@@ -1,0 +1,5 @@
+//! What a contact and its fluid are, before anything is discretised.
+
+pub mod contact;
+pub mod lubricant;
+pub mod optics;
