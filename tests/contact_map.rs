@@ -139,7 +139,7 @@ fn a_heavy_load_on_a_coarse_grid_says_that_the_side_lobes_are_not_resolved() {
 #[test]
 fn the_scenes_of_point_contacts_open_with_their_own_grid() {
     let mut harness = open();
-    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/table_2_2.ron");
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/point/table_2_2.ron");
     harness.state_mut().open_scene(&scene).unwrap();
     solved(&mut harness, (301, 41));
     assert!((harness.state().moes().m - 192.4).abs() < 0.05);

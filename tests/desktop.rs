@@ -195,7 +195,7 @@ fn a_presentation_shows_plots_and_the_sliders_in_use_large_and_ends_with_escape(
 #[test]
 fn a_presentation_keeps_maps_and_series_usable() {
     let mut explorer = Explorer::with_embedded_models().without_system_dialogs();
-    explorer.open_scene(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/fig_3_14_point.ron")).unwrap();
+    explorer.open_scene(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/shear/fig_3_14_point.ron")).unwrap();
     let mut harness = driver::window(explorer, [760.0, 475.0]);
     settled(&mut harness);
     press(&mut harness, Modifiers::NONE, Key::F11);

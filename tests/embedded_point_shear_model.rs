@@ -1,22 +1,22 @@
 //! The embedded model of shear-thinning point contacts: it solves its range, agrees with full solutions, and says where it ends. And training
 //! one of the kind on a coarse grid.
 
+mod scene_files;
 mod shear_models;
 
 use ehl_explorer::engine::model_file::to_bytes;
-use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene};
 use ehl_explorer::scene::named_lubricant::{SQUALANE_PIP, by_name};
-use ehl_explorer::scene::{Axis, Scene, Steps, Study};
+use ehl_explorer::scene::{Axis, Steps, Study};
 use ehl_explorer::solver::discrete::grid::{ContactGridSpec, PointGridSpec};
 use ehl_explorer::solver::full::{ContactSolver, Start};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use ehl_explorer::solver::reduced::{Online, ReducedModel, ReducedOptions, Sampling, Trust};
 use ehl_explorer::solver::training::{Plan, Range, SlidingRange, TrainingSpec, WindowSpec, Windows, train};
 use shear_models::{assert_file_keeps_everything, assert_limits_are_said, assert_mirrored, errors};
-use std::path::Path;
 use std::sync::Arc;
 
 const POINT: ContactKind = ContactKind::Point;
+
 fn range() -> SlidingRange {
     shear_models::range(POINT)
 }
@@ -144,19 +144,11 @@ fn training_makes_such_a_model_and_makes_it_again() {
     assert!(h_c < 5e-3 && h_min < 1e-2 && traction < 5e-3, "{h_c:.1e} {h_min:.1e} {traction:.1e}");
 }
 
-fn scene(name: &str) -> Scene {
-    Scene::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name)).unwrap()
-}
-
-fn run(scene: &Scene) -> SceneOutcome {
-    run_scene(scene, &mut Workbench::new("scenes"), &()).unwrap()
-}
-
 #[test]
 fn figures_stand_side_by_side_in_full_and_reduced() {
     // Two of each figure's contacts.
-    for name in ["fig_3_12_point.ron", "fig_3_16.ron"] {
-        let mut scene = scene(name);
+    for name in ["fig_3_12_point", "fig_3_16"] {
+        let mut scene = scene_files::read(name);
         scene.expect.retain(|expectation| !expectation.name.contains('['));
         if let Study::Sweep { over, .. } = &mut scene.study {
             over.iter_mut().for_each(|axis| axis.values = Steps::List(vec![axis.values.values()[0]]));
@@ -164,7 +156,7 @@ fn figures_stand_side_by_side_in_full_and_reduced() {
                 *values = Steps::List(vec![0.1, 0.5]);
             }
         }
-        let outcome = run(&scene);
+        let outcome = scene_files::run(name, &scene);
         let short: Vec<_> = outcome.verdicts.iter().filter(|verdict| !verdict.holds).collect();
         assert!(short.is_empty() && outcome.verdicts.len() >= 3, "{name}: {short:?}");
     }
@@ -172,13 +164,13 @@ fn figures_stand_side_by_side_in_full_and_reduced() {
 
 #[test]
 fn dimensions_grow_as_less_may_be_lost() {
-    let mut scene = scene("table_3_7.ron");
+    let mut scene = scene_files::read("table_3_7");
     scene.grid = ehl_explorer::scene::Grid::Plane { dx: 0.06, dy: 0.1, domain: (-2.7, 1.5, -1.5), refinement: 1.0 };
     if let Study::Dimensions { over, .. } = &mut scene.study {
         over[0].values = Steps::Log { from: 0.4, to: 2.0, n: 4 };
         over[1].values = Steps::List(vec![0.2, 0.6]);
     }
-    let outcome = run(&scene);
+    let outcome = scene_files::run("table_3_7", &scene);
     let value = |name: &str| outcome.value(name, None).unwrap();
     assert_eq!((value("snapshots"), value("full_failures")), (24.0, 0.0));
     assert_eq!(value("dofs"), 2.0 * value("nodes_x") * value("nodes_y") + 1.0);

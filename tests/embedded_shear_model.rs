@@ -1,17 +1,17 @@
 //! The embedded model of shear-thinning line contacts: it solves its range, agrees with full solutions, and says where it ends.
 
+mod scene_files;
 mod shear_models;
 
-use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene};
+use ehl_explorer::engine::SceneOutcome;
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
-use ehl_explorer::scene::{Method, Scene, Study};
+use ehl_explorer::scene::{Method, Study};
 use ehl_explorer::solver::full::{ContactSolver, Start};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use ehl_explorer::solver::physics::lubricant::Lubricant;
 use ehl_explorer::solver::reduced::{CurveVariable, Online, ReducedOptions, Sampling, Trust, traction_curve};
 use ehl_explorer::solver::training::{Plan, Range, SlidingRange, TrainingSpec, Windows};
 use shear_models::{assert_file_keeps_everything, assert_limits_are_said, assert_mirrored, errors};
-use std::path::Path;
 
 const LINE: ContactKind = ContactKind::Line;
 
@@ -179,10 +179,9 @@ fn a_range_with_sliding_needs_a_lubricant_that_feels_it() {
 
 #[test]
 fn figures_of_line_contacts_stand_on_the_models_own_grid_beside_the_reference() {
-    for name in ["fig_3_11_line.ron", "fig_3_14_line.ron"] {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name);
-        let mut scene = Scene::read(&path).unwrap();
-        let outcome = run_scene(&scene, &mut Workbench::new("scenes"), &()).unwrap();
+    for name in ["fig_3_11_line", "fig_3_14_line"] {
+        let mut scene = scene_files::read(name);
+        let outcome = scene_files::run(name, &scene);
         let short: Vec<_> = outcome.verdicts.iter().filter(|verdict| !verdict.holds).collect();
         assert!(short.is_empty() && outcome.verdicts.len() >= 6, "{name}: {short:?}");
         // Against the dissertation's grid, which begins at X = -4, the grids would be part of the error.
@@ -190,7 +189,7 @@ fn figures_of_line_contacts_stand_on_the_models_own_grid_beside_the_reference() 
         if let Study::Sweep { compare_on_model_grid, .. } = &mut scene.study {
             *compare_on_model_grid = false;
         }
-        let elsewhere = run_scene(&scene, &mut Workbench::new("scenes"), &()).unwrap();
+        let elsewhere = scene_files::run(name, &scene);
         assert!(of(&elsewhere) > 3.0 * of(&outcome), "{name}: {} and {}", of(&elsewhere), of(&outcome));
         assert!(elsewhere.value("failures_on_model_grid", None).is_none());
     }

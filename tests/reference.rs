@@ -1,6 +1,7 @@
 //! The full solver against independent solutions on the same grid, and against published mathematics.
 
-use ehl_explorer::scene::Scene;
+mod scene_files;
+
 use ehl_explorer::solver::discrete::grid::GridSpec;
 use ehl_explorer::solver::full::{FullSolver, Start};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
@@ -90,7 +91,6 @@ fn a_heavy_load_tends_to_hertz() {
 
 #[test]
 fn scenes_of_the_tables_hold_the_same_numbers() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
     let references = references();
     for (scene, name) in [
         ("table_2_1", "T2.1"),
@@ -102,7 +102,7 @@ fn scenes_of_the_tables_hold_the_same_numbers() {
         ("table_4_8_set_2", "T4.8s2"),
         ("table_4_8_set_3", "T4.8s3"),
     ] {
-        let scene = Scene::read(&folder.join(format!("{scene}.ron"))).unwrap();
+        let scene = scene_files::read(scene);
         let reference = references.iter().find(|reference| reference.name == name).unwrap();
         assert_eq!(scene.point().unwrap(), reference.point, "{name}");
         let expected = scene.expect.iter().find(|e| e.name == "H_c").unwrap();

@@ -1,31 +1,20 @@
 //! Every scene of the repository: it parses, survives writing, and the quick ones give what they expect.
 
+mod scene_files;
+
 use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene};
 use ehl_explorer::scene::{Grid, Method, ModelSource, Scene, Study, TransientStudy};
 use ehl_explorer::solver::full::transient::{Frame, Signal, TimeStep};
-use std::path::{Path, PathBuf};
-
-fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes")
-}
+use std::collections::BTreeSet;
+use std::path::Path;
 
 fn all() -> Vec<(String, Scene)> {
-    let mut scenes: Vec<(String, Scene)> = std::fs::read_dir(folder())
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| path.extension().is_some_and(|extension| extension == "ron"))
-        .map(|path| {
-            let name = path.file_stem().unwrap().to_string_lossy().into_owned();
-            (name, Scene::read(&path).unwrap_or_else(|error| panic!("{error}")))
-        })
-        .collect();
-    scenes.sort_by(|a, b| a.0.cmp(&b.0));
-    scenes
+    let read = |path: &Path| Scene::read(path).unwrap_or_else(|error| panic!("{error}"));
+    scene_files::all().iter().map(|path| (scene_files::name(path), read(path))).collect()
 }
 
 fn run(name: &str) -> SceneOutcome {
-    let scene = Scene::read(&folder().join(format!("{name}.ron"))).unwrap();
-    run_scene(&scene, &mut Workbench::new(folder()), &()).unwrap_or_else(|error| panic!("{name}: {error}"))
+    scene_files::run(name, &scene_files::read(name))
 }
 
 fn assert_passes(name: &str) {
@@ -38,7 +27,8 @@ fn assert_passes(name: &str) {
 #[test]
 fn every_scene_survives_writing() {
     let scenes = all();
-    assert!(scenes.len() >= 17);
+    let names: BTreeSet<_> = scenes.iter().map(|(name, _)| name).collect();
+    assert!(scenes.len() >= 102 && names.len() == scenes.len(), "a name is given twice");
     for (name, scene) in scenes {
         let text = scene.to_ron().unwrap();
         assert_eq!(Scene::from_ron(&text).unwrap_or_else(|error| panic!("{name}: {error}\n{text}")), scene, "{name}");
@@ -71,11 +61,11 @@ fn the_whole_plane_of_m_and_l_converges() {
 
 #[test]
 fn cold_solves_converge_at_random_points_of_table_3_1() {
-    let mut scene = Scene::read(&folder().join("convergence_table_3_1.ron")).unwrap();
+    let mut scene = scene_files::read("convergence_table_3_1");
     if let Study::RandomTest { tests, .. } = &mut scene.study {
         *tests = 150;
     }
-    let outcome = run_scene(&scene, &mut Workbench::new(folder()), &()).unwrap();
+    let outcome = scene_files::run("convergence_table_3_1", &scene);
     // Times are the business of `bench`; a test only counts.
     assert_eq!(outcome.value("failures", None), Some(0.0));
     assert!(outcome.value("newton_max", None).unwrap() <= 60.0);
@@ -83,11 +73,11 @@ fn cold_solves_converge_at_random_points_of_table_3_1() {
 
 #[test]
 fn cold_solves_of_point_contacts_converge_at_random_points_of_table_3_4() {
-    let mut scene = Scene::read(&folder().join("convergence_table_3_4.ron")).unwrap();
+    let mut scene = scene_files::read("convergence_table_3_4");
     if let Study::RandomTest { tests, .. } = &mut scene.study {
         *tests = 8;
     }
-    let outcome = run_scene(&scene, &mut Workbench::new(folder()), &()).unwrap();
+    let outcome = scene_files::run("convergence_table_3_4", &scene);
     assert_eq!(outcome.value("failures", None), Some(0.0));
     assert!(outcome.value("newton_max", None).unwrap() <= 40.0);
 }
@@ -100,12 +90,12 @@ fn a_contact_in_time_breathes_as_its_scene_expects() {
 #[test]
 fn the_frames_of_a_contact_in_time_agree() {
     for (name, duration) in [("fig_4_4_case_1", 0.5), ("fig_4_4_case_2", 0.6)] {
-        let mut scene = Scene::read(&folder().join(format!("{name}.ron"))).unwrap();
+        let mut scene = scene_files::read(name);
         if let Study::Transient(study) = &mut scene.study {
             (study.duration, study.window) = (duration, None);
             study.time_step = TimeStep::Fixed(0.0025);
         }
-        let outcome = run_scene(&scene, &mut Workbench::new(folder()), &()).unwrap();
+        let outcome = scene_files::run(name, &scene);
         // Longer steps than the scene's have other balances of mass.
         let films = outcome.verdicts.iter().filter(|verdict| verdict.name.ends_with("H_c.difference"));
         let short: Vec<_> = films.filter(|verdict| !verdict.holds).collect();
@@ -116,13 +106,13 @@ fn the_frames_of_a_contact_in_time_agree() {
 
 #[test]
 fn a_reduced_model_reproduces_a_trained_load_in_time() {
-    let mut scene = Scene::read(&folder().join("rnsa_table_4_2_sine.ron")).unwrap();
+    let mut scene = scene_files::read("rnsa_table_4_2_sine");
     if let Study::Transient(study) = &mut scene.study {
         (study.duration, study.frames) = (0.5, vec![Frame::Fixed]);
         study.trainings.clear();
     }
     scene.grid = Grid::Uniform { dx: 0.01, domain: (-4.0, 2.0) };
-    let outcome = run_scene(&scene, &mut Workbench::new(folder()), &()).unwrap();
+    let outcome = scene_files::run("rnsa_table_4_2_sine", &scene);
     assert!(outcome.converged, "{:?}", outcome.warnings);
     assert!(outcome.value("fixed.rnsa.H_c.difference_l2", None).unwrap() < 1e-4);
     assert!(outcome.value("fixed.rnsa.speed_up", None).unwrap() > 1.0);
@@ -136,11 +126,11 @@ fn linearised_models_carry_over_to_an_unseen_load() {
 #[test]
 fn inputs_in_time_that_make_no_sense_are_refused() {
     let refusal = |change: fn(&mut TransientStudy)| {
-        let mut scene = Scene::read(&folder().join("fig_2_6_right.ron")).unwrap();
+        let mut scene = scene_files::read("fig_2_6_right");
         if let Study::Transient(study) = &mut scene.study {
             change(study);
         }
-        run_scene(&scene, &mut Workbench::new(folder()), &()).unwrap_err().to_string()
+        run_scene(&scene, &mut Workbench::new(""), &()).unwrap_err().to_string()
     };
     let deep = |study: &mut TransientStudy| study.inputs.load = Signal::Harmonic { amplitude: 1.5, period: 4.0 };
     assert!(refusal(deep).contains("the load falls to"));
@@ -156,11 +146,11 @@ fn the_first_look_shows_a_trained_contact() {
 
 #[test]
 fn the_embedded_model_agrees_with_full_solutions() {
-    let mut scene = Scene::read(&folder().join("random_test_embedded.ron")).unwrap();
+    let mut scene = scene_files::read("random_test_embedded");
     if let Study::RandomTest { tests, compare, .. } = &mut scene.study {
         (*tests, *compare) = (500, 60);
     }
-    let outcome = run_scene(&scene, &mut Workbench::new(folder()), &()).unwrap();
+    let outcome = scene_files::run("random_test_embedded", &scene);
     assert_eq!(outcome.value("failures", None), Some(0.0));
     assert!(outcome.value("H_c_error_max", None).unwrap() <= 2e-2);
 }

@@ -203,7 +203,7 @@ fn the_model_is_set_up_undone_refused_and_saved_with_the_scene() {
 
 #[test]
 fn a_study_of_several_inputs_opens_on_its_own_and_is_saved_whole() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/fig_4_17_quick.ron");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/time/fig_4_17_quick.ron");
     let asked = Scene::read(&path).unwrap();
     let Study::Transient(study) = &asked.study else { panic!() };
     let (mut harness, folder) = open("study", &std::fs::read_to_string(path).unwrap(), [1280.0, 900.0]);

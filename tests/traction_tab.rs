@@ -20,7 +20,7 @@ fn window(explorer: Explorer) -> Window {
 /// The window on Table 3.5's lubricant under sliding, with the embedded models.
 fn squalane() -> Window {
     let mut explorer = Explorer::with_embedded_models();
-    explorer.open_scene(Path::new("scenes/fig_3_14_line.ron")).unwrap();
+    explorer.open_scene(Path::new("scenes/shear/fig_3_14_line.ron")).unwrap();
     let mut harness = window(explorer);
     wait(&mut harness, "the picture", |app| app.central_film().is_some());
     harness
@@ -214,7 +214,7 @@ fn the_curve_follows_the_sliders_full_solutions_lie_on_it_and_a_press_goes_there
 #[test]
 fn a_point_contact_has_its_curve_where_there_is_a_model_and_says_so_where_there_is_none() {
     let mut explorer = Explorer::with_embedded_models();
-    explorer.open_scene(Path::new("scenes/fig_3_14_point.ron")).unwrap();
+    explorer.open_scene(Path::new("scenes/shear/fig_3_14_point.ron")).unwrap();
     let mut harness = window(explorer);
     click(&mut harness, "Traction");
     if model_file::embedded_shear_of(ContactKind::Point).is_ok() {
@@ -229,7 +229,7 @@ fn a_point_contact_has_its_curve_where_there_is_a_model_and_says_so_where_there_
 fn a_fluid_that_the_model_was_not_trained_with_has_a_curve_that_says_so() {
     let mut explorer = Explorer::with_embedded_models();
     // PAO 650's point contact; the model knows squalane with polyisoprene.
-    explorer.open_scene(Path::new("scenes/fig_3_16.ron")).unwrap();
+    explorer.open_scene(Path::new("scenes/shear/fig_3_16.ron")).unwrap();
     let mut harness = window(explorer);
     click(&mut harness, "Traction");
     wait(&mut harness, "the curve", |app| app.traction_contacts().0 == Some(41));

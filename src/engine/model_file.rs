@@ -29,16 +29,16 @@ const FORMAT: Format = Format { magic: b"EHLROM\r\n", version: VERSION, oldest: 
 /// Relative accuracy of pressures and deformations at every node to which the bases of line and of point contacts are kept.
 const ACCURACY: [f64; 2] = [1e-13, 2e-10];
 
-/// The model that is part of the program, trained by `scenes/embedded_model.ron`.
+/// The model that is part of the program, trained by `scenes/training/embedded_model.ron`.
 static EMBEDDED: &[u8] = include_bytes!("../../assets/line.rom");
 
-/// The model of point contacts that is part of the program, trained by `scenes/table_3_4_model.ron`.
+/// The model of point contacts that is part of the program, trained by `scenes/training/table_3_4_model.ron`.
 static EMBEDDED_POINT: &[u8] = include_bytes!("../../assets/point.rom");
 
-/// The model of point contacts with a lubricant that thins under shear, trained by `scenes/embedded_point_shear_model.ron`.
+/// The model of point contacts with a lubricant that thins under shear, trained by `scenes/training/embedded_point_shear_model.ron`.
 static EMBEDDED_POINT_SHEAR: &[u8] = include_bytes!("../../assets/point_shear.rom");
 
-/// That of line contacts, trained by `scenes/embedded_shear_model.ron`.
+/// That of line contacts, trained by `scenes/training/embedded_shear_model.ron`.
 static EMBEDDED_SHEAR: &[u8] = include_bytes!("../../assets/line_shear.rom");
 
 /// Why a model file is refused. Nothing is lost by it.

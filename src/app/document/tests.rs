@@ -36,7 +36,7 @@ fn saving_and_opening_again_loses_nothing() {
 
 #[test]
 fn a_scene_keeps_what_the_explorer_does_not_edit() {
-    let before = Scene::from_ron(include_str!("../../../scenes/table_2_1.ron")).unwrap();
+    let before = Scene::from_ron(include_str!("../../../scenes/line/table_2_1.ron")).unwrap();
     assert_eq!(before.view, None);
     let mut document = Document::of_scene(before.clone()).unwrap();
     assert_eq!(document.to_scene(), before);
@@ -52,7 +52,7 @@ fn a_scene_keeps_what_the_explorer_does_not_edit() {
 
 #[test]
 fn a_training_is_edited_saved_and_refused_like_the_rest() {
-    let scene = Scene::from_ron(include_str!("../../../scenes/embedded_model.ron")).unwrap();
+    let scene = Scene::from_ron(include_str!("../../../scenes/training/embedded_model.ron")).unwrap();
     let mut document = Document::of_scene(scene.clone()).unwrap();
     assert_eq!(document.to_scene(), scene);
     let mut spec = document.training.clone().unwrap();
@@ -63,7 +63,7 @@ fn a_training_is_edited_saved_and_refused_like_the_rest() {
     assert!(document.set_training(spec.clone()).unwrap_err().contains("window"));
     assert_eq!(document.training.as_ref().unwrap().seed, 7);
     // A scene with another question keeps it; a fresh document takes the training along.
-    let other = Scene::from_ron(include_str!("../../../scenes/table_2_1.ron")).unwrap();
+    let other = Scene::from_ron(include_str!("../../../scenes/line/table_2_1.ron")).unwrap();
     let training = document.training.clone();
     let document = Document { training: training.clone(), ..Document::of_scene(other.clone()).unwrap() };
     assert_eq!(document.to_scene().study, other.study);
@@ -72,7 +72,7 @@ fn a_training_is_edited_saved_and_refused_like_the_rest() {
     // A training of point contacts belongs to a point contact, and is not saved with a line.
     let mut point = Document::default();
     point.set_kind(ContactKind::Point).unwrap();
-    let scene = Scene::from_ron(include_str!("../../../scenes/table_3_4_model.ron")).unwrap();
+    let scene = Scene::from_ron(include_str!("../../../scenes/training/table_3_4_model.ron")).unwrap();
     let Study::Training(spec) = scene.study else { panic!() };
     point.set_training(spec.clone()).unwrap();
     let saved = point.to_scene();
@@ -95,7 +95,7 @@ fn a_contact_in_time_is_saved_with_its_grid_and_checked_like_the_rest() {
     assert_eq!(document.transient, Some(study));
     // A new scene has room for one question, a scene of another keeps its own.
     assert!(!document.saves_training());
-    let other = Scene::from_ron(include_str!("../../../scenes/table_2_1.ron")).unwrap();
+    let other = Scene::from_ron(include_str!("../../../scenes/line/table_2_1.ron")).unwrap();
     let kept = Document { transient: document.transient.clone(), ..Document::of_scene(other.clone()).unwrap() };
     assert_eq!(kept.to_scene().study, other.study);
     document.set_kind(ContactKind::Point).unwrap();
@@ -104,10 +104,10 @@ fn a_contact_in_time_is_saved_with_its_grid_and_checked_like_the_rest() {
 
 #[test]
 fn every_contact_in_time_of_the_repository_opens_and_is_saved_as_it_was() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/time");
     let paths = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let mut count = 0;
-    for path in paths.filter(|path| path.extension().is_some_and(|extension| extension == "ron")) {
+    for path in paths {
         let scene = Scene::read(&path).unwrap();
         let Study::Transient(study) = &scene.study else { continue };
         count += 1;
@@ -141,7 +141,7 @@ fn the_other_kind_of_contact_keeps_the_numbers_and_the_lubricant() {
 
 #[test]
 fn a_scene_of_a_point_contact_opens_and_keeps_its_question_until_the_kind_changes() {
-    let scene = Scene::from_ron(include_str!("../../../scenes/table_2_3.ron")).unwrap();
+    let scene = Scene::from_ron(include_str!("../../../scenes/point/table_2_3.ron")).unwrap();
     let mut document = Document::of_scene(scene.clone()).unwrap();
     assert_eq!((document.point.kind, document.to_scene()), (ContactKind::Point, scene));
     document.set_kind(ContactKind::Line).unwrap();
@@ -188,7 +188,7 @@ fn a_lubricant_with_a_viscosity_of_its_own_brings_its_contact_and_keeps_alpha_wh
 
 #[test]
 fn a_contact_in_time_gives_way_to_a_lubricant_that_thins_under_shear() {
-    let scene = Scene::from_ron(include_str!("../../../scenes/fig_2_6_right.ron")).unwrap();
+    let scene = Scene::from_ron(include_str!("../../../scenes/time/fig_2_6_right.ron")).unwrap();
     let mut document = Document::of_scene(scene).unwrap();
     document.pick_lubricant(&by_name("squalane-pip").unwrap()).unwrap();
     assert!(document.to_scene().check().is_ok());

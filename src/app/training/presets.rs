@@ -17,21 +17,21 @@ pub fn of_kind(kind: ContactKind) -> Vec<(&'static str, &'static TrainingSpec)> 
 /// Table 3.4's box, corrected: the embedded model of point contacts.
 fn table_3_4() -> Option<&'static TrainingSpec> {
     static SPEC: LazyLock<Option<TrainingSpec>> =
-        LazyLock::new(|| spec_of(include_str!("../../../scenes/table_3_4_model.ron")));
+        LazyLock::new(|| spec_of(include_str!("../../../scenes/training/table_3_4_model.ron")));
     SPEC.as_ref()
 }
 
 /// Table 3.1's box by the automatic algorithm.
 fn table_3_1() -> Option<&'static TrainingSpec> {
     static SPEC: LazyLock<Option<TrainingSpec>> =
-        LazyLock::new(|| spec_of(include_str!("../../../scenes/table_3_2_adaptive_graded.ron")));
+        LazyLock::new(|| spec_of(include_str!("../../../scenes/plans/table_3_2_adaptive_graded.ron")));
     SPEC.as_ref()
 }
 
 /// The embedded model's range: what the sliders reach.
 fn slider_range() -> Option<&'static TrainingSpec> {
     static SPEC: LazyLock<Option<TrainingSpec>> =
-        LazyLock::new(|| spec_of(include_str!("../../../scenes/embedded_model.ron")));
+        LazyLock::new(|| spec_of(include_str!("../../../scenes/training/embedded_model.ron")));
     SPEC.as_ref()
 }
 

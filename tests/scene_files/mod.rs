@@ -1,0 +1,37 @@
+//! The scenes of the repository, which lie in folders by subject, each under a name of its own.
+#![allow(dead_code, reason = "every test file needs its own part of these")]
+
+use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene};
+use ehl_explorer::scene::Scene;
+use std::path::{Path, PathBuf};
+
+/// The paths of all scenes, by folder and name.
+pub fn all() -> Vec<PathBuf> {
+    let entries = |folder: &Path| std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let folders = entries(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes")).filter(|path| path.is_dir());
+    let mut paths: Vec<_> = folders.flat_map(|folder| entries(&folder).collect::<Vec<_>>()).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "ron"));
+    paths.sort();
+    paths
+}
+
+/// The name of a scene: its file's, without folder and extension.
+pub fn name(path: &Path) -> String {
+    path.file_stem().unwrap().to_string_lossy().into_owned()
+}
+
+/// The path of the scene of a name.
+pub fn path(wanted: &str) -> PathBuf {
+    all().into_iter().find(|path| name(path) == wanted).unwrap_or_else(|| panic!("no scene {wanted}"))
+}
+
+/// The scene of a name.
+pub fn read(name: &str) -> Scene {
+    Scene::read(&path(name)).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Runs a scene of the repository, or what has been made of it.
+pub fn run(name: &str, scene: &Scene) -> SceneOutcome {
+    run_scene(scene, &mut Workbench::new(path(name).parent().unwrap()), &())
+        .unwrap_or_else(|error| panic!("{name}: {error}"))
+}
