@@ -6,6 +6,7 @@ use ehl_explorer::solver::discrete::grid::GridSpec;
 use ehl_explorer::solver::full::transient::{
     self, Frame, Inputs, Keep, Marching, Moment, Signal, TimeStep, Transient, TransientObserver, march,
 };
+use ehl_explorer::solver::observer::Observer;
 use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
 use ehl_explorer::solver::physics::lubricant::Lubricant;
 use ehl_explorer::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
@@ -14,7 +15,7 @@ use ehl_explorer::solver::reduced::{Online, ReducedModel, ReducedOptions};
 use ehl_explorer::solver::training::{TrajectoryTraining, train_trajectories};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 struct Counting;
 
@@ -81,11 +82,13 @@ fn more_online_iterations_do_not_allocate_more() {
 }
 
 /// Allocations up to each moment of a march.
-struct Counts(Vec<usize>);
+struct Counts(Mutex<Vec<usize>>);
+
+impl Observer for Counts {}
 
 impl TransientObserver for Counts {
-    fn moment(&mut self, _: &Moment) {
-        self.0.push(allocations());
+    fn moment(&self, _: &Moment) {
+        self.0.lock().unwrap().push(allocations());
     }
 }
 
@@ -101,7 +104,7 @@ fn online_steps_in_time_do_not_allocate() {
         time_step: TimeStep::Fixed(0.01),
         keep: Keep::Every(1),
     };
-    let full = transient::solve(coarse, &breathing, &mut ()).unwrap();
+    let full = transient::solve(coarse, &breathing, &()).unwrap();
     assert!(full.finished());
     let training = TpwlTraining { modes: 40, selection: Selection::Distance { tolerance: 0.02 } };
     let linearised = TpwlModel::train(&[&full], training).unwrap();
@@ -110,12 +113,13 @@ fn online_steps_in_time_do_not_allocate() {
 
     let online = Transient { keep: Keep::Scalars, ..breathing };
     let steps_that_allocate = |model: &mut dyn Marching| {
-        let mut counts = Counts(Vec::with_capacity(100));
-        let trajectory = march(model, &online, &mut counts).unwrap();
+        let counts = Counts(Mutex::new(Vec::with_capacity(100)));
+        let trajectory = march(model, &online, &counts).unwrap();
         assert!(trajectory.finished());
-        assert_eq!(counts.0.len(), 63);
+        let counts = counts.0.into_inner().unwrap();
+        assert_eq!(counts.len(), 63);
         // The list of moments doubles its room for the 33rd one and then holds 64.
-        counts.0[33..].windows(2).filter(|pair| pair[0] != pair[1]).count()
+        counts[33..].windows(2).filter(|pair| pair[0] != pair[1]).count()
     };
     assert_eq!(steps_that_allocate(&mut ReducedMarch::new(&sampled).unwrap()), 0, "sampled rows");
     for weighting in [Weighting::DualTaylor, Weighting::Dissertation] {

@@ -48,7 +48,9 @@ struct CancelIn {
     begun: Mutex<Option<Instant>>,
 }
 
-impl TrainingObserver for CancelIn {
+impl TrainingObserver for CancelIn {}
+
+impl Observer for CancelIn {
     fn progress(&self, progress: Progress) {
         let mut begun = self.begun.lock().unwrap();
         if begun.is_none() && progress.stage.starts_with(self.stage) {
@@ -72,7 +74,8 @@ fn latency(state: &TrainingState, stage: &'static str, after: Duration) -> Durat
 #[test]
 fn a_cancelled_training_returns_within_a_tenth_of_a_second() {
     struct Precomputed(AtomicBool);
-    impl TrainingObserver for Precomputed {
+    impl TrainingObserver for Precomputed {}
+    impl Observer for Precomputed {
         fn progress(&self, progress: Progress) {
             self.0.fetch_or(progress.stage.starts_with("Bases"), Ordering::Relaxed);
         }
@@ -119,7 +122,7 @@ fn a_cancelled_full_solve_of_a_fine_point_contact_returns_within_a_tenth_of_a_se
         .map(|k| {
             // Through all parts of a Newton step: assembly, factorisation, Krylov iterations.
             let wish = Instant::now() + Duration::from_millis(40 + 37 * k);
-            let s = solver.solve(&point, Default::default(), Start::Cold, &mut After { wish }).unwrap();
+            let s = solver.solve(&point, Default::default(), Start::Cold, &After { wish }).unwrap();
             assert_eq!(s.report.termination, Termination::Cancelled);
             wish.elapsed()
         })

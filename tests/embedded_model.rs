@@ -62,7 +62,7 @@ fn corners_of_the_range_agree_with_full_solutions() {
         assert_eq!(reduced.trust, Trust::Trained, "M = {m}, L = {l}");
         let picture = online.reconstruct(&reduced).unwrap();
         let mut solver = ContactSolver::on(&online.model.windows[reduced.window].grid);
-        let full = solver.solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+        let full = solver.solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
         assert!(full.converged());
         let error = (picture.scalars.h_c / full.scalars.h_c - 1.0).abs();
         // The film of M = 500 is 7e-4 thick: pressures must be right to 1e-5 there.

@@ -36,7 +36,7 @@ fn its_films_lie_near_full_solutions() {
     let mut solver = ContactSolver::on(&online.model.windows[0].grid);
     let (mut h_c, mut h_min) = (Vec::new(), Vec::new());
     for point in points(16, 42) {
-        let full = solver.solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+        let full = solver.solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
         assert!(full.converged());
         let solved = online.solve(&point, Lubricant::default()).unwrap();
         let fields = online.reconstruct(&solved).unwrap();

@@ -41,7 +41,7 @@ fn greatest_errors(online: &mut Online, points: &[OperatingPoint], compared: usi
             continue;
         }
         let reduced = online.reconstruct(&solved).unwrap();
-        let truth = full.solve(point, SQUALANE_PIP, Start::Cold, &mut ()).unwrap();
+        let truth = full.solve(point, SQUALANE_PIP, Start::Cold, &()).unwrap();
         assert!(truth.converged());
         let [h_c, h_min, traction] = errors(&reduced, reduced.traction_coefficient(), &truth);
         let traction = if truth.traction_warning().is_none() { traction } else { 0.0 };
@@ -93,7 +93,7 @@ fn another_lubricant_is_solved_with_its_own_equations_and_said_to_be_another() {
     assert!(matches!(&solved.trust, Trust::Outside(why) if why.contains("lubricant")), "{:?}", solved.trust);
     let reduced = online.reconstruct(&solved).unwrap();
     let grid = online.model.windows[0].grid.clone();
-    let full = ContactSolver::on(&grid).solve(&point, pao.laws, Start::Cold, &mut ()).unwrap();
+    let full = ContactSolver::on(&grid).solve(&point, pao.laws, Start::Cold, &()).unwrap();
     let off = (reduced.scalars.h_c / full.scalars.h_c - 1.0).abs();
     let friction = (reduced.traction_coefficient() / full.traction_coefficient() - 1.0).abs();
     assert!(off < 5e-2 && friction < 5e-2, "H_c {off:.1e}, traction {friction:.1e}");

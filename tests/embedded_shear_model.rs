@@ -39,7 +39,7 @@ fn it_solves_its_range_and_agrees_with_full_solutions() {
             continue;
         }
         let reduced = online.reconstruct(&solved).unwrap();
-        let truth = full.solve(point, SQUALANE_PIP, Start::Cold, &mut ()).unwrap();
+        let truth = full.solve(point, SQUALANE_PIP, Start::Cold, &()).unwrap();
         assert!(truth.converged());
         let slides = point.sliding.slide_to_roll_ratio > 0.0;
         let [h_c, h_min, traction] = errors(&reduced, solved.traction.unwrap(), &truth);

@@ -27,7 +27,7 @@ fn full_solutions_agree_with_independent_ones_on_301_by_41_nodes() {
             sliding: Sliding::NONE,
         };
         assert!((point.lambda_bar() / number("lambda_bar") - 1.0).abs() < 1e-12);
-        let solution = solver.solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+        let solution = solver.solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
         let (s, m) = (&solution.scalars, number("M"));
         assert!(solution.converged() && solution.report.attempts == 1, "M {m}: {:?}", solution.report.termination);
         assert!(s.load_residual < 1e-12, "M {m}: load {}", s.load_residual);
@@ -53,7 +53,7 @@ fn the_corners_of_the_corrected_box_of_table_3_4_converge_from_a_cold_start() {
     let mut solver = PointSolver::new(PointGridSpec { dx: 0.04, ..PointGridSpec::DISSERTATION }).unwrap();
     for corner in 0..16 {
         let point = QuantityBox::TABLE_3_4.at(ContactKind::Point, std::array::from_fn(|k| f64::from(corner >> k & 1)));
-        let solution = solver.solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+        let solution = solver.solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
         assert!(solution.converged(), "{:?}: {:?}", point.moes(), solution.report.termination);
     }
 }

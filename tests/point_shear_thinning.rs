@@ -31,7 +31,7 @@ fn squalane(speed_m_per_s: f64, srr: f64, npr: f64) -> Problem {
 }
 
 fn solve(solver: &mut PointSolver, problem: Problem) -> Solution {
-    let solution = solver.solve_problem(problem, Start::Cold, &mut ()).unwrap();
+    let solution = solver.solve_problem(problem, Start::Cold, &()).unwrap();
     assert!(solution.converged(), "{:?}: {:?}", problem.point.sliding, solution.report);
     solution
 }
@@ -101,7 +101,7 @@ fn sliding_and_plateaus_beyond_table_3_6_converge_and_a_neighbour_is_a_good_star
         }
     }
     let near = solve(&mut solver, squalane(0.74, 0.5, 0.2227));
-    let warm = solver.solve_problem(squalane(0.74, 0.55, 0.25), Start::From(&near), &mut ()).unwrap();
+    let warm = solver.solve_problem(squalane(0.74, 0.55, 0.25), Start::From(&near), &()).unwrap();
     assert!(warm.converged() && warm.report.newton_iterations < near.report.newton_iterations, "{:?}", warm.report);
 }
 

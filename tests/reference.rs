@@ -45,7 +45,7 @@ fn full_solutions_agree_with_independent_ones_to_1e_6() {
     assert_eq!(references.len(), 14);
     let (mut worst, mut worst_load) = (0.0f64, 0.0f64);
     for reference in references {
-        let solution = solver.solve(&reference.point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+        let solution = solver.solve(&reference.point, Lubricant::default(), Start::Cold, &()).unwrap();
         assert!(solution.converged(), "{}", reference.name);
         let s = &solution.scalars;
         let pairs = [
@@ -69,8 +69,8 @@ fn a_warm_start_from_another_contact_and_grid_gives_the_same_solution() {
     let references = references();
     let mut uniform = FullSolver::new(GridSpec::DISSERTATION).unwrap();
     let mut graded = FullSolver::new(GridSpec::EXPLORER).unwrap();
-    let start = graded.solve(&references[1].point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
-    let solution = uniform.solve(&references[0].point, Lubricant::default(), Start::From(&start), &mut ()).unwrap();
+    let start = graded.solve(&references[1].point, Lubricant::default(), Start::Cold, &()).unwrap();
+    let solution = uniform.solve(&references[0].point, Lubricant::default(), Start::From(&start), &()).unwrap();
     assert!(solution.converged());
     assert!((solution.scalars.h_c / references[0].h_c - 1.0).abs() < 1e-6);
 }
@@ -80,7 +80,7 @@ fn a_heavy_load_tends_to_hertz() {
     let deviation = |m: f64| {
         let point = ehl_explorer::scene::At::moes(m, 2.0).point(ContactKind::Line).unwrap();
         let mut solver = FullSolver::new(GridSpec::EXPLORER).unwrap();
-        let solution = solver.solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+        let solution = solver.solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
         assert!(solution.converged());
         let inside = solution.profile().filter(|(x, ..)| x.abs() < 0.8);
         inside.map(|(x, p, _)| (p - (1.0 - x * x).sqrt()).abs()).fold(0.0, f64::max)
@@ -116,7 +116,7 @@ fn a_step_that_damping_made_small_is_no_convergence() {
     let mut uniform = FullSolver::new(GridSpec::DISSERTATION).unwrap();
     for (m, l) in [(5132.0, 2.5), (5751.0, 0.0222), (61.27, 0.4045), (11436.8, 0.0146), (42000.0, 0.6)] {
         let point = ehl_explorer::scene::At::moes(m, l).point(ContactKind::Line).unwrap();
-        let solution = uniform.solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+        let solution = uniform.solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
         let sound = solution.scalars.h_min > 0.0 && solution.report.residual_norm < 1e-6;
         assert!(!solution.converged() || sound, "M {m}, L {l}: residual {}", solution.report.residual_norm);
     }

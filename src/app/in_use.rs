@@ -136,7 +136,7 @@ impl Solvers {
         point: &OperatingPoint,
         lubricant: Lubricant,
         start: Start<'_>,
-        observer: &mut dyn Observer,
+        observer: &dyn Observer,
     ) -> Result<Option<Solution>, SolveError> {
         let window = self.in_use.model.window_for(point.moes());
         let Some(solver) = self.full.get_mut(window) else { return Ok(None) };

@@ -4,10 +4,9 @@
 
 use super::jobs::guarded;
 use super::numbers;
-use std::cell::Cell;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Time between two repaints on behalf of one task.
@@ -62,7 +61,7 @@ impl<M: Send + 'static> Task<M> {
     pub fn start(ctx: &egui::Context, name: &str, work: impl FnOnce(&Reporter<M>) -> Ending + Send + 'static) -> Self {
         let (sender, events) = channel();
         let cancel = Arc::new(AtomicBool::new(false));
-        let last = Cell::new(Instant::now());
+        let last = Mutex::new(Instant::now());
         let reporter = Reporter { events: sender, cancel: Arc::clone(&cancel), ctx: ctx.clone(), last };
         let run = move || {
             let ending = guarded(|| work(&reporter)).and_then(|ending| ending);
@@ -178,7 +177,7 @@ pub struct Reporter<M> {
     events: Sender<Event<M>>,
     cancel: Arc<AtomicBool>,
     ctx: egui::Context,
-    last: Cell<Instant>,
+    last: Mutex<Instant>,
 }
 
 impl<M> Reporter<M> {
@@ -207,8 +206,9 @@ impl<M> Reporter<M> {
     }
 
     fn show(&self) {
-        if self.last.get().elapsed() > REPAINT_EVERY {
-            self.last.set(Instant::now());
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        if last.elapsed() > REPAINT_EVERY {
+            *last = Instant::now();
             self.ctx.request_repaint();
         }
     }

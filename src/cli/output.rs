@@ -1,7 +1,8 @@
 //! Standard output and standard error without panics: a reader that leaves ends the program quietly.
 
 use super::failure::Failure;
-use crate::solver::training::{Progress, TrainingObserver};
+use crate::solver::observer::{Observer, Progress};
+use crate::solver::training::TrainingObserver;
 use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
 use std::sync::Mutex;
@@ -50,7 +51,9 @@ impl ProgressLine {
     }
 }
 
-impl TrainingObserver for ProgressLine {
+impl TrainingObserver for ProgressLine {}
+
+impl Observer for ProgressLine {
     fn progress(&self, progress: Progress) {
         let Ok(mut state) = self.state.lock() else { return };
         let new_stage = state.0 != progress.stage;

@@ -7,7 +7,7 @@ use super::output::{self, ProgressLine};
 use crate::engine::{PointReport, RESULT_COLUMNS, Request, Table, Workbench};
 use crate::scene::check::MAX_POINTS;
 use crate::scene::{Method, Steps, atomic_file};
-use crate::solver::training::{Progress, TrainingObserver};
+use crate::solver::observer::{Observer, Progress};
 use clap::Args;
 use std::path::PathBuf;
 

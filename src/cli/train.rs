@@ -7,7 +7,7 @@ use super::{Verdict, info};
 use crate::engine::training_file::{self, TrainingKeeper};
 use crate::engine::{EngineError, model_file};
 use crate::scene::{Scene, Study};
-use crate::solver::training::{Progress, TrainingObserver, TrainingState, train_resumable};
+use crate::solver::training::{Observer, Progress, TrainingObserver, TrainingState, train_resumable};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -70,11 +70,13 @@ struct Watch {
     keeper: TrainingKeeper,
 }
 
-impl TrainingObserver for Watch {
+impl Observer for Watch {
     fn progress(&self, progress: Progress) {
         self.progress.progress(progress);
     }
+}
 
+impl TrainingObserver for Watch {
     fn checkpoint(&self, state: &TrainingState) {
         self.keeper.checkpoint(state);
     }

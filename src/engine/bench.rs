@@ -114,12 +114,12 @@ pub fn run(quick: bool) -> Result<Bench, EngineError> {
     let newtonian = |point: &OperatingPoint| Problem::new(point, lubricant);
     let problems = points[..FULL_POINTS[size]].iter().map(newtonian).collect::<Result<Vec<_>, _>>()?;
     rows.extend(cold_and_warm(["line/full/cold", "line/full/warm"], ROW_BUDGET[size], &problems, |problem, start| {
-        Ok(solver.solve_problem(problem, start, &mut ()))
+        Ok(solver.solve_problem(problem, start, &()))
     })?);
     let shear = shear_problems(ContactKind::Line, SHEAR_POINTS[size])?;
     let names = ["line/shear/full/cold", "line/shear/full/warm"];
     rows.extend(cold_and_warm(names, ROW_BUDGET[size], &shear, |problem, start| {
-        Ok(solver.solve_problem(problem, start, &mut ()))
+        Ok(solver.solve_problem(problem, start, &()))
     })?);
     match super::embedded_model(ContactKind::Line) {
         Ok(model) => {
@@ -209,7 +209,7 @@ fn point_rows(size: usize, shear: &[Problem]) -> Result<Vec<Timing>, EngineError
         ([POINT_BASELINE, "point/full/warm"], newtonian.as_slice()),
         (["point/shear/full/cold", "point/shear/full/warm"], shear),
     ] {
-        let solve = |problem, start: Start<'_>| solver.solve_problem(problem, start, &mut ());
+        let solve = |problem, start: Start<'_>| solver.solve_problem(problem, start, &());
         rows.extend(cold_and_warm(names, POINT_BUDGET[size], problems, solve)?);
     }
     Ok(rows)

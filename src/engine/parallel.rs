@@ -1,7 +1,6 @@
 //! Many contacts on all cores, full and reduced. Every solve starts afresh, so that neither order nor threads matter.
 
 use super::error::EngineError;
-use super::workbench::Cancel;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::{ContactSolver, Solution, Start};
 use crate::solver::physics::contact::OperatingPoint;
@@ -56,7 +55,7 @@ pub(super) fn full_solutions(
                     solvers.len() - 1
                 }
             };
-            let solution = solvers[place].solve(point, lubricant, Start::Cold, &mut Cancel(observer))?;
+            let solution = solvers[place].solve(point, lubricant, Start::Cold, observer)?;
             count.one_more()?;
             Ok(Some(solution).filter(Solution::converged))
         })

@@ -5,7 +5,7 @@ use super::outcome::SceneOutcome;
 use super::run::step;
 use super::statistics::{median, percentile};
 use super::table::Table;
-use super::workbench::{Cancel, Workbench};
+use super::workbench::Workbench;
 use crate::scene::{Contacts, Method, Scene};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{ErrorSplit, ErrorSplitter, Parts, ReducedOptions, SplitError};
@@ -42,7 +42,7 @@ pub(super) fn run(
     for (i, (c, point)) in points.iter().enumerate() {
         step(observer, "error splits", i, points.len())?;
         let moes = point.moes();
-        match splitter.split(point, scene.lubricant, &mut Cancel(observer)) {
+        match splitter.split(point, scene.lubricant, observer) {
             Ok(split) => {
                 let mut row = vec![*c, moes.m, moes.l, point.alpha_per_pa, split.full.h_c, split.full.h_min];
                 row.extend(numbers(&split));

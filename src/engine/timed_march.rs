@@ -3,7 +3,8 @@
 use super::error::EngineError;
 use super::statistics::median;
 use crate::solver::full::transient::{Marching, Moment, Trajectory, Transient, TransientObserver, march};
-use crate::solver::training::{Progress, TrainingObserver};
+use crate::solver::observer::{Observer, Progress};
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// A march that was timed.
@@ -25,36 +26,46 @@ pub(super) fn timed_march(
     model: &mut dyn Marching,
     transient: &Transient,
     stage: String,
-    observer: &dyn TrainingObserver,
+    observer: &dyn Observer,
 ) -> Result<Timed, EngineError> {
-    let mut clock = StepClock { observer, stage, duration: transient.duration, begun: None, seconds: Vec::new() };
-    let trajectory = march(model, transient, &mut clock)?;
+    let clock = StepClock { observer, stage, duration: transient.duration, steps: Mutex::default() };
+    let trajectory = march(model, transient, &clock)?;
     if observer.cancelled() {
         return Err(EngineError::Cancelled);
     }
-    Ok(Timed { trajectory, seconds: clock.seconds })
+    let steps = clock.steps.into_inner().unwrap_or_else(PoisonError::into_inner);
+    Ok(Timed { trajectory, seconds: steps.seconds })
 }
 
 /// Measures every step, and tells how far the march is in thousandths of its duration.
 struct StepClock<'a> {
-    observer: &'a dyn TrainingObserver,
+    observer: &'a dyn Observer,
     stage: String,
     duration: f64,
+    steps: Mutex<Steps>,
+}
+
+/// When the step under way began, and the seconds of those before.
+#[derive(Default)]
+struct Steps {
     begun: Option<Instant>,
     seconds: Vec<f64>,
 }
 
+impl Observer for StepClock<'_> {
+    fn cancelled(&self) -> bool {
+        self.observer.cancelled()
+    }
+}
+
 impl TransientObserver for StepClock<'_> {
-    fn moment(&mut self, moment: &Moment) {
-        if let Some(begun) = self.begun {
-            self.seconds.push(begun.elapsed().as_secs_f64());
+    fn moment(&self, moment: &Moment) {
+        let mut steps = self.steps.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(begun) = steps.begun {
+            steps.seconds.push(begun.elapsed().as_secs_f64());
         }
         let done = (1000.0 * moment.time / self.duration) as usize;
         self.observer.progress(Progress { stage: self.stage.clone(), done, total: 1000 });
-        self.begun = Some(Instant::now());
-    }
-
-    fn cancelled(&self) -> bool {
-        self.observer.cancelled()
+        steps.begun = Some(Instant::now());
     }
 }

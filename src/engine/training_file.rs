@@ -5,7 +5,7 @@
 
 use super::checked_file::{Flaw, Format, Unreadable};
 use crate::scene::atomic_file::{self, WriteError};
-use crate::solver::training::{TrainingObserver, TrainingSpec, TrainingState, Windows};
+use crate::solver::training::{Observer, TrainingObserver, TrainingSpec, TrainingState, Windows};
 use std::collections::HashSet;
 use std::ffi::OsString;
 use std::io;
@@ -191,6 +191,8 @@ impl TrainingKeeper {
         writer.and_then(|thread| thread.join().ok()).unwrap_or(Ok(()))
     }
 }
+
+impl Observer for TrainingKeeper {}
 
 impl TrainingObserver for TrainingKeeper {
     fn checkpoint(&self, state: &TrainingState) {

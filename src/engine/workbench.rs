@@ -7,7 +7,6 @@ use crate::scene::{Grid, Method, ModelSource, Scene, Study};
 use crate::solver::discrete::grid::{ContactGrid, GridSpec, PointGrid, PointGridSpec, ReferenceGrid};
 use crate::solver::full::point::resolution_warning;
 use crate::solver::full::{FullSolver, PointSolver, Problem, Solution, Start};
-use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{ContactKind, Moes, PLAUSIBLE_HERTZ_PRESSURE_PA};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use crate::solver::reduced::{Online, ReducedError, ReducedModel, ReducedOptions, Trust, Window};
@@ -35,15 +34,6 @@ type Wanted = (ModelSource, ContactKind, bool);
 const KEPT_SOLVERS: usize = 6;
 /// Full solvers of point contacts kept at a time: each holds some hundred megabytes on a fine grid.
 const KEPT_POINT_SOLVERS: usize = 2;
-
-/// Lets a solve see that the run as a whole was cancelled.
-pub(super) struct Cancel<'a>(pub &'a dyn TrainingObserver);
-
-impl Observer for Cancel<'_> {
-    fn cancelled(&self) -> bool {
-        self.0.cancelled()
-    }
-}
 
 impl Workbench {
     /// An empty workbench; relative paths of models refer to the folder `base`.
@@ -240,17 +230,16 @@ impl Workbench {
         observer: &dyn TrainingObserver,
     ) -> Result<Answer, EngineError> {
         let start = start.map_or(Start::Cold, Start::From);
-        let cancel = &mut Cancel(observer);
         let (solution, wall_s) = match problem.point.kind {
             ContactKind::Line => {
                 let solver = self.full_solver(request, observer)?;
                 let clock = Instant::now();
-                (solver.solve_problem(*problem, start, cancel), clock.elapsed().as_secs_f64())
+                (solver.solve_problem(*problem, start, observer), clock.elapsed().as_secs_f64())
             }
             ContactKind::Point => {
                 let solver = self.point_solver(request, observer)?;
                 let clock = Instant::now();
-                (solver.solve_problem(*problem, start, cancel)?, clock.elapsed().as_secs_f64())
+                (solver.solve_problem(*problem, start, observer)?, clock.elapsed().as_secs_f64())
             }
         };
         if observer.cancelled() {

@@ -1,16 +1,22 @@
-//! How a solve tells its caller how far it got, and learns that it is no longer wanted.
+//! How a computation tells its caller how far it got, and learns that it is no longer wanted.
+//!
+//! There is one [`Observer`] for everything that takes long. What tells more than this has a trait of its own on top of it: a march its
+//! moments, a training its state, a study its rows.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Watches a computation. Every method has a default, so `()` watches nothing.
-pub trait Observer {
+/// Watches a computation, from all of its threads. Every method has a default, so `()` watches nothing.
+pub trait Observer: Sync {
     /// Called after every Newton step of a full solve.
-    fn newton_step(&mut self, _step: &NewtonStep) {}
+    fn newton_step(&self, _step: &NewtonStep) {}
 
     /// Called after every Krylov iteration of a point contact's linear solve, with their count within the present Newton step.
-    fn krylov_iteration(&mut self, _count: usize) {}
+    fn krylov_iteration(&self, _count: usize) {}
 
-    /// Asked between steps, and within the long ones; `true` stops the computation with what it has.
+    /// Called as long work of many parts proceeds.
+    fn progress(&self, _progress: Progress) {}
+
+    /// Asked between steps, and every few milliseconds within long ones; `true` stops the computation with what it has.
     fn cancelled(&self) -> bool {
         false
     }
@@ -27,10 +33,21 @@ pub struct NewtonStep {
     pub step: f64,
 }
 
+/// How far long work is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Progress {
+    /// What is being done, for people.
+    pub stage: String,
+    /// Work done.
+    pub done: usize,
+    /// Work in all of this stage.
+    pub total: usize,
+}
+
 impl Observer for () {}
 
 /// Stops a computation from another thread.
-impl Observer for &AtomicBool {
+impl Observer for AtomicBool {
     fn cancelled(&self) -> bool {
         self.load(Ordering::Relaxed)
     }

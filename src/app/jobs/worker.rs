@@ -98,14 +98,14 @@ fn panic_text(payload: &(dyn Any + Send)) -> String {
 
 fn solve(solvers: &mut Solvers, job: &Job, events: &Sender<Event>) -> Outcome {
     let request = &job.request;
-    let mut observer = Reporter { job, events, last_repaint: Instant::now() };
+    let observer = Reporter { job, events, last_repaint: Mutex::new(Instant::now()) };
     let prepared = match solvers.of(&request.grid) {
         Ok(solver) => solver,
         Err(error) => return Outcome::Failed(error.to_string()),
     };
     let start = request.start.as_deref().map_or(Start::Cold, Start::From);
     let begin = Instant::now();
-    match prepared.solve(&request.key.point, request.key.lubricant, start, &mut observer) {
+    match prepared.solve(&request.key.point, request.key.lubricant, start, &observer) {
         Ok(solution) => Outcome::Solved(Box::new(solution), begin.elapsed().as_secs_f64()),
         Err(error) => Outcome::Failed(error.to_string()),
     }
@@ -115,24 +115,25 @@ fn solve(solvers: &mut Solvers, job: &Job, events: &Sender<Event>) -> Outcome {
 struct Reporter<'a> {
     job: &'a Job,
     events: &'a Sender<Event>,
-    last_repaint: Instant,
+    last_repaint: Mutex<Instant>,
 }
 
 impl Reporter<'_> {
-    fn send(&mut self, event: Event) {
-        if self.events.send(event).is_ok() && self.last_repaint.elapsed() > Duration::from_millis(50) {
-            self.last_repaint = Instant::now();
+    fn send(&self, event: Event) {
+        let mut last = self.last_repaint.lock().unwrap_or_else(PoisonError::into_inner);
+        if self.events.send(event).is_ok() && last.elapsed() > Duration::from_millis(50) {
+            *last = Instant::now();
             self.job.ctx.request_repaint();
         }
     }
 }
 
 impl Observer for Reporter<'_> {
-    fn newton_step(&mut self, step: &NewtonStep) {
+    fn newton_step(&self, step: &NewtonStep) {
         self.send(Event::Step(self.job.id, *step));
     }
 
-    fn krylov_iteration(&mut self, count: usize) {
+    fn krylov_iteration(&self, count: usize) {
         self.send(Event::Krylov(self.job.id, count));
     }
 

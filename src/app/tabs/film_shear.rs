@@ -206,7 +206,7 @@ mod tests {
         let sliding = Sliding { slide_to_roll_ratio: 0.5, newtonian_plateau_ratio: None };
         let point = OperatingPoint { sliding, ..squalane.studied_contact(ContactKind::Line).unwrap() };
         let mut solver = FullSolver::new(GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) }).unwrap();
-        let solution = solver.solve(&point, squalane.laws, Start::Cold, &mut ()).unwrap();
+        let solution = solver.solve(&point, squalane.laws, Start::Cold, &()).unwrap();
         assert!(solution.converged());
         let stress = values(&solution, FilmShear::Stress);
         let at = |row: usize, column: usize| stress[row * COLUMNS + column];

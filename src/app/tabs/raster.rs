@@ -130,7 +130,7 @@ mod tests {
     fn a_picture_is_symmetric_and_shows_the_nodes_it_was_made_of() {
         let spec = PointGridSpec::uniform(0.1, 0.1, (-3.0, 1.8, -1.4));
         let point = si_from_moes(&MoesRequest::new(ContactKind::Point, 30.0, 5.0)).unwrap();
-        let s = PointSolver::new(spec).unwrap().solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+        let s = PointSolver::new(spec).unwrap().solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
         let raster = Raster::new((&s.x, &s.y), &s.pressure, 1.0);
         let top = s.scalars.p_max;
         let image = raster.colored(&color_map::table(false), (0.0, top));

@@ -37,7 +37,7 @@ fn work(
         let grid = GridChoice::of(model, plane, point.moes());
         let solver = solvers.of(&grid).map_err(|refused| refused.to_string())?;
         let start = former.as_ref().map_or(Start::Cold, Start::From);
-        let solution = solver.solve(&point, sweep.base.lubricant, start, &mut reporter.observer());
+        let solution = solver.solve(&point, sweep.base.lubricant, start, reporter.observer());
         let solution = solution.map_err(|refused| refused.to_string())?;
         if reporter.cancelled() {
             return Ok(());

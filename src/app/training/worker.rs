@@ -6,7 +6,7 @@ use crate::engine::training_file::{self, TrainingKeeper};
 use crate::engine::{ModelComparison, compare_models, model_file};
 use crate::solver::reduced::ReducedModel;
 use crate::solver::training::{
-    Plan, Progress, TrainingError, TrainingObserver, TrainingSpec, TrainingState, Windows, train_resumable,
+    Observer, Plan, Progress, TrainingError, TrainingObserver, TrainingSpec, TrainingState, Windows, train_resumable,
 };
 use std::collections::VecDeque;
 use std::path::PathBuf;
@@ -231,11 +231,17 @@ impl Watch {
     }
 }
 
-impl TrainingObserver for Watch {
+impl Observer for Watch {
     fn progress(&self, progress: Progress) {
         self.change(|live| live.progress = Some(progress));
     }
 
+    fn cancelled(&self) -> bool {
+        self.cancel.load(Ordering::Relaxed)
+    }
+}
+
+impl TrainingObserver for Watch {
     fn checkpoint(&self, state: &TrainingState) {
         if let Some(keeper) = &self.keeper {
             keeper.checkpoint(state);
@@ -251,10 +257,6 @@ impl TrainingObserver for Watch {
             }
             live.chart = chart;
         });
-    }
-
-    fn cancelled(&self) -> bool {
-        self.cancel.load(Ordering::Relaxed)
     }
 }
 

@@ -5,10 +5,11 @@ use super::Run;
 use super::method::{RULES, WEIGHTINGS, rule_name};
 use crate::app::task::{Background, Ending, Reporter, Task};
 use crate::solver::full::transient::{Keep, Moment, Quantity, Trajectory, Transient, TransientObserver, march};
+use crate::solver::observer::Observer;
 use crate::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, Weight, Weighting};
 use crate::solver::training::aside;
 use egui::Context;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 /// A linearised model with what is shown of it.
@@ -152,7 +153,7 @@ fn work(model: &Arc<TpwlModel>, full: &Trajectory, reporter: &Reporter<NumberRow
             let stage = format!("Number of operating points, {}", rule_name(rule).0);
             reporter.stage(&stage, last, most);
             let shared = Arc::clone(model);
-            let Ok(made) = aside(&reporter.observer(), move || shared.reselected(selection)) else { return Ok(()) };
+            let Ok(made) = aside(reporter.observer(), move || shared.reselected(selection)) else { return Ok(()) };
             let made = made.map_err(|error| error.to_string())?;
             let points = made.points.len();
             if points >= LEAST_POINTS && points > last {
@@ -182,32 +183,36 @@ fn tried(
     reporter: &Reporter<NumberRow>,
 ) -> Result<NumberRow, String> {
     let mut marching = TpwlMarch::new(model, transient, weighting).map_err(|error| error.to_string())?;
-    let mut clock = Clock { reporter, since: Instant::now(), seconds: Vec::new() };
-    let trajectory = march(&mut marching, transient, &mut clock).map_err(|error| error.to_string())?;
+    let clock = Clock { reporter, steps: Mutex::new((Instant::now(), Vec::new())) };
+    let trajectory = march(&mut marching, transient, &clock).map_err(|error| error.to_string())?;
+    let (_, seconds) = clock.steps.into_inner().unwrap_or_else(PoisonError::into_inner);
     let difference = trajectory.difference(full, Quantity::CentralFilm, (0.0, transient.duration));
     Ok(NumberRow {
         selection: model.training.selection,
         points: model.points.len(),
         weighting,
         difference: difference.filter(|_| trajectory.finished()).map(|(_, l2)| l2),
-        step_s: crate::engine::median(clock.seconds.get(1..).unwrap_or(&[])),
+        step_s: crate::engine::median(seconds.get(1..).unwrap_or(&[])),
     })
 }
 
 /// Measures every step, and stops with the study.
 struct Clock<'a> {
     reporter: &'a Reporter<NumberRow>,
-    since: Instant,
-    seconds: Vec<f64>,
+    steps: Mutex<(Instant, Vec<f64>)>,
+}
+
+impl Observer for Clock<'_> {
+    fn cancelled(&self) -> bool {
+        self.reporter.cancelled()
+    }
 }
 
 impl TransientObserver for Clock<'_> {
-    fn moment(&mut self, _moment: &Moment) {
-        self.seconds.push(self.since.elapsed().as_secs_f64());
-        self.since = Instant::now();
-    }
-
-    fn cancelled(&self) -> bool {
-        self.reporter.cancelled()
+    fn moment(&self, _moment: &Moment) {
+        let mut steps = self.steps.lock().unwrap_or_else(PoisonError::into_inner);
+        let seconds = steps.0.elapsed().as_secs_f64();
+        steps.1.push(seconds);
+        steps.0 = Instant::now();
     }
 }

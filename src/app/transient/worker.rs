@@ -11,11 +11,12 @@ use crate::solver::full::Mesh;
 use crate::solver::full::transient::{
     Ended, Frame, FullMarch, Keep, Marching, Moment, State, TimeStep, Trajectory, Transient, TransientObserver, march,
 };
+use crate::solver::observer::Observer;
 use crate::solver::reduced::tpwl::{TpwlError, TpwlMarch, TpwlRecord};
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel};
 use crate::solver::training::{TrainingError, TrajectoryTraining, aside, train_trajectories};
 use egui::Context;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 /// Fields that are kept of a run, evenly over its duration: what the player shows.
@@ -124,7 +125,7 @@ fn linearise(
     reporter: &Reporter<News>,
 ) -> Result<Option<Linearised>, String> {
     let settings = linearised.clone();
-    let made = aside(&reporter.observer(), move || {
+    let made = aside(reporter.observer(), move || {
         let model = train_linearised(&settings, &trained.iter().collect::<Vec<_>>())?;
         let other = OtherRule::of(&model);
         let trainings = trained.iter().map(|trajectory| trajectory.moments.clone()).collect();
@@ -158,8 +159,8 @@ fn run(
         ended: Ended::Finished,
     };
     reporter.send(News::Begun { method, trajectory: Box::new(trajectory), model: size });
-    let mut watch = Watch::new(run_name(method, transient.frame), transient, reporter, true);
-    let trajectory = march(model, transient, &mut watch).map_err(said)?;
+    let watch = Watch::new(run_name(method, transient.frame), transient, reporter, true);
+    let trajectory = march(model, transient, &watch).map_err(said)?;
     reporter.send(News::Ended(trajectory.ended.clone(), trajectory.rejected_steps));
     Ok(trajectory)
 }
@@ -179,9 +180,9 @@ fn trainings(
     let mut marched = Vec::with_capacity(transients.len());
     for (k, transient) in transients.iter().enumerate() {
         let stage = format!("Training {} of {}", k + 1, transients.len());
-        let mut watch = Watch::new(stage.clone(), transient, reporter, false);
+        let watch = Watch::new(stage.clone(), transient, reporter, false);
         let mut model = FullMarch::new(Arc::clone(grid), transient).map_err(said)?;
-        let trajectory = march(&mut model, transient, &mut watch).map_err(said)?;
+        let trajectory = march(&mut model, transient, &watch).map_err(said)?;
         if reporter.cancelled() {
             return Ok(None);
         }
@@ -202,7 +203,7 @@ fn train(
 ) -> Result<Option<TrajectoryModel>, String> {
     reporter.stage("Reduced model from the trajectories", 0, 0);
     let settings = TrajectoryTraining { loss: reduced.loss, rows_per_mode: reduced.rows_per_mode, seed: reduced.seed };
-    match train_trajectories(grid, trained, &settings, &reporter.observer()) {
+    match train_trajectories(grid, trained, &settings, reporter.observer()) {
         Ok(model) => Ok(Some(model)),
         Err(TrainingError::Cancelled) => Ok(None),
         Err(error) => Err(said(error)),
@@ -217,6 +218,11 @@ struct Watch<'a> {
     time_step: TimeStep,
     /// Whether its moments are shown.
     shown: bool,
+    progress: Mutex<MarchProgress>,
+}
+
+/// How far the march that is watched is.
+struct MarchProgress {
     steps: usize,
     time: f64,
     next_picture: f64,
@@ -227,49 +233,48 @@ impl<'a> Watch<'a> {
     fn new(stage: String, transient: &Transient, reporter: &'a Reporter<News>, shown: bool) -> Self {
         reporter.stage(&stage, 0, 0);
         let (duration, time_step) = (transient.duration, transient.time_step);
-        Self {
-            reporter,
-            stage,
-            duration,
-            time_step,
-            shown,
-            steps: 0,
-            time: 0.0,
-            next_picture: 0.0,
-            since: Instant::now(),
-        }
+        let progress = Mutex::new(MarchProgress { steps: 0, time: 0.0, next_picture: 0.0, since: Instant::now() });
+        Self { reporter, stage, duration, time_step, shown, progress }
+    }
+
+    fn progress(&self) -> MutexGuard<'_, MarchProgress> {
+        self.progress.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Observer for Watch<'_> {
+    fn cancelled(&self) -> bool {
+        self.reporter.cancelled()
     }
 }
 
 impl TransientObserver for Watch<'_> {
-    fn moment(&mut self, moment: &Moment) {
-        let seconds = self.since.elapsed().as_secs_f64();
-        self.since = Instant::now();
-        self.time = moment.time;
+    fn moment(&self, moment: &Moment) {
+        let mut progress = self.progress();
+        let seconds = progress.since.elapsed().as_secs_f64();
+        progress.since = Instant::now();
+        progress.time = moment.time;
         if self.shown {
             self.reporter.send(News::Moment(*moment, seconds));
         }
         let (done, total) = match self.time_step {
-            TimeStep::Fixed(step) => (self.steps, (self.duration / step).round() as usize),
+            TimeStep::Fixed(step) => (progress.steps, (self.duration / step).round() as usize),
             TimeStep::Adaptive { .. } => ((100.0 * moment.time / self.duration) as usize, 100),
         };
-        self.steps += 1;
+        progress.steps += 1;
         self.reporter.stage(&self.stage, done.min(total), total);
     }
 
     fn wants_state(&self) -> bool {
         // Rounding must not leave out every second step of as many as there are pictures.
-        let due = self.time >= self.next_picture - 1e-9 * self.duration || self.time >= self.duration;
+        let MarchProgress { time, next_picture, .. } = *self.progress();
+        let due = time >= next_picture - 1e-9 * self.duration || time >= self.duration;
         self.shown && due
     }
 
-    fn state(&mut self, state: &State) {
+    fn state(&self, state: &State) {
         let interval = self.duration / PICTURES;
-        self.next_picture = interval * ((state.time / interval + 1e-6).floor() + 1.0);
+        self.progress().next_picture = interval * ((state.time / interval + 1e-6).floor() + 1.0);
         self.reporter.send(News::State(state.clone()));
-    }
-
-    fn cancelled(&self) -> bool {
-        self.reporter.cancelled()
     }
 }

@@ -24,13 +24,7 @@ pub(super) trait Attempts {
     const EASY_L: (f64, f64);
 
     /// One run of Newton's method, which counts in the report.
-    fn attempt(
-        &mut self,
-        problem: &Problem,
-        beginning: Beginning<'_>,
-        observer: &mut dyn Observer,
-        report: &mut Report,
-    );
+    fn attempt(&mut self, problem: &Problem, beginning: Beginning<'_>, observer: &dyn Observer, report: &mut Report);
 
     /// The present state as a solution.
     fn solution(&mut self, problem: Problem, report: Report) -> Solution;
@@ -41,7 +35,7 @@ pub(super) fn solve<S: Attempts>(
     solver: &mut S,
     problem: Problem,
     former: Option<&Solution>,
-    observer: &mut dyn Observer,
+    observer: &dyn Observer,
 ) -> Solution {
     let mut report = Report::empty();
     let cold = S::COLD_FILMS.into_iter().map(Beginning::Cold);
@@ -63,7 +57,7 @@ pub(super) fn solve<S: Attempts>(
 }
 
 /// Walks from an easier contact to the wanted one in steps that shrink on failure.
-fn continuation<S: Attempts>(solver: &mut S, problem: &Problem, observer: &mut dyn Observer, report: &mut Report) {
+fn continuation<S: Attempts>(solver: &mut S, problem: &Problem, observer: &dyn Observer, report: &mut Report) {
     let target = problem.moes;
     let easy = Moes { m: target.m.clamp(S::EASY_M.0, S::EASY_M.1), l: target.l.clamp(S::EASY_L.0, S::EASY_L.1) };
     let point_at = |t: f64| {

@@ -43,7 +43,7 @@ impl ContactSolver {
         point: &OperatingPoint,
         lubricant: Lubricant,
         start: Start<'_>,
-        observer: &mut dyn Observer,
+        observer: &dyn Observer,
     ) -> Result<Solution, SolveError> {
         match self {
             Self::Line(solver) => solver.solve(point, lubricant, start, observer),

@@ -55,7 +55,7 @@ mod tests {
     fn cuts_meet_the_nodes_and_each_other_and_are_symmetric() {
         let spec = PointGridSpec::uniform(0.1, 0.1, (-3.0, 1.8, -1.4));
         let point = si_from_moes(&MoesRequest::new(ContactKind::Point, 30.0, 5.0)).unwrap();
-        let s = PointSolver::new(spec).unwrap().solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+        let s = PointSolver::new(spec).unwrap().solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
         let axis: Vec<_> = s.profile().collect();
         assert_eq!(s.along(0.0), axis);
         let (i, j) = (30, 9);

@@ -186,13 +186,7 @@ impl LineSystem {
     }
 
     /// Newton's method from the current state.
-    pub fn newton(
-        &mut self,
-        problem: &Problem,
-        options: &SolveOptions,
-        observer: &mut dyn Observer,
-        report: &mut Report,
-    ) {
+    pub fn newton(&mut self, problem: &Problem, options: &SolveOptions, observer: &dyn Observer, report: &mut Report) {
         self.treatment = options.film;
         if let Some(shear) = &mut self.shear {
             shear.forget();

@@ -55,13 +55,13 @@ impl FullSolver {
         point: &OperatingPoint,
         lubricant: Lubricant,
         start: Start<'_>,
-        observer: &mut dyn Observer,
+        observer: &dyn Observer,
     ) -> Result<Solution, SolveError> {
         Ok(self.solve_problem(Problem::of_kind(ContactKind::Line, point, lubricant)?, start, observer))
     }
 
     /// The same for a problem that exists already, under sliding for instance.
-    pub fn solve_problem(&mut self, problem: Problem, start: Start<'_>, observer: &mut dyn Observer) -> Solution {
+    pub fn solve_problem(&mut self, problem: Problem, start: Start<'_>, observer: &dyn Observer) -> Solution {
         let former = match start {
             Start::From(former @ Solution { mesh: Mesh::Line { .. }, .. }) => Some(former),
             _ => None,
@@ -91,13 +91,7 @@ impl Attempts for FullSolver {
     const EASY_M: (f64, f64) = (15.0, 60.0);
     const EASY_L: (f64, f64) = (2.0, 8.0);
 
-    fn attempt(
-        &mut self,
-        problem: &Problem,
-        beginning: Beginning<'_>,
-        observer: &mut dyn Observer,
-        report: &mut Report,
-    ) {
+    fn attempt(&mut self, problem: &Problem, beginning: Beginning<'_>, observer: &dyn Observer, report: &mut Report) {
         report.attempts += 1;
         let grid = self.reference.for_contact(problem.moes);
         // A grid with another scale has other coefficients; without registration the system is reused as it is.

@@ -6,7 +6,7 @@ use crate::solver::discrete::grid::{FIRST_UNKNOWN, GridSpec};
 use crate::solver::observer::{NewtonStep, Observer};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::physics::lubricant::{DensityLaw, Lubricant, ViscosityLaw};
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 const COARSE: GridSpec = GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) };
 
@@ -16,7 +16,7 @@ fn at(m: f64, l: f64) -> OperatingPoint {
 
 fn solve(spec: GridSpec, point: &OperatingPoint) -> Solution {
     let mut solver = FullSolver::new(spec).unwrap();
-    solver.solve(point, Lubricant::default(), Start::Cold, &mut ()).unwrap()
+    solver.solve(point, Lubricant::default(), Start::Cold, &()).unwrap()
 }
 
 #[test]
@@ -89,7 +89,7 @@ fn heavy_load_tends_to_hertz_and_light_load_to_the_rigid_solution() {
         si_from_moes(&MoesRequest { alpha_per_pa: Some(1e-11), ..MoesRequest::new(ContactKind::Line, 0.3, 0.01) })
             .unwrap();
     let grid = GridSpec::Graded { nodes: 800, domain: (-150.0, 15.0), registered: false };
-    let s = FullSolver::new(grid).unwrap().solve(&point, rigid, Start::Cold, &mut ()).unwrap();
+    let s = FullSolver::new(grid).unwrap().solve(&point, rigid, Start::Cold, &()).unwrap();
     assert!(s.converged(), "{:?}", s.report.termination);
     let film_number = s.scalars.h_c * point.film_scale_m() / point.radius_m / point.speed_group().sqrt();
     let martin = 2.448 / 0.3;
@@ -102,7 +102,7 @@ fn only_the_dimensionless_groups_matter_to_an_incompressible_barus_fluid() {
         Lubricant { density: DensityLaw::Incompressible, viscosity: ViscosityLaw::Barus, ..Lubricant::default() };
     let film = |request: MoesRequest| {
         let point = si_from_moes(&request).unwrap();
-        let s = FullSolver::new(COARSE).unwrap().solve(&point, laws, Start::Cold, &mut ()).unwrap();
+        let s = FullSolver::new(COARSE).unwrap().solve(&point, laws, Start::Cold, &()).unwrap();
         assert!(s.converged());
         s.scalars.h_c
     };
@@ -121,14 +121,14 @@ fn only_the_dimensionless_groups_matter_to_an_incompressible_barus_fluid() {
 fn a_warm_start_is_much_cheaper_than_a_cold_one_also_from_another_grid() {
     let mut solver = FullSolver::new(GridSpec::DISSERTATION).unwrap();
     let point = at(30.0, 8.0);
-    let cold = solver.solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+    let cold = solver.solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
     assert!(cold.report.newton_iterations <= 30 && cold.report.linear_iterations <= 250, "{:?}", cold.report);
-    let near = solver.solve(&at(32.0, 8.3), Lubricant::default(), Start::From(&cold), &mut ()).unwrap();
+    let near = solver.solve(&at(32.0, 8.3), Lubricant::default(), Start::From(&cold), &()).unwrap();
     assert!(near.converged() && near.report.newton_iterations <= 12, "{}", near.report.newton_iterations);
-    let again = solver.solve(&point, Lubricant::default(), Start::From(&cold), &mut ()).unwrap();
+    let again = solver.solve(&point, Lubricant::default(), Start::From(&cold), &()).unwrap();
     assert!(again.report.newton_iterations <= 2, "{}", again.report.newton_iterations);
     let graded = solve(GridSpec::EXPLORER, &point);
-    let from_other = solver.solve(&point, Lubricant::default(), Start::From(&graded), &mut ()).unwrap();
+    let from_other = solver.solve(&point, Lubricant::default(), Start::From(&graded), &()).unwrap();
     assert!(from_other.converged() && from_other.report.attempts == 1);
     assert!((from_other.scalars.h_c / cold.scalars.h_c - 1.0).abs() < 1e-9);
 }
@@ -159,28 +159,28 @@ fn the_explorers_grid_is_within_its_stated_error() {
 fn what_does_not_converge_says_so() {
     let mut solver = FullSolver::new(GridSpec::DISSERTATION).unwrap();
     solver.options.max_newton = 3;
-    let s = solver.solve(&at(40.0, 10.0), Lubricant::default(), Start::Cold, &mut ()).unwrap();
+    let s = solver.solve(&at(40.0, 10.0), Lubricant::default(), Start::Cold, &()).unwrap();
     assert!(!s.converged());
     assert!(s.report.termination.describe().contains("try"));
 }
 
 #[test]
 fn cancelling_stops_after_the_step_under_way() {
-    struct After(usize, usize);
+    struct After(usize, AtomicUsize);
     impl Observer for After {
-        fn newton_step(&mut self, _: &NewtonStep) {
-            self.1 += 1;
+        fn newton_step(&self, _: &NewtonStep) {
+            self.1.fetch_add(1, Ordering::Relaxed);
         }
         fn cancelled(&self) -> bool {
-            self.1 >= self.0
+            self.1.load(Ordering::Relaxed) >= self.0
         }
     }
     let mut solver = FullSolver::new(GridSpec::DISSERTATION).unwrap();
-    let mut after = After(2, 0);
-    let s = solver.solve(&at(40.0, 10.0), Lubricant::default(), Start::Cold, &mut after).unwrap();
-    assert_eq!((s.report.termination, after.1), (Termination::Cancelled, 2));
+    let after = After(2, AtomicUsize::new(0));
+    let s = solver.solve(&at(40.0, 10.0), Lubricant::default(), Start::Cold, &after).unwrap();
+    assert_eq!((s.report.termination, after.1.into_inner()), (Termination::Cancelled, 2));
     let flag = AtomicBool::new(true);
-    let s = solver.solve(&at(40.0, 10.0), Lubricant::default(), Start::Cold, &mut &flag).unwrap();
+    let s = solver.solve(&at(40.0, 10.0), Lubricant::default(), Start::Cold, &flag).unwrap();
     assert_eq!(s.report.newton_iterations, 0);
 }
 

@@ -270,9 +270,8 @@ mod tests {
     fn the_state_error_vanishes_for_the_same_solution_and_sees_each_part() {
         let options = ReducedOptions::default();
         for_solutions(Sampling::QDeim, options, |window, online, solved| {
-            let full = ContactSolver::on(&window.grid)
-                .solve(&solved.point, Lubricant::default(), Start::Cold, &mut ())
-                .unwrap();
+            let full =
+                ContactSolver::on(&window.grid).solve(&solved.point, Lubricant::default(), Start::Cold, &()).unwrap();
             for norm in [Norm::Euclidean, Norm::Quadrature] {
                 let measures = ErrorMeasures::new(window, &options, norm);
                 assert_eq!(measures.state_error(&full, &full), 0.0);

@@ -174,7 +174,7 @@ impl ErrorSplitter {
         &mut self,
         point: &OperatingPoint,
         lubricant: Lubricant,
-        observer: &mut dyn Observer,
+        observer: &dyn Observer,
     ) -> Result<ErrorSplit, SplitError> {
         let Self { sampled, windows } = self;
         sampled.forget();

@@ -45,7 +45,7 @@ fn points() -> Vec<OperatingPoint> {
 }
 
 fn full(grid: &Arc<ReferenceGrid>, point: &OperatingPoint) -> Solution {
-    let solution = FullSolver::on(Arc::clone(grid)).solve(point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+    let solution = FullSolver::on(Arc::clone(grid)).solve(point, Lubricant::default(), Start::Cold, &()).unwrap();
     assert!(solution.converged());
     solution
 }
@@ -58,7 +58,7 @@ fn the_parts_add_up_to_what_verification_and_extrapolation_see() {
     let grid = model.windows[0].grid.line().unwrap();
     let finer = grid.refined().unwrap();
     for point in points() {
-        let split = splitter.split(&point, Lubricant::default(), &mut ()).unwrap();
+        let split = splitter.split(&point, Lubricant::default(), &()).unwrap();
         online.forget();
         let solved = online.solve(&point, Lubricant::default()).unwrap();
         let reduced = online.scalars(&solved).unwrap();
@@ -82,7 +82,7 @@ fn with_all_rows_there_is_no_sampling_error_and_fewer_modes_cost_basis() {
     let model = model(Sampling::All);
     let few = ReducedOptions { pressure_modes: Some(20), ..ReducedOptions::default() };
     let point = points()[1];
-    let split = |options| ErrorSplitter::new(Arc::clone(&model), options).split(&point, Lubricant::default(), &mut ());
+    let split = |options| ErrorSplitter::new(Arc::clone(&model), options).split(&point, Lubricant::default(), &());
     let (all, few) = (split(ReducedOptions::default()).unwrap(), split(few).unwrap());
     assert!(all.h_c.sampling.abs() < 1e-12 && all.pressure.sampling < 1e-12, "{all:?}");
     assert!(few.pressure.basis > 3.0 * all.pressure.basis, "{:?} {:?}", few.pressure, all.pressure);
@@ -97,7 +97,7 @@ fn the_discretisation_part_is_what_much_finer_grids_say() {
     let finest = coarse.refined().unwrap().refined().unwrap();
     let limit = finest.refined().unwrap();
     for point in points() {
-        let split = splitter.split(&point, Lubricant::default(), &mut ()).unwrap();
+        let split = splitter.split(&point, Lubricant::default(), &()).unwrap();
         let here = full(coarse, &point).scalars;
         let (a, b) = (full(&finest, &point).scalars, full(&limit, &point).scalars);
         let error = |here: f64, a: f64, b: f64| here - (4.0 * b - a) / 3.0;
@@ -146,11 +146,10 @@ fn a_point_contacts_error_has_the_same_parts() {
         ..points()[0]
     };
     let split = ErrorSplitter::new(Arc::clone(&model), ReducedOptions::default())
-        .split(&point, Lubricant::default(), &mut ())
+        .split(&point, Lubricant::default(), &())
         .unwrap();
-    let solved = |spec| {
-        PointSolver::new(spec).unwrap().solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap().scalars
-    };
+    let solved =
+        |spec| PointSolver::new(spec).unwrap().solve(&point, Lubricant::default(), Start::Cold, &()).unwrap().scalars;
     let (full, finer) = (solved(spec), solved(PointGridSpec::uniform(0.03, 0.05, (-2.7, 1.5, -1.5))));
     let reduction = |reduced: f64, full: f64| reduced / full - 1.0;
     assert!((split.h_c.reduction() - reduction(split.scalars.h_c, full.h_c)).abs() < 1e-6, "{:?}", split.h_c);
@@ -174,9 +173,9 @@ fn a_split_can_be_stopped_and_says_what_failed() {
     let model = model(Sampling::QDeim);
     let mut splitter = ErrorSplitter::new(model, ReducedOptions::default());
     let stop = AtomicBool::new(true);
-    let error = splitter.split(&points()[1], Lubricant::default(), &mut &stop).unwrap_err();
+    let error = splitter.split(&points()[1], Lubricant::default(), &stop).unwrap_err();
     assert_eq!(error, SplitError::Cancelled);
-    splitter.split(&points()[1], Lubricant::default(), &mut ()).unwrap();
+    splitter.split(&points()[1], Lubricant::default(), &()).unwrap();
     let bad = OperatingPoint { load: -1.0, ..points()[0] };
-    assert!(splitter.split(&bad, Lubricant::default(), &mut ()).unwrap_err().to_string().contains("load"));
+    assert!(splitter.split(&bad, Lubricant::default(), &()).unwrap_err().to_string().contains("load"));
 }

@@ -61,7 +61,7 @@ mod tests {
             time_step: TimeStep::Fixed(step),
             keep: Keep::Every(5),
         };
-        let trajectory = transient::solve(spec, &asked, &mut ()).unwrap();
+        let trajectory = transient::solve(spec, &asked, &()).unwrap();
         let grid = spec.build().unwrap().scaled(1.0);
         let penalty = 1e4;
         let sizes = mean_diagonals(&grid, &[&trajectory], penalty);

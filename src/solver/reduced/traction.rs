@@ -93,7 +93,7 @@ mod tests {
             let point = si_from_moes(&MoesRequest::new(kind, 30.0, 5.0)).unwrap();
             let sliding = Sliding { slide_to_roll_ratio: 0.4, newtonian_plateau_ratio: None };
             let point = OperatingPoint { sliding, ..point };
-            let solution = ContactSolver::on(&grid).solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+            let solution = ContactSolver::on(&grid).solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
             let stress = solution.mid_film_stress();
             let force: f64 = quadrature(&grid).iter().zip(&stress).map(|(weight, stress)| weight * stress).sum();
             let wanted = solution.traction_coefficient();

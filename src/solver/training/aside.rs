@@ -1,6 +1,7 @@
 //! Work that nothing can interrupt (a decomposition, a kernel, a plan of many points), done so that a cancel need not wait for it.
 
-use super::{TrainingError, TrainingObserver};
+use super::TrainingError;
+use crate::solver::observer::Observer;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
@@ -15,7 +16,7 @@ const PATIENCE: Duration = Duration::from_millis(10);
 /// # Errors
 /// When the observer cancels.
 pub fn aside<T: Send + 'static>(
-    observer: &dyn TrainingObserver,
+    observer: &dyn Observer,
     work: impl FnOnce() -> T + Send + 'static,
 ) -> Result<T, TrainingError> {
     if observer.cancelled() {

@@ -10,7 +10,6 @@ use super::{
 };
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::{ContactSolver, Start};
-use crate::solver::observer::Observer;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::ShearLaw;
 use crate::solver::reduced::{
@@ -22,14 +21,6 @@ use fastrand::Rng;
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-pub(super) struct Cancel<'a>(pub &'a dyn TrainingObserver);
-
-impl Observer for Cancel<'_> {
-    fn cancelled(&self) -> bool {
-        self.0.cancelled()
-    }
-}
 
 /// Trains a model: full solutions on all cores, then bases, sampling and operators.
 ///
@@ -263,7 +254,7 @@ impl<'a> Shop<'a> {
                     if observer.cancelled() {
                         return Err(TrainingError::Cancelled);
                     }
-                    let solution = solver.solve(point, spec.lubricant, Start::Cold, &mut Cancel(observer))?;
+                    let solution = solver.solve(point, spec.lubricant, Start::Cold, observer)?;
                     let done = done.fetch_add(1, Ordering::Relaxed) + 1;
                     observer.progress(Progress { stage: stage.clone(), done, total });
                     if solution.converged() {

@@ -192,7 +192,7 @@ mod tests {
         let mut solver = FullSolver::new(grid).unwrap();
         let (mut kept, mut z) = (Vec::new(), Vec::new());
         for point in points() {
-            let solution = solver.solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+            let solution = solver.solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
             if solution.converged() {
                 kept.push(point);
                 z.push(solution.pressure);

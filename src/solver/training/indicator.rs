@@ -181,7 +181,7 @@ impl Corrector {
     fn solved(&mut self, before: &Solution) -> Option<Corrected> {
         let Problem { point, lubricant, .. } = &before.problem;
         let full = self.full.get_or_insert_with(|| ContactSolver::on(&self.grid));
-        let solution = full.solve(point, *lubricant, Start::From(before), &mut ()).ok()?;
+        let solution = full.solve(point, *lubricant, Start::From(before), &()).ok()?;
         let traction = Some(solution.traction_coefficient());
         let converged = solution.converged();
         let Solution { pressure, film, scalars, .. } = solution;
@@ -199,7 +199,7 @@ impl Corrector {
                 system.set_pressure(problem, &before.pressure);
                 system.set_central_film(before.scalars.h_c);
                 let options = SolveOptions { max_newton, shortest_step: 1.0, ..SolveOptions::default() };
-                system.newton(problem, &options, &mut (), &mut report);
+                system.newton(problem, &options, &(), &mut report);
                 let scalars = scalars_of(&system.grid, problem, &system.pressure, &system.film, system.h_0);
                 Corrected { pressure: system.pressure, film: system.film, scalars, traction: None }
             }
@@ -208,7 +208,7 @@ impl Corrector {
                 system.set_pressure(problem, &before.pressure);
                 system.set_central_film(before.scalars.h_c);
                 let options = PointOptions { max_newton, ..PointOptions::default() };
-                system.newton(problem, &options, &mut (), &mut report);
+                system.newton(problem, &options, &(), &mut report);
                 let scalars = point_scalars_of(grid, problem, &system.pressure, &system.film, system.h_0);
                 let (pressure, film) = (system.pressure.clone(), system.film.clone());
                 Corrected { pressure, film, scalars, traction: None }

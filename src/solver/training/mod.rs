@@ -26,6 +26,7 @@ mod trajectories;
 #[cfg(test)]
 mod trajectories_tests;
 
+pub use crate::solver::observer::{Observer, Progress};
 pub use adaptive::{BadPoint, Search};
 pub use aside::aside;
 pub use build::train;
@@ -43,7 +44,7 @@ use super::physics::contact::ContactKind;
 use super::physics::lubricant::Lubricant;
 use super::reduced::{Domain, Sampling};
 use serde::{Deserialize, Serialize};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 /// Where the training solutions are taken.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -219,37 +220,16 @@ pub struct WindowSpec {
     pub grid: ContactGridSpec,
 }
 
-/// How far a training is.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Progress {
-    /// What is being done, for people.
-    pub stage: String,
-    /// Work done.
-    pub done: usize,
-    /// Work in all of this stage.
-    pub total: usize,
-}
-
-/// Watches a training from its worker threads.
-pub trait TrainingObserver: Sync {
-    /// Called as work proceeds.
-    fn progress(&self, _progress: Progress) {}
+/// Watches a training.
+pub trait TrainingObserver: Observer {
     /// Shown the state whenever full solutions were finished: what a crash must not lose can be written here.
     fn checkpoint(&self, _state: &TrainingState) {}
-    /// Asked every few milliseconds, whatever is being done; `true` stops the training.
-    fn cancelled(&self) -> bool {
-        false
-    }
 }
 
 impl TrainingObserver for () {}
 
 /// Stops a training from another thread.
-impl TrainingObserver for &AtomicBool {
-    fn cancelled(&self) -> bool {
-        self.load(Ordering::Relaxed)
-    }
-}
+impl TrainingObserver for AtomicBool {}
 
 /// Why a training gives no model.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -42,7 +42,7 @@ fn films(model: &Arc<ReducedModel>) -> Vec<(f64, f64)> {
         .iter()
         .map(|point| {
             let solved = online.solve(point, Lubricant::default()).unwrap();
-            let full = full.solve(point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+            let full = full.solve(point, Lubricant::default(), Start::Cold, &()).unwrap();
             assert!(full.converged());
             (online.scalars(&solved).unwrap().h_c, full.scalars.h_c)
         })

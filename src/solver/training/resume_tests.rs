@@ -63,6 +63,9 @@ impl TrainingObserver for StopAt {
             *self.written.lock().unwrap() = Some(state.clone());
         }
     }
+}
+
+impl Observer for StopAt {
     fn cancelled(&self) -> bool {
         self.stopped.load(Ordering::Relaxed)
     }
@@ -234,6 +237,7 @@ fn a_training_that_is_stopped_still_gives_a_model() {
     let mut state = TrainingState::new(small(adaptive(vec![1e-3], 30)));
     train_resumable(&mut state, &stop).unwrap_err();
     struct Count(AtomicUsize);
+    impl Observer for Count {}
     impl TrainingObserver for Count {
         fn checkpoint(&self, _: &TrainingState) {
             self.0.fetch_add(1, Ordering::Relaxed);

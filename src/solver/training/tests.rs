@@ -78,7 +78,7 @@ fn all_rows_and_q_deim_agree_at_fresh_points_and_lie_near_full_solutions() {
         let all = a.solve(&point, Lubricant::default()).unwrap();
         let some = b.solve(&point, Lubricant::default()).unwrap();
         let (all, some) = (a.scalars(&all).unwrap().h_c, b.scalars(&some).unwrap().h_c);
-        let truth = full.solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap().scalars.h_c;
+        let truth = full.solve(&point, Lubricant::default(), Start::Cold, &()).unwrap().scalars.h_c;
         assert!((all / some - 1.0).abs() < 2e-3);
         assert!((all / truth - 1.0).abs() < 5e-3, "{:.1e}", all / truth - 1.0);
     }
@@ -102,7 +102,7 @@ fn the_calibrated_bound_holds_against_full_solutions_and_is_not_idle() {
         let solved = online.solve(point, Lubricant::default()).unwrap();
         let estimate = solved.error.unwrap();
         let reduced = online.scalars(&solved).unwrap();
-        let full = solver.solve(point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+        let full = solver.solve(point, Lubricant::default(), Start::Cold, &()).unwrap();
         assert!(full.converged());
         let error = (reduced.h_c / full.scalars.h_c - 1.0).abs();
         held += usize::from(error <= estimate.h_c.bound);
@@ -120,7 +120,8 @@ fn the_calibrated_bound_holds_against_full_solutions_and_is_not_idle() {
 #[test]
 fn cancelling_stops_the_training() {
     struct After(AtomicUsize);
-    impl TrainingObserver for After {
+    impl TrainingObserver for After {}
+    impl Observer for After {
         fn progress(&self, _: Progress) {
             self.0.fetch_add(1, Ordering::Relaxed);
         }

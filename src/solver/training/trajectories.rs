@@ -3,7 +3,7 @@
 
 use super::aside::aside;
 use super::rows::add_goals;
-use super::{Progress, TrainingError, TrainingObserver};
+use super::{Observer, Progress, TrainingError};
 use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN, ReferenceGrid, dot};
 use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::full::transient::{Frame, Keep, Moment, Trajectory, Transient, TransientObserver, march};
@@ -48,7 +48,7 @@ pub fn train_trajectories(
     grid: &Arc<ReferenceGrid>,
     trajectories: &[Trajectory],
     training: &TrajectoryTraining,
-    observer: &dyn TrainingObserver,
+    observer: &dyn Observer,
 ) -> Result<TrajectoryModel, TrainingError> {
     let frame = trajectories.first().ok_or(TrainingError::NoTrajectories)?.transient.frame;
     let length = grid.xi.len();
@@ -94,7 +94,7 @@ fn bases(
     trajectories: &[Trajectory],
     (sizes, training): (&[f64], &TrajectoryTraining),
     frame: Frame,
-    observer: &dyn TrainingObserver,
+    observer: &dyn Observer,
 ) -> Result<TrajectoryModel, TrainingError> {
     observer.progress(Progress { stage: "Bases".to_owned(), done: 0, total: 1 });
     let states: usize = trajectories.iter().map(|t| t.states.len()).sum();
@@ -141,7 +141,7 @@ fn goal_equations(
     test: &TestSpace,
     trajectories: &[Trajectory],
     training: &TrajectoryTraining,
-    observer: &dyn TrainingObserver,
+    observer: &dyn Observer,
 ) -> Result<GoalEquations, TrainingError> {
     // Rows are candidates by what happens there, not by what they count.
     let none = GoalEquations::over(&TestSpace::new(&exact.window.pressure, &exact.window.grid));
@@ -164,7 +164,7 @@ fn goal_equations(
             }));
             let transient = Transient { keep: Keep::Scalars, ..trajectory.transient.clone() };
             let stage = format!("Rows along training {} of {}", index + 1, trajectories.len());
-            march(&mut model, &transient, &mut Watch { observer, stage, duration: transient.duration })?;
+            march(&mut model, &transient, &Watch { observer, stage, duration: transient.duration })?;
             drop(model);
             if observer.cancelled() { Err(TrainingError::Cancelled) } else { Ok(equations) }
         })
@@ -176,18 +176,20 @@ fn goal_equations(
 
 /// Tells how far a march is.
 struct Watch<'a> {
-    observer: &'a dyn TrainingObserver,
+    observer: &'a dyn Observer,
     stage: String,
     duration: f64,
 }
 
-impl TransientObserver for Watch<'_> {
-    fn moment(&mut self, moment: &Moment) {
-        let done = (1000.0 * moment.time / self.duration) as usize;
-        self.observer.progress(Progress { stage: self.stage.clone(), done, total: 1000 });
-    }
-
+impl Observer for Watch<'_> {
     fn cancelled(&self) -> bool {
         self.observer.cancelled()
+    }
+}
+
+impl TransientObserver for Watch<'_> {
+    fn moment(&self, moment: &Moment) {
+        let done = (1000.0 * moment.time / self.duration) as usize;
+        self.observer.progress(Progress { stage: self.stage.clone(), done, total: 1000 });
     }
 }

@@ -40,11 +40,11 @@ fn transient(frame: Frame, load: Signal) -> Transient {
 }
 
 fn full(transient: &Transient) -> Trajectory {
-    march(&mut FullMarch::new(grid(), transient).unwrap(), transient, &mut ()).unwrap()
+    march(&mut FullMarch::new(grid(), transient).unwrap(), transient, &()).unwrap()
 }
 
 fn reduced(model: &TrajectoryModel, transient: &Transient) -> Trajectory {
-    march(&mut ReducedMarch::new(model).unwrap(), transient, &mut ()).unwrap()
+    march(&mut ReducedMarch::new(model).unwrap(), transient, &()).unwrap()
 }
 
 fn trained(frame: Frame) -> (Vec<Trajectory>, TrajectoryModel) {

@@ -140,7 +140,7 @@ fn work(in_use: &InUse, plan: Plan, reporter: &Reporter<Step>) -> Ending {
                 step.bound = solution.error.map(|e| e.h_c.bound);
             }
             let start = former.as_ref().map_or(Start::Cold, Start::From);
-            let full = solvers.full(point, lubricant, start, &mut reporter.observer());
+            let full = solvers.full(point, lubricant, start, reporter.observer());
             let full = full.map_err(|error| error.to_string())?;
             step.full = full.as_ref().map(|solution| solution.scalars.h_c);
             former = full.or(former);

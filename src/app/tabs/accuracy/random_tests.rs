@@ -224,7 +224,7 @@ fn work(in_use: &InUse, plan: Plan, reporter: &Reporter<Message>) -> Ending {
     let compared = plan.compared.min(points.len());
     for (i, (point, solved)) in points.iter().zip(&films).take(compared).enumerate() {
         // Cold, so that no reduced solution can lead the full one to its root.
-        let full = solvers.full(point, lubricant, Start::Cold, &mut reporter.observer());
+        let full = solvers.full(point, lubricant, Start::Cold, reporter.observer());
         if reporter.cancelled() {
             break;
         }

@@ -110,7 +110,7 @@ fn work(kept: &Kept, asked: &Asked, reporter: &Reporter<Found>) -> Ending {
     let options = asked.in_use.options_at(asked.key.point.moes());
     let Some(place) = splitters.get_mut(at) else { return Err("the reduced model holds no bases".to_owned()) };
     let splitter = place.get_or_insert_with(|| ErrorSplitter::new(Arc::clone(&asked.in_use.model), options));
-    let found = splitter.split(&asked.key.point, asked.key.lubricant, &mut reporter.observer());
+    let found = splitter.split(&asked.key.point, asked.key.lubricant, reporter.observer());
     reporter.send(found.map(Box::new));
     *kept.lock().unwrap_or_else(PoisonError::into_inner) = Some((asked.in_use.clone(), splitters));
     Ok(())

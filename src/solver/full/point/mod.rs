@@ -197,13 +197,7 @@ impl PointSystem {
     }
 
     /// Newton's method from the current state.
-    pub fn newton(
-        &mut self,
-        problem: &Problem,
-        options: &PointOptions,
-        observer: &mut dyn Observer,
-        report: &mut Report,
-    ) {
+    pub fn newton(&mut self, problem: &Problem, options: &PointOptions, observer: &dyn Observer, report: &mut Report) {
         self.treatment = options.film;
         if let Some(shear) = &mut self.shear {
             shear.forget();
@@ -291,7 +285,7 @@ impl PointSystem {
         problem: &Problem,
         options: &PointOptions,
         tolerance: f64,
-        observer: &mut dyn Observer,
+        observer: &dyn Observer,
     ) -> LinearOutcome {
         let u = self.grid.unknowns();
         let middle = self.grid.node(u / 2);

@@ -46,7 +46,7 @@ impl PointSolver {
         point: &OperatingPoint,
         lubricant: Lubricant,
         start: Start<'_>,
-        observer: &mut dyn Observer,
+        observer: &dyn Observer,
     ) -> Result<Solution, SolveError> {
         self.solve_problem(Problem::of_kind(ContactKind::Point, point, lubricant)?, start, observer)
     }
@@ -59,7 +59,7 @@ impl PointSolver {
         &mut self,
         problem: Problem,
         start: Start<'_>,
-        observer: &mut dyn Observer,
+        observer: &dyn Observer,
     ) -> Result<Solution, SolveError> {
         if problem.point.kind != ContactKind::Point {
             return Err(SolveError::OtherContact { wanted: ContactKind::Point, given: problem.point.kind });
@@ -78,13 +78,7 @@ impl Attempts for PointSolver {
     const EASY_M: (f64, f64) = (60.0, 200.0);
     const EASY_L: (f64, f64) = (3.0, 8.0);
 
-    fn attempt(
-        &mut self,
-        problem: &Problem,
-        beginning: Beginning<'_>,
-        observer: &mut dyn Observer,
-        report: &mut Report,
-    ) {
+    fn attempt(&mut self, problem: &Problem, beginning: Beginning<'_>, observer: &dyn Observer, report: &mut Report) {
         report.attempts += 1;
         match beginning {
             Beginning::Cold(film) => cold_state(&mut self.system, problem, film),

@@ -17,7 +17,7 @@ fn at(m: f64, l: f64) -> OperatingPoint {
 }
 
 fn solve(spec: PointGridSpec, point: &OperatingPoint) -> Solution {
-    PointSolver::new(spec).unwrap().solve(point, Lubricant::default(), Start::Cold, &mut ()).unwrap()
+    PointSolver::new(spec).unwrap().solve(point, Lubricant::default(), Start::Cold, &()).unwrap()
 }
 
 /// A state in which some pressures are negative, so that the penalty takes part, and a direction: ΔP, and ΔH with ΔH₀ = 0.3.
@@ -174,7 +174,7 @@ fn only_the_dimensionless_groups_matter_to_an_incompressible_barus_fluid() {
         Lubricant { density: DensityLaw::Incompressible, viscosity: ViscosityLaw::Barus, ..Lubricant::default() };
     let mut solver = PointSolver::new(COARSE).unwrap();
     let mut film = |request: MoesRequest| {
-        let s = solver.solve(&si_from_moes(&request).unwrap(), laws, Start::Cold, &mut ()).unwrap();
+        let s = solver.solve(&si_from_moes(&request).unwrap(), laws, Start::Cold, &()).unwrap();
         assert!(s.converged());
         s.scalars.h_c
     };
@@ -194,7 +194,7 @@ fn a_warm_start_is_cheaper_than_a_cold_one_also_from_another_grid() {
     let mut solver = PointSolver::new(fine).unwrap();
     let point = at(150.0, 8.0);
     let mut run = |point: &OperatingPoint, start: Start<'_>| {
-        let s = solver.solve(point, Lubricant::default(), start, &mut ()).unwrap();
+        let s = solver.solve(point, Lubricant::default(), start, &()).unwrap();
         assert!(s.converged() && s.report.attempts == 1);
         s
     };
@@ -258,12 +258,12 @@ fn traction_is_the_integral_of_the_shear_stress_over_both_halves() {
 #[test]
 fn what_is_not_asked_for_is_refused_or_says_so() {
     let mut solver = PointSolver::new(COARSE).unwrap();
-    let line = solver.solve(&OperatingPoint::TABLE_2_1, Lubricant::default(), Start::Cold, &mut ());
+    let line = solver.solve(&OperatingPoint::TABLE_2_1, Lubricant::default(), Start::Cold, &());
     assert!(matches!(line, Err(SolveError::OtherContact { .. })));
     let flag = AtomicBool::new(true);
-    let s = solver.solve(&at(40.0, 10.0), Lubricant::default(), Start::Cold, &mut &flag).unwrap();
+    let s = solver.solve(&at(40.0, 10.0), Lubricant::default(), Start::Cold, &flag).unwrap();
     assert_eq!((s.report.termination, s.report.newton_iterations), (Termination::Cancelled, 0));
     solver.options.max_newton = 2;
-    let s = solver.solve(&at(40.0, 10.0), Lubricant::default(), Start::Cold, &mut ()).unwrap();
+    let s = solver.solve(&at(40.0, 10.0), Lubricant::default(), Start::Cold, &()).unwrap();
     assert!(!s.converged());
 }

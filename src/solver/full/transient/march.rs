@@ -7,6 +7,7 @@ use super::signal::{InputError, Inputs};
 use super::trajectory::{Effort, Ended, Moment, State, Trajectory};
 use crate::solver::discrete::grid::LineGrid;
 use crate::solver::full::{Mesh, Problem, SolveError, Termination};
+use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
 
@@ -63,10 +64,10 @@ pub enum TransientError {
     Shear,
 }
 
-/// Watches a march. Every method has a default, so `()` watches nothing.
-pub trait TransientObserver {
+/// Watches a march.
+pub trait TransientObserver: Observer {
     /// Called after the start and after every step taken.
-    fn moment(&mut self, _moment: &Moment) {}
+    fn moment(&self, _moment: &Moment) {}
 
     /// Asked after each moment: whether its fields are wanted too.
     fn wants_state(&self) -> bool {
@@ -74,12 +75,7 @@ pub trait TransientObserver {
     }
 
     /// The fields of the moment reported last, where they were wanted.
-    fn state(&mut self, _state: &State) {}
-
-    /// Asked between steps and between iterations; `true` ends the march with what it has.
-    fn cancelled(&self) -> bool {
-        false
-    }
+    fn state(&self, _state: &State) {}
 }
 
 impl TransientObserver for () {}
@@ -108,13 +104,13 @@ pub trait Marching {
     ///
     /// # Errors
     /// With the reason why the iteration stopped.
-    fn rest(&mut self, at: &Conditions, observer: &dyn TransientObserver) -> Result<Effort, Termination>;
+    fn rest(&mut self, at: &Conditions, observer: &dyn Observer) -> Result<Effort, Termination>;
 
     /// Solves for the end of a step, from the extrapolation of the former states.
     ///
     /// # Errors
     /// With the reason why the iteration stopped; the former states are as before.
-    fn step(&mut self, step: &Step, observer: &dyn TransientObserver) -> Result<Effort, Termination>;
+    fn step(&mut self, step: &Step, observer: &dyn Observer) -> Result<Effort, Termination>;
 
     /// ‖P − extrapolation‖/‖P‖ of the step under trial.
     fn deviation(&self) -> f64;
@@ -205,7 +201,7 @@ impl Step {
 pub fn march(
     model: &mut dyn Marching,
     transient: &Transient,
-    observer: &mut dyn TransientObserver,
+    observer: &dyn TransientObserver,
 ) -> Result<Trajectory, TransientError> {
     let problem = transient.problem()?;
     let grid = model.grid();
@@ -229,7 +225,7 @@ pub fn march(
 fn walk(
     model: &mut dyn Marching,
     problem: &Problem,
-    observer: &mut dyn TransientObserver,
+    observer: &dyn TransientObserver,
     trajectory: &mut Trajectory,
 ) -> Result<(), Ended> {
     let Transient { inputs, frame, duration, time_step, .. } = trajectory.transient.clone();
@@ -287,7 +283,7 @@ impl Trajectory {
         at: &Conditions,
         step: f64,
         effort: Effort,
-        observer: &mut dyn TransientObserver,
+        observer: &dyn TransientObserver,
     ) {
         if let Keep::Every(n) = self.transient.keep
             && self.moments.len().is_multiple_of(n.max(1))

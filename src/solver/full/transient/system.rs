@@ -37,15 +37,6 @@ struct Past {
     between: Interpolated,
 }
 
-/// Lets a Newton solve see that the march was cancelled.
-struct Cancel<'a>(&'a dyn TransientObserver);
-
-impl Observer for Cancel<'_> {
-    fn cancelled(&self) -> bool {
-        self.0.cancelled()
-    }
-}
-
 /// Stop of a step's Newton iteration on ‖Δz‖/‖z‖. It converges quadratically, so the error left is far below that.
 const STEP_TOLERANCE: f64 = 1e-6;
 
@@ -56,7 +47,7 @@ const STEP_TOLERANCE: f64 = 1e-6;
 pub fn solve(
     spec: GridSpec,
     transient: &Transient,
-    observer: &mut dyn TransientObserver,
+    observer: &dyn TransientObserver,
 ) -> Result<Trajectory, TransientError> {
     let reference = spec.build().map_err(SolveError::from)?;
     march(&mut FullMarch::new(reference, transient)?, transient, observer)
@@ -111,9 +102,9 @@ impl FullMarch {
     }
 
     /// Newton from the state that is set.
-    fn newton(&mut self, at: &Conditions, options: &SolveOptions, observer: &dyn TransientObserver) -> Report {
+    fn newton(&mut self, at: &Conditions, options: &SolveOptions, observer: &dyn Observer) -> Report {
         let mut report = Report::empty();
-        self.system.newton(&at.problem, options, &mut Cancel(observer), &mut report);
+        self.system.newton(&at.problem, options, observer, &mut report);
         report
     }
 
@@ -153,10 +144,10 @@ impl Marching for FullMarch {
         &self.system.grid
     }
 
-    fn rest(&mut self, at: &Conditions, observer: &dyn TransientObserver) -> Result<Effort, Termination> {
+    fn rest(&mut self, at: &Conditions, observer: &dyn Observer) -> Result<Effort, Termination> {
         let point = point_at(&self.reference.point, at.input);
         let problem = Problem::new(&point, self.reference.lubricant).map_err(|_| Termination::Diverged)?;
-        let solution = self.solver.solve_problem(problem, Start::Cold, &mut Cancel(observer));
+        let solution = self.solver.solve_problem(problem, Start::Cold, observer);
         converged(&solution.report)?;
         // The same contact in the frame's scales and on its grid.
         let size = (at.input.load * at.input.radius).sqrt() / at.scales.half_width;
@@ -178,7 +169,7 @@ impl Marching for FullMarch {
         Ok(effort)
     }
 
-    fn step(&mut self, step: &Step, observer: &dyn TransientObserver) -> Result<Effort, Termination> {
+    fn step(&mut self, step: &Step, observer: &dyn Observer) -> Result<Effort, Termination> {
         self.set_rows(step);
         let [near, far] = &self.former;
         for (start, (near, far)) in self.start.iter_mut().zip(near.pressure.iter().zip(&far.pressure)) {

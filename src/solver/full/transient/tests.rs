@@ -3,8 +3,10 @@
 use super::*;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::{FullSolver, Start};
+use crate::solver::observer::Observer;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 const COARSE: GridSpec = GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) };
 const MIDDLE: GridSpec = GridSpec::Uniform { dx: 0.01, domain: (-4.0, 2.0) };
@@ -36,7 +38,7 @@ fn case_1(duration: f64, step: f64) -> Transient {
 }
 
 fn finished(spec: GridSpec, transient: &Transient) -> Trajectory {
-    let trajectory = solve(spec, transient, &mut ()).unwrap();
+    let trajectory = solve(spec, transient, &()).unwrap();
     assert!(trajectory.finished(), "{}", trajectory.ended.describe());
     trajectory
 }
@@ -122,7 +124,7 @@ fn constant_inputs_keep_the_stationary_contact() {
     for inputs in [Inputs::default(), others] {
         let at = inputs.at(0.0);
         let point = point_at(&TABLE_4_2, at);
-        let want = FullSolver::new(MIDDLE).unwrap().solve(&point, Lubricant::default(), Start::Cold, &mut ()).unwrap();
+        let want = FullSolver::new(MIDDLE).unwrap().solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
         // Its own scales are not the reference's.
         let (film, pressure) = (at.load * want.scalars.h_c, (at.load / at.radius).sqrt() * want.scalars.p_c);
         for frame in FRAMES {
@@ -155,23 +157,25 @@ fn adaptive_steps_find_what_fixed_ones_do_with_fewer() {
 
 #[test]
 fn what_was_computed_before_an_end_is_kept() {
-    struct Until(usize);
-    impl TransientObserver for Until {
-        fn moment(&mut self, _: &Moment) {
-            self.0 = self.0.saturating_sub(1);
-        }
+    struct Until(AtomicUsize);
+    impl Observer for Until {
         fn cancelled(&self) -> bool {
-            self.0 == 0
+            self.0.load(Ordering::Relaxed) == 0
+        }
+    }
+    impl TransientObserver for Until {
+        fn moment(&self, _: &Moment) {
+            self.0.fetch_sub(1, Ordering::Relaxed);
         }
     }
     let transient = Transient { keep: Keep::Every(2), ..case_1(0.5, 0.01) };
-    let trajectory = solve(COARSE, &transient, &mut Until(6)).unwrap();
+    let trajectory = solve(COARSE, &transient, &Until(AtomicUsize::new(6))).unwrap();
     assert_eq!((trajectory.moments.len(), trajectory.states.len()), (6, 3));
     assert_eq!(trajectory.ended, Ended::Cancelled { time: trajectory.moments[5].time });
 
     // A load that makes a contact beyond all sense.
     let jump = Signal::Sampled { times: vec![0.0, 0.1, 0.1001], values: vec![1.0, 1.0, 1e-3] };
-    let trajectory = solve(COARSE, &Transient { inputs: Inputs::load(jump), ..case_1(0.5, 0.01) }, &mut ()).unwrap();
+    let trajectory = solve(COARSE, &Transient { inputs: Inputs::load(jump), ..case_1(0.5, 0.01) }, &()).unwrap();
     let sentence = trajectory.ended.describe();
     assert!(sentence.contains("T = 0.11") && sentence.contains("kept"), "{sentence}");
     assert_eq!(trajectory.moments.len(), 11);
@@ -198,7 +202,7 @@ fn a_fixed_step_that_newton_cannot_take_is_taken_in_parts() {
 
 #[test]
 fn a_step_that_no_part_of_can_be_taken_ends_the_march() {
-    let trajectory = solve(COARSE, &Transient { inputs: jump(10.0), ..case_1(0.5, 0.01) }, &mut ()).unwrap();
+    let trajectory = solve(COARSE, &Transient { inputs: jump(10.0), ..case_1(0.5, 0.01) }, &()).unwrap();
     let Ended::StepRefused { time, step, .. } = trajectory.ended else { panic!("{:?}", trajectory.ended) };
     assert!(time > 0.1 && time < 0.12 && step < 0.01 / 32.0, "{time}, {step}");
     let sentence = trajectory.ended.describe();
@@ -208,7 +212,7 @@ fn a_step_that_no_part_of_can_be_taken_ends_the_march() {
 
 #[test]
 fn questions_without_sense_are_refused() {
-    let message = |transient: Transient| solve(COARSE, &transient, &mut ()).unwrap_err().to_string();
+    let message = |transient: Transient| solve(COARSE, &transient, &()).unwrap_err().to_string();
     assert!(message(case_1(0.0, 0.01)).starts_with("the duration is 0"));
     assert!(message(case_1(1.0, f64::NAN)).starts_with("the time step is NaN"));
     assert!(message(case_1(1.0, 2.0)).contains("duration 1"));

@@ -13,6 +13,7 @@ use crate::solver::full::transient::{
     extrapolated, march,
 };
 use crate::solver::full::{Scalars, Termination};
+use crate::solver::observer::Observer;
 use crate::solver::reduced::contact_rows::ContactRows;
 
 /// A model in use for one contact.
@@ -60,7 +61,7 @@ pub fn solve(
     model: &TpwlModel,
     transient: &Transient,
     weighting: Weighting,
-    observer: &mut dyn TransientObserver,
+    observer: &dyn TransientObserver,
 ) -> Result<(Trajectory, TpwlRecord), TpwlError> {
     let mut marching = TpwlMarch::new(model, transient, weighting)?;
     let trajectory = march(&mut marching, transient, observer)?;
@@ -172,7 +173,7 @@ impl Marching for TpwlMarch<'_> {
         &self.model.space.grid
     }
 
-    fn rest(&mut self, at: &Conditions, observer: &dyn TransientObserver) -> Result<Effort, Termination> {
+    fn rest(&mut self, at: &Conditions, observer: &dyn Observer) -> Result<Effort, Termination> {
         let (input, modes) = (input_vector(at.input), self.model.space.modes());
         // Where training began with the same inputs, the stationary state is an operating point; else the weights follow the state.
         let met = self.guess(input);
@@ -199,7 +200,7 @@ impl Marching for TpwlMarch<'_> {
         Ok(effort)
     }
 
-    fn step(&mut self, step: &Step, _observer: &dyn TransientObserver) -> Result<Effort, Termination> {
+    fn step(&mut self, step: &Step, _observer: &dyn Observer) -> Result<Effort, Termination> {
         let [near, far] = &self.former;
         for (start, (near, far)) in self.start.iter_mut().zip(near.state.iter().zip(&far.state)) {
             *start = extrapolated(step.ratio, *near, *far);

@@ -34,7 +34,7 @@ fn transient(point: OperatingPoint, inputs: Inputs, duration: f64) -> Transient 
 }
 
 fn full(transient: &Transient) -> Trajectory {
-    let trajectory = transient::solve(COARSE, transient, &mut ()).unwrap();
+    let trajectory = transient::solve(COARSE, transient, &()).unwrap();
     assert!(trajectory.finished(), "{}", trajectory.ended.describe());
     trajectory
 }
@@ -62,7 +62,7 @@ fn model(trajectories: &[&Trajectory], modes: usize, selection: Selection) -> Tp
 
 /// Relative L2 difference of H_c between a model's march and the full one.
 fn film_error(model: &TpwlModel, transient: &Transient, weighting: Weighting) -> f64 {
-    let (got, record) = solve(model, transient, weighting, &mut ()).unwrap();
+    let (got, record) = solve(model, transient, weighting, &()).unwrap();
     assert!(got.finished(), "{}", got.ended.describe());
     assert_eq!(record.steps().len(), got.moments.len());
     got.difference(&full(transient), Quantity::CentralFilm, (0.0, transient.duration)).unwrap().1
@@ -172,7 +172,7 @@ fn a_step_about_an_operating_point_is_the_reduced_newton_step() {
 fn constant_inputs_stay_at_rest() {
     let still = transient(CASE_1, Inputs::default(), 0.2);
     for weighting in [Weighting::DualTaylor, Weighting::Dissertation] {
-        let (trajectory, record) = solve(&MODEL, &still, weighting, &mut ()).unwrap();
+        let (trajectory, record) = solve(&MODEL, &still, weighting, &()).unwrap();
         assert!(trajectory.finished());
         let start = trajectory.moments[0].h_c;
         assert!((start / SINE.moments[0].h_c - 1.0).abs() < 1e-4, "{start}");
@@ -219,9 +219,8 @@ fn few_modes_suffice_where_rows_are_balanced_and_the_rupture_is_not_locked() {
 
 #[test]
 fn inputs_far_from_the_trained_ones_are_told_apart() {
-    let march = |signal| {
-        solve(&MODEL, &transient(CASE_1, Inputs::load(signal), 0.5), Weighting::DualTaylor, &mut ()).unwrap().1
-    };
+    let march =
+        |signal| solve(&MODEL, &transient(CASE_1, Inputs::load(signal), 0.5), Weighting::DualTaylor, &()).unwrap().1;
     assert!(!march(sine(0.5)).too_steep());
     assert!(march(Signal::TriangleToSquare { amplitude: 0.3, period: 0.2, s: 0.9 }).too_steep());
 }
@@ -261,7 +260,7 @@ fn a_number_of_points_is_met_by_either_rule_in_the_same_space() {
     let again = MODEL.reselected(MODEL.training.selection).unwrap();
     assert_eq!(again.points.len(), MODEL.points.len());
     let still = transient(CASE_1, Inputs::load(sine(0.5)), 0.1);
-    let film = |model: &TpwlModel| solve(model, &still, Weighting::DualTaylor, &mut ()).unwrap().0.moments[20].h_c;
+    let film = |model: &TpwlModel| solve(model, &still, Weighting::DualTaylor, &()).unwrap().0.moments[20].h_c;
     assert_eq!(film(&again), film(&MODEL));
     let wanted = TpwlTraining { modes: 100, selection: STEP_SELECTION };
     let wanted = TpwlModel::train_with_points(&[&SINE], wanted, 25).unwrap();
@@ -270,7 +269,7 @@ fn a_number_of_points_is_met_by_either_rule_in_the_same_space() {
 
 #[test]
 fn what_a_model_cannot_do_is_refused() {
-    let message = |transient: &Transient| match solve(&MODEL, transient, Weighting::DualTaylor, &mut ()) {
+    let message = |transient: &Transient| match solve(&MODEL, transient, Weighting::DualTaylor, &()) {
         Err(error) => error.to_string(),
         Ok(_) => panic!("{transient:?} was accepted"),
     };

@@ -5,9 +5,10 @@ use crate::solver::discrete::grid::{FIRST_UNKNOWN, LineGrid, ReferenceGrid, dot}
 use crate::solver::discrete::reynolds::line::Upstream;
 use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
 use crate::solver::full::transient::{
-    Conditions, Effort, Frame, Interpolated, Marching, Moment, State, Step, TransientObserver, extrapolated,
+    Conditions, Effort, Frame, Interpolated, Marching, Moment, State, Step, extrapolated,
 };
 use crate::solver::full::{Scalars, Termination};
+use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::reduced::contact_rows::ContactRows;
 use crate::solver::reduced::operators::{Case, Iterate, Operators, RowObserver, Stop};
@@ -215,7 +216,7 @@ impl Marching for ReducedMarch<'_> {
         &self.grid
     }
 
-    fn rest(&mut self, at: &Conditions, _: &dyn TransientObserver) -> Result<Effort, Termination> {
+    fn rest(&mut self, at: &Conditions, _: &dyn Observer) -> Result<Effort, Termination> {
         let moes = at.problem.moes;
         let far = |point: &OperatingPoint| distance(moes, point.moes());
         let nearest = self.model.starts.iter().min_by(|a, b| far(&a.point).total_cmp(&far(&b.point)));
@@ -231,7 +232,7 @@ impl Marching for ReducedMarch<'_> {
         Ok(effort)
     }
 
-    fn step(&mut self, step: &Step, observer: &dyn TransientObserver) -> Result<Effort, Termination> {
+    fn step(&mut self, step: &Step, observer: &dyn Observer) -> Result<Effort, Termination> {
         if observer.cancelled() {
             return Err(Termination::Cancelled);
         }
