@@ -9,7 +9,9 @@ use ehl_explorer::scene::{Method, Study};
 use ehl_explorer::solver::full::{ContactSolver, Start};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use ehl_explorer::solver::physics::lubricant::Lubricant;
-use ehl_explorer::solver::reduced::{CurveVariable, Online, ReducedOptions, Sampling, Trust, traction_curve};
+use ehl_explorer::solver::reduced::{
+    CurveVariable, ErrorMeasures, Norm, Online, ReducedOptions, Sampling, Trust, traction_curve,
+};
 use ehl_explorer::solver::training::{Plan, Range, SlidingRange, TrainingSpec, Windows};
 use shear_models::{assert_file_keeps_everything, assert_limits_are_said, assert_mirrored, errors};
 
@@ -94,6 +96,23 @@ fn its_traction_by_few_nodes_is_that_of_its_fields() {
     let (p95, worst) = (off[off.len() * 95 / 100], off[off.len() - 1]);
     println!("rule of the traction against all nodes: 95 % {p95:.1e}, max {worst:.1e}");
     assert!(p95 < 1e-3 && worst < 5e-3, "95 % {p95:.1e}, max {worst:.1e}");
+}
+
+#[test]
+fn its_residual_is_measured_with_nodes_that_thin() {
+    for kind in [LINE, ContactKind::Point] {
+        let mut online = shear_models::online(kind);
+        for point in shear_models::points(kind, shear_models::range(kind), 6, 5) {
+            let solved = online.solve(&point, SQUALANE_PIP).unwrap();
+            let fields = online.reconstruct(&solved).unwrap();
+            let window = &online.model.windows[solved.window];
+            let measures = ErrorMeasures::new(window, &ReducedOptions::default(), Norm::Quadrature);
+            let found = measures.residuals(&solved.coefficients, &fields);
+            let off = (found.sampled_rows / solved.residual_estimate - 1.0).abs();
+            assert!(off < 1e-4, "{kind:?}: {found:?}, but the iteration found {:e}", solved.residual_estimate);
+            assert!(found.all_rows >= found.sampled_rows);
+        }
+    }
 }
 
 #[test]

@@ -2,4 +2,5 @@
 
 pub mod elasticity;
 pub mod grid;
+pub mod nodes;
 pub mod reynolds;

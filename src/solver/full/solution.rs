@@ -3,6 +3,7 @@
 use crate::solver::discrete::grid::{
     ContactGridError, FIRST_UNKNOWN, GridError, GridSpec, LineGrid, PointGrid, PointGridError, PointGridSpec, dot,
 };
+use crate::solver::discrete::nodes::Laws;
 use crate::solver::physics::contact::{ContactError, ContactKind, Moes, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, LubricantError, ScaledFluid, ScaledShear, ShearLaw, Sliding};
 use serde::{Deserialize, Serialize};
@@ -99,6 +100,11 @@ impl Problem {
                 ContactKind::Point => 2.0 / 3.0 * PI,
             },
         })
+    }
+
+    /// What makes pressure, gradient and film into nodes.
+    pub fn laws(&self) -> Laws<'_> {
+        Laws { fluid: &self.fluid, shear: self.shear.as_ref(), inverse_lambda: self.inverse_lambda }
     }
 
     /// The same for a solver that is made for one kind of contact.

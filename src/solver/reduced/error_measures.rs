@@ -10,7 +10,8 @@
 use super::model::{Window, deformation_weights};
 use super::online::ReducedOptions;
 use crate::solver::discrete::grid::ContactGrid;
-use crate::solver::discrete::reynolds::{Node, row};
+use crate::solver::discrete::nodes::Nodes;
+use crate::solver::discrete::reynolds::generalized::PlaneGradient;
 use crate::solver::full::Solution;
 use faer::{ColRef, Mat};
 use serde::{Deserialize, Serialize};
@@ -95,16 +96,12 @@ impl ErrorMeasures {
     pub fn residuals(&self, coefficients: &[f64], fields: &Solution) -> Residuals {
         let problem = &fields.problem;
         let (scale, weights) = (fields.mesh.scale(), self.grid.weights());
-        let nodes: Vec<Node> = fields
-            .pressure
-            .iter()
-            .zip(&fields.film)
-            .map(|(&p, &h)| Node::new(&problem.fluid, problem.inverse_lambda, p, h))
-            .collect();
+        let gradient = PlaneGradient::new(&fields.x, &fields.y);
+        let nodes = Nodes::of(problem.laws(), &gradient, &fields.pressure, &fields.film);
         let squared: Vec<f64> = (0..self.grid.unknowns())
             .map(|unknown| {
                 let (stencil, geometry) = self.grid.row(unknown);
-                let value = row(&geometry.scaled(scale), self.penalty, stencil.map(|node| &nodes[node])).value;
+                let value = nodes.row(&geometry.scaled(scale), self.penalty, stencil).value;
                 self.weight(scale * weights[self.grid.node(unknown)]) * value * value
             })
             .collect();

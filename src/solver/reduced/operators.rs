@@ -5,8 +5,9 @@ mod newton;
 pub(crate) use newton::{Case, Iterate, OnlineOutcome, RowObserver, Stop};
 
 use super::model::{Window, deformation_weights};
-use crate::solver::discrete::reynolds::generalized::{NodeState, ShearNode};
-use crate::solver::discrete::reynolds::{CENTER, Node, RowGeometry, STENCIL};
+use crate::solver::discrete::nodes::Nodes;
+use crate::solver::discrete::reynolds::generalized::NodeState;
+use crate::solver::discrete::reynolds::{CENTER, RowGeometry, STENCIL};
 use crate::solver::full::{Problem, mid_film_stress};
 use crate::solver::physics::contact::ContactKind;
 use faer::dyn_stack::MemBuffer;
@@ -53,9 +54,7 @@ struct Scratch {
     fields: Vec<f64>,
     step_fields: Vec<f64>,
     films: Vec<f64>,
-    nodes: Vec<Node>,
-    /// What the nodes are made of under shear-thinning.
-    thinning: Vec<ShearNode>,
+    nodes: Nodes,
     values: Vec<f64>,
     jacobian_rows: Vec<f64>,
     film_column: Vec<f64>,
@@ -159,8 +158,7 @@ impl Operators {
                 fields: vec![0.0; (2 + axes) * s],
                 step_fields: vec![0.0; (2 + axes) * s],
                 films: vec![0.0; s],
-                nodes: vec![Node::default(); s],
-                thinning: vec![ShearNode::default(); if axes > 0 { s } else { 0 }],
+                nodes: Nodes::new(s, axes > 0),
                 values: vec![0.0; n],
                 jacobian_rows: vec![0.0; n * modes],
                 film_column: vec![0.0; n],

@@ -1,8 +1,10 @@
 //! How strongly the rows of the full system answer to their own pressures along trajectories.
 
 use crate::solver::discrete::grid::LineGrid;
+use crate::solver::discrete::nodes::Nodes;
+use crate::solver::discrete::reynolds::CENTER;
+use crate::solver::discrete::reynolds::generalized::PlaneGradient;
 use crate::solver::discrete::reynolds::line::Upstream;
-use crate::solver::discrete::reynolds::{CENTER, Node};
 use crate::solver::full::transient::Trajectory;
 
 /// States that the mean is taken over, about.
@@ -14,7 +16,7 @@ const STATES: usize = 100;
 /// The flow is taken from the inlet throughout: the other side hardly changes a size.
 pub(crate) fn mean_diagonals(grid: &LineGrid, trajectories: &[&Trajectory], penalty: f64) -> Vec<f64> {
     let mut sums = vec![0.0; grid.unknowns()];
-    let mut count = 0.0;
+    let (mut count, gradient) = (0.0, PlaneGradient::along_line(&grid.x));
     let states: usize = trajectories.iter().map(|t| t.states.len()).sum();
     let stride = states.div_ceil(STATES).max(1);
     for trajectory in trajectories {
@@ -24,8 +26,7 @@ pub(crate) fn mean_diagonals(grid: &LineGrid, trajectories: &[&Trajectory], pena
         for state in trajectory.states.iter().step_by(stride) {
             // What was marched through was accepted then.
             let Ok(at) = frame.conditions(&trajectory.problem, state.time, inputs.at(state.time)) else { continue };
-            let node = |(&p, &h): (&f64, &f64)| Node::new(&at.problem.fluid, at.problem.inverse_lambda, p, h);
-            let nodes: Vec<Node> = state.pressure.iter().zip(&state.film).map(node).collect();
+            let nodes = Nodes::of(at.problem.laws(), &gradient, &state.pressure, &state.film);
             for (k, sum) in sums.iter_mut().enumerate() {
                 let geometry = grid.rows[k].in_time(at.speed.abs(), storage, 0.0);
                 let row = Upstream::Inlet.row(&geometry, penalty, &nodes, k);
@@ -71,12 +72,9 @@ mod tests {
             let (mut pressure, mut bent) = (vec![0.0; grid.len()], vec![0.0; grid.len()]);
             pressure[k + FIRST_UNKNOWN] = by;
             grid.deform(&pressure, &mut bent, &mut Scratch::default());
-            let nodes: Vec<Node> = (0..grid.len())
-                .map(|i| {
-                    let (p, h) = (state.pressure[i] + pressure[i], state.film[i] + bent[i]);
-                    Node::new(&problem.fluid, problem.inverse_lambda, p, h)
-                })
-                .collect();
+            pressure.iter_mut().zip(&state.pressure).for_each(|(p, own)| *p += own);
+            bent.iter_mut().zip(&state.film).for_each(|(h, own)| *h += own);
+            let nodes = Nodes::of(problem.laws(), &PlaneGradient::along_line(&grid.x), &pressure, &bent);
             let geometry = grid.rows[k].in_time(1.0, 1.5 / step, 0.0);
             Upstream::Inlet.row(&geometry, penalty, &nodes, k).value
         };

@@ -199,7 +199,25 @@ impl PlaneGradient {
         Self { along: NodalGradient::new(x), across: NodalGradient::up_to_axis(y) }
     }
 
+    /// On the abscissae of a line contact.
+    pub fn along_line(x: &[f64]) -> Self {
+        Self::new(x, &[0.0])
+    }
+
+    /// G_X.
+    pub fn along(&self) -> &NodalGradient {
+        &self.along
+    }
+
+    /// The gradient at a node, given by its index.
+    #[inline]
+    pub fn at_node(&self, values: &[f64], node: usize) -> [f64; 2] {
+        let ny = self.across();
+        self.at(values, node / ny, node % ny)
+    }
+
     /// Nodes across.
+    #[inline]
     pub fn across(&self) -> usize {
         self.across.weights.len()
     }

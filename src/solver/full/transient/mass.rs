@@ -3,7 +3,8 @@
 use super::frame::Conditions;
 use super::trajectory::{State, Trajectory};
 use crate::solver::discrete::grid::{FIRST_UNKNOWN, cubic};
-use crate::solver::discrete::reynolds::Node;
+use crate::solver::discrete::nodes::Nodes;
+use crate::solver::discrete::reynolds::generalized::PlaneGradient;
 
 /// Mass between two places that rest, over the kept states of a trajectory; in units of ρ₀ (a³/R)_ref.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -57,14 +58,13 @@ impl Trajectory {
 struct Film<'a> {
     x: &'a [f64],
     pressure: &'a [f64],
-    nodes: Vec<Node>,
+    nodes: Nodes,
     at: &'a Conditions,
 }
 
 impl<'a> Film<'a> {
     fn new(x: &'a [f64], state: &'a State, at: &'a Conditions) -> Self {
-        let fields = state.pressure.iter().zip(&state.film);
-        let nodes = fields.map(|(&p, &h)| Node::new(&at.problem.fluid, at.problem.inverse_lambda, p, h)).collect();
+        let nodes = Nodes::of(at.problem.laws(), &PlaneGradient::along_line(x), &state.pressure, &state.film);
         Self { x, pressure: &state.pressure, nodes, at }
     }
 

@@ -2,9 +2,9 @@
 
 use super::Operators;
 use crate::solver::discrete::grid::dot;
-use crate::solver::discrete::reynolds::film_integrals::KnownFilm;
-use crate::solver::discrete::reynolds::generalized::{FilmTreatment, NodeState, ShearNode, gradient_slopes};
-use crate::solver::discrete::reynolds::{Node, STENCIL, row};
+use crate::solver::discrete::nodes::{Laws, Order};
+use crate::solver::discrete::reynolds::STENCIL;
+use crate::solver::discrete::reynolds::generalized::FilmTreatment;
 use crate::solver::full::Problem;
 use faer::dyn_stack::MemStack;
 use faer::linalg::lu::partial_pivoting::{factor, solve};
@@ -79,7 +79,7 @@ impl Operators {
         let mut outcome = OnlineOutcome { converged: false, iterations: 0, step: f64::NAN, residual: f64::NAN };
         product(&self.state_rows, self.modes, coefficients, &mut self.scratch.fields);
         // The films of another contact are no start.
-        self.scratch.thinning.fill(ShearNode::default());
+        self.scratch.nodes.forget();
         for iteration in 1..=stop.max_newton {
             self.evaluate(case, coefficients, *h_0, true);
             if !self.linear_step(case.problem, case.scale, coefficients, observer.is_some()) {
@@ -136,34 +136,21 @@ impl Operators {
             let x = -1.0 + (place.xi + 1.0) * scale;
             *film = offset + (0.5 * curvature * x * x + place.across) + scale * deformation;
         }
-        let thinning = problem.shear.as_ref().filter(|_| self.axes > 0);
-        let states = pressure.iter().zip(&s.films);
-        match thinning {
-            None => {
-                for (node, (&pressure, &film)) in s.nodes.iter_mut().zip(states) {
-                    *node = Node::new(&problem.fluid, problem.inverse_lambda, pressure, film);
-                }
-            }
-            Some(law) => {
-                let nodes = s.nodes.iter_mut().zip(&mut s.thinning);
-                let mut beside = KnownFilm::default();
-                for (k, ((node, own), (&pressure, &film))) in nodes.zip(states).enumerate() {
-                    let gradient = [gradients[k] / scale, gradients.get(count + k).copied().unwrap_or(0.0)];
-                    let state = NodeState { pressure, gradient, film };
-                    let (fluid, inverse_lambda) = (&problem.fluid, problem.inverse_lambda);
-                    // Between two iterations the stress hardly changes; in the first one the node before is near.
-                    let known = if own.known.is_empty() { beside } else { own.known };
-                    *own = ShearNode::near(&known, fluid, law, inverse_lambda, state, FilmTreatment::default());
-                    (*node, beside) = (own.node, own.known);
-                }
-            }
-        }
+        let shear = problem.shear.as_ref().filter(|_| self.axes > 0);
+        let gradient = |k: usize| [gradients[k] / scale, gradients.get(count + k).copied().unwrap_or(0.0)];
+        s.nodes.evaluate(
+            Laws { shear, ..problem.laws() },
+            (pressure, &s.films),
+            gradient,
+            FilmTreatment::default(),
+            Order::BesideTheFormer,
+        );
         let (v, d) = self.state_rows.split_at(count * self.modes);
         let (d, g) = d.split_at(count * self.modes);
         let mut sum = 0.0;
         for (r, (stencil, geometry)) in self.stencil.iter().zip(&self.geometry).enumerate() {
             let geometry = geometry.scaled(scale);
-            let out = row(&geometry, penalty, stencil.map(|node| &s.nodes[node]));
+            let out = s.nodes.row(&geometry, penalty, *stencil);
             s.values[r] = out.value;
             sum += self.row_weights[r] * scale * out.value * out.value;
             if derivatives {
@@ -181,9 +168,9 @@ impl Operators {
                         *t = (*t + (a * v + b * d)) + (e * w + f * g);
                     }
                 }
-                for axis in 0..if thinning.is_some() { self.axes } else { 0 } {
+                for axis in 0..if shear.is_some() { self.axes } else { 0 } {
                     let per_gradient = if axis == 0 { 1.0 / scale } else { 1.0 };
-                    let slopes = gradient_slopes(&geometry, stencil.map(|node| &s.thinning[node]), axis);
+                    let slopes = s.nodes.slopes(&geometry, *stencil, axis);
                     for (m, n) in PAIRS {
                         let [a, b] = [m, n].map(|m| per_gradient * slopes[m]);
                         if [a, b] == [0.0; 2] {

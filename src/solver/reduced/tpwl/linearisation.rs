@@ -2,8 +2,10 @@
 
 use super::space::{INPUTS, ReducedSpace, input_vector};
 use crate::solver::discrete::grid::{FIRST_UNKNOWN, dot};
+use crate::solver::discrete::nodes::Nodes;
+use crate::solver::discrete::reynolds::generalized::PlaneGradient;
 use crate::solver::discrete::reynolds::line::{LINE_STENCIL, Upstream};
-use crate::solver::discrete::reynolds::{CENTER, Node, PENALTY};
+use crate::solver::discrete::reynolds::{CENTER, PENALTY};
 use crate::solver::full::Problem;
 use crate::solver::full::transient::Input;
 use faer::{Mat, MatRef};
@@ -54,9 +56,8 @@ pub struct Fields<'a> {
 }
 
 impl Fields<'_> {
-    fn nodes(&self, problem: &Problem) -> Vec<Node> {
-        let node = |(&p, &h): (&f64, &f64)| Node::new(&problem.fluid, problem.inverse_lambda, p, h);
-        self.pressure.iter().zip(self.film).map(node).collect()
+    fn nodes(&self, space: &ReducedSpace, problem: &Problem) -> Nodes {
+        Nodes::of(problem.laws(), &PlaneGradient::along_line(&space.grid.x), self.pressure, self.film)
     }
 
     /// The load's equation: w̄ π/2 − ∫P.
@@ -78,7 +79,7 @@ fn tested(space: &ReducedSpace, rows: MatRef<'_, f64>) -> Mat<f64> {
 impl SystemFunctions {
     /// Evaluates the reduced system functions with a penalty factor γ̄.
     pub fn at(space: &ReducedSpace, problem: &Problem, fields: Fields<'_>, penalty: f64) -> Self {
-        let nodes = fields.nodes(problem);
+        let nodes = fields.nodes(space, problem);
         let unknowns = space.grid.unknowns();
         let mut rows = Mat::zeros(unknowns, 2);
         for k in 0..unknowns {
@@ -98,7 +99,7 @@ impl Linearisation {
     /// Evaluates the reduced system functions as the full system has them, and differentiates them with `PENALTY_SLOPE`. The fields are the
     /// full system's and need not lie in the space, so that the values are free of what its modes miss.
     pub fn at(space: &ReducedSpace, problem: &Problem, fields: Fields<'_>) -> Self {
-        let nodes = fields.nodes(problem);
+        let nodes = fields.nodes(space, problem);
         let (grid, modes, unknowns) = (&space.grid, space.modes(), space.grid.unknowns());
         let curvature_slope = |node: usize| 0.5 * grid.x[node] * grid.x[node];
         // Columns: the state's, the inputs', the value.

@@ -1,0 +1,137 @@
+//! The nodes of a contact at one state, Newtonian or generalized: the one place where they are evaluated, for the full system, reduced
+//! and linearised models, error measures and balances alike.
+
+use super::reynolds::generalized::{FilmTreatment, NodeState, PlaneGradient, ShearNode, gradient_slopes};
+use super::reynolds::{Node, Row, RowGeometry, STENCIL, row};
+use crate::solver::physics::lubricant::{ScaledFluid, ScaledShear};
+use rayon::prelude::*;
+use std::ops::Deref;
+
+/// What pressure, gradient and film are made into a node by, in one contact.
+#[derive(Clone, Copy, Debug)]
+pub struct Laws<'a> {
+    /// Density and viscosity.
+    pub fluid: &'a ScaledFluid,
+    /// How the viscosity falls with shear; none where the fluid is Newtonian.
+    pub shear: Option<&'a ScaledShear>,
+    /// 1/λ̄ of (2.23).
+    pub inverse_lambda: f64,
+}
+
+/// In which order nodes are evaluated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// On all threads, each node beside its own film of the former evaluation.
+    Parallel,
+    /// One after the other, each beside its own film of the former evaluation.
+    Alone,
+    /// One after the other; where a node has no former film, beside the film of the node before it.
+    BesideTheFormer,
+}
+
+/// Nodes evaluated by one task: a film integral takes as long as some hundred Newtonian nodes.
+const SHARE: [usize; 2] = [2048, 32];
+
+/// Nodes as the rows see them; a slice of [`Node`].
+#[derive(Clone, Debug)]
+pub struct Nodes {
+    nodes: Vec<Node>,
+    /// What thinning adds to each; empty where the state evaluated last was Newtonian.
+    thinning: Vec<ShearNode>,
+}
+
+impl Deref for Nodes {
+    type Target = [Node];
+
+    fn deref(&self) -> &[Node] {
+        &self.nodes
+    }
+}
+
+impl Nodes {
+    /// Room for `count` nodes, of a thinning lubricant where `thinning` says so.
+    pub fn new(count: usize, thinning: bool) -> Self {
+        Self { nodes: vec![Node::default(); count], thinning: Vec::with_capacity(if thinning { count } else { 0 }) }
+    }
+
+    /// The nodes of given fields.
+    pub fn of(laws: Laws<'_>, gradient: &PlaneGradient, pressure: &[f64], film: &[f64]) -> Self {
+        let mut nodes = Self::new(pressure.len(), laws.shear.is_some());
+        let at = |k: usize| gradient.at_node(pressure, k);
+        nodes.evaluate(laws, (pressure, film), at, FilmTreatment::default(), Order::Alone);
+        nodes
+    }
+
+    /// Forgets the films of former evaluations: those of another contact are no start.
+    pub fn forget(&mut self) {
+        self.thinning.fill(ShearNode::default());
+    }
+
+    /// Whether the state evaluated last thins under shear.
+    pub fn thins(&self) -> bool {
+        !self.thinning.is_empty()
+    }
+
+    /// Evaluates all nodes of (P, H); `gradient` gives (P_X, P_Y) of each, which a Newtonian lubricant does not ask for.
+    pub fn evaluate(
+        &mut self,
+        laws: Laws<'_>,
+        (pressure, film): (&[f64], &[f64]),
+        gradient: impl Fn(usize) -> [f64; 2] + Sync,
+        treatment: FilmTreatment,
+        order: Order,
+    ) {
+        let Laws { fluid, shear, inverse_lambda } = laws;
+        let Some(law) = shear else {
+            self.thinning.clear();
+            let of = |(node, (&p, &h)): (&mut Node, (&f64, &f64))| *node = Node::new(fluid, inverse_lambda, p, h);
+            match order {
+                Order::Parallel => {
+                    let states = pressure.par_iter().zip(film);
+                    self.nodes.par_iter_mut().zip(states).with_min_len(SHARE[0]).for_each(of);
+                }
+                Order::Alone | Order::BesideTheFormer => {
+                    self.nodes.iter_mut().zip(pressure.iter().zip(film)).for_each(of);
+                }
+            }
+            return;
+        };
+        self.thinning.resize(self.nodes.len(), ShearNode::default());
+        let thinned = |k: usize, own: &ShearNode, beside: Option<&ShearNode>| {
+            let state = NodeState { pressure: pressure[k], gradient: gradient(k), film: film[k] };
+            // Between two evaluations the stress hardly changes; in the first one the node before is near.
+            let known = beside.filter(|_| own.known.is_empty()).unwrap_or(own).known;
+            ShearNode::near(&known, fluid, law, inverse_lambda, state, treatment)
+        };
+        let nodes = &mut self.nodes;
+        match order {
+            Order::Parallel => {
+                let all = self.thinning.par_iter_mut().zip(nodes).enumerate().with_min_len(SHARE[1]);
+                all.for_each(|(k, (own, node))| {
+                    *own = thinned(k, own, None);
+                    *node = own.node;
+                });
+            }
+            Order::Alone | Order::BesideTheFormer => {
+                let mut former = ShearNode::default();
+                for (k, (own, node)) in self.thinning.iter_mut().zip(nodes).enumerate() {
+                    *own = thinned(k, own, (order == Order::BesideTheFormer).then_some(&former));
+                    *node = own.node;
+                    former = *own;
+                }
+            }
+        }
+    }
+
+    /// A row at these nodes.
+    #[inline]
+    pub fn row(&self, geometry: &RowGeometry, penalty: f64, stencil: [usize; STENCIL]) -> Row {
+        row(geometry, penalty, stencil.map(|node| &self.nodes[node]))
+    }
+
+    /// Its derivatives by the nodal gradients along an axis, see [`gradient_slopes`]; the nodes must thin.
+    #[inline]
+    pub fn slopes(&self, geometry: &RowGeometry, stencil: [usize; STENCIL], axis: usize) -> [f64; STENCIL] {
+        gradient_slopes(geometry, stencil.map(|node| &self.thinning[node]), axis)
+    }
+}
