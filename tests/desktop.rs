@@ -52,11 +52,11 @@ fn what_is_typed_is_found_and_done() {
     ask(&mut harness, "theme light");
     enter(&mut harness);
     assert_eq!(harness.ctx.theme(), egui::Theme::Light);
-    let load = harness.state().load_n_per_m();
+    let load = harness.state().load();
     set(&mut harness, Role::Slider, "Load number M", 80.0);
     ask(&mut harness, "undo");
     enter(&mut harness);
-    assert!((harness.state().load_n_per_m() / load - 1.0).abs() < 1e-12);
+    assert!((harness.state().load() / load - 1.0).abs() < 1e-12);
     let before = harness.state().moes();
     ask(&mut harness, "point cont");
     enter(&mut harness);

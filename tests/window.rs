@@ -69,17 +69,17 @@ fn a_model_draws_the_picture_and_a_full_solve_checks_it() {
 fn the_slider_moves_the_load_and_undo_brings_it_back() {
     let mut harness = open();
     settled(&mut harness);
-    let before = harness.state().load_n_per_m();
+    let before = harness.state().load();
     harness.get_by_label("Load number M").set_value_accesskit(80.0);
     harness.run();
-    let after = harness.state().load_n_per_m();
+    let after = harness.state().load();
     assert!((harness.state().moes().m / 80.0 - 1.0).abs() < 1e-6);
     assert!((after / before - 2.0).abs() < 1e-6, "{before} to {after}");
     wait(&mut harness, "the new picture", |app| app.central_film().is_some());
     undo(&mut harness);
-    assert!((harness.state().load_n_per_m() / before - 1.0).abs() < 1e-12);
+    assert!((harness.state().load() / before - 1.0).abs() < 1e-12);
     press(&mut harness, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
-    assert!((harness.state().load_n_per_m() / after - 1.0).abs() < 1e-12);
+    assert!((harness.state().load() / after - 1.0).abs() < 1e-12);
 }
 
 #[test]
@@ -245,7 +245,7 @@ fn what_is_not_active_says_why_to_everybody() {
 fn a_whole_drag_is_one_step_back() {
     let mut harness = open();
     settled(&mut harness);
-    let before = harness.state().load_n_per_m();
+    let before = harness.state().load();
     let rail = harness.get_by_label("Load number M").rect();
     let at = |t: f32| egui::pos2(rail.left() + t * rail.width(), rail.center().y);
     harness.hover_at(at(0.5));
@@ -256,17 +256,17 @@ fn a_whole_drag_is_one_step_back() {
     for k in 1..=12 {
         harness.hover_at(at(0.5 + 0.02 * k as f32));
         harness.step();
-        passed.push(harness.state().load_n_per_m());
+        passed.push(harness.state().load());
     }
     harness.drop_at(at(0.74));
     harness.step();
     assert!(passed.windows(2).all(|w| w[0] < w[1]), "{passed:?}");
-    let after = harness.state().load_n_per_m();
+    let after = harness.state().load();
     assert!(after > 2.0 * before, "{before} to {after}");
     undo(&mut harness);
-    assert!((harness.state().load_n_per_m() / before - 1.0).abs() < 1e-12, "one step back is the whole drag");
+    assert!((harness.state().load() / before - 1.0).abs() < 1e-12, "one step back is the whole drag");
     press(&mut harness, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
-    assert!((harness.state().load_n_per_m() / after - 1.0).abs() < 1e-12);
+    assert!((harness.state().load() / after - 1.0).abs() < 1e-12);
 }
 
 fn open_embedded() -> Window {

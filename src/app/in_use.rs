@@ -1,5 +1,6 @@
 //! The reduced model as it is used: with the truncation that the document asks for.
 
+use crate::engine::Store;
 use crate::scene::View;
 use crate::solver::full::{ContactSolver, Scalars, Solution, SolveError, Start};
 use crate::solver::observer::Observer;
@@ -61,53 +62,39 @@ impl InUse {
     }
 }
 
-/// Reduced solves along a path, each from its neighbour; operators are made when first needed.
-pub struct Chain {
-    /// The model and its truncation.
-    pub in_use: InUse,
+/// Solves by a model as it is used, with what is in a store; operators are made when first needed.
+pub struct Solvers {
+    in_use: InUse,
+    store: Store,
     windows: Vec<Option<Online>>,
 }
 
-impl Chain {
-    /// A chain that nothing has been solved with.
-    pub fn new(in_use: &InUse) -> Self {
-        Self { in_use: in_use.clone(), windows: in_use.model.windows.iter().map(|_| None).collect() }
+impl Solvers {
+    /// Solvers that nothing has been solved with.
+    pub fn new(store: &Store, in_use: &InUse) -> Self {
+        let windows = in_use.model.windows.iter().map(|_| None).collect();
+        Self { in_use: in_use.clone(), store: store.clone(), windows }
     }
 
-    /// The reduced solution, and its fields.
+    fn online(&mut self, moes: Moes) -> Result<&mut Online, ReducedError> {
+        let Self { in_use, store, windows } = self;
+        let place = windows.get_mut(in_use.model.window_for(moes)).ok_or(ReducedError::Empty)?;
+        Ok(place.get_or_insert_with(|| store.online(&in_use.model, in_use.options_at(moes))))
+    }
+
+    /// The reduced solution and its fields, from its neighbours along a path.
     ///
     /// # Errors
     /// When the point is refused or Newton does not converge.
-    pub fn solve(
+    pub fn along(
         &mut self,
         point: &OperatingPoint,
         lubricant: Lubricant,
     ) -> Result<(ReducedSolution, Solution), ReducedError> {
-        let (model, moes) = (&self.in_use.model, point.moes());
-        let place = self.windows.get_mut(model.window_for(moes)).ok_or(ReducedError::Empty)?;
-        let online = place.get_or_insert_with(|| Online::new(Arc::clone(model), self.in_use.options_at(moes)));
+        let online = self.online(point.moes())?;
         let solved = online.solve(point, lubricant)?;
         let fields = online.reconstruct(&solved)?;
         Ok((solved, fields))
-    }
-}
-
-/// Reduced and full solvers of a model as it is used, for a study's own thread.
-pub struct Solvers {
-    in_use: InUse,
-    reduced: Vec<Online>,
-    full: Vec<ContactSolver>,
-}
-
-impl Solvers {
-    /// Solvers of every window; operators are made when first needed.
-    pub fn new(in_use: &InUse) -> Self {
-        let windows = &in_use.model.windows;
-        Self {
-            reduced: windows.iter().map(|w| Online::new(Arc::clone(&in_use.model), in_use.options(w))).collect(),
-            full: windows.iter().map(|w| ContactSolver::on(&w.grid)).collect(),
-            in_use: in_use.clone(),
-        }
     }
 
     /// The reduced solution, independent of what was solved before.
@@ -119,8 +106,7 @@ impl Solvers {
         point: &OperatingPoint,
         lubricant: Lubricant,
     ) -> Result<(ReducedSolution, Scalars), ReducedError> {
-        let window = self.in_use.model.window_for(point.moes());
-        let online = self.reduced.get_mut(window).ok_or(ReducedError::Empty)?;
+        let online = self.online(point.moes())?;
         online.forget();
         let solved = online.solve(point, lubricant)?;
         let scalars = online.scalars(&solved)?;
@@ -132,15 +118,23 @@ impl Solvers {
     /// # Errors
     /// When the point is refused.
     pub fn full(
-        &mut self,
+        &self,
         point: &OperatingPoint,
         lubricant: Lubricant,
         start: Start<'_>,
         observer: &dyn Observer,
     ) -> Result<Option<Solution>, SolveError> {
-        let window = self.in_use.model.window_for(point.moes());
-        let Some(solver) = self.full.get_mut(window) else { return Ok(None) };
-        let solution = solver.solve(point, lubricant, start, observer)?;
-        Ok(solution.converged().then_some(solution))
+        let model = &self.in_use.model;
+        let Some(window) = model.windows.get(model.window_for(point.moes())) else { return Ok(None) };
+        let solve = |solver: &mut ContactSolver| solver.solve(point, lubricant, start, observer);
+        Ok(Some(self.store.with_full_solver(&window.grid, solve)?).filter(Solution::converged))
+    }
+}
+
+impl Drop for Solvers {
+    fn drop(&mut self) {
+        for online in self.windows.drain(..).flatten() {
+            self.store.give_back(online);
+        }
     }
 }

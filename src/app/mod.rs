@@ -21,15 +21,14 @@ mod picture;
 mod png;
 mod presentation;
 mod session;
-mod solvers;
 mod state;
 mod tabs;
-mod task;
 mod theme;
 mod traction;
 mod training;
 mod transient;
 
+use crate::engine::Store;
 use crate::solver::physics::contact::{ContactKind, Moes};
 use crate::solver::reduced::ReducedModel;
 use command::Command;
@@ -106,17 +105,18 @@ pub struct Explorer {
 impl Explorer {
     /// A window with one reduced model, or without any: the full solver then draws every other picture.
     pub fn new(model: Option<Arc<ReducedModel>>) -> Self {
-        Self::with_models(Models::only(model))
+        Self::with_models(Models::only(model), Store::default())
     }
 
     /// A window with all models that are part of the program.
     pub fn with_embedded_models() -> Self {
-        Self::with_models(Models::embedded())
+        let store = Store::default();
+        Self::with_models(Models::embedded(&store), store)
     }
 
-    fn with_models(models: Models) -> Self {
+    fn with_models(models: Models, store: Store) -> Self {
         Self {
-            state: State::new(Document::default(), models),
+            state: State::new(Document::default(), models, store),
             tree: tabs::default_tree(),
             palette: Palette::default(),
             help: Help::default(),
@@ -207,8 +207,8 @@ impl Explorer {
         self.state.document.point.moes()
     }
 
-    /// The load of the sliders \[N/m\].
-    pub fn load_n_per_m(&self) -> f64 {
+    /// The load of the sliders: in N/m of a line contact, in N of a point contact.
+    pub fn load(&self) -> f64 {
         self.state.document.point.load
     }
 

@@ -1,6 +1,6 @@
 //! Where the explorer's reduced models come from: one for each kind of contact and each fluid, or none.
 
-use crate::engine::model_file;
+use crate::engine::Store;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use crate::solver::reduced::ReducedModel;
@@ -15,12 +15,16 @@ pub struct Models {
 
 impl Models {
     /// The models embedded in the program. Without them (a damaged build) the full solver draws the pictures.
-    pub fn embedded() -> Self {
-        let of =
-            |(thins, kind)| if thins { model_file::embedded_shear_of(kind) } else { model_file::embedded_of(kind) };
+    pub fn embedded(store: &Store) -> Self {
         let all = [false, true].map(|thins| [ContactKind::Line, ContactKind::Point].map(|kind| (thins, kind)));
         // Operators are computed as a model is read: all of them at once, for the window waits.
-        Self { models: all.as_flattened().par_iter().filter_map(|wanted| of(*wanted).ok()).collect() }
+        Self {
+            models: all
+                .as_flattened()
+                .par_iter()
+                .filter_map(|&(thins, kind)| store.embedded(kind, thins).ok())
+                .collect(),
+        }
     }
 
     /// Only this model, or none.
@@ -73,7 +77,7 @@ mod tests {
 
     #[test]
     fn the_fluid_picks_the_model_and_another_fluid_gets_the_one_akin() {
-        let models = Models::embedded();
+        let models = Models::embedded(&Store::default());
         let of = |lubricant: &Lubricant| models.of(ContactKind::Line, lubricant).unwrap();
         let (newtonian, thinning) = (of(&Lubricant::default()), of(&SQUALANE_PIP));
         assert!(newtonian.domain.sliding.is_none() && thinning.domain.sliding.is_some());
@@ -87,7 +91,7 @@ mod tests {
 
     #[test]
     fn a_model_takes_the_place_of_the_one_of_its_fluid_only() {
-        let mut models = Models::embedded();
+        let mut models = Models::embedded(&Store::default());
         let own = Arc::clone(models.of(ContactKind::Line, &SQUALANE_PIP).unwrap());
         let mut other = ReducedModel::clone(&own);
         other.title = "another".to_owned();

@@ -1,5 +1,6 @@
 //! Numbers as people read them: four significant digits, a thin space before the unit, and typed numbers back again.
 
+use crate::engine::job::Standing;
 use crate::solver::physics::contact::Moes;
 
 /// Thin space between a number and its unit.
@@ -67,6 +68,16 @@ pub fn duration(second: f64) -> String {
         short(second * 1e3, "ms")
     } else {
         short(second * 1e6, "µs")
+    }
+}
+
+/// How much of a job is done and how long the rest takes.
+pub fn standing(standing: &Standing) -> String {
+    let amount = if standing.total > 0 { format!("{} of {}", standing.done, standing.total) } else { String::new() };
+    match standing.left_s {
+        Some(left) if standing.total > 0 && left >= 1.0 => format!("{amount}, {} s left", left.round()),
+        Some(_) if standing.total > 0 => format!("{amount}, less than a second left"),
+        _ => duration(standing.since_s),
     }
 }
 

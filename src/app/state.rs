@@ -19,10 +19,11 @@ use super::presentation::Presentation;
 use super::tabs::contact_map::ContactMap;
 use super::tabs::film_shear::FilmShearImage;
 use super::tabs::{accuracy::AccuracyView, basis::BasisView, regimes::RegimeChart, tpwl::TpwlView};
-use super::task::Standing;
 use super::traction::TractionView;
 use super::training::Training;
 use super::transient::TransientView;
+use crate::engine::Store;
+use crate::engine::job::Standing;
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::{Mesh, Problem, Report};
 use crate::solver::physics::contact::ContactKind;
@@ -76,7 +77,9 @@ pub struct State {
     pub files: Files,
     /// How things are shown.
     pub display: Display,
-    /// The worker.
+    /// Grids, solvers and models, shared by everything that computes.
+    pub store: Store,
+    /// Full solves for the picture.
     pub jobs: Jobs,
     /// Text fields being edited and their messages.
     pub entries: Entries,
@@ -141,7 +144,7 @@ pub struct State {
 
 impl State {
     /// A window on a document.
-    pub fn new(document: Document, models: Models) -> Self {
+    pub fn new(document: Document, models: Models, store: Store) -> Self {
         let mut history = History::default();
         history.restart(&document);
         Self {
@@ -149,7 +152,8 @@ impl State {
             document,
             history,
             display: Display::default(),
-            jobs: Jobs::default(),
+            jobs: Jobs::new(&store),
+            store,
             entries: Entries::default(),
             own_lubricant: false,
             models,

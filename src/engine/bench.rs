@@ -1,6 +1,7 @@
 //! The speed table: full and reduced side by side, against a dense Newton measured in the same run.
 
 use super::error::EngineError;
+use super::model_file;
 use super::sampling::random_points;
 use super::statistics::{median, percentile};
 use super::timed_march::{Timed, timed_march};
@@ -121,7 +122,7 @@ pub fn run(quick: bool) -> Result<Bench, EngineError> {
     rows.extend(cold_and_warm(names, ROW_BUDGET[size], &shear, |problem, start| {
         Ok(solver.solve_problem(problem, start, &()))
     })?);
-    match super::embedded_model(ContactKind::Line) {
+    match model_file::embedded_of(ContactKind::Line) {
         Ok(model) => {
             let mut online = Online::new(model, ReducedOptions::default());
             rows.push(reduced_row("line/reduced", &mut online, (&points, lubricant), true, ROW_BUDGET[size]));
@@ -134,7 +135,7 @@ pub fn run(quick: bool) -> Result<Bench, EngineError> {
     bench.add(transient_rows(size)?, TRANSIENT_BASELINE);
     let shear = shear_problems(ContactKind::Point, POINT_POINTS[size])?;
     let mut rows = point_rows(size, &shear)?;
-    match super::embedded_model(ContactKind::Point) {
+    match model_file::embedded_of(ContactKind::Point) {
         Ok(model) => {
             let range = TestRange::Box(QuantityBox::TABLE_3_4);
             let points = random_points(&range, ContactKind::Point, REDUCED_POINTS[size], SEED);
@@ -160,7 +161,7 @@ impl Bench {
         kind: ContactKind,
         size: usize,
     ) -> Result<Vec<Timing>, EngineError> {
-        match super::embedded_shear_model(kind) {
+        match model_file::embedded_shear_of(kind) {
             Ok(model) => {
                 let mut online = Online::new(model, ReducedOptions::default());
                 let problems = shear_problems(kind, REDUCED_SHEAR_POINTS[size])?;

@@ -8,13 +8,11 @@ use super::series::contacts_of;
 use super::table::Table;
 use super::workbench::Workbench;
 use crate::scene::{Axis, Scene};
-use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::Solution;
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{PodBasis, deformation_weights};
 use crate::solver::training::TrainingObserver;
 use faer::Mat;
-use std::sync::Arc;
 
 /// Values: `snapshots`, `full_failures`, `nodes_x`, `nodes_y`, `dofs` (2n + 1), and for every loss of information `basis_p[1e-5]` and
 /// `basis_delta[1e-5]`, (2.92) and (2.93).
@@ -26,10 +24,7 @@ pub(super) fn run(
     outcome: &mut SceneOutcome,
 ) -> Result<(), EngineError> {
     let request = request_of(scene)?;
-    let grid = match scene.contact {
-        ContactKind::Line => ContactGrid::Line(Arc::clone(workbench.full_solver(&request, observer)?.reference())),
-        ContactKind::Point => ContactGrid::Point(Arc::clone(workbench.point_solver(&request, observer)?.grid())),
-    };
+    let grid = workbench.grid(&request, observer)?;
     let points: Vec<OperatingPoint> = contacts_of(scene, over)?.into_iter().map(|contact| contact.point).collect();
     let solutions = full_solutions(|_| grid.clone(), &points, scene.lubricant, observer)?;
     let solutions: Vec<Solution> = solutions.into_iter().flatten().collect();

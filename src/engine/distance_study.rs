@@ -8,10 +8,8 @@ use super::sampling::random_points;
 use super::table::Table;
 use super::workbench::Workbench;
 use crate::scene::{Scene, TestRange};
-use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::training::TrainingObserver;
 use crate::solver::training::distance::{Candidate, DISSERTATION, FURTHER, correlation, fit};
-use std::sync::Arc;
 
 /// Values: `correlation` and `ratio` (weight of (ΔL)² over that of the M-term) for the two functions of (3.20), `correlation_printed` for
 /// its own weights 1 : 0.001, `correlation_all` and `weight.…` for all candidates together, `alone.…` for each by itself.
@@ -23,7 +21,7 @@ pub(super) fn run(
     outcome: &mut SceneOutcome,
 ) -> Result<(), EngineError> {
     let drawn = random_points(range, scene.contact, points, seed);
-    let grid = ContactGrid::Line(Arc::clone(workbench.full_solver(&request_of(scene)?, observer)?.reference()));
+    let grid = workbench.grid(&request_of(scene)?, observer)?;
     let solutions = full_solutions(|_| grid.clone(), &drawn, scene.lubricant, observer)?;
     let (mut kept, mut states) = (Vec::new(), Vec::new());
     for solution in solutions.into_iter().flatten() {

@@ -18,6 +18,7 @@ mod error_measure_study;
 mod formula_comparison;
 mod grid_accuracy;
 mod grid_study;
+pub mod job;
 mod model_comparison;
 pub mod model_file;
 mod outcome;
@@ -31,6 +32,7 @@ mod sampling_study;
 mod series;
 mod split_study;
 mod statistics;
+mod store;
 mod stored_matrix;
 pub mod table;
 mod timed_march;
@@ -52,27 +54,7 @@ pub use report::{
 pub use run::run_scene;
 pub use sampling::{Random, random_points};
 pub use statistics::{median, percentile, rank_correlation};
+pub use store::Store;
 pub use table::Table;
 pub(crate) use transient_study::{TOO_STEEP, train_linearised};
 pub use workbench::Workbench;
-
-use crate::solver::physics::contact::ContactKind;
-use crate::solver::reduced::ReducedModel;
-use model_file::ModelFileError;
-use std::sync::Arc;
-
-/// The reduced model of one kind of contact in the program.
-///
-/// # Errors
-/// When the program was built with a damaged one.
-pub fn embedded_model(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileError> {
-    model_file::embedded_of(contact)
-}
-
-/// The reduced model of one kind of contact with a shear-thinning lubricant in the program.
-///
-/// # Errors
-/// When the program was built with a damaged one.
-pub fn embedded_shear_model(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileError> {
-    model_file::embedded_shear_of(contact)
-}

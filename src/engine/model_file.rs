@@ -29,17 +29,17 @@ const FORMAT: Format = Format { magic: b"EHLROM\r\n", version: VERSION, oldest: 
 /// Relative accuracy of pressures and deformations at every node to which the bases of line and of point contacts are kept.
 const ACCURACY: [f64; 2] = [1e-13, 2e-10];
 
-/// The model that is part of the program, trained by `scenes/training/embedded_model.ron`.
-static EMBEDDED: &[u8] = include_bytes!("../../assets/line.rom");
-
-/// The model of point contacts that is part of the program, trained by `scenes/training/table_3_4_model.ron`.
-static EMBEDDED_POINT: &[u8] = include_bytes!("../../assets/point.rom");
-
-/// The model of point contacts with a lubricant that thins under shear, trained by `scenes/training/embedded_point_shear_model.ron`.
-static EMBEDDED_POINT_SHEAR: &[u8] = include_bytes!("../../assets/point_shear.rom");
-
-/// That of line contacts, trained by `scenes/training/embedded_shear_model.ron`.
-static EMBEDDED_SHEAR: &[u8] = include_bytes!("../../assets/line_shear.rom");
+/// The models that are part of the program: of a kind of contact, for a lubricant that thins under shear or not. Each is trained by a scene.
+const EMBEDDED: [((ContactKind, bool), &[u8]); 4] = [
+    // scenes/training/embedded_model.ron
+    ((ContactKind::Line, false), include_bytes!("../../assets/line.rom")),
+    // scenes/training/table_3_4_model.ron
+    ((ContactKind::Point, false), include_bytes!("../../assets/point.rom")),
+    // scenes/training/embedded_shear_model.ron
+    ((ContactKind::Line, true), include_bytes!("../../assets/line_shear.rom")),
+    // scenes/training/embedded_point_shear_model.ron
+    ((ContactKind::Point, true), include_bytes!("../../assets/point_shear.rom")),
+];
 
 /// Why a model file is refused. Nothing is lost by it.
 #[derive(Debug, thiserror::Error)]
@@ -241,6 +241,19 @@ impl StoredWindow {
     }
 }
 
+/// The content of the model in the program for a kind of contact and a lubricant that thins under shear or not.
+fn embedded_bytes(contact: ContactKind, thins: bool) -> &'static [u8] {
+    EMBEDDED.iter().find(|(of, _)| *of == (contact, thins)).map_or(&[], |(_, bytes)| bytes)
+}
+
+/// The model in the program for a kind of contact and a lubricant that thins under shear or not.
+///
+/// # Errors
+/// When the program was built with a damaged asset.
+pub fn embedded_model(contact: ContactKind, thins: bool) -> Result<ReducedModel, ModelFileError> {
+    from_bytes(embedded_bytes(contact, thins))
+}
+
 /// The model of line contacts that is part of the program.
 ///
 /// # Errors
@@ -254,11 +267,7 @@ pub fn embedded() -> Result<Arc<ReducedModel>, ModelFileError> {
 /// # Errors
 /// When the program was built with a damaged asset.
 pub fn embedded_of(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileError> {
-    let bytes = match contact {
-        ContactKind::Line => EMBEDDED,
-        ContactKind::Point => EMBEDDED_POINT,
-    };
-    from_bytes(bytes).map(Arc::new)
+    embedded_model(contact, false).map(Arc::new)
 }
 
 /// The model of one kind of contact with a shear-thinning lubricant that is part of the program.
@@ -266,11 +275,7 @@ pub fn embedded_of(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileE
 /// # Errors
 /// When the program was built with a damaged asset.
 pub fn embedded_shear_of(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileError> {
-    let bytes = match contact {
-        ContactKind::Line => EMBEDDED_SHEAR,
-        ContactKind::Point => EMBEDDED_POINT_SHEAR,
-    };
-    from_bytes(bytes).map(Arc::new)
+    embedded_model(contact, true).map(Arc::new)
 }
 
 /// Reads a model file. Its announced size is checked before anything is allocated.
@@ -397,7 +402,7 @@ mod tests {
 
     #[test]
     fn the_embedded_models_are_intact_small_and_survive_a_round_trip() {
-        for bytes in [EMBEDDED, EMBEDDED_POINT, EMBEDDED_SHEAR, EMBEDDED_POINT_SHEAR] {
+        for (_, bytes) in EMBEDDED {
             assert!(bytes.len() < 6_000_000, "{} bytes", bytes.len());
             assert!(to_bytes(&from_bytes(bytes).unwrap()).unwrap() == bytes);
         }
@@ -407,17 +412,18 @@ mod tests {
     fn damage_is_named_and_never_panics() {
         assert!(matches!(from_bytes(b"PNG something else entirely"), Err(ModelFileError::Foreign)));
         assert!(matches!(from_bytes(&[]), Err(ModelFileError::Foreign)));
-        assert!(matches!(from_bytes(&EMBEDDED[..10]), Err(ModelFileError::Truncated { .. })));
-        assert!(matches!(from_bytes(&EMBEDDED[..EMBEDDED.len() - 9]), Err(ModelFileError::Truncated { .. })));
-        let mut flipped = EMBEDDED.to_vec();
+        let line = embedded_bytes(ContactKind::Line, false);
+        assert!(matches!(from_bytes(&line[..10]), Err(ModelFileError::Truncated { .. })));
+        assert!(matches!(from_bytes(&line[..line.len() - 9]), Err(ModelFileError::Truncated { .. })));
+        let mut flipped = line.to_vec();
         let middle = flipped.len() / 2;
         flipped[middle] ^= 0x40;
         assert!(matches!(from_bytes(&flipped), Err(ModelFileError::Damaged { .. })));
-        let mut huge = EMBEDDED.to_vec();
+        let mut huge = line.to_vec();
         huge[12..20].copy_from_slice(&u64::MAX.to_le_bytes());
         assert!(matches!(from_bytes(&huge), Err(ModelFileError::TooLarge { .. })));
         let of_version = |version: u8| {
-            let mut bytes = EMBEDDED_SHEAR.to_vec();
+            let mut bytes = embedded_bytes(ContactKind::Line, true).to_vec();
             bytes[8] = version;
             from_bytes(&bytes)
         };
@@ -426,7 +432,7 @@ mod tests {
         let old = of_version(OLDEST as u8).unwrap();
         assert!(old.windows[0].calibration.is_none(), "what older files promise under sliding is not believed");
         // Without sliding the same evidence gives the same bounds, whatever an older file kept of its scatter.
-        let mut bytes = EMBEDDED.to_vec();
+        let mut bytes = line.to_vec();
         bytes[8] = MEAN_SQUARES as u8 - 1;
         let (old, new) = (from_bytes(&bytes).unwrap(), embedded().unwrap());
         assert!(old.windows.iter().zip(&new.windows).all(|(old, new)| old.calibration == new.calibration));

@@ -2,15 +2,15 @@
 
 use super::answer::{Answer, ReducedFacts, Request};
 use super::error::EngineError;
-use super::model_file;
+use super::store::Store;
 use crate::scene::{Grid, Method, ModelSource, Scene, Study};
-use crate::solver::discrete::grid::{ContactGrid, GridSpec, PointGrid, PointGridSpec, ReferenceGrid};
+use crate::solver::discrete::grid::{ContactGrid, ContactGridSpec};
 use crate::solver::full::point::resolution_warning;
-use crate::solver::full::{FullSolver, PointSolver, Problem, Solution, Start};
+use crate::solver::full::{Problem, Solution, SolveError, Start};
 use crate::solver::physics::contact::{ContactKind, Moes, PLAUSIBLE_HERTZ_PRESSURE_PA};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use crate::solver::reduced::{Online, ReducedError, ReducedModel, ReducedOptions, Trust, Window};
-use crate::solver::training::{TrainingObserver, TrainingSpec, train};
+use crate::solver::training::{TrainingObserver, TrainingSpec};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -18,33 +18,23 @@ use std::time::Instant;
 /// Newtonian traction coefficients beyond this are no physics: real oils yield or thin long before.
 const PLAUSIBLE_TRACTION: f64 = 0.2;
 
-/// Grids, solvers and models, made when first needed and kept.
+/// The store as one job uses it: with the folder that its paths refer to, and reduced solvers that remember only what this job has solved.
+#[derive(Default)]
 pub struct Workbench {
+    store: Store,
     base: PathBuf,
-    solvers: Vec<FullSolver>,
-    point_solvers: Vec<PointSolver>,
-    models: Vec<(Wanted, Arc<ReducedModel>)>,
-    online: Vec<(Wanted, Online)>,
+    online: Vec<Online>,
 }
 
-/// Where a model comes from, of which kind of contact it should be, and whether its lubricant thins under shear: the program holds one of each.
-type Wanted = (ModelSource, ContactKind, bool);
-
-/// Full solvers of line contacts kept at a time; the oldest goes first.
-const KEPT_SOLVERS: usize = 6;
-/// Full solvers of point contacts kept at a time: each holds some hundred megabytes on a fine grid.
-const KEPT_POINT_SOLVERS: usize = 2;
-
 impl Workbench {
-    /// An empty workbench; relative paths of models refer to the folder `base`.
+    /// A workbench with a store of its own; relative paths refer to the folder `base`.
     pub fn new(base: impl Into<PathBuf>) -> Self {
-        Self {
-            base: base.into(),
-            solvers: Vec::new(),
-            point_solvers: Vec::new(),
-            models: Vec::new(),
-            online: Vec::new(),
-        }
+        Self::on(&Store::default(), base)
+    }
+
+    /// A workbench on what others keep as well.
+    pub fn on(store: &Store, base: impl Into<PathBuf>) -> Self {
+        Self { store: store.clone(), base: base.into(), online: Vec::new() }
     }
 
     /// A path of the scene's, relative to its folder.
@@ -52,20 +42,12 @@ impl Workbench {
         self.base.join(path)
     }
 
-    /// Puts a model in place of what its source would give.
-    pub fn insert_model(&mut self, source: ModelSource, model: Arc<ReducedModel>) {
-        let wanted = (source, model.contact(), model.domain.sliding.is_some());
-        self.models.retain(|(kept, _)| *kept != wanted);
-        self.online.retain(|(kept, _)| *kept != wanted);
-        self.models.push((wanted, model));
-    }
-
     /// The reduced model of a source, for one kind of contact and a Newtonian lubricant: read, or trained, once.
     ///
     /// # Errors
     /// When it cannot be read or trained.
     pub fn model(
-        &mut self,
+        &self,
         source: &ModelSource,
         contact: ContactKind,
         observer: &dyn TrainingObserver,
@@ -78,27 +60,19 @@ impl Workbench {
     /// # Errors
     /// When it cannot be read or trained.
     pub fn model_for(
-        &mut self,
+        &self,
         source: &ModelSource,
         contact: ContactKind,
         lubricant: &Lubricant,
         observer: &dyn TrainingObserver,
     ) -> Result<Arc<ReducedModel>, EngineError> {
-        let wanted = wanted(source, contact, lubricant);
-        if let Some((_, model)) = self.models.iter().find(|(kept, _)| *kept == wanted) {
-            return Ok(Arc::clone(model));
-        }
-        let model = match source {
-            ModelSource::Embedded if wanted.2 => super::embedded_shear_model(contact).map_err(EngineError::Embedded)?,
-            ModelSource::Embedded => super::embedded_model(contact).map_err(EngineError::Embedded)?,
-            ModelSource::File(path) => {
-                let path = self.base.join(path);
-                Arc::new(model_file::read(&path).map_err(|reason| EngineError::Model { path, reason })?)
+        match source {
+            ModelSource::Embedded => {
+                self.store.embedded(contact, lubricant.shear != ShearLaw::Newtonian).map_err(EngineError::Embedded)
             }
-            ModelSource::Trained(path) => Arc::new(train(&self.training(path)?, observer)?),
-        };
-        self.models.push((wanted, Arc::clone(&model)));
-        Ok(model)
+            ModelSource::File(path) => self.store.model_of_file(&self.base.join(path)),
+            ModelSource::Trained(path) => self.store.trained(&self.training(path)?, observer),
+        }
     }
 
     /// The training that a scene describes.
@@ -149,99 +123,44 @@ impl Workbench {
         Ok(answer)
     }
 
-    /// The full solver of point contacts for a request's grid.
+    /// The grid on which a request is solved in full.
     ///
     /// # Errors
-    /// When the grid is refused or its model cannot be had.
-    pub fn point_solver(
-        &mut self,
-        request: &Request,
-        observer: &dyn TrainingObserver,
-    ) -> Result<&mut PointSolver, EngineError> {
-        let (spec, ready): (PointGridSpec, Option<Arc<PointGrid>>) = match (request.grid, request.grid.point_spec()) {
-            (_, Some(spec)) => (spec, None),
-            (Grid::Model, None) => {
-                let model = self.model_for(&request.grid_model, ContactKind::Point, &request.lubricant, observer)?;
-                match &window_of(&model, request.point.moes())?.grid {
-                    ContactGrid::Point(grid) => (grid.spec, Some(Arc::clone(grid))),
-                    ContactGrid::Line(_) => return Err(other_contact(&model, ContactKind::Point)),
-                }
-            }
-            _ => return Err(EngineError::Study("a point contact needs a Plane `grid`, Model, or none".to_owned())),
+    /// When it is refused or its model cannot be had.
+    pub fn grid(&self, request: &Request, observer: &dyn TrainingObserver) -> Result<ContactGrid, EngineError> {
+        let kind = request.point.kind;
+        let spec = match kind {
+            ContactKind::Line => request.grid.spec().map(ContactGridSpec::Line),
+            ContactKind::Point => request.grid.point_spec().map(ContactGridSpec::Point),
         };
-        let place = match self.point_solvers.iter().position(|solver| solver.grid().spec == spec) {
-            Some(place) => place,
+        match spec {
+            Some(spec) => Ok(self.store.grid(spec).map_err(SolveError::from)?),
+            None if kind == ContactKind::Point && request.grid != Grid::Model => {
+                Err(EngineError::Study("a point contact needs a Plane `grid`, Model, or none".to_owned()))
+            }
             None => {
-                if self.point_solvers.len() == KEPT_POINT_SOLVERS {
-                    self.point_solvers.remove(0);
-                }
-                self.point_solvers.push(match ready {
-                    Some(grid) => PointSolver::on(grid),
-                    None => PointSolver::new(spec)?,
-                });
-                self.point_solvers.len() - 1
+                let model = self.model_for(&request.grid_model, kind, &request.lubricant, observer)?;
+                let grid = &window_of(&model, request.point.moes())?.grid;
+                if grid.kind() == kind { Ok(grid.clone()) } else { Err(other_contact(&model, kind)) }
             }
-        };
-        Ok(&mut self.point_solvers[place])
-    }
-
-    /// The full solver of line contacts for a request's grid.
-    ///
-    /// # Errors
-    /// When the grid is refused or its model cannot be had.
-    pub fn full_solver(
-        &mut self,
-        request: &Request,
-        observer: &dyn TrainingObserver,
-    ) -> Result<&mut FullSolver, EngineError> {
-        let moes = request.point.moes();
-        let (spec, ready): (GridSpec, Option<Arc<ReferenceGrid>>) = match request.grid.spec() {
-            Some(spec) => (spec, None),
-            None => {
-                let model = self.model_for(&request.grid_model, ContactKind::Line, &request.lubricant, observer)?;
-                match &window_of(&model, moes)?.grid {
-                    ContactGrid::Line(grid) => (grid.spec, Some(Arc::clone(grid))),
-                    ContactGrid::Point(_) => return Err(other_contact(&model, ContactKind::Line)),
-                }
-            }
-        };
-        let place = match self.solvers.iter().position(|solver| solver.reference().spec == spec) {
-            Some(place) => place,
-            None => {
-                let solver = match ready {
-                    Some(grid) => FullSolver::on(grid),
-                    None => FullSolver::new(spec)?,
-                };
-                if self.solvers.len() == KEPT_SOLVERS {
-                    self.solvers.remove(0);
-                }
-                self.solvers.push(solver);
-                self.solvers.len() - 1
-            }
-        };
-        Ok(&mut self.solvers[place])
+        }
     }
 
     fn full(
-        &mut self,
+        &self,
         request: &Request,
         problem: &Problem,
         start: Option<&Solution>,
         observer: &dyn TrainingObserver,
     ) -> Result<Answer, EngineError> {
         let start = start.map_or(Start::Cold, Start::From);
-        let (solution, wall_s) = match problem.point.kind {
-            ContactKind::Line => {
-                let solver = self.full_solver(request, observer)?;
-                let clock = Instant::now();
-                (solver.solve_problem(*problem, start, observer), clock.elapsed().as_secs_f64())
-            }
-            ContactKind::Point => {
-                let solver = self.point_solver(request, observer)?;
-                let clock = Instant::now();
-                (solver.solve_problem(*problem, start, observer)?, clock.elapsed().as_secs_f64())
-            }
-        };
+        let grid = self.grid(request, observer)?;
+        let (solution, wall_s) = self.store.with_full_solver(&grid, |solver| {
+            let clock = Instant::now();
+            let solution = solver.solve(&request.point, request.lubricant, start, observer);
+            (solution, clock.elapsed().as_secs_f64())
+        });
+        let solution = solution?;
         if observer.cancelled() {
             return Err(EngineError::Cancelled);
         }
@@ -286,16 +205,15 @@ impl Workbench {
         source: &ModelSource,
         observer: &dyn TrainingObserver,
     ) -> Result<Answer, EngineError> {
-        let wanted = wanted(source, problem.point.kind, &request.lubricant);
         let model = self.model_for(source, problem.point.kind, &request.lubricant, observer)?;
-        let place = match self.online.iter().position(|(kept, _)| *kept == wanted) {
+        let place = match self.online.iter().position(|online| Arc::ptr_eq(&online.model, &model)) {
             Some(place) => place,
             None => {
-                self.online.push((wanted, Online::new(Arc::clone(&model), ReducedOptions::default())));
+                self.online.push(self.store.online(&model, ReducedOptions::default()));
                 self.online.len() - 1
             }
         };
-        let online = &mut self.online[place].1;
+        let online = &mut self.online[place];
         // Operators belong to the model: wall_s is the solve alone.
         online.prepare(problem.moes);
         let clock = Instant::now();
@@ -352,8 +270,12 @@ impl Workbench {
     }
 }
 
-fn wanted(source: &ModelSource, contact: ContactKind, lubricant: &Lubricant) -> Wanted {
-    (source.clone(), contact, lubricant.shear != ShearLaw::Newtonian)
+impl Drop for Workbench {
+    fn drop(&mut self) {
+        for online in self.online.drain(..) {
+            self.store.give_back(online);
+        }
+    }
 }
 
 /// The window of a model that serves a contact.

@@ -4,7 +4,6 @@ mod path_window;
 
 use super::document::Document;
 use super::state::State;
-use crate::engine::model_file;
 use crate::scene::Scene;
 use egui::{Context, Id, Modal, Ui, ViewportCommand};
 use path_window::PathWindow;
@@ -157,8 +156,8 @@ impl State {
     /// A sentence when it cannot be read; what is on the screen stays.
     pub fn open_path(&mut self, path: &Path) -> Result<(), String> {
         if is_model(path) {
-            let model = model_file::read(path).map_err(|e| format!("{}: {e}", path.display()))?;
-            self.use_model(Arc::new(model));
+            let model = self.store.model_of_file(path).map_err(|e| e.to_string())?;
+            self.use_model(model);
             self.files.notice = Some(Ok(format!("Using the model {}", path.display())));
             return Ok(());
         }

@@ -1,23 +1,31 @@
-//! Work that takes longer than a frame: one worker thread, newest request first, cancellable, and unable to take the window down.
+//! Full solves for the picture: one thread, newest request first, cancellable, and unable to take the window down.
 
 mod request;
-mod worker;
 
 pub use request::{GridChoice, JobKind, Key, Outcome, Request};
-pub use worker::guarded;
 
-use crate::solver::observer::NewtonStep;
+use crate::engine::Store;
+use crate::engine::job::{Ending, Job, Queue, Reporter, Wake};
+use crate::solver::full::{Solution, Start};
+use crate::solver::observer::{NewtonStep, Observer};
 use crate::solver::physics::contact::ContactKind;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
-use worker::{Event, Job, Shared, work};
+
+/// Repaints when a job has news.
+pub fn wake(ctx: &egui::Context) -> Wake {
+    let ctx = ctx.clone();
+    Wake::new(move || ctx.request_repaint())
+}
+
+/// News of a solve.
+enum News {
+    Step(NewtonStep),
+    Krylov(usize),
+    Solved(Box<Solution>, f64),
+}
 
 /// A job as the strip at the bottom shows it.
 pub struct Running {
-    /// Its number.
-    pub id: u64,
     /// What it was asked for.
     pub kind: JobKind,
     /// The parameters it is for.
@@ -28,41 +36,34 @@ pub struct Running {
     pub krylov: usize,
     /// When it was handed over.
     pub since: Instant,
-    cancel: Arc<AtomicBool>,
+    solved: Option<(Box<Solution>, f64)>,
+    job: Job<News>,
 }
 
 impl Running {
-    /// Asks the job to stop.
-    pub fn cancel(&self) {
-        self.cancel.store(true, Ordering::Relaxed);
+    /// Takes in what came; what it has led to, once it has ended.
+    fn receive(&mut self) -> Option<Outcome> {
+        let Self { job, steps, krylov, solved, .. } = self;
+        let ending = job.poll(|news| match news {
+            News::Step(step) => {
+                steps.push(step);
+                *krylov = 0;
+            }
+            News::Krylov(count) => *krylov = count,
+            News::Solved(solution, wall_s) => *solved = Some((solution, wall_s)),
+        })?;
+        Some(match (ending, solved.take()) {
+            (Ok(()), Some((solution, wall_s))) => Outcome::Solved(solution, wall_s),
+            (Ok(()), None) => Outcome::Failed("the solve ended without a result".to_owned()),
+            (Err(why), _) => Outcome::Failed(why),
+        })
     }
 }
 
-/// The worker and what it has to do.
+/// The solves for the picture that wait or run.
 pub struct Jobs {
-    shared: Arc<Shared>,
-    events: Receiver<Event>,
+    queue: Queue<Request, News>,
     running: Vec<Running>,
-    next_id: u64,
-}
-
-impl Default for Jobs {
-    fn default() -> Self {
-        let shared = Arc::new(Shared::default());
-        let (sender, events) = channel();
-        let theirs = Arc::clone(&shared);
-        // Where no thread can be had, jobs stay queued and the window says that they wait.
-        let _handle = std::thread::Builder::new().name("solver".into()).spawn(move || work(&theirs, &sender));
-        Self { shared, events, running: Vec::new(), next_id: 1 }
-    }
-}
-
-impl Drop for Jobs {
-    fn drop(&mut self) {
-        self.cancel_all();
-        self.shared.lock().closed = true;
-        self.shared.wake.notify_all();
-    }
 }
 
 /// A live solve that ran longer than this is given up for a newer one. A point contact's takes longer: were it given up at every
@@ -75,53 +76,38 @@ fn live_patience(kind: ContactKind) -> Duration {
 }
 
 impl Jobs {
+    /// Solves with what is in a store.
+    pub fn new(store: &Store) -> Self {
+        let store = store.clone();
+        let queue = Queue::new("solver", JobKind::COUNT, move |request, reporter| solve(&store, &request, reporter));
+        Self { queue, running: Vec::new() }
+    }
+
     /// Hands a solve over. It replaces one of the same kind that has not started; all but live solves of other parameters stop.
     pub fn submit(&mut self, ctx: &egui::Context, request: Request) {
-        for job in &self.running {
-            let obsolete = match job.kind {
-                JobKind::Live => job.key != request.key && job.since.elapsed() > live_patience(job.key.point.kind),
-                kind => job.key != request.key || request.kind == kind,
-            };
-            if obsolete {
-                job.cancel();
+        let (kind, key) = (request.kind, request.key);
+        for running in &self.running {
+            match running.kind {
+                JobKind::Live if running.key != key => running.job.give_up_after(live_patience(running.key.point.kind)),
+                JobKind::Live => {}
+                other if running.key != key || other == kind => running.job.stop(),
+                _ => {}
             }
         }
-        let (id, cancel) = (self.next_id, Arc::new(AtomicBool::new(false)));
-        self.next_id += 1;
-        let (kind, key) = (request.kind, request.key);
-        let job = Job { id, request, cancel: Arc::clone(&cancel), ctx: ctx.clone() };
-        let replaced = {
-            let mut queue = self.shared.lock();
-            queue.waiting.get_mut(kind as usize).and_then(|place| place.replace(job))
-        };
-        if let Some(old) = replaced {
-            self.running.retain(|r| r.id != old.id);
-        }
-        self.running.push(Running { id, kind, key, steps: Vec::new(), krylov: 0, since: Instant::now(), cancel });
-        self.shared.wake.notify_one();
+        let job = self.queue.submit(kind as usize, kind.name(), wake(ctx), request);
+        self.running.retain(|running| running.kind != kind || running.job.begun());
+        let since = job.since();
+        self.running.push(Running { kind, key, steps: Vec::new(), krylov: 0, since, solved: None, job });
     }
 
     /// What has finished since the last call, with what it was for.
     pub fn poll(&mut self) -> Vec<(Running, Outcome)> {
         let mut finished = Vec::new();
-        while let Ok(event) = self.events.try_recv() {
-            match event {
-                Event::Step(id, step) => {
-                    if let Some(job) = self.running.iter_mut().find(|r| r.id == id) {
-                        job.steps.push(step);
-                        job.krylov = 0;
-                    }
-                }
-                Event::Krylov(id, count) => {
-                    if let Some(job) = self.running.iter_mut().find(|r| r.id == id) {
-                        job.krylov = count;
-                    }
-                }
-                Event::Finished(id, outcome) => {
-                    if let Some(at) = self.running.iter().position(|r| r.id == id) {
-                        finished.push((self.running.remove(at), outcome));
-                    }
-                }
+        let mut place = 0;
+        while let Some(running) = self.running.get_mut(place) {
+            match running.receive() {
+                Some(outcome) => finished.push((self.running.remove(place), outcome)),
+                None => place += 1,
             }
         }
         finished
@@ -139,9 +125,39 @@ impl Jobs {
 
     /// Stops everything.
     pub fn cancel_all(&self) {
-        for job in &self.running {
-            job.cancel();
+        for running in &self.running {
+            running.job.stop();
         }
+    }
+}
+
+fn solve(store: &Store, request: &Request, reporter: &Reporter<News>) -> Ending {
+    let grid = request.grid.with(store).map_err(|refused| refused.to_string())?;
+    let start = request.start.as_deref().map_or(Start::Cold, Start::From);
+    let (solution, wall_s) = store.with_full_solver(&grid, |solver| {
+        let begin = Instant::now();
+        let solution = solver.solve(&request.key.point, request.key.lubricant, start, &Steps(reporter));
+        (solution, begin.elapsed().as_secs_f64())
+    });
+    let solution = solution.map_err(|refused| refused.to_string())?;
+    reporter.send(News::Solved(Box::new(solution), wall_s));
+    Ok(())
+}
+
+/// Passes Newton steps and Krylov iterations on.
+struct Steps<'a>(&'a Reporter<News>);
+
+impl Observer for Steps<'_> {
+    fn newton_step(&self, step: &NewtonStep) {
+        self.0.send(News::Step(*step));
+    }
+
+    fn krylov_iteration(&self, count: usize) {
+        self.0.send(News::Krylov(count));
+    }
+
+    fn cancelled(&self) -> bool {
+        self.0.cancelled()
     }
 }
 
@@ -154,7 +170,7 @@ mod tests {
 
     #[test]
     fn a_job_comes_back_with_what_it_was_for() {
-        let mut jobs = Jobs::default();
+        let mut jobs = Jobs::new(&Store::default());
         let key = Key { point: OperatingPoint::TABLE_2_1, lubricant: Lubricant::default() };
         let grid = GridChoice::Spec(ContactGridSpec::Line(GridSpec::EXPLORER));
         jobs.submit(&egui::Context::default(), Request { kind: JobKind::Verify, key, grid, start: None });

@@ -1,6 +1,7 @@
 //! What is asked of the worker, and what comes back.
 
-use crate::solver::discrete::grid::{ContactGrid, ContactGridSpec, GridSpec, PointGridSpec};
+use crate::engine::Store;
+use crate::solver::discrete::grid::{ContactGrid, ContactGridError, ContactGridSpec, GridSpec, PointGridSpec};
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::{Moes, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
@@ -46,6 +47,9 @@ pub enum JobKind {
 }
 
 impl JobKind {
+    /// How many kinds there are.
+    pub const COUNT: usize = Self::Estimate as usize + 1;
+
     /// For people.
     pub fn name(self) -> &'static str {
         match self {
@@ -73,6 +77,17 @@ impl GridChoice {
             (Some(window), _) => Self::Existing(window.grid.clone()),
             (None, None) => Self::Spec(ContactGridSpec::Line(GridSpec::EXPLORER)),
             (None, Some(plane)) => Self::Spec(ContactGridSpec::Point(plane)),
+        }
+    }
+
+    /// The grid itself.
+    ///
+    /// # Errors
+    /// When the specification is refused.
+    pub fn with(&self, store: &Store) -> Result<ContactGrid, ContactGridError> {
+        match self {
+            Self::Existing(grid) => Ok(grid.clone()),
+            Self::Spec(spec) => store.grid(*spec),
         }
     }
 }

@@ -38,6 +38,7 @@ mod tests {
     use crate::app::document::Document;
     use crate::app::model_source::Models;
     use crate::app::state::State;
+    use crate::engine::Store;
     use std::path::PathBuf;
 
     fn names(state: &State, query: &str) -> Vec<String> {
@@ -46,7 +47,7 @@ mod tests {
 
     #[test]
     fn words_are_found_in_any_order_and_beginnings_come_first() {
-        let mut state = State::new(Document::default(), Models::only(None));
+        let mut state = State::new(Document::default(), Models::only(None), Store::default());
         state.files.recent.push(PathBuf::from("/home/me/contacts/bearing_47.ron"));
         assert_eq!(names(&state, "theme dark"), ["Dark theme"]);
         assert_eq!(names(&state, "READOUTS")[0], "Copy read-outs");
@@ -61,7 +62,7 @@ mod tests {
 
     #[test]
     fn what_cannot_be_done_says_why_and_comes_last() {
-        let state = State::new(Document::default(), Models::only(None));
+        let state = State::new(Document::default(), Models::only(None), Store::default());
         let entries = entry::all(&state);
         let found = find(&entries, "contact");
         let at = |name: &str| found.iter().position(|entry| entry.name == name).unwrap();

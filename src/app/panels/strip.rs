@@ -31,7 +31,7 @@ pub fn ui(ui: &mut Ui, state: &State, frame_s: f64, chosen: &mut Vec<Command>) {
             }
             (None, Some(standing)) => {
                 ui.label(&standing.stage);
-                ui.weak(standing.describe());
+                ui.weak(numbers::standing(&standing));
                 if ui.small_button("Cancel").clicked() {
                     chosen.push(Command::Cancel);
                 }
@@ -64,12 +64,13 @@ pub fn ui(ui: &mut Ui, state: &State, frame_s: f64, chosen: &mut Vec<Command>) {
 
 /// A training at work, in one line.
 fn training_ui(ui: &mut Ui, state: &State, chosen: &mut Vec<Command>) {
-    let Some(job) = state.training.job() else { return };
-    ui.label(job.name);
-    if let Some(progress) = &job.live().progress {
-        ui.weak(format!("{}, {} of {}", progress.stage, progress.done, progress.total));
+    let Some(running) = state.training.job() else { return };
+    let standing = running.job.standing();
+    ui.label(running.job.name());
+    if standing.total > 0 {
+        ui.weak(format!("{}, {} of {}", standing.stage, standing.done, standing.total));
     }
-    ui.weak(numbers::duration(job.since.elapsed().as_secs_f64()));
+    ui.weak(numbers::duration(standing.since_s));
     if ui.small_button("Cancel").clicked() {
         chosen.push(Command::Cancel);
     }

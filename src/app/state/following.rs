@@ -5,7 +5,7 @@ use super::{AUTO_SAVE_S, PassedOver, REST_S, State};
 use crate::app::jobs::{GridChoice, JobKind, Key, Request};
 use crate::app::picture::{Cuts, Origin, Picture};
 use crate::solver::discrete::grid::PointGridSpec;
-use crate::solver::reduced::{Online, ReducedOptions, Trust};
+use crate::solver::reduced::{ReducedOptions, Trust};
 use egui::Context;
 use std::sync::Arc;
 use std::time::Instant;
@@ -99,14 +99,10 @@ impl State {
         self.passed_over = self.untried();
         let (None, Some(model)) = (&self.passed_over, self.model().cloned()) else { return false };
         if self.online.as_ref().is_none_or(|o| *o.options() != options || !Arc::ptr_eq(&o.model, &model)) {
-            let first = self.online.is_none();
-            let mut online = Online::new(model, options);
-            if first {
-                // The very first solve pays for cold caches and code; the time shown should be that of every later one.
-                let _ = online.solve(&key.point, key.lubricant);
-                online.forget();
+            if let Some(former) = self.online.take() {
+                self.store.give_back(former);
             }
-            self.online = Some(online);
+            self.online = Some(self.store.online(&model, options));
         }
         let Some(online) = &mut self.online else { return false };
         // Operators belong to the model and its truncation: the time shown is the solve's alone.

@@ -1,9 +1,9 @@
 //! Full solutions along a sweep, each from its neighbour.
 
 use super::{MARKERS, Sample, Sweep};
-use crate::app::jobs::GridChoice;
-use crate::app::solvers::Solvers;
-use crate::app::task::{Ending, Reporter, Task};
+use crate::app::jobs::{GridChoice, wake};
+use crate::engine::Store;
+use crate::engine::job::{Ending, Job, Reporter};
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::{Solution, Start, Termination};
 use crate::solver::reduced::ReducedModel;
@@ -15,30 +15,32 @@ const NAME: &str = "Full solutions along the curve";
 /// Starts them on the grid of a model where there is one, else on the chosen one.
 pub fn start(
     ctx: &Context,
+    store: &Store,
     sweep: Sweep,
     model: Option<Arc<ReducedModel>>,
     plane: Option<PointGridSpec>,
-) -> Task<Sample> {
-    Task::start(ctx, NAME, move |reporter| work(&sweep, model.as_deref(), plane, reporter))
+) -> Job<Sample> {
+    let store = store.clone();
+    Job::start(NAME, wake(ctx), move |reporter| work(&store, &sweep, model.as_deref(), plane, reporter))
 }
 
 fn work(
+    store: &Store,
     sweep: &Sweep,
     model: Option<&ReducedModel>,
     plane: Option<PointGridSpec>,
     reporter: &Reporter<Sample>,
 ) -> Ending {
-    let mut solvers = Solvers::default();
     let mut former: Option<Solution> = None;
     let mut failed = 0;
     for (k, value) in sweep.values(MARKERS).enumerate() {
         reporter.stage(NAME, k, MARKERS);
         let point = sweep.point(value);
-        let grid = GridChoice::of(model, plane, point.moes());
-        let solver = solvers.of(&grid).map_err(|refused| refused.to_string())?;
+        let grid = GridChoice::of(model, plane, point.moes()).with(store).map_err(|refused| refused.to_string())?;
         let start = former.as_ref().map_or(Start::Cold, Start::From);
-        let solution = solver.solve(&point, sweep.base.lubricant, start, reporter.observer());
-        let solution = solution.map_err(|refused| refused.to_string())?;
+        let solution = store
+            .with_full_solver(&grid, |solver| solver.solve(&point, sweep.base.lubricant, start, reporter))
+            .map_err(|refused| refused.to_string())?;
         if reporter.cancelled() {
             return Ok(());
         }

@@ -12,7 +12,7 @@ pub use sweep::{Against, Sample, Sweep, Varied};
 
 use super::numbers;
 use super::state::State;
-use super::task::Background;
+use crate::engine::job::Background;
 use crate::solver::full::Solution;
 use curve::Worker;
 use egui::Context;
@@ -64,7 +64,7 @@ pub struct TractionView {
 impl TractionView {
     /// Takes in what came since the last frame.
     pub fn receive(&mut self) {
-        if let Some(curve) = self.worker.as_ref().and_then(Worker::latest) {
+        if let Some(curve) = self.worker.as_mut().and_then(Worker::latest) {
             self.curve = Some(curve);
         }
         if let Some(markers) = &mut self.markers {
@@ -86,7 +86,7 @@ impl State {
         let asked = view.wanted.as_ref().is_some_and(|(wanted, by)| wanted == sweep && by == served);
         if !asked {
             view.wanted = Some((sweep.clone(), served.clone()));
-            view.worker.get_or_insert_with(Worker::default).ask(ctx, sweep.clone(), served.clone());
+            view.worker.get_or_insert_with(|| Worker::new(&self.store)).ask(ctx, sweep.clone(), served.clone());
         }
     }
 
@@ -98,7 +98,7 @@ impl State {
         };
         let model = model.cloned();
         self.traction.markers = Some(Markers { sweep: sweep.clone(), samples: Vec::new() });
-        self.traction.full.run(full::start(ctx, sweep.clone(), model, self.plane()));
+        self.traction.full.run(full::start(ctx, &self.store, sweep.clone(), model, self.plane()));
     }
 
     /// Goes to a place on the axis.

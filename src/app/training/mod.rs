@@ -4,7 +4,7 @@ pub mod chart;
 pub mod presets;
 mod worker;
 
-pub use worker::{Job, Made};
+pub use worker::{Made, Running};
 
 use super::state::State;
 use crate::engine::{ModelComparison, training_file};
@@ -14,7 +14,7 @@ use chart::Chart;
 use egui::Context;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use worker::{Ended, Outcome, Task, Trained};
+use worker::{Ended, News, Task, Trained};
 
 /// Name of the file in the session's folder.
 const FILE: &str = "unfinished.training";
@@ -33,7 +33,7 @@ pub enum Notice {
 /// What the window knows about trainings.
 #[derive(Default)]
 pub struct Training {
-    job: Option<Job>,
+    job: Option<Running>,
     /// What is drawn.
     pub chart: Arc<Chart>,
     /// The training that the chart and the model belong to.
@@ -66,12 +66,12 @@ impl Training {
     /// Looks for a training that a former session left behind.
     pub fn look(&mut self, ctx: &Context) {
         if let Some(path) = &self.file {
-            self.job = Some(Job::start(ctx, Task::Look(path.clone())));
+            self.job = Some(Running::start(ctx, Task::Look(path.clone())));
         }
     }
 
     /// What runs.
-    pub fn job(&self) -> Option<&Job> {
+    pub fn job(&self) -> Option<&Running> {
         self.job.as_ref()
     }
 
@@ -84,7 +84,7 @@ impl Training {
         self.made = None;
         self.comparison = None;
         self.notices.clear();
-        self.job = Some(Job::start(ctx, Task::Train(Box::new(state), self.file.clone())));
+        self.job = Some(Running::start(ctx, Task::Train(Box::new(state), self.file.clone())));
     }
 
     /// Goes on with the unfinished training.
@@ -108,37 +108,39 @@ impl Training {
 
     /// Stops what runs.
     pub fn stop(&self) {
-        if let Some(job) = &self.job {
-            job.stop();
+        if let Some(running) = &self.job {
+            running.job.stop();
         }
     }
 
     /// Takes the result of a job that has ended.
     fn receive(&mut self) {
-        let Some(job) = &self.job else { return };
-        if job.trains {
-            self.chart = Arc::clone(&job.live().chart);
+        let Some(running) = &mut self.job else { return };
+        if running.trains {
+            self.chart = running.chart();
         }
-        let outcome = job.poll();
-        let Some(outcome) = outcome else { return };
-        let seconds = job.since.elapsed().as_secs_f64();
+        let mut news = None;
+        let Some(ending) = running.job.poll(|came| news = Some(came)) else { return };
+        let seconds = running.job.since().elapsed().as_secs_f64();
         self.job = None;
-        match outcome {
-            Ok(Outcome::Found(Ok(Some(state)))) => {
+        if let Err(why) = ending {
+            self.notices.push(Notice::Wrong(why));
+        }
+        match news {
+            Some(News::Found(Ok(Some(state)))) => {
                 self.chart = Arc::new(Chart::of(&state));
                 self.spec = Some(Box::new(state.spec.clone()));
                 self.unfinished = Some(state);
                 self.left_behind = true;
             }
-            Ok(Outcome::Found(Ok(None))) => {}
-            Ok(Outcome::Found(Err(message))) => {
+            Some(News::Found(Ok(None))) | None => {}
+            Some(News::Found(Err(message))) => {
                 // Whatever it is, it is not ours to overwrite.
                 self.file = None;
                 self.notices.push(Notice::Wrong(format!("{message}. Until then trainings are not kept on disk")));
             }
-            Ok(Outcome::Compared(Err(message))) | Err(message) => self.notices.push(Notice::Wrong(message)),
-            Ok(Outcome::Compared(Ok(comparison))) => self.comparison = Some(comparison),
-            Ok(Outcome::Trained(trained)) => self.take(*trained, seconds),
+            Some(News::Compared(comparison)) => self.comparison = Some(comparison),
+            Some(News::Trained(trained)) => self.take(*trained, seconds),
         }
     }
 
@@ -210,7 +212,7 @@ impl State {
         let Some(former) = in_use.or(self.training.former.as_ref()) else { return };
         let task = Task::Compare(Arc::clone(former), Arc::clone(&made.model), spec.clone());
         self.training.comparison = None;
-        self.training.job = Some(Job::start(ctx, task));
+        self.training.job = Some(Running::start(ctx, task));
     }
 
     /// Puts the model that was made in use.

@@ -3,7 +3,8 @@
 
 use super::Run;
 use super::method::{RULES, WEIGHTINGS, rule_name};
-use crate::app::task::{Background, Ending, Reporter, Task};
+use crate::app::jobs::wake;
+use crate::engine::job::{Background, Ending, Job, Reporter};
 use crate::solver::full::transient::{Keep, Moment, Quantity, Trajectory, Transient, TransientObserver, march};
 use crate::solver::observer::Observer;
 use crate::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, Weight, Weighting};
@@ -133,7 +134,8 @@ impl NumberStudy {
     /// Starts it anew on the inputs of a full run.
     pub fn start(&mut self, ctx: &Context, model: Arc<TpwlModel>, full: Trajectory) {
         self.rows.clear();
-        self.work.run(Task::start(ctx, "Number of operating points", move |reporter| work(&model, &full, reporter)));
+        self.work
+            .run(Job::start("Number of operating points", wake(ctx), move |reporter| work(&model, &full, reporter)));
     }
 
     /// Takes in what came.
@@ -153,7 +155,7 @@ fn work(model: &Arc<TpwlModel>, full: &Trajectory, reporter: &Reporter<NumberRow
             let stage = format!("Number of operating points, {}", rule_name(rule).0);
             reporter.stage(&stage, last, most);
             let shared = Arc::clone(model);
-            let Ok(made) = aside(reporter.observer(), move || shared.reselected(selection)) else { return Ok(()) };
+            let Ok(made) = aside(reporter, move || shared.reselected(selection)) else { return Ok(()) };
             let made = made.map_err(|error| error.to_string())?;
             let points = made.points.len();
             if points >= LEAST_POINTS && points > last {

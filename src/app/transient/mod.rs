@@ -14,7 +14,7 @@ pub use worker::News;
 
 use super::document::{Document, HOME};
 use super::state::State as Window;
-use super::task::Background;
+use crate::engine::job::Background;
 use crate::scene::{At, Grid, Scene, Study, TransientStudy};
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::transient::{Frame, Inputs, Quantity, Signal, TimeStep};

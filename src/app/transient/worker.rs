@@ -3,7 +3,8 @@
 use super::linearised::{Linearised, OtherRule};
 use super::method::{Method, run_name};
 use super::{ModelSize, Setup};
-use crate::app::task::{Ending, Reporter, Task};
+use crate::app::jobs::wake;
+use crate::engine::job::{Ending, Job, Reporter};
 use crate::engine::train_linearised;
 use crate::scene::{LinearisedTransient, ReducedTransient, TransientStudy, sampled};
 use crate::solver::discrete::grid::ReferenceGrid;
@@ -48,8 +49,8 @@ pub enum News {
 }
 
 /// Starts all runs, one after the other.
-pub fn start(ctx: &Context, setup: Arc<Setup>) -> Task<News> {
-    Task::start(ctx, "Contact in time", move |reporter| work(&setup, reporter))
+pub fn start(ctx: &Context, setup: Arc<Setup>) -> Job<News> {
+    Job::start("Contact in time", wake(ctx), move |reporter| work(&setup, reporter))
 }
 
 fn work(setup: &Setup, reporter: &Reporter<News>) -> Ending {
@@ -125,7 +126,7 @@ fn linearise(
     reporter: &Reporter<News>,
 ) -> Result<Option<Linearised>, String> {
     let settings = linearised.clone();
-    let made = aside(reporter.observer(), move || {
+    let made = aside(reporter, move || {
         let model = train_linearised(&settings, &trained.iter().collect::<Vec<_>>())?;
         let other = OtherRule::of(&model);
         let trainings = trained.iter().map(|trajectory| trajectory.moments.clone()).collect();
@@ -203,7 +204,7 @@ fn train(
 ) -> Result<Option<TrajectoryModel>, String> {
     reporter.stage("Reduced model from the trajectories", 0, 0);
     let settings = TrajectoryTraining { loss: reduced.loss, rows_per_mode: reduced.rows_per_mode, seed: reduced.seed };
-    match train_trajectories(grid, trained, &settings, reporter.observer()) {
+    match train_trajectories(grid, trained, &settings, reporter) {
         Ok(model) => Ok(Some(model)),
         Err(TrainingError::Cancelled) => Ok(None),
         Err(error) => Err(said(error)),

@@ -13,7 +13,7 @@ use super::run::request_of;
 use super::timed_march::{Timed, timed_march};
 use super::workbench::Workbench;
 use crate::scene::{Drive, Scene, TransientStudy, sampled};
-use crate::solver::discrete::grid::ReferenceGrid;
+use crate::solver::discrete::grid::{ContactGrid, ReferenceGrid};
 use crate::solver::full::transient::{FullMarch, Keep, Trajectory};
 use crate::solver::training::TrainingObserver;
 use costs::March;
@@ -59,7 +59,9 @@ pub(super) fn run(
         sampled::read_into(&mut study.inputs, &workbench.resolve(path))?;
     }
     let request = request_of(scene)?;
-    let grid = workbench.full_solver(&request, observer)?.reference().clone();
+    let ContactGrid::Line(grid) = workbench.grid(&request, observer)? else {
+        return Err(EngineError::Study("only line contacts are followed in time".to_owned()));
+    };
     let mut runner = Runner { study: &study, grid, observer, outcome, costs: Vec::new(), first_modes: None };
     let drives = study.drives();
     // Full marches in the first frame, one for each of the inputs.

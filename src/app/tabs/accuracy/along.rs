@@ -6,10 +6,12 @@ use crate::app::controls::message_ui;
 use crate::app::export;
 use crate::app::files::Purpose;
 use crate::app::in_use::{InUse, Solvers};
+use crate::app::jobs::wake;
 use crate::app::state::State;
 use crate::app::tabs::axes;
-use crate::app::task::{Background, Ending, Reporter, Task};
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, rich};
+use crate::engine::Store;
+use crate::engine::job::{Background, Ending, Job, Reporter};
 use crate::scene::QuantityBox;
 use crate::solver::full::{Problem, Solution, Start};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
@@ -92,14 +94,14 @@ impl Along {
 
     /// The run under way.
     pub fn task(&self) -> Option<&dyn Running> {
-        self.work.task().map(|task| task as &dyn Running)
+        self.work.job().map(|job| job as &dyn Running)
     }
 
-    fn start(&mut self, ctx: &Context, in_use: &InUse) {
+    fn start(&mut self, ctx: &Context, store: &Store, in_use: &InUse) {
         let plan = self.plan;
         self.results = Some(Results { in_use: in_use.clone(), plan, steps: Vec::new() });
-        let in_use = in_use.clone();
-        self.work.run(Task::start(ctx, "Trajectory", move |reporter| work(&in_use, plan, reporter)));
+        let (store, in_use) = (store.clone(), in_use.clone());
+        self.work.run(Job::start("Trajectory", wake(ctx), move |reporter| work(&store, &in_use, plan, reporter)));
     }
 }
 
@@ -117,10 +119,10 @@ fn range_of(in_use: &InUse, through: Through) -> Range {
 }
 
 /// Each full solution starts from its neighbour on the path, never from a reduced one.
-fn work(in_use: &InUse, plan: Plan, reporter: &Reporter<Step>) -> Ending {
+fn work(store: &Store, in_use: &InUse, plan: Plan, reporter: &Reporter<Step>) -> Ending {
     let lubricant = in_use.model.domain.lubricant;
     let range = range_of(in_use, plan.through);
-    let mut solvers = Solvers::new(in_use);
+    let mut solvers = Solvers::new(store, in_use);
     let mut former: Option<Solution> = None;
     for i in 0..plan.points {
         let c = 2.0 * i as f64 / (plan.points - 1) as f64;
@@ -140,7 +142,7 @@ fn work(in_use: &InUse, plan: Plan, reporter: &Reporter<Step>) -> Ending {
                 step.bound = solution.error.map(|e| e.h_c.bound);
             }
             let start = former.as_ref().map_or(Start::Cold, Start::From);
-            let full = solvers.full(point, lubricant, start, reporter.observer());
+            let full = solvers.full(point, lubricant, start, reporter);
             let full = full.map_err(|error| error.to_string())?;
             step.full = full.as_ref().map(|solution| solution.scalars.h_c);
             former = full.or(former);
@@ -170,7 +172,7 @@ pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
         choice.response.labelled_by(through.id);
         count(ui, "Contacts", "Equidistant values of c from 0 to 2", &mut along.plan.points, 11..=1001);
         if run_or_stop(ui, "Follow the trajectory", "Reduced and full solutions along it", along.task()) {
-            along.start(&ctx, in_use);
+            along.start(&ctx, &state.store, in_use);
         }
         let there = along.results.as_ref().is_some_and(|r| !r.steps.is_empty());
         let button = ui.add_enabled(there, egui::Button::new("Export CSV…"));

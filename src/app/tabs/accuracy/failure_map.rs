@@ -99,7 +99,7 @@ fn at(moes: Moes) -> PlotPoint {
 /// The view.
 pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
     let ctx = ui.ctx().clone();
-    let export_now = tests_toolbar(ui, &ctx, &mut state.accuracy.tests, in_use);
+    let export_now = tests_toolbar(ui, &state.store, &mut state.accuracy.tests, in_use);
     let Some(results) = &state.accuracy.tests.results else {
         super::nothing_yet(
             ui,

@@ -11,11 +11,13 @@ mod worst;
 
 use crate::app::controls::{message_ui, named, warning_ui};
 use crate::app::in_use::InUse;
+use crate::app::numbers;
 use crate::app::state::State;
-use crate::app::task::{Standing, Task};
 use crate::app::theme::{Palette, rich};
+use crate::engine::Store;
+use crate::engine::job::{Job, Standing};
 use crate::solver::physics::contact::OperatingPoint;
-use egui::{Context, DragValue, ProgressBar, Ui};
+use egui::{DragValue, ProgressBar, Ui};
 use random_tests::{MOST_COMPARED, RandomTests, TESTS};
 
 /// A view of the tab.
@@ -56,7 +58,7 @@ pub trait Running {
     fn stop(&self);
 }
 
-impl<M: Send + 'static> Running for Task<M> {
+impl<M: Send + 'static> Running for Job<M> {
     fn standing(&self) -> Standing {
         Self::standing(self)
     }
@@ -150,11 +152,11 @@ fn progress(ui: &mut Ui, task: Option<&dyn Running>) {
     let Some(standing) = task.map(Running::standing) else { return };
     let fraction = if standing.total > 0 { standing.done as f32 / standing.total as f32 } else { 0.0 };
     ui.add(ProgressBar::new(fraction).desired_width(90.0).desired_height(8.0));
-    ui.weak(standing.describe()).on_hover_text(standing.stage);
+    ui.weak(numbers::standing(&standing)).on_hover_text(standing.stage);
 }
 
 /// The row over both views of the random tests. Returns whether the table is wanted as a file.
-fn tests_toolbar(ui: &mut Ui, ctx: &Context, tests: &mut RandomTests, in_use: &InUse) -> bool {
+fn tests_toolbar(ui: &mut Ui, store: &Store, tests: &mut RandomTests, in_use: &InUse) -> bool {
     let mut export = false;
     ui.horizontal_wrapped(|ui| {
         let plan = &mut tests.plan;
@@ -167,7 +169,7 @@ fn tests_toolbar(ui: &mut Ui, ctx: &Context, tests: &mut RandomTests, in_use: &I
         let seed = ui.add(DragValue::new(&mut plan.seed));
         named(ui, seed, "Seed").on_hover_text(tip);
         if run_or_stop(ui, "Run tests", "Tests the model as it is truncated now", tests.task()) {
-            tests.start(ctx, in_use);
+            tests.start(&ui.ctx().clone(), store, in_use);
         }
         let there = tests.results.as_ref().is_some_and(|r| !r.tests.is_empty());
         let button = ui.add_enabled(there, egui::Button::new("Export CSV…"));

@@ -1,7 +1,9 @@
 //! Random tests (3.17) of the reduced model over what it was trained for: the work on its own thread, and what came of it.
 
 use crate::app::in_use::{InUse, Solvers};
-use crate::app::task::{Background, Ending, Reporter, Task};
+use crate::app::jobs::wake;
+use crate::engine::Store;
+use crate::engine::job::{Background, Ending, Job, Reporter};
 use crate::scene::{Scene, Study};
 use crate::solver::full::Start;
 use crate::solver::physics::contact::OperatingPoint;
@@ -134,11 +136,11 @@ pub struct RandomTests {
 
 impl RandomTests {
     /// Starts anew.
-    pub fn start(&mut self, ctx: &Context, in_use: &InUse) {
+    pub fn start(&mut self, ctx: &Context, store: &Store, in_use: &InUse) {
         let plan = self.plan;
         self.results = Some(Results { in_use: in_use.clone(), plan, tests: Vec::new(), revision: 0 });
-        let in_use = in_use.clone();
-        self.work.run(Task::start(ctx, "Random tests", move |reporter| work(&in_use, plan, reporter)));
+        let (store, in_use) = (store.clone(), in_use.clone());
+        self.work.run(Job::start("Random tests", wake(ctx), move |reporter| work(&store, &in_use, plan, reporter)));
     }
 
     /// Takes in what came.
@@ -169,7 +171,7 @@ impl RandomTests {
 
     /// The run under way.
     pub fn task(&self) -> Option<&dyn super::Running> {
-        self.work.task().map(|task| task as &dyn super::Running)
+        self.work.job().map(|job| job as &dyn super::Running)
     }
 }
 
@@ -191,7 +193,7 @@ pub fn trained_range(model: &ReducedModel) -> Range {
 }
 
 /// All reduced solves, then the comparisons, one after the other on one thread: the other cores are the window's.
-fn work(in_use: &InUse, plan: Plan, reporter: &Reporter<Message>) -> Ending {
+fn work(store: &Store, in_use: &InUse, plan: Plan, reporter: &Reporter<Message>) -> Ending {
     let lubricant = in_use.model.domain.lubricant;
     let range = trained_range(&in_use.model);
     let (contact, seed) = (in_use.model.contact(), plan.seed);
@@ -199,7 +201,7 @@ fn work(in_use: &InUse, plan: Plan, reporter: &Reporter<Message>) -> Ending {
     if points.is_empty() {
         return Err("the model’s range holds no admissible contact to test".to_owned());
     }
-    let mut solvers = Solvers::new(in_use);
+    let mut solvers = Solvers::new(store, in_use);
     let mut films = Vec::with_capacity(points.len());
     let (mut batch, mut handed_over) = (Vec::new(), Instant::now());
     for (i, point) in points.iter().enumerate() {
@@ -224,7 +226,7 @@ fn work(in_use: &InUse, plan: Plan, reporter: &Reporter<Message>) -> Ending {
     let compared = plan.compared.min(points.len());
     for (i, (point, solved)) in points.iter().zip(&films).take(compared).enumerate() {
         // Cold, so that no reduced solution can lead the full one to its root.
-        let full = solvers.full(point, lubricant, Start::Cold, reporter.observer());
+        let full = solvers.full(point, lubricant, Start::Cold, reporter);
         if reporter.cancelled() {
             break;
         }

@@ -6,11 +6,12 @@ use crate::app::export;
 use crate::app::files::Purpose;
 use crate::app::in_use::InUse;
 use crate::app::jobs::Key;
+use crate::app::jobs::wake;
 use crate::app::numbers;
 use crate::app::state::{REST_S, State};
 use crate::app::tabs::axes;
-use crate::app::task::{Background, Ending, Reporter, Task};
 use crate::app::theme::{Palette, rich};
+use crate::engine::job::{Background, Ending, Job, Reporter};
 use crate::solver::full::Problem;
 use crate::solver::reduced::{ErrorSplit, ErrorSplitter, Parts, SplitError, Trust};
 use egui::{Align2, Context, Grid, Ui, Vec2b};
@@ -87,14 +88,14 @@ impl Split {
 
     /// The split under way.
     pub fn task(&self) -> Option<&dyn Running> {
-        self.work.task().map(|task| task as &dyn Running)
+        self.work.job().map(|job| job as &dyn Running)
     }
 
     fn start(&mut self, ctx: &Context, asked: Asked) {
         self.asked = Some(asked.clone());
         let kept = Arc::clone(&self.kept);
         // A task that is replaced stops; the new one waits for the splitter until it has.
-        self.work.run(Task::start(ctx, "Splitting the error", move |reporter| work(&kept, &asked, reporter)));
+        self.work.run(Job::start("Splitting the error", wake(ctx), move |reporter| work(&kept, &asked, reporter)));
     }
 }
 
@@ -110,7 +111,7 @@ fn work(kept: &Kept, asked: &Asked, reporter: &Reporter<Found>) -> Ending {
     let options = asked.in_use.options_at(asked.key.point.moes());
     let Some(place) = splitters.get_mut(at) else { return Err("the reduced model holds no bases".to_owned()) };
     let splitter = place.get_or_insert_with(|| ErrorSplitter::new(Arc::clone(&asked.in_use.model), options));
-    let found = splitter.split(&asked.key.point, asked.key.lubricant, reporter.observer());
+    let found = splitter.split(&asked.key.point, asked.key.lubricant, reporter);
     reporter.send(found.map(Box::new));
     *kept.lock().unwrap_or_else(PoisonError::into_inner) = Some((asked.in_use.clone(), splitters));
     Ok(())

@@ -80,7 +80,7 @@ impl Shown {
 /// The view.
 pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
     let ctx = ui.ctx().clone();
-    let export_now = tests_toolbar(ui, &ctx, &mut state.accuracy.tests, in_use);
+    let export_now = tests_toolbar(ui, &state.store, &mut state.accuracy.tests, in_use);
     let Some(results) = &state.accuracy.tests.results else {
         super::nothing_yet(ui, "Run tests with some of them compared in full to see what the bound is worth");
         return;

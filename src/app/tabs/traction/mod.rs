@@ -164,7 +164,7 @@ fn status(ui: &mut Ui, state: &State, sweep: &Sweep, served: &Result<Served, Str
             let fraction = if standing.total > 0 { standing.done as f32 / standing.total as f32 } else { 0.0 };
             let bar = ui.add(ProgressBar::new(fraction).desired_width(120.0).desired_height(8.0));
             named(ui, bar, "Progress of the full solutions");
-            ui.weak(standing.describe());
+            ui.weak(numbers::standing(&standing));
         });
     }
     match served {

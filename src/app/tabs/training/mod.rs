@@ -9,7 +9,8 @@ use crate::app::controls::{message_ui, sentence, warning_ui};
 use crate::app::files::Purpose;
 use crate::app::numbers;
 use crate::app::state::State;
-use crate::app::training::Notice;
+use crate::app::training::{Notice, Running};
+use crate::engine::job::Standing;
 use egui::{Button, ProgressBar, Response, ScrollArea, Ui};
 
 /// Width of the form.
@@ -143,28 +144,26 @@ fn status(ui: &mut Ui, state: &mut State) {
 }
 
 /// What runs, how far it is, and how long it may take.
-fn running(ui: &mut Ui, job: &crate::app::training::Job) {
-    let live = job.live();
-    let (stage, fraction, count) = match &live.progress {
-        Some(p) => (p.stage.as_str(), p.done as f32 / p.total.max(1) as f32, format!("{} of {}", p.done, p.total)),
-        None => (job.name, 0.0, String::new()),
-    };
-    let stage = sentence(stage);
-    ui.label(if job.stopping() { format!("Stopping. {stage}") } else { stage });
+fn running(ui: &mut Ui, running: &Running) {
+    let Standing { stage, done, total, .. } = running.job.standing();
+    let count = if total > 0 { format!("{done} of {total}") } else { String::new() };
+    let (stage, fraction) = (sentence(&stage), done as f32 / total.max(1) as f32);
+    let stopping = running.job.stopping();
+    ui.label(if stopping { format!("Stopping. {stage}") } else { stage });
     let width = ui.available_width().min(420.0);
     let bar = ui.add(ProgressBar::new(fraction).text(count).desired_width(width));
     crate::app::controls::named(ui, bar, "Progress of the training");
-    if live.most > 0 {
-        let solved = live.chart.solved.len();
-        let left = match live.time_left() {
-            Some(seconds) if seconds >= 1.0 && !job.stopping() => {
-                let word = if live.fewer { "at most" } else { "about" };
+    if running.most > 0 {
+        let solved = running.chart().solved.len();
+        let left = match running.time_left() {
+            Some(seconds) if seconds >= 1.0 && !stopping => {
+                let word = if running.fewer { "at most" } else { "about" };
                 format!("; {word} {} left", remaining(seconds))
             }
             _ => String::new(),
         };
-        let of = if live.fewer { "at most " } else { "" };
-        ui.weak(format!("{solved} full solutions of {of}{}{left}", live.most));
+        let of = if running.fewer { "at most " } else { "" };
+        ui.weak(format!("{solved} full solutions of {of}{}{left}", running.most));
     }
 }
 

@@ -140,7 +140,7 @@ pub fn status(ui: &mut Ui, state: &State) {
             let bar = ProgressBar::new(fraction).desired_width(120.0).desired_height(8.0);
             let bar = ui.add(bar);
             named(ui, bar, "Progress of the contact in time");
-            ui.weak(standing.describe());
+            ui.weak(numbers::standing(&standing));
         });
     }
     if let Some(message) = &view.work.message {

@@ -1,0 +1,401 @@
+//! Work that takes longer than a frame: on a thread of its own, with messages, progress, time left, a stop that is heard at once, and unable
+//! to take anything else down.
+//!
+//! A [`Job`] is what its owner holds, a [`Reporter`] what the work tells it by. Dropping the job stops the work. A [`Queue`] gives jobs to one
+//! thread that keeps only the newest request of each urgency: the live picture.
+
+mod queue;
+
+pub use queue::Queue;
+
+use crate::solver::observer::{Observer, Progress};
+use crate::solver::training::TrainingObserver;
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicU8, Ordering};
+use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Shortest time between two calls of the owner on behalf of one job.
+const WAKE_EVERY: Duration = Duration::from_millis(50);
+
+/// How a job ended: with everything, stopped with what there is, or not at all for a reason given as a sentence.
+pub type Ending = Result<(), String>;
+
+/// Calls whoever waits for news of a job; called from the job's thread.
+#[derive(Clone)]
+pub struct Wake(Arc<dyn Fn() + Send + Sync>);
+
+impl Wake {
+    /// A call.
+    pub fn new(call: impl Fn() + Send + Sync + 'static) -> Self {
+        Self(Arc::new(call))
+    }
+}
+
+impl Default for Wake {
+    /// Calls nobody: the owner looks by itself.
+    fn default() -> Self {
+        Self::new(|| ())
+    }
+}
+
+/// How far a job is, for people.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Standing {
+    /// What is being done.
+    pub stage: String,
+    /// Work done.
+    pub done: usize,
+    /// Work in all of this stage; 0 where that is not known.
+    pub total: usize,
+    /// Seconds that are left at the present pace.
+    pub left_s: Option<f64>,
+    /// Seconds since the job was asked for.
+    pub since_s: f64,
+}
+
+enum Event<M> {
+    Message(M),
+    Stage(Progress),
+    Ended(Ending),
+}
+
+/// What the owner wants of the work, seen from its threads.
+#[derive(Default)]
+struct Wish {
+    /// How often it was asked to stop.
+    stops: AtomicU8,
+    begun: OnceLock<Instant>,
+    /// How long it may work, once something newer waits.
+    patience: OnceLock<Duration>,
+}
+
+impl Wish {
+    fn stopped(&self) -> bool {
+        let overdue = || Some(self.begun.get()?.elapsed() > *self.patience.get()?);
+        self.stops.load(Ordering::Relaxed) > 0 || overdue().unwrap_or(false)
+    }
+}
+
+/// Work under way, or waiting for its thread.
+pub struct Job<M> {
+    name: String,
+    events: Receiver<Event<M>>,
+    wish: Arc<Wish>,
+    since: Instant,
+    stage: Progress,
+    stage_since: Instant,
+}
+
+impl<M: Send + 'static> Job<M> {
+    /// Starts `work`; `name` is the thread's and the first stage's.
+    pub fn start(name: &str, wake: Wake, work: impl FnOnce(&Reporter<M>) -> Ending + Send + 'static) -> Self {
+        let (job, reporter) = Self::waiting(name, wake);
+        // Where no thread can be had, the reporter is gone and the next poll says so.
+        let _handle = std::thread::Builder::new().name(name.to_owned()).spawn(move || reporter.run(work));
+        job
+    }
+
+    /// A job that has not begun, and what its work will tell it by.
+    fn waiting(name: &str, wake: Wake) -> (Self, Reporter<M>) {
+        let (sender, events) = channel();
+        let (wish, since) = (Arc::new(Wish::default()), Instant::now());
+        let stage = Progress { stage: name.to_owned(), done: 0, total: 0 };
+        let reporter = Reporter { events: sender, wish: Arc::clone(&wish), wake, woken: Mutex::new(since) };
+        let name = name.to_owned();
+        (Self { name, events, wish, since, stage, stage_since: since }, reporter)
+    }
+
+    /// Hands over what came since the last call; returns how the job ended once it has.
+    pub fn poll(&mut self, mut receive: impl FnMut(M)) -> Option<Ending> {
+        loop {
+            match self.events.try_recv() {
+                Ok(Event::Message(message)) => receive(message),
+                Ok(Event::Stage(progress)) => {
+                    if progress.stage != self.stage.stage {
+                        self.stage_since = Instant::now();
+                    }
+                    self.stage = progress;
+                }
+                Ok(Event::Ended(ending)) => return Some(ending),
+                Err(TryRecvError::Empty) => return None,
+                Err(TryRecvError::Disconnected) => {
+                    return Some(Err("no thread could be had for this work".to_owned()));
+                }
+            }
+        }
+    }
+
+    /// How far it is.
+    pub fn standing(&self) -> Standing {
+        let Progress { stage, done, total } = self.stage.clone();
+        let spent = self.stage_since.elapsed().as_secs_f64();
+        let left_s = (done > 0 && total >= done).then(|| spent * (total - done) as f64 / done as f64);
+        Standing { stage, done, total, left_s, since_s: self.since.elapsed().as_secs_f64() }
+    }
+}
+
+impl<M> Job<M> {
+    /// Asks the work to stop; what it has sent stays. Asked again, it is not even to make something of what there is.
+    pub fn stop(&self) {
+        let _ = self.wish.stops.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |stops| stops.checked_add(1));
+    }
+
+    /// Whether it was asked to stop.
+    pub fn stopping(&self) -> bool {
+        self.wish.stops.load(Ordering::Relaxed) > 0
+    }
+
+    /// Stops the work once it has been at it for so long: something newer waits.
+    pub fn give_up_after(&self, patience: Duration) {
+        // The first wish counts.
+        let _ = self.wish.patience.set(patience);
+    }
+
+    /// Whether its work has begun.
+    pub fn begun(&self) -> bool {
+        self.wish.begun.get().is_some()
+    }
+
+    /// What it is, for people.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// When it was asked for.
+    pub fn since(&self) -> Instant {
+        self.since
+    }
+}
+
+impl<M> Drop for Job<M> {
+    fn drop(&mut self) {
+        self.wish.stops.store(u8::MAX, Ordering::Relaxed);
+    }
+}
+
+/// The work's line to its job; may be used from all of its threads.
+pub struct Reporter<M> {
+    events: Sender<Event<M>>,
+    wish: Arc<Wish>,
+    wake: Wake,
+    woken: Mutex<Instant>,
+}
+
+impl<M: Send> Reporter<M> {
+    /// Sends a message, and has it shown soon.
+    pub fn send(&self, message: M) {
+        self.tell(Event::Message(message));
+    }
+
+    /// Says how far a stage is.
+    pub fn stage(&self, stage: &str, done: usize, total: usize) {
+        self.tell(Event::Stage(Progress { stage: stage.to_owned(), done, total }));
+    }
+
+    /// Whether the work is to stop.
+    pub fn cancelled(&self) -> bool {
+        self.wish.stopped()
+    }
+
+    /// What stops only where nothing is to be made even of what there is: after a second wish, or when nobody waits any more.
+    pub fn abandoned(&self) -> Abandoned<'_> {
+        Abandoned(&self.wish)
+    }
+
+    fn tell(&self, event: Event<M>) {
+        if self.events.send(event).is_ok() {
+            let mut woken = self.woken.lock().unwrap_or_else(PoisonError::into_inner);
+            if woken.elapsed() > WAKE_EVERY {
+                *woken = Instant::now();
+                (self.wake.0)();
+            }
+        }
+    }
+
+    fn begin(&self) {
+        // The first time counts.
+        let _ = self.wish.begun.set(Instant::now());
+    }
+
+    /// Does the work and says how it ended.
+    fn run(self, work: impl FnOnce(&Self) -> Ending) {
+        self.begin();
+        let ending = guarded(|| work(&self)).and_then(|ending| ending);
+        // Nobody listens any more where the job was dropped.
+        let _gone = self.events.send(Event::Ended(ending));
+        (self.wake.0)();
+    }
+}
+
+impl<M: Send> Observer for Reporter<M> {
+    fn progress(&self, progress: Progress) {
+        self.tell(Event::Stage(progress));
+    }
+
+    fn cancelled(&self) -> bool {
+        self.wish.stopped()
+    }
+}
+
+impl<M: Send> TrainingObserver for Reporter<M> {}
+
+/// See [`Reporter::abandoned`].
+pub struct Abandoned<'a>(&'a Wish);
+
+impl Observer for Abandoned<'_> {
+    fn cancelled(&self) -> bool {
+        self.0.stops.load(Ordering::Relaxed) > 1
+    }
+}
+
+impl TrainingObserver for Abandoned<'_> {}
+
+/// Runs something that may panic and turns the panic into a sentence.
+///
+/// # Errors
+/// The sentence.
+pub fn guarded<T>(run: impl FnOnce() -> T) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(run)).map_err(|payload| {
+        let reason = panic_text(&*payload);
+        format!("the solver stopped unexpectedly ({reason}); the window and your work are not affected")
+    })
+}
+
+fn panic_text(payload: &(dyn Any + Send)) -> &str {
+    let text = payload.downcast_ref::<&str>().copied();
+    text.or_else(|| payload.downcast_ref::<String>().map(String::as_str)).unwrap_or("no reason given")
+}
+
+/// Does work that is spread over threads on all cores but one, which is the window's and the live picture's.
+pub fn on_spare_cores<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    let cores = std::thread::available_parallelism().map_or(1, |cores| cores.get().saturating_sub(1).max(1));
+    match rayon::ThreadPoolBuilder::new().num_threads(cores).build() {
+        Ok(pool) => pool.install(work),
+        Err(_) => work(),
+    }
+}
+
+/// A job that can be started ever anew, and why the last one ended early.
+pub struct Background<M> {
+    /// Why there is nothing, or no more.
+    pub message: Option<String>,
+    job: Option<Job<M>>,
+}
+
+impl<M> Default for Background<M> {
+    fn default() -> Self {
+        Self { message: None, job: None }
+    }
+}
+
+impl<M: Send + 'static> Background<M> {
+    /// Lets a job run in the place of the former one, which stops.
+    pub fn run(&mut self, job: Job<M>) {
+        self.message = None;
+        self.job = Some(job);
+    }
+
+    /// Hands over what came since the last call.
+    pub fn receive(&mut self, receive: impl FnMut(M)) {
+        let Some(job) = &mut self.job else { return };
+        if let Some(ending) = job.poll(receive) {
+            if let Err(why) = ending {
+                self.message = Some(why);
+            }
+            self.job = None;
+        }
+    }
+
+    /// What runs.
+    pub fn job(&self) -> Option<&Job<M>> {
+        self.job.as_ref()
+    }
+
+    /// How far it is.
+    pub fn standing(&self) -> Option<Standing> {
+        self.job.as_ref().map(Job::standing)
+    }
+}
+
+impl<M> Background<M> {
+    /// Asks it to stop; what it has sent stays.
+    pub fn stop(&self) {
+        if let Some(job) = &self.job {
+            job.stop();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ended<M: Send + 'static>(job: &mut Job<M>, mut receive: impl FnMut(M)) -> Ending {
+        let begin = Instant::now();
+        loop {
+            if let Some(ending) = job.poll(&mut receive) {
+                return ending;
+            }
+            assert!(begin.elapsed() < Duration::from_secs(20));
+            std::thread::sleep(Duration::from_millis(2));
+        }
+    }
+
+    fn endless(reporter: &Reporter<()>) -> Ending {
+        while !reporter.cancelled() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn messages_arrive_in_order_and_the_standing_counts() {
+        let mut job = Job::start("count", Wake::default(), |reporter| {
+            for k in 0..5 {
+                reporter.stage("counting", k + 1, 5);
+                reporter.send(k);
+            }
+            Ok(())
+        });
+        let mut seen = Vec::new();
+        assert_eq!(ended(&mut job, |k: usize| seen.push(k)), Ok(()));
+        assert_eq!(seen, [0, 1, 2, 3, 4]);
+        let standing = job.standing();
+        assert_eq!((standing.stage.as_str(), standing.done, standing.total), ("counting", 5, 5));
+    }
+
+    #[test]
+    fn a_job_stops_within_a_tenth_of_a_second_and_a_panic_becomes_a_sentence() {
+        // Other work on the machine only ever makes it slower: the best of a few says what the job itself needs.
+        let stopped = (0..5).map(|_| {
+            let mut job = Job::start("endless", Wake::default(), endless);
+            let begin = Instant::now();
+            job.stop();
+            assert_eq!(ended(&mut job, |()| ()), Ok(()));
+            begin.elapsed()
+        });
+        assert!(stopped.min().unwrap() < Duration::from_millis(100));
+        let mut broken = Job::<()>::start("broken", Wake::default(), |_| panic!("index 7"));
+        assert!(ended(&mut broken, |()| ()).unwrap_err().contains("index 7"));
+    }
+
+    #[test]
+    fn whoever_waits_is_called_at_the_end_and_a_second_wish_abandons() {
+        let (calls, called) = channel();
+        let mut job = Job::start("called", Wake::new(move || calls.send(()).unwrap()), |reporter| {
+            endless(reporter)?;
+            while !reporter.abandoned().cancelled() {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            Ok(())
+        });
+        job.stop();
+        assert!(job.stopping() && job.poll(|()| ()).is_none());
+        job.stop();
+        called.recv_timeout(Duration::from_secs(20)).unwrap();
+        assert_eq!(job.poll(|()| ()), Some(Ok(())));
+    }
+}

@@ -1,0 +1,133 @@
+//! One thread for requests of which only the newest counts.
+
+use super::{Ending, Job, Reporter, Wake};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+
+/// A thread that answers requests, the most urgent first. Of each urgency one waits at most: a newer one replaces it.
+pub struct Queue<R, M> {
+    shared: Arc<Shared<R, M>>,
+}
+
+struct Shared<R, M> {
+    mail: Mutex<Mail<R, M>>,
+    bell: Condvar,
+}
+
+struct Mail<R, M> {
+    /// By urgency.
+    waiting: Vec<Option<(R, Reporter<M>)>>,
+    closed: bool,
+}
+
+impl<R, M> Shared<R, M> {
+    fn lock(&self) -> MutexGuard<'_, Mail<R, M>> {
+        // Every change to it is one assignment: it is whole even where a thread panicked.
+        self.mail.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl<R, M: Send> Shared<R, M> {
+    /// The next request; none when the queue was closed.
+    fn next(&self) -> Option<(R, Reporter<M>)> {
+        let mut mail = self.lock();
+        loop {
+            if mail.closed {
+                return None;
+            }
+            if let Some((request, reporter)) = mail.waiting.iter_mut().find_map(Option::take) {
+                // From here on it is not replaced.
+                reporter.begin();
+                return Some((request, reporter));
+            }
+            mail = self.bell.wait(mail).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+}
+
+impl<R: Send + 'static, M: Send + 'static> Queue<R, M> {
+    /// A thread for requests of so many urgencies.
+    pub fn new(name: &str, urgencies: usize, work: impl Fn(R, &Reporter<M>) -> Ending + Send + 'static) -> Self {
+        let mail = Mail { waiting: (0..urgencies).map(|_| None).collect(), closed: false };
+        let shared = Arc::new(Shared { mail: Mutex::new(mail), bell: Condvar::new() });
+        let theirs = Arc::clone(&shared);
+        let answer = move || {
+            while let Some((request, reporter)) = theirs.next() {
+                reporter.run(|reporter| work(request, reporter));
+            }
+        };
+        // Where no thread can be had, requests stay and the window says that they wait.
+        let _handle = std::thread::Builder::new().name(name.to_owned()).spawn(answer);
+        Self { shared }
+    }
+
+    /// Hands a request over; urgency 0 comes first. A request that it replaces is never begun ([`Job::begun`]).
+    pub fn submit(&self, urgency: usize, name: &str, wake: Wake, request: R) -> Job<M> {
+        let (job, reporter) = Job::waiting(name, wake);
+        if let Some(place) = self.shared.lock().waiting.get_mut(urgency) {
+            *place = Some((request, reporter));
+        }
+        self.shared.bell.notify_one();
+        job
+    }
+}
+
+impl<R, M> Drop for Queue<R, M> {
+    fn drop(&mut self) {
+        self.shared.lock().closed = true;
+        self.shared.bell.notify_all();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::mpsc::channel;
+    use std::time::{Duration, Instant};
+
+    #[test]
+    fn the_newest_request_replaces_the_one_that_waits_and_the_most_urgent_comes_first() {
+        let (release, gate) = channel();
+        let queue = Queue::new("test", 2, move |request: u32, reporter: &Reporter<u32>| {
+            gate.recv().map_err(|gone| gone.to_string())?;
+            reporter.send(request);
+            if request == 9 { panic!("nine") } else { Ok(()) }
+        });
+        let submit = |urgency, request| queue.submit(urgency, "ask", Wake::default(), request);
+        let first = submit(1, 1);
+        // The thread has taken it once its place is empty.
+        while queue.shared.lock().waiting[1].is_some() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        let jobs = [first, submit(1, 2), submit(1, 3), submit(0, 9)];
+        (0..3).for_each(|_| release.send(()).unwrap());
+        let begun = Instant::now();
+        let mut answers = Vec::new();
+        let mut endings: [Option<Ending>; 4] = Default::default();
+        for (mut job, ending) in jobs.into_iter().zip(&mut endings) {
+            while ending.is_none() && begun.elapsed() < Duration::from_secs(20) {
+                *ending = job.poll(|answer| answers.push(answer));
+            }
+        }
+        assert_eq!(answers, [1, 3, 9]);
+        assert!(
+            matches!(&endings, [Some(Ok(())), Some(Err(_)), Some(Ok(())), Some(Err(nine))] if nine.contains("nine"))
+        );
+    }
+
+    #[test]
+    fn a_job_is_given_up_after_its_patience() {
+        let queue = Queue::new("patience", 1, |(), reporter: &Reporter<()>| {
+            while !reporter.cancelled() {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            Ok(())
+        });
+        let mut job = queue.submit(0, "ask", Wake::default(), ());
+        job.give_up_after(Duration::from_millis(5));
+        let begun = Instant::now();
+        while job.poll(|()| ()).is_none() {
+            assert!(begun.elapsed() < Duration::from_secs(20));
+        }
+        assert!(!job.stopping());
+    }
+}

@@ -1,0 +1,214 @@
+//! What is expensive and shared, in one place: grids with their kernels, full solvers, reduced models, and their operators.
+
+use super::error::EngineError;
+use super::model_file::{self, ModelFileError};
+use crate::solver::discrete::grid::{ContactGrid, ContactGridError, ContactGridSpec};
+use crate::solver::full::ContactSolver;
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::reduced::{Online, ReducedModel, ReducedOptions};
+use crate::solver::training::{TrainingObserver, TrainingSpec, train};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::SystemTime;
+
+/// Grids and idle full solvers of line contacts kept at a time; the least recently used goes first.
+const KEPT_LINES: usize = 6;
+/// The same of point contacts: a quick grid, the chosen one and a second one. Each solver may hold some hundred megabytes.
+const KEPT_POINTS: usize = 3;
+/// Idle reduced solvers kept at a time.
+const KEPT_ONLINE: usize = 8;
+
+/// Grids, solvers and models, made when first needed and kept. Clones share everything; any thread may use them.
+#[derive(Clone, Default)]
+pub struct Store(Arc<Shelves>);
+
+#[derive(Default)]
+struct Shelves {
+    grids: Mutex<Vec<ContactGrid>>,
+    full: Mutex<Vec<ContactSolver>>,
+    models: Mutex<Vec<(Origin, Arc<ReducedModel>)>>,
+    online: Mutex<Vec<Online>>,
+}
+
+/// What a reduced model was made from, by which it is known again.
+#[derive(Clone, PartialEq)]
+enum Origin {
+    /// It is part of the program; whether its lubricant thins under shear.
+    Embedded(ContactKind, bool),
+    /// A file as it was at a time, and its size.
+    File(PathBuf, Option<SystemTime>, u64),
+    /// Trained.
+    Training(Box<TrainingSpec>),
+}
+
+impl Store {
+    /// A grid with its kernel.
+    ///
+    /// # Errors
+    /// When the specification is refused.
+    pub fn grid(&self, spec: ContactGridSpec) -> Result<ContactGrid, ContactGridError> {
+        let grid = match take(&self.0.grids, |grid| grid.spec() == spec) {
+            Some(grid) => grid,
+            None => spec.build()?,
+        };
+        keep(&self.0.grids, grid.clone(), |other| other.kind() == spec.kind(), kept_of(spec.kind()));
+        Ok(grid)
+    }
+
+    /// Works with a full solver on a grid. What it solved before leaves no trace in what it solves next.
+    pub fn with_full_solver<T>(&self, grid: &ContactGrid, work: impl FnOnce(&mut ContactSolver) -> T) -> T {
+        let idle = take(&self.0.full, |solver| solver.grid_spec() == grid.spec());
+        let mut solver = idle.unwrap_or_else(|| ContactSolver::on(grid));
+        // One that panics may hold half a state: it does not come back.
+        let done = work(&mut solver);
+        let kind = grid.kind();
+        keep(&self.0.full, solver, |other| other.grid_spec().kind() == kind, kept_of(kind));
+        done
+    }
+
+    /// A reduced solver that remembers no solution; only its operators are those of an earlier one.
+    pub fn online(&self, model: &Arc<ReducedModel>, options: ReducedOptions) -> Online {
+        let idle = take(&self.0.online, |idle| Arc::ptr_eq(&idle.model, model) && *idle.options() == options);
+        idle.unwrap_or_else(|| Online::new(Arc::clone(model), options))
+    }
+
+    /// Keeps the operators of a reduced solver that is no longer needed.
+    pub fn give_back(&self, mut online: Online) {
+        online.forget();
+        keep(&self.0.online, online, |_| true, KEPT_ONLINE);
+    }
+
+    /// The reduced model in the program for a kind of contact, and for a lubricant that thins under shear or not.
+    ///
+    /// # Errors
+    /// When the program was built with a damaged one.
+    pub fn embedded(&self, contact: ContactKind, thins: bool) -> Result<Arc<ReducedModel>, ModelFileError> {
+        self.model(Origin::Embedded(contact, thins), || model_file::embedded_model(contact, thins))
+    }
+
+    /// The reduced model of a file; read again where the file was changed.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn model_of_file(&self, path: &Path) -> Result<Arc<ReducedModel>, EngineError> {
+        let unreadable = |reason| EngineError::Model { path: path.to_owned(), reason };
+        let (changed, size) =
+            std::fs::metadata(path).map_or((None, 0), |metadata| (metadata.modified().ok(), metadata.len()));
+        self.model(Origin::File(path.to_owned(), changed, size), || model_file::read(path)).map_err(unreadable)
+    }
+
+    /// The reduced model that a training gives; trained once.
+    ///
+    /// # Errors
+    /// When it gives none or the observer cancels.
+    pub fn trained(
+        &self,
+        spec: &TrainingSpec,
+        observer: &dyn TrainingObserver,
+    ) -> Result<Arc<ReducedModel>, EngineError> {
+        Ok(self.model(Origin::Training(Box::new(spec.clone())), || train(spec, observer))?)
+    }
+
+    fn model<E>(&self, origin: Origin, make: impl FnOnce() -> Result<ReducedModel, E>) -> Result<Arc<ReducedModel>, E> {
+        let known = lock(&self.0.models).iter().find(|(kept, _)| *kept == origin).map(|(_, model)| Arc::clone(model));
+        if let Some(model) = known {
+            return Ok(model);
+        }
+        let made = Arc::new(make()?);
+        let mut models = lock(&self.0.models);
+        // Another thread may have made it meanwhile: everybody gets the first.
+        let first = models.iter().find(|(kept, _)| *kept == origin).map(|(_, model)| Arc::clone(model));
+        Ok(first.unwrap_or_else(|| {
+            models.push((origin, Arc::clone(&made)));
+            made
+        }))
+    }
+}
+
+fn lock<T>(shelf: &Mutex<T>) -> MutexGuard<'_, T> {
+    // Every change to a shelf is whole, even where a thread panicked.
+    shelf.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn kept_of(kind: ContactKind) -> usize {
+    match kind {
+        ContactKind::Line => KEPT_LINES,
+        ContactKind::Point => KEPT_POINTS,
+    }
+}
+
+/// Takes the thing used last that is wanted.
+fn take<T>(shelf: &Mutex<Vec<T>>, wanted: impl Fn(&T) -> bool) -> Option<T> {
+    let mut shelf = lock(shelf);
+    shelf.iter().rposition(wanted).map(|place| shelf.remove(place))
+}
+
+/// Puts a thing on its shelf, where the oldest of the same sort gives way.
+fn keep<T>(shelf: &Mutex<Vec<T>>, thing: T, same_sort: impl Fn(&T) -> bool, most: usize) {
+    let mut shelf = lock(shelf);
+    if shelf.iter().filter(|other| same_sort(other)).count() >= most
+        && let Some(oldest) = shelf.iter().position(same_sort)
+    {
+        shelf.remove(oldest);
+    }
+    shelf.push(thing);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::discrete::grid::GridSpec;
+
+    fn line(nodes: usize) -> ContactGridSpec {
+        ContactGridSpec::Line(GridSpec::Uniform { dx: 6.0 / nodes as f64, domain: (-4.0, 2.0) })
+    }
+
+    fn same(a: &ContactGrid, b: &ContactGrid) -> bool {
+        matches!((a.line(), b.line()), (Some(a), Some(b)) if Arc::ptr_eq(a, b))
+    }
+
+    #[test]
+    fn grids_are_shared_and_the_least_recently_used_goes() {
+        let store = Store::default();
+        let first = store.grid(line(100)).unwrap();
+        assert!(same(&store.clone().grid(line(100)).unwrap(), &first));
+        for nodes in 101..101 + KEPT_LINES - 1 {
+            store.grid(line(nodes)).unwrap();
+        }
+        assert!(same(&store.grid(line(100)).unwrap(), &first), "it was used, and is still there");
+        for nodes in 201..201 + KEPT_LINES {
+            store.grid(line(nodes)).unwrap();
+        }
+        assert!(!same(&store.grid(line(100)).unwrap(), &first));
+        assert!(store.grid(line(0)).is_err());
+    }
+
+    #[test]
+    fn solvers_come_back_unless_they_panicked_and_no_more_are_kept_than_wanted() {
+        let store = Store::default();
+        for nodes in 100..100 + 2 * KEPT_LINES {
+            let grid = store.grid(line(nodes)).unwrap();
+            store.with_full_solver(&grid, |solver| assert_eq!(solver.grid_spec(), grid.spec()));
+        }
+        assert_eq!(lock(&store.0.full).len(), KEPT_LINES);
+        let grid = store.grid(line(99 + 2 * KEPT_LINES)).unwrap();
+        let broken = super::super::job::guarded(|| store.with_full_solver(&grid, |_| panic!("broken")));
+        assert!(broken.is_err() && lock(&store.0.full).len() == KEPT_LINES - 1);
+    }
+
+    #[test]
+    fn a_model_is_read_once_and_its_operators_are_handed_on() {
+        let store = Store::default();
+        let model = store.embedded(ContactKind::Line, false).unwrap();
+        assert!(Arc::ptr_eq(&store.embedded(ContactKind::Line, false).unwrap(), &model));
+        let options = ReducedOptions::default();
+        let online = store.online(&model, options);
+        store.give_back(online);
+        assert_eq!(lock(&store.0.online).len(), 1);
+        let fewer = ReducedOptions { pressure_modes: Some(5), ..options };
+        let _other = store.online(&model, fewer);
+        assert_eq!(lock(&store.0.online).len(), 1, "other settings have other operators");
+        let _same = store.online(&model, options);
+        assert!(lock(&store.0.online).is_empty());
+    }
+}
