@@ -1,19 +1,19 @@
 //! The embedded reduced model of point contacts against full solutions on its own grid.
 
 use ehl_explorer::engine::model_file::embedded_of;
-use ehl_explorer::engine::{median, percentile, random_points};
-use ehl_explorer::scene::{QuantityBox, TestRange};
+use ehl_explorer::engine::{median, percentile};
 use ehl_explorer::solver::full::{ContactSolver, Start};
 use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use ehl_explorer::solver::physics::lubricant::Lubricant;
 use ehl_explorer::solver::reduced::{Online, ReducedError, ReducedOptions, Trust};
+use ehl_explorer::solver::training::{QuantityBox, Range, random_points};
 
 fn online() -> Online {
     Online::new(embedded_of(ContactKind::Point).unwrap(), ReducedOptions::default())
 }
 
 fn points(count: usize, seed: u64) -> Vec<OperatingPoint> {
-    random_points(&TestRange::Box(QuantityBox::TABLE_3_4), ContactKind::Point, count, seed)
+    random_points(&Range::Box(QuantityBox::TABLE_3_4), ContactKind::Point, count, seed)
 }
 
 #[test]

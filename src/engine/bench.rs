@@ -2,10 +2,9 @@
 
 use super::error::EngineError;
 use super::model_file;
-use super::sampling::random_points;
 use super::statistics::{median, percentile};
 use super::timed_march::{Timed, timed_march};
-use crate::scene::{QuantityBox, TestRange, named_lubricant};
+use crate::scene::{QuantityBox, named_lubricant};
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 use crate::solver::full::dense::{dense_kernel, dense_newton};
 use crate::solver::full::transient::{
@@ -18,7 +17,7 @@ use crate::solver::physics::lubricant::{Lubricant, Sliding};
 use crate::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
 use crate::solver::reduced::transient::ReducedMarch;
 use crate::solver::reduced::{CurveVariable, Online, ReducedOptions, distance, traction_curve};
-use crate::solver::training::{TrajectoryTraining, train_trajectories};
+use crate::solver::training::{Range, TrajectoryTraining, random_points, train_trajectories};
 use serde::Serialize;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -93,7 +92,7 @@ pub struct Bench {
 /// When a solver refuses a point of the box, which it never should.
 pub fn run(quick: bool) -> Result<Bench, EngineError> {
     let size = usize::from(quick);
-    let points = random_points(&TestRange::Box(QuantityBox::TABLE_3_1), ContactKind::Line, REDUCED_POINTS[size], SEED);
+    let points = random_points(&Range::Box(QuantityBox::TABLE_3_1), ContactKind::Line, REDUCED_POINTS[size], SEED);
     let lubricant = Lubricant::default();
     let mut solver = FullSolver::new(GridSpec::DISSERTATION)?;
     let mut bench = Bench::default();
@@ -137,7 +136,7 @@ pub fn run(quick: bool) -> Result<Bench, EngineError> {
     let mut rows = point_rows(size, &shear)?;
     match model_file::embedded_of(ContactKind::Point) {
         Ok(model) => {
-            let range = TestRange::Box(QuantityBox::TABLE_3_4);
+            let range = Range::Box(QuantityBox::TABLE_3_4);
             let points = random_points(&range, ContactKind::Point, REDUCED_POINTS[size], SEED);
             let mut online = Online::new(model, ReducedOptions::default());
             for (name, fields) in [("point/reduced", false), ("point/reduced/fields", true)] {
@@ -200,7 +199,7 @@ impl Bench {
 
 /// Full solves of point contacts on 301×41 nodes, cold and from the nearest other solution.
 fn point_rows(size: usize, shear: &[Problem]) -> Result<Vec<Timing>, EngineError> {
-    let range = TestRange::Box(QuantityBox::TABLE_3_4);
+    let range = Range::Box(QuantityBox::TABLE_3_4);
     let points = random_points(&range, ContactKind::Point, POINT_POINTS[size], SEED);
     let newtonian = |point: &OperatingPoint| Problem::new(point, Lubricant::default());
     let newtonian = points.iter().map(newtonian).collect::<Result<Vec<_>, _>>()?;

@@ -4,18 +4,17 @@ use super::error::EngineError;
 use super::outcome::SceneOutcome;
 use super::parallel::full_solutions;
 use super::run::request_of;
-use super::sampling::random_points;
 use super::table::Table;
 use super::workbench::Workbench;
-use crate::scene::{Scene, TestRange};
-use crate::solver::training::TrainingObserver;
+use crate::scene::Scene;
 use crate::solver::training::distance::{Candidate, DISSERTATION, FURTHER, correlation, fit};
+use crate::solver::training::{Range, TrainingObserver, random_points};
 
 /// Values: `correlation` and `ratio` (weight of (ΔL)² over that of the M-term) for the two functions of (3.20), `correlation_printed` for
 /// its own weights 1 : 0.001, `correlation_all` and `weight.…` for all candidates together, `alone.…` for each by itself.
 pub(super) fn run(
     scene: &Scene,
-    (range, points, seed): (&TestRange, usize, u64),
+    (range, points, seed): (&Range, usize, u64),
     workbench: &mut Workbench,
     observer: &dyn TrainingObserver,
     outcome: &mut SceneOutcome,

@@ -3,17 +3,16 @@
 use super::error::EngineError;
 use super::outcome::SceneOutcome;
 use super::parallel::{full_solutions, reduced_solutions};
-use super::sampling::random_points;
 use super::statistics::rank_correlation;
 use super::table::Table;
 use super::workbench::Workbench;
-use crate::scene::{ModelSource, OnlineScheme, Scene, TestRange};
+use crate::scene::{ModelSource, OnlineScheme, Scene};
 use crate::solver::reduced::{ErrorEstimate, ErrorMeasures, Norm};
-use crate::solver::training::TrainingObserver;
+use crate::solver::training::{Range, TrainingObserver, random_points};
 
 /// What is measured where.
 pub(super) struct ErrorMeasureStudy<'a> {
-    pub range: &'a TestRange,
+    pub range: &'a Range,
     pub points: usize,
     pub seed: u64,
     pub model: &'a ModelSource,

@@ -27,7 +27,6 @@ mod plan_comparison;
 mod random_test;
 mod report;
 mod run;
-mod sampling;
 mod sampling_study;
 mod series;
 mod split_study;
@@ -52,7 +51,6 @@ pub use report::{
     profile_table,
 };
 pub use run::run_scene;
-pub use sampling::{Random, random_points};
 pub use statistics::{median, percentile, rank_correlation};
 pub use store::Store;
 pub use table::Table;

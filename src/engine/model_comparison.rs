@@ -76,7 +76,7 @@ pub fn compare_models(
 ) -> Result<ModelComparison, EngineError> {
     range.check()?;
     let contact = models.first().map_or_else(ContactKind::default, |model| model.contact());
-    let points = random_points(range, contact, (0.0, f64::INFINITY), count, &mut fastrand::Rng::with_seed(seed));
+    let points = random_points(range, contact, count, seed);
     if points.is_empty() {
         return Err(EngineError::Study("the range holds no points to compare at".to_owned()));
     }

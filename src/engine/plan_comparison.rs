@@ -10,15 +10,14 @@
 use super::error::EngineError;
 use super::outcome::SceneOutcome;
 use super::parallel::{Reduced, full_solutions, reduced_solutions};
-use super::sampling::random_points;
 use super::table::Table;
 use super::workbench::Workbench;
-use crate::scene::{ComparedPlan, ModelSource, OnlineScheme, QuantityBox, Scene, TestRange};
+use crate::scene::{ComparedPlan, ModelSource, OnlineScheme, QuantityBox, Scene};
 use crate::solver::discrete::grid::ContactGridSpec;
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{ErrorMeasures, Norm, PodBasis, ReducedModel, Window};
-use crate::solver::training::TrainingObserver;
+use crate::solver::training::{Range, TrainingObserver, random_points};
 use std::sync::Arc;
 
 /// What is compared on what.
@@ -73,7 +72,7 @@ pub(super) fn run(
     }
     snapshots(&plans, outcome);
     information(&plans, outcome);
-    let points = random_points(&TestRange::Box(*study.range), scene.contact, study.tests, study.seed);
+    let points = random_points(&Range::Box(*study.range), scene.contact, study.tests, study.seed);
     let path: Vec<(f64, OperatingPoint)> = (0..study.trajectory)
         .map(|i| 2.0 * i as f64 / (study.trajectory - 1) as f64)
         .map(|c| (c, study.range.trajectory(scene.contact, c)))

@@ -5,19 +5,18 @@ use super::error::EngineError;
 use super::outcome::SceneOutcome;
 use super::parallel::full_solutions;
 use super::run::{request_of, step};
-use super::sampling::random_points;
 use super::statistics::{median, percentile};
 use super::table::Table;
 use super::workbench::Workbench;
-use crate::scene::{Method, Scene, TestRange};
+use crate::scene::{Method, Scene};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::ErrorEstimate;
-use crate::solver::training::TrainingObserver;
+use crate::solver::training::{Range, TrainingObserver, random_points};
 
 /// What is tested.
 pub(super) struct RandomTest<'a> {
     /// Where points are drawn.
-    pub range: &'a TestRange,
+    pub range: &'a Range,
     /// How many.
     pub tests: usize,
     /// Seed of the points.
@@ -47,7 +46,7 @@ pub(super) fn run(
             test.tests
         )));
     }
-    if !matches!(test.range, TestRange::Sliding(_)) {
+    if !matches!(test.range, Range::Sliding(_)) {
         points.iter_mut().for_each(|point| point.sliding = scene.sliding());
     }
     let template = request_of(scene)?;

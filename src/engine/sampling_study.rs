@@ -3,12 +3,13 @@
 use super::error::EngineError;
 use super::outcome::SceneOutcome;
 use super::parallel::{full_solutions, reduced_solutions};
-use super::sampling::random_points;
 use super::statistics::median;
 use super::table::Table;
-use crate::scene::{ComparedSampling, QuantityBox, Scene, TestRange};
+use crate::scene::{ComparedSampling, QuantityBox, Scene};
 use crate::solver::reduced::ReducedOptions;
-use crate::solver::training::{TrainingObserver, TrainingSpec, TrainingState, Windows, train_resumable};
+use crate::solver::training::{
+    Range, TrainingObserver, TrainingSpec, TrainingState, Windows, random_points, train_resumable,
+};
 use std::sync::Arc;
 
 /// What is sampled how, and where each way is tested.
@@ -41,7 +42,7 @@ pub(super) fn run(
     outcome.push("snapshots", None, state.solutions() as f64);
     outcome.push("basis_p", None, trained.windows[0].pressure.modes.ncols() as f64);
     let grid = trained.windows[0].grid.clone();
-    let points = random_points(&TestRange::Box(*study.range), scene.contact, study.tests, study.seed);
+    let points = random_points(&Range::Box(*study.range), scene.contact, study.tests, study.seed);
     let truth = full_solutions(|_| grid.clone(), &points[..study.compare], scene.lubricant, observer)?;
     let mut table = Table::new("samplings", &COLUMNS);
     for way in study.samplings {

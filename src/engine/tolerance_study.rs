@@ -6,13 +6,14 @@
 use super::error::EngineError;
 use super::outcome::SceneOutcome;
 use super::parallel::{full_solutions, reduced_solutions};
-use super::sampling::random_points;
 use super::statistics::{median, percentile};
 use super::table::Table;
-use crate::scene::{OnlineScheme, QuantityBox, Scene, TestRange};
+use crate::scene::{OnlineScheme, QuantityBox, Scene};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{ErrorMeasures, Norm, Online};
-use crate::solver::training::{Plan, TrainingObserver, TrainingSpec, TrainingState, Windows, train_resumable};
+use crate::solver::training::{
+    Plan, Range, TrainingObserver, TrainingSpec, TrainingState, Windows, random_points, train_resumable,
+};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -63,7 +64,7 @@ pub(super) fn run(
         .map(|i| study.range.trajectory(scene.contact, 2.0 * i as f64 / (study.points - 1) as f64))
         .collect();
     let truth = full_solutions(|_| grid.clone(), &along, scene.lubricant, observer)?;
-    let points = random_points(&TestRange::Box(*study.range), scene.contact, study.tests, study.seed);
+    let points = random_points(&Range::Box(*study.range), scene.contact, study.tests, study.seed);
     let options = study.online.options();
     let mut table = Table::new("tolerances", &COLUMNS);
     let rungs = state.windows[0].search.rungs.clone();

@@ -1,9 +1,9 @@
 //! The questions a scene can ask.
 
-use super::{Axis, Method, ModelSource, QuantityBox, TestRange, TransientStudy};
+use super::{Axis, Method, ModelSource, QuantityBox, TransientStudy};
 use crate::solver::physics::contact::FilmFormula;
 use crate::solver::reduced::{Norm, ReducedOptions, Sampling};
-use crate::solver::training::TrainingSpec;
+use crate::solver::training::{Range, TrainingSpec};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -41,7 +41,7 @@ pub enum Study {
     /// Random points (3.17): how often a method fails, how fast it is, and how far a reduced model lies from full solutions.
     RandomTest {
         /// Where the points are drawn.
-        range: TestRange,
+        range: Range,
         /// How many.
         tests: usize,
         /// Seed of the random numbers: the same seed gives the same points.
@@ -76,7 +76,7 @@ pub enum Study {
     /// Error measures (3.10), (3.14), (3.15) of a reduced model at random points (3.17), ordered by the true error: Fig. 3.1.
     ErrorMeasures {
         /// Where the points are drawn.
-        range: TestRange,
+        range: Range,
         /// How many.
         points: usize,
         /// Seed of the random numbers.
@@ -93,7 +93,7 @@ pub enum Study {
     /// Weights of the distance measure by (3.9) from full solutions at random points (3.17): (3.20).
     DistanceMeasure {
         /// Where the points are drawn.
-        range: TestRange,
+        range: Range,
         /// How many.
         points: usize,
         /// Seed of the random numbers.

@@ -1,7 +1,7 @@
 //! The door for questions: every number of a study is finite and sane.
 
 use super::check::{Checked, MAX_COMPARED, MAX_POINTS, MAX_TESTS, count, interval, number, refuse};
-use super::{Axis, Contacts, Grid, Method, QuantityBox, Scene, Steps, Study, TestRange, Variable};
+use super::{Axis, Contacts, Grid, Method, QuantityBox, Scene, Steps, Study, Variable};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::training::{Plan, Range, SlidingRange, TrainingSpec, Windows};
 
@@ -175,16 +175,16 @@ fn moes_range(field: &str, m: (f64, f64), l: (f64, f64), pressure: f64) -> Check
     number(&format!("{field}.max_hertz_pressure"), pressure, 1e5, 1e12)
 }
 
-fn test_range(range: &TestRange) -> Checked {
+fn test_range(range: &Range) -> Checked {
     match range {
-        TestRange::Box(range) => quantity_box("study.range", range),
-        TestRange::Realisation { m, l, max_hertz_pressure } => moes_range("study.range", *m, *l, *max_hertz_pressure),
-        TestRange::Moes { m, l, alpha, max_hertz_pressure, viscosity } => {
+        Range::Box(range) => quantity_box("study.range", range),
+        Range::Realisation { m, l, max_hertz_pressure } => moes_range("study.range", *m, *l, *max_hertz_pressure),
+        Range::Moes { m, l, alpha, max_hertz_pressure, viscosity } => {
             moes_range("study.range", *m, *l, *max_hertz_pressure)?;
             interval("study.range.alpha", *alpha, 1e-12, 1e-5)?;
             number("study.range.viscosity", *viscosity, 1e-6, 1e4)
         }
-        TestRange::Sliding(range) => {
+        Range::Sliding(range) => {
             let SlidingRange { m, l, srr, npr, radius, modulus, viscosity, alpha, max_hertz_pressure } = range;
             interval("study.range.m", *m, 0.05, 1e5)?;
             interval("study.range.l", *l, 1e-3, 1e3)?;
@@ -200,13 +200,7 @@ fn test_range(range: &TestRange) -> Checked {
 }
 
 fn training(spec: &TrainingSpec) -> Checked {
-    match spec.range {
-        Range::Box(range) => quantity_box("study.range", &range)?,
-        Range::Moes { m, l, alpha, max_hertz_pressure, viscosity } => {
-            test_range(&TestRange::Moes { m, l, alpha, max_hertz_pressure, viscosity })?;
-        }
-        Range::Sliding(range) => test_range(&TestRange::Sliding(range))?,
-    }
+    test_range(&spec.range)?;
     match &spec.plan {
         Plan::FarthestPoint { snapshots } => count("study.plan.snapshots", *snapshots, 2, 100_000)?,
         Plan::Grid { nodes } => {

@@ -6,7 +6,6 @@ use ehl_explorer::solver::full::{Problem, Solution};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use ehl_explorer::solver::reduced::{Calibration, Online, ReducedError, ReducedOptions, Trust, Window};
 use ehl_explorer::solver::training::{Range, SlidingRange, random_points};
-use fastrand::Rng;
 
 /// What the model of a kind of contact was trained for.
 pub fn range(kind: ContactKind) -> SlidingRange {
@@ -29,7 +28,7 @@ pub fn range(kind: ContactKind) -> SlidingRange {
 
 /// Random contacts of a range.
 pub fn points(kind: ContactKind, range: SlidingRange, count: usize, seed: u64) -> Vec<OperatingPoint> {
-    random_points(&Range::Sliding(range), kind, (0.0, f64::INFINITY), count, &mut Rng::with_seed(seed))
+    random_points(&Range::Sliding(range), kind, count, seed)
 }
 
 /// The embedded model.

@@ -190,8 +190,7 @@ mod tests {
         let spec = spec(sampling, true);
         let model = Arc::new(train(&spec, &()).unwrap());
         let mut online = Online::new(Arc::clone(&model), options);
-        let points =
-            random_points(&spec.range, ContactKind::Line, (0.0, f64::INFINITY), 6, &mut fastrand::Rng::with_seed(2));
+        let points = random_points(&spec.range, ContactKind::Line, 6, 2);
         for point in points {
             let solved = online.solve(&point, Lubricant::default()).unwrap();
             look(&model.windows[0], &online, solved);

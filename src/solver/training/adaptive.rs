@@ -29,7 +29,7 @@
 
 use super::build::Shop;
 use super::indicator::{Indicator, Judges};
-use super::plan::{global_point, local_point};
+use super::plan::{Drawn, admissible, global_point, local_point};
 use super::state::{Part, TrainingState, WindowState};
 use super::{Plan, Progress, TrainingError};
 use crate::solver::physics::contact::OperatingPoint;
@@ -39,8 +39,6 @@ use serde::{Deserialize, Serialize};
 
 /// Points judged at a time by the searches.
 const BATCH: usize = 16;
-/// Draws per wanted point before a range is given up as holding none.
-const MAX_DRAWS: usize = 10_000;
 
 /// Where a search for bad approximations is.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
@@ -79,9 +77,6 @@ pub struct BadPoint {
     /// Rung of the ladder of tolerances on which it was found.
     pub rung: usize,
 }
-
-/// A point with its coordinates in the unit cube.
-type Drawn = ([f64; 4], OperatingPoint);
 
 /// Refuses numbers that make no plan.
 pub(super) fn check(start: usize, tolerances: &[f64], limit: usize) -> Result<(), TrainingError> {
@@ -162,14 +157,8 @@ pub(super) fn search(
 }
 
 /// Up to `count` points of the window's range, drawn by `draw`.
-fn points(shop: &Shop<'_>, count: usize, mut draw: impl FnMut() -> [f64; 4]) -> Vec<Drawn> {
-    let (low, high) = shop.reach;
-    let mut one = || {
-        let unit = draw();
-        let point = shop.spec.range.at(shop.spec.contact(), unit).filter(|p| (low..=high).contains(&p.moes().m));
-        point.map(|point| (unit, point))
-    };
-    (0..count).map_while(|_| (0..MAX_DRAWS).find_map(|_| one())).collect()
+fn points(shop: &Shop<'_>, count: usize, draw: impl FnMut() -> [f64; 4]) -> Vec<Drawn> {
+    admissible(&shop.spec.range, shop.spec.contact(), shop.reach, count, draw)
 }
 
 fn judge(judges: &mut Judges<'_>, drawn: &[Drawn], own: &WindowState) -> Result<Vec<f64>, TrainingError> {

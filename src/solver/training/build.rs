@@ -10,7 +10,7 @@ use super::{
 };
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::{ContactSolver, Start};
-use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::contact::{DEFAULT_VISCOSITY_PA_S, MoesRequest, OperatingPoint};
 use crate::solver::physics::lubricant::ShearLaw;
 use crate::solver::reduced::{
     Domain, LEAST_EVIDENCE, PodBasis, ReducedModel, Sampling, SlidingDomain, Snapshot, TestSpace, Window, all_rows,
@@ -154,6 +154,18 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
                 viscosity_pa_s: viscosity,
                 lubricant: spec.lubricant,
                 sliding: Some(SlidingDomain { srr, npr, modulus_pa: modulus }),
+            }
+        }
+        Range::Realisation { m, l, max_hertz_pressure } => {
+            let end = |l| MoesRequest::new(spec.contact(), m.0, l).default_alpha();
+            Domain {
+                m,
+                l,
+                alpha_per_pa: (end(l.0), end(l.1)),
+                max_hertz_pressure_pa: max_hertz_pressure,
+                viscosity_pa_s: DEFAULT_VISCOSITY_PA_S,
+                lubricant: spec.lubricant,
+                sliding: None,
             }
         }
         Range::Box(QuantityBox { alpha, viscosity, .. }) => {

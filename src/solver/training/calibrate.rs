@@ -5,7 +5,7 @@
 
 use super::aside::aside;
 use super::indicator::Corrector;
-use super::plan::random_points;
+use super::plan::random_points_within;
 use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::reduced::{Calibration, Evidence, Features, Online, ReducedModel, ReducedOptions, Window};
 use fastrand::Rng;
@@ -29,8 +29,8 @@ pub(super) fn calibrate(
 ) -> Result<Option<Calibration>, TrainingError> {
     let Some(window) = model.windows.first() else { return Ok(None) };
     let seed = spec.seed ^ 0x9E37_79B9_7F4A_7C15_u64.wrapping_mul(k as u64 + 1);
-    let points =
-        random_points(&spec.range, spec.contact(), served(k, last, window), spec.evidence, &mut Rng::with_seed(seed));
+    let (served, mut rng) = (served(k, last, window), Rng::with_seed(seed));
+    let points = random_points_within(&spec.range, spec.contact(), served, spec.evidence, &mut rng);
     let sliding = model.domain.sliding.is_some();
     let stage = format!("Measuring errors, M {}…{}", window.m.0, window.m.1);
     let done = AtomicUsize::new(0);

@@ -147,11 +147,10 @@ mod tests {
     use crate::solver::full::{FullSolver, Start};
     use crate::solver::physics::contact::ContactKind;
     use crate::solver::physics::lubricant::Lubricant;
-    use fastrand::Rng;
 
     fn points() -> Vec<OperatingPoint> {
         let range = Range::Box(QuantityBox::TABLE_3_1);
-        random_points(&range, ContactKind::Line, (0.0, f64::INFINITY), 40, &mut Rng::with_seed(5))
+        random_points(&range, ContactKind::Line, 40, 5)
     }
 
     #[test]

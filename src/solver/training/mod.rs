@@ -13,6 +13,7 @@ mod plan;
 #[cfg(test)]
 mod point_tests;
 mod quantity_box;
+mod range;
 #[cfg(test)]
 mod resume_tests;
 mod rows;
@@ -32,8 +33,9 @@ pub use aside::aside;
 pub use build::train;
 pub use calibrate::EVIDENCE;
 pub use indicator::Indicator;
-pub use plan::{farthest_points, grid_points, local_point, random_points, test_point};
+pub use plan::random_points;
 pub use quantity_box::QuantityBox;
+pub use range::Range;
 pub use sliding_range::SlidingRange;
 pub use state::{Solved, TrainingState, WindowState, train_resumable};
 pub use trajectories::{TrajectoryTraining, train_trajectories};
@@ -103,29 +105,6 @@ impl Plan {
     pub fn searches(&self) -> bool {
         matches!(self, Self::Adaptive { .. } | Self::WorstOfPool { .. })
     }
-}
-
-/// What a model is trained for.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum Range {
-    /// A box of SI quantities, (3.16). Tables 3.1 and 3.4.
-    Box(QuantityBox),
-    /// All contacts with M, L, α in these intervals and p_H up to a limit, at η₀.
-    Moes {
-        /// Load number.
-        m: (f64, f64),
-        /// Lubricant number.
-        l: (f64, f64),
-        /// α \[1/Pa\].
-        alpha: (f64, f64),
-        /// Largest p_H \[Pa\].
-        max_hertz_pressure: f64,
-        /// η₀ \[Pa·s\].
-        viscosity: f64,
-    },
-    /// All contacts of a shear-thinning lubricant with M, L, SRR and NPR in intervals.
-    Sliding(SlidingRange),
 }
 
 /// Everything that determines a reduced model: the same specification gives the same model.

@@ -37,7 +37,7 @@ fn films(model: &Arc<ReducedModel>) -> Vec<(f64, f64)> {
     let mut online = Online::new(Arc::clone(model), ReducedOptions::default());
     let mut full = ContactSolver::on(&model.windows[0].grid);
     let range = small(Sampling::All, 4).range;
-    let points = random_points(&range, ContactKind::Point, (0.0, f64::INFINITY), 12, &mut fastrand::Rng::with_seed(77));
+    let points = random_points(&range, ContactKind::Point, 12, 77);
     points
         .iter()
         .map(|point| {

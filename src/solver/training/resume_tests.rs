@@ -198,9 +198,9 @@ fn a_range_that_holds_no_contact_is_refused_with_a_sentence() {
     let plan = Plan::FarthestPoint { snapshots: 8 };
     let given = |m| Windows::Given(vec![WindowSpec { m, grid: ContactGridSpec::Line(GridSpec::EXPLORER) }]);
     for (range, windows, holds) in [
-        (nowhere.clone(), given((400.0, 500.0)), "holds 0"),
+        (nowhere, given((400.0, 500.0)), "holds 0"),
         (nowhere, Windows::Automatic { modes: 90 }, "holds 0"),
-        (one_point.clone(), given((10.0, 30.0)), "holds 1"),
+        (one_point, given((10.0, 30.0)), "holds 1"),
         (one_point, Windows::Automatic { modes: 90 }, "holds 1"),
     ] {
         let spec = TrainingSpec { range, windows, ..small(plan.clone()) };

@@ -2,7 +2,7 @@
 //! show decides which rows stay.
 
 use super::aside::aside;
-use super::plan::random_points;
+use super::plan::random_points_within;
 use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{
@@ -73,8 +73,8 @@ pub(super) fn sample_rows(
     observer: &dyn TrainingObserver,
 ) -> Result<Option<SampledRows>, TrainingError> {
     let Some(window) = exact.windows.first() else { return Ok(None) };
-    let mut tasks: Vec<Task<'_>> =
-        random_points(&spec.range, spec.contact(), reach, ROW_SNAPSHOT_SOLVES, rng).into_iter().map(Task::At).collect();
+    let points = random_points_within(&spec.range, spec.contact(), reach, ROW_SNAPSHOT_SOLVES, rng);
+    let mut tasks: Vec<Task<'_>> = points.into_iter().map(Task::At).collect();
     if spec.sampling == Sampling::Cubature {
         tasks.extend((0..window.snapshots.len()).filter_map(|k| Task::beside(window, k)));
     }

@@ -105,7 +105,8 @@ mod tests {
     use super::*;
     use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
     use crate::solver::physics::contact::ContactKind;
-    use crate::solver::training::{Range, farthest_points};
+    use crate::solver::training::Range;
+    use crate::solver::training::plan::farthest_points;
 
     /// Solutions whose pressures have nothing in common: every one needs a mode.
     fn solutions(grid: &ContactGrid) -> Vec<Solved> {

@@ -259,7 +259,7 @@ fn train_window(
         Plan::FarthestPoint { snapshots: wanted }
         | Plan::Adaptive { start: wanted, .. }
         | Plan::WorstOfPool { start: wanted, .. } => {
-            let (range, kind, known, mut random) = (spec.range.clone(), spec.contact(), known.clone(), rng.clone());
+            let (range, kind, known, mut random) = (spec.range, spec.contact(), known.clone(), rng.clone());
             let more = wanted.saturating_sub(known.len());
             let (points, random) = aside(observer, move || {
                 let points = farther_points(&range, kind, reach, &known, more, &mut random);

@@ -69,8 +69,7 @@ fn every_sampling_reproduces_the_training_solutions() {
 fn all_rows_and_q_deim_agree_at_fresh_points_and_lie_near_full_solutions() {
     let exact = Arc::new(train(&small(Sampling::All), &()).unwrap());
     let sampled = Arc::new(train(&small(Sampling::QDeim), &()).unwrap());
-    let mut rng = fastrand::Rng::with_seed(9);
-    let points = random_points(&exact_range(), ContactKind::Line, (0.0, f64::INFINITY), 20, &mut rng);
+    let points = random_points(&exact_range(), ContactKind::Line, 20, 9);
     let mut full = ContactSolver::on(&exact.windows[0].grid);
     let (mut a, mut b) =
         (Online::new(Arc::clone(&exact), ReducedOptions::default()), Online::new(sampled, ReducedOptions::default()));
@@ -94,8 +93,7 @@ fn the_calibrated_bound_holds_against_full_solutions_and_is_not_idle() {
     let model = Arc::new(train(&spec, &()).unwrap());
     let mut online = Online::new(Arc::clone(&model), ReducedOptions::default());
     let mut solver = ContactSolver::on(&model.windows[0].grid);
-    let points =
-        random_points(&spec.range, ContactKind::Line, (0.0, f64::INFINITY), 200, &mut fastrand::Rng::with_seed(77));
+    let points = random_points(&spec.range, ContactKind::Line, 200, 77);
     let (mut held, mut ratios) = (0, Vec::new());
     for point in &points {
         online.forget();

@@ -10,7 +10,6 @@ use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::ReducedModel;
 use crate::solver::training::{Range, random_points};
 use egui::Context;
-use fastrand::Rng;
 use std::time::{Duration, Instant};
 
 /// Fewest and most tests that can be asked for.
@@ -197,7 +196,7 @@ fn work(store: &Store, in_use: &InUse, plan: Plan, reporter: &Reporter<Message>)
     let lubricant = in_use.model.domain.lubricant;
     let range = trained_range(&in_use.model);
     let (contact, seed) = (in_use.model.contact(), plan.seed);
-    let points = random_points(&range, contact, (0.0, f64::INFINITY), plan.tests, &mut Rng::with_seed(seed));
+    let points = random_points(&range, contact, plan.tests, seed);
     if points.is_empty() {
         return Err("the model’s range holds no admissible contact to test".to_owned());
     }

@@ -103,6 +103,11 @@ fn range_ui(ui: &mut Ui, form: &mut Form, spec: &mut TrainingSpec) {
             form.row(ui, "Highest {p_H}", GIGAPASCAL, max_hertz_pressure, "Contacts beyond it are left out");
             form.row(ui, "Viscosity {η_0}", VISCOSITY, viscosity, viscosity_tip);
         }
+        Range::Realisation { m, l, max_hertz_pressure } => {
+            form.interval(ui, "Load number {M}", PLAIN, m, "Moes’ load number (3.19)");
+            form.interval(ui, "Lubricant {L}", PLAIN, l, "Moes’ lubricant number (3.19)");
+            form.row(ui, "Highest {p_H}", GIGAPASCAL, max_hertz_pressure, "Contacts beyond it are left out");
+        }
         Range::Sliding(SlidingRange { m, l, srr, npr, max_hertz_pressure, .. }) => {
             let ratio = "Of a shear-thinning lubricant";
             form.interval(ui, "Load number {M}", PLAIN, m, "Moes’ load number (3.19)");
@@ -148,6 +153,11 @@ fn converted(spec: &TrainingSpec) -> Range {
             let table = QuantityBox::of_tables(spec.contact());
             Range::Box(QuantityBox { alpha: domain.alpha_per_pa, viscosity, ..table })
         }
+        Range::Realisation { .. } => Range::Box(QuantityBox {
+            alpha: domain.alpha_per_pa,
+            viscosity: domain.viscosity_pa_s,
+            ..QuantityBox::of_tables(spec.contact())
+        }),
     }
 }
 

@@ -10,7 +10,7 @@ pub use film_formulas::{
     hamrock_dowson_central, hamrock_dowson_minimum, moes_film, moes_line_central, moes_line_film, moes_point_central,
     moes_point_film,
 };
-pub use moes::{MoesRequest, si_from_moes};
+pub use moes::{DEFAULT_VISCOSITY_PA_S, MoesRequest, si_from_moes};
 
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;

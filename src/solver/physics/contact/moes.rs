@@ -28,6 +28,9 @@ pub struct MoesRequest {
     pub alpha_per_pa: Option<f64>,
 }
 
+/// η₀ of the default realisation \[Pa·s\].
+pub const DEFAULT_VISCOSITY_PA_S: f64 = 0.01;
+
 impl MoesRequest {
     /// M and L of a contact, everything else left to the default realisation.
     pub fn new(kind: ContactKind, m: f64, l: f64) -> Self {
@@ -41,7 +44,8 @@ impl MoesRequest {
         }
     }
 
-    fn default_alpha(&self) -> f64 {
+    /// α of the default realisation \[1/Pa\].
+    pub fn default_alpha(&self) -> f64 {
         match self.kind {
             ContactKind::Line => 5e-9 * self.l.powf(0.463),
             ContactKind::Point => 5e-9 * (self.l / 1.7).powf(0.655),
@@ -64,7 +68,7 @@ pub fn si_from_moes(request: &MoesRequest) -> Result<OperatingPoint, ContactErro
         }
     }
     let e = request.modulus_pa.unwrap_or(231e9);
-    let eta = request.viscosity_pa_s.unwrap_or(0.01);
+    let eta = request.viscosity_pa_s.unwrap_or(DEFAULT_VISCOSITY_PA_S);
     let radius_default = request.default_radius();
     // The load is E′ R^d u^q M with the speed group u = 2 η₀ u_m / (E′ R).
     let (d, q): (f64, f64) = match kind {
