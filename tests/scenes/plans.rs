@@ -1,5 +1,6 @@
 //! Studies of training at a small size: plans side by side and an adaptive training cut at its tolerances.
 
+use crate::common::scratch::Scratch;
 use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene};
 use ehl_explorer::scene::{ComparedPlan, OnlineScheme, QuantityBox, Scene, Study};
 use ehl_explorer::solver::discrete::grid::{ContactGridSpec, GridSpec};
@@ -16,14 +17,12 @@ const BOX: QuantityBox = QuantityBox {
     viscosity: 0.01,
 };
 
-/// A folder of its own with scenes of small trainings, removed at the end.
-struct Folder(PathBuf);
+/// A folder with scenes of small trainings.
+struct Folder(Scratch);
 
 impl Folder {
     fn new(name: &str) -> Self {
-        let folder = std::env::temp_dir().join(format!("ehl-plans-{name}-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
-        Self(folder)
+        Self(Scratch::new(name))
     }
 
     fn training(&self, name: &str, plan: Plan) -> PathBuf {
@@ -46,21 +45,14 @@ impl Folder {
             positive_modes: false,
             seed: 3,
         });
-        let path = self.0.join(format!("{name}.ron"));
-        std::fs::write(&path, scene.to_ron().unwrap()).unwrap();
-        path.file_name().unwrap().into()
+        let file = format!("{name}.ron");
+        self.0.write(&file, &scene.to_ron().unwrap());
+        file.into()
     }
 
     fn run(&self, study: Study) -> SceneOutcome {
         let scene = Scene { study, ..Scene::at_moes(40.0, 10.0) };
-        run_scene(&scene, &mut Workbench::new(&self.0), &()).unwrap_or_else(|error| panic!("{error}"))
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        // A folder that stays behind in the temporary directory does no harm.
-        let _ = std::fs::remove_dir_all(&self.0);
+        run_scene(&scene, &mut Workbench::new(&*self.0), &()).unwrap_or_else(|error| panic!("{error}"))
     }
 }
 
@@ -153,6 +145,6 @@ fn a_tolerance_study_of_another_plan_is_refused() {
     let online = OnlineScheme::Explorer;
     let study = Study::ToleranceStudy { training, range: BOX, points: 11, tests: 10, seed: 5, online };
     let scene = Scene { study, ..Scene::at_moes(40.0, 10.0) };
-    let error = run_scene(&scene, &mut Workbench::new(&folder.0), &()).unwrap_err().to_string();
+    let error = run_scene(&scene, &mut Workbench::new(&*folder.0), &()).unwrap_err().to_string();
     assert!(error.contains("adaptive"), "{error}");
 }

@@ -1,8 +1,7 @@
 //! What people expect of a desktop tool: everything by the command palette, and a picture for a lecture.
 
-mod driver;
-
-use driver::{Window, click, press, scratch, set, shows, wait};
+use crate::common::scratch::Scratch;
+use crate::driver::{Window, click, press, set, shows, wait};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, ViewportCommand};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -10,7 +9,7 @@ use ehl_explorer::app::Explorer;
 use std::path::Path;
 
 fn open() -> Window {
-    let mut harness = driver::window(Explorer::new(None).without_system_dialogs(), [1280.0, 800.0]);
+    let mut harness = crate::driver::window(Explorer::new(None).without_system_dialogs(), [1280.0, 800.0]);
     settled(&mut harness);
     harness
 }
@@ -118,14 +117,14 @@ fn arrows_choose_escape_leaves_everything_as_it_was_and_keys_belong_to_the_palet
     assert!(palette_is_open(&harness));
     press(&mut harness, Modifiers::COMMAND, Key::P);
     assert!(!palette_is_open(&harness));
-    driver::write(&mut harness, "Radius R", "4");
+    crate::driver::write(&mut harness, "Radius R", "4");
     ask(&mut harness, "nothing at all");
     assert!(shows(&harness, "Nothing is called that") && chosen(&harness).is_empty());
 }
 
 #[test]
 fn recent_scenes_are_in_the_palette_and_unsaved_work_is_asked_about() {
-    let folder = scratch("palette");
+    let folder = Scratch::new("palette");
     let path = folder.join("bearing_47.ron");
     let text = "Scene(version: 1, title: \"t\", at: Moes(m: 17.0, l: 7.0), study: Point(methods: [Full]))";
     std::fs::write(&path, text).unwrap();
@@ -139,7 +138,6 @@ fn recent_scenes_are_in_the_palette_and_unsaved_work_is_asked_about() {
     assert!(!palette_is_open(&harness) && shows(&harness, "Save the changes?"));
     click(&mut harness, "Discard changes");
     assert!((harness.state().moes().m / 17.0 - 1.0).abs() < 1e-9);
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 fn full_screen(harness: &Window) -> Option<bool> {
@@ -167,7 +165,7 @@ fn a_presentation_shows_plots_and_the_sliders_in_use_large_and_ends_with_escape(
     }
     set(&mut harness, Role::Slider, "Load number M", 80.0);
     assert!((harness.state().moes().m / 80.0 - 1.0).abs() < 1e-6);
-    driver::write(&mut harness, "L value", "-3");
+    crate::driver::write(&mut harness, "L value", "-3");
     press(&mut harness, Modifiers::NONE, Key::Enter);
     assert!(shows(&harness, "L is -3"), "a refused entry says why");
     // The palette is there too, and its Escape is its own.
@@ -196,7 +194,7 @@ fn a_presentation_shows_plots_and_the_sliders_in_use_large_and_ends_with_escape(
 fn a_presentation_keeps_maps_and_series_usable() {
     let mut explorer = Explorer::with_embedded_models().without_system_dialogs();
     explorer.open_scene(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/shear/fig_3_14_point.ron")).unwrap();
-    let mut harness = driver::window(explorer, [760.0, 475.0]);
+    let mut harness = crate::driver::window(explorer, [760.0, 475.0]);
     settled(&mut harness);
     press(&mut harness, Modifiers::NONE, Key::F11);
     click(&mut harness, "Contact map");

@@ -1,8 +1,7 @@
 //! The Training tab without a display: a training is started, watched, stopped, resumed, used, saved and compared.
 
-mod driver;
-
-use driver::{Window, click, frame_times, give_path, scratch, undo, wait};
+use crate::common::scratch::Scratch;
+use crate::driver::{Window, click, frame_times, give_path, undo, wait};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
 use ehl_explorer::engine::{model_file, training_file};
@@ -34,7 +33,7 @@ fn open(folder: &Path, title: &str, plan: &str) -> Window {
     let mut explorer =
         Explorer::new(Some(model_file::embedded().unwrap())).without_system_dialogs().keeping_trainings_in(folder);
     explorer.open_scene(&path).unwrap();
-    let mut harness = driver::window(explorer, [1280.0, 1400.0]);
+    let mut harness = crate::driver::window(explorer, [1280.0, 1400.0]);
     wait(&mut harness, "the first picture", |app| !app.training() && !app.busy() && app.central_film().is_some());
     click(&mut harness, "Training");
     harness
@@ -42,7 +41,7 @@ fn open(folder: &Path, title: &str, plan: &str) -> Window {
 
 #[test]
 fn a_small_training_is_watched_used_compared_and_saved() {
-    let folder = scratch("training-tab-small");
+    let folder = Scratch::new("training-tab-small");
     let mut harness = open(&folder, "Small box", TINY);
     let embedded = harness.state().model_title().unwrap().to_owned();
     click(&mut harness, "Start training");
@@ -68,12 +67,11 @@ fn a_small_training_is_watched_used_compared_and_saved() {
     assert!(!folder.join("unfinished.training").exists());
     harness.state_mut().open_scene(&path).unwrap();
     wait(&mut harness, "the model from the file", |app| app.model_title() == Some("Small box"));
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]
 fn a_stopped_training_is_kept_used_and_resumed_after_a_crash() {
-    let folder = scratch("training-tab-stopped");
+    let folder = Scratch::new("training-tab-stopped");
     let kept = folder.join("unfinished.training");
     let mut harness = open(&folder, "Long box", LONG);
     click(&mut harness, "Start training");
@@ -109,12 +107,11 @@ fn a_stopped_training_is_kept_used_and_resumed_after_a_crash() {
     click(&mut harness, "Discard");
     assert!(!kept.exists());
     assert!(!harness.get_by_label("Start training").accesskit_node().is_disabled());
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]
 fn a_bad_range_is_a_sentence_and_edits_can_be_undone() {
-    let folder = scratch("training-tab-range");
+    let folder = Scratch::new("training-tab-range");
     let mut harness = open(&folder, "Small box", TINY);
     let value = |harness: &Window, name: &str| harness.get_by_label(name).value().unwrap();
     let before = value(&harness, "Radius R from");
@@ -133,12 +130,11 @@ fn a_bad_range_is_a_sentence_and_edits_can_be_undone() {
     assert_eq!(value(&harness, "Load number M to"), "500");
     undo(&mut harness);
     assert_eq!(value(&harness, "Radius R from"), before);
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]
 fn a_range_where_full_solves_fail_is_named_and_what_there_is_stays() {
-    let folder = scratch("training-tab-failing");
+    let folder = Scratch::new("training-tab-failing");
     // A grid far too coarse for the heavy end: somewhere there is no full solution.
     let text = scene("Failing box", "FarthestPoint(snapshots: 60)")
         .replace("load: (1e5, 2e5)", "load: (1e5, 4e6)")
@@ -155,5 +151,4 @@ fn a_range_where_full_solves_fail_is_named_and_what_there_is_stays() {
     assert!(harness.query_by_label_contains("full solver did not converge at M =").is_some());
     assert!(harness.query_by_label_contains("until then are kept").is_some());
     assert!(harness.query_by_label("Resume training").is_some());
-    std::fs::remove_dir_all(&folder).unwrap();
 }

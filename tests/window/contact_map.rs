@@ -1,8 +1,7 @@
 //! The point contact in the window: the switch, the map, its cuts, the grids, the interferogram.
 
-mod driver;
-
-use driver::{Window, choose, click, frame_times, give_path, rest, scratch, undo, wait};
+use crate::common::scratch::Scratch;
+use crate::driver::{Window, choose, click, frame_times, give_path, rest, undo, wait};
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
@@ -10,7 +9,7 @@ use std::path::Path;
 use std::time::Duration;
 
 fn open() -> Window {
-    driver::window(Explorer::new(None).without_system_dialogs(), [1280.0, 800.0])
+    crate::driver::window(Explorer::new(None).without_system_dialogs(), [1280.0, 800.0])
 }
 
 /// Waits for a full solution on so many nodes.
@@ -154,7 +153,7 @@ fn the_scenes_of_point_contacts_open_with_their_own_grid() {
 fn the_map_leaves_as_table_and_picture() {
     let mut harness = quick_point();
     click(&mut harness, "Contact map");
-    let folder = scratch("map");
+    let folder = Scratch::new("map");
     for (button, name) in [("Data as CSV…", "map.csv"), ("Figure as SVG…", "map.svg"), ("Image as PNG…", "map.png")]
     {
         click(&mut harness, "Export map");
@@ -171,7 +170,6 @@ fn the_map_leaves_as_table_and_picture() {
     assert!(drawing.contains(">nm<") || drawing.contains("nm</text>"), "the scale stands beside it");
     let picture = std::fs::read(folder.join("map.png")).unwrap();
     assert_eq!(&picture[1..4], b"PNG");
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]

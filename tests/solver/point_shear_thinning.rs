@@ -38,7 +38,7 @@ fn solve(solver: &mut PointSolver, problem: Problem) -> Solution {
 
 #[test]
 fn full_solutions_agree_with_independent_ones() {
-    let reference: Value = serde_json::from_str(include_str!("data/point_shear_thinning.json")).unwrap();
+    let reference: Value = serde_json::from_str(include_str!("../data/point_shear_thinning.json")).unwrap();
     let mut solver = PointSolver::new(PointGridSpec::DISSERTATION).unwrap();
     let (mut worst, mut times) = ([0.0f64; 3], Vec::new());
     for sweep in ["speed_sweep", "srr_sweep", "npr_sweep", "pao650"] {
@@ -57,7 +57,7 @@ fn full_solutions_agree_with_independent_ones() {
                 (s.h_min / number("H_min") - 1.0).abs(),
                 (solution.traction_coefficient() - traction).abs() / traction.max(0.005),
             ];
-            for ((error, worst), bar) in errors.into_iter().zip(&mut worst).zip([3e-3, 1e-2, 1e-2]) {
+            for ((error, worst), bar) in errors.into_iter().zip(&mut worst).zip([2e-4, 3e-4, 3e-4]) {
                 assert!(error < bar, "{sweep}: speed {speed}, SRR {srr}, NPR {npr}: {errors:?}");
                 *worst = worst.max(error);
             }

@@ -1,15 +1,13 @@
 //! The Transient tab without a display: a contact is taken through time, watched, stopped, looked at, exported and saved.
 
-mod driver;
-
-use driver::{Table, Window, click, give_path, press, run_in_time, scratch, set, shows, time, undo, wait};
+use crate::common::scratch::Scratch;
+use crate::driver::{Table, Window, click, give_path, press, run_in_time, set, shows, time, undo, wait};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use ehl_explorer::app::Explorer;
 use ehl_explorer::scene::{Scene, Study};
 use ehl_explorer::solver::full::transient::{Frame, Signal};
-use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 /// A run must stop within this; debug builds are many times slower.
@@ -26,13 +24,12 @@ fn scene(inputs: &str, duration: f64, frames: &str) -> String {
 const BREATHING: &str = "load: Harmonic(amplitude: 0.1, period: 2.0)";
 
 /// The Transient tab on a scene.
-fn open(name: &str, text: &str) -> (Window, PathBuf) {
-    let folder = scratch(&format!("transient-tab-{name}"));
-    let path = folder.join("scene.ron");
-    std::fs::write(&path, text).unwrap();
+fn open(name: &str, text: &str) -> (Window, Scratch) {
+    let folder = Scratch::new(name);
+    let path = folder.write("scene.ron", text);
     let mut explorer = Explorer::new(None).without_system_dialogs();
     explorer.open_scene(&path).unwrap();
-    let mut harness = driver::window(explorer, [1280.0, 1000.0]);
+    let mut harness = crate::driver::window(explorer, [1280.0, 1000.0]);
     wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
     click(&mut harness, "Transient");
     (harness, folder)
@@ -90,12 +87,11 @@ fn frames_are_run_compared_scrubbed_played_and_exported() {
     let there = time(&harness);
     harness.run_steps(4);
     assert_eq!(time(&harness), there);
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]
 fn a_stopped_run_keeps_what_it_has_and_the_sliders_make_it_old() {
-    let (mut harness, folder) = open("stopped", &scene(BREATHING, 4000.0, "Fixed"));
+    let (mut harness, _folder) = open("stopped", &scene(BREATHING, 4000.0, "Fixed"));
     let mut fastest = Duration::MAX;
     // Another process may have the cores for a while: the best of a few runs counts.
     for _ in 0..5 {
@@ -119,7 +115,6 @@ fn a_stopped_run_keeps_what_it_has_and_the_sliders_make_it_old() {
     harness.get_by_label("Load number M").set_value_accesskit(25.0);
     harness.run_steps(2);
     assert!(shows(&harness, "a former set-up") && harness.state().transient_moments() == kept);
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]
@@ -135,7 +130,6 @@ fn a_step_that_cannot_be_taken_is_named_and_what_was_computed_stays() {
     let path = folder.join("series.csv");
     give_path(&mut harness, &path, "Export");
     assert_eq!(Table::read(&path).rows.len(), harness.state().transient_moments());
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]
@@ -171,13 +165,12 @@ fn the_set_up_is_edited_undone_refused_and_saved_with_the_scene() {
     assert_eq!(study.inputs.load, Signal::Sampled { times: vec![0.0, 1.0, 2.0], values: vec![1.0, 1.2, 0.9] });
     assert_eq!(study.frames.len(), 2);
     assert!(study.frames.contains(&Frame::Fixed));
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]
 fn a_fresh_window_has_something_to_run() {
     let explorer = Explorer::new(None).without_system_dialogs();
-    let mut harness = driver::window(explorer, [1024.0, 640.0]);
+    let mut harness = crate::driver::window(explorer, [1024.0, 640.0]);
     wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
     click(&mut harness, "Transient");
     assert!(shows(&harness, "Inputs against time"));
@@ -206,5 +199,4 @@ fn a_reduced_model_is_trained_on_the_spot_and_runs_beside_the_full_system() {
     press(&mut harness, Modifiers::COMMAND, Key::S);
     let Study::Transient(study) = Scene::read(&folder.join("scene.ron")).unwrap().study else { panic!() };
     assert_eq!(study.reduced.map(|reduced| reduced.loss), Some(1e-6));
-    std::fs::remove_dir_all(&folder).unwrap();
 }

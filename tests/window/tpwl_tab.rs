@@ -1,9 +1,8 @@
 //! Linearised models without a display: trained and run beside the full system, looked into, tried with other numbers of points, exported,
 //! stopped and saved; any plot as a picture.
 
-mod driver;
-
-use driver::{Table, Window, click, press, run_in_time, set, shows, time, undo, wait, wait_within};
+use crate::common::scratch::Scratch;
+use crate::driver::{Table, Window, click, press, run_in_time, set, shows, time, undo, wait, wait_within};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
@@ -11,7 +10,7 @@ use ehl_explorer::app::Explorer;
 use ehl_explorer::engine::{Workbench, run_scene};
 use ehl_explorer::scene::{LinearisedTransient, Scene, Study};
 use ehl_explorer::solver::reduced::tpwl::Selection;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// Case 1 of Table 4.5 on a coarse grid, its load over one period.
@@ -26,13 +25,12 @@ fn scene(load: &str, linearised: &str) -> String {
 const SINE: &str = "Harmonic(amplitude: 0.1, period: 0.5)";
 const BOTH: &str = "linearised: (modes: 90, selection: Step(tolerance: 1e-3), weightings: [DualTaylor, Dissertation])";
 
-fn open(name: &str, text: &str, size: [f32; 2]) -> (Window, PathBuf) {
-    let folder = driver::scratch(&format!("tpwl-tab-{name}"));
-    let path = folder.join("scene.ron");
-    std::fs::write(&path, text).unwrap();
+fn open(name: &str, text: &str, size: [f32; 2]) -> (Window, Scratch) {
+    let folder = Scratch::new(name);
+    let path = folder.write("scene.ron", text);
     let mut explorer = Explorer::new(None).without_system_dialogs();
     explorer.open_scene(&path).unwrap();
-    let mut harness = driver::window(explorer, size);
+    let mut harness = crate::driver::window(explorer, size);
     wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
     click(&mut harness, "TPWL");
     (harness, folder)
@@ -45,7 +43,7 @@ fn export(harness: &mut Window, button: &str, path: &Path) -> String {
 }
 
 fn give_path(harness: &mut Window, path: &Path) -> String {
-    driver::give_path(harness, path, "Export");
+    crate::driver::give_path(harness, path, "Export");
     std::fs::read_to_string(path).unwrap()
 }
 
@@ -102,7 +100,6 @@ fn a_linearised_model_is_run_looked_into_and_exported() {
     assert!((time(&harness) - times[2]).abs() < 1e-12);
     click(&mut harness, "Why");
     assert!(shows(&harness, "replaced by their tangents"));
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]
@@ -143,7 +140,6 @@ fn more_points_err_less_and_the_study_can_be_stopped() {
     }
     println!("stopped after {fastest:.0?}");
     assert!(fastest < Duration::from_millis(if cfg!(debug_assertions) { 3000 } else { 150 }), "{fastest:?}");
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]
@@ -152,19 +148,17 @@ fn inputs_that_are_too_steep_are_said_to_be_so_and_reversals_are_refused_with_wh
     let other = "trainings: [(inputs: (load: Harmonic(amplitude: 0.1, period: 0.5)), duration: 0.5)],
         linearised: (modes: 90, selection: Step(tolerance: 1e-3))";
     let steep = "TriangleToSquare(amplitude: 0.3, period: 0.2, s: 0.9)";
-    let (mut harness, folder) = open("steep", &scene(steep, other), [1024.0, 640.0]);
+    let (mut harness, _folder) = open("steep", &scene(steep, other), [1024.0, 640.0]);
     run_in_time(&mut harness);
     assert!(shows(&harness, "The inputs are too steep for linearised models"));
     assert!(shows(&harness, "Tick Reduced model"));
     assert_eq!(harness.state().transient_moments(), 2 * 101);
-    std::fs::remove_dir_all(&folder).unwrap();
 
     let turning = scene(SINE, BOTH).replace("inputs: (", "inputs: (speed: Harmonic(amplitude: 1.5, period: 0.5), ");
-    let (mut harness, folder) = open("turning", &turning, [1024.0, 640.0]);
+    let (mut harness, _folder) = open("turning", &turning, [1024.0, 640.0]);
     run_in_time(&mut harness);
     assert!(shows(&harness, "needs one that stays above zero"));
     assert_eq!(harness.state().transient_moments(), 101, "the full run stays");
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]
@@ -198,7 +192,6 @@ fn the_model_is_set_up_undone_refused_and_saved_with_the_scene() {
     assert_eq!((linearised.modes, linearised.weightings.len()), (100, 2));
     assert_eq!(linearised.selection, LinearisedTransient::default().selection);
     assert!(matches!(linearised.selection, Selection::Step { .. }));
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]
@@ -222,7 +215,6 @@ fn a_study_of_several_inputs_opens_on_its_own_and_is_saved_whole() {
     wanted.linearised.as_mut().unwrap().modes = 80;
     let saved = Scene::read(&folder.join("scene.ron")).unwrap();
     assert_eq!(saved, Scene { study: Study::Transient(wanted), ..asked });
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]
@@ -264,5 +256,4 @@ fn any_plot_leaves_as_a_drawing_with_its_name_axes_and_contact() {
     harness.run_steps(6);
     let drawing = give_path(&mut harness, &folder.join("film.svg"));
     assert!(drawing.contains("<polyline ") && drawing.contains("font-style=\"italic\""));
-    std::fs::remove_dir_all(&folder).unwrap();
 }

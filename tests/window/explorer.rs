@@ -1,8 +1,7 @@
 //! The window without a display: what people do first, and what they do wrong.
 
-mod driver;
-
-use driver::{Window, click, frame_times, give_path, press, rest, scratch, undo, wait, write};
+use crate::common::scratch::Scratch;
+use crate::driver::{Window, click, frame_times, give_path, press, rest, undo, wait, write};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
@@ -17,7 +16,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 fn open_with(model: Option<Arc<ReducedModel>>) -> Window {
-    driver::window(Explorer::new(model).without_system_dialogs(), [1280.0, 800.0])
+    crate::driver::window(Explorer::new(model).without_system_dialogs(), [1280.0, 800.0])
 }
 
 fn open() -> Window {
@@ -107,7 +106,7 @@ fn pinning_comparing_and_exporting_survive() {
     settled(&mut harness);
     click(&mut harness, "Pin curve");
     click(&mut harness, "Remove pin 1");
-    let folder = scratch("export");
+    let folder = Scratch::new("export");
     let path = folder.join("profiles.csv");
     click(&mut harness, "Export CSV…");
     give_path(&mut harness, &path, "Export");
@@ -117,7 +116,6 @@ fn pinning_comparing_and_exporting_survive() {
     assert_eq!(head[3], "X,P,H,x_m,p_pa,h_m,pin2.X,pin2.P,pin2.H,pin2.x_m,pin2.p_pa,pin2.h_m");
     assert!(text.lines().skip(4).all(|line| line.split(',').count() == 12));
     assert!(text.lines().count() > 500);
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]
@@ -217,9 +215,8 @@ fn a_reduced_solve_that_fails_hands_over_to_the_full_solver() {
     // One mode cannot carry the load: the reduced equations have no solution.
     let text = "Scene(version: 1, title: \"t\", at: Moes(m: 400.0, l: 3.0), study: Point(methods: [Full]), \
         view: (pressure_loss: 0.9))";
-    let folder = scratch("failing");
-    let path = folder.join("failing.ron");
-    std::fs::write(&path, text).unwrap();
+    let folder = Scratch::new("failing");
+    let path = folder.write("failing.ron", text);
     let mut harness = open_embedded();
     settled(&mut harness);
     harness.state_mut().open_scene(&path).unwrap();
@@ -228,7 +225,6 @@ fn a_reduced_solve_that_fails_hands_over_to_the_full_solver() {
     harness.run();
     assert_eq!(harness.state().badge(), "Reduced model failed");
     assert_eq!(harness.state().badge_detail(), "full solution");
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]

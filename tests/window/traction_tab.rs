@@ -1,8 +1,7 @@
 //! Shear-thinning in the window: four live sliders, the picker of lubricants, the Traction tab.
 
-mod driver;
-
-use driver::{Table, Window, choose, click, give_path, press, set, shows, undo, wait, write};
+use crate::common::scratch::Scratch;
+use crate::driver::{Table, Window, choose, click, give_path, press, set, shows, undo, wait, write};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -10,11 +9,11 @@ use ehl_explorer::app::Explorer;
 use ehl_explorer::engine::model_file;
 use ehl_explorer::scene::Scene;
 use ehl_explorer::solver::physics::contact::ContactKind;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 fn window(explorer: Explorer) -> Window {
     let explorer = explorer.without_system_dialogs();
-    driver::window(explorer, [1280.0, 1000.0])
+    crate::driver::window(explorer, [1280.0, 1000.0])
 }
 
 /// The window on Table 3.5's lubricant under sliding, with the embedded models.
@@ -37,10 +36,6 @@ fn enter(harness: &mut Window, field: &str, text: &str) {
 
 fn film(harness: &Window) -> f64 {
     harness.state().central_film().expect("a picture of the sliders")
-}
-
-fn scratch(name: &str) -> PathBuf {
-    driver::scratch("traction-tab").join(name)
 }
 
 #[test]
@@ -114,7 +109,8 @@ fn the_picker_brings_a_lubricant_with_its_contact_and_undo_takes_it_back() {
     assert_eq!(harness.state().sliding().1, 0.0);
     wait(&mut harness, "the full solver", |app| app.badge() == "Outside the reduced model" && !app.busy());
     assert!(harness.state().badge_detail().contains("other lubricant laws"));
-    let path = scratch("pao.ron");
+    let folder = Scratch::new("traction");
+    let path = folder.join("pao.ron");
     press(&mut harness, Modifiers::COMMAND, Key::S);
     give_path(&mut harness, &path, "Save");
     let scene = Scene::read(&path).unwrap();
@@ -166,7 +162,8 @@ fn the_curve_follows_the_sliders_full_solutions_lie_on_it_and_a_press_goes_there
     wait(&mut harness, "the full solutions", |app| app.traction_contacts().1 == 11 && !app.solving_along());
     assert!(shows(&harness, "full solutions differ by"));
     click(&mut harness, "Export CSV…");
-    let path = scratch("traction.csv");
+    let folder = Scratch::new("traction");
+    let path = folder.join("traction.csv");
     give_path(&mut harness, &path, "Export");
     let rows = Table::read(&path).rows;
     assert_eq!(rows.len(), 41 + 11);
@@ -178,7 +175,7 @@ fn the_curve_follows_the_sliders_full_solutions_lie_on_it_and_a_press_goes_there
     click(&mut harness, "Export plot…");
     click(&mut harness, "Traction and film as SVG…");
     harness.run_steps(6);
-    let path = scratch("traction.svg");
+    let path = folder.join("traction.svg");
     give_path(&mut harness, &path, "Export");
     let figure = std::fs::read_to_string(&path).unwrap();
     // Traction and central film are solid, and each full solution has a ring for its traction and both films.
@@ -239,7 +236,8 @@ fn a_fluid_that_the_model_was_not_trained_with_has_a_curve_that_says_so() {
     wait(&mut harness, "the full solutions", |app| app.traction_contacts().1 == 11 && !app.solving_along());
     assert!(shows(&harness, "full solutions differ by"));
     click(&mut harness, "Export CSV…");
-    let path = scratch("sketch.csv");
+    let folder = Scratch::new("traction");
+    let path = folder.join("sketch.csv");
     give_path(&mut harness, &path, "Export");
     assert!(std::fs::read_to_string(&path).unwrap().contains("no bound on its errors is known"));
     let rows = Table::read(&path).rows;
@@ -252,7 +250,7 @@ fn a_fluid_that_the_model_was_not_trained_with_has_a_curve_that_says_so() {
     click(&mut harness, "Export plot…");
     click(&mut harness, "Traction and film as SVG…");
     harness.run_steps(6);
-    let path = scratch("sketch.svg");
+    let path = folder.join("sketch.svg");
     give_path(&mut harness, &path, "Export");
     let figure = std::fs::read_to_string(&path).unwrap();
     let curves = figure.lines().filter(|line| line.starts_with("<polyline") && line.matches(',').count() > 30);
@@ -279,7 +277,8 @@ fn a_sketch_goes_along_with_ones_own_constants_and_with_other_newtonian_fluids()
     choose(&mut harness, "Against", "plateau ratio");
     wait(&mut harness, "the curve against NPR", |app| app.traction_contacts().0 == Some(41));
     click(&mut harness, "Export CSV…");
-    let path = scratch("plateau.csv");
+    let folder = Scratch::new("traction");
+    let path = folder.join("plateau.csv");
     give_path(&mut harness, &path, "Export");
     let rows = Table::read(&path).rows;
     assert!((rows[0][2] - 0.1).abs() < 1e-9 && (rows[40][2] - 1.0).abs() < 1e-9, "{:?}", rows[0]);

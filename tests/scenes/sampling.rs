@@ -1,5 +1,6 @@
 //! Ways of sampling rows side by side, on a small point contact: what all rows can, a cubature of few rows can too.
 
+use crate::common::scratch::Scratch;
 use ehl_explorer::engine::{Workbench, run_scene};
 use ehl_explorer::scene::Scene;
 
@@ -31,12 +32,10 @@ const COMPARISON: &str = "Scene(
 
 #[test]
 fn a_cubature_of_few_rows_does_what_all_rows_do() {
-    let folder = std::env::temp_dir().join(format!("ehl-explorer-samplings-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    std::fs::write(folder.join("training.ron"), TRAINING).unwrap();
+    let folder = Scratch::new("samplings");
+    folder.write("training.ron", TRAINING);
     let scene = Scene::from_ron(COMPARISON).unwrap();
-    let outcome = run_scene(&scene, &mut Workbench::new(&folder), &()).unwrap();
-    std::fs::remove_dir_all(&folder).unwrap();
+    let outcome = run_scene(&scene, &mut Workbench::new(&*folder), &()).unwrap();
     let value = |name: &str| outcome.value(name, None).unwrap_or_else(|| panic!("{name} is missing"));
     let modes = value("basis_p");
     assert_eq!(value("snapshots"), 20.0);

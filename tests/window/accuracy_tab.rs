@@ -1,8 +1,7 @@
 //! The Accuracy tab without a display: its studies run, can be stopped, lead to the contacts they found, and know when they are old.
 
-mod driver;
-
-use driver::{Window, choose, click, give_path, scratch, set, shows, undo, wait_until};
+use crate::common::scratch::Scratch;
+use crate::driver::{Window, choose, click, give_path, set, shows, undo, wait_until};
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
 use ehl_explorer::app::Explorer;
@@ -15,7 +14,7 @@ const STOP: Duration = Duration::from_millis(if cfg!(debug_assertions) { 3000 } 
 /// The Accuracy tab at one of its views, over a settled picture.
 fn open(view: &str) -> Window {
     let explorer = Explorer::new(Some(model_file::embedded().unwrap())).without_system_dialogs();
-    let mut harness = driver::window(explorer, [1280.0, 800.0]);
+    let mut harness = crate::driver::window(explorer, [1280.0, 800.0]);
     wait(&mut harness, "verification", |h| h.state().badge() == "Verified" && !h.state().busy());
     click(&mut harness, "Accuracy");
     click(&mut harness, view);
@@ -39,22 +38,19 @@ fn run_tests(harness: &mut Window, tests: f64, compared: f64) {
 
 /// Writes the table of the view through the path field and reads it back.
 fn exported(harness: &mut Window, name: &str) -> Vec<String> {
-    let path = scratch("accuracy").join(name);
+    let folder = Scratch::new("accuracy");
+    let path = folder.join(name);
     click(harness, "Export CSV…");
     give_path(harness, &path, "Export");
     let text = std::fs::read_to_string(&path).unwrap();
-    std::fs::remove_file(&path).unwrap();
     text.lines().map(str::to_owned).collect()
 }
 
 /// Truncates the model as opening a scene with a view does.
-fn truncate(harness: &mut Window, name: &str) {
-    let path = std::env::temp_dir().join(format!("ehl-explorer-{name}-{}.ron", std::process::id()));
+fn truncate(harness: &mut Window) {
     let text = "Scene(version: 1, title: \"t\", at: Moes(m: 40.0, l: 10.0), study: Point(methods: [Full]), \
         view: (pressure_loss: 1e-5))";
-    std::fs::write(&path, text).unwrap();
-    harness.state_mut().open_scene(&path).unwrap();
-    std::fs::remove_file(&path).unwrap();
+    harness.state_mut().open_scene(&Scratch::new("truncated").write("scene.ron", text)).unwrap();
     harness.run_steps(2);
 }
 
@@ -97,7 +93,7 @@ fn the_failure_map_counts_and_its_worst_case_is_a_click_away() {
     let table = exported(&mut harness, "map.csv");
     assert_eq!(table.len(), 4 + 200);
     assert!(table[3].starts_with("M,L,R_m"));
-    truncate(&mut harness, "map");
+    truncate(&mut harness);
     assert!(shows(&harness, "has changed since"));
 }
 
@@ -180,7 +176,7 @@ fn a_study_stops_at_once_and_keeps_what_it_found_while_the_picture_lives() {
 fn residuals_are_still_there_and_without_a_model_there_is_a_sentence() {
     let harness = open("Newton residuals");
     assert!(shows(&harness, "Last full solve"));
-    let mut harness = driver::window(Explorer::new(None).without_system_dialogs(), [1280.0, 800.0]);
+    let mut harness = crate::driver::window(Explorer::new(None).without_system_dialogs(), [1280.0, 800.0]);
     harness.run_steps(2);
     for view in ["Where the error comes from", "Failure map", "Bound against truth", "Along the trajectory"] {
         click(&mut harness, "Accuracy");

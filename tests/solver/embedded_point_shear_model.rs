@@ -1,9 +1,9 @@
 //! The embedded model of shear-thinning point contacts: it solves its range, agrees with full solutions, and says where it ends. And training
 //! one of the kind on a coarse grid.
 
-mod scene_files;
-mod shear_models;
-
+use crate::common::scene_files;
+use crate::shear_models;
+use crate::shear_models::{assert_file_keeps_everything, assert_limits_are_said, assert_mirrored, errors};
 use ehl_explorer::engine::model_file::to_bytes;
 use ehl_explorer::scene::named_lubricant::{SQUALANE_PIP, by_name};
 use ehl_explorer::scene::{Axis, Steps, Study};
@@ -12,7 +12,6 @@ use ehl_explorer::solver::full::{ContactSolver, Start};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use ehl_explorer::solver::reduced::{Online, ReducedModel, ReducedOptions, Sampling, Trust};
 use ehl_explorer::solver::training::{Plan, Range, SlidingRange, TrainingSpec, WindowSpec, Windows, train};
-use shear_models::{assert_file_keeps_everything, assert_limits_are_said, assert_mirrored, errors};
 use std::sync::Arc;
 
 const POINT: ContactKind = ContactKind::Point;

@@ -1,12 +1,11 @@
 //! Driving the window without a display: what the tests of its tabs have in common.
-#![allow(dead_code, reason = "every test file drives with its own part of these")]
 
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// The explorer in a window of its own.
@@ -118,13 +117,6 @@ pub fn frame_times(harness: &mut Window, frames: u16, mut change: impl FnMut(&mu
 pub fn rest(harness: &mut Window) -> Duration {
     harness.run();
     harness.output().viewport_output.values().map(|viewport| viewport.repaint_delay).min().unwrap()
-}
-
-/// An empty folder of this process.
-pub fn scratch(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("ehl-explorer-{name}-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    folder
 }
 
 /// Rows of numbers under the names of their columns, without comments.

@@ -1,8 +1,8 @@
 //! The embedded model of shear-thinning line contacts: it solves its range, agrees with full solutions, and says where it ends.
 
-mod scene_files;
-mod shear_models;
-
+use crate::common::scene_files;
+use crate::shear_models;
+use crate::shear_models::{assert_file_keeps_everything, assert_limits_are_said, assert_mirrored, errors};
 use ehl_explorer::engine::SceneOutcome;
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
 use ehl_explorer::scene::{Method, Study};
@@ -13,7 +13,6 @@ use ehl_explorer::solver::reduced::{
     CurveVariable, ErrorMeasures, Norm, Online, ReducedOptions, Sampling, Trust, traction_curve,
 };
 use ehl_explorer::solver::training::{Plan, Range, SlidingRange, TrainingSpec, Windows};
-use shear_models::{assert_file_keeps_everything, assert_limits_are_said, assert_mirrored, errors};
 
 const LINE: ContactKind = ContactKind::Line;
 

@@ -1,7 +1,7 @@
 //! The README keeps its promises: its commands run or at least parse, its files exist, its tables are complete.
 
-mod scene_files;
-
+use crate::common::scene_files as repository;
+use crate::common::scratch::Scratch;
 use ehl_explorer::scene::{Scene, Study};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -95,8 +95,7 @@ fn is_quick(scene: &Scene) -> bool {
 
 #[test]
 fn every_command_runs_or_at_least_parses() {
-    let folder = std::env::temp_dir().join(format!("ehl-readme-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
+    let folder = Scratch::new("readme");
     let mut seen = BTreeSet::new();
     // Models that an earlier line has trained are not there: nothing is trained here.
     let mut trained: Vec<String> = Vec::new();
@@ -137,7 +136,6 @@ fn every_command_runs_or_at_least_parses() {
         assert!(!output.stdout.is_empty() || !written.is_empty(), "{arguments:?} says nothing");
         assert!(written.iter().all(|path| path.exists()), "{arguments:?} writes nothing");
     }
-    std::fs::remove_dir_all(&folder).unwrap();
     let all = ["bench", "info", "run", "solve", "sweep", "train"];
     assert!(all.iter().all(|command| seen.contains(*command)), "commands without an example: seen are {seen:?}");
 }
@@ -154,10 +152,17 @@ fn tests_that_are_named_exist() {
     let mut count = 0;
     for words in commands().iter().filter(|words| words.starts_with(&["cargo".to_owned(), "test".to_owned()])) {
         let Some(k) = words.iter().position(|word| word == "--test") else { continue };
-        let path = root().join("tests").join(format!("{}.rs", words[k + 1]));
-        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        let path = root().join("tests").join(&words[k + 1]);
+        let files = std::fs::read_dir(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         if let Some(filter) = words.get(k + 2).filter(|word| !word.starts_with('-')) {
-            assert!(text.contains(&format!("fn {filter}")), "{} has no test {filter}", path.display());
+            // A filter is a part of `file::name_of_the_test`.
+            let (file, name) = filter.split_once("::").unwrap_or(("", filter));
+            let mut texts = files.map(|entry| entry.unwrap().path()).filter(|path| {
+                let stem = path.file_stem().unwrap().to_string_lossy();
+                file.is_empty() || stem.ends_with(file)
+            });
+            let found = texts.any(|path| std::fs::read_to_string(path).unwrap().contains(&format!("fn {name}")));
+            assert!(found, "{} has no test {filter}", path.display());
         }
         count += 1;
     }
@@ -172,7 +177,7 @@ fn files_that_are_named_exist_and_every_scene_is_named() {
         let ours = ["scenes/", "assets/", "tests/", "src/"].iter().any(|folder| word.starts_with(folder));
         assert!(!ours || word.contains('*') || root().join(word).exists(), "{word} does not exist");
     }
-    for path in scene_files::all() {
+    for path in repository::all() {
         let name = path.file_name().unwrap().to_string_lossy();
         assert!(text.contains(&*name), "the README's list of scenes lacks {name}");
     }

@@ -1,5 +1,6 @@
 //! The built program as a user meets it: JSON contract, exit codes, sentences.
 
+use crate::common::scratch::Scratch;
 use serde_json::Value;
 use std::path::PathBuf;
 use std::process::{Command, Output};
@@ -21,12 +22,6 @@ const TABLE_2_1: [&str; 12] = [
 
 fn program(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_ehl-explorer")).args(arguments).output().unwrap()
-}
-
-fn scratch(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("ehl-command-line-{}-{name}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    folder
 }
 
 fn json(output: &Output) -> Value {
@@ -162,7 +157,7 @@ fn what_a_point_contacts_grid_costs_is_estimated_on_request() {
 
 #[test]
 fn a_point_contact_prints_its_plane_and_its_fields() {
-    let folder = scratch("point");
+    let folder = Scratch::new("point");
     let profiles = folder.join("fields.csv");
     let path = profiles.to_string_lossy().into_owned();
     let fixed = ["solve", "--json", "--contact", "point", "--dx", "0.06", "--dy", "0.1", "--domain=-3,1.8,-1.5"];
@@ -178,7 +173,6 @@ fn a_point_contact_prints_its_plane_and_its_fields() {
     // Side lobes as narrow as this grid's spacing across: the report must say so.
     assert!(report["warning"].as_str().unwrap().contains("H_min"));
     let table = std::fs::read_to_string(&profiles).unwrap();
-    std::fs::remove_dir_all(&folder).unwrap();
     assert_eq!(table.lines().count(), 1 + 81 * 16);
     assert_eq!(table.lines().next().unwrap(), "X,Y,P,H,x_m,y_m,p_pa,h_m");
     let line = json(&program(&["solve", "--json", "--moes-m", "20", "--moes-l", "5", "--dx", "0.02"]));
@@ -271,7 +265,7 @@ fn bad_options_are_refused_with_one_sentence() {
 
 #[test]
 fn bad_scenes_are_refused_with_one_sentence() {
-    let folder = scratch("bad-scenes");
+    let folder = Scratch::new("bad-scenes");
     let write = |name: &str, text: &str| {
         let path = folder.join(name);
         std::fs::write(&path, text).unwrap();
@@ -292,12 +286,11 @@ fn bad_scenes_are_refused_with_one_sentence() {
     let good = write("good.ron", "Scene(version: 1, title: \"x\", study: Point(methods: [Full]))");
     assert_refused(&["run", &good, "--out", "/proc/none"], "/proc/none");
     assert_refused(&["train", &good, "--out", "x.rom"], "Training");
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]
 fn run_gives_one_object_per_scene_and_exit_1_when_an_expectation_falls_short() {
-    let folder = scratch("run");
+    let folder = Scratch::new("run");
     let scene = |name: &str, value: &str| {
         let text = format!(
             "Scene(version: 1, title: \"{name}\", at: Moes(m: 20, l: 5), grid: Graded, study: Point(methods: [Full]), \
@@ -321,7 +314,6 @@ fn run_gives_one_object_per_scene_and_exit_1_when_an_expectation_falls_short() {
     let output = program(&["run", &good, &bad, "--json"]);
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(String::from_utf8(output.stdout).unwrap().lines().count(), 2);
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 /// A training that takes about a second on an idle core, by the automatic algorithm.
@@ -337,7 +329,7 @@ const SMALL_TRAINING: &str = "Scene(version: 1, title: \"small\", study: Trainin
 #[test]
 fn a_training_that_is_killed_goes_on_and_gives_the_same_file() {
     use std::time::{Duration, Instant};
-    let folder = scratch("killed");
+    let folder = Scratch::new("killed");
     let scene = folder.join("small.ron");
     std::fs::write(&scene, SMALL_TRAINING).unwrap();
     let (whole, killed) = (folder.join("whole.rom"), folder.join("killed.rom"));
@@ -372,12 +364,11 @@ fn a_training_that_is_killed_goes_on_and_gives_the_same_file() {
     assert!(said.contains("going on with") && said.contains("full solutions"), "{said}");
     assert!(std::fs::read(&killed).unwrap() == std::fs::read(&whole).unwrap(), "the files differ");
     assert!(!kept.exists(), "nothing is left beside a finished model");
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]
 fn sweep_writes_a_table() {
-    let folder = scratch("sweep");
+    let folder = Scratch::new("sweep");
     let csv = folder.join("sweep.csv");
     let csv_name = csv.to_string_lossy();
     let grid = ["--grid", "uniform", "--dx", "0.02", "--csv", &csv_name];
@@ -404,7 +395,6 @@ fn sweep_writes_a_table() {
     ] {
         assert_refused(&["sweep", range, "--moes-l", "5"], words);
     }
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]
@@ -438,7 +428,7 @@ fn a_reader_that_leaves_early_is_no_panic() {
 
 #[test]
 fn shear_thinning_contacts_slide_and_show_the_shear_across_the_film() {
-    let folder = scratch("film_shear");
+    let folder = Scratch::new("film_shear");
     let file = folder.join("shear.csv");
     let path = file.to_string_lossy().into_owned();
     let contact = [
@@ -463,7 +453,6 @@ fn shear_thinning_contacts_slide_and_show_the_shear_across_the_film() {
     let traction = point["traction"].as_f64().unwrap();
     assert!((traction / 0.029735 - 1.0).abs() < 0.01, "{traction}");
     let table = std::fs::read_to_string(&file).unwrap();
-    std::fs::remove_dir_all(&folder).unwrap();
     assert_eq!(table.lines().next().unwrap(), "X,Z,tau_zx_pa,rate_per_s");
     assert_eq!(table.lines().count(), 1 + 601 * 11);
 }

@@ -1,5 +1,4 @@
 //! The scenes of the repository, which lie in folders by subject, each under a name of its own.
-#![allow(dead_code, reason = "every test file needs its own part of these")]
 
 use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene};
 use ehl_explorer::scene::Scene;

@@ -1,7 +1,6 @@
 //! Every scene of the repository: it parses, survives writing, and the quick ones give what they expect.
 
-mod scene_files;
-
+use crate::common::scene_files;
 use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene};
 use ehl_explorer::scene::{Grid, Method, ModelSource, Scene, Study, TransientStudy};
 use ehl_explorer::solver::full::transient::{Frame, Signal, TimeStep};
@@ -33,6 +32,23 @@ fn every_scene_survives_writing() {
         let text = scene.to_ron().unwrap();
         assert_eq!(Scene::from_ron(&text).unwrap_or_else(|error| panic!("{name}: {error}\n{text}")), scene, "{name}");
     }
+}
+
+#[test]
+fn every_expectation_says_where_its_bound_comes_from_and_none_judges_time() {
+    let mut count = 0;
+    for (name, scene) in all() {
+        for expectation in &scene.expect {
+            let from = expectation.from.trim();
+            let sound = from.len() > 5 && !from.starts_with("bar") && !from.contains(".md");
+            assert!(sound, "{name}: {} comes from \"{from}\"", expectation.name);
+            // Seconds depend on the machine: `bench` judges speed by ratios within one run.
+            let last = expectation.name.rsplit('.').next().unwrap();
+            assert!(!last.ends_with("_s") && last != "speed_up", "{name}: {}", expectation.name);
+            count += 1;
+        }
+    }
+    assert!(count > 350, "{count} expectations");
 }
 
 #[test]

@@ -1,0 +1,9 @@
+//! Scenes: those of the repository, and every kind of study at a small size.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod plans;
+mod repository;
+mod sampling;
+mod transient;

@@ -1,0 +1,15 @@
+//! The solvers: full solutions against independent ones, the embedded models against full solutions, cancelling.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod cancel;
+mod embedded_model;
+mod embedded_point_model;
+mod embedded_point_shear_model;
+mod embedded_shear_model;
+mod line_reference;
+mod point_reference;
+mod point_shear_thinning;
+mod shear_models;
+mod shear_thinning;

@@ -1,0 +1,14 @@
+//! The explorer's window, driven without a display.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod driver;
+
+mod accuracy_tab;
+mod contact_map;
+mod desktop;
+mod explorer;
+mod tpwl_tab;
+mod traction_tab;
+mod training_tab;
+mod transient_tab;
