@@ -9,6 +9,7 @@ mod info;
 mod options;
 mod output;
 mod run;
+mod run_all;
 mod solve;
 mod sweep;
 mod train;

@@ -4,7 +4,7 @@ use super::Verdict;
 use super::failure::Failure;
 use super::output::{self, ProgressLine};
 use crate::engine::table::Number;
-use crate::engine::{SceneOutcome, Workbench, run_scene};
+use crate::engine::{EngineError, SceneOutcome, Store, Workbench, run_scene};
 use crate::scene::atomic_file::{self, WriteError};
 use crate::scene::{Method, Scene};
 use clap::Args;
@@ -15,55 +15,79 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Args)]
 pub struct RunArgs {
     /// The scenes
-    #[arg(value_name = "SCENE.ron", required = true)]
-    scenes: Vec<PathBuf>,
+    #[arg(value_name = "SCENE.ron", required_unless_present = "all", conflicts_with = "all")]
+    pub(super) scenes: Vec<PathBuf>,
+    /// Run every scene below a folder and write RESULTS.md there; takes hours
+    #[arg(long)]
+    pub(super) all: bool,
+    /// Of all scenes run those marked `quick: true` only, in a few minutes, and leave RESULTS.md as it is
+    #[arg(long, requires = "all")]
+    pub(super) quick: bool,
+    /// The folder of all scenes
+    #[arg(long = "scenes", value_name = "DIR", default_value = "scenes", requires = "all")]
+    pub(super) folder: PathBuf,
+    /// Take over what an earlier run left in --out of scenes that have not changed since
+    #[arg(long, requires = "all", requires = "out")]
+    pub(super) resume: bool,
     /// Write every scene's outcome (JSON) and tables (CSV) into this folder
     #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    pub(super) out: Option<PathBuf>,
     /// Print one JSON object per scene
     #[arg(long)]
-    json: bool,
+    pub(super) json: bool,
 }
 
 /// Runs the command: all scenes are read before the first is run.
 pub fn run(args: &RunArgs) -> Result<Verdict, Failure> {
-    let scenes = args.scenes.iter().map(|path| Scene::read(path)).collect::<Result<Vec<_>, _>>()?;
-    if let Some(folder) = &args.out {
-        std::fs::create_dir_all(folder)
-            .map_err(|reason| WriteError { path: folder.clone(), reason })
-            .map_err(Failure::from)?;
+    if args.all {
+        return super::run_all::run(args);
     }
+    let scenes = args.scenes.iter().map(|path| Scene::read(path)).collect::<Result<Vec<_>, _>>()?;
+    make_out(args)?;
+    let store = Store::default();
     let mut verdict = Verdict::Done;
     for (path, scene) in args.scenes.iter().zip(&scenes) {
-        let progress = ProgressLine::new(false);
-        let base = path.parent().unwrap_or(Path::new(""));
-        let outcome = run_scene(scene, &mut Workbench::new(base), &progress);
-        progress.finish();
-        let outcome = outcome?;
+        let outcome = outcome_of(path, scene, &store)?;
         if !outcome.passed() {
             verdict = Verdict::FellShort;
         }
         if let Some(folder) = &args.out {
             write(&outcome, folder, &stem(path, &args.scenes))?;
         }
-        if args.json {
-            output::print_json(&outcome.to_json())?;
-        } else {
-            output::print(&describe(&outcome))?;
-        }
+        tell(&outcome, args.json)?;
     }
     Ok(verdict)
 }
 
+/// Makes the folder of outcomes where one is wanted.
+pub(super) fn make_out(args: &RunArgs) -> Result<(), Failure> {
+    let Some(folder) = &args.out else { return Ok(()) };
+    Ok(std::fs::create_dir_all(folder).map_err(|reason| WriteError { path: folder.clone(), reason })?)
+}
+
+/// Runs one scene, whose paths refer to its folder.
+pub(super) fn outcome_of(path: &Path, scene: &Scene, store: &Store) -> Result<SceneOutcome, EngineError> {
+    let progress = ProgressLine::new(false);
+    let base = path.parent().unwrap_or(Path::new(""));
+    let outcome = run_scene(scene, &mut Workbench::on(store, base), &progress);
+    progress.finish();
+    outcome
+}
+
+/// Prints an outcome.
+pub(super) fn tell(outcome: &SceneOutcome, json: bool) -> Result<(), Failure> {
+    if json { output::print_json(&outcome.to_json()) } else { output::print(&describe(outcome)) }
+}
+
 /// The scene's name for its outputs; with a number where two scenes of the run share it.
-fn stem(path: &Path, all: &[PathBuf]) -> String {
+pub(super) fn stem(path: &Path, all: &[PathBuf]) -> String {
     let name = |path: &Path| path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let own = name(path);
     let before = all.iter().take_while(|other| other.as_path() != path).filter(|other| name(other) == own).count();
     if before == 0 { own } else { format!("{own}_{}", before + 1) }
 }
 
-fn write(outcome: &SceneOutcome, folder: &Path, stem: &str) -> Result<(), Failure> {
+pub(super) fn write(outcome: &SceneOutcome, folder: &Path, stem: &str) -> Result<(), Failure> {
     let mut text = serde_json::to_string_pretty(&outcome.to_json()).map_err(std::io::Error::from)?;
     text.push('\n');
     atomic_file::replace(&folder.join(format!("{stem}.json")), text.as_bytes())?;

@@ -13,10 +13,8 @@ pub(super) const HEADER: usize = 28;
 pub(super) struct Format {
     /// What every file of the kind begins with.
     pub magic: &'static [u8; 8],
-    /// The version that is written.
+    /// The version that is written, and the only one that is read.
     pub version: u32,
-    /// The oldest version that is read.
-    pub oldest: u32,
     /// Largest payload that is read \[bytes\].
     pub max_payload: u64,
 }
@@ -70,11 +68,6 @@ impl Format {
         bytes
     }
 
-    /// The version of a file's content that [`Self::open`] accepts; its own for anything else.
-    pub fn version_of(&self, bytes: &[u8]) -> u32 {
-        bytes.get(8..12).and_then(|word| word.try_into().ok()).map_or(self.version, u32::from_le_bytes)
-    }
-
     /// The payload of a file's content.
     pub fn open<'a>(&self, bytes: &'a [u8]) -> Result<&'a [u8], Flaw> {
         let announced = self.announced(bytes)?;
@@ -113,7 +106,7 @@ impl Format {
         if version > self.version {
             return Err(Flaw::Newer { found: version });
         }
-        if version < self.oldest {
+        if version < self.version {
             return Err(Flaw::Older { found: version });
         }
         let announced = u64_at(bytes, 12).unwrap_or_default();

@@ -36,7 +36,7 @@ impl Table {
 
     /// As columns for people, numbers with three digits, each line behind `indent`.
     pub fn to_text(&self, indent: &str) -> String {
-        let short = |value: &f64| if value.is_finite() { three_digits(*value) } else { String::new() };
+        let short = |value: &f64| if value.is_finite() { significant(*value, 3) } else { String::new() };
         let mut lines = vec![std::iter::once(String::new()).chain(self.columns.iter().cloned()).collect::<Vec<_>>()];
         lines.extend(self.rows.iter().enumerate().map(|(k, row)| {
             let label = self.labels.get(k).cloned().unwrap_or_default();
@@ -57,16 +57,17 @@ impl Table {
     }
 }
 
-/// A number with three significant digits; whole ones below a million are written out.
-fn three_digits(value: f64) -> String {
+/// A number with so many significant digits; whole ones below a million are written out.
+pub fn significant(value: f64, digits: i32) -> String {
     let size = value.abs();
     if value == 0.0 || (value.fract() == 0.0 && size < 1e6) {
         format!("{value}")
     } else if (1e-3..1e5).contains(&size) {
-        let decimals = (2 - size.log10().floor() as i32).max(0) as usize;
+        let decimals = (digits - 1 - size.log10().floor() as i32).max(0) as usize;
         format!("{value:.decimals$}")
     } else {
-        format!("{value:.2e}")
+        let decimals = (digits - 1).max(0) as usize;
+        format!("{value:.decimals$e}")
     }
 }
 
@@ -108,6 +109,9 @@ mod tests {
             table.to_text("  "),
             "           steps        s\n  full     12000     24.1\n  reduced         2.20e-8\n"
         );
-        assert_eq!([0.0, 0.01234, 99.5, 123456.7].map(three_digits), ["0", "0.0123", "99.5", "1.23e5"]);
+        assert_eq!(
+            [0.0, 0.01234, 99.5, 123456.7].map(|value| significant(value, 3)),
+            ["0", "0.0123", "99.5", "1.23e5"]
+        );
     }
 }

@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 
 const VERSION: u32 = 4;
 /// 5000 full solutions in each of some windows, on the finest grids that are used.
-const FORMAT: Format = Format { magic: b"EHLTRN\r\n", version: VERSION, oldest: VERSION, max_payload: 2 << 30 };
+const FORMAT: Format = Format { magic: b"EHLTRN\r\n", version: VERSION, max_payload: 2 << 30 };
 
 /// Shortest time between two writes.
 const INTERVAL: Duration = Duration::from_secs(1);

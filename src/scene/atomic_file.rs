@@ -34,17 +34,18 @@ fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
         }
     }
     let name = target.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "it names no file"))?;
-    let beside = target.with_file_name(format!(".{}.{}.part", name.to_string_lossy(), std::process::id()));
-    let written = File::create(&beside).and_then(|mut file| {
-        file.write_all(bytes)?;
-        file.sync_all()
-    });
-    let done = written.and_then(|()| fs::rename(&beside, &target));
-    if done.is_err() {
-        // The first error is the one to report.
-        let _ = fs::remove_file(&beside);
-    }
-    done
+    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let prefix = format!(".{}.", name.to_string_lossy());
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(&prefix).suffix(".part");
+    // Others may read it as any file of this user, not only this user as a temporary one.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut beside = builder.tempfile_in(folder)?;
+    beside.write_all(bytes)?;
+    beside.as_file().sync_all()?;
+    // What is not put in its place is removed.
+    beside.persist(&target).map(|_| ()).map_err(|refused| refused.error)
 }
 
 #[cfg(test)]
@@ -60,6 +61,18 @@ mod tests {
         replace(&path, b"two").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"two");
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::{PermissionsExt, symlink};
+            let plain = folder.join("b.txt");
+            fs::write(&plain, b"b").unwrap();
+            let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode();
+            assert_eq!(mode(&path), mode(&plain), "it has the permissions of any other file");
+            let link = folder.join("link");
+            symlink(&path, &link).unwrap();
+            replace(&link, b"three").unwrap();
+            assert!(fs::symlink_metadata(&link).unwrap().is_symlink() && fs::read(&path).unwrap() == b"three");
+        }
         assert!(replace(&folder, b"x").unwrap_err().to_string().contains("folder"));
         assert!(replace(&folder.join("missing/a.txt"), b"x").is_err());
         fs::remove_dir_all(&folder).unwrap();

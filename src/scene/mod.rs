@@ -78,6 +78,9 @@ pub struct Scene {
     /// What the answer should be.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub expect: Vec<Expectation>,
+    /// Whether it ends within ten seconds on two cores: `run --all --quick` and the tests take those.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub quick: bool,
     /// What the explorer keeps with it; results do not depend on it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub view: Option<View>,
@@ -210,6 +213,7 @@ impl Scene {
             grid: Grid::Graded,
             study: Study::Point { methods: vec![Method::Full, Method::EMBEDDED] },
             expect: Vec::new(),
+            quick: false,
             view: None,
         }
     }

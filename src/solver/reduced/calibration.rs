@@ -99,12 +99,6 @@ impl Calibration {
         out.sound().then_some(out)
     }
 
-    /// Works the bounds out again from laws and evidence, as for a file that kept another measure of the scatter.
-    pub fn measure_again(&mut self) {
-        let neighbours = self.left_out();
-        self.quantities.iter_mut().for_each(|quantity| quantity.measure(&neighbours));
-    }
-
     /// What the errors of a reduced solution are likely to be.
     pub fn estimate(&self, features: &Features) -> ErrorEstimate {
         let (scaled, beyond) = self.scaled(features);
