@@ -119,8 +119,7 @@ impl Training {
         if running.trains {
             self.chart = running.chart();
         }
-        let mut news = None;
-        let Some(ending) = running.job.poll(|came| news = Some(came)) else { return };
+        let Some((ending, news)) = running.receive() else { return };
         let seconds = running.job.since().elapsed().as_secs_f64();
         self.job = None;
         if let Err(why) = ending {

@@ -105,6 +105,7 @@ pub struct Running {
     /// Whether there may be fewer.
     pub fewer: bool,
     live: Arc<Mutex<Live>>,
+    news: Option<News>,
     /// How far it is.
     pub job: Job<News>,
 }
@@ -130,7 +131,14 @@ impl Running {
             let watch = Watch { reporter, live: theirs, searches: fewer, keeper: None };
             on_spare_cores(|| work(task, watch))
         });
-        Self { trains, most, fewer, live, job }
+        Self { trains, most, fewer, live, news: None, job }
+    }
+
+    /// How it ended and what came of it, once it has ended.
+    pub fn receive(&mut self) -> Option<(Ending, Option<News>)> {
+        let news = &mut self.news;
+        let ending = self.job.poll(|came| *news = Some(came))?;
+        Some((ending, self.news.take()))
     }
 
     /// Full solutions so far.
