@@ -98,7 +98,7 @@ pub fn run(quick: bool) -> Result<Bench, EngineError> {
     let mut bench = Bench::default();
 
     let mut dense = Timing::new(BASELINE, BASELINE_BUDGET[size]);
-    let kernel = dense_kernel(&solver.reference().scaled(1.0));
+    let kernel = dense_kernel(&solver.grid().scaled(1.0));
     let options = SolveOptions::default();
     for point in &points[..BASELINE_POINTS[size]] {
         if dense.spent() && dense.seconds.len() >= 3 {
@@ -114,12 +114,12 @@ pub fn run(quick: bool) -> Result<Bench, EngineError> {
     let newtonian = |point: &OperatingPoint| Problem::new(point, lubricant);
     let problems = points[..FULL_POINTS[size]].iter().map(newtonian).collect::<Result<Vec<_>, _>>()?;
     rows.extend(cold_and_warm(["line/full/cold", "line/full/warm"], ROW_BUDGET[size], &problems, |problem, start| {
-        Ok(solver.solve_problem(problem, start, &()))
+        solver.solve_problem(problem, start, &())
     })?);
     let shear = shear_problems(ContactKind::Line, SHEAR_POINTS[size])?;
     let names = ["line/shear/full/cold", "line/shear/full/warm"];
     rows.extend(cold_and_warm(names, ROW_BUDGET[size], &shear, |problem, start| {
-        Ok(solver.solve_problem(problem, start, &()))
+        solver.solve_problem(problem, start, &())
     })?);
     match model_file::embedded_of(ContactKind::Line) {
         Ok(model) => {

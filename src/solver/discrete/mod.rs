@@ -4,3 +4,4 @@ pub mod elasticity;
 pub mod grid;
 pub mod nodes;
 pub mod reynolds;
+pub mod space;

@@ -25,21 +25,9 @@ pub struct LinearOutcome {
 impl Gmres {
     /// Solves A x = b to `tolerance` relative to ‖b‖, within `limit` iterations. `x` receives the solution (start: zero).
     ///
-    /// `apply(v, out)` sets out = A v; `precondition(v)` replaces v by M⁻¹ v.
+    /// `apply(v, out)` sets out = A v; `precondition(v)` replaces v by M⁻¹ v. `go_on` is asked after each iteration with their count, and ends
+    /// the solve with what it has.
     pub fn solve(
-        &mut self,
-        b: &[f64],
-        x: &mut [f64],
-        tolerance: f64,
-        limit: usize,
-        apply: impl FnMut(&[f64], &mut [f64]),
-        precondition: impl FnMut(&mut [f64]),
-    ) -> LinearOutcome {
-        self.solve_watched(b, x, (tolerance, limit), apply, precondition, |_| true)
-    }
-
-    /// The same for iterations that take long: `go_on` is asked after each with their count, and ends the solve with what it has.
-    pub fn solve_watched(
         &mut self,
         b: &[f64],
         x: &mut [f64],
@@ -141,7 +129,7 @@ mod tests {
         let mut x = vec![0.0; n];
         let mut solver = Gmres::default();
         for _ in 0..2 {
-            let out = solver.solve(&b, &mut x, 1e-12, 30, apply, |v| v.iter_mut().for_each(|v| *v /= 4.0));
+            let out = solver.solve(&b, &mut x, (1e-12, 30), apply, |v| v.iter_mut().for_each(|v| *v /= 4.0), |_| true);
             assert!(out.relative_residual < 1e-12 && out.iterations < 30);
             for (got, want) in x.iter().zip(&want) {
                 assert!((got - want).abs() < 1e-10);

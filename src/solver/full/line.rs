@@ -1,239 +1,135 @@
-//! Newton's method for the stationary line contact on any grid: rows, Jacobian products, damping, stopping.
+//! Newton's method on a line: steps are damped by backtracking on the residual, linear solves as accurate as the nonlinear problem can use.
 
 mod preconditioner;
 
-use super::gmres::{Gmres, LinearOutcome};
-use super::shear::ShearState;
-use super::solution::{Problem, Report, Termination};
-use crate::solver::discrete::elasticity::Scratch;
-use crate::solver::discrete::grid::{FIRST_UNKNOWN, LineGrid, dot};
+use super::newton_space::{NewtonSpace, StepControl, Taken};
+use super::solution::{Mesh, Problem, SolveError};
+use super::system::{SolveOptions, System};
+use super::thinning::Thinning;
+use crate::solver::discrete::grid::{GridSpec, ReferenceGrid, dot};
 use crate::solver::discrete::reynolds::generalized::FilmTreatment;
-use crate::solver::discrete::reynolds::line::{LINE_STENCIL, Upstream};
-use crate::solver::discrete::reynolds::{CENTER, Node, PENALTY, RowGeometry};
-use crate::solver::observer::{NewtonStep, Observer};
-use preconditioner::Preconditioner;
+use crate::solver::discrete::reynolds::{PENALTY, Row};
+use crate::solver::discrete::space::{LineSpace, Space};
+use crate::solver::physics::contact::{ContactKind, Moes};
+pub use preconditioner::BandMatrix;
+use std::sync::Arc;
 
-/// Settings of a full solve.
+/// The step control of line contacts.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SolveOptions {
-    /// Stop on ‖Δz‖/‖z‖ below this, z = (P, H₀).
-    pub tolerance: f64,
-    /// Newton steps per attempt.
-    pub max_newton: usize,
-    /// Krylov iterations per Newton step.
-    pub max_krylov: usize,
+pub struct Backtracking {
     /// Half-bandwidth of the kernel kept in the preconditioner.
     pub kernel_band: usize,
     /// Whether that kernel is shifted so that it ends at zero. Where the film stores, five times fewer Krylov iterations; the first Newton
     /// steps of a cold stationary solve do better without.
     pub levelled_kernel: bool,
-    /// Penalty factor γ̄ of (2.36).
-    pub penalty: f64,
     /// Backtracking on the residual ends at this fraction of the step; 1 takes Newton's own steps, which is right beside a solution:
     /// there the penalty makes the residual jump though the step is good.
     pub shortest_step: f64,
-    /// How the film integrals of a shear-thinning lubricant are taken.
-    pub film: FilmTreatment,
 }
 
-impl Default for SolveOptions {
+impl Default for Backtracking {
     fn default() -> Self {
-        Self {
+        Self { kernel_band: 6, levelled_kernel: false, shortest_step: 1.0 / 64.0 }
+    }
+}
+
+impl StepControl for Backtracking {
+    fn options() -> SolveOptions<Self> {
+        SolveOptions {
             tolerance: 1e-10,
             max_newton: 80,
             max_krylov: 80,
-            kernel_band: 6,
-            levelled_kernel: false,
             penalty: PENALTY,
-            shortest_step: 1.0 / 64.0,
             film: FilmTreatment::default(),
+            control: Self::default(),
         }
     }
 }
 
-/// The discrete system of one problem on one grid, with its state and all work space.
-pub struct LineSystem {
-    /// The grid.
-    pub grid: LineGrid,
-    /// P, node array.
-    pub pressure: Vec<f64>,
-    /// H, node array.
-    pub film: Vec<f64>,
-    /// H₀.
-    pub h_0: f64,
-    /// 1/R̄ of (2.24); 1 where the radius does not vary.
-    pub(super) curvature: f64,
-    /// Coefficients of the rows, those of the grid where nothing changes in time.
-    pub(super) rows: Vec<RowGeometry>,
-    /// The side each row's flow comes from.
-    pub(super) upstream: Vec<Upstream>,
-    deformation: Vec<f64>,
-    nodes: Vec<Node>,
-    /// What shear-thinning adds; absent for a Newtonian problem.
-    shear: Option<ShearState>,
-    treatment: FilmTreatment,
-    /// f_p at the unknowns.
-    pub residual: Vec<f64>,
-    /// ∂f/∂P and ∂f/∂H per row.
-    pub d_p: Vec<[f64; LINE_STENCIL]>,
-    /// ∂f/∂H per row.
-    pub d_h: Vec<[f64; LINE_STENCIL]>,
-    scaling: Vec<f64>,
-    step: Vec<f64>,
-    step_deformation: Vec<f64>,
-    preconditioner: Preconditioner,
-    krylov: Gmres,
-    fft: Scratch,
-    field: Vec<f64>,
-    rhs: Vec<f64>,
-    update: Vec<f64>,
+/// The residual before the former step, and the accuracy of its linear solve.
+pub struct Residuals {
+    previous: f64,
+    forcing: f64,
 }
 
-impl LineSystem {
-    /// A system on a grid, with all work space; the state is zero until it is set.
-    pub fn new(grid: LineGrid) -> Self {
-        let (n, u) = (grid.len(), grid.unknowns());
-        Self {
-            pressure: vec![0.0; n],
-            film: vec![0.0; n],
-            h_0: 0.0,
-            curvature: 1.0,
-            rows: grid.rows.clone(),
-            upstream: vec![Upstream::Inlet; u],
-            deformation: vec![0.0; n],
-            nodes: vec![Node::default(); n],
-            shear: None,
-            treatment: FilmTreatment::default(),
-            residual: vec![0.0; u],
-            d_p: vec![[0.0; LINE_STENCIL]; u],
-            d_h: vec![[0.0; LINE_STENCIL]; u],
-            scaling: vec![1.0; u],
-            step: vec![0.0; n],
-            step_deformation: vec![0.0; n],
-            preconditioner: Preconditioner::default(),
-            krylov: Gmres::default(),
-            fft: Scratch::default(),
-            field: vec![0.0; n],
-            rhs: vec![0.0; u + 1],
-            update: vec![0.0; u + 1],
-            grid,
-        }
+impl Default for Residuals {
+    fn default() -> Self {
+        Self { previous: f64::NAN, forcing: 0.05 }
+    }
+}
+
+impl NewtonSpace for LineSpace {
+    type Control = Backtracking;
+    type Memory = Residuals;
+    type Matrix = BandMatrix;
+    type Spec = GridSpec;
+    type Reference = Arc<ReferenceGrid>;
+
+    const KIND: ContactKind = ContactKind::Line;
+    const WORST_RESIDUAL: f64 = 1e12;
+    const CLIPS: bool = false;
+    // In units of Moes' formula.
+    const COLD_FILMS: [f64; 3] = [2.0, 1.2, 4.0];
+    const EASY_M: (f64, f64) = (15.0, 60.0);
+    const EASY_L: (f64, f64) = (2.0, 8.0);
+
+    fn build(spec: GridSpec) -> Result<Arc<ReferenceGrid>, SolveError> {
+        Ok(spec.build()?)
     }
 
-    /// Sets the pressure (node array), scaled to carry the load exactly, and recomputes the deformation.
-    pub fn set_pressure(&mut self, problem: &Problem, pressure: &[f64]) {
-        let n = self.grid.len();
-        self.pressure.copy_from_slice(pressure);
-        for i in [0, 1, n - 1] {
-            self.pressure[i] = 0.0;
-        }
-        let carried = dot(&self.grid.weights, &self.pressure);
-        let factor = problem.load / carried;
-        if factor.is_finite() && factor > 0.0 {
-            self.pressure.iter_mut().for_each(|p| *p *= factor);
-        }
-        self.grid.deform(&self.pressure, &mut self.deformation, &mut self.fft);
+    fn scale_of(reference: &Arc<ReferenceGrid>, moes: Moes) -> f64 {
+        reference.scale(moes)
     }
 
-    /// Sets H₀ and the film.
-    pub fn set_h_0(&mut self, h_0: f64) {
-        self.h_0 = h_0;
-        for ((h, x), d) in self.film.iter_mut().zip(&self.grid.x).zip(&self.deformation) {
-            *h = h_0 + 0.5 * self.curvature * x * x + d;
-        }
+    fn on(reference: &Arc<ReferenceGrid>, scale: f64) -> Self {
+        Self::new(reference.scaled(scale))
     }
 
-    /// Sets H₀ so that the film at X = 0 is `film`.
-    pub fn set_central_film(&mut self, film: f64) {
-        self.set_h_0(0.0);
-        let at_zero = self.grid.at(&self.film, 0.0);
-        self.set_h_0(film - at_zero);
+    fn mesh(&self) -> Mesh {
+        Mesh::Line { spec: self.grid.reference.spec, scale: self.grid.scale }
     }
 
-    /// Evaluates all rows at the current state: residual and, with `derivatives`, the Jacobian bands. Returns the residual norm.
-    pub fn evaluate(&mut self, problem: &Problem, penalty: f64, derivatives: bool) -> f64 {
-        match &problem.shear {
-            None => {
-                self.shear = None;
-                for ((node, &p), &h) in self.nodes.iter_mut().zip(&self.pressure).zip(&self.film) {
-                    *node = Node::new(&problem.fluid, problem.inverse_lambda, p, h);
-                }
-            }
-            Some(law) => {
-                let shear = self.shear.get_or_insert_with(|| ShearState::new(&self.grid));
-                let fields = (self.pressure.as_slice(), self.film.as_slice());
-                shear.evaluate(problem, law, fields, self.treatment, &mut self.nodes);
-            }
+    fn forcing(_: &Backtracking, memory: &mut Residuals, residual: f64) -> f64 {
+        if memory.previous.is_finite() {
+            // Eisenstat & Walker's second choice: no more linear accuracy than the nonlinear problem can use.
+            memory.forcing = (0.9 * (residual / memory.previous).powi(2)).clamp(1e-5, 0.05);
         }
-        let mut sum = 0.0;
-        for (k, (geometry, upstream)) in self.rows.iter().zip(&self.upstream).enumerate() {
-            let r = upstream.row(geometry, penalty, &self.nodes, k);
-            self.residual[k] = r.value;
-            sum += self.grid.weights[k + FIRST_UNKNOWN] * r.value * r.value;
-            if derivatives {
-                (self.d_p[k], self.d_h[k]) = (r.d_p, r.d_h);
-            }
-        }
-        if let Some(shear) = self.shear.as_mut().filter(|_| derivatives) {
-            shear.differentiate(&self.grid);
-        }
-        sum.sqrt()
+        memory.previous = residual;
+        memory.forcing
     }
 
-    /// ρ̄H of the state evaluated last, node array.
-    pub(super) fn flow(&self) -> impl Iterator<Item = f64> + '_ {
-        self.nodes.iter().map(|node| node.flow)
+    fn step(
+        system: &mut System<Self>,
+        problem: &Problem,
+        options: &SolveOptions<Backtracking>,
+        _: &mut Residuals,
+        before: f64,
+    ) -> Taken {
+        let (size, residual) = system.backtrack(problem, options, before);
+        Taken { size, shift: 0.0, residual }
     }
 
-    /// Newton's method from the current state.
-    pub fn newton(&mut self, problem: &Problem, options: &SolveOptions, observer: &dyn Observer, report: &mut Report) {
-        self.treatment = options.film;
-        if let Some(shear) = &mut self.shear {
-            shear.forget();
-        }
-        let mut residual = self.evaluate(problem, options.penalty, true);
-        let mut previous = f64::NAN;
-        report.termination = Termination::IterationLimit;
-        let mut forcing: f64 = 0.05;
-        for _ in 0..options.max_newton {
-            if observer.cancelled() {
-                report.termination = Termination::Cancelled;
-                break;
-            }
-            report.residuals.push(residual);
-            if previous.is_finite() {
-                // Eisenstat & Walker's second choice: no more linear accuracy than the nonlinear problem can use.
-                forcing = (0.9 * (residual / previous).powi(2)).clamp(1e-5, 0.05);
-            }
-            previous = residual;
-            let linear = self.solve_linear(options, forcing);
-            report.linear_iterations += linear.iterations;
-            let solved = linear.relative_residual < 0.5;
-            report.newton_iterations += 1;
-            let (taken, accepted) = self.damped_step(problem, options, residual);
-            residual = accepted;
-            report.steps.push(taken);
-            observer.newton_step(&NewtonStep { iteration: report.newton_iterations, residual: previous, step: taken });
-            if !(residual.is_finite() && taken.is_finite()) || residual > 1e12 {
-                report.termination = Termination::Diverged;
-                break;
-            }
-            if taken < options.tolerance && solved {
-                let separated = self.film.iter().all(|&h| h > 0.0);
-                report.termination = if separated { Termination::Converged } else { Termination::Diverged };
-                break;
-            }
-        }
-        report.residual_norm = residual;
+    fn assemble(
+        &self,
+        matrix: &mut BandMatrix,
+        control: &Backtracking,
+        rows: &[Row],
+        thinning: Option<&Thinning>,
+        scaling: &[f64],
+        _: impl Fn() -> bool,
+    ) -> bool {
+        matrix.build(self, control, rows, thinning, scaling);
+        true
     }
+}
 
+impl System<LineSpace> {
     /// Takes the Newton step with backtracking on the residual (to `shortest_step`, then accepts); the film may lose 90 % per step at most.
-    /// Returns ‖Δz‖/‖z‖ of the undamped step, so that damping never looks like convergence, and the new residual.
-    fn damped_step(&mut self, problem: &Problem, options: &SolveOptions, before: f64) -> (f64, f64) {
-        let u = self.grid.unknowns();
-        let dh_0 = self.update[u];
-        self.step[FIRST_UNKNOWN..FIRST_UNKNOWN + u].copy_from_slice(&self.update[..u]);
-        self.grid.deform(&self.step, &mut self.step_deformation, &mut self.fft);
+    /// Returns ‖Δz‖/‖z‖ of the undamped step and the new residual.
+    fn backtrack(&mut self, problem: &Problem, options: &SolveOptions<Backtracking>, before: f64) -> (f64, f64) {
+        let dh_0 = self.update[self.rows.len()];
+        self.space.spread(&self.update, &mut self.step);
+        self.space.grid().deform(&self.step, &mut self.step_deformation, &mut self.scratch);
         let mut longest: f64 = 1.0;
         for (h, d) in self.film.iter().zip(&self.step_deformation) {
             let change = d + dh_0;
@@ -243,7 +139,7 @@ impl LineSystem {
         }
         let size = (dot(&self.step, &self.step) + dh_0 * dh_0).sqrt();
         let (start_h_0, mut factor, mut taken) = (self.h_0, longest, 0.0);
-        let mut residual;
+        let shortest = longest * options.control.shortest_step;
         loop {
             let delta = factor - taken;
             for (p, s) in self.pressure.iter_mut().zip(&self.step) {
@@ -254,11 +150,10 @@ impl LineSystem {
             }
             taken = factor;
             self.set_h_0(start_h_0 + factor * dh_0);
-            residual = self.evaluate(problem, options.penalty, true);
+            let residual = self.evaluate(problem, options.penalty);
             let norm = (dot(&self.pressure, &self.pressure) + self.h_0 * self.h_0).sqrt();
             let relative = factor * size / norm;
-            if residual < before * (1.0 - 1e-4 * factor) || factor <= longest * options.shortest_step || relative < 1e-7
-            {
+            if residual < before * (1.0 - 1e-4 * factor) || factor <= shortest || relative < 1e-7 {
                 // A full, fresh deformation now and then would change nothing: the increments are exact to rounding.
                 return (size / norm, residual);
             }
@@ -270,78 +165,19 @@ impl LineSystem {
     pub fn take_step(
         &mut self,
         problem: &Problem,
-        options: &SolveOptions,
+        options: &SolveOptions<Backtracking>,
         before: f64,
         update: impl Fn(usize) -> f64,
     ) -> (f64, f64) {
         for (i, u) in self.update.iter_mut().enumerate() {
             *u = update(i);
         }
-        self.damped_step(problem, options, before)
+        self.backtrack(problem, options, before)
     }
 
-    /// Solves the linearised system for `update` = (ΔP, ΔH₀). Returns how the linear solver ended.
-    fn solve_linear(&mut self, options: &SolveOptions, tolerance: f64) -> LinearOutcome {
-        let u = self.grid.unknowns();
-        let diagonal = self.grid.kernel_entry(self.grid.len() / 2, self.grid.len() / 2);
-        for (k, s) in self.scaling.iter_mut().enumerate() {
-            let own = k + CENTER - self.upstream[k].first_node(k);
-            *s = 1.0 / (self.d_p[k][own].abs() + self.d_h[k][own].abs() * diagonal);
-        }
-        let shear = self.shear.as_ref();
-        let jacobian = (self.upstream.as_slice(), self.d_p.as_slice(), self.d_h.as_slice());
-        self.preconditioner.build(
-            &self.grid,
-            (options.kernel_band, options.levelled_kernel),
-            jacobian,
-            shear,
-            &self.scaling,
-        );
-        for ((r, f), s) in self.rhs.iter_mut().zip(&self.residual).zip(&self.scaling) {
-            *r = -f * s;
-        }
-        // The load holds exactly from the start and every step keeps it, because the preconditioner's load row is exact.
-        self.rhs[u] = 0.0;
-        let Self {
-            krylov,
-            grid,
-            fft,
-            field,
-            step_deformation,
-            upstream,
-            d_p,
-            d_h,
-            scaling,
-            preconditioner,
-            rhs,
-            update,
-            shear,
-            ..
-        } = self;
-        krylov.solve(
-            rhs,
-            update,
-            tolerance,
-            options.max_krylov,
-            |v, out| {
-                field[FIRST_UNKNOWN..FIRST_UNKNOWN + u].copy_from_slice(&v[..u]);
-                grid.deform(field, step_deformation, fft);
-                for (k, out) in out[..u].iter_mut().enumerate() {
-                    let (a, b, first) = (&d_p[k], &d_h[k], upstream[k].first_node(k));
-                    let mut sum = 0.0;
-                    for m in 0..LINE_STENCIL {
-                        sum += a[m] * field[first + m] + b[m] * (step_deformation[first + m] + v[u]);
-                    }
-                    *out = sum * scaling[k];
-                }
-                if let Some(shear) = shear {
-                    for (k, out) in out[..u].iter_mut().enumerate() {
-                        *out += shear.product(k, field) * scaling[k];
-                    }
-                }
-                out[u] = dot(&grid.weights, field);
-            },
-            |v| preconditioner.apply(grid, v),
-        )
+    /// Sets 1/R̄ of (2.24); the film follows with the next [`System::set_h_0`].
+    pub(super) fn set_curvature(&mut self, curvature: f64) {
+        self.space.curvature = curvature;
+        self.renew_gap();
     }
 }

@@ -1,9 +1,8 @@
 //! What is solved and what comes out: a problem and a solution are values that know what they belong to.
 
-use crate::solver::discrete::grid::{
-    ContactGridError, FIRST_UNKNOWN, GridError, GridSpec, LineGrid, PointGrid, PointGridError, PointGridSpec, dot,
-};
+use crate::solver::discrete::grid::{ContactGridError, GridError, GridSpec, PointGridError, PointGridSpec, dot};
 use crate::solver::discrete::nodes::Laws;
+use crate::solver::discrete::space::Grid;
 use crate::solver::physics::contact::{ContactError, ContactKind, Moes, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, LubricantError, ScaledFluid, ScaledShear, ShearLaw, Sliding};
 use serde::{Deserialize, Serialize};
@@ -112,11 +111,15 @@ impl Problem {
     /// # Errors
     /// When the point is of the other kind, or it or the lubricant is outside its valid range.
     pub fn of_kind(kind: ContactKind, point: &OperatingPoint, lubricant: Lubricant) -> Result<Self, SolveError> {
-        if point.kind != kind {
-            return Err(SolveError::OtherContact { wanted: kind, given: point.kind });
-        }
+        expect_kind(kind, point)?;
         Self::new(point, lubricant)
     }
+}
+
+/// Refuses a point of the other kind.
+pub(super) fn expect_kind(wanted: ContactKind, point: &OperatingPoint) -> Result<(), SolveError> {
+    let given = point.kind;
+    if given == wanted { Ok(()) } else { Err(SolveError::OtherContact { wanted, given }) }
 }
 
 /// Why a solve stopped.
@@ -235,6 +238,15 @@ pub enum Mesh {
 }
 
 impl Mesh {
+    /// Whether both are built from the same specification: the same nodes but for the scale of their registration.
+    pub fn shares_nodes(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Line { spec, .. }, Self::Line { spec: others, .. }) => spec == others,
+            (Self::Point(spec), Self::Point(others)) => spec == others,
+            _ => false,
+        }
+    }
+
     /// Scale of the registration map; 1 where there is none.
     pub fn scale(&self) -> f64 {
         match self {
@@ -352,52 +364,30 @@ impl Solution {
     }
 }
 
-/// Scalars of fields on a point grid.
-pub fn point_scalars_of(grid: &PointGrid, problem: &Problem, pressure: &[f64], film: &[f64], h_0: f64) -> Scalars {
-    let mut out = Scalars {
-        h_c: grid.on_axis(film, 0.0),
-        p_c: grid.on_axis(pressure, 0.0),
-        h_min: f64::INFINITY,
-        p_max: f64::NEG_INFINITY,
-        h_0,
-        load_residual: (dot(&grid.weights, pressure) / problem.load - 1.0).abs(),
-        ..Scalars::default()
-    };
-    for node in (0..grid.unknowns()).map(|unknown| grid.node(unknown)) {
-        let (x, y) = (grid.x[node / grid.ny()], grid.y[node % grid.ny()]);
-        if film[node] < out.h_min && under_contact(x) {
-            (out.h_min, out.x_h_min, out.y_h_min) = (film[node], x, y);
-        }
-        if pressure[node] > out.p_max {
-            (out.p_max, out.x_p_max) = (pressure[node], x);
-        }
-    }
-    out
-}
-
 /// Where the smallest film is looked for: −1.2 < X < 1.5.
 pub(crate) fn under_contact(x: f64) -> bool {
     x > -1.2 && x < 1.5
 }
 
-/// Scalars of fields on a line grid.
-pub fn scalars_of(grid: &LineGrid, problem: &Problem, pressure: &[f64], film: &[f64], h_0: f64) -> Scalars {
+/// Scalars of fields on a grid.
+pub fn scalars_of(grid: &impl Grid, problem: &Problem, pressure: &[f64], film: &[f64], h_0: f64) -> Scalars {
     let mut out = Scalars {
-        h_c: grid.at(film, 0.0),
-        p_c: grid.at(pressure, 0.0),
+        h_c: grid.central(film),
+        p_c: grid.central(pressure),
         h_min: f64::INFINITY,
         p_max: f64::NEG_INFINITY,
         h_0,
-        load_residual: (dot(&grid.weights, pressure) / problem.load - 1.0).abs(),
+        load_residual: (dot(grid.weights(), pressure) / problem.load - 1.0).abs(),
         ..Scalars::default()
     };
-    for i in FIRST_UNKNOWN..grid.len() - 1 {
-        let x = grid.x[i];
-        if film[i] < out.h_min && under_contact(x) {
-            (out.h_min, out.x_h_min) = (film[i], x);
+    let (abscissae, ordinates) = grid.abscissae();
+    for node in (0..grid.unknowns()).map(|unknown| grid.node(unknown)) {
+        let (x, y) = (abscissae[node / ordinates.len()], ordinates[node % ordinates.len()]);
+        if film[node] < out.h_min && under_contact(x) {
+            (out.h_min, out.x_h_min, out.y_h_min) = (film[node], x, y);
         }
-        if pressure[i] > out.p_max {
-            (out.p_max, out.x_p_max) = (pressure[i], x);
+        if pressure[node] > out.p_max {
+            (out.p_max, out.x_p_max) = (pressure[node], x);
         }
     }
     out

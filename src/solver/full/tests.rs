@@ -1,11 +1,13 @@
 //! Behaviour of full solves: derivatives, limits, symmetry of units, starts, cancellation, and how much work they take.
 
-use super::line::LineSystem;
+use super::newton_space::NewtonSpace;
 use super::*;
 use crate::solver::discrete::grid::{FIRST_UNKNOWN, GridSpec};
+use crate::solver::discrete::reynolds::{CENTER, PENALTY, STENCIL};
+use crate::solver::discrete::space::LineSpace;
 use crate::solver::observer::{NewtonStep, Observer};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
-use crate::solver::physics::lubricant::{DensityLaw, Lubricant, ViscosityLaw};
+use crate::solver::physics::lubricant::{DensityLaw, Lubricant, ShearLaw, ViscosityLaw};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 const COARSE: GridSpec = GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) };
@@ -19,39 +21,60 @@ fn solve(spec: GridSpec, point: &OperatingPoint) -> Solution {
     solver.solve(point, Lubricant::default(), Start::Cold, &()).unwrap()
 }
 
+/// Asserts that rows and gradient slopes are the derivative of the residual in a direction (ΔP, ΔH).
+pub(super) fn assert_derivatives<S: NewtonSpace>(
+    mut system: System<S>,
+    problem: &Problem,
+    direction: &[f64],
+    d_film: &[f64],
+) {
+    system.evaluate(problem, PENALTY);
+    let rows = system.rows.clone();
+    let mut exact = vec![0.0; rows.len()];
+    if let Some(thinning) = system.thinning.as_mut().filter(|_| problem.shear.is_some()) {
+        thinning.add_product(&system.space, direction, &vec![1.0; rows.len()], &mut exact);
+    }
+    let (pressure, film) = (system.pressure.clone(), system.film.clone());
+    let mut residual_at = |t: f64| -> Vec<f64> {
+        for n in 0..pressure.len() {
+            system.pressure[n] = pressure[n] + t * direction[n];
+            system.film[n] = film[n] + t * d_film[n];
+        }
+        system.evaluate(problem, PENALTY);
+        system.rows.iter().map(|row| row.value).collect()
+    };
+    let (up, down) = (residual_at(1e-7), residual_at(-1e-7));
+    let scale = rows.iter().map(|row| row.d_p[CENTER].abs() + row.d_h[CENTER].abs()).fold(0.0, f64::max);
+    for (k, row) in rows.iter().enumerate() {
+        let (stencil, _) = system.space.row(k);
+        let terms = (0..STENCIL).map(|e| row.d_p[e] * direction[stencil[e]] + row.d_h[e] * d_film[stencil[e]]);
+        exact[k] += terms.sum::<f64>();
+        let difference = (up[k] - down[k]) / 2e-7;
+        assert!((exact[k] - difference).abs() < 1e-6 * scale, "row {k}: {} against {difference}", exact[k]);
+    }
+}
+
 #[test]
-fn jacobian_bands_with_the_kernel_are_the_derivative_of_the_residual() {
-    let problem = Problem::new(&OperatingPoint::TABLE_2_1, Lubricant::default()).unwrap();
-    for spec in [COARSE, GridSpec::Graded { nodes: 160, domain: (-6.0, 1.9), registered: true }] {
-        let grid = spec.build().unwrap().for_contact(problem.moes);
-        let mut system = LineSystem::new(grid.clone());
-        let hertz: Vec<f64> =
-            grid.x.iter().map(|x| 0.9 * (1.0 - x * x).max(0.0).sqrt() + 0.02 * (-x * x).exp()).collect();
-        system.set_pressure(&problem, &hertz);
-        system.set_central_film(0.06);
-        system.evaluate(&problem, 1e6, true);
-        let (d_p, d_h) = (system.d_p.clone(), system.d_h.clone());
-        // A smooth direction in (P, H₀), with the deformation it causes.
-        let direction: Vec<f64> = grid.x.iter().map(|x| (3.0 * x).sin() * (1.0 - (x / 1.5).powi(2)).max(0.0)).collect();
-        let mut deformation = vec![0.0; grid.len()];
-        grid.deform(&direction, &mut deformation, &mut Default::default());
-        let (base, film) = (system.pressure.clone(), system.film.clone());
-        let step = 1e-7;
-        let mut residual_at = |t: f64| {
-            for i in 0..grid.len() {
-                system.pressure[i] = base[i] + t * direction[i];
-                system.film[i] = film[i] + t * (deformation[i] + 0.3);
-            }
-            system.evaluate(&problem, 1e6, false);
-            system.residual.clone()
-        };
-        let (up, down) = (residual_at(step), residual_at(-step));
-        let scale = d_p.iter().zip(&d_h).map(|(a, b)| a[2].abs() + b[2].abs()).fold(0.0, f64::max);
-        for k in 0..grid.unknowns() {
-            let exact: f64 =
-                (0..4).map(|m| d_p[k][m] * direction[k + m] + d_h[k][m] * (deformation[k + m] + 0.3)).sum();
-            let difference = (up[k] - down[k]) / (2.0 * step);
-            assert!((exact - difference).abs() < 1e-6 * scale, "row {k}: {exact} against {difference}");
+fn jacobian_products_are_the_derivative_of_the_residual() {
+    let thinning = Lubricant {
+        shear: ShearLaw::Carreau { critical_stress: 1e6, beta: 2.198, n: 0.6, npr: 0.1 },
+        ..Lubricant::default()
+    };
+    for lubricant in [Lubricant::default(), thinning] {
+        let problem = Problem::new(&OperatingPoint::TABLE_2_1, lubricant).unwrap();
+        for spec in [COARSE, GridSpec::Graded { nodes: 160, domain: (-6.0, 1.9), registered: true }] {
+            let grid = spec.build().unwrap().for_contact(problem.moes);
+            let mut system = System::new(LineSpace::new(grid.clone()));
+            let start = |x: &f64| 0.9 * (1.0 - x * x).max(0.0).sqrt() + 0.02 * (-x * x).exp();
+            system.set_pressure(&problem, &grid.x.iter().map(start).collect::<Vec<f64>>());
+            system.set_central_film(0.06);
+            // A smooth direction in (P, H₀), with the deformation it causes.
+            let direction: Vec<f64> =
+                grid.x.iter().map(|x| (3.0 * x).sin() * (1.0 - (x / 1.5).powi(2)).max(0.0)).collect();
+            let mut film = vec![0.0; grid.len()];
+            grid.deform(&direction, &mut film, &mut Default::default());
+            film.iter_mut().for_each(|h| *h += 0.3);
+            assert_derivatives(system, &problem, &direction, &film);
         }
     }
 }
@@ -60,9 +83,9 @@ fn jacobian_bands_with_the_kernel_are_the_derivative_of_the_residual() {
 fn krylov_and_dense_newton_find_the_same_solution() {
     let point = at(20.0, 8.0);
     let krylov = solve(COARSE, &point);
-    let mut solver = FullSolver::new(COARSE).unwrap();
+    let solver = FullSolver::new(COARSE).unwrap();
     let (mut system, problem) = solver.cold_system(&point, Lubricant::default()).unwrap();
-    let kernel = dense::dense_kernel(&system.grid);
+    let kernel = dense::dense_kernel(&system.space.grid);
     dense::dense_newton(&mut system, &problem, &SolveOptions::default(), &kernel);
     for (a, b) in system.pressure.iter().zip(&krylov.pressure) {
         assert!((a - b).abs() < 1e-8);

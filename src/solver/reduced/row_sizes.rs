@@ -29,8 +29,9 @@ pub(crate) fn mean_diagonals(grid: &LineGrid, trajectories: &[&Trajectory], pena
             let nodes = Nodes::of(at.problem.laws(), &gradient, &state.pressure, &state.film);
             for (k, sum) in sums.iter_mut().enumerate() {
                 let geometry = grid.rows[k].in_time(at.speed.abs(), storage, 0.0);
-                let row = Upstream::Inlet.row(&geometry, penalty, &nodes, k);
-                let by_film = row.d_h.iter().enumerate().map(|(m, d)| d * grid.kernel_entry(k + m, k + CENTER));
+                let stencil = Upstream::Inlet.stencil(k);
+                let row = nodes.row(&geometry, penalty, stencil);
+                let by_film = row.d_h.iter().zip(stencil).map(|(d, node)| d * grid.kernel_entry(node, k + CENTER));
                 *sum += (row.d_p[CENTER] + by_film.sum::<f64>()).abs();
             }
             count += 1.0;
@@ -76,7 +77,7 @@ mod tests {
             bent.iter_mut().zip(&state.film).for_each(|(h, own)| *h += own);
             let nodes = Nodes::of(problem.laws(), &PlaneGradient::along_line(&grid.x), &pressure, &bent);
             let geometry = grid.rows[k].in_time(1.0, 1.5 / step, 0.0);
-            Upstream::Inlet.row(&geometry, penalty, &nodes, k).value
+            nodes.row(&geometry, penalty, Upstream::Inlet.stencil(k)).value
         };
         assert_eq!(trajectory.states.len(), 3);
         for k in (0..grid.unknowns()).step_by(13) {

@@ -23,10 +23,7 @@
 use super::build::alone;
 use super::{TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::discrete::grid::ContactGrid;
-use crate::solver::full::{
-    ContactSolver, LineSystem, PointOptions, PointSystem, Problem, Report, Scalars, Solution, SolveOptions, Start,
-    point_scalars_of, scalars_of,
-};
+use crate::solver::full::{ContactSolver, Problem, Solution, Start};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{ErrorMeasures, Measured, Norm, Online, ReducedOptions, ReducedSolution, Window};
@@ -130,25 +127,14 @@ fn error_at(
 /// Measures errors of a window's reduced solutions by full Newton steps; keeps its work space.
 pub(super) struct Corrector {
     grid: ContactGrid,
-    /// Made when first needed, of a point contact; a line's is made per contact, for its scale.
-    point: Option<PointSystem>,
-    /// Made when first needed, of a model that knows sliding.
+    /// Made when first needed.
     full: Option<ContactSolver>,
-}
-
-/// Where the full steps lead.
-struct Corrected {
-    pressure: Vec<f64>,
-    film: Vec<f64>,
-    scalars: Scalars,
-    /// Of a solution that has converged.
-    traction: Option<f64>,
 }
 
 impl Corrector {
     /// For the reduced solutions of a window.
     pub fn of(window: &Window) -> Self {
-        Self { grid: window.grid.clone(), point: None, full: None }
+        Self { grid: window.grid.clone(), full: None }
     }
 
     /// Relative errors of H_c, H_min, the state (e_z of (3.10)) and, where the model has a rule for it and it has a meaning, the traction, as
@@ -157,7 +143,8 @@ impl Corrector {
     pub fn errors(&mut self, online: &Online, solved: &ReducedSolution) -> Option<Measured> {
         let before = online.reconstruct(solved).ok()?;
         let sliding = online.model.domain.sliding.is_some();
-        let after = if sliding { self.solved(&before)? } else { self.corrected(&before) };
+        let full = self.full.get_or_insert_with(|| ContactSolver::on(&self.grid));
+        let after = if sliding { full_solution(full, &before)? } else { full.corrected(&before, CORRECTIONS) };
         let change = |from: f64, to: f64| (from / to - 1.0).abs();
         let (from, to) = (&before.scalars, &after.scalars);
         let (mut difference, mut size) = ((from.h_0 - to.h_0).powi(2), to.h_0.powi(2));
@@ -172,47 +159,15 @@ impl Corrector {
         let sound = [h_c, h_min, state].iter().all(|error| error.is_finite());
         let slides = solved.point.sliding.slide_to_roll_ratio != 0.0;
         let sensible = slides && before.problem.traction_warning().is_none();
-        let pair = solved.traction.zip(after.traction).filter(|_| sensible);
+        let own = solved.traction.filter(|_| sliding && sensible);
+        let pair = own.map(|own| (own, after.traction_coefficient()));
         let traction = pair.map(|(own, true_one)| change(own, true_one)).filter(|error| error.is_finite());
         sound.then_some(Measured { h_c, h_min, state, traction })
     }
+}
 
-    /// The full solution, from a reduced one.
-    fn solved(&mut self, before: &Solution) -> Option<Corrected> {
-        let Problem { point, lubricant, .. } = &before.problem;
-        let full = self.full.get_or_insert_with(|| ContactSolver::on(&self.grid));
-        let solution = full.solve(point, *lubricant, Start::From(before), &()).ok()?;
-        let traction = Some(solution.traction_coefficient());
-        let converged = solution.converged();
-        let Solution { pressure, film, scalars, .. } = solution;
-        converged.then_some(Corrected { pressure, film, scalars, traction })
-    }
-
-    /// Undamped where there is a line search: by the residual it would hide the error, since beside a solution the penalty makes it jump.
-    fn corrected(&mut self, before: &Solution) -> Corrected {
-        let problem: &Problem = &before.problem;
-        let mut report = Report::empty();
-        let max_newton = CORRECTIONS;
-        match &self.grid {
-            ContactGrid::Line(grid) => {
-                let mut system = LineSystem::new(grid.scaled(before.mesh.scale()));
-                system.set_pressure(problem, &before.pressure);
-                system.set_central_film(before.scalars.h_c);
-                let options = SolveOptions { max_newton, shortest_step: 1.0, ..SolveOptions::default() };
-                system.newton(problem, &options, &(), &mut report);
-                let scalars = scalars_of(&system.grid, problem, &system.pressure, &system.film, system.h_0);
-                Corrected { pressure: system.pressure, film: system.film, scalars, traction: None }
-            }
-            ContactGrid::Point(grid) => {
-                let system = self.point.get_or_insert_with(|| PointSystem::new(Arc::clone(grid)));
-                system.set_pressure(problem, &before.pressure);
-                system.set_central_film(before.scalars.h_c);
-                let options = PointOptions { max_newton, ..PointOptions::default() };
-                system.newton(problem, &options, &(), &mut report);
-                let scalars = point_scalars_of(grid, problem, &system.pressure, &system.film, system.h_0);
-                let (pressure, film) = (system.pressure.clone(), system.film.clone());
-                Corrected { pressure, film, scalars, traction: None }
-            }
-        }
-    }
+/// The full solution, from a reduced one; none where it does not converge.
+fn full_solution(full: &mut ContactSolver, before: &Solution) -> Option<Solution> {
+    let Problem { point, lubricant, .. } = &before.problem;
+    full.solve(point, *lubricant, Start::From(before), &()).ok().filter(Solution::converged)
 }

@@ -4,7 +4,7 @@
 //! Along X everything is told in a reference coordinate ξ with X = −1 + (ξ + 1)s and H = H₀ − ½ ln s + (X² + Y²)/2 + s K P: the scale s
 //! registers line contacts by their spike. A point contact is the case s = 1.
 
-use super::line::{FIRST_UNKNOWN, GridError, GridSpec, ReferenceGrid, registration_scale};
+use super::line::{FIRST_UNKNOWN, GridError, GridSpec, ReferenceGrid};
 use super::point::{PointGrid, PointGridError, PointGridSpec};
 use crate::solver::discrete::elasticity::{Flexibility, PointScratch, Scratch};
 use crate::solver::discrete::reynolds::generalized::PlaneGradient;
@@ -193,10 +193,7 @@ impl ContactGrid {
     /// Scale s of the map X = −1 + (ξ + 1)s for a contact.
     pub fn scale(&self, moes: Moes) -> f64 {
         match self {
-            Self::Line(grid) => match grid.spec {
-                GridSpec::Graded { registered: true, .. } => registration_scale(moes),
-                _ => 1.0,
-            },
+            Self::Line(grid) => grid.scale(moes),
             Self::Point(_) => 1.0,
         }
     }

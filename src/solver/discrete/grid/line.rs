@@ -162,13 +162,17 @@ impl ReferenceGrid {
         Self { spec, weights: node_weights(&xi), xi, flexibility }
     }
 
-    /// The grid for a contact: registered by its Moes numbers where the specification says so.
-    pub fn for_contact(self: &Arc<Self>, moes: Moes) -> LineGrid {
-        let scale = match self.spec {
+    /// Scale of the map for a contact: registered by its Moes numbers where the specification says so.
+    pub fn scale(&self, moes: Moes) -> f64 {
+        match self.spec {
             GridSpec::Graded { registered: true, .. } => registration_scale(moes),
             _ => 1.0,
-        };
-        self.scaled(scale)
+        }
+    }
+
+    /// The grid for a contact.
+    pub fn for_contact(self: &Arc<Self>, moes: Moes) -> LineGrid {
+        self.scaled(self.scale(moes))
     }
 
     /// The grid under the map with scale s.

@@ -8,6 +8,10 @@
 use super::film_integrals::{FilmLoad, FilmRule, KnownFilm, PRODUCTION_RULE, film_integrals_near};
 use super::{CENTER, EAST, NORTH, Node, RowGeometry, SOUTH, STENCIL, WEST};
 use crate::solver::physics::lubricant::{ScaledFluid, ScaledShear};
+use rayon::prelude::*;
+
+/// Gradients taken by one task.
+const SHARE: usize = 2048;
 
 /// A shear-thinning node: what the row needs of it, and how that answers to its pressure gradient.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -207,6 +211,18 @@ impl PlaneGradient {
     /// G_X.
     pub fn along(&self) -> &NodalGradient {
         &self.along
+    }
+
+    /// The gradients at all nodes, on all threads where `parallel` says so.
+    pub fn field(&self, values: &[f64], out: &mut [[f64; 2]], parallel: bool) {
+        let ny = self.across().max(1);
+        let of = |(i, column): (usize, &mut [[f64; 2]])| {
+            column.iter_mut().enumerate().for_each(|(j, gradient)| *gradient = self.at(values, i, j));
+        };
+        match parallel {
+            true => out.par_chunks_mut(ny).enumerate().with_min_len(SHARE.div_ceil(ny)).for_each(of),
+            false => out.chunks_mut(ny).enumerate().for_each(of),
+        }
     }
 
     /// The gradient at a node, given by its index.

@@ -1,11 +1,8 @@
-//! The row of a line contact: four neighbouring nodes, upwind from whichever side the flow comes.
+//! The nodes of a line contact's row: four neighbours, upwind from whichever side the flow comes.
 //!
 //! A row whose flow comes from the outlet is the row of the mirrored contact: the same function, with its nodes in the opposite order.
 
-use super::{Node, RowGeometry, row};
-
-/// Nodes a line row depends on.
-pub const LINE_STENCIL: usize = 4;
+use super::{CENTER, RowGeometry, STENCIL};
 
 /// The side a row's flow comes from, relative to the grid.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -19,17 +16,6 @@ pub enum Upstream {
     Edge,
 }
 
-/// A line row's value and its derivatives, in the order of the nodes along X.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LineRow {
-    /// f_p of (2.31).
-    pub value: f64,
-    /// ∂f_p/∂P.
-    pub d_p: [f64; LINE_STENCIL],
-    /// ∂f_p/∂H.
-    pub d_h: [f64; LINE_STENCIL],
-}
-
 impl Upstream {
     /// The side for row `unknown` of `unknowns` when the flow passes with `velocity` relative to the grid.
     pub fn of(velocity: f64, unknown: usize, unknowns: usize) -> Self {
@@ -40,53 +26,31 @@ impl Upstream {
         }
     }
 
-    /// First node of row `unknown` in a node array.
+    /// The nodes of row `unknown` in a node array; those that it lacks have weight zero.
     #[inline]
-    pub fn first_node(self, unknown: usize) -> usize {
+    pub fn stencil(self, unknown: usize) -> [usize; STENCIL] {
+        let own = unknown + CENTER;
         match self {
-            Self::Inlet | Self::Edge => unknown,
-            Self::Outlet => unknown + 1,
+            Self::Inlet => [unknown, own - 1, own, own + 1, own, own],
+            Self::Outlet => [own + 2, own + 1, own, own - 1, own, own],
+            Self::Edge => [own + 1, own + 1, own, own - 1, own, own],
         }
     }
 
     /// Coefficients of row `unknown` on the abscissae `x` of a node array.
     pub fn geometry(self, x: &[f64], unknown: usize) -> RowGeometry {
-        let x = &x[self.first_node(unknown)..];
+        let [west_2, west, own, east, ..] = self.stencil(unknown).map(|node| x[node]);
         match self {
-            Self::Inlet => RowGeometry::new([x[0], x[1], x[2], x[3]]),
-            Self::Outlet => RowGeometry::new([-x[3], -x[2], -x[1], -x[0]]),
-            Self::Edge => RowGeometry::first_column([-x[3], -x[2], -x[1]]),
-        }
-    }
-
-    /// Evaluates row `unknown`; `nodes` is a node array.
-    #[inline]
-    pub fn row(self, geometry: &RowGeometry, penalty: f64, nodes: &[Node], unknown: usize) -> LineRow {
-        let first = self.first_node(unknown);
-        let n = &nodes[first..first + LINE_STENCIL];
-        match self {
-            Self::Inlet => {
-                let r = row(geometry, penalty, [&n[0], &n[1], &n[2], &n[3], &n[2], &n[2]]);
-                let along = |d: [f64; 6]| [d[0], d[1], d[2], d[3]];
-                LineRow { value: r.value, d_p: along(r.d_p), d_h: along(r.d_h) }
-            }
-            Self::Outlet => {
-                let r = row(geometry, penalty, [&n[3], &n[2], &n[1], &n[0], &n[1], &n[1]]);
-                let along = |d: [f64; 6]| [d[3], d[2], d[1], d[0]];
-                LineRow { value: r.value, d_p: along(r.d_p), d_h: along(r.d_h) }
-            }
-            Self::Edge => {
-                let r = row(geometry, penalty, [&n[3], &n[3], &n[2], &n[1], &n[2], &n[2]]);
-                let along = |d: [f64; 6]| [0.0, d[3], d[2], d[1]];
-                LineRow { value: r.value, d_p: along(r.d_p), d_h: along(r.d_h) }
-            }
+            Self::Inlet => RowGeometry::new([west_2, west, own, east]),
+            Self::Outlet => RowGeometry::new([-west_2, -west, -own, -east]),
+            Self::Edge => RowGeometry::first_column([-west, -own, -east]),
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::PENALTY;
+    use super::super::{Node, PENALTY, Row, row};
     use super::*;
     use crate::solver::physics::contact::OperatingPoint;
     use crate::solver::physics::lubricant::{Lubricant, ScaledFluid};
@@ -103,6 +67,11 @@ mod tests {
         p.iter().zip(h).map(|(&p, &h)| Node::new(&fluid(), 1.0 / 0.01, p, h)).collect()
     }
 
+    fn evaluate(upstream: Upstream, geometry: &RowGeometry, p: &[f64], h: &[f64], unknown: usize) -> Row {
+        let nodes = nodes(p, h);
+        row(geometry, PENALTY, upstream.stencil(unknown).map(|node| &nodes[node]))
+    }
+
     #[test]
     fn a_flow_from_the_outlet_is_the_mirrored_flow_from_the_inlet() {
         let mirrored = |values: [f64; 6]| -> Vec<f64> { values.into_iter().rev().collect() };
@@ -110,11 +79,11 @@ mod tests {
         let (speed, storage, history) = (0.7, 3.0, -0.2);
         let own = Upstream::Outlet.geometry(&X, 1).in_time(speed, storage, history);
         let other = Upstream::Inlet.geometry(&x, 0).in_time(speed, storage, history);
-        let a = Upstream::Outlet.row(&own, PENALTY, &nodes(&P, &H), 1);
-        let b = Upstream::Inlet.row(&other, PENALTY, &nodes(&mirrored(P), &mirrored(H)), 0);
+        let a = evaluate(Upstream::Outlet, &own, &P, &H, 1);
+        let b = evaluate(Upstream::Inlet, &other, &mirrored(P), &mirrored(H), 0);
         assert!((a.value - b.value).abs() < 1e-12 * a.value.abs());
-        for m in 0..LINE_STENCIL {
-            assert!((a.d_p[m] - b.d_p[LINE_STENCIL - 1 - m]).abs() < 1e-9);
+        for (a, b) in a.d_p.iter().zip(b.d_p) {
+            assert!((a - b).abs() < 1e-9);
         }
     }
 
@@ -122,20 +91,24 @@ mod tests {
     fn derivatives_in_time_agree_with_finite_differences_from_either_side() {
         for (upstream, unknown) in [(Upstream::Inlet, 1), (Upstream::Outlet, 1), (Upstream::Edge, 2)] {
             let geometry = upstream.geometry(&X, unknown).in_time(0.7, 30.0, -0.2);
-            let exact = upstream.row(&geometry, PENALTY, &nodes(&P, &H), unknown);
+            let exact = evaluate(upstream, &geometry, &P, &H, unknown);
             let scale = exact.d_p.iter().chain(&exact.d_h).fold(0.0f64, |a, b| a.max(b.abs()));
             let step = 1e-7;
-            for m in 0..LINE_STENCIL {
+            let stencil = upstream.stencil(unknown);
+            for m in 0..4 {
                 let at = |dp: f64, dh: f64| {
                     let (mut p, mut h) = (P, H);
-                    p[upstream.first_node(unknown) + m] += dp;
-                    h[upstream.first_node(unknown) + m] += dh;
-                    upstream.row(&geometry, PENALTY, &nodes(&p, &h), unknown).value
+                    p[stencil[m]] += dp;
+                    h[stencil[m]] += dh;
+                    evaluate(upstream, &geometry, &p, &h, unknown).value
                 };
                 let d_p = (at(step, 0.0) - at(-step, 0.0)) / (2.0 * step);
                 let d_h = (at(0.0, step) - at(0.0, -step)) / (2.0 * step);
-                assert!((d_p - exact.d_p[m]).abs() < 1e-6 * scale, "{upstream:?} dP {m}");
-                assert!((d_h - exact.d_h[m]).abs() < 1e-6 * scale, "{upstream:?} dH {m}");
+                // Where a node stands for another, its derivatives are both places'.
+                let whole =
+                    |d: &[f64; STENCIL]| -> f64 { (0..4).filter(|&e| stencil[e] == stencil[m]).map(|e| d[e]).sum() };
+                assert!((d_p - whole(&exact.d_p)).abs() < 1e-6 * scale, "{upstream:?} dP {m}");
+                assert!((d_h - whole(&exact.d_h)).abs() < 1e-6 * scale, "{upstream:?} dH {m}");
             }
         }
     }

@@ -1,80 +1,69 @@
-//! The preconditioner of line contacts: the rows' own derivatives and a band of the elastic kernel, bordered by the load.
+//! The matrix near the Jacobian of line contacts: the rows' own derivatives and a band of the elastic kernel.
 
-use crate::solver::discrete::grid::{FIRST_UNKNOWN, LineGrid, dot};
-use crate::solver::discrete::reynolds::CENTER;
-use crate::solver::discrete::reynolds::line::{LINE_STENCIL, Upstream};
+use super::Backtracking;
+use crate::solver::discrete::grid::LineGrid;
+use crate::solver::discrete::reynolds::{CENTER, Row};
+use crate::solver::discrete::space::{LineSpace, Space};
 use crate::solver::full::band::BandLu;
-use crate::solver::full::shear::ShearState;
+use crate::solver::full::newton_space::Factors;
+use crate::solver::full::thinning::Thinning;
 
-/// A bordered band matrix near the Jacobian, factorised.
+/// A band matrix, factorised, and the kernel it is made with.
 #[derive(Default)]
-pub(super) struct Preconditioner {
+pub struct BandMatrix {
     band: BandLu,
-    /// Band⁻¹ applied to the H₀ column.
-    column: Vec<f64>,
-    /// wᵀ column.
-    schur: f64,
     kernel: Vec<f64>,
     /// Its half-bandwidth, and whether it is levelled.
     kernel_form: (usize, bool),
 }
 
-impl Preconditioner {
-    /// Assembles and factorises A + C G + trunc(B K), rows scaled, and the H₀ column; C G is what shear-thinning adds.
+impl Factors for BandMatrix {
+    fn solve(&mut self, b: &mut [f64]) {
+        self.band.solve(b);
+    }
+}
+
+impl BandMatrix {
+    /// Assembles and factorises A + C G + trunc(B K), rows scaled; C G is what shear-thinning adds.
     pub fn build(
         &mut self,
-        grid: &LineGrid,
-        (band, levelled): (usize, bool),
-        (upstream, d_p, d_h): (&[Upstream], &[[f64; LINE_STENCIL]], &[[f64; LINE_STENCIL]]),
-        shear: Option<&ShearState>,
+        space: &LineSpace,
+        control: &Backtracking,
+        rows: &[Row],
+        thinning: Option<&Thinning>,
         scaling: &[f64],
     ) {
-        let u = grid.unknowns();
-        let n = grid.len();
+        let (u, band) = (rows.len(), control.kernel_band);
         let width = 2 * band + 1;
-        // Kernel entries near the diagonal, kept between Newton steps: node i against nodes i − band−2 … i + band+2.
         let stored = width + 4;
-        if self.kernel.len() != n * stored || self.kernel_form != (band, levelled) {
-            self.kernel.clear();
-            self.kernel.resize(n * stored, 0.0);
-            self.kernel_form = (band, levelled);
-            let reach = band + 2;
-            for i in 0..n {
-                // The load of a step is zero, so a constant added to the kernel changes nothing but its truncation: it ends at zero.
-                let edge = if i + reach + 1 < n { i + reach } else { i - reach };
-                let level = if levelled { grid.kernel_entry(i, edge) / grid.weights[edge] } else { 0.0 };
-                for c in 0..stored {
-                    let j = i + c;
-                    if j >= reach && j - reach < n {
-                        let j = j - reach;
-                        self.kernel[i * stored + c] = grid.kernel_entry(i, j) - level * grid.weights[j];
-                    }
-                }
-            }
+        let form = (band, control.levelled_kernel);
+        if self.kernel.len() != space.grid.len() * stored || self.kernel_form != form {
+            self.store_kernel(&space.grid, form);
         }
         self.band.reset(u, band, band);
-        for k in 0..u {
-            let (a, b, s) = (&d_p[k], &d_h[k], scaling[k]);
-            let shift = upstream[k].first_node(k) - k;
+        for (k, (own, s)) in rows.iter().zip(scaling).enumerate() {
+            let (stencil, _) = space.row(k);
             let row = self.band.row_mut(k);
-            for (j, m) in (shift..shift + LINE_STENCIL).enumerate() {
+            for (e, node) in stencil.into_iter().enumerate().take(LineSpace::NODES) {
                 // Node k + m against column node k + 2 + d, d = −band…band: offset 2 − m + d from its own diagonal.
-                let from = (k + m) * stored + (4 - m);
+                let m = node - k;
+                let from = node * stored + (4 - m);
                 let kernel = &self.kernel[from..from + width];
-                let weight = s * b[j];
+                let weight = s * own.d_h[e];
                 for (r, kernel) in row.iter_mut().zip(kernel) {
                     *r += weight * kernel;
                 }
                 if (m + band).checked_sub(CENTER).is_some_and(|c| c < width) {
-                    row[m + band - CENTER] += s * a[j];
+                    row[m + band - CENTER] += s * own.d_p[e];
                 }
             }
-            if let Some(shear) = shear {
-                for (m, slope) in shear.slopes[k].iter().enumerate() {
-                    for (c, weight) in shear.gradient.weights[k + m].iter().enumerate() {
+            if let Some(Thinning { gradient, slopes: [slopes, _], .. }) = thinning {
+                for (e, node) in stencil.into_iter().enumerate().take(LineSpace::NODES) {
+                    for (c, weight) in gradient.along().weights[node].iter().enumerate() {
                         // Node k + m + c − 1.
-                        if let Some(r) = (m + c + band).checked_sub(CENTER + 1).and_then(|c| row[..width].get_mut(c)) {
-                            *r += s * slope * weight;
+                        let column = (node - k + c + band).checked_sub(CENTER + 1);
+                        if let Some(r) = column.and_then(|c| row[..width].get_mut(c)) {
+                            *r += s * slopes[k][e] * weight;
                         }
                     }
                 }
@@ -86,22 +75,25 @@ impl Preconditioner {
             }
         }
         self.band.factorise();
-        self.column.clear();
-        self.column.extend(d_h.iter().zip(scaling).map(|(b, s)| s * b.iter().sum::<f64>()));
-        self.band.solve(&mut self.column);
-        self.schur = dot(&grid.weights[FIRST_UNKNOWN..FIRST_UNKNOWN + u], &self.column);
     }
 
-    /// v ← M⁻¹ v for the bordered preconditioner.
-    pub fn apply(&self, grid: &LineGrid, v: &mut [f64]) {
-        let u = grid.unknowns();
-        let (head, last) = v.split_at_mut(u);
-        self.band.solve(head);
-        let carried = dot(&grid.weights[FIRST_UNKNOWN..FIRST_UNKNOWN + u], head);
-        let dh_0 = if self.schur == 0.0 { 0.0 } else { (carried - last[0]) / self.schur };
-        for (v, c) in head.iter_mut().zip(&self.column) {
-            *v -= dh_0 * c;
+    /// Stores the kernel's entries near the diagonal, node i against nodes i − band − 2 … i + band + 2, for all Newton steps.
+    fn store_kernel(&mut self, grid: &LineGrid, (band, levelled): (usize, bool)) {
+        let (n, stored, reach) = (grid.len(), 2 * band + 5, band + 2);
+        self.kernel.clear();
+        self.kernel.resize(n * stored, 0.0);
+        self.kernel_form = (band, levelled);
+        for i in 0..n {
+            // The load of a step is zero, so a constant added to the kernel changes nothing but its truncation: it ends at zero.
+            let edge = if i + reach + 1 < n { i + reach } else { i - reach };
+            let level = if levelled { grid.kernel_entry(i, edge) / grid.weights[edge] } else { 0.0 };
+            for c in 0..stored {
+                let j = i + c;
+                if j >= reach && j - reach < n {
+                    let j = j - reach;
+                    self.kernel[i * stored + c] = grid.kernel_entry(i, j) - level * grid.weights[j];
+                }
+            }
         }
-        last[0] = dh_0;
     }
 }

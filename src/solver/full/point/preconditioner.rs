@@ -1,40 +1,33 @@
-//! The preconditioner of the point contact: A + trunc(B K), kept up to a few columns away along X with all couplings across, and
-//! bordered by the load row.
+//! The matrix near the Jacobian of point contacts: A + trunc(B K), kept up to a few columns away along X with all couplings across.
 
 use super::block_tridiagonal::BlockTridiagonal;
-use crate::solver::discrete::grid::{PointGrid, dot};
-use crate::solver::discrete::reynolds::{CENTER, EAST, NORTH, SOUTH, STENCIL, WEST, WEST2};
+use crate::solver::discrete::grid::PointGrid;
+use crate::solver::discrete::reynolds::{CENTER, EAST, NORTH, Row, SOUTH, STENCIL, WEST, WEST2};
+use crate::solver::full::newton_space::Factors;
 use rayon::prelude::*;
 
 /// Columns of the product B K that are kept on either side: with one, contacts of low load and thick oil fail; three are no faster.
 const REACH: usize = 2;
 
-/// The factorised preconditioner and its work space.
-#[derive(Clone, Debug, Default)]
-pub struct PointPreconditioner {
+/// The factorised matrix and its work space.
+#[derive(Default)]
+pub struct PlaneMatrix {
     /// K from cells 0…REACH + 2 columns away, each column of n_y entries followed by a zero.
     kernel: Vec<Vec<f32>>,
     matrix: BlockTridiagonal,
     /// Scaled derivatives with respect to H, one after the other for each column of unknowns.
     d_h: Vec<f32>,
-    /// The matrix' solution for the H₀ column.
-    column: Vec<f64>,
-    /// wᵀ column.
-    schur: f64,
-    /// Quadrature weights of the unknowns.
-    weights: Vec<f64>,
 }
 
-impl PointPreconditioner {
+impl Factors for PlaneMatrix {
+    fn solve(&mut self, b: &mut [f64]) {
+        self.matrix.solve(b);
+    }
+}
+
+impl PlaneMatrix {
     /// Assembles and factorises for the given Jacobian rows and their scaling; `false` when `go_on` ended it half way.
-    pub fn build(
-        &mut self,
-        grid: &PointGrid,
-        d_p: &[[f64; STENCIL]],
-        d_h: &[[f64; STENCIL]],
-        scaling: &[f64],
-        go_on: impl Fn() -> bool,
-    ) -> bool {
+    pub fn build(&mut self, grid: &PointGrid, rows: &[Row], scaling: &[f64], go_on: impl Fn() -> bool) -> bool {
         let (m, ny) = (grid.column_unknowns(), grid.ny());
         let columns = grid.nx() - 2;
         if self.kernel.is_empty() {
@@ -43,9 +36,9 @@ impl PointPreconditioner {
         let size = REACH * m;
         self.matrix.reset(size, columns.div_ceil(REACH));
         self.d_h.resize(columns * STENCIL * m, 0.0);
-        for (k, (row, s)) in d_h.iter().zip(scaling).enumerate() {
+        for (k, (row, s)) in rows.iter().zip(scaling).enumerate() {
             let at = k / m * STENCIL * m + k % m;
-            for (n, value) in row.iter().enumerate() {
+            for (n, value) in row.d_h.iter().enumerate() {
                 self.d_h[at + n * m] = (value * s) as f32;
             }
         }
@@ -75,7 +68,7 @@ impl PointPreconditioner {
                         combine(entries, weights, near);
                     }
                     for j in 0..m {
-                        let a = &d_p[c * m + j];
+                        let a = &rows[c * m + j].d_p;
                         let s = scaling[c * m + j];
                         let mut add = |cell: usize, value: f64| block[from + cell * size + j] += (value * s) as f32;
                         if t == c {
@@ -97,14 +90,7 @@ impl PointPreconditioner {
                 }
             }
         });
-        if !self.matrix.factorise(go_on) {
-            return false;
-        }
-        self.column.clear();
-        self.column.extend(d_h.iter().zip(scaling).map(|(b, s)| s * b.iter().sum::<f64>()));
-        self.matrix.solve(&mut self.column);
-        self.schur = dot(&self.weights, &self.column);
-        true
+        self.matrix.factorise(go_on)
     }
 
     fn prepare(&mut self, grid: &PointGrid) {
@@ -116,19 +102,6 @@ impl PointPreconditioner {
                 block.chunks_exact(ny).flat_map(padded).collect()
             })
             .collect();
-        self.weights = (0..grid.unknowns()).map(|k| grid.weights[grid.node(k)]).collect();
-    }
-
-    /// v ← M⁻¹ v; the last entry belongs to H₀.
-    pub fn apply(&mut self, v: &mut [f64]) {
-        let (head, last) = v.split_at_mut(self.weights.len());
-        self.matrix.solve(head);
-        let carried = dot(&self.weights, head);
-        let dh_0 = if self.schur == 0.0 { 0.0 } else { (carried - last[0]) / self.schur };
-        for (v, c) in head.iter_mut().zip(&self.column) {
-            *v -= dh_0 * c;
-        }
-        last[0] = dh_0;
     }
 }
 

@@ -2,8 +2,9 @@
 
 use super::*;
 use crate::solver::discrete::grid::PointGridSpec;
-use crate::solver::discrete::reynolds::RowGeometry;
-use crate::solver::full::{Solution, SolveError, Start};
+use crate::solver::discrete::reynolds::{Node, RowGeometry, row};
+use crate::solver::full::tests::assert_derivatives;
+use crate::solver::full::{PointSolver, Solution, SolveError, Start, Termination};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::physics::lubricant::{
     DensityLaw, Fluidity, Lubricant, ScaledFluid, ShearLaw, Sliding, ViscosityLaw,
@@ -21,9 +22,9 @@ fn solve(spec: PointGridSpec, point: &OperatingPoint) -> Solution {
 }
 
 /// A state in which some pressures are negative, so that the penalty takes part, and a direction: ΔP, and ΔH with ΔH₀ = 0.3.
-fn state(problem: &Problem) -> (PointSystem, Vec<f64>, Vec<f64>) {
+fn state(problem: &Problem) -> (System<PlaneSpace>, Vec<f64>, Vec<f64>) {
     let grid = PointGridSpec::uniform(0.1, 0.2, (-2.5, 1.5, -1.6)).build().unwrap();
-    let mut system = PointSystem::new(Arc::clone(&grid));
+    let mut system = System::new(PlaneSpace { grid: Arc::clone(&grid) });
     let (nx, ny) = (grid.nx(), grid.ny());
     let field = |f: &dyn Fn(f64, f64) -> f64| -> Vec<f64> {
         (0..nx * ny).map(|n| if grid.weights[n] > 0.0 { f(grid.x[n / ny], grid.y[n % ny]) } else { 0.0 }).collect()
@@ -33,7 +34,7 @@ fn state(problem: &Problem) -> (PointSystem, Vec<f64>, Vec<f64>) {
     system.set_central_film(0.1);
     let direction = field(&|x, y| (3.0 * x).sin() * (1.0 + y).cos() * (1.0 - (x / 2.6).powi(2)));
     let mut film = vec![0.0; grid.len()];
-    grid.deform(&direction, &mut film, &mut PointScratch::default());
+    grid.deform(&direction, &mut film, &mut Default::default());
     film.iter_mut().for_each(|h| *h += 0.3);
     (system, direction, film)
 }
@@ -50,32 +51,8 @@ fn thinning(slide_to_roll_ratio: f64) -> Problem {
 fn jacobian_products_are_the_derivative_of_the_residual() {
     let newtonian = Problem::new(&at(60.0, 8.0), Lubricant::default()).unwrap();
     for problem in [newtonian, thinning(0.0), thinning(0.02), thinning(-1.0)] {
-        let (mut system, direction, d_film) = state(&problem);
-        let grid = Arc::clone(&system.grid);
-        system.evaluate(&problem, PENALTY);
-        let (d_p, d_h) = (system.d_p.clone(), system.d_h.clone());
-        let mut exact = vec![0.0; grid.unknowns()];
-        if let Some(shear) = &mut system.shear {
-            shear.add_product(&grid, &direction, &vec![1.0; grid.unknowns()], &mut exact);
-        }
-        let (pressure, film) = (system.pressure.clone(), system.film.clone());
-        let mut residual_at = |t: f64| {
-            for n in 0..grid.len() {
-                system.pressure[n] = pressure[n] + t * direction[n];
-                system.film[n] = film[n] + t * d_film[n];
-            }
-            system.evaluate(&problem, PENALTY);
-            system.residual.clone()
-        };
-        let (up, down) = (residual_at(1e-7), residual_at(-1e-7));
-        let scale = d_p.iter().zip(&d_h).map(|(a, b)| a[CENTER].abs() + b[CENTER].abs()).fold(0.0, f64::max);
-        for k in 0..grid.unknowns() {
-            let (stencil, _) = grid.row(k);
-            let terms = (0..STENCIL).map(|e| d_p[k][e] * direction[stencil[e]] + d_h[k][e] * d_film[stencil[e]]);
-            exact[k] += terms.sum::<f64>();
-            let difference = (up[k] - down[k]) / 2e-7;
-            assert!((exact[k] - difference).abs() < 1e-6 * scale, "row {k}: {} against {difference}", exact[k]);
-        }
+        let (system, direction, film) = state(&problem);
+        assert_derivatives(system, &problem, &direction, &film);
     }
 }
 
@@ -84,8 +61,8 @@ fn without_thinning_the_generalized_rows_are_the_newtonian_ones_whatever_the_sli
     let newtonian = Problem::new(&at(60.0, 8.0), Lubricant::default()).unwrap();
     let (mut system, ..) = state(&newtonian);
     system.evaluate(&newtonian, PENALTY);
-    let wanted = system.residual.clone();
-    let scale = wanted.iter().fold(0.0f64, |largest, f| largest.max(f.abs()));
+    let wanted = system.rows.clone();
+    let scale = wanted.iter().fold(0.0f64, |largest, row| largest.max(row.value.abs()));
     for srr in [0.0, 0.5, -2.0] {
         let mut problem = thinning(srr);
         // NPR = 1 is solved as the Newtonian problem that it is: here the generalized rows are asked.
@@ -93,8 +70,9 @@ fn without_thinning_the_generalized_rows_are_the_newtonian_ones_whatever_the_sli
             law.fluidity = fluidity;
         }
         system.evaluate(&problem, PENALTY);
-        assert!(system.shear.is_some());
-        for (got, wanted) in system.residual.iter().zip(&wanted) {
+        assert!(system.nodes.thins());
+        for (got, wanted) in system.rows.iter().zip(&wanted) {
+            let (got, wanted) = (got.value, wanted.value);
             assert!((got - wanted).abs() < 1e-12 * scale, "SRR {srr}: {got} against {wanted}");
         }
     }

@@ -7,14 +7,17 @@ use super::spline::Interpolated;
 use super::trajectory::{Effort, Moment, State, Trajectory};
 use crate::solver::discrete::grid::{FIRST_UNKNOWN, GridSpec, LineGrid, ReferenceGrid};
 use crate::solver::discrete::reynolds::line::Upstream;
-use crate::solver::full::start::pressure_at;
-use crate::solver::full::{FullSolver, LineSystem, Problem, Report, SolveError, SolveOptions, Start, Termination};
+use crate::solver::discrete::space::LineSpace;
+use crate::solver::full::solver::interpolated;
+use crate::solver::full::{
+    Backtracking, FullSolver, Problem, Report, SolveError, SolveOptions, Start, System, Termination,
+};
 use crate::solver::observer::Observer;
 use std::sync::Arc;
 
 /// The full system, ready to march.
 pub struct FullMarch {
-    system: LineSystem,
+    system: System<LineSpace>,
     /// The stationary start, which needs other settings than a step.
     solver: FullSolver,
     reference: Problem,
@@ -63,7 +66,7 @@ impl FullMarch {
         let grid = reference.for_contact(problem.moes);
         let length = grid.len();
         Ok(Self {
-            system: LineSystem::new(grid),
+            system: System::new(LineSpace::new(grid)),
             solver: FullSolver::on(reference),
             reference: problem,
             frame: transient.frame,
@@ -79,13 +82,13 @@ impl FullMarch {
             match self.frame {
                 Frame::Remeshed(_) => {
                     let stretch = step.now.scales.half_width / scales.half_width;
-                    let x = &self.system.grid.x;
+                    let x = &self.system.space.grid.x;
                     past.between.stretched(x, stretch, x.iter().copied(), |i, flow| carried[i] = flow);
                 }
                 Frame::Fixed | Frame::ArbitraryLagrangianEulerian => carried.copy_from_slice(&past.flow),
             }
         }
-        let LineSystem { grid, rows, upstream, .. } = &mut self.system;
+        let LineSpace { grid, rows, upstream, .. } = &mut self.system.space;
         let unknowns = grid.unknowns();
         let [near, far] = step.history_weights();
         for (k, (row, upstream)) in rows.iter_mut().zip(upstream).enumerate() {
@@ -102,14 +105,14 @@ impl FullMarch {
     }
 
     /// Newton from the state that is set.
-    fn newton(&mut self, at: &Conditions, options: &SolveOptions, observer: &dyn Observer) -> Report {
+    fn newton(&mut self, at: &Conditions, options: &SolveOptions<Backtracking>, observer: &dyn Observer) -> Report {
         let mut report = Report::empty();
         self.system.newton(&at.problem, options, observer, &mut report);
         report
     }
 
     fn set_state(&mut self, at: &Conditions, h_0: f64) {
-        self.system.curvature = at.curvature;
+        self.system.set_curvature(at.curvature);
         self.system.set_pressure(&at.problem, &self.start);
         self.system.set_h_0(h_0);
     }
@@ -123,7 +126,7 @@ impl FullMarch {
         past.flow.clear();
         past.flow.extend(system.flow());
         if let Frame::Remeshed(interpolation) = self.frame {
-            past.between.set(interpolation, &system.grid.x, system.flow());
+            past.between.set(interpolation, &system.space.grid.x, system.flow());
         }
     }
 }
@@ -141,23 +144,23 @@ fn converged(report: &Report) -> Result<Effort, Termination> {
 
 impl Marching for FullMarch {
     fn grid(&self) -> &LineGrid {
-        &self.system.grid
+        &self.system.space.grid
     }
 
     fn rest(&mut self, at: &Conditions, observer: &dyn Observer) -> Result<Effort, Termination> {
         let point = point_at(&self.reference.point, at.input);
         let problem = Problem::new(&point, self.reference.lubricant).map_err(|_| Termination::Diverged)?;
         let solution = self.solver.solve_problem(problem, Start::Cold, observer);
+        let solution = solution.map_err(|_| Termination::Diverged)?;
         converged(&solution.report)?;
         // The same contact in the frame's scales and on its grid.
         let size = (at.input.load * at.input.radius).sqrt() / at.scales.half_width;
-        for (p, x) in self.start.iter_mut().zip(&self.system.grid.x) {
-            *p = pressure_at(&solution, x / size);
-        }
-        for (row, geometry) in self.system.rows.iter_mut().zip(&self.system.grid.rows) {
+        let LineSpace { grid, rows, upstream, .. } = &mut self.system.space;
+        self.start = interpolated(&solution, grid.x.iter().map(|x| x / size), &[0.0]);
+        for (row, geometry) in rows.iter_mut().zip(&grid.rows) {
             *row = geometry.in_time(at.speed, 0.0, 0.0);
         }
-        self.system.upstream.fill(Upstream::Inlet);
+        upstream.fill(Upstream::Inlet);
         self.set_state(at, 0.0);
         self.system.set_central_film(solution.scalars.h_c * at.input.load / at.scales.film);
         let report = self.newton(at, &SolveOptions::default(), observer);
@@ -177,8 +180,10 @@ impl Marching for FullMarch {
         }
         let h_0 = extrapolated(step.ratio, near.h_0, far.h_0);
         self.set_state(&step.now, h_0);
-        let farther = SolveOptions { tolerance: STEP_TOLERANCE, levelled_kernel: true, ..SolveOptions::default() };
-        let beside = SolveOptions { max_newton: 12, shortest_step: 1.0, ..farther };
+        let control = Backtracking { levelled_kernel: true, ..Backtracking::default() };
+        let farther = SolveOptions { tolerance: STEP_TOLERANCE, control, ..SolveOptions::default() };
+        let control = Backtracking { shortest_step: 1.0, ..control };
+        let beside = SolveOptions { max_newton: 12, control, ..farther };
         let first = self.newton(&step.now, &beside, observer);
         if matches!(first.termination, Termination::Converged | Termination::Cancelled) {
             return converged(&first);
@@ -196,7 +201,7 @@ impl Marching for FullMarch {
     }
 
     fn deviation(&self) -> f64 {
-        let weights = &self.system.grid.weights;
+        let weights = &self.system.space.grid.weights;
         let (mut difference, mut norm) = (0.0, 0.0);
         for ((p, e), w) in self.system.pressure.iter().zip(&self.start).zip(weights) {
             difference += w * (p - e) * (p - e);
@@ -210,7 +215,7 @@ impl Marching for FullMarch {
     }
 
     fn moment(&self, at: &Conditions, step: f64, effort: Effort) -> Moment {
-        Moment::of_fields(at, step, &self.system.grid, &self.system.pressure, &self.system.film, effort)
+        Moment::of_fields(at, step, &self.system.space.grid, &self.system.pressure, &self.system.film, effort)
     }
 
     fn state(&self, at: &Conditions) -> State {

@@ -2,7 +2,7 @@
 
 use super::{Online, ReducedError, ReducedSolution, operators_of};
 use crate::solver::discrete::grid::ContactGrid;
-use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, Termination, point_scalars_of, scalars_of};
+use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, Termination, scalars_of};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Par};
 
@@ -97,7 +97,7 @@ impl Fields {
         let Self { problem, grid, scale, pressure, film } = self;
         match grid {
             ContactGrid::Line(grid) => scalars_of(&grid.scaled(*scale), problem, pressure, film, h_0),
-            ContactGrid::Point(grid) => point_scalars_of(grid, problem, pressure, film, h_0),
+            ContactGrid::Point(grid) => scalars_of(&**grid, problem, pressure, film, h_0),
         }
     }
 }

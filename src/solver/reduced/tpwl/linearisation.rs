@@ -4,8 +4,9 @@ use super::space::{INPUTS, ReducedSpace, input_vector};
 use crate::solver::discrete::grid::{FIRST_UNKNOWN, dot};
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::generalized::PlaneGradient;
-use crate::solver::discrete::reynolds::line::{LINE_STENCIL, Upstream};
+use crate::solver::discrete::reynolds::line::Upstream;
 use crate::solver::discrete::reynolds::{CENTER, PENALTY};
+use crate::solver::discrete::space::{LineSpace, Space};
 use crate::solver::full::Problem;
 use crate::solver::full::transient::Input;
 use faer::{Mat, MatRef};
@@ -85,7 +86,7 @@ impl SystemFunctions {
         for k in 0..unknowns {
             let geometry = space.grid.rows[k].in_time(fields.input.speed, 0.0, 0.0);
             rows[(k, 0)] = nodes[k + CENTER].flow;
-            rows[(k, 1)] = Upstream::Inlet.row(&geometry, penalty, &nodes, k).value;
+            rows[(k, 1)] = nodes.row(&geometry, penalty, Upstream::Inlet.stencil(k)).value;
         }
         let mut tested = tested(space, rows.as_ref());
         let modes = space.modes();
@@ -108,19 +109,19 @@ impl Linearisation {
         let (mut storage, mut flux) = (Mat::zeros(unknowns, columns), Mat::zeros(unknowns, columns));
         for k in 0..unknowns {
             let geometry = grid.rows[k].in_time(fields.input.speed, 0.0, 0.0);
-            let row = Upstream::Inlet.row(&geometry, PENALTY_SLOPE, &nodes, k);
+            let row = nodes.row(&geometry, PENALTY_SLOPE, Upstream::Inlet.stencil(k));
             let own = k + CENTER;
             let (flow, flow_p, flow_h) = (nodes[own].flow, nodes[own].flow_p, nodes[own].flow_h);
             for j in 0..modes {
                 storage[(k, j)] = flow_p * space.pressure[(own, j)] + flow_h * space.deformation[(own, j)];
-                flux[(k, j)] = (0..LINE_STENCIL)
+                flux[(k, j)] = (0..LineSpace::NODES)
                     .map(|m| row.d_p[m] * space.pressure[(k + m, j)] + row.d_h[m] * space.deformation[(k + m, j)])
                     .sum();
             }
             storage[(k, modes)] = flow_h;
             flux[(k, modes)] = row.d_h.iter().sum();
             storage[(k, first_input)] = flow_h * curvature_slope(own);
-            flux[(k, first_input)] = (0..LINE_STENCIL).map(|m| row.d_h[m] * curvature_slope(k + m)).sum();
+            flux[(k, first_input)] = (0..LineSpace::NODES).map(|m| row.d_h[m] * curvature_slope(k + m)).sum();
             // f is linear in ū.
             flux[(k, first_input + 1)] =
                 -grid.rows[k].upwind.iter().zip(&nodes[k..]).map(|(w, n)| w * n.flow).sum::<f64>();

@@ -88,13 +88,7 @@ impl<'a> ReducedMarch<'a> {
         let place = |node: usize| support.partition_point(|&s| s < node);
         let side = |row: usize, velocity: f64| {
             let upstream = Upstream::of(velocity, row, unknowns);
-            let (own, n) = (row + FIRST_UNKNOWN, row + FIRST_UNKNOWN + 1);
-            let nodes = match upstream {
-                Upstream::Inlet => [row, row + 1, own, n, own, own],
-                Upstream::Outlet => [n + 1, n, own, own - 1, own, own],
-                Upstream::Edge => [n, n, own, own - 1, own, own],
-            };
-            Side { stencil: nodes.map(place), geometry: upstream.geometry(&grid.x, row) }
+            Side { stencil: upstream.stencil(row).map(place), geometry: upstream.geometry(&grid.x, row) }
         };
         let sides: Vec<[Side; 2]> = window.sampled_rows.iter().map(|&row| [side(row, 1.0), side(row, -1.0)]).collect();
         let (first, weights) = grid.interpolation(0.0);

@@ -1,0 +1,242 @@
+//! What distinguishes a line from a plane: which nodes a row has and with what coefficients, quadrature weights, gap and deformation.
+//! Everything above is written once over a [`Space`].
+
+use super::elasticity::{PointScratch, Scratch};
+use super::grid::{FIRST_UNKNOWN, INLET, LineGrid, PointGrid};
+use super::reynolds::line::Upstream;
+use super::reynolds::{RowGeometry, STENCIL};
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// Nodes, weights and deformation of a contact; node arrays run over X and, fastest, Y.
+pub trait Grid {
+    /// Work space of a deformation.
+    type Scratch: Default;
+
+    /// Quadrature weights of node arrays; zero where P vanishes.
+    fn weights(&self) -> &[f64];
+
+    /// Abscissae X and ordinates Y ≤ 0; a line has the one Y = 0.
+    fn abscissae(&self) -> (&[f64], &[f64]);
+
+    /// Number of unknown pressures.
+    fn unknowns(&self) -> usize;
+
+    /// Node index of an unknown.
+    fn node(&self, unknown: usize) -> usize;
+
+    /// Nodes and weights of the cubic interpolation at X = 0 (and Y = 0).
+    fn at_zero(&self) -> [(usize, f64); 4];
+
+    /// Δ = K P at every node; both slices are node arrays.
+    fn deform(&self, pressure: &[f64], deformation: &mut [f64], scratch: &mut Self::Scratch);
+
+    /// Value of a node array at X = 0 (and Y = 0).
+    fn central(&self, values: &[f64]) -> f64 {
+        self.at_zero().iter().map(|(node, w)| w * values[*node]).sum()
+    }
+}
+
+/// A grid with the rows of its Reynolds equation.
+pub trait Space: Sync {
+    /// Its grid.
+    type Grid: Grid;
+    /// Whether loops over its nodes and rows are shared among threads.
+    const PARALLEL: bool;
+    /// The first so many of a row's six nodes may have weight.
+    const NODES: usize;
+    /// Axes along which the pressure has a gradient.
+    const AXES: usize;
+
+    /// Its grid.
+    fn grid(&self) -> &Self::Grid;
+
+    /// The nodes an unknown's row depends on, and its coefficients. Where a node is lacking, another stands in its place with weight
+    /// zero.
+    fn row(&self, unknown: usize) -> ([usize; STENCIL], RowGeometry);
+
+    /// Calls `f` with the unknown, its row's nodes and its item, for one item per unknown.
+    fn each_row<T: Send>(&self, items: &mut [T], f: impl Fn(usize, [usize; STENCIL], &mut T) + Sync);
+
+    /// Writes the gap of the undeformed bodies at every node, (2.24).
+    fn write_gap(&self, gap: &mut [f64]);
+
+    /// Writes the unknowns into a node array, whose other entries stay.
+    fn spread(&self, unknowns: &[f64], nodes: &mut [f64]);
+
+    /// Deformation of a node by unit pressure at itself, in the middle of the grid.
+    fn own_deformation(&self) -> f64;
+}
+
+impl Grid for LineGrid {
+    type Scratch = Scratch;
+
+    fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
+    fn abscissae(&self) -> (&[f64], &[f64]) {
+        (&self.x, &[0.0])
+    }
+
+    fn unknowns(&self) -> usize {
+        self.x.len() - INLET - FIRST_UNKNOWN
+    }
+
+    fn node(&self, unknown: usize) -> usize {
+        unknown + FIRST_UNKNOWN
+    }
+
+    fn at_zero(&self) -> [(usize, f64); 4] {
+        let (first, weights) = self.interpolation(0.0);
+        std::array::from_fn(|k| (first + k, weights[k]))
+    }
+
+    fn deform(&self, pressure: &[f64], deformation: &mut [f64], scratch: &mut Scratch) {
+        LineGrid::deform(self, pressure, deformation, scratch);
+    }
+}
+
+impl Grid for PointGrid {
+    type Scratch = PointScratch;
+
+    fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
+    fn abscissae(&self) -> (&[f64], &[f64]) {
+        (&self.x, &self.y)
+    }
+
+    fn unknowns(&self) -> usize {
+        PointGrid::unknowns(self)
+    }
+
+    fn node(&self, unknown: usize) -> usize {
+        PointGrid::node(self, unknown)
+    }
+
+    fn at_zero(&self) -> [(usize, f64); 4] {
+        self.interpolation_on_axis(0.0)
+    }
+
+    fn deform(&self, pressure: &[f64], deformation: &mut [f64], scratch: &mut PointScratch) {
+        PointGrid::deform(self, pressure, deformation, scratch);
+    }
+}
+
+/// A line contact's grid and rows; in time these change with every step.
+#[derive(Clone, Debug)]
+pub struct LineSpace {
+    /// The grid.
+    pub grid: LineGrid,
+    /// 1/R̄ of (2.24); 1 where the radius does not vary.
+    pub curvature: f64,
+    /// Coefficients of the rows, those of the grid where nothing changes in time.
+    pub rows: Vec<RowGeometry>,
+    /// The side each row's flow comes from.
+    pub upstream: Vec<Upstream>,
+}
+
+impl LineSpace {
+    /// A stationary contact's.
+    pub fn new(grid: LineGrid) -> Self {
+        let (rows, upstream) = (grid.rows.clone(), vec![Upstream::Inlet; grid.rows.len()]);
+        Self { grid, curvature: 1.0, rows, upstream }
+    }
+}
+
+impl Space for LineSpace {
+    type Grid = LineGrid;
+    const PARALLEL: bool = false;
+    const NODES: usize = 4;
+    const AXES: usize = 1;
+
+    fn grid(&self) -> &LineGrid {
+        &self.grid
+    }
+
+    #[inline]
+    fn row(&self, unknown: usize) -> ([usize; STENCIL], RowGeometry) {
+        (self.upstream[unknown].stencil(unknown), self.rows[unknown])
+    }
+
+    #[inline]
+    fn each_row<T: Send>(&self, items: &mut [T], f: impl Fn(usize, [usize; STENCIL], &mut T) + Sync) {
+        for (k, (item, upstream)) in items.iter_mut().zip(&self.upstream).enumerate() {
+            f(k, upstream.stencil(k), item);
+        }
+    }
+
+    fn write_gap(&self, gap: &mut [f64]) {
+        for (gap, x) in gap.iter_mut().zip(&self.grid.x) {
+            *gap = 0.5 * self.curvature * x * x;
+        }
+    }
+
+    fn spread(&self, unknowns: &[f64], nodes: &mut [f64]) {
+        let count = self.grid.rows.len();
+        nodes[FIRST_UNKNOWN..FIRST_UNKNOWN + count].copy_from_slice(&unknowns[..count]);
+    }
+
+    fn own_deformation(&self) -> f64 {
+        self.grid.kernel_entry(self.grid.len() / 2, self.grid.len() / 2)
+    }
+}
+
+/// The half Y ≤ 0 of a point contact.
+#[derive(Clone, Debug)]
+pub struct PlaneSpace {
+    /// The grid.
+    pub grid: Arc<PointGrid>,
+}
+
+/// Rows handled by one task.
+const SHARE: usize = 2048;
+
+impl Space for PlaneSpace {
+    type Grid = PointGrid;
+    const PARALLEL: bool = true;
+    const NODES: usize = STENCIL;
+    const AXES: usize = 2;
+
+    fn grid(&self) -> &PointGrid {
+        &self.grid
+    }
+
+    #[inline]
+    fn row(&self, unknown: usize) -> ([usize; STENCIL], RowGeometry) {
+        self.grid.row(unknown)
+    }
+
+    #[inline]
+    fn each_row<T: Send>(&self, items: &mut [T], f: impl Fn(usize, [usize; STENCIL], &mut T) + Sync) {
+        let m = self.grid.column_unknowns();
+        items.par_chunks_mut(m).enumerate().with_min_len(SHARE.div_ceil(m)).for_each(|(column, items)| {
+            let ny = m + 1;
+            let west2 = if column == 0 { ny } else { 2 * ny };
+            for (j, item) in items.iter_mut().enumerate() {
+                let n = (column + 1) * ny + j + 1;
+                // The node that the axis lacks in the north has weight zero, whichever stands for it.
+                f(column * m + j, [n - west2, n - ny, n, n + ny, n - 1, n + 1], item);
+            }
+        });
+    }
+
+    fn write_gap(&self, gap: &mut [f64]) {
+        gap.iter_mut().enumerate().for_each(|(node, gap)| *gap = self.grid.parabola(node));
+    }
+
+    fn spread(&self, unknowns: &[f64], nodes: &mut [f64]) {
+        let (m, ny) = (self.grid.column_unknowns(), self.grid.ny());
+        let columns = unknowns[..self.grid.unknowns()].chunks_exact(m);
+        for (column, values) in nodes.chunks_exact_mut(ny).skip(1).zip(columns) {
+            column[1..].copy_from_slice(values);
+        }
+    }
+
+    fn own_deformation(&self) -> f64 {
+        let middle = self.grid.node(self.grid.unknowns() / 2);
+        self.grid.flexibility.entry(middle, middle)
+    }
+}

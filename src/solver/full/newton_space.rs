@@ -1,0 +1,142 @@
+//! What a space brings to Newton's method: its step control and its preconditioner, because those really differ, and where it starts.
+
+use super::solution::{Mesh, Problem, SolveError};
+use super::system::{SolveOptions, System};
+use super::thinning::Thinning;
+use crate::solver::discrete::grid::dot;
+use crate::solver::discrete::reynolds::Row;
+use crate::solver::discrete::space::{Grid, Space};
+use crate::solver::physics::contact::{ContactKind, Moes};
+
+/// Settings of a step control, with the settings of all else that go with it.
+pub trait StepControl: Copy + PartialEq + std::fmt::Debug {
+    /// The settings of a solve.
+    fn options() -> SolveOptions<Self>;
+}
+
+impl<C: StepControl> Default for SolveOptions<C> {
+    fn default() -> Self {
+        C::options()
+    }
+}
+
+/// What a Newton step did.
+pub struct Taken {
+    /// Size of the undamped step, so that damping never looks like convergence.
+    pub size: f64,
+    /// ΔH₀ of the undamped step, where its size does not contain it.
+    pub shift: f64,
+    /// Residual norm after the step.
+    pub residual: f64,
+}
+
+/// A factorised matrix.
+pub trait Factors: Default {
+    /// b ← A⁻¹ b.
+    fn solve(&mut self, b: &mut [f64]);
+}
+
+/// A space with what Newton's method needs on it.
+pub trait NewtonSpace: Space + Sized {
+    /// The settings of its step control.
+    type Control: StepControl;
+    /// What that remembers from step to step.
+    type Memory: Default;
+    /// The matrix that preconditions the linear solves.
+    type Matrix: Factors;
+    /// What its grid is built from, and what a solver keeps of it between contacts.
+    type Spec;
+    /// What a solver keeps of its grid between contacts.
+    type Reference;
+
+    /// The kind of contact it is a space of.
+    const KIND: ContactKind;
+    /// Residual beyond which the iteration is given up.
+    const WORST_RESIDUAL: f64;
+    /// Whether steps clip pressures, and so lose the load they carry. Where they do not, it holds exactly from the start and every step keeps it,
+    /// because the preconditioner's load row is exact.
+    const CLIPS: bool;
+    /// Films tried by a cold start, in units of the contact's film formula.
+    const COLD_FILMS: [f64; 3];
+    /// Range of M in which cold starts converge.
+    const EASY_M: (f64, f64);
+    /// Range of L in which they do.
+    const EASY_L: (f64, f64);
+
+    /// Builds the grid and its kernel.
+    ///
+    /// # Errors
+    /// When the specification is refused.
+    fn build(spec: Self::Spec) -> Result<Self::Reference, SolveError>;
+
+    /// Scale of the grid for a contact.
+    fn scale_of(reference: &Self::Reference, moes: Moes) -> f64;
+
+    /// The space on a grid under a scale.
+    fn on(reference: &Self::Reference, scale: f64) -> Self;
+
+    /// Its grid as solutions name it.
+    fn mesh(&self) -> Mesh;
+
+    /// Accuracy of the next linear solve, relative to its right-hand side.
+    fn forcing(control: &Self::Control, memory: &mut Self::Memory, residual: f64) -> f64;
+
+    /// Takes the step `system.update` as far as it helps; `before` is the residual norm.
+    fn step(
+        system: &mut System<Self>,
+        problem: &Problem,
+        options: &SolveOptions<Self::Control>,
+        memory: &mut Self::Memory,
+        before: f64,
+    ) -> Taken;
+
+    /// Assembles and factorises a matrix near the Jacobian of the scaled rows; `false` when `go_on` ended it half way.
+    fn assemble(
+        &self,
+        matrix: &mut Self::Matrix,
+        control: &Self::Control,
+        rows: &[Row],
+        thinning: Option<&Thinning>,
+        scaling: &[f64],
+        go_on: impl Fn() -> bool,
+    ) -> bool;
+}
+
+/// A factorised matrix, bordered by the H₀ column and the load row.
+#[derive(Default)]
+pub struct Preconditioner<M> {
+    /// The matrix of the rows.
+    pub matrix: M,
+    /// Its solution for the H₀ column.
+    column: Vec<f64>,
+    /// wᵀ column.
+    schur: f64,
+    /// Quadrature weights of the unknowns.
+    weights: Vec<f64>,
+}
+
+impl<M: Factors> Preconditioner<M> {
+    /// Borders the matrix, assembled for these rows, by the film's and the load's.
+    pub fn border<S: Space>(&mut self, space: &S, rows: &[Row], scaling: &[f64]) {
+        if self.weights.is_empty() {
+            let (grid, weights) = (space.grid(), space.grid().weights());
+            self.weights = (0..rows.len()).map(|k| weights[grid.node(k)]).collect();
+        }
+        self.column.clear();
+        self.column.extend(rows.iter().zip(scaling).map(|(row, s)| s * row.d_h[..S::NODES].iter().sum::<f64>()));
+        self.matrix.solve(&mut self.column);
+        self.schur = dot(&self.weights, &self.column);
+    }
+
+    /// v ← M⁻¹ v; the last entry belongs to H₀.
+    pub fn apply(&mut self, v: &mut [f64]) {
+        let (head, last) = v.split_at_mut(self.weights.len());
+        self.matrix.solve(head);
+        let carried = dot(&self.weights, head);
+        let dh_0 = if self.schur == 0.0 { 0.0 } else { (carried - last[0]) / self.schur };
+        for (v, c) in head.iter_mut().zip(&self.column) {
+            *v -= dh_0 * c;
+        }
+        last[0] = dh_0;
+    }
+}

@@ -1,0 +1,367 @@
+//! Solving contacts: where Newton starts, and what is tried until it converges: a former solution, cold starts with other films, then
+//! continuation from an easier contact.
+
+use super::newton_space::NewtonSpace;
+use super::solution::{Problem, Report, Solution, SolveError, Termination, expect_kind, scalars_of};
+use super::system::{SolveOptions, System};
+use crate::solver::discrete::grid::{ContactGrid, ContactGridSpec};
+use crate::solver::discrete::space::{Grid, LineSpace, PlaneSpace};
+use crate::solver::observer::Observer;
+use crate::solver::physics::contact::{
+    ContactKind, Moes, MoesRequest, OperatingPoint, hamrock_dowson_central, moes_line_film, si_from_moes,
+};
+use crate::solver::physics::lubricant::Lubricant;
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// The start of a full solve.
+#[derive(Clone, Copy, Debug)]
+pub enum Start<'a> {
+    /// Hertzian pressure and a film from a formula.
+    Cold,
+    /// Any solution of the same kind of contact, also at another operating point or on another grid; one of the other kind means cold.
+    From(&'a Solution),
+}
+
+/// What one attempt begins with.
+#[derive(Clone, Copy)]
+enum Beginning<'a> {
+    /// Hertzian pressure and a film, in units of the contact's film formula.
+    Cold(f64),
+    /// A solution of the same kind of contact.
+    Warm(&'a Solution),
+}
+
+/// Solves contacts of one kind on one grid; keeps the grid and the work space between solves.
+pub struct Solver<S: NewtonSpace> {
+    reference: S::Reference,
+    system: Option<System<S>>,
+    /// Settings of every solve.
+    pub options: SolveOptions<S::Control>,
+}
+
+/// Solves line contacts.
+pub type FullSolver = Solver<LineSpace>;
+/// Solves point contacts.
+pub type PointSolver = Solver<PlaneSpace>;
+
+impl<S: NewtonSpace> Solver<S> {
+    /// A solver on the grid of a specification.
+    ///
+    /// # Errors
+    /// When the specification is refused.
+    pub fn new(spec: S::Spec) -> Result<Self, SolveError> {
+        Ok(Self::on(S::build(spec)?))
+    }
+
+    /// A solver on a grid that exists already.
+    pub fn on(reference: S::Reference) -> Self {
+        Self { reference, system: None, options: SolveOptions::default() }
+    }
+
+    /// The grid.
+    pub fn grid(&self) -> &S::Reference {
+        &self.reference
+    }
+
+    /// Solves one contact. A failed start is followed by others and at last by continuation from an easier contact; the solution's report
+    /// says how it ended. A solution that has not converged holds the last state and must not be shown as a result.
+    ///
+    /// # Errors
+    /// When the operating point or the lubricant is refused, or it is of the other kind.
+    pub fn solve(
+        &mut self,
+        point: &OperatingPoint,
+        lubricant: Lubricant,
+        start: Start<'_>,
+        observer: &dyn Observer,
+    ) -> Result<Solution, SolveError> {
+        self.solve_problem(Problem::of_kind(S::KIND, point, lubricant)?, start, observer)
+    }
+
+    /// The same for a problem that exists already, under sliding for instance.
+    ///
+    /// # Errors
+    /// When it is of the other kind.
+    pub fn solve_problem(
+        &mut self,
+        problem: Problem,
+        start: Start<'_>,
+        observer: &dyn Observer,
+    ) -> Result<Solution, SolveError> {
+        expect_kind(S::KIND, &problem.point)?;
+        let former = match start {
+            Start::From(former) if former.problem.point.kind == S::KIND => Some(former),
+            _ => None,
+        };
+        let mut report = Report::empty();
+        let cold = S::COLD_FILMS.into_iter().map(Beginning::Cold);
+        for beginning in former.into_iter().map(Beginning::Warm).chain(cold) {
+            if report.ended() {
+                break;
+            }
+            self.attempt(&problem, beginning, observer, &mut report);
+        }
+        if !report.ended() {
+            self.continuation(&problem, observer, &mut report);
+        }
+        let mut solution = self.solution(problem, report);
+        let largest = problem.fluid.largest_pressure();
+        if solution.converged() && solution.pressure.iter().any(|&p| p >= largest) {
+            solution.report.termination = Termination::OccupiedVolume;
+        }
+        Ok(solution)
+    }
+
+    /// Takes a few undamped Newton steps from fields on this grid, by which their error can be judged.
+    pub fn corrected(&mut self, fields: &Solution, options: &SolveOptions<S::Control>) -> Solution {
+        let mut system = self.system_at(fields.mesh.scale());
+        system.set_pressure(&fields.problem, &fields.pressure);
+        system.set_central_film(fields.scalars.h_c);
+        let mut report = Report::empty();
+        system.newton(&fields.problem, options, &(), &mut report);
+        self.system = Some(system);
+        self.solution(fields.problem, report)
+    }
+
+    /// The system prepared at a cold start, for whoever iterates it in another way (the dense baseline).
+    ///
+    /// # Errors
+    /// When the operating point or the lubricant is refused.
+    pub fn cold_system(
+        &self,
+        point: &OperatingPoint,
+        lubricant: Lubricant,
+    ) -> Result<(System<S>, Problem), SolveError> {
+        let problem = Problem::of_kind(S::KIND, point, lubricant)?;
+        let mut system = System::new(S::on(&self.reference, S::scale_of(&self.reference, problem.moes)));
+        cold_state(&mut system, &problem, S::COLD_FILMS[0]);
+        Ok((system, problem))
+    }
+
+    /// The system on the grid under a scale: the kept one where it has that scale. Another scale has other coefficients.
+    fn system_at(&mut self, scale: f64) -> System<S> {
+        match self.system.take() {
+            Some(system) if system.space.mesh().scale() == scale => system,
+            _ => System::new(S::on(&self.reference, scale)),
+        }
+    }
+
+    /// One run of Newton's method, which counts in the report.
+    fn attempt(&mut self, problem: &Problem, beginning: Beginning<'_>, observer: &dyn Observer, report: &mut Report) {
+        report.attempts += 1;
+        let mut system = self.system_at(S::scale_of(&self.reference, problem.moes));
+        match beginning {
+            Beginning::Cold(film) => cold_state(&mut system, problem, film),
+            Beginning::Warm(former) => warm_state(&mut system, problem, former),
+        }
+        system.newton(problem, &self.options, observer, report);
+        self.system = Some(system);
+    }
+
+    /// The present state as a solution.
+    fn solution(&mut self, problem: Problem, report: Report) -> Solution {
+        let scale = S::scale_of(&self.reference, problem.moes);
+        let System { space, pressure, film, h_0, .. } =
+            &*self.system.get_or_insert_with(|| System::new(S::on(&self.reference, scale)));
+        let (x, y) = space.grid().abscissae();
+        Solution {
+            problem,
+            mesh: space.mesh(),
+            x: x.to_vec(),
+            y: y.to_vec(),
+            pressure: pressure.clone(),
+            film: film.clone(),
+            scalars: scalars_of(space.grid(), &problem, pressure, film, *h_0),
+            report,
+        }
+    }
+
+    /// Walks from an easier contact to the wanted one in steps that shrink on failure.
+    fn continuation(&mut self, problem: &Problem, observer: &dyn Observer, report: &mut Report) {
+        let target = problem.moes;
+        let easy = Moes { m: target.m.clamp(S::EASY_M.0, S::EASY_M.1), l: target.l.clamp(S::EASY_L.0, S::EASY_L.1) };
+        let point_at = |t: f64| {
+            let m = (easy.m.ln() * (1.0 - t) + target.m.ln() * t).exp();
+            let l = easy.l * (1.0 - t) + target.l * t;
+            let request = MoesRequest {
+                radius_m: Some(problem.point.radius_m),
+                modulus_pa: Some(problem.point.modulus_pa),
+                viscosity_pa_s: Some(problem.point.viscosity_pa_s),
+                alpha_per_pa: Some(problem.point.alpha_per_pa),
+                ..MoesRequest::new(problem.point.kind, m, l)
+            };
+            let point = si_from_moes(&request).ok()?;
+            Problem::under_sliding(&point, problem.lubricant, problem.point.sliding).ok()
+        };
+        let Some(first) = point_at(0.0) else { return };
+        self.attempt(&first, Beginning::Cold(S::COLD_FILMS[0]), observer, report);
+        if report.termination != Termination::Converged {
+            return;
+        }
+        let (mut t, mut stride) = (0.0, 0.25f64);
+        let mut last = self.solution(first, Report::empty());
+        while t < 1.0 && stride > 1e-3 {
+            let next = (t + stride).min(1.0);
+            let wanted = if next >= 1.0 { Some(*problem) } else { point_at(next) };
+            let Some(wanted) = wanted else { return };
+            self.attempt(&wanted, Beginning::Warm(&last), observer, report);
+            match report.termination {
+                Termination::Cancelled => return,
+                Termination::Converged => {
+                    t = next;
+                    last = self.solution(wanted, Report::empty());
+                    stride *= 1.5;
+                }
+                _ => stride *= 0.4,
+            }
+        }
+        if t < 1.0 && report.termination == Termination::Converged {
+            report.termination = Termination::IterationLimit;
+        }
+    }
+}
+
+/// Central film in the solver's scaling, H = (h/R) (R/a)²: Moes' formula for a line, Hamrock and Dowson's for a point contact.
+fn formula_film(problem: &Problem) -> f64 {
+    match problem.point.kind {
+        // (h/R)(2U)^(−1/2) with a²/R² = 8 w/(π E′ R) = 8 M (2U)^(1/2)/π.
+        ContactKind::Line => moes_line_film(problem.moes) * PI / (8.0 * problem.moes.m),
+        ContactKind::Point => {
+            hamrock_dowson_central(&problem.point) * problem.point.radius_m / problem.point.film_scale_m()
+        }
+    }
+}
+
+/// Hertzian pressure and a central film of `film` × the formula.
+fn cold_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, film: f64) {
+    let (x, y) = system.space.grid().abscissae();
+    let hertz = x.iter().flat_map(|x| y.iter().map(move |y| (1.0 - (x * x + y * y)).max(0.0).sqrt()));
+    let hertz: Vec<f64> = hertz.collect();
+    system.set_pressure(problem, &hertz);
+    system.set_central_film(film * formula_film(problem));
+}
+
+/// A former solution on this grid: pressure as it is, whatever the scale of its registration, or interpolated; central film scaled by the
+/// formula.
+fn warm_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, former: &Solution) {
+    let same_grid = former.mesh.shares_nodes(&system.space.mesh());
+    if same_grid {
+        system.set_pressure(problem, &former.pressure);
+    } else {
+        let (x, y) = system.space.grid().abscissae();
+        let pressure = interpolated(former, x.iter().copied(), y);
+        system.set_pressure(problem, &pressure);
+    }
+    let ratio = formula_film(problem) / formula_film(&former.problem);
+    if same_grid && former.problem == *problem {
+        system.set_h_0(former.scalars.h_0);
+    } else {
+        system.set_central_film(former.scalars.h_c * ratio);
+    }
+    // A film that touches anywhere would be no start.
+    let floor = 0.2 * former.scalars.h_min * ratio;
+    let lowest = system.film.iter().copied().fold(f64::INFINITY, f64::min);
+    if lowest < floor {
+        system.set_h_0(system.h_0 + floor - lowest);
+    }
+}
+
+/// Pressure of a solution at other abscissae and ordinates, (bi)linearly, zero outside.
+pub(super) fn interpolated(former: &Solution, x: impl Iterator<Item = f64>, y: &[f64]) -> Vec<f64> {
+    let ny = former.y.len();
+    let place = |nodes: &[f64], at: f64| {
+        let k = nodes.partition_point(|&node| node < at).max(1);
+        let (low, high) = (*nodes.get(k - 1)?, *nodes.get(k)?);
+        (at >= low).then(|| (k, (at - low) / (high - low)))
+    };
+    let across: Vec<Option<(usize, f64)>> = y.iter().map(|&y| place(&former.y, y)).collect();
+    let mut out = Vec::new();
+    for x in x {
+        let along = place(&former.x, x);
+        out.extend(across.iter().map(|&across| {
+            let Some((i, s)) = along else { return 0.0 };
+            let p = |i: usize, j: usize| former.pressure[i * ny + j];
+            match across {
+                Some((j, t)) => {
+                    let [west, east] = [i - 1, i].map(|i| (1.0 - t) * p(i, j - 1) + t * p(i, j));
+                    (1.0 - s) * west + s * east
+                }
+                None if ny == 1 => (1.0 - s) * p(i - 1, 0) + s * p(i, 0),
+                None => 0.0,
+            }
+        }));
+    }
+    out
+}
+
+/// The full solver of whichever kind of contact a grid is of; keeps the work space between solves.
+pub enum ContactSolver {
+    /// Of line contacts.
+    Line(FullSolver),
+    /// Of point contacts.
+    Point(PointSolver),
+}
+
+impl ContactSolver {
+    /// A solver on a grid that exists already.
+    pub fn on(grid: &ContactGrid) -> Self {
+        match grid {
+            ContactGrid::Line(grid) => Self::Line(Solver::on(Arc::clone(grid))),
+            ContactGrid::Point(grid) => Self::Point(Solver::on(Arc::clone(grid))),
+        }
+    }
+
+    /// What its grid was built from.
+    pub fn grid_spec(&self) -> ContactGridSpec {
+        match self {
+            Self::Line(solver) => ContactGridSpec::Line(solver.grid().spec),
+            Self::Point(solver) => ContactGridSpec::Point(solver.grid().spec),
+        }
+    }
+
+    /// Solves one contact, as [`Solver::solve`] does.
+    ///
+    /// # Errors
+    /// When the operating point or the lubricant is refused, or it is of the other kind.
+    pub fn solve(
+        &mut self,
+        point: &OperatingPoint,
+        lubricant: Lubricant,
+        start: Start<'_>,
+        observer: &dyn Observer,
+    ) -> Result<Solution, SolveError> {
+        self.solve_problem(Problem::of_kind(self.grid_spec().kind(), point, lubricant)?, start, observer)
+    }
+
+    /// The same for a problem that exists already.
+    ///
+    /// # Errors
+    /// When it is of the other kind.
+    pub fn solve_problem(
+        &mut self,
+        problem: Problem,
+        start: Start<'_>,
+        observer: &dyn Observer,
+    ) -> Result<Solution, SolveError> {
+        match self {
+            Self::Line(solver) => solver.solve_problem(problem, start, observer),
+            Self::Point(solver) => solver.solve_problem(problem, start, observer),
+        }
+    }
+
+    /// Takes a few Newton steps from fields on its grid, by which their error can be judged: undamped where there is a line search, since by
+    /// the residual it would hide the error: beside a solution the penalty makes it jump.
+    pub fn corrected(&mut self, fields: &Solution, steps: usize) -> Solution {
+        match self {
+            Self::Line(solver) => {
+                let defaults = SolveOptions::default();
+                let control = super::Backtracking { shortest_step: 1.0, ..defaults.control };
+                solver.corrected(fields, &SolveOptions { max_newton: steps, control, ..defaults })
+            }
+            Self::Point(solver) => {
+                solver.corrected(fields, &SolveOptions { max_newton: steps, ..SolveOptions::default() })
+            }
+        }
+    }
+}

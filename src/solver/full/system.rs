@@ -1,0 +1,259 @@
+//! The discrete system of one problem over a space, and Newton's method on it: rows, Jacobian products, stopping.
+//!
+//! Unknowns are (P, H₀), the deformation is condensed. The Jacobian A + B K is never assembled: A and B are stencils, K is applied.
+//! How far a step is taken, and what preconditions the linear solves, is the space's own, see [`NewtonSpace`].
+
+use super::gmres::{Gmres, LinearOutcome};
+use super::newton_space::{NewtonSpace, Preconditioner, Taken};
+use super::solution::{Problem, Report, Termination};
+use super::thinning::Thinning;
+use crate::solver::discrete::grid::dot;
+use crate::solver::discrete::nodes::{Nodes, Order};
+use crate::solver::discrete::reynolds::generalized::FilmTreatment;
+use crate::solver::discrete::reynolds::{CENTER, Row};
+use crate::solver::discrete::space::Grid;
+use crate::solver::observer::{NewtonStep, Observer};
+
+/// Settings of a full solve; those of the step control beside those of every space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SolveOptions<C> {
+    /// Newton's method stops when the size of a step falls below this: ‖Δz‖/‖z‖ with z = (P, H₀) on a line; max|ΔP| on a plane, where
+    /// |ΔH₀| must fall below a tenth of it too.
+    pub tolerance: f64,
+    /// Newton steps per attempt.
+    pub max_newton: usize,
+    /// Krylov iterations per Newton step.
+    pub max_krylov: usize,
+    /// Penalty factor γ̄ of (2.36).
+    pub penalty: f64,
+    /// How the film integrals of a shear-thinning lubricant are taken.
+    pub film: FilmTreatment,
+    /// How far steps are taken, and how accurately they are solved for.
+    pub control: C,
+}
+
+/// The discrete system of one problem, with its state and all work space.
+pub struct System<S: NewtonSpace> {
+    /// Grid and rows.
+    pub space: S,
+    /// P, node array.
+    pub pressure: Vec<f64>,
+    /// H, node array.
+    pub film: Vec<f64>,
+    /// H₀.
+    pub h_0: f64,
+    gap: Vec<f64>,
+    pub(super) deformation: Vec<f64>,
+    pub(super) nodes: Nodes,
+    /// What shear-thinning adds to the Jacobian; made when first needed.
+    pub(super) thinning: Option<Thinning>,
+    treatment: FilmTreatment,
+    /// The rows of the unknowns as they were evaluated last.
+    pub rows: Vec<Row>,
+    scaling: Vec<f64>,
+    pub(super) step: Vec<f64>,
+    pub(super) step_deformation: Vec<f64>,
+    preconditioner: Preconditioner<S::Matrix>,
+    krylov: Gmres,
+    pub(super) scratch: <S::Grid as Grid>::Scratch,
+    rhs: Vec<f64>,
+    /// (ΔP, ΔH₀).
+    pub(super) update: Vec<f64>,
+}
+
+impl<S: NewtonSpace> System<S> {
+    /// A system on a space, with all work space; the state is zero until it is set.
+    pub fn new(space: S) -> Self {
+        let (n, u) = (space.grid().weights().len(), space.grid().unknowns());
+        let mut gap = vec![0.0; n];
+        space.write_gap(&mut gap);
+        Self {
+            space,
+            pressure: vec![0.0; n],
+            film: vec![0.0; n],
+            h_0: 0.0,
+            gap,
+            deformation: vec![0.0; n],
+            nodes: Nodes::new(n, false),
+            thinning: None,
+            treatment: FilmTreatment::default(),
+            rows: vec![Row::default(); u],
+            scaling: vec![1.0; u],
+            step: vec![0.0; n],
+            step_deformation: vec![0.0; n],
+            preconditioner: Preconditioner::default(),
+            krylov: Gmres::default(),
+            scratch: Default::default(),
+            rhs: vec![0.0; u + 1],
+            update: vec![0.0; u + 1],
+        }
+    }
+
+    /// Sets the pressure (node array), scaled to carry the load exactly, and recomputes the deformation.
+    pub fn set_pressure(&mut self, problem: &Problem, pressure: &[f64]) {
+        let weights = self.space.grid().weights();
+        for ((p, &given), &weight) in self.pressure.iter_mut().zip(pressure).zip(weights) {
+            *p = if weight > 0.0 { given } else { 0.0 };
+        }
+        let factor = problem.load / dot(weights, &self.pressure);
+        if factor.is_finite() && factor > 0.0 {
+            self.pressure.iter_mut().for_each(|p| *p *= factor);
+        }
+        self.deform();
+    }
+
+    /// Recomputes the deformation by the present pressure.
+    pub(super) fn deform(&mut self) {
+        self.space.grid().deform(&self.pressure, &mut self.deformation, &mut self.scratch);
+    }
+
+    /// Recomputes the gap of a space that has changed.
+    pub(super) fn renew_gap(&mut self) {
+        self.space.write_gap(&mut self.gap);
+    }
+
+    /// Sets H₀ and the film.
+    pub fn set_h_0(&mut self, h_0: f64) {
+        self.h_0 = h_0;
+        for ((h, gap), d) in self.film.iter_mut().zip(&self.gap).zip(&self.deformation) {
+            *h = h_0 + gap + d;
+        }
+    }
+
+    /// Sets H₀ so that the film at X = 0 (and Y = 0) is `film`.
+    pub fn set_central_film(&mut self, film: f64) {
+        self.set_h_0(0.0);
+        let at_zero = self.space.grid().central(&self.film);
+        self.set_h_0(film - at_zero);
+    }
+
+    /// Evaluates all rows at the current state with their derivatives. Returns the residual norm.
+    pub fn evaluate(&mut self, problem: &Problem, penalty: f64) -> f64 {
+        let Self { space, nodes, pressure, film, rows, .. } = self;
+        let laws = problem.laws();
+        let order = if S::PARALLEL { Order::Parallel } else { Order::Alone };
+        let thinning = laws.shear.map(|_| self.thinning.get_or_insert_with(|| Thinning::new(space)));
+        let gradient = thinning.as_ref().map(|thinning| &thinning.gradient);
+        let at = |k: usize| gradient.map_or([0.0; 2], |gradient| gradient.at_node(pressure, k));
+        nodes.evaluate(laws, (pressure, film), at, self.treatment, order);
+        let nodes = &*nodes;
+        space.each_row(rows, |k, _, row| {
+            let (stencil, geometry) = space.row(k);
+            *row = nodes.row(&geometry, penalty, stencil);
+        });
+        if let Some(thinning) = thinning {
+            thinning.differentiate(space, nodes);
+        }
+        let (grid, weights) = (space.grid(), space.grid().weights());
+        let square = |(k, row): (usize, &Row)| weights[grid.node(k)] * row.value * row.value;
+        rows.iter().enumerate().map(square).sum::<f64>().sqrt()
+    }
+
+    /// ρ̄H of the state evaluated last, node array.
+    pub(super) fn flow(&self) -> impl Iterator<Item = f64> + '_ {
+        self.nodes.iter().map(|node| node.flow)
+    }
+
+    /// Newton's method from the current state.
+    pub fn newton(
+        &mut self,
+        problem: &Problem,
+        options: &SolveOptions<S::Control>,
+        observer: &dyn Observer,
+        report: &mut Report,
+    ) {
+        self.treatment = options.film;
+        self.nodes.forget();
+        let mut residual = self.evaluate(problem, options.penalty);
+        let mut memory = S::Memory::default();
+        report.termination = Termination::IterationLimit;
+        for _ in 0..options.max_newton {
+            if observer.cancelled() {
+                report.termination = Termination::Cancelled;
+                break;
+            }
+            report.residuals.push(residual);
+            let forcing = S::forcing(&options.control, &mut memory, residual);
+            let linear = self.solve_linear(problem, options, forcing, observer);
+            report.linear_iterations += linear.iterations;
+            if observer.cancelled() {
+                report.termination = Termination::Cancelled;
+                break;
+            }
+            report.newton_iterations += 1;
+            let before = residual;
+            let Taken { size, shift, residual: after } = S::step(self, problem, options, &mut memory, before);
+            residual = after;
+            report.steps.push(size);
+            observer.newton_step(&NewtonStep { iteration: report.newton_iterations, residual: before, step: size });
+            if !(residual.is_finite() && size.is_finite() && shift.is_finite()) || residual > S::WORST_RESIDUAL {
+                report.termination = Termination::Diverged;
+                break;
+            }
+            let solved = linear.relative_residual < 0.5;
+            if size < options.tolerance && shift.abs() < 0.1 * options.tolerance && solved {
+                let separated = self.film.iter().all(|&h| h > 0.0);
+                report.termination = if separated { Termination::Converged } else { Termination::Diverged };
+                break;
+            }
+        }
+        report.residual_norm = residual;
+    }
+
+    /// Solves the linearised system for `update` = (ΔP, ΔH₀). Returns how the linear solver ended.
+    fn solve_linear(
+        &mut self,
+        problem: &Problem,
+        options: &SolveOptions<S::Control>,
+        tolerance: f64,
+        observer: &dyn Observer,
+    ) -> LinearOutcome {
+        let Self { space, krylov, scratch, step, step_deformation, rows, scaling, preconditioner, rhs, update, .. } =
+            self;
+        let (space, u) = (&*space, rows.len());
+        let diagonal = space.own_deformation();
+        for (s, row) in scaling.iter_mut().zip(&*rows) {
+            *s = 1.0 / (row.d_p[CENTER].abs() + row.d_h[CENTER].abs() * diagonal);
+        }
+        let (rows, scaling) = (rows.as_slice(), scaling.as_slice());
+        let mut thinning = self.thinning.as_mut().filter(|_| self.nodes.thins());
+        let Preconditioner { matrix, .. } = preconditioner;
+        let go_on = || !observer.cancelled();
+        if !space.assemble(matrix, &options.control, rows, thinning.as_deref(), scaling, go_on) {
+            return LinearOutcome { iterations: 0, relative_residual: f64::NAN };
+        }
+        preconditioner.border(space, rows, scaling);
+        for ((r, row), s) in rhs.iter_mut().zip(rows).zip(scaling) {
+            *r = -row.value * s;
+        }
+        let weights = space.grid().weights();
+        rhs[u] = if S::CLIPS { problem.load - dot(weights, &self.pressure) } else { 0.0 };
+        krylov.solve(
+            rhs,
+            update,
+            (tolerance, options.max_krylov),
+            |v, out| {
+                space.spread(v, step);
+                space.grid().deform(step, step_deformation, scratch);
+                let (field, film, shift) = (&*step, &*step_deformation, v[u]);
+                space.each_row(&mut out[..u], |k, stencil, out| {
+                    let Row { d_p, d_h, .. } = &rows[k];
+                    let mut sum = 0.0;
+                    for (e, node) in stencil.into_iter().enumerate().take(S::NODES) {
+                        sum += d_p[e] * field[node] + d_h[e] * (film[node] + shift);
+                    }
+                    *out = sum * scaling[k];
+                });
+                if let Some(thinning) = &mut thinning {
+                    thinning.add_product(space, field, scaling, &mut out[..u]);
+                }
+                out[u] = dot(weights, field);
+            },
+            |v| preconditioner.apply(v),
+            |iterations| {
+                observer.krylov_iteration(iterations);
+                go_on()
+            },
+        )
+    }
+}
