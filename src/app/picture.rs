@@ -95,8 +95,8 @@ pub struct Picture {
 
 impl Picture {
     /// Prepares a converged solution for drawing; `traction` is its coefficient where a reduced model knows it without all nodes.
-    pub fn new(key: Key, origin: Origin, mut solution: Arc<Solution>, cuts: Cuts, traction: Option<f64>) -> Self {
-        adopt(&mut solution, &key);
+    pub fn new(key: Key, origin: Origin, solution: Arc<Solution>, cuts: Cuts, traction: Option<f64>) -> Self {
+        let solution = of_contact(solution, &key);
         let slides = key.point.sliding.slide_to_roll_ratio != 0.0;
         let mut picture = Self {
             key,
@@ -118,7 +118,7 @@ impl Picture {
 
     /// Goes over to a contact with the same film ([`Key::has_film_of`]): only the traction is another one.
     pub fn slide(&mut self, key: Key) {
-        adopt(&mut self.solution, &key);
+        self.solution = of_contact(Arc::clone(&self.solution), &key);
         self.key = key;
         self.traction = self.solution.traction_coefficient();
         self.unphysical = self.solution.traction_warning();
@@ -162,12 +162,11 @@ impl Picture {
     }
 }
 
-/// Makes a solution one of the very contact that it is shown for: the film may have been solved under other sliding.
-fn adopt(solution: &mut Arc<Solution>, key: &Key) {
-    if let Ok(problem) = Problem::new(&key.point, key.lubricant)
-        && problem != solution.problem
-    {
-        Arc::make_mut(solution).problem = problem;
+/// A solution as one of the very contact that it is shown for: the film may have been solved under other sliding.
+fn of_contact(solution: Arc<Solution>, key: &Key) -> Arc<Solution> {
+    match Problem::new(&key.point, key.lubricant) {
+        Ok(problem) if problem != solution.problem => Arc::new(Arc::unwrap_or_clone(solution).of_problem(problem)),
+        _ => solution,
     }
 }
 

@@ -104,8 +104,8 @@ pub struct PointOptions {
     #[arg(long, value_name = "LAW", value_parser = pressure_viscosity)]
     pub pressure_viscosity: Option<ViscosityLaw>,
     /// Slide-to-roll ratio; of a Newtonian fluid it moves only the traction
-    #[arg(long, allow_negative_numbers = true, default_value_t = 0.0)]
-    pub srr: f64,
+    #[arg(long, allow_negative_numbers = true, default_value = "0")]
+    pub srr: Option<f64>,
     /// Newtonian plateau ratio of a shear-thinning lubricant (default: its own); 1 is a Newtonian fluid
     #[arg(long, allow_negative_numbers = true)]
     pub npr: Option<f64>,
@@ -170,29 +170,32 @@ fn domain(text: &str) -> Result<Domain, String> {
     }
 }
 
+/// Where an option keeps its number.
+type Place = fn(&mut PointOptions) -> &mut Option<f64>;
+
 fn refuse<T>(sentence: impl Into<String>) -> Result<T, Failure> {
     Err(Failure::Request(sentence.into()))
 }
 
 impl PointOptions {
-    /// Names of the numeric options that a sweep can vary, without the leading dashes.
-    pub const VARIABLES: [&str; 16] = [
-        "moes-m",
-        "moes-l",
-        "radius",
-        "speed",
-        "load",
-        "modulus",
-        "viscosity",
-        "alpha",
-        "e1",
-        "nu1",
-        "e2",
-        "nu2",
-        "srr",
-        "npr",
-        "dx",
-        "dy",
+    /// The numeric options that a sweep can vary, by their names without the leading dashes.
+    const VARIABLES: [(&str, Place); 16] = [
+        ("moes-m", |options| &mut options.moes_m),
+        ("moes-l", |options| &mut options.moes_l),
+        ("radius", |options| &mut options.radius),
+        ("speed", |options| &mut options.speed),
+        ("load", |options| &mut options.load),
+        ("modulus", |options| &mut options.modulus),
+        ("viscosity", |options| &mut options.viscosity),
+        ("alpha", |options| &mut options.alpha),
+        ("e1", |options| &mut options.e1),
+        ("nu1", |options| &mut options.nu1),
+        ("e2", |options| &mut options.e2),
+        ("nu2", |options| &mut options.nu2),
+        ("srr", |options| &mut options.srr),
+        ("npr", |options| &mut options.npr),
+        ("dx", |options| &mut options.dx),
+        ("dy", |options| &mut options.dy),
     ];
 
     /// Sets a numeric option by name; `m` and `l` are short for `moes-m` and `moes-l`.
@@ -200,32 +203,16 @@ impl PointOptions {
     /// # Errors
     /// With the accepted names.
     pub fn set(&mut self, name: &str, value: f64) -> Result<(), Failure> {
-        let place = match name {
-            "moes-m" | "m" | "M" => &mut self.moes_m,
-            "moes-l" | "l" | "L" => &mut self.moes_l,
-            "radius" => &mut self.radius,
-            "speed" => &mut self.speed,
-            "load" => &mut self.load,
-            "modulus" => &mut self.modulus,
-            "viscosity" => &mut self.viscosity,
-            "alpha" => &mut self.alpha,
-            "e1" => &mut self.e1,
-            "nu1" => &mut self.nu1,
-            "e2" => &mut self.e2,
-            "nu2" => &mut self.nu2,
-            "npr" => &mut self.npr,
-            "dx" => &mut self.dx,
-            "dy" => &mut self.dy,
-            "srr" => {
-                self.srr = value;
-                return Ok(());
-            }
-            _ => {
-                let accepted = Self::VARIABLES.join(", ");
-                return refuse(format!("`{name}` cannot be varied; accepted are {accepted}"));
-            }
+        let known = match name {
+            "m" | "M" => "moes-m",
+            "l" | "L" => "moes-l",
+            name => name,
         };
-        *place = Some(value);
+        let Some((_, place)) = Self::VARIABLES.iter().find(|(variable, _)| *variable == known) else {
+            let accepted = Self::VARIABLES.map(|(variable, _)| variable).join(", ");
+            return refuse(format!("`{name}` cannot be varied; accepted are {accepted}"));
+        };
+        *place(self) = Some(value);
         Ok(())
     }
 
@@ -234,8 +221,9 @@ impl PointOptions {
     /// # Errors
     /// When they contradict each other or a value is outside any sense.
     pub fn request(&self) -> Result<(Request, Method), Failure> {
-        if !(self.srr.is_finite() && self.srr.abs() <= 10.0) {
-            return refuse(format!("--srr is {}, but must be a finite number between -10 and 10", self.srr));
+        let srr = self.srr.unwrap_or(0.0);
+        if !(srr.is_finite() && srr.abs() <= 10.0) {
+            return refuse(format!("--srr is {srr}, but must be a finite number between -10 and 10"));
         }
         let mut lubricant = self.lubricant.map_or_else(Lubricant::default, |named| named.laws);
         if let Some(npr) = self.npr {
@@ -251,7 +239,7 @@ impl PointOptions {
         lubricant.density = self.density.unwrap_or(lubricant.density);
         lubricant.viscosity = self.pressure_viscosity.unwrap_or(lubricant.viscosity);
         let method = self.method()?;
-        let sliding = Sliding { slide_to_roll_ratio: self.srr, newtonian_plateau_ratio: self.npr };
+        let sliding = Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: self.npr };
         let point = OperatingPoint { sliding, ..self.point(&lubricant)? };
         let grid = self.grid(&method)?;
         let grid_model = self.model_source();

@@ -1,8 +1,9 @@
 //! The speed table: full and reduced side by side, against a dense Newton measured in the same run.
 
 use super::error::EngineError;
-use super::model_file;
+use super::model_file::ModelFileError;
 use super::statistics::{median, percentile};
+use super::store::Store;
 use super::timed_march::{Timed, timed_march};
 use crate::scene::{QuantityBox, named_lubricant};
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
@@ -121,12 +122,8 @@ pub fn run(quick: bool) -> Result<Bench, EngineError> {
     rows.extend(cold_and_warm(names, ROW_BUDGET[size], &shear, |problem, start| {
         solver.solve_problem(problem, start, &())
     })?);
-    match model_file::embedded_of(ContactKind::Line) {
-        Ok(model) => {
-            let mut online = Online::new(model, ReducedOptions::default());
-            rows.push(reduced_row("line/reduced", &mut online, (&points, lubricant), true, ROW_BUDGET[size]));
-        }
-        Err(reason) => bench.notes.push(format!("line/reduced is missing: {reason}")),
+    if let Some(mut online) = bench.online("line/reduced", ContactKind::Line, false) {
+        rows.push(reduced_row("line/reduced", &mut online, (&points, lubricant), true, ROW_BUDGET[size]));
     }
     let names = ["line/shear/reduced", "line/shear/traction-curve"];
     rows.extend(bench.reduced_shear_rows(names, ContactKind::Line, size)?);
@@ -134,16 +131,12 @@ pub fn run(quick: bool) -> Result<Bench, EngineError> {
     bench.add(transient_rows(size)?, TRANSIENT_BASELINE);
     let shear = shear_problems(ContactKind::Point, POINT_POINTS[size])?;
     let mut rows = point_rows(size, &shear)?;
-    match model_file::embedded_of(ContactKind::Point) {
-        Ok(model) => {
-            let range = Range::Box(QuantityBox::TABLE_3_4);
-            let points = random_points(&range, ContactKind::Point, REDUCED_POINTS[size], SEED);
-            let mut online = Online::new(model, ReducedOptions::default());
-            for (name, fields) in [("point/reduced", false), ("point/reduced/fields", true)] {
-                rows.push(reduced_row(name, &mut online, (&points, Lubricant::default()), fields, POINT_BUDGET[size]));
-            }
+    if let Some(mut online) = bench.online("point/reduced", ContactKind::Point, false) {
+        let range = Range::Box(QuantityBox::TABLE_3_4);
+        let points = random_points(&range, ContactKind::Point, REDUCED_POINTS[size], SEED);
+        for (name, fields) in [("point/reduced", false), ("point/reduced/fields", true)] {
+            rows.push(reduced_row(name, &mut online, (&points, Lubricant::default()), fields, POINT_BUDGET[size]));
         }
-        Err(reason) => bench.notes.push(format!("point/reduced is missing: {reason}")),
     }
     let names = ["point/shear/reduced", "point/shear/traction-curve"];
     rows.extend(bench.reduced_shear_rows(names, ContactKind::Point, size)?);
@@ -160,21 +153,20 @@ impl Bench {
         kind: ContactKind,
         size: usize,
     ) -> Result<Vec<Timing>, EngineError> {
-        match model_file::embedded_shear_of(kind) {
-            Ok(model) => {
-                let mut online = Online::new(model, ReducedOptions::default());
-                let problems = shear_problems(kind, REDUCED_SHEAR_POINTS[size])?;
-                let points: Vec<OperatingPoint> = problems.iter().map(|problem| problem.point).collect();
-                let lubricant = named_lubricant::SQUALANE_PIP;
-                let solves = reduced_row(solve, &mut online, (&points, lubricant), false, POINT_BUDGET[size]);
-                let curves = (&points[..CURVES[size]], lubricant);
-                Ok(vec![solves, curve_row(curve, &mut online, curves, POINT_BUDGET[size])])
-            }
-            Err(reason) => {
-                self.notes.push(format!("{solve} is missing: {reason}"));
-                Ok(Vec::new())
-            }
-        }
+        let Some(mut online) = self.online(solve, kind, true) else { return Ok(Vec::new()) };
+        let problems = shear_problems(kind, REDUCED_SHEAR_POINTS[size])?;
+        let points: Vec<OperatingPoint> = problems.iter().map(|problem| problem.point).collect();
+        let lubricant = named_lubricant::SQUALANE_PIP;
+        let solves = reduced_row(solve, &mut online, (&points, lubricant), false, POINT_BUDGET[size]);
+        let curves = (&points[..CURVES[size]], lubricant);
+        Ok(vec![solves, curve_row(curve, &mut online, curves, POINT_BUDGET[size])])
+    }
+
+    /// The embedded model of a row; a note where there is none.
+    fn online(&mut self, row: &str, kind: ContactKind, thins: bool) -> Option<Online> {
+        let model = Store::default().embedded(kind, thins);
+        let missing = |reason: &ModelFileError| self.notes.push(format!("{row} is missing: {reason}"));
+        model.inspect_err(missing).ok().map(|model| Online::new(model, ReducedOptions::default()))
     }
 
     /// Adds rows that are compared with the first of them.

@@ -241,10 +241,9 @@ impl Workbench {
                 facts.error = solved.error;
                 facts.traction = solved.traction;
                 facts.basis_p = solved.coefficients.len();
-                let mut solution = online.reconstruct(&solved)?;
-                warnings.extend(resolution_warning(&solution));
                 // A Newtonian film does not feel the sliding, but its traction does.
-                solution.problem = *problem;
+                let solution = online.reconstruct(&solved)?.of_problem(*problem);
+                warnings.extend(resolution_warning(&solution));
                 (Some(solution), solved.iterations)
             }
             Err(error @ ReducedError::NotConverged { iterations, .. }) => {

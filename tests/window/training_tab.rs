@@ -1,11 +1,12 @@
 //! The Training tab without a display: a training is started, watched, stopped, resumed, used, saved and compared.
 
 use crate::common::scratch::Scratch;
-use crate::driver::{Window, click, frame_times, give_path, undo, wait};
+use crate::driver::{Window, click, frame_times, give_path, undo, wait, wait_within};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
 use ehl_explorer::engine::{model_file, training_file};
 use std::path::Path;
+use std::time::Duration;
 
 /// A scene with a training of a small box; full solves take about a millisecond.
 fn scene(title: &str, plan: &str) -> String {
@@ -51,7 +52,7 @@ fn a_small_training_is_watched_used_compared_and_saved() {
     assert!(harness.query_by_label("Indicator against full solutions").is_some());
     assert_eq!(harness.state().model_title(), Some(embedded.as_str()), "nothing is replaced unasked");
     click(&mut harness, "Compare models");
-    wait(&mut harness, "the comparison", |app| !app.training());
+    wait_within(Duration::from_secs(300), &mut harness, "the comparison", |app| !app.training());
     assert!(harness.query_by_label_contains("Compared with the model before").is_some());
     assert!(harness.query_by_label("Online median").is_some());
     assert!(harness.query_by_label("Pre-computed 12").is_some(), "the chart stays");

@@ -281,6 +281,12 @@ pub struct Solution {
 }
 
 impl Solution {
+    /// The same film as the solution of another problem that has it too: sliding moves no film that does not thin under shear, and a limiting
+    /// stress none at all.
+    pub fn of_problem(self, problem: Problem) -> Self {
+        Self { problem, ..self }
+    }
+
     /// Whether it may be shown as a result.
     pub fn converged(&self) -> bool {
         self.report.termination == Termination::Converged
