@@ -67,6 +67,8 @@ pub enum Command {
     Train,
     /// Stop what runs.
     Cancel,
+    /// What can be read about the program and its physics.
+    Manual,
     /// List of keys.
     Keyboard,
     /// What this program is.
@@ -90,7 +92,7 @@ pub const MENUS: [(&str, &[&[Command]]); 5] = {
             ],
         ),
         ("Run", &[&[C::Verify, C::EstimateGridError], &[C::SolveAlong, C::RunInTime, C::Train], &[C::Cancel]]),
-        ("Help", &[&[C::Keyboard, C::About]]),
+        ("Help", &[&[C::Manual, C::Keyboard], &[C::About]]),
     ]
 };
 
@@ -137,6 +139,7 @@ impl Command {
             Self::RunInTime => "Run in time",
             Self::Train => "Start training",
             Self::Cancel => "Cancel",
+            Self::Manual => "Manual",
             Self::Keyboard => "Keyboard",
             Self::About => "About EHL Explorer",
         }
@@ -160,6 +163,7 @@ impl Command {
             Self::RunInTime => "transient march",
             Self::Train => "reduced model snapshots",
             Self::Cancel => "stop abort",
+            Self::Manual => "help documentation tour physics",
             Self::Keyboard => "keys shortcuts help",
             _ => "",
         }
@@ -187,7 +191,7 @@ impl Command {
             Self::NormalText => (Modifiers::COMMAND, Key::Num0),
             Self::Verify => (Modifiers::NONE, Key::F5),
             Self::Cancel => (Modifiers::NONE, Key::Escape),
-            Self::Keyboard => (Modifiers::NONE, Key::F1),
+            Self::Manual => (Modifiers::NONE, Key::F1),
             _ => return None,
         };
         Some(KeyboardShortcut::new(modifiers, key))

@@ -87,9 +87,11 @@ impl Explorer {
                 state.start_training(ctx);
                 self.show(Tab::Training);
             }
+            Command::Cancel if self.help.manual.is_open() => self.help.manual.close(),
             Command::Cancel if state.presentation.is_some() => self.present(ctx),
             Command::Cancel => state.stop_all(),
-            Command::Keyboard => self.help.keyboard = true,
+            Command::Manual => self.help.manual.open(),
+            Command::Keyboard => self.help.manual.open_keys(),
             Command::About => self.help.about = true,
         }
         ctx.request_repaint();

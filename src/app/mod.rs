@@ -13,6 +13,7 @@ mod files;
 mod grid_error;
 mod in_use;
 mod jobs;
+mod manual;
 mod model_source;
 mod numbers;
 mod palette;

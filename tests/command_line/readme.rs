@@ -1,4 +1,4 @@
-//! The README keeps its promises: its commands run or at least parse, its files exist, its tables are complete.
+//! README and manual keep their promises: commands run or at least parse, files and links exist, lists are complete.
 
 use crate::common::scene_files as repository;
 use crate::common::scratch::Scratch;
@@ -14,15 +14,39 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
+/// What is read on the repository's page: README, manual, and what else lies beside the README.
+fn papers() -> Vec<(PathBuf, String)> {
+    let mut papers = Vec::new();
+    for folder in [root().to_owned(), root().join("assets/manual")] {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_some_and(|extension| extension == "md") {
+                let text = std::fs::read_to_string(&path).unwrap();
+                papers.push((path, text));
+            }
+        }
+    }
+    papers.sort();
+    assert!(papers.len() > 10, "README and manual are where they are looked for");
+    papers
+}
+
 fn readme() -> String {
     std::fs::read_to_string(root().join("README.md")).unwrap()
 }
 
-/// The command lines in fenced `sh` blocks, comments dropped and continued lines joined, and those within the text.
+/// The command lines of all papers, each once, in their order.
 fn commands() -> Vec<Vec<String>> {
+    let mut seen = BTreeSet::new();
+    let all = papers().into_iter().flat_map(|(_, text)| commands_of(&text));
+    all.filter(|words| seen.insert(words.clone())).collect()
+}
+
+/// The command lines in fenced `sh` blocks, comments dropped and continued lines joined, and those within the text.
+fn commands_of(text: &str) -> Vec<Vec<String>> {
     let mut commands = Vec::new();
     let (mut inside, mut pending) = (false, String::new());
-    for line in readme().lines() {
+    for line in text.lines() {
         if line.starts_with("```") {
             assert!(pending.is_empty(), "a block ends in the middle of `{pending}`");
             inside = line == "```sh";
@@ -170,19 +194,47 @@ fn tests_that_are_named_exist() {
 }
 
 #[test]
-fn files_that_are_named_exist_and_every_scene_is_named() {
-    let text = readme();
-    let words = text.split(|c: char| c.is_whitespace() || "`()[],;|".contains(c));
-    for word in words.map(|word| word.trim_end_matches(['.', ':'])) {
-        let ours = ["scenes/", "assets/", "tests/", "src/"].iter().any(|folder| word.starts_with(folder));
-        assert!(!ours || word.contains('*') || root().join(word).exists(), "{word} does not exist");
+fn files_that_are_named_exist_and_every_scene_is_listed() {
+    let name = |path: PathBuf| path.file_name().unwrap().to_string_lossy().into_owned();
+    let scenes: BTreeSet<String> = repository::all().into_iter().map(name).collect();
+    for (path, text) in papers() {
+        let words = text.split(|c: char| c.is_whitespace() || "`()[],;|".contains(c));
+        for word in words.map(|word| word.trim_end_matches(['.', ':'])) {
+            let ours = ["scenes/", "assets/", "tests/", "src/"].iter().any(|folder| word.starts_with(folder));
+            let exists = !ours || word.contains('*') || root().join(word).exists();
+            assert!(exists, "{}: {word} does not exist", path.display());
+            let name =
+                word.strip_suffix(".ron").filter(|name| name.contains(char::is_lowercase) && !name.contains('/'));
+            assert!(name.is_none() || scenes.contains(word), "{}: there is no scene {word}", path.display());
+        }
     }
-    for path in repository::all() {
-        let name = path.file_name().unwrap().to_string_lossy();
-        assert!(text.contains(&*name), "the README's list of scenes lacks {name}");
+    let list = std::fs::read_to_string(root().join("assets/manual/scenes.md")).unwrap();
+    for name in scenes {
+        assert!(list.contains(&format!("`{name}`")), "the manual's list of scenes lacks {name}");
     }
     for name in ["LICENSE-MIT", "LICENSE-APACHE"] {
-        assert!(text.contains(name) && root().join(name).is_file(), "{name}");
+        assert!(readme().contains(name) && root().join(name).is_file(), "{name}");
+    }
+}
+
+#[test]
+fn links_lead_somewhere_and_the_readme_is_short() {
+    assert!(readme().len() <= 10_240, "the README has {} bytes", readme().len());
+    let mut count = 0;
+    for (path, text) in papers() {
+        let folder = path.parent().unwrap();
+        for target in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+            let elsewhere = target.starts_with("https://");
+            assert!(elsewhere || folder.join(target).is_file(), "{}: {target} leads nowhere", path.display());
+            count += 1;
+        }
+    }
+    assert!(count > 30, "links are found: {count}");
+    let manual = std::fs::read_to_string(root().join("assets/manual/start.md")).unwrap();
+    for (path, text) in papers().iter().filter(|(path, _)| path.parent() != Some(root())) {
+        let name = path.file_name().unwrap().to_string_lossy();
+        assert!(text.starts_with("# "), "{name} begins with its title");
+        assert!(name == "start.md" || manual.contains(&format!("]({name})")), "the manual's contents lack {name}");
     }
 }
 

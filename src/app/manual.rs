@@ -1,0 +1,225 @@
+//! The manual: the pages of `assets/manual`, read in a window.
+
+use egui::{Context, Frame, Label, Panel, RichText, ScrollArea, Ui, Window, vec2};
+use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
+
+/// A page: its file, by which links name it, and its text.
+struct Page {
+    file: &'static str,
+    text: &'static str,
+}
+
+impl Page {
+    /// The first heading.
+    fn title(&self) -> &'static str {
+        self.text.lines().next().unwrap_or_default().trim_start_matches("# ")
+    }
+}
+
+macro_rules! pages {
+    ($($file:literal),* $(,)?) => {
+        &[$(Page { file: $file, text: include_str!(concat!("../../assets/manual/", $file)) }),*]
+    };
+}
+
+/// All pages in the order of the list; the first one is the contents.
+const PAGES: &[Page] = pages![
+    "start.md",
+    "tour.md",
+    "keyboard.md",
+    "command_line.md",
+    "scenes.md",
+    "training.md",
+    "transient.md",
+    "trust.md",
+    "files.md",
+    "physics.md",
+    "accuracy.md",
+    "speed.md",
+    "limits.md",
+    "misprints.md",
+];
+
+/// Longest lines that are pleasant to read \[points\].
+const READABLE_WIDTH: f32 = 780.0;
+
+/// The manual, open or closed. It opens on the page where it was closed.
+#[derive(Default)]
+pub struct Manual {
+    open: bool,
+    page: usize,
+    cache: CommonMarkCache,
+}
+
+impl Manual {
+    /// Whether it is open: then Escape closes it.
+    pub fn is_open(&self) -> bool {
+        self.open
+    }
+
+    /// Opens it where it was closed.
+    pub fn open(&mut self) {
+        self.open = true;
+    }
+
+    /// Opens it on the list of keys.
+    pub fn open_keys(&mut self) {
+        self.open = true;
+        self.page = PAGES.iter().position(|page| page.file == "keyboard.md").unwrap_or_default();
+    }
+
+    /// Closes it.
+    pub fn close(&mut self) {
+        self.open = false;
+    }
+
+    /// Shows it where it is open.
+    pub fn ui(&mut self, ctx: &Context) {
+        let mut open = self.open;
+        let room = ctx.content_rect().size();
+        let size = vec2((0.85 * room.x).min(1050.0), 0.85 * room.y);
+        Window::new("Manual").open(&mut open).default_size(size).collapsible(false).show(ctx, |ui| {
+            Panel::left("manual pages").resizable(false).default_size(178.0).show(ui, |ui| self.contents(ui));
+            self.text(ui);
+        });
+        self.open = open;
+    }
+
+    fn contents(&mut self, ui: &mut Ui) {
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            for (k, page) in PAGES.iter().enumerate() {
+                if ui.selectable_label(self.page == k, page.title()).clicked() {
+                    self.page = k;
+                }
+            }
+        });
+    }
+
+    fn text(&mut self, ui: &mut Ui) {
+        let Some(page) = PAGES.get(self.page) else { return };
+        for page in PAGES {
+            self.cache.add_link_hook(page.file);
+        }
+        ScrollArea::vertical().id_salt(page.file).auto_shrink(false).show(ui, |ui| {
+            Frame::NONE.inner_margin(8.0).show(ui, |ui| {
+                ui.set_max_width(ui.available_width().min(READABLE_WIDTH));
+                // Fences stand at the beginnings of lines: every other part is a block of code.
+                for (k, part) in page.text.split("\n```").enumerate() {
+                    ui.push_id(k, |ui| if k % 2 == 0 { self.prose(ui, part) } else { code(ui, part) });
+                }
+            });
+        });
+    }
+
+    fn prose(&mut self, ui: &mut Ui, text: &str) {
+        CommonMarkViewer::new().show(ui, &mut self.cache, text);
+        let followed = |page: &Page| self.cache.get_link_hook(page.file) == Some(true);
+        if let Some(k) = PAGES.iter().position(followed) {
+            self.page = k;
+        }
+    }
+}
+
+/// A block of code with the name of its language in front. The widget's own has a button whose sign is in none of the fonts.
+fn code(ui: &mut Ui, text: &str) {
+    let text = text.split_once('\n').map_or(text, |(_, lines)| lines);
+    Frame::group(ui.style()).fill(ui.visuals().code_bg_color).show(ui, |ui| {
+        ScrollArea::horizontal().show(ui, |ui| {
+            ui.add(Label::new(RichText::new(text).monospace()).extend().selectable(true));
+        });
+        if ui.small_button("Copy").clicked() {
+            ui.ctx().copy_text(text.to_owned());
+        }
+    });
+}
+
+/// The texts of all pages.
+#[cfg(test)]
+pub fn texts() -> impl Iterator<Item = &'static str> {
+    PAGES.iter().map(|page| page.text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::Explorer;
+    use crate::app::command::Command;
+    use egui::accesskit::Role;
+    use egui::{Key, ModifierNames, Modifiers};
+    use egui_kittest::Harness;
+    use egui_kittest::kittest::Queryable as _;
+    use std::collections::BTreeSet;
+
+    fn open() -> Harness<'static, Explorer> {
+        let explorer = Explorer::new(None).without_system_dialogs();
+        let builder = Harness::builder().with_size([1280.0, 800.0]);
+        let mut harness = builder.build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer);
+        press(&mut harness, Key::F1);
+        harness
+    }
+
+    fn press(harness: &mut Harness<'_, Explorer>, key: Key) {
+        harness.key_press_modifiers(Modifiers::NONE, key);
+        harness.run_steps(3);
+    }
+
+    /// Whether text in the manual, not in its list of pages, has this wording.
+    fn reads(harness: &Harness<'_, Explorer>, wording: &str) -> bool {
+        harness.query_all_by_role_and_label(Role::Label, wording).next().is_some()
+    }
+
+    #[test]
+    fn f1_opens_it_every_page_shows_its_title_and_escape_closes_it() {
+        let mut harness = open();
+        for page in PAGES {
+            let entries = harness.query_all_by_role_and_label(Role::Button, page.title());
+            let entry = entries.min_by(|a, b| a.rect().left().total_cmp(&b.rect().left())).unwrap();
+            entry.click();
+            harness.run_steps(3);
+            assert!(reads(&harness, page.title()), "{}", page.file);
+        }
+        press(&mut harness, Key::Escape);
+        assert!(!reads(&harness, PAGES[PAGES.len() - 1].title()), "Escape closes it");
+        press(&mut harness, Key::F1);
+        assert!(reads(&harness, PAGES[PAGES.len() - 1].title()), "it opens where it was closed");
+    }
+
+    #[test]
+    fn a_link_leads_to_its_page() {
+        let mut harness = open();
+        harness.query_all_by_role_and_label(Role::Link, "Physics").next().unwrap().click();
+        harness.run_steps(3);
+        assert!(reads(&harness, "Physics"));
+    }
+
+    #[test]
+    fn every_file_of_the_manual_is_a_page() {
+        let folder = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/manual")).unwrap();
+        let files: BTreeSet<String> =
+            folder.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect();
+        let pages: BTreeSet<String> = PAGES.iter().map(|page| page.file.to_owned()).collect();
+        assert_eq!(files, pages);
+        assert_eq!(pages.len(), PAGES.len());
+    }
+
+    #[test]
+    fn pages_have_titles_of_their_own_and_no_pictures() {
+        let titles: BTreeSet<&str> = PAGES.iter().map(Page::title).collect();
+        assert_eq!(titles.len(), PAGES.len());
+        for page in PAGES {
+            assert!(page.text.starts_with("# ") && page.title().len() > 3, "{}", page.file);
+            assert!(!page.text.contains("!["), "{}: the window loads no pictures", page.file);
+        }
+    }
+
+    #[test]
+    fn the_page_of_keys_lists_every_key() {
+        let page = PAGES.iter().find(|page| page.file == "keyboard.md").unwrap();
+        for (_, command) in Command::all() {
+            let Some(shortcut) = command.shortcut() else { continue };
+            let (name, key) = (command.name().trim_end_matches('…'), shortcut.format(&ModifierNames::NAMES, false));
+            let row = format!("| {name} | {key} |");
+            assert!(page.text.contains(&row), "{} lacks: {row}", page.file);
+        }
+    }
+}
