@@ -2,8 +2,7 @@
 //!
 //! For each iterate of the all-rows reduced model, some functionals of the Newton step are demanded to come out right (random ones of Δp̃,
 //! and ΔH_c): Σ_i ω_i (T V_i) w_i f_i = T Vᵀ W f with T = L J_r⁻¹, and the same with f replaced by J V Δz̃. Relative weights ω = 1 on all rows
-//! solve the equations exactly; a greedy non-negative least squares finds few rows that nearly do, and pruning drops the least useful ones
-//! (`NUMERICS` 5.4, 5.6).
+//! solve the equations exactly; a greedy non-negative least squares finds few rows that nearly do, and pruning drops the least useful ones.
 //!
 //! The equations of a point contact are thousands over thousands of rows: they are kept in single precision, and inner products are formed
 //! for rows that the greedy has looked at, not for all pairs.

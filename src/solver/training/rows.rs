@@ -20,7 +20,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Random parameters at which iterates are collected (reduced solves only).
 const ROW_SNAPSHOT_SOLVES: usize = 160;
-/// Steps smaller than this are demanded to be right absolutely, larger ones relatively (`NUMERICS` 5.4, step 3).
+/// Steps smaller than this are demanded to be right absolutely, larger ones relatively.
 const STEP_FLOOR: f64 = 0.03;
 /// Random functionals of Δp̃ per iterate, beside the one of ΔH_c, on a grid of few and of many rows.
 const RANDOM_FUNCTIONALS: [usize; 2] = [6, 2];

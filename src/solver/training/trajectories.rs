@@ -1,5 +1,5 @@
 //! Training of a reduced model of contacts in time: bases from the steps of full trajectories, rows by a cubature that carries the steps
-//! which the all-rows model takes along the same inputs (`NUMERICS` 6). Both know how strongly each row answers to its pressure.
+//! which the all-rows model takes along the same inputs. Both know how strongly each row answers to its pressure.
 
 use super::aside::aside;
 use super::rows::add_goals;

@@ -1,7 +1,7 @@
 //! The computational domain of a line contact: uniform as in the dissertation, or graded towards the ends of the Hertzian zone.
 //!
 //! A grid is a *reference* grid in ξ, built once with its elastic kernel, and an affine map X = −1 + (ξ + 1) s. For s = 1 they are the
-//! same. Registration chooses s so that the pressure spike always sits at ξ = 1 (`NUMERICS` 5.2): the contacts of a whole range
+//! same. Registration chooses s so that the pressure spike always sits at ξ = 1: the contacts of a whole range
 //! of M and L then look alike to a reduced basis, and one fine patch of nodes serves all their spikes.
 //!
 //! Node arrays everywhere in the solver have one extra leading node: index 0 lies outside the inlet (the upwind stencil of the first
