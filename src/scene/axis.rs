@@ -80,6 +80,22 @@ impl Variable {
         }
     }
 
+    /// Its name for people, with its unit.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::M => "Load number M",
+            Self::L => "Lubricant number L",
+            Self::Radius => "Radius R [m]",
+            Self::Speed => "Entrainment speed u_m [m/s]",
+            Self::Load => "Load w [N/m or N]",
+            Self::Modulus => "Reduced modulus E′ [Pa]",
+            Self::Viscosity => "Viscosity η₀ [Pa s]",
+            Self::Alpha => "Pressure–viscosity coefficient α [1/Pa]",
+            Self::SlideToRollRatio => "Slide-to-roll ratio SRR",
+            Self::NewtonianPlateauRatio => "Newtonian plateau ratio NPR",
+        }
+    }
+
     /// Smallest and largest accepted value.
     pub fn range(self) -> (f64, f64) {
         match self {

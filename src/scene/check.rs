@@ -1,9 +1,8 @@
 //! The door: every number of a scene is finite and sane before anything is computed from it.
 
-use super::{Expectation, Grid, Scene, SceneError, View, Within, study_check};
-use crate::solver::discrete::grid::PointGridSpec;
-use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::lubricant::{LubricantError, ScaledShear};
+use super::error::SceneError;
+use super::method::Method;
+use crate::solver::training::{QuantityBox, Range, SlidingRange};
 
 /// Most points of a sweep, a trajectory or a formula comparison.
 pub const MAX_POINTS: usize = 100_000;
@@ -42,123 +41,61 @@ pub(super) fn interval(field: &str, (from, to): (f64, f64), low: f64, high: f64)
     Ok(())
 }
 
-impl Scene {
-    /// Refuses values that are not finite or make no sense, naming the field.
-    ///
-    /// # Errors
-    /// With the first such field.
-    pub fn check(&self) -> Result<(), SceneError> {
-        let lubricant = |problem: LubricantError| refuse("lubricant", format!("is refused: {problem}"));
-        self.lubricant.check().map_err(lubricant)?;
-        let point = self.point()?;
-        self.lubricant.scaled(&point).map_err(lubricant)?;
-        ScaledShear::new(self.lubricant.shear, self.sliding(), &point)
-            .map_err(|problem| refuse("srr, npr", format!("are refused: {problem}")))?;
-        grid(&self.grid, self.contact)?;
-        study_check::study(self)?;
-        self.view.iter().try_for_each(view)?;
-        self.expect.iter().enumerate().try_for_each(|(i, entry)| expectation(i, entry))
+pub(super) fn quantity_box(field: &str, range: &QuantityBox) -> Checked {
+    for (name, ends, low, high) in [
+        ("radius", range.radius, 1e-6, 1e3),
+        ("speed", range.speed, 1e-9, 1e4),
+        ("load", range.load, 1e-6, 1e10),
+        ("alpha", range.alpha, 1e-12, 1e-5),
+    ] {
+        interval(&format!("{field}.{name}"), ends, low, high)?;
+    }
+    number(&format!("{field}.modulus"), range.modulus, 1e5, 1e14)?;
+    number(&format!("{field}.viscosity"), range.viscosity, 1e-6, 1e4)
+}
+
+fn moes_range(field: &str, m: (f64, f64), l: (f64, f64), pressure: f64) -> Checked {
+    interval(&format!("{field}.m"), m, 0.05, 1e5)?;
+    interval(&format!("{field}.l"), l, 1e-3, 1e3)?;
+    number(&format!("{field}.max_hertz_pressure"), pressure, 1e5, 1e12)
+}
+
+pub(super) fn test_range(range: &Range) -> Checked {
+    match range {
+        Range::Box(range) => quantity_box("study.range", range),
+        Range::Realisation { m, l, max_hertz_pressure } => moes_range("study.range", *m, *l, *max_hertz_pressure),
+        Range::Moes { m, l, alpha, max_hertz_pressure, viscosity } => {
+            moes_range("study.range", *m, *l, *max_hertz_pressure)?;
+            interval("study.range.alpha", *alpha, 1e-12, 1e-5)?;
+            number("study.range.viscosity", *viscosity, 1e-6, 1e4)
+        }
+        Range::Sliding(range) => {
+            let SlidingRange { m, l, srr, npr, radius, modulus, viscosity, alpha, max_hertz_pressure } = range;
+            interval("study.range.m", *m, 0.05, 1e5)?;
+            interval("study.range.l", *l, 1e-3, 1e3)?;
+            interval("study.range.srr", *srr, -10.0, 10.0)?;
+            interval("study.range.npr", *npr, 0.0, 1.0)?;
+            number("study.range.radius", *radius, 1e-6, 1e3)?;
+            number("study.range.modulus", *modulus, 1e5, 1e14)?;
+            number("study.range.viscosity", *viscosity, 1e-6, 1e4)?;
+            number("study.range.alpha", *alpha, 1e-12, 1e-5)?;
+            max_hertz_pressure.iter().try_for_each(|&p| number("study.range.max_hertz_pressure", p, 1e5, 1e12))
+        }
     }
 }
 
-fn grid(grid: &Grid, contact: ContactKind) -> Checked {
-    match (contact, grid) {
-        (ContactKind::Line, Grid::Plane { .. }) => {
-            return Err(refuse("grid", "is Plane, but a line contact has no Y; write Uniform, Graded or GradedNodes"));
-        }
-        (ContactKind::Point, Grid::Uniform { .. } | Grid::GradedNodes { .. }) => {
-            return Err(refuse(
-                "grid",
-                "must be Plane(dx: …, dy: …, domain: (…, …, …)) or Model for a point contact, or left out",
-            ));
-        }
-        _ => {}
-    }
-    let domain = |(from, to): (f64, f64)| {
-        number("grid.domain.0", from, -200.0, -1.5)?;
-        number("grid.domain.1", to, 1.2, 20.0)
-    };
-    match *grid {
-        Grid::Uniform { dx, domain: ends } => {
-            number("grid.dx", dx, 1e-4, 0.2)?;
-            domain(ends)
-        }
-        Grid::GradedNodes { nodes, domain: ends, .. } => {
-            count("grid.nodes", nodes, 61, crate::solver::discrete::grid::MAX_GRADED_NODES)?;
-            domain(ends)
-        }
-        Grid::Plane { dx, dy, domain, refinement } => PointGridSpec { dx, dy, refinement, domain }
-            .check()
-            .map(|_| ())
-            .map_err(|problem| refuse("grid", format!("makes no sense: {problem}"))),
-        Grid::Graded | Grid::Model => Ok(()),
-    }
+pub(super) fn methods(field: &str, methods: &[Method]) -> Checked {
+    count(&format!("{field} (how many)"), methods.len(), 1, 16)
 }
 
-fn view(view: &View) -> Checked {
-    for (field, loss) in [("pressure_loss", view.pressure_loss), ("deformation_loss", view.deformation_loss)] {
-        loss.iter().try_for_each(|&loss| number(&format!("view.{field}"), loss, 1e-16, 0.99))?;
-    }
-    if !view.when_m_moves.partners().contains(&view.when_l_moves) {
-        let partners = view.when_m_moves.partners().iter().map(|p| format!("{p:?}")).collect::<Vec<_>>().join(", ");
-        let problem =
-            format!("cannot be {:?} when M moves {:?}; write {partners}", view.when_l_moves, view.when_m_moves);
-        return Err(refuse("view.when_l_moves", problem));
+/// Refuses names that are empty or occur twice.
+pub(super) fn names<'a>(field: &str, names: impl Iterator<Item = &'a str>) -> Checked {
+    let mut seen: Vec<&str> = Vec::new();
+    for name in names {
+        if name.is_empty() || seen.contains(&name) {
+            return Err(refuse(field, "must not be empty or occur twice: results are named by it"));
+        }
+        seen.push(name);
     }
     Ok(())
-}
-
-fn expectation(index: usize, entry: &Expectation) -> Checked {
-    let field = format!("expect.{index} ({})", entry.name);
-    let limits: &[f64] = match &entry.within {
-        Within::Relative(v) | Within::Absolute(v) => {
-            if entry.value.is_none() {
-                return Err(refuse(field, "needs a `value` to be compared with"));
-            }
-            number(&format!("{field}.within"), *v, 0.0, f64::MAX)?;
-            &[]
-        }
-        Within::AtMost(v) | Within::AtLeast(v) => &[*v],
-        Within::Between(low, high) => &[*low, *high],
-    };
-    let all = limits.iter().copied().chain(entry.value);
-    all.into_iter().try_for_each(|value| number(&field, value, -f64::MAX, f64::MAX))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::{At, Axis, Contacts, Method, QuantityBox, Steps, Study, Variable};
-
-    #[test]
-    fn numbers_that_make_no_sense_are_refused_by_name() {
-        let good = Scene::at_moes(40.0, 10.0);
-        good.check().unwrap();
-        let message = |scene: Scene| scene.check().unwrap_err().to_string();
-        assert!(message(Scene { at: At::moes(f64::NAN, 10.0), ..good.clone() }).contains("Moes number M"));
-        let bad_grid = Grid::Uniform { dx: f64::INFINITY, domain: (-4.0, 2.0) };
-        assert!(message(Scene { grid: bad_grid, ..good.clone() }).contains("grid.dx"));
-        assert!(message(Scene { study: Study::Point { methods: vec![] }, ..good.clone() }).contains("methods"));
-        let huge = Study::Sweep {
-            over: vec![Axis { vary: Variable::M, values: Steps::Log { from: 1.0, to: 9.0, n: usize::MAX } }],
-            methods: vec![Method::Full],
-            cold: false,
-            compare_on_model_grid: false,
-        };
-        assert!(message(Scene { study: huge, ..good.clone() }).contains("study.over.M"));
-        let alone = Study::Sweep {
-            over: vec![Axis { vary: Variable::M, values: Steps::List(vec![20.0]) }],
-            methods: vec![Method::Full],
-            cold: false,
-            compare_on_model_grid: true,
-        };
-        assert!(message(Scene { study: alone, ..good.clone() }).contains("study.compare_on_model_grid"));
-        let range = QuantityBox { load: (2.0, f64::NAN), ..QuantityBox::TABLE_3_1 };
-        let study = Study::Trajectory { range, points: 10, methods: vec![Method::Full] };
-        assert!(message(Scene { study, ..good.clone() }).contains("study.range.load.1"));
-        let study = Study::ErrorSplit { contacts: Contacts::Here, method: Method::Full };
-        assert!(message(Scene { study, ..good.clone() }).contains("study.method"));
-        let study = Study::GridStudy { dx: vec![0.02, 0.01, 0.004] };
-        assert!(message(Scene { study, ..good }).contains("constant factor"));
-    }
 }

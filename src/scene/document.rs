@@ -1,79 +1,17 @@
 //! Reading and writing scenes as RON.
 
-use super::{Scene, VERSION, atomic_file};
-use crate::solver::physics::contact::ContactError;
+use super::error::{SceneError, SceneFileError, VERSION};
+use super::{Scene, atomic_file};
 use ron::Options;
 use ron::extensions::Extensions;
 use ron::ser::PrettyConfig;
 use serde::Deserialize;
 use std::fs::File;
 use std::io::Read as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Largest scene file that is read \[bytes\].
 pub const MAX_BYTES: u64 = 4 << 20;
-
-/// Why a scene is refused.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum SceneError {
-    /// The text is no scene.
-    #[error("line {line}, column {column}: {message}")]
-    Syntax {
-        /// Line, from 1.
-        line: usize,
-        /// Column, from 1.
-        column: usize,
-        /// What is wrong there.
-        message: String,
-    },
-    /// It was written by a newer program.
-    #[error("it has format version {version}, but this program reads versions up to {VERSION}; use a newer program")]
-    Newer {
-        /// The scene's version.
-        version: u32,
-    },
-    /// Version 0 never existed.
-    #[error("it has format version 0, which does not exist; write `version: {VERSION}`")]
-    NoVersion,
-    /// A value makes no sense.
-    #[error("`{field}` {problem}")]
-    Field {
-        /// The field, with dots between levels.
-        field: String,
-        /// What is wrong and what would be accepted.
-        problem: String,
-    },
-    /// The operating point makes no sense.
-    #[error("`at`: {0}")]
-    At(#[from] ContactError),
-    /// It cannot be written as text.
-    #[error("it cannot be written as text: {0}")]
-    Unwritable(String),
-}
-
-/// Why a scene file is refused.
-#[derive(Debug, thiserror::Error)]
-pub enum SceneFileError {
-    /// The file cannot be read.
-    #[error("cannot read the scene {}: {reason}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        reason: String,
-    },
-    /// The file is no valid scene.
-    #[error("the scene {} is refused: {reason}", path.display())]
-    Scene {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        reason: SceneError,
-    },
-    /// The file cannot be written.
-    #[error(transparent)]
-    Write(#[from] atomic_file::WriteError),
-}
 
 fn options() -> Options {
     Options::default().with_default_extension(Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES)

@@ -1,6 +1,6 @@
 //! What a scene expects of its answer.
 
-use super::Method;
+use super::method::Method;
 use serde::{Deserialize, Serialize};
 
 /// One expected value.
@@ -52,6 +52,18 @@ impl Within {
 }
 
 impl Expectation {
+    /// Whether it is about failures and leaves room for some.
+    pub fn admits_failures(&self) -> bool {
+        let value = self.value.unwrap_or(0.0);
+        self.name.contains("failure")
+            && match self.within {
+                Within::Relative(tolerance) => value + tolerance * value.abs() > 0.0,
+                Within::Absolute(tolerance) => value + tolerance > 0.0,
+                Within::AtLeast(_) => true,
+                Within::AtMost(most) | Within::Between(_, most) => most > 0.0,
+            }
+    }
+
     /// What is wanted, in words.
     pub fn wanted(&self) -> String {
         let value = self.value.map_or_else(|| "?".to_owned(), |v| format!("{v}"));
@@ -69,6 +81,17 @@ impl Expectation {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn failures_are_admitted_by_name_and_number() {
+        let about = |name: &str, value, within| {
+            let expectation = Expectation { name: name.to_owned(), method: None, value, within, from: String::new() };
+            expectation.admits_failures()
+        };
+        assert!(about("failures", Some(2.0), Within::Absolute(0.0)) && about("failure_percent", None, Within::AtMost(0.5)));
+        assert!(!about("failures", Some(0.0), Within::Absolute(0.0)) && !about("failures", None, Within::AtMost(0.0)));
+        assert!(!about("H_c", Some(2.0), Within::Relative(0.1)));
+    }
 
     #[test]
     fn every_kind_of_closeness() {

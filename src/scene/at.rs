@@ -1,0 +1,134 @@
+//! An operating point as a scene writes it.
+
+use crate::solver::physics::contact::{ContactError, ContactKind, MoesRequest, OperatingPoint, si_from_moes};
+use crate::solver::physics::lubricant::{Lubricant, Sliding};
+use serde::{Deserialize, Serialize};
+
+/// An operating point, in SI units or by its Moes numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum At {
+    /// All six quantities in SI units.
+    Si {
+        /// Reduced radius R \[m\].
+        radius: f64,
+        /// Mean entrainment speed u_m \[m/s\].
+        speed: f64,
+        /// Load \[N/m\] (line) or \[N\] (point).
+        load: f64,
+        /// Reduced modulus E′ \[Pa\].
+        modulus: f64,
+        /// Viscosity at ambient pressure η₀ \[Pa·s\].
+        viscosity: f64,
+        /// Pressure–viscosity coefficient α \[1/Pa\]; where the viscosity law determines it (Doolittle), its α* counts instead.
+        alpha: f64,
+    },
+    /// Moes numbers; quantities that are given are kept, the rest follows or takes the default realisation.
+    Moes {
+        /// Load number M.
+        m: f64,
+        /// Lubricant number L.
+        l: f64,
+        /// Fixed radius \[m\].
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        radius: Option<f64>,
+        /// Fixed speed \[m/s\].
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        speed: Option<f64>,
+        /// Fixed load \[N/m\] or \[N\].
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        load: Option<f64>,
+        /// Fixed reduced modulus \[Pa\].
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        modulus: Option<f64>,
+        /// Fixed viscosity \[Pa·s\].
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        viscosity: Option<f64>,
+        /// Fixed pressure–viscosity coefficient \[1/Pa\].
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        alpha: Option<f64>,
+    },
+}
+
+impl Default for At {
+    /// M = 40, L = 10 in the default realisation.
+    fn default() -> Self {
+        Self::moes(40.0, 10.0)
+    }
+}
+
+impl At {
+    /// Moes numbers in the default realisation.
+    pub fn moes(m: f64, l: f64) -> Self {
+        Self::Moes { m, l, radius: None, speed: None, load: None, modulus: None, viscosity: None, alpha: None }
+    }
+
+    /// The same with the α* of a lubricant whose viscosity law determines it; unchanged for all others.
+    pub fn with_alpha_of(mut self, lubricant: &Lubricant) -> Self {
+        if let Some(own) = lubricant.own_coefficient() {
+            match &mut self {
+                Self::Si { alpha, .. } => *alpha = own,
+                Self::Moes { alpha, .. } => *alpha = Some(own),
+            }
+        }
+        self
+    }
+
+    /// The operating point in SI units, checked.
+    ///
+    /// # Errors
+    /// When it is outside any sense, or more is fixed than M and L leave free.
+    pub fn point(&self, kind: ContactKind) -> Result<OperatingPoint, ContactError> {
+        match *self {
+            Self::Si { radius, speed, load, modulus, viscosity, alpha } => {
+                let point = OperatingPoint {
+                    kind,
+                    radius_m: radius,
+                    speed_m_per_s: speed,
+                    load,
+                    modulus_pa: modulus,
+                    viscosity_pa_s: viscosity,
+                    alpha_per_pa: alpha,
+                    sliding: Sliding::NONE,
+                };
+                point.check()?;
+                Ok(point)
+            }
+            Self::Moes { m, l, radius, speed, load, modulus, viscosity, alpha } => {
+                check_given(kind, [radius, speed, load, modulus, viscosity, alpha])?;
+                let request = MoesRequest {
+                    kind,
+                    m,
+                    l,
+                    radius_m: radius,
+                    speed_m_per_s: speed,
+                    load,
+                    modulus_pa: modulus,
+                    viscosity_pa_s: viscosity,
+                    alpha_per_pa: alpha,
+                };
+                si_from_moes(&request)
+            }
+        }
+    }
+}
+
+/// Refuses a given quantity by its own name, before others follow from it.
+fn check_given(kind: ContactKind, given: [Option<f64>; 6]) -> Result<(), ContactError> {
+    let known = OperatingPoint::TABLE_2_1.quantities();
+    let [radius, speed, load, modulus, viscosity, alpha]: [f64; 6] =
+        std::array::from_fn(|i| given[i].unwrap_or(known[i]));
+    match (At::Si { radius, speed, load, modulus, viscosity, alpha }).point(kind) {
+        // The mixture of given and known quantities need not make sense as a contact.
+        Err(ContactError::OutOfRange { quantity, .. }) if quantity.starts_with("Moes") => Ok(()),
+        result => result.map(|_| ()),
+    }
+}
+
+impl From<OperatingPoint> for At {
+    fn from(point: OperatingPoint) -> Self {
+        let [radius, speed, load, modulus, viscosity, alpha] = point.quantities();
+        Self::Si { radius, speed, load, modulus, viscosity, alpha }
+    }
+}
+

@@ -1,0 +1,150 @@
+//! Why a scene is refused, or gives no result.
+
+use super::atomic_file::WriteError;
+use super::sampled::SampledError;
+use crate::solver::full::SolveError;
+use crate::solver::full::transient::TransientError;
+use crate::solver::physics::contact::ContactError;
+use crate::solver::reduced::ReducedError;
+use crate::solver::reduced::tpwl::TpwlError;
+use crate::solver::training::TrainingError;
+use std::path::PathBuf;
+
+/// Version of the scene format this program writes, and the newest it reads.
+pub const VERSION: u32 = 1;
+
+/// Why a scene is refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SceneError {
+    /// The text is no scene.
+    #[error("line {line}, column {column}: {message}")]
+    Syntax {
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// What is wrong there.
+        message: String,
+    },
+    /// It was written by a newer program.
+    #[error("it has format version {version}, but this program reads versions up to {VERSION}; use a newer program")]
+    Newer {
+        /// The scene's version.
+        version: u32,
+    },
+    /// Version 0 never existed.
+    #[error("it has format version 0, which does not exist; write `version: {VERSION}`")]
+    NoVersion,
+    /// A value makes no sense.
+    #[error("`{field}` {problem}")]
+    Field {
+        /// The field, with dots between levels.
+        field: String,
+        /// What is wrong and what would be accepted.
+        problem: String,
+    },
+    /// The operating point makes no sense.
+    #[error("`at`: {0}")]
+    At(#[from] ContactError),
+    /// It cannot be written as text.
+    #[error("it cannot be written as text: {0}")]
+    Unwritable(String),
+}
+
+/// Why a scene file is refused.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneFileError {
+    /// The file cannot be read.
+    #[error("cannot read the scene {}: {reason}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
+    /// The file is no valid scene.
+    #[error("the scene {} is refused: {reason}", path.display())]
+    Scene {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        reason: SceneError,
+    },
+    /// The file cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+}
+
+/// A reason that a file on the bench gives, whatever its format.
+pub type Reason = Box<dyn std::error::Error + Send + Sync>;
+
+/// Why a request gives no result. A solve that does not converge is a result, not an error.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The problem itself is refused.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+    /// The reduced model refuses the problem.
+    #[error(transparent)]
+    Reduced(#[from] ReducedError),
+    /// The embedded model cannot be used.
+    #[error("the embedded reduced model cannot be used: {0}")]
+    Embedded(#[source] Reason),
+    /// A model file cannot be used.
+    #[error("the reduced model {} cannot be used: {reason}", path.display())]
+    Model {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        reason: Reason,
+    },
+    /// A scene file is refused.
+    #[error(transparent)]
+    SceneFile(#[from] SceneFileError),
+    /// A scene is refused.
+    #[error("the scene is refused: {0}")]
+    Scene(#[from] SceneError),
+    /// A scene that should describe a training asks something else.
+    #[error("the scene {} describes no training; its study must be Training(…)", path.display())]
+    NoTraining {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A scene's study and its operating point do not fit.
+    #[error("{0}")]
+    Study(String),
+    /// A contact in time is refused.
+    #[error(transparent)]
+    Transient(#[from] TransientError),
+    /// A trajectory-piecewise-linear model is refused.
+    #[error(transparent)]
+    Tpwl(#[from] TpwlError),
+    /// Sampled inputs are refused.
+    #[error(transparent)]
+    Sampled(#[from] SampledError),
+    /// The training gives no model.
+    #[error(transparent)]
+    Training(#[from] TrainingError),
+    /// An unfinished training cannot be gone on with or kept.
+    #[error("{0}")]
+    TrainingFile(#[source] Reason),
+    /// An output cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// The caller asked to stop.
+    #[error("cancelled")]
+    Cancelled,
+}
+
+impl From<ContactError> for RunError {
+    fn from(error: ContactError) -> Self {
+        Self::Solve(error.into())
+    }
+}
+
+impl RunError {
+    /// Whether the caller stopped it; everything else means that the request was wrong.
+    pub fn cancelled(&self) -> bool {
+        matches!(self, Self::Cancelled | Self::Training(TrainingError::Cancelled))
+    }
+}

@@ -1,0 +1,123 @@
+//! The grid of full solutions as a scene writes it.
+
+use super::check::{Checked, count, number, refuse};
+use crate::solver::discrete::grid::{GridSpec, MAX_GRADED_NODES, PointGridSpec};
+use crate::solver::physics::contact::ContactKind;
+use serde::{Deserialize, Serialize};
+
+/// Grid of full solutions.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
+#[serde(deny_unknown_fields)]
+pub enum Grid {
+    /// Equidistant nodes, both ends counted; the dissertation's are `Uniform(dx: 0.005, domain: (-4.0, 2.0))`.
+    Uniform {
+        /// Spacing ΔX.
+        dx: f64,
+        /// Inlet and outlet.
+        domain: (f64, f64),
+    },
+    /// The explorer's graded grid: along X for a line, across for a point contact.
+    #[default]
+    Graded,
+    /// A graded grid of one's own.
+    GradedNodes {
+        /// Number of nodes, both ends counted.
+        nodes: usize,
+        /// Inlet and outlet in the reference coordinate ξ.
+        domain: (f64, f64),
+        /// Whether the pressure spike is mapped to ξ = 1.
+        registered: bool,
+    },
+    /// Nodes on the half Y ≤ 0 of a point contact; the dissertation's are `Plane(dx: 0.02, dy: 0.05, domain: (-4.0, 2.0, -2.0))`.
+    Plane {
+        /// Spacing ΔX.
+        dx: f64,
+        /// Spacing ΔY.
+        dy: f64,
+        /// Inlet, outlet and outer edge.
+        domain: (f64, f64, f64),
+        /// How many times finer the spacing across is in the side lobes.
+        #[serde(default = "equidistant", skip_serializing_if = "is_equidistant")]
+        refinement: f64,
+    },
+    /// The grid of the reduced model in the study (of the embedded one where there is none), so that both can be compared.
+    Model,
+}
+
+fn equidistant() -> f64 {
+    1.0
+}
+
+fn is_equidistant(refinement: &f64) -> bool {
+    *refinement == 1.0
+}
+
+impl Grid {
+    /// The dissertation's grid: 1201 nodes from −4 to 2.
+    pub const DISSERTATION: Self = Self::Uniform { dx: 0.005, domain: (-4.0, 2.0) };
+
+    /// The solver's specification for a point contact; `None` where this is no grid of one.
+    pub fn point_spec(&self) -> Option<PointGridSpec> {
+        match *self {
+            Self::Plane { dx, dy, domain, refinement } => Some(PointGridSpec { dx, dy, refinement, domain }),
+            Self::Graded => Some(PointGridSpec::EXPLORER),
+            Self::Uniform { .. } | Self::GradedNodes { .. } | Self::Model => None,
+        }
+    }
+
+    /// The solver's specification for a line contact; `None` where a reduced model's grid is wanted, or one of a point contact.
+    pub fn spec(&self) -> Option<GridSpec> {
+        match *self {
+            Self::Uniform { dx, domain } => Some(GridSpec::Uniform { dx, domain }),
+            Self::Graded => Some(GridSpec::EXPLORER),
+            Self::GradedNodes { nodes, domain, registered } => Some(GridSpec::Graded { nodes, domain, registered }),
+            Self::Model | Self::Plane { .. } => None,
+        }
+    }
+
+    /// The word that stands for it in results.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Uniform { .. } => "uniform",
+            Self::Plane { refinement, .. } if is_equidistant(refinement) => "uniform",
+            Self::Plane { .. } => "graded",
+            Self::Graded | Self::GradedNodes { .. } => "graded",
+            Self::Model => "model",
+        }
+    }
+}
+
+/// Refuses a grid that makes no sense or is none of this kind of contact.
+pub(super) fn check(grid: &Grid, contact: ContactKind) -> Checked {
+    match (contact, grid) {
+        (ContactKind::Line, Grid::Plane { .. }) => {
+            return Err(refuse("grid", "is Plane, but a line contact has no Y; write Uniform, Graded or GradedNodes"));
+        }
+        (ContactKind::Point, Grid::Uniform { .. } | Grid::GradedNodes { .. }) => {
+            return Err(refuse(
+                "grid",
+                "must be Plane(dx: …, dy: …, domain: (…, …, …)) or Model for a point contact, or left out",
+            ));
+        }
+        _ => {}
+    }
+    let domain = |(from, to): (f64, f64)| {
+        number("grid.domain.0", from, -200.0, -1.5)?;
+        number("grid.domain.1", to, 1.2, 20.0)
+    };
+    match *grid {
+        Grid::Uniform { dx, domain: ends } => {
+            number("grid.dx", dx, 1e-4, 0.2)?;
+            domain(ends)
+        }
+        Grid::GradedNodes { nodes, domain: ends, .. } => {
+            count("grid.nodes", nodes, 61, MAX_GRADED_NODES)?;
+            domain(ends)
+        }
+        Grid::Plane { dx, dy, domain, refinement } => PointGridSpec { dx, dy, refinement, domain }
+            .check()
+            .map(|_| ())
+            .map_err(|problem| refuse("grid", format!("makes no sense: {problem}"))),
+        Grid::Graded | Grid::Model => Ok(()),
+    }
+}

@@ -1,0 +1,176 @@
+//! What a scene gave: values by name and method, verdicts, tables.
+
+use super::statistics::{median, percentile};
+use super::table::Table;
+use super::expectation::Expectation;
+use super::method::Method;
+use serde_json::{Value, json};
+
+/// A value with its name and the method it belongs to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedValue {
+    /// Name, as expectations use it.
+    pub name: String,
+    /// The method, where it belongs to one.
+    pub method: Option<Method>,
+    /// The value.
+    pub value: f64,
+}
+
+/// One expectation held against the answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// Name of the value.
+    pub name: String,
+    /// The method, where one was named.
+    pub method: Option<Method>,
+    /// The answer; none where the scene gave no such value.
+    pub value: Option<f64>,
+    /// What was wanted, in words.
+    pub wanted: String,
+    /// Where the expectation comes from.
+    pub from: String,
+    /// Whether it holds.
+    pub holds: bool,
+}
+
+/// What the rows of a study say: values, whether every solve converged that was meant to, and what a reader must know.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Findings {
+    /// All values.
+    pub values: Vec<NamedValue>,
+    /// Whether every solve converged.
+    pub converged: bool,
+    /// Warnings, one sentence each.
+    pub warnings: Vec<String>,
+}
+
+/// A scene's answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneOutcome {
+    /// The scene's title.
+    pub title: String,
+    /// The scene's source.
+    pub source: String,
+    /// Seconds of the whole run.
+    pub wall_s: f64,
+    /// Whether every solve converged.
+    pub converged: bool,
+    /// Whether the scene says that some need not.
+    pub failures_expected: bool,
+    /// All values.
+    pub values: Vec<NamedValue>,
+    /// All expectations.
+    pub verdicts: Vec<Verdict>,
+    /// Tables of the study.
+    pub tables: Vec<Table>,
+    /// What a reader must know.
+    pub warnings: Vec<String>,
+}
+
+impl Default for Findings {
+    fn default() -> Self {
+        Self { values: Vec::new(), converged: true, warnings: Vec::new() }
+    }
+}
+
+impl Findings {
+    pub(super) fn push(&mut self, name: impl Into<String>, method: Option<&Method>, value: f64) {
+        self.values.push(NamedValue { name: name.into(), method: method.cloned(), value });
+    }
+
+    /// Median, 95 % value and maximum of a quantity, as `name_median`, `name_p95` and `name_max`.
+    pub(super) fn push_spread(&mut self, name: &str, method: Option<&Method>, values: &[f64]) {
+        self.push(format!("{name}_median"), method, median(values));
+        self.push(format!("{name}_p95"), method, percentile(values, 0.95));
+        self.push(format!("{name}_max"), method, percentile(values, 1.0));
+    }
+
+    /// Newton steps and seconds of single solves.
+    pub(super) fn push_effort(&mut self, method: Option<&Method>, newton: &[f64], seconds: &[f64]) {
+        self.push("newton_median", method, median(newton));
+        self.push("newton_max", method, percentile(newton, 1.0));
+        self.push("median_s", method, median(seconds));
+        self.push("p99_s", method, percentile(seconds, 0.99));
+    }
+
+    /// How often calibrated bounds hold, given each over the true error, and how far they lie above it in the median.
+    pub(super) fn push_bounds(&mut self, name: &str, method: Option<&Method>, ratios: &[f64]) {
+        let held = ratios.iter().filter(|ratio| **ratio >= 1.0).count();
+        self.push(format!("{name}_bound_holds_percent"), method, 100.0 * held as f64 / ratios.len() as f64);
+        self.push(format!("{name}_bound_over_error_median"), method, median(ratios));
+    }
+
+    /// The value of a name: of the method where one is given, else the first of that name.
+    pub fn value(&self, name: &str, method: Option<&Method>) -> Option<f64> {
+        value(&self.values, name, method)
+    }
+
+    /// Expectations held against the values.
+    pub fn verdicts(&self, expected: &[Expectation]) -> Vec<Verdict> {
+        let verdict = |expectation: &Expectation| {
+            let value = self.value(&expectation.name, expectation.method.as_ref());
+            Verdict {
+                name: expectation.name.clone(),
+                method: expectation.method.clone(),
+                value,
+                wanted: expectation.wanted(),
+                from: expectation.from.clone(),
+                holds: value.is_some_and(|answer| expectation.within.holds(expectation.value, answer)),
+            }
+        };
+        expected.iter().map(verdict).collect()
+    }
+}
+
+fn value(values: &[NamedValue], name: &str, method: Option<&Method>) -> Option<f64> {
+    let fits = |v: &&NamedValue| v.name == name && method.is_none_or(|m| v.method.as_ref() == Some(m));
+    values.iter().find(fits).map(|v| v.value)
+}
+
+impl SceneOutcome {
+    /// The value of a name: of the method where one is given, else the first of that name.
+    pub fn value(&self, name: &str, method: Option<&Method>) -> Option<f64> {
+        value(&self.values, name, method)
+    }
+
+    /// Whether every expectation holds, and every solve converged unless the scene says that some need not.
+    pub fn passed(&self) -> bool {
+        self.verdicts.iter().all(|verdict| verdict.holds) && (self.converged || self.failures_expected)
+    }
+
+    /// The object of `run --json`.
+    pub fn to_json(&self) -> Value {
+        let number = |value: f64| if value.is_finite() { json!(value) } else { Value::Null };
+        let with_method = |mut object: Value, method: &Option<Method>| {
+            if let (Some(fields), Some(method)) = (object.as_object_mut(), method) {
+                fields.insert("method".to_owned(), json!(method.name()));
+            }
+            object
+        };
+        let expectations: Vec<Value> = self
+            .verdicts
+            .iter()
+            .map(|v| {
+                let verdict = if v.holds { "ok" } else { "short" };
+                let value = v.value.map_or(Value::Null, number);
+                let object =
+                    json!({"name": v.name, "value": value, "wanted": v.wanted, "verdict": verdict, "from": v.from});
+                with_method(object, &v.method)
+            })
+            .collect();
+        let values: Vec<Value> = self
+            .values
+            .iter()
+            .map(|v| with_method(json!({"name": v.name, "value": number(v.value)}), &v.method))
+            .collect();
+        let mut object = json!({
+            "title": self.title, "source": self.source, "wall_s": self.wall_s, "converged": self.converged,
+            "passed": self.passed(), "expectations": expectations, "values": values,
+        });
+        if let (Some(fields), false) = (object.as_object_mut(), self.warnings.is_empty()) {
+            fields.insert("warning".to_owned(), json!(self.warnings.join("; ")));
+        }
+        object
+    }
+}

@@ -1,0 +1,131 @@
+//! Many contacts on all cores, full and reduced. Every solve starts afresh, so that neither order nor threads matter.
+
+use super::error::RunError;
+use crate::solver::discrete::grid::ContactGrid;
+use crate::solver::full::{ContactSolver, Solution, Start};
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::reduced::{Online, ReducedError, ReducedModel, ReducedOptions, ReducedSolution};
+use crate::solver::observer::{Observer, Progress};
+use rayon::prelude::*;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Solves without telling the observer, every so many.
+const REPORT_EVERY: usize = 32;
+/// Points a reduced solver is made for at a time; its operators cost as much as a few solves.
+const CHUNK: usize = 128;
+
+/// Counts solves of a stage for the observer.
+struct Count<'a> {
+    stage: &'static str,
+    done: AtomicUsize,
+    total: usize,
+    observer: &'a dyn Observer,
+}
+
+impl Count<'_> {
+    fn one_more(&self) -> Result<(), RunError> {
+        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+        if done.is_multiple_of(REPORT_EVERY) {
+            self.observer.progress(Progress { stage: self.stage.to_owned(), done, total: self.total });
+        }
+        if self.observer.cancelled() { Err(RunError::Cancelled) } else { Ok(()) }
+    }
+}
+
+/// Cold full solutions, none where the solver does not converge; `grid` gives the grid of a point. Cold, so that no reduced solution can
+/// lead them to its root.
+pub(crate) fn full_solutions(
+    grid: impl Fn(&OperatingPoint) -> ContactGrid + Sync,
+    points: &[OperatingPoint],
+    lubricant: Lubricant,
+    observer: &dyn Observer,
+) -> Result<Vec<Option<Solution>>, RunError> {
+    full_solutions_told(grid, points, lubricant, observer, |_, _| {})
+}
+
+/// The same; `tell` hears of each with its index as it comes, in any order and from any thread.
+pub(super) fn full_solutions_told(
+    grid: impl Fn(&OperatingPoint) -> ContactGrid + Sync,
+    points: &[OperatingPoint],
+    lubricant: Lubricant,
+    observer: &dyn Observer,
+    tell: impl Fn(usize, Option<&Solution>) + Sync,
+) -> Result<Vec<Option<Solution>>, RunError> {
+    let count =
+        Count { stage: "full solutions to compare with", done: AtomicUsize::new(0), total: points.len(), observer };
+    points
+        .par_iter()
+        .enumerate()
+        .map_init(Vec::<ContactSolver>::new, |solvers, (i, point)| {
+            let grid = grid(point);
+            let place = match solvers.iter().position(|solver| solver.grid_spec() == grid.spec()) {
+                Some(place) => place,
+                None => {
+                    solvers.push(ContactSolver::on(&grid));
+                    solvers.len() - 1
+                }
+            };
+            let solution = solvers[place].solve(point, lubricant, Start::Cold, observer)?;
+            count.one_more()?;
+            let solution = Some(solution).filter(Solution::converged);
+            tell(i, solution.as_ref());
+            Ok(solution)
+        })
+        .collect()
+}
+
+/// Reduced solutions with their fields where `fields` wants them by the point's index, none where the iteration does not converge.
+pub(super) fn reduced_solutions(
+    model: &Arc<ReducedModel>,
+    options: ReducedOptions,
+    points: &[OperatingPoint],
+    lubricant: Lubricant,
+    fields: impl Fn(usize) -> bool + Sync,
+    observer: &dyn Observer,
+) -> Result<Vec<Option<Reduced>>, RunError> {
+    let count = Count { stage: "reduced solutions", done: AtomicUsize::new(0), total: points.len(), observer };
+    let parts: Vec<Vec<Option<Reduced>>> = points
+        .par_chunks(CHUNK)
+        .enumerate()
+        .map(|(chunk, points)| {
+            let mut online = Online::new(Arc::clone(model), options);
+            let solve = |(i, point): (usize, &OperatingPoint)| {
+                count.one_more()?;
+                online.forget();
+                match online.solve(point, lubricant) {
+                    Ok(solved) => {
+                        let wanted = fields(chunk * CHUNK + i);
+                        let fields = if wanted { Some(online.reconstruct(&solved)?) } else { None };
+                        Ok(Some(Reduced { solved, fields }))
+                    }
+                    Err(ReducedError::NotConverged { .. }) => Ok(None),
+                    Err(refused) => Err(refused.into()),
+                }
+            };
+            points.iter().enumerate().map(solve).collect()
+        })
+        .collect::<Result<_, RunError>>()?;
+    Ok(parts.into_iter().flatten().collect())
+}
+
+/// A reduced solution, with fields where they were wanted.
+pub(super) struct Reduced {
+    /// Coefficients and what came with them.
+    pub solved: ReducedSolution,
+    /// Fields on the window's grid.
+    pub fields: Option<Solution>,
+}
+
+/// Relative errors of H_c and of H_min against full solutions, wherever both are known.
+pub(super) fn film_errors(reduced: &[Option<Reduced>], full: &[Option<Solution>]) -> [Vec<f64>; 2] {
+    let mut errors: [Vec<f64>; 2] = Default::default();
+    for (reduced, full) in reduced.iter().zip(full) {
+        if let (Some(fields), Some(full)) = (reduced.as_ref().and_then(|r| r.fields.as_ref()), full) {
+            errors[0].push((fields.scalars.h_c / full.scalars.h_c - 1.0).abs());
+            errors[1].push((fields.scalars.h_min / full.scalars.h_min - 1.0).abs());
+        }
+    }
+    errors
+}

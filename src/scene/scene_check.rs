@@ -1,0 +1,92 @@
+//! Everything of a scene is checked before anything is computed from it.
+
+use super::check::{Checked, number, refuse};
+use super::{Expectation, Scene, SceneError, View, Within, grid};
+use crate::solver::physics::lubricant::{LubricantError, ScaledShear};
+
+impl Scene {
+    /// Refuses values that are not finite or make no sense, naming the field.
+    ///
+    /// # Errors
+    /// With the first such field.
+    pub fn check(&self) -> Result<(), SceneError> {
+        let lubricant = |problem: LubricantError| refuse("lubricant", format!("is refused: {problem}"));
+        self.lubricant.check().map_err(lubricant)?;
+        let point = self.point()?;
+        self.lubricant.scaled(&point).map_err(lubricant)?;
+        ScaledShear::new(self.lubricant.shear, self.sliding(), &point)
+            .map_err(|problem| refuse("srr, npr", format!("are refused: {problem}")))?;
+        grid::check(&self.grid, self.contact)?;
+        self.study.check(&self.experiment())?;
+        self.view.iter().try_for_each(view)?;
+        self.expect.iter().enumerate().try_for_each(|(i, entry)| expectation(i, entry))
+    }
+}
+
+fn view(view: &View) -> Checked {
+    for (field, loss) in [("pressure_loss", view.pressure_loss), ("deformation_loss", view.deformation_loss)] {
+        loss.iter().try_for_each(|&loss| number(&format!("view.{field}"), loss, 1e-16, 0.99))?;
+    }
+    if !view.when_m_moves.partners().contains(&view.when_l_moves) {
+        let partners = view.when_m_moves.partners().iter().map(|p| format!("{p:?}")).collect::<Vec<_>>().join(", ");
+        let problem =
+            format!("cannot be {:?} when M moves {:?}; write {partners}", view.when_l_moves, view.when_m_moves);
+        return Err(refuse("view.when_l_moves", problem));
+    }
+    Ok(())
+}
+
+fn expectation(index: usize, entry: &Expectation) -> Checked {
+    let field = format!("expect.{index} ({})", entry.name);
+    let limits: &[f64] = match &entry.within {
+        Within::Relative(v) | Within::Absolute(v) => {
+            if entry.value.is_none() {
+                return Err(refuse(field, "needs a `value` to be compared with"));
+            }
+            number(&format!("{field}.within"), *v, 0.0, f64::MAX)?;
+            &[]
+        }
+        Within::AtMost(v) | Within::AtLeast(v) => &[*v],
+        Within::Between(low, high) => &[*low, *high],
+    };
+    let all = limits.iter().copied().chain(entry.value);
+    all.into_iter().try_for_each(|value| number(&field, value, -f64::MAX, f64::MAX))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{At, Axis, Contacts, Method, QuantityBox, Steps, Study, Variable};
+
+    #[test]
+    fn numbers_that_make_no_sense_are_refused_by_name() {
+        let good = Scene::at_moes(40.0, 10.0);
+        good.check().unwrap();
+        let message = |scene: Scene| scene.check().unwrap_err().to_string();
+        assert!(message(Scene { at: At::moes(f64::NAN, 10.0), ..good.clone() }).contains("Moes number M"));
+        let bad_grid = Grid::Uniform { dx: f64::INFINITY, domain: (-4.0, 2.0) };
+        assert!(message(Scene { grid: bad_grid, ..good.clone() }).contains("grid.dx"));
+        assert!(message(Scene { study: Study::Point { methods: vec![] }, ..good.clone() }).contains("methods"));
+        let huge = Study::Sweep {
+            over: vec![Axis { vary: Variable::M, values: Steps::Log { from: 1.0, to: 9.0, n: usize::MAX } }],
+            methods: vec![Method::Full],
+            cold: false,
+            compare_on_model_grid: false,
+        };
+        assert!(message(Scene { study: huge, ..good.clone() }).contains("study.over.M"));
+        let alone = Study::Sweep {
+            over: vec![Axis { vary: Variable::M, values: Steps::List(vec![20.0]) }],
+            methods: vec![Method::Full],
+            cold: false,
+            compare_on_model_grid: true,
+        };
+        assert!(message(Scene { study: alone, ..good.clone() }).contains("study.compare_on_model_grid"));
+        let range = QuantityBox { load: (2.0, f64::NAN), ..QuantityBox::TABLE_3_1 };
+        let study = Study::Trajectory { range, points: 10, methods: vec![Method::Full] };
+        assert!(message(Scene { study, ..good.clone() }).contains("study.range.load.1"));
+        let study = Study::ErrorSplit { contacts: Contacts::Here, method: Method::Full };
+        assert!(message(Scene { study, ..good.clone() }).contains("study.method"));
+        let study = Study::GridStudy { dx: vec![0.02, 0.01, 0.004] };
+        assert!(message(Scene { study, ..good }).contains("constant factor"));
+    }
+}

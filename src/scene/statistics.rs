@@ -1,0 +1,80 @@
+//! Order statistics of measured values.
+
+/// The value below which a fraction (0…1) of the values lies, interpolated between neighbours; NaN of none. NaN sorts last.
+pub fn percentile(values: &[f64], fraction: f64) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let Some(last) = sorted.len().checked_sub(1) else { return f64::NAN };
+    let position = fraction.clamp(0.0, 1.0) * last as f64;
+    let below = position.floor() as usize;
+    let above = (below + 1).min(last);
+    let t = position - below as f64;
+    if t == 0.0 { sorted[below] } else { sorted[below] * (1.0 - t) + sorted[above] * t }
+}
+
+/// The middle value; NaN of none.
+pub fn median(values: &[f64]) -> f64 {
+    percentile(values, 0.5)
+}
+
+/// The mean; NaN of none.
+pub fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Spearman's rank correlation of pairs: 1 where both order alike. Equal values share their mean rank; NaN of fewer than two
+/// pairs, or where one side does not vary.
+pub fn rank_correlation(a: &[f64], b: &[f64]) -> f64 {
+    let (a, b) = (ranks(a), ranks(b));
+    let mean = (a.len() as f64 - 1.0) / 2.0;
+    let product = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| (x - mean) * (y - mean)).sum::<f64>();
+    product(&a, &b) / (product(&a, &a) * product(&b, &b)).sqrt()
+}
+
+/// The rank of each value, from 0.
+fn ranks(values: &[f64]) -> Vec<f64> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|&i, &j| values[i].total_cmp(&values[j]));
+    let mut ranks = vec![0.0; values.len()];
+    let mut from = 0;
+    for group in order.chunk_by(|&i, &j| values[i] == values[j]) {
+        for &i in group {
+            ranks[i] = from as f64 + (group.len() - 1) as f64 / 2.0;
+        }
+        from += group.len();
+    }
+    ranks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranks_ignore_everything_but_the_order() {
+        let a = [1.0, 2.0, 3.0, 4.0];
+        assert_eq!(rank_correlation(&a, &a.map(|v| v.powi(9))), 1.0);
+        assert_eq!(rank_correlation(&a, &a.map(|v| -v)), -1.0);
+        // By hand: ranks 0, 1.5, 1.5, 3 against 0, 1, 2, 3.
+        assert!((rank_correlation(&[1.0, 5.0, 5.0, 9.0], &a) - 4.5 / (4.5f64 * 5.0).sqrt()).abs() < 1e-15);
+        assert!(rank_correlation(&[1.0, 1.0], &[1.0, 2.0]).is_nan() && rank_correlation(&[], &[]).is_nan());
+    }
+
+    #[test]
+    fn percentiles_interpolate() {
+        assert_eq!(median(&[3.0, 1.0, 2.0]), 2.0);
+        assert_eq!(median(&[4.0, 1.0, 2.0, 3.0]), 2.5);
+        assert_eq!(percentile(&[1.0, 2.0], 1.0), 2.0);
+        assert!(median(&[]).is_nan());
+    }
+
+    #[test]
+    fn ranks_correlate_whatever_the_scale() {
+        let a = [1.0, 2.0, 3.0, 4.0];
+        assert!((rank_correlation(&a, &a.map(f64::exp)) - 1.0).abs() < 1e-14);
+        assert!((rank_correlation(&a, &a.map(|v| -v)) + 1.0).abs() < 1e-14);
+        // Ranks (0, 1.5, 1.5, 3) against (0, 1, 2, 3): 4.5/√(4.5·5).
+        assert!((rank_correlation(&[1.0, 2.0, 2.0, 9.0], &a) - 0.9f64.sqrt()).abs() < 1e-14);
+        assert!(rank_correlation(&[], &[]).is_nan() && rank_correlation(&[1.0, 1.0], &[1.0, 2.0]).is_nan());
+    }
+}

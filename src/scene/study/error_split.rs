@@ -1,0 +1,191 @@
+//! Where the error of a reduced model comes from, at one contact or along the test trajectory.
+
+use super::path::trajectory_points;
+use super::question::{Question, Setting, Tell};
+use crate::scene::chart::{Chart, ChartAxis, Marks};
+use crate::scene::check::{self, Checked, MAX_POINTS, refuse};
+use crate::scene::error::RunError;
+use crate::scene::experiment::Experiment;
+use crate::scene::method::Method;
+use crate::scene::outcome::Findings;
+use crate::scene::statistics::{median, percentile};
+use crate::scene::table::Table;
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::reduced::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
+use crate::solver::training::QuantityBox;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Where a reduced model's error comes from: its basis, Galerkin's projection, the sampling of rows, or the grid.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ErrorSplitStudy {
+    /// Where it is split.
+    pub contacts: Contacts,
+    /// The reduced model.
+    pub method: Method,
+}
+
+/// Which contacts a study looks at.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Contacts {
+    /// The scene's own operating point.
+    Here,
+    /// The test trajectory (3.21) through a box, 0 ≤ c ≤ 2.
+    Trajectory {
+        /// The box.
+        range: QuantityBox,
+        /// Equidistant values of c, both ends counted.
+        points: usize,
+    },
+}
+
+/// One contact's error.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Where on the trajectory; not a number at the scene's own contact.
+    pub c: f64,
+    /// The contact.
+    pub point: OperatingPoint,
+    /// The parts of its error, or a sentence why there are none.
+    pub split: Result<Arc<ErrorSplit>, String>,
+}
+
+/// The parts of one film's error, relative to the full film.
+const FILM_PARTS: [(&str, fn(&Parts) -> f64); 6] = [
+    ("basis", |parts| parts.basis),
+    ("projection", |parts| parts.projection),
+    ("sampling", |parts| parts.sampling),
+    ("reduction", Parts::reduction),
+    ("discretisation", |parts| parts.discretisation),
+    ("whole", Parts::whole),
+];
+
+/// All parts by name: of both films, and of the pressure as lengths in the weighted norm.
+fn parts(h_c: &Parts, h_min: &Parts, p: &PressureParts) -> Vec<(String, f64)> {
+    let films = [("H_c", h_c), ("H_min", h_min)];
+    let of_films = films.iter().flat_map(|(film, of)| FILM_PARTS.map(|(part, get)| (format!("{film}.{part}"), get(of))));
+    let pressure =
+        [("basis", p.basis), ("projection", p.projection), ("sampling", p.sampling), ("reduction", p.reduction)];
+    of_films.chain(pressure.map(|(part, value)| (format!("e_P.{part}"), value))).collect()
+}
+
+/// The names of all parts.
+fn names() -> Vec<String> {
+    parts(&Parts::default(), &Parts::default(), &PressureParts::default()).into_iter().map(|(name, _)| name).collect()
+}
+
+fn values(split: &ErrorSplit) -> Vec<f64> {
+    parts(&split.h_c, &split.h_min, &split.pressure).into_iter().map(|(_, value)| value).collect()
+}
+
+impl Question for ErrorSplitStudy {
+    type Row = Row;
+
+    fn check(&self, _experiment: &Experiment) -> Checked {
+        if self.method.model().is_none() {
+            return Err(refuse("study.method", "must be Reduced(…): a full solution has no such parts"));
+        }
+        match &self.contacts {
+            Contacts::Here => Ok(()),
+            Contacts::Trajectory { range, points } => {
+                check::count("study.contacts.points", *points, 2, MAX_POINTS)?;
+                check::quantity_box("study.contacts.range", range)
+            }
+        }
+    }
+
+    fn methods(&self) -> &[Method] {
+        std::slice::from_ref(&self.method)
+    }
+
+    fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
+        let Setting { experiment, observer, .. } = *setting;
+        let Some(source) = self.method.model() else {
+            return Err(RunError::Study("an error split needs a Reduced `method`".to_owned()));
+        };
+        let model = setting.bench.model_for(source, experiment.contact, &experiment.lubricant, observer)?;
+        let points = match &self.contacts {
+            Contacts::Here => vec![(f64::NAN, experiment.point()?)],
+            Contacts::Trajectory { range, points } => trajectory_points(range, experiment, *points)?,
+        };
+        // A truncation keeps another number of modes in each window.
+        let mut splitters: Vec<Option<ErrorSplitter>> = model.windows.iter().map(|_| None).collect();
+        for (i, (c, point)) in points.iter().enumerate() {
+            setting.step("error splits", i, points.len())?;
+            let k = model.window_for(point.moes());
+            let (Some(place), Some(window)) = (splitters.get_mut(k), model.windows.get(k)) else {
+                return Err(RunError::Study("the reduced model holds no bases".to_owned()));
+            };
+            let splitter =
+                place.get_or_insert_with(|| ErrorSplitter::new(Arc::clone(&model), self.method.options(window)));
+            let split = match splitter.split(point, experiment.lubricant, observer) {
+                Ok(split) => Ok(Arc::new(split)),
+                Err(SplitError::Cancelled) => return Err(RunError::Cancelled),
+                Err(SplitError::Problem(refused)) => return Err(refused.into()),
+                Err(error) => Err(error.to_string()),
+            };
+            tell(Row { c: *c, point: *point, split });
+        }
+        Ok(())
+    }
+
+    /// Values: `failures`; for `H_c` and `H_min` and each part `H_c.basis_median`, `H_c.basis_max` and so on (sizes, relative to the full film),
+    /// `e_P.basis_median` likewise; at a single contact also the signed `H_c.basis` and `e_P.basis`.
+    fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
+        for row in rows {
+            if let Err(error) = &row.split {
+                let moes = row.point.moes();
+                found.warnings.push(format!("M = {:.4}, L = {:.4}: {error}", moes.m, moes.l));
+            }
+        }
+        let of = Some(&self.method);
+        let split: Vec<Vec<f64>> =
+            rows.iter().filter_map(|row| row.split.as_ref().ok()).map(|split| values(split)).collect();
+        let failures = rows.len() - split.len();
+        found.converged &= failures == 0;
+        found.push("points", None, rows.len() as f64);
+        found.push("failures", of, failures as f64);
+        for (k, name) in names().into_iter().enumerate() {
+            let sizes: Vec<f64> = split.iter().map(|parts| parts[k].abs()).collect();
+            found.push(format!("{name}_median"), of, median(&sizes));
+            found.push(format!("{name}_max"), of, percentile(&sizes, 1.0));
+            if let ([parts], 1) = (&split[..], rows.len()) {
+                found.push(name, of, parts[k]);
+            }
+        }
+    }
+
+    fn tables(&self, rows: &[&Row]) -> Vec<Table> {
+        let contact = ["c", "M", "L", "alpha", "H_c", "H_min"].map(str::to_owned);
+        let columns = contact.into_iter().chain(names()).collect();
+        let row = |row: &&Row| {
+            let (split, moes) = (row.split.as_ref().ok()?, row.point.moes());
+            let contact = [row.c, moes.m, moes.l, row.point.alpha_per_pa, split.full.h_c, split.full.h_min];
+            Some(contact.into_iter().chain(values(split)).collect())
+        };
+        let rows = rows.iter().filter_map(row).collect();
+        vec![Table { name: "error_split".to_owned(), columns, rows, labels: Vec::new() }]
+    }
+
+    fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
+        let along = matches!(self.contacts, Contacts::Trajectory { .. });
+        let films: [(&str, fn(&ErrorSplit) -> &Parts); 2] =
+            [("H_c", |split| &split.h_c), ("H_min", |split| &split.h_min)];
+        let chart = |(film, of): (&str, fn(&ErrorSplit) -> &Parts)| {
+            let (x, marks) = if along { ("c", Marks::Line) } else { ("Load number M", Marks::Dots) };
+            let y = ChartAxis::log(format!("Part of the error of {film}, relative"));
+            let mut chart = Chart::new(format!("Error of {film}"), ChartAxis::linear(x), y);
+            for (part, get) in FILM_PARTS {
+                let point = |row: &&Row| {
+                    let split = row.split.as_ref().ok()?;
+                    Some([if along { row.c } else { row.point.moes().m }, get(of(split)).abs()])
+                };
+                chart.add(part, marks, rows.iter().filter_map(point));
+            }
+            chart
+        };
+        films.map(chart).into()
+    }
+}

@@ -1,0 +1,274 @@
+//! The questions a scene can ask. There is one file for each: its data as a scene writes them, its check, its run, its rows, and what
+//! the rows look like as values, tables and charts.
+//!
+//! A study does not know who watches it. [`Study::run`] is given an [`Experiment`] (the facts of the scene's contact), a [`Bench`] (what it may
+//! use) and a [`StudyObserver`], which is told each [`StudyRow`] as soon as it is known, how far the work is, and whether it is still wanted.
+//! Everything else is read off the rows, of a study that has ended or of one that still runs: [`Study::findings`] are the values that
+//! expectations name, [`Study::tables`] the numbers, [`Study::charts`] how they are best looked at. So whoever shows a study
+//! need not know which one it is:
+//!
+//! ```text
+//! struct Window(Mutex<Vec<StudyRow>>);
+//! impl StudyObserver for Window { fn row(&self, row: StudyRow) { … push … } }
+//! scene.study.run(&scene.experiment(), &mut bench, &window)?;      // on a thread of its own
+//! scene.study.charts(&rows);  scene.study.tables(&rows);           // meanwhile, as often as rows have come
+//! scene.outcome(&rows, seconds)                                    // values, verdicts, tables
+//! ```
+//!
+//! [`run_scene`](super::run_scene) does all of it for who only wants the outcome. A new study is a file with a [`Question`], and a line in each of
+//! [`Study`], [`StudyRow`], `StudyRow::inner` and `Study::asked`.
+
+pub mod dimensions;
+pub mod distance_measure;
+pub mod error_measures;
+pub mod error_split;
+pub mod formula_comparison;
+pub mod grid_study;
+mod path;
+pub mod plan_comparison;
+pub mod point;
+mod question;
+pub mod random_test;
+pub mod sampling_comparison;
+pub mod sweep;
+pub mod tolerance_study;
+pub mod training;
+pub mod trajectory;
+pub mod transient;
+
+pub use error_measures::OnlineScheme;
+pub use error_split::Contacts;
+pub use formula_comparison::Formula;
+pub use path::{OnModelGrid, PathRow};
+pub use plan_comparison::ComparedPlan;
+pub use question::{Question, Setting, Tell};
+pub use sampling_comparison::ComparedSampling;
+
+use super::bench::Bench;
+use super::chart::Chart;
+use super::check::Checked;
+use super::error::RunError;
+use super::experiment::Experiment;
+use super::method::{Method, ModelSource};
+use super::outcome::Findings;
+use super::table::Table;
+use crate::solver::training::{TrainingObserver, TrainingSpec};
+use serde::{Deserialize, Serialize};
+use std::any::Any;
+use std::sync::atomic::AtomicBool;
+
+/// What is asked of a scene's contact.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Study {
+    /// The contact itself.
+    Point(point::Point),
+    /// The contact along one to three varied quantities, the last one fastest; each solve starts from its neighbour.
+    Sweep(sweep::Sweep),
+    /// The test trajectory (3.21) through a box, 0 ≤ c ≤ 2.
+    Trajectory(trajectory::Trajectory),
+    /// Random points (3.17): how often a method fails, how fast it is, and how far a reduced model lies from full solutions.
+    RandomTest(random_test::RandomTest),
+    /// Where a reduced model's error comes from: its basis, Galerkin's projection, the sampling of rows, or the grid.
+    ErrorSplit(error_split::ErrorSplitStudy),
+    /// The contact on ever finer uniform grids over the scene's domain: observed order and extrapolated value. A point contact keeps ΔY.
+    GridStudy(grid_study::GridStudy),
+    /// How many modes the full solutions at all combinations of one to three varied quantities need at losses of information: Table 3.7.
+    Dimensions(dimensions::Dimensions),
+    /// Training of a reduced model.
+    Training(TrainingSpec),
+    /// Error measures (3.10), (3.14), (3.15) of a reduced model at random points (3.17), ordered by the true error: Fig. 3.1.
+    ErrorMeasures(error_measures::ErrorMeasureStudy),
+    /// Weights of the distance measure by (3.9) from full solutions at random points (3.17): (3.20).
+    DistanceMeasure(distance_measure::DistanceMeasure),
+    /// Plans of snapshot selection side by side: Tables 3.2 and 3.3, Figs. 3.3 to 3.5 and 3.7.
+    PlanComparison(plan_comparison::PlanComparison),
+    /// An adaptive training cut at each tolerance of its ladder: Fig. 3.6.
+    ToleranceStudy(tolerance_study::ToleranceStudy),
+    /// Ways of sampling rows, on the same full solutions and basis.
+    SamplingComparison(sampling_comparison::SamplingComparison),
+    /// The contact in time, under inputs that vary, in full and by models: Figs. 2.6 (right), 4.4, 4.10 to 4.18.
+    Transient(transient::TransientStudy),
+    /// Full solutions against a published film formula at all pairs of M and L in the default realisation.
+    FormulaComparison(formula_comparison::FormulaComparison),
+}
+
+/// A row of any study.
+#[derive(Clone, Debug)]
+pub enum StudyRow {
+    /// One method at the contact.
+    Point(point::Row),
+    /// One contact of a sweep.
+    Sweep(PathRow),
+    /// One contact of the test trajectory.
+    Trajectory(PathRow),
+    /// One random test, or the full solution it is compared with.
+    RandomTest(random_test::Row),
+    /// One contact's error.
+    ErrorSplit(error_split::Row),
+    /// One grid.
+    GridStudy(grid_study::Row),
+    /// All dimensions.
+    Dimensions(dimensions::Row),
+    /// The model.
+    Training(training::Row),
+    /// One random point.
+    ErrorMeasures(error_measures::Row),
+    /// The measure.
+    DistanceMeasure(distance_measure::Row),
+    /// One plan, trained or tested.
+    PlanComparison(plan_comparison::Row),
+    /// One rung of the ladder, or what all rungs share.
+    ToleranceStudy(tolerance_study::Row),
+    /// One way of sampling, or what all ways share.
+    SamplingComparison(sampling_comparison::Row),
+    /// A moment, fields, a march that has ended, a model.
+    Transient(transient::Row),
+    /// One contact.
+    FormulaComparison(formula_comparison::Row),
+}
+
+/// Watches a study.
+pub trait StudyObserver: TrainingObserver {
+    /// Told of each row as soon as it is known, from whichever thread.
+    fn row(&self, _row: StudyRow) {}
+
+    /// Whether rows with fields are wanted of contacts in time.
+    fn wants_states(&self) -> bool {
+        false
+    }
+}
+
+impl StudyObserver for () {}
+
+/// Stops a study from another thread.
+impl StudyObserver for AtomicBool {}
+
+impl StudyRow {
+    fn inner(&self) -> &dyn Any {
+        match self {
+            Self::Point(row) => row,
+            Self::Sweep(row) | Self::Trajectory(row) => row,
+            Self::RandomTest(row) => row,
+            Self::ErrorSplit(row) => row,
+            Self::GridStudy(row) => row,
+            Self::Dimensions(row) => row,
+            Self::Training(row) => row,
+            Self::ErrorMeasures(row) => row,
+            Self::DistanceMeasure(row) => row,
+            Self::PlanComparison(row) => row,
+            Self::ToleranceStudy(row) => row,
+            Self::SamplingComparison(row) => row,
+            Self::Transient(row) => row,
+            Self::FormulaComparison(row) => row,
+        }
+    }
+}
+
+/// A question whose rows are those of any study.
+trait Asked {
+    fn check(&self, experiment: &Experiment) -> Checked;
+    fn methods(&self) -> &[Method];
+    fn run(&self, setting: &mut Setting<'_>, observer: &dyn StudyObserver) -> Result<(), RunError>;
+    fn findings(&self, experiment: &Experiment, rows: &[StudyRow], found: &mut Findings);
+    fn tables(&self, rows: &[StudyRow]) -> Vec<Table>;
+    fn charts(&self, rows: &[StudyRow]) -> Vec<Chart>;
+}
+
+/// A question, and how its rows become rows of any study.
+struct Of<'a, Q: Question>(&'a Q, fn(Q::Row) -> StudyRow);
+
+impl<Q: Question> Of<'_, Q> {
+    fn own<'a>(&self, rows: &'a [StudyRow]) -> Vec<&'a Q::Row> {
+        rows.iter().filter_map(|row| row.inner().downcast_ref()).collect()
+    }
+}
+
+impl<Q: Question> Asked for Of<'_, Q> {
+    fn check(&self, experiment: &Experiment) -> Checked {
+        self.0.check(experiment)
+    }
+
+    fn methods(&self) -> &[Method] {
+        self.0.methods()
+    }
+
+    fn run(&self, setting: &mut Setting<'_>, observer: &dyn StudyObserver) -> Result<(), RunError> {
+        self.0.run(setting, &|row| observer.row((self.1)(row)))
+    }
+
+    fn findings(&self, experiment: &Experiment, rows: &[StudyRow], found: &mut Findings) {
+        self.0.findings(experiment, &self.own(rows), found);
+    }
+
+    fn tables(&self, rows: &[StudyRow]) -> Vec<Table> {
+        self.0.tables(&self.own(rows))
+    }
+
+    fn charts(&self, rows: &[StudyRow]) -> Vec<Chart> {
+        self.0.charts(&self.own(rows))
+    }
+}
+
+impl Study {
+    fn asked<T>(&self, answer: impl FnOnce(&dyn Asked) -> T) -> T {
+        match self {
+            Self::Point(study) => answer(&Of(study, StudyRow::Point)),
+            Self::Sweep(study) => answer(&Of(study, StudyRow::Sweep)),
+            Self::Trajectory(study) => answer(&Of(study, StudyRow::Trajectory)),
+            Self::RandomTest(study) => answer(&Of(study, StudyRow::RandomTest)),
+            Self::ErrorSplit(study) => answer(&Of(study, StudyRow::ErrorSplit)),
+            Self::GridStudy(study) => answer(&Of(study, StudyRow::GridStudy)),
+            Self::Dimensions(study) => answer(&Of(study, StudyRow::Dimensions)),
+            Self::Training(study) => answer(&Of(study, StudyRow::Training)),
+            Self::ErrorMeasures(study) => answer(&Of(study, StudyRow::ErrorMeasures)),
+            Self::DistanceMeasure(study) => answer(&Of(study, StudyRow::DistanceMeasure)),
+            Self::PlanComparison(study) => answer(&Of(study, StudyRow::PlanComparison)),
+            Self::ToleranceStudy(study) => answer(&Of(study, StudyRow::ToleranceStudy)),
+            Self::SamplingComparison(study) => answer(&Of(study, StudyRow::SamplingComparison)),
+            Self::Transient(study) => answer(&Of(study, StudyRow::Transient)),
+            Self::FormulaComparison(study) => answer(&Of(study, StudyRow::FormulaComparison)),
+        }
+    }
+
+    /// Refuses a question that makes no sense, naming the field.
+    pub(super) fn check(&self, experiment: &Experiment) -> Checked {
+        self.asked(|question| question.check(experiment))
+    }
+
+    /// The reduced model whose grid [`Grid::Model`](super::Grid::Model) means: the first one used, else the embedded one.
+    pub fn grid_model(&self) -> ModelSource {
+        self.asked(|question| question.methods().iter().find_map(Method::model).cloned().unwrap_or_default())
+    }
+
+    /// Answers the question; the observer is told each row as soon as it is known. What was told is worth keeping also where it ends early.
+    ///
+    /// # Errors
+    /// When something is refused, a model cannot be had, or the observer cancels. Solves that do not converge are rows.
+    pub fn run(
+        &self,
+        experiment: &Experiment,
+        bench: &mut dyn Bench,
+        observer: &dyn StudyObserver,
+    ) -> Result<(), RunError> {
+        let mut setting = Setting { experiment, bench, observer, wants_states: observer.wants_states() };
+        self.asked(|question| question.run(&mut setting, observer))
+    }
+
+    /// What rows say: values by the names that expectations use, and warnings.
+    pub fn findings(&self, experiment: &Experiment, rows: &[StudyRow]) -> Findings {
+        let mut found = Findings::default();
+        self.asked(|question| question.findings(experiment, rows, &mut found));
+        found
+    }
+
+    /// Rows in numbers, of as many as there are.
+    pub fn tables(&self, rows: &[StudyRow]) -> Vec<Table> {
+        self.asked(|question| question.tables(rows))
+    }
+
+    /// How rows are best looked at, as many as there are.
+    pub fn charts(&self, rows: &[StudyRow]) -> Vec<Chart> {
+        self.asked(|question| question.charts(rows))
+    }
+}

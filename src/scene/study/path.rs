@@ -1,0 +1,236 @@
+//! Contacts along a path, each solved from its neighbour: what a sweep and the test trajectory (3.21) share.
+
+use super::question::{Setting, Tell};
+use crate::scene::bench::Request;
+use crate::scene::chart::{Chart, ChartAxis, Marks};
+use crate::scene::contact_result::{ContactResult, RESULT_COLUMNS};
+use crate::scene::error::RunError;
+use crate::scene::experiment::Experiment;
+use crate::scene::grid::Grid;
+use crate::scene::method::Method;
+use crate::scene::outcome::Findings;
+use crate::scene::table::Table;
+use crate::solver::full::Solution;
+use crate::solver::physics::contact::{OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
+use crate::solver::training::QuantityBox;
+
+/// What a reduced method's errors against the first full one are stated of.
+const COMPARED: [&str; 3] = ["H_c", "H_min", "traction"];
+
+/// Errors of smaller tractions are relative to this.
+const LEAST_TRACTION: f64 = 0.005;
+
+/// How many times the largest residual that was measured when a model was trained an answer may have where it was not trained.
+const DOUBTFUL_RESIDUAL: f64 = 2.0;
+
+/// One contact of a path by all methods.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathRow {
+    /// The varied values.
+    pub values: Vec<f64>,
+    /// The contact.
+    pub point: OperatingPoint,
+    /// Its result by each method.
+    pub results: Vec<ContactResult>,
+    /// For each method, whether it is a model's answer that is none: it was not trained for the contact, and the residual is far beyond those of its
+    /// training.
+    pub doubtful: Vec<bool>,
+    /// The full solution on the model's grid, where one was asked for.
+    pub on_model_grid: OnModelGrid,
+}
+
+/// A full solution on a model's own grid.
+#[derive(Clone, Debug, PartialEq)]
+pub enum OnModelGrid {
+    /// None was asked for.
+    NotAsked,
+    /// Its result.
+    Solved(Box<ContactResult>),
+}
+
+/// The contacts of a path, the name of its stage, whether full solves start cold, and whether full solutions on the model's grid are wanted.
+pub(super) struct Path<'a> {
+    pub name: &'static str,
+    pub contacts: Vec<(Vec<f64>, OperatingPoint)>,
+    pub methods: &'a [Method],
+    pub cold: bool,
+    pub on_model_grid: bool,
+}
+
+/// The contacts of the test trajectory (3.21) at equidistant c, 0 ≤ c ≤ 2.
+///
+/// # Errors
+/// When one makes no sense.
+pub(super) fn trajectory_points(
+    range: &QuantityBox,
+    experiment: &Experiment,
+    count: usize,
+) -> Result<Vec<(f64, OperatingPoint)>, RunError> {
+    let contact = |i: usize| {
+        let c = 2.0 * i as f64 / (count - 1) as f64;
+        let point = range.trajectory(experiment.contact, c);
+        point.check()?;
+        Ok((c, point))
+    };
+    (0..count).map(contact).collect()
+}
+
+impl Path<'_> {
+    /// Solves all contacts by all methods.
+    pub fn solve(&self, setting: &mut Setting<'_>, tell: &Tell<'_, PathRow>) -> Result<(), RunError> {
+        let mut former: Vec<Option<Solution>> = vec![None; self.methods.len()];
+        let mut former_on_model_grid: Option<Solution> = None;
+        for (i, (values, point)) in self.contacts.iter().enumerate() {
+            setting.step(self.name, i, self.contacts.len())?;
+            let request = setting.experiment.request_at(*point);
+            let (mut results, mut doubtful) = (Vec::new(), Vec::new());
+            for (method, former) in self.methods.iter().zip(&mut former) {
+                let start = former.as_ref().filter(|_| !self.cold);
+                let answer = setting.bench.answer(&request, method, start, setting.observer)?;
+                let result = ContactResult::from(&answer);
+                doubtful.push(is_doubtful(&result, method, setting)?);
+                results.push(result);
+                if answer.converged {
+                    *former = answer.solution;
+                }
+            }
+            let mut on_model_grid = OnModelGrid::NotAsked;
+            if self.on_model_grid {
+                let request = Request { grid: Grid::Model, ..request };
+                let start = former_on_model_grid.as_ref().filter(|_| !self.cold);
+                let answer = setting.bench.answer(&request, &Method::Full, start, setting.observer)?;
+                on_model_grid = OnModelGrid::Solved(Box::new(ContactResult::from(&answer)));
+                if answer.converged {
+                    former_on_model_grid = answer.solution;
+                }
+            }
+            tell(PathRow { values: values.clone(), point: *point, results, doubtful, on_model_grid });
+        }
+        Ok(())
+    }
+}
+
+fn is_doubtful(result: &ContactResult, method: &Method, setting: &mut Setting<'_>) -> Result<bool, RunError> {
+    let (true, Some(source)) = (result.untrained(), method.model()) else { return Ok(false) };
+    let Some(residual) = result.reduced.as_ref().and_then(|facts| facts.residual_estimate) else { return Ok(false) };
+    let Setting { experiment, observer, .. } = *setting;
+    let model = setting.bench.model_for(source, experiment.contact, &experiment.lubricant, observer)?;
+    let window = model.windows.get(model.window_for(result.point.moes()));
+    let largest = window.and_then(|window| window.calibration.as_ref()).map(|known| known.largest_residual());
+    Ok(largest.is_some_and(|largest| residual > DOUBTFUL_RESIDUAL * largest))
+}
+
+/// Values: single contacts that are expected, as `H_c[3]`; `points`; of each method `failures` (at plausible pressures), `failures_beyond` these,
+/// Newton steps and seconds; and a reduced one's errors against the first full one, or against one on the model's grid.
+pub(super) fn findings(methods: &[Method], experiment: &Experiment, rows: &[&PathRow], found: &mut Findings) {
+    for (i, row) in rows.iter().enumerate() {
+        for (method, result) in methods.iter().zip(&row.results) {
+            for wanted in experiment.expected.iter().filter_map(|name| name.strip_suffix(&format!("[{i}]"))) {
+                let value = result.value(wanted).unwrap_or(f64::NAN);
+                found.push(format!("{wanted}[{i}]"), Some(method), value);
+            }
+        }
+    }
+    found.push("points", None, rows.len() as f64);
+    let solved = rows.iter().filter_map(|row| match &row.on_model_grid {
+        OnModelGrid::Solved(result) => Some(result.converged),
+        OnModelGrid::NotAsked => None,
+    });
+    let on_model_grid: Vec<bool> = solved.collect();
+    if !on_model_grid.is_empty() {
+        let failures = on_model_grid.iter().filter(|converged| !**converged).count();
+        found.converged &= failures == 0;
+        found.push("failures_on_model_grid", None, failures as f64);
+    }
+    let full = methods.iter().position(|method| *method == Method::Full);
+    for (k, method) in methods.iter().enumerate() {
+        let of = Some(method);
+        let results = || rows.iter().filter_map(|row| row.results.get(k));
+        let plausible = |result: &&ContactResult| result.point.hertz().pressure_pa <= PLAUSIBLE_HERTZ_PRESSURE_PA;
+        let failed = || results().filter(|result| !result.converged);
+        let failures = failed().filter(plausible).count();
+        found.converged &= failures == 0;
+        found.push("failures", of, failures as f64);
+        found.push("failures_beyond", of, (failed().count() - failures) as f64);
+        let newton: Vec<f64> = results().map(|result| result.newton_iterations as f64).collect();
+        let seconds: Vec<f64> = results().map(|result| result.wall_s).collect();
+        found.push_effort(of, &newton, &seconds);
+        if *method == Method::Full || full.is_none() && on_model_grid.is_empty() {
+            continue;
+        }
+        for name in COMPARED {
+            let errors: Vec<f64> = rows.iter().filter_map(|row| error_of(name, row, k, full)).collect();
+            found.push_spread(&format!("{name}_error"), of, &errors);
+        }
+    }
+}
+
+/// The relative error of a method at one contact, where it is known.
+fn error_of(name: &str, row: &PathRow, method: usize, full: Option<usize>) -> Option<f64> {
+    let truth = match &row.on_model_grid {
+        OnModelGrid::Solved(result) => result.value(name)?,
+        OnModelGrid::NotAsked => row.results.get(full?)?.value(name)?,
+    };
+    let value = row.results.get(method)?.value(name)?;
+    // Next to nothing has no relative error.
+    let size = if name == "traction" { truth.abs().max(LEAST_TRACTION) } else { truth };
+    Some(((value - truth) / size).abs()).filter(|error| error.is_finite())
+}
+
+/// One row per contact: what is varied, the contact, and the result of each method.
+pub(super) fn table(name: &str, varied: &[&str], methods: &[Method], rows: &[&PathRow]) -> Table {
+    let mut columns: Vec<String> = varied.iter().map(|&v| v.to_owned()).collect();
+    columns.extend(["M", "L", "radius", "speed", "load", "alpha", "p_h_pa"].map(str::to_owned));
+    let tags = (0..methods.len()).map(|k| tag(methods, k));
+    columns.extend(tags.flat_map(|tag| RESULT_COLUMNS.iter().map(move |column| format!("{tag}.{column}"))));
+    let row = |row: &&PathRow| {
+        let (point, moes) = (&row.point, row.point.moes());
+        let contact = [moes.m, moes.l, point.radius_m, point.speed_m_per_s, point.load, point.alpha_per_pa];
+        let results = row.results.iter().flat_map(|result| result.row(&RESULT_COLUMNS));
+        let values = row.values.iter().copied().chain(contact).chain([point.hertz().pressure_pa]);
+        values.chain(results).collect()
+    };
+    Table { name: name.to_owned(), columns, rows: rows.iter().map(row).collect(), labels: Vec::new() }
+}
+
+/// `full`, `reduced`, and with a number where a kind occurs again.
+fn tag(methods: &[Method], k: usize) -> String {
+    let name = methods[k].name();
+    match methods[..k].iter().filter(|method| method.name() == name).count() {
+        0 => name.to_owned(),
+        again => format!("{name}{}", again + 1),
+    }
+}
+
+/// Films, traction and pressure along the last varied quantity, a line for each combination of the others and each method; what
+/// failed or is doubtful is left out.
+pub(super) fn charts(x: &ChartAxis, varied: &[&str], methods: &[Method], rows: &[&PathRow]) -> Vec<Chart> {
+    let chart = |(name, axis): (&str, &str)| {
+        let mut chart = Chart::new(axis, x.clone(), ChartAxis::linear(axis));
+        for k in 0..methods.len() {
+            for rows in rows.chunk_by(|a, b| others(a) == others(b)) {
+                let point = |row: &&PathRow| {
+                    let value = row.results.get(k).filter(|_| !row.doubtful[k])?.value(name)?;
+                    Some([*row.values.last()?, value])
+                };
+                let fixed = varied.iter().zip(others(rows[0])).map(|(name, value)| format!(", {name} {value}"));
+                let title: String = std::iter::once(tag(methods, k)).chain(fixed).collect();
+                chart.add(title, Marks::Line, rows.iter().filter_map(point));
+            }
+        }
+        chart
+    };
+    let slides = rows.iter().any(|row| row.point.sliding.slide_to_roll_ratio != 0.0);
+    let quantities = [
+        ("H_c", "Central film H_c"),
+        ("H_min", "Smallest film H_min"),
+        ("P_max", "Largest pressure P_max"),
+        ("traction", "Traction coefficient"),
+    ];
+    quantities.into_iter().filter(|(name, _)| slides || *name != "traction").map(chart).collect()
+}
+
+/// The values of all varied quantities but the last.
+fn others(row: &PathRow) -> &[f64] {
+    row.values.split_last().map_or(&[], |(_, others)| others)
+}

@@ -1,0 +1,93 @@
+//! The contact itself, by one or several methods.
+
+use super::question::{Question, Setting, Tell};
+use crate::scene::chart::{Chart, ChartAxis, Marks};
+use crate::scene::check::{self, Checked};
+use crate::scene::contact_result::{ContactResult, profile_table};
+use crate::scene::error::RunError;
+use crate::scene::experiment::Experiment;
+use crate::scene::method::Method;
+use crate::scene::outcome::Findings;
+use crate::scene::table::Table;
+use crate::solver::full::Solution;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// The contact itself.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Point {
+    /// How it is solved.
+    pub methods: Vec<Method>,
+}
+
+/// One method's result.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// The method.
+    pub method: Method,
+    /// Its scalars and how they were obtained.
+    pub result: ContactResult,
+    /// Its fields; none without convergence.
+    pub solution: Option<Arc<Solution>>,
+}
+
+impl Question for Point {
+    type Row = Row;
+
+    fn check(&self, _experiment: &Experiment) -> Checked {
+        check::methods("study.methods", &self.methods)
+    }
+
+    fn methods(&self) -> &[Method] {
+        &self.methods
+    }
+
+    fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
+        let request = setting.experiment.request()?;
+        for (i, method) in self.methods.iter().enumerate() {
+            setting.step("solving", i, self.methods.len())?;
+            let answer = setting.bench.answer(&request, method, None, setting.observer)?;
+            let result = ContactResult::from(&answer);
+            let solution = answer.solution.filter(|_| answer.converged).map(Arc::new);
+            tell(Row { method: method.clone(), result, solution });
+        }
+        Ok(())
+    }
+
+    /// Values: every number of each method's result, and `H_c_error` of a reduced one against the full one.
+    fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
+        for Row { method, result, .. } in rows {
+            result.values().into_iter().for_each(|(name, value)| found.push(name, Some(method), value));
+            found.warnings.extend(result.warnings.iter().map(|warning| format!("{}: {warning}", method.name())));
+            found.converged &= result.converged;
+        }
+        let h_c = |row: &Row| row.result.scalars.map(|scalars| scalars.h_c);
+        let Some(full) = rows.iter().find(|row| row.method == Method::Full).and_then(|row| h_c(row)) else { return };
+        for row in rows.iter().filter(|row| row.result.reduced.is_some()) {
+            if let Some(reduced) = h_c(row) {
+                found.push("H_c_error", Some(&row.method), (reduced / full - 1.0).abs());
+            }
+        }
+    }
+
+    fn tables(&self, rows: &[&Row]) -> Vec<Table> {
+        let table = |(i, row): (usize, &&Row)| {
+            let suffix = if i == 0 { String::new() } else { format!("_{i}") };
+            Some(profile_table(format!("profile_{}{suffix}", row.method.name()), row.solution.as_ref()?))
+        };
+        rows.iter().enumerate().filter_map(table).collect()
+    }
+
+    fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
+        let x = ChartAxis::linear("X = x/a");
+        let mut pressure = Chart::new("Pressure along Y = 0", x.clone(), ChartAxis::linear("P = p/p_H"));
+        let mut film = Chart::new("Film along Y = 0", x, ChartAxis::linear("H = h R/a²"));
+        for row in rows {
+            let Some(solution) = &row.solution else { continue };
+            pressure.add(row.method.name(), Marks::Line, solution.profile().map(|(x, p, _)| [x, p]));
+            film.add(row.method.name(), Marks::Line, solution.profile().map(|(x, _, h)| [x, h]));
+        }
+        vec![pressure, film]
+    }
+}

@@ -1,0 +1,71 @@
+//! What every study is made of, and what it is given.
+
+use crate::scene::bench::Bench;
+use crate::scene::chart::Chart;
+use crate::scene::check::Checked;
+use crate::scene::error::RunError;
+use crate::scene::experiment::Experiment;
+use crate::scene::method::Method;
+use crate::scene::outcome::Findings;
+use crate::scene::table::Table;
+use crate::solver::observer::Progress;
+use crate::solver::training::TrainingObserver;
+use std::any::Any;
+
+/// A question about an experiment. Its rows are all that comes of it: values, tables and charts are read off them, also while it runs.
+pub trait Question {
+    /// What it finds out, piece by piece.
+    type Row: Any;
+
+    /// Refuses what makes no sense, naming the field.
+    ///
+    /// # Errors
+    /// With the first such field.
+    fn check(&self, experiment: &Experiment) -> Checked;
+
+    /// The methods it uses, in order.
+    fn methods(&self) -> &[Method] {
+        &[]
+    }
+
+    /// Finds out, and tells each row as soon as it is known.
+    ///
+    /// # Errors
+    /// When something is refused or the observer cancels. What does not converge is a row.
+    fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Self::Row>) -> Result<(), RunError>;
+
+    /// What the rows say.
+    fn findings(&self, experiment: &Experiment, rows: &[&Self::Row], found: &mut Findings);
+
+    /// The rows in numbers.
+    fn tables(&self, rows: &[&Self::Row]) -> Vec<Table>;
+
+    /// How the rows are best looked at.
+    fn charts(&self, rows: &[&Self::Row]) -> Vec<Chart>;
+}
+
+/// Where rows go.
+pub type Tell<'a, Row> = dyn Fn(Row) + Sync + 'a;
+
+/// What a study is about, what it may use, and who watches.
+pub struct Setting<'a> {
+    /// Its contact.
+    pub experiment: &'a Experiment,
+    /// Whoever solves contacts.
+    pub bench: &'a mut dyn Bench,
+    /// Who is told how far it is, and may stop it.
+    pub observer: &'a dyn TrainingObserver,
+    /// Whether fields are wanted along the way.
+    pub wants_states: bool,
+}
+
+impl Setting<'_> {
+    /// Tells how far a stage is, and stops where that is wanted.
+    ///
+    /// # Errors
+    /// When it is to stop.
+    pub fn step(&self, stage: &str, done: usize, total: usize) -> Result<(), RunError> {
+        self.observer.progress(Progress { stage: stage.to_owned(), done, total });
+        if self.observer.cancelled() { Err(RunError::Cancelled) } else { Ok(()) }
+    }
+}

@@ -1,0 +1,292 @@
+//! Random points (3.17): failures, speed, and errors against full solutions.
+
+use super::question::{Question, Setting, Tell};
+use crate::scene::chart::{Chart, ChartAxis, Marks};
+use crate::scene::check::{self, Checked, MAX_TESTS, count};
+use crate::scene::error::RunError;
+use crate::scene::experiment::Experiment;
+use crate::scene::method::Method;
+use crate::scene::outcome::Findings;
+use crate::scene::parallel::full_solutions_told;
+use crate::scene::random_points::all_random_points;
+use crate::scene::table::Table;
+use crate::solver::full::Solution;
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::reduced::ErrorEstimate;
+use crate::solver::training::Range;
+use serde::{Deserialize, Serialize};
+
+/// Random points (3.17): how often a method fails, how fast it is, and how far a reduced model lies from full solutions.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RandomTest {
+    /// Where the points are drawn.
+    pub range: Range,
+    /// How many.
+    pub tests: usize,
+    /// Seed of the random numbers: the same seed gives the same points.
+    pub seed: u64,
+    /// What is tested; a full method starts cold.
+    pub method: Method,
+    /// Full solutions on the model's own grid are compared at this many of the points.
+    #[serde(default)]
+    pub compare: usize,
+}
+
+/// What comes of a random test.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Row {
+    /// A test; they come in the order they were drawn in.
+    Test(Test),
+    /// What the test with an index is compared with; none where the full solver failed. In any order, after all tests.
+    Truth(usize, Option<Film>),
+}
+
+/// One test.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Test {
+    /// Where.
+    pub point: OperatingPoint,
+    /// What the method found; none where it failed.
+    pub film: Option<Film>,
+    /// Newton steps.
+    pub newton_iterations: usize,
+    /// Seconds of the solve alone.
+    pub wall_s: f64,
+    /// Whether it was a model's answer that was not trained for the point.
+    pub untrained: bool,
+    /// Calibrated bounds on the errors, where the model has them.
+    pub estimate: Option<ErrorEstimate>,
+}
+
+/// What tests are judged by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Film {
+    /// Central film.
+    pub h_c: f64,
+    /// Smallest film.
+    pub h_min: f64,
+    /// Traction coefficient; not a number where it has no meaning.
+    pub traction: f64,
+}
+
+/// What a film is compared by.
+const COMPARED: [(&str, fn(&Film) -> f64); 3] =
+    [("H_c", |film| film.h_c), ("H_min", |film| film.h_min), ("traction", |film| film.traction)];
+
+/// Solves without telling the observer, every so many.
+const REPORT_EVERY: usize = 32;
+
+/// One column of the table, of a test and its truth.
+type Column = (&'static str, fn(&Test, &Film) -> f64);
+
+const COLUMNS: [Column; 15] = [
+    ("M", |test, _| test.point.moes().m),
+    ("L", |test, _| test.point.moes().l),
+    ("alpha", |test, _| test.point.alpha_per_pa),
+    ("p_h_pa", |test, _| test.point.hertz().pressure_pa),
+    ("converged", |test, _| f64::from(u8::from(test.film.is_some()))),
+    ("H_c", |test, _| test.film.unwrap_or(Film::NONE).h_c),
+    ("newton_iterations", |test, _| test.newton_iterations as f64),
+    ("wall_s", |test, _| test.wall_s),
+    ("H_c_full", |_, full| full.h_c),
+    ("H_min", |test, _| test.film.unwrap_or(Film::NONE).h_min),
+    ("H_min_full", |_, full| full.h_min),
+    ("srr", |test, _| test.point.sliding.slide_to_roll_ratio),
+    ("npr", |test, _| test.point.sliding.newtonian_plateau_ratio.unwrap_or(1.0)),
+    ("traction", |test, _| test.film.unwrap_or(Film::NONE).traction),
+    ("traction_full", |_, full| full.traction),
+];
+
+impl Film {
+    const NONE: Self = Self { h_c: f64::NAN, h_min: f64::NAN, traction: f64::NAN };
+
+    fn of_full(full: &Solution) -> Self {
+        // Without a meaning there is nothing to compare.
+        let traction = if full.traction_warning().is_none() { full.traction_coefficient() } else { f64::NAN };
+        Self { h_c: full.scalars.h_c, h_min: full.scalars.h_min, traction }
+    }
+
+    /// Relative errors of H_c, H_min and traction against a full solution; none where they are not known.
+    pub fn errors(&self, full: &Self) -> [Option<f64>; 3] {
+        COMPARED.map(|(_, get)| Some((get(self) / get(full) - 1.0).abs()).filter(|error| error.is_finite()))
+    }
+}
+
+impl Test {
+    /// Calibrated bounds on the relative errors of H_c, H_min and traction.
+    pub fn bounds(&self) -> [Option<f64>; 3] {
+        let bounds = |e: ErrorEstimate| [Some(e.h_c), Some(e.h_min), e.traction].map(|e| e.map(|e| e.bound));
+        self.estimate.map_or([None; 3], bounds)
+    }
+}
+
+/// All tests so far, each with what is known of its truth: nothing yet, or a full solution that failed or not.
+pub fn tests<'a>(rows: impl IntoIterator<Item = &'a Row>) -> Vec<(Test, Option<Option<Film>>)> {
+    let mut tests = Vec::new();
+    for row in rows {
+        match *row {
+            Row::Test(test) => tests.push((test, None)),
+            Row::Truth(index, film) => {
+                if let Some((_, truth)) = tests.get_mut(index) {
+                    *truth = Some(film);
+                }
+            }
+        }
+    }
+    tests
+}
+
+fn own(rows: &[&Row]) -> Vec<(Test, Option<Option<Film>>)> {
+    tests(rows.iter().copied())
+}
+
+impl Question for RandomTest {
+    type Row = Row;
+
+    fn check(&self, _experiment: &Experiment) -> Checked {
+        count("study.tests", self.tests, 1, MAX_TESTS)?;
+        count("study.compare", self.compare, 0, self.tests)?;
+        check::test_range(&self.range)
+    }
+
+    fn methods(&self) -> &[Method] {
+        std::slice::from_ref(&self.method)
+    }
+
+    /// Times are those of single solves, one after the other.
+    fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
+        let Setting { experiment, observer, .. } = *setting;
+        let mut points = all_random_points(&self.range, experiment.contact, self.tests, self.seed)?;
+        if !matches!(self.range, Range::Sliding(_)) {
+            points.iter_mut().for_each(|point| point.sliding = experiment.sliding);
+        }
+        for (i, point) in points.iter().enumerate() {
+            if i.is_multiple_of(REPORT_EVERY) {
+                setting.step("random tests", i, points.len())?;
+            }
+            let answer = setting.bench.answer(&experiment.request_at(*point), &self.method, None, observer)?;
+            let film = answer.result().map(|solution| Film {
+                h_c: solution.scalars.h_c,
+                h_min: solution.scalars.h_min,
+                traction: answer.traction().unwrap_or(f64::NAN),
+            });
+            tell(Row::Test(Test {
+                point: *point,
+                film,
+                newton_iterations: answer.newton_iterations,
+                wall_s: answer.wall_s,
+                untrained: answer.reduced.as_ref().is_some_and(|facts| !facts.trained),
+                estimate: answer.reduced.as_ref().and_then(|facts| facts.error),
+            }));
+        }
+        let Some(source) = self.method.model() else { return Ok(()) };
+        let model = setting.bench.model_for(source, experiment.contact, &experiment.lubricant, observer)?;
+        let grid = |point: &OperatingPoint| model.windows[model.window_for(point.moes())].grid.clone();
+        let compared = &points[..self.compare.min(points.len())];
+        let truth = |i: usize, full: Option<&Solution>| tell(Row::Truth(i, full.map(Film::of_full)));
+        full_solutions_told(grid, compared, experiment.lubricant, observer, truth)?;
+        Ok(())
+    }
+
+    /// Values of the method: `tests`, `failures`, `failure_percent`, Newton steps and seconds; of a reduced one `untrained`, `compared`, `full_failures`,
+    /// its errors, and what its bounds are worth.
+    fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
+        let (of, tests) = (Some(&self.method), own(rows));
+        let failures = tests.iter().filter(|(test, _)| test.film.is_none()).count();
+        found.converged &= failures == 0;
+        found.push("tests", of, tests.len() as f64);
+        found.push("failures", of, failures as f64);
+        found.push("failure_percent", of, 100.0 * failures as f64 / tests.len() as f64);
+        let newton: Vec<f64> = tests.iter().map(|(test, _)| test.newton_iterations as f64).collect();
+        let seconds: Vec<f64> = tests.iter().map(|(test, _)| test.wall_s).collect();
+        found.push_effort(of, &newton, &seconds);
+        if self.method == Method::Full {
+            return;
+        }
+        found.push("untrained", of, tests.iter().filter(|(test, _)| test.untrained).count() as f64);
+        if self.compare == 0 {
+            return;
+        }
+        let mut errors: [Vec<f64>; 3] = Default::default();
+        let mut bounds: [Vec<f64>; 3] = Default::default();
+        for (test, truth) in &tests {
+            let (Some(film), Some(Some(full))) = (test.film, truth) else { continue };
+            for (k, (error, bound)) in film.errors(full).into_iter().zip(test.bounds()).enumerate() {
+                errors[k].extend(error);
+                bounds[k].extend(error.zip(bound).map(|(error, bound)| bound / error));
+            }
+        }
+        found.push("compared", of, errors[0].len() as f64);
+        let full_failures = tests.iter().filter(|(_, truth)| *truth == Some(None)).count();
+        found.push("full_failures", of, full_failures as f64);
+        for (((name, _), errors), bounds) in COMPARED.iter().zip(&errors).zip(&bounds) {
+            if errors.is_empty() {
+                continue;
+            }
+            found.push_spread(&format!("{name}_error"), of, errors);
+            if !bounds.is_empty() {
+                found.push_bounds(name, of, bounds);
+            }
+        }
+    }
+
+    fn tables(&self, rows: &[&Row]) -> Vec<Table> {
+        let mut table = Table::new("random", &COLUMNS.map(|(name, _)| name));
+        let row = |(test, truth): (Test, Option<Option<Film>>)| {
+            let full = truth.flatten().unwrap_or(Film::NONE);
+            COLUMNS.iter().map(|(_, get)| get(&test, &full)).collect()
+        };
+        table.rows.extend(own(rows).into_iter().map(row));
+        vec![table]
+    }
+
+    /// Where the method fails, and its errors beside what it promised.
+    fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
+        let tests = own(rows);
+        let mut map =
+            Chart::new("Random tests", ChartAxis::log("Load number M"), ChartAxis::linear("Lubricant number L"));
+        let at = |solved: bool| {
+            let of = move |(test, _): &&(Test, _)| test.film.is_some() == solved;
+            tests.iter().filter(of).map(|(test, _)| test.point.moes()).map(|moes| [moes.m, moes.l])
+        };
+        map.add("converged", Marks::Dots, at(true));
+        map.add("failed", Marks::Crosses, at(false));
+        let axes = |name: &str| (ChartAxis::log("Load number M"), ChartAxis::log(format!("Relative error of {name}")));
+        let charts = COMPARED.iter().enumerate().map(|(k, (name, _))| {
+            let (x, y) = axes(name);
+            let mut chart = Chart::new(format!("Errors of {name}"), x, y);
+            let bounds = tests.iter().filter_map(|(test, _)| Some([test.point.moes().m, test.bounds()[k]?]));
+            chart.add("bound", Marks::Dots, bounds);
+            let errors = tests.iter().filter_map(|(test, truth)| {
+                Some([test.point.moes().m, test.film?.errors(&(*truth)??)[k]?])
+            });
+            chart.add("true", Marks::Dots, errors);
+            chart
+        });
+        std::iter::once(map).chain(charts).filter(|chart| !chart.series.is_empty()).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests_of_rows {
+    use super::*;
+
+    #[test]
+    fn a_truth_finds_its_test_whenever_it_comes() {
+        let test = Test {
+            point: OperatingPoint::TABLE_2_1,
+            film: Some(Film { h_c: 1.1, h_min: 0.9, traction: f64::NAN }),
+            newton_iterations: 3,
+            wall_s: 0.0,
+            untrained: false,
+            estimate: None,
+        };
+        let full = Film { h_c: 1.0, h_min: 1.0, traction: 0.05 };
+        let rows = [Row::Test(test), Row::Test(test), Row::Truth(1, Some(full)), Row::Truth(0, None), Row::Truth(7, None)];
+        let seen = tests(&rows);
+        assert_eq!((seen.len(), seen[0].1, seen[1].1), (2, Some(None), Some(Some(full))));
+        let [h_c, h_min, traction] = test.film.unwrap().errors(&full);
+        assert!((h_c.unwrap() - 0.1).abs() < 1e-12 && (h_min.unwrap() - 0.1).abs() < 1e-12 && traction.is_none());
+    }
+}

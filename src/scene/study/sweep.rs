@@ -1,0 +1,153 @@
+//! The contact along one to three varied quantities.
+
+use super::path::{self, Path, PathRow};
+use super::question::{Question, Setting, Tell};
+use crate::scene::at::At;
+use crate::scene::axis::{Axis, Steps, Variable};
+use crate::scene::chart::{Chart, ChartAxis};
+use crate::scene::check::{self, Checked, MAX_POINTS, count, number, refuse};
+use crate::scene::error::RunError;
+use crate::scene::experiment::Experiment;
+use crate::scene::method::Method;
+use crate::scene::outcome::Findings;
+use crate::scene::table::Table;
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::Sliding;
+use serde::{Deserialize, Serialize};
+
+/// The contact along one to three varied quantities, the last one fastest; each solve starts from its neighbour.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sweep {
+    /// What is varied.
+    pub over: Vec<Axis>,
+    /// How each point is solved.
+    pub methods: Vec<Method>,
+    /// Whether full solves start cold instead.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub cold: bool,
+    /// Whether reduced methods are compared with full solutions on the model's own grid: then what the grids differ by is no part of the error.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub compare_on_model_grid: bool,
+}
+
+impl Sweep {
+    fn varied(&self) -> Vec<&'static str> {
+        self.over.iter().map(|axis| axis.vary.name()).collect()
+    }
+}
+
+impl Question for Sweep {
+    type Row = PathRow;
+
+    fn check(&self, experiment: &Experiment) -> Checked {
+        check::methods("study.methods", &self.methods)?;
+        if self.compare_on_model_grid && self.methods.iter().all(|method| method.model().is_none()) {
+            return Err(refuse(
+                "study.compare_on_model_grid",
+                "needs a reduced method to compare; add Reduced(…) to the methods, or leave it out",
+            ));
+        }
+        check_axes(&self.over, experiment)
+    }
+
+    fn methods(&self) -> &[Method] {
+        &self.methods
+    }
+
+    fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, PathRow>) -> Result<(), RunError> {
+        let contacts = contacts_of(setting.experiment, &self.over)?;
+        let Self { methods, cold, compare_on_model_grid, .. } = self;
+        Path { name: "sweep", contacts, methods, cold: *cold, on_model_grid: *compare_on_model_grid }
+            .solve(setting, tell)
+    }
+
+    fn findings(&self, experiment: &Experiment, rows: &[&PathRow], found: &mut Findings) {
+        path::findings(&self.methods, experiment, rows, found);
+    }
+
+    fn tables(&self, rows: &[&PathRow]) -> Vec<Table> {
+        vec![path::table("sweep", &self.varied(), &self.methods, rows)]
+    }
+
+    fn charts(&self, rows: &[&PathRow]) -> Vec<Chart> {
+        let Some(last) = self.over.last() else { return Vec::new() };
+        let x = ChartAxis { label: last.vary.label().to_owned(), log: matches!(last.values, Steps::Log { .. }) };
+        path::charts(&x, &self.varied(), &self.methods, rows)
+    }
+}
+
+/// All combinations of the values of the axes with their contacts, the last one fastest.
+pub(super) fn contacts_of(
+    experiment: &Experiment,
+    over: &[Axis],
+) -> Result<Vec<(Vec<f64>, OperatingPoint)>, RunError> {
+    let mut contacts = Vec::new();
+    for values in Steps::combinations(over.iter().map(|axis| &axis.values)) {
+        let (mut at, mut sliding) = (experiment.at, experiment.sliding);
+        for (axis, &value) in over.iter().zip(&values) {
+            set(&mut at, &mut sliding, axis.vary, value)?;
+        }
+        let point = at.with_alpha_of(&experiment.lubricant).point(experiment.contact)?;
+        contacts.push((values, OperatingPoint { sliding, ..point }));
+    }
+    Ok(contacts)
+}
+
+/// Sets one quantity of an operating point or its sliding.
+fn set(at: &mut At, sliding: &mut Sliding, variable: Variable, value: f64) -> Result<(), RunError> {
+    match (variable, at) {
+        (Variable::M | Variable::L, At::Si { .. }) => {
+            return Err(RunError::Study(format!(
+                "{} can only be varied where `at` is Moes(…), which says what follows",
+                variable.name()
+            )));
+        }
+        (Variable::M, At::Moes { m, .. }) => *m = value,
+        (Variable::L, At::Moes { l, .. }) => *l = value,
+        (Variable::Radius, At::Si { radius, .. }) => *radius = value,
+        (Variable::Radius, At::Moes { radius, .. }) => *radius = Some(value),
+        (Variable::Speed, At::Si { speed, .. }) => *speed = value,
+        (Variable::Speed, At::Moes { speed, .. }) => *speed = Some(value),
+        (Variable::Load, At::Si { load, .. }) => *load = value,
+        (Variable::Load, At::Moes { load, .. }) => *load = Some(value),
+        (Variable::Modulus, At::Si { modulus, .. }) => *modulus = value,
+        (Variable::Modulus, At::Moes { modulus, .. }) => *modulus = Some(value),
+        (Variable::Viscosity, At::Si { viscosity, .. }) => *viscosity = value,
+        (Variable::Viscosity, At::Moes { viscosity, .. }) => *viscosity = Some(value),
+        (Variable::Alpha, At::Si { alpha, .. }) => *alpha = value,
+        (Variable::Alpha, At::Moes { alpha, .. }) => *alpha = Some(value),
+        (Variable::SlideToRollRatio, _) => sliding.slide_to_roll_ratio = value,
+        (Variable::NewtonianPlateauRatio, _) => sliding.newtonian_plateau_ratio = Some(value),
+    }
+    Ok(())
+}
+
+/// What a study varies.
+pub(super) fn check_axes(over: &[Axis], experiment: &Experiment) -> Checked {
+    count("study.over (how many)", over.len(), 1, 3)?;
+    over.iter().try_for_each(check_axis)?;
+    if over.iter().any(|axis| axis.vary == Variable::Alpha) && experiment.lubricant.own_coefficient().is_some() {
+        return Err(refuse("study.over.alpha", "cannot be varied: the lubricant's viscosity law determines it"));
+    }
+    let points = over.iter().map(|axis| axis.values.len()).try_fold(1usize, usize::checked_mul);
+    count("study.over (points)", points.unwrap_or(usize::MAX), 1, MAX_POINTS)
+}
+
+fn check_axis(axis: &Axis) -> Checked {
+    let field = format!("study.over.{}", axis.vary.name());
+    let (least, most) = axis.vary.range();
+    let limit = |value: f64| number(&field, value, least, most);
+    count(&format!("{field} (values)"), axis.values.len(), 1, MAX_POINTS)?;
+    match &axis.values {
+        Steps::Linear { from, to, .. } => {
+            limit(*from)?;
+            limit(*to)
+        }
+        Steps::Log { from, to, .. } => {
+            number(&field, *from, least.max(f64::MIN_POSITIVE), most)?;
+            number(&field, *to, least.max(f64::MIN_POSITIVE), most)
+        }
+        Steps::List(values) => values.iter().try_for_each(|&value| limit(value)),
+    }
+}

@@ -1,0 +1,221 @@
+//! The adaptive plan cut at each tolerance of its ladder (Fig. 3.6): what every rung costs and what it is worth.
+//!
+//! One training runs down the whole ladder. What it had solved when a tolerance was met is the training with that tolerance as its last:
+//! the search does not look ahead.
+
+use super::error_measures::OnlineScheme;
+use super::path::trajectory_points;
+use super::question::{Question, Setting, Tell};
+use crate::scene::chart::{Chart, ChartAxis, Marks};
+use crate::scene::check::{self, Checked, MAX_COMPARED, MAX_TESTS, count};
+use crate::scene::error::RunError;
+use crate::scene::experiment::Experiment;
+use crate::scene::outcome::Findings;
+use crate::scene::parallel::{full_solutions, reduced_solutions};
+use crate::scene::random_points::all_random_points;
+use crate::scene::statistics::{mean, median, percentile};
+use crate::scene::table::Table;
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::reduced::{ErrorMeasures, Norm, Online};
+use crate::solver::training::{Plan, QuantityBox, Range, TrainingState, Windows, train_resumable};
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// An adaptive training cut at each tolerance of its ladder: Fig. 3.6.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ToleranceStudy {
+    /// The scene of the training; relative paths refer to this scene's folder.
+    pub training: PathBuf,
+    /// The box of random tests (3.17) and of the trajectory (3.21).
+    pub range: QuantityBox,
+    /// Points along the trajectory, each with a full solution.
+    pub points: usize,
+    /// Random tests of each cut.
+    pub tests: usize,
+    /// Seed of the random tests.
+    pub seed: u64,
+    /// Online scheme.
+    #[serde(default)]
+    pub online: OnlineScheme,
+}
+
+/// What comes of it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Row {
+    /// What all rungs share.
+    Trained {
+        /// What the training says of itself.
+        log: Vec<String>,
+        /// Full solutions along the trajectory that failed.
+        full_failures: usize,
+    },
+    /// One rung of the ladder.
+    Rung(Rung),
+}
+
+/// The training cut at one tolerance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rung {
+    /// The tolerance that was met.
+    pub tolerance: f64,
+    /// Full solutions until then.
+    pub snapshots: usize,
+    /// Pressure and deformation modes.
+    pub modes: (usize, usize),
+    /// Sampled rows.
+    pub sampled_rows: usize,
+    /// Random tests that failed.
+    pub failures: usize,
+    /// Contacts of the trajectory with a full solution and no reduced one.
+    pub trajectory_failures: usize,
+    /// e_z along the trajectory.
+    pub states: Vec<f64>,
+    /// e_f^I along the trajectory.
+    pub residuals: Vec<f64>,
+    /// |H̃_c/H_c − 1| along the trajectory.
+    pub films: Vec<f64>,
+    /// Seconds of the reduced solves along the trajectory.
+    pub seconds: Vec<f64>,
+}
+
+const COLUMNS: [(&str, fn(&Rung) -> f64); 14] = [
+    ("tolerance", |rung| rung.tolerance),
+    ("snapshots", |rung| rung.snapshots as f64),
+    ("basis_p", |rung| rung.modes.0 as f64),
+    ("basis_delta", |rung| rung.modes.1 as f64),
+    // The dissertation's count of unknowns (p̃, δ̃, H₀); online, modes + 1 of them are iterated on.
+    ("degrees_of_freedom", |rung| (rung.modes.0 + rung.modes.1 + 1) as f64),
+    ("sampled_rows", |rung| rung.sampled_rows as f64),
+    ("failures", |rung| rung.failures as f64),
+    ("trajectory_failures", |rung| rung.trajectory_failures as f64),
+    ("e_z_mean", |rung| mean(&rung.states)),
+    ("e_f_I_mean", |rung| mean(&rung.residuals)),
+    ("H_c_error_median", |rung| median(&rung.films)),
+    ("H_c_error_p95", |rung| percentile(&rung.films, 0.95)),
+    ("H_c_error_max", |rung| percentile(&rung.films, 1.0)),
+    ("online_mean_s", |rung| mean(&rung.seconds)),
+];
+
+fn rungs<'a>(rows: &[&'a Row]) -> Vec<&'a Rung> {
+    let rung = |row: &&'a Row| match row {
+        Row::Rung(rung) => Some(rung),
+        Row::Trained { .. } => None,
+    };
+    rows.iter().filter_map(rung).collect()
+}
+
+impl Question for ToleranceStudy {
+    type Row = Row;
+
+    fn check(&self, _experiment: &Experiment) -> Checked {
+        count("study.points", self.points, 2, MAX_COMPARED)?;
+        count("study.tests", self.tests, 1, MAX_TESTS)?;
+        check::quantity_box("study.range", &self.range)
+    }
+
+    fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
+        let Setting { experiment, observer, .. } = *setting;
+        let training = setting.bench.training(&self.training)?;
+        let one_window = matches!(&training.windows, Windows::Given(windows) if windows.len() == 1);
+        let Some(Plan::Adaptive { tolerances, .. }) = Some(&training.plan).filter(|_| one_window) else {
+            let sentence = "a tolerance study needs a training with an adaptive plan and one window";
+            return Err(RunError::Study(sentence.to_owned()));
+        };
+        let mut state = TrainingState::new(training.clone());
+        let model = train_resumable(&mut state, observer)?;
+        let grid = model.windows[0].grid.clone();
+        let along: Vec<OperatingPoint> =
+            trajectory_points(&self.range, experiment, self.points)?.into_iter().map(|(_, point)| point).collect();
+        let truth = full_solutions(|_| grid.clone(), &along, experiment.lubricant, observer)?;
+        let full_failures = truth.iter().filter(|full| full.is_none()).count();
+        tell(Row::Trained { log: model.log, full_failures });
+        let points = all_random_points(&Range::Box(self.range), experiment.contact, self.tests, self.seed)?;
+        let options = self.online.options();
+        let rungs = state.windows[0].search.rungs.clone();
+        for (tolerance, solutions) in tolerances.iter().zip(rungs) {
+            let mut cut = state.clone();
+            // The cut models' errors are measured here, against full solutions.
+            cut.spec.evidence = 0;
+            cut.windows[0].solved.truncate(solutions);
+            let model = Arc::new(cut.model(observer)?);
+            let window = &model.windows[0];
+            let tested = reduced_solutions(&model, options, &points, experiment.lubricant, |_| false, observer)?;
+            let mut rung = Rung {
+                tolerance: *tolerance,
+                snapshots: solutions,
+                modes: (window.pressure.modes.ncols(), window.deformation.modes.ncols()),
+                sampled_rows: window.sampled_rows.len(),
+                failures: tested.iter().filter(|solved| solved.is_none()).count(),
+                trajectory_failures: 0,
+                states: Vec::new(),
+                residuals: Vec::new(),
+                films: Vec::new(),
+                seconds: Vec::new(),
+            };
+            let measures = ErrorMeasures::new(window, &options, Norm::Euclidean);
+            let mut online = Online::new(Arc::clone(&model), options);
+            if let Some(first) = along.first() {
+                online.prepare(first.moes());
+            }
+            for (point, full) in along.iter().zip(&truth) {
+                online.forget();
+                let clock = Instant::now();
+                let solved = online.solve(point, experiment.lubricant);
+                rung.seconds.push(clock.elapsed().as_secs_f64());
+                if let (Ok(solved), Some(full)) = (solved, full) {
+                    let fields = online.reconstruct(&solved)?;
+                    rung.residuals.push(measures.residuals(&solved.coefficients, &fields).sampled_rows);
+                    rung.states.push(measures.state_error(&fields, full));
+                    rung.films.push((fields.scalars.h_c / full.scalars.h_c - 1.0).abs());
+                }
+            }
+            rung.trajectory_failures = along.len() - full_failures - rung.films.len();
+            tell(Row::Rung(rung));
+        }
+        Ok(())
+    }
+
+    /// Values are named `1e1.snapshots`, with the tolerance of the rung. e_z and e_f^I are Euclidean, means along the trajectory (3.21).
+    fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
+        let rungs = rungs(rows);
+        for rung in &rungs {
+            for (column, get) in &COLUMNS[1..] {
+                found.push(format!("{:e}.{column}", rung.tolerance), None, get(rung));
+            }
+        }
+        found.push("rungs_met", None, rungs.len() as f64);
+        found.push("tests", None, self.tests as f64);
+        for row in rows {
+            if let Row::Trained { log, full_failures } = row {
+                found.warnings.extend(log.iter().cloned());
+                found.push("full_failures", None, *full_failures as f64);
+            }
+        }
+    }
+
+    fn tables(&self, rows: &[&Row]) -> Vec<Table> {
+        let mut table = Table::new("tolerances", &COLUMNS.map(|(name, _)| name));
+        table.rows.extend(rungs(rows).iter().map(|rung| COLUMNS.iter().map(|(_, get)| get(rung)).collect()));
+        vec![table]
+    }
+
+    fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
+        let rungs = rungs(rows);
+        let chart = |title: &str, log: bool, shown: &[&str]| {
+            let y = ChartAxis { label: title.to_owned(), log };
+            let mut chart = Chart::new(title, ChartAxis::log("Tolerance"), y);
+            for (name, get) in COLUMNS.iter().filter(|(name, _)| shown.contains(name)) {
+                chart.add(*name, Marks::Line, rungs.iter().map(|rung| [rung.tolerance, get(rung)]));
+            }
+            chart
+        };
+        vec![
+            chart("Errors along the trajectory", true, &["e_z_mean", "e_f_I_mean", "H_c_error_median"]),
+            chart("Size", false, &["snapshots", "degrees_of_freedom", "sampled_rows"]),
+            chart("Failures", false, &["failures", "trajectory_failures"]),
+        ]
+    }
+}

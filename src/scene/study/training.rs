@@ -1,0 +1,102 @@
+//! Training a reduced model and saying what came of it.
+
+use super::question::{Question, Setting, Tell};
+use crate::scene::chart::{Chart, ChartAxis, Marks};
+use crate::scene::check::{Checked, refuse};
+use crate::scene::error::RunError;
+use crate::scene::experiment::Experiment;
+use crate::scene::outcome::Findings;
+use crate::scene::table::Table;
+use crate::solver::reduced::{ReducedModel, Window};
+use crate::solver::training::{TrainingSpec, train};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// The model.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// What was trained.
+    pub model: Arc<ReducedModel>,
+    /// Seconds that it took.
+    pub wall_s: f64,
+}
+
+/// What is said of a window.
+const WINDOW: [(&str, fn(&Window) -> f64); 7] = [
+    ("m_from", |window| window.m.0),
+    ("m_to", |window| window.m.1),
+    ("nodes", |window| (window.grid.nodes().0 * window.grid.nodes().1) as f64),
+    ("snapshots", |window| window.snapshots.len() as f64),
+    ("basis_p", |window| window.pressure.modes.ncols() as f64),
+    ("basis_delta", |window| window.deformation.modes.ncols() as f64),
+    ("sampled_rows", |window| window.sampled_rows.len() as f64),
+];
+
+impl Question for TrainingSpec {
+    type Row = Row;
+
+    fn check(&self, experiment: &Experiment) -> Checked {
+        if self.contact() != experiment.contact {
+            let problem = format!(
+                "hold grids of {} contacts, but the scene's is a {} contact",
+                self.contact().name(),
+                experiment.contact.name()
+            );
+            return Err(refuse("study.windows", problem));
+        }
+        TrainingSpec::check(self).map_err(|problem| refuse("study", format!("is refused: {problem}")))
+    }
+
+    fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
+        let clock = Instant::now();
+        let model = train(self, setting.observer)?;
+        tell(Row { model: Arc::new(model), wall_s: clock.elapsed().as_secs_f64() });
+        Ok(())
+    }
+
+    /// Values: `windows`, `snapshots`, `basis_p`, `basis_delta`, `sampled_rows` (the largest of all windows), `training_s`.
+    fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
+        for Row { model, wall_s } in rows {
+            let of_windows = |get: fn(&Window) -> f64| model.windows.iter().map(get);
+            found.push("training_s", None, *wall_s);
+            found.push("windows", None, model.windows.len() as f64);
+            for (name, get) in &WINDOW[3..] {
+                let value = if *name == "snapshots" { of_windows(*get).sum() } else { of_windows(*get).fold(0.0, f64::max) };
+                found.push(*name, None, value);
+            }
+            found.warnings.extend(model.log.iter().cloned());
+        }
+    }
+
+    fn tables(&self, rows: &[&Row]) -> Vec<Table> {
+        let Some(Row { model, .. }) = rows.first() else { return Vec::new() };
+        let decay = |(k, window): (usize, &Window)| {
+            let mut decay = Table::new(format!("singular_values_{k}"), &["k", "pressure", "deformation"]);
+            let (p, d) = (&window.pressure.singular_values, &window.deformation.singular_values);
+            decay.rows.extend((0..p.len().max(d.len())).map(|i| {
+                let value = |of: &[f64]| of.get(i).copied().unwrap_or(f64::NAN);
+                vec![(i + 1) as f64, value(p), value(d)]
+            }));
+            decay
+        };
+        let mut windows = Table::new("windows", &WINDOW.map(|(name, _)| name));
+        let row = |window: &Window| WINDOW.iter().map(|(_, get)| get(window)).collect();
+        windows.rows.extend(model.windows.iter().map(row));
+        model.windows.iter().enumerate().map(decay).chain([windows]).collect()
+    }
+
+    fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
+        let mut chart = Chart::new("Singular values", ChartAxis::linear("Mode"), ChartAxis::log("σ/σ₁"));
+        let windows = rows.iter().flat_map(|row| &row.model.windows);
+        for window in windows {
+            let (from, to) = window.m;
+            for (name, basis) in [("pressure", &window.pressure), ("deformation", &window.deformation)] {
+                let values = &basis.singular_values;
+                let first = values.first().copied().unwrap_or(1.0);
+                let points = values.iter().enumerate().map(|(i, value)| [(i + 1) as f64, value / first]);
+                chart.add(format!("{name}, M {from}…{to}"), Marks::Line, points);
+            }
+        }
+        vec![chart]
+    }
+}

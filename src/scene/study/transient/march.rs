@@ -1,0 +1,192 @@
+//! What a march gives: statistics, differences from another one, costs, its time series.
+
+use super::TOO_STEEP;
+use super::data::TransientStudy;
+use super::timed_march::Timed;
+use crate::scene::outcome::Findings;
+use crate::scene::statistics::{median, percentile};
+use crate::scene::table::Table;
+use crate::solver::full::transient::{Moment, Quantity, Trajectory};
+use crate::solver::reduced::tpwl::{TpwlRecord, TpwlStep};
+
+/// A march that has ended.
+#[derive(Clone, Debug)]
+pub struct March {
+    /// What its values begin with.
+    pub name: String,
+    /// By what it was made.
+    pub by: By,
+    /// Its moments; no fields.
+    pub trajectory: Trajectory,
+    /// Seconds of each step, without the start.
+    pub seconds: Vec<f64>,
+    /// How far its fields are from keeping the mass between the study's places.
+    pub mass_defect: Option<f64>,
+    /// What each step of a linearised model drew on.
+    pub record: Option<TpwlRecord>,
+}
+
+/// By what a march was made, and which one it is held against.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum By {
+    /// The full system, held against the full march of the same inputs in the first frame, where it is not that.
+    Full {
+        /// That one's name.
+        first: Option<String>,
+    },
+    /// A model, held against the full march of its frame and inputs.
+    Model {
+        /// The model's name.
+        model: String,
+        /// `rnsa` or `tpwl`.
+        method: &'static str,
+        /// The full march's name.
+        full: String,
+    },
+}
+
+/// Quantities that statistics are taken of, with their names.
+const QUANTITIES: [(&str, Quantity); 4] = [
+    ("H_c", Quantity::CentralFilm),
+    ("H_min", Quantity::MinimumFilm),
+    ("P_c", Quantity::CentralPressure),
+    ("P_max", Quantity::MaximumPressure),
+];
+
+type Column = (&'static str, fn(&Moment) -> f64);
+
+const SERIES: [Column; 13] = [
+    ("T", |m| m.time),
+    ("step", |m| m.step),
+    ("radius", |m| m.input.radius),
+    ("speed", |m| m.input.speed),
+    ("load", |m| m.input.load),
+    ("H_c", |m| m.h_c),
+    ("H_min", |m| m.h_min),
+    ("X_H_min", |m| m.x_h_min),
+    ("P_c", |m| m.p_c),
+    ("P_max", |m| m.p_max),
+    ("X_P_max", |m| m.x_p_max),
+    ("newton", |m| m.effort.newton_iterations as f64),
+    ("krylov", |m| m.effort.linear_iterations as f64),
+];
+
+impl March {
+    pub(super) fn new(name: &str, by: By, timed: Timed) -> Self {
+        let trajectory = Trajectory { states: Vec::new(), ..timed.trajectory };
+        Self { name: name.to_owned(), by, trajectory, seconds: timed.seconds, mass_defect: None, record: None }
+    }
+
+    /// The march it is held against, among all of them. One by a model that ended early agrees with nothing.
+    pub fn reference<'a>(&self, marches: &[&'a Self]) -> Option<&'a Self> {
+        let name = match &self.by {
+            By::Full { first } => first.as_ref()?,
+            By::Model { full, .. } => Some(full).filter(|_| self.trajectory.finished())?,
+        };
+        marches.iter().copied().find(|march| march.name == *name)
+    }
+
+    /// Greatest and L2 difference of a quantity from the march it is held against, relative.
+    pub fn difference(&self, quantity: Quantity, study: &TransientStudy, marches: &[&Self]) -> Option<(f64, f64)> {
+        let window = study.window(self.trajectory.transient.duration);
+        self.trajectory.difference(&self.reference(marches)?.trajectory, quantity, window)
+    }
+
+    /// The full march of the same frame and inputs.
+    pub(super) fn full<'a>(&'a self, marches: &[&'a Self]) -> Option<&'a Self> {
+        match &self.by {
+            By::Full { .. } => Some(self),
+            By::Model { full, .. } => marches.iter().copied().find(|march| march.name == *full),
+        }
+    }
+
+    /// The median of its steps \[s\].
+    pub fn step_s(&self) -> f64 {
+        median(&self.seconds)
+    }
+
+    /// Seconds of all steps.
+    pub fn march_s(&self) -> f64 {
+        self.seconds.iter().sum()
+    }
+
+    /// Moments but for the start.
+    pub fn steps(&self) -> &[Moment] {
+        self.trajectory.moments.get(1..).unwrap_or(&[])
+    }
+
+    pub(super) fn findings(&self, study: &TransientStudy, marches: &[&Self], found: &mut Findings) {
+        if matches!(self.by, By::Full { .. }) {
+            self.statistics(study.window(self.trajectory.transient.duration), found);
+        }
+        self.costs(found);
+        if let (By::Model { .. }, Some(full)) = (&self.by, self.full(marches)) {
+            found.push(format!("{}.speed_up", self.name), None, full.step_s() / self.step_s());
+        }
+        if let Some(defect) = self.mass_defect {
+            found.push(format!("{}.mass_defect", self.name), None, defect);
+        }
+        for (quantity_name, quantity) in QUANTITIES {
+            if let Some((greatest, l2)) = self.difference(quantity, study, marches) {
+                found.push(format!("{}.{quantity_name}.difference", self.name), None, greatest);
+                found.push(format!("{}.{quantity_name}.difference_l2", self.name), None, l2);
+            }
+        }
+        if !self.trajectory.finished() {
+            found.converged = false;
+            found.warnings.push(format!("{}: the march {}", self.name, self.trajectory.ended.describe()));
+        }
+        if let Some(record) = &self.record {
+            let mut reach: Vec<f64> = record.steps().iter().map(TpwlStep::reach).collect();
+            reach.retain(|reach| reach.is_finite());
+            found.push(format!("{}.reach_median", self.name), None, median(&reach));
+            found.push(format!("{}.reach_max", self.name), None, percentile(&reach, 1.0));
+            if record.too_steep() {
+                found.warnings.push(format!("{}: {TOO_STEEP}", self.name));
+            }
+        }
+    }
+
+    /// Start, mean, offset and amplitude of each quantity within a window.
+    fn statistics(&self, window: (f64, f64), found: &mut Findings) {
+        let trajectory = &self.trajectory;
+        let Some(start) = trajectory.moments.first() else { return };
+        for (quantity_name, quantity) in QUANTITIES {
+            let mut push = |what: &str, value| found.push(format!("{}.{quantity_name}.{what}", self.name), None, value);
+            push("start", start.value(quantity));
+            if let (Some(mean), Some(amplitude)) =
+                (trajectory.mean(quantity, window), trajectory.amplitude(quantity, window))
+            {
+                push("mean", mean);
+                push("offset", mean / start.value(quantity) - 1.0);
+                push("amplitude", amplitude);
+            }
+        }
+    }
+
+    /// Steps and seconds.
+    fn costs(&self, found: &mut Findings) {
+        let steps = self.steps();
+        let per_step = |count: fn(&Moment) -> usize| steps.iter().map(count).sum::<usize>() as f64 / steps.len() as f64;
+        for (what, value) in [
+            ("steps", steps.len() as f64),
+            ("rejected_steps", self.trajectory.rejected_steps as f64),
+            ("newton_per_step", per_step(|moment| moment.effort.newton_iterations)),
+            ("krylov_per_step", per_step(|moment| moment.effort.linear_iterations)),
+            ("step_s_median", self.step_s()),
+            ("step_s_p99", percentile(&self.seconds, 0.99)),
+            ("march_s", self.march_s()),
+        ] {
+            found.push(format!("{}.{what}", self.name), None, value);
+        }
+    }
+
+    /// Its time series.
+    pub(super) fn series(&self) -> Table {
+        let mut table =
+            Table::new(format!("transient_{}", self.name.replace('.', "_")), &SERIES.map(|(name, _)| name));
+        let row = |moment: &Moment| SERIES.iter().map(|(_, get)| get(moment)).collect();
+        table.rows.extend(self.trajectory.moments.iter().map(row));
+        table
+    }
+}

@@ -1,0 +1,110 @@
+//! The marches that a study of a contact in time asks for.
+
+use super::data::{Drive, TransientStudy};
+use crate::solver::full::transient::{Frame, Keep, TimeStep, Transient};
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::Lubricant;
+
+/// States of a training trajectory that are kept, about.
+const TRAINING_STATES: f64 = 700.0;
+/// The same where a linearised model is trained, which chooses among them.
+const LINEARISED_STATES: f64 = 3000.0;
+
+impl TransientStudy {
+    /// All inputs that are followed: its own, which have no name, and the further ones.
+    pub fn drives(&self) -> Vec<Drive> {
+        let own = Drive { name: String::new(), inputs: self.inputs.clone(), duration: self.duration };
+        std::iter::once(own).chain(self.further.iter().cloned()).collect()
+    }
+
+    /// The window of statistics of a march of some duration.
+    pub fn window(&self, duration: f64) -> (f64, f64) {
+        self.window.unwrap_or((0.0, duration))
+    }
+
+    /// The march along some inputs; it keeps no fields.
+    pub fn march(&self, drive: &Drive, point: OperatingPoint, lubricant: Lubricant, frame: Frame) -> Transient {
+        let Drive { inputs, duration, .. } = drive.clone();
+        Transient { point, lubricant, inputs, frame, duration, time_step: self.time_step, keep: Keep::Scalars }
+    }
+
+    /// The march along its own inputs; it keeps fields where models are to be trained by it.
+    pub fn own_march(&self, point: OperatingPoint, lubricant: Lubricant, frame: Frame) -> Transient {
+        let trains = self.trains_on_itself() && (self.reduced.is_some() || self.linearised.is_some());
+        Transient {
+            point,
+            lubricant,
+            inputs: self.inputs.clone(),
+            frame,
+            duration: self.duration,
+            time_step: self.time_step,
+            keep: if trains { self.training_states(self.duration) } else { Keep::Scalars },
+        }
+    }
+
+    /// Whether models are trained by the march along its own inputs.
+    pub fn trains_on_itself(&self) -> bool {
+        self.trainings.is_empty() && self.training_loads.is_empty()
+    }
+
+    /// The marches that models of a frame are trained by, load by load, where it is not the study's own in that frame, which is given.
+    pub fn training_marches(&self, own: &Transient) -> Vec<Transient> {
+        if self.trains_on_itself() {
+            return Vec::new();
+        }
+        let own_load = [own.point.load];
+        let loads = if self.training_loads.is_empty() { &own_load[..] } else { &self.training_loads };
+        let own_drive = [Drive { name: String::new(), inputs: own.inputs.clone(), duration: own.duration }];
+        let drives = if self.trainings.is_empty() { &own_drive[..] } else { &self.trainings };
+        let march = |load: f64, drive: &Drive| Transient {
+            point: OperatingPoint { load, ..own.point },
+            inputs: drive.inputs.clone(),
+            duration: drive.duration,
+            keep: self.training_states(drive.duration),
+            ..own.clone()
+        };
+        loads.iter().flat_map(|&load| drives.iter().map(move |drive| march(load, drive))).collect()
+    }
+
+    /// Which states a training keeps. Linearised models choose among them, so that they want more than bases do.
+    fn training_states(&self, duration: f64) -> Keep {
+        let (TimeStep::Fixed(longest) | TimeStep::Adaptive { longest, .. }) = self.time_step;
+        let most = if self.linearised.is_some() { LINEARISED_STATES } else { TRAINING_STATES };
+        Keep::Every(((duration / longest / most) as usize).max(1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Scene, Study};
+
+    fn study(text: &str) -> (OperatingPoint, TransientStudy) {
+        let scene = Scene::from_ron(&format!("Scene(version: 1, title: \"t\", study: Transient({text}))")).unwrap();
+        let Study::Transient(study) = scene.study.clone() else { panic!() };
+        (scene.point().unwrap(), study)
+    }
+
+    #[test]
+    fn trainings_are_marched_load_by_load_and_its_own_inputs_where_none_are_given() {
+        let load = "inputs: (load: Harmonic(amplitude: 0.1, period: 2.0)), duration: 6.5, time_step: Fixed(0.001)";
+        let linearised = "linearised: (modes: 10, selection: Step(tolerance: 0.001))";
+        let (point, own) = study(&format!("{load}, {linearised}"));
+        let march = |study: &TransientStudy| study.own_march(point, Lubricant::default(), Frame::Fixed);
+        assert!(own.trains_on_itself() && own.training_marches(&march(&own)).is_empty());
+        assert_eq!(march(&own).keep, Keep::Every(2), "6500 steps, of which about 3000 states are kept");
+
+        let (_, loads) = study(&format!("{load}, {linearised}, training_loads: [2e5, 3e5]"));
+        let trained = loads.training_marches(&march(&loads));
+        assert_eq!(march(&loads).keep, Keep::Scalars);
+        assert_eq!(trained.iter().map(|t| t.point.load).collect::<Vec<_>>(), [2e5, 3e5]);
+        assert!(trained.iter().all(|t| t.inputs == own.inputs && t.keep == Keep::Every(2)));
+
+        let trainings = "trainings: [(inputs: (), duration: 1.0), (name: \"long\", inputs: (), duration: 9.5)]";
+        let (_, both) = study(&format!("{load}, {linearised}, training_loads: [2e5, 3e5], {trainings}"));
+        let trained = both.training_marches(&march(&both));
+        let seen: Vec<_> = trained.iter().map(|t| (t.point.load, t.duration)).collect();
+        assert_eq!(seen, [(2e5, 1.0), (2e5, 9.5), (3e5, 1.0), (3e5, 9.5)]);
+        assert_eq!((trained[1].keep, trained[1].point.radius_m), (Keep::Every(3), point.radius_m));
+    }
+}

@@ -1,0 +1,222 @@
+//! A contact in time: in every frame and along every input the full system and the models beside it, what each costs, and how far they lie
+//! apart.
+
+mod costs;
+mod data;
+mod march;
+mod marches;
+mod models;
+mod published;
+mod timed_march;
+
+pub use data::{Drive, LinearisedTransient, ReducedTransient, TransientStudy};
+pub use march::{By, March};
+pub(crate) use models::train_linearised;
+pub use models::{Kind, Model};
+pub use published::PublishedMarch;
+
+use crate::scene::chart::{Chart, ChartAxis, Marks};
+use crate::scene::check::Checked;
+use crate::scene::error::RunError;
+use crate::scene::experiment::Experiment;
+use crate::scene::outcome::Findings;
+use crate::scene::sampled;
+use crate::scene::study::question::{Question, Setting, Tell};
+use crate::scene::table::Table;
+use crate::solver::discrete::grid::{ContactGrid, ReferenceGrid};
+use crate::solver::full::transient::{Frame, FullMarch, Keep, Moment, State, Transient};
+use std::sync::Arc;
+use timed_march::timed_march;
+
+/// Said of inputs that a linearised model cannot carry.
+pub(crate) const TOO_STEEP: &str =
+    "the inputs are too steep for linearised models; a reduced model with sampled rows is the right choice";
+
+/// What comes of a contact in time.
+#[derive(Clone, Debug)]
+pub enum Row {
+    /// A march begins.
+    Begun {
+        /// What its values will begin with.
+        march: Arc<str>,
+        /// What is marched.
+        transient: Box<Transient>,
+    },
+    /// A moment of the march that began last.
+    Moment {
+        /// The march.
+        march: Arc<str>,
+        /// The moment.
+        moment: Moment,
+        /// Seconds of the step that led to it; 0 at the start.
+        seconds: f64,
+    },
+    /// Fields of the moment told last, at some moments and where they are wanted.
+    State {
+        /// The march.
+        march: Arc<str>,
+        /// The fields.
+        state: Arc<State>,
+    },
+    /// A march has ended.
+    Marched(Arc<March>),
+    /// Marches that models of a frame are trained by have ended.
+    Trained {
+        /// The frame.
+        frame: Frame,
+        /// Seconds of all of them.
+        wall_s: f64,
+        /// A sentence on each that ended early.
+        cut_short: Vec<String>,
+    },
+    /// A model was made.
+    Model(Model),
+}
+
+/// What all marches of a study share.
+struct Runner<'a, 'b> {
+    study: &'a TransientStudy,
+    grid: Arc<ReferenceGrid>,
+    setting: &'a Setting<'b>,
+    tell: &'a Tell<'a, Row>,
+}
+
+fn marches<'a>(rows: &[&'a Row]) -> Vec<&'a March> {
+    let march = |row: &&'a Row| match row {
+        Row::Marched(march) => Some(march.as_ref()),
+        _ => None,
+    };
+    rows.iter().filter_map(march).collect()
+}
+
+fn models<'a>(rows: &[&'a Row]) -> Vec<&'a Model> {
+    let model = |row: &&'a Row| match row {
+        Row::Model(model) => Some(model),
+        _ => None,
+    };
+    rows.iter().filter_map(model).collect()
+}
+
+impl Question for TransientStudy {
+    type Row = Row;
+
+    fn check(&self, experiment: &Experiment) -> Checked {
+        self.check_with(experiment)
+    }
+
+    fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
+        let mut study = self.clone();
+        if let Some(path) = &study.sampled {
+            sampled::read_into(&mut study.inputs, &setting.bench.resolve(path))?;
+        }
+        let request = setting.experiment.request()?;
+        let ContactGrid::Line(grid) = setting.bench.grid(&request, setting.observer)? else {
+            return Err(RunError::Study("a contact in time needs the grid of a line contact".to_owned()));
+        };
+        let runner = Runner { study: &study, grid, setting, tell };
+        let drives = study.drives();
+        for &frame in &study.frames {
+            let mut models = Vec::new();
+            for (k, drive) in drives.iter().enumerate() {
+                let transient = if k == 0 {
+                    study.own_march(request.point, request.lubricant, frame)
+                } else {
+                    study.march(drive, request.point, request.lubricant, frame)
+                };
+                let (full, states) = runner.full(drive, transient)?;
+                tell(Row::Marched(Arc::clone(&full)));
+                if k == 0 {
+                    let own = crate::solver::full::transient::Trajectory { states, ..full.trajectory.clone() };
+                    models = runner.models(&own)?;
+                }
+                for model in &models {
+                    runner.compared(model, drive, &full)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Values of a full march stand behind the name of its frame (`fixed`, `ale`, `remeshed`, `remeshed_linear`): `H_c.start`, `H_c.mean`,
+    /// `H_c.amplitude`, `H_c.offset` (mean over start, less 1) over the window, and so on for H_min, P_c, P_max; `steps`, `rejected_steps`,
+    /// `newton_per_step`, `krylov_per_step`, `step_s_median`, `step_s_p99`, `march_s`; `mass_defect` where places are given. Of the second frame on:
+    /// `H_c.difference` (greatest, relative) and `H_c.difference_l2` from the first one within the window, and so on.
+    ///
+    /// A reduced model's stand behind `fixed.rnsa`, a linearised one's behind `fixed.tpwl` (with several rules behind `fixed.tpwl.step_0.001`
+    /// and the like, and its marches behind that and `dual_taylor` or `dissertation`): its size, differences from the full
+    /// march, costs, and `speed_up` (medians of the steps); `reach_median` and `reach_max` of a linearised one: how far steps lie from the trained
+    /// trajectories, in distances between operating points. `training_s` are the seconds of the trainings' full marches, where the study's own is
+    /// not the training.
+    ///
+    /// Values of marches along further inputs have the name of these in front, as in `triangle.fixed.rnsa.H_c.difference_l2`.
+    fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
+        let (marches, models) = (marches(rows), models(rows));
+        for row in rows {
+            match row {
+                Row::Marched(march) => march.findings(self, &marches, found),
+                Row::Model(model) => model.findings(&models, found),
+                Row::Trained { frame, wall_s, cut_short } => {
+                    found.converged &= cut_short.is_empty();
+                    found.warnings.extend(cut_short.iter().cloned());
+                    found.push(format!("{}.training_s", frame.name()), None, *wall_s);
+                }
+                Row::Begun { .. } | Row::Moment { .. } | Row::State { .. } => {}
+            }
+        }
+    }
+
+    /// The time series of each march; losses of information; operating points; with models, what all marches cost.
+    fn tables(&self, rows: &[&Row]) -> Vec<Table> {
+        let table = |row: &&Row| match row {
+            Row::Marched(march) => Some(march.series()),
+            Row::Model(model) => Some(model.table()),
+            _ => None,
+        };
+        let mut tables: Vec<Table> = rows.iter().filter_map(table).collect();
+        if self.reduced.is_some() || self.linearised.is_some() {
+            tables.push(costs::table(self, &marches(rows), &models(rows)));
+        }
+        tables
+    }
+
+    fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
+        let quantities: [(&str, fn(&Moment) -> f64); 4] = [
+            ("Central film H_c", |moment| moment.h_c),
+            ("Smallest film H_min", |moment| moment.h_min),
+            ("Central pressure P_c", |moment| moment.p_c),
+            ("Largest pressure P_max", |moment| moment.p_max),
+        ];
+        let moment = |row: &&Row| match *row {
+            Row::Moment { march, moment, .. } => Some((Arc::clone(march), *moment)),
+            _ => None,
+        };
+        let moments: Vec<(Arc<str>, Moment)> = rows.iter().filter_map(moment).collect();
+        let chart = |(title, get): (&str, fn(&Moment) -> f64)| {
+            let mut chart = Chart::new(title, ChartAxis::linear("T = t u_ref/a_ref"), ChartAxis::linear(title));
+            for march in moments.chunk_by(|a, b| a.0 == b.0) {
+                chart.add(march[0].0.as_ref(), Marks::Line, march.iter().map(|(_, moment)| [moment.time, get(moment)]));
+            }
+            chart
+        };
+        quantities.map(chart).into()
+    }
+}
+
+impl Runner<'_, '_> {
+    /// A full march, and its fields where they were kept.
+    fn full(&self, drive: &Drive, mut transient: Transient) -> Result<(Arc<March>, Vec<State>), RunError> {
+        let (study, frame) = (self.study, transient.frame);
+        if study.mass_between.is_some() {
+            transient.keep = Keep::Every(1);
+        }
+        let name = drive.result(frame.name());
+        let mut model = FullMarch::new(Arc::clone(&self.grid), &transient)?;
+        let stage = format!("{name}, full");
+        let mut timed = timed_march(&mut model, &transient, stage, self.setting, Some((&name, self.tell)))?;
+        let balance = study.mass_between.and_then(|places| timed.trajectory.mass_balance(places));
+        let states = std::mem::take(&mut timed.trajectory.states);
+        let first = study.frames.first().filter(|first| **first != frame).map(|first| drive.result(first.name()));
+        let march = March::new(&name, By::Full { first }, timed);
+        Ok((Arc::new(March { mass_defect: balance.map(|balance| balance.defect()), ..march }), states))
+    }
+}

@@ -1,0 +1,245 @@
+//! The models of a contact in time: trained on the spot, then marched beside the full system.
+
+use super::data::{Drive, LinearisedTransient, ReducedTransient, TransientStudy};
+use super::march::{By, March};
+use super::timed_march::{Timed, timed_march};
+use super::{Row, Runner};
+use crate::scene::error::RunError;
+use crate::scene::outcome::Findings;
+use crate::scene::table::Table;
+use crate::solver::full::transient::{Frame, FullMarch, Keep, Trajectory, Transient};
+use crate::solver::reduced::tpwl::{TpwlError, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
+use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel};
+use crate::solver::training::{TrajectoryTraining, train_trajectories};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Most modes in a table of losses.
+const MOST_LOSSES: usize = 300;
+
+/// A trained model.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// What its values begin with.
+    pub name: String,
+    /// Its frame.
+    pub frame: Frame,
+    /// What it is.
+    pub kind: Kind,
+    /// Seconds of its making; of a further rule those of its points alone.
+    pub wall_s: f64,
+}
+
+/// Which kind of model it is.
+#[derive(Clone, Debug)]
+pub enum Kind {
+    /// With sampled rows.
+    Reduced(Arc<TrajectoryModel>),
+    /// Trajectory-piecewise-linear.
+    Linearised {
+        /// The model.
+        model: Arc<TpwlModel>,
+        /// The rule of its points, in a word.
+        label: String,
+        /// Weightings, each a march of its own.
+        weightings: Vec<Weighting>,
+    },
+}
+
+/// The linearised model that a study asks for by its first rule, of given trajectories.
+///
+/// # Errors
+/// When the trajectories do not go together.
+pub(crate) fn train_linearised(
+    linearised: &LinearisedTransient,
+    trajectories: &[&Trajectory],
+) -> Result<TpwlModel, TpwlError> {
+    let training = TpwlTraining { modes: linearised.modes, selection: linearised.selection };
+    match linearised.points {
+        Some(points) => TpwlModel::train_with_points(trajectories, training, points),
+        None => TpwlModel::train(trajectories, training),
+    }
+}
+
+impl Model {
+    /// Pressure modes.
+    pub fn modes(&self) -> usize {
+        match &self.kind {
+            Kind::Reduced(model) => model.window.pressure.modes.ncols(),
+            Kind::Linearised { model, .. } => model.space.modes(),
+        }
+    }
+
+    /// Sampled rows or operating points.
+    pub fn chosen(&self) -> usize {
+        match &self.kind {
+            Kind::Reduced(model) => model.window.sampled_rows.len(),
+            Kind::Linearised { model, .. } => model.points.len(),
+        }
+    }
+
+    /// Values of a reduced one: `modes`, `modes_share` (of the first frame's), `deformation_modes`, `rows`; of a linearised one `modes`, `points`,
+    /// `tolerance`; of both `model_s`.
+    pub(super) fn findings(&self, models: &[&Self], found: &mut Findings) {
+        let (modes, chosen) = (self.modes() as f64, self.chosen() as f64);
+        let mut push = |what: &str, value: f64| found.push(format!("{}.{what}", self.name), None, value);
+        push("modes", modes);
+        match &self.kind {
+            Kind::Reduced(model) => {
+                let first = models.iter().find(|model| matches!(model.kind, Kind::Reduced(_)));
+                push("modes_share", modes / first.map_or(modes, |first| first.modes() as f64));
+                push("deformation_modes", model.window.deformation.modes.ncols() as f64);
+                push("rows", chosen);
+            }
+            Kind::Linearised { model, .. } => {
+                push("points", chosen);
+                push("tolerance", model.training.selection.tolerance());
+            }
+        }
+        push("model_s", self.wall_s);
+    }
+
+    /// Loss of information (2.90) of pressure and deformation against the number of modes, Fig. 4.5; or where operating points lie, Fig. 4.10.
+    pub(super) fn table(&self) -> Table {
+        match &self.kind {
+            Kind::Reduced(model) => {
+                let name = format!("loss_{}", self.frame.name());
+                let mut table = Table::new(name, &["modes", "pressure_loss", "deformation_loss"]);
+                let window = &model.window;
+                let most = window.pressure.singular_values.len().min(MOST_LOSSES);
+                let row = |k| vec![k as f64, window.pressure.loss(k), window.deformation.loss(k)];
+                table.rows.extend((0..=most).map(row));
+                table
+            }
+            Kind::Linearised { model, label, .. } => {
+                let mut table = Table::new(
+                    format!("operating_points_{label}"),
+                    &["trajectory", "reference load N/m", "T", "radius", "speed", "load", "H_0", "spacing"],
+                );
+                table.rows.extend(model.points.iter().map(|point| {
+                    let (input, time) = (point.moment.input, point.moment.time);
+                    let h_0 = point.moment.state.last().copied().unwrap_or(f64::NAN);
+                    let load = model.sets[point.set].problem.point.load;
+                    let trajectory = (point.trajectory + 1) as f64;
+                    vec![trajectory, load, time, input.radius, input.speed, input.load, h_0, point.spacing]
+                }));
+                table
+            }
+        }
+    }
+}
+
+impl Runner<'_, '_> {
+    /// The models of the frame of the study's own full march.
+    pub fn models(&self, own: &Trajectory) -> Result<Vec<Model>, RunError> {
+        let TransientStudy { reduced, linearised, .. } = self.study;
+        let frame = own.transient.frame;
+        let linearised = linearised.as_ref().filter(|_| frame == Frame::Fixed);
+        let mut models = Vec::new();
+        if reduced.is_none() && linearised.is_none() {
+            return Ok(models);
+        }
+        let trained = self.trainings(own)?;
+        let trainings = if trained.is_empty() { std::slice::from_ref(own) } else { &trained[..] };
+        if let Some(reduced) = reduced {
+            models.push(self.reduced(reduced, frame, trainings)?);
+        }
+        if let Some(linearised) = linearised {
+            self.linearised(linearised, frame, trainings, &mut models)?;
+        }
+        Ok(models)
+    }
+
+    /// Full marches that models are trained by, where it is not the study's own.
+    fn trainings(&self, own: &Trajectory) -> Result<Vec<Trajectory>, RunError> {
+        let (frame, begun) = (own.transient.frame.name(), Instant::now());
+        let transients = self.study.training_marches(&own.transient);
+        let mut trained = Vec::with_capacity(transients.len());
+        let mut cut_short = Vec::new();
+        for (k, transient) in transients.iter().enumerate() {
+            let stage = format!("{frame}, training {} of {}", k + 1, transients.len());
+            let mut model = FullMarch::new(Arc::clone(&self.grid), transient)?;
+            let Timed { trajectory, .. } = timed_march(&mut model, transient, stage.clone(), self.setting, None)?;
+            if !trajectory.finished() {
+                cut_short.push(format!("{stage}: the march {}", trajectory.ended.describe()));
+            }
+            trained.push(trajectory);
+        }
+        if !trained.is_empty() {
+            (self.tell)(Row::Trained { frame: own.transient.frame, wall_s: begun.elapsed().as_secs_f64(), cut_short });
+        }
+        Ok(trained)
+    }
+
+    fn reduced(
+        &self,
+        reduced: &ReducedTransient,
+        frame: Frame,
+        trainings: &[Trajectory],
+    ) -> Result<Model, RunError> {
+        let begun = Instant::now();
+        let ReducedTransient { loss, rows_per_mode, seed } = *reduced;
+        let settings = TrajectoryTraining { loss, rows_per_mode, seed };
+        let model = Arc::new(train_trajectories(&self.grid, trainings, &settings, self.setting.observer)?);
+        let name = format!("{}.rnsa", frame.name());
+        let model = Model { name, frame, kind: Kind::Reduced(model), wall_s: begun.elapsed().as_secs_f64() };
+        (self.tell)(Row::Model(model.clone()));
+        Ok(model)
+    }
+
+    /// One model for each rule; their names tell the rule where there are several.
+    fn linearised(
+        &self,
+        linearised: &LinearisedTransient,
+        frame: Frame,
+        trainings: &[Trajectory],
+        models: &mut Vec<Model>,
+    ) -> Result<(), RunError> {
+        let mut first: Option<Arc<TpwlModel>> = None;
+        for selection in linearised.selections() {
+            let begun = Instant::now();
+            let model = Arc::new(match &first {
+                None => train_linearised(linearised, &trainings.iter().collect::<Vec<_>>())?,
+                Some(first) => first
+                    .reselected(linearised.points.map_or(selection, |points| first.selection_of(selection, points)))?,
+            });
+            first.get_or_insert_with(|| Arc::clone(&model));
+            let label = linearised.label(selection);
+            let mut name = format!("{}.tpwl", frame.name());
+            if !linearised.further.is_empty() {
+                name = format!("{name}.{label}");
+            }
+            let kind = Kind::Linearised { model, label, weightings: linearised.weightings.clone() };
+            let model = Model { name, frame, kind, wall_s: begun.elapsed().as_secs_f64() };
+            (self.tell)(Row::Model(model.clone()));
+            models.push(model);
+        }
+        Ok(())
+    }
+
+    /// Marches a model along some inputs, beside the full march along them.
+    pub fn compared(&self, model: &Model, drive: &Drive, full: &March) -> Result<(), RunError> {
+        let transient = Transient { keep: Keep::Scalars, ..full.trajectory.transient.clone() };
+        let by = |method| By::Model { model: model.name.clone(), method, full: full.name.clone() };
+        let march = |name: &str, marching: &mut dyn crate::solver::full::transient::Marching| {
+            timed_march(marching, &transient, name.to_owned(), self.setting, Some((name, self.tell)))
+        };
+        match &model.kind {
+            Kind::Reduced(reduced) => {
+                let name = drive.result(&model.name);
+                let timed = march(&name, &mut ReducedMarch::new(reduced)?)?;
+                (self.tell)(Row::Marched(Arc::new(March::new(&name, by("rnsa"), timed))));
+            }
+            Kind::Linearised { model: linearised, weightings, .. } => {
+                for &weighting in weightings {
+                    let name = format!("{}.{}", drive.result(&model.name), weighting.name());
+                    let mut marching = TpwlMarch::new(linearised, &transient, weighting)?;
+                    let timed = march(&name, &mut marching)?;
+                    let record = Some(marching.record().clone());
+                    (self.tell)(Row::Marched(Arc::new(March { record, ..March::new(&name, by("tpwl"), timed) })));
+                }
+            }
+        }
+        Ok(())
+    }
+}
