@@ -9,6 +9,7 @@ mod history;
 pub use history::History;
 
 use crate::scene::named_lubricant::NamedLubricant;
+use crate::scene::study::point::Point;
 use crate::scene::{At, Grid, LoadFollower, LubricantFollower, Method, Scene, Study, TransientStudy, View};
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::Problem;
@@ -335,7 +336,7 @@ impl Document {
         if scene.contact != self.point.kind || in_time && self.lubricant.shear != ShearLaw::Newtonian {
             // Its question and what it expects belonged to the other kind of contact, or to a Newtonian fluid.
             scene.contact = self.point.kind;
-            scene.study = Study::Point { methods: methods_of(self.point.kind) };
+            scene.study = Study::Point(Point { methods: methods_of(self.point.kind) });
             scene.expect.clear();
             scene.source.clear();
         }

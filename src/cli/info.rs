@@ -10,7 +10,8 @@ use std::path::Path;
 
 /// Runs the command.
 pub fn run(path: &Path) -> Result<Verdict, Failure> {
-    let model = model_file::read(path).map_err(|reason| EngineError::Model { path: path.to_owned(), reason })?;
+    let model =
+        model_file::read(path).map_err(|reason| EngineError::Model { path: path.to_owned(), reason: reason.into() })?;
     output::print(&describe(&model))?;
     Ok(Verdict::Done)
 }

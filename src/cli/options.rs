@@ -256,7 +256,7 @@ impl PointOptions {
                 "--rom has no effect here; add --method reduced, or --grid model for a full solution on the model's grid",
             ),
             MethodName::Full => Ok(Method::Full),
-            MethodName::Reduced => Ok(Method::Reduced { model: self.model_source() }),
+            MethodName::Reduced => Ok(Method::reduced(self.model_source())),
         }
     }
 

@@ -1,6 +1,7 @@
 //! Standard output and standard error without panics: a reader that leaves ends the program quietly.
 
 use super::failure::Failure;
+use crate::scene::StudyObserver;
 use crate::solver::observer::{Observer, Progress};
 use crate::solver::training::TrainingObserver;
 use serde::Serialize;
@@ -52,6 +53,8 @@ impl ProgressLine {
 }
 
 impl TrainingObserver for ProgressLine {}
+
+impl StudyObserver for ProgressLine {}
 
 impl Observer for ProgressLine {
     fn progress(&self, progress: Progress) {

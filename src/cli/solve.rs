@@ -3,13 +3,42 @@
 use super::failure::Failure;
 use super::options::PointOptions;
 use super::{Verdict, output};
-use crate::engine::{PointReport, Table, Workbench, film_shear_table, profile_table};
+use crate::engine::{ContactResult, GridAccuracy, Table, Workbench, film_shear_table, profile_table};
 use crate::scene::{Method, atomic_file};
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::ContactKind;
 use clap::Args;
+use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
+
+/// Values with nine decimals: what they are called here, and in a result.
+const DIMENSIONLESS: [(&str, &str); 8] = [
+    ("H_c", "H_c"),
+    ("H_min", "H_min"),
+    ("X of H_min", "X_H_min"),
+    ("Y of H_min", "Y_H_min"),
+    ("P_c", "P_c"),
+    ("P_max", "P_max"),
+    ("X of P_max", "X_P_max"),
+    ("H_0", "H_0"),
+];
+
+/// Values with an exponent.
+const SMALL: [(&str, &str); 5] = [
+    ("h_c [m]", "h_c_m"),
+    ("h_min [m]", "h_min_m"),
+    ("traction", "traction"),
+    ("load residual", "load_residual"),
+    ("residual norm", "residual_norm"),
+];
+
+/// Calibrated bounds on errors.
+const BOUNDS: [(&str, &str); 3] = [
+    ("H_c", "reduced.h_c_error_bound"),
+    ("H_min", "reduced.h_min_error_bound"),
+    ("traction", "reduced.traction_error_bound"),
+];
 
 /// Options of `solve`.
 #[derive(Debug, Args)]
@@ -51,7 +80,7 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
             None => output::complain(&format!("{} is not written: the solve did not converge", path.display())),
         }
     }
-    let mut report = PointReport::from(&answer);
+    let mut report = Report { result: ContactResult::from(&answer), accuracy: None };
     if args.accuracy && answer.converged {
         report.accuracy = Some(workbench.grid_accuracy(&answer, &())?);
     }
@@ -63,79 +92,68 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
     Ok(if answer.converged { Verdict::Done } else { Verdict::FellShort })
 }
 
+/// A result, with what the grid of a point contact costs where that was asked for.
+#[derive(Serialize)]
+struct Report {
+    #[serde(flatten)]
+    result: ContactResult,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    accuracy: Option<GridAccuracy>,
+}
+
 /// The report for people.
-fn describe(report: &PointReport) -> String {
+fn describe(Report { result, accuracy }: &Report) -> String {
     let mut text = String::new();
     let mut line = |name: &str, value: String| {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{name:<18} {value}");
     };
-    let (si, grid) = (&report.si, &report.grid);
-    line("method", format!("{}, {} contact", report.method, report.contact));
-    line("converged", if report.converged { "yes" } else { "no" }.to_owned());
-    if let Some(warning) = &report.warning {
-        line("warning", warning.clone());
+    let (point, moes, hertz) = (&result.point, result.point.moes(), result.point.hertz());
+    line("method", format!("{}, {} contact", result.method, point.kind.name()));
+    line("converged", if result.converged { "yes" } else { "no" }.to_owned());
+    if !result.warnings.is_empty() {
+        line("warning", result.warnings.join("; "));
     }
-    line("R", format!("{:.6e} m", si.radius));
-    line("u_m", format!("{:.6e} m/s", si.speed));
-    let unit = if report.contact == "line" { "N/m" } else { "N" };
-    line("w", format!("{:.6e} {unit}", si.load));
-    line("E′", format!("{:.6e} Pa", si.modulus));
-    line("η₀", format!("{:.6e} Pa·s", si.viscosity));
-    line("α", format!("{:.6e} 1/Pa", si.alpha));
-    line("M, L", format!("{:.6}, {:.6}", report.moes.m, report.moes.l));
-    line("Hertz", format!("a {:.6e} m, p_H {:.6e} Pa", report.hertz.a_m, report.hertz.p_h_pa));
-    let nodes = if grid.ny == 1 { grid.nx.to_string() } else { format!("{}×{}", grid.nx, grid.ny) };
-    line("grid", format!("{}, {nodes} nodes, {} unknowns", grid.kind, grid.dofs));
-    let s = &report.scalars;
-    let numbers = [
-        ("H_c", s.h_c),
-        ("H_min", s.h_min),
-        ("X of H_min", s.x_h_min),
-        ("Y of H_min", s.y_h_min),
-        ("P_c", s.p_c),
-        ("P_max", s.p_max),
-        ("X of P_max", s.x_p_max),
-        ("H_0", s.h_0),
-    ];
-    for (name, value) in numbers {
-        if let Some(value) = value {
-            line(name, format!("{value:.9}"));
+    line("R", format!("{:.6e} m", point.radius_m));
+    line("u_m", format!("{:.6e} m/s", point.speed_m_per_s));
+    let unit = if point.kind == ContactKind::Line { "N/m" } else { "N" };
+    line("w", format!("{:.6e} {unit}", point.load));
+    line("E′", format!("{:.6e} Pa", point.modulus_pa));
+    line("η₀", format!("{:.6e} Pa·s", point.viscosity_pa_s));
+    line("α", format!("{:.6e} 1/Pa", point.alpha_per_pa));
+    line("M, L", format!("{:.6}, {:.6}", moes.m, moes.l));
+    line("Hertz", format!("a {:.6e} m, p_H {:.6e} Pa", hertz.half_width_m, hertz.pressure_pa));
+    let nodes = match result.nodes {
+        (nx, 1) => nx.to_string(),
+        (nx, ny) => format!("{nx}×{ny}"),
+    };
+    line("grid", format!("{}, {nodes} nodes, {} unknowns", result.grid, result.dofs));
+    for (title, name) in DIMENSIONLESS {
+        if let Some(value) = result.value(name) {
+            line(title, format!("{value:.9}"));
         }
     }
-    let small = [
-        ("h_c [m]", s.h_c_m),
-        ("h_min [m]", s.h_min_m),
-        ("traction", s.traction),
-        ("load residual", s.load_residual),
-        ("residual norm", report.residual_norm),
-    ];
-    for (name, value) in small {
-        if let Some(value) = value {
-            line(name, format!("{value:.6e}"));
+    for (title, name) in SMALL {
+        if let Some(value) = result.value(name) {
+            line(title, format!("{value:.6e}"));
         }
     }
-    let linear = report.linear_iterations.map_or(String::new(), |n| format!(", {n} linear"));
-    line("iterations", format!("{} Newton{linear}", report.newton_iterations));
-    if let Some(reduced) = &report.reduced {
+    let linear = result.linear_iterations.map_or(String::new(), |n| format!(", {n} linear"));
+    line("iterations", format!("{} Newton{linear}", result.newton_iterations));
+    if let Some(reduced) = &result.reduced {
         let (p, delta, rows) = (reduced.basis_p, reduced.basis_delta, reduced.sampled_rows);
         line("reduced", format!("{p} pressure modes, {delta} deformation modes, {rows} sampled rows"));
         line("trained here", if reduced.trained { "yes" } else { "no" }.to_owned());
-        if let Some(estimate) = reduced.residual_estimate {
+        if let Some(estimate) = result.value("reduced.residual_estimate") {
             line("estimate e_f", format!("{estimate:.3e}"));
         }
-        let bounds = [
-            ("H_c", reduced.h_c_error_bound),
-            ("H_min", reduced.h_min_error_bound),
-            ("traction", reduced.traction_error_bound),
-        ];
-        for (name, bound) in bounds {
-            if let Some(bound) = bound {
-                line(&format!("error of {name}"), format!("below {:.2e} (99 of 100)", bound));
+        for (title, name) in BOUNDS {
+            if let Some(bound) = result.value(name) {
+                line(&format!("error of {title}"), format!("below {bound:.2e} (99 of 100)"));
             }
         }
     }
-    if let Some(accuracy) = &report.accuracy {
+    if let Some(accuracy) = accuracy {
         let second = format!("by a second solve on {}×{} nodes", accuracy.nx, accuracy.ny);
         let off = |error: f64, limit: f64| format!("{:.2} %; {limit:.6} in the limit, {second}", 100.0 * error);
         line("grid error of H_c", off(accuracy.h_c_error, accuracy.h_c_limit));
@@ -144,6 +162,6 @@ fn describe(report: &PointReport) -> String {
             line("", "one of both grids does not resolve the side lobes: the error of H_min may be larger".to_owned());
         }
     }
-    line("time", format!("{:.3} ms", report.wall_s * 1e3));
+    line("time", format!("{:.3} ms", result.wall_s * 1e3));
     text
 }

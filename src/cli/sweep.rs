@@ -4,7 +4,7 @@ use super::Verdict;
 use super::failure::Failure;
 use super::options::PointOptions;
 use super::output::{self, ProgressLine};
-use crate::engine::{PointReport, RESULT_COLUMNS, Request, Table, Workbench};
+use crate::engine::{ContactResult, RESULT_COLUMNS, Request, Table, Workbench};
 use crate::scene::check::MAX_POINTS;
 use crate::scene::{Method, Steps, atomic_file};
 use crate::solver::observer::{Observer, Progress};
@@ -86,11 +86,11 @@ pub fn run(args: &SweepArgs) -> Result<Verdict, Failure> {
     for (i, (values, request, method)) in requests.into_iter().enumerate() {
         progress.progress(Progress { stage: "sweep".to_owned(), done: i, total });
         let answer = workbench.answer(&request, &method, former.as_ref(), &())?;
-        let report = PointReport::from(&answer);
+        let report = ContactResult::from(&answer);
         if args.json {
             output::print_json(&report)?;
         }
-        table.rows.push([values, report.row(&columns)].concat());
+        table.rows.push(values.into_iter().chain(report.row(&columns)).collect());
         if answer.converged {
             former = answer.solution;
         } else {

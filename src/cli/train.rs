@@ -58,7 +58,8 @@ pub fn run(args: &TrainArgs) -> Result<Verdict, Failure> {
             return Err(EngineError::from(error).into());
         }
     };
-    model_file::write(&model, &args.out).map_err(|reason| EngineError::Model { path: args.out.clone(), reason })?;
+    model_file::write(&model, &args.out)
+        .map_err(|reason| EngineError::Model { path: args.out.clone(), reason: reason.into() })?;
     watch.keeper.discard().map_err(EngineError::from)?;
     output::print(&info::describe(&model))?;
     Ok(Verdict::Done)

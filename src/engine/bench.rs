@@ -1,10 +1,9 @@
 //! The speed table: full and reduced side by side, against a dense Newton measured in the same run.
 
-use super::error::EngineError;
 use super::model_file::ModelFileError;
-use super::statistics::{median, percentile};
 use super::store::Store;
-use super::timed_march::{Timed, timed_march};
+use super::{EngineError, median, percentile};
+use crate::scene::study::transient::{Timed, timed_march};
 use crate::scene::{QuantityBox, named_lubricant};
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 use crate::solver::full::dense::{dense_kernel, dense_newton};
@@ -383,7 +382,7 @@ impl Timing {
 
     /// Marches and records every step.
     fn add_steps(&mut self, model: &mut dyn Marching, transient: &Transient) -> Result<Trajectory, EngineError> {
-        let Timed { trajectory, seconds } = timed_march(model, transient, String::new(), &())?;
+        let Timed { trajectory, seconds } = timed_march(model, transient, String::new(), &(), None)?;
         self.seconds.extend(seconds);
         self.failures += usize::from(!trajectory.finished());
         Ok(trajectory)

@@ -1,8 +1,8 @@
 //! What the grid costs the film of a point contact, from a second solve on another grid.
 
-use super::answer::{Answer, Request};
-use super::error::EngineError;
+use super::EngineError;
 use super::workbench::Workbench;
+use super::{Answer, Request};
 use crate::scene::Grid;
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::point::{Accuracy, resolution_warning, second_grid};

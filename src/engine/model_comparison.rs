@@ -1,8 +1,8 @@
 //! Reduced models side by side: size, speed, and errors at the same random points.
 
-use super::error::EngineError;
-use super::parallel::full_solutions;
-use super::statistics::{median, percentile};
+use super::EngineError;
+use super::{median, percentile};
+use crate::scene::full_solutions;
 use crate::solver::full::Problem;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;

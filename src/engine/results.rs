@@ -1,6 +1,6 @@
 //! All scenes of a folder: finding them, and the page of what came of them.
 
-use super::outcome::SceneOutcome;
+use super::SceneOutcome;
 use super::table::significant;
 use crate::scene::{Scene, SceneFileError};
 use std::collections::BTreeMap;

@@ -1,6 +1,6 @@
 //! What is expensive and shared, in one place: grids with their kernels, full solvers, reduced models, and their operators.
 
-use super::error::EngineError;
+use super::EngineError;
 use super::model_file::{self, ModelFileError};
 use crate::solver::discrete::grid::{ContactGrid, ContactGridError, ContactGridSpec};
 use crate::solver::full::ContactSolver;
@@ -91,7 +91,7 @@ impl Store {
     /// # Errors
     /// When it cannot be read.
     pub fn model_of_file(&self, path: &Path) -> Result<Arc<ReducedModel>, EngineError> {
-        let unreadable = |reason| EngineError::Model { path: path.to_owned(), reason };
+        let unreadable = |reason: ModelFileError| EngineError::Model { path: path.to_owned(), reason: reason.into() };
         let (changed, size) =
             std::fs::metadata(path).map_or((None, 0), |metadata| (metadata.modified().ok(), metadata.len()));
         self.model(Origin::File(path.to_owned(), changed, size), || model_file::read(path)).map_err(unreadable)

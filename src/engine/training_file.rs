@@ -3,6 +3,7 @@
 //! The header is that of `checked_file`, the payload a [`TrainingState`] in postcard's encoding. Writing waits for
 //! the disk, so it is done by a thread of its own, at most once a second; the training itself pays for a copy only.
 
+use super::EngineError;
 use super::checked_file::{Flaw, Format, Unreadable};
 use crate::scene::atomic_file::{self, WriteError};
 use crate::solver::training::{Observer, TrainingObserver, TrainingSpec, TrainingState, Windows};
@@ -204,6 +205,12 @@ impl TrainingObserver for TrainingKeeper {
         if !matches!(self.states.try_send(state.clone()), Err(TrySendError::Full(_))) {
             *handed_over = Some(Instant::now());
         }
+    }
+}
+
+impl From<TrainingFileError> for EngineError {
+    fn from(error: TrainingFileError) -> Self {
+        Self::TrainingFile(error.into())
     }
 }
 

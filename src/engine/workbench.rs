@@ -1,15 +1,14 @@
 //! Solving single contacts by any method, with everything that can be kept between solves.
 
-use super::answer::{Answer, ReducedFacts, Request};
-use super::error::EngineError;
 use super::store::Store;
+use super::{Answer, EngineError, ReducedFacts, Request};
 use crate::scene::{Grid, Method, ModelSource, Scene, Study};
 use crate::solver::discrete::grid::{ContactGrid, ContactGridSpec};
 use crate::solver::full::point::resolution_warning;
 use crate::solver::full::{Problem, Solution, SolveError, Start};
 use crate::solver::physics::contact::{ContactKind, Moes, PLAUSIBLE_HERTZ_PRESSURE_PA};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
-use crate::solver::reduced::{Online, ReducedError, ReducedModel, ReducedOptions, Trust, Window};
+use crate::solver::reduced::{Online, ReducedError, ReducedModel, Trust, Window};
 use crate::solver::training::{TrainingObserver, TrainingSpec};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -67,9 +66,10 @@ impl Workbench {
         observer: &dyn TrainingObserver,
     ) -> Result<Arc<ReducedModel>, EngineError> {
         match source {
-            ModelSource::Embedded => {
-                self.store.embedded(contact, lubricant.shear != ShearLaw::Newtonian).map_err(EngineError::Embedded)
-            }
+            ModelSource::Embedded => self
+                .store
+                .embedded(contact, lubricant.shear != ShearLaw::Newtonian)
+                .map_err(|reason| EngineError::Embedded(reason.into())),
             ModelSource::File(path) => self.store.model_of_file(&self.base.join(path)),
             ModelSource::Trained(path) => self.store.trained(&self.training(path)?, observer),
         }
@@ -104,7 +104,7 @@ impl Workbench {
         }
         let mut answer = match method {
             Method::Full => self.full(request, &problem, start, observer)?,
-            Method::Reduced { model } => self.reduced(request, &problem, model, observer)?,
+            Method::Reduced { model, .. } => self.reduced(request, &problem, (method, model), observer)?,
         };
         let p_h = request.point.hertz().pressure_pa;
         if p_h > PLAUSIBLE_HERTZ_PRESSURE_PA {
@@ -202,14 +202,16 @@ impl Workbench {
         &mut self,
         request: &Request,
         problem: &Problem,
-        source: &ModelSource,
+        (method, source): (&Method, &ModelSource),
         observer: &dyn TrainingObserver,
     ) -> Result<Answer, EngineError> {
         let model = self.model_for(source, problem.point.kind, &request.lubricant, observer)?;
-        let place = match self.online.iter().position(|online| Arc::ptr_eq(&online.model, &model)) {
+        let options = method.options(window_of(&model, problem.moes)?);
+        let same = |online: &Online| Arc::ptr_eq(&online.model, &model) && *online.options() == options;
+        let place = match self.online.iter().position(same) {
             Some(place) => place,
             None => {
-                self.online.push(self.store.online(&model, ReducedOptions::default()));
+                self.online.push(self.store.online(&model, options));
                 self.online.len() - 1
             }
         };
@@ -254,7 +256,7 @@ impl Workbench {
         };
         Ok(Answer {
             request: request.clone(),
-            method: Method::Reduced { model: source.clone() },
+            method: method.clone(),
             converged: solution.is_some(),
             warnings,
             nodes,

@@ -131,4 +131,3 @@ impl From<OperatingPoint> for At {
         Self::Si { radius, speed, load, modulus, viscosity, alpha }
     }
 }
-

@@ -88,7 +88,9 @@ mod tests {
             let expectation = Expectation { name: name.to_owned(), method: None, value, within, from: String::new() };
             expectation.admits_failures()
         };
-        assert!(about("failures", Some(2.0), Within::Absolute(0.0)) && about("failure_percent", None, Within::AtMost(0.5)));
+        assert!(
+            about("failures", Some(2.0), Within::Absolute(0.0)) && about("failure_percent", None, Within::AtMost(0.5))
+        );
         assert!(!about("failures", Some(0.0), Within::Absolute(0.0)) && !about("failures", None, Within::AtMost(0.0)));
         assert!(!about("H_c", Some(2.0), Within::Relative(0.1)));
     }

@@ -36,11 +36,6 @@ pub use chart::{Chart, ChartAxis, Marks, Series};
 pub use contact_result::{ContactResult, RESULT_COLUMNS, film_shear_table, profile_table};
 pub use error::{Reason, RunError, SceneError, SceneFileError, VERSION};
 pub use expectation::{Expectation, Within};
-<<<<<<< HEAD
-pub use published::PublishedMarch;
-pub use study::{ComparedPlan, ComparedSampling, Contacts, Formula, OnlineScheme, Study};
-pub use transient::{Drive, LinearisedTransient, ReducedTransient, TransientStudy};
-=======
 pub use experiment::Experiment;
 pub use grid::Grid;
 pub use method::{Method, ModelSource};
@@ -49,11 +44,8 @@ pub(crate) use parallel::full_solutions;
 pub use run::run_scene;
 pub use statistics::{median, percentile, rank_correlation};
 pub use study::transient::{Drive, LinearisedTransient, PublishedMarch, ReducedTransient, TransientStudy};
-pub use study::{
-    ComparedPlan, ComparedSampling, Contacts, Formula, OnlineScheme, Study, StudyObserver, StudyRow,
-};
-pub use table::Table;
->>>>>>> 15c131c (A study is one file: its data, its check, its run, its typed rows, and how they are best looked at)
+pub use study::{ComparedPlan, ComparedSampling, Contacts, Formula, OnlineScheme, Study, StudyObserver, StudyRow};
+pub use table::{Column, Table};
 pub use view::{LoadFollower, LubricantFollower, View};
 
 pub use crate::solver::training::QuantityBox;
@@ -103,15 +95,13 @@ pub struct Scene {
     /// What the answer should be.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub expect: Vec<Expectation>,
-<<<<<<< HEAD
     /// Whether it ends within ten seconds on two cores: `run --all --quick` and the tests take those.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub quick: bool,
-=======
-    /// Whether some of its solves are meant to fail: without this, or an expectation that admits failures, one that does lets the scene fall short.
+    /// Whether some of its solves are meant to fail. Without this, or an expectation that admits failures, a solve that fails lets the scene fall
+    /// short.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub failures_expected: bool,
->>>>>>> 15c131c (A study is one file: its data, its check, its run, its typed rows, and how they are best looked at)
     /// What the explorer keeps with it; results do not depend on it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub view: Option<View>,
@@ -132,11 +122,8 @@ impl Scene {
             grid: Grid::Graded,
             study: Study::Point(study::point::Point { methods: vec![Method::Full, Method::EMBEDDED] }),
             expect: Vec::new(),
-<<<<<<< HEAD
             quick: false,
-=======
             failures_expected: false,
->>>>>>> 15c131c (A study is one file: its data, its check, its run, its typed rows, and how they are best looked at)
             view: None,
         }
     }
@@ -182,4 +169,3 @@ impl Scene {
         Sliding { slide_to_roll_ratio: self.srr, newtonian_plateau_ratio: self.npr }
     }
 }
-

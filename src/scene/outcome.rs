@@ -1,9 +1,9 @@
 //! What a scene gave: values by name and method, verdicts, tables.
 
-use super::statistics::{median, percentile};
-use super::table::Table;
 use super::expectation::Expectation;
 use super::method::Method;
+use super::statistics::{median, percentile};
+use super::table::Table;
 use serde_json::{Value, json};
 
 /// A value with its name and the method it belongs to.
@@ -46,7 +46,7 @@ pub struct Findings {
 }
 
 /// A scene's answer.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneOutcome {
     /// The scene's title.
     pub title: String,

@@ -3,10 +3,10 @@
 use super::error::RunError;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::{ContactSolver, Solution, Start};
+use crate::solver::observer::{Observer, Progress};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{Online, ReducedError, ReducedModel, ReducedOptions, ReducedSolution};
-use crate::solver::observer::{Observer, Progress};
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};

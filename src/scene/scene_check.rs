@@ -56,7 +56,8 @@ fn expectation(index: usize, entry: &Expectation) -> Checked {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{At, Axis, Contacts, Method, QuantityBox, Steps, Study, Variable};
+    use crate::scene::study::{error_split, grid_study, point, sweep, trajectory};
+    use crate::scene::{At, Axis, Contacts, Grid, Method, QuantityBox, Steps, Study, Variable};
 
     #[test]
     fn numbers_that_make_no_sense_are_refused_by_name() {
@@ -66,27 +67,30 @@ mod tests {
         assert!(message(Scene { at: At::moes(f64::NAN, 10.0), ..good.clone() }).contains("Moes number M"));
         let bad_grid = Grid::Uniform { dx: f64::INFINITY, domain: (-4.0, 2.0) };
         assert!(message(Scene { grid: bad_grid, ..good.clone() }).contains("grid.dx"));
-        assert!(message(Scene { study: Study::Point { methods: vec![] }, ..good.clone() }).contains("methods"));
-        let huge = Study::Sweep {
+        assert!(
+            message(Scene { study: Study::Point(point::Point { methods: vec![] }), ..good.clone() })
+                .contains("methods")
+        );
+        let huge = Study::Sweep(sweep::Sweep {
             over: vec![Axis { vary: Variable::M, values: Steps::Log { from: 1.0, to: 9.0, n: usize::MAX } }],
             methods: vec![Method::Full],
             cold: false,
             compare_on_model_grid: false,
-        };
+        });
         assert!(message(Scene { study: huge, ..good.clone() }).contains("study.over.M"));
-        let alone = Study::Sweep {
+        let alone = Study::Sweep(sweep::Sweep {
             over: vec![Axis { vary: Variable::M, values: Steps::List(vec![20.0]) }],
             methods: vec![Method::Full],
             cold: false,
             compare_on_model_grid: true,
-        };
+        });
         assert!(message(Scene { study: alone, ..good.clone() }).contains("study.compare_on_model_grid"));
         let range = QuantityBox { load: (2.0, f64::NAN), ..QuantityBox::TABLE_3_1 };
-        let study = Study::Trajectory { range, points: 10, methods: vec![Method::Full] };
+        let study = Study::Trajectory(trajectory::Trajectory { range, points: 10, methods: vec![Method::Full] });
         assert!(message(Scene { study, ..good.clone() }).contains("study.range.load.1"));
-        let study = Study::ErrorSplit { contacts: Contacts::Here, method: Method::Full };
+        let study = Study::ErrorSplit(error_split::ErrorSplitStudy { contacts: Contacts::Here, method: Method::Full });
         assert!(message(Scene { study, ..good.clone() }).contains("study.method"));
-        let study = Study::GridStudy { dx: vec![0.02, 0.01, 0.004] };
+        let study = Study::GridStudy(grid_study::GridStudy { dx: vec![0.02, 0.01, 0.004] });
         assert!(message(Scene { study, ..good }).contains("constant factor"));
     }
 }

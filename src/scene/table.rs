@@ -13,7 +13,21 @@ pub struct Table {
     pub labels: Vec<String>,
 }
 
+/// A number of a row, by its name.
+pub type Column<T> = (&'static str, fn(&T) -> f64);
+
 impl Table {
+    /// A table of typed rows.
+    pub fn of<'a, T: 'a>(
+        name: impl Into<String>,
+        columns: &[Column<T>],
+        rows: impl IntoIterator<Item = &'a T>,
+    ) -> Self {
+        let mut table = Self::new(name, &columns.iter().map(|(name, _)| *name).collect::<Vec<_>>());
+        table.rows.extend(rows.into_iter().map(|row| columns.iter().map(|(_, get)| get(row)).collect()));
+        table
+    }
+
     /// An empty table.
     pub fn new(name: impl Into<String>, columns: &[&str]) -> Self {
         Self { name: name.into(), columns: columns.iter().map(|&c| c.to_owned()).collect(), ..Self::default() }

@@ -114,7 +114,7 @@ fn assert_parses(arguments: &[String]) {
 }
 
 fn is_quick(scene: &Scene) -> bool {
-    matches!(scene.study, Study::Point { .. } | Study::GridStudy { .. } | Study::FormulaComparison { .. })
+    matches!(scene.study, Study::Point(_) | Study::GridStudy(_) | Study::FormulaComparison(_))
 }
 
 #[test]

@@ -2,6 +2,8 @@
 
 use crate::common::scratch::Scratch;
 use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene};
+use ehl_explorer::scene::study::plan_comparison::PlanComparison;
+use ehl_explorer::scene::study::tolerance_study::ToleranceStudy;
 use ehl_explorer::scene::{ComparedPlan, OnlineScheme, QuantityBox, Scene, Study};
 use ehl_explorer::solver::discrete::grid::{ContactGridSpec, GridSpec};
 use ehl_explorer::solver::reduced::Sampling;
@@ -71,7 +73,7 @@ fn plans_are_compared_side_by_side() {
     };
     let wide = folder.training("wide", Plan::FarthestPoint { snapshots: 40 });
     let corners = folder.training("corners", Plan::Grid { nodes: [2, 2, 2, 2] });
-    let study = Study::PlanComparison {
+    let study = Study::PlanComparison(PlanComparison {
         plans: vec![plan("wide", &wide, 0.0), plan("corners", &corners, 1.0)],
         range: BOX,
         tests: 300,
@@ -79,7 +81,7 @@ fn plans_are_compared_side_by_side() {
         compare: 40,
         trajectory: 21,
         online: OnlineScheme::Explorer,
-    };
+    });
     let outcome = folder.run(study.clone());
     let value = |name: &str| outcome.value(name, None).unwrap_or_else(|| panic!("no {name}"));
     assert_eq!((value("wide.snapshots"), value("corners.snapshots")), (40.0, 16.0));
@@ -101,13 +103,15 @@ fn plans_are_compared_side_by_side() {
 fn a_cut_training_is_the_training_with_that_tolerance() {
     let folder = Folder::new("tolerances");
     let ladder = folder.training("ladder", adaptive(Indicator::Correction, vec![3e-2, 3e-3]));
-    let study = |training: &Path| Study::ToleranceStudy {
-        training: training.to_owned(),
-        range: BOX,
-        points: 11,
-        tests: 100,
-        seed: 5,
-        online: OnlineScheme::Explorer,
+    let study = |training: &Path| {
+        Study::ToleranceStudy(ToleranceStudy {
+            training: training.to_owned(),
+            range: BOX,
+            points: 11,
+            tests: 100,
+            seed: 5,
+            online: OnlineScheme::Explorer,
+        })
     };
     let both = folder.run(study(&ladder));
     assert_eq!(both.value("rungs_met", None), Some(2.0));
@@ -125,14 +129,14 @@ fn a_cut_training_is_the_training_with_that_tolerance() {
 fn the_dissertations_own_indicator_trains_a_model() {
     let folder = Folder::new("indicator");
     let training = folder.training("own", adaptive(Indicator::Dissertation, vec![10.0, 1.0]));
-    let study = Study::ToleranceStudy {
+    let study = Study::ToleranceStudy(ToleranceStudy {
         training,
         range: BOX,
         points: 11,
         tests: 100,
         seed: 5,
         online: OnlineScheme::Dissertation,
-    };
+    });
     let outcome = folder.run(study);
     assert_eq!(outcome.value("rungs_met", None), Some(2.0));
     assert!(outcome.value("1e0.e_f_I_mean", None).unwrap() < 1.0);
@@ -143,7 +147,7 @@ fn a_tolerance_study_of_another_plan_is_refused() {
     let folder = Folder::new("refused");
     let training = folder.training("grid", Plan::Grid { nodes: [2, 2, 2, 2] });
     let online = OnlineScheme::Explorer;
-    let study = Study::ToleranceStudy { training, range: BOX, points: 11, tests: 10, seed: 5, online };
+    let study = Study::ToleranceStudy(ToleranceStudy { training, range: BOX, points: 11, tests: 10, seed: 5, online });
     let scene = Scene { study, ..Scene::at_moes(40.0, 10.0) };
     let error = run_scene(&scene, &mut Workbench::new(&*folder.0), &()).unwrap_err().to_string();
     assert!(error.contains("adaptive"), "{error}");

@@ -2,6 +2,8 @@
 
 use crate::common::scene_files;
 use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene};
+use ehl_explorer::scene::study::point::Point;
+use ehl_explorer::scene::study::random_test::RandomTest;
 use ehl_explorer::scene::{Grid, Method, ModelSource, Scene, Study, TransientStudy};
 use ehl_explorer::solver::full::transient::{Frame, Signal, TimeStep};
 use std::collections::BTreeSet;
@@ -56,7 +58,7 @@ fn scenes_that_need_no_model_give_what_they_expect() {
     let needs_model = |method: &Method| method.model().is_some();
     let mut run_count = 0;
     for (name, scene) in all() {
-        let quick = matches!(scene.study, Study::Point { .. } | Study::GridStudy { .. });
+        let quick = matches!(scene.study, Study::Point(_) | Study::GridStudy(_));
         if quick && !scene.study.methods().iter().any(needs_model) {
             assert_passes(&name);
             run_count += 1;
@@ -78,7 +80,7 @@ fn the_whole_plane_of_m_and_l_converges() {
 #[test]
 fn cold_solves_converge_at_random_points_of_table_3_1() {
     let mut scene = scene_files::read("convergence_table_3_1");
-    if let Study::RandomTest { tests, .. } = &mut scene.study {
+    if let Study::RandomTest(RandomTest { tests, .. }) = &mut scene.study {
         *tests = 150;
     }
     let outcome = scene_files::run("convergence_table_3_1", &scene);
@@ -90,7 +92,7 @@ fn cold_solves_converge_at_random_points_of_table_3_1() {
 #[test]
 fn cold_solves_of_point_contacts_converge_at_random_points_of_table_3_4() {
     let mut scene = scene_files::read("convergence_table_3_4");
-    if let Study::RandomTest { tests, .. } = &mut scene.study {
+    if let Study::RandomTest(RandomTest { tests, .. }) = &mut scene.study {
         *tests = 8;
     }
     let outcome = scene_files::run("convergence_table_3_4", &scene);
@@ -163,7 +165,7 @@ fn the_first_look_shows_a_trained_contact() {
 #[test]
 fn the_embedded_model_agrees_with_full_solutions() {
     let mut scene = scene_files::read("random_test_embedded");
-    if let Study::RandomTest { tests, compare, .. } = &mut scene.study {
+    if let Study::RandomTest(RandomTest { tests, compare, .. }) = &mut scene.study {
         (*tests, *compare) = (500, 60);
     }
     let outcome = scene_files::run("random_test_embedded", &scene);
@@ -202,8 +204,7 @@ fn error_measures_rank_as_the_figure_shows() {
 #[test]
 fn a_model_file_that_is_missing_is_named() {
     let mut scene = Scene::at_moes(40.0, 10.0);
-    scene.study =
-        Study::Point { methods: vec![Method::Reduced { model: ModelSource::File("no/such/file.rom".into()) }] };
+    scene.study = Study::Point(Point { methods: vec![Method::reduced(ModelSource::File("no/such/file.rom".into()))] });
     let error = run_scene(&scene, &mut Workbench::new(""), &()).unwrap_err().to_string();
     assert!(error.contains("no/such/file.rom"), "{error}");
 }

@@ -6,6 +6,8 @@ use crate::shear_models;
 use crate::shear_models::{assert_file_keeps_everything, assert_limits_are_said, assert_mirrored, errors};
 use ehl_explorer::engine::model_file::to_bytes;
 use ehl_explorer::scene::named_lubricant::{SQUALANE_PIP, by_name};
+use ehl_explorer::scene::study::dimensions::Dimensions;
+use ehl_explorer::scene::study::sweep::Sweep;
 use ehl_explorer::scene::{Axis, Steps, Study};
 use ehl_explorer::solver::discrete::grid::{ContactGridSpec, PointGridSpec};
 use ehl_explorer::solver::full::{ContactSolver, Start};
@@ -149,7 +151,7 @@ fn figures_stand_side_by_side_in_full_and_reduced() {
     for name in ["fig_3_12_point", "fig_3_16"] {
         let mut scene = scene_files::read(name);
         scene.expect.retain(|expectation| !expectation.name.contains('['));
-        if let Study::Sweep { over, .. } = &mut scene.study {
+        if let Study::Sweep(Sweep { over, .. }) = &mut scene.study {
             over.iter_mut().for_each(|axis| axis.values = Steps::List(vec![axis.values.values()[0]]));
             if let Some(Axis { values, .. }) = over.last_mut() {
                 *values = Steps::List(vec![0.1, 0.5]);
@@ -165,7 +167,7 @@ fn figures_stand_side_by_side_in_full_and_reduced() {
 fn dimensions_grow_as_less_may_be_lost() {
     let mut scene = scene_files::read("table_3_7");
     scene.grid = ehl_explorer::scene::Grid::Plane { dx: 0.06, dy: 0.1, domain: (-2.7, 1.5, -1.5), refinement: 1.0 };
-    if let Study::Dimensions { over, .. } = &mut scene.study {
+    if let Study::Dimensions(Dimensions { over, .. }) = &mut scene.study {
         over[0].values = Steps::Log { from: 0.4, to: 2.0, n: 4 };
         over[1].values = Steps::List(vec![0.2, 0.6]);
     }

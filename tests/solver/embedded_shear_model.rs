@@ -5,6 +5,7 @@ use crate::shear_models;
 use crate::shear_models::{assert_file_keeps_everything, assert_limits_are_said, assert_mirrored, errors};
 use ehl_explorer::engine::SceneOutcome;
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
+use ehl_explorer::scene::study::sweep::Sweep;
 use ehl_explorer::scene::{Method, Study};
 use ehl_explorer::solver::full::{ContactSolver, Start};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
@@ -204,7 +205,7 @@ fn figures_of_line_contacts_stand_on_the_models_own_grid_beside_the_reference() 
         assert!(short.is_empty() && outcome.verdicts.len() >= 6, "{name}: {short:?}");
         // Against the dissertation's grid, which begins at X = -4, the grids would be part of the error.
         let of = |outcome: &SceneOutcome| outcome.value("H_c_error_max", Some(&Method::EMBEDDED)).unwrap();
-        if let Study::Sweep { compare_on_model_grid, .. } = &mut scene.study {
+        if let Study::Sweep(Sweep { compare_on_model_grid, .. }) = &mut scene.study {
             *compare_on_model_grid = false;
         }
         let elsewhere = scene_files::run(name, &scene);

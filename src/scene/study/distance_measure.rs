@@ -10,8 +10,8 @@ use crate::scene::parallel::full_solutions;
 use crate::scene::random_points::all_random_points;
 use crate::scene::table::Table;
 use crate::solver::physics::contact::{ContactKind, Moes};
-use crate::solver::training::distance::{Candidate, DISSERTATION, FURTHER, Fit, correlation, fit};
 use crate::solver::training::Range;
+use crate::solver::training::distance::{Candidate, DISSERTATION, FURTHER, Fit, correlation, fit};
 use serde::{Deserialize, Serialize};
 
 /// Weights of the distance measure by (3.9) from full solutions at random points (3.17): (3.20).
@@ -97,7 +97,8 @@ impl Question for DistanceMeasure {
         let candidates: Vec<Candidate> = candidates().collect();
         let all = fit(&candidates, &kept, &states).ok_or_else(nothing)?;
         let alone = |candidate| fit(std::slice::from_ref(candidate), &kept, &states);
-        let alone = candidates.iter().map(|candidate| alone(candidate).map_or(f64::NAN, |fit| fit.correlation)).collect();
+        let alone =
+            candidates.iter().map(|candidate| alone(candidate).map_or(f64::NAN, |fit| fit.correlation)).collect();
         let pair = |i: usize, j: usize| {
             let (a, b) = (&kept[i], &kept[j]);
             let s = |candidates: &[Candidate], weights: &[f64]| -> f64 {
@@ -133,9 +134,8 @@ impl Question for DistanceMeasure {
 
     fn tables(&self, rows: &[&Row]) -> Vec<Table> {
         let mut table = Table::new("distances", &["M_1", "L_1", "M_2", "L_2", "D_2", "s_3_20", "s_all"]);
-        let row = |Pair { moes: (a, b), distance, printed, all }: &Pair| {
-            vec![a.m, a.l, b.m, b.l, *distance, *printed, *all]
-        };
+        let row =
+            |Pair { moes: (a, b), distance, printed, all }: &Pair| vec![a.m, a.l, b.m, b.l, *distance, *printed, *all];
         table.rows.extend(rows.iter().flat_map(|row| &row.pairs).map(row));
         vec![table]
     }

@@ -10,7 +10,7 @@ use crate::scene::outcome::Findings;
 use crate::scene::parallel::{full_solutions, reduced_solutions};
 use crate::scene::random_points::all_random_points;
 use crate::scene::statistics::rank_correlation;
-use crate::scene::table::Table;
+use crate::scene::table::{Column, Table};
 use crate::solver::physics::contact::{Moes, OperatingPoint};
 use crate::solver::reduced::{ErrorEstimate, ErrorMeasures, Norm, ReducedOptions};
 use crate::solver::training::Range;
@@ -86,7 +86,7 @@ pub struct Measured {
     pub estimate: Option<ErrorEstimate>,
 }
 
-type Named = (&'static str, fn(&Measured) -> f64);
+type Named = Column<Measured>;
 
 const STATE: Named = ("e_z", |m| m.state);
 const ALL_ROWS: Named = ("e_f", |m| m.all_rows);

@@ -9,7 +9,7 @@ use crate::scene::experiment::Experiment;
 use crate::scene::method::Method;
 use crate::scene::outcome::Findings;
 use crate::scene::statistics::{median, percentile};
-use crate::scene::table::Table;
+use crate::scene::table::{Column, Table};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
 use crate::solver::training::QuantityBox;
@@ -53,7 +53,7 @@ pub struct Row {
 }
 
 /// The parts of one film's error, relative to the full film.
-const FILM_PARTS: [(&str, fn(&Parts) -> f64); 6] = [
+const FILM_PARTS: [Column<Parts>; 6] = [
     ("basis", |parts| parts.basis),
     ("projection", |parts| parts.projection),
     ("sampling", |parts| parts.sampling),
@@ -65,7 +65,8 @@ const FILM_PARTS: [(&str, fn(&Parts) -> f64); 6] = [
 /// All parts by name: of both films, and of the pressure as lengths in the weighted norm.
 fn parts(h_c: &Parts, h_min: &Parts, p: &PressureParts) -> Vec<(String, f64)> {
     let films = [("H_c", h_c), ("H_min", h_min)];
-    let of_films = films.iter().flat_map(|(film, of)| FILM_PARTS.map(|(part, get)| (format!("{film}.{part}"), get(of))));
+    let of_films =
+        films.iter().flat_map(|(film, of)| FILM_PARTS.map(|(part, get)| (format!("{film}.{part}"), get(of))));
     let pressure =
         [("basis", p.basis), ("projection", p.projection), ("sampling", p.sampling), ("reduction", p.reduction)];
     of_films.chain(pressure.map(|(part, value)| (format!("e_P.{part}"), value))).collect()
@@ -171,21 +172,20 @@ impl Question for ErrorSplitStudy {
 
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
         let along = matches!(self.contacts, Contacts::Trajectory { .. });
-        let films: [(&str, fn(&ErrorSplit) -> &Parts); 2] =
-            [("H_c", |split| &split.h_c), ("H_min", |split| &split.h_min)];
-        let chart = |(film, of): (&str, fn(&ErrorSplit) -> &Parts)| {
+        let of = |film: &str, split: &ErrorSplit| if film == "H_c" { split.h_c } else { split.h_min };
+        let chart = |film: &'static str| {
             let (x, marks) = if along { ("c", Marks::Line) } else { ("Load number M", Marks::Dots) };
             let y = ChartAxis::log(format!("Part of the error of {film}, relative"));
             let mut chart = Chart::new(format!("Error of {film}"), ChartAxis::linear(x), y);
             for (part, get) in FILM_PARTS {
                 let point = |row: &&Row| {
                     let split = row.split.as_ref().ok()?;
-                    Some([if along { row.c } else { row.point.moes().m }, get(of(split)).abs()])
+                    Some([if along { row.c } else { row.point.moes().m }, get(&of(film, split)).abs()])
                 };
                 chart.add(part, marks, rows.iter().filter_map(point));
             }
             chart
         };
-        films.map(chart).into()
+        ["H_c", "H_min"].map(chart).into()
     }
 }

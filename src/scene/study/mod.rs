@@ -236,9 +236,14 @@ impl Study {
         self.asked(|question| question.check(experiment))
     }
 
+    /// The methods it uses, in order.
+    pub fn methods(&self) -> Vec<Method> {
+        self.asked(|question| question.methods().to_vec())
+    }
+
     /// The reduced model whose grid [`Grid::Model`](super::Grid::Model) means: the first one used, else the embedded one.
     pub fn grid_model(&self) -> ModelSource {
-        self.asked(|question| question.methods().iter().find_map(Method::model).cloned().unwrap_or_default())
+        self.methods().iter().find_map(Method::model).cloned().unwrap_or_default()
     }
 
     /// Answers the question; the observer is told each row as soon as it is known. What was told is worth keeping also where it ends early.

@@ -120,8 +120,11 @@ const MODES: [usize; 2] = [40, 60];
 /// Snapshots below this M count as lightly loaded; above about 50 solutions hardly differ (section 3.1.4).
 const LIGHT_M: f64 = 30.0;
 
+/// A number that may not be known at a contact.
+type Known = (&'static str, fn(&Followed) -> Option<f64>);
+
 /// What the table of the trajectory holds of each plan.
-const ALONG: [(&str, fn(&Followed) -> Option<f64>); 8] = [
+const ALONG: [Known; 8] = [
     ("H_c_full", |f| Some(f.full?.0)),
     ("P_c_full", |f| Some(f.full?.1)),
     ("H_c", |f| Some(f.reduced?.0)),
@@ -229,7 +232,8 @@ impl Question for PlanComparison {
             let k = match truths.iter().position(|truth| truth.grid == grid.spec()) {
                 Some(k) => k,
                 None => {
-                    let solve = |points: &[OperatingPoint]| full_solutions(|_| grid.clone(), points, lubricant, observer);
+                    let solve =
+                        |points: &[OperatingPoint]| full_solutions(|_| grid.clone(), points, lubricant, observer);
                     let (random, along) = (solve(&points[..self.compare])?, solve(&along)?);
                     full_failures = random.iter().chain(&along).filter(|full| full.is_none()).count();
                     truths.push(Truth { grid: grid.spec(), random, along });
@@ -361,13 +365,11 @@ fn information(trained: &Trained, found: &mut Findings) {
 fn relative_losses(plans: &[&Trained], found: &mut Findings) {
     for modes in MODES {
         for f in 0..2 {
-            let loss = |plan: &&Trained| {
-                let (field, basis) = plan.bases()[f];
-                (&plan.plan.name, field, losses(basis).get(modes).copied().unwrap_or(0.0))
-            };
-            let losses: Vec<_> = plans.iter().map(loss).collect();
-            let slowest = losses.iter().map(|(.., loss)| *loss).fold(0.0, f64::max);
-            for (name, field, loss) in losses {
+            let loss = |plan: &&Trained| losses(plan.bases()[f].1).get(modes).copied().unwrap_or(0.0);
+            let losses: Vec<f64> = plans.iter().map(loss).collect();
+            let slowest = losses.iter().copied().fold(0.0, f64::max);
+            for (plan, loss) in plans.iter().zip(losses) {
+                let (name, (field, _)) = (&plan.plan.name, plan.bases()[f]);
                 found.push(format!("{name}.loss_{field}_{modes}"), None, loss);
                 // Where all sets are smaller than that, none of them loses anything.
                 if slowest > 0.0 {

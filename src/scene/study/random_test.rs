@@ -9,7 +9,7 @@ use crate::scene::method::Method;
 use crate::scene::outcome::Findings;
 use crate::scene::parallel::full_solutions_told;
 use crate::scene::random_points::all_random_points;
-use crate::scene::table::Table;
+use crate::scene::table::{Column, Table};
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::ErrorEstimate;
@@ -71,16 +71,16 @@ pub struct Film {
 }
 
 /// What a film is compared by.
-const COMPARED: [(&str, fn(&Film) -> f64); 3] =
+const COMPARED: [Column<Film>; 3] =
     [("H_c", |film| film.h_c), ("H_min", |film| film.h_min), ("traction", |film| film.traction)];
 
 /// Solves without telling the observer, every so many.
 const REPORT_EVERY: usize = 32;
 
 /// One column of the table, of a test and its truth.
-type Column = (&'static str, fn(&Test, &Film) -> f64);
+type Compared = (&'static str, fn(&Test, &Film) -> f64);
 
-const COLUMNS: [Column; 15] = [
+const COLUMNS: [Compared; 15] = [
     ("M", |test, _| test.point.moes().m),
     ("L", |test, _| test.point.moes().l),
     ("alpha", |test, _| test.point.alpha_per_pa),
@@ -258,9 +258,9 @@ impl Question for RandomTest {
             let mut chart = Chart::new(format!("Errors of {name}"), x, y);
             let bounds = tests.iter().filter_map(|(test, _)| Some([test.point.moes().m, test.bounds()[k]?]));
             chart.add("bound", Marks::Dots, bounds);
-            let errors = tests.iter().filter_map(|(test, truth)| {
-                Some([test.point.moes().m, test.film?.errors(&(*truth)??)[k]?])
-            });
+            let errors = tests
+                .iter()
+                .filter_map(|(test, truth)| Some([test.point.moes().m, test.film?.errors(&(*truth)??)[k]?]));
             chart.add("true", Marks::Dots, errors);
             chart
         });
@@ -283,7 +283,8 @@ mod tests_of_rows {
             estimate: None,
         };
         let full = Film { h_c: 1.0, h_min: 1.0, traction: 0.05 };
-        let rows = [Row::Test(test), Row::Test(test), Row::Truth(1, Some(full)), Row::Truth(0, None), Row::Truth(7, None)];
+        let rows =
+            [Row::Test(test), Row::Test(test), Row::Truth(1, Some(full)), Row::Truth(0, None), Row::Truth(7, None)];
         let seen = tests(&rows);
         assert_eq!((seen.len(), seen[0].1, seen[1].1), (2, Some(None), Some(Some(full))));
         let [h_c, h_min, traction] = test.film.unwrap().errors(&full);

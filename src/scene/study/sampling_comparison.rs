@@ -9,7 +9,7 @@ use crate::scene::outcome::Findings;
 use crate::scene::parallel::{film_errors, full_solutions, reduced_solutions};
 use crate::scene::random_points::all_random_points;
 use crate::scene::statistics::median;
-use crate::scene::table::Table;
+use crate::scene::table::{Column, Table};
 use crate::solver::reduced::{ReducedOptions, Sampling};
 use crate::solver::training::{QuantityBox, Range, TrainingSpec, TrainingState, Windows, train_resumable};
 use serde::{Deserialize, Serialize};
@@ -83,7 +83,7 @@ pub struct Way {
     pub errors: [Vec<f64>; 2],
 }
 
-const COLUMNS: [(&str, fn(&Way) -> f64); 6] = [
+const COLUMNS: [Column<Way>; 6] = [
     ("rows", |way| way.rows as f64),
     ("penalty", |way| way.penalty),
     ("tests", |way| way.tests as f64),
@@ -172,9 +172,7 @@ impl Question for SamplingComparison {
     }
 
     fn tables(&self, rows: &[&Row]) -> Vec<Table> {
-        let mut table = Table::new("samplings", &COLUMNS.map(|(name, _)| name));
-        table.rows.extend(ways(rows).iter().map(|way| COLUMNS.iter().map(|(_, get)| get(way)).collect()));
-        vec![table]
+        vec![Table::of("samplings", &COLUMNS, ways(rows))]
     }
 
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {

@@ -78,10 +78,7 @@ impl Question for Sweep {
 }
 
 /// All combinations of the values of the axes with their contacts, the last one fastest.
-pub(super) fn contacts_of(
-    experiment: &Experiment,
-    over: &[Axis],
-) -> Result<Vec<(Vec<f64>, OperatingPoint)>, RunError> {
+pub(super) fn contacts_of(experiment: &Experiment, over: &[Axis]) -> Result<Vec<(Vec<f64>, OperatingPoint)>, RunError> {
     let mut contacts = Vec::new();
     for values in Steps::combinations(over.iter().map(|axis| &axis.values)) {
         let (mut at, mut sliding) = (experiment.at, experiment.sliding);

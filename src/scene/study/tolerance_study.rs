@@ -14,7 +14,7 @@ use crate::scene::outcome::Findings;
 use crate::scene::parallel::{full_solutions, reduced_solutions};
 use crate::scene::random_points::all_random_points;
 use crate::scene::statistics::{mean, median, percentile};
-use crate::scene::table::Table;
+use crate::scene::table::{Column, Table};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{ErrorMeasures, Norm, Online};
 use crate::solver::training::{Plan, QuantityBox, Range, TrainingState, Windows, train_resumable};
@@ -81,7 +81,7 @@ pub struct Rung {
     pub seconds: Vec<f64>,
 }
 
-const COLUMNS: [(&str, fn(&Rung) -> f64); 14] = [
+const COLUMNS: [Column<Rung>; 14] = [
     ("tolerance", |rung| rung.tolerance),
     ("snapshots", |rung| rung.snapshots as f64),
     ("basis_p", |rung| rung.modes.0 as f64),
@@ -197,9 +197,7 @@ impl Question for ToleranceStudy {
     }
 
     fn tables(&self, rows: &[&Row]) -> Vec<Table> {
-        let mut table = Table::new("tolerances", &COLUMNS.map(|(name, _)| name));
-        table.rows.extend(rungs(rows).iter().map(|rung| COLUMNS.iter().map(|(_, get)| get(rung)).collect()));
-        vec![table]
+        vec![Table::of("tolerances", &COLUMNS, rungs(rows))]
     }
 
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {

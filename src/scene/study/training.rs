@@ -6,7 +6,7 @@ use crate::scene::check::{Checked, refuse};
 use crate::scene::error::RunError;
 use crate::scene::experiment::Experiment;
 use crate::scene::outcome::Findings;
-use crate::scene::table::Table;
+use crate::scene::table::{Column, Table};
 use crate::solver::reduced::{ReducedModel, Window};
 use crate::solver::training::{TrainingSpec, train};
 use std::sync::Arc;
@@ -22,7 +22,7 @@ pub struct Row {
 }
 
 /// What is said of a window.
-const WINDOW: [(&str, fn(&Window) -> f64); 7] = [
+const WINDOW: [Column<Window>; 7] = [
     ("m_from", |window| window.m.0),
     ("m_to", |window| window.m.1),
     ("nodes", |window| (window.grid.nodes().0 * window.grid.nodes().1) as f64),
@@ -61,7 +61,8 @@ impl Question for TrainingSpec {
             found.push("training_s", None, *wall_s);
             found.push("windows", None, model.windows.len() as f64);
             for (name, get) in &WINDOW[3..] {
-                let value = if *name == "snapshots" { of_windows(*get).sum() } else { of_windows(*get).fold(0.0, f64::max) };
+                let value =
+                    if *name == "snapshots" { of_windows(*get).sum() } else { of_windows(*get).fold(0.0, f64::max) };
                 found.push(*name, None, value);
             }
             found.warnings.extend(model.log.iter().cloned());
@@ -79,9 +80,7 @@ impl Question for TrainingSpec {
             }));
             decay
         };
-        let mut windows = Table::new("windows", &WINDOW.map(|(name, _)| name));
-        let row = |window: &Window| WINDOW.iter().map(|(_, get)| get(window)).collect();
-        windows.rows.extend(model.windows.iter().map(row));
+        let windows = Table::of("windows", &WINDOW, &model.windows);
         model.windows.iter().enumerate().map(decay).chain([windows]).collect()
     }
 

@@ -42,8 +42,7 @@ impl Question for Trajectory {
         let sliding = setting.experiment.sliding;
         let points = trajectory_points(&self.range, setting.experiment, self.points)?;
         let contacts = points.into_iter().map(|(c, point)| (vec![c], OperatingPoint { sliding, ..point })).collect();
-        let path =
-            Path { name: "trajectory", contacts, methods: &self.methods, cold: false, on_model_grid: false };
+        let path = Path { name: "trajectory", contacts, methods: &self.methods, cold: false, on_model_grid: false };
         path.solve(setting, tell)
     }
 

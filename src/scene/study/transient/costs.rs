@@ -62,14 +62,15 @@ pub(super) fn table(study: &TransientStudy, marches: &[&March], models: &[&Model
 mod tests {
     use super::*;
     use crate::scene::{Scene, Study};
-    use crate::solver::full::transient::{Ended, Frame, Moment, Trajectory};
     use crate::solver::full::Mesh;
+    use crate::solver::full::transient::{Ended, Frame, Moment, Trajectory};
 
     fn march(name: &str, by: By, steps: usize, step_s: f64) -> March {
         let scene = Scene::from_ron(SCENE).unwrap();
         let Study::Transient(study) = &scene.study else { panic!() };
         let transient = study.own_march(scene.point().unwrap(), scene.lubricant, Frame::Fixed);
-        let scales = Frame::Fixed.conditions(&transient.problem().unwrap(), 0.0, transient.inputs.at(0.0)).unwrap().scales;
+        let scales =
+            Frame::Fixed.conditions(&transient.problem().unwrap(), 0.0, transient.inputs.at(0.0)).unwrap().scales;
         let moment = |k: usize| Moment {
             time: k as f64 * 0.01,
             step: 0.01,
@@ -96,7 +97,8 @@ mod tests {
         March { name: name.to_owned(), by, trajectory, seconds: vec![step_s; steps], mass_defect: None, record: None }
     }
 
-    const SCENE: &str = "Scene(version: 1, title: \"t\", grid: Uniform(dx: 0.02, domain: (-4.0, 2.0)), study: Transient(
+    const SCENE: &str =
+        "Scene(version: 1, title: \"t\", grid: Uniform(dx: 0.02, domain: (-4.0, 2.0)), study: Transient(
         duration: 4.0, time_step: Fixed(0.01), published: [
             (name: \"fixed.full\", rows: 300, steps: 1000, march_s: 800.0),
             (name: \"fixed.rnsa\", rows: 300, steps: 1200, march_s: 40.0),

@@ -5,7 +5,7 @@ use super::data::TransientStudy;
 use super::timed_march::Timed;
 use crate::scene::outcome::Findings;
 use crate::scene::statistics::{median, percentile};
-use crate::scene::table::Table;
+use crate::scene::table::{Column, Table};
 use crate::solver::full::transient::{Moment, Quantity, Trajectory};
 use crate::solver::reduced::tpwl::{TpwlRecord, TpwlStep};
 
@@ -53,9 +53,7 @@ const QUANTITIES: [(&str, Quantity); 4] = [
     ("P_max", Quantity::MaximumPressure),
 ];
 
-type Column = (&'static str, fn(&Moment) -> f64);
-
-const SERIES: [Column; 13] = [
+const SERIES: [Column<Moment>; 13] = [
     ("T", |m| m.time),
     ("step", |m| m.step),
     ("radius", |m| m.input.radius),
@@ -183,10 +181,6 @@ impl March {
 
     /// Its time series.
     pub(super) fn series(&self) -> Table {
-        let mut table =
-            Table::new(format!("transient_{}", self.name.replace('.', "_")), &SERIES.map(|(name, _)| name));
-        let row = |moment: &Moment| SERIES.iter().map(|(_, get)| get(moment)).collect();
-        table.rows.extend(self.trajectory.moments.iter().map(row));
-        table
+        Table::of(format!("transient_{}", self.name.replace('.', "_")), &SERIES, &self.trajectory.moments)
     }
 }

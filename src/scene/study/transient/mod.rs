@@ -14,6 +14,7 @@ pub use march::{By, March};
 pub(crate) use models::train_linearised;
 pub use models::{Kind, Model};
 pub use published::PublishedMarch;
+pub(crate) use timed_march::{Timed, Told, timed_march};
 
 use crate::scene::chart::{Chart, ChartAxis, Marks};
 use crate::scene::check::Checked;
@@ -22,14 +23,13 @@ use crate::scene::experiment::Experiment;
 use crate::scene::outcome::Findings;
 use crate::scene::sampled;
 use crate::scene::study::question::{Question, Setting, Tell};
-use crate::scene::table::Table;
+use crate::scene::table::{Column, Table};
 use crate::solver::discrete::grid::{ContactGrid, ReferenceGrid};
-use crate::solver::full::transient::{Frame, FullMarch, Keep, Moment, State, Transient};
+use crate::solver::full::transient::{Frame, FullMarch, Keep, Moment, State, Trajectory, Transient};
 use std::sync::Arc;
-use timed_march::timed_march;
 
 /// Said of inputs that a linearised model cannot carry.
-pub(crate) const TOO_STEEP: &str =
+pub const TOO_STEEP: &str =
     "the inputs are too steep for linearised models; a reduced model with sampled rows is the right choice";
 
 /// What comes of a contact in time.
@@ -126,7 +126,7 @@ impl Question for TransientStudy {
                 let (full, states) = runner.full(drive, transient)?;
                 tell(Row::Marched(Arc::clone(&full)));
                 if k == 0 {
-                    let own = crate::solver::full::transient::Trajectory { states, ..full.trajectory.clone() };
+                    let own = Trajectory { states, ..full.trajectory.clone() };
                     models = runner.models(&own)?;
                 }
                 for model in &models {
@@ -180,7 +180,7 @@ impl Question for TransientStudy {
     }
 
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
-        let quantities: [(&str, fn(&Moment) -> f64); 4] = [
+        let quantities: [Column<Moment>; 4] = [
             ("Central film H_c", |moment| moment.h_c),
             ("Smallest film H_min", |moment| moment.h_min),
             ("Central pressure P_c", |moment| moment.p_c),
@@ -191,7 +191,7 @@ impl Question for TransientStudy {
             _ => None,
         };
         let moments: Vec<(Arc<str>, Moment)> = rows.iter().filter_map(moment).collect();
-        let chart = |(title, get): (&str, fn(&Moment) -> f64)| {
+        let chart = |(title, get): Column<Moment>| {
             let mut chart = Chart::new(title, ChartAxis::linear("T = t u_ref/a_ref"), ChartAxis::linear(title));
             for march in moments.chunk_by(|a, b| a.0 == b.0) {
                 chart.add(march[0].0.as_ref(), Marks::Line, march.iter().map(|(_, moment)| [moment.time, get(moment)]));
@@ -203,6 +203,11 @@ impl Question for TransientStudy {
 }
 
 impl Runner<'_, '_> {
+    /// Who hears of a march of a name.
+    fn told(&self, march: &str) -> Option<Told<'_>> {
+        Some(Told { march: Arc::from(march), tell: self.tell, wants_states: self.setting.wants_states })
+    }
+
     /// A full march, and its fields where they were kept.
     fn full(&self, drive: &Drive, mut transient: Transient) -> Result<(Arc<March>, Vec<State>), RunError> {
         let (study, frame) = (self.study, transient.frame);
@@ -212,7 +217,7 @@ impl Runner<'_, '_> {
         let name = drive.result(frame.name());
         let mut model = FullMarch::new(Arc::clone(&self.grid), &transient)?;
         let stage = format!("{name}, full");
-        let mut timed = timed_march(&mut model, &transient, stage, self.setting, Some((&name, self.tell)))?;
+        let mut timed = timed_march(&mut model, &transient, stage, self.setting.observer, self.told(&name))?;
         let balance = study.mass_between.and_then(|places| timed.trajectory.mass_balance(places));
         let states = std::mem::take(&mut timed.trajectory.states);
         let first = study.frames.first().filter(|first| **first != frame).map(|first| drive.result(first.name()));

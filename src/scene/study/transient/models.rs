@@ -7,7 +7,7 @@ use super::{Row, Runner};
 use crate::scene::error::RunError;
 use crate::scene::outcome::Findings;
 use crate::scene::table::Table;
-use crate::solver::full::transient::{Frame, FullMarch, Keep, Trajectory, Transient};
+use crate::solver::full::transient::{Frame, FullMarch, Keep, Marching, Trajectory, Transient};
 use crate::solver::reduced::tpwl::{TpwlError, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel};
 use crate::solver::training::{TrajectoryTraining, train_trajectories};
@@ -159,7 +159,8 @@ impl Runner<'_, '_> {
         for (k, transient) in transients.iter().enumerate() {
             let stage = format!("{frame}, training {} of {}", k + 1, transients.len());
             let mut model = FullMarch::new(Arc::clone(&self.grid), transient)?;
-            let Timed { trajectory, .. } = timed_march(&mut model, transient, stage.clone(), self.setting, None)?;
+            let Timed { trajectory, .. } =
+                timed_march(&mut model, transient, stage.clone(), self.setting.observer, None)?;
             if !trajectory.finished() {
                 cut_short.push(format!("{stage}: the march {}", trajectory.ended.describe()));
             }
@@ -171,12 +172,7 @@ impl Runner<'_, '_> {
         Ok(trained)
     }
 
-    fn reduced(
-        &self,
-        reduced: &ReducedTransient,
-        frame: Frame,
-        trainings: &[Trajectory],
-    ) -> Result<Model, RunError> {
+    fn reduced(&self, reduced: &ReducedTransient, frame: Frame, trainings: &[Trajectory]) -> Result<Model, RunError> {
         let begun = Instant::now();
         let ReducedTransient { loss, rows_per_mode, seed } = *reduced;
         let settings = TrajectoryTraining { loss, rows_per_mode, seed };
@@ -221,8 +217,8 @@ impl Runner<'_, '_> {
     pub fn compared(&self, model: &Model, drive: &Drive, full: &March) -> Result<(), RunError> {
         let transient = Transient { keep: Keep::Scalars, ..full.trajectory.transient.clone() };
         let by = |method| By::Model { model: model.name.clone(), method, full: full.name.clone() };
-        let march = |name: &str, marching: &mut dyn crate::solver::full::transient::Marching| {
-            timed_march(marching, &transient, name.to_owned(), self.setting, Some((name, self.tell)))
+        let march = |name: &str, marching: &mut dyn Marching| {
+            timed_march(marching, &transient, name.to_owned(), self.setting.observer, self.told(name))
         };
         match &model.kind {
             Kind::Reduced(reduced) => {

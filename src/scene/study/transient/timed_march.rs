@@ -2,8 +2,7 @@
 
 use super::Row;
 use crate::scene::error::RunError;
-use crate::scene::statistics::median;
-use crate::scene::study::question::{Setting, Tell};
+use crate::scene::study::question::Tell;
 use crate::solver::full::transient::{Marching, Moment, State, Trajectory, Transient, TransientObserver, march};
 use crate::solver::observer::{Observer, Progress};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -13,36 +12,38 @@ use std::time::Instant;
 const PICTURES: f64 = 400.0;
 
 /// A march that was timed.
-pub(super) struct Timed {
+pub(crate) struct Timed {
+    /// What it gave.
     pub trajectory: Trajectory,
     /// Of each step, without the start.
     pub seconds: Vec<f64>,
 }
 
-impl Timed {
-    /// The median of its steps \[s\].
-    pub fn step_s(&self) -> f64 {
-        median(&self.seconds)
-    }
+/// Who hears of a march's moments, and of its fields where they are wanted.
+pub(crate) struct Told<'a> {
+    /// The march.
+    pub march: Arc<str>,
+    /// Where its rows go.
+    pub tell: &'a Tell<'a, Row>,
+    /// Whether fields are wanted.
+    pub wants_states: bool,
 }
 
-/// Marches and times each step; `stage` is what the observer is told, and `tell` hears of moments and fields under the name given with it.
-pub(super) fn timed_march(
+/// Marches and times each step; `stage` is what the observer is told.
+pub(crate) fn timed_march(
     model: &mut dyn Marching,
     transient: &Transient,
     stage: String,
-    setting: &Setting<'_>,
-    tell: Option<(&str, &Tell<'_, Row>)>,
+    observer: &dyn Observer,
+    told: Option<Told<'_>>,
 ) -> Result<Timed, RunError> {
-    let tell = tell.map(|(name, tell)| (Arc::from(name), tell));
-    if let Some((march, tell)) = &tell {
+    if let Some(Told { march, tell, .. }) = &told {
         tell(Row::Begun { march: Arc::clone(march), transient: Box::new(transient.clone()) });
     }
     let progress = Mutex::new(Steps { begun: None, seconds: Vec::new(), time: 0.0, next_picture: 0.0 });
-    let states = setting.wants_states && tell.is_some();
-    let clock = StepClock { observer: setting.observer, stage, duration: transient.duration, tell, states, progress };
+    let clock = StepClock { observer, stage, duration: transient.duration, told, progress };
     let trajectory = march(model, transient, &clock)?;
-    if setting.observer.cancelled() {
+    if observer.cancelled() {
         return Err(RunError::Cancelled);
     }
     let steps = clock.progress.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -54,8 +55,7 @@ struct StepClock<'a> {
     observer: &'a dyn Observer,
     stage: String,
     duration: f64,
-    tell: Option<(Arc<str>, &'a Tell<'a, Row>)>,
-    states: bool,
+    told: Option<Told<'a>>,
     progress: Mutex<Steps>,
 }
 
@@ -89,7 +89,7 @@ impl TransientObserver for StepClock<'_> {
         steps.time = moment.time;
         let done = (1000.0 * moment.time / self.duration) as usize;
         self.observer.progress(Progress { stage: self.stage.clone(), done, total: 1000 });
-        if let Some((march, tell)) = &self.tell {
+        if let Some(Told { march, tell, .. }) = &self.told {
             tell(Row::Moment { march: Arc::clone(march), moment: *moment, seconds });
         }
         steps.begun = Some(Instant::now());
@@ -98,14 +98,15 @@ impl TransientObserver for StepClock<'_> {
     fn wants_state(&self) -> bool {
         let Steps { time, next_picture, .. } = *self.steps();
         // Rounding must not leave out every second step of as many as there are pictures.
-        self.states && (time >= next_picture - 1e-9 * self.duration || time >= self.duration)
+        let wanted = self.told.as_ref().is_some_and(|told| told.wants_states);
+        wanted && (time >= next_picture - 1e-9 * self.duration || time >= self.duration)
     }
 
     fn state(&self, state: &State) {
         let interval = self.duration / PICTURES;
         let mut steps = self.steps();
         steps.next_picture = interval * ((state.time / interval + 1e-6).floor() + 1.0);
-        if let Some((march, tell)) = &self.tell {
+        if let Some(Told { march, tell, .. }) = &self.told {
             tell(Row::State { march: Arc::clone(march), state: Arc::new(state.clone()) });
         }
         // The picture is no part of the step.
