@@ -7,6 +7,7 @@
 //! ‖f_δ‖² = z̃ᵀ E_δ z̃ costs no large-scale work, but is a difference of large numbers: below about 1e-7 ‖K V_p p̃‖ it is rounding, and
 //! where that makes it negative it counts as zero. What the norm is computed from then is far below the other parts of the residual.
 
+use super::dense::{product, quadratic_form};
 use super::model::{Window, deformation_weights};
 use super::online::ReducedOptions;
 use crate::solver::discrete::grid::ContactGrid;
@@ -60,7 +61,7 @@ impl ErrorMeasures {
         let basis = window.deformation.modes.get(.., ..kept);
         let cells = deformation_weights(&window.grid);
         let weighted = Mat::from_fn(basis.nrows(), kept, |i, j| cells[i] * basis[(i, j)]);
-        let projection: Mat<f64> = weighted.transpose() * flexed;
+        let projection = product(weighted.transpose(), flexed);
         // f_δ = [−K V_p, V_δ] (p̃, δ̃), (3.12); E_δ is its Gram matrix, so both off-diagonal blocks carry the minus sign that
         // the lower left one of (3.13) lacks in print. Its zero row and column of H₀ are left out.
         let size = modes + if kept > 0 { kept } else { 0 };
@@ -70,7 +71,7 @@ impl ErrorMeasures {
         };
         let row_of = |i: usize, k: usize| if k < modes { -flexed[(i, k)] } else { basis[(i, k - modes)] };
         let f = Mat::from_fn(if kept > 0 { flexed.nrows() } else { 0 }, size, |i, k| weight(i) * row_of(i, k));
-        let deformation_error: Mat<f64> = f.transpose() * &f;
+        let deformation_error = product(f.transpose(), f.as_ref());
         Self {
             norm,
             penalty: options.penalty.unwrap_or(window.penalty),
@@ -88,8 +89,9 @@ impl ErrorMeasures {
 
     /// (p̃, δ̃) of a reduced solution's pressure coefficients.
     pub fn state(&self, coefficients: &[f64]) -> Vec<f64> {
-        let deformation = &self.projection * ColRef::from_slice(coefficients);
-        coefficients.iter().copied().chain(deformation.iter().copied()).collect()
+        let coefficients = ColRef::from_slice(coefficients);
+        let deformation = product(self.projection.as_ref(), coefficients.as_mat());
+        coefficients.iter().chain(deformation.col(0).iter()).copied().collect()
     }
 
     /// e_f and e_f^I of a reduced solution, given by its pressure coefficients and its reconstructed fields.
@@ -106,8 +108,7 @@ impl ErrorMeasures {
             })
             .collect();
         let state = self.state(coefficients);
-        let z = ColRef::from_slice(&state);
-        let deformation = self.weight(scale) * (z.transpose() * (&self.deformation_error * z)).max(0.0);
+        let deformation = self.weight(scale) * quadratic_form(self.deformation_error.as_ref(), &state).max(0.0);
         let load = scale * weights.iter().zip(&fields.pressure).map(|(w, p)| w * p).sum::<f64>() - problem.load;
         let linear = deformation + load * load;
         let sampled: f64 = self.sampled_rows.iter().map(|&r| squared[r]).sum();

@@ -7,6 +7,7 @@
 mod calibration;
 mod contact_rows;
 mod cubature;
+pub(crate) mod dense;
 mod error_measures;
 mod error_split;
 #[cfg(test)]

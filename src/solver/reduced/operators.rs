@@ -4,6 +4,7 @@ mod newton;
 
 pub(crate) use newton::{Case, Iterate, OnlineOutcome, RowObserver, Stop};
 
+use super::dense;
 use super::model::{Window, deformation_weights};
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::generalized::NodeState;
@@ -93,10 +94,10 @@ impl Operators {
                 let weights = deformation_weights(reference);
                 let v = window.deformation.modes.get(.., ..k);
                 let weighted = Mat::from_fn(v.nrows(), k, |i, j| weights[i] * v[(i, j)]);
-                let projected: Mat<f64> = v * (weighted.transpose() * exact);
+                let projected = dense::product(v, dense::product(weighted.transpose(), exact).as_ref());
                 let missing =
                     Mat::from_fn(v.nrows(), modes, |i, j| weights[i].sqrt() * (exact[(i, j)] - projected[(i, j)]));
-                let error: Mat<f64> = missing.transpose() * &missing;
+                let error = dense::product(missing.transpose(), missing.as_ref());
                 (Some(projected), Some(error))
             }
         };

@@ -3,10 +3,10 @@
 //! Nearest snapshots alone (the dissertation's choice) needed 10 iterations at the 90th and 34 at the 99th percentile of the
 //! embedded model's range; with the interpolation it is 6 and 9, because film and spike are carried along.
 
+use super::dense;
 use super::model::{Snapshot, Window, separation};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint, hamrock_dowson_central, moes_line_film};
 use faer::Mat;
-use faer::linalg::solvers::{PartialPivLu, Solve};
 
 /// Snapshots that take part in the interpolation of Newtonian contacts, and in that of shear-thinning ones, which have two parameters more.
 const NEIGHBOURS: [usize; 2] = [6, 10];
@@ -170,7 +170,7 @@ pub(super) fn interpolated(window: &Window, point: &OperatingPoint, thinning: bo
         sum / scale + if r == c && r > 0 { 1e-7 } else { 0.0 }
     });
     let rhs = Mat::from_fn(count, 1, |r, _| if r == 0 { 1.0 } else { 0.0 });
-    let multipliers = PartialPivLu::new(normal.as_ref()).solve(&rhs);
+    let multipliers = dense::solved(normal.as_ref(), rhs);
     let weights: Vec<f64> = features
         .iter()
         .zip(&inverse)

@@ -7,10 +7,9 @@ use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{
     GoalEquations, Iterate, Online, ReducedModel, ReducedOptions, RowSnapshots, SampledRows, Sampling, Snapshot,
-    TestSpace, Window, all_rows, cubature, greedy, is_finite, q_deim, separation,
+    TestSpace, Window, all_rows, cubature, dense, greedy, is_finite, q_deim, separation,
 };
 use faer::linalg::matmul::matmul;
-use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{Accum, Mat, Par};
 use fastrand::Rng;
 use rayon::prelude::*;
@@ -203,7 +202,7 @@ pub(super) fn add_goals(equations: &mut GoalEquations, test: &TestSpace, iterate
         (true, true) => 0.0,
         (true, false) => 5.0 * gauss() / size,
     });
-    let goals = PartialPivLu::new(iterate.jacobian.transpose()).solve(&functionals);
+    let goals = dense::solved(iterate.jacobian.transpose(), functionals);
     let share = 1.0 / ((random + 1) as f64).sqrt();
     let (first, second) = (share / change.max(STEP_FLOOR), share / change);
     // T V_i for every row; on one thread, so that rounding does not depend on how many there are.

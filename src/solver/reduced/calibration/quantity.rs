@@ -2,8 +2,8 @@
 
 use super::neighbours::Neighbours;
 use super::{AROUND, Estimated, LEAST_EVIDENCE};
+use crate::solver::reduced::dense;
 use faer::Mat;
-use faer::linalg::solvers::{PartialPivLu, Solve};
 use serde::{Deserialize, Serialize};
 
 /// Nearest evidence that corrects the likely error.
@@ -97,7 +97,7 @@ fn least_squares(terms: &[Vec<f64>], logs: &[f64], known: &[usize]) -> Option<Ve
         known.iter().map(|&i| terms[i][r] * terms[i][c]).sum::<f64>() + if r == c { 1e-3 } else { 0.0 }
     });
     let rhs = Mat::from_fn(count, 1, |r, _| known.iter().map(|&i| terms[i][r] * logs[i]).sum::<f64>());
-    let solved = PartialPivLu::new(normal.as_ref()).solve(&rhs);
+    let solved = dense::solved(normal.as_ref(), rhs);
     let law: Vec<f64> = solved.col(0).iter().copied().collect();
     law.iter().all(|v| v.is_finite()).then_some(law)
 }

@@ -6,6 +6,7 @@ use crate::solver::discrete::nodes::{Laws, Order};
 use crate::solver::discrete::reynolds::STENCIL;
 use crate::solver::discrete::reynolds::generalized::FilmTreatment;
 use crate::solver::full::Problem;
+use crate::solver::reduced::dense::quadratic_form;
 use faer::dyn_stack::MemStack;
 use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::linalg::matmul::matmul;
@@ -186,8 +187,7 @@ impl Operators {
             }
         }
         if let Some(error) = &self.deformation_error {
-            let c = ColRef::from_slice(coefficients);
-            sum += scale * (c.transpose() * (error * c)).max(0.0);
+            sum += scale * quadratic_form(error.as_ref(), coefficients).max(0.0);
         }
         let carried: f64 = self.load_row.iter().zip(coefficients).map(|(l, c)| l * c).sum();
         sum += (scale * carried - problem.load).powi(2);
