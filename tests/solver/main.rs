@@ -11,5 +11,6 @@ mod embedded_shear_model;
 mod line_reference;
 mod point_reference;
 mod point_shear_thinning;
+mod rebuilt;
 mod shear_models;
 mod shear_thinning;

@@ -1,0 +1,73 @@
+//! A model follows from its scene alone: the same bytes on any number of threads.
+
+use crate::common::scene_files;
+use ehl_explorer::engine::model_file::to_bytes;
+use ehl_explorer::scene::Study;
+use ehl_explorer::solver::discrete::grid::{ContactGridSpec, GridSpec, PointGridSpec};
+use ehl_explorer::solver::training::{Plan, Range, TrainingSpec, Windows, train};
+
+/// The training of an embedded model with fewer full solutions, on a coarser grid.
+fn small(scene: &str) -> TrainingSpec {
+    let Study::Training(mut spec) = scene_files::read(scene).study else { panic!("{scene} is no training") };
+    match &mut spec.plan {
+        Plan::FarthestPoint { snapshots } => *snapshots = 40,
+        Plan::WorstOfPool { start, pool, per_round, limit, .. } => {
+            (*start, *pool, *per_round) = (12, 12, 2);
+            *limit = if matches!(spec.windows, Windows::Automatic { .. }) { 40 } else { 16 };
+        }
+        plan => panic!("{plan:?}"),
+    }
+    match &mut spec.range {
+        Range::Moes { m, .. } => *m = (20.0, 60.0),
+        Range::Box(range) => {
+            (range.radius, range.speed, range.load) = ((10e-3, 11e-3), (2.0, 3.0), (30.0, 45.0));
+        }
+        _ => {}
+    }
+    match &mut spec.windows {
+        Windows::Automatic { modes } => *modes = 12,
+        Windows::Given(windows) => windows.iter_mut().for_each(|window| {
+            window.grid = match window.grid {
+                ContactGridSpec::Line(_) => {
+                    ContactGridSpec::Line(GridSpec::Graded { nodes: 240, domain: (-8.0, 3.2), registered: true })
+                }
+                ContactGridSpec::Point(_) => {
+                    ContactGridSpec::Point(PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5)))
+                }
+            };
+        }),
+    }
+    spec.evidence = 150;
+    spec
+}
+
+fn the_same_bytes_on_one_and_on_three_threads(scene: &str) {
+    let spec = small(scene);
+    let [one, three] = [1, 3].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| train(&spec, &()).unwrap())
+    });
+    assert!(one.windows.iter().all(|window| window.calibration.is_some()), "{:?}", one.log);
+    assert_eq!(one.log, three.log);
+    assert!(to_bytes(&one).unwrap() == to_bytes(&three).unwrap(), "{scene}");
+}
+
+#[test]
+fn a_line_model_has_the_same_bytes_on_any_number_of_threads() {
+    the_same_bytes_on_one_and_on_three_threads("embedded_model");
+}
+
+#[test]
+fn a_point_model_has_the_same_bytes_on_any_number_of_threads() {
+    the_same_bytes_on_one_and_on_three_threads("table_3_4_model");
+}
+
+#[test]
+fn a_line_model_under_shear_has_the_same_bytes_on_any_number_of_threads() {
+    the_same_bytes_on_one_and_on_three_threads("embedded_shear_model");
+}
+
+#[test]
+fn a_point_model_under_shear_has_the_same_bytes_on_any_number_of_threads() {
+    the_same_bytes_on_one_and_on_three_threads("embedded_point_shear_model");
+}
