@@ -1,4 +1,6 @@
 //! Online iterations and online steps in time must not allocate: more of them, the same number of allocations.
+#![cfg(test)]
+#![allow(unsafe_code, reason = "an allocator that counts")]
 
 use ehl_explorer::engine::model_file::{embedded, embedded_shear_of};
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;

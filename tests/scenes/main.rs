@@ -1,4 +1,5 @@
 //! Scenes: those of the repository, and every kind of study at a small size.
+#![cfg(test)]
 
 #[path = "../common/mod.rs"]
 mod common;

@@ -1,4 +1,5 @@
 //! The solvers: full solutions against independent ones, the embedded models against full solutions, cancelling.
+#![cfg(test)]
 
 #[path = "../common/mod.rs"]
 mod common;

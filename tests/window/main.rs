@@ -1,4 +1,5 @@
 //! The explorer's window, driven without a display.
+#![cfg(test)]
 
 #[path = "../common/mod.rs"]
 mod common;

@@ -192,7 +192,7 @@ fn a_range_that_holds_no_contact_is_refused_with_a_sentence() {
         max_hertz_pressure: 1e6,
         viscosity: 0.01,
     };
-    let Range::Moes { l, alpha, viscosity, .. } = nowhere else { unreachable!() };
+    let Range::Moes { l, alpha, viscosity, .. } = nowhere else { panic!("intervals of M and L") };
     let one_point =
         Range::Moes { m: (20.0, 20.0), l: (l.0, l.0), alpha: (alpha.0, alpha.0), max_hertz_pressure: 1e10, viscosity };
     let plan = Plan::FarthestPoint { snapshots: 8 };
