@@ -2,10 +2,15 @@
 
 mod refusal;
 
+use super::answers::picture::Cuts;
+use super::document::Edit;
+use super::files::Purpose;
+use super::tab::Tab;
 use egui::{Context, Key, KeyboardShortcut, Modifiers};
+use std::path::PathBuf;
 
-/// What the user can ask for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What the user can ask for: by menu, key and palette, or in a panel or tab.
+#[derive(Clone, Debug, PartialEq)]
 pub enum Command {
     /// Start with a fresh document.
     New,
@@ -73,6 +78,22 @@ pub enum Command {
     Keyboard,
     /// What this program is.
     About,
+    /// Change the document; a refusal stands beside the field of this name.
+    Edit(Edit, &'static str),
+    /// Go to a tab.
+    Go(Tab),
+    /// Cut a point contact elsewhere.
+    Cut(Cuts),
+    /// Remove one pin, by its place.
+    RemovePin(usize),
+    /// Open a certain scene.
+    OpenPath(PathBuf),
+    /// Ask where something is to be written, or what is to be read.
+    Ask(Purpose),
+    /// Export a plot that is on the screen as a drawing.
+    Draw(&'static str),
+    /// Put the sentence about the last file away.
+    Dismiss,
 }
 
 /// The menus from left to right, each in its groups.
@@ -99,15 +120,20 @@ pub const MENUS: [(&str, &[&[Command]]); 5] = {
 const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
 impl Command {
+    /// Asks where a table is to be written.
+    pub fn csv(text: String) -> Self {
+        Self::Ask(Purpose::Csv { text })
+    }
+
     /// All of them with the names of their menus, in their order.
     pub fn all() -> impl Iterator<Item = (&'static str, Self)> {
         MENUS.into_iter().flat_map(|(menu, groups)| {
-            groups.iter().flat_map(move |group| group.iter().map(move |command| (menu, *command)))
+            groups.iter().flat_map(move |group| group.iter().map(move |command| (menu, command.clone())))
         })
     }
 
     /// As menus show it; `…` where a dialog follows.
-    pub fn name(self) -> &'static str {
+    pub fn name(&self) -> &'static str {
         match self {
             Self::New => "New",
             Self::Open => "Open…",
@@ -142,11 +168,12 @@ impl Command {
             Self::Manual => "Manual",
             Self::Keyboard => "Keyboard",
             Self::About => "About EHL Explorer",
+            _ => "",
         }
     }
 
     /// Other words that people look for it by.
-    pub fn synonyms(self) -> &'static str {
+    pub fn synonyms(&self) -> &'static str {
         match self {
             Self::ExportPlot => "picture figure image svg png",
             Self::ExportProfiles => "table data",
@@ -170,7 +197,7 @@ impl Command {
     }
 
     /// Its key, when it has one.
-    pub fn shortcut(self) -> Option<KeyboardShortcut> {
+    pub fn shortcut(&self) -> Option<KeyboardShortcut> {
         let (modifiers, key) = match self {
             Self::New => (Modifiers::COMMAND, Key::N),
             Self::Open => (Modifiers::COMMAND, Key::O),
@@ -202,7 +229,10 @@ impl Command {
         // A text field keeps its own undo, and Escape must still leave it.
         let typing = ctx.text_edit_focused();
         let left_to_fields = [Self::Undo, Self::Redo, Self::Cancel];
-        let keys = Self::all().filter_map(|(_, command)| Some((command, command.shortcut()?)));
+        let keys = Self::all().filter_map(|(_, command)| {
+            let shortcut = command.shortcut()?;
+            Some((command, shortcut))
+        });
         let keys = keys.filter(|(command, _)| !(typing && left_to_fields.contains(command)));
         // Those with Shift first: Ctrl+Shift+Z must not be taken for Ctrl+Z.
         let (shifted, plain): (Vec<_>, Vec<_>) = keys.partition(|(_, shortcut)| shortcut.modifiers.shift);

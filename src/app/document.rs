@@ -4,9 +4,13 @@
 #[cfg(test)]
 mod tests;
 
+mod edit;
 mod history;
+mod key;
 
+pub use edit::Edit;
 pub use history::History;
+pub use key::Key;
 
 use crate::scene::named_lubricant::NamedLubricant;
 use crate::scene::study::point::Point;
@@ -101,6 +105,16 @@ impl Default for Document {
 }
 
 impl Document {
+    /// The contact and its fluid, by which results are known.
+    pub fn key(&self) -> Key {
+        Key { point: self.point, lubricant: self.lubricant }
+    }
+
+    /// The grid that was chosen for a point contact; none for a line contact.
+    pub fn chosen_plane(&self) -> Option<PointGridSpec> {
+        (self.point.kind == ContactKind::Point).then(|| self.plane())
+    }
+
     /// Moves to M and L; the chosen quantities follow, all others keep their value.
     ///
     /// # Errors

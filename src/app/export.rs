@@ -1,8 +1,8 @@
 //! Tables for other programs: the data behind a plot as CSV, the read-outs as text.
 
+use super::answers::Answers;
+use super::answers::picture::{Cuts, Picture, value_at};
 use super::numbers;
-use super::picture::{Picture, value_at};
-use super::state::State;
 use crate::engine::Table;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
@@ -59,21 +59,20 @@ fn profile_row(picture: &Picture, (x, p, film): (f64, f64, f64)) -> [Option<f64>
 
 /// Profiles with their SI twins, the full solution beside a reduced one where both belong together, and every pinned curve on
 /// its own nodes in columns of its own.
-pub fn profiles(state: &State) -> Option<String> {
+pub fn profiles(answers: &Answers, cuts: Cuts) -> Option<String> {
     const COLUMNS: [&str; 6] = ["X", "P", "H", "x_m", "p_pa", "h_m"];
-    let picture = state.picture.as_ref()?;
-    let full = state.comparison.as_ref().and(state.full.as_ref());
+    let picture = answers.picture.as_ref()?;
+    let full = answers.comparison.as_ref().and(answers.full.as_ref());
     let mut comments = vec![describe(picture), picture.origin.describe()];
     let mut header: Vec<String> = COLUMNS.map(str::to_owned).to_vec();
     if full.is_some() {
         header.extend(["P_full", "H_full"].map(str::to_owned));
     }
-    for pin in &state.pins {
+    for pin in &answers.pins {
         comments.push(format!("pin{}: {}; {}", pin.number, describe(&pin.picture), pin.picture.origin.describe()));
         header.extend(COLUMNS.map(|column| format!("pin{}.{column}", pin.number)));
     }
     let live_width = COLUMNS.len() + if full.is_some() { 2 } else { 0 };
-    let cuts = state.display.cuts;
     if picture.has_plane() {
         comments.push(format!("profiles along X at Y {:e}", cuts.y));
     }
@@ -89,7 +88,7 @@ pub fn profiles(state: &State) -> Option<String> {
             row
         })
         .collect();
-    let pinned: Vec<Vec<[Option<f64>; 6]>> = state
+    let pinned: Vec<Vec<[Option<f64>; 6]>> = answers
         .pins
         .iter()
         .map(|pin| pin.picture.solution.along(cuts.y).into_iter().map(|node| profile_row(&pin.picture, node)).collect())
@@ -112,8 +111,8 @@ pub fn profile_across(picture: &Picture, x: f64) -> String {
 }
 
 /// The rows of the read-outs: name, dimensionless value, value with unit.
-pub fn readouts(state: &State) -> Vec<(&'static str, String, String)> {
-    let Some(picture) = &state.picture else { return Vec::new() };
+pub fn readouts(answers: &Answers) -> Vec<(&'static str, String, String)> {
+    let Some(picture) = &answers.picture else { return Vec::new() };
     let (scalars, scale, p_h) =
         (&picture.solution.scalars, picture.key.point.film_scale_m(), picture.key.point.hertz().pressure_pa);
     vec![
@@ -125,13 +124,13 @@ pub fn readouts(state: &State) -> Vec<(&'static str, String, String)> {
 }
 
 /// The read-outs as a tab-separated table for a clipboard.
-pub fn readouts_table(state: &State) -> String {
+pub fn readouts_table(answers: &Answers) -> String {
     let mut out = String::from("quantity\tdimensionless\tdimensional\n");
-    if let Some(picture) = &state.picture {
+    if let Some(picture) = &answers.picture {
         let moes = picture.key.point.moes();
         let _ok = writeln!(out, "M\t{}\t\nL\t{}\t", numbers::significant(moes.m), numbers::significant(moes.l));
     }
-    for (name, value, unit) in readouts(state) {
+    for (name, value, unit) in readouts(answers) {
         let _ok = writeln!(out, "{name}\t{value}\t{}", unit.replace(numbers::THIN, " "));
     }
     out

@@ -1,9 +1,12 @@
 //! The last session: what is written as the program runs, so that a crash costs ten seconds at most.
 
+use super::Explorer;
+use super::display::Display;
 use super::document::Document;
-use super::state::Display;
-use super::tabs::{self, Tab};
-use super::{Explorer, state::State};
+use super::tab::Tab;
+use super::tabs::contact_map::MapView;
+use super::tabs::{self, profiles};
+use super::traction;
 use eframe::Storage;
 use egui_tiles::Tree;
 use serde::{Deserialize, Serialize};
@@ -17,20 +20,45 @@ struct Session {
     saved: String,
     path: Option<PathBuf>,
     recent: Vec<PathBuf>,
-    display: Display,
+    display: Shown,
     tree: Tree<Tab>,
+}
+
+/// How everything is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+struct Shown {
+    #[serde(flatten)]
+    display: Display,
+    #[serde(flatten)]
+    profiles: profiles::Choices,
+    traction: traction::Choices,
+    map: MapView,
+}
+
+impl Shown {
+    fn of(Explorer { desk, .. }: &Explorer) -> Self {
+        let views = &desk.views;
+        Self { display: desk.display, profiles: views.profiles.choices, traction: views.traction, map: views.map.view }
+    }
+
+    fn restore(self, Explorer { desk, .. }: &mut Explorer) {
+        desk.display = self.display;
+        let views = &mut desk.views;
+        (views.profiles.choices, views.traction, views.map.view) = (self.profiles, self.traction, self.map);
+    }
 }
 
 /// Writes the session.
 pub fn save(explorer: &Explorer, storage: &mut dyn Storage) {
-    let state = &explorer.state;
-    if let (Ok(document), Ok(saved)) = (state.document.to_ron(), state.files.saved().to_ron()) {
+    let desk = &explorer.desk;
+    if let (Ok(document), Ok(saved)) = (desk.document.to_ron(), desk.files.saved().to_ron()) {
         let session = Session {
             document,
             saved,
-            path: state.files.path.clone(),
-            recent: state.files.recent.clone(),
-            display: state.display.clone(),
+            path: desk.files.path.clone(),
+            recent: desk.files.recent.clone(),
+            display: Shown::of(explorer),
             tree: explorer.tree.clone(),
         };
         eframe::set_value(storage, KEY, &session);
@@ -40,16 +68,16 @@ pub fn save(explorer: &Explorer, storage: &mut dyn Storage) {
 /// Restores how things are shown, and the document too when `with_document`. What cannot be read is left at its default.
 pub fn restore(explorer: &mut Explorer, storage: &dyn Storage, with_document: bool) {
     let Some(session) = eframe::get_value::<Session>(storage, KEY) else { return };
-    let state: &mut State = &mut explorer.state;
-    state.display = session.display;
-    state.files.recent = session.recent;
+    session.display.restore(explorer);
+    let desk = &mut explorer.desk;
+    desk.files.recent = session.recent;
     if tabs::is_complete(&session.tree) {
         explorer.tree = session.tree;
     }
     if with_document && let Ok(document) = Document::from_ron(&session.document) {
-        state.files.set_saved(Document::from_ron(&session.saved).unwrap_or_else(|_| document.clone()));
-        state.files.path = session.path;
-        state.replace_document(document);
+        desk.files.set_saved(Document::from_ron(&session.saved).unwrap_or_else(|_| document.clone()));
+        desk.files.path = session.path;
+        desk.replace_document(document);
     }
 }
 
@@ -83,30 +111,30 @@ mod tests {
     #[test]
     fn a_session_comes_back_with_its_unsaved_changes_and_its_truncation() {
         let mut explorer = Explorer::new(None);
-        let document = &mut explorer.state.document;
+        let document = &mut explorer.desk.document;
         document.pick_lubricant(&by_name("squalane-pip").unwrap()).unwrap();
         document.set_moes(Moes { m: 55.0, l: 8.0 }).unwrap();
         document.set_slide_to_roll_ratio(0.3).unwrap();
         document.set_plateau_ratio(Some(0.4)).unwrap();
         document.view.pressure_loss = Some(1e-6);
         let (point, view, lubricant) = (document.point, document.view, document.lubricant);
-        explorer.state.display.traction.against = Against::Stribeck;
-        let display = explorer.state.display.clone();
+        explorer.desk.views.traction.against = Against::Stribeck;
+        let display = Shown::of(&explorer);
         let mut storage = Memory::default();
         save(&explorer, &mut storage);
         let mut again = Explorer::new(None);
         restore(&mut again, &storage, true);
-        let document = &again.state.document;
+        let document = &again.desk.document;
         assert_eq!((document.point, document.view, document.lubricant), (point, view, lubricant));
-        assert_eq!(again.state.display, display);
-        assert!(again.state.dirty(), "what was not saved is still unsaved");
-        explorer.state.files.set_saved(explorer.state.document.clone());
+        assert_eq!(Shown::of(&again), display);
+        assert!(again.desk.dirty(), "what was not saved is still unsaved");
+        explorer.desk.files.set_saved(explorer.desk.document.clone());
         save(&explorer, &mut storage);
         restore(&mut again, &storage, true);
-        assert!(!again.state.dirty());
+        assert!(!again.desk.dirty());
         storage.set_string(KEY, "(damaged".to_owned());
         let mut fresh = Explorer::new(None);
         restore(&mut fresh, &storage, true);
-        assert_eq!(fresh.state.document, Document::default());
+        assert_eq!(fresh.desk.document, Document::default());
     }
 }

@@ -9,9 +9,9 @@ pub use subject::Subject;
 pub use texture::Texture;
 
 use super::controls::named;
+use super::desk::Desk;
 use super::files::Purpose;
 use super::png;
-use super::state::State;
 use egui::{ColorImage, Context, FontId, Id, LayerId, Modal, Order, Rect, Ui, ViewportCommand, pos2, vec2};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
@@ -73,6 +73,23 @@ pub struct Figures {
     wanted: Option<Wanted>,
 }
 
+impl Figures {
+    /// Exports a plot that is on the screen as a drawing.
+    pub fn draw(&mut self, name: &str) {
+        self.wanted = Some(Wanted::new(name, Format::Svg));
+    }
+
+    /// Asks which plot is to be exported.
+    pub fn ask(&mut self) {
+        self.asks = true;
+    }
+
+    /// Whether the question stands.
+    pub fn asks(&self) -> bool {
+        self.asks
+    }
+}
+
 fn offers(ctx: &Context, change: impl FnOnce(&mut Offers)) {
     ctx.data_mut(|data| change(data.get_temp_mut_or_default(Id::unique("plots on the screen"))));
 }
@@ -105,22 +122,7 @@ pub fn begin(ctx: &Context) {
     offers(ctx, |offers| offers.last = std::mem::take(&mut offers.now));
 }
 
-impl State {
-    /// Exports a plot that is on the screen as a drawing.
-    pub fn draw_figure(&mut self, name: &str) {
-        self.figures.wanted = Some(Wanted::new(name, Format::Svg));
-    }
-
-    /// Asks which plot is to be exported.
-    pub fn ask_figure(&mut self) {
-        self.figures.asks = true;
-    }
-
-    /// Whether the question stands.
-    pub fn asks_figure(&self) -> bool {
-        self.figures.asks
-    }
-
+impl Desk {
     /// The question, and the picture once the screen shows nothing but the plot. Called when everything else is drawn.
     pub fn figures_ui(&mut self, ctx: &Context) {
         if self.figures.asks {

@@ -1,7 +1,7 @@
 //! What a plot is of, in the line of parameters above its picture.
 
+use crate::app::desk::Desk;
 use crate::app::numbers;
-use crate::app::state::State;
 use crate::app::tabs::contact_map;
 use crate::app::{traction, transient};
 use crate::scene::named_lubricant;
@@ -21,12 +21,13 @@ pub enum Subject {
     InTime,
 }
 
-impl State {
+impl Desk {
     /// The parameters of what a plot is of.
     pub(super) fn parameters(&self, subject: Subject) -> String {
         let lines = match subject {
             Subject::Sliders => None,
-            Subject::Map => contact_map::particulars(self).map(|more| vec![self.contact_line(), more]),
+            Subject::Map => contact_map::particulars(&self.answers, &self.views.map.view)
+                .map(|more| vec![self.contact_line(), more]),
             Subject::Sweep => traction::export::parameters(&self.traction),
             Subject::InTime => self.transient.setup.as_ref().map(|setup| transient::export::describe(setup)),
         };

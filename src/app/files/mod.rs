@@ -1,52 +1,19 @@
 //! Opening, saving and exporting: never blocks the window, never overwrites what the user did not name, never loses work unasked.
 
 mod path_window;
+mod purpose;
 
+pub use purpose::Purpose;
+
+use super::desk::Desk;
 use super::document::Document;
-use super::state::State;
 use crate::scene::Scene;
 use egui::{Context, Id, Modal, Ui, ViewportCommand};
 use path_window::PathWindow;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 /// Recent files kept.
 const MOST_RECENT: usize = 8;
-/// What a path is asked for.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Purpose {
-    /// Open a scene.
-    Open,
-    /// Save the scene.
-    Save,
-    /// Read inputs of a contact in time.
-    Inputs,
-    /// Write a reduced model.
-    Model {
-        /// The content of its file.
-        bytes: Arc<Vec<u8>>,
-    },
-    /// Write a table.
-    Csv {
-        /// Its content.
-        text: String,
-    },
-    /// Write a picture.
-    Picture {
-        /// The content of its file.
-        bytes: Arc<[u8]>,
-        /// How its name ends: `png` or `svg`.
-        extension: &'static str,
-    },
-}
-
-impl Purpose {
-    /// Whether a file is read: then it must exist, and none is replaced.
-    fn reads(&self) -> bool {
-        matches!(self, Self::Open | Self::Inputs)
-    }
-}
-
 /// What waits for the answer about unsaved changes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pending {
@@ -113,7 +80,7 @@ fn is_model(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "rom")
 }
 
-impl State {
+impl Desk {
     /// Whether there is something to lose.
     pub fn dirty(&self) -> bool {
         self.document != *self.files.saved()
@@ -156,8 +123,8 @@ impl State {
     /// A sentence when it cannot be read; what is on the screen stays.
     pub fn open_path(&mut self, path: &Path) -> Result<(), String> {
         if is_model(path) {
-            let model = self.store.model_of_file(path).map_err(|e| e.to_string())?;
-            self.use_model(model);
+            let model = self.answers.store.model_of_file(path).map_err(|e| e.to_string())?;
+            self.answers.use_model(model);
             self.files.notice = Some(Ok(format!("Using the model {}", path.display())));
             return Ok(());
         }

@@ -2,7 +2,7 @@
 
 use super::Purpose;
 use crate::app::controls::message_ui;
-use crate::app::state::State;
+use crate::app::desk::Desk;
 use crate::scene::atomic_file;
 use egui::{Context, Id, Modal, RichText, TextEdit};
 use std::path::{Path, PathBuf};
@@ -22,7 +22,7 @@ pub(super) struct PathWindow {
     fresh: bool,
 }
 
-impl State {
+impl Desk {
     /// Asks for a path, by the system's dialog and by a text field for where there is none.
     pub fn ask_path(&mut self, ctx: &Context, purpose: Purpose) {
         let suggestion = match &purpose {

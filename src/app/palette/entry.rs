@@ -1,27 +1,15 @@
 //! What the palette offers: commands, tabs, kinds of contact, lubricants, recent scenes.
 
 use crate::app::command::Command;
-use crate::app::state::State;
-use crate::app::tabs::Tab;
-use crate::scene::named_lubricant::{NAMED, NamedLubricant, of_laws};
+use crate::app::desk::Desk;
+use crate::app::document::Edit;
+use crate::app::panels::lubricant::GROUP;
+use crate::app::panels::operating_point::KIND;
+use crate::app::tab::Tab;
+use crate::scene::named_lubricant::{NAMED, of_laws};
 use crate::solver::physics::contact::ContactKind;
 use egui::KeyboardShortcut;
-use std::path::{Path, PathBuf};
-
-/// What is done when an entry is chosen.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Action {
-    /// A command.
-    Command(Command),
-    /// Show a tab.
-    Tab(Tab),
-    /// Go over to a kind of contact.
-    Kind(ContactKind),
-    /// Take a named lubricant.
-    Lubricant(&'static NamedLubricant),
-    /// Open a scene.
-    Scene(PathBuf),
-}
+use std::path::Path;
 
 /// A line of the palette.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,12 +25,12 @@ pub struct Entry {
     /// Why it cannot be done now.
     pub refusal: Option<&'static str>,
     /// What it does.
-    pub action: Action,
+    pub command: Command,
 }
 
 impl Entry {
-    fn new(group: &'static str, name: String, synonyms: &str, action: Action) -> Self {
-        Self { name, group, synonyms: synonyms.to_owned(), shortcut: None, refusal: None, action }
+    fn new(group: &'static str, name: String, synonyms: &str, command: Command) -> Self {
+        Self { name, group, synonyms: synonyms.to_owned(), shortcut: None, refusal: None, command }
     }
 
     fn refused_where(self, refused: bool, why: &'static str) -> Self {
@@ -51,33 +39,33 @@ impl Entry {
 }
 
 /// Everything there is, in its order.
-pub fn all(state: &State) -> Vec<Entry> {
+pub fn all(desk: &Desk) -> Vec<Entry> {
     let tabs =
-        Tab::ALL.map(|tab| Entry::new("Tab", format!("Go to {}", tab.title()), tab.subjects(), Action::Tab(tab)));
+        Tab::ALL.map(|tab| Entry::new("Tab", format!("Go to {}", tab.title()), tab.subjects(), Command::Go(tab)));
     // The palette itself is open already.
     let commands = Command::all().filter(|(_, command)| *command != Command::Palette);
     let commands = commands.map(|(menu, command)| Entry {
         shortcut: command.shortcut(),
-        refusal: command.refusal(state),
-        ..Entry::new(menu, command.name().to_owned(), command.synonyms(), Action::Command(command))
+        refusal: command.refusal(desk),
+        ..Entry::new(menu, command.name().to_owned(), command.synonyms(), command.clone())
     });
     let mut entries: Vec<Entry> = tabs.into_iter().chain(commands).collect();
     let kinds = [(ContactKind::Line, "Line contact", "roller"), (ContactKind::Point, "Point contact", "ball")];
     entries.extend(kinds.map(|(kind, name, synonyms)| {
-        let entry = Entry::new("Contact", name.to_owned(), synonyms, Action::Kind(kind));
-        entry.refused_where(kind == state.document.point.kind, "It is one")
+        let entry = Entry::new("Contact", name.to_owned(), synonyms, Command::Edit(Edit::Kind(kind), KIND));
+        entry.refused_where(kind == desk.document.point.kind, "It is one")
     }));
-    let present = of_laws(&state.document.lubricant).filter(|_| !state.own_lubricant);
+    let present = of_laws(&desk.document.lubricant).filter(|_| !desk.own_lubricant);
     entries.extend(NAMED.iter().map(|named| {
         let name = format!("Lubricant: {}", named.title);
-        let entry = Entry::new("Lubricant", name, named.about, Action::Lubricant(named));
+        let entry = Entry::new("Lubricant", name, named.about, Command::Edit(Edit::Named(named), GROUP));
         entry.refused_where(present == Some(named), "It is the present one")
     }));
-    entries.extend(state.files.recent.iter().map(|path| {
+    entries.extend(desk.files.recent.iter().map(|path| {
         let name =
             path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
         let folder = path.parent().unwrap_or(Path::new("")).display().to_string();
-        Entry::new("Recent scene", format!("Open {name}"), &folder, Action::Scene(path.clone()))
+        Entry::new("Recent scene", format!("Open {name}"), &folder, Command::OpenPath(path.clone()))
     }));
     entries
 }

@@ -3,11 +3,9 @@
 mod entry;
 mod search;
 
-pub use entry::Action;
-
 use super::command::Command;
 use super::controls::{described, named};
-use super::state::State;
+use super::desk::Desk;
 use super::theme::Palette as Colors;
 use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextWrapping};
@@ -73,9 +71,9 @@ impl Palette {
     }
 
     /// Shows it where it is open; returns what was chosen.
-    pub fn ui(&mut self, ctx: &Context, state: &State) -> Option<Action> {
+    pub fn ui(&mut self, ctx: &Context, desk: &Desk) -> Option<Command> {
         let open = self.open.as_mut()?;
-        let entries = entry::all(state);
+        let entries = entry::all(desk);
         let area = Modal::default_area(Id::unique("palette")).anchor(Align2::CENTER_TOP, vec2(0.0, TOP));
         let mut action = None;
         let response = Modal::new(Id::unique("palette")).area(area).show(ctx, |ui| {
@@ -94,7 +92,7 @@ impl Palette {
 }
 
 impl Open {
-    fn content(&mut self, ui: &mut Ui, entries: &[Entry]) -> Option<Action> {
+    fn content(&mut self, ui: &mut Ui, entries: &[Entry]) -> Option<Command> {
         let field = Id::unique("palette query");
         let typing = ui.memory(|memory| memory.has_focus(field));
         let (moved, entered) = if typing { keys(ui) } else { (0, false) };
@@ -143,7 +141,7 @@ impl Open {
             }
         });
         let entered = found.get(self.chosen).copied().filter(|_| entered);
-        clicked.or(entered).filter(|entry| entry.refusal.is_none()).map(|entry| entry.action.clone())
+        clicked.or(entered).filter(|entry| entry.refusal.is_none()).map(|entry| entry.command.clone())
     }
 }
 
@@ -201,9 +199,9 @@ fn line(ui: &mut Ui, entry: &Entry, chosen: bool) -> Response {
         let place = pos2(right - detail.size().x, area.center().y - 0.5 * detail.size().y);
         ui.painter().galley(place, detail, colors.quiet);
     }
-    match (entry.refusal, &entry.action) {
+    match (entry.refusal, &entry.command) {
         (Some(why), _) => described(ui, response, why).on_hover_text(why),
-        (None, Action::Scene(path)) => response.on_hover_text(path.display().to_string()),
+        (None, Command::OpenPath(path)) => response.on_hover_text(path.display().to_string()),
         (None, _) => response,
     }
 }

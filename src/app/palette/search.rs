@@ -35,35 +35,35 @@ fn folded(text: &str) -> String {
 mod tests {
     use super::super::entry;
     use super::*;
+    use crate::app::desk::Desk;
     use crate::app::document::Document;
     use crate::app::model_source::Models;
-    use crate::app::state::State;
     use crate::engine::Store;
     use std::path::PathBuf;
 
-    fn names(state: &State, query: &str) -> Vec<String> {
-        find(&entry::all(state), query).into_iter().map(|entry| entry.name.clone()).collect()
+    fn names(desk: &Desk, query: &str) -> Vec<String> {
+        find(&entry::all(desk), query).into_iter().map(|entry| entry.name.clone()).collect()
     }
 
     #[test]
     fn words_are_found_in_any_order_and_beginnings_come_first() {
-        let mut state = State::new(Document::default(), Models::only(None), Store::default());
-        state.files.recent.push(PathBuf::from("/home/me/contacts/bearing_47.ron"));
-        assert_eq!(names(&state, "theme dark"), ["Dark theme"]);
-        assert_eq!(names(&state, "READOUTS")[0], "Copy read-outs");
-        assert_eq!(names(&state, "trac")[0], "Go to Traction");
-        assert_eq!(names(&state, "pip squa"), ["Lubricant: Squalane with PIP"]);
-        assert_eq!(names(&state, "47"), ["Open bearing_47.ron"]);
-        assert_eq!(names(&state, "interferogram"), ["Go to Contact map"]);
-        assert_eq!(names(&state, "contacts bearing"), ["Open bearing_47.ron"]);
-        assert!(names(&state, "no such thing").is_empty());
-        assert_eq!(names(&state, " ").len(), entry::all(&state).len());
+        let mut desk = Desk::new(Document::default(), Models::only(None), Store::default());
+        desk.files.recent.push(PathBuf::from("/home/me/contacts/bearing_47.ron"));
+        assert_eq!(names(&desk, "theme dark"), ["Dark theme"]);
+        assert_eq!(names(&desk, "READOUTS")[0], "Copy read-outs");
+        assert_eq!(names(&desk, "trac")[0], "Go to Traction");
+        assert_eq!(names(&desk, "pip squa"), ["Lubricant: Squalane with PIP"]);
+        assert_eq!(names(&desk, "47"), ["Open bearing_47.ron"]);
+        assert_eq!(names(&desk, "interferogram"), ["Go to Contact map"]);
+        assert_eq!(names(&desk, "contacts bearing"), ["Open bearing_47.ron"]);
+        assert!(names(&desk, "no such thing").is_empty());
+        assert_eq!(names(&desk, " ").len(), entry::all(&desk).len());
     }
 
     #[test]
     fn what_cannot_be_done_says_why_and_comes_last() {
-        let state = State::new(Document::default(), Models::only(None), Store::default());
-        let entries = entry::all(&state);
+        let desk = Desk::new(Document::default(), Models::only(None), Store::default());
+        let entries = entry::all(&desk);
         let found = find(&entries, "contact");
         let at = |name: &str| found.iter().position(|entry| entry.name == name).unwrap();
         assert!(at("Point contact") < at("Line contact"));

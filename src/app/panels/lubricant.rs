@@ -1,7 +1,8 @@
 //! The lubricant: a named one, or laws and constants of one's own; the stress that limits its traction.
 
-use crate::app::controls::{NAME_WIDTH, choice, heading, number_field, row_name, sentence};
-use crate::app::state::State;
+use crate::app::context::Commands;
+use crate::app::controls::{Entries, NAME_WIDTH, choice, heading, number_field, row_name, sentence};
+use crate::app::document::Edit;
 use crate::app::theme::name_and_symbol;
 use crate::scene::named_lubricant::{self, NAMED, NamedLubricant};
 use crate::solver::physics::lubricant::{
@@ -24,7 +25,7 @@ const LIMITING_TIP: &str = "The film carries at most τ_L = τ_L0 + Λ p (Bair &
     It limits the traction; pressure and film are computed without it";
 
 /// Under this name a lubricant as a whole is refused.
-const GROUP: &str = "lubricant";
+pub const GROUP: &str = "lubricant";
 
 /// A choice of the picker.
 #[derive(Clone, Copy, PartialEq)]
@@ -34,21 +35,21 @@ enum Pick {
 }
 
 /// The group Lubricant.
-pub fn ui(ui: &mut Ui, state: &mut State) {
+pub fn ui(ui: &mut Ui, laws: &Lubricant, own_laws: &mut bool, entries: &mut Entries, commands: &mut Commands) {
     heading(ui, "Lubricant");
-    let known = named_lubricant::of_laws(&state.document.lubricant).filter(|_| !state.own_lubricant);
-    picker(ui, state, known);
+    let known = named_lubricant::of_laws(laws).filter(|_| !*own_laws);
+    picker(ui, own_laws, commands, known);
     match known {
         Some(lubricant) => {
             ui.weak(sentence(lubricant.about));
         }
-        None => own(ui, state),
+        None => own(ui, laws, entries, commands),
     }
-    state.entries.message_ui(ui, GROUP);
-    limiting_stress(ui, state);
+    entries.message_ui(ui, GROUP);
+    limiting_stress(ui, laws, entries, commands);
 }
 
-fn picker(ui: &mut Ui, state: &mut State, known: Option<&'static NamedLubricant>) {
+fn picker(ui: &mut Ui, own_laws: &mut bool, commands: &mut Commands, known: Option<&'static NamedLubricant>) {
     let before = known.map_or(Pick::Own, |lubricant| Pick::Named(lubricant.name));
     let mut wanted = before;
     let options: Vec<Pick> = NAMED.iter().map(|named| Pick::Named(named.name)).chain([Pick::Own]).collect();
@@ -65,19 +66,12 @@ fn picker(ui: &mut Ui, state: &mut State, known: Option<&'static NamedLubricant>
         return;
     }
     match wanted {
-        Pick::Own => state.own_lubricant = true,
-        Pick::Named(name) => of(name).into_iter().for_each(|named| take(state, named)),
+        Pick::Own => *own_laws = true,
+        Pick::Named(name) => {
+            *own_laws = false;
+            of(name).into_iter().for_each(|named| commands.edit(Edit::Named(named), GROUP));
+        }
     }
-}
-
-/// Takes a named lubricant; a refusal stands under the picker.
-pub fn take(state: &mut State, named: &NamedLubricant) {
-    state.own_lubricant = false;
-    let result = state.document.pick_lubricant(named);
-    if result.is_ok() {
-        state.entries.clear();
-    }
-    state.entries.answer(GROUP, result);
 }
 
 /// A constant of the laws in use.
@@ -182,24 +176,32 @@ fn other_volume(laws: &mut Lubricant) -> Option<&mut Tait> {
 }
 
 /// Laws and constants to edit.
-fn own(ui: &mut Ui, state: &mut State) {
-    let before = state.document.lubricant;
+fn own(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, commands: &mut Commands) {
+    let before = *laws;
     let mut wanted = before;
     Grid::new("laws").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
         let present = |law: ViscosityLaw| if let ViscosityLaw::Doolittle(own) = law { own } else { DOOLITTLE };
-        let laws = [ViscosityLaw::Roelands, ViscosityLaw::Barus, ViscosityLaw::Doolittle(present(before.viscosity))];
-        choice(ui, "Viscosity", "How the viscosity rises with pressure", &mut wanted.viscosity, &laws, viscosity_law);
+        let options = [ViscosityLaw::Roelands, ViscosityLaw::Barus, ViscosityLaw::Doolittle(present(before.viscosity))];
+        choice(
+            ui,
+            "Viscosity",
+            "How the viscosity rises with pressure",
+            &mut wanted.viscosity,
+            &options,
+            viscosity_law,
+        );
         let present = |law: DensityLaw| if let DensityLaw::Tait(own) = law { own } else { VOLUME };
-        let laws = [DensityLaw::DowsonHigginson, DensityLaw::Incompressible, DensityLaw::Tait(present(before.density))];
-        choice(ui, "Density", "How the density rises with pressure", &mut wanted.density, &laws, density_law);
+        let options =
+            [DensityLaw::DowsonHigginson, DensityLaw::Incompressible, DensityLaw::Tait(present(before.density))];
+        choice(ui, "Density", "How the density rises with pressure", &mut wanted.density, &options, density_law);
         let or = |default: ShearLaw| {
             let same = std::mem::discriminant(&before.shear) == std::mem::discriminant(&default);
             if same { before.shear } else { default }
         };
-        let laws = [ShearLaw::Newtonian, or(CARREAU), or(ELLIS), or(EYRING)];
-        choice(ui, "Shear", "How the viscosity falls with shear stress", &mut wanted.shear, &laws, shear_law);
+        let options = [ShearLaw::Newtonian, or(CARREAU), or(ELLIS), or(EYRING)];
+        choice(ui, "Shear", "How the viscosity falls with shear stress", &mut wanted.shear, &options, shear_law);
     });
-    let field = constants_ui(ui, state, &CONSTANTS, &mut wanted);
+    let field = constants_ui(ui, entries, &CONSTANTS, &mut wanted);
     // One volume under both laws stays one.
     if let (DensityLaw::Tait(volume), DensityLaw::Tait(former)) = (wanted.density, before.density)
         && let Some(law) = doolittle(&mut wanted).filter(|law| law.volume == former)
@@ -207,47 +209,39 @@ fn own(ui: &mut Ui, state: &mut State) {
         law.volume = volume;
     }
     if wanted != before {
-        change(state, field, wanted);
+        commands.edit(Edit::Laws(Box::new(wanted)), field);
     }
 }
 
 /// A row for each constant that the laws have; returns the name of the last one that was entered, else that of the whole group.
-fn constants_ui(ui: &mut Ui, state: &mut State, constants: &[Constant], laws: &mut Lubricant) -> &'static str {
+fn constants_ui(ui: &mut Ui, entries: &mut Entries, constants: &[Constant], laws: &mut Lubricant) -> &'static str {
     let mut field = GROUP;
     for Constant { name, row: (row, base, subscript), unit: (unit, scale), tip, of } in constants {
         let Some(value) = of(laws) else { continue };
         ui.horizontal(|ui| {
             row_name(ui, name_and_symbol(ui, row, base, subscript), tip);
-            if let Some(entered) = number_field(ui, &mut state.entries, name, *value / scale, 96.0, tip) {
+            if let Some(entered) = number_field(ui, entries, name, *value / scale, 96.0, tip) {
                 *value = entered * scale;
                 field = name;
             }
             ui.label(*unit);
         });
-        state.entries.message_ui(ui, name);
+        entries.message_ui(ui, name);
     }
     field
 }
 
-fn change(state: &mut State, field: &'static str, wanted: Lubricant) {
-    let result = state.document.set_lubricant(wanted);
-    if result.is_ok() {
-        state.entries.clear();
-    }
-    state.entries.answer(field, result);
-}
-
 /// The stress that limits the traction, where one is wanted.
-fn limiting_stress(ui: &mut Ui, state: &mut State) {
-    let before = state.document.lubricant;
+fn limiting_stress(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, commands: &mut Commands) {
+    let before = *laws;
     let mut wanted = before;
     let mut on = wanted.limiting_stress.is_some();
     if ui.add(Checkbox::new(&mut on, "Limiting shear stress")).on_hover_text(LIMITING_TIP).changed() {
         wanted.limiting_stress = on.then_some(LIMITING);
     }
-    let field = constants_ui(ui, state, &LIMITS, &mut wanted);
+    let field = constants_ui(ui, entries, &LIMITS, &mut wanted);
     if wanted != before {
-        change(state, field, wanted);
+        commands.edit(Edit::Laws(Box::new(wanted)), field);
     }
 }
 

@@ -1,10 +1,10 @@
 //! The same state in SI units beside the sliders, what follows what, and the Hertzian contact behind it.
 
 use super::sliders;
-use crate::app::controls::{NAME_WIDTH, choice, explained, heading, number_field, row_name, warning_ui};
-use crate::app::document::Quantity;
+use crate::app::context::{Commands, Context};
+use crate::app::controls::{Entries, NAME_WIDTH, choice, explained, heading, number_field, row_name, warning_ui};
+use crate::app::document::{Document, Edit, Quantity};
 use crate::app::numbers;
-use crate::app::state::State;
 use crate::app::theme::name_and_symbol;
 use crate::solver::physics::contact::{ContactKind, PLAUSIBLE_HERTZ_PRESSURE_PA};
 use egui::{Grid, Ui};
@@ -18,45 +18,34 @@ const KINDS: [(ContactKind, &str, &str); 2] = [
     ),
 ];
 /// Under this name the switch between both is refused.
-const KIND: &str = "kind of contact";
+pub const KIND: &str = "kind of contact";
 
 /// The panel's first group.
-pub fn ui(ui: &mut Ui, state: &mut State) {
+pub fn ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
     heading(ui, "Operating point");
-    kind_ui(ui, state);
-    sliders::column(ui, state);
-    followers_ui(ui, state);
-    si_ui(ui, state);
-    hertz_ui(ui, state);
+    kind_ui(ui, context.document.point.kind, entries, commands);
+    sliders::column(ui, context, entries, commands);
+    followers_ui(ui, context.document, commands);
+    si_ui(ui, context.document, entries, commands);
+    hertz_ui(ui, context.document);
 }
 
 /// Line or point.
-fn kind_ui(ui: &mut Ui, state: &mut State) {
-    let mut wanted = state.document.point.kind;
+fn kind_ui(ui: &mut Ui, present: ContactKind, entries: &Entries, commands: &mut Commands) {
+    let mut wanted = present;
     ui.horizontal(|ui| {
         for (kind, name, tip) in KINDS {
             let tip = format!("{tip}. M, L and the lubricant stay");
             ui.selectable_value(&mut wanted, kind, name).on_hover_text(tip);
         }
     });
-    if wanted != state.document.point.kind {
-        go_over(state, wanted);
+    if wanted != present {
+        commands.edit(Edit::Kind(wanted), KIND);
     }
-    state.entries.message_ui(ui, KIND);
+    entries.message_ui(ui, KIND);
 }
 
-/// Goes over to a kind of contact; a refusal stands under the switch.
-pub fn go_over(state: &mut State, kind: ContactKind) {
-    let result = state.document.set_kind(kind);
-    if result.is_ok() {
-        state.entries.clear();
-        state.fit_plots = true;
-    }
-    state.entries.answer(KIND, result);
-}
-
-fn followers_ui(ui: &mut Ui, state: &mut State) {
-    let document = &mut state.document;
+fn followers_ui(ui: &mut Ui, document: &Document, commands: &mut Commands) {
     Grid::new("followers").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
         let tip = "M fixes one combination of the SI values: this is the one that gives way";
         let (load_before, lubricant_before) = document.followers();
@@ -74,9 +63,9 @@ fn followers_ui(ui: &mut Ui, state: &mut State) {
         };
         choice(ui, "When L moves", tip, &mut lubricant, lubricants, |f| (f.name(), ""));
         if load != load_before {
-            document.set_load_follower(load);
+            commands.edit(Edit::LoadFollower(load), "When M moves");
         } else if lubricant != lubricant_before {
-            (document.view.when_m_moves, document.view.when_l_moves) = (load, lubricant);
+            commands.edit(Edit::LubricantFollower(lubricant), "When L moves");
         }
     });
 }
@@ -158,36 +147,28 @@ fn rows(kind: ContactKind) -> impl Iterator<Item = &'static Row> {
         .map(move |row| if kind == ContactKind::Point && row.quantity == Quantity::Load { &POINT_LOAD } else { row })
 }
 
-fn si_ui(ui: &mut Ui, state: &mut State) {
+fn si_ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
     ui.add_space(4.0);
-    let mut changed = None;
-    let own_alpha = state.document.lubricant.own_coefficient().is_some();
-    for row in rows(state.document.point.kind) {
+    let own_alpha = document.lubricant.own_coefficient().is_some();
+    for row in rows(document.point.kind) {
         ui.horizontal(|ui| {
             let name = row.name.split(' ').next().unwrap_or(row.name);
             row_name(ui, name_and_symbol(ui, name, row.symbol.0, row.symbol.1), row.tooltip);
-            let value = row.quantity.get(&state.document.point) / row.scale;
+            let value = row.quantity.get(&document.point) / row.scale;
             if row.quantity == Quantity::Alpha && own_alpha {
                 let tip = "α* follows from the lubricant’s own viscosity law: 1/α* = ∫ η₀/μ dp, Blok 1963";
                 ui.label(numbers::significant(value)).on_hover_text(tip);
-            } else if let Some(value) = number_field(ui, &mut state.entries, row.name, value, 96.0, row.tooltip) {
-                changed = Some((row, value * row.scale));
+            } else if let Some(value) = number_field(ui, entries, row.name, value, 96.0, row.tooltip) {
+                commands.edit(Edit::Quantity(row.quantity, value * row.scale), row.name);
             }
             ui.label(row.unit);
         });
-        state.entries.message_ui(ui, row.name);
-    }
-    if let Some((row, value)) = changed {
-        let result = state.document.set_quantity(row.quantity, value);
-        if result.is_ok() {
-            state.entries.clear();
-        }
-        state.entries.answer(row.name, result);
+        entries.message_ui(ui, row.name);
     }
 }
 
-fn hertz_ui(ui: &mut Ui, state: &State) {
-    let point = &state.document.point;
+fn hertz_ui(ui: &mut Ui, document: &Document) {
+    let point = &document.point;
     let hertz = point.hertz();
     let (width_name, width_tip, pressure_tip, stiffening_tip) = match point.kind {
         ContactKind::Line => (

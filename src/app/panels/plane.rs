@@ -1,9 +1,11 @@
 //! The grid of a point contact's full solutions: presets, whether it resolves the side lobes, and what it costs.
 
-use crate::app::controls::{NAME_WIDTH, choice, heading, warning_ui};
-use crate::app::jobs::JobKind;
+use crate::app::answers::jobs::JobKind;
+use crate::app::command::Command;
+use crate::app::context::{Commands, Context};
+use crate::app::controls::{NAME_WIDTH, choice, heading, message_ui, warning_ui};
+use crate::app::document::Edit;
 use crate::app::numbers;
-use crate::app::state::State;
 use crate::app::theme::{Palette, rich};
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::Mesh;
@@ -33,12 +35,13 @@ const PRESETS: [(PointGridSpec, &str, &str); 5] = [
 ];
 
 /// The group Grid; nothing for a line contact.
-pub fn ui(ui: &mut Ui, state: &mut State) {
-    if state.document.point.kind == ContactKind::Line {
+pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+    let Context { document, answers, .. } = *context;
+    if document.point.kind == ContactKind::Line {
         return;
     }
     heading(ui, "Grid");
-    let chosen = state.document.plane();
+    let chosen = document.plane();
     let mut wanted = chosen;
     Grid::new("plane").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
         let tip = "Nodes along X and across the half Y ≤ 0 of full solutions. H_c converges with ΔX, H_min with ΔY in the side lobes";
@@ -53,35 +56,34 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
         choice(ui, "Nodes", tip, &mut wanted, &all, describe);
     });
     if wanted != chosen {
-        state.document.set_plane(wanted);
+        commands.edit(Edit::Plane(wanted), "Nodes");
     }
-    if state.model().is_some() {
+    if answers.model(document).is_some() {
         ui.weak("Of full solutions outside the reduced model, which has its own grid");
     }
-    if let Some(warning) =
-        state.picture.as_ref().filter(|_| state.picture_is_current()).and_then(|p| p.unresolved.as_ref())
-    {
+    if let Some(warning) = answers.current_picture().and_then(|picture| picture.unresolved.as_ref()) {
         warning_ui(ui, warning);
     }
-    error_ui(ui, state);
+    error_ui(ui, context, commands);
 }
 
-fn error_ui(ui: &mut Ui, state: &mut State) {
-    let ctx = ui.ctx().clone();
-    let runs = state.jobs.busy(JobKind::Estimate);
-    let there = state.full_is_current() && !state.is_quick();
-    let mesh = state.full.as_ref().map(|full| full.solution.mesh);
-    let spec = if let Some(Mesh::Point(spec)) = mesh { spec } else { state.document.plane() };
+fn error_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, commands: &mut Commands) {
+    let runs = answers.jobs.busy(JobKind::Estimate);
+    let there = answers.can_estimate();
+    let mesh = answers.full.as_ref().map(|full| full.solution.mesh);
+    let spec = if let Some(Mesh::Point(spec)) = mesh { spec } else { document.plane() };
     let (nx, ny) = second_grid(spec).nodes().unwrap_or_default();
     let tip = format!(
         "Solves the same contact on {nx}×{ny} nodes and extrapolates H_c and H_min to fine grids, by the second order of the scheme"
     );
     let button = ui.add_enabled(there && !runs, egui::Button::new("Estimate grid error"));
     if button.on_hover_text(&tip).on_disabled_hover_text("A full solution on the chosen grid comes first").clicked() {
-        state.estimate_grid_error(&ctx);
+        commands.push(Command::EstimateGridError);
     }
-    state.entries.message_ui(ui, "grid error");
-    let Some(error) = state.grid_error().map(|error| error.accuracy) else { return };
+    if let Some(why) = &answers.no_estimate {
+        message_ui(ui, why);
+    }
+    let Some(error) = answers.grid_error().map(|error| error.accuracy) else { return };
     let palette = Palette::of(ui);
     let text = format!(
         "{{H_c}} off by {}, in the limit {}\n{{H_min}} off by {}, in the limit {}",

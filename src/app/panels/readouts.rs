@@ -1,21 +1,21 @@
 //! The read-outs under the plots: what the contact amounts to, and how it differs from the last pin.
 
+use crate::app::answers::Answers;
+use crate::app::answers::picture::Picture;
 use crate::app::controls::sentence;
 use crate::app::numbers;
-use crate::app::picture::Picture;
-use crate::app::state::State;
 use crate::app::theme::{Palette, symbol};
 use egui::{RichText, Ui, text::LayoutJob};
 use std::sync::Arc;
 
 /// The read-outs.
-pub fn ui(ui: &mut Ui, state: &State) {
-    let Some(picture) = &state.picture else {
+pub fn ui(ui: &mut Ui, answers: &Answers) {
+    let Some(picture) = &answers.picture else {
         ui.weak("The first picture is being computed");
         return;
     };
-    let stale = state.picture_is_stale(ui.input(|i| i.time));
-    let pin = state.pins.last();
+    let stale = answers.picture_is_stale(ui.input(|i| i.time));
+    let pin = answers.pins.last();
     let palette = Palette::of(ui);
     let srr = picture.key.point.sliding.slide_to_roll_ratio;
     let scalars = |p: &Picture| p.solution.scalars;
@@ -27,8 +27,8 @@ pub fn ui(ui: &mut Ui, state: &State) {
         }
         let s = scalars(picture);
         // What the grid costs stands beside the value it was estimated for.
-        let shown_is_full = state.full.as_ref().is_some_and(|full| Arc::ptr_eq(&full.solution, &picture.solution));
-        let grid_error = state.grid_error().filter(|_| shown_is_full).map(|error| error.accuracy);
+        let shown_is_full = answers.full.as_ref().is_some_and(|full| Arc::ptr_eq(&full.solution, &picture.solution));
+        let grid_error = answers.grid_error().filter(|_| shown_is_full).map(|error| error.accuracy);
         let unphysical = picture.unphysical.is_some();
         let traction_tip = "Traction coefficient (3.41): the shear stress at mid-film over the whole domain, over the load. In pure rolling \
             there is none";

@@ -1,16 +1,17 @@
 //! The reduced model's settings.
 
+use crate::app::context::{Commands, Context};
 use crate::app::controls::{NAME_WIDTH, choice, heading, warning_ui};
-use crate::app::state::State;
+use crate::app::document::Edit;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::ShearLaw;
 use crate::solver::reduced::Trust;
 use egui::{Grid, Ui};
 
 /// The group Model.
-pub fn ui(ui: &mut Ui, state: &mut State) {
+pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     heading(ui, "Model");
-    model_ui(ui, state);
+    model_ui(ui, context, commands);
 }
 
 fn deformation_operator(projected: bool) -> (&'static str, &'static str) {
@@ -21,10 +22,10 @@ fn deformation_operator(projected: bool) -> (&'static str, &'static str) {
     }
 }
 
-fn model_ui(ui: &mut Ui, state: &mut State) {
-    let moes = state.document.point.moes();
-    let Some(model) = state.model().cloned() else {
-        ui.weak(match (state.document.point.kind, state.document.lubricant.shear) {
+fn model_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, commands: &mut Commands) {
+    let moes = document.point.moes();
+    let Some(model) = answers.model(document) else {
+        ui.weak(match (document.point.kind, document.lubricant.shear) {
             (ContactKind::Line, ShearLaw::Newtonian) => {
                 "No reduced model is loaded; the full solver draws the picture."
             }
@@ -36,7 +37,7 @@ fn model_ui(ui: &mut Ui, state: &mut State) {
         return;
     };
     let Some(window) = model.windows.get(model.window_for(moes)) else { return };
-    let options = state.reduced_options();
+    let options = answers.options(document);
     let (all, all_deformation) = (window.pressure.modes.ncols(), window.deformation.modes.ncols());
     ui.label(&model.title).on_hover_text(model.log.join("\n"));
     Grid::new("model").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
@@ -47,15 +48,18 @@ fn model_ui(ui: &mut Ui, state: &mut State) {
         ui.label(format!("{} of {}", window.sampled_rows.len(), window.grid.unknowns()));
         ui.end_row();
         let tip = "How the reduced model deforms the bodies";
-        let projected = &mut state.document.view.projected_deformation;
-        choice(ui, "Deformation", tip, projected, &[false, true], deformation_operator);
-        if state.document.view.projected_deformation {
+        let mut view = document.view;
+        choice(ui, "Deformation", tip, &mut view.projected_deformation, &[false, true], deformation_operator);
+        if view != document.view {
+            commands.edit(Edit::View(view), "Deformation");
+        }
+        if view.projected_deformation {
             ui.label("Deformation modes");
             ui.label(format!("{} of {all_deformation}", options.deformation_modes.unwrap_or(all_deformation)));
             ui.end_row();
         }
     });
-    if let Some(Trust::Outside(why)) = state.trust() {
+    if let Some(Trust::Outside(why)) = answers.trust(document) {
         warning_ui(ui, &format!("{why}; the full solver draws the picture"));
     }
 }

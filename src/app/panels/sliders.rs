@@ -1,8 +1,8 @@
 //! The sliders of M, L, SRR and NPR with their typed entries: one below the other in the panel, side by side in a presentation.
 
-use crate::app::controls::{RangeSlider, described, explained, named, number_field};
-use crate::app::document::HOME;
-use crate::app::state::State;
+use crate::app::context::{Commands, Context};
+use crate::app::controls::{Entries, RangeSlider, described, explained, named, number_field};
+use crate::app::document::{Document, Edit, HOME};
 use crate::app::theme::symbol;
 use crate::solver::physics::contact::{ContactKind, Moes};
 use crate::solver::physics::lubricant::ShearLaw;
@@ -60,16 +60,16 @@ struct Row {
 /// A value that was asked for, and the field it came from.
 type Wanted = (Slid, &'static str, f64);
 
-fn thins(state: &State) -> bool {
-    state.document.lubricant.shear != ShearLaw::Newtonian
+fn thins(document: &Document) -> bool {
+    document.lubricant.shear != ShearLaw::Newtonian
 }
 
-fn rows(state: &State) -> [Row; 4] {
-    let (moes, kind) = (state.document.point.moes(), state.document.point.kind);
-    let domain = state.model().map(|model| &model.domain);
+fn rows(Context { document, answers, .. }: &Context<'_>) -> [Row; 4] {
+    let (moes, kind) = (document.point.moes(), document.point.kind);
+    let domain = answers.model(document).map(|model| &model.domain);
     let (trained, sliding) = (domain.map(|domain| (domain.m, domain.l)), domain.and_then(|domain| domain.sliding));
-    let srr = state.document.point.sliding.slide_to_roll_ratio;
-    let (npr, own_npr) = (state.document.plateau_ratio(), state.document.lubricant.shear.plateau());
+    let srr = document.point.sliding.slide_to_roll_ratio;
+    let (npr, own_npr) = (document.plateau_ratio(), document.lubricant.shear.plateau());
     let slider = |name, (low, high), marked, home, tooltip, logarithmic| RangeSlider {
         name,
         range: low..=high,
@@ -79,7 +79,7 @@ fn rows(state: &State) -> [Row; 4] {
         logarithmic,
     };
     let m_tip = if kind == ContactKind::Line { M_TIP } else { M_POINT_TIP };
-    let srr_tip = if thins(state) { SRR_TIP } else { SRR_NEWTONIAN_TIP };
+    let srr_tip = if thins(document) { SRR_TIP } else { SRR_NEWTONIAN_TIP };
     let m = slider("Load number M", M_RANGE, trained.map(|t| t.0), HOME.m, m_tip, true);
     let l = slider("Lubricant number L", L_RANGE, trained.map(|t| t.1), HOME.l, L_TIP, true);
     let marked = sliding.map(|sliding| sliding.srr);
@@ -95,75 +95,79 @@ fn rows(state: &State) -> [Row; 4] {
 }
 
 /// All four, one below the other.
-pub fn column(ui: &mut Ui, state: &mut State) {
+pub fn column(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
     let width = (ui.available_width() - 132.0).clamp(70.0, 420.0);
     let mut wanted = None;
     Grid::new("sliders").num_columns(3).spacing([8.0, 6.0]).show(ui, |ui| {
-        for row in rows(state) {
-            if row.slid == Slid::Plateau && !thins(state) {
+        for row in rows(context) {
+            if row.slid == Slid::Plateau && !thins(context.document) {
                 disabled_plateau(ui, width);
             } else {
-                wanted = row.ui(ui, state, width).or(wanted);
+                wanted = row.ui(ui, entries, width).or(wanted);
             }
             ui.end_row();
         }
     });
-    take(ui, state, wanted);
+    take(ui, context.document, entries, commands, wanted);
 }
 
 /// Those that change the picture, side by side, and at the end of their row something else that needs `room`.
-pub fn in_use(ui: &mut Ui, state: &mut State, room: f32, rest: impl FnOnce(&mut Ui)) {
-    let slides = thins(state) || state.document.point.sliding.slide_to_roll_ratio != 0.0;
+pub fn in_use(
+    ui: &mut Ui,
+    context: &Context<'_>,
+    entries: &mut Entries,
+    commands: &mut Commands,
+    room: f32,
+    rest: impl FnOnce(&mut Ui, &mut Commands),
+) {
+    let document = context.document;
+    let slides = thins(document) || document.point.sliding.slide_to_roll_ratio != 0.0;
     let used = |row: &Row| match row.slid {
         Slid::LoadNumber | Slid::LubricantNumber => true,
         Slid::SlideToRoll => slides,
-        Slid::Plateau => thins(state),
+        Slid::Plateau => thins(document),
     };
-    let rows: Vec<Row> = rows(state).into_iter().filter(used).collect();
+    let rows: Vec<Row> = rows(context).into_iter().filter(used).collect();
     let each = (ui.available_width() - room) / rows.len() as f32;
     let width = (each - SYMBOL_WIDTH - ENTRY_WIDTH - GAPS).max(60.0);
     let mut wanted = None;
     ui.horizontal(|ui| {
         for row in rows {
-            wanted = row.ui(ui, state, width).or(wanted);
+            wanted = row.ui(ui, entries, width).or(wanted);
             ui.add_space(8.0);
         }
-        rest(ui);
+        rest(ui, commands);
     });
-    take(ui, state, wanted);
+    take(ui, context.document, entries, commands, wanted);
 }
 
 impl Row {
     /// Symbol, slider and entry; returns what was asked for.
-    fn ui(&self, ui: &mut Ui, state: &mut State, width: f32) -> Option<Wanted> {
+    fn ui(&self, ui: &mut Ui, entries: &mut Entries, width: f32) -> Option<Wanted> {
         let tip = self.slider.tooltip;
         explained(ui, symbol(ui, self.symbol, ""), tip);
         let moved = self.slider.show(ui, self.value, width).map(|value| (self.symbol, value));
-        let entered = number_field(ui, &mut state.entries, self.entry, self.value, ENTRY_WIDTH, tip);
+        let entered = number_field(ui, entries, self.entry, self.value, ENTRY_WIDTH, tip);
         let (field, value) = moved.or(entered.map(|value| (self.entry, value)))?;
         Some((self.slid, field, value))
     }
 }
 
 /// Sets what was asked for, and says what was refused.
-fn take(ui: &mut Ui, state: &mut State, wanted: Option<Wanted>) {
+fn take(ui: &mut Ui, document: &Document, entries: &Entries, commands: &mut Commands, wanted: Option<Wanted>) {
     if let Some((slid, field, value)) = wanted {
-        let document = &mut state.document;
         let moes = document.point.moes();
         let own_npr = document.lubricant.shear.plateau();
-        let result = match slid {
-            Slid::LoadNumber => document.set_moes(Moes { m: value, ..moes }),
-            Slid::LubricantNumber => document.set_moes(Moes { l: value, ..moes }),
-            Slid::SlideToRoll => document.set_slide_to_roll_ratio(value),
-            Slid::Plateau => document.set_plateau_ratio((value != own_npr).then_some(value)),
+        let edit = match slid {
+            Slid::LoadNumber => Edit::Moes(Moes { m: value, ..moes }),
+            Slid::LubricantNumber => Edit::Moes(Moes { l: value, ..moes }),
+            Slid::SlideToRoll => Edit::SlideToRoll(value),
+            Slid::Plateau => Edit::Plateau((value != own_npr).then_some(value)),
         };
-        if result.is_ok() {
-            state.entries.clear();
-        }
-        state.entries.answer(field, result);
+        commands.edit(edit, field);
     }
     for field in FIELDS {
-        state.entries.message_ui(ui, field);
+        entries.message_ui(ui, field);
     }
 }
 

@@ -1,8 +1,9 @@
 //! The jobs strip: what runs, how far it is, Cancel; and what a solve costs.
 
 use crate::app::command::Command;
+use crate::app::context::Commands;
+use crate::app::desk::Desk;
 use crate::app::numbers;
-use crate::app::state::State;
 use crate::app::theme::Palette;
 use egui::{Align, Layout, RichText, Ui};
 
@@ -10,10 +11,10 @@ use egui::{Align, Layout, RichText, Ui};
 const NEWS_S: f64 = 0.12;
 
 /// The strip at the bottom.
-pub fn ui(ui: &mut Ui, state: &State, frame_s: f64, chosen: &mut Vec<Command>) {
+pub fn ui(ui: &mut Ui, desk: &Desk, frame_s: f64, commands: &mut Commands) {
     ui.horizontal(|ui| {
-        let slow = state.jobs.running().iter().find(|j| j.since.elapsed().as_secs_f64() > NEWS_S);
-        let study = state.study().filter(|standing| standing.since_s > NEWS_S);
+        let slow = desk.answers.jobs.running().iter().find(|j| j.since.elapsed().as_secs_f64() > NEWS_S);
+        let study = desk.study().filter(|standing| standing.since_s > NEWS_S);
         match (slow, study) {
             (Some(job), _) => {
                 ui.label(job.kind.name());
@@ -26,20 +27,20 @@ pub fn ui(ui: &mut Ui, state: &State, frame_s: f64, chosen: &mut Vec<Command>) {
                 ui.weak(step.trim_start_matches(", "));
                 ui.weak(numbers::duration(job.since.elapsed().as_secs_f64()));
                 if ui.small_button("Cancel").clicked() {
-                    chosen.push(Command::Cancel);
+                    commands.push(Command::Cancel);
                 }
             }
             (None, Some(standing)) => {
                 ui.label(&standing.stage);
                 ui.weak(numbers::standing(&standing));
                 if ui.small_button("Cancel").clicked() {
-                    chosen.push(Command::Cancel);
+                    commands.push(Command::Cancel);
                 }
             }
-            (None, None) if state.training.job().is_some() => training_ui(ui, state, chosen),
+            (None, None) if desk.training.job().is_some() => training_ui(ui, desk, commands),
             (None, None) => {
                 let idle = ui.weak("Ready");
-                if let Some(failure) = state.failure.as_ref().or(state.verify_failure.as_ref()) {
+                if let Some(failure) = desk.answers.failure.as_ref().or(desk.answers.verify_failure.as_ref()) {
                     let color = Palette::of(ui).wrong;
                     ui.label(RichText::new(&failure.message).small().color(color));
                 } else {
@@ -49,12 +50,12 @@ pub fn ui(ui: &mut Ui, state: &State, frame_s: f64, chosen: &mut Vec<Command>) {
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let time = |seconds: Option<f64>| seconds.map_or_else(|| "–".to_owned(), numbers::duration);
-            ui.weak(format!("full {}", time(state.full_wall_s))).on_hover_text(format!(
+            ui.weak(format!("full {}", time(desk.answers.full_wall_s))).on_hover_text(format!(
                 "Time of the last full solve. Drawing the window takes {}",
                 numbers::duration(frame_s)
             ));
-            if state.model().is_some() {
-                ui.weak(format!("reduced {}", time(state.reduced_wall_s)))
+            if desk.model().is_some() {
+                ui.weak(format!("reduced {}", time(desk.answers.reduced_wall_s)))
                     .on_hover_text("Time of the last reduced solve");
             }
             ui.weak("Time per solve");
@@ -63,8 +64,8 @@ pub fn ui(ui: &mut Ui, state: &State, frame_s: f64, chosen: &mut Vec<Command>) {
 }
 
 /// A training at work, in one line.
-fn training_ui(ui: &mut Ui, state: &State, chosen: &mut Vec<Command>) {
-    let Some(running) = state.training.job() else { return };
+fn training_ui(ui: &mut Ui, desk: &Desk, commands: &mut Commands) {
+    let Some(running) = desk.training.job() else { return };
     let standing = running.job.standing();
     ui.label(running.job.name());
     if standing.total > 0 {
@@ -72,6 +73,6 @@ fn training_ui(ui: &mut Ui, state: &State, chosen: &mut Vec<Command>) {
     }
     ui.weak(numbers::duration(standing.since_s));
     if ui.small_button("Cancel").clicked() {
-        chosen.push(Command::Cancel);
+        commands.push(Command::Cancel);
     }
 }

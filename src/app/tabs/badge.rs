@@ -1,10 +1,10 @@
 //! The trust badge: how far the picture can be believed, in a glance.
 
-use crate::app::controls::{described, named, sentence};
-use crate::app::jobs::JobKind;
+use crate::app::answers::jobs::JobKind;
+use crate::app::answers::picture::{Comparison, Origin, Picture};
+use crate::app::answers::{Answers, PassedOver};
+use crate::app::controls::{described, named, sentence, warning_ui};
 use crate::app::numbers;
-use crate::app::picture::{Comparison, Origin, Picture};
-use crate::app::state::{PassedOver, State};
 use crate::app::theme::{Palette, rich};
 use crate::solver::reduced::ErrorEstimate;
 use egui::{Color32, CornerRadius, Frame, Margin, RichText, Stroke, Ui};
@@ -29,9 +29,9 @@ enum Kind {
 }
 
 /// What can be said of the picture.
-pub fn verdict(state: &State) -> Verdict {
+pub fn verdict(answers: &Answers) -> Verdict {
     let make = |title: &str, detail: String, why: String, kind| Verdict { title: title.to_owned(), detail, why, kind };
-    if let Some(failure) = &state.failure {
+    if let Some(failure) = &answers.failure {
         let got = failure.report.as_ref().map_or_else(String::new, |r| {
             format!("{} Newton steps, residual {}", r.newton_iterations, numbers::digits(r.residual_norm, 2))
         });
@@ -42,12 +42,12 @@ pub fn verdict(state: &State) -> Verdict {
             Kind::Wrong,
         );
     }
-    let Some(picture) = &state.picture else {
+    let Some(picture) = &answers.picture else {
         return make("Computing", String::new(), "The first picture is on its way".to_owned(), Kind::Neutral);
     };
-    let waits = state.jobs.busy(JobKind::Live);
-    let full = if waits && !state.picture_is_current() { "full solver at work" } else { "full solution" };
-    match (picture.origin, &state.passed_over) {
+    let waits = answers.jobs.busy(JobKind::Live);
+    let full = if waits && !answers.picture_is_current() { "full solver at work" } else { "full solution" };
+    match (picture.origin, &answers.passed_over) {
         (_, Some(PassedOver::Outside(why))) => make(
             "Outside the reduced model",
             format!("{full}: {why}"),
@@ -60,13 +60,13 @@ pub fn verdict(state: &State) -> Verdict {
             format!("{}. The full solver draws the picture instead", sentence(why).trim_end_matches('.')),
             Kind::Warning,
         ),
-        (Origin::Full, _) if !state.picture_is_current() => make(
+        (Origin::Full, _) if !answers.picture_is_current() => make(
             "Computing",
             full.to_owned(),
             "The picture shown belongs to the sliders as they were a moment ago".to_owned(),
             Kind::Neutral,
         ),
-        (Origin::Full, _) if state.is_quick() => make(
+        (Origin::Full, _) if answers.is_quick() => make(
             "Quick grid",
             format!("full solution on {}", grid(picture)),
             "A converged full solution on a quick grid, which follows the hand. The chosen grid answers when the sliders rest".to_owned(),
@@ -87,8 +87,8 @@ pub fn verdict(state: &State) -> Verdict {
                 window + 1,
                 numbers::small(residual_estimate)
             );
-            match &state.comparison {
-                Some(c) if state.full_is_current() => make(
+            match &answers.comparison {
+                Some(c) if answers.full_is_current() => make(
                     "Verified",
                     c.describe(),
                     format!("True errors against a full solution on the same grid. {}{how}", promised(c, error)),
@@ -111,11 +111,11 @@ pub fn verdict(state: &State) -> Verdict {
                              (3.15) says whether the reduced equations are met, not how large the error of the film is",
                         ),
                     };
-                    let next = match &state.verify_failure {
+                    let next = match &answers.verify_failure {
                         Some(failure) => failure.message.trim_end_matches('.'),
                         None => "True errors follow with the full solve",
                     };
-                    let kind = if state.verify_failure.is_some() { Kind::Warning } else { Kind::Neutral };
+                    let kind = if answers.verify_failure.is_some() { Kind::Warning } else { Kind::Neutral };
                     make("Reduced model", detail, format!("{meaning}. {next}. {how}"), kind)
                 }
             }
@@ -136,9 +136,15 @@ fn promised(truth: &Comparison, error: Option<ErrorEstimate>) -> String {
     format!("The bounds shown before, {h_c} and {h_min}, {}. ", if held { "held" } else { "did not hold" })
 }
 
+/// Says that a picture belongs to other sliders.
+pub fn stale_note(ui: &mut Ui, picture: &Picture) {
+    let note = format!("The picture belongs to {}, not to the sliders", numbers::moes(picture.key.point.moes()));
+    warning_ui(ui, &note);
+}
+
 /// The badge.
-pub fn ui(ui: &mut Ui, state: &State) {
-    let verdict = verdict(state);
+pub fn ui(ui: &mut Ui, answers: &Answers) {
+    let verdict = verdict(answers);
     let palette = Palette::of(ui);
     let color = match verdict.kind {
         Kind::Neutral => palette.quiet,

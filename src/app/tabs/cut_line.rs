@@ -1,6 +1,10 @@
 //! A vertical line in a profile of a point contact: there the other profile cuts it, and the hand can take it along.
 
-use egui::{Color32, CursorIcon, Id, Response, Ui};
+use crate::app::command::Command;
+use crate::app::context::{Commands, Context};
+use crate::app::controls::named;
+use crate::app::theme::rich;
+use egui::{Color32, CursorIcon, DragValue, Id, Response, Ui};
 use egui_plot::{LineStyle, PlotPoint, PlotTransform, PlotUi, VLine};
 
 /// How near (in screen points) the pointer must be to take the line along.
@@ -53,4 +57,42 @@ impl CutLine {
 pub fn snapped(value: f64) -> f64 {
     let rounded = (100.0 * value).round() / 100.0;
     if rounded.abs() < 0.03 { 0.0 } else { rounded }
+}
+
+/// Room for the name and the value of one cut.
+const CUT_WIDTH: f32 = 116.0;
+
+/// Where the contact is cut, as numbers.
+pub fn cuts_ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+    let domain = context.document.plane().domain;
+    let mut cuts = context.cuts;
+    for (name, symbol, value, range, tip) in [
+        (
+            "Cut across at X",
+            "at {X}",
+            &mut cuts.x,
+            domain.0..=domain.1,
+            "Where the profile across the contact is taken; drag the line in the map",
+        ),
+        (
+            "Cut along at Y",
+            "at {Y}",
+            &mut cuts.y,
+            domain.2..=-domain.2,
+            "Where the profile along X is taken; drag the line in the map",
+        ),
+    ] {
+        // In a toolbar that wraps, a name and its value stay in one row.
+        if ui.available_size_before_wrap().x < CUT_WIDTH {
+            ui.end_row();
+        }
+        let color = ui.visuals().text_color();
+        ui.add(egui::Label::new(rich(&format!("Cut {symbol}"), 13.5, color)).extend()).on_hover_text(tip);
+        let field = DragValue::new(value).range(range).speed(0.01).fixed_decimals(2);
+        let response = ui.add(field).on_hover_text(tip);
+        named(ui, response, name);
+    }
+    if cuts != context.cuts {
+        commands.push(Command::Cut(cuts));
+    }
 }

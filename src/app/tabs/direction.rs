@@ -1,7 +1,7 @@
 //! The two directions of profiles: along X, in the direction of motion, and across a point contact.
 
+use crate::app::answers::picture::{Cuts, Picture};
 use crate::app::numbers;
-use crate::app::picture::{Cuts, Picture};
 use egui_plot::PlotPoint;
 
 /// In which direction a profile runs.

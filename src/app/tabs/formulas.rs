@@ -1,15 +1,15 @@
 //! Published film formulas beside the current contact.
 
+use crate::app::context::Context;
 use crate::app::numbers;
-use crate::app::state::State;
 use crate::app::theme::symbol;
 use crate::solver::physics::contact::FilmFormula;
 use egui::{Grid, RichText, Ui};
 
 /// The table.
-pub fn ui(ui: &mut Ui, state: &State) {
+pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     ui.strong("Film by published formulas");
-    let picture = state.picture.as_ref().filter(|_| state.picture_is_current());
+    let picture = context.answers.current_picture();
     let central = picture.map(|p| p.central_film_m());
     let minimum = picture.map(|p| p.minimum_film_m());
     Grid::new("formulas").num_columns(4).spacing([10.0, 5.0]).striped(true).show(ui, |ui| {
@@ -18,8 +18,8 @@ pub fn ui(ui: &mut Ui, state: &State) {
         ui.weak("Film");
         ui.weak("Deviation").on_hover_text("Formula over this contact's film, minus one");
         ui.end_row();
-        for formula in FilmFormula::of(state.document.point.kind) {
-            let prediction = formula.predict(&state.document.point);
+        for formula in FilmFormula::of(context.document.point.kind) {
+            let prediction = formula.predict(&context.document.point);
             let (name, own) = if formula.predicts_minimum() { ("min", minimum) } else { ("c", central) };
             let tip = if prediction.in_range {
                 formula.source().to_owned()

@@ -1,4 +1,5 @@
-//! The tabs, each a question with its picture.
+//! The tabs, each a question with its picture. A tab owns its view, sees the document and the answers, and asks for everything else by
+//! commands; none knows another.
 
 pub mod accuracy;
 mod axes;
@@ -7,7 +8,6 @@ pub mod basis;
 pub mod contact_map;
 mod cut_line;
 mod direction;
-pub mod film_shear;
 mod formulas;
 pub mod profiles;
 mod raster;
@@ -18,78 +18,31 @@ mod traction;
 mod training;
 mod transient;
 
+use super::context::Commands;
+use super::desk::Desk;
 use super::figure;
-use super::state::State;
+use super::tab::Tab;
+use super::traction::Choices;
 use egui::Ui;
 use egui_tiles::{Behavior, Tile, TileId, Tiles, Tree, UiResponse};
-use serde::{Deserialize, Serialize};
 
-/// A tab.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Tab {
+/// What each tab keeps of its own.
+#[derive(Default)]
+pub struct Views {
     /// Pressure and film.
-    Profiles,
-    /// Film, pressure and interferogram of a point contact.
-    ContactMap,
+    pub profiles: profiles::Profiles,
+    /// The plane of a point contact.
+    pub map: contact_map::ContactMap,
     /// The M–L chart.
-    Regimes,
-    /// Friction along one quantity.
-    Traction,
-    /// Singular values, modes, sampled rows.
-    Basis,
-    /// Residuals and errors.
-    Accuracy,
-    /// Making a reduced model.
-    Training,
-    /// The contact in time.
-    Transient,
-    /// The linearised model of it.
-    Tpwl,
-}
-
-impl Tab {
-    /// All tabs in their order.
-    pub const ALL: [Self; 9] = [
-        Self::Profiles,
-        Self::ContactMap,
-        Self::Regimes,
-        Self::Traction,
-        Self::Basis,
-        Self::Accuracy,
-        Self::Training,
-        Self::Transient,
-        Self::Tpwl,
-    ];
-
-    /// Title.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::Profiles => "Profiles",
-            Self::ContactMap => "Contact map",
-            Self::Regimes => "Regimes",
-            Self::Traction => "Traction",
-            Self::Basis => "Reduced basis",
-            Self::Accuracy => "Accuracy",
-            Self::Training => "Training",
-            Self::Transient => "Transient",
-            Self::Tpwl => "TPWL",
-        }
-    }
-
-    /// Words for what it shows.
-    pub fn subjects(self) -> &'static str {
-        match self {
-            Self::Profiles => "pressure film spike shear",
-            Self::ContactMap => "interferogram fringes contours horseshoe side lobes",
-            Self::Regimes => "chart film formulas Moes asymptotes",
-            Self::Traction => "friction Stribeck slide-to-roll fluid viscosity",
-            Self::Basis => "singular values modes truncation sampled rows",
-            Self::Accuracy => "error failure map residuals bound",
-            Self::Training => "snapshots model plan range",
-            Self::Transient => "time load speed radius frames",
-            Self::Tpwl => "linearised operating points weights",
-        }
-    }
+    pub regimes: regimes::Regimes,
+    /// The reduced basis.
+    pub basis: basis::Basis,
+    /// The studies of the Accuracy tab.
+    pub accuracy: accuracy::AccuracyView,
+    /// How the Traction tab shows it.
+    pub traction: Choices,
+    /// What the TPWL tab shows.
+    pub tpwl: tpwl::TpwlView,
 }
 
 /// The tabs as they are at first.
@@ -106,7 +59,9 @@ pub fn is_complete(tree: &Tree<Tab>) -> bool {
 /// Draws the tabs.
 pub struct Tabs<'a> {
     /// What they show.
-    pub state: &'a mut State,
+    pub desk: &'a mut Desk,
+    /// What they ask for.
+    pub commands: &'a mut Commands,
 }
 
 impl Behavior<Tab> for Tabs<'_> {
@@ -114,16 +69,24 @@ impl Behavior<Tab> for Tabs<'_> {
         egui::Frame::new().fill(ui.visuals().panel_fill).inner_margin(egui::Margin::symmetric(10, 8)).show(ui, |ui| {
             ui.set_min_size(ui.available_size());
             figure::offer(ui, &format!("The whole tab {}", tab.title()), ui.max_rect());
+            let Self { desk, commands } = self;
+            // A view is taken out while it is drawn: it sees everything else, and nobody sees it half changed.
+            let mut views = std::mem::take(&mut desk.views);
             match tab {
-                Tab::Profiles => profiles::ui(ui, self.state),
-                Tab::ContactMap => contact_map::ui(ui, self.state),
-                Tab::Regimes => regimes::ui(ui, self.state),
-                Tab::Traction => traction::ui(ui, self.state),
-                Tab::Basis => basis::ui(ui, self.state),
-                Tab::Accuracy => accuracy::ui(ui, self.state),
-                Tab::Training => training::ui(ui, self.state),
-                Tab::Transient => transient::ui(ui, self.state),
-                Tab::Tpwl => tpwl::ui(ui, self.state),
+                Tab::Profiles => views.profiles.ui(ui, &desk.context(), commands),
+                Tab::ContactMap => views.map.ui(ui, &desk.context(), commands),
+                Tab::Regimes => views.regimes.ui(ui, &desk.context(), commands),
+                Tab::Basis => basis::ui(ui, &mut views.basis, &desk.context(), commands),
+                Tab::Traction | Tab::Accuracy | Tab::Training | Tab::Transient | Tab::Tpwl => {}
+            }
+            desk.views = views;
+            match tab {
+                Tab::Traction => traction::ui(ui, desk),
+                Tab::Accuracy => accuracy::ui(ui, desk),
+                Tab::Training => training::ui(ui, desk),
+                Tab::Transient => transient::ui(ui, desk),
+                Tab::Tpwl => tpwl::ui(ui, desk),
+                _ => {}
             }
         });
         UiResponse::None

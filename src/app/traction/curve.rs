@@ -1,8 +1,8 @@
 //! The live curve: a thread that solves a sweep by the reduced model, each contact from its neighbour. The latest request counts.
 
 use super::{CURVE, Sample, Served, Sweep};
+use crate::app::answers::jobs::wake;
 use crate::app::in_use::Solvers;
-use crate::app::jobs::wake;
 use crate::engine::Store;
 use crate::engine::job::{Job, Queue, Reporter, guarded};
 use crate::solver::reduced::{Calibration, ReducedSolution};

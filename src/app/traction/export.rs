@@ -1,8 +1,8 @@
 //! Traction and film along a quantity for other programs.
 
 use super::{Sample, Served, Sweep, TractionView};
+use crate::app::document::Key;
 use crate::app::export as tables;
-use crate::app::jobs::Key;
 
 /// What a sweep belongs to, as lines over a table.
 pub fn describe(sweep: &Sweep) -> Vec<String> {

@@ -1,7 +1,7 @@
 //! Full solutions along a sweep, each from its neighbour.
 
 use super::{MARKERS, Sample, Sweep};
-use crate::app::jobs::{GridChoice, wake};
+use crate::app::answers::jobs::{GridChoice, wake};
 use crate::engine::Store;
 use crate::engine::job::{Ending, Job, Reporter};
 use crate::solver::discrete::grid::PointGridSpec;

@@ -10,8 +10,8 @@ pub use curve::{Curve, LeftOut};
 pub use served::Served;
 pub use sweep::{Against, Sample, Sweep, Varied};
 
+use super::desk::Desk;
 use super::numbers;
-use super::state::State;
 use crate::engine::job::Background;
 use crate::solver::full::Solution;
 use curve::Worker;
@@ -79,14 +79,14 @@ impl TractionView {
     }
 }
 
-impl State {
+impl Desk {
     /// Asks for the curve of a sweep, unless it has been asked for.
     pub fn follow_sweep(&mut self, ctx: &Context, sweep: &Sweep, served: &Served) {
         let view = &mut self.traction;
         let asked = view.wanted.as_ref().is_some_and(|(wanted, by)| wanted == sweep && by == served);
         if !asked {
             view.wanted = Some((sweep.clone(), served.clone()));
-            view.worker.get_or_insert_with(|| Worker::new(&self.store)).ask(ctx, sweep.clone(), served.clone());
+            view.worker.get_or_insert_with(|| Worker::new(&self.answers.store)).ask(ctx, sweep.clone(), served.clone());
         }
     }
 
@@ -94,11 +94,17 @@ impl State {
     pub fn start_markers(&mut self, ctx: &Context, sweep: &Sweep, served: &Result<Served, String>) {
         let model = match served {
             Ok(served) => Some(&served.by.model),
-            Err(_) => self.model().filter(|_| self.plane().is_none()),
+            Err(_) => self.model().filter(|_| self.document.chosen_plane().is_none()),
         };
         let model = model.cloned();
         self.traction.markers = Some(Markers { sweep: sweep.clone(), samples: Vec::new() });
-        self.traction.full.run(full::start(ctx, &self.store, sweep.clone(), model, self.plane()));
+        self.traction.full.run(full::start(
+            ctx,
+            &self.answers.store,
+            sweep.clone(),
+            model,
+            self.document.chosen_plane(),
+        ));
     }
 
     /// Goes to a place on the axis.
@@ -106,8 +112,8 @@ impl State {
     /// # Errors
     /// A sentence when the contact would be refused; the document is unchanged then.
     pub fn go_along(&mut self, place: f64) -> Result<(), String> {
-        let value = numbers::rounded(self.display.traction.against.value(&self.document.point, place), 3);
-        match self.display.traction.against.varied() {
+        let value = numbers::rounded(self.views.traction.against.value(&self.document.point, place), 3);
+        match self.views.traction.against.varied() {
             Varied::SlideToRoll => {
                 let srr = self.document.point.sliding.slide_to_roll_ratio;
                 self.document.set_slide_to_roll_ratio(value.max(0.0).copysign(srr))

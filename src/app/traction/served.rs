@@ -1,9 +1,9 @@
 //! Which reduced model draws the curve of a sweep, and whether it was trained for it.
 
 use super::{Sweep, Varied};
+use crate::app::desk::Desk;
+use crate::app::document::Key;
 use crate::app::in_use::InUse;
-use crate::app::jobs::Key;
-use crate::app::state::State;
 use crate::solver::full::Problem;
 use crate::solver::physics::lubricant::ShearLaw;
 use crate::solver::reduced::{Domain, Trust};
@@ -22,12 +22,12 @@ pub struct Served {
     pub untrained: Option<String>,
 }
 
-impl State {
+impl Desk {
     /// The sweep through the contact of the sliders, and the reduced model that draws it or why none does. `None` where the fluid does not
     /// answer to the quantity.
     pub fn sweep(&self) -> Option<(Sweep, Result<Served, String>)> {
-        let varied = self.display.traction.against.varied();
-        let key = self.key();
+        let varied = self.views.traction.against.varied();
+        let key = self.document.key();
         let mut point = key.point;
         point.sliding.slide_to_roll_ratio = point.sliding.slide_to_roll_ratio.abs();
         if varied == Varied::Plateau && key.lubricant.shear == ShearLaw::Newtonian {
@@ -46,7 +46,7 @@ impl State {
                 None => (varied.everywhere(&point), Err("the reduced model was trained for no such speed".to_owned())),
             },
         };
-        let logarithmic = self.display.traction.logarithmic.0;
+        let logarithmic = self.views.traction.logarithmic.0;
         let ends = match varied {
             Varied::SlideToRoll if logarithmic => (ends.0.max(LOG_SRR * ends.1), ends.1),
             Varied::Plateau if logarithmic => (ends.0.max(LOG_NPR), ends.1),

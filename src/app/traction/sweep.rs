@@ -1,6 +1,6 @@
 //! Contacts along one quantity: which it is, between which values, and where they stand on an axis.
 
-use crate::app::jobs::Key;
+use crate::app::document::Key;
 use crate::solver::full::{Problem, Solution};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::reduced::Domain;

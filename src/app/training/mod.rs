@@ -6,7 +6,7 @@ mod worker;
 
 pub use worker::{Made, Running};
 
-use super::state::State;
+use super::desk::Desk;
 use crate::engine::{ModelComparison, training_file};
 use crate::solver::reduced::ReducedModel;
 use crate::solver::training::{Plan, TrainingSpec, TrainingState, WindowState};
@@ -114,7 +114,7 @@ impl Training {
     }
 
     /// Takes the result of a job that has ended.
-    fn receive(&mut self) {
+    pub fn receive(&mut self) {
         let Some(running) = &mut self.job else { return };
         if running.trains {
             self.chart = running.chart();
@@ -186,7 +186,7 @@ fn missed_tolerances(state: &TrainingState) -> Vec<String> {
     state.windows.iter().filter_map(missed).collect()
 }
 
-impl State {
+impl Desk {
     /// The training that the Training tab shows.
     pub fn training_spec(&self) -> Option<&TrainingSpec> {
         let kind = self.document.point.kind;
@@ -206,7 +206,7 @@ impl State {
     /// Compares the model that was made with the one in use, or with the one it replaced.
     pub fn compare_models(&mut self, ctx: &Context) {
         let (Some(made), Some(spec)) = (&self.training.made, &self.training.spec) else { return };
-        let in_use = self.models.of(made.model.contact(), &spec.lubricant);
+        let in_use = self.answers.models.of(made.model.contact(), &spec.lubricant);
         let in_use = in_use.filter(|model| !Arc::ptr_eq(model, &made.model));
         let Some(former) = in_use.or(self.training.former.as_ref()) else { return };
         let task = Task::Compare(Arc::clone(former), Arc::clone(&made.model), spec.clone());
@@ -218,7 +218,7 @@ impl State {
     pub fn use_made_model(&mut self) {
         if let Some(made) = &self.training.made {
             let model = Arc::clone(&made.model);
-            self.training.former = self.use_model(model);
+            self.training.former = self.answers.use_model(model);
         }
     }
 
@@ -227,19 +227,14 @@ impl State {
         if let Some(made) = &self.training.made {
             let made = Arc::clone(&made.model);
             match self.training.former.take() {
-                Some(former) => _ = self.use_model(former),
-                None => self.drop_model(&made),
+                Some(former) => _ = self.answers.use_model(former),
+                None => self.answers.drop_model(&made),
             }
         }
     }
 
     /// Whether the model that was made is in use.
     pub fn uses_made_model(&self) -> bool {
-        self.training.made.as_ref().is_some_and(|made| self.models.contains(&made.model))
-    }
-
-    /// Answers a training or comparison that has ended. Called first in every frame.
-    pub fn receive_training(&mut self) {
-        self.training.receive();
+        self.training.made.as_ref().is_some_and(|made| self.answers.models.contains(&made.model))
     }
 }

@@ -1,7 +1,7 @@
 //! One training or comparison at a time, on threads of its own, so that the live picture keeps answering.
 
 use super::chart::Chart;
-use crate::app::jobs::wake;
+use crate::app::answers::jobs::wake;
 use crate::engine::job::{Ending, Job, Reporter, guarded, on_spare_cores};
 use crate::engine::training_file::{self, TrainingKeeper};
 use crate::engine::{ModelComparison, compare_models, model_file};

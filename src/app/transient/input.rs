@@ -1,6 +1,6 @@
 //! The three inputs of a contact in time, and taking them from a table.
 
-use crate::app::state::State;
+use crate::app::desk::Desk;
 use crate::scene::{TransientStudy, sampled};
 use crate::solver::full::transient::{Inputs, Signal};
 use std::path::{Path, PathBuf};
@@ -42,7 +42,7 @@ impl Input {
     }
 }
 
-impl State {
+impl Desk {
     /// Takes the inputs that a table has columns of from there; the document keeps their values.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 
 use super::Run;
 use super::method::{RULES, WEIGHTINGS, rule_name};
-use crate::app::jobs::wake;
+use crate::app::answers::jobs::wake;
 use crate::engine::job::{Background, Ending, Job, Reporter};
 use crate::solver::full::transient::{Keep, Moment, Quantity, Trajectory, Transient, TransientObserver, march};
 use crate::solver::observer::Observer;

@@ -12,8 +12,8 @@ pub use player::Player;
 pub use run::{ModelSize, Run};
 pub use worker::News;
 
+use super::desk::Desk;
 use super::document::{Document, HOME};
-use super::state::State as Window;
 use crate::engine::job::Background;
 use crate::scene::{At, Grid, Scene, Study, TransientStudy};
 use crate::solver::discrete::grid::GridSpec;
@@ -212,7 +212,7 @@ fn breathing() -> TransientStudy {
     }
 }
 
-impl Window {
+impl Desk {
     /// What would be run.
     pub fn transient_setup(&self) -> Setup {
         let document = &self.document;

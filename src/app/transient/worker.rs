@@ -3,7 +3,7 @@
 use super::linearised::{Linearised, OtherRule};
 use super::method::{Method, run_name};
 use super::{ModelSize, Setup};
-use crate::app::jobs::wake;
+use crate::app::answers::jobs::wake;
 use crate::engine::job::{Ending, Job, Reporter};
 use crate::engine::train_linearised;
 use crate::scene::{LinearisedTransient, ReducedTransient, TransientStudy, sampled};

@@ -3,11 +3,11 @@
 use super::random_tests::{Results, Test};
 use super::worst::Worst;
 use super::{CONTACT_COLUMNS, contact_cells, tests_toolbar, worst};
+use crate::app::desk::Desk;
 use crate::app::export;
 use crate::app::files::Purpose;
 use crate::app::in_use::InUse;
 use crate::app::numbers;
-use crate::app::state::State;
 use crate::app::tabs::axes;
 use crate::app::theme::{Palette, rich, sequential};
 use crate::solver::physics::contact::{Moes, OperatingPoint};
@@ -97,17 +97,17 @@ fn at(moes: Moes) -> PlotPoint {
 }
 
 /// The view.
-pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
+pub fn ui(ui: &mut Ui, desk: &mut Desk, in_use: &InUse) {
     let ctx = ui.ctx().clone();
-    let export_now = tests_toolbar(ui, &state.store, &mut state.accuracy.tests, in_use);
-    let Some(results) = &state.accuracy.tests.results else {
+    let export_now = tests_toolbar(ui, &desk.answers.store, &mut desk.views.accuracy.tests, in_use);
+    let Some(results) = &desk.views.accuracy.tests.results else {
         super::nothing_yet(
             ui,
             "Run tests to see where the model fails and how large its error is over its whole range",
         );
         return;
     };
-    let map = &mut state.accuracy.map;
+    let map = &mut desk.views.accuracy.map;
     ui.horizontal_wrapped(|ui| {
         ui.label("Judged by").on_hover_text("Colours the map and sorts the list");
         let bound = rich("bound on the error of {H_c}", 13.5, ui.visuals().text_color());
@@ -125,7 +125,7 @@ pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
     }
     map.worst.sort(results, map.by);
     let stale = results.in_use != *in_use;
-    let here = state.document.point.moes();
+    let here = desk.document.point.moes();
     let mut wanted = None;
     if ui.available_width() > 700.0 {
         let list = 300.0;
@@ -145,11 +145,11 @@ pub fn ui(ui: &mut Ui, state: &mut State, in_use: &InUse) {
     let text = export_now.then(|| csv(results));
     let lubricant = results.in_use.model.domain.lubricant;
     if let Some(point) = wanted {
-        state.accuracy.tests.say(state.document.set_contact(point, lubricant).err());
-        state.entries.clear();
+        desk.views.accuracy.tests.say(desk.document.set_contact(point, lubricant).err());
+        desk.entries.clear();
     }
     if let Some(text) = text {
-        state.ask_path(&ctx, Purpose::Csv { text });
+        desk.ask_path(&ctx, Purpose::Csv { text });
     }
 }
 

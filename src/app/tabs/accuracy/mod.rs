@@ -10,9 +10,9 @@ mod truth;
 mod worst;
 
 use crate::app::controls::{message_ui, named, warning_ui};
+use crate::app::desk::Desk;
 use crate::app::in_use::InUse;
 use crate::app::numbers;
-use crate::app::state::State;
 use crate::app::theme::{Palette, rich};
 use crate::engine::Store;
 use crate::engine::job::{Job, Standing};
@@ -103,28 +103,28 @@ impl AccuracyView {
 }
 
 /// The tab.
-pub fn ui(ui: &mut Ui, state: &mut State) {
+pub fn ui(ui: &mut Ui, desk: &mut Desk) {
     ui.horizontal_wrapped(|ui| {
         for view in View::ALL {
-            ui.selectable_value(&mut state.accuracy.view, view, view.name());
+            ui.selectable_value(&mut desk.views.accuracy.view, view, view.name());
         }
     });
     ui.separator();
-    if state.accuracy.view == View::Residuals {
-        residuals::ui(ui, state);
+    if desk.views.accuracy.view == View::Residuals {
+        residuals::ui(ui, desk);
         return;
     }
-    let Some(in_use) = state.in_use() else {
+    let Some(in_use) = desk.in_use() else {
         ui.centered_and_justified(|ui| {
             ui.weak("No reduced model is loaded: every picture is a full solution, and there is nothing to judge")
         });
         return;
     };
-    match state.accuracy.view {
-        View::Split => split::ui(ui, state, &in_use),
-        View::FailureMap => failure_map::ui(ui, state, &in_use),
-        View::Truth => truth::ui(ui, state, &in_use),
-        View::Along => along::ui(ui, state, &in_use),
+    match desk.views.accuracy.view {
+        View::Split => split::ui(ui, desk, &in_use),
+        View::FailureMap => failure_map::ui(ui, desk, &in_use),
+        View::Truth => truth::ui(ui, desk, &in_use),
+        View::Along => along::ui(ui, desk, &in_use),
         View::Residuals => {}
     }
 }

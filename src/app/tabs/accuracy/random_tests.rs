@@ -1,7 +1,7 @@
 //! Random tests (3.17) of the reduced model over what it was trained for: the work on its own thread, and what came of it.
 
+use crate::app::answers::jobs::wake;
 use crate::app::in_use::{InUse, Solvers};
-use crate::app::jobs::wake;
 use crate::engine::Store;
 use crate::engine::job::{Background, Ending, Job, Reporter};
 use crate::scene::{Scene, Study};

@@ -1,8 +1,9 @@
 //! Singular values and the loss of information, with the tolerances that can be dragged.
 
-use super::Field;
+use super::{Basis, Field, TRUNCATION};
+use crate::app::context::{Commands, Context};
+use crate::app::document::Edit;
 use crate::app::numbers;
-use crate::app::state::State;
 use crate::app::tabs::axes;
 use crate::app::theme::Palette;
 use crate::solver::reduced::Window;
@@ -30,10 +31,18 @@ fn log_plot<'a>(ui: &Ui, id: &str, height: f32, title: &str) -> Plot<'a> {
 }
 
 /// Loss of information against the number of modes, with the tolerances.
-pub fn loss_plot(ui: &mut Ui, state: &mut State, window: &Window, height: f32) {
+pub fn loss_plot(
+    ui: &mut Ui,
+    own: &mut Basis,
+    context: &Context<'_>,
+    commands: &mut Commands,
+    window: &Window,
+    height: f32,
+) {
+    let mut view = context.document.view;
     let palette = Palette::of(ui);
-    let Some(curves) = &state.basis.curves else { return };
-    let projected = state.document.view.projected_deformation;
+    let Some(curves) = &own.curves else { return };
+    let projected = view.projected_deformation;
     // Without a tolerance every mode is kept: the line rests at the loss of the kept modes.
     let resting = |field: Field| {
         let curve = match field {
@@ -43,13 +52,13 @@ pub fn loss_plot(ui: &mut Ui, state: &mut State, window: &Window, height: f32) {
         curve.get(field.of(window).modes.ncols().saturating_sub(1)).or(curve.last()).map_or(LEAST_LOG_LOSS, |p| p.y)
     };
     let tolerance = |loss: Option<f64>, field: Field| loss.map_or_else(|| resting(field), f64::log10);
-    let mut lines = vec![(Field::Pressure, tolerance(state.document.view.pressure_loss, Field::Pressure))];
+    let mut lines = vec![(Field::Pressure, tolerance(view.pressure_loss, Field::Pressure))];
     if projected {
-        lines.push((Field::Deformation, tolerance(state.document.view.deformation_loss, Field::Deformation)));
+        lines.push((Field::Deformation, tolerance(view.deformation_loss, Field::Deformation)));
     }
-    let options = state.reduced_options();
-    let dragging = state.basis.dragging;
-    let fit = state.fit_plots;
+    let options = context.answers.options(context.document);
+    let dragging = own.dragging;
+    let fit = context.fit;
     let shown = axes::show(
         log_plot(ui, "loss", height, "Loss of information").allow_drag(dragging.is_none()),
         ui,
@@ -88,28 +97,28 @@ pub fn loss_plot(ui: &mut Ui, state: &mut State, window: &Window, height: f32) {
         response.on_hover_text(tip);
     }
     if ui.input(|i| i.pointer.primary_pressed()) && hovered.is_some() {
-        state.basis.dragging = hovered;
+        own.dragging = hovered;
     }
     if !ui.input(|i| i.pointer.primary_down()) {
-        state.basis.dragging = None;
+        own.dragging = None;
     }
-    if let (Some(field), Some(pointer)) = (state.basis.dragging, ui.input(|i| i.pointer.latest_pos()))
+    if let (Some(field), Some(pointer)) = (own.dragging, ui.input(|i| i.pointer.latest_pos()))
         && ui.input(|i| i.pointer.press_origin()).is_some_and(|origin| origin.distance(pointer) > 1.0)
     {
         let level = transform.value_from_position(pointer).y.clamp(LEAST_LOG_LOSS, -0.3);
         let loss = Some(10f64.powf(level));
         match field {
-            Field::Pressure => state.document.view.pressure_loss = loss,
-            Field::Deformation => state.document.view.deformation_loss = loss,
+            Field::Pressure => view.pressure_loss = loss,
+            Field::Deformation => view.deformation_loss = loss,
         }
+        commands.edit(Edit::View(view), TRUNCATION);
     }
 }
 
 /// Singular values against their number.
-pub fn singular_plot(ui: &mut Ui, state: &State, height: f32) {
+pub fn singular_plot(ui: &mut Ui, own: &Basis, fit: bool, height: f32) {
     let palette = Palette::of(ui);
-    let Some(curves) = &state.basis.curves else { return };
-    let fit = state.fit_plots;
+    let Some(curves) = &own.curves else { return };
     axes::show(log_plot(ui, "singular values", height, "Singular value {σ}/{σ_1}"), ui, "Singular values", |plot| {
         axes::fit(plot, fit);
         for (field, points) in [Field::Pressure, Field::Deformation].into_iter().zip(&curves.singular) {

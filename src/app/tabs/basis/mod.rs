@@ -4,16 +4,22 @@ mod losses;
 mod modes;
 mod plane;
 
+use crate::app::command::Command;
+use crate::app::context::{Commands, Context};
+use crate::app::document::Edit;
 use crate::app::export;
-use crate::app::files::Purpose;
 use crate::app::numbers;
-use crate::app::state::State;
+use crate::app::tabs::badge;
 use crate::app::theme::Palette;
+use crate::scene::View;
 use crate::solver::reduced::{PodBasis, ReducedModel, Window};
 use egui::{Color32, Ui};
 use egui_plot::PlotPoint;
 use losses::{loss_plot, singular_plot};
 use std::sync::Arc;
+
+/// Under this name a truncation is refused.
+const TRUNCATION: &str = "truncation";
 
 /// Which of the two bases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -50,7 +56,7 @@ impl Field {
 
 /// State of the tab, with the curves of one window.
 #[derive(Default)]
-pub struct BasisView {
+pub struct Basis {
     field: Field,
     first_mode: usize,
     dragging: Option<Field>,
@@ -101,19 +107,19 @@ fn mirrored((xi, y): (f64, f64)) -> impl Iterator<Item = PlotPoint> {
 }
 
 /// The tab.
-pub fn ui(ui: &mut Ui, state: &mut State) {
-    let Some(model) = state.model().cloned() else {
+pub fn ui(ui: &mut Ui, own: &mut Basis, context: &Context<'_>, commands: &mut Commands) {
+    let Some(model) = context.answers.model(context.document).cloned() else {
         ui.centered_and_justified(|ui| {
             ui.weak("No reduced model is loaded, so there is no basis to show. The full solver draws every picture.")
         });
         return;
     };
-    let at = model.window_for(state.document.point.moes());
+    let at = model.window_for(context.document.point.moes());
     let Some(window) = model.windows.get(at) else { return };
-    if state.basis.curves.as_ref().is_none_or(|c| c.window != at || !Arc::ptr_eq(&c.model, &model)) {
-        state.basis.curves = Some(Curves::new(&model, at, window));
+    if own.curves.as_ref().is_none_or(|c| c.window != at || !Arc::ptr_eq(&c.model, &model)) {
+        own.curves = Some(Curves::new(&model, at, window));
     }
-    toolbar(ui, state, &model, at, window);
+    toolbar(ui, context, commands, &model, (at, window));
     let height = ui.available_height();
     let upper = 0.52 * height;
     if ui.available_width() > 640.0 {
@@ -121,24 +127,30 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
         ui.horizontal(|ui| {
             ui.vertical(|ui| {
                 ui.set_width(half);
-                loss_plot(ui, state, window, upper);
+                loss_plot(ui, own, context, commands, window, upper);
             });
             ui.vertical(|ui| {
                 ui.set_width(half);
-                singular_plot(ui, state, upper);
+                singular_plot(ui, own, context.fit, upper);
             });
         });
     } else {
-        loss_plot(ui, state, window, upper);
+        loss_plot(ui, own, context, commands, window, upper);
     }
-    modes::ui(ui, state, window, (ui.available_height() - 4.0).max(120.0));
+    modes::ui(ui, own, context.fit, window, (ui.available_height() - 4.0).max(120.0));
 }
 
-fn toolbar(ui: &mut Ui, state: &mut State, model: &ReducedModel, at: usize, window: &Window) {
-    let ctx = ui.ctx().clone();
-    let options = state.reduced_options();
+fn toolbar(
+    ui: &mut Ui,
+    context: &Context<'_>,
+    commands: &mut Commands,
+    model: &ReducedModel,
+    (at, window): (usize, &Window),
+) {
+    let options = context.answers.options(context.document);
+    let view = context.document.view;
     ui.horizontal_wrapped(|ui| {
-        super::badge::ui(ui, state);
+        badge::ui(ui, context.answers);
         ui.label(format!(
             "Window {} of {}, M {}…{}, {} of {} modes",
             at + 1,
@@ -148,14 +160,12 @@ fn toolbar(ui: &mut Ui, state: &mut State, model: &ReducedModel, at: usize, wind
             options.pressure_modes.unwrap_or(window.pressure.modes.ncols()),
             window.pressure.modes.ncols()
         ));
-        let truncated = state.document.view.pressure_loss.is_some() || state.document.view.deformation_loss.is_some();
+        let truncated = view.pressure_loss.is_some() || view.deformation_loss.is_some();
         if ui.add_enabled(truncated, egui::Button::new("Keep all modes")).clicked() {
-            state.document.view.pressure_loss = None;
-            state.document.view.deformation_loss = None;
+            commands.edit(Edit::View(View { pressure_loss: None, deformation_loss: None, ..view }), TRUNCATION);
         }
         if ui.button("Export CSV…").on_hover_text("Singular values and loss of information").clicked() {
-            let text = csv(window);
-            state.ask_path(&ctx, Purpose::Csv { text });
+            commands.push(Command::csv(csv(window)));
         }
     });
 }

@@ -1,7 +1,6 @@
 //! Shapes of the modes, and where the rows are sampled: along ξ, and over the plane for a point contact.
 
-use super::{Field, plane};
-use crate::app::state::State;
+use super::{Basis, Field, plane};
 use crate::app::tabs::axes;
 use crate::app::theme::Palette;
 use crate::solver::discrete::grid::ContactGrid;
@@ -18,10 +17,8 @@ const CHOICES: f32 = 30.0;
 const LEAST: f32 = 90.0;
 
 /// Choices and plots.
-pub fn ui(ui: &mut Ui, state: &mut State, window: &Window, height: f32) {
+pub fn ui(ui: &mut Ui, view: &mut Basis, fit: bool, window: &Window, height: f32) {
     let palette = Palette::of(ui);
-    let fit = state.fit_plots;
-    let view = &mut state.basis;
     let of_points = window.grid.kind() == ContactKind::Point;
     ui.horizontal(|ui| {
         let label = ui.label("Modes of");

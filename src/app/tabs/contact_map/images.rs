@@ -2,10 +2,10 @@
 
 use super::contours::Field;
 use super::{MapView, Shown};
+use crate::app::answers::picture::Picture;
 use crate::app::color_map;
 use crate::app::figure::Texture;
 use crate::app::numbers;
-use crate::app::picture::Picture;
 use crate::app::png;
 use crate::app::tabs::raster::Raster;
 use crate::solver::full::Solution;
@@ -18,7 +18,7 @@ pub type Contour = (Option<(PlotPoint, String)>, Vec<PlotPoint>);
 
 /// What the tab keeps between frames.
 #[derive(Default)]
-pub struct ContactMap {
+pub struct Images {
     texture: Option<Texture>,
     contours: Vec<Contour>,
     range: (f64, f64),
@@ -40,7 +40,7 @@ pub fn ticks((low, high): (f64, f64)) -> Vec<f64> {
     (0..=count).map(|k| low + unit * k as f64).collect()
 }
 
-impl ContactMap {
+impl Images {
     /// Makes image and contours anew where they are out of date.
     pub fn follow(&mut self, ctx: &Context, picture: &Picture, view: &MapView) {
         let solution = &picture.solution;

@@ -8,20 +8,21 @@ mod optics;
 mod scale;
 
 pub use export::particulars;
-pub use images::ContactMap;
+use images::Images;
 
-use super::axes;
-use super::cut_line::snapped;
-use crate::app::controls::{described, named};
+use crate::app::answers::picture::{Cuts, Picture};
+use crate::app::command::Command;
+use crate::app::context::{Commands, Context};
+use crate::app::controls::described;
 use crate::app::figure::{self, Subject};
 use crate::app::files::Purpose;
 use crate::app::numbers;
-use crate::app::picture::{Cuts, Picture};
-use crate::app::state::State;
-use crate::app::theme::{Palette, faded, rich};
+use crate::app::tabs::cut_line::{self, snapped};
+use crate::app::tabs::{axes, badge};
+use crate::app::theme::{Palette, faded};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::optics::Interferometer;
-use egui::{Color32, CursorIcon, DragValue, Response, RichText, Ui};
+use egui::{Color32, CursorIcon, Response, RichText, Ui};
 use egui_plot::{
     HLine, HoverPosition, Line, LineStyle, PlotImage, PlotPoint, PlotPoints, PlotTransform, PlotUi, Text, VLine,
 };
@@ -93,131 +94,139 @@ impl Default for MapView {
     }
 }
 
-/// The tab.
-pub fn ui(ui: &mut Ui, state: &mut State) {
-    if state.document.point.kind == ContactKind::Line {
-        let text = "A line contact is the same at every Y: its profiles say everything. Choose the point contact under Operating point to \
-            see a map";
-        ui.centered_and_justified(|ui| ui.weak(text));
-        return;
-    }
-    toolbar(ui, state);
-    if state.display.map.shown == Shown::Interferogram && state.presentation.is_none() {
-        optics::ui(ui, &mut state.display.map);
-    }
-    let stale = state.picture_is_stale(ui.input(|i| i.time));
-    let Some(picture) = state.picture.as_ref().filter(|picture| picture.has_plane()) else {
-        ui.centered_and_justified(|ui| ui.weak("The first picture is being computed"));
-        return;
-    };
-    if stale {
-        super::profiles::stale_note(ui, picture);
-    }
-    state.map.follow(ui.ctx(), picture, &state.display.map);
-    let drawing = Drawing {
-        picture,
-        images: &state.map,
-        view: state.display.map,
-        cuts: state.display.cuts,
-        fit: state.fit_plots,
-        stale,
-    };
-    let height = ui.available_height();
-    let whole = ui.horizontal_top(|ui| {
-        let width = (ui.available_width() - SCALE_WIDTH - 8.0).max(200.0);
-        let drawn = ui.vertical(|ui| {
-            ui.set_width(width);
-            drawing.ui(ui, height)
-        });
-        scale::ui(ui, drawing.images, picture, &drawing.view, height);
-        drawn.inner
-    });
-    figure::offer_of(ui, NAME, whole.response.rect, Subject::Map);
-    let (response, transform) = whole.inner;
-    drag_cuts(ui, state, &response, &transform);
+/// The tab: what it shows, and the images it keeps between frames.
+#[derive(Default)]
+pub struct ContactMap {
+    /// What is shown.
+    pub view: MapView,
+    images: Images,
 }
 
-fn toolbar(ui: &mut Ui, state: &mut State) {
-    ui.horizontal_wrapped(|ui| {
-        super::badge::ui(ui, state);
-        for shown in Shown::ALL {
-            ui.selectable_value(&mut state.display.map.shown, shown, shown.name()).on_hover_text(shown.tip());
-        }
-        if state.presentation.is_some() {
+impl ContactMap {
+    /// The tab.
+    pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        if context.document.point.kind == ContactKind::Line {
+            let text = "A line contact is the same at every Y: its profiles say everything. Choose the point contact under Operating \
+                point to see a map";
+            ui.centered_and_justified(|ui| ui.weak(text));
             return;
         }
-        let field = state.display.map.shown != Shown::Interferogram;
-        ui.add_enabled(field, egui::Checkbox::new(&mut state.display.map.contours, "Contours"))
-            .on_hover_text("Lines of equal value")
-            .on_disabled_hover_text("Fringes are lines of equal film already");
-        cuts_ui(ui, state);
-        ui.menu_button("Export map", |ui| export_menu(ui, state));
-    });
-}
-
-/// The three forms in which the map leaves.
-fn export_menu(ui: &mut Ui, state: &mut State) {
-    let Some(picture) = state.picture.as_ref().filter(|picture| picture.has_plane()) else { return };
-    let item = |ui: &mut Ui, name: &str, tip: &str| {
-        let clicked = ui.button(name).on_hover_text(tip).clicked();
-        if clicked {
-            ui.close();
+        self.toolbar(ui, context, commands);
+        if self.view.shown == Shown::Interferogram && !context.presenting {
+            optics::ui(ui, &mut self.view);
         }
-        clicked
-    };
-    let ctx = ui.ctx().clone();
-    if item(ui, "Data as CSV…", "X, Y, P, H of all nodes of both halves, with their SI twins") {
-        let text = export::csv(picture);
-        state.ask_path(&ctx, Purpose::Csv { text });
-    }
-    if item(ui, "Figure as SVG…", "The map with its axes, contours, scale and parameters") {
-        state.draw_figure(NAME);
-    }
-    if item(ui, "Image as PNG…", "The map alone, pixel by pixel") {
-        let bytes = state.map.png().into();
-        state.ask_path(&ctx, Purpose::Picture { bytes, extension: "png" });
-    }
-}
-
-/// Room for the name and the value of one cut.
-const CUT_WIDTH: f32 = 116.0;
-
-/// Where the contact is cut, as numbers.
-pub fn cuts_ui(ui: &mut Ui, state: &mut State) {
-    let domain = state.document.plane().domain;
-    let cuts = &mut state.display.cuts;
-    for (name, symbol, value, range, tip) in [
-        (
-            "Cut across at X",
-            "at {X}",
-            &mut cuts.x,
-            domain.0..=domain.1,
-            "Where the profile across the contact is taken; drag the line in the map",
-        ),
-        (
-            "Cut along at Y",
-            "at {Y}",
-            &mut cuts.y,
-            domain.2..=-domain.2,
-            "Where the profile along X is taken; drag the line in the map",
-        ),
-    ] {
-        // In a toolbar that wraps, a name and its value stay in one row.
-        if ui.available_size_before_wrap().x < CUT_WIDTH {
-            ui.end_row();
+        let stale = context.answers.picture_is_stale(ui.input(|i| i.time));
+        let Some(picture) = context.answers.picture.as_ref().filter(|picture| picture.has_plane()) else {
+            ui.centered_and_justified(|ui| ui.weak("The first picture is being computed"));
+            return;
+        };
+        if stale {
+            badge::stale_note(ui, picture);
         }
-        let color = ui.visuals().text_color();
-        ui.add(egui::Label::new(rich(&format!("Cut {symbol}"), 13.5, color)).extend()).on_hover_text(tip);
-        let field = DragValue::new(value).range(range).speed(0.01).fixed_decimals(2);
-        let response = ui.add(field).on_hover_text(tip);
-        named(ui, response, name);
+        self.images.follow(ui.ctx(), picture, &self.view);
+        let drawing =
+            Drawing { picture, images: &self.images, view: self.view, cuts: context.cuts, fit: context.fit, stale };
+        let height = ui.available_height();
+        let whole = ui.horizontal_top(|ui| {
+            let width = (ui.available_width() - SCALE_WIDTH - 8.0).max(200.0);
+            let drawn = ui.vertical(|ui| {
+                ui.set_width(width);
+                drawing.ui(ui, height)
+            });
+            scale::ui(ui, drawing.images, picture, &drawing.view, height);
+            drawn.inner
+        });
+        figure::offer_of(ui, NAME, whole.response.rect, Subject::Map);
+        let (response, transform) = whole.inner;
+        self.drag_cuts(ui, context.cuts, &response, &transform, commands);
+    }
+
+    fn toolbar(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        ui.horizontal_wrapped(|ui| {
+            badge::ui(ui, context.answers);
+            for shown in Shown::ALL {
+                ui.selectable_value(&mut self.view.shown, shown, shown.name()).on_hover_text(shown.tip());
+            }
+            if context.presenting {
+                return;
+            }
+            let field = self.view.shown != Shown::Interferogram;
+            ui.add_enabled(field, egui::Checkbox::new(&mut self.view.contours, "Contours"))
+                .on_hover_text("Lines of equal value")
+                .on_disabled_hover_text("Fringes are lines of equal film already");
+            cut_line::cuts_ui(ui, context, commands);
+            ui.menu_button("Export map", |ui| self.export_menu(ui, context, commands));
+        });
+    }
+
+    /// The three forms in which the map leaves.
+    fn export_menu(&self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        let Some(picture) = context.answers.picture.as_ref().filter(|picture| picture.has_plane()) else { return };
+        let item = |ui: &mut Ui, name: &str, tip: &str| {
+            let clicked = ui.button(name).on_hover_text(tip).clicked();
+            if clicked {
+                ui.close();
+            }
+            clicked
+        };
+        if item(ui, "Data as CSV…", "X, Y, P, H of all nodes of both halves, with their SI twins") {
+            commands.push(Command::csv(export::csv(picture)));
+        }
+        if item(ui, "Figure as SVG…", "The map with its axes, contours, scale and parameters") {
+            commands.push(Command::Draw(NAME));
+        }
+        if item(ui, "Image as PNG…", "The map alone, pixel by pixel") {
+            let bytes = self.images.png().into();
+            commands.push(Command::Ask(Purpose::Picture { bytes, extension: "png" }));
+        }
+    }
+
+    fn drag_cuts(
+        &mut self,
+        ui: &Ui,
+        mut cuts: Cuts,
+        response: &Response,
+        transform: &PlotTransform,
+        commands: &mut Commands,
+    ) {
+        let spot = transform.position_from_point(&PlotPoint::new(cuts.x, cuts.y));
+        let near = |p: egui::Pos2| [(p.x - spot.x).abs() < GRAB, (p.y - spot.y).abs() < GRAB];
+        let hovered = response.hover_pos().map_or([false; 2], near);
+        let [x, y] = if self.images.is_dragging() { self.images.dragging } else { hovered };
+        if x || y {
+            ui.ctx().set_cursor_icon(match (x, y) {
+                (true, true) => CursorIcon::Move,
+                (true, false) => CursorIcon::ResizeHorizontal,
+                _ => CursorIcon::ResizeVertical,
+            });
+        }
+        // Taking hold before the drag begins keeps the map itself still.
+        if ui.input(|i| i.pointer.primary_pressed()) {
+            self.images.dragging = hovered;
+        }
+        if !ui.input(|i| i.pointer.primary_down()) {
+            self.images.dragging = [false; 2];
+        }
+        if self.images.is_dragging()
+            && let Some(pointer) = ui.input(|i| i.pointer.latest_pos())
+            && ui.input(|i| i.pointer.press_origin()).is_some_and(|origin| origin.distance(pointer) > 1.0)
+        {
+            let value = transform.value_from_position(pointer);
+            if x {
+                cuts.x = snapped(value.x);
+            }
+            if y {
+                cuts.y = snapped(value.y);
+            }
+            commands.push(Command::Cut(cuts));
+        }
     }
 }
 
 /// What is drawn in one frame.
 struct Drawing<'a> {
     picture: &'a Picture,
-    images: &'a ContactMap,
+    images: &'a Images,
     view: MapView,
     cuts: Cuts,
     fit: bool,
@@ -256,7 +265,7 @@ impl Drawing<'_> {
 }
 
 /// Lines that show on every colour of the map.
-fn contour_lines<'a>(plot: &mut PlotUi<'a>, images: &'a ContactMap) {
+fn contour_lines<'a>(plot: &mut PlotUi<'a>, images: &'a Images) {
     let color = Color32::from_white_alpha(170);
     for (k, (name, line)) in images.contours().iter().enumerate() {
         let line = Line::new("", PlotPoints::Borrowed(line)).id(("contour", k)).color(color).width(1.0);
@@ -268,7 +277,7 @@ fn contour_lines<'a>(plot: &mut PlotUi<'a>, images: &'a ContactMap) {
     }
 }
 
-fn image(plot: &mut PlotUi<'_>, images: &ContactMap, stale: bool) {
+fn image(plot: &mut PlotUi<'_>, images: &Images, stale: bool) {
     let Some((texture, (from, to, edge))) = images.texture(plot.ctx()) else { return };
     let center = PlotPoint::new(0.5 * (from + to), 0.0);
     let size = egui::vec2((to - from) as f32, (-2.0 * edge) as f32);
@@ -311,38 +320,4 @@ fn spoken(picture: &Picture, view: &MapView) -> String {
         numbers::digits(s.x_h_min, 3),
         numbers::digits(s.y_h_min.abs(), 3)
     )
-}
-
-fn drag_cuts(ui: &Ui, state: &mut State, response: &Response, transform: &PlotTransform) {
-    let cuts = state.display.cuts;
-    let spot = transform.position_from_point(&PlotPoint::new(cuts.x, cuts.y));
-    let near = |p: egui::Pos2| [(p.x - spot.x).abs() < GRAB, (p.y - spot.y).abs() < GRAB];
-    let hovered = response.hover_pos().map_or([false; 2], near);
-    let [x, y] = if state.map.is_dragging() { state.map.dragging } else { hovered };
-    if x || y {
-        ui.ctx().set_cursor_icon(match (x, y) {
-            (true, true) => CursorIcon::Move,
-            (true, false) => CursorIcon::ResizeHorizontal,
-            _ => CursorIcon::ResizeVertical,
-        });
-    }
-    // Taking hold before the drag begins keeps the map itself still.
-    if ui.input(|i| i.pointer.primary_pressed()) {
-        state.map.dragging = hovered;
-    }
-    if !ui.input(|i| i.pointer.primary_down()) {
-        state.map.dragging = [false; 2];
-    }
-    if state.map.is_dragging()
-        && let Some(pointer) = ui.input(|i| i.pointer.latest_pos())
-        && ui.input(|i| i.pointer.press_origin()).is_some_and(|origin| origin.distance(pointer) > 1.0)
-    {
-        let value = transform.value_from_position(pointer);
-        if x {
-            state.display.cuts.x = snapped(value.x);
-        }
-        if y {
-            state.display.cuts.y = snapped(value.y);
-        }
-    }
 }

@@ -1,9 +1,9 @@
 //! The colour bar beside the map, with its values and their SI twins.
 
-use super::images::{ContactMap, table, ticks};
+use super::images::{Images, table, ticks};
 use super::{MapView, Shown};
+use crate::app::answers::picture::Picture;
 use crate::app::numbers;
-use crate::app::picture::Picture;
 use crate::app::tabs::raster;
 use crate::app::theme::{Palette, rich};
 use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, Ui, pos2, vec2};
@@ -14,7 +14,7 @@ const BAR: f32 = 16.0;
 const STRIPS: usize = 128;
 
 /// The bar.
-pub fn ui(ui: &mut Ui, images: &ContactMap, picture: &Picture, view: &MapView, height: f32) {
+pub fn ui(ui: &mut Ui, images: &Images, picture: &Picture, view: &MapView, height: f32) {
     let palette = Palette::of(ui);
     let (low, high) = images.range();
     let (area, _) = ui.allocate_exact_size(vec2(super::SCALE_WIDTH, height), Sense::hover());

@@ -9,9 +9,9 @@ mod weights;
 
 use super::transient;
 use crate::app::controls::{choice, message_ui, why};
+use crate::app::desk::Desk;
 use crate::app::files::Purpose;
 use crate::app::numbers;
-use crate::app::state::State;
 use crate::app::theme::Palette;
 use crate::app::transient::linearised::{Linearised, PointNow};
 use crate::app::transient::method::{WEIGHTINGS, weighting_name};
@@ -75,11 +75,11 @@ struct Shown<'a> {
 }
 
 impl<'a> Shown<'a> {
-    fn new(ui: &Ui, state: &'a State, linearised: &'a Linearised) -> Self {
-        let view = &state.transient;
+    fn new(ui: &Ui, desk: &'a Desk, linearised: &'a Linearised) -> Self {
+        let view = &desk.transient;
         let runs: Vec<_> = view.linearised_runs().collect();
         let points = linearised.points_at(&runs, view.player.time());
-        Self { view, tab: &state.tpwl, linearised, runs, points, palette: Palette::of(ui), fit: state.fit_plots }
+        Self { view, tab: &desk.views.tpwl, linearised, runs, points, palette: Palette::of(ui), fit: desk.fit_plots }
     }
 
     /// The operating points of the trajectory that is drawn.
@@ -109,17 +109,17 @@ const WHY: &str = "Near a state that has been seen, the contact answers a small 
     trained ones, no weights help and the reduced model is the right choice.";
 
 /// The tab.
-pub fn ui(ui: &mut Ui, state: &mut State) {
-    if let Some(why) = state.no_transient() {
+pub fn ui(ui: &mut Ui, desk: &mut Desk) {
+    if let Some(why) = desk.no_transient() {
         ui.centered_and_justified(|ui| ui.weak(why));
         return;
     }
     ui.horizontal_top(|ui| {
-        if form_shown(state) {
+        if form_shown(desk) {
             ui.vertical(|ui| {
                 ui.set_width(FORM_WIDTH);
                 ScrollArea::vertical().id_salt("tpwl form").auto_shrink(false).show(ui, |ui| {
-                    transient::form::edit(ui, state, |ui, form, study| {
+                    transient::form::edit(ui, desk, |ui, form, study| {
                         transient::methods::linearised_ui(ui, form, study);
                         form.message(ui, "Methods");
                         transient::methods::trainings_ui(ui, form, study);
@@ -130,30 +130,30 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
             ui.separator();
         }
         ui.vertical(|ui| {
-            ScrollArea::vertical().id_salt("tpwl").auto_shrink(false).show(ui, |ui| results(ui, state));
+            ScrollArea::vertical().id_salt("tpwl").auto_shrink(false).show(ui, |ui| results(ui, desk));
         });
     });
 }
 
-fn form_shown(state: &State) -> bool {
-    state.tpwl.form.unwrap_or(state.transient.linearised.is_none())
+fn form_shown(desk: &Desk) -> bool {
+    desk.views.tpwl.form.unwrap_or(desk.transient.linearised.is_none())
 }
 
-fn results(ui: &mut Ui, state: &mut State) {
+fn results(ui: &mut Ui, desk: &mut Desk) {
     let (top, height) = (ui.cursor().top(), ui.available_height());
-    buttons(ui, state);
-    why(ui, state.tpwl.why, WHY);
-    transient::status(ui, state);
-    number_status(ui, state);
-    let Some(linearised) = state.transient.linearised.clone() else {
-        nothing_yet(ui, state);
+    buttons(ui, desk);
+    why(ui, desk.views.tpwl.why, WHY);
+    transient::status(ui, desk);
+    number_status(ui, desk);
+    let Some(linearised) = desk.transient.linearised.clone() else {
+        nothing_yet(ui, desk);
         return;
     };
-    transient::player(ui, &mut state.transient);
-    choices(ui, state, &linearised);
+    transient::player(ui, &mut desk.transient);
+    choices(ui, desk, &linearised);
     let rest = height - (ui.cursor().top() - top) - 30.0;
-    let shown = Shown::new(ui, state, &linearised);
-    let mut sorting = state.tpwl.sorting;
+    let shown = Shown::new(ui, desk, &linearised);
+    let mut sorting = desk.views.tpwl.sorting;
     let mut wanted = None;
     if ui.available_width() >= SIDE_BY_SIDE {
         let unit = (0.5 * rest).max(2.0 * LEAST_HEIGHT);
@@ -182,9 +182,9 @@ fn results(ui: &mut Ui, state: &mut State) {
         wanted = lower(ui, &shown, 1.6 * unit).or(wanted);
         wanted = table::ui(ui, &shown, &mut sorting, 1.6 * unit).or(wanted);
     }
-    state.tpwl.sorting = sorting;
+    desk.views.tpwl.sorting = sorting;
     if let Some(time) = wanted {
-        state.transient.player.go_to(time);
+        desk.transient.player.go_to(time);
     }
 }
 
@@ -199,68 +199,68 @@ fn lower(ui: &mut Ui, shown: &Shown<'_>, height: f32) -> Option<f64> {
 }
 
 /// What to do where there is no linearised model yet.
-fn nothing_yet(ui: &mut Ui, state: &mut State) {
-    if state.transient.work.standing().is_some() {
+fn nothing_yet(ui: &mut Ui, desk: &mut Desk) {
+    if desk.transient.work.standing().is_some() {
         return;
     }
-    if state.document.transient_study().linearised.is_some() {
+    if desk.document.transient_study().linearised.is_some() {
         ui.weak("Run it in time: the full system first, whose trajectory is then linearised and followed.");
         return;
     }
     ui.weak("Tick Linearised model to choose operating points along a trajectory, and run it in time.");
 }
 
-fn buttons(ui: &mut Ui, state: &mut State) {
+fn buttons(ui: &mut Ui, desk: &mut Desk) {
     let ctx = ui.ctx().clone();
-    let linearised = state.transient.linearised.clone();
+    let linearised = desk.transient.linearised.clone();
     ui.horizontal_wrapped(|ui| {
-        let mut form = form_shown(state);
+        let mut form = form_shown(desk);
         let tip = "Shows how the linearised model is made, or leaves the room to pictures";
         if ui.toggle_value(&mut form, "Model set-up").on_hover_text(tip).changed() {
-            state.tpwl.form = Some(form);
+            desk.views.tpwl.form = Some(form);
         }
-        transient::run_button(ui, state);
-        let ready = linearised.is_some() && state.transient.work.standing().is_none();
+        transient::run_button(ui, desk);
+        let ready = linearised.is_some() && desk.transient.work.standing().is_none();
         let tip = "Error of H_c against the number of operating points: both rules on a ladder of tolerances, by both weightings, along \
                    these inputs";
-        if state.transient.number.work.standing().is_some() {
+        if desk.transient.number.work.standing().is_some() {
             if ui.button("Stop the study").on_hover_text("What has been found so far stays (Esc)").clicked() {
-                state.transient.number.work.stop();
+                desk.transient.number.work.stop();
             }
         } else if enabled(ui, ready, "Number against error", tip).clicked()
-            && let (Some(linearised), Some(full)) = (&linearised, state.transient.reference_of_linearised())
+            && let (Some(linearised), Some(full)) = (&linearised, desk.transient.reference_of_linearised())
         {
             let (model, full) = (Arc::clone(&linearised.model), full.without_fields());
-            state.transient.number.start(&ctx, model, full);
-            state.tpwl.numbers = true;
+            desk.transient.number.start(&ctx, model, full);
+            desk.views.tpwl.numbers = true;
         }
         let there = linearised.is_some();
         let tip = "All operating points with inputs, state norms, weights and distances at this moment";
         if enabled(ui, there, "Export points…", tip).clicked()
             && let Some(linearised) = &linearised
         {
-            let text = export::points(&Shown::new(ui, state, linearised));
-            state.ask_path(&ctx, Purpose::Csv { text });
+            let text = export::points(&Shown::new(ui, desk, linearised));
+            desk.ask_path(&ctx, Purpose::Csv { text });
         }
         let tip = "Every step’s operating points and weights, and how far it lies from them";
         if enabled(ui, there, "Export weights…", tip).clicked()
             && let Some(linearised) = &linearised
         {
-            let text = export::weights(&Shown::new(ui, state, linearised));
-            state.ask_path(&ctx, Purpose::Csv { text });
+            let text = export::weights(&Shown::new(ui, desk, linearised));
+            desk.ask_path(&ctx, Purpose::Csv { text });
         }
-        if !state.transient.number.rows.is_empty() {
+        if !desk.transient.number.rows.is_empty() {
             let tip = "Rule, tolerance, number of points, weights and error of every model tried";
             if ui.button("Export numbers…").on_hover_text(tip).clicked() {
-                let text = export::numbers(&state.transient);
-                state.ask_path(&ctx, Purpose::Csv { text });
+                let text = export::numbers(&desk.transient);
+                desk.ask_path(&ctx, Purpose::Csv { text });
             }
         }
         let tip = "Any of these plots, or the whole tab, as SVG or PNG with axes and parameters";
         if enabled(ui, there, "Export plot…", tip).clicked() {
-            state.ask_figure();
+            desk.figures.ask();
         }
-        ui.toggle_value(&mut state.tpwl.why, "Why").on_hover_text("What the model does, in three sentences");
+        ui.toggle_value(&mut desk.views.tpwl.why, "Why").on_hover_text("What the model does, in three sentences");
     });
 }
 
@@ -268,8 +268,8 @@ fn enabled(ui: &mut Ui, on: bool, name: &str, tip: &str) -> Response {
     ui.add_enabled(on, Button::new(name)).on_hover_text(tip).on_disabled_hover_text(tip)
 }
 
-fn number_status(ui: &mut Ui, state: &State) {
-    let study = &state.transient.number;
+fn number_status(ui: &mut Ui, desk: &Desk) {
+    let study = &desk.transient.number;
     if let Some(standing) = study.work.standing() {
         ui.horizontal(|ui| {
             ui.label(&standing.stage);
@@ -284,8 +284,8 @@ fn number_status(ui: &mut Ui, state: &State) {
 }
 
 /// What is drawn: quantity, training, coordinates, and what stands below.
-fn choices(ui: &mut Ui, state: &mut State, linearised: &Linearised) {
-    let tab = &mut state.tpwl;
+fn choices(ui: &mut Ui, desk: &mut Desk, linearised: &Linearised) {
+    let tab = &mut desk.views.tpwl;
     let modes = linearised.model.space.modes();
     let trainings = linearised.trainings.len();
     tab.trajectory = tab.trajectory.min(trainings.saturating_sub(1));

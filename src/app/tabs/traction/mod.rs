@@ -6,30 +6,30 @@ mod fluid;
 use crate::app::controls::{message_ui, named, sentence, warning_ui, why};
 use crate::app::files::Purpose;
 use crate::app::numbers;
-use crate::app::state::{REST_S, State};
 use crate::app::theme::{Palette, rich};
 use crate::app::traction::{Against, Curve, LeftOut, Markers, Served, Sweep, Varied, export};
+use crate::app::{answers::REST_S, desk::Desk};
 use egui::{Button, Checkbox, ComboBox, Context, ProgressBar, Ui};
 
 /// Seconds of rest after which a curve of other sliders is drawn grey.
 const STALE_S: f64 = REST_S + 0.75;
 
 /// The tab.
-pub fn ui(ui: &mut Ui, state: &mut State) {
+pub fn ui(ui: &mut Ui, desk: &mut Desk) {
     ui.horizontal_wrapped(|ui| {
-        let fluid = &mut state.display.traction.shows_fluid;
+        let fluid = &mut desk.views.traction.shows_fluid;
         ui.selectable_value(fluid, false, "Traction and film");
         ui.selectable_value(fluid, true, "Laws of the fluid");
-        ui.toggle_value(&mut state.display.traction.why, "Why").on_hover_text("What is seen here, in three sentences");
+        ui.toggle_value(&mut desk.views.traction.why, "Why").on_hover_text("What is seen here, in three sentences");
     });
     ui.separator();
-    why(ui, state.display.traction.why, WHY[usize::from(state.display.traction.shows_fluid)]);
-    if state.display.traction.shows_fluid {
-        fluid::ui(ui, state);
+    why(ui, desk.views.traction.why, WHY[usize::from(desk.views.traction.shows_fluid)]);
+    if desk.views.traction.shows_fluid {
+        fluid::ui(ui, desk);
         return;
     }
-    let Some((sweep, served)) = state.sweep() else {
-        toolbar(ui, state, None);
+    let Some((sweep, served)) = desk.sweep() else {
+        toolbar(ui, desk, None);
         ui.centered_and_justified(|ui| {
             ui.weak("The lubricant has no shear constants: it is Newtonian, and there is no plateau ratio to vary")
         });
@@ -37,26 +37,26 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
     };
     let ctx = ui.ctx().clone();
     if let Ok(served) = &served {
-        state.follow_sweep(&ctx, &sweep, served);
+        desk.follow_sweep(&ctx, &sweep, served);
     }
-    toolbar(ui, state, Some((&sweep, &served)));
-    status(ui, state, &sweep, &served);
-    let shown = Shown::of(state, &sweep, &served, ui.input(|i| i.time));
+    toolbar(ui, desk, Some((&sweep, &served)));
+    status(ui, desk, &sweep, &served);
+    let shown = Shown::of(desk, &sweep, &served, ui.input(|i| i.time));
     if shown.curve.is_none() && shown.markers.is_none() {
         let waits = match served {
-            Ok(_) if !state.traction.curve_is_current() => "The curve is being computed",
+            Ok(_) if !desk.traction.curve_is_current() => "The curve is being computed",
             Ok(_) => "The reduced model has no answer along here: full solutions draw the curve on request",
             Err(_) => "Full solutions draw the curve here on request",
         };
         ui.centered_and_justified(|ui| ui.weak(waits));
         return;
     }
-    if let Some(place) = chart::ui(ui, state, &sweep, &shown) {
-        let result = state.go_along(place);
+    if let Some(place) = chart::ui(ui, desk, &sweep, &shown) {
+        let result = desk.go_along(place);
         if result.is_ok() {
-            state.entries.clear();
+            desk.entries.clear();
         }
-        state.entries.answer("traction", result);
+        desk.entries.answer("traction", result);
     }
 }
 
@@ -71,12 +71,12 @@ struct Shown<'a> {
 }
 
 impl<'a> Shown<'a> {
-    fn of(state: &'a State, sweep: &Sweep, served: &Result<Served, String>, now: f64) -> Self {
-        let view = &state.traction;
+    fn of(desk: &'a Desk, sweep: &Sweep, served: &Result<Served, String>, now: f64) -> Self {
+        let view = &desk.traction;
         let varied = sweep.varied;
         let curve = view.curve.as_ref().filter(|curve| curve.sweep.varied == varied && !curve.samples.is_empty());
         let markers = view.markers.as_ref().filter(|markers| markers.sweep.varied == varied);
-        let late = served.is_err() || state.rested_s(now) > STALE_S;
+        let late = served.is_err() || desk.answers.rested_s(now) > STALE_S;
         Self {
             curve_stale: !view.curve_is_current() && late,
             markers_stale: markers.is_some_and(|markers| markers.sweep != *sweep),
@@ -97,16 +97,16 @@ const WHY: [&str; 2] = [
      Newtonian. η(p, τ) = µ(p) (NPR + (1 − NPR)(1 + (τ/G_c)^β)^((1 − 1/n)/β)) (3.40)",
 ];
 
-fn toolbar(ui: &mut Ui, state: &mut State, sweep: Option<(&Sweep, &Result<Served, String>)>) {
+fn toolbar(ui: &mut Ui, desk: &mut Desk, sweep: Option<(&Sweep, &Result<Served, String>)>) {
     let ctx = ui.ctx().clone();
     ui.horizontal_wrapped(|ui| {
-        against_ui(ui, state);
-        let (along, up) = &mut state.display.traction.logarithmic;
+        against_ui(ui, desk);
+        let (along, up) = &mut desk.views.traction.logarithmic;
         ui.add(Checkbox::new(along, "Log x")).on_hover_text("Equal ways along are equal ratios");
         ui.add(Checkbox::new(up, "Log y")).on_hover_text("Equal ways up are equal ratios of traction and of film");
-        if state.traction.full.standing().is_some() {
+        if desk.traction.full.standing().is_some() {
             if ui.button("Stop").on_hover_text("Full solutions so far stay (Esc)").clicked() {
-                state.traction.full.stop();
+                desk.traction.full.stop();
             }
         } else {
             let tip = "Eleven full solutions along the curve, set on it as rings";
@@ -114,17 +114,17 @@ fn toolbar(ui: &mut Ui, state: &mut State, sweep: Option<(&Sweep, &Result<Served
             if button.clicked()
                 && let Some((sweep, served)) = sweep
             {
-                state.start_markers(&ctx, sweep, served);
+                desk.start_markers(&ctx, sweep, served);
             }
         }
-        exports(ui, state, &ctx);
+        exports(ui, desk, &ctx);
     });
 }
 
-fn against_ui(ui: &mut Ui, state: &mut State) {
+fn against_ui(ui: &mut Ui, desk: &mut Desk) {
     let label = ui.label("Against").on_hover_text("What traction and film are drawn against");
-    let before = state.display.traction.against;
-    let chosen = &mut state.display.traction.against;
+    let before = desk.views.traction.against;
+    let chosen = &mut desk.views.traction.against;
     let response =
         ComboBox::from_id_salt("traction against").selected_text(before.name()).width(150.0).show_ui(ui, |ui| {
             for option in Against::ALL {
@@ -134,30 +134,30 @@ fn against_ui(ui: &mut Ui, state: &mut State) {
     response.response.labelled_by(label.id).on_hover_text(before.tip());
     if *chosen != before {
         // Speeds span decades, ratios do not.
-        state.display.traction.logarithmic.0 =
-            !matches!(state.display.traction.against, Against::SlideToRoll | Against::Plateau);
-        state.fit_plots = true;
+        desk.views.traction.logarithmic.0 =
+            !matches!(desk.views.traction.against, Against::SlideToRoll | Against::Plateau);
+        desk.fit_plots = true;
     }
 }
 
-fn exports(ui: &mut Ui, state: &mut State, ctx: &Context) {
-    let there = state.traction.curve.as_ref().is_some_and(|curve| !curve.samples.is_empty())
-        || state.traction.markers.as_ref().is_some_and(|markers| !markers.samples.is_empty());
+fn exports(ui: &mut Ui, desk: &mut Desk, ctx: &Context) {
+    let there = desk.traction.curve.as_ref().is_some_and(|curve| !curve.samples.is_empty())
+        || desk.traction.markers.as_ref().is_some_and(|markers| !markers.samples.is_empty());
     let tip = "The curve and the full solutions, every contact with its traction and films";
     if ui.add_enabled(there, Button::new("Export CSV…")).on_hover_text(tip).clicked()
-        && let Some(text) = export::csv(&state.traction)
+        && let Some(text) = export::csv(&desk.traction)
     {
-        state.ask_path(ctx, Purpose::Csv { text });
+        desk.ask_path(ctx, Purpose::Csv { text });
     }
     let tip = "Traction, film or both, as SVG or PNG with axes and parameters";
     if ui.add_enabled(there, Button::new("Export plot…")).on_hover_text(tip).clicked() {
-        state.ask_figure();
+        desk.figures.ask();
     }
 }
 
 /// What runs, what is amiss, and what the curve says in numbers.
-fn status(ui: &mut Ui, state: &State, sweep: &Sweep, served: &Result<Served, String>) {
-    let view = &state.traction;
+fn status(ui: &mut Ui, desk: &Desk, sweep: &Sweep, served: &Result<Served, String>) {
+    let view = &desk.traction;
     if let Some(standing) = view.full.standing() {
         ui.horizontal(|ui| {
             ui.label(&standing.stage);
@@ -188,7 +188,7 @@ fn status(ui: &mut Ui, state: &State, sweep: &Sweep, served: &Result<Served, Str
     if let Some(message) = &view.full.message {
         message_ui(ui, message);
     }
-    state.entries.message_ui(ui, "traction");
+    desk.entries.message_ui(ui, "traction");
     if let Some(curve) = view.curve.as_ref().filter(|curve| curve.sweep.varied == sweep.varied) {
         match &curve.left_out {
             Ok(left_out) => left_out_ui(ui, *left_out),
@@ -201,7 +201,7 @@ fn status(ui: &mut Ui, state: &State, sweep: &Sweep, served: &Result<Served, Str
         let of = numbers::moes(markers.sweep.base.point.moes());
         ui.weak(sentence(&format!("the grey rings are full solutions of another sweep, beginning at {of}")));
     }
-    ui.label(rich(&summary(state, sweep), 13.0, Palette::of(ui).quiet));
+    ui.label(rich(&summary(desk, sweep), 13.0, Palette::of(ui).quiet));
 }
 
 /// Why there are fewer contacts than the curve should have.
@@ -221,20 +221,19 @@ fn left_out_ui(ui: &mut Ui, LeftOut { failed, doubtful }: LeftOut) {
 }
 
 /// Traction here, the largest of the curve, and how far full solutions lie from it.
-fn summary(state: &State, sweep: &Sweep) -> String {
+fn summary(desk: &Desk, sweep: &Sweep) -> String {
     let mut parts = Vec::new();
-    let here = state.picture.as_ref().filter(|_| state.picture_is_current());
+    let here = desk.answers.picture.as_ref().filter(|_| desk.answers.picture_is_current());
     if let Some(picture) = here.filter(|picture| picture.unphysical.is_none()) {
         parts.push(format!("µ {} here", numbers::significant(picture.traction)));
     }
-    if let Some(curve) =
-        state.traction.curve.as_ref().filter(|curve| curve.sweep == *sweep && !curve.samples.is_empty())
+    if let Some(curve) = desk.traction.curve.as_ref().filter(|curve| curve.sweep == *sweep && !curve.samples.is_empty())
     {
         let tractions = curve.samples.iter().map(|sample| sample.traction);
         if sweep.unphysical().is_none() {
             parts.push(format!("{} at most", numbers::significant(tractions.fold(0.0, f64::max))));
         }
-        if let Some((traction, film)) = chart::differences(curve, state.traction.markers.as_ref()) {
+        if let Some((traction, film)) = chart::differences(curve, desk.traction.markers.as_ref()) {
             parts.push(format!(
                 "full solutions differ by {} in µ and {} in {{H_c}}",
                 numbers::small(traction),

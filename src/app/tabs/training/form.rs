@@ -2,7 +2,7 @@
 
 use super::fields::{Form, choose, row, short};
 use crate::app::controls::{heading, named};
-use crate::app::state::State;
+use crate::app::desk::Desk;
 use crate::app::training::presets;
 use crate::scene::QuantityBox;
 use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
@@ -12,11 +12,11 @@ use crate::solver::training::{Indicator, Plan, Range, SlidingRange, TrainingSpec
 use egui::{TextEdit, Ui};
 
 /// The form.
-pub fn ui(ui: &mut Ui, state: &mut State) {
-    let Some(mut spec) = state.training_spec().cloned() else { return };
+pub fn ui(ui: &mut Ui, desk: &mut Desk) {
+    let Some(mut spec) = desk.training_spec().cloned() else { return };
     let before = spec.clone();
-    let mut form = Form { refused: state.training.refused.take(), changed: None };
-    ui.add_enabled_ui(state.training.job().is_none(), |ui| {
+    let mut form = Form { refused: desk.training.refused.take(), changed: None };
+    ui.add_enabled_ui(desk.training.job().is_none(), |ui| {
         ui.horizontal(|ui| {
             for (name, preset) in presets::of_kind(spec.contact()) {
                 if ui.button(name).on_hover_text("Sets everything below").clicked() {
@@ -26,21 +26,21 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
             }
         });
         form.message(ui, "presets");
-        title_ui(ui, &mut state.training.title, &mut spec);
+        title_ui(ui, &mut desk.training.title, &mut spec);
         range_ui(ui, &mut form, &mut spec);
         plan_ui(ui, &mut form, &mut spec);
         reduction_ui(ui, &mut form, &mut spec);
     });
     let Form { refused, changed } = form;
-    state.training.refused = refused;
+    desk.training.refused = refused;
     if spec != before {
         if spec.range != before.range {
             presets::fit_windows(&mut spec);
         }
-        let result = state.document.set_training(spec);
-        state.training.refused = result.err().map(|message| (changed.unwrap_or("presets"), message));
+        let result = desk.document.set_training(spec);
+        desk.training.refused = result.err().map(|message| (changed.unwrap_or("presets"), message));
     }
-    if !state.document.saves_training() && state.document.training.is_some() {
+    if !desk.document.saves_training() && desk.document.training.is_some() {
         ui.weak("The open scene asks another question: it is saved without this training.");
     }
 }

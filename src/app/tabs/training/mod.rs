@@ -6,9 +6,9 @@ pub(super) mod fields;
 mod form;
 
 use crate::app::controls::{message_ui, sentence, warning_ui};
+use crate::app::desk::Desk;
 use crate::app::files::Purpose;
 use crate::app::numbers;
-use crate::app::state::State;
 use crate::app::training::{Notice, Running};
 use crate::engine::job::Standing;
 use egui::{Button, ProgressBar, Response, ScrollArea, Ui};
@@ -17,35 +17,35 @@ use egui::{Button, ProgressBar, Response, ScrollArea, Ui};
 const FORM_WIDTH: f32 = 316.0;
 
 /// The tab.
-pub fn ui(ui: &mut Ui, state: &mut State) {
+pub fn ui(ui: &mut Ui, desk: &mut Desk) {
     ui.horizontal_top(|ui| {
         ui.vertical(|ui| {
             ui.set_width(FORM_WIDTH);
-            ScrollArea::vertical().id_salt("training form").auto_shrink(false).show(ui, |ui| form::ui(ui, state));
+            ScrollArea::vertical().id_salt("training form").auto_shrink(false).show(ui, |ui| form::ui(ui, desk));
         });
         ui.separator();
         ui.vertical(|ui| {
             ScrollArea::vertical().id_salt("training").auto_shrink(false).show(ui, |ui| {
                 let (top, height) = (ui.cursor().top(), ui.available_height());
-                buttons(ui, state);
-                status(ui, state);
-                comparison::ui(ui, state);
-                charts::key(ui, state);
-                let searches = state.training.spec.as_ref().is_some_and(|spec| spec.plan.searches());
+                buttons(ui, desk);
+                status(ui, desk);
+                comparison::ui(ui, desk);
+                charts::key(ui, desk);
+                let searches = desk.training.spec.as_ref().is_some_and(|spec| spec.plan.searches());
                 let rest = (height - (ui.cursor().top() - top) - 12.0).max(300.0);
                 let lower = if searches { (0.34 * rest).max(115.0) } else { 0.0 };
-                charts::plane(ui, state, rest - lower);
+                charts::plane(ui, desk, rest - lower);
                 if searches {
-                    charts::indicator(ui, state, lower);
+                    charts::indicator(ui, desk, lower);
                 }
             });
         });
     });
 }
 
-fn buttons(ui: &mut Ui, state: &mut State) {
+fn buttons(ui: &mut Ui, desk: &mut Desk) {
     let ctx = ui.ctx().clone();
-    let runs = state.training.job().is_some();
+    let runs = desk.training.job().is_some();
     let enabled = |ui: &mut Ui, on: bool, name: &str, tip: &str| -> Response {
         ui.add_enabled(on, Button::new(name)).on_hover_text(tip).on_disabled_hover_text(tip)
     };
@@ -54,56 +54,56 @@ fn buttons(ui: &mut Ui, state: &mut State) {
             let tip =
                 "Ends the work; a training keeps its full solutions and makes a model of them. Again: no model either";
             if ui.button("Stop").on_hover_text(tip).clicked() {
-                state.training.stop();
+                desk.training.stop();
             }
         } else {
-            let free = !state.training.left_behind;
+            let free = !desk.training.left_behind;
             let tip = if free {
                 "Takes the full solutions and makes a model of them, beside the live picture"
             } else {
                 "First resume or discard the training that was left unfinished"
             };
             if enabled(ui, free, "Start training", tip).clicked() {
-                state.start_training(&ctx);
+                desk.start_training(&ctx);
             }
         }
-        if state.training.unfinished.is_some() {
+        if desk.training.unfinished.is_some() {
             let tip = "Goes on as if it had never been stopped: the model will be the same";
             if enabled(ui, !runs, "Resume training", tip).clicked() {
-                state.training.resume(&ctx);
+                desk.training.resume(&ctx);
             }
             if enabled(ui, !runs, "Discard", "Forgets the unfinished training").clicked() {
-                state.training.discard();
+                desk.training.discard();
             }
         }
     });
-    if state.training.made.is_none() {
+    if desk.training.made.is_none() {
         return;
     }
     ui.horizontal_wrapped(|ui| {
-        let used = state.uses_made_model();
+        let used = desk.uses_made_model();
         let tip = "The picture, the badge and all tabs use it from now on";
         if enabled(ui, !used, "Use this model", tip).clicked() {
-            state.use_made_model();
+            desk.use_made_model();
         }
         if used && enabled(ui, true, "Back to the former model", "Puts the model in use that was before").clicked() {
-            state.use_former_model();
+            desk.use_former_model();
         }
         if enabled(ui, true, "Save model…", "Writes it as a .rom file").clicked()
-            && let Some(made) = state.training.made.clone()
+            && let Some(made) = desk.training.made.clone()
         {
-            state.ask_path(&ctx, Purpose::Model { bytes: made.bytes });
+            desk.ask_path(&ctx, Purpose::Model { bytes: made.bytes });
         }
-        let other = state.model().is_some();
+        let other = desk.model().is_some();
         let tip = "Size, time and errors of both at the same random points, against full solutions";
         if enabled(ui, other && !runs, "Compare models", tip).clicked() {
-            state.compare_models(&ctx);
+            desk.compare_models(&ctx);
         }
     });
 }
 
-fn status(ui: &mut Ui, state: &mut State) {
-    for notice in &state.training.notices {
+fn status(ui: &mut Ui, desk: &mut Desk) {
+    for notice in &desk.training.notices {
         match notice {
             Notice::Done(text) => {
                 ui.label(sentence(text));
@@ -112,11 +112,11 @@ fn status(ui: &mut Ui, state: &mut State) {
             Notice::Wrong(text) => message_ui(ui, text),
         }
     }
-    if let Some(job) = state.training.job() {
+    if let Some(job) = desk.training.job() {
         running(ui, job);
         return;
     }
-    if let Some(made) = &state.training.made {
+    if let Some(made) = &desk.training.made {
         let model = &made.model;
         let windows = model.windows.len();
         let largest =
@@ -129,8 +129,8 @@ fn status(ui: &mut Ui, state: &mut State) {
             numbers::digits(made.bytes.len() as f64 / 1e6, 2)
         );
         ui.weak(text).on_hover_text(model.log.join("\n"));
-    } else if state.training.left_behind
-        && let Some(unfinished) = &state.training.unfinished
+    } else if desk.training.left_behind
+        && let Some(unfinished) = &desk.training.unfinished
     {
         warning_ui(
             ui,

@@ -2,8 +2,8 @@
 //! it cost.
 
 use super::series;
+use crate::app::desk::Desk;
 use crate::app::numbers;
-use crate::app::state::State;
 use crate::app::theme::{Palette, rich};
 use crate::app::transient::{Run, TransientView};
 use crate::solver::full::transient::Quantity;
@@ -14,8 +14,8 @@ use egui_plot::LineStyle;
 const WIDE: f32 = 520.0;
 
 /// The table.
-pub fn ui(ui: &mut Ui, state: &State) {
-    let view = &state.transient;
+pub fn ui(ui: &mut Ui, desk: &Desk) {
+    let view = &desk.transient;
     let wide = ui.available_width() >= WIDE;
     let quiet = Palette::of(ui).quiet;
     let title = |ui: &mut Ui, text: &str, tip: &str| {

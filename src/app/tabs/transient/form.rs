@@ -3,8 +3,8 @@
 
 use super::methods;
 use crate::app::controls::heading;
+use crate::app::desk::Desk;
 use crate::app::files::Purpose;
-use crate::app::state::State;
 use crate::app::tabs::axes;
 use crate::app::tabs::training::fields::{Form, choose};
 use crate::app::theme::Palette;
@@ -58,9 +58,9 @@ fn names(input: Input) -> Names {
 }
 
 /// The form.
-pub fn ui(ui: &mut Ui, state: &mut State) {
+pub fn ui(ui: &mut Ui, desk: &mut Desk) {
     let mut read_table = false;
-    edit(ui, state, |ui, form, study| {
+    edit(ui, desk, |ui, form, study| {
         heading(ui, "Inputs");
         for input in Input::ALL {
             signal_ui(ui, form, &names(input), input.of_mut(&mut study.inputs));
@@ -79,25 +79,25 @@ pub fn ui(ui: &mut Ui, state: &mut State) {
         frames_ui(ui, form, &mut study.frames);
         methods::ui(ui, form, study);
     });
-    if !state.document.saves_transient() && state.document.transient.is_some() {
+    if !desk.document.saves_transient() && desk.document.transient.is_some() {
         ui.weak("The open scene asks another question: it is saved without this set-up.");
     }
     if read_table {
-        state.ask_path(&ui.ctx().clone(), Purpose::Inputs);
+        desk.ask_path(&ui.ctx().clone(), Purpose::Inputs);
     }
 }
 
 /// A form over the contact in time of the document, which takes what makes sense; the rest is refused beside its field.
-pub fn edit(ui: &mut Ui, state: &mut State, content: impl FnOnce(&mut Ui, &mut Form, &mut TransientStudy)) {
-    let mut study = state.document.transient_study();
+pub fn edit(ui: &mut Ui, desk: &mut Desk, content: impl FnOnce(&mut Ui, &mut Form, &mut TransientStudy)) {
+    let mut study = desk.document.transient_study();
     let before = study.clone();
-    let mut form = Form { refused: state.transient.refused.take(), changed: None };
-    ui.add_enabled_ui(state.transient.work.standing().is_none(), |ui| content(ui, &mut form, &mut study));
+    let mut form = Form { refused: desk.transient.refused.take(), changed: None };
+    ui.add_enabled_ui(desk.transient.work.standing().is_none(), |ui| content(ui, &mut form, &mut study));
     let Form { refused, changed } = form;
-    state.transient.refused = refused;
+    desk.transient.refused = refused;
     if study != before {
-        let result = state.document.set_transient(study);
-        state.transient.refused = result.err().map(|message| (changed.unwrap_or("Frames"), message));
+        let result = desk.document.set_transient(study);
+        desk.transient.refused = result.err().map(|message| (changed.unwrap_or("Frames"), message));
     }
 }
 

@@ -7,10 +7,10 @@ mod profiles;
 pub mod series;
 
 use crate::app::controls::{message_ui, named, sentence, warning_ui};
+use crate::app::desk::Desk;
 use crate::app::figure::{self, Subject};
 use crate::app::files::Purpose;
 use crate::app::numbers;
-use crate::app::state::State;
 use crate::app::theme::rich;
 use crate::app::transient::{Run, TransientView, export};
 use crate::engine::TOO_STEEP;
@@ -26,113 +26,113 @@ const SIDE_BY_SIDE: f32 = 560.0;
 const LEAST_HEIGHT: f32 = 104.0;
 
 /// The tab.
-pub fn ui(ui: &mut Ui, state: &mut State) {
-    if let Some(why) = state.no_transient() {
+pub fn ui(ui: &mut Ui, desk: &mut Desk) {
+    if let Some(why) = desk.no_transient() {
         ui.centered_and_justified(|ui| ui.weak(why));
         return;
     }
     ui.horizontal_top(|ui| {
-        if !state.transient.form_hidden {
+        if !desk.transient.form_hidden {
             ui.vertical(|ui| {
                 ui.set_width(FORM_WIDTH);
-                ScrollArea::vertical().id_salt("transient form").auto_shrink(false).show(ui, |ui| form::ui(ui, state));
+                ScrollArea::vertical().id_salt("transient form").auto_shrink(false).show(ui, |ui| form::ui(ui, desk));
             });
             ui.separator();
         }
         ui.vertical(|ui| {
-            ScrollArea::vertical().id_salt("transient").auto_shrink(false).show(ui, |ui| results(ui, state));
+            ScrollArea::vertical().id_salt("transient").auto_shrink(false).show(ui, |ui| results(ui, desk));
         });
     });
 }
 
-fn results(ui: &mut Ui, state: &mut State) {
+fn results(ui: &mut Ui, desk: &mut Desk) {
     let (top, height) = (ui.cursor().top(), ui.available_height());
-    buttons(ui, state);
-    status(ui, state);
-    if state.transient.runs.iter().all(|run| run.trajectory.moments.is_empty()) {
-        if state.transient.work.standing().is_none() {
+    buttons(ui, desk);
+    status(ui, desk);
+    if desk.transient.runs.iter().all(|run| run.trajectory.moments.is_empty()) {
+        if desk.transient.work.standing().is_none() {
             ui.weak("Run it in time to see pressure and film follow the inputs.");
         }
         return;
     }
-    player(ui, &mut state.transient);
+    player(ui, &mut desk.transient);
     let all = ui.vertical(|ui| {
-        cost::ui(ui, state);
-        plots(ui, state, height - (ui.cursor().top() - top) - 18.0)
+        cost::ui(ui, desk);
+        plots(ui, desk, height - (ui.cursor().top() - top) - 18.0)
     });
     figure::offer_of(ui, "Series and profiles", all.response.rect, Subject::InTime);
     if let Some(time) = all.inner {
-        state.transient.player.go_to(time);
+        desk.transient.player.go_to(time);
     }
 }
 
 /// Series and profiles, beside each other where there is room; returns the time that was clicked at.
-fn plots(ui: &mut Ui, state: &State, height: f32) -> Option<f64> {
-    let several = state.transient.runs.len() > 1;
+fn plots(ui: &mut Ui, desk: &Desk, height: f32) -> Option<f64> {
+    let several = desk.transient.runs.len() > 1;
     let parts = if several { 2.7 } else { 2.0 };
     if ui.available_width() < SIDE_BY_SIDE {
-        let clicked = series::ui(ui, state, (0.55 * height / parts).max(LEAST_HEIGHT));
-        profiles::ui(ui, state, (0.5 * height).max(LEAST_HEIGHT));
+        let clicked = series::ui(ui, desk, (0.55 * height / parts).max(LEAST_HEIGHT));
+        profiles::ui(ui, desk, (0.5 * height).max(LEAST_HEIGHT));
         return clicked;
     }
     let (unit, width) = ((height / parts).max(LEAST_HEIGHT), ui.available_width());
     let both = ui.horizontal_top(|ui| {
         let series = ui.vertical(|ui| {
             ui.set_width(0.56 * width);
-            series::ui(ui, state, unit)
+            series::ui(ui, desk, unit)
         });
-        ui.vertical(|ui| profiles::ui(ui, state, 0.5 * unit * parts));
+        ui.vertical(|ui| profiles::ui(ui, desk, 0.5 * unit * parts));
         series.inner
     });
     both.inner
 }
 
-fn buttons(ui: &mut Ui, state: &mut State) {
+fn buttons(ui: &mut Ui, desk: &mut Desk) {
     let ctx = ui.ctx().clone();
     ui.horizontal_wrapped(|ui| {
-        let mut form = !state.transient.form_hidden;
+        let mut form = !desk.transient.form_hidden;
         ui.toggle_value(&mut form, "Set-up")
             .on_hover_text("Shows what drives the contact, or leaves the room to plots");
-        state.transient.form_hidden = !form;
-        run_button(ui, state);
-        let there = state.transient.runs.iter().any(|run| !run.trajectory.moments.is_empty());
+        desk.transient.form_hidden = !form;
+        run_button(ui, desk);
+        let there = desk.transient.runs.iter().any(|run| !run.trajectory.moments.is_empty());
         let tip = "All moments of every run with their SI twins, each run in columns of its own";
         if ui.add_enabled(there, Button::new("Export series…")).on_hover_text(tip).clicked()
-            && let Some(text) = export::series(&state.transient)
+            && let Some(text) = export::series(&desk.transient)
         {
-            state.ask_path(&ctx, Purpose::Csv { text });
+            desk.ask_path(&ctx, Purpose::Csv { text });
         }
         let tip = "Pressure and film of every run at the moment that is shown";
         if ui.add_enabled(there, Button::new("Export profiles…")).on_hover_text(tip).clicked()
-            && let Some(text) = export::profiles(&state.transient)
+            && let Some(text) = export::profiles(&desk.transient)
         {
-            state.ask_path(&ctx, Purpose::Csv { text });
+            desk.ask_path(&ctx, Purpose::Csv { text });
         }
         let tip = "Any of these plots, or the whole tab, as SVG or PNG with axes and parameters";
         if ui.add_enabled(there, Button::new("Export plot…")).on_hover_text(tip).clicked() {
-            state.ask_figure();
+            desk.figures.ask();
         }
     });
 }
 
 /// The runs, started or stopped.
-pub fn run_button(ui: &mut Ui, state: &mut State) {
-    if state.transient.work.standing().is_some() {
+pub fn run_button(ui: &mut Ui, desk: &mut Desk) {
+    if desk.transient.work.standing().is_some() {
         if ui.button("Stop").on_hover_text("What has been computed so far stays (Esc)").clicked() {
-            state.transient.stop();
+            desk.transient.stop();
         }
     } else if ui
         .button("Run in time")
         .on_hover_text("Takes the contact of the sliders through time, frame after frame, then by each model")
         .clicked()
     {
-        state.start_transient(&ui.ctx().clone());
+        desk.start_transient(&ui.ctx().clone());
     }
 }
 
 /// What runs and how far it is; how runs ended that did not reach the end; whether all of it is still what the sliders say.
-pub fn status(ui: &mut Ui, state: &State) {
-    let view = &state.transient;
+pub fn status(ui: &mut Ui, desk: &Desk) {
+    let view = &desk.transient;
     if let Some(standing) = view.work.standing() {
         ui.horizontal(|ui| {
             ui.label(&standing.stage);
@@ -163,7 +163,7 @@ pub fn status(ui: &mut Ui, state: &State) {
             Some(Ended::Finished) | None => {}
         }
     }
-    if let Some(setup) = view.setup.as_ref().filter(|setup| ***setup != state.transient_setup()) {
+    if let Some(setup) = view.setup.as_ref().filter(|setup| ***setup != desk.transient_setup()) {
         let of = numbers::moes(setup.point.moes());
         warning_ui(ui, &format!("What is shown belongs to {of} and a former set-up; run it again for the present one"));
     }

@@ -1,6 +1,6 @@
 //! Central pressure and film against time, and how far runs lie apart.
 
-use crate::app::state::State;
+use crate::app::desk::Desk;
 use crate::app::tabs::axes;
 use crate::app::theme::{Palette, THIN_WIDTH, faded};
 use crate::app::transient::method::Method;
@@ -42,17 +42,17 @@ pub fn drawn(view: &TransientView) -> impl Iterator<Item = (usize, &Run)> {
 }
 
 /// The plots; returns the time that was clicked at.
-pub fn ui(ui: &mut Ui, state: &State, unit: f32) -> Option<f64> {
+pub fn ui(ui: &mut Ui, desk: &Desk, unit: f32) -> Option<f64> {
     let palette = Palette::of(ui);
-    let several = state.transient.runs.len() > 1;
+    let several = desk.transient.runs.len() > 1;
     let pressure = Chart { name: "pressure", quantity: Quantity::CentralPressure, color: palette.pressure };
     let film = Chart { name: "film", quantity: Quantity::CentralFilm, color: palette.film };
-    let mut clicked = pressure.show(ui, state, unit, ("", "Pressure {P_c}"), false);
-    clicked = film.show(ui, state, unit, (if several { "" } else { "{T}" }, "Film {H_c}"), false).or(clicked);
+    let mut clicked = pressure.show(ui, desk, unit, ("", "Pressure {P_c}"), false);
+    clicked = film.show(ui, desk, unit, (if several { "" } else { "{T}" }, "Film {H_c}"), false).or(clicked);
     if several {
         let titles = ("{T}", "Δ{H_c} / %");
         let deviation = Chart { name: "deviation", ..film };
-        clicked = deviation.show(ui, state, 0.7 * unit, titles, true).or(clicked);
+        clicked = deviation.show(ui, desk, 0.7 * unit, titles, true).or(clicked);
     }
     clicked
 }
@@ -66,9 +66,9 @@ struct Chart {
 
 impl Chart {
     /// The quantity of all runs, or how far they lie from what they are compared with, in percent.
-    fn show(&self, ui: &mut Ui, state: &State, height: f32, titles: (&str, &str), deviation: bool) -> Option<f64> {
+    fn show(&self, ui: &mut Ui, desk: &Desk, height: f32, titles: (&str, &str), deviation: bool) -> Option<f64> {
         let palette = Palette::of(ui);
-        let view = &state.transient;
+        let view = &desk.transient;
         let first = view.runs.first()?;
         let duration = view.setup.as_ref().map_or(0.0, |setup| setup.study.duration);
         let group = Id::unique(("transient", view.generation));

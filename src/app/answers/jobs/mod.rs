@@ -2,8 +2,9 @@
 
 mod request;
 
-pub use request::{GridChoice, JobKind, Key, Outcome, Request};
+pub use request::{GridChoice, JobKind, Outcome, Request};
 
+use crate::app::document::Key;
 use crate::engine::Store;
 use crate::engine::job::{Ending, Job, Queue, Reporter, Wake};
 use crate::solver::full::{Solution, Start};

@@ -1,7 +1,7 @@
 //! What the grid costs a point contact's film, and what the estimate belongs to.
 
-use super::jobs::Key;
 use super::picture::Picture;
+use crate::app::document::Key;
 use crate::engine::GridAccuracy;
 use crate::solver::full::{Mesh, Solution};
 

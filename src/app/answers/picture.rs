@@ -1,7 +1,7 @@
 //! What the plots draw: a solution with its curves ready for the screen, and how two of them compare.
 
-use super::jobs::Key;
-use super::numbers;
+use crate::app::document::Key;
+use crate::app::numbers;
 use crate::solver::full::point::resolution_warning;
 use crate::solver::full::{Mesh, Problem, Solution};
 use crate::solver::reduced::ErrorEstimate;

@@ -1,111 +1,134 @@
 //! Pressure and film against X, one above the other on a shared axis; the difference to the full solution below on request.
 
-use super::axes;
-use super::cut_line::CutLine;
-use super::direction::Direction;
-use super::film_shear::{self, FilmShear};
+mod film_shear;
+
+use crate::app::answers::Pin;
+use crate::app::answers::picture::{Comparison, Cuts, Origin, Picture, value_at};
 use crate::app::command::Command;
-use crate::app::controls::{named, warning_ui};
+use crate::app::context::{Commands, Context};
+use crate::app::controls::named;
 use crate::app::export;
-use crate::app::files::Purpose;
 use crate::app::numbers;
-use crate::app::picture::{Comparison, Cuts, Origin, Picture, value_at};
-use crate::app::state::{Pin, State};
+use crate::app::tabs::cut_line::{self, CutLine};
+use crate::app::tabs::direction::Direction;
+use crate::app::tabs::{axes, badge};
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, faded, rich};
 use egui::{Align2, Checkbox, Color32, ComboBox, Id, Ui, Vec2b};
 use egui_plot::{
     Corner, HoverPosition, Legend, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points, Span,
     Text,
 };
+use film_shear::{FilmShear, FilmShearImage};
+use serde::{Deserialize, Serialize};
 
-/// The tab.
-pub fn ui(ui: &mut Ui, state: &mut State) {
-    toolbar(ui, state);
-    pins_ui(ui, state);
-    let stale = state.picture_is_stale(ui.input(|i| i.time));
-    if stale && let Some(picture) = &state.picture {
-        stale_note(ui, picture);
-    }
-    let Some(picture) = &state.picture else {
-        ui.centered_and_justified(|ui| ui.weak("The first picture is being computed"));
-        return;
-    };
-    let reduced = picture.origin != Origin::Full;
-    let full = state.full.as_ref().filter(|_| state.display.overlay && reduced);
-    let comparison = state.comparison.as_ref().filter(|_| state.display.difference);
-    let shear = state.display.film_shear;
-    if shear != FilmShear::Off {
-        state.film_shear.follow(ui.ctx(), picture, shear);
-    }
-    let parts = 2.0 + if comparison.is_some() { 0.6 } else { 0.0 } + if shear == FilmShear::Off { 0.0 } else { 0.6 };
-    let unit = (ui.available_height() - 6.0) / parts;
-    let scene = Scene {
-        picture,
-        full,
-        pins: &state.pins,
-        stale,
-        full_stale: !state.full_is_current(),
-        fit: state.fit_plots,
-        cuts: state.display.cuts,
-    };
-    let mut moved = None;
-    let mut stack = |ui: &mut Ui, direction: Direction| {
-        let by_pressure = pressure_plot(ui, &scene, direction, unit);
-        let by_film = film_plot(ui, &scene, direction, unit);
-        moved = by_pressure.or(by_film).map(|to| (direction, to)).or(moved);
-    };
-    if !picture.has_plane() {
-        stack(ui, Direction::Along);
-    } else {
-        ui.horizontal_top(|ui| {
-            let across = 0.4 * (ui.available_width() - 8.0);
-            let along = ui.available_width() - 8.0 - across;
-            for (direction, width) in [(Direction::Along, along), (Direction::Across, across)] {
-                ui.vertical(|ui| {
-                    ui.set_width(width);
-                    stack(ui, direction);
-                });
-            }
-        });
-    }
-    if let Some(comparison) = comparison {
-        difference_plot(ui, comparison, state.fit_plots, 0.6 * unit);
-    }
-    if shear != FilmShear::Off {
-        film_shear::ui(ui, &state.film_shear, shear, stale, 0.6 * unit);
-    }
-    if let Some((direction, to)) = moved {
-        direction.move_other(&mut state.display.cuts, to);
+/// What the tab shows beside the curves, and the image below them.
+#[derive(Default)]
+pub struct Profiles {
+    /// How they are shown.
+    pub choices: Choices,
+    image: FilmShearImage,
+}
+
+/// How profiles are shown; kept with the session.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Choices {
+    /// Draw the full solution over the reduced one.
+    pub overlay: bool,
+    /// Draw the difference below.
+    pub difference: bool,
+    /// What is shown across the film.
+    pub film_shear: FilmShear,
+}
+
+impl Profiles {
+    /// The tab.
+    pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        toolbar(ui, &mut self.choices, context, commands);
+        pins_ui(ui, context, commands);
+        let answers = context.answers;
+        let stale = answers.picture_is_stale(ui.input(|i| i.time));
+        let Some(picture) = &answers.picture else {
+            ui.centered_and_justified(|ui| ui.weak("The first picture is being computed"));
+            return;
+        };
+        if stale {
+            badge::stale_note(ui, picture);
+        }
+        let reduced = picture.origin != Origin::Full;
+        let full = answers.full.as_ref().filter(|_| self.choices.overlay && reduced);
+        let comparison = answers.comparison.as_ref().filter(|_| self.choices.difference);
+        let shear = self.choices.film_shear;
+        if shear != FilmShear::Off {
+            self.image.follow(ui.ctx(), picture, shear);
+        }
+        let extra = |shown: bool| if shown { 0.6 } else { 0.0 };
+        let parts = 2.0 + extra(comparison.is_some()) + extra(shear != FilmShear::Off);
+        let unit = (ui.available_height() - 6.0) / parts;
+        let scene = Scene {
+            picture,
+            full,
+            pins: &answers.pins,
+            stale,
+            full_stale: !answers.full_is_current(),
+            fit: context.fit,
+            cuts: context.cuts,
+        };
+        let mut moved = None;
+        let mut stack = |ui: &mut Ui, direction: Direction| {
+            let by_pressure = pressure_plot(ui, &scene, direction, unit);
+            let by_film = film_plot(ui, &scene, direction, unit);
+            moved = by_pressure.or(by_film).map(|to| (direction, to)).or(moved);
+        };
+        if !picture.has_plane() {
+            stack(ui, Direction::Along);
+        } else {
+            ui.horizontal_top(|ui| {
+                let across = 0.4 * (ui.available_width() - 8.0);
+                let along = ui.available_width() - 8.0 - across;
+                for (direction, width) in [(Direction::Along, along), (Direction::Across, across)] {
+                    ui.vertical(|ui| {
+                        ui.set_width(width);
+                        stack(ui, direction);
+                    });
+                }
+            });
+        }
+        if let Some(comparison) = comparison {
+            difference_plot(ui, comparison, context.fit, 0.6 * unit);
+        }
+        if shear != FilmShear::Off {
+            film_shear::ui(ui, &self.image, shear, stale, 0.6 * unit);
+        }
+        if let Some((direction, to)) = moved {
+            let mut cuts = context.cuts;
+            direction.move_other(&mut cuts, to);
+            commands.push(Command::Cut(cuts));
+        }
     }
 }
 
-/// Says that a picture belongs to other sliders.
-pub fn stale_note(ui: &mut Ui, picture: &Picture) {
-    let note = format!("The picture belongs to {}, not to the sliders", numbers::moes(picture.key.point.moes()));
-    warning_ui(ui, &note);
-}
-
-fn toolbar(ui: &mut Ui, state: &mut State) {
-    let ctx = ui.ctx().clone();
+fn toolbar(ui: &mut Ui, choices: &mut Choices, context: &Context<'_>, commands: &mut Commands) {
+    let answers = context.answers;
     ui.horizontal_wrapped(|ui| {
-        super::badge::ui(ui, state);
-        if state.presentation.is_some() {
+        badge::ui(ui, answers);
+        if context.presenting {
             return;
         }
         if ui.button("Pin curve").on_hover_text("Keep this curve and its parameters for comparison (Ctrl+D)").clicked()
         {
-            state.pin();
+            commands.push(Command::Pin);
         }
-        let reduced = state.picture.as_ref().is_some_and(|p| p.origin != Origin::Full);
+        let reduced = answers.picture.as_ref().is_some_and(|p| p.origin != Origin::Full);
         let why = "The picture is the full solution itself";
         let switches = [
-            ("Full solution", "Draw the full solution over the reduced one", &mut state.display.overlay),
-            ("Difference", "Reduced minus full, on an axis of its own", &mut state.display.difference),
+            ("Full solution", "Draw the full solution over the reduced one", &mut choices.overlay),
+            ("Difference", "Reduced minus full, on an axis of its own", &mut choices.difference),
         ];
         for (name, tip, on) in switches {
             ui.add_enabled(reduced, Checkbox::new(on, name)).on_hover_text(tip).on_disabled_hover_text(why);
         }
-        let shear = &mut state.display.film_shear;
+        let shear = &mut choices.film_shear;
         let tip = "A field between the surfaces below the profiles";
         let choice = ComboBox::from_id_salt("film shear").selected_text(shear.name()).width(104.0).show_ui(ui, |ui| {
             for option in FilmShear::ALL {
@@ -114,35 +137,33 @@ fn toolbar(ui: &mut Ui, state: &mut State) {
         });
         named(ui, choice.response, "Across the film").on_hover_text(tip);
         if ui.button(Command::Verify.name()).on_hover_text("Solve this contact in full now (F5)").clicked() {
-            state.verify(&ctx);
+            commands.push(Command::Verify);
         }
         if ui
             .button("Export CSV…")
             .on_hover_text("Live, full and pinned profiles with their SI twins, all of the domain")
             .clicked()
-            && let Some(text) = export::profiles(state)
         {
-            state.ask_path(&ctx, Purpose::Csv { text });
+            commands.push(Command::ExportProfiles);
         }
-        if let Some(picture) = state.picture.as_ref().filter(|picture| picture.has_plane()) {
+        if let Some(picture) = answers.picture.as_ref().filter(|picture| picture.has_plane()) {
             let across = ui.button("Export across…").on_hover_text("The live profile across as CSV, with its SI twins");
             if across.clicked() {
-                let text = export::profile_across(picture, state.display.cuts.x);
-                state.ask_path(&ctx, Purpose::Csv { text });
+                commands.push(Command::csv(export::profile_across(picture, context.cuts.x)));
             }
-            super::contact_map::cuts_ui(ui, state);
+            cut_line::cuts_ui(ui, context, commands);
         }
     });
 }
 
-fn pins_ui(ui: &mut Ui, state: &mut State) {
-    if state.pins.is_empty() || state.presentation.is_some() {
+fn pins_ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+    let pins = &context.answers.pins;
+    if pins.is_empty() || context.presenting {
         return;
     }
-    let mut removed = None;
     ui.horizontal_wrapped(|ui| {
         let color = ui.visuals().text_color();
-        for (k, pin) in state.pins.iter().enumerate() {
+        for (k, pin) in pins.iter().enumerate() {
             let moes = pin.picture.key.point.moes();
             let text = format!(
                 "Pin {}: {{M}} {}, {{L}} {}, {{H_c}} {}",
@@ -154,14 +175,11 @@ fn pins_ui(ui: &mut Ui, state: &mut State) {
             ui.label(rich(&text, 12.5, color)).on_hover_text(export::describe(&pin.picture));
             let response = ui.small_button("×").on_hover_text("Remove this pin");
             if named(ui, response, &format!("Remove pin {}", pin.number)).clicked() {
-                removed = Some(k);
+                commands.push(Command::RemovePin(k));
             }
             ui.add_space(8.0);
         }
     });
-    if let Some(k) = removed {
-        state.pins.remove(k);
-    }
 }
 
 fn pin_name(pin: &Pin) -> String {

@@ -1,57 +1,53 @@
 //! How the picture follows the document: at once by the reduced model, else by the full solver in the worker; and when the sliders rest, the
 //! truth about it.
 
-use super::{AUTO_SAVE_S, PassedOver, REST_S, State};
-use crate::app::jobs::{GridChoice, JobKind, Key, Request};
-use crate::app::picture::{Cuts, Origin, Picture};
+use super::jobs::{GridChoice, JobKind, Request};
+use super::picture::{Cuts, Origin, Picture};
+use super::{Answers, Ask, PassedOver, REST_S};
+use crate::app::document::{Document, Key};
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::reduced::{ReducedOptions, Trust};
 use egui::Context;
 use std::sync::Arc;
 use std::time::Instant;
 
-impl State {
+impl Answers {
     /// Answers a changed document: at once by the reduced model, else by the full solver in the worker. Called after the panels.
-    pub fn refresh(&mut self, ctx: &Context) {
-        let (key, options) = (self.key(), self.reduced_options());
-        if self.is_answered() {
+    pub fn refresh(&mut self, ctx: &Context, document: &Document) {
+        let ask = Ask::of(document, &self.models);
+        if self.asked == Some(ask) {
             return;
         }
-        let moved = self.wanted != Some(key);
-        let drawn = self.picture.as_ref().is_some_and(|picture| self.wanted == Some(picture.key));
-        let same_means = self.wanted_plane == self.plane() && self.wanted_options == Some(options);
-        self.wanted = Some(key);
-        self.wanted_plane = self.plane();
-        self.wanted_options = Some(options);
+        let former = self.asked.replace(ask);
+        let Ask { key, options, .. } = ask;
+        let drawn = former.is_some_and(|former| self.picture.as_ref().is_some_and(|p| p.key == former.key));
+        let same_means = former.is_some_and(|former| Ask { key, ..former } == ask);
         self.changed_at = ctx.input(|i| i.time);
-        if moved {
+        if former.is_none_or(|former| former.key != key) {
             self.failure = None;
             self.verify_failure = None;
             self.slide(key);
             // The same film by the same means is on the screen already, and what is known of it stays.
-            if drawn && same_means && self.picture_is_current() && self.untried() == self.passed_over {
+            if drawn && same_means && self.picture_is_current() && self.untried(document) == self.passed_over {
                 self.compare();
                 return;
             }
         }
-        if self.refresh_reduced(key, options) {
+        if self.refresh_reduced(document, key, options) {
             self.compare();
             self.verify_due = !self.full_is_current();
-            if self.verify_due {
-                ctx.request_repaint_after_secs(REST_S as f32);
-            }
         } else {
             self.comparison = None;
             let live = self.picture.as_ref().is_none_or(|p| p.key != key || p.origin != Origin::Full);
             if live {
-                self.submit(ctx, JobKind::Live);
+                self.submit(ctx, document, JobKind::Live);
             }
             // A quick grid follows the hand; the chosen one answers when it rests.
-            let finer = self.plane().is_some_and(|plane| !live || plane != quick(plane));
+            let finer = ask.plane.is_some_and(|plane| !live || plane != quick(plane));
             self.verify_due = finer && !self.is_settled(&key);
-            if self.verify_due {
-                ctx.request_repaint_after_secs(REST_S as f32);
-            }
+        }
+        if self.verify_due {
+            ctx.request_repaint_after_secs(REST_S as f32);
         }
     }
 
@@ -69,13 +65,9 @@ impl State {
         }
     }
 
-    /// Lays all curves where the point contact is cut, within its domain. Called before the plots.
-    pub fn follow_cuts(&mut self) {
-        if let Some(PointGridSpec { domain: (from, to, edge), .. }) = self.plane() {
-            let Cuts { x, y } = self.display.cuts;
-            self.display.cuts = Cuts { x: x.clamp(from, to), y: y.clamp(edge, -edge) };
-        }
-        let cuts = self.display.cuts;
+    /// Lays all curves where the point contact is cut. Called before the plots.
+    pub fn follow_cuts(&mut self, cuts: Cuts) {
+        self.cuts = cuts;
         let pinned = self.pins.iter_mut().map(|pin| &mut pin.picture);
         for picture in self.picture.iter_mut().chain(&mut self.full).chain(pinned) {
             picture.cut(cuts);
@@ -86,8 +78,8 @@ impl State {
     }
 
     /// Why the reduced model is not even tried; `None` where it is.
-    fn untried(&self) -> Option<PassedOver> {
-        match self.trust() {
+    fn untried(&self, document: &Document) -> Option<PassedOver> {
+        match self.trust(document) {
             None => Some(PassedOver::NoModel),
             Some(Trust::Outside(why)) => Some(PassedOver::Outside(why)),
             Some(Trust::Trained) => None,
@@ -95,9 +87,9 @@ impl State {
     }
 
     /// Tries the reduced model; `false` when the full solver has to take over.
-    fn refresh_reduced(&mut self, key: Key, options: ReducedOptions) -> bool {
-        self.passed_over = self.untried();
-        let (None, Some(model)) = (&self.passed_over, self.model().cloned()) else { return false };
+    fn refresh_reduced(&mut self, document: &Document, key: Key, options: ReducedOptions) -> bool {
+        self.passed_over = self.untried(document);
+        let (None, Some(model)) = (&self.passed_over, self.model(document).cloned()) else { return false };
         if self.online.as_ref().is_none_or(|o| *o.options() != options || !Arc::ptr_eq(&o.model, &model)) {
             if let Some(former) = self.online.take() {
                 self.store.give_back(former);
@@ -120,7 +112,7 @@ impl State {
                     iterations: reduced.iterations,
                     window: reduced.window,
                 };
-                let (cuts, traction) = (self.display.cuts, reduced.traction);
+                let (cuts, traction) = (self.cuts, reduced.traction);
                 self.picture = Some(Picture::new(key, origin, Arc::new(fields), cuts, traction));
                 true
             }
@@ -131,13 +123,14 @@ impl State {
         }
     }
 
-    fn submit(&mut self, ctx: &Context, kind: JobKind) {
-        let key = self.key();
+    fn submit(&mut self, ctx: &Context, document: &Document, kind: JobKind) {
+        let key = document.key();
         // A line contact is solved on the model's own grid wherever it lies, a point contact where the model serves it: elsewhere on the
         // grid that was chosen.
-        let own = self.passed_over.is_none() || self.plane().is_none();
-        let plane = self.plane().map(|plane| if kind == JobKind::Live { quick(plane) } else { plane });
-        let model = self.model().filter(|_| own).map(Arc::as_ref);
+        let chosen = document.chosen_plane();
+        let own = self.passed_over.is_none() || chosen.is_none();
+        let plane = chosen.map(|plane| if kind == JobKind::Live { quick(plane) } else { plane });
+        let model = self.model(document).filter(|_| own).map(Arc::as_ref);
         let grid = GridChoice::of(model, plane, key.point.moes());
         let start = match kind {
             // The truth must not depend on what it checks.
@@ -147,35 +140,30 @@ impl State {
         self.jobs.submit(ctx, Request { kind, key, grid, start });
     }
 
-    /// Starts the verification when the sliders have rested, and records finished gestures. Called last in every frame.
-    pub fn settle(&mut self, ctx: &Context) {
-        let gesture = ctx.input(|i| i.pointer.any_down());
-        if !gesture && self.history.commit(&self.document) {
-            // The session is written with the next frame after its interval: see to it that there is one.
-            ctx.request_repaint_after_secs(AUTO_SAVE_S as f32 + 1.0);
+    /// Starts the verification when the sliders have rested. Called last in every frame.
+    pub fn settle(&mut self, ctx: &Context, document: &Document) {
+        if !self.verify_due {
+            return;
         }
-        if self.verify_due {
-            let rest = ctx.input(|i| i.time) - self.changed_at;
-            if rest >= REST_S {
-                self.verify_due = false;
-                let reduced = self.passed_over.is_none();
-                if reduced && !self.full_is_current() {
-                    self.submit(ctx, JobKind::Verify);
-                } else if !reduced && !self.is_settled(&self.key()) {
-                    self.submit(ctx, JobKind::Refine);
-                }
-            } else {
-                ctx.request_repaint_after_secs((REST_S - rest) as f32);
-            }
+        let rest = self.rested_s(ctx.input(|i| i.time));
+        if rest < REST_S {
+            ctx.request_repaint_after_secs((REST_S - rest) as f32);
+            return;
         }
-        self.fit_plots = false;
+        self.verify_due = false;
+        let reduced = self.passed_over.is_none();
+        if reduced && !self.full_is_current() {
+            self.submit(ctx, document, JobKind::Verify);
+        } else if !reduced && !self.is_settled(&document.key()) {
+            self.submit(ctx, document, JobKind::Refine);
+        }
     }
 
     /// Verifies now, even when a full solution is there.
-    pub fn verify(&mut self, ctx: &Context) {
+    pub fn verify(&mut self, ctx: &Context, document: &Document) {
         self.verify_due = false;
         self.verify_failure = None;
-        self.submit(ctx, JobKind::Verify);
+        self.submit(ctx, document, JobKind::Verify);
     }
 }
 

@@ -1,11 +1,11 @@
 //! Shear stress and shear rate across the film, between the surfaces Z = 0 and Z = 1, along the axis of the contact.
 
-use super::axes;
-use super::direction::Direction;
+use crate::app::answers::picture::{Picture, value_at};
 use crate::app::color_map;
 use crate::app::figure::Texture;
 use crate::app::numbers;
-use crate::app::picture::{Picture, value_at};
+use crate::app::tabs::axes;
+use crate::app::tabs::direction::Direction;
 use crate::app::theme::Palette;
 use crate::solver::full::Solution;
 use egui::{Color32, ColorImage, Context, Id, Sense, Ui, Vec2b, vec2};

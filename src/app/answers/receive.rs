@@ -1,25 +1,23 @@
 //! What finished jobs bring: a picture, the truth about it, what its grid costs, or why there is none.
 
-use super::{Failure, State};
-use crate::app::grid_error::GridError;
-use crate::app::jobs::{GridChoice, JobKind, Key, Outcome, Request, Running};
-use crate::app::picture::{Comparison, Origin, Picture};
+use super::grid_error::GridError;
+use super::jobs::{GridChoice, JobKind, Outcome, Request, Running};
+use super::picture::{Comparison, Origin, Picture};
+use super::{Answers, Failure};
+use crate::app::document::Key;
 use crate::solver::discrete::grid::ContactGridSpec;
 use crate::solver::full::point::second_grid;
 use crate::solver::full::{Mesh, Report};
 use egui::Context;
 use std::sync::Arc;
 
-impl State {
+impl Answers {
     /// Answers finished jobs. Called first in every frame.
     pub fn receive(&mut self) {
-        self.accuracy.receive();
-        self.transient.receive();
-        self.traction.receive();
         for (mut job, outcome) in self.jobs.poll() {
             // Another sliding does not make another film where it does not thin.
-            if job.key.has_film_of(&self.key()) {
-                job.key = self.key();
+            if let Some(key) = self.key().filter(|key| job.key.has_film_of(key)) {
+                job.key = key;
             }
             match job.kind {
                 JobKind::Live => self.receive_live(&job, outcome),
@@ -34,7 +32,7 @@ impl State {
             Outcome::Solved(solution, wall_s) if solution.converged() => {
                 self.full_wall_s = Some(wall_s);
                 self.last_report = Some((job.key, solution.report.clone()));
-                if job.key == self.key() {
+                if Some(job.key) == self.key() {
                     self.failure = None;
                 } else if self.picture_is_current() {
                     // The sliders have moved back to where the reduced model answers at once: this solution comes too late.
@@ -44,13 +42,13 @@ impl State {
                     // The chosen grid has answered before the quick one.
                     return;
                 }
-                let picture = Picture::new(job.key, Origin::Full, Arc::from(solution), self.display.cuts, None);
+                let picture = Picture::new(job.key, Origin::Full, Arc::from(solution), self.cuts, None);
                 self.full = Some(picture.clone());
                 self.picture = Some(picture);
                 self.comparison = None;
             }
             other => {
-                if job.key == self.key() {
+                if Some(job.key) == self.key() {
                     self.failure = Some(failure_of(job.key, other, &mut self.last_report));
                 }
             }
@@ -67,8 +65,8 @@ impl State {
                     // Another grid has been chosen meanwhile, and answers later.
                     return;
                 }
-                let full = Picture::new(job.key, Origin::Full, Arc::from(solution), self.display.cuts, None);
-                if job.key == self.key() && self.plane().is_some() && !reduced {
+                let full = Picture::new(job.key, Origin::Full, Arc::from(solution), self.cuts, None);
+                if Some(job.key) == self.key() && self.plane().is_some() && !reduced {
                     self.failure = None;
                     self.picture = Some(full.clone());
                 }
@@ -77,7 +75,7 @@ impl State {
                 self.compare();
             }
             other => {
-                let cancelled_by_change = job.key != self.key();
+                let cancelled_by_change = Some(job.key) != self.key();
                 if !cancelled_by_change {
                     self.verify_failure = Some(failure_of(job.key, other, &mut self.last_report));
                 }
@@ -86,7 +84,7 @@ impl State {
     }
 
     fn receive_second_grid(&mut self, job: &Running, outcome: Outcome) {
-        if job.key != self.key() {
+        if Some(job.key) != self.key() {
             return;
         }
         let result = match outcome {
@@ -99,7 +97,7 @@ impl State {
         };
         match result {
             Ok(error) => self.grid_error = Some(error),
-            Err(message) => self.entries.answer("grid error", Err(message)),
+            Err(message) => self.no_estimate = Some(message),
         }
     }
 
@@ -120,10 +118,10 @@ impl State {
 
     /// Estimates what the chosen grid costs, by a solve on a second one.
     pub fn estimate_grid_error(&mut self, ctx: &Context) {
-        self.entries.answer("grid error", Ok(()));
+        self.no_estimate = None;
         let Some(full) = self.full.as_ref().filter(|_| self.full_is_current()) else { return };
         let Mesh::Point(spec) = full.solution.mesh else { return };
-        let (key, start) = (self.key(), Some(Arc::clone(&full.solution)));
+        let (key, start) = (full.key, Some(Arc::clone(&full.solution)));
         let grid = GridChoice::Spec(ContactGridSpec::Point(second_grid(spec)));
         self.jobs.submit(ctx, Request { kind: JobKind::Estimate, key, grid, start });
     }

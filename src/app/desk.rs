@@ -1,0 +1,166 @@
+//! Everything that lies on the table: the document, what came of it, what is under way, files. Panels and tabs never see it whole: they are
+//! given a [`Context`] and ask for changes by commands.
+
+use super::answers::Answers;
+use super::answers::picture::Cuts;
+use super::context::Context;
+use super::controls::Entries;
+use super::display::Display;
+use super::document::{Document, Edit, History};
+use super::figure::Figures;
+use super::files::Files;
+use super::in_use::InUse;
+use super::model_source::Models;
+use super::presentation::Presentation;
+use super::tabs::Views;
+use super::traction::TractionView;
+use super::training::Training;
+use super::transient::TransientView;
+use crate::engine::Store;
+use crate::engine::job::Standing;
+use crate::solver::discrete::grid::PointGridSpec;
+use crate::solver::reduced::ReducedModel;
+use std::sync::Arc;
+
+/// Seconds between two writes of the session.
+pub const AUTO_SAVE_S: u64 = 10;
+
+/// What the window works with.
+pub struct Desk {
+    /// What is edited.
+    pub document: Document,
+    /// Undo and redo.
+    pub history: History,
+    /// What came of it.
+    pub answers: Answers,
+    /// Opening, saving, exporting.
+    pub files: Files,
+    /// Theme, size, and where a point contact is cut.
+    pub display: Display,
+    /// Text fields being edited and their messages.
+    pub entries: Entries,
+    /// Whether laws and constants of the lubricant are edited, though it may still have a name.
+    pub own_lubricant: bool,
+    /// Trainings.
+    pub training: Training,
+    /// Contacts in time.
+    pub transient: TransientView,
+    /// Traction and film along one quantity.
+    pub traction: TractionView,
+    /// What each tab keeps of its own.
+    pub views: Views,
+    /// Plots that leave as pictures.
+    pub figures: Figures,
+    /// A presentation under way: plots and sliders only.
+    pub presentation: Option<Presentation>,
+    /// Plots are to be fitted to their data in this frame.
+    pub fit_plots: bool,
+}
+
+impl Desk {
+    /// A window on a document.
+    pub fn new(document: Document, models: Models, store: Store) -> Self {
+        let mut history = History::default();
+        history.restart(&document);
+        Self {
+            files: Files::new(&document),
+            document,
+            history,
+            answers: Answers::new(models, store),
+            display: Display::default(),
+            entries: Entries::default(),
+            own_lubricant: false,
+            training: Training::default(),
+            transient: TransientView::default(),
+            traction: TractionView::default(),
+            views: Views::default(),
+            figures: Figures::default(),
+            presentation: None,
+            fit_plots: true,
+        }
+    }
+
+    /// What panels and tabs see of it.
+    pub fn context(&self) -> Context<'_> {
+        Context {
+            document: &self.document,
+            answers: &self.answers,
+            entries: &self.entries,
+            cuts: self.display.cuts,
+            presenting: self.presentation.is_some(),
+            fit: self.fit_plots,
+        }
+    }
+
+    /// Changes the document; a refusal stands beside the field, and what was typed elsewhere is forgotten where the change was made.
+    pub fn edit(&mut self, edit: Edit, field: &'static str) {
+        let kind = self.document.point.kind;
+        self.own_lubricant &= !matches!(edit, Edit::Named(_));
+        let result = self.document.edit(edit);
+        if result.is_ok() {
+            self.entries.clear();
+        }
+        self.fit_plots |= self.document.point.kind != kind;
+        self.entries.answer(field, result);
+    }
+
+    /// Lays the cuts of a point contact within its domain.
+    pub fn follow_cuts(&mut self) {
+        if let Some(PointGridSpec { domain: (from, to, edge), .. }) = self.document.chosen_plane() {
+            let Cuts { x, y } = self.display.cuts;
+            self.display.cuts = Cuts { x: x.clamp(from, to), y: y.clamp(edge, -edge) };
+        }
+        self.answers.follow_cuts(self.display.cuts);
+    }
+
+    /// The reduced model that serves the contact on the screen.
+    pub fn model(&self) -> Option<&Arc<ReducedModel>> {
+        self.answers.model(&self.document)
+    }
+
+    /// The same with the document's truncation.
+    pub fn in_use(&self) -> Option<InUse> {
+        self.answers.in_use(&self.document)
+    }
+
+    /// How far the work is that runs beside the picture; the first where there is more.
+    pub fn study(&self) -> Option<Standing> {
+        let transient = &self.transient;
+        let studied = self.views.accuracy.standing();
+        let in_time = transient.work.standing().or(transient.number.work.standing());
+        studied.or(in_time).or(self.traction.full.standing())
+    }
+
+    /// Takes in what finished work brings. Called first in every frame.
+    pub fn receive(&mut self) {
+        self.answers.receive();
+        self.views.accuracy.receive();
+        self.transient.receive();
+        self.traction.receive();
+        self.training.receive();
+    }
+
+    /// Stops everything that runs; what has been found stays.
+    pub fn stop_all(&mut self) {
+        self.answers.jobs.cancel_all();
+        self.training.stop();
+        self.views.accuracy.stop();
+        self.transient.stop();
+        self.traction.full.stop();
+    }
+
+    /// Replaces the document, as New and Open do.
+    pub fn replace_document(&mut self, document: Document) {
+        self.history.restart(&document);
+        self.document = document;
+        self.own_lubricant = false;
+        self.forget_entries();
+    }
+
+    /// Forgets what was typed and refused: the document is another one now.
+    pub fn forget_entries(&mut self) {
+        self.entries.clear();
+        self.training.refused = None;
+        self.transient.refused = None;
+    }
+}

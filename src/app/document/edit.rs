@@ -1,0 +1,72 @@
+//! Every change of the document that can be asked for, and the one place where it is made.
+
+use super::{Document, Quantity};
+use crate::scene::named_lubricant::NamedLubricant;
+use crate::scene::{LoadFollower, LubricantFollower, TransientStudy, View};
+use crate::solver::discrete::grid::PointGridSpec;
+use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint};
+use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::training::TrainingSpec;
+
+/// A change of the document.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Edit {
+    /// M and L.
+    Moes(Moes),
+    /// SRR.
+    SlideToRoll(f64),
+    /// NPR; none is the lubricant's own.
+    Plateau(Option<f64>),
+    /// One SI quantity.
+    Quantity(Quantity, f64),
+    /// Line or point contact.
+    Kind(ContactKind),
+    /// Laws and constants of the lubricant.
+    Laws(Box<Lubricant>),
+    /// A named lubricant.
+    Named(&'static NamedLubricant),
+    /// Another contact of another fluid.
+    Contact(OperatingPoint, Box<Lubricant>),
+    /// What follows M; what follows L changes along where both cannot be had together.
+    LoadFollower(LoadFollower),
+    /// What follows L.
+    LubricantFollower(LubricantFollower),
+    /// The truncation of the reduced model, and what else its view holds.
+    View(View),
+    /// The grid of a point contact's full solutions.
+    Plane(PointGridSpec),
+    /// The training it describes.
+    Training(Box<TrainingSpec>),
+    /// The contact in time it describes.
+    Transient(Box<TransientStudy>),
+}
+
+impl Document {
+    /// Makes a change.
+    ///
+    /// # Errors
+    /// A sentence when it is refused; the document is unchanged then.
+    pub fn edit(&mut self, edit: Edit) -> Result<(), String> {
+        match edit {
+            Edit::Moes(moes) => return self.set_moes(moes),
+            Edit::SlideToRoll(srr) => return self.set_slide_to_roll_ratio(srr),
+            Edit::Plateau(npr) => return self.set_plateau_ratio(npr),
+            Edit::Quantity(quantity, value) => return self.set_quantity(quantity, value),
+            Edit::Kind(kind) => return self.set_kind(kind),
+            Edit::Laws(laws) => return self.set_lubricant(*laws),
+            Edit::Named(named) => return self.pick_lubricant(named),
+            Edit::Contact(point, lubricant) => return self.set_contact(point, *lubricant),
+            Edit::Training(spec) => return self.set_training(*spec),
+            Edit::Transient(study) => return self.set_transient(*study),
+            Edit::LoadFollower(follower) => self.set_load_follower(follower),
+            Edit::LubricantFollower(follower) => {
+                // Where the lubricant fixes α, what follows M is chosen along with it.
+                self.view.when_m_moves = self.followers().0;
+                self.view.when_l_moves = follower;
+            }
+            Edit::View(view) => self.view = view,
+            Edit::Plane(spec) => self.set_plane(spec),
+        }
+        Ok(())
+    }
+}

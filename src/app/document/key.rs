@@ -1,0 +1,51 @@
+//! What a result belongs to.
+
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
+
+/// What a result belongs to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Key {
+    /// The operating point.
+    pub point: OperatingPoint,
+    /// The laws.
+    pub lubricant: Lubricant,
+}
+
+impl Key {
+    /// Whether pressure and film are the same: a limiting stress cuts traction only, and a film that does not thin under shear does not feel
+    /// the sliding.
+    pub fn has_film_of(&self, other: &Self) -> bool {
+        let film = |key: &Self| {
+            let (mut point, law) = (key.point, key.lubricant.shear);
+            let plateau = point.sliding.newtonian_plateau_ratio.unwrap_or(law.plateau());
+            if law == ShearLaw::Newtonian || plateau == 1.0 {
+                point.sliding.slide_to_roll_ratio = 0.0;
+            }
+            (point, key.lubricant.of_the_film())
+        };
+        film(self) == film(other)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::named_lubricant::SQUALANE_PIP;
+    use crate::solver::physics::lubricant::{LimitingStress, Sliding};
+
+    #[test]
+    fn sliding_changes_the_film_only_where_it_thins() {
+        let slid = |lubricant, srr, npr| {
+            let sliding = Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: npr };
+            Key { point: OperatingPoint { sliding, ..OperatingPoint::TABLE_2_1 }, lubricant }
+        };
+        let oil = Lubricant::default();
+        assert!(slid(oil, 0.0, None).has_film_of(&slid(oil, 0.7, None)));
+        assert!(!slid(SQUALANE_PIP, 0.0, None).has_film_of(&slid(SQUALANE_PIP, 0.7, None)));
+        assert!(slid(SQUALANE_PIP, 0.0, Some(1.0)).has_film_of(&slid(SQUALANE_PIP, 0.7, Some(1.0))));
+        let limited = Lubricant { limiting_stress: Some(LimitingStress { ambient: 5e6, slope: 0.0 }), ..SQUALANE_PIP };
+        assert!(slid(limited, 0.7, None).has_film_of(&slid(SQUALANE_PIP, 0.7, None)));
+        assert!(!slid(oil, 0.0, None).has_film_of(&slid(SQUALANE_PIP, 0.0, None)));
+    }
+}
