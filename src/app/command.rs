@@ -6,6 +6,7 @@ use super::answers::picture::Cuts;
 use super::document::Edit;
 use super::files::Purpose;
 use super::tab::Tab;
+use super::traction::{Served, Sweep};
 use egui::{Context, Key, KeyboardShortcut, Modifiers};
 use std::path::PathBuf;
 
@@ -94,6 +95,12 @@ pub enum Command {
     Draw(&'static str),
     /// Put the sentence about the last file away.
     Dismiss,
+    /// Draw a curve by a reduced model.
+    FollowSweep(Box<(Sweep, Served)>),
+    /// Go to a place on the axis of the traction curve.
+    GoAlong(f64),
+    /// Stop the full solutions along the traction curve.
+    StopAlong,
 }
 
 /// The menus from left to right, each in its groups.

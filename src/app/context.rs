@@ -5,6 +5,7 @@ use super::answers::picture::Cuts;
 use super::command::Command;
 use super::controls::Entries;
 use super::document::{Document, Edit};
+use super::traction::TractionView;
 
 /// What is shown: to be looked at, not to be changed.
 #[derive(Clone, Copy)]
@@ -13,6 +14,8 @@ pub struct Context<'a> {
     pub document: &'a Document,
     /// What came of it.
     pub answers: &'a Answers,
+    /// Traction and film along one quantity.
+    pub traction: &'a TractionView,
     /// What was refused, by the names of fields.
     pub entries: &'a Entries,
     /// Where a point contact is cut.

@@ -85,6 +85,7 @@ impl Desk {
         Context {
             document: &self.document,
             answers: &self.answers,
+            traction: &self.traction,
             entries: &self.entries,
             cuts: self.display.cuts,
             presenting: self.presentation.is_some(),

@@ -8,6 +8,7 @@ use super::files::{Pending, Purpose};
 use super::presentation::{Presentation, enlargement};
 use super::tab::Tab;
 use super::tabs;
+use super::traction;
 use egui::{Context, ThemePreference, ViewportCommand};
 use egui_tiles::Tile;
 
@@ -72,10 +73,18 @@ impl Explorer {
             Command::Verify => desk.answers.verify(ctx, &desk.document),
             Command::EstimateGridError => desk.answers.estimate_grid_error(ctx),
             Command::SolveAlong => {
-                if let Some((sweep, served)) = desk.sweep() {
-                    desk.start_markers(ctx, &sweep, &served);
-                    self.show(Tab::Traction);
-                }
+                let choices = &desk.views.traction.choices;
+                desk.traction.start_markers(ctx, &desk.document, &desk.answers, choices);
+                self.show(Tab::Traction);
+            }
+            Command::StopAlong => desk.traction.full.stop(),
+            Command::FollowSweep(asked) => {
+                let (sweep, served) = *asked;
+                desk.traction.follow(ctx, &desk.answers.store, sweep, served);
+            }
+            Command::GoAlong(place) => {
+                let edit = traction::edit_along(&desk.document, &desk.views.traction.choices, place);
+                desk.edit(edit, "traction");
             }
             Command::RunInTime => {
                 desk.start_transient(ctx);

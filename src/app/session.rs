@@ -39,13 +39,18 @@ struct Shown {
 impl Shown {
     fn of(Explorer { desk, .. }: &Explorer) -> Self {
         let views = &desk.views;
-        Self { display: desk.display, profiles: views.profiles.choices, traction: views.traction, map: views.map.view }
+        Self {
+            display: desk.display,
+            profiles: views.profiles.choices,
+            traction: views.traction.choices,
+            map: views.map.view,
+        }
     }
 
     fn restore(self, Explorer { desk, .. }: &mut Explorer) {
         desk.display = self.display;
         let views = &mut desk.views;
-        (views.profiles.choices, views.traction, views.map.view) = (self.profiles, self.traction, self.map);
+        (views.profiles.choices, views.traction.choices, views.map.view) = (self.profiles, self.traction, self.map);
     }
 }
 
@@ -118,7 +123,7 @@ mod tests {
         document.set_plateau_ratio(Some(0.4)).unwrap();
         document.view.pressure_loss = Some(1e-6);
         let (point, view, lubricant) = (document.point, document.view, document.lubricant);
-        explorer.desk.views.traction.against = Against::Stribeck;
+        explorer.desk.views.traction.choices.against = Against::Stribeck;
         let display = Shown::of(&explorer);
         let mut storage = Memory::default();
         save(&explorer, &mut storage);

@@ -5,6 +5,7 @@ use crate::app::answers::MOST_PINS;
 use crate::app::answers::jobs::JobKind;
 use crate::app::answers::picture::Origin;
 use crate::app::desk::Desk;
+use crate::app::traction::sweep;
 use crate::solver::physics::contact::ContactKind;
 
 const NO_PICTURE: &str = "There is no picture yet";
@@ -29,7 +30,10 @@ impl Command {
             Self::EstimateGridError => return grid_error(desk),
             Self::SolveAlong => match desk.traction.full.standing() {
                 Some(_) => (true, RUNS_ALREADY),
-                None => (desk.sweep().is_none(), "A Newtonian lubricant has no plateau ratio to vary"),
+                None => (
+                    sweep(&desk.document, &desk.answers, &desk.views.traction.choices).is_none(),
+                    "A Newtonian lubricant has no plateau ratio to vary",
+                ),
             },
             Self::RunInTime => match desk.transient.work.standing() {
                 Some(_) => (true, RUNS_ALREADY),

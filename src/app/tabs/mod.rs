@@ -14,7 +14,7 @@ mod raster;
 mod regime_chart;
 pub mod regimes;
 pub mod tpwl;
-mod traction;
+pub mod traction;
 mod training;
 mod transient;
 
@@ -22,7 +22,6 @@ use super::context::Commands;
 use super::desk::Desk;
 use super::figure;
 use super::tab::Tab;
-use super::traction::Choices;
 use egui::Ui;
 use egui_tiles::{Behavior, Tile, TileId, Tiles, Tree, UiResponse};
 
@@ -40,7 +39,7 @@ pub struct Views {
     /// The studies of the Accuracy tab.
     pub accuracy: accuracy::AccuracyView,
     /// How the Traction tab shows it.
-    pub traction: Choices,
+    pub traction: traction::Traction,
     /// What the TPWL tab shows.
     pub tpwl: tpwl::TpwlView,
 }
@@ -77,11 +76,11 @@ impl Behavior<Tab> for Tabs<'_> {
                 Tab::ContactMap => views.map.ui(ui, &desk.context(), commands),
                 Tab::Regimes => views.regimes.ui(ui, &desk.context(), commands),
                 Tab::Basis => basis::ui(ui, &mut views.basis, &desk.context(), commands),
-                Tab::Traction | Tab::Accuracy | Tab::Training | Tab::Transient | Tab::Tpwl => {}
+                Tab::Traction => views.traction.ui(ui, &desk.context(), commands),
+                Tab::Accuracy | Tab::Training | Tab::Transient | Tab::Tpwl => {}
             }
             desk.views = views;
             match tab {
-                Tab::Traction => traction::ui(ui, desk),
                 Tab::Accuracy => accuracy::ui(ui, desk),
                 Tab::Training => training::ui(ui, desk),
                 Tab::Transient => transient::ui(ui, desk),

@@ -7,17 +7,17 @@ mod served;
 mod sweep;
 
 pub use curve::{Curve, LeftOut};
-pub use served::Served;
+pub use served::{Served, sweep};
 pub use sweep::{Against, Sample, Sweep, Varied};
 
-use super::desk::Desk;
+use super::answers::Answers;
+use super::document::{Document, Edit, Quantity};
 use super::numbers;
+use crate::engine::Store;
 use crate::engine::job::Background;
-use crate::solver::full::Solution;
 use curve::Worker;
 use egui::Context;
 use serde::{Deserialize, Serialize};
-use std::sync::Arc;
 
 /// Contacts of a curve by the reduced model.
 pub const CURVE: usize = 41;
@@ -55,8 +55,6 @@ pub struct TractionView {
     pub markers: Option<Markers>,
     /// Their work.
     pub full: Background<Sample>,
-    /// The largest shear stress of a solution.
-    pub stress_met: Option<(Arc<Solution>, f64)>,
     worker: Option<Worker>,
     wanted: Option<(Sweep, Served)>,
 }
@@ -79,47 +77,40 @@ impl TractionView {
     }
 }
 
-impl Desk {
+impl TractionView {
+    /// Whether the curve of a sweep has been asked for.
+    pub fn is_asked(&self, sweep: &Sweep, served: &Served) -> bool {
+        self.wanted.as_ref().is_some_and(|(wanted, by)| wanted == sweep && by == served)
+    }
+
     /// Asks for the curve of a sweep, unless it has been asked for.
-    pub fn follow_sweep(&mut self, ctx: &Context, sweep: &Sweep, served: &Served) {
-        let view = &mut self.traction;
-        let asked = view.wanted.as_ref().is_some_and(|(wanted, by)| wanted == sweep && by == served);
-        if !asked {
-            view.wanted = Some((sweep.clone(), served.clone()));
-            view.worker.get_or_insert_with(|| Worker::new(&self.answers.store)).ask(ctx, sweep.clone(), served.clone());
+    pub fn follow(&mut self, ctx: &Context, store: &Store, sweep: Sweep, served: Served) {
+        if !self.is_asked(&sweep, &served) {
+            self.wanted = Some((sweep.clone(), served.clone()));
+            self.worker.get_or_insert_with(|| Worker::new(store)).ask(ctx, sweep, served);
         }
     }
 
-    /// Solves contacts of a sweep in full, one from the other: on the grid of the model where one draws the curve, so that both can be compared.
-    pub fn start_markers(&mut self, ctx: &Context, sweep: &Sweep, served: &Result<Served, String>) {
-        let model = match served {
+    /// Solves contacts of the sweep through a document's contact in full, one from the other: on the grid of the model where one draws the
+    /// curve, so that both can be compared.
+    pub fn start_markers(&mut self, ctx: &Context, document: &Document, answers: &Answers, choices: &Choices) {
+        let Some((sweep, served)) = served::sweep(document, answers, choices) else { return };
+        let plane = document.chosen_plane();
+        let model = match &served {
             Ok(served) => Some(&served.by.model),
-            Err(_) => self.model().filter(|_| self.document.chosen_plane().is_none()),
+            Err(_) => answers.model(document).filter(|_| plane.is_none()),
         };
-        let model = model.cloned();
-        self.traction.markers = Some(Markers { sweep: sweep.clone(), samples: Vec::new() });
-        self.traction.full.run(full::start(
-            ctx,
-            &self.answers.store,
-            sweep.clone(),
-            model,
-            self.document.chosen_plane(),
-        ));
+        self.markers = Some(Markers { sweep: sweep.clone(), samples: Vec::new() });
+        self.full.run(full::start(ctx, &answers.store, sweep, model.cloned(), plane));
     }
+}
 
-    /// Goes to a place on the axis.
-    ///
-    /// # Errors
-    /// A sentence when the contact would be refused; the document is unchanged then.
-    pub fn go_along(&mut self, place: f64) -> Result<(), String> {
-        let value = numbers::rounded(self.views.traction.against.value(&self.document.point, place), 3);
-        match self.views.traction.against.varied() {
-            Varied::SlideToRoll => {
-                let srr = self.document.point.sliding.slide_to_roll_ratio;
-                self.document.set_slide_to_roll_ratio(value.max(0.0).copysign(srr))
-            }
-            Varied::Plateau => self.document.set_plateau_ratio(Some(value.clamp(0.0, 1.0))),
-            Varied::Speed => self.document.set_quantity(super::document::Quantity::Speed, value),
-        }
+/// What goes to a place on the axis of the curve.
+pub fn edit_along(document: &Document, choices: &Choices, place: f64) -> Edit {
+    let value = numbers::rounded(choices.against.value(&document.point, place), 3);
+    match choices.against.varied() {
+        Varied::SlideToRoll => Edit::SlideToRoll(value.max(0.0).copysign(document.point.sliding.slide_to_roll_ratio)),
+        Varied::Plateau => Edit::Plateau(Some(value.clamp(0.0, 1.0))),
+        Varied::Speed => Edit::Quantity(Quantity::Speed, value),
     }
 }

@@ -1,8 +1,8 @@
 //! Which reduced model draws the curve of a sweep, and whether it was trained for it.
 
-use super::{Sweep, Varied};
-use crate::app::desk::Desk;
-use crate::app::document::Key;
+use super::{Choices, Sweep, Varied};
+use crate::app::answers::Answers;
+use crate::app::document::{Document, Key};
 use crate::app::in_use::InUse;
 use crate::solver::full::Problem;
 use crate::solver::physics::lubricant::ShearLaw;
@@ -22,39 +22,37 @@ pub struct Served {
     pub untrained: Option<String>,
 }
 
-impl Desk {
-    /// The sweep through the contact of the sliders, and the reduced model that draws it or why none does. `None` where the fluid does not
-    /// answer to the quantity.
-    pub fn sweep(&self) -> Option<(Sweep, Result<Served, String>)> {
-        let varied = self.views.traction.against.varied();
-        let key = self.document.key();
-        let mut point = key.point;
-        point.sliding.slide_to_roll_ratio = point.sliding.slide_to_roll_ratio.abs();
-        if varied == Varied::Plateau && key.lubricant.shear == ShearLaw::Newtonian {
-            return None;
-        }
-        let (ends, served) = match self.in_use() {
-            None => (varied.everywhere(&point), Err("there is no reduced model of this contact".to_owned())),
-            Some(by) => match varied.trained(&by.model.domain, &point) {
-                Some(ends) => match untrained(&by.model.domain, &key, varied, ends) {
-                    Ok(untrained) => {
-                        let ends = if untrained.is_some() { varied.around(&key, ends) } else { ends };
-                        (ends, Ok(Served { by, untrained }))
-                    }
-                    Err(why) => (ends, Err(why)),
-                },
-                None => (varied.everywhere(&point), Err("the reduced model was trained for no such speed".to_owned())),
-            },
-        };
-        let logarithmic = self.views.traction.logarithmic.0;
-        let ends = match varied {
-            Varied::SlideToRoll if logarithmic => (ends.0.max(LOG_SRR * ends.1), ends.1),
-            Varied::Plateau if logarithmic => (ends.0.max(LOG_NPR), ends.1),
-            _ => ends,
-        };
-        let base = Key { point: varied.at(&point, ends.0), lubricant: key.lubricant };
-        Some((Sweep { varied, base, ends, logarithmic }, served))
+/// The sweep through the contact of the sliders, and the reduced model that draws it or why none does. `None` where the fluid does not
+/// answer to the quantity.
+pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Option<(Sweep, Result<Served, String>)> {
+    let varied = choices.against.varied();
+    let key = document.key();
+    let mut point = key.point;
+    point.sliding.slide_to_roll_ratio = point.sliding.slide_to_roll_ratio.abs();
+    if varied == Varied::Plateau && key.lubricant.shear == ShearLaw::Newtonian {
+        return None;
     }
+    let (ends, served) = match answers.in_use(document) {
+        None => (varied.everywhere(&point), Err("there is no reduced model of this contact".to_owned())),
+        Some(by) => match varied.trained(&by.model.domain, &point) {
+            Some(ends) => match untrained(&by.model.domain, &key, varied, ends) {
+                Ok(untrained) => {
+                    let ends = if untrained.is_some() { varied.around(&key, ends) } else { ends };
+                    (ends, Ok(Served { by, untrained }))
+                }
+                Err(why) => (ends, Err(why)),
+            },
+            None => (varied.everywhere(&point), Err("the reduced model was trained for no such speed".to_owned())),
+        },
+    };
+    let logarithmic = choices.logarithmic.0;
+    let ends = match varied {
+        Varied::SlideToRoll if logarithmic => (ends.0.max(LOG_SRR * ends.1), ends.1),
+        Varied::Plateau if logarithmic => (ends.0.max(LOG_NPR), ends.1),
+        _ => ends,
+    };
+    let base = Key { point: varied.at(&point, ends.0), lubricant: key.lubricant };
+    Some((Sweep { varied, base, ends, logarithmic }, served))
 }
 
 /// Why a model was not trained for a sweep, where it was not.

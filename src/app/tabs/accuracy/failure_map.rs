@@ -4,6 +4,7 @@ use super::random_tests::{Results, Test};
 use super::worst::Worst;
 use super::{CONTACT_COLUMNS, contact_cells, tests_toolbar, worst};
 use crate::app::desk::Desk;
+use crate::app::document::Edit;
 use crate::app::export;
 use crate::app::files::Purpose;
 use crate::app::in_use::InUse;
@@ -145,7 +146,7 @@ pub fn ui(ui: &mut Ui, desk: &mut Desk, in_use: &InUse) {
     let text = export_now.then(|| csv(results));
     let lubricant = results.in_use.model.domain.lubricant;
     if let Some(point) = wanted {
-        desk.views.accuracy.tests.say(desk.document.set_contact(point, lubricant).err());
+        desk.views.accuracy.tests.say(desk.document.edit(Edit::Contact(point)).err());
         desk.entries.clear();
     }
     if let Some(text) = text {

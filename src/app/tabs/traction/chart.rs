@@ -1,13 +1,13 @@
 //! The two plots: traction above, film below, on one axis; a press in either goes to a contact.
 
 use super::Shown;
-use crate::app::desk::Desk;
+use crate::app::context::Context;
 use crate::app::document::Key;
 use crate::app::figure::{self, Subject};
 use crate::app::numbers;
 use crate::app::tabs::axes;
 use crate::app::theme::{LIVE_WIDTH, Palette, faded};
-use crate::app::traction::{Against, Curve, Markers, Sample, Sweep};
+use crate::app::traction::{Against, Choices, Curve, Markers, Sample, Sweep};
 use egui::{Color32, CursorIcon, Id, PointerButton, Ui, Vec2b};
 use egui_plot::{Corner, HoverPosition, Legend, Line, LineStyle, MarkerShape, Plot, PlotUi, Points, VLine};
 
@@ -88,11 +88,11 @@ pub fn differences(curve: &Curve, markers: Option<&Markers>) -> Option<(f64, f64
 }
 
 /// The plots; returns the place on the axis that was pressed.
-pub fn ui(ui: &mut Ui, desk: &Desk, sweep: &Sweep, shown: &Shown<'_>) -> Option<f64> {
+pub fn ui(ui: &mut Ui, choices: &Choices, context: &Context<'_>, sweep: &Sweep, shown: &Shown<'_>) -> Option<f64> {
     let palette = Palette::of(ui);
-    let axes = Axes { against: desk.views.traction.against, sweep, logarithmic: desk.views.traction.logarithmic };
+    let axes = Axes { against: choices.against, sweep, logarithmic: choices.logarithmic };
     let unit = ((ui.available_height() - 6.0) / 2.0).max(LEAST_HEIGHT);
-    let here = desk.answers.picture.as_ref().filter(|_| desk.answers.picture_is_current());
+    let here = context.answers.current_picture();
     let grey = shown.unphysical.is_some();
     let sketch = shown.curve.is_some_and(|curve| curve.served.untrained.is_some());
     let traction = Chart {
@@ -125,8 +125,8 @@ pub fn ui(ui: &mut Ui, desk: &Desk, sweep: &Sweep, shown: &Shown<'_>) -> Option<
         legend: Corner::LeftBottom,
     };
     let both = ui.vertical(|ui| {
-        let pressed = traction.show(ui, desk, &axes, shown, unit);
-        film.show(ui, desk, &axes, shown, unit).or(pressed)
+        let pressed = traction.show(ui, context, &axes, shown, unit);
+        film.show(ui, context, &axes, shown, unit).or(pressed)
     });
     figure::offer_of(ui, "Traction and film", both.response.rect, Subject::Sweep);
     both.inner.map(|place| axes.value(place))
@@ -144,12 +144,12 @@ struct Chart<'a> {
 }
 
 impl Chart<'_> {
-    fn show(&self, ui: &mut Ui, desk: &Desk, axes: &Axes<'_>, shown: &Shown<'_>, height: f32) -> Option<f64> {
+    fn show(&self, ui: &mut Ui, context: &Context<'_>, axes: &Axes<'_>, shown: &Shown<'_>, height: f32) -> Option<f64> {
         let palette = Palette::of(ui);
         let marks = f64::from((ui.available_width() / 90.0).clamp(3.0, 9.0));
-        let current = axes.along(axes.against.of(&desk.document.key()));
+        let current = axes.along(axes.against.of(&context.document.key()));
         let response = axes::show(self.plot(ui, axes, height, marks), ui, self.name, |plot| {
-            axes::fit(plot, desk.fit_plots);
+            axes::fit(plot, context.fit);
             if let Some(current) = current {
                 let line = VLine::new("", current).id("here line").color(palette.accent).width(1.0);
                 plot.vline(line.style(LineStyle::dashed_dense()).allow_hover(false));

@@ -1,6 +1,6 @@
 //! The laws of the fluid: how its viscosity rises with pressure and falls with shear stress, and how much of both this contact meets.
 
-use crate::app::desk::Desk;
+use crate::app::context::Context;
 use crate::app::numbers;
 use crate::app::tabs::axes;
 use crate::app::theme::{LIVE_WIDTH, Palette, THIN_WIDTH, rich};
@@ -29,20 +29,19 @@ struct Met {
 }
 
 /// Both plots.
-pub fn ui(ui: &mut Ui, desk: &mut Desk) {
-    let key = desk.document.key();
+pub fn ui(ui: &mut Ui, stress_met: &mut Option<(Arc<Solution>, f64)>, context: &Context<'_>) {
+    let key = context.document.key();
     let Ok(problem) = Problem::new(&key.point, key.lubricant) else { return };
-    let picture = desk.answers.picture.as_ref().filter(|picture| picture.key == key);
-    let stress_pa =
-        picture.map(|picture| Arc::clone(&picture.solution)).map(|solution| match &desk.traction.stress_met {
-            Some((of, stress)) if Arc::ptr_eq(of, &solution) => *stress,
-            _ => {
-                let stress = largest_stress(&solution);
-                desk.traction.stress_met = Some((solution, stress));
-                stress
-            }
-        });
-    let picture = desk.answers.picture.as_ref().filter(|picture| picture.key == key);
+    let picture = context.answers.picture.as_ref().filter(|picture| picture.key == key);
+    let stress_pa = picture.map(|picture| Arc::clone(&picture.solution)).map(|solution| match &*stress_met {
+        Some((of, stress)) if Arc::ptr_eq(of, &solution) => *stress,
+        _ => {
+            let stress = largest_stress(&solution);
+            *stress_met = Some((solution, stress));
+            stress
+        }
+    });
+    let picture = context.answers.picture.as_ref().filter(|picture| picture.key == key);
     let pressure_pa = picture.map_or(key.point.hertz().pressure_pa, |picture| picture.largest_pressure_pa());
     let met = Met { problem, pressure_pa, stress_pa };
     let mut text = format!("This contact meets pressures up to {}", numbers::pressure(pressure_pa));
@@ -50,7 +49,7 @@ pub fn ui(ui: &mut Ui, desk: &mut Desk) {
         text.push_str(&format!(" and shear stresses up to {} on its surfaces", numbers::pressure(stress)));
     }
     ui.weak(text);
-    let fit = desk.fit_plots;
+    let fit = context.fit;
     if ui.available_width() >= SIDE_BY_SIDE {
         let (width, height) = (0.5 * (ui.available_width() - 10.0), ui.available_height() - 4.0);
         ui.horizontal_top(|ui| {

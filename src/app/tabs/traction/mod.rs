@@ -3,60 +3,68 @@
 mod chart;
 mod fluid;
 
+use crate::app::answers::REST_S;
+use crate::app::command::Command;
+use crate::app::context::{Commands, Context};
 use crate::app::controls::{message_ui, named, sentence, warning_ui, why};
-use crate::app::files::Purpose;
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
-use crate::app::traction::{Against, Curve, LeftOut, Markers, Served, Sweep, Varied, export};
-use crate::app::{answers::REST_S, desk::Desk};
-use egui::{Button, Checkbox, ComboBox, Context, ProgressBar, Ui};
+use crate::app::traction::{Against, Choices, Curve, LeftOut, Markers, Served, Sweep, Varied, export, sweep};
+use crate::solver::full::Solution;
+use egui::{Button, Checkbox, ComboBox, ProgressBar, Ui};
+use std::sync::Arc;
 
 /// Seconds of rest after which a curve of other sliders is drawn grey.
 const STALE_S: f64 = REST_S + 0.75;
 
-/// The tab.
-pub fn ui(ui: &mut Ui, desk: &mut Desk) {
-    ui.horizontal_wrapped(|ui| {
-        let fluid = &mut desk.views.traction.shows_fluid;
-        ui.selectable_value(fluid, false, "Traction and film");
-        ui.selectable_value(fluid, true, "Laws of the fluid");
-        ui.toggle_value(&mut desk.views.traction.why, "Why").on_hover_text("What is seen here, in three sentences");
-    });
-    ui.separator();
-    why(ui, desk.views.traction.why, WHY[usize::from(desk.views.traction.shows_fluid)]);
-    if desk.views.traction.shows_fluid {
-        fluid::ui(ui, desk);
-        return;
-    }
-    let Some((sweep, served)) = desk.sweep() else {
-        toolbar(ui, desk, None);
-        ui.centered_and_justified(|ui| {
-            ui.weak("The lubricant has no shear constants: it is Newtonian, and there is no plateau ratio to vary")
+/// The tab: how it shows things, and the largest shear stress of a solution.
+#[derive(Default)]
+pub struct Traction {
+    /// What is drawn, and how.
+    pub choices: Choices,
+    stress_met: Option<(Arc<Solution>, f64)>,
+}
+
+impl Traction {
+    /// The tab.
+    pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        let choices = &mut self.choices;
+        ui.horizontal_wrapped(|ui| {
+            ui.selectable_value(&mut choices.shows_fluid, false, "Traction and film");
+            ui.selectable_value(&mut choices.shows_fluid, true, "Laws of the fluid");
+            ui.toggle_value(&mut choices.why, "Why").on_hover_text("What is seen here, in three sentences");
         });
-        return;
-    };
-    let ctx = ui.ctx().clone();
-    if let Ok(served) = &served {
-        desk.follow_sweep(&ctx, &sweep, served);
-    }
-    toolbar(ui, desk, Some((&sweep, &served)));
-    status(ui, desk, &sweep, &served);
-    let shown = Shown::of(desk, &sweep, &served, ui.input(|i| i.time));
-    if shown.curve.is_none() && shown.markers.is_none() {
-        let waits = match served {
-            Ok(_) if !desk.traction.curve_is_current() => "The curve is being computed",
-            Ok(_) => "The reduced model has no answer along here: full solutions draw the curve on request",
-            Err(_) => "Full solutions draw the curve here on request",
-        };
-        ui.centered_and_justified(|ui| ui.weak(waits));
-        return;
-    }
-    if let Some(place) = chart::ui(ui, desk, &sweep, &shown) {
-        let result = desk.go_along(place);
-        if result.is_ok() {
-            desk.entries.clear();
+        ui.separator();
+        why(ui, choices.why, WHY[usize::from(choices.shows_fluid)]);
+        if choices.shows_fluid {
+            fluid::ui(ui, &mut self.stress_met, context);
+            return;
         }
-        desk.entries.answer("traction", result);
+        let Some((sweep, served)) = sweep(context.document, context.answers, choices) else {
+            toolbar(ui, choices, context, commands, false);
+            ui.centered_and_justified(|ui| {
+                ui.weak("The lubricant has no shear constants: it is Newtonian, and there is no plateau ratio to vary")
+            });
+            return;
+        };
+        if let Ok(served) = &served
+            && !context.traction.is_asked(&sweep, served)
+        {
+            commands.push(Command::FollowSweep(Box::new((sweep.clone(), served.clone()))));
+        }
+        toolbar(ui, choices, context, commands, true);
+        status(ui, context, &sweep, &served);
+        let shown = Shown::of(context, &sweep, &served, ui.input(|i| i.time));
+        if shown.curve.is_none() && shown.markers.is_none() {
+            let waits = match served {
+                Ok(_) if !context.traction.curve_is_current() => "The curve is being computed",
+                Ok(_) => "The reduced model has no answer along here: full solutions draw the curve on request",
+                Err(_) => "Full solutions draw the curve here on request",
+            };
+            ui.centered_and_justified(|ui| ui.weak(waits));
+            return;
+        }
+        commands.extend(chart::ui(ui, choices, context, &sweep, &shown).map(Command::GoAlong));
     }
 }
 
@@ -71,12 +79,12 @@ struct Shown<'a> {
 }
 
 impl<'a> Shown<'a> {
-    fn of(desk: &'a Desk, sweep: &Sweep, served: &Result<Served, String>, now: f64) -> Self {
-        let view = &desk.traction;
+    fn of(context: &Context<'a>, sweep: &Sweep, served: &Result<Served, String>, now: f64) -> Self {
+        let view = context.traction;
         let varied = sweep.varied;
         let curve = view.curve.as_ref().filter(|curve| curve.sweep.varied == varied && !curve.samples.is_empty());
         let markers = view.markers.as_ref().filter(|markers| markers.sweep.varied == varied);
-        let late = served.is_err() || desk.answers.rested_s(now) > STALE_S;
+        let late = served.is_err() || context.answers.rested_s(now) > STALE_S;
         Self {
             curve_stale: !view.curve_is_current() && late,
             markers_stale: markers.is_some_and(|markers| markers.sweep != *sweep),
@@ -97,34 +105,31 @@ const WHY: [&str; 2] = [
      Newtonian. η(p, τ) = µ(p) (NPR + (1 − NPR)(1 + (τ/G_c)^β)^((1 − 1/n)/β)) (3.40)",
 ];
 
-fn toolbar(ui: &mut Ui, desk: &mut Desk, sweep: Option<(&Sweep, &Result<Served, String>)>) {
-    let ctx = ui.ctx().clone();
+fn toolbar(ui: &mut Ui, choices: &mut Choices, context: &Context<'_>, commands: &mut Commands, sweeps: bool) {
     ui.horizontal_wrapped(|ui| {
-        against_ui(ui, desk);
-        let (along, up) = &mut desk.views.traction.logarithmic;
+        against_ui(ui, choices, commands);
+        let (along, up) = &mut choices.logarithmic;
         ui.add(Checkbox::new(along, "Log x")).on_hover_text("Equal ways along are equal ratios");
         ui.add(Checkbox::new(up, "Log y")).on_hover_text("Equal ways up are equal ratios of traction and of film");
-        if desk.traction.full.standing().is_some() {
+        if context.traction.full.standing().is_some() {
             if ui.button("Stop").on_hover_text("Full solutions so far stay (Esc)").clicked() {
-                desk.traction.full.stop();
+                commands.push(Command::StopAlong);
             }
         } else {
             let tip = "Eleven full solutions along the curve, set on it as rings";
-            let button = ui.add_enabled(sweep.is_some(), Button::new("Add full solutions")).on_hover_text(tip);
-            if button.clicked()
-                && let Some((sweep, served)) = sweep
-            {
-                desk.start_markers(&ctx, sweep, served);
+            let button = ui.add_enabled(sweeps, Button::new("Add full solutions")).on_hover_text(tip);
+            if button.clicked() {
+                commands.push(Command::SolveAlong);
             }
         }
-        exports(ui, desk, &ctx);
+        exports(ui, context, commands);
     });
 }
 
-fn against_ui(ui: &mut Ui, desk: &mut Desk) {
+fn against_ui(ui: &mut Ui, choices: &mut Choices, commands: &mut Commands) {
     let label = ui.label("Against").on_hover_text("What traction and film are drawn against");
-    let before = desk.views.traction.against;
-    let chosen = &mut desk.views.traction.against;
+    let before = choices.against;
+    let chosen = &mut choices.against;
     let response =
         ComboBox::from_id_salt("traction against").selected_text(before.name()).width(150.0).show_ui(ui, |ui| {
             for option in Against::ALL {
@@ -134,30 +139,29 @@ fn against_ui(ui: &mut Ui, desk: &mut Desk) {
     response.response.labelled_by(label.id).on_hover_text(before.tip());
     if *chosen != before {
         // Speeds span decades, ratios do not.
-        desk.views.traction.logarithmic.0 =
-            !matches!(desk.views.traction.against, Against::SlideToRoll | Against::Plateau);
-        desk.fit_plots = true;
+        choices.logarithmic.0 = !matches!(choices.against, Against::SlideToRoll | Against::Plateau);
+        commands.push(Command::FitPlots);
     }
 }
 
-fn exports(ui: &mut Ui, desk: &mut Desk, ctx: &Context) {
-    let there = desk.traction.curve.as_ref().is_some_and(|curve| !curve.samples.is_empty())
-        || desk.traction.markers.as_ref().is_some_and(|markers| !markers.samples.is_empty());
+fn exports(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+    let there = context.traction.curve.as_ref().is_some_and(|curve| !curve.samples.is_empty())
+        || context.traction.markers.as_ref().is_some_and(|markers| !markers.samples.is_empty());
     let tip = "The curve and the full solutions, every contact with its traction and films";
     if ui.add_enabled(there, Button::new("Export CSV…")).on_hover_text(tip).clicked()
-        && let Some(text) = export::csv(&desk.traction)
+        && let Some(text) = export::csv(context.traction)
     {
-        desk.ask_path(ctx, Purpose::Csv { text });
+        commands.push(Command::csv(text));
     }
     let tip = "Traction, film or both, as SVG or PNG with axes and parameters";
     if ui.add_enabled(there, Button::new("Export plot…")).on_hover_text(tip).clicked() {
-        desk.figures.ask();
+        commands.push(Command::ExportPlot);
     }
 }
 
 /// What runs, what is amiss, and what the curve says in numbers.
-fn status(ui: &mut Ui, desk: &Desk, sweep: &Sweep, served: &Result<Served, String>) {
-    let view = &desk.traction;
+fn status(ui: &mut Ui, context: &Context<'_>, sweep: &Sweep, served: &Result<Served, String>) {
+    let view = context.traction;
     if let Some(standing) = view.full.standing() {
         ui.horizontal(|ui| {
             ui.label(&standing.stage);
@@ -188,7 +192,7 @@ fn status(ui: &mut Ui, desk: &Desk, sweep: &Sweep, served: &Result<Served, Strin
     if let Some(message) = &view.full.message {
         message_ui(ui, message);
     }
-    desk.entries.message_ui(ui, "traction");
+    context.entries.message_ui(ui, "traction");
     if let Some(curve) = view.curve.as_ref().filter(|curve| curve.sweep.varied == sweep.varied) {
         match &curve.left_out {
             Ok(left_out) => left_out_ui(ui, *left_out),
@@ -201,7 +205,7 @@ fn status(ui: &mut Ui, desk: &Desk, sweep: &Sweep, served: &Result<Served, Strin
         let of = numbers::moes(markers.sweep.base.point.moes());
         ui.weak(sentence(&format!("the grey rings are full solutions of another sweep, beginning at {of}")));
     }
-    ui.label(rich(&summary(desk, sweep), 13.0, Palette::of(ui).quiet));
+    ui.label(rich(&summary(context, sweep), 13.0, Palette::of(ui).quiet));
 }
 
 /// Why there are fewer contacts than the curve should have.
@@ -221,19 +225,20 @@ fn left_out_ui(ui: &mut Ui, LeftOut { failed, doubtful }: LeftOut) {
 }
 
 /// Traction here, the largest of the curve, and how far full solutions lie from it.
-fn summary(desk: &Desk, sweep: &Sweep) -> String {
+fn summary(context: &Context<'_>, sweep: &Sweep) -> String {
     let mut parts = Vec::new();
-    let here = desk.answers.picture.as_ref().filter(|_| desk.answers.picture_is_current());
+    let here = context.answers.picture.as_ref().filter(|_| context.answers.picture_is_current());
     if let Some(picture) = here.filter(|picture| picture.unphysical.is_none()) {
         parts.push(format!("µ {} here", numbers::significant(picture.traction)));
     }
-    if let Some(curve) = desk.traction.curve.as_ref().filter(|curve| curve.sweep == *sweep && !curve.samples.is_empty())
+    if let Some(curve) =
+        context.traction.curve.as_ref().filter(|curve| curve.sweep == *sweep && !curve.samples.is_empty())
     {
         let tractions = curve.samples.iter().map(|sample| sample.traction);
         if sweep.unphysical().is_none() {
             parts.push(format!("{} at most", numbers::significant(tractions.fold(0.0, f64::max))));
         }
-        if let Some((traction, film)) = chart::differences(curve, desk.traction.markers.as_ref()) {
+        if let Some((traction, film)) = chart::differences(curve, context.traction.markers.as_ref()) {
             parts.push(format!(
                 "full solutions differ by {} in µ and {} in {{H_c}}",
                 numbers::small(traction),

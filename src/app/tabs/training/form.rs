@@ -3,6 +3,7 @@
 use super::fields::{Form, choose, row, short};
 use crate::app::controls::{heading, named};
 use crate::app::desk::Desk;
+use crate::app::document::Edit;
 use crate::app::training::presets;
 use crate::scene::QuantityBox;
 use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
@@ -37,7 +38,7 @@ pub fn ui(ui: &mut Ui, desk: &mut Desk) {
         if spec.range != before.range {
             presets::fit_windows(&mut spec);
         }
-        let result = desk.document.set_training(spec);
+        let result = desk.document.edit(Edit::Training(Box::new(spec)));
         desk.training.refused = result.err().map(|message| (changed.unwrap_or("presets"), message));
     }
     if !desk.document.saves_training() && desk.document.training.is_some() {

@@ -4,6 +4,7 @@
 use super::methods;
 use crate::app::controls::heading;
 use crate::app::desk::Desk;
+use crate::app::document::Edit;
 use crate::app::files::Purpose;
 use crate::app::tabs::axes;
 use crate::app::tabs::training::fields::{Form, choose};
@@ -96,7 +97,7 @@ pub fn edit(ui: &mut Ui, desk: &mut Desk, content: impl FnOnce(&mut Ui, &mut For
     let Form { refused, changed } = form;
     desk.transient.refused = refused;
     if study != before {
-        let result = desk.document.set_transient(study);
+        let result = desk.document.edit(Edit::Transient(Box::new(study)));
         desk.transient.refused = result.err().map(|message| (changed.unwrap_or("Frames"), message));
     }
 }
