@@ -146,7 +146,7 @@ pub fn ui(ui: &mut Ui, desk: &mut Desk, in_use: &InUse) {
     let text = export_now.then(|| csv(results));
     let lubricant = results.in_use.model.domain.lubricant;
     if let Some(point) = wanted {
-        desk.views.accuracy.tests.say(desk.document.edit(Edit::Contact(point)).err());
+        desk.views.accuracy.tests.say(desk.document.edit(Edit::Contact(point, Box::new(lubricant))).err());
         desk.entries.clear();
     }
     if let Some(text) = text {
