@@ -33,11 +33,11 @@ pub fn describe_contact(point: &OperatingPoint, lubricant: &Lubricant) -> String
         (srr, ShearLaw::Newtonian) => format!("; SRR {srr:e}"),
         (srr, shear) => {
             let plateau = point.sliding.newtonian_plateau_ratio.unwrap_or(shear.plateau());
-            format!("; SRR {srr:e}; NPR {plateau:e}; {shear:?}")
+            format!("; SRR {srr:e}; NPR {plateau:e}")
         }
     };
     format!(
-        "M {:e}; L {:e}; R {:e} m; u_m {:e} m/s; w {:e} {unit}; E' {:e} Pa; eta_0 {:e} Pa s; alpha {:e} 1/Pa; {:?}; {:?}{sliding}",
+        "M {:e}; L {:e}; R {:e} m; u_m {:e} m/s; w {:e} {unit}; E' {:e} Pa; eta_0 {:e} Pa s; alpha {:e} 1/Pa; {}{sliding}",
         moes.m,
         moes.l,
         point.radius_m,
@@ -46,8 +46,7 @@ pub fn describe_contact(point: &OperatingPoint, lubricant: &Lubricant) -> String
         point.modulus_pa,
         point.viscosity_pa_s,
         point.alpha_per_pa,
-        lubricant.viscosity,
-        lubricant.density
+        lubricant.describe()
     )
 }
 

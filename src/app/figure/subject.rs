@@ -42,13 +42,8 @@ impl Desk {
             ContactKind::Point => "N",
         };
         let significant = numbers::significant;
-        let laws = named_lubricant::of_laws(lubricant).map_or_else(
-            || match lubricant.shear {
-                ShearLaw::Newtonian => format!("{:?}, {:?}", lubricant.viscosity, lubricant.density),
-                shear => format!("{:?}, {:?}, {shear:?}", lubricant.viscosity, lubricant.density),
-            },
-            |named| named.title.to_owned(),
-        );
+        let laws = named_lubricant::of_laws(lubricant)
+            .map_or_else(|| lubricant.of_the_film().describe(), |named| named.title.to_owned());
         let limit = lubricant.limiting_stress.map_or_else(String::new, |limit| {
             format!(", limiting stress {} MPa + {} p", significant(1e-6 * limit.ambient), significant(limit.slope))
         });

@@ -1,15 +1,12 @@
 //! How many modes the full solutions along a sweep need: Table 3.7.
 
-use super::question::{Question, Setting, Tell};
+use super::question::{
+    Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+};
 use super::sweep::{check_axes, contacts_of};
 use crate::scene::axis::Axis;
-use crate::scene::chart::{Chart, ChartAxis, Marks};
-use crate::scene::check::{Checked, count, number};
-use crate::scene::error::RunError;
-use crate::scene::experiment::Experiment;
-use crate::scene::outcome::Findings;
+use crate::scene::check::{count, number};
 use crate::scene::parallel::full_solutions;
-use crate::scene::table::Table;
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{PodBasis, deformation_weights};

@@ -1,14 +1,11 @@
 //! Weights of the distance measure by (3.9), with the correlation (3.8) they reach.
 
-use super::question::{Question, Setting, Tell};
-use crate::scene::chart::{Chart, ChartAxis, Marks};
-use crate::scene::check::{self, Checked, MAX_COMPARED, count, refuse};
-use crate::scene::error::RunError;
-use crate::scene::experiment::Experiment;
-use crate::scene::outcome::Findings;
+use super::question::{
+    Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+};
+use crate::scene::check::{self, MAX_COMPARED, count, refuse};
 use crate::scene::parallel::full_solutions;
 use crate::scene::random_points::all_random_points;
-use crate::scene::table::Table;
 use crate::solver::physics::contact::{ContactKind, Moes};
 use crate::solver::training::Range;
 use crate::solver::training::distance::{Candidate, DISSERTATION, FURTHER, Fit, correlation, fit};

@@ -1,16 +1,13 @@
 //! Error measures at random points, ordered by the true error (Fig. 3.1), and how well each ranks what is wanted.
 
-use super::question::{Question, Setting, Tell};
-use crate::scene::chart::{Chart, ChartAxis, Marks};
-use crate::scene::check::{self, Checked, MAX_COMPARED, count};
-use crate::scene::error::RunError;
-use crate::scene::experiment::Experiment;
+use super::question::{
+    Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+};
+use crate::scene::check::{self, MAX_COMPARED, count};
 use crate::scene::method::ModelSource;
-use crate::scene::outcome::Findings;
 use crate::scene::parallel::{full_solutions, reduced_solutions};
 use crate::scene::random_points::all_random_points;
 use crate::scene::statistics::rank_correlation;
-use crate::scene::table::{Column, Table};
 use crate::solver::physics::contact::{Moes, OperatingPoint};
 use crate::solver::reduced::{ErrorEstimate, ErrorMeasures, Norm, ReducedOptions};
 use crate::solver::training::Range;

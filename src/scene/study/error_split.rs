@@ -1,15 +1,12 @@
 //! Where the error of a reduced model comes from, at one contact or along the test trajectory.
 
 use super::path::trajectory_points;
-use super::question::{Question, Setting, Tell};
-use crate::scene::chart::{Chart, ChartAxis, Marks};
-use crate::scene::check::{self, Checked, MAX_POINTS, refuse};
-use crate::scene::error::RunError;
-use crate::scene::experiment::Experiment;
+use super::question::{
+    Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+};
+use crate::scene::check::{self, MAX_POINTS, refuse};
 use crate::scene::method::Method;
-use crate::scene::outcome::Findings;
 use crate::scene::statistics::{median, percentile};
-use crate::scene::table::{Column, Table};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
 use crate::solver::training::QuantityBox;

@@ -1,15 +1,12 @@
 //! Full solutions against a published film formula.
 
-use super::question::{Question, Setting, Tell};
+use super::question::{
+    Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+};
 use crate::scene::at::At;
-use crate::scene::chart::{Chart, ChartAxis, Marks};
-use crate::scene::check::{Checked, count, number, refuse};
-use crate::scene::error::RunError;
-use crate::scene::experiment::Experiment;
+use crate::scene::check::{count, number, refuse};
 use crate::scene::method::Method;
-use crate::scene::outcome::Findings;
 use crate::scene::statistics::median;
-use crate::scene::table::Table;
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::{FilmFormula, OperatingPoint};
 use serde::{Deserialize, Serialize};

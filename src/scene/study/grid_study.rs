@@ -1,16 +1,13 @@
 //! Observed order of H_c on ever finer uniform grids, and the value they tend to.
 
-use super::question::{Question, Setting, Tell};
+use super::question::{
+    Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+};
 use crate::scene::bench::Request;
-use crate::scene::chart::{Chart, ChartAxis, Marks};
-use crate::scene::check::{Checked, count, number, refuse};
+use crate::scene::check::{count, number, refuse};
 use crate::scene::contact_result::ContactResult;
-use crate::scene::error::RunError;
-use crate::scene::experiment::Experiment;
 use crate::scene::grid::Grid;
 use crate::scene::method::Method;
-use crate::scene::outcome::Findings;
-use crate::scene::table::Table;
 use crate::solver::full::Solution;
 use serde::{Deserialize, Serialize};
 

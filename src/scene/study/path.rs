@@ -1,15 +1,10 @@
 //! Contacts along a path, each solved from its neighbour: what a sweep and the test trajectory (3.21) share.
 
-use super::question::{Setting, Tell};
+use super::question::{Chart, ChartAxis, Experiment, Findings, Marks, RunError, Setting, Table, Tell};
 use crate::scene::bench::Request;
-use crate::scene::chart::{Chart, ChartAxis, Marks};
 use crate::scene::contact_result::{ContactResult, RESULT_COLUMNS};
-use crate::scene::error::RunError;
-use crate::scene::experiment::Experiment;
 use crate::scene::grid::Grid;
 use crate::scene::method::Method;
-use crate::scene::outcome::Findings;
-use crate::scene::table::Table;
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::{OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
 use crate::solver::training::QuantityBox;

@@ -9,17 +9,14 @@
 
 use super::error_measures::OnlineScheme;
 use super::path::trajectory_points;
-use super::question::{Question, Setting, Tell};
-use crate::scene::chart::{Chart, ChartAxis, Marks};
-use crate::scene::check::{self, Checked, MAX_COMPARED, MAX_TESTS, count, number};
-use crate::scene::error::RunError;
-use crate::scene::experiment::Experiment;
+use super::question::{
+    Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+};
+use crate::scene::check::{self, MAX_COMPARED, MAX_TESTS, count, number};
 use crate::scene::method::ModelSource;
-use crate::scene::outcome::Findings;
 use crate::scene::parallel::{Reduced, film_errors, full_solutions, reduced_solutions};
 use crate::scene::random_points::all_random_points;
 use crate::scene::statistics::mean;
-use crate::scene::table::Table;
 use crate::solver::discrete::grid::ContactGridSpec;
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::{Moes, OperatingPoint};

@@ -1,14 +1,11 @@
 //! The contact itself, by one or several methods.
 
-use super::question::{Question, Setting, Tell};
-use crate::scene::chart::{Chart, ChartAxis, Marks};
-use crate::scene::check::{self, Checked};
+use super::question::{
+    Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+};
+use crate::scene::check;
 use crate::scene::contact_result::{ContactResult, profile_table};
-use crate::scene::error::RunError;
-use crate::scene::experiment::Experiment;
 use crate::scene::method::Method;
-use crate::scene::outcome::Findings;
-use crate::scene::table::Table;
 use crate::solver::full::Solution;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;

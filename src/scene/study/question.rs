@@ -1,13 +1,14 @@
 //! What every study is made of, and what it is given.
 
+pub use crate::scene::chart::{Chart, ChartAxis, Marks};
+pub(super) use crate::scene::check::Checked;
+pub use crate::scene::error::RunError;
+pub use crate::scene::experiment::Experiment;
+pub use crate::scene::outcome::Findings;
+pub use crate::scene::table::{Column, Table};
+
 use crate::scene::bench::Bench;
-use crate::scene::chart::Chart;
-use crate::scene::check::Checked;
-use crate::scene::error::RunError;
-use crate::scene::experiment::Experiment;
 use crate::scene::method::Method;
-use crate::scene::outcome::Findings;
-use crate::scene::table::Table;
 use crate::solver::observer::Progress;
 use crate::solver::training::TrainingObserver;
 use std::any::Any;

@@ -1,15 +1,12 @@
 //! Random points (3.17): failures, speed, and errors against full solutions.
 
-use super::question::{Question, Setting, Tell};
-use crate::scene::chart::{Chart, ChartAxis, Marks};
-use crate::scene::check::{self, Checked, MAX_TESTS, count};
-use crate::scene::error::RunError;
-use crate::scene::experiment::Experiment;
+use super::question::{
+    Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+};
+use crate::scene::check::{self, MAX_TESTS, count};
 use crate::scene::method::Method;
-use crate::scene::outcome::Findings;
 use crate::scene::parallel::full_solutions_told;
 use crate::scene::random_points::all_random_points;
-use crate::scene::table::{Column, Table};
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::ErrorEstimate;

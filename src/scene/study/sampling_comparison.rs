@@ -1,15 +1,12 @@
 //! Ways of sampling rows side by side: one set of full solutions, one basis, the same random tests.
 
-use super::question::{Question, Setting, Tell};
-use crate::scene::chart::{Chart, ChartAxis, Marks};
-use crate::scene::check::{self, Checked, MAX_COMPARED, MAX_TESTS, count, number};
-use crate::scene::error::RunError;
-use crate::scene::experiment::Experiment;
-use crate::scene::outcome::Findings;
+use super::question::{
+    Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+};
+use crate::scene::check::{self, MAX_COMPARED, MAX_TESTS, count, number};
 use crate::scene::parallel::{film_errors, full_solutions, reduced_solutions};
 use crate::scene::random_points::all_random_points;
 use crate::scene::statistics::median;
-use crate::scene::table::{Column, Table};
 use crate::solver::reduced::{ReducedOptions, Sampling};
 use crate::solver::training::{QuantityBox, Range, TrainingSpec, TrainingState, Windows, train_resumable};
 use serde::{Deserialize, Serialize};

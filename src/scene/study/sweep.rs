@@ -1,16 +1,11 @@
 //! The contact along one to three varied quantities.
 
 use super::path::{self, Path, PathRow};
-use super::question::{Question, Setting, Tell};
+use super::question::{Chart, ChartAxis, Checked, Experiment, Findings, Question, RunError, Setting, Table, Tell};
 use crate::scene::at::At;
 use crate::scene::axis::{Axis, Steps, Variable};
-use crate::scene::chart::{Chart, ChartAxis};
-use crate::scene::check::{self, Checked, MAX_POINTS, count, number, refuse};
-use crate::scene::error::RunError;
-use crate::scene::experiment::Experiment;
+use crate::scene::check::{self, MAX_POINTS, count, number, refuse};
 use crate::scene::method::Method;
-use crate::scene::outcome::Findings;
-use crate::scene::table::Table;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Sliding;
 use serde::{Deserialize, Serialize};

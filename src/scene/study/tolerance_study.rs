@@ -5,16 +5,13 @@
 
 use super::error_measures::OnlineScheme;
 use super::path::trajectory_points;
-use super::question::{Question, Setting, Tell};
-use crate::scene::chart::{Chart, ChartAxis, Marks};
-use crate::scene::check::{self, Checked, MAX_COMPARED, MAX_TESTS, count};
-use crate::scene::error::RunError;
-use crate::scene::experiment::Experiment;
-use crate::scene::outcome::Findings;
+use super::question::{
+    Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+};
+use crate::scene::check::{self, MAX_COMPARED, MAX_TESTS, count};
 use crate::scene::parallel::{full_solutions, reduced_solutions};
 use crate::scene::random_points::all_random_points;
 use crate::scene::statistics::{mean, median, percentile};
-use crate::scene::table::{Column, Table};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{ErrorMeasures, Norm, Online};
 use crate::solver::training::{Plan, QuantityBox, Range, TrainingState, Windows, train_resumable};

@@ -1,12 +1,9 @@
 //! Training a reduced model and saying what came of it.
 
-use super::question::{Question, Setting, Tell};
-use crate::scene::chart::{Chart, ChartAxis, Marks};
-use crate::scene::check::{Checked, refuse};
-use crate::scene::error::RunError;
-use crate::scene::experiment::Experiment;
-use crate::scene::outcome::Findings;
-use crate::scene::table::{Column, Table};
+use super::question::{
+    Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+};
+use crate::scene::check::{self, refuse};
 use crate::solver::reduced::{ReducedModel, Window};
 use crate::solver::training::{TrainingSpec, train};
 use std::sync::Arc;
@@ -44,6 +41,7 @@ impl Question for TrainingSpec {
             );
             return Err(refuse("study.windows", problem));
         }
+        check::test_range(&self.range)?;
         TrainingSpec::check(self).map_err(|problem| refuse("study", format!("is refused: {problem}")))
     }
 

@@ -1,14 +1,9 @@
 //! The test trajectory (3.21) through a box.
 
 use super::path::{self, Path, PathRow, trajectory_points};
-use super::question::{Question, Setting, Tell};
-use crate::scene::chart::{Chart, ChartAxis};
-use crate::scene::check::{self, Checked, MAX_POINTS};
-use crate::scene::error::RunError;
-use crate::scene::experiment::Experiment;
+use super::question::{Chart, ChartAxis, Checked, Experiment, Findings, Question, RunError, Setting, Table, Tell};
+use crate::scene::check::{self, MAX_POINTS};
 use crate::scene::method::Method;
-use crate::scene::outcome::Findings;
-use crate::scene::table::Table;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::training::QuantityBox;
 use serde::{Deserialize, Serialize};

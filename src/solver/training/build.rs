@@ -62,14 +62,22 @@ pub(super) fn check(spec: &TrainingSpec) -> Result<(), TrainingError> {
         Plan::FarthestPoint { snapshots } if !(4..=5000).contains(snapshots) => {
             refuse(format!("the plan asks for {snapshots} snapshots; between 4 and 5000 are accepted"))
         }
-        Plan::Grid { nodes } if nodes.iter().product::<usize>() < 4 || nodes.iter().any(|n| *n > 100) => {
+        Plan::Grid { nodes } if nodes.iter().any(|n| *n > 100) || nodes.iter().product::<usize>() < 4 => {
             refuse("the grid plan needs at least 4 points and at most 100 along each quantity".to_owned())
         }
         Plan::Grid { .. } if !matches!(spec.range, Range::Box(_)) => {
             refuse("the grid plan of Table 3.2 needs a box of SI quantities".to_owned())
         }
-        Plan::Adaptive { start, tolerances, local_sigma, limit, .. } => {
+        Plan::Adaptive { start, tolerances, successes, local_sigma, local_successes, vicinity, limit, .. } => {
             super::adaptive::check(*start, tolerances, *limit)?;
+            let searches = (1..=100_000).contains(successes) && *local_successes <= 100_000;
+            if !searches || *vicinity > 10_000 || tolerances.len() > 32 {
+                return refuse(format!(
+                    "the search ends after {successes} successes, locally after {local_successes}, with {vicinity} candidates in a vicinity, at {} \
+                     tolerances; 1 to 100000, at most 100000, 10000 and 32 are accepted",
+                    tolerances.len()
+                ));
+            }
             if local_sigma.is_finite() && *local_sigma > 0.0 && *local_sigma <= 1.0 {
                 return Ok(());
             }
@@ -112,6 +120,9 @@ fn check_given(spec: &TrainingSpec, windows: &[WindowSpec]) -> Result<(), Traini
     let refuse = |sentence: String| Err(TrainingError::Specification(sentence));
     if windows.is_empty() {
         return refuse("a model needs at least one window".to_owned());
+    }
+    if windows.len() > 64 {
+        return refuse(format!("a model of {} windows is asked for; at most 64 are accepted", windows.len()));
     }
     if windows.iter().any(|w| w.grid.kind() != spec.contact()) {
         return refuse("all windows must be of one kind of contact: all grids Plane, or none".to_owned());

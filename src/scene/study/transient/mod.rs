@@ -16,14 +16,10 @@ pub use models::{Kind, Model};
 pub use published::PublishedMarch;
 pub(crate) use timed_march::{Timed, Told, timed_march};
 
-use crate::scene::chart::{Chart, ChartAxis, Marks};
-use crate::scene::check::Checked;
-use crate::scene::error::RunError;
-use crate::scene::experiment::Experiment;
-use crate::scene::outcome::Findings;
 use crate::scene::sampled;
-use crate::scene::study::question::{Question, Setting, Tell};
-use crate::scene::table::{Column, Table};
+use crate::scene::study::question::{
+    Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+};
 use crate::solver::discrete::grid::{ContactGrid, ReferenceGrid};
 use crate::solver::full::transient::{Frame, FullMarch, Keep, Moment, State, Trajectory, Transient};
 use std::sync::Arc;

@@ -8,6 +8,7 @@ mod elementary;
 mod free_volume;
 mod pressure_coefficient;
 mod shear_thinning;
+mod words;
 
 pub use super::contact::Sliding;
 pub use free_volume::{Doolittle, Tait};

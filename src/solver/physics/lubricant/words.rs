@@ -1,0 +1,62 @@
+//! A lubricant in words.
+
+use super::{DensityLaw, Doolittle, LimitingStress, Lubricant, ShearLaw, Tait, ViscosityLaw};
+
+impl Lubricant {
+    /// All laws with their constants in words and SI units, for the heads of tables.
+    pub fn describe(&self) -> String {
+        let tait = |volume: &Tait| format!("K_0 {:e} Pa, K_0' {:e}", volume.k_0, volume.k_0_prime);
+        let viscosity = match &self.viscosity {
+            ViscosityLaw::Barus => "Barus viscosity".to_owned(),
+            ViscosityLaw::Roelands => "Roelands viscosity".to_owned(),
+            ViscosityLaw::Doolittle(Doolittle { b, r_0, volume }) => {
+                format!("Doolittle viscosity (B {b:e}, R_0 {r_0:e}, {})", tait(volume))
+            }
+        };
+        let density = match &self.density {
+            DensityLaw::Incompressible => "constant density".to_owned(),
+            DensityLaw::DowsonHigginson => "Dowson-Higginson density".to_owned(),
+            DensityLaw::Tait(volume) => format!("Tait density ({})", tait(volume)),
+        };
+        let shear = match self.shear {
+            ShearLaw::Newtonian => None,
+            ShearLaw::Carreau { critical_stress, beta, n, npr } => {
+                Some(format!("Carreau shear (G_c {critical_stress:e} Pa, beta {beta:e}, n {n:e}, NPR {npr:e})"))
+            }
+            ShearLaw::Ellis { critical_stress, n, npr } => {
+                Some(format!("Ellis shear (G {critical_stress:e} Pa, n {n:e}, NPR {npr:e})"))
+            }
+            ShearLaw::Eyring { critical_stress, npr } => {
+                Some(format!("Eyring shear (tau_E {critical_stress:e} Pa, NPR {npr:e})"))
+            }
+        };
+        let limit = self
+            .limiting_stress
+            .map(|LimitingStress { ambient, slope }| format!("limiting stress {ambient:e} Pa + {slope:e} p"));
+        [Some(viscosity), Some(density), shear, limit].into_iter().flatten().collect::<Vec<_>>().join("; ")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_law_is_said_with_its_constants_and_none_as_code() {
+        assert_eq!(Lubricant::default().describe(), "Roelands viscosity; Dowson-Higginson density");
+        let volume = Tait { k_0: 1e9, k_0_prime: 11.0 };
+        let lubricant = Lubricant {
+            density: DensityLaw::Tait(volume),
+            viscosity: ViscosityLaw::Doolittle(Doolittle { b: 4.0, r_0: 0.65, volume }),
+            shear: ShearLaw::Carreau { critical_stress: 1e4, beta: 2.2, n: 0.8, npr: 0.25 },
+            limiting_stress: Some(LimitingStress { ambient: 5e6, slope: 0.05 }),
+        };
+        assert_eq!(
+            lubricant.describe(),
+            "Doolittle viscosity (B 4e0, R_0 6.5e-1, K_0 1e9 Pa, K_0' 1.1e1); Tait density (K_0 1e9 Pa, K_0' 1.1e1); \
+             Carreau shear (G_c 1e4 Pa, beta 2.2e0, n 8e-1, NPR 2.5e-1); limiting stress 5e6 Pa + 5e-2 p"
+        );
+        let eyring = ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 };
+        assert!(!Lubricant { shear: eyring, ..lubricant }.describe().contains('{'));
+    }
+}
