@@ -174,3 +174,25 @@ impl SceneOutcome {
         object
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_solve_that_failed_counts_unless_failures_are_expected() {
+        let good = SceneOutcome { converged: true, ..SceneOutcome::default() };
+        let verdict = |holds| Verdict {
+            name: "H_c".to_owned(),
+            method: None,
+            value: Some(1.0),
+            wanted: String::new(),
+            from: String::new(),
+            holds,
+        };
+        let failed = SceneOutcome { converged: false, verdicts: vec![verdict(true)], ..good.clone() };
+        assert!(good.passed() && !failed.passed());
+        assert!(SceneOutcome { failures_expected: true, ..failed.clone() }.passed());
+        assert!(!SceneOutcome { failures_expected: true, verdicts: vec![verdict(false)], ..failed }.passed());
+    }
+}

@@ -5,9 +5,13 @@ use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene};
 use ehl_explorer::scene::study::point::Point;
 use ehl_explorer::scene::study::random_test::RandomTest;
 use ehl_explorer::scene::{Grid, Method, ModelSource, Scene, Study, TransientStudy};
+use ehl_explorer::scene::{StudyObserver, StudyRow};
 use ehl_explorer::solver::full::transient::{Frame, Signal, TimeStep};
+use ehl_explorer::solver::observer::Observer;
+use ehl_explorer::solver::training::TrainingObserver;
 use std::collections::BTreeSet;
 use std::path::Path;
+use std::sync::Mutex;
 
 fn all() -> Vec<(String, Scene)> {
     let read = |path: &Path| Scene::read(path).unwrap_or_else(|error| panic!("{error}"));
@@ -207,4 +211,35 @@ fn a_model_file_that_is_missing_is_named() {
     scene.study = Study::Point(Point { methods: vec![Method::reduced(ModelSource::File("no/such/file.rom".into()))] });
     let error = run_scene(&scene, &mut Workbench::new(""), &()).unwrap_err().to_string();
     assert!(error.contains("no/such/file.rom"), "{error}");
+}
+
+/// Keeps the rows it is told.
+#[derive(Default)]
+struct Rows(Mutex<Vec<StudyRow>>);
+
+impl Observer for Rows {}
+impl TrainingObserver for Rows {}
+impl StudyObserver for Rows {
+    fn row(&self, row: StudyRow) {
+        self.0.lock().unwrap().push(row);
+    }
+}
+
+#[test]
+fn rows_that_were_told_say_what_the_outcome_says() {
+    let study = "RandomTest(range: Realisation(m: (5.0, 200.0), l: (2.0, 12.0), max_hertz_pressure: 3.2e9), \
+                 tests: 40, seed: 3, method: Reduced(pressure_loss: 1e-4), compare: 2)";
+    let sweep = "Sweep(over: [(vary: M, values: Log(from: 10.0, to: 40.0, n: 3))], methods: [Reduced()])";
+    for (study, streamed) in [(study, 42), (sweep, 3)] {
+        let scene = Scene::from_ron(&format!("Scene(version: 1, title: \"t\", study: {study})")).unwrap();
+        let rows = Rows::default();
+        let outcome = run_scene(&scene, &mut Workbench::new(""), &rows).unwrap();
+        let rows = rows.0.into_inner().unwrap();
+        assert_eq!(rows.len(), streamed);
+        let told = scene.outcome(&rows, 0.0);
+        assert_eq!((&told.values, &told.tables, told.converged), (&outcome.values, &outcome.tables, outcome.converged));
+        assert!(scene.study.charts(&rows).iter().all(|chart| !chart.series.is_empty()));
+        // What was told so far says as much as it can.
+        assert_eq!(scene.study.tables(&rows[..2])[0].rows.len(), 2);
+    }
 }

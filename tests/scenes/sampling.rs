@@ -51,3 +51,12 @@ fn a_cubature_of_few_rows_does_what_all_rows_do() {
     let twice = COMPARISON.replace("greedy\"", "all\"");
     assert!(Scene::from_ron(&twice).unwrap_err().to_string().contains("study.samplings.name"));
 }
+
+#[test]
+fn a_range_with_too_few_contacts_is_refused_in_a_sentence() {
+    let folder = Scratch::new("few");
+    folder.write("training.ron", TRAINING);
+    let scene = Scene::from_ron(&COMPARISON.replace("load: (30.0, 45.0)", "load: (1e9, 1e10)")).unwrap();
+    let sentence = run_scene(&scene, &mut Workbench::new(&*folder), &()).unwrap_err().to_string();
+    assert!(sentence.contains("hardly any point") && sentence.contains("of 20 were found"), "{sentence}");
+}
