@@ -48,30 +48,9 @@ fn solve_json_has_the_fields_of_the_contract_and_no_others() {
     assert!(output.stderr.is_empty());
     let object = json(&output);
     let mut names: Vec<&str> = object.as_object().unwrap().keys().map(String::as_str).collect();
-    let mut wanted = vec![
-        "contact",
-        "method",
-        "converged",
-        "si",
-        "moes",
-        "hertz",
-        "grid",
-        "H_c",
-        "H_min",
-        "X_H_min",
-        "P_c",
-        "P_max",
-        "X_P_max",
-        "H_0",
-        "h_c_m",
-        "h_min_m",
-        "traction",
-        "load_residual",
-        "residual_norm",
-        "newton_iterations",
-        "linear_iterations",
-        "wall_s",
-    ];
+    let wanted = "contact method converged si moes hertz grid H_c H_min X_H_min P_c P_max X_P_max H_0 h_c_m h_min_m traction \
+        load_residual residual_norm newton_iterations linear_iterations wall_s";
+    let mut wanted: Vec<&str> = wanted.split_whitespace().collect();
     names.sort_unstable();
     wanted.sort_unstable();
     assert_eq!(names, wanted);
@@ -345,7 +324,7 @@ fn a_training_that_is_killed_goes_on_and_gives_the_same_file() {
     let mut child = command(&killed).stderr(std::process::Stdio::null()).spawn().unwrap();
     let begin = Instant::now();
     while !kept.exists() {
-        assert!(begin.elapsed() < Duration::from_secs(60), "nothing was kept");
+        assert!(begin.elapsed() < Duration::from_secs(600), "nothing was kept");
         std::thread::sleep(Duration::from_millis(2));
     }
     child.kill().unwrap();

@@ -195,8 +195,7 @@ fn tests_that_are_named_exist() {
 
 #[test]
 fn files_that_are_named_exist_and_every_scene_is_listed() {
-    let name = |path: PathBuf| path.file_name().unwrap().to_string_lossy().into_owned();
-    let scenes: BTreeSet<String> = repository::all().into_iter().map(name).collect();
+    let scenes: BTreeSet<String> = repository::all().iter().map(|file| repository::name(&file.path) + ".ron").collect();
     for (path, text) in papers() {
         let words = text.split(|c: char| c.is_whitespace() || "`()[],;|".contains(c));
         for word in words.map(|word| word.trim_end_matches(['.', ':'])) {

@@ -4,3 +4,4 @@
 pub mod processor_time;
 pub mod scene_files;
 pub mod scratch;
+pub mod stop_after;

@@ -1,17 +1,13 @@
 //! The scenes of the repository, which lie in folders by subject, each under a name of its own.
 
+use ehl_explorer::engine::results::{SceneFile, scenes_below};
 use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene};
 use ehl_explorer::scene::Scene;
 use std::path::{Path, PathBuf};
 
-/// The paths of all scenes, by folder and name.
-pub fn all() -> Vec<PathBuf> {
-    let entries = |folder: &Path| std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let folders = entries(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes")).filter(|path| path.is_dir());
-    let mut paths: Vec<_> = folders.flat_map(|folder| entries(&folder).collect::<Vec<_>>()).collect();
-    paths.retain(|path| path.extension().is_some_and(|extension| extension == "ron"));
-    paths.sort();
-    paths
+/// All scenes, by folder and name.
+pub fn all() -> Vec<SceneFile> {
+    scenes_below(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes")).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The name of a scene: its file's, without folder and extension.
@@ -21,7 +17,8 @@ pub fn name(path: &Path) -> String {
 
 /// The path of the scene of a name.
 pub fn path(wanted: &str) -> PathBuf {
-    all().into_iter().find(|path| name(path) == wanted).unwrap_or_else(|| panic!("no scene {wanted}"))
+    let found = all().into_iter().find(|file| name(&file.path) == wanted);
+    found.unwrap_or_else(|| panic!("no scene {wanted}")).path
 }
 
 /// The scene of a name.

@@ -15,8 +15,7 @@ const BOX: QuantityBox = QuantityBox {
     speed: (3.0, 5.0),
     load: (1e5, 2e5),
     alpha: (6e-9, 10e-9),
-    modulus: 231e9,
-    viscosity: 0.01,
+    ..QuantityBox::TABLE_3_1
 };
 
 /// A folder with scenes of small trainings.

@@ -11,7 +11,7 @@ mod embedded_point_shear_model;
 mod embedded_shear_model;
 mod line_reference;
 mod point_reference;
-mod point_shear_thinning;
 mod rebuilt;
 mod shear_models;
 mod shear_thinning;
+mod transient_reference;

@@ -1,28 +1,20 @@
 //! The embedded models of shear-thinning contacts: what the tests of both have in common.
 
+use crate::common::scene_files;
 use ehl_explorer::engine::model_file::{embedded_of, embedded_shear_of, from_bytes, to_bytes};
+use ehl_explorer::scene::Study;
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
 use ehl_explorer::solver::full::{Problem, Solution};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use ehl_explorer::solver::reduced::{Calibration, Online, ReducedError, ReducedOptions, Trust, Window};
-use ehl_explorer::solver::training::{Range, SlidingRange, random_points};
+use ehl_explorer::solver::training::{Range, SlidingRange, TrainingSpec, random_points};
 
-/// What the model of a kind of contact was trained for.
+/// What the model of a kind of contact was trained for, as its scene says.
 pub fn range(kind: ContactKind) -> SlidingRange {
-    let (m, l, max_hertz_pressure) = match kind {
-        ContactKind::Line => ((4.0, 60.0), (5.0, 13.0), None),
-        ContactKind::Point => ((8.0, 240.0), (4.0, 11.0), Some(0.66e9)),
-    };
-    SlidingRange {
-        m,
-        l,
-        srr: (0.0, 1.0),
-        npr: (0.2, 1.0),
-        radius: 12.7e-3,
-        modulus: 123.878213951e9,
-        viscosity: 0.0705,
-        alpha: 1.8925e-8,
-        max_hertz_pressure,
+    let name = if kind == ContactKind::Line { "embedded_shear_model" } else { "embedded_point_shear_model" };
+    match scene_files::read(name).study {
+        Study::Training(TrainingSpec { range: Range::Sliding(range), .. }) => range,
+        other => panic!("{name} trains no range with sliding: {other:?}"),
     }
 }
 

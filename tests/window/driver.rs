@@ -1,5 +1,6 @@
 //! Driving the window without a display: what the tests of its tabs have in common.
 
+use crate::common::processor_time::of_this_thread;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
@@ -35,9 +36,9 @@ pub fn wait_within(patience: Duration, harness: &mut Window, what: &str, done: i
     wait_until(patience, harness, what, |harness| done(harness.state()));
 }
 
-/// The same for at most a minute.
+/// The same for at most five minutes: a busy machine may take long.
 pub fn wait(harness: &mut Window, what: &str, done: impl Fn(&Explorer) -> bool) {
-    wait_within(Duration::from_secs(60), harness, what, done);
+    wait_within(Duration::from_secs(300), harness, what, done);
 }
 
 /// Clicks what bears a name.
@@ -90,10 +91,31 @@ pub fn give_path(harness: &mut Window, path: &Path, action: &str) {
     click(harness, action);
 }
 
+/// Writes what a button exports to a path, and reads it.
+pub fn export(harness: &mut Window, button: &str, path: &Path) -> String {
+    click(harness, button);
+    give_path(harness, path, "Export");
+    std::fs::read_to_string(path).unwrap()
+}
+
+/// Writes what an option of "Export plot…" draws to a path, and reads it.
+pub fn export_plot(harness: &mut Window, option: &str, path: &Path) -> String {
+    click(harness, "Export plot…");
+    click(harness, option);
+    harness.run_steps(6);
+    give_path(harness, path, "Export");
+    std::fs::read_to_string(path).unwrap()
+}
+
+/// Solid curves of a drawing; dashes are lines of their own.
+pub fn solid_curves(drawing: &str) -> usize {
+    drawing.lines().filter(|line| line.starts_with("<polyline") && line.matches(',').count() > 30).count()
+}
+
 /// Takes the contact through time, to the end of all runs.
 pub fn run_in_time(harness: &mut Window) {
     click(harness, "Run in time");
-    wait_within(Duration::from_secs(240), harness, "the run", |app| !app.marching());
+    wait_within(Duration::from_secs(900), harness, "the run", |app| !app.marching());
 }
 
 /// The moment that is looked at.
@@ -101,16 +123,18 @@ pub fn time(harness: &Window) -> f64 {
     harness.get_by_role_and_label(Role::Slider, "Time T").accesskit_node().numeric_value().unwrap()
 }
 
-/// Seconds that frames take to build, sorted; before each something is done.
-pub fn frame_times(harness: &mut Window, frames: u16, mut change: impl FnMut(&mut Window, u16)) -> Vec<f64> {
-    let mut frame = |k: u16| {
+/// Asserts what a frame may cost in the mean, in milliseconds of this thread's processor time; before each something is done.
+pub fn assert_cheap(harness: &mut Window, frames: u16, most_ms: f64, mut change: impl FnMut(&mut Window, u16)) {
+    let begin = of_this_thread();
+    for k in 0..frames {
         change(harness, k);
         harness.step();
-        harness.state().frame_s()
-    };
-    let mut times: Vec<f64> = (0..frames).map(&mut frame).collect();
-    times.sort_by(f64::total_cmp);
-    times
+    }
+    let frame_ms = 1e3 * (of_this_thread() - begin).as_secs_f64() / f64::from(frames);
+    println!("a frame takes {frame_ms:.2} ms");
+    // Without optimisation everything is many times slower.
+    let slower = if cfg!(debug_assertions) { 60.0 } else { 1.0 };
+    assert!(frame_ms < slower * most_ms, "a frame takes {frame_ms} ms");
 }
 
 /// How long nothing is drawn once everything has come to rest.
@@ -131,10 +155,6 @@ impl Table {
         let header = lines.next().unwrap().split(',').map(str::to_owned).collect();
         let row = |line: &str| line.split(',').map(|cell| cell.parse().unwrap_or(f64::NAN)).collect();
         Self { header, rows: lines.map(row).collect() }
-    }
-
-    pub fn read(path: &Path) -> Self {
-        Self::of(&std::fs::read_to_string(path).unwrap())
     }
 
     pub fn at(&self, name: &str) -> usize {

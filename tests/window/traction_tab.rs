@@ -1,14 +1,14 @@
 //! Shear-thinning in the window: four live sliders, the picker of lubricants, the Traction tab.
 
 use crate::common::scratch::Scratch;
-use crate::driver::{Table, Window, choose, click, give_path, press, set, shows, undo, wait, write};
+use crate::driver::{
+    Table, Window, choose, click, export, export_plot, give_path, press, set, shows, solid_curves, undo, wait, write,
+};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
-use ehl_explorer::engine::model_file;
 use ehl_explorer::scene::Scene;
-use ehl_explorer::solver::physics::contact::ContactKind;
 use std::path::Path;
 
 fn window(explorer: Explorer) -> Window {
@@ -36,6 +36,17 @@ fn enter(harness: &mut Window, field: &str, text: &str) {
 
 fn film(harness: &Window) -> f64 {
     harness.state().central_film().expect("a picture of the sliders")
+}
+
+/// Asserts that eleven full solutions lie on a reduced curve of 41 contacts: films to 1 %, tractions to what is given for each.
+fn assert_full_beside_reduced(rows: &[Vec<f64>], within: impl Fn(f64) -> f64) {
+    let (full, reduced): (Vec<_>, Vec<_>) = rows.iter().partition(|row| row[0] == 1.0);
+    assert_eq!((full.len(), reduced.len()), (11, 41));
+    for full in full {
+        let reduced = reduced.iter().find(|row| (row[1] - full[1]).abs() < 1e-9).unwrap();
+        let (traction, film) = ((reduced[6] - full[6]).abs(), (reduced[7] / full[7] - 1.0).abs());
+        assert!(traction <= within(full[6]) && film < 1e-2, "at SRR {}: {traction} and {film}", full[1]);
+    }
 }
 
 #[test]
@@ -161,26 +172,13 @@ fn the_curve_follows_the_sliders_full_solutions_lie_on_it_and_a_press_goes_there
     click(&mut harness, "Add full solutions");
     wait(&mut harness, "the full solutions", |app| app.traction_contacts().1 == 11 && !app.solving_along());
     assert!(shows(&harness, "full solutions differ by"));
-    click(&mut harness, "Export CSV…");
     let folder = Scratch::new("traction");
-    let path = folder.join("traction.csv");
-    give_path(&mut harness, &path, "Export");
-    let rows = Table::read(&path).rows;
-    assert_eq!(rows.len(), 41 + 11);
-    for full in rows.iter().filter(|row| row[0] == 1.0) {
-        let reduced = rows.iter().find(|row| row[0] == 0.0 && (row[1] - full[1]).abs() < 1e-9).unwrap();
-        assert!((reduced[6] - full[6]).abs() < 1e-4, "traction at SRR {}: {} and {}", full[1], reduced[6], full[6]);
-        assert!((reduced[7] / full[7] - 1.0).abs() < 1e-2, "film at SRR {}", full[1]);
-    }
-    click(&mut harness, "Export plot…");
-    click(&mut harness, "Traction and film as SVG…");
-    harness.run_steps(6);
-    let path = folder.join("traction.svg");
-    give_path(&mut harness, &path, "Export");
-    let figure = std::fs::read_to_string(&path).unwrap();
+    let table = export(&mut harness, "Export CSV…", &folder.join("traction.csv"));
+    let rows = Table::of(&table).rows;
+    assert_full_beside_reduced(&rows, |_| 1e-4);
+    let figure = export_plot(&mut harness, "Traction and film as SVG…", &folder.join("traction.svg"));
     // Traction and central film are solid, and each full solution has a ring for its traction and both films.
-    let curves = figure.lines().filter(|line| line.starts_with("<polyline") && line.matches(',').count() > 30);
-    assert_eq!((curves.count(), figure.matches("r=\"4.00\" fill=\"none\"").count()), (2, 33));
+    assert_eq!((solid_curves(&figure), figure.matches("r=\"4.00\" fill=\"none\"").count()), (2, 33));
     assert!(figure.contains("first contact is described above"));
     // A press in a plot goes there.
     let place = harness.get_by_label("Film along the quantity").rect().center();
@@ -205,21 +203,21 @@ fn the_curve_follows_the_sliders_full_solutions_lie_on_it_and_a_press_goes_there
         assert!(harness.query_by_label(name).is_some(), "{name}");
     }
     assert!(shows(&harness, "This contact meets pressures up to"));
-    println!("a frame takes {:.2} ms", 1e3 * harness.state().frame_s());
 }
 
 #[test]
 fn a_point_contact_has_its_curve_where_there_is_a_model_and_says_so_where_there_is_none() {
-    let mut explorer = Explorer::with_embedded_models();
-    explorer.open_scene(Path::new("scenes/shear/fig_3_14_point.ron")).unwrap();
-    let mut harness = window(explorer);
-    click(&mut harness, "Traction");
-    if model_file::embedded_shear_of(ContactKind::Point).is_ok() {
-        wait(&mut harness, "the curve", |app| app.traction_contacts().0 == Some(41));
-    } else {
-        assert!(shows(&harness, "No curve by the reduced model"));
-        assert!(shows(&harness, "Full solutions draw the curve here on request"));
-    }
+    let [with, without] = [Explorer::with_embedded_models(), Explorer::new(None)].map(|mut explorer| {
+        explorer.open_scene(Path::new("scenes/shear/fig_3_14_point.ron")).unwrap();
+        let mut harness = window(explorer);
+        click(&mut harness, "Traction");
+        harness
+    });
+    let mut harness = with;
+    wait(&mut harness, "the curve", |app| app.traction_contacts().0 == Some(41));
+    assert!(!shows(&harness, "No curve by the reduced model"));
+    assert!(shows(&without, "No curve by the reduced model"));
+    assert!(shows(&without, "Full solutions draw the curve here on request"));
 }
 
 #[test]
@@ -235,26 +233,13 @@ fn a_fluid_that_the_model_was_not_trained_with_has_a_curve_that_says_so() {
     click(&mut harness, "Add full solutions");
     wait(&mut harness, "the full solutions", |app| app.traction_contacts().1 == 11 && !app.solving_along());
     assert!(shows(&harness, "full solutions differ by"));
-    click(&mut harness, "Export CSV…");
     let folder = Scratch::new("traction");
-    let path = folder.join("sketch.csv");
-    give_path(&mut harness, &path, "Export");
-    assert!(std::fs::read_to_string(&path).unwrap().contains("no bound on its errors is known"));
-    let rows = Table::read(&path).rows;
-    assert_eq!(rows.len(), 41 + 11);
-    for full in rows.iter().filter(|row| row[0] == 1.0) {
-        let reduced = rows.iter().find(|row| row[0] == 0.0 && (row[1] - full[1]).abs() < 1e-9).unwrap();
-        assert!((reduced[6] - full[6]).abs() <= 1e-2 * full[6], "traction at SRR {}", full[1]);
-        assert!((reduced[7] / full[7] - 1.0).abs() < 1e-2, "film at SRR {}", full[1]);
-    }
-    click(&mut harness, "Export plot…");
-    click(&mut harness, "Traction and film as SVG…");
-    harness.run_steps(6);
-    let path = folder.join("sketch.svg");
-    give_path(&mut harness, &path, "Export");
-    let figure = std::fs::read_to_string(&path).unwrap();
-    let curves = figure.lines().filter(|line| line.starts_with("<polyline") && line.matches(',').count() > 30);
-    assert_eq!(curves.count(), 0, "no line is firm");
+    let table = export(&mut harness, "Export CSV…", &folder.join("sketch.csv"));
+    assert!(table.contains("no bound on its errors is known"));
+    let rows = Table::of(&table).rows;
+    assert_full_beside_reduced(&rows, |traction| 1e-2 * traction);
+    let figure = export_plot(&mut harness, "Traction and film as SVG…", &folder.join("sketch.svg"));
+    assert_eq!(solid_curves(&figure), 0, "no line is firm");
     assert!(figure.contains("was not trained for this curve"));
     // Pictures are full solutions all the same.
     wait(&mut harness, "the full solver", |app| app.badge() == "Outside the reduced model" && !app.busy());
@@ -276,11 +261,9 @@ fn a_sketch_goes_along_with_ones_own_constants_and_with_other_newtonian_fluids()
     enter(&mut harness, "NPR value", "0.1");
     choose(&mut harness, "Against", "plateau ratio");
     wait(&mut harness, "the curve against NPR", |app| app.traction_contacts().0 == Some(41));
-    click(&mut harness, "Export CSV…");
     let folder = Scratch::new("traction");
-    let path = folder.join("plateau.csv");
-    give_path(&mut harness, &path, "Export");
-    let rows = Table::read(&path).rows;
+    let table = export(&mut harness, "Export CSV…", &folder.join("plateau.csv"));
+    let rows = Table::of(&table).rows;
     assert!((rows[0][2] - 0.1).abs() < 1e-9 && (rows[40][2] - 1.0).abs() < 1e-9, "{:?}", rows[0]);
     choose(&mut harness, "Against", "slide-to-roll ratio");
     choose(&mut harness, "Fluid", "Barus oil, compressible");

@@ -1,17 +1,16 @@
 //! The Transient tab without a display: a contact is taken through time, watched, stopped, looked at, exported and saved.
 
 use crate::common::scratch::Scratch;
-use crate::driver::{Table, Window, click, give_path, press, run_in_time, set, shows, time, undo, wait};
+use crate::driver::{
+    Table, Window, click, export, export_plot, give_path, press, run_in_time, set, shows, solid_curves, time, undo,
+    wait,
+};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use ehl_explorer::app::Explorer;
 use ehl_explorer::scene::{Scene, Study};
 use ehl_explorer::solver::full::transient::{Frame, Signal};
-use std::time::{Duration, Instant};
-
-/// A run must stop within this; debug builds are many times slower.
-const STOP: Duration = Duration::from_millis(if cfg!(debug_assertions) { 3000 } else { 100 });
 
 /// A scene on a coarse grid, on which a step takes about a millisecond.
 fn scene(inputs: &str, duration: f64, frames: &str) -> String {
@@ -44,10 +43,7 @@ fn frames_are_run_compared_scrubbed_played_and_exported() {
     assert!(shows(&harness, "Moving nodes (ALE)") && shows(&harness, "Film at this moment"));
     assert!((time(&harness) - 2.0).abs() < 1e-12, "it has followed the run to its end");
 
-    click(&mut harness, "Export series…");
-    let path = folder.join("series.csv");
-    give_path(&mut harness, &path, "Export");
-    let series = Table::read(&path);
+    let series = Table::of(&export(&mut harness, "Export series…", &folder.join("series.csv")));
     let (column, rows) = (|name: &str| series.at(name), &series.rows);
     let (film, moving) = (column("full.fixed.H_c"), column("full.ale.H_c"));
     assert_eq!(rows.len(), 41);
@@ -58,23 +54,14 @@ fn frames_are_run_compared_scrubbed_played_and_exported() {
 
     // A quarter of the period: the profiles are those of that moment.
     set(&mut harness, Role::Slider, "Time T", 0.5);
-    click(&mut harness, "Export profiles…");
-    let path = folder.join("profiles.csv");
-    give_path(&mut harness, &path, "Export");
-    let profiles = Table::read(&path);
+    let profiles = Table::of(&export(&mut harness, "Export profiles…", &folder.join("profiles.csv")));
     let (x, h) = (profiles.at("full.ale.X"), profiles.at("full.ale.H"));
     let centre = profiles.rows.iter().min_by(|a, b| a[x].abs().total_cmp(&b[x].abs())).unwrap();
     assert!((centre[h] / rows[10][moving] - 1.0).abs() < 1e-6, "in the scales of the reference contact");
 
-    click(&mut harness, "Export plot…");
-    click(&mut harness, "Series and profiles as SVG…");
-    harness.run_steps(6);
-    let path = folder.join("figure.svg");
-    give_path(&mut harness, &path, "Export");
-    let figure = std::fs::read_to_string(&path).unwrap();
-    // The solid run in central pressure, central film and both profiles; the other's dashes are lines of their own.
-    let curves = figure.lines().filter(|line| line.starts_with("<polyline") && line.matches(',').count() > 30);
-    assert_eq!(curves.count(), 4);
+    let figure = export_plot(&mut harness, "Series and profiles as SVG…", &folder.join("figure.svg"));
+    // The solid run in central pressure, central film and both profiles.
+    assert_eq!(solid_curves(&figure), 4);
     assert!(figure.contains("Moving nodes (ALE)") && figure.ends_with("</svg>\n"));
     assert!(figure.contains("Harmonic"), "what was run, not what the sliders say");
 
@@ -92,22 +79,14 @@ fn frames_are_run_compared_scrubbed_played_and_exported() {
 #[test]
 fn a_stopped_run_keeps_what_it_has_and_the_sliders_make_it_old() {
     let (mut harness, _folder) = open("stopped", &scene(BREATHING, 4000.0, "Fixed"));
-    let mut fastest = Duration::MAX;
-    // Another process may have the cores for a while: the best of a few runs counts.
-    for _ in 0..5 {
+    // Twice: a stopped run leaves room for the next. How soon it stops is judged without the window, where studies are cancelled.
+    for _ in 0..2 {
         click(&mut harness, "Run in time");
         wait(&mut harness, "some steps", |app| !app.marching() || app.transient_moments() > 20);
         assert!(harness.query_by_label("Progress of the contact in time").is_some());
-        let begin = Instant::now();
         click(&mut harness, "Stop");
         wait(&mut harness, "the end", |app| !app.marching());
-        fastest = fastest.min(begin.elapsed());
-        if fastest < STOP {
-            break;
-        }
     }
-    println!("stopped after {fastest:.0?}");
-    assert!(fastest < STOP, "{fastest:?}");
     assert!(shows(&harness, "was cancelled at T ="));
     let kept = harness.state().transient_moments();
     assert!(kept > 20 && time(&harness) > 0.0);
@@ -126,10 +105,8 @@ fn a_step_that_cannot_be_taken_is_named_and_what_was_computed_stays() {
     assert!(shows(&harness, "could not take the step") || shows(&harness, "stopped at T ="), "it is said");
     assert!(shows(&harness, "what was computed before is kept"));
     assert!((10..=41).contains(&harness.state().transient_moments()));
-    click(&mut harness, "Export series…");
-    let path = folder.join("series.csv");
-    give_path(&mut harness, &path, "Export");
-    assert_eq!(Table::read(&path).rows.len(), harness.state().transient_moments());
+    let series = Table::of(&export(&mut harness, "Export series…", &folder.join("series.csv")));
+    assert_eq!(series.rows.len(), harness.state().transient_moments());
 }
 
 #[test]
@@ -178,7 +155,6 @@ fn a_fresh_window_has_something_to_run() {
     assert_eq!(harness.state().transient_moments(), 161);
     click(&mut harness, "Set-up");
     assert!(!shows(&harness, "Inputs against time") && shows(&harness, "Film at this moment"));
-    println!("a frame with results takes {:.2} ms", 1e3 * harness.state().frame_s());
 }
 
 #[test]
@@ -188,10 +164,7 @@ fn a_reduced_model_is_trained_on_the_spot_and_runs_beside_the_full_system() {
     run_in_time(&mut harness);
     assert!(shows(&harness, "Fixed frame, reduced") && shows(&harness, "Deviation between runs"));
     assert_eq!(harness.state().transient_moments(), 2 * 41);
-    click(&mut harness, "Export series…");
-    let path = folder.join("series.csv");
-    give_path(&mut harness, &path, "Export");
-    let series = Table::read(&path);
+    let series = Table::of(&export(&mut harness, "Export series…", &folder.join("series.csv")));
     let (column, rows) = (|name: &str| series.at(name), &series.rows);
     let (full, reduced) = (column("full.fixed.H_c"), column("rnsa.fixed.H_c"));
     let worst = rows.iter().map(|row| (row[reduced] / row[full] - 1.0).abs()).fold(0.0, f64::max);

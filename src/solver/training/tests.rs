@@ -110,9 +110,10 @@ fn the_calibrated_bound_holds_against_full_solutions_and_is_not_idle() {
     ratios.sort_by(f64::total_cmp);
     assert!(ratios[100] < 10.0, "{}", ratios[100]);
     // A truncated model is another one: nothing is known of its errors.
-    let options = ReducedOptions { pressure_modes: Some(10), ..ReducedOptions::default() };
-    let truncated = Online::new(model, options).solve(&points[0], Lubricant::default());
-    assert!(truncated.is_err() || truncated.is_ok_and(|solved| solved.error.is_none()));
+    let fewer = model.windows[0].pressure.modes.ncols() - 2;
+    let options = ReducedOptions { pressure_modes: Some(fewer), ..ReducedOptions::default() };
+    let truncated = Online::new(model, options).solve(&points[0], Lubricant::default()).unwrap();
+    assert!(truncated.error.is_none());
 }
 
 #[test]
