@@ -1,6 +1,6 @@
 //! The manual: the pages of `assets/manual`, read in a window.
 
-use egui::{Context, Frame, Label, Panel, RichText, ScrollArea, Ui, Window, vec2};
+use egui::{Context, Frame, Label, Panel, Rect, RichText, ScrollArea, TextStyle, Ui, Window, vec2};
 use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
 
 /// A page: its file, by which links name it, and its text.
@@ -76,9 +76,10 @@ impl Manual {
     /// Shows it where it is open.
     pub fn ui(&mut self, ctx: &Context) {
         let mut open = self.open;
-        let room = ctx.content_rect().size();
-        let size = vec2((0.85 * room.x).min(1050.0), 0.85 * room.y);
-        Window::new("Manual").open(&mut open).default_size(size).collapsible(false).show(ctx, |ui| {
+        let room = ctx.content_rect();
+        let size = vec2((0.85 * room.width()).min(1050.0), 0.8 * room.height());
+        let place = Rect::from_center_size(room.center(), size);
+        Window::new("Manual").open(&mut open).default_rect(place).collapsible(false).show(ctx, |ui| {
             Panel::left("manual pages").resizable(false).default_size(178.0).show(ui, |ui| self.contents(ui));
             self.text(ui);
         });
@@ -103,6 +104,8 @@ impl Manual {
         ScrollArea::vertical().id_salt(page.file).auto_shrink(false).show(ui, |ui| {
             Frame::NONE.inner_margin(8.0).show(ui, |ui| {
                 ui.set_max_width(ui.available_width().min(READABLE_WIDTH));
+                // Rows as high as their text: words of links and others then stand on one line.
+                ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
                 // Fences stand at the beginnings of lines: every other part is a block of code.
                 for (k, part) in page.text.split("\n```").enumerate() {
                     ui.push_id(k, |ui| if k % 2 == 0 { self.prose(ui, part) } else { code(ui, part) });

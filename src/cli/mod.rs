@@ -3,6 +3,8 @@
 //! Exit codes: 0 done and converged; 1 ran, but did not converge or an expectation fell short; 2 the request is wrong, with one
 //! sentence on standard error.
 
+#![warn(clippy::indexing_slicing)]
+
 mod bench;
 mod failure;
 mod info;

@@ -1,4 +1,5 @@
 //! The speed table: full and reduced side by side, against a dense Newton measured in the same run.
+#![allow(clippy::indexing_slicing, reason = "the table's own sizes and points")]
 
 use super::model_file::ModelFileError;
 use super::store::Store;

@@ -5,6 +5,8 @@
 //! * [`mod@bench`] is the speed table, [`model_file`] the `.rom` format, [`training_file`] keeps unfinished trainings;
 //!   [`compare_models`] holds models side by side.
 
+#![warn(clippy::indexing_slicing)]
+
 pub mod bench;
 mod checked_file;
 mod grid_accuracy;

@@ -84,8 +84,9 @@ pub fn compare_models(
     let mut scores = Vec::with_capacity(models.len());
     for (k, model) in models.iter().enumerate() {
         let same_grids = |other: &&Arc<ReducedModel>| points.iter().all(|p| grid_of(model, p) == grid_of(other, p));
-        let full = match models.iter().take(k).position(|other| same_grids(&other)) {
-            Some(known) => films[known].clone(),
+        let known = models.iter().take(k).zip(&films).find(|(other, _)| same_grids(other));
+        let full = match known {
+            Some((_, films)) => films.clone(),
             None => full_films(model, &points, lubricant, observer)?,
         };
         scores.push(score(model, &points, lubricant, &full, observer)?);
@@ -101,7 +102,7 @@ fn full_films(
     lubricant: Lubricant,
     observer: &dyn TrainingObserver,
 ) -> Result<Films, EngineError> {
-    let grid = |point: &OperatingPoint| model.windows[model.window_for(point.moes())].grid.clone();
+    let grid = |point: &OperatingPoint| model.window_at(point.moes()).grid.clone();
     let full = full_solutions(grid, points, lubricant, observer)?;
     Ok(full.into_iter().map(|full| full.map(|full| (full.scalars.h_c, full.scalars.h_min))).collect())
 }

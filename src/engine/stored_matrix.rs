@@ -68,7 +68,8 @@ impl StoredMatrix {
         let largest = sizes.iter().copied().fold(0.0, f64::max);
         let used: Vec<bool> = sizes.iter().map(|size| *size > SMALLEST * largest).collect();
         let exponent = |step: f64| step.log2().floor() as i16;
-        let row_exponents = (0..rows).filter(|&i| used[i]).map(|i| exponent(sizes[i])).collect();
+        let row_exponents =
+            sizes.iter().zip(&used).filter(|(_, used)| **used).map(|(size, _)| exponent(*size)).collect();
         let column_exponents = scales.iter().map(|scale| exponent(accuracy / scale)).collect();
         let mut steps = Steps { across, runs: runs(&used), row_exponents, column_exponents, steps: Vec::new() };
         for k in 0..columns {
@@ -93,7 +94,7 @@ impl StoredMatrix {
             Values::Steps(steps) => steps.values(rows, columns)?,
         };
         let sound = values.len() == count && values.iter().all(|v| v.is_finite());
-        sound.then(|| Mat::from_fn(rows, columns, |i, j| values[j * rows + i]))
+        sound.then(|| Mat::from_fn(rows, columns, |i, j| values.get(j * rows + i).copied().unwrap_or_default()))
     }
 }
 
@@ -128,10 +129,11 @@ impl Steps {
     ) -> Option<Vec<f64>> {
         let mut values = vec![0.0; used.len()];
         let mut exponents = self.row_exponents.iter();
-        for i in (0..used.len()).filter(|&i| used[i]) {
-            let step = f64::from(exponents.next()? + self.column_exponents[column]).exp2();
+        let of_column = self.column_exponents.get(column)?;
+        for (i, _) in used.iter().enumerate().filter(|(_, used)| **used) {
+            let step = f64::from(exponents.next()? + of_column).exp2();
             let predicted = predicted(&values, i, self.across);
-            values[i] = predicted + step * count(i, predicted, step)? as f64;
+            *values.get_mut(i)? = predicted + step * count(i, predicted, step)? as f64;
         }
         Some(values)
     }
@@ -139,7 +141,7 @@ impl Steps {
 
 /// What the rows before row `i` of a column let expect there: along a line the straight continuation, in the plane that of both directions.
 fn predicted(column: &[f64], i: usize, across: usize) -> f64 {
-    let at = |row: Option<usize>| row.map_or(0.0, |row| column[row]);
+    let at = |row: Option<usize>| row.and_then(|row| column.get(row)).copied().unwrap_or_default();
     let beside = if across > 1 && i.is_multiple_of(across) { None } else { i.checked_sub(1) };
     let before = i.checked_sub(across);
     let corner = beside.and_then(|row| row.checked_sub(across));

@@ -15,8 +15,13 @@ use crate::solver::reduced::{
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// Relative accuracy of pressures and deformations at every node to which the bases of line and of point contacts are kept.
-const ACCURACY: [f64; 2] = [1e-13, 2e-10];
+/// Relative accuracy of pressures and deformations at every node to which the bases of a kind of contact are kept.
+fn accuracy(kind: ContactKind) -> f64 {
+    match kind {
+        ContactKind::Line => 1e-13,
+        ContactKind::Point => 2e-10,
+    }
+}
 
 #[derive(Serialize, Deserialize)]
 struct StoredModel {
@@ -114,7 +119,7 @@ impl StoredWindow {
             return damaged("bases");
         }
         let Some(reconstruction) = self.reconstruction.into_mat(modes) else { return damaged("sampled rows") };
-        let rows_fit = self.sampled_rows.windows(2).all(|w| w[0] < w[1])
+        let rows_fit = self.sampled_rows.is_sorted_by(|a, b| a < b)
             && self.sampled_rows.last().is_some_and(|&r| r < grid.unknowns())
             && reconstruction.ncols() == self.sampled_rows.len();
         if !rows_fit {
@@ -145,7 +150,7 @@ impl StoredWindow {
 
 /// The payload of a model file; none where the model cannot be encoded.
 pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
-    let accuracy = ACCURACY[usize::from(model.contact() == ContactKind::Point)];
+    let accuracy = accuracy(model.contact());
     let basis = |basis, grid: &ContactGrid| StoredBasis::new(basis, grid.nodes().1, accuracy);
     let stored = StoredModel {
         title: model.title.clone(),
@@ -205,10 +210,10 @@ pub(super) fn decode(payload: &[u8]) -> Result<ReducedModel, ModelFileError> {
     let grids = grids(&stored.windows)?;
     let mut windows: Vec<Window> =
         stored.windows.into_par_iter().zip(grids).map(|(w, grid)| w.into_window(grid)).collect::<Result<_, _>>()?;
-    if windows.is_empty() {
+    let Some(kind) = windows.first().map(|window| window.grid.kind()) else {
         return Err(ModelFileError::Damaged { what: "no windows" });
-    }
-    if windows.iter().any(|window| window.grid.kind() != windows[0].grid.kind()) {
+    };
+    if windows.iter().any(|window| window.grid.kind() != kind) {
         return Err(ModelFileError::Damaged { what: "windows of different contacts" });
     }
     if let Some(traction) = traction {

@@ -208,14 +208,9 @@ impl Workbench {
         let model = self.model_for(source, problem.point.kind, &request.lubricant, observer)?;
         let options = method.options(window_of(&model, problem.moes)?);
         let same = |online: &Online| Arc::ptr_eq(&online.model, &model) && *online.options() == options;
-        let place = match self.online.iter().position(same) {
-            Some(place) => place,
-            None => {
-                self.online.push(self.store.online(&model, options));
-                self.online.len() - 1
-            }
-        };
-        let online = &mut self.online[place];
+        let known = self.online.iter().position(same).map(|place| self.online.swap_remove(place));
+        let online = known.unwrap_or_else(|| self.store.online(&model, options));
+        let online = self.online.push_mut(online);
         // Operators belong to the model: wall_s is the solve alone.
         online.prepare(problem.moes);
         let clock = Instant::now();

@@ -115,9 +115,11 @@ impl At {
 
 /// Refuses a given quantity by its own name, before others follow from it.
 fn check_given(kind: ContactKind, given: [Option<f64>; 6]) -> Result<(), ContactError> {
-    let known = OperatingPoint::TABLE_2_1.quantities();
-    let [radius, speed, load, modulus, viscosity, alpha]: [f64; 6] =
-        std::array::from_fn(|i| given[i].unwrap_or(known[i]));
+    let mut quantities = OperatingPoint::TABLE_2_1.quantities();
+    for (quantity, given) in quantities.iter_mut().zip(given) {
+        *quantity = given.unwrap_or(*quantity);
+    }
+    let [radius, speed, load, modulus, viscosity, alpha] = quantities;
     match (At::Si { radius, speed, load, modulus, viscosity, alpha }).point(kind) {
         // The mixture of given and known quantities need not make sense as a contact.
         Err(ContactError::OutOfRange { quantity, .. }) if quantity.starts_with("Moes") => Ok(()),

@@ -2,7 +2,7 @@
 
 use super::bench::{Answer, ReducedFacts};
 use super::table::Table;
-use crate::solver::full::{Scalars, Solution};
+use crate::solver::full::{Scalars, Shear, Solution};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
@@ -206,7 +206,7 @@ impl Serialize for ContactResult {
         let values: Vec<(&str, Value)> = VALUES.iter().filter_map(|(name, get)| Some((*name, get(self)?))).collect();
         let mut map = serializer.serialize_map(None)?;
         for values in values.chunk_by(|a, b| group(a.0).is_some() && group(a.0) == group(b.0)) {
-            match (values, group(values[0].0)) {
+            match (values, values.first().and_then(|value| group(value.0))) {
                 ([(name, value)], None) => map.serialize_entry(name, value)?,
                 (_, group) => map.serialize_entry(&group, &Group(values))?,
             }
@@ -236,7 +236,8 @@ pub fn film_shear_table(name: impl Into<String>, solution: &Solution) -> Table {
     let field = solution.shear_field(&heights);
     for (k, height) in heights.into_iter().enumerate() {
         let places = solution.profile().zip(field.chunks_exact(HEIGHTS));
-        table.rows.extend(places.map(|((x, ..), at)| vec![x, height, at[k].stress_pa, at[k].rate_per_s]));
+        let row = |(x, shear): (f64, &Shear)| vec![x, height, shear.stress_pa, shear.rate_per_s];
+        table.rows.extend(places.filter_map(|((x, ..), at)| Some((x, at.get(k)?))).map(row));
     }
     table
 }

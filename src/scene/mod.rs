@@ -4,6 +4,8 @@
 //! with line and column in every error; [`check`] refuses values that make no sense, naming the field. What the explorer needs
 //! beyond the experiment to open a scene as it was saved stands in its [`View`]; windows, themes and zoom are not part of it.
 
+#![warn(clippy::indexing_slicing)]
+
 pub mod at;
 pub mod atomic_file;
 mod axis;

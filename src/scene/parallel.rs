@@ -60,14 +60,12 @@ pub(super) fn full_solutions_told(
         .enumerate()
         .map_init(Vec::<ContactSolver>::new, |solvers, (i, point)| {
             let grid = grid(point);
-            let place = match solvers.iter().position(|solver| solver.grid_spec() == grid.spec()) {
-                Some(place) => place,
-                None => {
-                    solvers.push(ContactSolver::on(&grid));
-                    solvers.len() - 1
-                }
-            };
-            let solution = solvers[place].solve(point, lubricant, Start::Cold, observer)?;
+            let known = solvers.iter().position(|solver| solver.grid_spec() == grid.spec());
+            let known = known.map(|place| solvers.swap_remove(place));
+            let mut solver = known.unwrap_or_else(|| ContactSolver::on(&grid));
+            let solution = solver.solve(point, lubricant, Start::Cold, observer);
+            solvers.push(solver);
+            let solution = solution?;
             count.one_more()?;
             let solution = Some(solution).filter(Solution::converged);
             tell(i, solution.as_ref());

@@ -56,7 +56,7 @@ fn parse_into(inputs: &mut Inputs, text: &str) -> Result<(), (usize, String)> {
             let problem = format!("the column `{title}` is unknown; write T and any of radius, speed, load");
             return Err((title_line, problem));
         }
-        if titles[..i].contains(title) {
+        if titles.iter().take(i).any(|other| other == title) {
             return Err((title_line, format!("the column `{title}` occurs twice")));
         }
     }
@@ -88,11 +88,11 @@ fn parse_into(inputs: &mut Inputs, text: &str) -> Result<(), (usize, String)> {
             column.push(value);
         }
     }
-    if columns[time_column].is_empty() {
+    let Some(times) = columns.get(time_column).filter(|times| !times.is_empty()) else {
         return Err((title_line, "no line of numbers follows the titles".to_owned()));
-    }
+    };
     for (title, values) in titles.iter().zip(&columns) {
-        let signal = Signal::Sampled { times: columns[time_column].clone(), values: values.clone() };
+        let signal = Signal::Sampled { times: times.clone(), values: values.clone() };
         match *title {
             "radius" => inputs.radius = signal,
             "speed" => inputs.speed = signal,

@@ -9,7 +9,8 @@ pub fn percentile(values: &[f64], fraction: f64) -> f64 {
     let below = position.floor() as usize;
     let above = (below + 1).min(last);
     let t = position - below as f64;
-    if t == 0.0 { sorted[below] } else { sorted[below] * (1.0 - t) + sorted[above] * t }
+    let at = |place: usize| sorted.get(place).copied().unwrap_or(f64::NAN);
+    if t == 0.0 { at(below) } else { at(below) * (1.0 - t) + at(above) * t }
 }
 
 /// The middle value; NaN of none.
@@ -33,17 +34,15 @@ pub fn rank_correlation(a: &[f64], b: &[f64]) -> f64 {
 
 /// The rank of each value, from 0.
 fn ranks(values: &[f64]) -> Vec<f64> {
-    let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_by(|&i, &j| values[i].total_cmp(&values[j]));
-    let mut ranks = vec![0.0; values.len()];
-    let mut from = 0;
-    for group in order.chunk_by(|&i, &j| values[i] == values[j]) {
-        for &i in group {
-            ranks[i] = from as f64 + (group.len() - 1) as f64 / 2.0;
-        }
-        from += group.len();
+    let mut order: Vec<(usize, f64)> = values.iter().copied().enumerate().collect();
+    order.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let mut ranked: Vec<(usize, f64)> = Vec::with_capacity(values.len());
+    for group in order.chunk_by(|a, b| a.1 == b.1) {
+        let rank = ranked.len() as f64 + (group.len() - 1) as f64 / 2.0;
+        ranked.extend(group.iter().map(|(place, _)| (*place, rank)));
     }
-    ranks
+    ranked.sort_by_key(|(place, _)| *place);
+    ranked.into_iter().map(|(_, rank)| rank).collect()
 }
 
 #[cfg(test)]

@@ -56,7 +56,8 @@ impl Table {
             let label = self.labels.get(k).cloned().unwrap_or_default();
             std::iter::once(label).chain(row.iter().map(short)).collect()
         }));
-        let width = |column: usize| lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0);
+        let width =
+            |column: usize| lines.iter().filter_map(|line| Some(line.get(column)?.chars().count())).max().unwrap_or(0);
         let widths: Vec<usize> = (0..=self.columns.len()).map(width).collect();
         let mut text = String::new();
         for line in &lines {

@@ -17,6 +17,7 @@
 //!
 //! [`run_scene`](super::run_scene) does all of it for who only wants the outcome. A new study is a file with a [`Question`], and a line in each of
 //! [`Study`], [`StudyRow`], `StudyRow::inner` and `Study::asked`.
+#![allow(clippy::indexing_slicing, reason = "rows, methods and models of one run: places in lists that it made itself")]
 
 pub mod dimensions;
 pub mod distance_measure;

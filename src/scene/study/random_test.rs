@@ -179,7 +179,7 @@ impl Question for RandomTest {
         }
         let Some(source) = self.method.model() else { return Ok(()) };
         let model = setting.bench.model_for(source, experiment.contact, &experiment.lubricant, observer)?;
-        let grid = |point: &OperatingPoint| model.windows[model.window_for(point.moes())].grid.clone();
+        let grid = |point: &OperatingPoint| model.window_at(point.moes()).grid.clone();
         let compared = &points[..self.compare.min(points.len())];
         let truth = |i: usize, full: Option<&Solution>| tell(Row::Truth(i, full.map(Film::of_full)));
         full_solutions_told(grid, compared, experiment.lubricant, observer, truth)?;

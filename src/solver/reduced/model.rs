@@ -213,6 +213,11 @@ impl ReducedModel {
         self.windows.iter().position(|w| moes.m <= w.m.1).unwrap_or(self.windows.len().saturating_sub(1))
     }
 
+    /// The window that serves a contact.
+    pub fn window_at(&self, moes: Moes) -> &Window {
+        &self.windows[self.window_for(moes)]
+    }
+
     /// The kind of contact it is a model of.
     pub fn contact(&self) -> ContactKind {
         self.windows.first().map_or_else(ContactKind::default, |window| window.grid.kind())
