@@ -2,9 +2,9 @@
 //!
 //! Imports point one way: [`app`] and [`cli`] use [`engine`], which uses [`scene`], which uses [`solver`].
 //!
-//! * [`solver`] is the core: contact, lubricant, grid, Reynolds row, full and reduced systems, training.
-//! * [`scene`] is the experiment as a document: read, check, write.
-//! * [`engine`] runs experiments headless: results by name, expectations, tables, CSV and JSON, the speed table.
+//! * [`solver`] is the core: physics, the discrete equations, full and reduced systems, training.
+//! * [`scene`] is the experiment as a document: read, check, write; [`scene::study`] has one file for each question.
+//! * [`engine`] owns what is expensive and shared: grids, solvers, models and their files, jobs, the speed table.
 //! * [`cli`] holds the commands.
 //! * [`app`] is the explorer on the screen.
 
