@@ -3,7 +3,7 @@
 use super::checked_file::{Flaw, Format, Unreadable};
 use super::stored_model;
 use crate::scene::atomic_file::{self, WriteError};
-use crate::solver::discrete::grid::ContactGridError;
+use crate::solver::discrete::grid::GridError;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::ReducedModel;
 use std::path::{Path, PathBuf};
@@ -78,7 +78,7 @@ pub enum ModelFileError {
     },
     /// Its grid is refused.
     #[error("the model file's grid is refused: {0}")]
-    Grid(#[from] ContactGridError),
+    Grid(#[from] GridError),
 }
 
 impl From<Flaw> for ModelFileError {

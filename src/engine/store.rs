@@ -2,7 +2,7 @@
 
 use super::EngineError;
 use super::model_file::{self, ModelFileError};
-use crate::solver::discrete::grid::{ContactGrid, ContactGridError, ContactGridSpec};
+use crate::solver::discrete::grid::{ContactGrid, ContactGridSpec, GridError};
 use crate::solver::full::ContactSolver;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions};
@@ -46,7 +46,7 @@ impl Store {
     ///
     /// # Errors
     /// When the specification is refused.
-    pub fn grid(&self, spec: ContactGridSpec) -> Result<ContactGrid, ContactGridError> {
+    pub fn grid(&self, spec: ContactGridSpec) -> Result<ContactGrid, GridError> {
         let grid = match take(&self.0.grids, |grid| grid.spec() == spec) {
             Some(grid) => grid,
             None => spec.build()?,

@@ -9,6 +9,7 @@ mod embedded_model;
 mod embedded_point_model;
 mod embedded_point_shear_model;
 mod embedded_shear_model;
+mod iterations;
 mod line_reference;
 mod point_reference;
 mod rebuilt;

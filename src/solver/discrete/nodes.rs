@@ -1,6 +1,7 @@
 //! The nodes of a contact at one state, Newtonian or generalized: the one place where they are evaluated, for the full system, reduced
 //! and linearised models, error measures and balances alike.
 
+use super::reynolds::film_integrals::KnownFilm;
 use super::reynolds::generalized::{FilmTreatment, NodeState, PlaneGradient, ShearNode, gradient_slopes};
 use super::reynolds::{Node, Row, RowGeometry, STENCIL, row};
 use crate::solver::physics::lubricant::{ScaledFluid, ScaledShear};
@@ -97,27 +98,29 @@ impl Nodes {
             return;
         };
         self.thinning.resize(self.nodes.len(), ShearNode::default());
-        let thinned = |k: usize, own: &ShearNode, beside: Option<&ShearNode>| {
+        let thinned = |k: usize, known: &KnownFilm| {
             let state = NodeState { pressure: pressure[k], gradient: gradient(k), film: film[k] };
-            // Between two evaluations the stress hardly changes; in the first one the node before is near.
-            let known = beside.filter(|_| own.known.is_empty()).unwrap_or(own).known;
-            ShearNode::near(&known, fluid, law, inverse_lambda, state, treatment)
+            ShearNode::near(known, fluid, law, inverse_lambda, state, treatment)
         };
         let nodes = &mut self.nodes;
         match order {
             Order::Parallel => {
                 let all = self.thinning.par_iter_mut().zip(nodes).enumerate().with_min_len(SHARE[1]);
                 all.for_each(|(k, (own, node))| {
-                    *own = thinned(k, own, None);
+                    *own = thinned(k, &own.known);
                     *node = own.node;
                 });
             }
             Order::Alone | Order::BesideTheFormer => {
-                let mut former = ShearNode::default();
+                let mut former = KnownFilm::default();
                 for (k, (own, node)) in self.thinning.iter_mut().zip(nodes).enumerate() {
-                    *own = thinned(k, own, (order == Order::BesideTheFormer).then_some(&former));
+                    // Between two evaluations the stress hardly changes; in the first one the node before is near.
+                    let beside = order == Order::BesideTheFormer && own.known.is_empty();
+                    *own = thinned(k, if beside { &former } else { &own.known });
                     *node = own.node;
-                    former = *own;
+                    if order == Order::BesideTheFormer {
+                        former = own.known;
+                    }
                 }
             }
         }

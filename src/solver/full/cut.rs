@@ -3,7 +3,7 @@
 use super::solution::Solution;
 
 /// The cell of ascending nodes that holds a place: index of its upper end, and how far between both ends the place lies.
-fn cell(nodes: &[f64], at: f64) -> Option<(usize, f64)> {
+pub(super) fn cell(nodes: &[f64], at: f64) -> Option<(usize, f64)> {
     let upper = nodes.partition_point(|&node| node < at).max(1);
     let (low, high) = (*nodes.get(upper - 1)?, *nodes.get(upper)?);
     (at >= low).then(|| (upper, if high > low { (at - low) / (high - low) } else { 0.0 }))

@@ -1,6 +1,6 @@
 //! What is solved and what comes out: a problem and a solution are values that know what they belong to.
 
-use crate::solver::discrete::grid::{ContactGridError, GridError, GridSpec, PointGridError, PointGridSpec, dot};
+use crate::solver::discrete::grid::{GridError, GridSpec, PointGridSpec, dot};
 use crate::solver::discrete::nodes::Laws;
 use crate::solver::discrete::space::Grid;
 use crate::solver::physics::contact::{ContactError, ContactKind, Moes, OperatingPoint};
@@ -17,12 +17,9 @@ pub enum SolveError {
     /// The lubricant is refused.
     #[error(transparent)]
     Lubricant(#[from] LubricantError),
-    /// The grid of a line contact is refused.
+    /// The grid is refused.
     #[error(transparent)]
     Grid(#[from] GridError),
-    /// The grid of a point contact is refused.
-    #[error(transparent)]
-    PointGrid(#[from] PointGridError),
     /// The problem is of the other kind.
     #[error("this solver is made for {} contacts, but the operating point is that of a {} contact", wanted.name(), given.name())]
     OtherContact {
@@ -31,15 +28,6 @@ pub enum SolveError {
         /// What it was given.
         given: ContactKind,
     },
-}
-
-impl From<ContactGridError> for SolveError {
-    fn from(refused: ContactGridError) -> Self {
-        match refused {
-            ContactGridError::Line(refused) => refused.into(),
-            ContactGridError::Point(refused) => refused.into(),
-        }
-    }
 }
 
 /// One dimensionless problem: what the solver needs of an operating point and a lubricant.

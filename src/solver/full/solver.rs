@@ -1,6 +1,7 @@
 //! Solving contacts: where Newton starts, and what is tried until it converges: a former solution, cold starts with other films, then
 //! continuation from an easier contact.
 
+use super::cut::cell;
 use super::newton_space::NewtonSpace;
 use super::solution::{Problem, Report, Solution, SolveError, Termination, expect_kind, scalars_of};
 use super::system::{SolveOptions, System};
@@ -8,7 +9,7 @@ use crate::solver::discrete::grid::{ContactGrid, ContactGridSpec};
 use crate::solver::discrete::space::{Grid, LineSpace, PlaneSpace};
 use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{
-    ContactKind, Moes, MoesRequest, OperatingPoint, hamrock_dowson_central, moes_line_film, si_from_moes,
+    ContactKind, FilmFormula, Moes, MoesRequest, OperatingPoint, moes_film, si_from_moes,
 };
 use crate::solver::physics::lubricant::Lubricant;
 use std::f64::consts::PI;
@@ -226,9 +227,9 @@ impl<S: NewtonSpace> Solver<S> {
 fn formula_film(problem: &Problem) -> f64 {
     match problem.point.kind {
         // (h/R)(2U)^(−1/2) with a²/R² = 8 w/(π E′ R) = 8 M (2U)^(1/2)/π.
-        ContactKind::Line => moes_line_film(problem.moes) * PI / (8.0 * problem.moes.m),
+        ContactKind::Line => moes_film(ContactKind::Line, problem.moes) * PI / (8.0 * problem.moes.m),
         ContactKind::Point => {
-            hamrock_dowson_central(&problem.point) * problem.point.radius_m / problem.point.film_scale_m()
+            FilmFormula::HamrockDowsonCentral.predict(&problem.point).film_m / problem.point.film_scale_m()
         }
     }
 }
@@ -270,15 +271,10 @@ fn warm_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, former:
 /// Pressure of a solution at other abscissae and ordinates, (bi)linearly, zero outside.
 pub(super) fn interpolated(former: &Solution, x: impl Iterator<Item = f64>, y: &[f64]) -> Vec<f64> {
     let ny = former.y.len();
-    let place = |nodes: &[f64], at: f64| {
-        let k = nodes.partition_point(|&node| node < at).max(1);
-        let (low, high) = (*nodes.get(k - 1)?, *nodes.get(k)?);
-        (at >= low).then(|| (k, (at - low) / (high - low)))
-    };
-    let across: Vec<Option<(usize, f64)>> = y.iter().map(|&y| place(&former.y, y)).collect();
+    let across: Vec<Option<(usize, f64)>> = y.iter().map(|&y| cell(&former.y, y)).collect();
     let mut out = Vec::new();
     for x in x {
-        let along = place(&former.x, x);
+        let along = cell(&former.x, x);
         out.extend(across.iter().map(|&across| {
             let Some((i, s)) = along else { return 0.0 };
             let p = |i: usize, j: usize| former.pressure[i * ny + j];

@@ -134,7 +134,11 @@ impl<S: NewtonSpace> System<S> {
         let order = if S::PARALLEL { Order::Parallel } else { Order::Alone };
         let thinning = laws.shear.map(|_| self.thinning.get_or_insert_with(|| Thinning::new(space)));
         let gradient = thinning.as_ref().map(|thinning| &thinning.gradient);
-        let at = |k: usize| gradient.map_or([0.0; 2], |gradient| gradient.at_node(pressure, k));
+        let at = |k: usize| match (gradient, S::AXES) {
+            (None, _) => [0.0; 2],
+            (Some(gradient), 1) => [gradient.along().at(pressure, k), 0.0],
+            (Some(gradient), _) => gradient.at_node(pressure, k),
+        };
         nodes.evaluate(laws, (pressure, film), at, self.treatment, order);
         let nodes = &*nodes;
         space.each_row(rows, |k, _, row| {

@@ -28,7 +28,7 @@
 use super::model::{ReducedModel, Window};
 use super::online::{Online, ReducedError, ReducedOptions, ReducedSolution};
 use super::sampling::{Sampling, TestSpace, all_rows};
-use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN, GridError, PointGridError, dot};
+use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN, GridError, dot};
 use crate::solver::full::point::{Accuracy, second_grid};
 use crate::solver::full::{ContactSolver, FullSolver, PointSolver, Scalars, Solution, SolveError, Start, Termination};
 use crate::solver::observer::Observer;
@@ -48,9 +48,6 @@ pub enum SplitError {
     /// The model has no finer grid.
     #[error("the model's grid cannot be refined: {0}")]
     Grid(#[from] GridError),
-    /// The same for point contacts.
-    #[error("the model's grid has no second one beside it: {0}")]
-    Plane(#[from] PointGridError),
     /// The reduced model has no solution here.
     #[error(transparent)]
     Reduced(#[from] ReducedError),
@@ -222,7 +219,7 @@ impl Rivals {
     fn new(model: &ReducedModel, window: &Window, options: &ReducedOptions) -> Result<Self, SplitError> {
         let second = match &window.grid {
             ContactGrid::Line(grid) => ContactSolver::Line(FullSolver::on(grid.refined()?)),
-            ContactGrid::Point(grid) => ContactSolver::Point(PointSolver::new(second_grid(grid.spec))?),
+            ContactGrid::Point(grid) => ContactSolver::Point(PointSolver::on(second_grid(grid.spec).build()?)),
         };
         let mut exact = window.clone();
         exact.set_rows(Sampling::All, all_rows(&TestSpace::new(&window.pressure, &window.grid)));

@@ -5,7 +5,7 @@
 
 use super::dense;
 use super::model::{Snapshot, Window, separation};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint, hamrock_dowson_central, moes_line_film};
+use crate::solver::physics::contact::{ContactKind, FilmFormula, OperatingPoint, moes_film};
 use faer::Mat;
 
 /// Snapshots that take part in the interpolation of Newtonian contacts, and in that of shear-thinning ones, which have two parameters more.
@@ -109,9 +109,9 @@ pub(super) fn film_number(point: &OperatingPoint) -> f64 {
     match point.kind {
         ContactKind::Line => {
             let moes = point.moes();
-            moes_line_film(moes) / moes.m
+            moes_film(ContactKind::Line, moes) / moes.m
         }
-        ContactKind::Point => hamrock_dowson_central(point) * point.radius_m / point.film_scale_m(),
+        ContactKind::Point => FilmFormula::HamrockDowsonCentral.predict(point).film_m / point.film_scale_m(),
     }
 }
 

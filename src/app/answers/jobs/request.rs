@@ -2,7 +2,7 @@
 
 use crate::app::document::Key;
 use crate::engine::Store;
-use crate::solver::discrete::grid::{ContactGrid, ContactGridError, ContactGridSpec, GridSpec, PointGridSpec};
+use crate::solver::discrete::grid::{ContactGrid, ContactGridSpec, GridError, GridSpec, PointGridSpec};
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::Moes;
 use crate::solver::reduced::ReducedModel;
@@ -59,7 +59,7 @@ impl GridChoice {
     ///
     /// # Errors
     /// When the specification is refused.
-    pub fn with(&self, store: &Store) -> Result<ContactGrid, ContactGridError> {
+    pub fn with(&self, store: &Store) -> Result<ContactGrid, GridError> {
         match self {
             Self::Existing(grid) => Ok(grid.clone()),
             Self::Spec(spec) => store.grid(*spec),

@@ -3,13 +3,11 @@
 //! On a uniform grid K is Toeplitz, with the exact integral (2.39) of a constant pressure per cell, and is applied by FFT. On a graded grid
 //! K is the exact integral of hat functions, stored dense.
 
-use super::fft_length;
+use super::convolution::{Convolution, KernelError};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Mat, Par};
 use realfft::num_complex::Complex64;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use std::f64::consts::PI;
-use std::sync::Arc;
 
 /// The flexibility matrix K of a grid, over node arrays (leading outside node included).
 #[derive(Clone)]
@@ -34,8 +32,7 @@ impl std::fmt::Debug for Flexibility {
 pub struct Toeplitz {
     column: Vec<f64>,
     spectrum: Vec<f64>,
-    forward: Arc<dyn RealToComplex<f64>>,
-    inverse: Arc<dyn ComplexToReal<f64>>,
+    convolution: Convolution,
 }
 
 /// Buffers of the fast convolution; grow on first use, then nothing is allocated.
@@ -48,24 +45,19 @@ pub struct Scratch {
 
 impl Flexibility {
     /// Kernel (2.39) of `nodes` equidistant nodes with spacing `h`.
-    pub fn uniform(h: f64, nodes: usize) -> Self {
+    ///
+    /// # Errors
+    /// When it cannot be transformed.
+    pub fn uniform(h: f64, nodes: usize) -> Result<Self, KernelError> {
         let column: Vec<f64> = (0..nodes).map(|d| cell_kernel(d as f64 * h, h)).collect();
-        let length = fft_length(2 * nodes);
-        let mut planner = RealFftPlanner::new();
-        let (forward, inverse) = (planner.plan_fft_forward(length), planner.plan_fft_inverse(length));
+        let convolution = Convolution::new(2 * nodes);
+        let length = convolution.len();
         let mut circular = vec![0.0; length];
         for (d, &k) in column.iter().enumerate() {
-            circular[d] = k / length as f64;
-            circular[(length - d) % length] = k / length as f64;
+            (circular[d], circular[(length - d) % length]) = (k, k);
         }
-        let mut complex = forward.make_output_vec();
-        let mut work = forward.make_scratch_vec();
-        // Lengths come from the plan itself, so the transform cannot refuse them.
-        let spectrum = match forward.process_with_scratch(&mut circular, &mut complex, &mut work) {
-            Ok(()) => complex.iter().map(|c| c.re).collect(),
-            Err(_) => vec![0.0; complex.len()],
-        };
-        Self::Toeplitz(Toeplitz { column, spectrum, forward, inverse })
+        let spectrum = convolution.kernel(&mut circular)?;
+        Ok(Self::Toeplitz(Toeplitz { column, spectrum, convolution }))
     }
 
     /// Kernel of hat functions on the nodes `x` (leading outside node included); the first two and the last carry no pressure.
@@ -103,26 +95,18 @@ impl Flexibility {
 
 impl Toeplitz {
     fn apply(&self, input: &[f64], output: &mut [f64], scratch: &mut Scratch) {
-        let length = self.forward.len();
-        scratch.real.clear();
-        scratch.real.extend_from_slice(input);
-        scratch.real.resize(length, 0.0);
-        scratch.complex.resize(self.spectrum.len(), Complex64::default());
-        let needed = self.forward.get_scratch_len().max(self.inverse.get_scratch_len());
-        scratch.work.resize(needed, Complex64::default());
-        let forward = self.forward.process_with_scratch(&mut scratch.real, &mut scratch.complex, &mut scratch.work);
-        for (c, s) in scratch.complex.iter_mut().zip(&self.spectrum) {
+        let Scratch { real, complex, work } = scratch;
+        real.clear();
+        real.extend_from_slice(input);
+        real.resize(self.convolution.len(), 0.0);
+        complex.resize(self.spectrum.len(), Complex64::default());
+        work.resize(self.convolution.work(), Complex64::default());
+        self.convolution.forward(real, complex, work);
+        for (c, s) in complex.iter_mut().zip(&self.spectrum) {
             *c *= *s;
         }
-        // The end bins of a real signal's spectrum are real; rounding must not make the inverse refuse them.
-        for end in [0, self.spectrum.len() - 1] {
-            if end == 0 || length % 2 == 0 {
-                scratch.complex[end].im = 0.0;
-            }
-        }
-        let inverse = self.inverse.process_with_scratch(&mut scratch.complex, &mut scratch.real, &mut scratch.work);
-        debug_assert!(forward.is_ok() && inverse.is_ok());
-        output.copy_from_slice(&scratch.real[..output.len()]);
+        self.convolution.inverse(complex, real, work);
+        output.copy_from_slice(&real[..output.len()]);
     }
 }
 
@@ -196,7 +180,7 @@ mod tests {
     #[test]
     fn fast_convolution_is_the_direct_sum() {
         let n = 137;
-        let k = Flexibility::uniform(0.03, n);
+        let k = Flexibility::uniform(0.03, n).unwrap();
         let p: Vec<f64> = (0..n).map(|i| ((i * 37 % 19) as f64) / 19.0).collect();
         let mut fast = vec![0.0; n];
         k.apply(&p, &mut fast, &mut Scratch::default());

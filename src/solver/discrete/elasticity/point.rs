@@ -4,12 +4,10 @@
 //! frequency has a small dense matrix of its own, with the mirror at Y = 0 included. That costs as much as a second FFT over the mirrored
 //! domain would, halves the number of transforms, and leaves the spacing across free.
 
-use super::fft_length;
+use super::convolution::{Convolution, KernelError};
 use rayon::prelude::*;
 use realfft::num_complex::Complex64;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use std::f64::consts::PI;
-use std::sync::Arc;
 
 /// The kernel of a half domain: deformation of every node by the pressure of every cell and of its mirror image.
 #[derive(Clone)]
@@ -23,8 +21,7 @@ pub struct PointFlexibility {
     edges: Vec<f64>,
     /// Per frequency a matrix of n_y rows and n_y − 1 columns (cell j + 1), column after column; real, since K is even in X.
     spectrum: Vec<f64>,
-    forward: Arc<dyn RealToComplex<f64>>,
-    inverse: Arc<dyn ComplexToReal<f64>>,
+    convolution: Convolution,
 }
 
 impl std::fmt::Debug for PointFlexibility {
@@ -66,24 +63,16 @@ fn strip(x: f64, v: f64, hx: f64) -> f64 {
 impl PointFlexibility {
     /// The kernel of `nx` nodes with spacing `hx` along X and nodes at the ordinates `y` across, whose cells end at `edges` (upper edge
     /// of each; the first node carries no pressure). Pressures at both ends along X are taken as zero.
-    pub fn new(hx: f64, nx: usize, y: &[f64], edges: &[f64]) -> Self {
+    ///
+    /// # Errors
+    /// When it cannot be transformed.
+    pub fn new(hx: f64, nx: usize, y: &[f64], edges: &[f64]) -> Result<Self, KernelError> {
         let (ny, m) = (y.len(), y.len() - 1);
-        let length = fft_length(2 * nx - 3);
-        let mut planner = RealFftPlanner::new();
-        let (forward, inverse) = (planner.plan_fft_forward(length), planner.plan_fft_inverse(length));
-        let mut kernel = Self {
-            nx,
-            ny,
-            hx,
-            y: y.to_vec(),
-            edges: edges.to_vec(),
-            spectrum: Vec::new(),
-            forward: Arc::clone(&forward),
-            inverse,
-        };
-        let frequencies = length / 2 + 1;
+        let convolution = Convolution::new(2 * nx - 3);
+        let (length, frequencies) = (convolution.len(), convolution.frequencies());
+        let mut kernel = Self { nx, ny, hx, y: y.to_vec(), edges: edges.to_vec(), spectrum: Vec::new(), convolution };
         // Spectra of the kernels of one ordinate j against all cells, in parallel over j.
-        let rows: Vec<Vec<f64>> = (0..ny)
+        let rows = (0..ny)
             .into_par_iter()
             .map(|j| {
                 let mut out = vec![0.0; frequencies * m];
@@ -92,23 +81,17 @@ impl PointFlexibility {
                     let upper = (length - d) % length;
                     kernel.row_entries(d, j, |cell, value| {
                         let signal = &mut circular[cell * length..(cell + 1) * length];
-                        signal[d] = value / length as f64;
-                        signal[upper] = value / length as f64;
+                        (signal[d], signal[upper]) = (value, value);
                     });
                 }
-                let mut complex = forward.make_output_vec();
-                let mut work = forward.make_scratch_vec();
                 for (cell, signal) in circular.chunks_exact_mut(length).enumerate() {
-                    // Lengths come from the plan itself, so the transform cannot refuse them.
-                    if forward.process_with_scratch(signal, &mut complex, &mut work).is_ok() {
-                        for (k, value) in complex.iter().enumerate() {
-                            out[k * m + cell] = value.re;
-                        }
+                    for (k, value) in kernel.convolution.kernel(signal)?.into_iter().enumerate() {
+                        out[k * m + cell] = value;
                     }
                 }
-                out
+                Ok(out)
             })
-            .collect();
+            .collect::<Result<Vec<Vec<f64>>, KernelError>>()?;
         let mut spectrum = vec![0.0; frequencies * ny * m];
         spectrum.par_chunks_mut(ny * m).enumerate().for_each(|(k, matrix)| {
             for (cell, column) in matrix.chunks_exact_mut(ny).enumerate() {
@@ -118,7 +101,7 @@ impl PointFlexibility {
             }
         });
         kernel.spectrum = spectrum;
-        kernel
+        Ok(kernel)
     }
 
     /// Hands out the deformation of a node of ordinate `j` by unit pressure on each cell and its mirror image, `d` columns away.
@@ -161,8 +144,8 @@ impl PointFlexibility {
     /// Δ = K P over node arrays.
     pub fn apply(&self, pressure: &[f64], deformation: &mut [f64], scratch: &mut PointScratch) {
         let (nx, ny, m) = (self.nx, self.ny, self.ny - 1);
-        let (length, frequencies) = (self.forward.len(), self.forward.len() / 2 + 1);
-        let needed = self.forward.get_scratch_len().max(self.inverse.get_scratch_len()).max(1);
+        let (length, frequencies) = (self.convolution.len(), self.convolution.frequencies());
+        let needed = self.convolution.work();
         scratch.real.resize(ny * length, 0.0);
         scratch.pressure.resize(ny * frequencies, Complex64::default());
         scratch.deformation.resize(ny * frequencies, Complex64::default());
@@ -181,8 +164,7 @@ impl PointFlexibility {
                 }
                 signal[0] = 0.0;
                 signal[nx - 1..].fill(0.0);
-                let done = self.forward.process_with_scratch(signal, spectrum, work);
-                debug_assert!(done.is_ok());
+                self.convolution.forward(signal, spectrum, work);
             });
         let spectra = &*spectra;
         deformed
@@ -210,11 +192,7 @@ impl PointFlexibility {
                 for (k, value) in spectrum.iter_mut().enumerate() {
                     *value = deformed[k * ny + j];
                 }
-                // The end bins of a real signal's spectrum are real; rounding must not make the inverse refuse them.
-                spectrum[0].im = 0.0;
-                spectrum[frequencies - 1].im = 0.0;
-                let done = self.inverse.process_with_scratch(spectrum, signal, work);
-                debug_assert!(done.is_ok());
+                self.convolution.inverse(spectrum, signal, work);
             });
         for (i, column) in deformation.chunks_exact_mut(ny).enumerate() {
             for (j, value) in column.iter_mut().enumerate() {

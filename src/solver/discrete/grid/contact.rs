@@ -4,8 +4,9 @@
 //! Along X everything is told in a reference coordinate ξ with X = −1 + (ξ + 1)s and H = H₀ − ½ ln s + (X² + Y²)/2 + s K P: the scale s
 //! registers line contacts by their spike. A point contact is the case s = 1.
 
-use super::line::{FIRST_UNKNOWN, GridError, GridSpec, ReferenceGrid};
-use super::point::{PointGrid, PointGridError, PointGridSpec};
+use super::GridError;
+use super::line::{FIRST_UNKNOWN, GridSpec, ReferenceGrid};
+use super::point::{PointGrid, PointGridSpec};
 use crate::solver::discrete::elasticity::{Flexibility, PointScratch, Scratch};
 use crate::solver::discrete::reynolds::generalized::PlaneGradient;
 use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
@@ -76,17 +77,6 @@ impl From<ContactGridSpec> for Written {
     }
 }
 
-/// Why a grid is refused.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum ContactGridError {
-    /// The grid of a line contact.
-    #[error(transparent)]
-    Line(#[from] GridError),
-    /// The grid of a point contact.
-    #[error(transparent)]
-    Point(#[from] PointGridError),
-}
-
 impl ContactGridSpec {
     /// The kind of contact it is a grid of.
     pub fn kind(&self) -> ContactKind {
@@ -100,7 +90,7 @@ impl ContactGridSpec {
     ///
     /// # Errors
     /// When the specification is refused.
-    pub fn build(&self) -> Result<ContactGrid, ContactGridError> {
+    pub fn build(&self) -> Result<ContactGrid, GridError> {
         Ok(match self {
             Self::Line(spec) => ContactGrid::Line(spec.build()?),
             Self::Point(spec) => ContactGrid::Point(spec.build()?),

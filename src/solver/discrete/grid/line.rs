@@ -9,7 +9,7 @@
 
 mod refined;
 
-use super::dot;
+use super::{GridError, dot};
 use crate::solver::discrete::elasticity::{Flexibility, Scratch};
 use crate::solver::discrete::reynolds::RowGeometry;
 use crate::solver::physics::contact::Moes;
@@ -48,31 +48,6 @@ pub enum GridSpec {
         domain: (f64, f64),
         /// Whether the spike is mapped to ξ = 1.
         registered: bool,
-    },
-}
-
-/// Why a grid is refused.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum GridError {
-    /// The domain does not hold the contact.
-    #[error(
-        "the domain {from}…{to} cuts the contact; its inlet must lie between −200 and −1.5 and its outlet between 1.2 and 20"
-    )]
-    Domain {
-        /// Inlet.
-        from: f64,
-        /// Outlet.
-        to: f64,
-    },
-    /// Too few or too many nodes.
-    #[error("the grid would have {nodes} nodes; between {min} and {max} are accepted")]
-    Size {
-        /// Nodes asked for.
-        nodes: f64,
-        /// Fewest accepted.
-        min: usize,
-        /// Most accepted.
-        max: usize,
     },
 }
 
@@ -120,7 +95,7 @@ impl GridSpec {
                 graded_nodes(nodes, from, to)
             }
         };
-        Ok(Arc::new(ReferenceGrid::of_nodes(*self, xi)))
+        Ok(Arc::new(ReferenceGrid::of_nodes(*self, xi)?))
     }
 }
 
@@ -154,12 +129,12 @@ pub struct LineGrid {
 
 impl ReferenceGrid {
     /// Weights and kernel for given abscissae, the outside node among them.
-    fn of_nodes(spec: GridSpec, xi: Vec<f64>) -> Self {
+    fn of_nodes(spec: GridSpec, xi: Vec<f64>) -> Result<Self, GridError> {
         let flexibility = match spec {
-            GridSpec::Uniform { .. } => Flexibility::uniform(xi[1] - xi[0], xi.len()),
+            GridSpec::Uniform { .. } => Flexibility::uniform(xi[1] - xi[0], xi.len())?,
             GridSpec::Graded { .. } => Flexibility::graded(&xi),
         };
-        Self { spec, weights: node_weights(&xi), xi, flexibility }
+        Ok(Self { spec, weights: node_weights(&xi), xi, flexibility })
     }
 
     /// Scale of the map for a contact: registered by its Moes numbers where the specification says so.

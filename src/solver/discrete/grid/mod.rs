@@ -2,15 +2,17 @@
 //! and of either kind ([`mod@contact`]).
 
 pub mod contact;
+mod error;
 pub mod line;
 pub mod point;
 
-pub use contact::{ContactGrid, ContactGridError, ContactGridSpec};
+pub use contact::{ContactGrid, ContactGridSpec};
+pub use error::{GridError, MAX_BYTES};
 pub use line::{
-    FIRST_UNKNOWN, GridError, GridSpec, INLET, LineGrid, MAX_GRADED_NODES, MAX_UNIFORM_NODES, ReferenceGrid,
-    registration_scale, spike_position,
+    FIRST_UNKNOWN, GridSpec, INLET, LineGrid, MAX_GRADED_NODES, MAX_UNIFORM_NODES, ReferenceGrid, registration_scale,
+    spike_position,
 };
-pub use point::{PointGrid, PointGridError, PointGridSpec};
+pub use point::{PointGrid, PointGridSpec};
 
 /// First index and weights of the cubic (4-point Lagrange) interpolation at X among increasing `nodes`; a single unit weight where X
 /// is a node.

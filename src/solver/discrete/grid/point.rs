@@ -3,14 +3,11 @@
 //! Node arrays run over all nodes, Y fastest: node (i, j) has the index i·n_y + j, with j = 0 on the outer edge and j = n_y − 1 on
 //! the symmetry axis Y = 0. The unknown pressures are those inside and on the axis, in the same order.
 
-use super::cubic;
+use super::{GridError, MAX_BYTES, cubic};
 use crate::solver::discrete::elasticity::{PointFlexibility, PointScratch};
 use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
-
-/// Most memory \[bytes\] a point grid's kernel and factors may take.
-pub const MAX_BYTES: f64 = 3e9;
 
 /// A description of a point grid, as scenes and the command line give it: equidistant along X, equidistant or finer in the side lobes
 /// across.
@@ -25,49 +22,6 @@ pub struct PointGridSpec {
     pub refinement: f64,
     /// Inlet, outlet and outer edge (Y₀ < 0) of the half domain.
     pub domain: (f64, f64, f64),
-}
-
-/// Why a point grid is refused.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum PointGridError {
-    /// The domain does not hold the contact.
-    #[error(
-        "the half domain {from} ≤ X ≤ {to}, {edge} ≤ Y ≤ 0 cuts the contact; its inlet must lie between −50 and −1.5, its outlet between 1.2 and 20, its edge between −20 and −1.2"
-    )]
-    Domain {
-        /// Inlet.
-        from: f64,
-        /// Outlet.
-        to: f64,
-        /// Outer edge.
-        edge: f64,
-    },
-    /// The refinement is none.
-    #[error("the refinement of the side lobes is {0}, but must lie between 1 (equidistant) and 8")]
-    Refinement(f64),
-    /// The spacing is no spacing, or too wide for the contact.
-    #[error("{name} is {spacing}, but must lie between 1e-4 and {widest}: fewer nodes cannot hold the contact")]
-    Spacing {
-        /// Which spacing.
-        name: &'static str,
-        /// Its value.
-        spacing: f64,
-        /// Widest accepted.
-        widest: f64,
-    },
-    /// The kernel and the factors would not fit into memory.
-    #[error(
-        "a grid of {nx}×{ny} nodes would need {:.1} GB of memory; at most {:.1} GB are accepted: take a wider spacing, above all across (dy)",
-        bytes / 1e9, MAX_BYTES / 1e9
-    )]
-    Memory {
-        /// Nodes along X.
-        nx: usize,
-        /// Nodes across.
-        ny: usize,
-        /// Bytes needed.
-        bytes: f64,
-    },
 }
 
 /// Widest spacing along X.
@@ -104,18 +58,18 @@ impl PointGridSpec {
     ///
     /// # Errors
     /// When the domain cuts the contact, or the spacing is too wide or too narrow.
-    pub fn nodes(&self) -> Result<(usize, usize), PointGridError> {
+    pub fn nodes(&self) -> Result<(usize, usize), GridError> {
         let (from, to, edge) = self.domain;
         if !((-50.0..=-1.5).contains(&from) && (1.2..=20.0).contains(&to) && (-20.0..=-1.2).contains(&edge)) {
-            return Err(PointGridError::Domain { from, to, edge });
+            return Err(GridError::HalfDomain { from, to, edge });
         }
         for (name, spacing, widest) in [("ΔX", self.dx, WIDEST_DX), ("ΔY", self.dy, WIDEST_DY)] {
             if !(1e-4..=widest).contains(&spacing) {
-                return Err(PointGridError::Spacing { name, spacing, widest });
+                return Err(GridError::Spacing { name, spacing, widest });
             }
         }
         if !(1.0..=8.0).contains(&self.refinement) {
-            return Err(PointGridError::Refinement(self.refinement));
+            return Err(GridError::Refinement(self.refinement));
         }
         let cells = self.cells_beyond(edge).round();
         Ok((((to - from) / self.dx).round() as usize + 1, cells as usize + 1))
@@ -158,10 +112,10 @@ impl PointGridSpec {
     ///
     /// # Errors
     /// When the domain cuts the contact, or the grid is too coarse to hold it or too fine for memory.
-    pub fn check(&self) -> Result<(usize, usize), PointGridError> {
+    pub fn check(&self) -> Result<(usize, usize), GridError> {
         let (nx, ny) = self.nodes()?;
         let bytes = Self::bytes(nx, ny);
-        if bytes > MAX_BYTES { Err(PointGridError::Memory { nx, ny, bytes }) } else { Ok((nx, ny)) }
+        if bytes > MAX_BYTES { Err(GridError::Memory { nx, ny, bytes }) } else { Ok((nx, ny)) }
     }
 
     /// Bytes that the kernel and the preconditioner of nx × ny nodes take: they grow as nx·ny², all else as nx·ny.
@@ -174,11 +128,11 @@ impl PointGridSpec {
     ///
     /// # Errors
     /// When the domain cuts the contact, or the grid is too coarse to hold it or too fine for memory.
-    pub fn build(&self) -> Result<Arc<PointGrid>, PointGridError> {
+    pub fn build(&self) -> Result<Arc<PointGrid>, GridError> {
         let (nx, ny) = self.check()?;
         let (from, to, _) = self.domain;
         let x: Vec<f64> = (0..nx).map(|i| from + (to - from) * i as f64 / (nx - 1) as f64).collect();
-        Ok(Arc::new(PointGrid::new(*self, x, self.ordinates(ny))))
+        Ok(Arc::new(PointGrid::new(*self, x, self.ordinates(ny))?))
     }
 }
 
@@ -200,7 +154,7 @@ pub struct PointGrid {
 }
 
 impl PointGrid {
-    fn new(spec: PointGridSpec, x: Vec<f64>, y: Vec<f64>) -> Self {
+    fn new(spec: PointGridSpec, x: Vec<f64>, y: Vec<f64>) -> Result<Self, GridError> {
         let (nx, ny) = (x.len(), y.len());
         let edges: Vec<f64> = (0..ny).map(|j| if j + 1 < ny { 0.5 * (y[j] + y[j + 1]) } else { 0.0 }).collect();
         let hx = (x[nx - 1] - x[0]) / (nx - 1) as f64;
@@ -216,8 +170,8 @@ impl PointGrid {
                 _ => RowGeometry::new([x[i - 2], x[i - 1], x[i], x[i + 1]]),
             })
             .collect();
-        let flexibility = PointFlexibility::new(hx, nx, &y, &edges);
-        Self { spec, x, y, weights, flexibility, columns }
+        let flexibility = PointFlexibility::new(hx, nx, &y, &edges)?;
+        Ok(Self { spec, x, y, weights, flexibility, columns })
     }
 
     /// Nodes along X, both ends counted.

@@ -6,6 +6,7 @@
 
 mod difference;
 mod frame;
+mod history;
 mod march;
 mod mass;
 mod pace;
@@ -18,6 +19,7 @@ mod trajectory;
 
 pub use difference::{BackwardDifference, extrapolated};
 pub use frame::{Conditions, Frame, Scales, point_at};
+pub use history::History;
 pub use march::{Keep, Marching, Step, Transient, TransientError, TransientObserver, march};
 pub use mass::MassBalance;
 pub use pace::TimeStep;

@@ -1,9 +1,8 @@
 //! The full system in time: every step a Newton solve from the extrapolation of the two former ones.
 
-use super::difference::extrapolated;
 use super::frame::{Conditions, Frame, point_at};
+use super::history::History;
 use super::march::{Marching, Step, Transient, TransientError, TransientObserver, march};
-use super::spline::Interpolated;
 use super::trajectory::{Effort, Moment, State, Trajectory};
 use crate::solver::discrete::grid::{FIRST_UNKNOWN, GridSpec, LineGrid, ReferenceGrid};
 use crate::solver::discrete::reynolds::line::Upstream;
@@ -22,22 +21,8 @@ pub struct FullMarch {
     solver: FullSolver,
     reference: Problem,
     frame: Frame,
-    /// The nearer one first.
-    former: [Past; 2],
+    history: History,
     start: Vec<f64>,
-    /// Their ρ̄H at the present nodes.
-    carried: [Vec<f64>; 2],
-}
-
-/// A former state.
-#[derive(Clone, Debug, Default)]
-struct Past {
-    pressure: Vec<f64>,
-    h_0: f64,
-    /// ρ̄H.
-    flow: Vec<f64>,
-    /// The same between the nodes, where the frame is remeshed.
-    between: Interpolated,
 }
 
 /// Stop of a step's Newton iteration on ‖Δz‖/‖z‖. It converges quadratically, so the error left is far below that.
@@ -70,27 +55,16 @@ impl FullMarch {
             solver: FullSolver::on(reference),
             reference: problem,
             frame: transient.frame,
-            former: Default::default(),
+            history: History::default(),
             start: vec![0.0; length],
-            carried: [vec![0.0; length], vec![0.0; length]],
         })
     }
 
     /// Gives the rows their place in time.
     fn set_rows(&mut self, step: &Step) {
-        for (carried, (past, scales)) in self.carried.iter_mut().zip(self.former.iter().zip(step.former)) {
-            match self.frame {
-                Frame::Remeshed(_) => {
-                    let stretch = step.now.scales.half_width / scales.half_width;
-                    let x = &self.system.space.grid.x;
-                    past.between.stretched(x, stretch, x.iter().copied(), |i, flow| carried[i] = flow);
-                }
-                Frame::Fixed | Frame::ArbitraryLagrangianEulerian => carried.copy_from_slice(&past.flow),
-            }
-        }
         let LineSpace { grid, rows, upstream, .. } = &mut self.system.space;
-        let unknowns = grid.unknowns();
-        let [near, far] = step.history_weights();
+        self.history.carry(self.frame, step, &grid.x, &grid.x);
+        let (unknowns, weights) = (grid.unknowns(), step.history_weights());
         for (k, (row, upstream)) in rows.iter_mut().zip(upstream).enumerate() {
             let node = k + FIRST_UNKNOWN;
             let velocity = step.velocity(grid.x[node]);
@@ -99,8 +73,7 @@ impl FullMarch {
                 Upstream::Inlet => grid.rows[k],
                 Upstream::Outlet | Upstream::Edge => upstream.geometry(&grid.x, k),
             };
-            let history = near * self.carried[0][node] + far * self.carried[1][node];
-            *row = geometry.in_time(velocity.abs(), step.quotient.now, history);
+            *row = geometry.in_time(velocity.abs(), step.quotient.now, self.history.at(weights, node));
         }
     }
 
@@ -119,14 +92,10 @@ impl FullMarch {
 
     /// Makes the present state the nearer of the former ones.
     fn remember(&mut self) {
-        self.former.swap(0, 1);
-        let (past, system) = (&mut self.former[0], &self.system);
-        past.pressure.clone_from(&system.pressure);
-        past.h_0 = system.h_0;
-        past.flow.clear();
-        past.flow.extend(system.flow());
+        let system = &self.system;
+        self.history.remember(&system.pressure, system.h_0, system.flow());
         if let Frame::Remeshed(interpolation) = self.frame {
-            past.between.set(interpolation, &system.space.grid.x, system.flow());
+            self.history.remember_between(interpolation, &system.space.grid.x, system.flow());
         }
     }
 }
@@ -168,17 +137,13 @@ impl Marching for FullMarch {
         effort.newton_iterations += solution.report.newton_iterations;
         effort.linear_iterations += solution.report.linear_iterations;
         self.remember();
-        self.former[1] = self.former[0].clone();
+        self.history.rest();
         Ok(effort)
     }
 
     fn step(&mut self, step: &Step, observer: &dyn Observer) -> Result<Effort, Termination> {
         self.set_rows(step);
-        let [near, far] = &self.former;
-        for (start, (near, far)) in self.start.iter_mut().zip(near.pressure.iter().zip(&far.pressure)) {
-            *start = extrapolated(step.ratio, *near, *far);
-        }
-        let h_0 = extrapolated(step.ratio, near.h_0, far.h_0);
+        let h_0 = self.history.extrapolate(step.ratio, &mut self.start);
         self.set_state(&step.now, h_0);
         let control = Backtracking { levelled_kernel: true, ..Backtracking::default() };
         let farther = SolveOptions { tolerance: STEP_TOLERANCE, control, ..SolveOptions::default() };
@@ -188,8 +153,9 @@ impl Marching for FullMarch {
         if matches!(first.termination, Termination::Converged | Termination::Cancelled) {
             return converged(&first);
         }
-        let (h_0, extrapolation) = (self.former[0].h_0, self.start.clone());
-        self.start.copy_from_slice(&self.former[0].pressure);
+        let extrapolation = self.start.clone();
+        let (nearer, h_0) = self.history.nearer();
+        self.start.copy_from_slice(nearer);
         self.set_state(&step.now, h_0);
         // The former state lies farther off: damped as from anywhere.
         let second = self.newton(&step.now, &farther, observer);

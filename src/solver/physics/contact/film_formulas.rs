@@ -89,25 +89,44 @@ impl FilmFormula {
         }
     }
 
-    /// The formula's film; meaningless for the other kind of contact.
+    /// The formula's film over the radius, h/R, in U = η₀u_m/(E′R), G = αE′ and W = w/(E′R) of a line, w/(E′R²) of a point contact;
+    /// meaningless for the other kind of contact.
+    pub fn relative_film(self, point: &OperatingPoint) -> f64 {
+        let area = match point.kind {
+            ContactKind::Line => point.radius_m,
+            ContactKind::Point => point.radius_m * point.radius_m,
+        };
+        let (u, g) = (point.speed_group() / 2.0, point.alpha_per_pa * point.modulus_pa);
+        let w = point.load / (point.modulus_pa * area);
+        match self {
+            Self::MoesLine | Self::NijenbanningVennerMoes => {
+                moes_film(self.contact(), point.moes()) * point.speed_group().sqrt()
+            }
+            Self::DowsonHigginson => 2.65 * g.powf(0.54) * u.powf(0.7) * w.powf(-0.13),
+            Self::DowsonToyoda => 3.06 * g.powf(0.56) * u.powf(0.69) * w.powf(-0.10),
+            Self::HamrockDowsonCentral => {
+                2.69 * u.powf(0.67) * g.powf(0.53) * w.powf(-0.067) * (1.0 - 0.61 * (-0.73 * CIRCLE).exp())
+            }
+            Self::HamrockDowsonMinimum => {
+                3.63 * u.powf(0.68) * g.powf(0.49) * w.powf(-0.073) * (1.0 - (-0.68 * CIRCLE).exp())
+            }
+        }
+    }
+
+    /// The formula's film and whether it was made for such a contact; meaningless for the other kind of contact.
     pub fn predict(self, point: &OperatingPoint) -> FilmPrediction {
         let moes = point.moes();
-        let relative = match self {
-            Self::MoesLine => moes_line_central(point),
-            Self::DowsonHigginson => dowson_higginson_minimum(point),
-            Self::DowsonToyoda => dowson_toyoda_central(point),
-            Self::HamrockDowsonCentral => hamrock_dowson_central(point),
-            Self::HamrockDowsonMinimum => hamrock_dowson_minimum(point),
-            Self::NijenbanningVennerMoes => moes_point_central(point),
-        };
         let in_range = match self {
             Self::MoesLine => (5.0..=1000.0).contains(&moes.m) && moes.l <= 25.0,
             Self::NijenbanningVennerMoes => true,
             _ => moes.m >= 10.0 && moes.l >= 5.0,
         };
-        FilmPrediction { film_m: relative * point.radius_m, in_range }
+        FilmPrediction { film_m: self.relative_film(point) * point.radius_m, in_range }
     }
 }
+
+/// Hamrock and Dowson's ellipticity parameter 1.03 (R_y/R_x)^0.64 of a circular contact.
+const CIRCLE: f64 = 1.03;
 
 /// The four asymptotes of a film number H = (h/R)(2U)^(−1/2), as Moes' and Nijenbanning, Venner and Moes' formulas join them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -142,81 +161,28 @@ impl FilmAsymptotes {
     }
 }
 
-/// Moes' film number of a kind of contact, central film.
+/// Moes' film number H = (h/R)(2U)^(−1/2) of a kind of contact, central film.
+///
+/// Line: Moes, Wear 159 (1992) 57–66; 5 ≤ M ≤ 1000, 0 ≤ L ≤ 25, Barus viscosity, incompressible fluid. Circular point contact: Nijenbanning,
+/// Venner & Moes, Wear 176 (1994) 217–229, at equal radii. Full solutions with Barus' law and no compressibility lie 8–15 % above it,
+/// with Roelands and Dowson–Higginson 6–13 % below (M 20…200, L 2.5…10, default realisation).
 pub fn moes_film(kind: ContactKind, moes: Moes) -> f64 {
+    let a = FilmAsymptotes::of(kind, moes);
     match kind {
-        ContactKind::Line => moes_line_film(moes),
-        ContactKind::Point => moes_point_film(moes),
+        ContactKind::Line => {
+            let s = (7.0 + 8.0 * (-2.0 * a.elastic_isoviscous / a.rigid_isoviscous).exp()) / 5.0;
+            let iso = a.rigid_isoviscous.powf(7.0 / 3.0) + a.elastic_isoviscous.powf(7.0 / 3.0);
+            let piezo = a.rigid_piezoviscous.powf(-3.5) + a.elastic_piezoviscous.powf(-3.5);
+            (iso.powf(3.0 * s / 7.0) + piezo.powf(-2.0 * s / 7.0)).powf(1.0 / s)
+        }
+        ContactKind::Point => {
+            let s = 1.5 * (1.0 + (-1.2 * a.elastic_isoviscous / a.elastic_piezoviscous).exp());
+            // The isoviscous elastic asymptote is cut off at 1.8, beyond which a contact is rigid.
+            let iso = a.rigid_isoviscous.powf(1.5) + (a.elastic_isoviscous.powi(-4) + 1.8f64.powi(-4)).powf(-0.375);
+            let piezo = a.rigid_piezoviscous.powi(-8) + a.elastic_piezoviscous.powi(-8);
+            (iso.powf(2.0 * s / 3.0) + piezo.powf(-s / 8.0)).powf(1.0 / s)
+        }
     }
-}
-
-/// Moes' film number H = (h/R)(2U)^(−1/2) for a line contact, with the asymptotes rigid/elastic × isoviscous/piezoviscous.
-///
-/// Source: Moes, Wear 159 (1992) 57–66. Valid for 5 ≤ M ≤ 1000, 0 ≤ L ≤ 25, Barus viscosity, incompressible fluid.
-pub fn moes_line_film(moes: Moes) -> f64 {
-    let a = FilmAsymptotes::of(ContactKind::Line, moes);
-    let s = (7.0 + 8.0 * (-2.0 * a.elastic_isoviscous / a.rigid_isoviscous).exp()) / 5.0;
-    let iso = a.rigid_isoviscous.powf(7.0 / 3.0) + a.elastic_isoviscous.powf(7.0 / 3.0);
-    let piezo = a.rigid_piezoviscous.powf(-3.5) + a.elastic_piezoviscous.powf(-3.5);
-    (iso.powf(3.0 * s / 7.0) + piezo.powf(-2.0 * s / 7.0)).powf(1.0 / s)
-}
-
-/// Moes' central film as h_c/R.
-pub fn moes_line_central(point: &OperatingPoint) -> f64 {
-    moes_line_film(point.moes()) * point.speed_group().sqrt()
-}
-
-/// Dowson–Higginson minimum film as h_min/R, in U = η₀u_m/(E′R), G = αE′, W = w/(E′R).
-pub fn dowson_higginson_minimum(point: &OperatingPoint) -> f64 {
-    let (u, g, w) = groups(point);
-    2.65 * g.powf(0.54) * u.powf(0.7) * w.powf(-0.13)
-}
-
-/// Dowson–Toyoda central film as h_c/R.
-pub fn dowson_toyoda_central(point: &OperatingPoint) -> f64 {
-    let (u, g, w) = groups(point);
-    3.06 * g.powf(0.56) * u.powf(0.69) * w.powf(-0.10)
-}
-
-/// Hamrock and Dowson's ellipticity parameter 1.03 (R_y/R_x)^0.64 of a circular contact.
-const CIRCLE: f64 = 1.03;
-
-/// Moes' film number H = (h/R)(2U)^(−1/2) for a circular point contact, central film.
-///
-/// Source: Nijenbanning, Venner & Moes, Wear 176 (1994) 217–229, at equal radii. Full solutions with Barus' law and no compressibility
-/// lie 8–15 % above it, with Roelands and Dowson–Higginson 6–13 % below (M 20…200, L 2.5…10, default realisation).
-pub fn moes_point_film(moes: Moes) -> f64 {
-    let a = FilmAsymptotes::of(ContactKind::Point, moes);
-    let s = 1.5 * (1.0 + (-1.2 * a.elastic_isoviscous / a.elastic_piezoviscous).exp());
-    // The isoviscous elastic asymptote is cut off at 1.8, beyond which a contact is rigid.
-    let iso = a.rigid_isoviscous.powf(1.5) + (a.elastic_isoviscous.powi(-4) + 1.8f64.powi(-4)).powf(-0.375);
-    let piezo = a.rigid_piezoviscous.powi(-8) + a.elastic_piezoviscous.powi(-8);
-    (iso.powf(2.0 * s / 3.0) + piezo.powf(-s / 8.0)).powf(1.0 / s)
-}
-
-/// Nijenbanning, Venner and Moes' central film as h_c/R.
-pub fn moes_point_central(point: &OperatingPoint) -> f64 {
-    moes_point_film(point.moes()) * point.speed_group().sqrt()
-}
-
-/// Hamrock–Dowson central film of a circular point contact as h_c/R, in U = η₀u_m/(E′R), G = αE′, W = w/(E′R²).
-pub fn hamrock_dowson_central(point: &OperatingPoint) -> f64 {
-    let (u, g, w) = groups(point);
-    2.69 * u.powf(0.67) * g.powf(0.53) * w.powf(-0.067) * (1.0 - 0.61 * (-0.73 * CIRCLE).exp())
-}
-
-/// Hamrock–Dowson minimum film of a circular point contact as h_min/R.
-pub fn hamrock_dowson_minimum(point: &OperatingPoint) -> f64 {
-    let (u, g, w) = groups(point);
-    3.63 * u.powf(0.68) * g.powf(0.49) * w.powf(-0.073) * (1.0 - (-0.68 * CIRCLE).exp())
-}
-
-fn groups(point: &OperatingPoint) -> (f64, f64, f64) {
-    let area = match point.kind {
-        ContactKind::Line => point.radius_m,
-        ContactKind::Point => point.radius_m * point.radius_m,
-    };
-    (point.speed_group() / 2.0, point.alpha_per_pa * point.modulus_pa, point.load / (point.modulus_pa * area))
 }
 
 #[cfg(test)]
@@ -225,11 +191,11 @@ mod tests {
 
     #[test]
     fn moes_formula_tends_to_its_asymptotes() {
-        let elastic_iso = moes_line_film(Moes { m: 1e3, l: 1e-9 });
+        let elastic_iso = moes_film(ContactKind::Line, Moes { m: 1e3, l: 1e-9 });
         assert!((elastic_iso / (2.621 * 1e3f64.powf(-0.2)) - 1.0).abs() < 1e-2);
-        let elastic_piezo = moes_line_film(Moes { m: 1e5, l: 1e3 });
+        let elastic_piezo = moes_film(ContactKind::Line, Moes { m: 1e5, l: 1e3 });
         assert!((elastic_piezo / (1.311 * 1e5f64.powf(-0.125) * 1e3f64.powf(0.75)) - 1.0).abs() < 2e-2);
-        let rigid_iso = moes_line_film(Moes { m: 1e-3, l: 1e-9 });
+        let rigid_iso = moes_film(ContactKind::Line, Moes { m: 1e-3, l: 1e-9 });
         assert!((rigid_iso / 3e3 - 1.0).abs() < 1e-3);
     }
 
@@ -237,23 +203,24 @@ mod tests {
     fn the_point_formula_agrees_with_published_and_independent_films() {
         // Film numbers extrapolated by an independent multigrid code (Roelands, compressible): within some per cent of the fit.
         for (m, l, film) in [(20.0, 5.0, 2.99), (50.0, 10.0, 4.03), (100.0, 5.0, 2.74)] {
-            let fit = moes_point_film(Moes { m, l });
+            let fit = moes_film(ContactKind::Point, Moes { m, l });
             assert!((fit / film - 1.0).abs() < 0.05, "{m} {l}: {fit}");
         }
-        let rigid = moes_point_film(Moes { m: 0.01, l: 1e-9 });
+        let rigid = moes_film(ContactKind::Point, Moes { m: 0.01, l: 1e-9 });
         assert!((rigid / (145.0 * 1.796f64.powf(-15.0 / 7.0) * 1e4) - 1.0).abs() < 1e-3, "{rigid}");
         let point =
             OperatingPoint { kind: ContactKind::Point, load: 50.0, radius_m: 0.01, ..OperatingPoint::TABLE_2_1 };
-        let ratio = hamrock_dowson_central(&point) / moes_point_central(&point);
+        let ratio = FilmFormula::HamrockDowsonCentral.relative_film(&point)
+            / FilmFormula::NijenbanningVennerMoes.relative_film(&point);
         assert!((0.85..1.15).contains(&ratio), "{ratio}");
     }
 
     #[test]
     fn formulas_agree_with_each_other_to_engineering_accuracy() {
-        let point = OperatingPoint::TABLE_2_1;
-        let central = dowson_toyoda_central(&point) / moes_line_central(&point);
+        let film = |formula: FilmFormula| formula.relative_film(&OperatingPoint::TABLE_2_1);
+        let central = film(FilmFormula::DowsonToyoda) / film(FilmFormula::MoesLine);
         assert!((0.8..1.25).contains(&central), "{central}");
-        let minimum = dowson_higginson_minimum(&point) / moes_line_central(&point);
+        let minimum = film(FilmFormula::DowsonHigginson) / film(FilmFormula::MoesLine);
         assert!((0.6..1.1).contains(&minimum), "{minimum}");
     }
 }

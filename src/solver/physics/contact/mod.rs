@@ -5,11 +5,7 @@
 mod film_formulas;
 mod moes;
 
-pub use film_formulas::{
-    FilmAsymptotes, FilmFormula, FilmPrediction, dowson_higginson_minimum, dowson_toyoda_central,
-    hamrock_dowson_central, hamrock_dowson_minimum, moes_film, moes_line_central, moes_line_film, moes_point_central,
-    moes_point_film,
-};
+pub use film_formulas::{FilmAsymptotes, FilmFormula, FilmPrediction, moes_film};
 pub use moes::{DEFAULT_VISCOSITY_PA_S, MoesRequest, si_from_moes};
 
 use serde::{Deserialize, Serialize};
@@ -135,6 +131,20 @@ pub struct Moes {
     pub l: f64,
 }
 
+/// Refuses a quantity outside its range.
+fn accept(quantity: &'static str, value: f64, unit: &'static str, (min, max): (f64, f64)) -> Result<(), ContactError> {
+    let inside = (min..=max).contains(&value);
+    if inside { Ok(()) } else { Err(ContactError::OutOfRange { quantity, value, unit, min, max }) }
+}
+
+impl Moes {
+    /// Refuses numbers outside any sense.
+    fn check(self) -> Result<(), ContactError> {
+        accept("Moes number M", self.m, "", (0.05, 1e5))?;
+        accept("Moes number L", self.l, "", (1e-3, 1e3))
+    }
+}
+
 /// Accepted ranges of the SI quantities: name, unit, smallest, largest. Wider than any contact, narrow enough to keep numbers sane.
 const RANGES: [(&str, &str, f64, f64); 6] = [
     ("radius", " m", 1e-6, 1e3),
@@ -172,18 +182,9 @@ impl OperatingPoint {
     /// Refuses values that are not finite, not positive, or outside any sense.
     pub fn check(&self) -> Result<(), ContactError> {
         for (value, (quantity, unit, min, max)) in self.quantities().into_iter().zip(RANGES) {
-            if !(value.is_finite() && value >= min && value <= max) {
-                return Err(ContactError::OutOfRange { quantity, value, unit, min, max });
-            }
+            accept(quantity, value, unit, (min, max))?;
         }
-        let moes = self.moes();
-        for (quantity, value, min, max) in [("Moes number M", moes.m, 0.05, 1e5), ("Moes number L", moes.l, 1e-3, 1e3)]
-        {
-            if !(value.is_finite() && value >= min && value <= max) {
-                return Err(ContactError::OutOfRange { quantity, value, unit: "", min, max });
-            }
-        }
-        Ok(())
+        self.moes().check()
     }
 
     /// Hertzian half width and pressure, (2.21).
@@ -245,16 +246,10 @@ impl OperatingPoint {
 
 /// Reduced modulus E′ \[Pa\] of two bodies, (2.5). Young's moduli in Pa, Poisson ratios in \[0, 0.5\].
 pub fn reduced_modulus(e1: f64, nu1: f64, e2: f64, nu2: f64) -> Result<f64, ContactError> {
-    for (quantity, value) in [("Young's modulus e1", e1), ("Young's modulus e2", e2)] {
-        if !(value.is_finite() && (1e5..=1e14).contains(&value)) {
-            return Err(ContactError::OutOfRange { quantity, value, unit: " Pa", min: 1e5, max: 1e14 });
-        }
-    }
-    for (quantity, value) in [("Poisson ratio nu1", nu1), ("Poisson ratio nu2", nu2)] {
-        if !(0.0..=0.5).contains(&value) {
-            return Err(ContactError::OutOfRange { quantity, value, unit: "", min: 0.0, max: 0.5 });
-        }
-    }
+    accept("Young's modulus e1", e1, " Pa", (1e5, 1e14))?;
+    accept("Young's modulus e2", e2, " Pa", (1e5, 1e14))?;
+    accept("Poisson ratio nu1", nu1, "", (0.0, 0.5))?;
+    accept("Poisson ratio nu2", nu2, "", (0.0, 0.5))?;
     Ok(2.0 / ((1.0 - nu1 * nu1) / e1 + (1.0 - nu2 * nu2) / e2))
 }
 

@@ -1,6 +1,6 @@
 //! From Moes numbers back to SI: which quantity follows when M and L are given.
 
-use super::{ContactError, ContactKind, OperatingPoint, Sliding};
+use super::{ContactError, ContactKind, Moes, OperatingPoint, Sliding};
 
 /// M and L with whatever SI quantities are fixed; the others follow or take the default realisation.
 ///
@@ -62,11 +62,7 @@ impl MoesRequest {
 /// When more is fixed than M and L leave free, or the result is outside any sense.
 pub fn si_from_moes(request: &MoesRequest) -> Result<OperatingPoint, ContactError> {
     let MoesRequest { kind, m, l, .. } = *request;
-    for (quantity, value, min, max) in [("Moes number M", m, 0.05, 1e5), ("Moes number L", l, 1e-3, 1e3)] {
-        if !(value.is_finite() && value >= min && value <= max) {
-            return Err(ContactError::OutOfRange { quantity, value, unit: "", min, max });
-        }
-    }
+    Moes { m, l }.check()?;
     let e = request.modulus_pa.unwrap_or(231e9);
     let eta = request.viscosity_pa_s.unwrap_or(DEFAULT_VISCOSITY_PA_S);
     let radius_default = request.default_radius();

@@ -4,9 +4,7 @@ use super::model::TrajectoryModel;
 use crate::solver::discrete::grid::{FIRST_UNKNOWN, LineGrid, ReferenceGrid, dot};
 use crate::solver::discrete::reynolds::line::Upstream;
 use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
-use crate::solver::full::transient::{
-    Conditions, Effort, Frame, Interpolated, Marching, Moment, State, Step, extrapolated,
-};
+use crate::solver::full::transient::{Conditions, Effort, Frame, History, Marching, Moment, State, Step};
 use crate::solver::full::{Scalars, Termination};
 use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
@@ -38,13 +36,10 @@ pub struct ReducedMarch<'a> {
     x: Vec<f64>,
     /// K V_p at X = 0.
     lift: Vec<f64>,
-    /// The nearer one first.
-    former: [Past; 2],
+    history: History,
     coefficients: Vec<f64>,
     start: Vec<f64>,
     h_0: f64,
-    /// ρ̄H of the former states at the sampled rows' own nodes, which may move under it.
-    carried: [Vec<f64>; 2],
     /// P and H at all nodes, which only remeshing asks for.
     fields: [Vec<f64>; 2],
     contact: ContactRows,
@@ -58,15 +53,6 @@ pub struct ReducedMarch<'a> {
 struct Side {
     stencil: [usize; STENCIL],
     geometry: RowGeometry,
-}
-
-/// A former state.
-#[derive(Clone, Default)]
-struct Past {
-    coefficients: Vec<f64>,
-    h_0: f64,
-    flow: Vec<f64>,
-    between: Interpolated,
 }
 
 impl<'a> ReducedMarch<'a> {
@@ -93,18 +79,16 @@ impl<'a> ReducedMarch<'a> {
         let sides: Vec<[Side; 2]> = window.sampled_rows.iter().map(|&row| [side(row, 1.0), side(row, -1.0)]).collect();
         let (first, weights) = grid.interpolation(0.0);
         let at_zero = |k: usize| weights.iter().enumerate().map(|(m, w)| w * window.flexed[(first + m, k)]).sum();
-        let rows = sides.len();
         Ok(Self {
             model,
             operators,
             x: window.sampled_rows.iter().map(|row| grid.x[row + FIRST_UNKNOWN]).collect(),
             lift: (0..modes).map(at_zero).collect(),
             sides,
-            former: Default::default(),
+            history: History::default(),
             coefficients: vec![0.0; modes],
             start: vec![0.0; modes],
             h_0: 0.0,
-            carried: [vec![0.0; rows], vec![0.0; rows]],
             fields: [vec![0.0; grid.len()], vec![0.0; grid.len()]],
             contact: ContactRows::new(&grid, window.pressure.modes.as_ref(), window.flexed.as_ref()),
             scalars: Scalars::default(),
@@ -120,21 +104,12 @@ impl<'a> ReducedMarch<'a> {
 
     /// Gives the sampled rows their place in time.
     fn set_rows(&mut self, step: &Step) {
-        let [near, far] = step.history_weights();
-        for (past, (carried, scales)) in self.former.iter().zip(self.carried.iter_mut().zip(step.former)) {
-            match self.model.frame {
-                Frame::Remeshed(_) => {
-                    let stretch = step.now.scales.half_width / scales.half_width;
-                    past.between.stretched(&self.grid.x, stretch, self.x.iter().copied(), |r, flow| carried[r] = flow);
-                }
-                Frame::Fixed | Frame::ArbitraryLagrangianEulerian => carried.copy_from_slice(&past.flow),
-            }
-        }
+        self.history.carry(self.model.frame, step, &self.grid.x, &self.x);
+        let weights = step.history_weights();
         for (r, (sides, x)) in self.sides.iter().zip(&self.x).enumerate() {
             let velocity = step.velocity(*x);
             let Side { stencil, geometry } = sides[usize::from(velocity < 0.0)];
-            let history = near * self.carried[0][r] + far * self.carried[1][r];
-            let geometry = geometry.in_time(velocity.abs(), step.quotient.now, history);
+            let geometry = geometry.in_time(velocity.abs(), step.quotient.now, self.history.at(weights, r));
             self.operators.set_row(r, stencil, geometry);
         }
     }
@@ -166,18 +141,13 @@ impl<'a> ReducedMarch<'a> {
 
     /// Makes the present state the nearer of the former ones.
     fn remember(&mut self, at: &Conditions) {
-        self.former.swap(0, 1);
-        let past = &mut self.former[0];
-        past.coefficients.clone_from(&self.coefficients);
-        past.h_0 = self.h_0;
-        past.flow.clear();
-        past.flow.extend(self.operators.flow());
+        self.history.remember(&self.coefficients, self.h_0, self.operators.flow());
         if let Frame::Remeshed(interpolation) = self.model.frame {
             let [pressure, film] = &mut self.fields;
             set_fields(self.model, &self.grid, at, (&self.coefficients, self.h_0), [pressure, film]);
             let fluid = &at.problem.fluid;
             let flow = pressure.iter().zip(&*film).map(|(&p, &h)| fluid.at(p).density * h);
-            self.former[0].between.set(interpolation, &self.grid.x, flow);
+            self.history.remember_between(interpolation, &self.grid.x, flow);
         }
         self.scalars = self.contact.scalars(at, &self.coefficients, self.h_0);
     }
@@ -222,7 +192,7 @@ impl Marching for ReducedMarch<'_> {
         }
         let effort = self.newton(at, MOST_NEWTON[1])?;
         self.remember(at);
-        self.former[1] = self.former[0].clone();
+        self.history.rest();
         Ok(effort)
     }
 
@@ -231,11 +201,7 @@ impl Marching for ReducedMarch<'_> {
             return Err(Termination::Cancelled);
         }
         self.set_rows(step);
-        let [near, far] = &self.former;
-        for (start, (near, far)) in self.start.iter_mut().zip(near.coefficients.iter().zip(&far.coefficients)) {
-            *start = extrapolated(step.ratio, *near, *far);
-        }
-        self.h_0 = extrapolated(step.ratio, near.h_0, far.h_0);
+        self.h_0 = self.history.extrapolate(step.ratio, &mut self.start);
         self.newton(&step.now, MOST_NEWTON[0])
     }
 

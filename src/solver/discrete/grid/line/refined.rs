@@ -32,7 +32,7 @@ impl ReferenceGrid {
             GridSpec::Uniform { dx, .. } => GridSpec::Uniform { dx: 0.5 * dx, domain },
             GridSpec::Graded { registered, .. } => GridSpec::Graded { nodes, domain, registered },
         };
-        Ok(Arc::new(Self::of_nodes(spec, xi)))
+        Ok(Arc::new(Self::of_nodes(spec, xi)?))
     }
 }
 

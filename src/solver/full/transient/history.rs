@@ -1,0 +1,83 @@
+//! The two former states of a march, and what the time derivative of its rows draws from them.
+
+use super::difference::extrapolated;
+use super::frame::Frame;
+use super::march::Step;
+use super::spline::{Interpolated, Interpolation};
+
+/// The former states, the nearer one first, and their ρ̄H where the rows' nodes are now.
+#[derive(Clone, Debug, Default)]
+pub struct History {
+    former: [Past; 2],
+    carried: [Vec<f64>; 2],
+}
+
+/// A former state.
+#[derive(Clone, Debug, Default)]
+struct Past {
+    /// Pressures or coefficients.
+    state: Vec<f64>,
+    h_0: f64,
+    /// ρ̄H where the rows' nodes were.
+    flow: Vec<f64>,
+    /// The same between the nodes, where the frame is remeshed.
+    between: Interpolated,
+}
+
+impl History {
+    /// Makes a state with its H₀ and its ρ̄H at the rows' nodes the nearer of the former ones.
+    pub fn remember(&mut self, state: &[f64], h_0: f64, flow: impl Iterator<Item = f64>) {
+        self.former.swap(0, 1);
+        let past = &mut self.former[0];
+        past.h_0 = h_0;
+        for values in [&mut past.state, &mut past.flow] {
+            values.clear();
+        }
+        past.state.extend_from_slice(state);
+        past.flow.extend(flow);
+    }
+
+    /// Adds the ρ̄H of the nearer state at all nodes `x`, from which a remeshed frame carries it on.
+    pub fn remember_between(&mut self, interpolation: Interpolation, x: &[f64], flow: impl Iterator<Item = f64>) {
+        self.former[0].between.set(interpolation, x, flow);
+    }
+
+    /// Makes the nearer state both of the former ones: the contact has rested.
+    pub fn rest(&mut self) {
+        self.former[1] = self.former[0].clone();
+    }
+
+    /// Continues the straight line through both states over `ratio` = step / former step; returns H₀.
+    pub fn extrapolate(&self, ratio: f64, start: &mut [f64]) -> f64 {
+        let [near, far] = &self.former;
+        for (start, (near, far)) in start.iter_mut().zip(near.state.iter().zip(&far.state)) {
+            *start = extrapolated(ratio, *near, *far);
+        }
+        extrapolated(ratio, near.h_0, far.h_0)
+    }
+
+    /// The nearer state and its H₀.
+    pub fn nearer(&self) -> (&[f64], f64) {
+        (&self.former[0].state, self.former[0].h_0)
+    }
+
+    /// Carries the former ρ̄H to where the rows' nodes, at `rows` among the grid's `nodes`, are at the end of a step.
+    pub fn carry(&mut self, frame: Frame, step: &Step, nodes: &[f64], rows: &[f64]) {
+        for ((carried, past), scales) in self.carried.iter_mut().zip(&self.former).zip(step.former) {
+            carried.resize(past.flow.len(), 0.0);
+            match frame {
+                Frame::Remeshed(_) => {
+                    let stretch = step.now.scales.half_width / scales.half_width;
+                    past.between.stretched(nodes, stretch, rows.iter().copied(), |r, flow| carried[r] = flow);
+                }
+                Frame::Fixed | Frame::ArbitraryLagrangianEulerian => carried.copy_from_slice(&past.flow),
+            }
+        }
+    }
+
+    /// What the time derivative of row `row` draws from the former states, given [`Step::history_weights`].
+    #[inline]
+    pub fn at(&self, [near, far]: [f64; 2], row: usize) -> f64 {
+        near * self.carried[0][row] + far * self.carried[1][row]
+    }
+}
