@@ -243,8 +243,8 @@ impl<S: NewtonSpace> System<S> {
                 space.each_row(&mut out[..u], |k, stencil, out| {
                     let Row { d_p, d_h, .. } = &rows[k];
                     let mut sum = 0.0;
-                    for (e, node) in stencil.into_iter().enumerate().take(S::NODES) {
-                        sum += d_p[e] * field[node] + d_h[e] * (film[node] + shift);
+                    for ((a, b), &node) in d_p[..S::NODES].iter().zip(d_h).zip(&stencil) {
+                        sum += a * field[node] + b * (film[node] + shift);
                     }
                     *out = sum * scaling[k];
                 });

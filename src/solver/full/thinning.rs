@@ -43,11 +43,17 @@ impl Thinning {
         let (direction, [along, across]) = (&self.direction, &self.slopes);
         space.each_row(out, |k, stencil, out| {
             let mut sum = 0.0;
-            for (e, node) in stencil.into_iter().enumerate().take(S::NODES) {
-                sum += match S::AXES {
-                    1 => along[k][e] * direction[node][0],
-                    _ => along[k][e] * direction[node][0] + across[k][e] * direction[node][1],
-                };
+            match S::AXES {
+                1 => {
+                    for (a, &node) in along[k][..S::NODES].iter().zip(&stencil) {
+                        sum += a * direction[node][0];
+                    }
+                }
+                _ => {
+                    for ((a, b), &node) in along[k].iter().zip(&across[k]).zip(&stencil) {
+                        sum += a * direction[node][0] + b * direction[node][1];
+                    }
+                }
             }
             *out += sum * scaling[k];
         });

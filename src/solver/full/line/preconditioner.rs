@@ -44,7 +44,7 @@ impl BandMatrix {
         for (k, (own, s)) in rows.iter().zip(scaling).enumerate() {
             let (stencil, _) = space.row(k);
             let row = self.band.row_mut(k);
-            for (e, node) in stencil.into_iter().enumerate().take(LineSpace::NODES) {
+            for (e, &node) in stencil[..LineSpace::NODES].iter().enumerate() {
                 // Node k + m against column node k + 2 + d, d = −band…band: offset 2 − m + d from its own diagonal.
                 let m = node - k;
                 let from = node * stored + (4 - m);
@@ -58,7 +58,7 @@ impl BandMatrix {
                 }
             }
             if let Some(Thinning { gradient, slopes: [slopes, _], .. }) = thinning {
-                for (e, node) in stencil.into_iter().enumerate().take(LineSpace::NODES) {
+                for (e, &node) in stencil[..LineSpace::NODES].iter().enumerate() {
                     for (c, weight) in gradient.along().weights[node].iter().enumerate() {
                         // Node k + m + c − 1.
                         let column = (node - k + c + band).checked_sub(CENTER + 1);

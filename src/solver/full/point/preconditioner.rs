@@ -64,8 +64,7 @@ impl PlaneMatrix {
                         .map(|distance| kernel[distance].as_slice());
                     for cell in 0..m {
                         let entries = &mut block[from + cell * size..from + cell * size + m];
-                        let near = kernels.map(|k| &k[cell * (ny + 1)..(cell + 1) * (ny + 1)]);
-                        combine(entries, weights, near);
+                        combine(entries, weights, kernels, cell * (ny + 1));
                     }
                     for j in 0..m {
                         let a = &rows[c * m + j].d_p;
@@ -106,14 +105,17 @@ impl PlaneMatrix {
 }
 
 /// One column of B K for all rows of a column of unknowns: six kernel entries each, weighted by the derivatives with respect to H.
-/// `near` are the kernels from WEST2, WEST, the column itself and EAST.
-fn combine(entries: &mut [f32], weights: &[f32], near: [&[f32]; 4]) {
+/// The kernels are those from WEST2, WEST, the column itself and EAST; the cell's entries begin at `at`.
+#[inline]
+fn combine(entries: &mut [f32], weights: &[f32], [w2, w, own, e]: [&[f32]; 4], at: usize) {
     let m = entries.len();
     let weight = |n: usize| &weights[n * m..(n + 1) * m];
     let (west2, west, center, east) = (weight(WEST2), weight(WEST), weight(CENTER), weight(EAST));
     let (south, north) = (weight(SOUTH), weight(NORTH));
-    let [k_west2, k_west, k_own, k_east] = near.map(|kernel| &kernel[1..m + 1]);
-    let (k_south, k_north) = (&near[2][..m], &near[2][2..m + 2]);
+    let from = at + 1;
+    let (k_west2, k_west, k_own, k_east) =
+        (&w2[from..from + m], &w[from..from + m], &own[from..from + m], &e[from..from + m]);
+    let (k_south, k_north) = (&own[at..at + m], &own[at + 2..at + 2 + m]);
     for j in 0..m {
         entries[j] = west2[j] * k_west2[j]
             + west[j] * k_west[j]

@@ -5,7 +5,6 @@ use super::spline::Interpolation;
 use crate::solver::full::{Problem, SolveError};
 use crate::solver::physics::contact::OperatingPoint;
 use serde::{Deserialize, Serialize};
-use std::f64::consts::PI;
 
 /// How the computational domain follows the contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -89,7 +88,7 @@ impl Frame {
         // Refuses what no contact can be, in every frame alike. A contact that rests for a moment is one.
         OperatingPoint { speed_m_per_s: reference.point.speed_m_per_s, ..point }.check()?;
         let (problem, curvature) = match self {
-            Self::Fixed => (Problem { load: 0.5 * PI * input.load, ..*reference }, 1.0 / input.radius),
+            Self::Fixed => (Problem { load: reference.load * input.load, ..*reference }, 1.0 / input.radius),
             Self::ArbitraryLagrangianEulerian | Self::Remeshed(_) => {
                 let fluid = reference.lubricant.scaled(&point)?;
                 // λ̄ = 12 η₀R²/(p_H a² t_ref) of (4.9), over that of (2.23).
