@@ -4,7 +4,7 @@ use super::failure::Failure;
 use super::options::PointOptions;
 use super::{Verdict, output};
 use crate::engine::{ContactResult, GridAccuracy, Table, Workbench, film_shear_table, profile_table};
-use crate::scene::{Method, atomic_file};
+use crate::scene::{Bench, Method, atomic_file};
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::ContactKind;
 use clap::Args;

@@ -6,7 +6,7 @@ use super::options::PointOptions;
 use super::output::{self, ProgressLine};
 use crate::engine::{ContactResult, RESULT_COLUMNS, Request, Table, Workbench};
 use crate::scene::check::MAX_POINTS;
-use crate::scene::{Method, Steps, atomic_file};
+use crate::scene::{Bench, Method, Steps, atomic_file};
 use crate::solver::observer::{Observer, Progress};
 use clap::Args;
 use std::path::PathBuf;

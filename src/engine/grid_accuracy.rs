@@ -3,7 +3,7 @@
 use super::EngineError;
 use super::workbench::Workbench;
 use super::{Answer, Request};
-use crate::scene::Grid;
+use crate::scene::{Bench, Grid};
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::point::{Accuracy, resolution_warning, second_grid};
 use crate::solver::full::{Mesh, Solution};

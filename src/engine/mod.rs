@@ -17,7 +17,6 @@ pub mod results;
 mod store;
 mod stored_matrix;
 mod stored_model;
-mod study_bench;
 pub mod training_file;
 mod workbench;
 

@@ -15,6 +15,8 @@ use std::time::SystemTime;
 const KEPT_LINES: usize = 6;
 /// The same of point contacts: a quick grid, the chosen one and a second one. Each solver may hold some hundred megabytes.
 const KEPT_POINTS: usize = 3;
+/// Reduced models kept beside those in the program: a model of some windows has some ten megabytes.
+const KEPT_MODELS: usize = 12;
 /// Idle reduced solvers kept at a time.
 const KEPT_ONLINE: usize = 8;
 
@@ -110,18 +112,18 @@ impl Store {
     }
 
     fn model<E>(&self, origin: Origin, make: impl FnOnce() -> Result<ReducedModel, E>) -> Result<Arc<ReducedModel>, E> {
-        let known = lock(&self.0.models).iter().find(|(kept, _)| *kept == origin).map(|(_, model)| Arc::clone(model));
-        if let Some(model) = known {
+        let kept = || lock(&self.0.models).iter().find(|(kept, _)| *kept == origin).map(|(_, model)| Arc::clone(model));
+        if let Some(model) = kept() {
             return Ok(model);
         }
         let made = Arc::new(make()?);
-        let mut models = lock(&self.0.models);
-        // Another thread may have made it meanwhile: everybody gets the first.
-        let first = models.iter().find(|(kept, _)| *kept == origin).map(|(_, model)| Arc::clone(model));
-        Ok(first.unwrap_or_else(|| {
-            models.push((origin, Arc::clone(&made)));
-            made
-        }))
+        if let Some(first) = kept() {
+            // Another thread has made it meanwhile: everybody gets the first.
+            return Ok(first);
+        }
+        let passing = |(origin, _): &(Origin, _)| !matches!(origin, Origin::Embedded(..));
+        keep(&self.0.models, (origin, Arc::clone(&made)), passing, KEPT_MODELS);
+        Ok(made)
     }
 }
 

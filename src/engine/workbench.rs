@@ -2,7 +2,7 @@
 
 use super::store::Store;
 use super::{Answer, EngineError, ReducedFacts, Request};
-use crate::scene::{Grid, Method, ModelSource, Scene, Study};
+use crate::scene::{Bench, Grid, Method, ModelSource, Scene, Study};
 use crate::solver::discrete::grid::{ContactGrid, ContactGridSpec};
 use crate::solver::full::point::resolution_warning;
 use crate::solver::full::{Problem, Solution, SolveError, Start};
@@ -22,6 +22,8 @@ const PLAUSIBLE_TRACTION: f64 = 0.2;
 pub struct Workbench {
     store: Store,
     base: PathBuf,
+    /// What stands in place of the embedded model of its kind of contact.
+    in_use: Option<Arc<ReducedModel>>,
     online: Vec<Online>,
 }
 
@@ -33,121 +35,17 @@ impl Workbench {
 
     /// A workbench on what others keep as well.
     pub fn on(store: &Store, base: impl Into<PathBuf>) -> Self {
-        Self { store: store.clone(), base: base.into(), online: Vec::new() }
+        Self { store: store.clone(), base: base.into(), in_use: None, online: Vec::new() }
     }
 
-    /// A path of the scene's, relative to its folder.
-    pub(super) fn resolve(&self, path: &Path) -> PathBuf {
-        self.base.join(path)
-    }
-
-    /// The reduced model of a source, for one kind of contact and a Newtonian lubricant: read, or trained, once.
-    ///
-    /// # Errors
-    /// When it cannot be read or trained.
-    pub fn model(
-        &self,
-        source: &ModelSource,
-        contact: ContactKind,
-        observer: &dyn TrainingObserver,
-    ) -> Result<Arc<ReducedModel>, EngineError> {
-        self.model_for(source, contact, &Lubricant::default(), observer)
-    }
-
-    /// The same for any lubricant.
-    ///
-    /// # Errors
-    /// When it cannot be read or trained.
-    pub fn model_for(
-        &self,
-        source: &ModelSource,
-        contact: ContactKind,
-        lubricant: &Lubricant,
-        observer: &dyn TrainingObserver,
-    ) -> Result<Arc<ReducedModel>, EngineError> {
-        match source {
-            ModelSource::Embedded => self
-                .store
-                .embedded(contact, lubricant.shear != ShearLaw::Newtonian)
-                .map_err(|reason| EngineError::Embedded(reason.into())),
-            ModelSource::File(path) => self.store.model_of_file(&self.base.join(path)),
-            ModelSource::Trained(path) => self.store.trained(&self.training(path)?, observer),
-        }
-    }
-
-    /// The training that a scene describes.
-    ///
-    /// # Errors
-    /// When the scene cannot be read or describes none.
-    pub fn training(&self, scene: &Path) -> Result<TrainingSpec, EngineError> {
-        let path = self.base.join(scene);
-        match Scene::read(&path)?.study {
-            Study::Training(spec) => Ok(spec),
-            _ => Err(EngineError::NoTraining { path }),
-        }
-    }
-
-    /// Solves a contact; `start` is a solution nearby, where there is one.
-    ///
-    /// # Errors
-    /// When the request is refused or cancelled. Not converging is an answer.
-    pub fn answer(
-        &mut self,
-        request: &Request,
-        method: &Method,
-        start: Option<&Solution>,
-        observer: &dyn TrainingObserver,
-    ) -> Result<Answer, EngineError> {
-        let problem = Problem::new(&request.point, request.lubricant)?;
-        if observer.cancelled() {
-            return Err(EngineError::Cancelled);
-        }
-        let mut answer = match method {
-            Method::Full => self.full(request, &problem, start, observer)?,
-            Method::Reduced { model, .. } => self.reduced(request, &problem, (method, model), observer)?,
-        };
-        let p_h = request.point.hertz().pressure_pa;
-        if p_h > PLAUSIBLE_HERTZ_PRESSURE_PA {
-            answer
-                .warnings
-                .push(format!("the Hertzian pressure of {:.3} GPa exceeds 3.2 GPa: no real contact", p_h / 1e9));
-        }
-        let warning = answer.result().and_then(Solution::traction_warning);
-        let traction = answer.traction().filter(|_| warning.is_none() && problem.shear.is_none()).unwrap_or(0.0).abs();
-        answer.warnings.extend(warning);
-        if traction > PLAUSIBLE_TRACTION {
-            answer.warnings.push(format!(
-                "a Newtonian traction coefficient of {traction:.3e} is unphysical at this pressure: the fluid would shear-thin or yield"
-            ));
-        }
-        Ok(answer)
-    }
-
-    /// The grid on which a request is solved in full.
-    ///
-    /// # Errors
-    /// When it is refused or its model cannot be had.
-    pub fn grid(&self, request: &Request, observer: &dyn TrainingObserver) -> Result<ContactGrid, EngineError> {
-        let kind = request.point.kind;
-        let spec = match kind {
-            ContactKind::Line => request.grid.spec().map(ContactGridSpec::Line),
-            ContactKind::Point => request.grid.point_spec().map(ContactGridSpec::Point),
-        };
-        match spec {
-            Some(spec) => Ok(self.store.grid(spec).map_err(SolveError::from)?),
-            None if kind == ContactKind::Point && request.grid != Grid::Model => {
-                Err(EngineError::Study("a point contact needs a Plane `grid`, Model, or none".to_owned()))
-            }
-            None => {
-                let model = self.model_for(&request.grid_model, kind, &request.lubricant, observer)?;
-                let grid = &window_of(&model, request.point.moes())?.grid;
-                if grid.kind() == kind { Ok(grid.clone()) } else { Err(other_contact(&model, kind)) }
-            }
-        }
+    /// The same with a model in place of the embedded one of its kind of contact.
+    pub fn using(mut self, model: &Arc<ReducedModel>) -> Self {
+        self.in_use = Some(Arc::clone(model));
+        self
     }
 
     fn full(
-        &self,
+        &mut self,
         request: &Request,
         problem: &Problem,
         start: Option<&Solution>,
@@ -263,6 +161,97 @@ impl Workbench {
             reduced: Some(facts),
             solution,
         })
+    }
+}
+
+impl Bench for Workbench {
+    fn answer(
+        &mut self,
+        request: &Request,
+        method: &Method,
+        start: Option<&Solution>,
+        observer: &dyn TrainingObserver,
+    ) -> Result<Answer, EngineError> {
+        let problem = Problem::new(&request.point, request.lubricant)?;
+        if observer.cancelled() {
+            return Err(EngineError::Cancelled);
+        }
+        let mut answer = match method {
+            Method::Full => self.full(request, &problem, start, observer)?,
+            Method::Reduced { model, .. } => self.reduced(request, &problem, (method, model), observer)?,
+        };
+        let p_h = request.point.hertz().pressure_pa;
+        if p_h > PLAUSIBLE_HERTZ_PRESSURE_PA {
+            answer
+                .warnings
+                .push(format!("the Hertzian pressure of {:.3} GPa exceeds 3.2 GPa: no real contact", p_h / 1e9));
+        }
+        let warning = answer.result().and_then(Solution::traction_warning);
+        let traction = answer.traction().filter(|_| warning.is_none() && problem.shear.is_none()).unwrap_or(0.0).abs();
+        answer.warnings.extend(warning);
+        if traction > PLAUSIBLE_TRACTION {
+            answer.warnings.push(format!(
+                "a Newtonian traction coefficient of {traction:.3e} is unphysical at this pressure: the fluid would shear-thin or yield"
+            ));
+        }
+        Ok(answer)
+    }
+
+    fn model_for(
+        &mut self,
+        source: &ModelSource,
+        contact: ContactKind,
+        lubricant: &Lubricant,
+        observer: &dyn TrainingObserver,
+    ) -> Result<Arc<ReducedModel>, EngineError> {
+        let in_use =
+            self.in_use.as_ref().filter(|model| *source == ModelSource::Embedded && model.contact() == contact);
+        if let Some(model) = in_use {
+            return Ok(Arc::clone(model));
+        }
+        match source {
+            ModelSource::Embedded => self
+                .store
+                .embedded(contact, lubricant.shear != ShearLaw::Newtonian)
+                .map_err(|reason| EngineError::Embedded(reason.into())),
+            ModelSource::File(path) => self.store.model_of_file(&self.base.join(path)),
+            ModelSource::Trained(path) => self.store.trained(&self.training(path)?, observer),
+        }
+    }
+
+    fn grid(&mut self, request: &Request, observer: &dyn TrainingObserver) -> Result<ContactGrid, EngineError> {
+        let kind = request.point.kind;
+        let spec = match kind {
+            ContactKind::Line => request.grid.spec().map(ContactGridSpec::Line),
+            ContactKind::Point => request.grid.point_spec().map(ContactGridSpec::Point),
+        };
+        match spec {
+            Some(spec) => Ok(self.store.grid(spec).map_err(SolveError::from)?),
+            None if kind == ContactKind::Point && request.grid != Grid::Model => {
+                Err(EngineError::Study("a point contact needs a Plane `grid`, Model, or none".to_owned()))
+            }
+            None => {
+                let model = self.model_for(&request.grid_model, kind, &request.lubricant, observer)?;
+                let grid = &window_of(&model, request.point.moes())?.grid;
+                if grid.kind() == kind { Ok(grid.clone()) } else { Err(other_contact(&model, kind)) }
+            }
+        }
+    }
+
+    fn training(&self, scene: &Path) -> Result<TrainingSpec, EngineError> {
+        let path = self.base.join(scene);
+        match Scene::read(&path)?.study {
+            Study::Training(spec) => Ok(spec),
+            _ => Err(EngineError::NoTraining { path }),
+        }
+    }
+
+    fn trained(&self, spec: &TrainingSpec, observer: &dyn TrainingObserver) -> Result<Arc<ReducedModel>, EngineError> {
+        self.store.trained(spec, observer)
+    }
+
+    fn resolve(&self, path: &Path) -> PathBuf {
+        self.base.join(path)
     }
 }
 

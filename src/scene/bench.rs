@@ -50,6 +50,12 @@ pub trait Bench {
     /// When the scene cannot be read or describes none.
     fn training(&self, scene: &Path) -> Result<TrainingSpec, RunError>;
 
+    /// The reduced model that a training gives, trained once.
+    ///
+    /// # Errors
+    /// When it gives none or the observer cancels.
+    fn trained(&self, spec: &TrainingSpec, observer: &dyn TrainingObserver) -> Result<Arc<ReducedModel>, RunError>;
+
     /// A path of the scene's, relative to its folder.
     fn resolve(&self, path: &Path) -> PathBuf;
 }

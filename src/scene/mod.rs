@@ -97,7 +97,7 @@ pub struct Scene {
     /// What the answer should be.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub expect: Vec<Expectation>,
-    /// Whether it ends within ten seconds on two cores: `run --all --quick` and the tests take those.
+    /// Whether it takes less than ten seconds of one processor: `run --all --quick` and the tests run those.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub quick: bool,
     /// Whether some of its solves are meant to fail. Without this, or an expectation that admits failures, a solve that fails lets the scene fall

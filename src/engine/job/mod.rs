@@ -5,6 +5,7 @@
 //! thread that keeps only the newest request of each urgency: the live picture.
 
 mod queue;
+mod study;
 
 pub use queue::Queue;
 

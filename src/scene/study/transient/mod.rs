@@ -62,6 +62,8 @@ pub enum Row {
         frame: Frame,
         /// Seconds of all of them.
         wall_s: f64,
+        /// Their moments.
+        moments: Vec<Vec<Moment>>,
         /// A sentence on each that ended early.
         cut_short: Vec<String>,
     },
@@ -122,8 +124,7 @@ impl Question for TransientStudy {
                 let (full, states) = runner.full(drive, transient)?;
                 tell(Row::Marched(Arc::clone(&full)));
                 if k == 0 {
-                    let own = Trajectory { states, ..full.trajectory.clone() };
-                    models = runner.models(&own)?;
+                    models = runner.models(Trajectory { states, ..full.trajectory.clone() })?;
                 }
                 for model in &models {
                     runner.compared(model, drive, &full)?;
@@ -151,7 +152,7 @@ impl Question for TransientStudy {
             match row {
                 Row::Marched(march) => march.findings(self, &marches, found),
                 Row::Model(model) => model.findings(&models, found),
-                Row::Trained { frame, wall_s, cut_short } => {
+                Row::Trained { frame, wall_s, cut_short, .. } => {
                     found.converged &= cut_short.is_empty();
                     found.warnings.extend(cut_short.iter().cloned());
                     found.push(format!("{}.training_s", frame.name()), None, *wall_s);

@@ -10,7 +10,7 @@ use crate::scene::table::Table;
 use crate::solver::full::transient::{Frame, FullMarch, Keep, Marching, Trajectory, Transient};
 use crate::solver::reduced::tpwl::{TpwlError, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel};
-use crate::solver::training::{TrajectoryTraining, train_trajectories};
+use crate::solver::training::{TrajectoryTraining, aside, train_trajectories};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -131,7 +131,7 @@ impl Model {
 
 impl Runner<'_, '_> {
     /// The models of the frame of the study's own full march.
-    pub fn models(&self, own: &Trajectory) -> Result<Vec<Model>, RunError> {
+    pub fn models(&self, own: Trajectory) -> Result<Vec<Model>, RunError> {
         let TransientStudy { reduced, linearised, .. } = self.study;
         let frame = own.transient.frame;
         let linearised = linearised.as_ref().filter(|_| frame == Frame::Fixed);
@@ -139,13 +139,13 @@ impl Runner<'_, '_> {
         if reduced.is_none() && linearised.is_none() {
             return Ok(models);
         }
-        let trained = self.trainings(own)?;
-        let trainings = if trained.is_empty() { std::slice::from_ref(own) } else { &trained[..] };
+        let trained = self.trainings(&own)?;
+        let trainings = Arc::new(if trained.is_empty() { vec![own] } else { trained });
         if let Some(reduced) = reduced {
-            models.push(self.reduced(reduced, frame, trainings)?);
+            models.push(self.reduced(reduced, frame, &trainings)?);
         }
         if let Some(linearised) = linearised {
-            self.linearised(linearised, frame, trainings, &mut models)?;
+            self.linearised(linearised, frame, &trainings, &mut models)?;
         }
         Ok(models)
     }
@@ -167,7 +167,9 @@ impl Runner<'_, '_> {
             trained.push(trajectory);
         }
         if !trained.is_empty() {
-            (self.tell)(Row::Trained { frame: own.transient.frame, wall_s: begun.elapsed().as_secs_f64(), cut_short });
+            let moments = trained.iter().map(|trajectory| trajectory.moments.clone()).collect();
+            let wall_s = begun.elapsed().as_secs_f64();
+            (self.tell)(Row::Trained { frame: own.transient.frame, wall_s, moments, cut_short });
         }
         Ok(trained)
     }
@@ -188,17 +190,20 @@ impl Runner<'_, '_> {
         &self,
         linearised: &LinearisedTransient,
         frame: Frame,
-        trainings: &[Trajectory],
+        trainings: &Arc<Vec<Trajectory>>,
         models: &mut Vec<Model>,
     ) -> Result<(), RunError> {
         let mut first: Option<Arc<TpwlModel>> = None;
         for selection in linearised.selections() {
             let begun = Instant::now();
-            let model = Arc::new(match &first {
-                None => train_linearised(linearised, &trainings.iter().collect::<Vec<_>>())?,
-                Some(first) => first
-                    .reselected(linearised.points.map_or(selection, |points| first.selection_of(selection, points)))?,
-            });
+            let (asked, known, trainings) = (linearised.clone(), first.clone(), Arc::clone(trainings));
+            // Nothing can interrupt it: a cancel need not wait.
+            let model = Arc::new(aside(self.setting.observer, move || match &known {
+                None => train_linearised(&asked, &trainings.iter().collect::<Vec<_>>()),
+                Some(first) => {
+                    first.reselected(asked.points.map_or(selection, |points| first.selection_of(selection, points)))
+                }
+            })??);
             first.get_or_insert_with(|| Arc::clone(&model));
             let label = linearised.label(selection);
             let mut name = format!("{}.tpwl", frame.name());

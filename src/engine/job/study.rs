@@ -1,0 +1,80 @@
+//! The question of a scene as a job, whose messages are the rows of its study.
+
+use super::{Job, Reporter, Wake};
+use crate::engine::{Store, Workbench};
+use crate::scene::{Scene, StudyObserver, StudyRow};
+use std::path::PathBuf;
+
+impl StudyObserver for Reporter<StudyRow> {
+    fn row(&self, row: StudyRow) {
+        self.send(row);
+    }
+}
+
+impl Scene {
+    /// Begins to answer the scene's question with what is in a store; its paths refer to the folder `base`. What the rows say is read off
+    /// them by [`Scene::outcome`] and its study. A job that was stopped ends with the rows that there are.
+    pub fn ask(self, store: &Store, base: impl Into<PathBuf>, wake: Wake) -> Job<StudyRow> {
+        let mut bench = Workbench::on(store, base);
+        let name = self.title.clone();
+        Job::start(&name, wake, move |reporter| {
+            self.check().map_err(|refused| refused.to_string())?;
+            let ending = self.study.run(&self.experiment(), &mut bench, reporter);
+            ending.or_else(|error| if error.cancelled() { Ok(()) } else { Err(error.to_string()) })
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{SceneOutcome, run_scene};
+    use std::time::{Duration, Instant};
+
+    /// One scene of each kind whose numbers the explorer also draws on tabs of their own.
+    const SCENES: [&str; 4] = [
+        "study: RandomTest(range: Box(TABLE), tests: 12, seed: 7, method: Reduced(), compare: 3)",
+        "study: Sweep(over: [(vary: M, values: Log(from: 10.0, to: 30.0, n: 4))], methods: [Full, Reduced()])",
+        "study: ErrorSplit(contacts: Here, method: Reduced())",
+        "study: Transient(inputs: (load: Harmonic(amplitude: 0.1, period: 0.5)), duration: 0.2, time_step: Fixed(0.02), frames: [Fixed], \
+         reduced: (loss: 1e-5))",
+    ];
+
+    /// Everything but what depends on the clock.
+    fn values(outcome: SceneOutcome) -> Vec<(String, u64)> {
+        let timed = |name: &str| {
+            let last = name.rsplit('.').next().unwrap_or(name);
+            last.ends_with("_s") || last.contains("_s_") || last == "speed_up"
+        };
+        let values = outcome.values.into_iter().filter(|value| !timed(&value.name));
+        values.map(|value| (value.name, value.value.to_bits())).collect()
+    }
+
+    #[test]
+    fn a_job_gives_the_same_numbers_as_a_headless_run_to_the_last_bit() {
+        let table = "radius: (2e-3, 4e-3), speed: (1.0, 10.0), load: (1e5, 5e5), alpha: (5e-9, 20e-9), \
+                     modulus: 231e9, viscosity: 0.01";
+        let store = Store::default();
+        for study in SCENES {
+            let study = study.replace("TABLE", table);
+            let text = format!("Scene(version: 1, title: \"t\", at: Moes(m: 20.0, l: 6.0), {study})");
+            let scene = Scene::from_ron(&text).unwrap_or_else(|refused| panic!("{text}: {refused}"));
+            let headless = values(run_scene(&scene, &mut Workbench::new(""), &()).unwrap());
+            assert!(headless.len() > 5, "{study}: {headless:?}");
+            // Twice, so that the second one works with what the first has left in the store.
+            for _ in 0..2 {
+                let mut job = scene.clone().ask(&store, "", Wake::default());
+                let (begun, mut rows) = (Instant::now(), Vec::new());
+                let ending = loop {
+                    if let Some(ending) = job.poll(|row| rows.push(row)) {
+                        break ending;
+                    }
+                    assert!(begun.elapsed() < Duration::from_secs(300), "{study}");
+                    std::thread::sleep(Duration::from_millis(5));
+                };
+                assert_eq!(ending, Ok(()), "{study}");
+                assert_eq!(values(scene.outcome(&rows, 0.0)), headless, "{study}");
+            }
+        }
+    }
+}
