@@ -1,9 +1,8 @@
-//! The program as it is called: its commands, its speed table, and what the papers promise of it.
+//! The program as it is called: its commands, and what the papers promise of it.
 #![cfg(test)]
 
 #[path = "../common/mod.rs"]
 mod common;
 
-mod bench;
 mod commands;
 mod readme;

@@ -333,6 +333,7 @@ impl<M> Background<M> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::atomic::AtomicUsize;
 
     fn ended<M: Send + 'static>(job: &mut Job<M>, mut receive: impl FnMut(M)) -> Ending {
         let begin = Instant::now();
@@ -340,7 +341,7 @@ mod tests {
             if let Some(ending) = job.poll(&mut receive) {
                 return ending;
             }
-            assert!(begin.elapsed() < Duration::from_secs(20));
+            assert!(begin.elapsed() < Duration::from_secs(300));
             std::thread::sleep(Duration::from_millis(2));
         }
     }
@@ -369,16 +370,25 @@ mod tests {
     }
 
     #[test]
-    fn a_job_stops_within_a_tenth_of_a_second_and_a_panic_becomes_a_sentence() {
-        // Other work on the machine only ever makes it slower: the best of a few says what the job itself needs.
-        let stopped = (0..5).map(|_| {
-            let mut job = Job::start("endless", Wake::default(), endless);
-            let begin = Instant::now();
-            job.stop();
-            assert_eq!(ended(&mut job, |()| ()), Ok(()));
-            begin.elapsed()
+    fn a_job_stops_at_its_next_question_and_a_panic_becomes_a_sentence() {
+        // Counted in questions, so that other work on the machine does not matter.
+        let asked = Arc::new(AtomicUsize::new(0));
+        let asking = Arc::clone(&asked);
+        let mut job = Job::start("endless", Wake::default(), move |reporter: &Reporter<()>| {
+            while !reporter.cancelled() {
+                asking.fetch_add(1, Ordering::Relaxed);
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            Ok(())
         });
-        assert!(stopped.min().unwrap() < Duration::from_millis(100));
+        while asked.load(Ordering::Relaxed) == 0 {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        job.stop();
+        let before = asked.load(Ordering::Relaxed);
+        assert_eq!(ended(&mut job, |()| ()), Ok(()));
+        let after = asked.load(Ordering::Relaxed);
+        assert!(after <= before + 1, "{before} questions before the wish, {after} in all");
         let mut broken = Job::<()>::start("broken", Wake::default(), |_| panic!("index 7"));
         assert!(ended(&mut broken, |()| ()).unwrap_err().contains("index 7"));
     }
@@ -396,7 +406,7 @@ mod tests {
         job.stop();
         assert!(job.stopping() && job.poll(|()| ()).is_none());
         job.stop();
-        called.recv_timeout(Duration::from_secs(20)).unwrap();
+        called.recv_timeout(Duration::from_secs(300)).unwrap();
         assert_eq!(job.poll(|()| ()), Some(Ok(())));
     }
 }

@@ -183,7 +183,7 @@ mod tests {
                 assert!(matches!(outcome, Outcome::Solved(solution, _) if solution.converged()));
                 break;
             }
-            assert!(begin.elapsed() < Duration::from_secs(20));
+            assert!(begin.elapsed() < Duration::from_secs(300));
             std::thread::sleep(Duration::from_millis(5));
         }
         assert!(jobs.running().is_empty());
