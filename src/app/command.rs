@@ -93,6 +93,8 @@ pub enum Command {
     Ask(Purpose),
     /// Export a plot that is on the screen as a drawing.
     Draw(&'static str),
+    /// Run the study of the open scene.
+    RunStudy,
     /// Put the sentence about the last file away.
     Dismiss,
     /// Draw a curve by a reduced model.

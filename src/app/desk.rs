@@ -12,14 +12,16 @@ use super::files::Files;
 use super::in_use::InUse;
 use super::model_source::Models;
 use super::presentation::Presentation;
+use super::tab::Tab;
 use super::tabs::Views;
 use super::traction::TractionView;
 use super::training::Training;
 use super::transient::TransientView;
 use crate::engine::Store;
-use crate::engine::job::Standing;
+use crate::engine::job::{Standing, Wake};
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::reduced::ReducedModel;
+use std::path::Path;
 use std::sync::Arc;
 
 /// Seconds between two writes of the session.
@@ -53,6 +55,8 @@ pub struct Desk {
     pub figures: Figures,
     /// A presentation under way: plots and sliders only.
     pub presentation: Option<Presentation>,
+    /// The tab that answers the question of a scene that was just opened.
+    pub opened: Option<Tab>,
     /// Plots are to be fitted to their data in this frame.
     pub fit_plots: bool,
 }
@@ -76,6 +80,7 @@ impl Desk {
             views: Views::default(),
             figures: Figures::default(),
             presentation: None,
+            opened: None,
             fit_plots: true,
         }
     }
@@ -127,7 +132,7 @@ impl Desk {
     /// How far the work is that runs beside the picture; the first where there is more.
     pub fn study(&self) -> Option<Standing> {
         let transient = &self.transient;
-        let studied = self.views.accuracy.standing();
+        let studied = self.views.accuracy.standing().or(self.views.results.standing());
         let in_time = transient.work.standing().or(transient.number.work.standing());
         studied.or(in_time).or(self.traction.full.standing())
     }
@@ -136,6 +141,7 @@ impl Desk {
     pub fn receive(&mut self) {
         self.answers.receive();
         self.views.accuracy.receive();
+        self.views.results.receive();
         self.transient.receive();
         self.traction.receive();
         self.training.receive();
@@ -146,8 +152,15 @@ impl Desk {
         self.answers.jobs.cancel_all();
         self.training.stop();
         self.views.accuracy.stop();
+        self.views.results.stop();
         self.transient.stop();
         self.traction.full.stop();
+    }
+
+    /// Runs the study of the scene on the screen.
+    pub fn run_study(&mut self, wake: Wake) {
+        let base = self.files.path.as_deref().and_then(Path::parent).unwrap_or(Path::new("")).to_owned();
+        self.views.results.start(self.document.to_scene(), base, &self.answers.store, wake);
     }
 
     /// Replaces the document, as New and Open do.
@@ -155,6 +168,7 @@ impl Desk {
         self.history.restart(&document);
         self.document = document;
         self.own_lubricant = false;
+        self.views.results.forget();
         self.forget_entries();
     }
 

@@ -1,6 +1,7 @@
 //! What commands and choices of the palette do.
 
 use super::Explorer;
+use super::answers::jobs::wake;
 use super::command::Command;
 use super::context::Commands;
 use super::export;
@@ -111,12 +112,16 @@ impl Explorer {
             Command::OpenPath(path) => desk.request(ctx, Pending::Open(path)),
             Command::Ask(purpose) => desk.ask_path(ctx, purpose),
             Command::Draw(name) => desk.figures.draw(name),
+            Command::RunStudy => {
+                desk.run_study(wake(ctx));
+                self.show(Tab::Results);
+            }
             Command::Dismiss => desk.files.notice = None,
         }
     }
 
     /// Brings a tab to the front.
-    fn show(&mut self, wanted: Tab) {
+    pub(super) fn show(&mut self, wanted: Tab) {
         self.tree.make_active(|_, tile| matches!(tile, Tile::Pane(tab) if *tab == wanted));
     }
 

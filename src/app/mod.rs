@@ -31,9 +31,10 @@ mod training;
 mod transient;
 
 use crate::engine::Store;
+use crate::scene::Table;
 use crate::solver::physics::contact::{ContactKind, Moes};
 use crate::solver::reduced::ReducedModel;
-use answers::jobs::JobKind;
+use answers::jobs::{JobKind, wake};
 use command::Command;
 use context::Commands;
 use desk::Desk;
@@ -162,6 +163,7 @@ impl Explorer {
         }
         self.panels(ui, &mut commands);
         self.execute_all(&ctx, &mut commands);
+        self.answer_opened(&ctx);
         self.desk.answers.refresh(&ctx, &self.desk.document);
         self.desk.follow_cuts();
         if self.desk.presentation.is_none() {
@@ -181,6 +183,15 @@ impl Explorer {
             ctx.request_repaint();
         }
         self.frame_s = begin.elapsed().as_secs_f64();
+    }
+
+    /// Brings the tab to the front that answers a scene which was just opened, and runs its study where that is done without asking.
+    fn answer_opened(&mut self, ctx: &egui::Context) {
+        let Some(tab) = self.desk.opened.take() else { return };
+        self.show(tab);
+        if tab == Tab::Results {
+            self.desk.run_study(wake(ctx));
+        }
     }
 
     /// Records finished gestures, and starts what waited for the sliders to rest.
@@ -282,6 +293,30 @@ impl Explorer {
     /// Whether a computation runs or waits.
     pub fn busy(&self) -> bool {
         [JobKind::Live, JobKind::Refine, JobKind::Verify].into_iter().any(|kind| self.desk.answers.jobs.busy(kind))
+    }
+
+    /// Whether the study of the open scene runs.
+    pub fn running_study(&self) -> bool {
+        self.desk.views.results.standing().is_some()
+    }
+
+    /// Whether all expectations of the open scene were met, once its study has ended.
+    pub fn verdict(&self) -> Option<bool> {
+        self.desk.views.results.verdict()
+    }
+
+    /// The table of a name that the study of the open scene has given so far, as CSV.
+    pub fn result_table(&self, name: &str) -> Option<String> {
+        self.desk.views.results.table(name).map(Table::to_csv)
+    }
+
+    /// The tab in front.
+    pub fn front(&self) -> Option<&'static str> {
+        let front = self.tree.active_tiles().into_iter().find_map(|id| match self.tree.tiles.get(id) {
+            Some(egui_tiles::Tile::Pane(tab)) => Some(*tab),
+            _ => None,
+        });
+        front.map(Tab::title)
     }
 
     /// Whether a training or a comparison runs.

@@ -23,11 +23,13 @@ pub enum Tab {
     Transient,
     /// The linearised model of it.
     Tpwl,
+    /// The answer to the scene’s question.
+    Results,
 }
 
 impl Tab {
     /// All tabs in their order.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Profiles,
         Self::ContactMap,
         Self::Regimes,
@@ -37,6 +39,7 @@ impl Tab {
         Self::Training,
         Self::Transient,
         Self::Tpwl,
+        Self::Results,
     ];
 
     /// Title.
@@ -51,6 +54,7 @@ impl Tab {
             Self::Training => "Training",
             Self::Transient => "Transient",
             Self::Tpwl => "TPWL",
+            Self::Results => "Results",
         }
     }
 
@@ -66,6 +70,7 @@ impl Tab {
             Self::Training => "snapshots model plan range",
             Self::Transient => "time load speed radius frames",
             Self::Tpwl => "linearised operating points weights",
+            Self::Results => "study scene run expectations verdicts table",
         }
     }
 }

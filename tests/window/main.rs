@@ -9,6 +9,7 @@ mod accuracy_tab;
 mod contact_map;
 mod desktop;
 mod explorer;
+mod results_tab;
 mod tpwl_tab;
 mod traction_tab;
 mod training_tab;

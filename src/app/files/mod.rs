@@ -7,7 +7,8 @@ pub use purpose::Purpose;
 
 use super::desk::Desk;
 use super::document::Document;
-use crate::scene::Scene;
+use super::tab::Tab;
+use crate::scene::{Scene, Study};
 use egui::{Context, Id, Modal, Ui, ViewportCommand};
 use path_window::PathWindow;
 use std::path::{Path, PathBuf};
@@ -76,6 +77,16 @@ impl Files {
     }
 }
 
+/// The tab that answers a scene's question.
+fn answering(study: &Study) -> Tab {
+    match study {
+        Study::Point(_) => Tab::Profiles,
+        Study::Training(_) => Tab::Training,
+        Study::Transient(_) => Tab::Transient,
+        _ => Tab::Results,
+    }
+}
+
 fn is_model(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "rom")
 }
@@ -135,6 +146,7 @@ impl Desk {
         self.files.path = Some(path.to_owned());
         self.remember(path);
         self.files.notice = Some(Ok(format!("Opened {}", path.display())));
+        self.opened = self.document.scene.as_ref().map(|scene| answering(&scene.study));
         Ok(())
     }
 

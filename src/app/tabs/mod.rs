@@ -13,6 +13,7 @@ pub mod profiles;
 mod raster;
 mod regime_chart;
 pub mod regimes;
+pub mod results;
 pub mod tpwl;
 pub mod traction;
 mod training;
@@ -40,6 +41,8 @@ pub struct Views {
     pub accuracy: accuracy::AccuracyView,
     /// How the Traction tab shows it.
     pub traction: traction::Traction,
+    /// The study of the open scene.
+    pub results: results::ResultsView,
     /// What the TPWL tab shows.
     pub tpwl: tpwl::TpwlView,
 }
@@ -77,6 +80,7 @@ impl Behavior<Tab> for Tabs<'_> {
                 Tab::Regimes => views.regimes.ui(ui, &desk.context(), commands),
                 Tab::Basis => basis::ui(ui, &mut views.basis, &desk.context(), commands),
                 Tab::Traction => views.traction.ui(ui, &desk.context(), commands),
+                Tab::Results => views.results.ui(ui, &desk.document.to_scene(), commands),
                 Tab::Accuracy | Tab::Training | Tab::Transient | Tab::Tpwl => {}
             }
             desk.views = views;

@@ -1,0 +1,60 @@
+//! Any chart of a study: lines, dots and crosses over its axes.
+
+use crate::app::numbers;
+use crate::app::tabs::axes;
+use crate::app::theme::Palette;
+use crate::scene::{Chart, ChartAxis, Marks};
+use egui::{Color32, Ui, Vec2b};
+use egui_plot::{Corner, Legend, Line, MarkerShape, PlotPoints, Points};
+
+/// Draws a chart `height` high; `fresh` fits it to its data.
+pub fn ui(ui: &mut Ui, id: &str, chart: &Chart, height: f32, fresh: bool) {
+    let palette = Palette::of(ui);
+    let hues = [palette.film, palette.pressure, palette.deformation, palette.traction, palette.accent, palette.text];
+    let (x_log, y_log) = (chart.x.log, chart.y.log);
+    let mut plot = axes::plot(ui, id, height, &plain(&chart.x), &plain(&chart.y))
+        .legend(Legend::default().position(Corner::RightTop).follow_insertion_order(true).background_alpha(0.7))
+        .auto_bounds(Vec2b::TRUE)
+        .label_formatter(move |hover| match hover {
+            egui_plot::HoverPosition::NearDataPoint { plot_name, position, .. } => {
+                let value = |at: f64, log: bool| numbers::significant(if log { 10f64.powf(at) } else { at });
+                Some(format!("{plot_name}\n{}, {}", value(position.x, x_log), value(position.y, y_log)))
+            }
+            egui_plot::HoverPosition::Elsewhere { .. } => None,
+        });
+    if x_log {
+        plot = plot.x_grid_spacer(axes::decade_marks).x_axis_formatter(|mark, _| axes::decade_label(mark));
+    }
+    if y_log {
+        plot = plot.y_grid_spacer(axes::decade_marks).y_axis_formatter(|mark, _| axes::decade_label(mark));
+    }
+    if fresh {
+        plot = plot.reset();
+    }
+    axes::show(plot, ui, &chart.title, |plot| {
+        for (k, series) in chart.series.iter().enumerate() {
+            let color = if series.marks == Marks::Crosses { palette.wrong } else { hue(&hues, k) };
+            let place = |at: f64, log: bool| if log { at.log10() } else { at };
+            let points: PlotPoints<'_> =
+                series.points.iter().map(|[x, y]| [place(*x, x_log), place(*y, y_log)]).collect();
+            match series.marks {
+                Marks::Line => plot.line(Line::new(&series.name, points).color(color).width(2.0)),
+                Marks::Dots => plot.points(Points::new(&series.name, points).color(color).radius(2.4)),
+                Marks::Crosses => {
+                    plot.points(Points::new(&series.name, points).color(color).radius(4.5).shape(MarkerShape::Cross));
+                }
+            }
+        }
+    });
+}
+
+fn hue(hues: &[Color32], k: usize) -> Color32 {
+    // After one round the hues come again, fainter.
+    let faint = 0.6f32.powi((k / hues.len()) as i32);
+    hues.get(k % hues.len()).map_or(Color32::GRAY, |hue| hue.gamma_multiply(faint))
+}
+
+/// Braces mark symbols on the screen; a study's titles have none, but names of files may.
+fn plain(axis: &ChartAxis) -> String {
+    axis.label.replace(['{', '}'], "")
+}

@@ -1,0 +1,259 @@
+//! The answer to a scene's question, whatever it is: its study runs on the engine as it does headless, and its charts, tables and verdicts
+//! come as they are found.
+
+mod chart;
+mod run;
+mod table;
+
+use crate::app::command::Command;
+use crate::app::context::Commands;
+use crate::app::controls::{message_ui, named, warning_ui};
+use crate::app::numbers;
+use crate::app::theme::{Palette, rich};
+use crate::engine::Store;
+use crate::engine::job::{Standing, Wake};
+use crate::scene::{Method, Scene, Table, Verdict};
+use egui::{ComboBox, Grid, ProgressBar, RichText, ScrollArea, Ui};
+use run::{Look, Run};
+use std::path::PathBuf;
+
+/// Width of the verdicts beside the charts.
+const VERDICTS: f32 = 330.0;
+
+/// What is shown of a study.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Shown {
+    /// Its charts.
+    Charts,
+    /// A table, by its name.
+    Table(String),
+}
+
+/// The tab's run and what is shown of it.
+pub struct ResultsView {
+    run: Option<Run>,
+    shown: Shown,
+    fresh: bool,
+}
+
+impl Default for ResultsView {
+    fn default() -> Self {
+        Self { run: None, shown: Shown::Charts, fresh: true }
+    }
+}
+
+impl ResultsView {
+    /// Runs the study of a scene; relative paths refer to `base`.
+    pub fn start(&mut self, scene: Scene, base: PathBuf, store: &Store, wake: Wake) {
+        self.run = Some(Run::start(scene, base, store.clone(), wake));
+        *self = Self { run: self.run.take(), ..Self::default() };
+    }
+
+    /// Forgets what was run: another scene is on the screen.
+    pub fn forget(&mut self) {
+        *self = Self::default();
+    }
+
+    /// Takes in what came since the last frame.
+    pub fn receive(&mut self) {
+        if let Some(run) = &mut self.run {
+            run.receive();
+        }
+    }
+
+    /// How far the study is that runs.
+    pub fn standing(&self) -> Option<Standing> {
+        self.run.as_ref()?.work.standing()
+    }
+
+    /// Stops it; what it has found stays.
+    pub fn stop(&self) {
+        if let Some(run) = &self.run {
+            run.work.stop();
+        }
+    }
+
+    /// Whether everything has been answered, and whether all expectations hold.
+    pub fn verdict(&self) -> Option<bool> {
+        let look = self.run.as_ref()?.look.as_ref().filter(|look| look.complete)?;
+        Some(look.outcome.passed())
+    }
+
+    /// A table by its name, of the last look.
+    pub fn table(&self, name: &str) -> Option<&Table> {
+        self.run.as_ref()?.look.as_ref()?.table(name)
+    }
+
+    /// The tab for the scene on the screen.
+    pub fn ui(&mut self, ui: &mut Ui, scene: &Scene, commands: &mut Commands) {
+        let title = if scene.title.is_empty() { "Results" } else { &scene.title };
+        ui.horizontal_wrapped(|ui| {
+            ui.heading(title);
+            if !scene.source.is_empty() {
+                ui.weak(&scene.source);
+            }
+        });
+        self.toolbar(ui, commands);
+        let Some(run) = &self.run else {
+            ui.separator();
+            ui.weak("Run answers the question of the open scene here, as `ehl-explorer run` does without a window");
+            return;
+        };
+        if let Some(message) = &run.work.message {
+            message_ui(ui, message);
+        }
+        let changed = run.scene.study != scene.study || run.scene.experiment() != scene.experiment();
+        if changed {
+            warning_ui(ui, "These results belong to the scene as it was when it was run; it has changed since");
+        }
+        ui.separator();
+        let Some(look) = &run.look else {
+            ui.weak("Nothing has been found yet");
+            return;
+        };
+        let fresh = std::mem::take(&mut self.fresh);
+        let whole = ui.available_size();
+        let beside = whole.x > 2.0 * VERDICTS;
+        if beside {
+            ui.horizontal_top(|ui| {
+                let width = ui.available_width() - VERDICTS - 12.0;
+                ui.allocate_ui(egui::vec2(width, whole.y), |ui| {
+                    ui.set_width(width);
+                    shown_ui(ui, look, &self.shown, fresh);
+                });
+                ui.separator();
+                ui.vertical(|ui| verdicts_ui(ui, look));
+            });
+        } else {
+            ui.allocate_ui(egui::vec2(whole.x, 0.6 * whole.y), |ui| shown_ui(ui, look, &self.shown, fresh));
+            ui.separator();
+            verdicts_ui(ui, look);
+        }
+    }
+
+    fn toolbar(&mut self, ui: &mut Ui, commands: &mut Commands) {
+        ui.horizontal_wrapped(|ui| {
+            let standing = self.standing();
+            match &standing {
+                Some(_) if ui.button("Stop").on_hover_text("What has been found so far stays (Esc)").clicked() => {
+                    self.stop();
+                }
+                Some(_) => {}
+                None if ui.button("Run").on_hover_text("Answers the scene’s question anew").clicked() => {
+                    commands.push(Command::RunStudy);
+                }
+                None => {}
+            }
+            let look = self.run.as_ref().and_then(|run| run.look.as_ref());
+            let tables: &[Table] = look.map_or(&[], |look| &look.outcome.tables);
+            let text = match &self.shown {
+                Shown::Charts => "Charts".to_owned(),
+                Shown::Table(name) => format!("Table {name}"),
+            };
+            let mut chosen = self.shown.clone();
+            let combo = ComboBox::from_id_salt("shown of results").selected_text(text).width(180.0).show_ui(ui, |ui| {
+                ui.selectable_value(&mut chosen, Shown::Charts, "Charts");
+                for table in tables {
+                    let name = table.name.clone();
+                    ui.selectable_value(&mut chosen, Shown::Table(name.clone()), format!("Table {name}"));
+                }
+            });
+            named(ui, combo.response, "Shown of the results");
+            let table = match &chosen {
+                Shown::Table(name) => look.and_then(|look| look.table(name)),
+                Shown::Charts => tables.first(),
+            };
+            let button = ui.add_enabled(table.is_some(), egui::Button::new("Export CSV…"));
+            if button.on_hover_text("The table that is chosen, or the first one").clicked() {
+                commands.extend(table.map(|table| Command::csv(table.to_csv())));
+            }
+            self.shown = chosen;
+            if let Some(standing) = standing {
+                let share = if standing.total > 0 { standing.done as f32 / standing.total as f32 } else { 0.0 };
+                ui.add(ProgressBar::new(share).desired_width(110.0).desired_height(8.0));
+                ui.weak(format!("{}: {}", standing.stage, numbers::standing(&standing)));
+            }
+        });
+    }
+}
+
+fn shown_ui(ui: &mut Ui, look: &Look, shown: &Shown, fresh: bool) {
+    match shown {
+        Shown::Table(name) => match look.table(name) {
+            Some(of) => table::ui(ui, of),
+            None => _ = ui.weak("There is no such table yet"),
+        },
+        Shown::Charts => {
+            let charts: Vec<_> = look.charts.iter().filter(|chart| !chart.series.is_empty()).collect();
+            if charts.is_empty() {
+                match look.outcome.tables.first() {
+                    Some(first) => table::ui(ui, first),
+                    None => _ = ui.weak("There is nothing to draw of it yet"),
+                }
+                return;
+            }
+            let room = ui.available_height();
+            let height = (room / charts.len().min(2) as f32 - 26.0).max(150.0);
+            ScrollArea::vertical().id_salt("charts of results").auto_shrink(false).show(ui, |ui| {
+                for (k, of) in charts.into_iter().enumerate() {
+                    ui.label(RichText::new(&of.title).strong());
+                    chart::ui(ui, &format!("chart {k} of results"), of, height, fresh);
+                }
+            });
+        }
+    }
+}
+
+fn verdicts_ui(ui: &mut Ui, look: &Look) {
+    let palette = Palette::of(ui);
+    let outcome = &look.outcome;
+    let held = outcome.verdicts.iter().filter(|verdict| verdict.holds).count();
+    ScrollArea::vertical().id_salt("verdicts").auto_shrink(false).show(ui, |ui| {
+        ui.strong("Expectations");
+        let (text, color) = match (look.complete, outcome.verdicts.len()) {
+            (false, _) => (format!("Not all is known yet: {} rows", look.rows), palette.quiet),
+            (true, 0) if outcome.passed() => ("The scene expects nothing; all converged".to_owned(), palette.verified),
+            (true, 0) => ("Some solves did not converge".to_owned(), palette.warning),
+            (true, all) if outcome.passed() => (format!("All {all} hold"), palette.verified),
+            (true, all) if held == all => ("All hold, but some solves did not converge".to_owned(), palette.warning),
+            (true, all) => (format!("{held} of {all} hold"), palette.warning),
+        };
+        ui.colored_label(color, text);
+        Grid::new("expectations").num_columns(3).striped(true).spacing([8.0, 3.0]).show(ui, |ui| {
+            for verdict in &outcome.verdicts {
+                verdict_ui(ui, verdict, look.complete, &palette);
+            }
+        });
+        for warning in &outcome.warnings {
+            warning_ui(ui, warning);
+        }
+        if outcome.verdicts.is_empty() {
+            ui.add_space(4.0);
+            Grid::new("values").num_columns(2).striped(true).spacing([8.0, 3.0]).show(ui, |ui| {
+                for value in &outcome.values {
+                    ui.label(of_method(&value.name, value.method.as_ref()));
+                    ui.label(numbers::significant(value.value));
+                    ui.end_row();
+                }
+            });
+        }
+    });
+}
+
+fn verdict_ui(ui: &mut Ui, verdict: &Verdict, complete: bool, palette: &Palette) {
+    let (mark, color) = match (verdict.holds, complete) {
+        (true, _) => ("holds", palette.verified),
+        (false, true) => ("short", palette.warning),
+        (false, false) => ("open", palette.quiet),
+    };
+    ui.label(rich(mark, 11.0, color));
+    let tip = format!("Wanted {}; {}", verdict.wanted, verdict.from);
+    ui.label(of_method(&verdict.name, verdict.method.as_ref())).on_hover_text(&tip);
+    let value = verdict.value.map_or_else(|| "–".to_owned(), numbers::significant);
+    ui.label(value).on_hover_text(tip);
+    ui.end_row();
+}
+
+fn of_method(name: &str, method: Option<&Method>) -> String {
+    method.map_or_else(|| name.to_owned(), |method| format!("{name}, {}", method.name()))
+}

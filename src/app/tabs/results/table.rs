@@ -1,0 +1,46 @@
+//! Any table of a study.
+
+use crate::app::numbers;
+use crate::app::theme::{Palette, rich};
+use crate::scene::Table;
+use egui::{Grid, ScrollArea, Ui};
+
+/// Narrowest column.
+const COLUMN: f32 = 84.0;
+
+/// Draws a table in what room there is; a long one scrolls.
+pub fn ui(ui: &mut Ui, table: &Table) {
+    let quiet = Palette::of(ui).quiet;
+    let row_height = ui.spacing().interact_size.y - 4.0;
+    ScrollArea::both().id_salt(("table", &table.name)).auto_shrink([false, false]).show_viewport(ui, |ui, viewport| {
+        ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
+        let height = row_height + ui.spacing().item_spacing.y;
+        ui.set_height(height * (table.rows.len() + 1) as f32);
+        let first = ((viewport.top() / height) as usize).min(table.rows.len());
+        let last = (first + (viewport.height() / height) as usize + 2).min(table.rows.len());
+        let top = ui.max_rect().top() + first as f32 * height;
+        let area = ui.max_rect().with_min_y(top);
+        ui.scope_builder(egui::UiBuilder::new().max_rect(area), |ui| {
+            let grid = Grid::new(("rows", &table.name)).striped(true).min_col_width(COLUMN).min_row_height(row_height);
+            grid.start_row(first).show(ui, |ui| {
+                if !table.labels.is_empty() {
+                    ui.label("");
+                }
+                for column in &table.columns {
+                    ui.label(rich(column, 12.0, quiet));
+                }
+                ui.end_row();
+                for (k, row) in table.rows.iter().enumerate().take(last).skip(first) {
+                    if let Some(label) = table.labels.get(k) {
+                        ui.label(label);
+                    }
+                    for value in row {
+                        // What does not apply is left empty, as in the file.
+                        ui.label(if value.is_finite() { numbers::significant(*value) } else { String::new() });
+                    }
+                    ui.end_row();
+                }
+            });
+        });
+    });
+}

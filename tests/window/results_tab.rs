@@ -1,0 +1,144 @@
+//! Every study runs in the window as it does headless: the same contacts, the same numbers to the last bit, with its verdicts beside.
+
+use crate::common::scratch::Scratch;
+use crate::driver::{click, shows, wait_within, window};
+use ehl_explorer::app::Explorer;
+use ehl_explorer::engine::{Workbench, run_scene};
+use ehl_explorer::scene::Scene;
+use std::path::Path;
+use std::time::Duration;
+
+const PATIENCE: Duration = Duration::from_secs(240);
+
+const BOX: &str = "radius: (2e-3, 3e-3), speed: (3.0, 5.0), load: (1e5, 2e5), alpha: (6e-9, 10e-9), modulus: 231e9, \
+    viscosity: 0.01";
+const POINT_BOX: &str = "radius: (10e-3, 11e-3), speed: (2.0, 3.0), load: (30.0, 45.0), alpha: (8e-9, 11e-9), \
+    modulus: 231e9, viscosity: 0.01";
+
+/// Columns that hold seconds, or what follows from them: no two runs agree in these.
+const CLOCK: [&str; 6] = ["wall_s", "ms per step", "s", "times faster", "solve_s", "median_s"];
+
+fn scene(title: &str, rest: &str, study: &str) -> String {
+    format!("Scene(version: 1, title: \"{title}\", source: \"a test\", {rest} study: {study})")
+}
+
+fn training(plan: &str) -> String {
+    format!(
+        "Training(title: \"small\", range: Box({BOX}), plan: {plan}, windows: Given([(m: (1.0, 500.0), grid: \
+         Line(Uniform(dx: 0.04, domain: (-4.0, 2.0))))]), pressure_loss: 1e-6, deformation_loss: 1e-6, sampling: QDeim, \
+         evidence: 0, rows_per_mode: 2.0, penalty: 1e6, seed: 3)"
+    )
+}
+
+/// A scene of a study opened in the window and run headless: all tables agree, and the window shows how its expectations fared.
+fn agrees(folder: &Path, name: &str, text: &str, runs_by_itself: bool) {
+    let path = folder.join(format!("{name}.ron"));
+    std::fs::write(&path, text).unwrap();
+    let headless = Scene::read(&path).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let headless =
+        run_scene(&headless, &mut Workbench::new(folder), &()).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let mut harness = window(Explorer::with_embedded_models(), [1280.0, 800.0]);
+    harness.state_mut().open_scene(&path).unwrap();
+    harness.run_steps(2);
+    if !runs_by_itself {
+        click(&mut harness, "Results");
+        click(&mut harness, "Run");
+    }
+    assert_eq!(harness.state().front(), Some("Results"), "{name}");
+    wait_within(PATIENCE, &mut harness, name, |app| app.verdict().is_some());
+    assert_eq!(harness.state().verdict(), Some(headless.passed()), "{name}");
+    assert!(shows(&harness, "Expectations") && shows(&harness, &headless.title), "{name}");
+    for table in &headless.tables {
+        let shown = harness.state().result_table(&table.name).unwrap_or_else(|| panic!("{name}: no {}", table.name));
+        let same = timeless(&table.to_csv()) == timeless(&shown);
+        assert!(same, "{name}, {}:\n{}\n{}", table.name, table.to_csv(), shown);
+    }
+}
+
+/// A table without what the clock says.
+fn timeless(csv: &str) -> Vec<Vec<String>> {
+    let mut lines = csv.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
+    let header = lines.next().unwrap();
+    let of_clock =
+        |title: &String| CLOCK.iter().any(|clock| title.split('.').next_back() == Some(clock) || title == clock);
+    let kept: Vec<usize> = (0..header.len()).filter(|&k| !of_clock(&header[k])).collect();
+    assert!(!kept.is_empty());
+    lines.map(|line| kept.iter().filter_map(|&k| line.get(k).cloned()).collect()).collect()
+}
+
+#[test]
+fn studies_of_contacts_give_the_same_on_the_screen_and_headless() {
+    let folder = Scratch::new("results-contacts");
+    let graded = "grid: Graded,";
+    let uniform = "grid: Uniform(dx: 0.04, domain: (-4.0, 2.0)),";
+    let studies = [
+        ("sweep", "grid: Model,", "Sweep(over: [(vary: M, values: Log(from: 20, to: 60, n: 4))], methods: [Full, Reduced(model: Embedded)])".to_owned()),
+        ("trajectory", "grid: Model,", format!("Trajectory(range: ({BOX}), points: 3, methods: [Full, Reduced(model: Embedded)])")),
+        ("random_test", "grid: Model,", "RandomTest(range: Realisation(m: (2.0, 300.0), l: (1.0, 20.0), max_hertz_pressure: 3.2e9), tests: 60, seed: 20, method: Reduced(model: Embedded), compare: 5)".to_owned()),
+        ("error_split", "", "ErrorSplit(contacts: Here, method: Reduced(model: Embedded))".to_owned()),
+        ("grid_study", uniform, "GridStudy(dx: [0.08, 0.04, 0.02])".to_owned()),
+        ("dimensions", uniform, "Dimensions(over: [(vary: M, values: Log(from: 20, to: 60, n: 4))], losses: [1e-2, 1e-3])".to_owned()),
+        ("error_measures", "", format!("ErrorMeasures(range: Box({BOX}), points: 4, seed: 31, model: Embedded)")),
+        ("distance_measure", graded, format!("DistanceMeasure(range: Box({BOX}), points: 8, seed: 5)")),
+        ("formula_comparison", "lubricant: (viscosity: Barus, density: Incompressible), grid: Graded,", "FormulaComparison(formula: Moes, m: [20, 50], l: [5])".to_owned()),
+    ];
+    for (name, rest, study) in &studies {
+        agrees(&folder, name, &scene(name, rest, study), true);
+    }
+    agrees(&folder, "point", &scene("point", graded, "Point(methods: [Full, Reduced(model: Embedded)])"), false);
+}
+
+#[test]
+fn studies_of_trainings_give_the_same_on_the_screen_and_headless() {
+    let folder = Scratch::new("results-trainings");
+    let farthest = training("FarthestPoint(snapshots: 14)");
+    agrees(&folder, "training", &scene("training", "", &farthest), false);
+    let plans = format!(
+        "PlanComparison(plans: [(name: \"farthest\", training: \"training.ron\")], range: ({BOX}), tests: 12, seed: 4, compare: 4, trajectory: 3)"
+    );
+    agrees(&folder, "plans", &scene("plans", "", &plans), true);
+    let adaptive = "Adaptive(start: 8, tolerances: [100.0, 30.0], successes: 48, local_sigma: 0.1, local_successes: 8, \
+        vicinity: 4, limit: 60)";
+    std::fs::write(folder.join("ladder.ron"), scene("ladder", "", &training(adaptive))).unwrap();
+    let ladder = format!("ToleranceStudy(training: \"ladder.ron\", range: ({BOX}), points: 3, tests: 12, seed: 4)");
+    agrees(&folder, "tolerances", &scene("tolerances", "", &ladder), true);
+    let small = format!(
+        "Training(title: \"small\", range: Box({POINT_BOX}), plan: FarthestPoint(snapshots: 8), windows: Given([(m: (1.0, \
+         2000.0), grid: Plane(dx: 0.06, dy: 0.1, domain: (-2.7, 1.5, -1.5)))]), pressure_loss: 1e-3, deformation_loss: \
+         1e-3, sampling: All, rows_per_mode: 3.0, penalty: 1e5, evidence: 0, seed: 2)"
+    );
+    std::fs::write(folder.join("ball.ron"), scene("ball", "contact: Point,", &small)).unwrap();
+    let ways = format!(
+        "SamplingComparison(training: \"ball.ron\", samplings: [(name: \"all\", sampling: All, rows_per_mode: 3.0, penalty: \
+         1e5)], range: ({POINT_BOX}), tests: 6, seed: 3, compare: 2)"
+    );
+    agrees(&folder, "samplings", &scene("samplings", "contact: Point,", &ways), true);
+}
+
+#[test]
+fn a_contact_in_time_gives_the_same_on_the_screen_and_headless() {
+    let folder = Scratch::new("results-time");
+    let study = "Transient((inputs: (load: Harmonic(amplitude: 0.1, period: 0.5)), duration: 0.5, time_step: Fixed(0.01), \
+        reduced: (loss: 1e-5)))";
+    let study = study.replace("Transient((", "Transient(").replace("1e-5)))", "1e-5))");
+    let rest = "grid: Uniform(dx: 0.02, domain: (-4.0, 2.0)),";
+    agrees(&folder, "transient", &scene("transient", rest, &study), false);
+}
+
+#[test]
+fn a_study_can_be_stopped_and_what_it_found_stays() {
+    let folder = Scratch::new("results-stopped");
+    let study = "RandomTest(range: Realisation(m: (2.0, 300.0), l: (1.0, 20.0), max_hertz_pressure: 3.2e9), tests: 100000, \
+        seed: 1, method: Reduced(model: Embedded))";
+    let path = folder.join("long.ron");
+    std::fs::write(&path, scene("long", "", study)).unwrap();
+    let mut harness = window(Explorer::with_embedded_models(), [1280.0, 800.0]);
+    harness.state_mut().open_scene(&path).unwrap();
+    wait_within(PATIENCE, &mut harness, "first rows", |app| app.result_table("random").is_some());
+    click(&mut harness, "Stop");
+    wait_within(PATIENCE, &mut harness, "the end", |app| !app.running_study());
+    assert_eq!(harness.state().verdict(), None, "what was stopped has no verdict");
+    let rows = harness.state().result_table("random").unwrap().lines().count();
+    assert!(rows > 1 && rows < 100_000, "{rows}");
+    assert!(shows(&harness, "Not all is known yet"));
+}
