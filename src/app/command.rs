@@ -1,10 +1,8 @@
 //! Everything the user can ask for by menu, key or palette, in one place.
 
-mod refusal;
-
 use super::answers::picture::Cuts;
 use super::document::Edit;
-use super::files::Purpose;
+use super::purpose::Purpose;
 use super::tab::Tab;
 use super::traction::{Served, Sweep};
 use egui::{Context, Key, KeyboardShortcut, Modifiers};

@@ -9,9 +9,8 @@ pub use subject::Subject;
 pub use texture::Texture;
 
 use super::controls::named;
-use super::desk::Desk;
-use super::files::Purpose;
 use super::png;
+use super::purpose::Purpose;
 use egui::{ColorImage, Context, FontId, Id, LayerId, Modal, Order, Rect, Ui, ViewportCommand, pos2, vec2};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
@@ -122,36 +121,34 @@ pub fn begin(ctx: &Context) {
     offers(ctx, |offers| offers.last = std::mem::take(&mut offers.now));
 }
 
-impl Desk {
-    /// The question, and the picture once the screen shows nothing but the plot. Called when everything else is drawn.
-    pub fn figures_ui(&mut self, ctx: &Context) {
-        if self.figures.asks {
+impl Figures {
+    /// The question, and the picture once the screen shows nothing but the plot, or why there is none. Called when everything else is drawn.
+    pub fn ui(&mut self, ctx: &Context, caption: impl Fn(Subject) -> String) -> Option<Result<Purpose, String>> {
+        if self.asks {
             self.choose_figure(ctx);
         }
-        let Some(mut wanted) = self.figures.wanted.take() else { return };
+        let mut wanted = self.wanted.take()?;
         wanted.frames += 1;
         let mut plot = None;
         offers(ctx, |offers| plot = offers.now.iter().find(|offered| offered.name == wanted.name).cloned());
         let subject = plot.as_ref().map_or(Subject::Sliders, |plot| plot.subject);
-        let caption = [wanted.name.clone(), self.parameters(subject)];
+        let caption = [wanted.name.clone(), caption(subject)];
         match (&wanted.screenshot, plot) {
             (Some((receiver, rect)), _) => match receiver.try_recv() {
                 Ok(image) => {
                     let bytes = png::encode(&cropped(&image, wanted.whole, ctx.pixels_per_point()));
-                    return self.ask_path(ctx, Purpose::Picture { bytes: bytes.into(), extension: "png" });
+                    return Some(Ok(Purpose::Picture { bytes: bytes.into(), extension: "png" }));
                 }
                 Err(TryRecvError::Empty) if wanted.frames < PATIENCE => {
                     draw_caption(ctx, *rect, &caption);
                 }
                 Err(_) => {
                     let message = "the system gave no image of the window; the same plot can be exported as SVG";
-                    self.files.notice = Some(Err(message.to_owned()));
-                    return;
+                    return Some(Err(message.to_owned()));
                 }
             },
             (None, None) if wanted.frames > SETTLED => {
-                self.files.notice = Some(Err(format!("the plot “{}” is not on the screen any more", wanted.name)));
-                return;
+                return Some(Err(format!("the plot “{}” is not on the screen any more", wanted.name)));
             }
             (None, Some(plot)) if wanted.frames > SETTLED && wanted.format == Format::Svg => {
                 let background = ctx.style_of(ctx.theme()).visuals.panel_fill;
@@ -160,7 +157,7 @@ impl Desk {
                     let shapes = graphics.get(plot.layer).map(|list| list.all_entries());
                     svg::drawing(shapes.into_iter().flatten(), plot.rect, &caption, background, &textures)
                 });
-                return self.ask_path(ctx, Purpose::Picture { bytes: text.into_bytes().into(), extension: "svg" });
+                return Some(Ok(Purpose::Picture { bytes: text.into_bytes().into(), extension: "svg" }));
             }
             (None, Some(plot)) if wanted.frames > SETTLED => {
                 let rect = draw_caption(ctx, plot.rect, &caption);
@@ -178,8 +175,9 @@ impl Desk {
             }
             (None, _) => {}
         }
-        self.figures.wanted = Some(wanted);
+        self.wanted = Some(wanted);
         ctx.request_repaint();
+        None
     }
 
     fn choose_figure(&mut self, ctx: &Context) {
@@ -200,7 +198,7 @@ impl Desk {
                     for (format, word) in [(Format::Svg, "SVG…"), (Format::Png, "PNG…")] {
                         let button = ui.button(word);
                         if named(ui, button, &format!("{} as {}", plot.name, word)).clicked() {
-                            self.figures.wanted = Some(Wanted::new(&plot.name, format));
+                            self.wanted = Some(Wanted::new(&plot.name, format));
                             close = true;
                         }
                     }
@@ -211,7 +209,7 @@ impl Desk {
             close |= ui.button("Cancel").clicked();
         });
         if close || response.should_close() {
-            self.figures.asks = false;
+            self.asks = false;
         }
     }
 }

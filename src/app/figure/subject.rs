@@ -1,12 +1,4 @@
-//! What a plot is of, in the line of parameters above its picture.
-
-use crate::app::desk::Desk;
-use crate::app::numbers;
-use crate::app::tabs::contact_map;
-use crate::app::{traction, transient};
-use crate::scene::named_lubricant;
-use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::lubricant::ShearLaw;
+//! What a plot is of.
 
 /// What a plot is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,48 +11,4 @@ pub enum Subject {
     Sweep,
     /// The contact in time that was run.
     InTime,
-}
-
-impl Desk {
-    /// The parameters of what a plot is of.
-    pub(super) fn parameters(&self, subject: Subject) -> String {
-        let lines = match subject {
-            Subject::Sliders => None,
-            Subject::Map => contact_map::particulars(&self.answers, &self.views.map.view)
-                .map(|more| vec![self.contact_line(), more]),
-            Subject::Sweep => traction::export::parameters(&self.traction),
-            Subject::InTime => self.transient.setup.as_ref().map(|setup| transient::export::describe(setup)),
-        };
-        lines.map_or_else(|| self.contact_line(), |lines| lines.join("; "))
-    }
-
-    /// The contact of the sliders in a line.
-    fn contact_line(&self) -> String {
-        let (point, lubricant) = (&self.document.point, &self.document.lubricant);
-        let unit = match point.kind {
-            ContactKind::Line => "N/m",
-            ContactKind::Point => "N",
-        };
-        let significant = numbers::significant;
-        let laws = named_lubricant::of_laws(lubricant)
-            .map_or_else(|| lubricant.of_the_film().describe(), |named| named.title.to_owned());
-        let limit = lubricant.limiting_stress.map_or_else(String::new, |limit| {
-            format!(", limiting stress {} MPa + {} p", significant(1e-6 * limit.ambient), significant(limit.slope))
-        });
-        let slides = match (point.sliding.slide_to_roll_ratio, lubricant.shear) {
-            (0.0, ShearLaw::Newtonian) => String::new(),
-            (srr, ShearLaw::Newtonian) => format!(", SRR {}", significant(srr)),
-            (srr, _) => format!(", SRR {}, NPR {}", significant(srr), significant(self.document.plateau_ratio())),
-        };
-        format!(
-            "{}, R {}, u_m {} m/s, w {} {unit}, E' {} GPa, η₀ {} Pa·s, α {} 1/GPa, {laws}{limit}{slides}",
-            numbers::moes(point.moes()),
-            numbers::length(point.radius_m),
-            significant(point.speed_m_per_s),
-            significant(point.load),
-            significant(1e-9 * point.modulus_pa),
-            significant(point.viscosity_pa_s),
-            significant(1e9 * point.alpha_per_pa)
-        )
-    }
 }

@@ -46,7 +46,7 @@ pub fn all(desk: &Desk) -> Vec<Entry> {
     let commands = Command::all().filter(|(_, command)| *command != Command::Palette);
     let commands = commands.map(|(menu, command)| Entry {
         shortcut: command.shortcut(),
-        refusal: command.refusal(desk),
+        refusal: desk.refusal(&command),
         ..Entry::new(menu, command.name().to_owned(), command.synonyms(), command.clone())
     });
     let mut entries: Vec<Entry> = tabs.into_iter().chain(commands).collect();

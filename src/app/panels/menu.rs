@@ -35,7 +35,7 @@ fn item(ui: &mut Ui, desk: &Desk, command: &Command, commands: &mut Commands) {
     if let Some(shortcut) = command.shortcut() {
         button = button.shortcut_text(ui.ctx().format_shortcut(&shortcut));
     }
-    let refusal = command.refusal(desk);
+    let refusal = desk.refusal(command);
     let mut response = ui.add_enabled(refusal.is_none(), button);
     if let Some(why) = refusal {
         response = response.on_disabled_hover_text(why);

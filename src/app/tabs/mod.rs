@@ -81,11 +81,11 @@ impl Behavior<Tab> for Tabs<'_> {
                 Tab::Basis => basis::ui(ui, &mut views.basis, &desk.context(), commands),
                 Tab::Traction => views.traction.ui(ui, &desk.context(), commands),
                 Tab::Results => views.results.ui(ui, &desk.document.to_scene(), commands),
-                Tab::Accuracy | Tab::Training | Tab::Transient | Tab::Tpwl => {}
+                Tab::Accuracy => accuracy::ui(ui, &mut views.accuracy, &desk.context(), commands),
+                Tab::Training | Tab::Transient | Tab::Tpwl => {}
             }
             desk.views = views;
             match tab {
-                Tab::Accuracy => accuracy::ui(ui, desk),
                 Tab::Training => training::ui(ui, desk),
                 Tab::Transient => transient::ui(ui, desk),
                 Tab::Tpwl => tpwl::ui(ui, desk),

@@ -1,12 +1,12 @@
 //! The reduced model along the test trajectory (3.21), and its error against full solutions.
 
 use super::random_tests::trained_range;
-use super::{CONTACT_COLUMNS, Running, contact_cells, count, progress, run_or_stop, stale_note};
+use super::{AccuracyView, CONTACT_COLUMNS, Running, contact_cells, count, progress, run_or_stop, stale_note};
 use crate::app::answers::jobs::wake;
+use crate::app::command::Command;
+use crate::app::context::{Commands, Context};
 use crate::app::controls::message_ui;
-use crate::app::desk::Desk;
 use crate::app::export;
-use crate::app::files::Purpose;
 use crate::app::in_use::{InUse, Solvers};
 use crate::app::tabs::axes;
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, rich};
@@ -17,7 +17,7 @@ use crate::solver::full::{Problem, Solution, Start};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::reduced::Trust;
 use crate::solver::training::Range;
-use egui::{Color32, ComboBox, Context, Id, Ui, Vec2b};
+use egui::{Color32, ComboBox, Id, Ui, Vec2b};
 use egui_plot::{Corner, Legend, Line, LineStyle, PlotUi, VLine};
 use std::f64::consts::PI;
 
@@ -97,7 +97,7 @@ impl Along {
         self.work.job().map(|job| job as &dyn Running)
     }
 
-    fn start(&mut self, ctx: &Context, store: &Store, in_use: &InUse) {
+    fn start(&mut self, ctx: &egui::Context, store: &Store, in_use: &InUse) {
         let plan = self.plan;
         self.results = Some(Results { in_use: in_use.clone(), plan, steps: Vec::new() });
         let (store, in_use) = (store.clone(), in_use.clone());
@@ -157,9 +157,9 @@ fn work(store: &Store, in_use: &InUse, plan: Plan, reporter: &Reporter<Step>) ->
 }
 
 /// The view.
-pub fn ui(ui: &mut Ui, desk: &mut Desk, in_use: &InUse) {
+pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: &mut Commands, in_use: &InUse) {
     let ctx = ui.ctx().clone();
-    let along = &mut desk.views.accuracy.along;
+    let along = &mut own.along;
     let kind = in_use.model.contact();
     let mut export_now = false;
     ui.horizontal_wrapped(|ui| {
@@ -172,7 +172,7 @@ pub fn ui(ui: &mut Ui, desk: &mut Desk, in_use: &InUse) {
         choice.response.labelled_by(through.id);
         count(ui, "Contacts", "Equidistant values of c from 0 to 2", &mut along.plan.points, 11..=1001);
         if run_or_stop(ui, "Follow the trajectory", "Reduced and full solutions along it", along.task()) {
-            along.start(&ctx, &desk.answers.store, in_use);
+            along.start(&ctx, &context.answers.store, in_use);
         }
         let there = along.results.as_ref().is_some_and(|r| !r.steps.is_empty());
         let button = ui.add_enabled(there, egui::Button::new("Export CSV…"));
@@ -196,7 +196,7 @@ pub fn ui(ui: &mut Ui, desk: &mut Desk, in_use: &InUse) {
     error_plot(ui, results, stale, (ui.available_height() - 4.0).max(110.0));
     if export_now {
         let text = csv(results);
-        desk.ask_path(&ctx, Purpose::Csv { text });
+        commands.push(Command::csv(text));
     }
 }
 

@@ -2,11 +2,11 @@
 
 use super::random_tests::{Results, Test};
 use super::worst::Worst;
-use super::{CONTACT_COLUMNS, contact_cells, tests_toolbar, worst};
-use crate::app::desk::Desk;
+use super::{AccuracyView, CONTACT_COLUMNS, contact_cells, tests_toolbar, worst};
+use crate::app::command::Command;
+use crate::app::context::{Commands, Context};
 use crate::app::document::Edit;
 use crate::app::export;
-use crate::app::files::Purpose;
 use crate::app::in_use::InUse;
 use crate::app::numbers;
 use crate::app::tabs::axes;
@@ -97,18 +97,21 @@ fn at(moes: Moes) -> PlotPoint {
     PlotPoint::new(moes.m.log10(), moes.l)
 }
 
+/// Under this name a contact that was gone to is refused.
+const FIELD: &str = "failure map";
+
 /// The view.
-pub fn ui(ui: &mut Ui, desk: &mut Desk, in_use: &InUse) {
-    let ctx = ui.ctx().clone();
-    let export_now = tests_toolbar(ui, &desk.answers.store, &mut desk.views.accuracy.tests, in_use);
-    let Some(results) = &desk.views.accuracy.tests.results else {
+pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: &mut Commands, in_use: &InUse) {
+    let export_now = tests_toolbar(ui, &context.answers.store, &mut own.tests, in_use);
+    context.entries.message_ui(ui, FIELD);
+    let Some(results) = &own.tests.results else {
         super::nothing_yet(
             ui,
             "Run tests to see where the model fails and how large its error is over its whole range",
         );
         return;
     };
-    let map = &mut desk.views.accuracy.map;
+    let map = &mut own.map;
     ui.horizontal_wrapped(|ui| {
         ui.label("Judged by").on_hover_text("Colours the map and sorts the list");
         let bound = rich("bound on the error of {H_c}", 13.5, ui.visuals().text_color());
@@ -126,7 +129,7 @@ pub fn ui(ui: &mut Ui, desk: &mut Desk, in_use: &InUse) {
     }
     map.worst.sort(results, map.by);
     let stale = results.in_use != *in_use;
-    let here = desk.document.point.moes();
+    let here = context.document.point.moes();
     let mut wanted = None;
     if ui.available_width() > 700.0 {
         let list = 300.0;
@@ -146,11 +149,10 @@ pub fn ui(ui: &mut Ui, desk: &mut Desk, in_use: &InUse) {
     let text = export_now.then(|| csv(results));
     let lubricant = results.in_use.model.domain.lubricant;
     if let Some(point) = wanted {
-        desk.views.accuracy.tests.say(desk.document.edit(Edit::Contact(point, Box::new(lubricant))).err());
-        desk.entries.clear();
+        commands.edit(Edit::Contact(point, Box::new(lubricant)), FIELD);
     }
     if let Some(text) = text {
-        desk.ask_path(&ctx, Purpose::Csv { text });
+        commands.push(Command::csv(text));
     }
 }
 

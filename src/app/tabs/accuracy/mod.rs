@@ -9,8 +9,8 @@ mod split;
 mod truth;
 mod worst;
 
+use crate::app::context::{Commands, Context};
 use crate::app::controls::{message_ui, named, warning_ui};
-use crate::app::desk::Desk;
 use crate::app::in_use::InUse;
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
@@ -103,28 +103,28 @@ impl AccuracyView {
 }
 
 /// The tab.
-pub fn ui(ui: &mut Ui, desk: &mut Desk) {
+pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: &mut Commands) {
     ui.horizontal_wrapped(|ui| {
         for view in View::ALL {
-            ui.selectable_value(&mut desk.views.accuracy.view, view, view.name());
+            ui.selectable_value(&mut own.view, view, view.name());
         }
     });
     ui.separator();
-    if desk.views.accuracy.view == View::Residuals {
-        residuals::ui(ui, desk);
+    if own.view == View::Residuals {
+        residuals::ui(ui, context, commands);
         return;
     }
-    let Some(in_use) = desk.in_use() else {
+    let Some(in_use) = context.answers.in_use(context.document) else {
         ui.centered_and_justified(|ui| {
             ui.weak("No reduced model is loaded: every picture is a full solution, and there is nothing to judge")
         });
         return;
     };
-    match desk.views.accuracy.view {
-        View::Split => split::ui(ui, desk, &in_use),
-        View::FailureMap => failure_map::ui(ui, desk, &in_use),
-        View::Truth => truth::ui(ui, desk, &in_use),
-        View::Along => along::ui(ui, desk, &in_use),
+    match own.view {
+        View::Split => split::ui(ui, own, context, commands, &in_use),
+        View::FailureMap => failure_map::ui(ui, own, context, commands, &in_use),
+        View::Truth => truth::ui(ui, own, context, commands, &in_use),
+        View::Along => along::ui(ui, own, context, commands, &in_use),
         View::Residuals => {}
     }
 }

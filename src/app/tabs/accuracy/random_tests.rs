@@ -158,14 +158,9 @@ impl RandomTests {
         });
     }
 
-    /// Why the last run ended early, or the last one was not gone to.
+    /// Why the last run ended early.
     pub fn message(&self) -> Option<&str> {
         self.work.message.as_deref()
-    }
-
-    /// Says why something could not be done.
-    pub fn say(&mut self, message: Option<String>) {
-        self.work.message = message;
     }
 
     /// The run under way.

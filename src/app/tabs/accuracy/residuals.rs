@@ -1,9 +1,9 @@
 //! How the last full solve converged.
 
 use crate::app::answers::jobs::Running;
-use crate::app::desk::Desk;
+use crate::app::command::Command;
+use crate::app::context::{Commands, Context};
 use crate::app::export;
-use crate::app::files::Purpose;
 use crate::app::numbers;
 use crate::app::tabs::axes;
 use crate::app::theme::{Palette, rich};
@@ -14,19 +14,18 @@ use egui_plot::{Corner, Legend, Line, MarkerShape, Points};
 const NEWS_S: f64 = 0.12;
 
 /// The view: the solve that runs, else the last one that ended.
-pub fn ui(ui: &mut Ui, desk: &mut Desk) {
+pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let news = |job: &&Running| job.since.elapsed().as_secs_f64() > NEWS_S && !job.steps.is_empty();
-    if let Some(job) = desk.answers.jobs.running().iter().find(news) {
+    if let Some(job) = context.answers.jobs.running().iter().find(news) {
         running_ui(ui, job);
         return;
     }
-    let ctx = ui.ctx().clone();
-    let Some((key, report)) = &desk.answers.last_report else {
+    let Some((key, report)) = &context.answers.last_report else {
         ui.centered_and_justified(|ui| ui.weak("No full solve has finished yet"));
         return;
     };
     let moes = key.point.moes();
-    let current = *key == desk.document.key();
+    let current = *key == context.document.key();
     let mut export_now = false;
     ui.horizontal_wrapped(|ui| {
         ui.strong("Last full solve");
@@ -52,7 +51,7 @@ pub fn ui(ui: &mut Ui, desk: &mut Desk) {
         }
         ui.end_row();
     });
-    if let Some(c) = &desk.answers.comparison {
+    if let Some(c) = &context.answers.comparison {
         let text = format!("Reduced against full: {}", c.describe());
         ui.label(rich(&text, 13.5, ui.visuals().text_color()));
     }
@@ -62,7 +61,7 @@ pub fn ui(ui: &mut Ui, desk: &mut Desk) {
         let rows = rows.map(|(k, (r, s))| vec![Some(k as f64 + 1.0), Some(*r), Some(*s)]);
         let comment = format!("M {:e}; L {:e}; {}", moes.m, moes.l, report.termination.describe());
         let text = export::csv(&[comment], &["newton_step", "residual", "relative_step"], rows);
-        desk.ask_path(&ctx, Purpose::Csv { text });
+        commands.push(Command::csv(text));
     }
 }
 

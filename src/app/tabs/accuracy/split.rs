@@ -1,20 +1,21 @@
 //! Where the error of this contact comes from: basis, projection, sampling and discretisation beside each other.
 
-use super::{Running, run_or_stop, stale_note};
+use super::{AccuracyView, Running, run_or_stop, stale_note};
+use crate::app::answers::REST_S;
 use crate::app::answers::jobs::wake;
+use crate::app::command::Command;
+use crate::app::context::{Commands, Context};
 use crate::app::controls::{message_ui, sentence, spoken, warning_ui};
 use crate::app::document::Key;
 use crate::app::export;
-use crate::app::files::Purpose;
 use crate::app::in_use::InUse;
 use crate::app::numbers;
 use crate::app::tabs::axes;
 use crate::app::theme::{Palette, rich};
-use crate::app::{answers::REST_S, desk::Desk};
 use crate::engine::job::{Background, Ending, Job, Reporter};
 use crate::solver::full::Problem;
 use crate::solver::reduced::{ErrorSplit, ErrorSplitter, Parts, SplitError, Trust};
-use egui::{Align2, Context, Grid, Ui, Vec2b};
+use egui::{Align2, Grid, Ui, Vec2b};
 use egui_plot::{Bar, BarChart, GridMark, PlotPoint, Text};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -91,7 +92,7 @@ impl Split {
         self.work.job().map(|job| job as &dyn Running)
     }
 
-    fn start(&mut self, ctx: &Context, asked: Asked) {
+    fn start(&mut self, ctx: &egui::Context, asked: Asked) {
         self.asked = Some(asked.clone());
         let kept = Arc::clone(&self.kept);
         // A task that is replaced stops; the new one waits for the splitter until it has.
@@ -118,32 +119,30 @@ fn work(kept: &Kept, asked: &Asked, reporter: &Reporter<Found>) -> Ending {
 }
 
 /// The view.
-pub fn ui(ui: &mut Ui, desk: &mut Desk, in_use: &InUse) {
+pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: &mut Commands, in_use: &InUse) {
     let ctx = ui.ctx().clone();
-    let now = Asked { key: desk.document.key(), in_use: in_use.clone() };
-    start_when_rested(ui, desk, &now);
+    let now = Asked { key: context.document.key(), in_use: in_use.clone() };
+    start_when_rested(ui, own, context, &now);
     let mut export_now = false;
     ui.horizontal_wrapped(|ui| {
         let tip = "Solves this contact reduced, reduced with all rows, in full, and in full on the next finer grid";
-        if run_or_stop(ui, "Split the error", tip, desk.views.accuracy.split.task()) {
-            desk.views.accuracy.split.start(&ctx, now.clone());
+        if run_or_stop(ui, "Split the error", tip, own.split.task()) {
+            own.split.start(&ctx, now.clone());
         }
-        let there = desk.views.accuracy.split.shown.is_some();
+        let there = own.split.shown.is_some();
         let button = ui.add_enabled(there, egui::Button::new("Export CSV…"));
         export_now = button.on_hover_text("All parts for H_c, H_min and the pressure").clicked();
-        if let Some((asked, _)) = &desk.views.accuracy.split.shown {
+        if let Some((asked, _)) = &own.split.shown {
             ui.label(numbers::moes(asked.key.point.moes()));
         }
     });
-    if let (Some(message), true) =
-        (&desk.views.accuracy.split.work.message, desk.views.accuracy.split.asked.as_ref() == Some(&now))
-    {
+    if let (Some(message), true) = (&own.split.work.message, own.split.asked.as_ref() == Some(&now)) {
         message_ui(ui, message);
     }
-    if let Some(Trust::Outside(why)) = desk.answers.trust(&desk.document) {
+    if let Some(Trust::Outside(why)) = context.answers.trust(context.document) {
         warning_ui(ui, &format!("{why}; the split is made on request only"));
     }
-    let Some((asked, split)) = &desk.views.accuracy.split.shown else {
+    let Some((asked, split)) = &own.split.shown else {
         super::nothing_yet(ui, "The parts appear when the sliders rest");
         return;
     };
@@ -157,24 +156,24 @@ pub fn ui(ui: &mut Ui, desk: &mut Desk, in_use: &InUse) {
     table(ui, split, current);
     if export_now {
         let text = csv(asked, split);
-        desk.ask_path(&ctx, Purpose::Csv { text });
+        commands.push(Command::csv(text));
     }
 }
 
 /// Starts by itself once per contact and model, when the sliders rest where the model was trained.
-fn start_when_rested(ui: &Ui, desk: &mut Desk, now: &Asked) {
-    let known = desk.views.accuracy.split.asked.as_ref() == Some(now);
+fn start_when_rested(ui: &Ui, own: &mut AccuracyView, context: &Context<'_>, now: &Asked) {
+    let known = own.split.asked.as_ref() == Some(now);
     let trained = Problem::new(&now.key.point, now.key.lubricant)
         .is_ok_and(|problem| now.in_use.model.trust(&problem) == Trust::Trained);
     if known || !trained {
         return;
     }
-    if let Some(task) = desk.views.accuracy.split.task() {
+    if let Some(task) = own.split.task() {
         task.stop();
     }
-    let rested = desk.answers.rested_s(ui.input(|i| i.time));
+    let rested = context.answers.rested_s(ui.input(|i| i.time));
     if rested >= REST_S {
-        desk.views.accuracy.split.start(ui.ctx(), now.clone());
+        own.split.start(ui.ctx(), now.clone());
     } else {
         ui.ctx().request_repaint_after_secs((REST_S - rested) as f32);
     }

@@ -2,10 +2,10 @@
 
 use super::failure_map::{By, csv, stamp, summary};
 use super::random_tests::Results;
-use super::tests_toolbar;
+use super::{AccuracyView, tests_toolbar};
+use crate::app::command::Command;
+use crate::app::context::{Commands, Context};
 use crate::app::controls::spoken;
-use crate::app::desk::Desk;
-use crate::app::files::Purpose;
 use crate::app::in_use::InUse;
 use crate::app::numbers;
 use crate::app::tabs::axes;
@@ -78,16 +78,15 @@ impl Shown {
 }
 
 /// The view.
-pub fn ui(ui: &mut Ui, desk: &mut Desk, in_use: &InUse) {
-    let ctx = ui.ctx().clone();
-    let export_now = tests_toolbar(ui, &desk.answers.store, &mut desk.views.accuracy.tests, in_use);
-    let Some(results) = &desk.views.accuracy.tests.results else {
+pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: &mut Commands, in_use: &InUse) {
+    let export_now = tests_toolbar(ui, &context.answers.store, &mut own.tests, in_use);
+    let Some(results) = &own.tests.results else {
         super::nothing_yet(ui, "Run tests with some of them compared in full to see what the bound is worth");
         return;
     };
     ui.weak(summary(results));
     super::bound_note(ui, results.tests.iter().map(|t| t.bound()));
-    let shown = &mut desk.views.accuracy.truth;
+    let shown = &mut own.truth;
     if shown.as_ref().is_none_or(|s| s.of != stamp(results, By::Truth)) {
         *shown = Shown::new(results);
     }
@@ -100,7 +99,7 @@ pub fn ui(ui: &mut Ui, desk: &mut Desk, in_use: &InUse) {
     }
     if export_now {
         let text = csv(results);
-        desk.ask_path(&ctx, Purpose::Csv { text });
+        commands.push(Command::csv(text));
     }
 }
 

@@ -7,8 +7,8 @@ mod form;
 
 use crate::app::controls::{message_ui, sentence, warning_ui};
 use crate::app::desk::Desk;
-use crate::app::files::Purpose;
 use crate::app::numbers;
+use crate::app::purpose::Purpose;
 use crate::app::training::{Notice, Running};
 use crate::engine::job::Standing;
 use egui::{Button, ProgressBar, Response, ScrollArea, Ui};

@@ -5,7 +5,7 @@ use super::methods;
 use crate::app::controls::heading;
 use crate::app::desk::Desk;
 use crate::app::document::Edit;
-use crate::app::files::Purpose;
+use crate::app::purpose::Purpose;
 use crate::app::tabs::axes;
 use crate::app::tabs::training::fields::{Form, choose};
 use crate::app::theme::Palette;

@@ -1,13 +1,11 @@
 //! Opening, saving and exporting: never blocks the window, never overwrites what the user did not name, never loses work unasked.
 
 mod path_window;
-mod purpose;
 
-pub use purpose::Purpose;
-
-use super::desk::Desk;
-use super::document::Document;
-use super::tab::Tab;
+use super::Desk;
+use crate::app::document::Document;
+use crate::app::purpose::Purpose;
+use crate::app::tab::Tab;
 use crate::scene::{Scene, Study};
 use egui::{Context, Id, Modal, Ui, ViewportCommand};
 use path_window::PathWindow;

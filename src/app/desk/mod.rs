@@ -1,26 +1,29 @@
 //! Everything that lies on the table: the document, what came of it, what is under way, files. Panels and tabs never see it whole: they are
 //! given a [`Context`] and ask for changes by commands.
 
-use super::answers::Answers;
-use super::answers::picture::Cuts;
-use super::context::Context;
-use super::controls::Entries;
-use super::display::Display;
-use super::document::{Document, Edit, History};
-use super::figure::Figures;
-use super::files::Files;
-use super::in_use::InUse;
-use super::model_source::Models;
-use super::presentation::Presentation;
-use super::tab::Tab;
-use super::tabs::Views;
-use super::traction::TractionView;
-use super::training::Training;
-use super::transient::TransientView;
+mod captions;
+pub mod files;
+mod refusal;
+
+use crate::app::answers::Answers;
+use crate::app::answers::picture::Cuts;
+use crate::app::context::Context;
+use crate::app::controls::Entries;
+use crate::app::display::Display;
+use crate::app::document::{Document, Edit, History};
+use crate::app::figure::Figures;
+use crate::app::model_source::Models;
+use crate::app::presentation::Presentation;
+use crate::app::tab::Tab;
+use crate::app::tabs::Views;
+use crate::app::traction::TractionView;
+use crate::app::training::Training;
+use crate::app::transient::TransientView;
 use crate::engine::Store;
 use crate::engine::job::{Standing, Wake};
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::reduced::ReducedModel;
+use files::Files;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -110,6 +113,18 @@ impl Desk {
         self.entries.answer(field, result);
     }
 
+    /// The question which plot is to be exported, and the picture once it is made. Called when everything else is drawn.
+    pub fn figures_ui(&mut self, ctx: &egui::Context) {
+        let mut figures = std::mem::take(&mut self.figures);
+        let made = figures.ui(ctx, |subject| self.caption(subject));
+        self.figures = figures;
+        match made {
+            Some(Ok(picture)) => self.ask_path(ctx, picture),
+            Some(Err(why)) => self.files.notice = Some(Err(why)),
+            None => {}
+        }
+    }
+
     /// Lays the cuts of a point contact within its domain.
     pub fn follow_cuts(&mut self) {
         if let Some(PointGridSpec { domain: (from, to, edge), .. }) = self.document.chosen_plane() {
@@ -122,11 +137,6 @@ impl Desk {
     /// The reduced model that serves the contact on the screen.
     pub fn model(&self) -> Option<&Arc<ReducedModel>> {
         self.answers.model(&self.document)
-    }
-
-    /// The same with the document's truncation.
-    pub fn in_use(&self) -> Option<InUse> {
-        self.answers.in_use(&self.document)
     }
 
     /// How far the work is that runs beside the picture; the first where there is more.

@@ -1,8 +1,8 @@
 //! The window that asks for a path: a text field that always works, beside the system's own dialog where there is one.
 
-use super::Purpose;
 use crate::app::controls::message_ui;
 use crate::app::desk::Desk;
+use crate::app::purpose::Purpose;
 use crate::scene::atomic_file;
 use egui::{Context, Id, Modal, RichText, TextEdit};
 use std::path::{Path, PathBuf};

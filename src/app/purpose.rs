@@ -32,7 +32,7 @@ pub enum Purpose {
 
 impl Purpose {
     /// Whether a file is read: then it must exist, and none is replaced.
-    pub(super) fn reads(&self) -> bool {
+    pub fn reads(&self) -> bool {
         matches!(self, Self::Open | Self::Inputs)
     }
 }

@@ -1,0 +1,65 @@
+//! What can be done now, and why the rest cannot.
+
+use super::Desk;
+use crate::app::answers::MOST_PINS;
+use crate::app::answers::jobs::JobKind;
+use crate::app::answers::picture::Origin;
+use crate::app::command::Command;
+use crate::app::traction::sweep;
+use crate::solver::physics::contact::ContactKind;
+
+const NO_PICTURE: &str = "There is no picture yet";
+const RUNS_ALREADY: &str = "It runs already";
+
+impl Desk {
+    /// Why a command cannot be done now, in a few words; `None` where it can.
+    pub fn refusal(&self, command: &Command) -> Option<&'static str> {
+        let (refused, why) = match command {
+            Command::Undo => (!self.history.can_undo(&self.document), "Nothing has been changed"),
+            Command::Redo => (!self.history.can_redo(), "Nothing has been undone"),
+            Command::CopyReadouts | Command::ExportProfiles => (self.answers.picture.is_none(), NO_PICTURE),
+            Command::Pin if self.answers.picture.is_some() => {
+                (self.answers.pins.len() >= MOST_PINS, "As many curves are pinned as can be told apart")
+            }
+            Command::Pin => (true, NO_PICTURE),
+            Command::Unpin => (self.answers.pins.is_empty(), "Nothing is pinned"),
+            Command::Overlay | Command::Difference => {
+                let full = self.answers.picture.as_ref().is_none_or(|picture| picture.origin == Origin::Full);
+                (full, "The picture is the full solution itself")
+            }
+            Command::EstimateGridError => return grid_error(self),
+            Command::SolveAlong => match self.traction.full.standing() {
+                Some(_) => (true, RUNS_ALREADY),
+                None => (
+                    sweep(&self.document, &self.answers, &self.views.traction.choices).is_none(),
+                    "A Newtonian lubricant has no plateau ratio to vary",
+                ),
+            },
+            Command::RunInTime => match self.transient.work.standing() {
+                Some(_) => (true, RUNS_ALREADY),
+                None => return self.no_transient(),
+            },
+            Command::Train => match self.training.job() {
+                Some(_) => (true, "A training or comparison runs already"),
+                None => (self.training.left_behind, "First resume or discard the training that was left unfinished"),
+            },
+            Command::Cancel => {
+                let background = self.training.job().is_some() || self.study().is_some();
+                (!background && self.answers.jobs.running().is_empty(), "Nothing runs")
+            }
+            _ => return None,
+        };
+        refused.then_some(why)
+    }
+}
+
+fn grid_error(desk: &Desk) -> Option<&'static str> {
+    if desk.document.point.kind == ContactKind::Line {
+        Some("Only the grid of a point contact is estimated")
+    } else if desk.answers.jobs.busy(JobKind::Estimate) {
+        Some(RUNS_ALREADY)
+    } else {
+        let there = desk.answers.can_estimate();
+        (!there).then_some("A full solution on the chosen grid comes first")
+    }
+}
