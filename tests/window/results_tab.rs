@@ -25,7 +25,7 @@ fn scene(title: &str, rest: &str, study: &str) -> String {
 fn training(plan: &str) -> String {
     format!(
         "Training(title: \"small\", range: Box({BOX}), plan: {plan}, windows: Given([(m: (1.0, 500.0), grid: \
-         Line(Uniform(dx: 0.04, domain: (-4.0, 2.0))))]), pressure_loss: 1e-6, deformation_loss: 1e-6, sampling: QDeim, \
+         Uniform(dx: 0.04, domain: (-4.0, 2.0)))]), pressure_loss: 1e-6, deformation_loss: 1e-6, sampling: QDeim, \
          evidence: 0, rows_per_mode: 2.0, penalty: 1e6, seed: 3)"
     )
 }
@@ -42,7 +42,7 @@ fn agrees(folder: &Path, name: &str, text: &str, runs_by_itself: bool) {
     harness.run_steps(2);
     if !runs_by_itself {
         click(&mut harness, "Results");
-        click(&mut harness, "Run");
+        click(&mut harness, "Run the study");
     }
     assert_eq!(harness.state().front(), Some("Results"), "{name}");
     wait_within(PATIENCE, &mut harness, name, |app| app.verdict().is_some());

@@ -96,7 +96,9 @@ impl ResultsView {
         self.toolbar(ui, commands);
         let Some(run) = &self.run else {
             ui.separator();
-            ui.weak("Run answers the question of the open scene here, as `ehl-explorer run` does without a window");
+            ui.weak(
+                "The study answers the question of the open scene here, as `ehl-explorer run` does without a window",
+            );
             return;
         };
         if let Some(message) = &run.work.message {
@@ -139,7 +141,7 @@ impl ResultsView {
                     self.stop();
                 }
                 Some(_) => {}
-                None if ui.button("Run").on_hover_text("Answers the scene’s question anew").clicked() => {
+                None if ui.button("Run the study").on_hover_text("Answers the scene’s question anew").clicked() => {
                     commands.push(Command::RunStudy);
                 }
                 None => {}
