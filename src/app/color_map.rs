@@ -5,8 +5,8 @@ use egui::Color32;
 /// Entries of a table of colours: finer than eyes and screens are.
 pub const ENTRIES: usize = 512;
 
-/// Viridis (S. van der Walt and N. Smith, public domain) as a polynomial of sixth degree in each channel, constant term first; within
-/// 2 % of the original everywhere.
+/// Viridis (S. van der Walt and N. Smith, public domain) as a polynomial of sixth degree in each channel, constant term
+/// first; within 2 % of the original everywhere.
 const VIRIDIS: [[f64; 3]; 7] = [
     [0.277_727_3, 0.005_407_3, 0.334_099_8],
     [0.105_093_0, 1.404_613_5, 1.384_590_2],

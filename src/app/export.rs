@@ -56,8 +56,8 @@ fn profile_row(picture: &Picture, (x, p, film): (f64, f64, f64)) -> [Option<f64>
     [x, p, film, x * hertz.half_width_m, p * hertz.pressure_pa, film * film_scale].map(Some)
 }
 
-/// Profiles with their SI twins, the full solution beside a reduced one where both belong together, and every pinned curve on
-/// its own nodes in columns of its own.
+/// Profiles with their SI twins, the full solution beside a reduced one where both belong together, and every pinned
+/// curve on its own nodes in columns of its own.
 pub fn profiles(answers: &Answers, cuts: Cuts) -> Option<String> {
     const COLUMNS: [&str; 6] = ["X", "P", "H", "x_m", "p_pa", "h_m"];
     let picture = answers.picture.as_ref()?;

@@ -123,7 +123,8 @@ impl Manual {
     }
 }
 
-/// A block of code with the name of its language in front. The widget's own has a button whose sign is in none of the fonts.
+/// A block of code with the name of its language in front. The widget's own has a button whose sign is in none of the
+/// fonts.
 fn code(ui: &mut Ui, text: &str) {
     let text = text.split_once('\n').map_or(text, |(_, lines)| lines);
     Frame::group(ui.style()).fill(ui.visuals().code_bg_color).show(ui, |ui| {

@@ -142,7 +142,8 @@ impl Explorer {
         self
     }
 
-    /// One frame: what was asked for in the panels is done before the tabs are drawn, so that the picture follows within the frame.
+    /// One frame: what was asked for in the panels is done before the tabs are drawn, so that the picture follows
+    /// within the frame.
     pub fn ui(&mut self, ui: &mut Ui) {
         let begin = Instant::now();
         let ctx = ui.ctx().clone();
@@ -349,7 +350,8 @@ impl Explorer {
         self.desk.transient.linearised.as_ref().map(|linearised| linearised.model.points.len())
     }
 
-    /// Contacts of the traction curve on the screen, when it is the one that was asked for last, and full solutions beside it.
+    /// Contacts of the traction curve on the screen, when it is the one that was asked for last, and full solutions
+    /// beside it.
     pub fn traction_contacts(&self) -> (Option<usize>, usize) {
         let view = &self.desk.traction;
         let curve = view.curve.as_ref().filter(|_| view.curve_is_current());

@@ -32,8 +32,8 @@ impl Models {
         Self { models: model.into_iter().collect() }
     }
 
-    /// The model that serves a kind of contact with a fluid: one of this very fluid, else one of another fluid that thins under shear as
-    /// little or as much; what it was trained for it says itself.
+    /// The model that serves a kind of contact with a fluid: one of this very fluid, else one of another fluid that
+    /// thins under shear as little or as much; what it was trained for it says itself.
     pub fn of(&self, kind: ContactKind, lubricant: &Lubricant) -> Option<&Arc<ReducedModel>> {
         let thins = |laws: &Lubricant| laws.shear != ShearLaw::Newtonian;
         let akin = |model: &&Arc<ReducedModel>| thins(&model.domain.lubricant) == thins(lubricant);

@@ -134,7 +134,8 @@ pub fn parse(text: &str) -> Result<f64, String> {
     }
 }
 
-/// The next number from a short list of round ones (1, 1.2, 1.5, 2, …) that is not below `value`: keeps axes still while values move.
+/// The next number from a short list of round ones (1, 1.2, 1.5, 2, …) that is not below `value`: keeps axes still
+/// while values move.
 pub fn round_up(value: f64) -> f64 {
     if !(value.is_finite() && value > 0.0) {
         return 1.0;

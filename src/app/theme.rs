@@ -1,5 +1,5 @@
-//! Every colour, stroke and text style of the explorer. Quantities keep their hue everywhere (Okabe–Ito), reduced is the thick
-//! line, full the thin one of the same hue, pinned curves fade.
+//! Every colour, stroke and text style of the explorer. Quantities keep their hue everywhere (Okabe–Ito), reduced is
+//! the thick line, full the thin one of the same hue, pinned curves fade.
 
 use egui::text::{LayoutJob, TextFormat};
 use egui::{Align, Color32, Context, CornerRadius, FontId, Stroke, TextStyle, Theme, Ui, Visuals};

@@ -1,7 +1,7 @@
 //! The commands. Each turns options into a request for the engine and its answer into text, JSON or files.
 //!
-//! Exit codes: 0 done and converged; 1 ran, but did not converge or an expectation fell short; 2 the request is wrong, with one
-//! sentence on standard error.
+//! Exit codes: 0 done and converged; 1 ran, but did not converge or an expectation fell short; 2 the request is wrong,
+//! with one sentence on standard error.
 
 #![warn(clippy::indexing_slicing)]
 

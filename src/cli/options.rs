@@ -118,7 +118,8 @@ pub struct PointOptions {
     /// Spacing ΔY of a point contact's grid (default: 0.05); a graded grid is four times finer in the side lobes
     #[arg(long, allow_negative_numbers = true)]
     pub dy: Option<f64>,
-    /// Inlet and outlet (default: -4,2 on a uniform grid), and outer edge of a point contact's half domain (default: -2); of a graded grid in its reference coordinate
+    /// Inlet and outlet (default: -4,2 on a uniform grid), and outer edge of a point contact's half domain
+    /// (default: -2); of a graded grid in its reference coordinate
     #[arg(long, value_name = "X0,X1[,Y0]", allow_hyphen_values = true, value_parser = domain)]
     pub domain: Option<Domain>,
     /// Cavitation model

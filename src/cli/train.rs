@@ -1,5 +1,5 @@
-//! `train`: a reduced model as a scene describes. What was solved is kept in `FILE.rom.training` until the model is written, so that
-//! the same command goes on where a killed one stopped.
+//! `train`: a reduced model as a scene describes. What was solved is kept in `FILE.rom.training` until the model is
+//! written, so that the same command goes on where a killed one stopped.
 
 use super::failure::Failure;
 use super::output::{self, ProgressLine};

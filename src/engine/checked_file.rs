@@ -1,6 +1,7 @@
 //! Files with a checked header, shared by reduced models and unfinished trainings.
 //!
-//! Layout: magic (8 bytes), version (u32), payload length (u64), XXH3 hash of the payload (u64), all little-endian, then the payload.
+//! Layout: magic (8 bytes), version (u32), payload length (u64), XXH3 hash of the payload (u64), all little-endian,
+//! then the payload.
 
 use std::io::{self, Read};
 use std::path::Path;

@@ -1,9 +1,10 @@
 //! Matrices as model files keep them.
 //!
-//! The modes of a basis are kept to an accuracy of the fields they make, relative to the fields' own size at each node: a mode that hardly
-//! appears in any solution needs few digits, and a node where pressures are small as many as any other, since the mobility of thick films
-//! multiplies what is lost there. Each value is the one that its neighbours let expect plus a multiple of a power of two; the
-//! multiples are small, and small integers take one or two bytes. Nodes where no mode has a value are left out.
+//! The modes of a basis are kept to an accuracy of the fields they make, relative to the fields' own size at each node:
+//! a mode that hardly appears in any solution needs few digits, and a node where pressures are small as many as any
+//! other, since the mobility of thick films multiplies what is lost there. Each value is the one that its neighbours
+//! let expect plus a multiple of a power of two; the multiples are small, and small integers take one or two bytes.
+//! Nodes where no mode has a value are left out.
 
 use crate::solver::reduced::PodBasis;
 use faer::Mat;
@@ -60,7 +61,8 @@ impl StoredMatrix {
         Self { rows: matrix.nrows(), columns: matrix.ncols(), values: Values::Double(values) }
     }
 
-    /// Columns over a grid with so many nodes across, kept to `accuracy` relative to the size Σ_k (scale_k V_ik)² of each row.
+    /// Columns over a grid with so many nodes across, kept to `accuracy` relative to the size Σ_k (scale_k V_ik)² of
+    /// each row.
     fn stepped(matrix: &Mat<f64>, across: usize, scales: &[f64], accuracy: f64) -> Self {
         let (rows, columns) = (matrix.nrows(), matrix.ncols());
         let size = |i: usize| scales.iter().enumerate().map(|(k, s)| (s * matrix[(i, k)]).powi(2)).sum::<f64>().sqrt();
@@ -139,7 +141,8 @@ impl Steps {
     }
 }
 
-/// What the rows before row `i` of a column let expect there: along a line the straight continuation, in the plane that of both directions.
+/// What the rows before row `i` of a column let expect there: along a line the straight continuation, in the plane that
+/// of both directions.
 fn predicted(column: &[f64], i: usize, across: usize) -> f64 {
     let at = |row: Option<usize>| row.and_then(|row| column.get(row)).copied().unwrap_or_default();
     let beside = if across > 1 && i.is_multiple_of(across) { None } else { i.checked_sub(1) };
@@ -173,8 +176,8 @@ fn flags(runs: &[usize], rows: usize) -> Option<Vec<bool>> {
 }
 
 impl StoredBasis {
-    /// A basis over a grid with so many nodes across. What each mode loses changes the fields of the snapshots by `accuracy` of their size at
-    /// every node at most (both as root mean squares over the snapshots).
+    /// A basis over a grid with so many nodes across. What each mode loses changes the fields of the snapshots by
+    /// `accuracy` of their size at every node at most (both as root mean squares over the snapshots).
     pub fn new(basis: &PodBasis, across: usize, accuracy: f64) -> Self {
         let sigma = &basis.singular_values;
         let (largest, count) = (sigma.first().copied().unwrap_or(1.0).max(f64::MIN_POSITIVE), sigma.len() as f64);

@@ -20,7 +20,8 @@ pub enum At {
         modulus: f64,
         /// Viscosity at ambient pressure η₀ \[Pa·s\].
         viscosity: f64,
-        /// Pressure–viscosity coefficient α \[1/Pa\]; where the viscosity law determines it (Doolittle), its α* counts instead.
+        /// Pressure–viscosity coefficient α \[1/Pa\]; where the viscosity law determines it (Doolittle), its α* counts
+        /// instead.
         alpha: f64,
     },
     /// Moes numbers; quantities that are given are kept, the rest follows or takes the default realisation.

@@ -28,7 +28,8 @@ pub enum Grid {
         /// Whether the pressure spike is mapped to ξ = 1.
         registered: bool,
     },
-    /// Nodes on the half Y ≤ 0 of a point contact; the dissertation's are `Plane(dx: 0.02, dy: 0.05, domain: (-4.0, 2.0, -2.0))`.
+    /// Nodes on the half Y ≤ 0 of a point contact; the dissertation's are
+    /// `Plane(dx: 0.02, dy: 0.05, domain: (-4.0, 2.0, -2.0))`.
     Plane {
         /// Spacing ΔX.
         dx: f64,
@@ -40,7 +41,8 @@ pub enum Grid {
         #[serde(default = "equidistant", skip_serializing_if = "is_equidistant")]
         refinement: f64,
     },
-    /// The grid of the reduced model in the study (of the embedded one where there is none), so that both can be compared.
+    /// The grid of the reduced model in the study (of the embedded one where there is none), so that both can be
+    /// compared.
     Model,
 }
 
@@ -65,7 +67,8 @@ impl Grid {
         }
     }
 
-    /// The solver's specification for a line contact; `None` where a reduced model's grid is wanted, or one of a point contact.
+    /// The solver's specification for a line contact; `None` where a reduced model's grid is wanted, or one of a point
+    /// contact.
     pub fn spec(&self) -> Option<GridSpec> {
         match *self {
             Self::Uniform { dx, domain } => Some(GridSpec::Uniform { dx, domain }),

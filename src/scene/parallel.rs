@@ -34,8 +34,8 @@ impl Count<'_> {
     }
 }
 
-/// Cold full solutions, none where the solver does not converge; `grid` gives the grid of a point. Cold, so that no reduced solution can
-/// lead them to its root.
+/// Cold full solutions, none where the solver does not converge; `grid` gives the grid of a point. Cold, so that no
+/// reduced solution can lead them to its root.
 pub(crate) fn full_solutions(
     grid: impl Fn(&OperatingPoint) -> ContactGrid + Sync,
     points: &[OperatingPoint],
@@ -74,7 +74,8 @@ pub(super) fn full_solutions_told(
         .collect()
 }
 
-/// Reduced solutions with their fields where `fields` wants them by the point's index, none where the iteration does not converge.
+/// Reduced solutions with their fields where `fields` wants them by the point's index, none where the iteration does
+/// not converge.
 pub(super) fn reduced_solutions(
     model: &Arc<ReducedModel>,
     options: ReducedOptions,

@@ -13,8 +13,8 @@ use std::time::Instant;
 /// Answers a scene's question and holds its expectations against the answer.
 ///
 /// # Errors
-/// When the scene is refused, a model cannot be had, or the observer cancels. Solves that do not converge and expectations
-/// that fall short are part of the outcome.
+/// When the scene is refused, a model cannot be had, or the observer cancels. Solves that do not converge and
+/// expectations that fall short are part of the outcome.
 pub fn run_scene(scene: &Scene, bench: &mut dyn Bench, observer: &dyn StudyObserver) -> Result<SceneOutcome, RunError> {
     scene.check()?;
     let (clock, experiment) = (Instant::now(), scene.experiment());

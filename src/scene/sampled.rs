@@ -1,4 +1,5 @@
-//! Inputs of a contact in time from a CSV file: a column T and any of radius, speed and load, relative to the reference.
+//! Inputs of a contact in time from a CSV file: a column T and any of radius, speed and load, relative to the
+//! reference.
 
 use crate::solver::full::transient::{Inputs, Signal};
 use std::io::Read as _;

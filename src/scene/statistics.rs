@@ -1,6 +1,7 @@
 //! Order statistics of measured values.
 
-/// The value below which a fraction (0…1) of the values lies, interpolated between neighbours; NaN of none. NaN sorts last.
+/// The value below which a fraction (0…1) of the values lies, interpolated between neighbours; NaN of none. NaN sorts
+/// last.
 pub fn percentile(values: &[f64], fraction: f64) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -23,8 +24,8 @@ pub fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Spearman's rank correlation of pairs: 1 where both order alike. Equal values share their mean rank; NaN of fewer than two
-/// pairs, or where one side does not vary.
+/// Spearman's rank correlation of pairs: 1 where both order alike. Equal values share their mean rank; NaN of fewer
+/// than two pairs, or where one side does not vary.
 pub fn rank_correlation(a: &[f64], b: &[f64]) -> f64 {
     let (a, b) = (ranks(a), ranks(b));
     let mean = (a.len() as f64 - 1.0) / 2.0;

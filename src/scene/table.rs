@@ -33,7 +33,8 @@ impl Table {
         Self { name: name.into(), columns: columns.iter().map(|&c| c.to_owned()).collect(), ..Self::default() }
     }
 
-    /// As CSV with a title line; numbers in the shortest form that reads back exactly. Names of rows make up the first column.
+    /// As CSV with a title line; numbers in the shortest form that reads back exactly. Names of rows make up the first
+    /// column.
     pub fn to_csv(&self) -> String {
         let named = (!self.labels.is_empty()).then_some("name");
         let titles = named.into_iter().chain(self.columns.iter().map(String::as_str));

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// How the explorer edits a scene: what follows when a slider moves, and how the reduced model is truncated. Running a scene without a
-/// screen does not use it.
+/// How the explorer edits a scene: what follows when a slider moves, and how the reduced model is truncated. Running a
+/// scene without a screen does not use it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
 #[serde(deny_unknown_fields, default)]
 pub struct View {

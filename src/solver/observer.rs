@@ -1,7 +1,7 @@
 //! How a computation tells its caller how far it got, and learns that it is no longer wanted.
 //!
-//! There is one [`Observer`] for everything that takes long. What tells more than this has a trait of its own on top of it: a march its
-//! moments, a training its state, a study its rows.
+//! There is one [`Observer`] for everything that takes long. What tells more than this has a trait of its own on top of
+//! it: a march its moments, a training its state, a study its rows.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -10,7 +10,8 @@ pub trait Observer: Sync {
     /// Called after every Newton step of a full solve.
     fn newton_step(&self, _step: &NewtonStep) {}
 
-    /// Called after every Krylov iteration of a point contact's linear solve, with their count within the present Newton step.
+    /// Called after every Krylov iteration of a point contact's linear solve, with their count within the present
+    /// Newton step.
     fn krylov_iteration(&self, _count: usize) {}
 
     /// Called as long work of many parts proceeds.

@@ -1,5 +1,5 @@
-//! How the picture follows the document: at once by the reduced model, else by the full solver in the worker; and when the sliders rest, the
-//! truth about it.
+//! How the picture follows the document: at once by the reduced model, else by the full solver in the worker; and when
+//! the sliders rest, the truth about it.
 
 use super::jobs::{GridChoice, JobKind, Request};
 use super::picture::{Cuts, Origin, Picture};
@@ -12,7 +12,8 @@ use std::sync::Arc;
 use std::time::Instant;
 
 impl Answers {
-    /// Answers a changed document: at once by the reduced model, else by the full solver in the worker. Called after the panels.
+    /// Answers a changed document: at once by the reduced model, else by the full solver in the worker. Called after
+    /// the panels.
     pub fn refresh(&mut self, ctx: &Context, document: &Document) {
         let ask = Ask::of(document, &self.models);
         if self.asked == Some(ask) {
@@ -125,8 +126,8 @@ impl Answers {
 
     fn submit(&mut self, ctx: &Context, document: &Document, kind: JobKind) {
         let key = document.key();
-        // A line contact is solved on the model's own grid wherever it lies, a point contact where the model serves it: elsewhere on the
-        // grid that was chosen.
+        // A line contact is solved on the model's own grid wherever it lies, a point contact where the model serves it:
+        // elsewhere on the grid that was chosen.
         let chosen = document.chosen_plane();
         let own = self.passed_over.is_none() || chosen.is_none();
         let plane = chosen.map(|plane| if kind == JobKind::Live { quick(plane) } else { plane });

@@ -1,8 +1,8 @@
 //! What has been asked of the engine and what came of it: the picture, the truth about it, or why there is none.
 //!
-//! An [`Ask`] is read off the document in every frame. It is answered at once by the reduced model, else by the full solver in the
-//! worker; when the sliders rest, a full solution checks the reduced one. Everything here belongs to an ask, and nobody but this module
-//! changes it.
+//! An [`Ask`] is read off the document in every frame. It is answered at once by the reduced model, else by the full
+//! solver in the worker; when the sliders rest, a full solution checks the reduced one. Everything here belongs to an
+//! ask, and nobody but this module changes it.
 
 mod follow;
 pub mod grid_error;
@@ -188,7 +188,8 @@ impl Answers {
         self.model(document).map(|model| model.trust(&problem))
     }
 
-    /// Whether the picture is a full solution on another grid than the one that was chosen, and will be replaced by one on that.
+    /// Whether the picture is a full solution on another grid than the one that was chosen, and will be replaced by one
+    /// on that.
     pub fn is_quick(&self) -> bool {
         let on = |picture: &Picture, plane: PointGridSpec| picture.solution.mesh == Mesh::Point(plane);
         matches!((&self.picture, self.plane()), (Some(picture), Some(plane))
@@ -235,7 +236,8 @@ impl Answers {
         now - self.changed_at
     }
 
-    /// Puts a reduced model in use and returns the one it replaces: the picture and everything drawn of the model follow.
+    /// Puts a reduced model in use and returns the one it replaces: the picture and everything drawn of the model
+    /// follow.
     pub fn use_model(&mut self, model: Arc<ReducedModel>) -> Option<Arc<ReducedModel>> {
         let former = self.models.put(model);
         self.models_have_changed();

@@ -94,7 +94,8 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Prepares a converged solution for drawing; `traction` is its coefficient where a reduced model knows it without all nodes.
+    /// Prepares a converged solution for drawing; `traction` is its coefficient where a reduced model knows it without
+    /// all nodes.
     pub fn new(key: Key, origin: Origin, solution: Arc<Solution>, cuts: Cuts, traction: Option<f64>) -> Self {
         let solution = of_contact(solution, &key);
         let slides = key.point.sliding.slide_to_roll_ratio != 0.0;

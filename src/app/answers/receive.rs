@@ -35,7 +35,8 @@ impl Answers {
                 if Some(job.key) == self.key() {
                     self.failure = None;
                 } else if self.picture_is_current() {
-                    // The sliders have moved back to where the reduced model answers at once: this solution comes too late.
+                    // The sliders have moved back to where the reduced model answers at once: this solution comes too
+                    // late.
                     return;
                 }
                 if self.is_settled(&job.key) {

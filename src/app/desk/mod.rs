@@ -1,5 +1,5 @@
-//! Everything that lies on the table: the document, what came of it, what is under way, files. Panels and tabs never see it whole: they are
-//! given a [`Context`] and ask for changes by commands.
+//! Everything that lies on the table: the document, what came of it, what is under way, files. Panels and tabs never
+//! see it whole: they are given a [`Context`] and ask for changes by commands.
 
 mod captions;
 pub mod files;
@@ -101,7 +101,8 @@ impl Desk {
         }
     }
 
-    /// Changes the document; a refusal stands beside the field, and what was typed elsewhere is forgotten where the change was made.
+    /// Changes the document; a refusal stands beside the field, and what was typed elsewhere is forgotten where the
+    /// change was made.
     pub fn edit(&mut self, edit: Edit, field: &'static str) {
         let kind = self.document.point.kind;
         self.own_lubricant &= !matches!(edit, Edit::Named(_));

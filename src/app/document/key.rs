@@ -13,8 +13,8 @@ pub struct Key {
 }
 
 impl Key {
-    /// Whether pressure and film are the same: a limiting stress cuts traction only, and a film that does not thin under shear does not feel
-    /// the sliding.
+    /// Whether pressure and film are the same: a limiting stress cuts traction only, and a film that does not thin
+    /// under shear does not feel the sliding.
     pub fn has_film_of(&self, other: &Self) -> bool {
         let film = |key: &Self| {
             let (mut point, law) = (key.point, key.lubricant.shear);

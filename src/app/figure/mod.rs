@@ -1,5 +1,5 @@
-//! Any plot as a picture: every plot that is on the screen offers itself by its name; one that is asked for leaves as a drawing (SVG) or as
-//! an image (PNG), with its name and the contact's parameters above it.
+//! Any plot as a picture: every plot that is on the screen offers itself by its name; one that is asked for leaves as a
+//! drawing (SVG) or as an image (PNG), with its name and the contact's parameters above it.
 
 mod subject;
 mod svg;
@@ -98,8 +98,8 @@ pub fn offer(ui: &Ui, name: &str, rect: Rect) {
     offer_of(ui, name, rect, Subject::Sliders);
 }
 
-/// The same for plots of something else than the contact of the sliders. Plots within it are of the same, and one of its name gives way to
-/// it: it is that plot with what belongs to it.
+/// The same for plots of something else than the contact of the sliders. Plots within it are of the same, and one of
+/// its name gives way to it: it is that plot with what belongs to it.
 pub fn offer_of(ui: &Ui, name: &str, rect: Rect, subject: Subject) {
     let rect = rect.expand2(OVERHANG).intersect(ui.clip_rect().expand2(OVERHANG));
     if !rect.is_positive() {

@@ -235,8 +235,8 @@ impl Drawing<'_> {
         ));
     }
 
-    /// Text, each run of one look at its own place on the baseline: subscripts stay below, and nothing depends on the reader's fonts but
-    /// the shapes of letters.
+    /// Text, each run of one look at its own place on the baseline: subscripts stay below, and nothing depends on the
+    /// reader's fonts but the shapes of letters.
     fn words(&mut self, text: &TextShape) {
         let job = &text.galley.job;
         let Pos2 { x, y } = text.pos;

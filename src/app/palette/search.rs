@@ -2,8 +2,8 @@
 
 use super::entry::Entry;
 
-/// The entries that hold every word of a query, best first: beginnings of words before parts of them, names before other words, and what
-/// cannot be done now last. Without a query all of them.
+/// The entries that hold every word of a query, best first: beginnings of words before parts of them, names before
+/// other words, and what cannot be done now last. Without a query all of them.
 pub fn find<'a>(entries: &'a [Entry], query: &str) -> Vec<&'a Entry> {
     let query = folded(query);
     let words: Vec<&str> = query.split_whitespace().collect();

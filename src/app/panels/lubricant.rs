@@ -213,7 +213,8 @@ fn own(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, commands: &mut Comm
     }
 }
 
-/// A row for each constant that the laws have; returns the name of the last one that was entered, else that of the whole group.
+/// A row for each constant that the laws have; returns the name of the last one that was entered, else that of the
+/// whole group.
 fn constants_ui(ui: &mut Ui, entries: &mut Entries, constants: &[Constant], laws: &mut Lubricant) -> &'static str {
     let mut field = GROUP;
     for Constant { name, row: (row, base, subscript), unit: (unit, scale), tip, of } in constants {

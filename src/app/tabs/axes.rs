@@ -48,7 +48,8 @@ pub fn show<'a, R>(
     shown
 }
 
-/// Fits a plot to its data where `wanted` and when it is seen first; zooming and panning ends it, a double click brings it back.
+/// Fits a plot to its data where `wanted` and when it is seen first; zooming and panning ends it, a double click brings
+/// it back.
 pub fn fit(plot: &mut PlotUi<'_>, wanted: bool) {
     let id = plot.response().id.with("seen");
     let seen = plot.ctx().data_mut(|d| std::mem::replace(d.get_temp_mut_or_default::<bool>(id), true));

@@ -1,5 +1,5 @@
-//! The tabs, each a question with its picture. A tab owns its view, sees the document and the answers, and asks for everything else by
-//! commands; none knows another.
+//! The tabs, each a question with its picture. A tab owns its view, sees the document and the answers, and asks for
+//! everything else by commands; none knows another.
 
 pub mod accuracy;
 mod axes;

@@ -1,4 +1,5 @@
-//! A field of a point contact as a picture of pixels, both halves: by a table of colours, or as the interferogram that a rig shows.
+//! A field of a point contact as a picture of pixels, both halves: by a table of colours, or as the interferogram that
+//! a rig shows.
 
 use crate::solver::physics::optics::{Interferometer, RGB_WAVELENGTHS_M};
 use egui::{Color32, ColorImage};
@@ -29,7 +30,8 @@ fn places(nodes: &[f64], count: usize) -> Vec<(usize, f32)> {
 }
 
 impl Raster {
-    /// Samples a node array of a point contact bilinearly, times a scale. Node (i, j) at (X_i, Y_j) has the index i·n_y + j.
+    /// Samples a node array of a point contact bilinearly, times a scale. Node (i, j) at (X_i, Y_j) has the index
+    /// i·n_y + j.
     pub fn new((x, y): (&[f64], &[f64]), field: &[f64], scale: f64) -> Self {
         let pixels = |nodes: &[f64]| match nodes {
             [first, .., last] => ((last - first) * RESOLUTION).round().clamp(2.0, 4096.0) as usize,
@@ -59,8 +61,8 @@ impl Raster {
         self.mirrored(|k| table[((self.values[k] - low) * factor).clamp(0.0, last) as usize])
     }
 
-    /// The interferogram of films in m: in the rig's own light as grey, or in three colours. Fringes that are narrower than two pixels fade
-    /// to their mean, as they do in a camera.
+    /// The interferogram of films in m: in the rig's own light as grey, or in three colours. Fringes that are narrower
+    /// than two pixels fade to their mean, as they do in a camera.
     pub fn interferogram(&self, rig: &Interferometer, three_colors: bool) -> ColorImage {
         const STEPS: usize = 1024;
         let table: Vec<f32> =

@@ -31,8 +31,8 @@ pub enum Regime {
 }
 
 impl Regime {
-    /// The regime whose asymptote Moes' formula follows at M and L: iso parts add up (the larger rules), piezo parts add up
-    /// inversely (the smaller rules), and the larger of both sides wins.
+    /// The regime whose asymptote Moes' formula follows at M and L: iso parts add up (the larger rules), piezo parts
+    /// add up inversely (the smaller rules), and the larger of both sides wins.
     pub fn of(kind: ContactKind, moes: Moes) -> Self {
         let a = FilmAsymptotes::of(kind, moes);
         let iso = a.rigid_isoviscous.max(a.elastic_isoviscous);
@@ -133,7 +133,8 @@ impl ChartLines {
     }
 }
 
-/// Regime boundaries: along each row and column of a fine lattice, the places where the regime changes, sharpened by bisection.
+/// Regime boundaries: along each row and column of a fine lattice, the places where the regime changes, sharpened by
+/// bisection.
 fn boundaries(kind: ContactKind) -> Vec<Vec<PlotPoint>> {
     let mut found: Vec<((Regime, Regime), Vec<PlotPoint>)> = Vec::new();
     let mut add = |a: Regime, b: Regime, p: PlotPoint| {
@@ -225,7 +226,8 @@ fn hertz_pressure(kind: ContactKind, m: f64, l: f64) -> f64 {
     si_from_moes(&MoesRequest::new(kind, m, l)).map_or(f64::INFINITY, |p| p.hertz().pressure_pa)
 }
 
-/// L at which the default realisation reaches a Hertz pressure, for every M that does within the range. p_H rises with L.
+/// L at which the default realisation reaches a Hertz pressure, for every M that does within the range. p_H rises with
+/// L.
 fn pressure_limit(kind: ContactKind, limit: f64, m_range: (f64, f64), l_range: (f64, f64)) -> Vec<PlotPoint> {
     (0..SAMPLES)
         .filter_map(|k| {
@@ -263,8 +265,8 @@ fn trained(kind: ContactKind, domain: &Domain) -> Vec<PlotPoint> {
     outline
 }
 
-/// The convex hull of a box's contacts, closed. M and L are products of powers of the quantities: in logarithmic axes the box becomes a
-/// polygon, with its corners among those of the box; on linear axes its sides are curved.
+/// The convex hull of a box's contacts, closed. M and L are products of powers of the quantities: in logarithmic axes
+/// the box becomes a polygon, with its corners among those of the box; on linear axes its sides are curved.
 fn outline(range: &QuantityBox, kind: ContactKind) -> Vec<PlotPoint> {
     let end = |corner: u32, bit: u32| f64::from(corner >> bit & 1);
     let mut corners: Vec<PlotPoint> = (0..16)

@@ -1,5 +1,5 @@
-//! The M–L chart: which asymptote of Moes' formula rules where, what the reduced model was trained for, and the current contact,
-//! which can be dragged. Beside it the published film formulas.
+//! The M–L chart: which asymptote of Moes' formula rules where, what the reduced model was trained for, and the current
+//! contact, which can be dragged. Beside it the published film formulas.
 
 use super::regime_chart::{ChartLines, L_AXIS, M_AXIS, Regime, shading};
 use super::{axes, formulas};

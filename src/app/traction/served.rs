@@ -18,12 +18,13 @@ const LOG_NPR: f64 = 1e-2;
 pub struct Served {
     /// The model and its truncation.
     pub by: InUse,
-    /// Why it was not trained for the curve: of another fluid, say. It solves the contacts' own equations, but nothing is known of its errors.
+    /// Why it was not trained for the curve: of another fluid, say. It solves the contacts' own equations, but nothing
+    /// is known of its errors.
     pub untrained: Option<String>,
 }
 
-/// The sweep through the contact of the sliders, and the reduced model that draws it or why none does. `None` where the fluid does not
-/// answer to the quantity.
+/// The sweep through the contact of the sliders, and the reduced model that draws it or why none does. `None` where the
+/// fluid does not answer to the quantity.
 pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Option<(Sweep, Result<Served, String>)> {
     let varied = choices.against.varied();
     let key = document.key();
@@ -58,7 +59,8 @@ pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Optio
 /// Why a model was not trained for a sweep, where it was not.
 ///
 /// # Errors
-/// A sentence where it cannot serve it at all: pressure and film have shapes there that it does not know, or a contact is refused.
+/// A sentence where it cannot serve it at all: pressure and film have shapes there that it does not know, or a contact
+/// is refused.
 fn untrained(domain: &Domain, key: &Key, varied: Varied, ends: (f64, f64)) -> Result<Option<String>, String> {
     let mut untrained = None;
     for value in [ends.0, ends.1] {

@@ -5,7 +5,8 @@ use crate::solver::physics::contact::ContactKind;
 use crate::solver::training::{TrainingSpec, Windows};
 use std::sync::LazyLock;
 
-/// What there is for a kind of contact, by name; the first is what the tab shows where the document describes no training.
+/// What there is for a kind of contact, by name; the first is what the tab shows where the document describes no
+/// training.
 pub fn of_kind(kind: ContactKind) -> Vec<(&'static str, &'static TrainingSpec)> {
     let all = match kind {
         ContactKind::Line => vec![("Table 3.1’s box", table_3_1()), ("Whole slider range", slider_range())],

@@ -1,4 +1,5 @@
-//! The methods by which the steps of a contact in time can be solved, and the frames they are solved in, as people call them.
+//! The methods by which the steps of a contact in time can be solved, and the frames they are solved in, as people call
+//! them.
 
 use crate::solver::full::transient::{Frame, Interpolation};
 use crate::solver::reduced::tpwl::{Selection, Weighting};

@@ -1,4 +1,5 @@
-//! The moment that is looked at: it follows the computation until somebody takes it, stands still until it is played, and stops at the end.
+//! The moment that is looked at: it follows the computation until somebody takes it, stands still until it is played,
+//! and stops at the end.
 
 /// Seconds in which the whole duration is played.
 const WHOLE_S: f64 = 10.0;

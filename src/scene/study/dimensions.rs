@@ -13,7 +13,8 @@ use crate::solver::reduced::{PodBasis, deformation_weights};
 use faer::Mat;
 use serde::{Deserialize, Serialize};
 
-/// How many modes the full solutions at all combinations of one to three varied quantities need at losses of information: Table 3.7.
+/// How many modes the full solutions at all combinations of one to three varied quantities need at losses of
+/// information: Table 3.7.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Dimensions {
@@ -84,8 +85,8 @@ impl Question for Dimensions {
         Ok(())
     }
 
-    /// Values: `snapshots`, `full_failures`, `nodes_x`, `nodes_y`, `dofs` (2n + 1), and for every loss of information `basis_p[1e-5]` and
-    /// `basis_delta[1e-5]`, (2.92) and (2.93).
+    /// Values: `snapshots`, `full_failures`, `nodes_x`, `nodes_y`, `dofs` (2n + 1), and for every loss of information
+    /// `basis_p[1e-5]` and `basis_delta[1e-5]`, (2.92) and (2.93).
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         for row in rows {
             let (nx, ny) = row.nodes;

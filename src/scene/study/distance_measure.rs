@@ -111,8 +111,9 @@ impl Question for DistanceMeasure {
         Ok(())
     }
 
-    /// Values: `correlation` and `ratio` (weight of (ΔL)² over that of the M-term) for the two functions of (3.20), `correlation_printed` for
-    /// its own weights 1 : 0.001, `correlation_all` and `weight.…` for all candidates together, `alone.…` for each by itself.
+    /// Values: `correlation` and `ratio` (weight of (ΔL)² over that of the M-term) for the two functions of (3.20),
+    /// `correlation_printed` for its own weights 1 : 0.001, `correlation_all` and `weight.…` for all candidates
+    /// together, `alone.…` for each by itself.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         for row in rows {
             found.push("points", None, row.solutions as f64);

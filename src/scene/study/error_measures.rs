@@ -13,7 +13,8 @@ use crate::solver::reduced::{ErrorEstimate, ErrorMeasures, Norm, ReducedOptions}
 use crate::solver::training::Range;
 use serde::{Deserialize, Serialize};
 
-/// Error measures (3.10), (3.14), (3.15) of a reduced model at random points (3.17), ordered by the true error: Fig. 3.1.
+/// Error measures (3.10), (3.14), (3.15) of a reduced model at random points (3.17), ordered by the true error: Fig.
+/// 3.1.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ErrorMeasureStudy {
@@ -139,8 +140,8 @@ impl Question for ErrorMeasureStudy {
         Ok(())
     }
 
-    /// Values: `e_z_median`, …, `rank.e_f_I.e_z` and its kind: Spearman's correlation of a measure with an error. Points at which the reduced
-    /// iteration fails are counted (`failures`) and take no part.
+    /// Values: `e_z_median`, …, `rank.e_f_I.e_z` and its kind: Spearman's correlation of a measure with an error.
+    /// Points at which the reduced iteration fails are counted (`failures`) and take no part.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         let measured = ordered(rows);
         let column = |(_, get): Named| measured.iter().map(|(_, m)| get(m)).collect::<Vec<f64>>();

@@ -129,8 +129,9 @@ impl Question for ErrorSplitStudy {
         Ok(())
     }
 
-    /// Values: `failures`; for `H_c` and `H_min` and each part `H_c.basis_median`, `H_c.basis_max` and so on (sizes, relative to the full film),
-    /// `e_P.basis_median` likewise; at a single contact also the signed `H_c.basis` and `e_P.basis`.
+    /// Values: `failures`; for `H_c` and `H_min` and each part `H_c.basis_median`, `H_c.basis_max` and so on (sizes,
+    /// relative to the full film), `e_P.basis_median` likewise; at a single contact also the signed `H_c.basis` and
+    /// `e_P.basis`.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         for row in rows {
             if let Err(error) = &row.split {

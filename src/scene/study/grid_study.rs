@@ -11,7 +11,8 @@ use crate::scene::method::Method;
 use crate::solver::full::Solution;
 use serde::{Deserialize, Serialize};
 
-/// The contact on ever finer uniform grids over the scene's domain: observed order and extrapolated value. A point contact keeps ΔY.
+/// The contact on ever finer uniform grids over the scene's domain: observed order and extrapolated value. A point
+/// contact keeps ΔY.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GridStudy {
@@ -81,8 +82,9 @@ impl Question for GridStudy {
         Ok(())
     }
 
-    /// Values: `H_c.1`, … (coarsest first), `order` (of the three finest grids), `order.1`, … (of each three neighbours, coarsest first),
-    /// `H_c_extrapolated` (Richardson, from the two finest), `H_c_error` (relative, of the finest).
+    /// Values: `H_c.1`, … (coarsest first), `order` (of the three finest grids), `order.1`, … (of each three
+    /// neighbours, coarsest first), `H_c_extrapolated` (Richardson, from the two finest), `H_c_error` (relative, of the
+    /// finest).
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         let of = Some(&Method::Full);
         for row in rows {

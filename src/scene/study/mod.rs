@@ -1,11 +1,11 @@
-//! The questions a scene can ask. There is one file for each: its data as a scene writes them, its check, its run, its rows, and what
-//! the rows look like as values, tables and charts.
+//! The questions a scene can ask. There is one file for each: its data as a scene writes them, its check, its run, its
+//! rows, and what the rows look like as values, tables and charts.
 //!
-//! A study does not know who watches it. [`Study::run`] is given an [`Experiment`] (the facts of the scene's contact), a [`Bench`] (what it may
-//! use) and a [`StudyObserver`], which is told each [`StudyRow`] as soon as it is known, how far the work is, and whether it is still wanted.
-//! Everything else is read off the rows, of a study that has ended or of one that still runs: [`Study::findings`] are the values that
-//! expectations name, [`Study::tables`] the numbers, [`Study::charts`] how they are best looked at. So whoever shows a study
-//! need not know which one it is:
+//! A study does not know who watches it. [`Study::run`] is given an [`Experiment`] (the facts of the scene's contact),
+//! a [`Bench`] (what it may use) and a [`StudyObserver`], which is told each [`StudyRow`] as soon as it is known, how
+//! far the work is, and whether it is still wanted. Everything else is read off the rows, of a study that has ended or
+//! of one that still runs: [`Study::findings`] are the values that expectations name, [`Study::tables`] the numbers,
+//! [`Study::charts`] how they are best looked at. So whoever shows a study need not know which one it is:
 //!
 //! ```text
 //! struct Window(Mutex<Vec<StudyRow>>);
@@ -15,8 +15,8 @@
 //! scene.outcome(&rows, seconds)                                    // values, verdicts, tables
 //! ```
 //!
-//! [`run_scene`](super::run_scene) does all of it for who only wants the outcome. A new study is a file with a [`Question`], and a line in each of
-//! [`Study`], [`StudyRow`], `StudyRow::inner` and `Study::asked`.
+//! [`run_scene`](super::run_scene) does all of it for who only wants the outcome. A new study is a file with a
+//! [`Question`], and a line in each of [`Study`], [`StudyRow`], `StudyRow::inner` and `Study::asked`.
 #![allow(clippy::indexing_slicing, reason = "rows, methods and models of one run: places in lists that it made itself")]
 
 pub mod dimensions;
@@ -68,17 +68,21 @@ pub enum Study {
     Sweep(sweep::Sweep),
     /// The test trajectory (3.21) through a box, 0 ≤ c ≤ 2.
     Trajectory(trajectory::Trajectory),
-    /// Random points (3.17): how often a method fails, how fast it is, and how far a reduced model lies from full solutions.
+    /// Random points (3.17): how often a method fails, how fast it is, and how far a reduced model lies from full
+    /// solutions.
     RandomTest(random_test::RandomTest),
     /// Where a reduced model's error comes from: its basis, Galerkin's projection, the sampling of rows, or the grid.
     ErrorSplit(error_split::ErrorSplitStudy),
-    /// The contact on ever finer uniform grids over the scene's domain: observed order and extrapolated value. A point contact keeps ΔY.
+    /// The contact on ever finer uniform grids over the scene's domain: observed order and extrapolated value. A point
+    /// contact keeps ΔY.
     GridStudy(grid_study::GridStudy),
-    /// How many modes the full solutions at all combinations of one to three varied quantities need at losses of information: Table 3.7.
+    /// How many modes the full solutions at all combinations of one to three varied quantities need at losses of
+    /// information: Table 3.7.
     Dimensions(dimensions::Dimensions),
     /// Training of a reduced model.
     Training(TrainingSpec),
-    /// Error measures (3.10), (3.14), (3.15) of a reduced model at random points (3.17), ordered by the true error: Fig. 3.1.
+    /// Error measures (3.10), (3.14), (3.15) of a reduced model at random points (3.17), ordered by the true error:
+    /// Fig. 3.1.
     ErrorMeasures(error_measures::ErrorMeasureStudy),
     /// Weights of the distance measure by (3.9) from full solutions at random points (3.17): (3.20).
     DistanceMeasure(distance_measure::DistanceMeasure),
@@ -242,12 +246,14 @@ impl Study {
         self.asked(|question| question.methods().to_vec())
     }
 
-    /// The reduced model whose grid [`Grid::Model`](super::Grid::Model) means: the first one used, else the embedded one.
+    /// The reduced model whose grid [`Grid::Model`](super::Grid::Model) means: the first one used, else the embedded
+    /// one.
     pub fn grid_model(&self) -> ModelSource {
         self.methods().iter().find_map(Method::model).cloned().unwrap_or_default()
     }
 
-    /// Answers the question; the observer is told each row as soon as it is known. What was told is worth keeping also where it ends early.
+    /// Answers the question; the observer is told each row as soon as it is known. What was told is worth keeping also
+    /// where it ends early.
     ///
     /// # Errors
     /// When something is refused, a model cannot be had, or the observer cancels. Solves that do not converge are rows.

@@ -15,7 +15,8 @@ const COMPARED: [&str; 3] = ["H_c", "H_min", "traction"];
 /// Errors of smaller tractions are relative to this.
 const LEAST_TRACTION: f64 = 0.005;
 
-/// How many times the largest residual that was measured when a model was trained an answer may have where it was not trained.
+/// How many times the largest residual that was measured when a model was trained an answer may have where it was not
+/// trained.
 const DOUBTFUL_RESIDUAL: f64 = 2.0;
 
 /// One contact of a path by all methods.
@@ -27,8 +28,8 @@ pub struct PathRow {
     pub point: OperatingPoint,
     /// Its result by each method.
     pub results: Vec<ContactResult>,
-    /// For each method, whether it is a model's answer that is none: it was not trained for the contact, and the residual is far beyond those of its
-    /// training.
+    /// For each method, whether it is a model's answer that is none: it was not trained for the contact, and the
+    /// residual is far beyond those of its training.
     pub doubtful: Vec<bool>,
     /// The full solution on the model's grid, where one was asked for.
     pub on_model_grid: OnModelGrid,
@@ -43,7 +44,8 @@ pub enum OnModelGrid {
     Solved(Box<ContactResult>),
 }
 
-/// The contacts of a path, the name of its stage, whether full solves start cold, and whether full solutions on the model's grid are wanted.
+/// The contacts of a path, the name of its stage, whether full solves start cold, and whether full solutions on the
+/// model's grid are wanted.
 pub(super) struct Path<'a> {
     pub name: &'static str,
     pub contacts: Vec<(Vec<f64>, OperatingPoint)>,
@@ -115,8 +117,9 @@ fn is_doubtful(result: &ContactResult, method: &Method, setting: &mut Setting<'_
     Ok(largest.is_some_and(|largest| residual > DOUBTFUL_RESIDUAL * largest))
 }
 
-/// Values: single contacts that are expected, as `H_c[3]`; `points`; of each method `failures` (at plausible pressures), `failures_beyond` these,
-/// Newton steps and seconds; and a reduced one's errors against the first full one, or against one on the model's grid.
+/// Values: single contacts that are expected, as `H_c[3]`; `points`; of each method `failures` (at plausible
+/// pressures), `failures_beyond` these, Newton steps and seconds; and a reduced one's errors against the first full
+/// one, or against one on the model's grid.
 pub(super) fn findings(methods: &[Method], experiment: &Experiment, rows: &[&PathRow], found: &mut Findings) {
     for (i, row) in rows.iter().enumerate() {
         for (method, result) in methods.iter().zip(&row.results) {
@@ -197,8 +200,8 @@ fn tag(methods: &[Method], k: usize) -> String {
     }
 }
 
-/// Films, traction and pressure along the last varied quantity, a line for each combination of the others and each method; what
-/// failed or is doubtful is left out.
+/// Films, traction and pressure along the last varied quantity, a line for each combination of the others and each
+/// method; what failed or is doubtful is left out.
 pub(super) fn charts(x: &ChartAxis, varied: &[&str], methods: &[Method], rows: &[&PathRow]) -> Vec<Chart> {
     let chart = |(name, axis): (&str, &str)| {
         let mut chart = Chart::new(axis, x.clone(), ChartAxis::linear(axis));

@@ -1,11 +1,13 @@
-//! Plans of snapshot selection side by side: where their snapshots lie (Fig. 3.3), how fast their information decays (Fig. 3.4), how
-//! often their models fail (Table 3.3), how far they are off, also along the trajectory (3.21) (Figs. 3.5 and 3.7).
+//! Plans of snapshot selection side by side: where their snapshots lie (Fig. 3.3), how fast their information decays
+//! (Fig. 3.4), how often their models fail (Table 3.3), how far they are off, also along the trajectory (3.21) (Figs.
+//! 3.5 and 3.7).
 //!
-//! Sets of different size are compared as the dissertation does, by the loss of information l(k) of (2.90), each normalised by its own
-//! singular values: a slow decay means that the snapshots have little in common. `relative_loss_p_40` is l(40) of the pressure over the
-//! largest l(40) of all plans, one for the slowest decay; `modes_per_snapshot` is the efficiency of section 3.1.4, information
-//! per full solution. l(k) says what a set knows of itself; what it knows of the range is told by the best approximation of
-//! pressures it has never seen, with as many modes as the smallest of the bases has (`unseen_…`).
+//! Sets of different size are compared as the dissertation does, by the loss of information l(k) of (2.90), each
+//! normalised by its own singular values: a slow decay means that the snapshots have little in common.
+//! `relative_loss_p_40` is l(40) of the pressure over the largest l(40) of all plans, one for the slowest decay;
+//! `modes_per_snapshot` is the efficiency of section 3.1.4, information per full solution. l(k) says what a set knows
+//! of itself; what it knows of the range is told by the best approximation of pressures it has never seen, with as many
+//! modes as the smallest of the bases has (`unseen_…`).
 
 use super::error_measures::OnlineScheme;
 use super::path::trajectory_points;
@@ -268,8 +270,9 @@ impl Question for PlanComparison {
         Ok(())
     }
 
-    /// Values are named `plan.value`, with the plan's name. `order.as_published` counts pairs of plans whose failure rates differ as the
-    /// published ones do, `order.against` those that differ the other way; equal rates count as neither.
+    /// Values are named `plan.value`, with the plan's name. `order.as_published` counts pairs of plans whose failure
+    /// rates differ as the published ones do, `order.against` those that differ the other way; equal rates count as
+    /// neither.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         let (plans, tested) = (trained(rows), tested(rows));
         for Trained { plan, model } in &plans {

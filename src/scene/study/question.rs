@@ -13,7 +13,8 @@ use crate::solver::observer::Progress;
 use crate::solver::training::TrainingObserver;
 use std::any::Any;
 
-/// A question about an experiment. Its rows are all that comes of it: values, tables and charts are read off them, also while it runs.
+/// A question about an experiment. Its rows are all that comes of it: values, tables and charts are read off them, also
+/// while it runs.
 pub trait Question: Sync {
     /// What it finds out, piece by piece.
     type Row: Any;

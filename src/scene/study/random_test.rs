@@ -13,7 +13,8 @@ use crate::solver::reduced::ErrorEstimate;
 use crate::solver::training::Range;
 use serde::{Deserialize, Serialize};
 
-/// Random points (3.17): how often a method fails, how fast it is, and how far a reduced model lies from full solutions.
+/// Random points (3.17): how often a method fails, how fast it is, and how far a reduced model lies from full
+/// solutions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RandomTest {
@@ -186,8 +187,8 @@ impl Question for RandomTest {
         Ok(())
     }
 
-    /// Values of the method: `tests`, `failures`, `failure_percent`, Newton steps and seconds; of a reduced one `untrained`, `compared`, `full_failures`,
-    /// its errors, and what its bounds are worth.
+    /// Values of the method: `tests`, `failures`, `failure_percent`, Newton steps and seconds; of a reduced one
+    /// `untrained`, `compared`, `full_failures`, its errors, and what its bounds are worth.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         let (of, tests) = (Some(&self.method), own(rows));
         let failures = tests.iter().filter(|(test, _)| test.film.is_none()).count();

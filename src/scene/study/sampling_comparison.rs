@@ -147,8 +147,8 @@ impl Question for SamplingComparison {
         Ok(())
     }
 
-    /// Values are named `Cubature.failures`, with the name of the sampling: `rows`, `failures` among the tests, `newton_median`, and the
-    /// errors of H_c and H_min at the first `compare` of them.
+    /// Values are named `Cubature.failures`, with the name of the sampling: `rows`, `failures` among the tests,
+    /// `newton_median`, and the errors of H_c and H_min at the first `compare` of them.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         for row in rows {
             match row {

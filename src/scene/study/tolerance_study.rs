@@ -1,7 +1,7 @@
 //! The adaptive plan cut at each tolerance of its ladder (Fig. 3.6): what every rung costs and what it is worth.
 //!
-//! One training runs down the whole ladder. What it had solved when a tolerance was met is the training with that tolerance as its last:
-//! the search does not look ahead.
+//! One training runs down the whole ladder. What it had solved when a tolerance was met is the training with that
+//! tolerance as its last: the search does not look ahead.
 
 use super::error_measures::OnlineScheme;
 use super::path::trajectory_points;
@@ -175,7 +175,8 @@ impl Question for ToleranceStudy {
         Ok(())
     }
 
-    /// Values are named `1e1.snapshots`, with the tolerance of the rung. e_z and e_f^I are Euclidean, means along the trajectory (3.21).
+    /// Values are named `1e1.snapshots`, with the tolerance of the rung. e_z and e_f^I are Euclidean, means along the
+    /// trajectory (3.21).
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         let rungs = rungs(rows);
         for rung in &rungs {

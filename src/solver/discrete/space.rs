@@ -1,5 +1,5 @@
-//! What distinguishes a line from a plane: which nodes a row has and with what coefficients, quadrature weights, gap and deformation.
-//! Everything above is written once over a [`Space`].
+//! What distinguishes a line from a plane: which nodes a row has and with what coefficients, quadrature weights, gap
+//! and deformation. Everything above is written once over a [`Space`].
 
 use super::elasticity::{PointScratch, Scratch};
 use super::grid::{FIRST_UNKNOWN, INLET, LineGrid, PointGrid};
@@ -51,8 +51,8 @@ pub trait Space: Sync {
     /// Its grid.
     fn grid(&self) -> &Self::Grid;
 
-    /// The nodes an unknown's row depends on, and its coefficients. Where a node is lacking, another stands in its place with weight
-    /// zero.
+    /// The nodes an unknown's row depends on, and its coefficients. Where a node is lacking, another stands in its
+    /// place with weight zero.
     fn row(&self, unknown: usize) -> ([usize; STENCIL], RowGeometry);
 
     /// Calls `f` with the unknown, its row's nodes and its item, for one item per unknown.

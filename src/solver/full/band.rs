@@ -1,4 +1,5 @@
-//! LU factorisation of a band matrix with partial pivoting, bordered by one row and one column: the Krylov preconditioner.
+//! LU factorisation of a band matrix with partial pivoting, bordered by one row and one column: the Krylov
+//! preconditioner.
 
 /// A square band matrix and, after [`BandLu::factorise`], its LU factors (row storage with room for pivoting).
 #[derive(Clone, Debug, Default)]
@@ -45,7 +46,8 @@ impl BandLu {
             row.copy_within(shift.., 0);
             row[stride - shift..].fill(0.0);
         }
-        // Row i now starts at column max(0, i − lower); during elimination of column k the rows k…k+lower start at column k.
+        // Row i now starts at column max(0, i − lower); during elimination of column k the rows k…k+lower start at
+        // column k.
         for k in 0..n {
             let last = (k + lower).min(n - 1);
             let (mut pivot, mut largest) = (k, self.rows[k * stride].abs());

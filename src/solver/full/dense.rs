@@ -8,7 +8,8 @@ use crate::solver::discrete::space::LineSpace;
 use faer::linalg::solvers::Solve;
 use faer::{Mat, linalg::solvers::PartialPivLu};
 
-/// Dense Newton from the current state of `system` until ‖Δz‖/‖z‖ < 1e-10. `kernel` is K over the node arrays. Returns the number of steps.
+/// Dense Newton from the current state of `system` until ‖Δz‖/‖z‖ < 1e-10. `kernel` is K over the node arrays. Returns
+/// the number of steps.
 pub fn dense_newton(
     system: &mut System<LineSpace>,
     problem: &Problem,

@@ -23,10 +23,11 @@ pub struct LinearOutcome {
 }
 
 impl Gmres {
-    /// Solves A x = b to `tolerance` relative to ‖b‖, within `limit` iterations. `x` receives the solution (start: zero).
+    /// Solves A x = b to `tolerance` relative to ‖b‖, within `limit` iterations. `x` receives the solution (start:
+    /// zero).
     ///
-    /// `apply(v, out)` sets out = A v; `precondition(v)` replaces v by M⁻¹ v. `go_on` is asked after each iteration with their count, and ends
-    /// the solve with what it has.
+    /// `apply(v, out)` sets out = A v; `precondition(v)` replaces v by M⁻¹ v. `go_on` is asked after each iteration
+    /// with their count, and ends the solve with what it has.
     pub fn solve(
         &mut self,
         b: &[f64],

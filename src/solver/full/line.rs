@@ -1,4 +1,5 @@
-//! Newton's method on a line: steps are damped by backtracking on the residual, linear solves as accurate as the nonlinear problem can use.
+//! Newton's method on a line: steps are damped by backtracking on the residual, linear solves as accurate as the
+//! nonlinear problem can use.
 
 mod preconditioner;
 
@@ -19,11 +20,11 @@ use std::sync::Arc;
 pub struct Backtracking {
     /// Half-bandwidth of the kernel kept in the preconditioner.
     pub kernel_band: usize,
-    /// Whether that kernel is shifted so that it ends at zero. Where the film stores, five times fewer Krylov iterations; the first Newton
-    /// steps of a cold stationary solve do better without.
+    /// Whether that kernel is shifted so that it ends at zero. Where the film stores, five times fewer Krylov
+    /// iterations; the first Newton steps of a cold stationary solve do better without.
     pub levelled_kernel: bool,
-    /// Backtracking on the residual ends at this fraction of the step; 1 takes Newton's own steps, which is right beside a solution:
-    /// there the penalty makes the residual jump though the step is good.
+    /// Backtracking on the residual ends at this fraction of the step; 1 takes Newton's own steps, which is right
+    /// beside a solution: there the penalty makes the residual jump though the step is good.
     pub shortest_step: f64,
 }
 
@@ -124,8 +125,8 @@ impl NewtonSpace for LineSpace {
 }
 
 impl System<LineSpace> {
-    /// Takes the Newton step with backtracking on the residual (to `shortest_step`, then accepts); the film may lose 90 % per step at most.
-    /// Returns ‖Δz‖/‖z‖ of the undamped step and the new residual.
+    /// Takes the Newton step with backtracking on the residual (to `shortest_step`, then accepts); the film may lose 90
+    /// % per step at most. Returns ‖Δz‖/‖z‖ of the undamped step and the new residual.
     fn backtrack(&mut self, problem: &Problem, options: &SolveOptions<Backtracking>, before: f64) -> (f64, f64) {
         let dh_0 = self.update[self.rows.len()];
         self.space.spread(&self.update, &mut self.step);
@@ -161,7 +162,8 @@ impl System<LineSpace> {
         }
     }
 
-    /// Takes a step whose entry i (the last is ΔH₀) is `update(i)`, damped as Newton's; returns ‖Δz‖/‖z‖ (undamped) and the new residual.
+    /// Takes a step whose entry i (the last is ΔH₀) is `update(i)`, damped as Newton's; returns ‖Δz‖/‖z‖ (undamped) and
+    /// the new residual.
     pub fn take_step(
         &mut self,
         problem: &Problem,

@@ -1,4 +1,5 @@
-//! The full-order system: unknowns (P, H₀), deformation condensed, solved by Newton's method with a preconditioned Krylov solver.
+//! The full-order system: unknowns (P, H₀), deformation condensed, solved by Newton's method with a preconditioned
+//! Krylov solver.
 
 mod band;
 mod cut;

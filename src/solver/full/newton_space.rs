@@ -1,4 +1,5 @@
-//! What a space brings to Newton's method: its step control and its preconditioner, because those really differ, and where it starts.
+//! What a space brings to Newton's method: its step control and its preconditioner, because those really differ, and
+//! where it starts.
 
 use super::solution::{Mesh, Problem, SolveError};
 use super::system::{SolveOptions, System};
@@ -53,8 +54,8 @@ pub trait NewtonSpace: Space + Sized {
     const KIND: ContactKind;
     /// Residual beyond which the iteration is given up.
     const WORST_RESIDUAL: f64;
-    /// Whether steps clip pressures, and so lose the load they carry. Where they do not, it holds exactly from the start and every step keeps it,
-    /// because the preconditioner's load row is exact.
+    /// Whether steps clip pressures, and so lose the load they carry. Where they do not, it holds exactly from the
+    /// start and every step keeps it, because the preconditioner's load row is exact.
     const CLIPS: bool;
     /// Films tried by a cold start, in units of the contact's film formula.
     const COLD_FILMS: [f64; 3];

@@ -105,7 +105,8 @@ fn heavy_load_tends_to_hertz_and_light_load_to_the_rigid_solution() {
     };
     let (light, middle, heavy) = (deviation(5.0), deviation(30.0), deviation(280.0));
     assert!(heavy < middle && middle < light && heavy < 0.02, "{light} {middle} {heavy}");
-    // Rigid and isoviscous: Martin's analytic solution, h₀/R = 4.896 η₀u_m/w, which is H = 2.448/M (Moes' fit rounds it up to 3/M).
+    // Rigid and isoviscous: Martin's analytic solution, h₀/R = 4.896 η₀u_m/w, which is H = 2.448/M (Moes' fit rounds it
+    // up to 3/M).
     let rigid =
         Lubricant { density: DensityLaw::Incompressible, viscosity: ViscosityLaw::Barus, ..Lubricant::default() };
     let point =

@@ -6,8 +6,8 @@ use crate::solver::discrete::reynolds::generalized::{NodeState, PlaneGradient};
 use crate::solver::physics::lubricant::ScaledShear;
 use rayon::prelude::*;
 
-/// α* p_H beyond which an isothermal traction without a limiting stress is no physics: viscosity then outgrows every stress a
-/// lubricant can carry.
+/// α* p_H beyond which an isothermal traction without a limiting stress is no physics: viscosity then outgrows every
+/// stress a lubricant can carry.
 pub const PLAUSIBLE_EXPONENT: f64 = 12.0;
 
 /// Shear along X at one place of the film.
@@ -33,8 +33,9 @@ struct FilmStress {
 }
 
 impl Solution {
-    /// Shear along the axis Y = 0 at height z = Z h above the lower surface, 0 ≤ Z ≤ 1, in the order of [`Solution::profile`]. A limiting
-    /// stress, where the lubricant has one, cuts the stress; the rate is the one of the film without it.
+    /// Shear along the axis Y = 0 at height z = Z h above the lower surface, 0 ≤ Z ≤ 1, in the order of
+    /// [`Solution::profile`]. A limiting stress, where the lubricant has one, cuts the stress; the rate is the one of
+    /// the film without it.
     pub fn shear_along_axis(&self, height: f64) -> Vec<Shear> {
         self.shear_field(&[height])
     }
@@ -57,8 +58,9 @@ impl Solution {
         films.flat_map(|film| heights.iter().map(move |height| shear(&film, *height))).collect()
     }
 
-    /// Traction coefficient (3.41): the shear stress at mid-film over the whole domain, both halves of a point contact's, by the trapezoidal rule,
-    /// over the load. Positive for SRR > 0. Over the area with P > 0 alone it is some 0.1 to 2 % smaller.
+    /// Traction coefficient (3.41): the shear stress at mid-film over the whole domain, both halves of a point
+    /// contact's, by the trapezoidal rule, over the load. Positive for SRR > 0. Over the area with P > 0 alone it is
+    /// some 0.1 to 2 % smaller.
     pub fn traction_coefficient(&self) -> f64 {
         if self.problem.point.sliding.slide_to_roll_ratio == 0.0 {
             return 0.0;

@@ -1,17 +1,18 @@
 //! What a film-thickness rig sees of a point contact: two-beam interference between the coated glass disc and the ball.
 //!
-//! I = ½ (1 + V cos(4π n h/λ + φ)): the beam through the film travels 2 n h further than the one reflected at the coating, and φ is what
-//! both reflections add. So equal colours are lines of equal film thickness, and one fringe to the next is λ/(2n). The refractive index
-//! is taken as that of the oil at ambient pressure; under 1 GPa it is some per cent higher, which real measurements correct for.
+//! I = ½ (1 + V cos(4π n h/λ + φ)): the beam through the film travels 2 n h further than the one reflected at the
+//! coating, and φ is what both reflections add. So equal colours are lines of equal film thickness, and one fringe to
+//! the next is λ/(2n). The refractive index is taken as that of the oil at ambient pressure; under 1 GPa it is some per
+//! cent higher, which real measurements correct for.
 //!
-//! Cameron & Gohar 1966, Theoretical and experimental studies of the oil film in lubricated point contact, Proc. R. Soc. A 291; Wedeven,
-//! Evans & Cameron 1971, Optical analysis of ball bearing starvation, ASME J. Lubr. Technol. 93.
+//! Cameron & Gohar 1966, Theoretical and experimental studies of the oil film in lubricated point contact, Proc. R.
+//! Soc. A 291; Wedeven, Evans & Cameron 1971, Optical analysis of ball bearing starvation, ASME J. Lubr. Technol. 93.
 
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
-/// Wavelengths \[m\] of the red, green and blue light of a three-colour camera's channels; the green one is that of a frequency-doubled
-/// Nd:YAG laser.
+/// Wavelengths \[m\] of the red, green and blue light of a three-colour camera's channels; the green one is that of a
+/// frequency-doubled Nd:YAG laser.
 pub const RGB_WAVELENGTHS_M: [f64; 3] = [630e-9, 532e-9, 460e-9];
 
 /// The optics of a rig.

@@ -8,8 +8,8 @@ use faer::{Accum, ColMut, ColRef, Mat, MatRef, Par};
 
 /// The rows of a basis under the contact, and what it takes to draw scalars from them.
 ///
-/// Where film and pressure have their extremes is found in single precision, which halves what must be read of the basis in a step; their values
-/// there, like those at X = 0, are those of double precision.
+/// Where film and pressure have their extremes is found in single precision, which halves what must be read of the
+/// basis in a step; their values there, like those at X = 0, are those of double precision.
 pub(crate) struct ContactRows {
     modes: usize,
     /// X of the nodes.

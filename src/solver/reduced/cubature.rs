@@ -1,11 +1,13 @@
-//! Goal-oriented cubature: few rows with non-negative weights that give every Newton *step* what all rows would give it.
+//! Goal-oriented cubature: few rows with non-negative weights that give every Newton *step* what all rows would give
+//! it.
 //!
-//! For each iterate of the all-rows reduced model, some functionals of the Newton step are demanded to come out right (random ones of Δp̃,
-//! and ΔH_c): Σ_i ω_i (T V_i) w_i f_i = T Vᵀ W f with T = L J_r⁻¹, and the same with f replaced by J V Δz̃. Relative weights ω = 1 on all rows
-//! solve the equations exactly; a greedy non-negative least squares finds few rows that nearly do, and pruning drops the least useful ones.
+//! For each iterate of the all-rows reduced model, some functionals of the Newton step are demanded to come out right
+//! (random ones of Δp̃, and ΔH_c): Σ_i ω_i (T V_i) w_i f_i = T Vᵀ W f with T = L J_r⁻¹, and the same with f replaced by
+//! J V Δz̃. Relative weights ω = 1 on all rows solve the equations exactly; a greedy non-negative least squares finds
+//! few rows that nearly do, and pruning drops the least useful ones.
 //!
-//! The equations of a point contact are thousands over thousands of rows: they are kept in single precision, and inner products are formed
-//! for rows that the greedy has looked at, not for all pairs.
+//! The equations of a point contact are thousands over thousands of rows: they are kept in single precision, and inner
+//! products are formed for rows that the greedy has looked at, not for all pairs.
 
 use super::sampling::{SampledRows, TestSpace};
 use faer::linalg::matmul::matmul;
@@ -107,8 +109,9 @@ impl GoalEquations {
 }
 
 impl GoalEquations {
-    /// Rows and relative weights, at most `most`, by the non-negative least squares of Lawson and Hanson (1974, chapter 23), which lowers the
-    /// residual with every row: for equations that can be met closely, whose neighbouring columns hardly differ. `None` when they are degenerate.
+    /// Rows and relative weights, at most `most`, by the non-negative least squares of Lawson and Hanson (1974, chapter
+    /// 23), which lowers the residual with every row: for equations that can be met closely, whose neighbouring columns
+    /// hardly differ. `None` when they are degenerate.
     pub fn fit(&self, most: usize) -> Option<(Vec<usize>, Vec<f64>)> {
         let mut fit = Fit::new(self);
         let mut support: Vec<usize> = Vec::with_capacity(most);
@@ -156,7 +159,8 @@ impl GoalEquations {
     }
 }
 
-/// Least squares on the equations' columns, scaled to unit length. Columns are named by their place among the candidates.
+/// Least squares on the equations' columns, scaled to unit length. Columns are named by their place among the
+/// candidates.
 struct Fit<'a> {
     equations: &'a GoalEquations,
     /// Lengths of the columns.
@@ -197,7 +201,8 @@ impl<'a> Fit<'a> {
         (0..self.norms.len()).filter(|&i| self.usable(i, largest)).count()
     }
 
-    /// Inner product of every unit column with what a rule leaves of the right-hand side; 0 for those that may not be used.
+    /// Inner product of every unit column with what a rule leaves of the right-hand side; 0 for those that may not be
+    /// used.
     fn gradient(&self, support: &[usize], weights: &[f64]) -> Vec<f64> {
         let GoalEquations { candidates, entries, wanted } = self.equations;
         let mut rest = wanted.clone();
@@ -286,7 +291,8 @@ impl<'a> Fit<'a> {
 /// Fewest rows per mode that are accepted: a rule with fewer leaves the reduced Jacobian (nearly) singular.
 const LEAST_ROWS_PER_MODE: f64 = 1.2;
 
-/// Sampled rows with G = V_Iᵀ diag(w ω). `None` when the equations are satisfied by too few rows to carry the modes: collect more of them.
+/// Sampled rows with G = V_Iᵀ diag(w ω). `None` when the equations are satisfied by too few rows to carry the modes:
+/// collect more of them.
 pub fn cubature(test: &TestSpace, equations: &GoalEquations, target: usize) -> Option<SampledRows> {
     let (rows, relative) = equations.solve(target)?;
     let modes = test.modes.ncols();
@@ -304,7 +310,8 @@ mod tests {
 
     #[test]
     fn finds_an_exact_sparse_rule_where_one_exists() {
-        // Integrals of polynomials up to degree 5 over 60 equal cells: few nodes suffice, and the fit must reproduce them.
+        // Integrals of polynomials up to degree 5 over 60 equal cells: few nodes suffice, and the fit must reproduce
+        // them.
         let n = 60;
         let x = |i: usize| (i as f64 + 0.5) / n as f64;
         let block = Mat::from_fn(6, n, |degree, i| x(i).powi(degree as i32) / n as f64);

@@ -41,8 +41,8 @@ pub struct ReducedSolution {
     pub iterations: usize,
     /// e_f^I, (3.15), in the L2 norm over X restricted to the sampled rows.
     pub residual_estimate: f64,
-    /// Calibrated estimate of its errors. None where the model has no calibration, or solved otherwise than it was calibrated: outside
-    /// its domain, with fewer modes or other settings.
+    /// Calibrated estimate of its errors. None where the model has no calibration, or solved otherwise than it was
+    /// calibrated: outside its domain, with fewer modes or other settings.
     pub error: Option<ErrorEstimate>,
     /// Whether the model was trained for the point.
     pub trust: Trust,
@@ -84,8 +84,9 @@ impl Online {
         self.former = Former::default();
     }
 
-    /// Solves a contact: from the last two solutions of this object where it continues their line, from the last one where that is near, else
-    /// from the snapshots around the point, else from the nearest one by (3.20), else by continuation from that one.
+    /// Solves a contact: from the last two solutions of this object where it continues their line, from the last one
+    /// where that is near, else from the snapshots around the point, else from the nearest one by (3.20), else by
+    /// continuation from that one.
     ///
     /// # Errors
     /// When the point is refused or Newton does not converge.

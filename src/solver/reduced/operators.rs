@@ -24,8 +24,8 @@ pub(crate) struct Operators {
     stencil: Vec<[usize; STENCIL]>,
     geometry: Vec<RowGeometry>,
     row_weights: Vec<f64>,
-    /// V_p on the support, then K V_p on it, then, of a shear-thinning model, its gradients by ξ and, of a point contact, by Y: row-major,
-    /// (2 + axes)·support × modes.
+    /// V_p on the support, then K V_p on it, then, of a shear-thinning model, its gradients by ξ and, of a point
+    /// contact, by Y: row-major, (2 + axes)·support × modes.
     state_rows: Vec<f64>,
     /// Axes along which the rows need gradients: none of a Newtonian model.
     axes: usize,
@@ -35,9 +35,11 @@ pub(crate) struct Operators {
     load_row: Vec<f64>,
     /// Places in the support, and weights, of the rule for the traction; empty without one.
     traction: Vec<(usize, f64)>,
-    /// V_δ V_δᵀ W K V_p over the whole node array, for reconstruction; none where the exact K V_p is used, which the window has.
+    /// V_δ V_δᵀ W K V_p over the whole node array, for reconstruction; none where the exact K V_p is used, which the
+    /// window has.
     projected: Option<Mat<f64>>,
-    /// E_δ of (3.13) with δ̃ condensed: what V_δ cannot represent of K V_p, as a quadratic form; empty for the exact operator.
+    /// E_δ of (3.13) with δ̃ condensed: what V_δ cannot represent of K V_p, as a quadratic form; empty for the exact
+    /// operator.
     deformation_error: Option<Mat<f64>>,
     scratch: Scratch,
 }
@@ -51,7 +53,8 @@ struct Place {
 }
 
 struct Scratch {
-    /// P and K P on the support, and the gradients where there are any. They follow the steps, so that each iteration multiplies once by the large `state_rows`.
+    /// P and K P on the support, and the gradients where there are any. They follow the steps, so that each iteration
+    /// multiplies once by the large `state_rows`.
     fields: Vec<f64>,
     step_fields: Vec<f64>,
     films: Vec<f64>,
@@ -69,8 +72,8 @@ struct Scratch {
 }
 
 impl Operators {
-    /// Operators with the first `modes` pressure modes and, if given, the first `deformation_modes` deformation modes; `thinning` for
-    /// lubricants that thin under shear.
+    /// Operators with the first `modes` pressure modes and, if given, the first `deformation_modes` deformation modes;
+    /// `thinning` for lubricants that thin under shear.
     pub fn new(window: &Window, modes: usize, deformation_modes: Option<usize>, thinning: bool) -> Self {
         Self::with_support(window, modes, deformation_modes, thinning, &[])
     }
@@ -185,8 +188,8 @@ impl Operators {
         self.stencil.iter().map(|stencil| self.scratch.nodes[stencil[CENTER]].flow)
     }
 
-    /// Traction coefficient (3.41) of the state evaluated last, by the window's rule; `None` where it has none, and under a limiting stress: the
-    /// rule was fitted to stresses that nothing cuts.
+    /// Traction coefficient (3.41) of the state evaluated last, by the window's rule; `None` where it has none, and
+    /// under a limiting stress: the rule was fitted to stresses that nothing cuts.
     pub fn traction(&self, problem: &Problem, scale: f64) -> Option<f64> {
         if self.traction.is_empty() || self.axes == 0 || problem.lubricant.limiting_stress.is_some() {
             return None;

@@ -13,8 +13,9 @@ pub struct PodBasis {
 }
 
 impl PodBasis {
-    /// Decomposes snapshots (one per column, node arrays) under the weights and keeps the modes up to a loss of information.
-    /// Nodes with zero weight get zero modes. Returns `None` when the decomposition fails (non-finite snapshots).
+    /// Decomposes snapshots (one per column, node arrays) under the weights and keeps the modes up to a loss of
+    /// information. Nodes with zero weight get zero modes. Returns `None` when the decomposition fails (non-finite
+    /// snapshots).
     pub fn new(snapshots: MatRef<'_, f64>, weights: &[f64], loss: f64) -> Option<Self> {
         let (nodes, columns) = (snapshots.nrows(), snapshots.ncols());
         if snapshots.row_iter().flat_map(|r| r.iter()).any(|v| !v.is_finite()) {
@@ -31,9 +32,10 @@ impl PodBasis {
         Some(basis)
     }
 
-    /// As many modes as `loss` asks of [`Self::new`], orthonormal under `weights` and with its singular values, but chosen so that they miss least
-    /// under `emphasis`, other weights that are positive where `weights` are: for equations to which some places matter more than others.
-    /// Returns `None` when a decomposition fails (non-finite snapshots).
+    /// As many modes as `loss` asks of [`Self::new`], orthonormal under `weights` and with its singular values, but
+    /// chosen so that they miss least under `emphasis`, other weights that are positive where `weights` are: for
+    /// equations to which some places matter more than others. Returns `None` when a decomposition fails (non-finite
+    /// snapshots).
     pub fn emphasised(snapshots: MatRef<'_, f64>, weights: &[f64], emphasis: &[f64], loss: f64) -> Option<Self> {
         let plain = Self::new(snapshots, weights, loss)?;
         let keep = plain.modes.ncols();

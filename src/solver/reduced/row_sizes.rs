@@ -10,10 +10,11 @@ use crate::solver::full::transient::Trajectory;
 /// States that the mean is taken over, about.
 const STATES: usize = 100;
 
-/// The mean of |∂r/∂P| of each row by its own pressure, its film included, in a time step along trajectories that kept fields; one value per unknown,
-/// in the scales of the trajectories' frame. `penalty` is the slope of Λ = −γ̄ min(P, 0) behind the rupture. In the far inlet it is 10⁸ times as
-/// large as under the contact: the little that modes miss there would decide over the film, if every row counted by its cell's size.
-/// The flow is taken from the inlet throughout: the other side hardly changes a size.
+/// The mean of |∂r/∂P| of each row by its own pressure, its film included, in a time step along trajectories that kept
+/// fields; one value per unknown, in the scales of the trajectories' frame. `penalty` is the slope of Λ = −γ̄ min(P, 0)
+/// behind the rupture. In the far inlet it is 10⁸ times as large as under the contact: the little that modes miss there
+/// would decide over the film, if every row counted by its cell's size. The flow is taken from the inlet throughout:
+/// the other side hardly changes a size.
 pub(crate) fn mean_diagonals(grid: &LineGrid, trajectories: &[&Trajectory], penalty: f64) -> Vec<f64> {
     let mut sums = vec![0.0; grid.unknowns()];
     let (mut count, gradient) = (0.0, PlaneGradient::along_line(&grid.x));

@@ -1,7 +1,7 @@
 //! Which rows of the Reynolds equation the online phase evaluates, and how the projected residual follows from them.
 //!
-//! Every method returns rows I and a matrix G (modes × rows) with Vᵀ W f ≈ G f_I, so that the online phase does not know which one was
-//! used.
+//! Every method returns rows I and a matrix G (modes × rows) with Vᵀ W f ≈ G f_I, so that the online phase does not
+//! know which one was used.
 
 use super::pod::PodBasis;
 use crate::solver::discrete::grid::ContactGrid;
@@ -118,7 +118,8 @@ fn interpolation_error(modes: &Mat<f64>, rows: &[usize], mode: usize) -> Vec<f64
     error
 }
 
-/// Q-DEIM on the Jacobian snapshots: as many rows as POD modes Φ, found by QR with column pivoting of Φᵀ (Drmač & Gugercin 2016).
+/// Q-DEIM on the Jacobian snapshots: as many rows as POD modes Φ, found by QR with column pivoting of Φᵀ (Drmač &
+/// Gugercin 2016).
 pub fn q_deim(test: &TestSpace, snapshots: &RowSnapshots, count: usize) -> Option<SampledRows> {
     let phi = leading_modes(&snapshots.jacobian, count)?;
     let count = phi.ncols();

@@ -1,16 +1,16 @@
 //! Traction (3.41) without large-scale work: the shear stress at mid-film of few nodes, with non-negative weights.
 //!
-//! The nodes are among those that the sampled rows depend on anyway, so that pressure, film and gradient are known there when the online iteration
-//! ends. The weights are fitted by non-negative least squares to ∫τ dX/∫τ dX = 1 over many reduced solutions under sliding: each
-//! contact counts the same, however large its traction is.
+//! The nodes are among those that the sampled rows depend on anyway, so that pressure, film and gradient are known
+//! there when the online iteration ends. The weights are fitted by non-negative least squares to ∫τ dX/∫τ dX = 1 over
+//! many reduced solutions under sliding: each contact counts the same, however large its traction is.
 
 use super::cubature::GoalEquations;
 use super::model::Window;
 use crate::solver::discrete::grid::ContactGrid;
 use serde::{Deserialize, Serialize};
 
-/// Nodes of a rule. They cost little, being evaluated anyway. Of shear-thinning point contacts 60 left errors of 2.7e-3 (95 %) and 1.2e-2 (max)
-/// of 1,446 random ones, more than the reduced fields themselves.
+/// Nodes of a rule. They cost little, being evaluated anyway. Of shear-thinning point contacts 60 left errors of 2.7e-3
+/// (95 %) and 1.2e-2 (max) of 1,446 random ones, more than the reduced fields themselves.
 const NODES: usize = 180;
 
 /// Weights of the mid-film stress at few nodes.
@@ -23,8 +23,8 @@ pub struct TractionRule {
 }
 
 impl TractionRule {
-    /// The rule that reproduces ∫τ for the stresses of many solutions, each given at every node of a window's grid. `None` when there are
-    /// too few solutions, or the fit fails.
+    /// The rule that reproduces ∫τ for the stresses of many solutions, each given at every node of a window's grid.
+    /// `None` when there are too few solutions, or the fit fails.
     pub fn fit(window: &Window, stresses: &[Vec<f64>]) -> Option<Self> {
         let quadrature = quadrature(&window.grid);
         let mut candidates: Vec<usize> = window

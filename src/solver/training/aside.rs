@@ -1,4 +1,5 @@
-//! Work that nothing can interrupt (a decomposition, a kernel, a plan of many points), done so that a cancel need not wait for it.
+//! Work that nothing can interrupt (a decomposition, a kernel, a plan of many points), done so that a cancel need not
+//! wait for it.
 
 use super::TrainingError;
 use crate::solver::observer::Observer;
@@ -11,7 +12,8 @@ const PATIENCE: Duration = Duration::from_millis(10);
 
 /// Does `work` on a thread of its own while the observer is asked; after a cancel the thread finishes unheard.
 ///
-/// Linear algebra splits its sums by the threads it finds: on one thread a model is the same to the last bit on every machine size.
+/// Linear algebra splits its sums by the threads it finds: on one thread a model is the same to the last bit on every
+/// machine size.
 ///
 /// # Errors
 /// When the observer cancels.

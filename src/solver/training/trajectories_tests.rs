@@ -1,4 +1,5 @@
-//! Reduced models in time: they reproduce what they were trained with, follow what they never saw, and are the same again.
+//! Reduced models in time: they reproduce what they were trained with, follow what they never saw, and are the same
+//! again.
 
 use super::{TrajectoryTraining, train_trajectories};
 use crate::solver::discrete::grid::{GridSpec, ReferenceGrid};
@@ -76,8 +77,8 @@ fn a_model_reproduces_its_training_in_every_frame_and_follows_an_unseen_load() {
 
 #[test]
 fn rows_and_modes_that_meet_halfway_reproduce_a_heavy_contact() {
-    // Case 2 of Table 4.5: the rupture passes nodes whose penalty answers 10⁵ times as strongly as the rows under the contact. Cell sizes alone, for
-    // rows and modes alike, leave 1.4e-4 here.
+    // Case 2 of Table 4.5: the rupture passes nodes whose penalty answers 10⁵ times as strongly as the rows under the
+    // contact. Cell sizes alone, for rows and modes alike, leave 1.4e-4 here.
     let heavy = OperatingPoint { radius_m: 0.01, speed_m_per_s: 2.5, load: 12e5, alpha_per_pa: 2e-8, ..POINT };
     let load = Signal::Harmonic { amplitude: 0.1, period: 0.5 };
     let training = full(&Transient { point: heavy, ..transient(Frame::Fixed, load) });

@@ -1,4 +1,5 @@
-//! Opening, saving and exporting: never blocks the window, never overwrites what the user did not name, never loses work unasked.
+//! Opening, saving and exporting: never blocks the window, never overwrites what the user did not name, never loses
+//! work unasked.
 
 mod path_window;
 

@@ -105,7 +105,8 @@ impl Along {
     }
 }
 
-/// The contact of (3.21) at c in a range: in a box of SI quantities the dissertation's, in others the same waves of its coordinates.
+/// The contact of (3.21) at c in a range: in a box of SI quantities the dissertation's, in others the same waves of its
+/// coordinates.
 fn contact(range: &Range, kind: ContactKind, c: f64) -> Option<OperatingPoint> {
     let wave = |halves: f64| 0.5 + 0.5 * (halves * PI * c).sin();
     range.at(kind, [3.0, 4.0, 5.0, 2.0].map(wave))

@@ -1,4 +1,5 @@
-//! Random tests in the M–L plane: where the reduced model fails, and how large its error is elsewhere. A click goes there.
+//! Random tests in the M–L plane: where the reduced model fails, and how large its error is elsewhere. A click goes
+//! there.
 
 use super::random_tests::{Results, Test};
 use super::worst::Worst;

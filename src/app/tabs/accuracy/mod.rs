@@ -1,5 +1,5 @@
-//! How far results can be believed: where the error of this contact comes from, how the model does over its whole range, what its calibrated
-//! bound is worth, and how the last full solve converged.
+//! How far results can be believed: where the error of this contact comes from, how the model does over its whole
+//! range, what its calibrated bound is worth, and how the last full solve converged.
 
 mod along;
 mod failure_map;

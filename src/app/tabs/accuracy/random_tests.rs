@@ -1,4 +1,5 @@
-//! Random tests (3.17) of the reduced model over what it was trained for: the work on its own thread, and what came of it.
+//! Random tests (3.17) of the reduced model over what it was trained for: the work on its own thread, and what came of
+//! it.
 
 use crate::app::answers::jobs::wake;
 use crate::app::in_use::{InUse, Solvers};

@@ -218,7 +218,8 @@ fn bars(ui: &mut Ui, split: &ErrorSplit, current: bool) {
     }
 }
 
-/// How one plot of bars is drawn: its axis (log10), its height, whether rows have their names, whether it is up to date.
+/// How one plot of bars is drawn: its axis (log10), its height, whether rows have their names, whether it is up to
+/// date.
 struct Look {
     range: (f64, f64),
     height: f32,

@@ -1,4 +1,5 @@
-//! The reduced basis: how fast the singular values fall, what the tolerances keep, what the modes look like, where rows are sampled.
+//! The reduced basis: how fast the singular values fall, what the tolerances keep, what the modes look like, where rows
+//! are sampled.
 
 mod losses;
 mod modes;

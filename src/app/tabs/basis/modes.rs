@@ -111,7 +111,8 @@ fn shapes(
     );
 }
 
-/// One mode along the axis Y = 0, scaled to a largest magnitude of one: its weights make the columns themselves hard to compare.
+/// One mode along the axis Y = 0, scaled to a largest magnitude of one: its weights make the columns themselves hard to
+/// compare.
 fn mode_points(basis: &PodBasis, grid: &ContactGrid, k: usize) -> Vec<PlotPoint> {
     let points = plane::scaled(basis, k).into_iter().enumerate().map(|(node, v)| (grid.place(node), v));
     // A line contact's node arrays begin with one outside the inlet.

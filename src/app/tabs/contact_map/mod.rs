@@ -1,5 +1,5 @@
-//! The contact map: film or pressure of a point contact over the whole plane, and the interferogram that a rig shows of it. Two lines that
-//! can be dragged say where Profiles cuts it.
+//! The contact map: film or pressure of a point contact over the whole plane, and the interferogram that a rig shows of
+//! it. Two lines that can be dragged say where Profiles cuts it.
 
 mod contours;
 mod export;

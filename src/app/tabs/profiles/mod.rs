@@ -1,4 +1,5 @@
-//! Pressure and film against X, one above the other on a shared axis; the difference to the full solution below on request.
+//! Pressure and film against X, one above the other on a shared axis; the difference to the full solution below on
+//! request.
 
 mod film_shear;
 

@@ -1,4 +1,5 @@
-//! The training trajectory with its operating points, chosen by the rule in use, and what the other rule would choose instead.
+//! The training trajectory with its operating points, chosen by the rule in use, and what the other rule would choose
+//! instead.
 
 use super::{Shown, near, point_under};
 use crate::app::numbers;

@@ -1,4 +1,5 @@
-//! The laws of the fluid: how its viscosity rises with pressure and falls with shear stress, and how much of both this contact meets.
+//! The laws of the fluid: how its viscosity rises with pressure and falls with shear stress, and how much of both this
+//! contact meets.
 
 use crate::app::context::Context;
 use crate::app::numbers;
@@ -67,7 +68,8 @@ pub fn ui(ui: &mut Ui, stress_met: &mut Option<(Arc<Solution>, f64)>, context: &
     }
 }
 
-/// The largest shear stress along the axis of a solution \[Pa\]: across the film it is linear, so one of both surfaces has it.
+/// The largest shear stress along the axis of a solution \[Pa\]: across the film it is linear, so one of both surfaces
+/// has it.
 fn largest_stress(solution: &Solution) -> f64 {
     solution.shear_field(&[0.0, 1.0]).iter().map(|shear| shear.stress_pa.abs()).fold(0.0, f64::max)
 }

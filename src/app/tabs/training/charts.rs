@@ -101,7 +101,8 @@ pub fn plane(ui: &mut Ui, desk: &Desk, height: f32) {
     );
 }
 
-/// The indicator of every bad approximation against the number of full solutions when it was found; tolerances as lines.
+/// The indicator of every bad approximation against the number of full solutions when it was found; tolerances as
+/// lines.
 pub fn indicator(ui: &mut Ui, desk: &Desk, height: f32) {
     let palette = Palette::of(ui);
     let chart = &desk.training.chart;

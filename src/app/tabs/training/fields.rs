@@ -1,4 +1,5 @@
-//! Rows of the form: numbers that are dragged or typed, intervals, counts, choices, each with why its last entry was refused.
+//! Rows of the form: numbers that are dragged or typed, intervals, counts, choices, each with why its last entry was
+//! refused.
 
 use crate::app::controls::{choice, explained, message_ui, named};
 use crate::app::numbers;

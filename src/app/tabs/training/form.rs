@@ -1,4 +1,5 @@
-//! The specification of a training as a form: presets, range, plan, reduction. What makes no sense is refused beside its field.
+//! The specification of a training as a form: presets, range, plan, reduction. What makes no sense is refused beside
+//! its field.
 
 use super::fields::{Form, choose, row, short};
 use crate::app::controls::{heading, named};

@@ -1,5 +1,5 @@
-//! The runs as a table, which is the plots' legend too: where each stands at this moment, how far it lies from what it is compared with, and what
-//! it cost.
+//! The runs as a table, which is the plots' legend too: where each stands at this moment, how far it lies from what it
+//! is compared with, and what it cost.
 
 use super::series;
 use crate::app::desk::Desk;

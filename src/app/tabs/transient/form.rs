@@ -1,5 +1,5 @@
-//! What drives the contact as a form: the three inputs with a preview, duration, steps and frames. What makes no sense is refused
-//! beside its field.
+//! What drives the contact as a form: the three inputs with a preview, duration, steps and frames. What makes no sense
+//! is refused beside its field.
 
 use super::methods;
 use crate::app::controls::heading;

@@ -1,5 +1,5 @@
-//! The methods of a contact in time: the full system, which models are trained by and compared with, the reduced model and the linearised
-//! one with their settings, and what they are trained on.
+//! The methods of a contact in time: the full system, which models are trained by and compared with, the reduced model
+//! and the linearised one with their settings, and what they are trained on.
 
 use crate::app::controls::heading;
 use crate::app::tabs::training::fields::{Form, choose};

@@ -130,7 +130,8 @@ pub fn run_button(ui: &mut Ui, desk: &mut Desk) {
     }
 }
 
-/// What runs and how far it is; how runs ended that did not reach the end; whether all of it is still what the sliders say.
+/// What runs and how far it is; how runs ended that did not reach the end; whether all of it is still what the sliders
+/// say.
 pub fn status(ui: &mut Ui, desk: &Desk) {
     let view = &desk.transient;
     if let Some(standing) = view.work.standing() {

@@ -13,8 +13,8 @@ use egui_plot::{HLine, Line, LineStyle, PlotPoint, PlotPoints, VLine};
 /// Points of a curve beyond which only the extremes of neighbouring ones are drawn.
 const MOST_POINTS: usize = 3000;
 
-/// The line of a run: the frame by dashes; a linearised model broad and pale, the reduced model thick, the full one thin over them, the
-/// first of full ones alone thick.
+/// The line of a run: the frame by dashes; a linearised model broad and pale, the reduced model thick, the full one
+/// thin over them, the first of full ones alone thick.
 pub fn style(view: &TransientView, k: usize, color: Color32, palette: &Palette) -> (Color32, f32, LineStyle) {
     let Some(run) = view.runs.get(k) else { return (color, 1.0, LineStyle::Solid) };
     let dashes = match run.frame() {

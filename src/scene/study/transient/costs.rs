@@ -23,8 +23,8 @@ const COLUMNS: [&str; 13] = [
     "published times faster",
 ];
 
-/// The table `costs` of some marches: medians of their steps, whole marches, and how many times faster than the full one they are; the relative L2
-/// difference of H_c from it.
+/// The table `costs` of some marches: medians of their steps, whole marches, and how many times faster than the full
+/// one they are; the relative L2 difference of H_c from it.
 pub(super) fn table(study: &TransientStudy, marches: &[&March], models: &[&Model]) -> Table {
     let mut table = Table::new("costs", &COLUMNS);
     let number = |value: Option<f64>| value.unwrap_or(f64::NAN);

@@ -47,7 +47,8 @@ impl TransientStudy {
         self.trainings.is_empty() && self.training_loads.is_empty()
     }
 
-    /// The marches that models of a frame are trained by, load by load, where it is not the study's own in that frame, which is given.
+    /// The marches that models of a frame are trained by, load by load, where it is not the study's own in that frame,
+    /// which is given.
     pub fn training_marches(&self, own: &Transient) -> Vec<Transient> {
         if self.trains_on_itself() {
             return Vec::new();

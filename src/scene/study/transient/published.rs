@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PublishedMarch {
-    /// Of what and by which method: a frame, then `full`, `rnsa` or `tpwl`, as in `fixed.rnsa`; behind the name of further inputs where it is
-    /// of these, as in `triangle.fixed.rnsa`.
+    /// Of what and by which method: a frame, then `full`, `rnsa` or `tpwl`, as in `fixed.rnsa`; behind the name of
+    /// further inputs where it is of these, as in `triangle.fixed.rnsa`.
     pub name: String,
     /// Pressure modes, or unknowns of the reduced system where only these are known.
     #[serde(default, skip_serializing_if = "Option::is_none")]

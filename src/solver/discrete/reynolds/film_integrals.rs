@@ -1,10 +1,12 @@
-//! The integrals (3.24) of a generalized-Newtonian fluid across the film, with their derivatives: the inner problem of (3.23).
+//! The integrals (3.24) of a generalized-Newtonian fluid across the film, with their derivatives: the inner problem of
+//! (3.23).
 //!
-//! Across the film the shear stress is linear, τ(ζ) = τ_m + (a, b) ζ with ζ = Z − ½: the pressure gradient makes its difference between the
-//! surfaces, and the stress τ_m at mid-film is such that the shear rates add up to the sliding speed, ∫ τ g(|τ|) dζ = (S, 0). All
-//! stresses are in units of the law's own scale, g = μ/η is the law's fluidity. So everything depends on three scalars only:
-//! a = κ₁H P_X, b = κ₁H P_Y and S = κ₂ μ̄/H. This is (3.29)–(3.36) with τ_m instead of χ̄₀ and χ̄₁ as the unknown of
-//! the inner Newton iteration; for a line contact (b = 0) it is one monotone scalar equation, without sliding τ_m = 0 needs none.
+//! Across the film the shear stress is linear, τ(ζ) = τ_m + (a, b) ζ with ζ = Z − ½: the pressure gradient makes its
+//! difference between the surfaces, and the stress τ_m at mid-film is such that the shear rates add up to the sliding
+//! speed, ∫ τ g(|τ|) dζ = (S, 0). All stresses are in units of the law's own scale, g = μ/η is the law's fluidity. So
+//! everything depends on three scalars only: a = κ₁H P_X, b = κ₁H P_Y and S = κ₂ μ̄/H. This is (3.29)–(3.36) with τ_m
+//! instead of χ̄₀ and χ̄₁ as the unknown of the inner Newton iteration; for a line contact (b = 0) it is one monotone
+//! scalar equation, without sliding τ_m = 0 needs none.
 
 mod known;
 mod moments;
@@ -47,14 +49,15 @@ pub struct FilmIntegrals {
     pub iterations: usize,
 }
 
-/// Iterations of the inner Newton method at most. The named lubricants need five; a power law with n = 0.2 needs eight, and so does a hyperbolic
-/// sine at ten times its scale.
+/// Iterations of the inner Newton method at most. The named lubricants need five; a power law with n = 0.2 needs eight,
+/// and so does a hyperbolic sine at ten times its scale.
 const MOST_ITERATIONS: usize = 12;
 
 /// How many times as fluid as sliding the pressure gradient must make the film for a start that counts on the gradient.
 const MUCH_MORE_FLUID: f64 = 10.0;
 
-/// A step, relative to τ_m, below which the next one, its square, would be below rounding: the integrals then follow it to first order.
+/// A step, relative to τ_m, below which the next one, its square, would be below rounding: the integrals then follow it
+/// to first order.
 const LAST_STEP: f64 = 1e-7;
 
 /// The same relative to a and b, where τ_m is so much smaller that rounding hides it.
@@ -79,7 +82,8 @@ pub fn film_integrals(law: &Fluidity, rule: &FilmRule, load: FilmLoad) -> FilmIn
 /// A first τ_m, and the evaluations of the film that it took.
 fn cold_start(law: &Fluidity, rule: &FilmRule, load: &FilmLoad) -> ([f64; 2], usize) {
     let FilmLoad { a, b, sliding } = *load;
-    // The rates of a film under a pressure gradient lie above those of the stress at mid-film alone: this start is never too small.
+    // The rates of a film under a pressure gradient lie above those of the stress at mid-film alone: this start is
+    // never too small.
     let mid = [law.stress_near(sliding.abs()).copysign(sliding), 0.0];
     let edge = 0.5 * length([a, b]);
     if sliding != 0.0 && edge > mid[0].abs() && law.at(edge).0 > MUCH_MORE_FLUID * law.at(mid[0].abs()).0 {

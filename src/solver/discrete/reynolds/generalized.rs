@@ -1,9 +1,10 @@
 //! The generalized Reynolds row (3.23): what shear-thinning adds to the nodes of the row, and to its derivatives.
 //!
-//! A shear-thinning node is a Newtonian one whose mobility is multiplied by φ and whose flow by 1 + SRR (½ − Z₀), with the film integrals of the
-//! gradient at the node itself. The row then is the Newtonian row. Only the derivatives grow by two more kinds: with respect to
-//! the nodal gradients P_X and P_Y, which are central differences. So the row reaches from X −3 to +2, across to Y ±2 and to the diagonals,
-//! as ∂f/∂P + (∂f/∂P_X) G_X + (∂f/∂P_Y) G_Y with the fixed difference operators of [`NodalGradient`].
+//! A shear-thinning node is a Newtonian one whose mobility is multiplied by φ and whose flow by 1 + SRR (½ − Z₀), with
+//! the film integrals of the gradient at the node itself. The row then is the Newtonian row. Only the derivatives grow
+//! by two more kinds: with respect to the nodal gradients P_X and P_Y, which are central differences. So the row
+//! reaches from X −3 to +2, across to Y ±2 and to the diagonals, as ∂f/∂P + (∂f/∂P_X) G_X + (∂f/∂P_Y) G_Y with the
+//! fixed difference operators of [`NodalGradient`].
 
 use super::film_integrals::{FilmLoad, FilmRule, KnownFilm, PRODUCTION_RULE, film_integrals_near};
 use super::{CENTER, EAST, NORTH, Node, RowGeometry, SOUTH, STENCIL, WEST};
@@ -31,7 +32,8 @@ pub struct ShearNode {
 pub struct FilmTreatment {
     /// The rule across the film.
     pub rule: &'static FilmRule,
-    /// Whether they count as constants in the Jacobian: cheaper, and as good within rounding of the answer, but no longer quadratic.
+    /// Whether they count as constants in the Jacobian: cheaper, and as good within rounding of the answer, but no
+    /// longer quadratic.
     pub frozen: bool,
 }
 
@@ -147,8 +149,8 @@ pub fn gradient_slopes(geometry: &RowGeometry, nodes: [&ShearNode; STENCIL], axi
     out
 }
 
-/// The operators G_X and G_Y: central differences of P along one axis, of second order also where the spacing varies. Beyond both ends
-/// P vanishes, unless the last entry lies on an axis of symmetry.
+/// The operators G_X and G_Y: central differences of P along one axis, of second order also where the spacing varies.
+/// Beyond both ends P vanishes, unless the last entry lies on an axis of symmetry.
 #[derive(Clone, Debug, Default)]
 pub struct NodalGradient {
     /// Weights of the neighbour upstream, the node itself and the neighbour downstream.
@@ -169,7 +171,8 @@ impl NodalGradient {
         Self { weights: weights.collect() }
     }
 
-    /// The same where the last abscissa is an axis of symmetry: the gradient vanishes there, and so it does where there is no other.
+    /// The same where the last abscissa is an axis of symmetry: the gradient vanishes there, and so it does where there
+    /// is no other.
     pub fn up_to_axis(x: &[f64]) -> Self {
         if x.len() < 2 {
             return Self { weights: vec![[0.0; 3]; x.len()] };

@@ -1,6 +1,7 @@
 //! The nodes of a line contact's row: four neighbours, upwind from whichever side the flow comes.
 //!
-//! A row whose flow comes from the outlet is the row of the mirrored contact: the same function, with its nodes in the opposite order.
+//! A row whose flow comes from the outlet is the row of the mirrored contact: the same function, with its nodes in the
+//! opposite order.
 
 use super::{CENTER, RowGeometry, STENCIL};
 

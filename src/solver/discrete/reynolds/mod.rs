@@ -1,9 +1,10 @@
 //! ONE row of the discrete Reynolds equation (2.31) at one node: its value and exact derivatives.
 //!
-//! The row is a function of six nodes, in the order [`WEST2`], [`WEST`], [`CENTER`], [`EAST`], [`SOUTH`], [`NORTH`]; a line contact
-//! is a grid with one row of nodes in Y, whose Y coefficients are zero. The full system asks for all rows, a hyper-reduced model
-//! for its sampled ones. The spacing may vary along X: the upwind quotient is (B.4), which is (2.32) on a uniform grid, and the diffusion
-//! term is the flux difference over the cell, which is the dissertation's on a uniform grid.
+//! The row is a function of six nodes, in the order [`WEST2`], [`WEST`], [`CENTER`], [`EAST`], [`SOUTH`], [`NORTH`]; a
+//! line contact is a grid with one row of nodes in Y, whose Y coefficients are zero. The full system asks for all rows,
+//! a hyper-reduced model for its sampled ones. The spacing may vary along X: the upwind quotient is (B.4), which is
+//! (2.32) on a uniform grid, and the diffusion term is the flux difference over the cell, which is the dissertation's
+//! on a uniform grid.
 
 pub mod film_integrals;
 pub mod generalized;
@@ -73,8 +74,8 @@ impl Node {
     }
 }
 
-/// Coefficients of one row. Where nothing changes in time they are difference coefficients, which depend on the grid only; in time the
-/// storage of (2.31) is part of them, see [`RowGeometry::in_time`].
+/// Coefficients of one row. Where nothing changes in time they are difference coefficients, which depend on the grid
+/// only; in time the storage of (2.31) is part of them, see [`RowGeometry::in_time`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RowGeometry {
     /// Weights of ρ̄H at [`WEST2`], [`WEST`], [`CENTER`] in ∂(ρ̄H)/∂X, (B.4).
@@ -92,7 +93,8 @@ pub struct RowGeometry {
 }
 
 impl RowGeometry {
-    /// Coefficients of the row at the third of four neighbouring abscissae x₋₂ < x₋₁ < x₀ < x₊₁, without diffusion across.
+    /// Coefficients of the row at the third of four neighbouring abscissae x₋₂ < x₋₁ < x₀ < x₊₁, without diffusion
+    /// across.
     pub fn new(x: [f64; 4]) -> Self {
         let (h0, h1, h2) = (x[1] - x[0], x[2] - x[1], x[3] - x[2]);
         let r = h1 / h0;
@@ -105,8 +107,8 @@ impl RowGeometry {
         }
     }
 
-    /// Coefficients in the first column behind the inlet of a point contact, where the upwind quotient is of first order. The
-    /// abscissae are the inlet's, the column's own and the next one's; the node at [`WEST2`] has no weight.
+    /// Coefficients in the first column behind the inlet of a point contact, where the upwind quotient is of first
+    /// order. The abscissae are the inlet's, the column's own and the next one's; the node at [`WEST2`] has no weight.
     pub fn first_column(x: [f64; 3]) -> Self {
         let (h1, h2) = (x[1] - x[0], x[2] - x[1]);
         let cell = 0.5 * (h1 + h2);
@@ -120,15 +122,16 @@ impl RowGeometry {
         Self { upwind: self.upwind.map(|w| w * first), west: self.west * second, east: self.east * second, ..*self }
     }
 
-    /// The same row with diffusion across: `south` and `north` are the distances to the neighbours in Y. On the symmetry axis there is
-    /// no northern one: the cell is then the southern half, through whose axis nothing flows.
+    /// The same row with diffusion across: `south` and `north` are the distances to the neighbours in Y. On the
+    /// symmetry axis there is no northern one: the cell is then the southern half, through whose axis nothing flows.
     pub fn across(self, south: f64, north: Option<f64>) -> Self {
         let cell = 0.5 * (south + north.unwrap_or(0.0));
         Self { south: 1.0 / (south * cell), north: north.map_or(0.0, |h| 1.0 / (h * cell)), ..self }
     }
 
-    /// The same row in time: the flow passes the node at `speed` ≥ 0 instead of 1, and ∂(ρ̄H)/∂T is `storage` ρ̄H + `history`. The
-    /// storage joins the upwind weight of the row's own node, so a row in time costs what a stationary one does.
+    /// The same row in time: the flow passes the node at `speed` ≥ 0 instead of 1, and ∂(ρ̄H)/∂T is `storage` ρ̄H +
+    /// `history`. The storage joins the upwind weight of the row's own node, so a row in time costs what a stationary
+    /// one does.
     pub fn in_time(self, speed: f64, storage: f64, history: f64) -> Self {
         let [west_2, west, center] = self.upwind.map(|weight| speed * weight);
         Self { upwind: [west_2, west, center + storage], history, ..self }

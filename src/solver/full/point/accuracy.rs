@@ -1,12 +1,14 @@
-//! How far a point contact's solution is from the limit of fine grids: estimated from two grids, and a warning from one.
+//! How far a point contact's solution is from the limit of fine grids: estimated from two grids, and a warning from
+//! one.
 
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::solution::{Mesh, Solution};
 
 /// Curvature of the film across the side lobes beyond which they are called unresolved.
 ///
-/// Measured on 13 contacts with M 13…1000, each with ΔY 0.05, 0.025 and 0.0125, against the value extrapolated in ΔY: with a curvature
-/// of 0.1 H_min is 2 % too small, at 0.25 4–7 %, at 0.45 8 %, at 1.2 20–25 %, at 6 (M = 858, L = 8, ΔY 0.05) by a factor 3, at 14 by 4.
+/// Measured on 13 contacts with M 13…1000, each with ΔY 0.05, 0.025 and 0.0125, against the value extrapolated in ΔY:
+/// with a curvature of 0.1 H_min is 2 % too small, at 0.25 4–7 %, at 0.45 8 %, at 1.2 20–25 %, at 6 (M = 858, L = 8, ΔY
+/// 0.05) by a factor 3, at 14 by 4.
 const UNRESOLVED_CURVATURE: f64 = 0.5;
 
 /// A quantity in the limit of fine grids, by Richardson's extrapolation with the scheme's second order.
@@ -27,7 +29,8 @@ pub struct Accuracy {
     pub h_min: Estimate,
 }
 
-/// Nodes along X times nodes across squared, to which the time of a solve is proportional, up to which a second grid may be finer.
+/// Nodes along X times nodes across squared, to which the time of a solve is proportional, up to which a second grid
+/// may be finer.
 const AFFORDABLE: usize = 9_000_000;
 
 /// The grid by which the error on another is estimated: half its spacings where that takes seconds at most, else twice.
@@ -53,8 +56,8 @@ impl Accuracy {
         (off(solution.scalars.h_c, self.h_c), off(solution.scalars.h_min, self.h_min))
     }
 
-    /// Compares solutions of one problem on two grids over one domain. The estimate covers the directions in which the spacing differs;
-    /// where both do, it must be by the same factor. None where the two cannot be compared so.
+    /// Compares solutions of one problem on two grids over one domain. The estimate covers the directions in which the
+    /// spacing differs; where both do, it must be by the same factor. None where the two cannot be compared so.
     pub fn of(coarse: &Solution, fine: &Solution) -> Option<Self> {
         let (Mesh::Point(wide), Mesh::Point(narrow)) = (coarse.mesh, fine.mesh) else { return None };
         if coarse.problem != fine.problem || wide.domain != narrow.domain || wide.refinement != narrow.refinement {
@@ -77,7 +80,8 @@ impl Accuracy {
     }
 }
 
-/// Second difference of the film across the side lobe relative to its smallest film: (H_s + H_n − 2 H_min)/H_min. Zero for a line contact.
+/// Second difference of the film across the side lobe relative to its smallest film: (H_s + H_n − 2 H_min)/H_min. Zero
+/// for a line contact.
 pub fn side_lobe_curvature(solution: &Solution) -> f64 {
     let ny = solution.y.len();
     let (x, y) = (solution.scalars.x_h_min, solution.scalars.y_h_min);

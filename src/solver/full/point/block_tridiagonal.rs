@@ -1,5 +1,6 @@
-//! LU factorisation of a block-tridiagonal matrix in single precision, from both ends towards the middle: two threads share it, and
-//! no arithmetic is added. Inside the blocks rows are pivoted. It serves as a preconditioner, so single precision loses nothing.
+//! LU factorisation of a block-tridiagonal matrix in single precision, from both ends towards the middle: two threads
+//! share it, and no arithmetic is added. Inside the blocks rows are pivoted. It serves as a preconditioner, so single
+//! precision loses nothing.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
@@ -8,7 +9,8 @@ use faer::perm::PermRef;
 use faer::{Accum, MatMut, MatRef, Par};
 use std::ops::Range;
 
-/// Products of entries on one side between two questions whether to go on: some ten milliseconds, and all of a 301×41 grid.
+/// Products of entries on one side between two questions whether to go on: some ten milliseconds, and all of a 301×41
+/// grid.
 const PRODUCTS_BETWEEN_QUESTIONS: usize = 80_000_000;
 
 /// A square matrix of blocks on three diagonals; after [`BlockTridiagonal::factorise`] its factors.
@@ -68,7 +70,8 @@ impl BlockTridiagonal {
             .map(|(index, (diagonal, (lower, upper)))| BlockRow { index, diagonal, lower, upper })
     }
 
-    /// Factorises in place. Every few milliseconds `go_on` is asked; `false` when it said no: then these are no factors.
+    /// Factorises in place. Every few milliseconds `go_on` is asked; `false` when it said no: then these are no
+    /// factors.
     pub fn factorise(&mut self, go_on: impl Fn() -> bool) -> bool {
         let (size, square) = (self.size, self.size * self.size);
         let middle = self.blocks / 2;
@@ -145,7 +148,8 @@ fn parts<T>(all: &mut [T], middle: usize, stride: usize) -> [&mut [T]; 3] {
     [left, center, right]
 }
 
-/// Factorises some of the blocks of one side, counted from its outer end inwards; `inward` become D⁻¹ times the couplings towards the middle.
+/// Factorises some of the blocks of one side, counted from its outer end inwards; `inward` become D⁻¹ times the
+/// couplings towards the middle.
 fn eliminate(
     steps: Range<usize>,
     size: usize,

@@ -1,5 +1,6 @@
-//! Newton's method on the half plane of a point contact. There is no line search on the residual: the penalty makes it jump at the
-//! cavitation front, and the steps would collapse. Steps are limited by what pressure and film can bear instead.
+//! Newton's method on the half plane of a point contact. There is no line search on the residual: the penalty makes it
+//! jump at the cavitation front, and the steps would collapse. Steps are limited by what pressure and film can bear
+//! instead.
 
 mod accuracy;
 mod block_tridiagonal;
@@ -63,8 +64,9 @@ impl Default for Cycles {
 }
 
 impl Cycles {
-    /// The share of a step of this size that is taken. Where the front cycles, nodes that all change sides at once, there and back, do so in
-    /// smaller groups. The golden ratio spreads the shares over 0.035…0.7 and never repeats them: a repeating pattern can become part of a cycle.
+    /// The share of a step of this size that is taken. Where the front cycles, nodes that all change sides at once,
+    /// there and back, do so in smaller groups. The golden ratio spreads the shares over 0.035…0.7 and never repeats
+    /// them: a repeating pattern can become part of a cycle.
     fn share(&mut self, size: f64) -> f64 {
         // A step as large as the one before the last, late: the front moves to and fro.
         let cycles = !(size > LATE_STEP || size < 0.9 * self.recent[0]);

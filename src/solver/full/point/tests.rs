@@ -21,7 +21,8 @@ fn solve(spec: PointGridSpec, point: &OperatingPoint) -> Solution {
     PointSolver::new(spec).unwrap().solve(point, Lubricant::default(), Start::Cold, &()).unwrap()
 }
 
-/// A state in which some pressures are negative, so that the penalty takes part, and a direction: ΔP, and ΔH with ΔH₀ = 0.3.
+/// A state in which some pressures are negative, so that the penalty takes part, and a direction: ΔP, and ΔH with ΔH₀ =
+/// 0.3.
 fn state(problem: &Problem) -> (System<PlaneSpace>, Vec<f64>, Vec<f64>) {
     let grid = PointGridSpec::uniform(0.1, 0.2, (-2.5, 1.5, -1.6)).build().unwrap();
     let mut system = System::new(PlaneSpace { grid: Arc::clone(&grid) });

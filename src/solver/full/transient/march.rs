@@ -91,11 +91,13 @@ pub struct Step {
     pub quotient: BackwardDifference,
     /// Its length over that of the former step.
     pub ratio: f64,
-    /// ȧ/a of the moving nodes by the same quotient as everything else, so that nodes in motion alone change no field; 0 in the other frames.
+    /// ȧ/a of the moving nodes by the same quotient as everything else, so that nodes in motion alone change no field;
+    /// 0 in the other frames.
     pub growth: f64,
 }
 
-/// A model of the contact that can be taken through time. It holds its present state, two former ones, and the one under trial.
+/// A model of the contact that can be taken through time. It holds its present state, two former ones, and the one
+/// under trial.
 pub trait Marching {
     /// The grid its fields live on.
     fn grid(&self) -> &LineGrid;
@@ -170,7 +172,8 @@ impl Transient {
 }
 
 impl Step {
-    /// The step to `now` after the states at `former` conditions. The first step of a march has no former one: its `step_before` is its own.
+    /// The step to `now` after the states at `former` conditions. The first step of a march has no former one: its
+    /// `step_before` is its own.
     pub fn new(frame: Frame, now: Conditions, former: [Scales; 2], step: f64, step_before: f64) -> Self {
         let quotient = BackwardDifference::second_order(step, step_before);
         let growth = match frame {
@@ -188,7 +191,8 @@ impl Step {
         self.now.speed - self.growth * x
     }
 
-    /// Weights of the former ρ̄H, the nearer one first: (R/a²) ∂/∂T of (a²/R) ρ̄H, which is ∂(ρ̄H)/∂T with the growth of the scale of H.
+    /// Weights of the former ρ̄H, the nearer one first: (R/a²) ∂/∂T of (a²/R) ρ̄H, which is ∂(ρ̄H)/∂T with the growth
+    /// of the scale of H.
     pub fn history_weights(&self) -> [f64; 2] {
         std::array::from_fn(|i| self.quotient.former[i] * self.former[i].film / self.now.scales.film)
     }
@@ -197,7 +201,8 @@ impl Step {
 /// Takes a model through time.
 ///
 /// # Errors
-/// When the contact, the inputs, the times or the lubricant is refused. A march that ends early is an answer: it says when and why.
+/// When the contact, the inputs, the times or the lubricant is refused. A march that ends early is an answer: it says
+/// when and why.
 pub fn march(
     model: &mut dyn Marching,
     transient: &Transient,

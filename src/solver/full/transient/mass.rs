@@ -28,9 +28,9 @@ impl MassBalance {
 const CELLS: usize = 2000;
 
 impl Trajectory {
-    /// The balance between `from` and `to`, in units of a_ref: by quadrature of the kept fields and the fluxes through both ends, with no
-    /// use of the discrete equations. The film must be full between them. `None` with fewer than two states, or where a place leaves the
-    /// domain.
+    /// The balance between `from` and `to`, in units of a_ref: by quadrature of the kept fields and the fluxes through
+    /// both ends, with no use of the discrete equations. The film must be full between them. `None` with fewer than two
+    /// states, or where a place leaves the domain.
     pub fn mass_balance(&self, (from, to): (f64, f64)) -> Option<MassBalance> {
         let mut balance = MassBalance::default();
         let mut former: Option<(f64, f64, f64)> = None;

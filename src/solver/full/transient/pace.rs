@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum TimeStep {
-    /// All the same; the duration is divided evenly. A step that cannot be taken at once is taken in smaller ones, down to a 64th, and
-    /// only its end is recorded.
+    /// All the same; the duration is divided evenly. A step that cannot be taken at once is taken in smaller ones, down
+    /// to a 64th, and only its end is recorded.
     Fixed(f64),
     /// As long as the solution stays near the straight line through the two former ones.
     Adaptive {
@@ -24,7 +24,8 @@ const GREATEST_RATIO: f64 = 1.8;
 const SHORTEST_PART: f64 = 1e-5;
 /// A step is repeated when it should have been shorter than this part of its length.
 const TOO_FAR: f64 = 0.5;
-/// Part of its length that a failed step is tried with again: adaptive ones were too long by much, fixed ones by little.
+/// Part of its length that a failed step is tried with again: adaptive ones were too long by much, fixed ones by
+/// little.
 const RETRIED: [f64; 2] = [0.25, 0.5];
 /// A fixed step is not divided into more.
 const MOST_PARTS: f64 = 64.0;
@@ -79,8 +80,8 @@ impl Pace {
         time + self.length
     }
 
-    /// Whether the step just solved is short enough, by its deviation from the extrapolation, which is of second order in its length. If it
-    /// is not, the next one will be shorter, else the next one follows on it.
+    /// Whether the step just solved is short enough, by its deviation from the extrapolation, which is of second order
+    /// in its length. If it is not, the next one will be shorter, else the next one follows on it.
     pub fn accepts(&mut self, deviation: impl FnOnce() -> f64) -> bool {
         let wanted = match self.time_step {
             TimeStep::Fixed(step) => (DOUBLED * self.length).min(step),

@@ -24,7 +24,8 @@ pub enum Signal {
         /// T₁ and T₂.
         periods: (f64, f64),
     },
-    /// Between a triangle wave (s = 0) and a square wave (s = 1) around 1, Fig. 4.16: a triangle 1/(1 − s) times as high, cut at ±A.
+    /// Between a triangle wave (s = 0) and a square wave (s = 1) around 1, Fig. 4.16: a triangle 1/(1 − s) times as
+    /// high, cut at ±A.
     TriangleToSquare {
         /// A.
         amplitude: f64,
@@ -215,8 +216,8 @@ impl Inputs {
         Input { radius: self.radius.at(time), speed: self.speed.at(time), load: self.load.at(time) }
     }
 
-    /// Refuses functions without sense, and a radius or a load that does not stay positive over 0 ≤ T ≤ `duration`. The speed may
-    /// turn round.
+    /// Refuses functions without sense, and a radius or a load that does not stay positive over 0 ≤ T ≤ `duration`. The
+    /// speed may turn round.
     ///
     /// # Errors
     /// With the input and the first time at which it happens.

@@ -54,7 +54,8 @@ impl Interpolated {
         }
     }
 
-    /// Second derivatives of the spline, constant over its first and last piece: Thomas' algorithm on a tridiagonal system.
+    /// Second derivatives of the spline, constant over its first and last piece: Thomas' algorithm on a tridiagonal
+    /// system.
     fn bend(&mut self, x: &[f64]) {
         let (n, values) = (x.len(), &self.values);
         self.work.clear();

@@ -219,7 +219,8 @@ impl Trajectory {
         (to > from).then(|| area / (to - from))
     }
 
-    /// Half the distance between largest and smallest value over a window of time; `None` where the window was not reached.
+    /// Half the distance between largest and smallest value over a window of time; `None` where the window was not
+    /// reached.
     pub fn amplitude(&self, quantity: Quantity, (from, to): (f64, f64)) -> Option<f64> {
         let ends = [self.at(quantity, from)?, self.at(quantity, to)?];
         let inside = self.moments.iter().filter(|moment| moment.time > from && moment.time < to);
@@ -228,8 +229,8 @@ impl Trajectory {
         Some(0.5 * (high - low))
     }
 
-    /// Greatest relative difference and relative L2 difference of a quantity from another trajectory, at the times of this one in a
-    /// window, as far as both have come.
+    /// Greatest relative difference and relative L2 difference of a quantity from another trajectory, at the times of
+    /// this one in a window, as far as both have come.
     pub fn difference(&self, other: &Self, quantity: Quantity, (from, to): (f64, f64)) -> Option<(f64, f64)> {
         let inside = self.moments.iter().filter(|moment| (from..=to).contains(&moment.time));
         let pairs = inside.filter_map(|moment| {

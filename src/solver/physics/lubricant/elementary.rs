@@ -1,11 +1,13 @@
-//! Powers of several numbers at once, by a logarithm and an exponential without branches and tables: loops over them run in vector registers.
+//! Powers of several numbers at once, by a logarithm and an exponential without branches and tables: loops over them
+//! run in vector registers.
 //!
-//! The power laws of a shear-thinning film take two of each at every point of the rule across it: with the C library's functions, one number after
-//! the other, they made up two thirds of a reduced solve. Reductions and coefficients are those of fdlibm (Sun Microsystems 1993,
-//! `e_log.c`, `e_exp.c`); both functions are within 1e-15 relative of the library's where these do not vanish.
+//! The power laws of a shear-thinning film take two of each at every point of the rule across it: with the C library's
+//! functions, one number after the other, they made up two thirds of a reduced solve. Reductions and coefficients are
+//! those of fdlibm (Sun Microsystems 1993, `e_log.c`, `e_exp.c`); both functions are within 1e-15 relative of the
+//! library's where these do not vanish.
 
-/// Raises every x > 0 to a power. A slice, and a function of its own: unrolled over an array of twelve it would not run in vector registers, which takes
-/// half as long again.
+/// Raises every x > 0 to a power. A slice, and a function of its own: unrolled over an array of twelve it would not run
+/// in vector registers, which takes half as long again.
 #[inline(never)]
 pub(super) fn raise(values: &mut [f64], exponent: f64) {
     for x in values.iter_mut() {
@@ -19,7 +21,8 @@ pub(super) fn raise(values: &mut [f64], exponent: f64) {
 const LN_2_HIGH: f64 = 6.931_471_803_691_238e-1;
 const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 
-/// ln x for normal x > 0. Zero and subnormal numbers count as the smallest normal one, infinity as 2^1024; other arguments have no meaning.
+/// ln x for normal x > 0. Zero and subnormal numbers count as the smallest normal one, infinity as 2^1024; other
+/// arguments have no meaning.
 #[inline(always)]
 fn ln(x: f64) -> f64 {
     const ONE: u64 = 0x3ff0_0000_0000_0000;

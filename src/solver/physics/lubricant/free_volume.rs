@@ -1,7 +1,7 @@
 //! Tait's equation of state and Doolittle's viscosity, which follows from the free volume that the first one leaves.
 //!
-//! Sources: Dymond & Malhotra 1988 for Tait's equation; Doolittle 1951 for the viscosity; both in the form of Bair 2007,
-//! *High Pressure Rheology for Quantitative Elastohydrodynamics*, isothermal.
+//! Sources: Dymond & Malhotra 1988 for Tait's equation; Doolittle 1951 for the viscosity; both in the form of Bair
+//! 2007, *High Pressure Rheology for Quantitative Elastohydrodynamics*, isothermal.
 
 use super::{LubricantError, check_constant};
 use serde::{Deserialize, Serialize};
@@ -73,7 +73,8 @@ impl Doolittle {
         self.volume.pressure_at(self.r_0)
     }
 
-    /// ln(μ/η₀) at p \[Pa\] and its derivative \[1/Pa\]. Without free volume the logarithm is infinite and the derivative zero.
+    /// ln(μ/η₀) at p \[Pa\] and its derivative \[1/Pa\]. Without free volume the logarithm is infinite and the
+    /// derivative zero.
     #[inline]
     pub fn log_viscosity(&self, p: f64) -> (f64, f64) {
         let (volume, slope) = self.volume.relative_volume(p);

@@ -1,8 +1,9 @@
 //! Density and viscosity laws with their exact derivatives, sources and ranges of validity.
 //!
-//! A [`Lubricant`] names the laws; [`Lubricant::scaled`] fixes their constants at one operating point and evaluates in the
-//! solver's variable P = p/p_H. Slightly negative pressures (the penalty lets them reach about −1e-5 p_H) use the analytic laws;
-//! below [`CAVITATION_FLOOR_PA`] the laws are held constant so that no Newton iterate can leave their domain.
+//! A [`Lubricant`] names the laws; [`Lubricant::scaled`] fixes their constants at one operating point and evaluates in
+//! the solver's variable P = p/p_H. Slightly negative pressures (the penalty lets them reach about −1e-5 p_H) use the
+//! analytic laws; below [`CAVITATION_FLOOR_PA`] the laws are held constant so that no Newton iterate can leave their
+//! domain.
 
 mod elementary;
 mod free_volume;
@@ -24,7 +25,8 @@ pub const CAVITATION_FLOOR_PA: f64 = -1e7;
 /// Roelands' reference pressure p_Roe \[Pa\], (2.12).
 pub const ROELANDS_PRESSURE_PA: f64 = 1.96e8;
 
-/// Largest ln(η/η₀) that is evaluated: beyond it the fluid is a solid for every purpose of the discretisation, and exp would overflow.
+/// Largest ln(η/η₀) that is evaluated: beyond it the fluid is a solid for every purpose of the discretisation, and exp
+/// would overflow.
 const LOG_VISCOSITY_CEILING: f64 = 250.0;
 
 /// How density depends on pressure.
@@ -197,7 +199,8 @@ impl Lubricant {
         Self { limiting_stress: None, ..self }
     }
 
-    /// The pressure–viscosity coefficient that follows from the viscosity law itself, α* \[1/Pa\]; `None` where it is a free constant.
+    /// The pressure–viscosity coefficient that follows from the viscosity law itself, α* \[1/Pa\]; `None` where it is a
+    /// free constant.
     pub fn own_coefficient(&self) -> Option<f64> {
         match self.viscosity {
             ViscosityLaw::Doolittle(doolittle) => Some(doolittle.reciprocal_asymptotic_coefficient()),

@@ -1,6 +1,7 @@
 //! The reciprocal asymptotic isoviscous pressure coefficient α*, which gives M and L a meaning for any viscosity law.
 //!
-//! 1/α* = ∫₀^∞ η₀/μ(p) dp, Blok 1963; it is the coefficient that the film formulas ask for (Bair, Liu & Wang 2006). For Barus' law α* = α.
+//! 1/α* = ∫₀^∞ η₀/μ(p) dp, Blok 1963; it is the coefficient that the film formulas ask for (Bair, Liu & Wang 2006). For
+//! Barus' law α* = α.
 
 use super::free_volume::Doolittle;
 
@@ -16,8 +17,8 @@ pub const GAUSS_6: [(f64, f64); 6] = [
 
 /// α* \[1/unit of p\] of a law given as ln(μ/η₀)(p), whose slope at ambient pressure is `ambient`.
 ///
-/// Panels of one e-folding at ambient pressure, six Gauss points each, until what is left adds nothing; a law that does not rise
-/// for long (60 e-foldings) ends the sum as well.
+/// Panels of one e-folding at ambient pressure, six Gauss points each, until what is left adds nothing; a law that does
+/// not rise for long (60 e-foldings) ends the sum as well.
 pub(super) fn reciprocal_asymptotic(ambient: f64, log_viscosity: impl Fn(f64) -> f64) -> f64 {
     let width = 1.0 / ambient;
     let mut integral = 0.0;

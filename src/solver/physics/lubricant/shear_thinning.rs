@@ -1,14 +1,15 @@
 //! Generalized-Newtonian laws: how viscosity falls with shear stress, and the conditions that decide by how much.
 //!
-//! Every law is a factor F(τ/τ₀) ≤ 1 on the viscosity, explicit in the effective shear stress τ, and is blended with a second
-//! Newtonian plateau as (3.40) does: η = μ(p) \[NPR + (1 − NPR) F\]. The film integrals (3.24) ask for the fluidity μ/η.
+//! Every law is a factor F(τ/τ₀) ≤ 1 on the viscosity, explicit in the effective shear stress τ, and is blended with a
+//! second Newtonian plateau as (3.40) does: η = μ(p) \[NPR + (1 − NPR) F\]. The film integrals (3.24) ask for the
+//! fluidity μ/η.
 
 use super::{LubricantError, check_constant, elementary};
 use crate::solver::physics::contact::{OperatingPoint, Sliding};
 use serde::{Deserialize, Serialize};
 
-/// How viscosity depends on shear stress. `npr` is the lubricant's own Newtonian plateau ratio, used where the operating conditions
-/// name none.
+/// How viscosity depends on shear stress. `npr` is the lubricant's own Newtonian plateau ratio, used where the
+/// operating conditions name none.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
 pub enum ShearLaw {
     /// η = μ.
@@ -26,8 +27,8 @@ pub enum ShearLaw {
         #[serde(default)]
         npr: f64,
     },
-    /// Ellis' law, F = 1/(1 + (τ/G)^(1/n − 1)): a Newtonian plateau followed by a power law. It is Cross's law (1965) written in stress
-    /// instead of rate; Matsuhisa & Bird 1965.
+    /// Ellis' law, F = 1/(1 + (τ/G)^(1/n − 1)): a Newtonian plateau followed by a power law. It is Cross's law (1965)
+    /// written in stress instead of rate; Matsuhisa & Bird 1965.
     Ellis {
         /// Shear stress G \[Pa\] at which half of the viscosity is left.
         critical_stress: f64,
@@ -47,8 +48,8 @@ pub enum ShearLaw {
     },
 }
 
-/// The stress that a film carries at most, τ_L = τ_L0 + Λ p: beyond it the lubricant slips or yields. It limits traction; pressure and film,
-/// which the inlet makes, are computed without it. Bair & Winer 1979.
+/// The stress that a film carries at most, τ_L = τ_L0 + Λ p: beyond it the lubricant slips or yields. It limits
+/// traction; pressure and film, which the inlet makes, are computed without it. Bair & Winer 1979.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LimitingStress {
@@ -121,7 +122,8 @@ enum Factor {
     HyperbolicSine,
 }
 
-/// Largest t of the hyperbolic sine: no state gets there, only passing iterates of Newton's method, and they must stay finite.
+/// Largest t of the hyperbolic sine: no state gets there, only passing iterates of Newton's method, and they must stay
+/// finite.
 const STEEPEST: f64 = 150.0;
 
 impl Fluidity {
@@ -160,7 +162,8 @@ impl Fluidity {
         (fluidity, fluidity_slope)
     }
 
-    /// A stress t near the one at which t g(t) is `rate` ≥ 0: Newton's method in logarithms, in which the laws are almost straight.
+    /// A stress t near the one at which t g(t) is `rate` ≥ 0: Newton's method in logarithms, in which the laws are
+    /// almost straight.
     #[inline]
     pub fn stress_near(&self, rate: f64) -> f64 {
         if rate < 1e-9 {
@@ -230,7 +233,8 @@ pub struct ScaledShear {
 }
 
 impl ScaledShear {
-    /// The law of a lubricant under operating conditions; `None` where the fluid is Newtonian: without a law, or for NPR = 1.
+    /// The law of a lubricant under operating conditions; `None` where the fluid is Newtonian: without a law, or for
+    /// NPR = 1.
     ///
     /// # Errors
     /// When NPR lies outside 0…1 or SRR is no sensible number.

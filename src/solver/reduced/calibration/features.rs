@@ -11,7 +11,8 @@ pub(super) const SLIDING_FEATURES: usize = FEATURES + 2;
 pub(super) const SIGNS: std::ops::Range<usize> = 3..5;
 /// Modes at the end of the basis whose share is a sign of what it lacks.
 const LAST_MODES: usize = 3;
-/// Sliding below this is told apart no further: relative errors of a traction that is next to nothing are larger than those of others.
+/// Sliding below this is told apart no further: relative errors of a traction that is next to nothing are larger than
+/// those of others.
 const SLOW: f64 = 0.01;
 
 /// One measured case.
@@ -32,7 +33,8 @@ pub struct Measured {
     pub h_min: f64,
     /// Of the state, e_z.
     pub state: f64,
-    /// Of the traction coefficient; not where nothing slides, the traction has no meaning, or the model has no rule for it.
+    /// Of the traction coefficient; not where nothing slides, the traction has no meaning, or the model has no rule for
+    /// it.
     pub traction: Option<f64>,
 }
 
@@ -44,8 +46,8 @@ impl Measured {
     }
 }
 
-/// What is cheap to know of a reduced solution: ln M, L, ln α, ln e_f^I, the last modes' share, and of a model that knows sliding
-/// ln(|SRR| + 0.01) and NPR.
+/// What is cheap to know of a reduced solution: ln M, L, ln α, ln e_f^I, the last modes' share, and of a model that
+/// knows sliding ln(|SRR| + 0.01) and NPR.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Features {
     pub(super) values: [f64; SLIDING_FEATURES],

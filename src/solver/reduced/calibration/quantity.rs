@@ -24,7 +24,8 @@ pub(super) struct Quantity {
     pub mean_square: f64,
     /// Bound in units of the law times the root of the local mean square.
     pub quantile: f64,
-    /// How much larger the logarithms of the evidence's errors are than the law says; not a number where none was measured.
+    /// How much larger the logarithms of the evidence's errors are than the law says; not a number where none was
+    /// measured.
     pub surplus: Vec<f32>,
     /// Squares of how many times as large as the law says the errors are.
     pub squares: Vec<f32>,
@@ -44,9 +45,9 @@ impl Quantity {
         Some(out)
     }
 
-    /// What a bound needs beside the law, from the surpluses. Errors change their sign over the range and are tiny beside the places where they
-    /// do: logarithms scatter much there and say nothing about how large an error can be. So the bound counts in the root mean square of the
-    /// errors around, relative to the law.
+    /// What a bound needs beside the law, from the surpluses. Errors change their sign over the range and are tiny
+    /// beside the places where they do: logarithms scatter much there and say nothing about how large an error can be.
+    /// So the bound counts in the root mean square of the errors around, relative to the law.
     pub fn measure(&mut self, neighbours: &[Neighbours]) {
         self.squares = self.surplus.iter().map(|surplus| (2.0 * surplus).exp()).collect();
         let known: Vec<usize> = (0..self.surplus.len()).filter(|&i| self.surplus[i].is_finite()).collect();
@@ -72,7 +73,8 @@ impl Quantity {
         ((1.0 - COMMON) * near.mean(AROUND, &self.squares) + COMMON * self.mean_square).sqrt()
     }
 
-    /// The error of a case with these terms and this evidence around it; `beyond` is by how much the signs of its logarithm exceed the evidence.
+    /// The error of a case with these terms and this evidence around it; `beyond` is by how much the signs of its
+    /// logarithm exceed the evidence.
     pub fn estimate(&self, terms: &[f64], near: &Neighbours, beyond: f64) -> Estimated {
         let law = dot(&self.law, terms) + beyond;
         let likely = (law + BELIEF * near.mean(NEAR, &self.surplus)).exp();

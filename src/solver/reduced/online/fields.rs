@@ -7,7 +7,8 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Par};
 
 impl Online {
-    /// Fields and scalars of a reduced solution, on the window's grid; `report.newton_iterations` holds the online iterations.
+    /// Fields and scalars of a reduced solution, on the window's grid; `report.newton_iterations` holds the online
+    /// iterations.
     ///
     /// # Errors
     /// When the solution's point is refused or it belongs to another model.

@@ -40,8 +40,8 @@ pub enum ReducedError {
 /// From where an online iteration is started.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Starts {
-    /// The line through the last two solutions where the contact continues it, the last one where it is near, an interpolation between snapshots,
-    /// the nearest snapshot, continuation from it.
+    /// The line through the last two solutions where the contact continues it, the last one where it is near, an
+    /// interpolation between snapshots, the nearest snapshot, continuation from it.
     #[default]
     Explorer,
     /// The nearest snapshot by (3.20) as it is, and nothing else: the dissertation's.
@@ -79,7 +79,8 @@ impl Default for ReducedOptions {
 }
 
 impl ReducedOptions {
-    /// The dissertation's scheme: the state holds δ̃ with all modes that were kept, and starts from the nearest snapshot only.
+    /// The dissertation's scheme: the state holds δ̃ with all modes that were kept, and starts from the nearest
+    /// snapshot only.
     pub fn dissertation() -> Self {
         Self { deformation_modes: Some(usize::MAX), starts: Starts::Nearest, ..Self::default() }
     }

@@ -1,4 +1,5 @@
-//! The Newton iteration on reduced operators. Nothing here is of large scale, and nothing is allocated inside an iteration.
+//! The Newton iteration on reduced operators. Nothing here is of large scale, and nothing is allocated inside an
+//! iteration.
 
 use super::Operators;
 use crate::solver::discrete::grid::dot;

@@ -1,4 +1,5 @@
-//! The reduced system functions of d/dT g = f in one state, (4.16) under (4.19), and their derivatives: what (4.21) to (4.26) are made of.
+//! The reduced system functions of d/dT g = f in one state, (4.16) under (4.19), and their derivatives: what (4.21) to
+//! (4.26) are made of.
 
 use super::space::{INPUTS, ReducedSpace, input_vector};
 use crate::solver::discrete::grid::{FIRST_UNKNOWN, dot};
@@ -11,10 +12,11 @@ use crate::solver::full::Problem;
 use crate::solver::full::transient::Input;
 use faer::{Mat, MatRef};
 
-/// Values and derivatives of g and f at (ỹ, u), tested with weighted rows of Vᵀ. The last equation is the load's, w̄ π/2 − ∫P, which has no g.
+/// Values and derivatives of g and f at (ỹ, u), tested with weighted rows of Vᵀ. The last equation is the load's, w̄
+/// π/2 − ∫P, which has no g.
 ///
-/// In the dissertation's letters B = `storage_state`, C = `storage_input`, E = `flux_state`, F = `flux_input`; A and D follow from
-/// the values, see [`Linearisation::intercepts`].
+/// In the dissertation's letters B = `storage_state`, C = `storage_input`, E = `flux_state`, F = `flux_input`; A and D
+/// follow from the values, see [`Linearisation::intercepts`].
 #[derive(Clone, Debug)]
 pub struct Linearisation {
     /// g: ρ̄H.
@@ -40,9 +42,10 @@ pub struct SystemFunctions {
     pub flux: Vec<f64>,
 }
 
-/// Slope of the penalty Λ = −γ̄ min(P, 0) in the linearised systems. Its value is the full system's, with γ̄ = 10⁶; but with that slope, too, each
-/// system presses the pressures on its side of the moving rupture down to zero, also where its neighbours have none of it, and what modes
-/// miss behind the rupture outweighs all else that rows have to say. There the film needs no more than to be held.
+/// Slope of the penalty Λ = −γ̄ min(P, 0) in the linearised systems. Its value is the full system's, with γ̄ = 10⁶; but
+/// with that slope, too, each system presses the pressures on its side of the moving rupture down to zero, also where
+/// its neighbours have none of it, and what modes miss behind the rupture outweighs all else that rows have to say.
+/// There the film needs no more than to be held.
 pub const PENALTY_SLOPE: f64 = 1e3;
 
 /// Fields of a contact at all nodes.
@@ -67,7 +70,8 @@ impl Fields<'_> {
     }
 }
 
-/// The weighted rows tested with Vᵀ, the load's equation below; `rows` belong to the unknowns, one column per right-hand side.
+/// The weighted rows tested with Vᵀ, the load's equation below; `rows` belong to the unknowns, one column per
+/// right-hand side.
 fn tested(space: &ReducedSpace, rows: MatRef<'_, f64>) -> Mat<f64> {
     let (modes, unknowns) = (space.modes(), rows.nrows());
     let weighted = Mat::from_fn(unknowns, rows.ncols(), |i, j| space.row_weights[i] * rows[(i, j)]);
@@ -97,8 +101,9 @@ impl SystemFunctions {
 }
 
 impl Linearisation {
-    /// Evaluates the reduced system functions as the full system has them, and differentiates them with `PENALTY_SLOPE`. The fields are the
-    /// full system's and need not lie in the space, so that the values are free of what its modes miss.
+    /// Evaluates the reduced system functions as the full system has them, and differentiates them with
+    /// `PENALTY_SLOPE`. The fields are the full system's and need not lie in the space, so that the values are free of
+    /// what its modes miss.
     pub fn at(space: &ReducedSpace, problem: &Problem, fields: Fields<'_>) -> Self {
         let nodes = fields.nodes(space, problem);
         let (grid, modes, unknowns) = (&space.grid, space.modes(), space.grid.unknowns());

@@ -1,5 +1,5 @@
-//! The march of a trajectory-piecewise-linear model: weights, superposition, one linear system per step. Nothing in a step is of large
-//! scale, and nothing is allocated.
+//! The march of a trajectory-piecewise-linear model: weights, superposition, one linear system per step. Nothing in a
+//! step is of large scale, and nothing is allocated.
 
 use super::model::{TpwlError, TpwlModel, check_frame};
 use super::record::{TpwlRecord, TpwlStep};
@@ -135,7 +135,8 @@ impl<'a> TpwlMarch<'a> {
         if solved { Ok(()) } else { Err(Termination::Diverged) }
     }
 
-    /// A first guess of the stationary state: of each set in use the point whose inputs are nearest. True where they are the inputs themselves.
+    /// A first guess of the stationary state: of each set in use the point whose inputs are nearest. True where they
+    /// are the inputs themselves.
     fn guess(&mut self, input: [f64; INPUTS]) -> bool {
         self.start.fill(0.0);
         self.superposition.weights.clear();
@@ -175,7 +176,8 @@ impl Marching for TpwlMarch<'_> {
 
     fn rest(&mut self, at: &Conditions, observer: &dyn Observer) -> Result<Effort, Termination> {
         let (input, modes) = (input_vector(at.input), self.model.space.modes());
-        // Where training began with the same inputs, the stationary state is an operating point; else the weights follow the state.
+        // Where training began with the same inputs, the stationary state is an operating point; else the weights
+        // follow the state.
         let met = self.guess(input);
         self.assemble(at.time);
         self.advance(0.0, [0.0; 2], input)?;

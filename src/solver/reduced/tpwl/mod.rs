@@ -1,8 +1,9 @@
 //! Trajectory-piecewise-linear models of contacts in time (2.2.4, 4.2): a weighted sum of reduced linearised systems.
 //!
-//! The full system is d/dT g(z, u) = f(z, u), (4.16), with g = ρ̄H. Along training trajectories both functions are linearised in state and
-//! input and reduced, (4.17) to (4.26); a step superposes the systems of the operating points near the state and solves one small linear
-//! system. Deformation and load are linear and condensed, so the state is ỹ = (p̃, H₀).
+//! The full system is d/dT g(z, u) = f(z, u), (4.16), with g = ρ̄H. Along training trajectories both functions are
+//! linearised in state and input and reduced, (4.17) to (4.26); a step superposes the systems of the operating points
+//! near the state and solves one small linear system. Deformation and load are linear and condensed, so the state is ỹ
+//! = (p̃, H₀).
 
 mod linearisation;
 mod march;

@@ -146,7 +146,8 @@ const MOST_SNAPSHOTS: usize = 600;
 const LOAD_DIFFERENCE: f64 = 1e-3;
 
 impl TpwlModel {
-    /// Makes a model of training trajectories that kept their fields. They may differ in their inputs and in their reference load.
+    /// Makes a model of training trajectories that kept their fields. They may differ in their inputs and in their
+    /// reference load.
     ///
     /// # Errors
     /// When the trajectories do not go together, or keep no fields, or the settings make no sense.
@@ -267,7 +268,8 @@ impl TpwlModel {
         Ok(())
     }
 
-    /// The operating points of one trajectory; `less` and `more` are its set's contact under a little less and more load.
+    /// The operating points of one trajectory; `less` and `more` are its set's contact under a little less and more
+    /// load.
     fn points_of(&self, set: usize, trajectory: usize, (less, more): &(Problem, Problem)) -> Vec<TrainedPoint> {
         let problem = &self.sets[set].problem;
         let moments = &self.trajectories[trajectory];
@@ -300,7 +302,8 @@ impl TpwlModel {
         chosen.iter().map(|&i| point(i)).collect()
     }
 
-    /// The sets between which a reference contact lies, with their shares v of (4.27); one set where it is a trained one.
+    /// The sets between which a reference contact lies, with their shares v of (4.27); one set where it is a trained
+    /// one.
     ///
     /// # Errors
     /// When the contact differs in more than its load, or its load lies outside the trained ones.

@@ -24,8 +24,8 @@ pub struct TpwlRecord {
 }
 
 impl TpwlStep {
-    /// How far the step lies from what was trained, in units of the distance between the points it draws on. A linearised model knows
-    /// nothing of what lies farther than about one such distance aside.
+    /// How far the step lies from what was trained, in units of the distance between the points it draws on. A
+    /// linearised model knows nothing of what lies farther than about one such distance aside.
     pub fn reach(&self) -> f64 {
         self.distance / self.spacing
     }
@@ -35,8 +35,9 @@ impl TpwlStep {
 const FAR_REACH: f64 = 2.0;
 
 impl TpwlRecord {
-    /// Whether more than half of the steps lie farther from the trained trajectories than two distances between operating points: the inputs
-    /// are too steep or too strange, and a reduced model that solves the nonlinear equations is the right choice.
+    /// Whether more than half of the steps lie farther from the trained trajectories than two distances between
+    /// operating points: the inputs are too steep or too strange, and a reduced model that solves the nonlinear
+    /// equations is the right choice.
     pub fn too_steep(&self) -> bool {
         let far = self.steps.iter().filter(|step| step.reach() > FAR_REACH).count();
         2 * far > self.steps.len()

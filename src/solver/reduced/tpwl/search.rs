@@ -91,9 +91,9 @@ fn nearest(distances: &mut [(usize, f64)], count: usize, out: &mut Vec<Weight>) 
     out.extend(distances[..count].iter().map(|&(point, _)| Weight { point, weight: 0.0 }));
 }
 
-/// The difference of each set's mean state from the mean of those in use. A contact between two trained ones is like neither; its state
-/// plus this difference is what its counterpart in the set looks like, whose near points are those of the same phase. The dissertation's
-/// weights know no such thing.
+/// The difference of each set's mean state from the mean of those in use. A contact between two trained ones is like
+/// neither; its state plus this difference is what its counterpart in the set looks like, whose near points are those
+/// of the same phase. The dissertation's weights know no such thing.
 fn carried(model: &TpwlModel, weighting: Weighting, shares: &[(usize, f64)]) -> Vec<Vec<f64>> {
     let len = model.space.len();
     if weighting == Weighting::Dissertation {

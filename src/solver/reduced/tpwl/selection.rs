@@ -20,8 +20,8 @@ pub enum Selection {
         /// β.
         tolerance: f64,
     },
-    /// (4.30) as its text has it: a state becomes a point when the step towards it, taken with the linearised system of the nearest point,
-    /// misses it by more than `tolerance` times its norm.
+    /// (4.30) as its text has it: a state becomes a point when the step towards it, taken with the linearised system of
+    /// the nearest point, misses it by more than `tolerance` times its norm.
     Step {
         /// β.
         tolerance: f64,
@@ -141,8 +141,8 @@ const MOST_TRIED: usize = 48;
 /// Ratio of two tolerances between which no further one is tried.
 const NEAR: f64 = 1.0005;
 
-/// The rule with the tolerance by which it chooses a number of points of some trajectories together, or as near to it as tolerances
-/// come: numbers can jump.
+/// The rule with the tolerance by which it chooses a number of points of some trajectories together, or as near to it
+/// as tolerances come: numbers can jump.
 pub fn with_points(rule: Selection, points: usize, selectors: &mut [Selector<'_>]) -> Selection {
     let mut count = |tolerance: f64| -> usize {
         selectors.iter_mut().map(|selector| selector.choose(rule.with_tolerance(tolerance)).len()).sum()
@@ -178,7 +178,8 @@ fn nearest(moments: &[TrainedMoment], chosen: &[usize], state: &[f64]) -> Option
     distances.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(i, square)| (i, square.sqrt()))
 }
 
-/// How far the step from the trajectory's own former moments to moment `i` ends from it, when one linearised system makes it.
+/// How far the step from the trajectory's own former moments to moment `i` ends from it, when one linearised system
+/// makes it.
 fn step_error(system: &Linearisation, point: &TrainedMoment, moments: &[TrainedMoment], i: usize) -> f64 {
     let (now, former) = (&moments[i], &moments[i.saturating_sub(1)]);
     let before = &moments[i.saturating_sub(2)];

@@ -11,12 +11,14 @@ use faer::{ColMut, ColRef, Mat, MatRef, linalg::matmul::matmul};
 /// Entries of the input vector.
 pub const INPUTS: usize = 3;
 
-/// The input vector (1/R̄, ū, w̄) of the linearised systems. The curvature takes the radius' place because the film is linear in it.
+/// The input vector (1/R̄, ū, w̄) of the linearised systems. The curvature takes the radius' place because the film is
+/// linear in it.
 pub fn input_vector(input: Input) -> [f64; INPUTS] {
     [1.0 / input.radius, input.speed, input.load]
 }
 
-/// A pressure basis on a grid with everything linear condensed: the reduced state is ỹ = (p̃, H₀), the film H₀ + X²/(2R̄) + K V p̃.
+/// A pressure basis on a grid with everything linear condensed: the reduced state is ỹ = (p̃, H₀), the film H₀ +
+/// X²/(2R̄) + K V p̃.
 #[derive(Clone, Debug)]
 pub struct ReducedSpace {
     /// The grid of the fields.

@@ -8,7 +8,8 @@ use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Conj, Mat, MatMut, MatRef, Par, Spec, unzip, zip};
 
-/// A superposed system g = ḡ + B (y − ȳ) + C (u − ū), f likewise with E and F, about the barycentre (ȳ, ū) of its points.
+/// A superposed system g = ḡ + B (y − ȳ) + C (u − ū), f likewise with E and F, about the barycentre (ȳ, ū) of its
+/// points.
 pub struct Superposition {
     weighting: Weighting,
     /// The points in use.
@@ -49,8 +50,8 @@ impl Functions {
         Self { value: vec![0.0; len], by_state: Mat::zeros(len, len), by_input: Mat::zeros(len, INPUTS) }
     }
 
-    /// Σ w (value − θ intercept + slope) and Σ w of the derivatives, then θ (A ȳ + B ū): θ = 1 expands about the points, ½ about points
-    /// and barycentre by halves.
+    /// Σ w (value − θ intercept + slope) and Σ w of the derivatives, then θ (A ȳ + B ū): θ = 1 expands about the
+    /// points, ½ about points and barycentre by halves.
     fn superpose<'a>(&mut self, (state, input): (&[f64], &[f64]), theta: f64, parts: impl Iterator<Item = Part<'a>>) {
         self.value.fill(0.0);
         for (k, part) in parts.enumerate() {
@@ -141,8 +142,8 @@ impl Superposition {
         );
     }
 
-    /// Solves q g(y, u) + `history` = f(y, u) for y and gives g there; q = 0 asks for the stationary state. False where the system is
-    /// singular.
+    /// Solves q g(y, u) + `history` = f(y, u) for y and gives g there; q = 0 asks for the stationary state. False where
+    /// the system is singular.
     pub fn solve(
         &self,
         (quotient, history): (f64, [(f64, &[f64]); 2]),

@@ -7,8 +7,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Weighting {
-    /// The barycentre of near points that lies nearest to the state, and expansions half about the points and half about it. Expansions
-    /// about points on one side of a curved trajectory err to one side; these do so only in third order.
+    /// The barycentre of near points that lies nearest to the state, and expansions half about the points and half
+    /// about it. Expansions about points on one side of a curved trajectory err to one side; these do so only in third
+    /// order.
     #[default]
     DualTaylor,
     /// Sharp exponential weights of all points, (4.29), and interpolation between parameters, (4.27).
@@ -67,7 +68,8 @@ pub fn square_distance(a: &[f64], b: &[f64]) -> f64 {
     product_about(a, a, b)
 }
 
-/// Weights (4.29) from the distances of all points: none below 0.001, their sum 1. A point that is met exactly has them all.
+/// Weights (4.29) from the distances of all points: none below 0.001, their sum 1. A point that is met exactly has them
+/// all.
 pub fn exponential(distances: &[(usize, f64)], out: &mut Vec<Weight>) {
     out.clear();
     let nearest = distances.iter().fold(f64::INFINITY, |least, (_, d)| least.min(*d));
@@ -104,9 +106,9 @@ impl Barycentre {
         }
     }
 
-    /// The weights of `out`'s points that bring Σ wᵢ yᵢ nearest to `state` and prefer near points: min ‖y − Σ wᵢ yᵢ‖² + 10⁻³ Σ wᵢ² dᵢ²
-    /// with Σ wᵢ = 1, where points of negative weight are left out and the rest solved again. At most as many points as there is
-    /// room for.
+    /// The weights of `out`'s points that bring Σ wᵢ yᵢ nearest to `state` and prefer near points: min ‖y − Σ wᵢ yᵢ‖² +
+    /// 10⁻³ Σ wᵢ² dᵢ² with Σ wᵢ = 1, where points of negative weight are left out and the rest solved again. At most as
+    /// many points as there is room for.
     pub fn weights<'a>(&mut self, state: &[f64], point: impl Fn(usize) -> &'a [f64], out: &mut Vec<Weight>) {
         self.set_products(state, &point, out);
         let square = |k: usize| self.products[(k, k)];
@@ -116,7 +118,8 @@ impl Barycentre {
             if !self.solve(out) {
                 break;
             }
-            // Leaving out all negative ones at once may lose a point that a second solve would keep; the most negative one cannot.
+            // Leaving out all negative ones at once may lose a point that a second solve would keep; the most negative
+            // one cannot.
             let lowest = (0..out.len()).min_by(|&a, &b| out[a].weight.total_cmp(&out[b].weight));
             match lowest {
                 Some(k) if out[k].weight < 0.0 => {

@@ -1,7 +1,9 @@
-//! Reduced models of contacts in time (RNSA): Galerkin's projection on bases of trajectories, rows by cubature, Newton in every step.
+//! Reduced models of contacts in time (RNSA): Galerkin's projection on bases of trajectories, rows by cubature, Newton
+//! in every step.
 //!
-//! The march is that of the full system ([`crate::solver::full::transient::march`]); what a step costs depends on the modes and the sampled rows
-//! alone. Only a remeshed frame needs ρ̄H at all nodes once per step, for the spline that carries it to the next grid.
+//! The march is that of the full system ([`crate::solver::full::transient::march`]); what a step costs depends on the
+//! modes and the sampled rows alone. Only a remeshed frame needs ρ̄H at all nodes once per step, for the spline that
+//! carries it to the next grid.
 
 mod model;
 mod steps;

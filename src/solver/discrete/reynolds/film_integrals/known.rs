@@ -24,7 +24,8 @@ impl KnownFilm {
         self.mid_stress == [0.0; 2]
     }
 
-    /// τ_m of a film nearby, to first order where that changes it little; none without sliding, or where nothing is known.
+    /// τ_m of a film nearby, to first order where that changes it little; none without sliding, or where nothing is
+    /// known.
     #[inline]
     fn near(&self, load: &FilmLoad) -> Option<[f64; 2]> {
         let own = self.mid_stress;
@@ -45,7 +46,8 @@ impl KnownFilm {
 pub fn film_integrals_near(law: &Fluidity, rule: &FilmRule, load: FilmLoad, known: &KnownFilm) -> FilmIntegrals {
     if let Some(near) = known.near(&load) {
         let (first, integrals) = solve(law, rule, load, near, 0);
-        // From too small a stress a steep law takes steps that never come back, from one of the other sign too many short ones.
+        // From too small a stress a steep law takes steps that never come back, from one of the other sign too many
+        // short ones.
         if first <= FIRST_STEP * length(near) && integrals.iterations < MOST_ITERATIONS {
             return integrals;
         }

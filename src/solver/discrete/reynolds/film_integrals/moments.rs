@@ -1,12 +1,15 @@
-//! Sums across the film: the rule, and the moments of the fluidity that the inner problem is made of, at one stress at mid-film.
+//! Sums across the film: the rule, and the moments of the fluidity that the inner problem is made of, at one stress at
+//! mid-film.
 
 use super::{FilmLoad, length};
 use crate::solver::physics::lubricant::{Fluidity, GAUSS_6};
 
-/// Points ζ, ascending, and weights of a rule over the film; a panel ends at ζ = 0, so that the points above are a rule for the upper half.
+/// Points ζ, ascending, and weights of a rule over the film; a panel ends at ζ = 0, so that the points above are a rule
+/// for the upper half.
 pub type FilmRule = [(f64, f64)];
 
-/// The production rule: two panels with six Gauss points each. The panels meet at ζ = 0, where the stress of pure rolling has its kink.
+/// The production rule: two panels with six Gauss points each. The panels meet at ζ = 0, where the stress of pure
+/// rolling has its kink.
 pub const PRODUCTION_RULE: [(f64, f64); 12] = two_panels();
 
 const fn two_panels() -> [(f64, f64); 12] {
@@ -66,7 +69,8 @@ impl Moments {
         }
     }
 
-    /// Without stress at mid-film: the fluidity is even across it, so that the upper half tells all, and odd moments vanish.
+    /// Without stress at mid-film: the fluidity is even across it, so that the upper half tells all, and odd moments
+    /// vanish.
     fn rolling(law: &Fluidity, rule: &FilmRule, load: &FilmLoad) -> Self {
         let mut out = Self::default();
         let across = length([load.a, load.b]);
