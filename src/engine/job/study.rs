@@ -36,8 +36,8 @@ mod tests {
         "study: RandomTest(range: Box(TABLE), tests: 12, seed: 7, method: Reduced(), compare: 3)",
         "study: Sweep(over: [(vary: M, values: Log(from: 10.0, to: 30.0, n: 4))], methods: [Full, Reduced()])",
         "study: ErrorSplit(contacts: Here, method: Reduced())",
-        "study: Transient(inputs: (load: Harmonic(amplitude: 0.1, period: 0.5)), duration: 0.2, time_step: Fixed(0.02), frames: [Fixed], \
-         reduced: (loss: 1e-5))",
+        "grid: Uniform(dx: 0.01, domain: (-4.0, 2.0)), study: Transient(inputs: (load: Harmonic(amplitude: 0.1, period: 0.5)), \
+         duration: 0.2, time_step: Fixed(0.02), frames: [Fixed], reduced: (loss: 1e-5))",
     ];
 
     /// Everything but what depends on the clock.
