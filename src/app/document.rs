@@ -17,44 +17,11 @@ use crate::scene::study::point::Point;
 use crate::scene::{At, Grid, LoadFollower, LubricantFollower, Method, Scene, Study, TransientStudy, View};
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::Problem;
-use crate::solver::physics::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, Sliding, si_from_moes};
+use crate::solver::physics::contact::{
+    ContactKind, Moes, MoesRequest, OperatingPoint, Quantity, Sliding, si_from_moes,
+};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use crate::solver::training::TrainingSpec;
-
-/// One of the six SI quantities, in the order of [`OperatingPoint::quantities`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Quantity {
-    /// Reduced radius R.
-    Radius,
-    /// Mean entrainment speed u_m.
-    Speed,
-    /// Load w, per unit length for a line contact.
-    Load,
-    /// Reduced modulus E′.
-    Modulus,
-    /// Ambient viscosity η₀.
-    Viscosity,
-    /// Pressure–viscosity coefficient α.
-    Alpha,
-}
-
-impl Quantity {
-    fn of(self, point: &mut OperatingPoint) -> &mut f64 {
-        match self {
-            Self::Radius => &mut point.radius_m,
-            Self::Speed => &mut point.speed_m_per_s,
-            Self::Load => &mut point.load,
-            Self::Modulus => &mut point.modulus_pa,
-            Self::Viscosity => &mut point.viscosity_pa_s,
-            Self::Alpha => &mut point.alpha_per_pa,
-        }
-    }
-
-    /// Its value in SI units.
-    pub fn get(self, point: &OperatingPoint) -> f64 {
-        *self.of(&mut point.clone())
-    }
-}
 
 /// The experiment on the screen. Its point is always a valid one: edits that are refused leave it as it was.
 #[derive(Clone, Debug, PartialEq)]
@@ -165,24 +132,6 @@ impl Document {
         }
     }
 
-    /// Sets SRR.
-    ///
-    /// # Errors
-    /// A sentence when it is refused; the document is unchanged then.
-    pub fn set_slide_to_roll_ratio(&mut self, slide_to_roll_ratio: f64) -> Result<(), String> {
-        let sliding = Sliding { slide_to_roll_ratio, ..self.point.sliding };
-        self.accept(OperatingPoint { sliding, ..self.point })
-    }
-
-    /// Sets NPR; `None` is the lubricant's own.
-    ///
-    /// # Errors
-    /// A sentence when it is refused; the document is unchanged then.
-    pub fn set_plateau_ratio(&mut self, newtonian_plateau_ratio: Option<f64>) -> Result<(), String> {
-        let sliding = Sliding { newtonian_plateau_ratio, ..self.point.sliding };
-        self.accept(OperatingPoint { sliding, ..self.point })
-    }
-
     /// The NPR that counts.
     pub fn plateau_ratio(&self) -> f64 {
         self.point.sliding.newtonian_plateau_ratio.unwrap_or(self.lubricant.shear.plateau())
@@ -224,14 +173,22 @@ impl Document {
         self.grid = Grid::Plane { dx, dy, domain, refinement };
     }
 
-    /// Sets one SI quantity; M and L follow.
+    /// Sets one quantity. What follows M and L was chosen; of the others M and L follow. A plateau ratio that is the lubricant's own stays that
+    /// of another lubricant too.
     ///
     /// # Errors
     /// A sentence when the value is refused; the document is unchanged then.
     pub fn set_quantity(&mut self, quantity: Quantity, value: f64) -> Result<(), String> {
-        let mut point = self.point;
-        *quantity.of(&mut point) = value;
-        self.accept(point)
+        let moes = self.point.moes();
+        match quantity {
+            Quantity::M => self.set_moes(Moes { m: value, ..moes }),
+            Quantity::L => self.set_moes(Moes { l: value, ..moes }),
+            Quantity::NewtonianPlateauRatio if value == self.lubricant.shear.plateau() => {
+                let sliding = Sliding { newtonian_plateau_ratio: None, ..self.point.sliding };
+                self.accept(OperatingPoint { sliding, ..self.point })
+            }
+            _ => self.accept(quantity.at(&self.point, value)),
+        }
     }
 
     /// Goes to another contact of another fluid.

@@ -91,7 +91,7 @@ mod tests {
     use super::*;
     use crate::app::traction::Against;
     use crate::scene::named_lubricant::by_name;
-    use crate::solver::physics::contact::Moes;
+    use crate::solver::physics::contact::{Moes, Quantity};
     use std::collections::HashMap;
 
     #[derive(Default)]
@@ -119,8 +119,8 @@ mod tests {
         let document = &mut explorer.desk.document;
         document.pick_lubricant(&by_name("squalane-pip").unwrap()).unwrap();
         document.set_moes(Moes { m: 55.0, l: 8.0 }).unwrap();
-        document.set_slide_to_roll_ratio(0.3).unwrap();
-        document.set_plateau_ratio(Some(0.4)).unwrap();
+        document.set_quantity(Quantity::SlideToRollRatio, 0.3).unwrap();
+        document.set_quantity(Quantity::NewtonianPlateauRatio, 0.4).unwrap();
         document.view.pressure_loss = Some(1e-6);
         let (point, view, lubricant) = (document.point, document.view, document.lubricant);
         explorer.desk.views.traction.choices.against = Against::Stribeck;

@@ -12,12 +12,11 @@ use crate::solver::full::transient::{
     Frame, FullMarch, Inputs, Keep, Marching, Signal, TimeStep, Trajectory, Transient,
 };
 use crate::solver::full::{FullSolver, PointSolver, Problem, Solution, SolveError, SolveOptions, Start};
-use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity};
 use crate::solver::physics::lubricant::{Lubricant, Sliding};
 use crate::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
 use crate::solver::reduced::transient::ReducedMarch;
-use crate::solver::reduced::{CurveVariable, Online, ReducedOptions, distance, traction_curve};
+use crate::solver::reduced::{Online, ReducedOptions, distance, traction_curve};
 use crate::solver::training::{Range, TrajectoryTraining, random_points, train_trajectories};
 use serde::Serialize;
 use std::sync::Arc;
@@ -341,7 +340,7 @@ fn curve_row(
         }
         online.prepare(point.moes());
         let clock = Instant::now();
-        let curve = traction_curve(online, point, lubricant, CurveVariable::SlideToRollRatio, &values);
+        let curve = traction_curve(online, point, lubricant, Quantity::SlideToRollRatio, &values);
         let converged = curve.filter(|place| place.solution.as_ref().is_ok_and(|solved| solved.traction.is_some()));
         let converged = converged.count() == values.len();
         timing.record(clock, converged);

@@ -1,40 +1,16 @@
 //! What a sweep varies, and the values it takes.
 
+use crate::solver::physics::contact::Quantity;
 use serde::{Deserialize, Serialize};
 
 /// One varied quantity.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Axis {
-    /// What is varied.
-    pub vary: Variable,
+    /// What is varied; M and L need an operating point given by Moes numbers.
+    pub vary: Quantity,
     /// Its values.
     pub values: Steps,
-}
-
-/// A quantity that a sweep can vary.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Variable {
-    /// Load number M; needs an operating point given by Moes numbers.
-    M,
-    /// Lubricant number L; needs an operating point given by Moes numbers.
-    L,
-    /// Reduced radius \[m\].
-    Radius,
-    /// Entrainment speed \[m/s\].
-    Speed,
-    /// Load \[N/m\].
-    Load,
-    /// Reduced modulus \[Pa\].
-    Modulus,
-    /// Viscosity \[Pa·s\].
-    Viscosity,
-    /// Pressure–viscosity coefficient \[1/Pa\].
-    Alpha,
-    /// Slide-to-roll ratio SRR.
-    SlideToRollRatio,
-    /// Newtonian plateau ratio NPR.
-    NewtonianPlateauRatio,
 }
 
 /// Values of a varied quantity.
@@ -61,49 +37,6 @@ pub enum Steps {
     },
     /// As listed.
     List(Vec<f64>),
-}
-
-impl Variable {
-    /// The word that stands for it in tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::M => "M",
-            Self::L => "L",
-            Self::Radius => "radius",
-            Self::Speed => "speed",
-            Self::Load => "load",
-            Self::Modulus => "modulus",
-            Self::Viscosity => "viscosity",
-            Self::Alpha => "alpha",
-            Self::SlideToRollRatio => "srr",
-            Self::NewtonianPlateauRatio => "npr",
-        }
-    }
-
-    /// Its name for people, with its unit.
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::M => "Load number M",
-            Self::L => "Lubricant number L",
-            Self::Radius => "Radius R [m]",
-            Self::Speed => "Entrainment speed u_m [m/s]",
-            Self::Load => "Load w [N/m or N]",
-            Self::Modulus => "Reduced modulus E′ [Pa]",
-            Self::Viscosity => "Viscosity η₀ [Pa s]",
-            Self::Alpha => "Pressure–viscosity coefficient α [1/Pa]",
-            Self::SlideToRollRatio => "Slide-to-roll ratio SRR",
-            Self::NewtonianPlateauRatio => "Newtonian plateau ratio NPR",
-        }
-    }
-
-    /// Smallest and largest accepted value.
-    pub fn range(self) -> (f64, f64) {
-        match self {
-            Self::SlideToRollRatio => (-10.0, 10.0),
-            Self::NewtonianPlateauRatio => (0.0, 1.0),
-            _ => (f64::MIN_POSITIVE, 1e15),
-        }
-    }
 }
 
 impl Steps {

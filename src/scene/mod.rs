@@ -32,7 +32,7 @@ pub mod table;
 mod view;
 
 pub use at::At;
-pub use axis::{Axis, Steps, Variable};
+pub use axis::{Axis, Steps};
 pub use bench::{Answer, Bench, ReducedFacts, Request};
 pub use chart::{Chart, ChartAxis, Marks, Series};
 pub use contact_result::{ContactResult, RESULT_COLUMNS, film_shear_table, profile_table};

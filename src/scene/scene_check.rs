@@ -57,7 +57,8 @@ fn expectation(index: usize, entry: &Expectation) -> Checked {
 mod tests {
     use super::*;
     use crate::scene::study::{error_split, grid_study, point, sweep, trajectory};
-    use crate::scene::{At, Axis, Contacts, Grid, Method, QuantityBox, Steps, Study, Variable};
+    use crate::scene::{At, Axis, Contacts, Grid, Method, QuantityBox, Steps, Study};
+    use crate::solver::physics::contact::Quantity;
 
     #[test]
     fn numbers_that_make_no_sense_are_refused_by_name() {
@@ -72,14 +73,14 @@ mod tests {
                 .contains("methods")
         );
         let huge = Study::Sweep(sweep::Sweep {
-            over: vec![Axis { vary: Variable::M, values: Steps::Log { from: 1.0, to: 9.0, n: usize::MAX } }],
+            over: vec![Axis { vary: Quantity::M, values: Steps::Log { from: 1.0, to: 9.0, n: usize::MAX } }],
             methods: vec![Method::Full],
             cold: false,
             compare_on_model_grid: false,
         });
         assert!(message(Scene { study: huge, ..good.clone() }).contains("study.over.M"));
         let alone = Study::Sweep(sweep::Sweep {
-            over: vec![Axis { vary: Variable::M, values: Steps::List(vec![20.0]) }],
+            over: vec![Axis { vary: Quantity::M, values: Steps::List(vec![20.0]) }],
             methods: vec![Method::Full],
             cold: false,
             compare_on_model_grid: true,

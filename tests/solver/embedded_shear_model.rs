@@ -8,11 +8,9 @@ use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
 use ehl_explorer::scene::study::sweep::Sweep;
 use ehl_explorer::scene::{Method, Study};
 use ehl_explorer::solver::full::{ContactSolver, Start};
-use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
+use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Quantity, Sliding};
 use ehl_explorer::solver::physics::lubricant::Lubricant;
-use ehl_explorer::solver::reduced::{
-    CurveVariable, ErrorMeasures, Norm, Online, ReducedOptions, Sampling, Trust, traction_curve,
-};
+use ehl_explorer::solver::reduced::{ErrorMeasures, Norm, Online, ReducedOptions, Sampling, Trust, traction_curve};
 use ehl_explorer::solver::training::{Plan, Range, SlidingRange, TrainingSpec, Windows};
 
 const LINE: ContactKind = ContactKind::Line;
@@ -120,9 +118,9 @@ fn a_curve_is_what_its_contacts_are_one_by_one_in_fewer_iterations() {
     let mut online = online();
     let base = points(5)[3];
     for (vary, from, to) in [
-        (CurveVariable::SlideToRollRatio, 0.0, 1.0),
-        (CurveVariable::NewtonianPlateauRatio, 0.2, 1.0),
-        (CurveVariable::Speed, 0.9 * base.speed_m_per_s, 1.3 * base.speed_m_per_s),
+        (Quantity::SlideToRollRatio, 0.0, 1.0),
+        (Quantity::NewtonianPlateauRatio, 0.2, 1.0),
+        (Quantity::Speed, 0.9 * base.speed_m_per_s, 1.3 * base.speed_m_per_s),
     ] {
         let values: Vec<f64> = (0..41).map(|k| from + (to - from) * f64::from(k) / 40.0).collect();
         let curve: Vec<_> = traction_curve(&mut online, &base, SQUALANE_PIP, vary, &values).collect();
@@ -152,7 +150,7 @@ fn a_curve_beyond_what_the_equations_know_says_so_where_it_ends() {
     let base = points(1)[0];
     let values = [0.8, 1.0, 1.2];
     let curve: Vec<_> =
-        traction_curve(&mut online, &base, SQUALANE_PIP, CurveVariable::NewtonianPlateauRatio, &values).collect();
+        traction_curve(&mut online, &base, SQUALANE_PIP, Quantity::NewtonianPlateauRatio, &values).collect();
     assert!(curve[0].solution.is_ok() && curve[1].solution.is_ok());
     let sentence = curve[2].solution.as_ref().unwrap_err().to_string();
     assert!(sentence.contains("plateau ratio") && sentence.contains("1.2"), "{sentence}");

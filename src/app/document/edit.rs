@@ -1,10 +1,10 @@
 //! Every change of the document that can be asked for, and the one place where it is made.
 
-use super::{Document, Quantity};
+use super::Document;
 use crate::scene::named_lubricant::NamedLubricant;
 use crate::scene::{LoadFollower, LubricantFollower, TransientStudy, View};
 use crate::solver::discrete::grid::PointGridSpec;
-use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint};
+use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint, Quantity};
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::training::TrainingSpec;
 
@@ -13,11 +13,7 @@ use crate::solver::training::TrainingSpec;
 pub enum Edit {
     /// M and L.
     Moes(Moes),
-    /// SRR.
-    SlideToRoll(f64),
-    /// NPR; none is the lubricant's own.
-    Plateau(Option<f64>),
-    /// One SI quantity.
+    /// One quantity.
     Quantity(Quantity, f64),
     /// Line or point contact.
     Kind(ContactKind),
@@ -49,8 +45,6 @@ impl Document {
     pub fn edit(&mut self, edit: Edit) -> Result<(), String> {
         match edit {
             Edit::Moes(moes) => return self.set_moes(moes),
-            Edit::SlideToRoll(srr) => return self.set_slide_to_roll_ratio(srr),
-            Edit::Plateau(npr) => return self.set_plateau_ratio(npr),
             Edit::Quantity(quantity, value) => return self.set_quantity(quantity, value),
             Edit::Kind(kind) => return self.set_kind(kind),
             Edit::Laws(laws) => return self.set_lubricant(*laws),

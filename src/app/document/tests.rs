@@ -23,7 +23,7 @@ fn every_pair_of_followers_reaches_the_wanted_numbers_and_keeps_the_rest() {
 fn saving_and_opening_again_loses_nothing() {
     let view = View { pressure_loss: Some(1e-6), ..View::default() };
     let mut document = Document { title: "a".into(), view, ..Document::default() };
-    document.set_slide_to_roll_ratio(0.2).unwrap();
+    document.set_quantity(Quantity::SlideToRollRatio, 0.2).unwrap();
     document.set_load_follower(LoadFollower::Speed);
     document.set_quantity(Quantity::Radius, 0.0123).unwrap();
     let text = document.to_ron().unwrap();
@@ -154,7 +154,7 @@ fn a_scene_of_a_point_contact_opens_and_keeps_its_question_until_the_kind_change
 fn a_lubricant_with_a_viscosity_of_its_own_brings_its_contact_and_keeps_alpha_when_m_and_l_move() {
     let squalane = by_name("squalane-pip").unwrap();
     let mut document = Document::default();
-    document.set_slide_to_roll_ratio(0.3).unwrap();
+    document.set_quantity(Quantity::SlideToRollRatio, 0.3).unwrap();
     document.pick_lubricant(&squalane).unwrap();
     let alpha = squalane.laws.own_coefficient().unwrap();
     assert_eq!((document.point.alpha_per_pa, document.point.viscosity_pa_s), (alpha, 0.0705));
@@ -170,20 +170,20 @@ fn a_lubricant_with_a_viscosity_of_its_own_brings_its_contact_and_keeps_alpha_wh
             assert_eq!((document.point.alpha_per_pa, document.point.sliding.slide_to_roll_ratio), (alpha, 0.3));
         }
     }
-    document.set_plateau_ratio(Some(0.4)).unwrap();
+    document.set_quantity(Quantity::NewtonianPlateauRatio, 0.4).unwrap();
     let again = Document::from_ron(&document.to_ron().unwrap()).unwrap();
     assert_eq!((again.point, again.lubricant), (document.point, document.lubricant));
     let before = document.clone();
     for (bad, word) in [(-0.1, "plateau ratio is -0.1"), (1.5, "plateau ratio is 1.5"), (f64::NAN, "NaN")] {
-        assert!(document.set_plateau_ratio(Some(bad)).unwrap_err().contains(word));
+        assert!(document.set_quantity(Quantity::NewtonianPlateauRatio, bad).unwrap_err().contains(word));
     }
-    assert!(document.set_slide_to_roll_ratio(f64::INFINITY).is_err());
+    assert!(document.set_quantity(Quantity::SlideToRollRatio, f64::INFINITY).is_err());
     assert_eq!(document, before);
     // Back to laws without a viscosity of their own: M and L stay, the rest is the default realisation.
     document.pick_lubricant(&by_name("roelands-oil").unwrap()).unwrap();
     assert_eq!((document.point.viscosity_pa_s, document.plateau_ratio()), (0.01, 1.0));
     assert!((document.point.moes().m / before.point.moes().m - 1.0).abs() < 1e-9);
-    assert!(document.set_plateau_ratio(Some(0.5)).unwrap_err().contains("no shear constants"));
+    assert!(document.set_quantity(Quantity::NewtonianPlateauRatio, 0.5).unwrap_err().contains("no shear constants"));
 }
 
 #[test]

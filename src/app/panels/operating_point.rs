@@ -3,10 +3,10 @@
 use super::sliders;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{Entries, NAME_WIDTH, choice, explained, heading, number_field, row_name, warning_ui};
-use crate::app::document::{Document, Edit, Quantity};
+use crate::app::document::{Document, Edit};
 use crate::app::numbers;
 use crate::app::theme::name_and_symbol;
-use crate::solver::physics::contact::{ContactKind, PLAUSIBLE_HERTZ_PRESSURE_PA};
+use crate::solver::physics::contact::{ContactKind, PLAUSIBLE_HERTZ_PRESSURE_PA, Quantity};
 use egui::{Grid, Ui};
 
 const KINDS: [(ContactKind, &str, &str); 2] = [
@@ -70,100 +70,36 @@ fn followers_ui(ui: &mut Ui, document: &Document, commands: &mut Commands) {
     });
 }
 
-struct Row {
-    quantity: Quantity,
-    name: &'static str,
-    symbol: (&'static str, &'static str),
-    unit: &'static str,
-    /// SI units per shown unit.
-    scale: f64,
-    tooltip: &'static str,
-}
-
-const ROWS: [Row; 6] = [
-    Row {
-        quantity: Quantity::Radius,
-        name: "Radius R",
-        symbol: ("R", ""),
-        unit: "mm",
-        scale: 1e-3,
-        tooltip: "Reduced radius of curvature, 1/R = 1/R₁ + 1/R₂ (2.3)",
-    },
-    Row {
-        quantity: Quantity::Speed,
-        name: "Speed u_m",
-        symbol: ("u", "m"),
-        unit: "m/s",
-        scale: 1.0,
-        tooltip: "Mean entrainment speed, u_m = (u₁ + u₂)/2 (2.1)",
-    },
-    Row {
-        quantity: Quantity::Load,
-        name: "Load w",
-        symbol: ("w", ""),
-        unit: "kN/m",
-        scale: 1e3,
-        tooltip: "Load per unit length of the line contact (2.9)",
-    },
-    Row {
-        quantity: Quantity::Modulus,
-        name: "Modulus E'",
-        symbol: ("E'", ""),
-        unit: "GPa",
-        scale: 1e9,
-        tooltip: "Reduced modulus, 2/E’ = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂ (2.5)",
-    },
-    Row {
-        quantity: Quantity::Viscosity,
-        name: "Viscosity η₀",
-        symbol: ("η", "0"),
-        unit: "mPa·s",
-        scale: 1e-3,
-        tooltip: "Viscosity at ambient pressure",
-    },
-    Row {
-        quantity: Quantity::Alpha,
-        name: "Coefficient α",
-        symbol: ("α", ""),
-        unit: "1/GPa",
-        scale: 1e-9,
-        tooltip: "Pressure–viscosity coefficient, the slope of ln η at ambient pressure",
-    },
+/// The names of the fields of the SI quantities, by which screen readers know them.
+const FIELDS: [(Quantity, &str); 6] = [
+    (Quantity::Radius, "Radius R"),
+    (Quantity::Speed, "Speed u_m"),
+    (Quantity::Load, "Load w"),
+    (Quantity::Modulus, "Modulus E'"),
+    (Quantity::Viscosity, "Viscosity η₀"),
+    (Quantity::Alpha, "Coefficient α"),
 ];
-
-/// The load of a point contact.
-const POINT_LOAD: Row = Row {
-    quantity: Quantity::Load,
-    name: "Load w",
-    symbol: ("w", ""),
-    unit: "N",
-    scale: 1.0,
-    tooltip: "Load of the point contact (2.9)",
-};
-
-/// The rows of a kind of contact: only the load's differs.
-fn rows(kind: ContactKind) -> impl Iterator<Item = &'static Row> {
-    ROWS.iter()
-        .map(move |row| if kind == ContactKind::Point && row.quantity == Quantity::Load { &POINT_LOAD } else { row })
-}
 
 fn si_ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
     ui.add_space(4.0);
     let own_alpha = document.lubricant.own_coefficient().is_some();
-    for row in rows(document.point.kind) {
+    let kind = document.point.kind;
+    for (quantity, field) in FIELDS {
+        let Some(si) = quantity.of(&document.point) else { continue };
+        let ((base, subscript), (unit, scale)) = (quantity.symbol(), quantity.reading_unit(kind));
+        let meaning = quantity.meaning(kind);
         ui.horizontal(|ui| {
-            let name = row.name.split(' ').next().unwrap_or(row.name);
-            row_name(ui, name_and_symbol(ui, name, row.symbol.0, row.symbol.1), row.tooltip);
-            let value = row.quantity.get(&document.point) / row.scale;
-            if row.quantity == Quantity::Alpha && own_alpha {
+            let name = field.split(' ').next().unwrap_or(field);
+            row_name(ui, name_and_symbol(ui, name, base, subscript), meaning);
+            if quantity == Quantity::Alpha && own_alpha {
                 let tip = "α* follows from the lubricant’s own viscosity law: 1/α* = ∫ η₀/μ dp, Blok 1963";
-                ui.label(numbers::significant(value)).on_hover_text(tip);
-            } else if let Some(value) = number_field(ui, entries, row.name, value, 96.0, row.tooltip) {
-                commands.edit(Edit::Quantity(row.quantity, value * row.scale), row.name);
+                ui.label(numbers::significant(si / scale)).on_hover_text(tip);
+            } else if let Some(value) = number_field(ui, entries, field, si / scale, 96.0, meaning) {
+                commands.edit(Edit::Quantity(quantity, value * scale), field);
             }
-            ui.label(row.unit);
+            ui.label(unit);
         });
-        entries.message_ui(ui, row.name);
+        entries.message_ui(ui, field);
     }
 }
 

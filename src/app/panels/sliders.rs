@@ -4,18 +4,10 @@ use crate::app::context::{Commands, Context};
 use crate::app::controls::{Entries, RangeSlider, described, explained, named, number_field};
 use crate::app::document::{Document, Edit, HOME};
 use crate::app::theme::symbol;
-use crate::solver::physics::contact::{ContactKind, Moes};
+use crate::solver::physics::contact::{ContactKind, Quantity};
 use crate::solver::physics::lubricant::ShearLaw;
 use egui::{Grid, Slider, Ui};
-
-/// Ends of the M slider.
-const M_RANGE: (f64, f64) = (1.0, 1000.0);
-/// Ends of the L slider.
-const L_RANGE: (f64, f64) = (0.5, 25.0);
-/// Ends of the SRR slider.
-const SRR_RANGE: (f64, f64) = (0.0, 2.0);
-/// Ends of the NPR slider.
-const NPR_RANGE: (f64, f64) = (0.0, 1.0);
+use std::ops::RangeInclusive;
 
 const M_TIP: &str = "Load number M = w/(E’R) · (2η₀u_m/(E’R))^(−1/2): how heavily the contact is loaded for its speed. \
     Small: nearly rigid bodies; large: nearly Hertzian. Double click: M 40";
@@ -32,15 +24,6 @@ const NPR_TIP: &str = "Newtonian plateau ratio NPR of (3.40): the share of its v
 const NPR_NEWTONIAN_TIP: &str = "The lubricant has no shear constants, so it is Newtonian, which is a Newtonian plateau ratio NPR of 1; \
     choose a lubricant that thins under shear below";
 
-/// One of the four sliders.
-#[derive(Clone, Copy, PartialEq)]
-enum Slid {
-    LoadNumber,
-    LubricantNumber,
-    SlideToRoll,
-    Plateau,
-}
-
 /// Under these names entries are refused.
 const FIELDS: [&str; 8] = ["M", "L", "SRR", "NPR", "M value", "L value", "SRR value", "NPR value"];
 /// Widths of a symbol, of a typed entry, and of what stands between.
@@ -50,15 +33,20 @@ const GAPS: f32 = 24.0;
 
 /// A slider with all that belongs to it.
 struct Row {
-    slid: Slid,
-    symbol: &'static str,
+    quantity: Quantity,
     entry: &'static str,
     slider: RangeSlider<'static>,
     value: f64,
 }
 
 /// A value that was asked for, and the field it came from.
-type Wanted = (Slid, &'static str, f64);
+type Wanted = (Quantity, &'static str, f64);
+
+/// Ends of a slider.
+fn range(quantity: Quantity) -> RangeInclusive<f64> {
+    let (low, high) = quantity.usual_range();
+    low..=high
+}
 
 fn thins(document: &Document) -> bool {
     document.lubricant.shear != ShearLaw::Newtonian
@@ -70,27 +58,27 @@ fn rows(Context { document, answers, .. }: &Context<'_>) -> [Row; 4] {
     let (trained, sliding) = (domain.map(|domain| (domain.m, domain.l)), domain.and_then(|domain| domain.sliding));
     let srr = document.point.sliding.slide_to_roll_ratio;
     let (npr, own_npr) = (document.plateau_ratio(), document.lubricant.shear.plateau());
-    let slider = |name, (low, high), marked, home, tooltip, logarithmic| RangeSlider {
-        name,
-        range: low..=high,
+    let slider = |quantity: Quantity, marked, home, tooltip| RangeSlider {
+        name: quantity.label(),
+        range: range(quantity),
         marked,
         home,
         tooltip,
-        logarithmic,
+        logarithmic: matches!(quantity, Quantity::M | Quantity::L),
     };
     let m_tip = if kind == ContactKind::Line { M_TIP } else { M_POINT_TIP };
     let srr_tip = if thins(document) { SRR_TIP } else { SRR_NEWTONIAN_TIP };
-    let m = slider("Load number M", M_RANGE, trained.map(|t| t.0), HOME.m, m_tip, true);
-    let l = slider("Lubricant number L", L_RANGE, trained.map(|t| t.1), HOME.l, L_TIP, true);
+    let m = slider(Quantity::M, trained.map(|t| t.0), HOME.m, m_tip);
+    let l = slider(Quantity::L, trained.map(|t| t.1), HOME.l, L_TIP);
     let marked = sliding.map(|sliding| sliding.srr);
-    let slide = slider("Slide-to-roll ratio SRR", SRR_RANGE, marked, 0.0, srr_tip, false);
+    let slide = slider(Quantity::SlideToRollRatio, marked, 0.0, srr_tip);
     let marked = sliding.map(|sliding| sliding.npr);
-    let plateau = slider("Newtonian plateau ratio NPR", NPR_RANGE, marked, own_npr, NPR_TIP, false);
+    let plateau = slider(Quantity::NewtonianPlateauRatio, marked, own_npr, NPR_TIP);
     [
-        Row { slid: Slid::LoadNumber, symbol: "M", entry: "M value", slider: m, value: moes.m },
-        Row { slid: Slid::LubricantNumber, symbol: "L", entry: "L value", slider: l, value: moes.l },
-        Row { slid: Slid::SlideToRoll, symbol: "SRR", entry: "SRR value", slider: slide, value: srr },
-        Row { slid: Slid::Plateau, symbol: "NPR", entry: "NPR value", slider: plateau, value: npr },
+        Row { quantity: Quantity::M, entry: "M value", slider: m, value: moes.m },
+        Row { quantity: Quantity::L, entry: "L value", slider: l, value: moes.l },
+        Row { quantity: Quantity::SlideToRollRatio, entry: "SRR value", slider: slide, value: srr },
+        Row { quantity: Quantity::NewtonianPlateauRatio, entry: "NPR value", slider: plateau, value: npr },
     ]
 }
 
@@ -100,7 +88,7 @@ pub fn column(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, command
     let mut wanted = None;
     Grid::new("sliders").num_columns(3).spacing([8.0, 6.0]).show(ui, |ui| {
         for row in rows(context) {
-            if row.slid == Slid::Plateau && !thins(context.document) {
+            if row.quantity == Quantity::NewtonianPlateauRatio && !thins(context.document) {
                 disabled_plateau(ui, width);
             } else {
                 wanted = row.ui(ui, entries, width).or(wanted);
@@ -108,7 +96,7 @@ pub fn column(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, command
             ui.end_row();
         }
     });
-    take(ui, context.document, entries, commands, wanted);
+    take(ui, entries, commands, wanted);
 }
 
 /// Those that change the picture, side by side, and at the end of their row something else that needs `room`.
@@ -122,10 +110,10 @@ pub fn in_use(
 ) {
     let document = context.document;
     let slides = thins(document) || document.point.sliding.slide_to_roll_ratio != 0.0;
-    let used = |row: &Row| match row.slid {
-        Slid::LoadNumber | Slid::LubricantNumber => true,
-        Slid::SlideToRoll => slides,
-        Slid::Plateau => thins(document),
+    let used = |row: &Row| match row.quantity {
+        Quantity::SlideToRollRatio => slides,
+        Quantity::NewtonianPlateauRatio => thins(document),
+        _ => true,
     };
     let rows: Vec<Row> = rows(context).into_iter().filter(used).collect();
     let each = (ui.available_width() - room) / rows.len() as f32;
@@ -138,33 +126,26 @@ pub fn in_use(
         }
         rest(ui, commands);
     });
-    take(ui, context.document, entries, commands, wanted);
+    take(ui, entries, commands, wanted);
 }
 
 impl Row {
     /// Symbol, slider and entry; returns what was asked for.
     fn ui(&self, ui: &mut Ui, entries: &mut Entries, width: f32) -> Option<Wanted> {
         let tip = self.slider.tooltip;
-        explained(ui, symbol(ui, self.symbol, ""), tip);
-        let moved = self.slider.show(ui, self.value, width).map(|value| (self.symbol, value));
+        let (sign, _) = self.quantity.symbol();
+        explained(ui, symbol(ui, sign, ""), tip);
+        let moved = self.slider.show(ui, self.value, width).map(|value| (sign, value));
         let entered = number_field(ui, entries, self.entry, self.value, ENTRY_WIDTH, tip);
         let (field, value) = moved.or(entered.map(|value| (self.entry, value)))?;
-        Some((self.slid, field, value))
+        Some((self.quantity, field, value))
     }
 }
 
 /// Sets what was asked for, and says what was refused.
-fn take(ui: &mut Ui, document: &Document, entries: &Entries, commands: &mut Commands, wanted: Option<Wanted>) {
-    if let Some((slid, field, value)) = wanted {
-        let moes = document.point.moes();
-        let own_npr = document.lubricant.shear.plateau();
-        let edit = match slid {
-            Slid::LoadNumber => Edit::Moes(Moes { m: value, ..moes }),
-            Slid::LubricantNumber => Edit::Moes(Moes { l: value, ..moes }),
-            Slid::SlideToRoll => Edit::SlideToRoll(value),
-            Slid::Plateau => Edit::Plateau((value != own_npr).then_some(value)),
-        };
-        commands.edit(edit, field);
+fn take(ui: &mut Ui, entries: &Entries, commands: &mut Commands, wanted: Option<Wanted>) {
+    if let Some((quantity, field, value)) = wanted {
+        commands.edit(Edit::Quantity(quantity, value), field);
     }
     for field in FIELDS {
         entries.message_ui(ui, field);
@@ -176,8 +157,9 @@ fn disabled_plateau(ui: &mut Ui, width: f32) {
     let tip = NPR_NEWTONIAN_TIP;
     ui.add_enabled(false, egui::Label::new("NPR")).on_disabled_hover_text(tip);
     ui.spacing_mut().slider_width = width;
-    let response = ui.add_enabled(false, Slider::new(&mut 1.0, NPR_RANGE.0..=NPR_RANGE.1).show_value(false));
-    let response = described(ui, named(ui, response, "Newtonian plateau ratio NPR"), tip);
+    let response =
+        ui.add_enabled(false, Slider::new(&mut 1.0, range(Quantity::NewtonianPlateauRatio)).show_value(false));
+    let response = described(ui, named(ui, response, Quantity::NewtonianPlateauRatio.label()), tip);
     response.on_disabled_hover_text(tip);
     ui.weak("Newtonian").on_hover_text(tip);
 }

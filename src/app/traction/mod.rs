@@ -11,10 +11,11 @@ pub use served::{Served, sweep};
 pub use sweep::{Against, Sample, Sweep, Varied};
 
 use super::answers::Answers;
-use super::document::{Document, Edit, Quantity};
+use super::document::{Document, Edit};
 use super::numbers;
 use crate::engine::Store;
 use crate::engine::job::Background;
+use crate::solver::physics::contact::Quantity;
 use curve::Worker;
 use egui::Context;
 use serde::{Deserialize, Serialize};
@@ -109,8 +110,11 @@ impl TractionView {
 pub fn edit_along(document: &Document, choices: &Choices, place: f64) -> Edit {
     let value = numbers::rounded(choices.against.value(&document.point, place), 3);
     match choices.against.varied() {
-        Varied::SlideToRoll => Edit::SlideToRoll(value.max(0.0).copysign(document.point.sliding.slide_to_roll_ratio)),
-        Varied::Plateau => Edit::Plateau(Some(value.clamp(0.0, 1.0))),
+        Varied::SlideToRoll => {
+            let srr = value.max(0.0).copysign(document.point.sliding.slide_to_roll_ratio);
+            Edit::Quantity(Quantity::SlideToRollRatio, srr)
+        }
+        Varied::Plateau => Edit::Quantity(Quantity::NewtonianPlateauRatio, value.clamp(0.0, 1.0)),
         Varied::Speed => Edit::Quantity(Quantity::Speed, value),
     }
 }

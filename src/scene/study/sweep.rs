@@ -3,10 +3,10 @@
 use super::path::{self, Path, PathRow};
 use super::question::{Chart, ChartAxis, Checked, Experiment, Findings, Question, RunError, Setting, Table, Tell};
 use crate::scene::at::At;
-use crate::scene::axis::{Axis, Steps, Variable};
+use crate::scene::axis::{Axis, Steps};
 use crate::scene::check::{self, MAX_POINTS, count, number, refuse};
 use crate::scene::method::Method;
-use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::contact::{OperatingPoint, Quantity};
 use crate::solver::physics::lubricant::Sliding;
 use serde::{Deserialize, Serialize};
 
@@ -87,30 +87,30 @@ pub(super) fn contacts_of(experiment: &Experiment, over: &[Axis]) -> Result<Vec<
 }
 
 /// Sets one quantity of an operating point or its sliding.
-fn set(at: &mut At, sliding: &mut Sliding, variable: Variable, value: f64) -> Result<(), RunError> {
-    match (variable, at) {
-        (Variable::M | Variable::L, At::Si { .. }) => {
+fn set(at: &mut At, sliding: &mut Sliding, quantity: Quantity, value: f64) -> Result<(), RunError> {
+    match (quantity, at) {
+        (Quantity::M | Quantity::L, At::Si { .. }) => {
             return Err(RunError::Study(format!(
                 "{} can only be varied where `at` is Moes(…), which says what follows",
-                variable.name()
+                quantity.name()
             )));
         }
-        (Variable::M, At::Moes { m, .. }) => *m = value,
-        (Variable::L, At::Moes { l, .. }) => *l = value,
-        (Variable::Radius, At::Si { radius, .. }) => *radius = value,
-        (Variable::Radius, At::Moes { radius, .. }) => *radius = Some(value),
-        (Variable::Speed, At::Si { speed, .. }) => *speed = value,
-        (Variable::Speed, At::Moes { speed, .. }) => *speed = Some(value),
-        (Variable::Load, At::Si { load, .. }) => *load = value,
-        (Variable::Load, At::Moes { load, .. }) => *load = Some(value),
-        (Variable::Modulus, At::Si { modulus, .. }) => *modulus = value,
-        (Variable::Modulus, At::Moes { modulus, .. }) => *modulus = Some(value),
-        (Variable::Viscosity, At::Si { viscosity, .. }) => *viscosity = value,
-        (Variable::Viscosity, At::Moes { viscosity, .. }) => *viscosity = Some(value),
-        (Variable::Alpha, At::Si { alpha, .. }) => *alpha = value,
-        (Variable::Alpha, At::Moes { alpha, .. }) => *alpha = Some(value),
-        (Variable::SlideToRollRatio, _) => sliding.slide_to_roll_ratio = value,
-        (Variable::NewtonianPlateauRatio, _) => sliding.newtonian_plateau_ratio = Some(value),
+        (Quantity::M, At::Moes { m, .. }) => *m = value,
+        (Quantity::L, At::Moes { l, .. }) => *l = value,
+        (Quantity::Radius, At::Si { radius, .. }) => *radius = value,
+        (Quantity::Radius, At::Moes { radius, .. }) => *radius = Some(value),
+        (Quantity::Speed, At::Si { speed, .. }) => *speed = value,
+        (Quantity::Speed, At::Moes { speed, .. }) => *speed = Some(value),
+        (Quantity::Load, At::Si { load, .. }) => *load = value,
+        (Quantity::Load, At::Moes { load, .. }) => *load = Some(value),
+        (Quantity::Modulus, At::Si { modulus, .. }) => *modulus = value,
+        (Quantity::Modulus, At::Moes { modulus, .. }) => *modulus = Some(value),
+        (Quantity::Viscosity, At::Si { viscosity, .. }) => *viscosity = value,
+        (Quantity::Viscosity, At::Moes { viscosity, .. }) => *viscosity = Some(value),
+        (Quantity::Alpha, At::Si { alpha, .. }) => *alpha = value,
+        (Quantity::Alpha, At::Moes { alpha, .. }) => *alpha = Some(value),
+        (Quantity::SlideToRollRatio, _) => sliding.slide_to_roll_ratio = value,
+        (Quantity::NewtonianPlateauRatio, _) => sliding.newtonian_plateau_ratio = Some(value),
     }
     Ok(())
 }
@@ -119,7 +119,7 @@ fn set(at: &mut At, sliding: &mut Sliding, variable: Variable, value: f64) -> Re
 pub(super) fn check_axes(over: &[Axis], experiment: &Experiment) -> Checked {
     count("study.over (how many)", over.len(), 1, 3)?;
     over.iter().try_for_each(check_axis)?;
-    if over.iter().any(|axis| axis.vary == Variable::Alpha) && experiment.lubricant.own_coefficient().is_some() {
+    if over.iter().any(|axis| axis.vary == Quantity::Alpha) && experiment.lubricant.own_coefficient().is_some() {
         return Err(refuse("study.over.alpha", "cannot be varied: the lubricant's viscosity law determines it"));
     }
     let points = over.iter().map(|axis| axis.values.len()).try_fold(1usize, usize::checked_mul);

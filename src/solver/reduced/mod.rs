@@ -39,4 +39,4 @@ pub use pod::PodBasis;
 pub(crate) use row_sizes::mean_diagonals;
 pub use sampling::{RowSnapshots, SampledRows, Sampling, TestSpace, all_rows, greedy, is_finite, q_deim};
 pub use traction::TractionRule;
-pub use traction_curve::{CurvePoint, CurveVariable, traction_curve};
+pub use traction_curve::{CurvePoint, traction_curve};

@@ -1,32 +1,8 @@
 //! Traction and film along a curve: contacts that differ in one quantity, each solved from its neighbours.
 
 use super::online::{Online, ReducedError, ReducedSolution};
-use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::contact::{OperatingPoint, Quantity};
 use crate::solver::physics::lubricant::Lubricant;
-
-/// What varies along a curve.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CurveVariable {
-    /// SRR.
-    SlideToRollRatio,
-    /// NPR of (3.40).
-    NewtonianPlateauRatio,
-    /// u_m \[m/s\]; M and L follow it.
-    Speed,
-}
-
-impl CurveVariable {
-    /// The contact at a value of it.
-    pub fn at(self, point: &OperatingPoint, value: f64) -> OperatingPoint {
-        let mut point = *point;
-        match self {
-            Self::SlideToRollRatio => point.sliding.slide_to_roll_ratio = value,
-            Self::NewtonianPlateauRatio => point.sliding.newtonian_plateau_ratio = Some(value),
-            Self::Speed => point.speed_m_per_s = value,
-        }
-        point
-    }
-}
 
 /// One contact of a curve.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,7 +19,7 @@ pub fn traction_curve<'a>(
     online: &'a mut Online,
     point: &'a OperatingPoint,
     lubricant: Lubricant,
-    vary: CurveVariable,
+    vary: Quantity,
     values: &'a [f64],
 ) -> impl Iterator<Item = CurvePoint> + 'a {
     online.forget();

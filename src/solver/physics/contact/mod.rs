@@ -4,9 +4,11 @@
 
 mod film_formulas;
 mod moes;
+mod quantity;
 
 pub use film_formulas::{FilmAsymptotes, FilmFormula, FilmPrediction, moes_film};
 pub use moes::{DEFAULT_VISCOSITY_PA_S, MoesRequest, si_from_moes};
+pub use quantity::Quantity;
 
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -140,20 +142,10 @@ fn accept(quantity: &'static str, value: f64, unit: &'static str, (min, max): (f
 impl Moes {
     /// Refuses numbers outside any sense.
     fn check(self) -> Result<(), ContactError> {
-        accept("Moes number M", self.m, "", (0.05, 1e5))?;
-        accept("Moes number L", self.l, "", (1e-3, 1e3))
+        accept("Moes number M", self.m, "", Quantity::M.range())?;
+        accept("Moes number L", self.l, "", Quantity::L.range())
     }
 }
-
-/// Accepted ranges of the SI quantities: name, unit, smallest, largest. Wider than any contact, narrow enough to keep numbers sane.
-const RANGES: [(&str, &str, f64, f64); 6] = [
-    ("radius", " m", 1e-6, 1e3),
-    ("speed", " m/s", 1e-9, 1e4),
-    ("load", " N (or N/m)", 1e-6, 1e10),
-    ("modulus", " Pa", 1e5, 1e14),
-    ("viscosity", " Pa·s", 1e-6, 1e4),
-    ("alpha", " 1/Pa", 1e-12, 1e-5),
-];
 
 impl OperatingPoint {
     /// Table 2.1 of the dissertation: a rolling line contact, M = 40, L = 10.
@@ -181,8 +173,8 @@ impl OperatingPoint {
 
     /// Refuses values that are not finite, not positive, or outside any sense.
     pub fn check(&self) -> Result<(), ContactError> {
-        for (value, (quantity, unit, min, max)) in self.quantities().into_iter().zip(RANGES) {
-            accept(quantity, value, unit, (min, max))?;
+        for (value, quantity) in self.quantities().into_iter().zip(Quantity::SI) {
+            accept(quantity.name(), value, quantity.unit(), quantity.range())?;
         }
         self.moes().check()
     }

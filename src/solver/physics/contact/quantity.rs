@@ -1,0 +1,219 @@
+//! The quantities of a contact, each defined once: names, symbol, units, ranges, and how it moves an operating point.
+
+use super::{ContactKind, OperatingPoint};
+use serde::{Deserialize, Serialize};
+
+/// A quantity of a contact. The names of the variants are those of scenes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Quantity {
+    /// Load number M.
+    M,
+    /// Lubricant number L.
+    L,
+    /// Reduced radius R \[m\].
+    Radius,
+    /// Mean entrainment speed u_m \[m/s\].
+    Speed,
+    /// Load w: \[N/m\] for a line, \[N\] for a point contact.
+    Load,
+    /// Reduced modulus E′ \[Pa\].
+    Modulus,
+    /// Viscosity at ambient pressure η₀ \[Pa·s\].
+    Viscosity,
+    /// Pressure–viscosity coefficient α \[1/Pa\].
+    Alpha,
+    /// Slide-to-roll ratio SRR.
+    SlideToRollRatio,
+    /// Newtonian plateau ratio NPR.
+    NewtonianPlateauRatio,
+}
+
+impl Quantity {
+    /// The six in SI units, in the order of [`OperatingPoint::quantities`].
+    pub const SI: [Self; 6] = [Self::Radius, Self::Speed, Self::Load, Self::Modulus, Self::Viscosity, Self::Alpha];
+
+    /// The word that stands for it in tables, options and messages.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::M => "M",
+            Self::L => "L",
+            Self::Radius => "radius",
+            Self::Speed => "speed",
+            Self::Load => "load",
+            Self::Modulus => "modulus",
+            Self::Viscosity => "viscosity",
+            Self::Alpha => "alpha",
+            Self::SlideToRollRatio => "srr",
+            Self::NewtonianPlateauRatio => "npr",
+        }
+    }
+
+    /// Its name for people, with symbol and SI unit.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::M => "Load number M",
+            Self::L => "Lubricant number L",
+            Self::Radius => "Radius R [m]",
+            Self::Speed => "Entrainment speed u_m [m/s]",
+            Self::Load => "Load w [N/m or N]",
+            Self::Modulus => "Reduced modulus E′ [Pa]",
+            Self::Viscosity => "Viscosity η₀ [Pa s]",
+            Self::Alpha => "Pressure–viscosity coefficient α [1/Pa]",
+            Self::SlideToRollRatio => "Slide-to-roll ratio SRR",
+            Self::NewtonianPlateauRatio => "Newtonian plateau ratio NPR",
+        }
+    }
+
+    /// Its symbol and the subscript of that.
+    pub fn symbol(self) -> (&'static str, &'static str) {
+        match self {
+            Self::M => ("M", ""),
+            Self::L => ("L", ""),
+            Self::Radius => ("R", ""),
+            Self::Speed => ("u", "m"),
+            Self::Load => ("w", ""),
+            Self::Modulus => ("E'", ""),
+            Self::Viscosity => ("η", "0"),
+            Self::Alpha => ("α", ""),
+            Self::SlideToRollRatio => ("SRR", ""),
+            Self::NewtonianPlateauRatio => ("NPR", ""),
+        }
+    }
+
+    /// What it is, and its equation.
+    pub fn meaning(self, kind: ContactKind) -> &'static str {
+        match (self, kind) {
+            (Self::M, ContactKind::Line) => "Load number M = w/(E’R) · (2η₀u_m/(E’R))^(−1/2) (3.19)",
+            (Self::M, ContactKind::Point) => "Load number M = w/(E’R²) · (2η₀u_m/(E’R))^(−3/4) (3.22)",
+            (Self::L, _) => "Lubricant number L = αE’ · (2η₀u_m/(E’R))^(1/4)",
+            (Self::Radius, _) => "Reduced radius of curvature, 1/R = 1/R₁ + 1/R₂ (2.3)",
+            (Self::Speed, _) => "Mean entrainment speed, u_m = (u₁ + u₂)/2 (2.1)",
+            (Self::Load, ContactKind::Line) => "Load per unit length of the line contact (2.9)",
+            (Self::Load, ContactKind::Point) => "Load of the point contact (2.9)",
+            (Self::Modulus, _) => "Reduced modulus, 2/E’ = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂ (2.5)",
+            (Self::Viscosity, _) => "Viscosity at ambient pressure",
+            (Self::Alpha, _) => "Pressure–viscosity coefficient, the slope of ln η at ambient pressure",
+            (Self::SlideToRollRatio, _) => "Slide-to-roll ratio SRR = (u₂ − u₁)/u_m (3.25)",
+            (Self::NewtonianPlateauRatio, _) => "Newtonian plateau ratio NPR of (3.40)",
+        }
+    }
+
+    /// Its SI unit as it stands behind a number: with a leading space, or empty.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Radius => " m",
+            Self::Speed => " m/s",
+            Self::Load => " N (or N/m)",
+            Self::Modulus => " Pa",
+            Self::Viscosity => " Pa·s",
+            Self::Alpha => " 1/Pa",
+            Self::M | Self::L | Self::SlideToRollRatio | Self::NewtonianPlateauRatio => "",
+        }
+    }
+
+    /// The unit in which people read it, and SI units in that.
+    pub fn reading_unit(self, kind: ContactKind) -> (&'static str, f64) {
+        match (self, kind) {
+            (Self::Radius, _) => ("mm", 1e-3),
+            (Self::Speed, _) => ("m/s", 1.0),
+            (Self::Load, ContactKind::Line) => ("kN/m", 1e3),
+            (Self::Load, ContactKind::Point) => ("N", 1.0),
+            (Self::Modulus, _) => ("GPa", 1e9),
+            (Self::Viscosity, _) => ("mPa·s", 1e-3),
+            (Self::Alpha, _) => ("1/GPa", 1e-9),
+            (Self::M | Self::L | Self::SlideToRollRatio | Self::NewtonianPlateauRatio, _) => ("", 1.0),
+        }
+    }
+
+    /// Smallest and largest accepted value: wider than any contact, narrow enough to keep numbers sane.
+    pub const fn range(self) -> (f64, f64) {
+        match self {
+            Self::M => (0.05, 1e5),
+            Self::L => (1e-3, 1e3),
+            Self::Radius => (1e-6, 1e3),
+            Self::Speed => (1e-9, 1e4),
+            Self::Load => (1e-6, 1e10),
+            Self::Modulus => (1e5, 1e14),
+            Self::Viscosity => (1e-6, 1e4),
+            Self::Alpha => (1e-12, 1e-5),
+            Self::SlideToRollRatio => (-10.0, 10.0),
+            Self::NewtonianPlateauRatio => (0.0, 1.0),
+        }
+    }
+
+    /// Where sliders and curves of it begin and end.
+    pub const fn usual_range(self) -> (f64, f64) {
+        match self {
+            Self::M => (1.0, 1000.0),
+            Self::L => (0.5, 25.0),
+            Self::SlideToRollRatio => (0.0, 2.0),
+            other => other.range(),
+        }
+    }
+
+    /// Its value of a contact; `None` for the plateau ratio where it is the lubricant's own.
+    pub fn of(self, point: &OperatingPoint) -> Option<f64> {
+        Some(match self {
+            Self::M => point.moes().m,
+            Self::L => point.moes().l,
+            Self::Radius => point.radius_m,
+            Self::Speed => point.speed_m_per_s,
+            Self::Load => point.load,
+            Self::Modulus => point.modulus_pa,
+            Self::Viscosity => point.viscosity_pa_s,
+            Self::Alpha => point.alpha_per_pa,
+            Self::SlideToRollRatio => point.sliding.slide_to_roll_ratio,
+            Self::NewtonianPlateauRatio => return point.sliding.newtonian_plateau_ratio,
+        })
+    }
+
+    /// The same contact with another value of it. M moves by the load, L by α; a speed, radius, modulus or viscosity moves M and L along.
+    pub fn at(self, point: &OperatingPoint, value: f64) -> OperatingPoint {
+        let mut point = *point;
+        match self {
+            Self::M => point.load *= value / point.moes().m,
+            Self::L => point.alpha_per_pa *= value / point.moes().l,
+            Self::Radius => point.radius_m = value,
+            Self::Speed => point.speed_m_per_s = value,
+            Self::Load => point.load = value,
+            Self::Modulus => point.modulus_pa = value,
+            Self::Viscosity => point.viscosity_pa_s = value,
+            Self::Alpha => point.alpha_per_pa = value,
+            Self::SlideToRollRatio => point.sliding.slide_to_roll_ratio = value,
+            Self::NewtonianPlateauRatio => point.sliding.newtonian_plateau_ratio = Some(value),
+        }
+        point
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_contact_that_was_moved_has_the_value_and_keeps_all_others() {
+        const ALL: [Quantity; 10] = [
+            Quantity::M,
+            Quantity::L,
+            Quantity::Radius,
+            Quantity::Speed,
+            Quantity::Load,
+            Quantity::Modulus,
+            Quantity::Viscosity,
+            Quantity::Alpha,
+            Quantity::SlideToRollRatio,
+            Quantity::NewtonianPlateauRatio,
+        ];
+        for kind in [ContactKind::Line, ContactKind::Point] {
+            let here = OperatingPoint { kind, ..OperatingPoint::TABLE_2_1 };
+            for quantity in ALL {
+                let value = quantity.of(&here).filter(|value| *value != 0.0).map_or(0.3, |value| 1.1 * value);
+                let moved = quantity.at(&here, value);
+                assert!((quantity.of(&moved).unwrap() / value - 1.0).abs() < 1e-12, "{quantity:?}");
+                let others = here.quantities().into_iter().zip(moved.quantities()).filter(|(a, b)| a != b).count();
+                assert!(others <= 1, "{quantity:?}");
+            }
+            assert_eq!(Quantity::SI.map(|quantity| quantity.of(&here).unwrap()), here.quantities());
+        }
+    }
+}
