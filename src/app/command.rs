@@ -5,6 +5,8 @@ use super::document::Edit;
 use super::purpose::Purpose;
 use super::tab::Tab;
 use super::traction::{Served, Sweep};
+use super::training::TrainingCommand;
+use super::transient::InTimeCommand;
 use egui::{Context, Key, KeyboardShortcut, Modifiers};
 use std::path::PathBuf;
 
@@ -79,6 +81,8 @@ pub enum Command {
     About,
     /// Change the document; a refusal stands beside the field of this name.
     Edit(Edit, &'static str),
+    /// Say under the name of a field why what was entered there makes no sense.
+    Refuse(&'static str, &'static str),
     /// Go to a tab.
     Go(Tab),
     /// Cut a point contact elsewhere.
@@ -101,6 +105,10 @@ pub enum Command {
     GoAlong(f64),
     /// Stop the full solutions along the traction curve.
     StopAlong,
+    /// What becomes of contacts in time.
+    InTime(InTimeCommand),
+    /// What becomes of trainings and of what they made.
+    Training(TrainingCommand),
 }
 
 /// The menus from left to right, each in its groups.

@@ -6,6 +6,9 @@ use super::command::Command;
 use super::controls::Entries;
 use super::document::{Document, Edit};
 use super::traction::TractionView;
+use super::training::Training;
+use super::transient::TransientView;
+use std::path::Path;
 
 /// What is shown: to be looked at, not to be changed.
 #[derive(Clone, Copy)]
@@ -16,8 +19,14 @@ pub struct Context<'a> {
     pub answers: &'a Answers,
     /// Traction and film along one quantity.
     pub traction: &'a TractionView,
+    /// Contacts in time.
+    pub transient: &'a TransientView,
+    /// Trainings.
+    pub training: &'a Training,
     /// What was refused, by the names of fields.
     pub entries: &'a Entries,
+    /// Where the document lies on disk, if it does.
+    pub file: Option<&'a Path>,
     /// Where a point contact is cut.
     pub cuts: Cuts,
     /// Whether an audience looks: plots and little else.

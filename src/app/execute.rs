@@ -11,6 +11,7 @@ use super::purpose::Purpose;
 use super::tab::Tab;
 use super::tabs;
 use super::traction;
+use super::transient::Setup;
 use egui::{Context, ThemePreference, ViewportCommand};
 use egui_tiles::Tile;
 
@@ -89,11 +90,12 @@ impl Explorer {
                 desk.edit(edit, "traction");
             }
             Command::RunInTime => {
-                desk.start_transient(ctx);
+                let setup = Setup::of(&desk.document, desk.files.path.as_deref());
+                desk.transient.start(ctx, setup);
                 self.show(Tab::Transient);
             }
             Command::Train => {
-                desk.start_training(ctx);
+                desk.training.start(ctx, &desk.document);
                 self.show(Tab::Training);
             }
             Command::Cancel if self.help.manual.is_open() => self.help.manual.close(),
@@ -102,7 +104,10 @@ impl Explorer {
             Command::Manual => self.help.manual.open(),
             Command::Keyboard => self.help.manual.open_keys(),
             Command::About => self.help.about = true,
+            Command::InTime(command) => desk.transient.execute(ctx, command),
+            Command::Training(command) => desk.training.execute(ctx, &mut desk.answers, command),
             Command::Edit(edit, field) => desk.edit(edit, field),
+            Command::Refuse(field, why) => desk.entries.answer(field, Err(why.to_owned())),
             Command::Go(tab) => self.show(tab),
             Command::Cut(cuts) => desk.display.cuts = cuts,
             Command::RemovePin(place) => {

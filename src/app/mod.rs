@@ -13,6 +13,7 @@ mod document;
 mod execute;
 mod export;
 mod figure;
+mod form;
 mod in_use;
 mod manual;
 mod model_source;

@@ -94,6 +94,9 @@ impl Desk {
             document: &self.document,
             answers: &self.answers,
             traction: &self.traction,
+            training: &self.training,
+            transient: &self.transient,
+            file: self.files.path.as_deref(),
             entries: &self.entries,
             cuts: self.display.cuts,
             presenting: self.presentation.is_some(),
@@ -186,7 +189,5 @@ impl Desk {
     /// Forgets what was typed and refused: the document is another one now.
     pub fn forget_entries(&mut self) {
         self.entries.clear();
-        self.training.refused = None;
-        self.transient.refused = None;
     }
 }

@@ -37,7 +37,7 @@ impl Desk {
             },
             Command::RunInTime => match self.transient.work.standing() {
                 Some(_) => (true, RUNS_ALREADY),
-                None => return self.no_transient(),
+                None => return self.document.no_transient(),
             },
             Command::Train => match self.training.job() {
                 Some(_) => (true, "A training or comparison runs already"),

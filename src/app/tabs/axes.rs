@@ -5,13 +5,16 @@ use crate::app::figure;
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
 use egui::{Ui, Vec2b};
-use egui_plot::{GridInput, GridMark, Plot, PlotResponse, PlotUi};
+use egui_plot::{GridInput, GridMark, Plot, PlotPoint, PlotResponse, PlotUi};
 
 /// Size of axis titles.
 pub const TITLE_SIZE: f32 = 12.5;
 
 /// Width that a number below an axis wants; closer ones are not shown.
 const LABEL_ROOM: f32 = 80.0;
+
+/// Points of a curve beyond which only the extremes of neighbouring ones are drawn.
+const MOST_POINTS: usize = 3000;
 
 /// A plot in the explorer's manner with axis titles that may hold symbols (see [`rich`]); an empty title is left out.
 pub fn plot<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> Plot<'a> {
@@ -128,4 +131,37 @@ pub fn log_label(mark: GridMark) -> String {
     let leading = value / 10f64.powf((mark.value + 1e-9).floor());
     let near = |d: f64| (leading / d - 1.0).abs() < 1e-6;
     if near(1.0) || near(2.0) || near(5.0) { numbers::digits(value, 1) } else { String::new() }
+}
+
+/// As many points as a screen can show, with all extremes.
+pub fn thinned(points: Vec<PlotPoint>) -> Vec<PlotPoint> {
+    if points.len() <= MOST_POINTS {
+        return points;
+    }
+    let group = points.len().div_ceil(MOST_POINTS / 2);
+    points
+        .chunks(group)
+        .flat_map(|chunk| {
+            let least = chunk.iter().copied().min_by(|a, b| a.y.total_cmp(&b.y));
+            let greatest = chunk.iter().copied().max_by(|a, b| a.y.total_cmp(&b.y));
+            let mut pair: Vec<PlotPoint> = least.into_iter().chain(greatest).collect();
+            pair.sort_by(|a, b| a.x.total_cmp(&b.x));
+            pair
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_series_keep_their_extremes_and_their_order() {
+        let wave = |k: usize| PlotPoint::new(k as f64, (k as f64 / 900.0).sin() + if k == 7777 { 5.0 } else { 0.0 });
+        let points = thinned((0..20_000).map(wave).collect());
+        assert!(points.len() <= MOST_POINTS + 2);
+        assert!(points.iter().any(|p| p.x == 7777.0));
+        assert!(points.windows(2).all(|pair| pair[0].x <= pair[1].x));
+        assert_eq!(thinned((0..10).map(wave).collect()).len(), 10);
+    }
 }

@@ -9,6 +9,7 @@ pub mod contact_map;
 mod cut_line;
 mod direction;
 mod formulas;
+mod in_time;
 pub mod profiles;
 mod raster;
 mod regime_chart;
@@ -43,8 +44,12 @@ pub struct Views {
     pub traction: traction::Traction,
     /// The study of the open scene.
     pub results: results::ResultsView,
+    /// How the Transient tab shows it.
+    pub transient: transient::Transient,
+    /// What is being entered for a training.
+    pub training: training::TrainingTab,
     /// What the TPWL tab shows.
-    pub tpwl: tpwl::TpwlView,
+    pub tpwl: tpwl::Tpwl,
 }
 
 /// The tabs as they are at first.
@@ -82,15 +87,11 @@ impl Behavior<Tab> for Tabs<'_> {
                 Tab::Traction => views.traction.ui(ui, &desk.context(), commands),
                 Tab::Results => views.results.ui(ui, &desk.document.to_scene(), commands),
                 Tab::Accuracy => accuracy::ui(ui, &mut views.accuracy, &desk.context(), commands),
-                Tab::Training | Tab::Transient | Tab::Tpwl => {}
+                Tab::Training => views.training.ui(ui, &desk.context(), commands),
+                Tab::Transient => views.transient.ui(ui, &desk.context(), commands),
+                Tab::Tpwl => views.tpwl.ui(ui, &desk.context(), commands),
             }
             desk.views = views;
-            match tab {
-                Tab::Training => training::ui(ui, desk),
-                Tab::Transient => transient::ui(ui, desk),
-                Tab::Tpwl => tpwl::ui(ui, desk),
-                _ => {}
-            }
         });
         UiResponse::None
     }

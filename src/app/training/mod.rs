@@ -6,7 +6,8 @@ mod worker;
 
 pub use worker::{Made, Running};
 
-use super::desk::Desk;
+use super::answers::Answers;
+use super::document::Document;
 use crate::engine::{ModelComparison, training_file};
 use crate::solver::reduced::ReducedModel;
 use crate::solver::training::{Plan, TrainingSpec, TrainingState, WindowState};
@@ -30,6 +31,23 @@ pub enum Notice {
     Wrong(String),
 }
 
+/// What can be asked for when there is a training or what came of one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TrainingCommand {
+    /// Stop what runs.
+    Stop,
+    /// Go on with the unfinished training.
+    Resume,
+    /// Forget the unfinished training, also on disk.
+    Discard,
+    /// Put the model that was made in use.
+    UseMade,
+    /// Put the model in use that was before.
+    UseFormer,
+    /// Compare the model that was made with the one in use, or with the one it replaced.
+    Compare,
+}
+
 /// What the window knows about trainings.
 #[derive(Default)]
 pub struct Training {
@@ -50,10 +68,6 @@ pub struct Training {
     pub comparison: Option<ModelComparison>,
     /// How the last job ended.
     pub notices: Vec<Notice>,
-    /// The title while it is typed.
-    pub title: Option<String>,
-    /// A field whose entry was refused, and why.
-    pub refused: Option<(&'static str, String)>,
     file: Option<PathBuf>,
 }
 
@@ -75,6 +89,54 @@ impl Training {
         self.job.as_ref()
     }
 
+    /// Starts the training that the document shows, unless its specification is refused.
+    pub fn start(&mut self, ctx: &Context, document: &Document) {
+        let Some(spec) = document.training_spec().cloned() else { return };
+        match spec.check() {
+            Ok(()) => self.run(ctx, TrainingState::new(spec)),
+            Err(error) => self.notices = vec![Notice::Wrong(error.to_string())],
+        }
+    }
+
+    /// Does what was asked for.
+    pub fn execute(&mut self, ctx: &Context, answers: &mut Answers, command: TrainingCommand) {
+        match command {
+            TrainingCommand::Stop => self.stop(),
+            TrainingCommand::Resume => {
+                if let Some(state) = self.unfinished.take() {
+                    self.run(ctx, *state);
+                }
+            }
+            TrainingCommand::Discard => self.discard(),
+            TrainingCommand::UseMade => {
+                if let Some(made) = &self.made {
+                    self.former = answers.use_model(Arc::clone(&made.model));
+                }
+            }
+            TrainingCommand::UseFormer => match (&self.made, self.former.take()) {
+                (Some(_), Some(former)) => _ = answers.use_model(former),
+                (Some(made), None) => answers.drop_model(&made.model),
+                (None, former) => self.former = former,
+            },
+            TrainingCommand::Compare => self.compare(ctx, answers),
+        }
+    }
+
+    /// Whether the model that was made is in use.
+    pub fn uses_made(&self, answers: &Answers) -> bool {
+        self.made.as_ref().is_some_and(|made| answers.models.contains(&made.model))
+    }
+
+    fn compare(&mut self, ctx: &Context, answers: &Answers) {
+        let (Some(made), Some(spec)) = (&self.made, &self.spec) else { return };
+        let in_use = answers.models.of(made.model.contact(), &spec.lubricant);
+        let in_use = in_use.filter(|model| !Arc::ptr_eq(model, &made.model));
+        let Some(former) = in_use.or(self.former.as_ref()) else { return };
+        let task = Task::Compare(Arc::clone(former), Arc::clone(&made.model), spec.clone());
+        self.comparison = None;
+        self.job = Some(Running::start(ctx, task));
+    }
+
     /// Trains on from a state.
     fn run(&mut self, ctx: &Context, state: TrainingState) {
         self.chart = Arc::new(Chart::of(&state));
@@ -87,15 +149,7 @@ impl Training {
         self.job = Some(Running::start(ctx, Task::Train(Box::new(state), self.file.clone())));
     }
 
-    /// Goes on with the unfinished training.
-    pub fn resume(&mut self, ctx: &Context) {
-        if let Some(state) = self.unfinished.take() {
-            self.run(ctx, *state);
-        }
-    }
-
-    /// Forgets the unfinished training, also on disk.
-    pub fn discard(&mut self) {
+    fn discard(&mut self) {
         self.unfinished = None;
         self.left_behind = false;
         self.notices.clear();
@@ -186,55 +240,11 @@ fn missed_tolerances(state: &TrainingState) -> Vec<String> {
     state.windows.iter().filter_map(missed).collect()
 }
 
-impl Desk {
-    /// The training that the Training tab shows.
+impl Document {
+    /// The training that the Training tab shows: the document's, or one to begin with.
     pub fn training_spec(&self) -> Option<&TrainingSpec> {
-        let kind = self.document.point.kind;
-        let own = self.document.training.as_ref().filter(|spec| spec.contact() == kind);
+        let kind = self.point.kind;
+        let own = self.training.as_ref().filter(|spec| spec.contact() == kind);
         own.or_else(|| presets::of_kind(kind).first().map(|preset| preset.1))
-    }
-
-    /// Starts the training that the tab shows, unless its specification is refused.
-    pub fn start_training(&mut self, ctx: &Context) {
-        let Some(spec) = self.training_spec().cloned() else { return };
-        match spec.check() {
-            Ok(()) => self.training.run(ctx, TrainingState::new(spec)),
-            Err(error) => self.training.notices = vec![Notice::Wrong(error.to_string())],
-        }
-    }
-
-    /// Compares the model that was made with the one in use, or with the one it replaced.
-    pub fn compare_models(&mut self, ctx: &Context) {
-        let (Some(made), Some(spec)) = (&self.training.made, &self.training.spec) else { return };
-        let in_use = self.answers.models.of(made.model.contact(), &spec.lubricant);
-        let in_use = in_use.filter(|model| !Arc::ptr_eq(model, &made.model));
-        let Some(former) = in_use.or(self.training.former.as_ref()) else { return };
-        let task = Task::Compare(Arc::clone(former), Arc::clone(&made.model), spec.clone());
-        self.training.comparison = None;
-        self.training.job = Some(Running::start(ctx, task));
-    }
-
-    /// Puts the model that was made in use.
-    pub fn use_made_model(&mut self) {
-        if let Some(made) = &self.training.made {
-            let model = Arc::clone(&made.model);
-            self.training.former = self.answers.use_model(model);
-        }
-    }
-
-    /// Puts the model in use that was before.
-    pub fn use_former_model(&mut self) {
-        if let Some(made) = &self.training.made {
-            let made = Arc::clone(&made.model);
-            match self.training.former.take() {
-                Some(former) => _ = self.answers.use_model(former),
-                None => self.answers.drop_model(&made),
-            }
-        }
-    }
-
-    /// Whether the model that was made is in use.
-    pub fn uses_made_model(&self) -> bool {
-        self.training.made.as_ref().is_some_and(|made| self.answers.models.contains(&made.model))
     }
 }

@@ -1,9 +1,9 @@
 //! The three inputs of a contact in time, and taking them from a table.
 
-use crate::app::desk::Desk;
+use crate::app::document::Document;
 use crate::scene::{TransientStudy, sampled};
 use crate::solver::full::transient::{Inputs, Signal};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Most rows of a table that a document keeps; undo keeps them many times over.
 const MOST_ROWS: usize = 20_000;
@@ -42,13 +42,13 @@ impl Input {
     }
 }
 
-impl Desk {
+impl Document {
     /// Takes the inputs that a table has columns of from there; the document keeps their values.
     ///
     /// # Errors
     /// A sentence with the line that makes no sense, or why an input is refused; nothing is changed then.
     pub fn read_inputs(&mut self, path: &Path) -> Result<(), String> {
-        let mut study = TransientStudy { sampled: None, ..self.document.transient_study() };
+        let mut study = TransientStudy { sampled: None, ..self.transient_study() };
         sampled::read_into(&mut study.inputs, path).map_err(|error| error.to_string())?;
         let rows = |input: Input| match input.of(&study.inputs) {
             Signal::Sampled { times, .. } => times.len(),
@@ -60,15 +60,6 @@ impl Desk {
                  in the scene as `sampled`"
             ));
         }
-        self.document.set_transient(study)?;
-        self.files.notice = Some(Ok(format!("Read {}", path.display())));
-        Ok(())
-    }
-
-    /// The table that the scene takes inputs from at every run.
-    pub(super) fn sampled_path(&self) -> Option<PathBuf> {
-        let path = self.document.transient.as_ref()?.sampled.as_ref()?;
-        let folder = self.files.path.as_deref().and_then(Path::parent).unwrap_or(Path::new(""));
-        Some(folder.join(path))
+        self.set_transient(study)
     }
 }

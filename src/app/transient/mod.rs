@@ -12,7 +12,6 @@ pub use player::Player;
 pub use run::{ModelSize, Run};
 pub use worker::News;
 
-use super::desk::Desk;
 use super::document::{Document, HOME};
 use crate::engine::job::Background;
 use crate::scene::{At, Grid, Scene, Study, TransientStudy};
@@ -24,7 +23,7 @@ use crate::solver::reduced::tpwl::Weighting;
 use egui::Context;
 use linearised::{Linearised, NumberStudy};
 use method::Method;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// What runs belong to.
@@ -42,6 +41,25 @@ pub struct Setup {
     pub grid: GridSpec,
 }
 
+/// What can be asked of contacts in time.
+#[derive(Clone, Debug, PartialEq)]
+pub enum InTimeCommand {
+    /// Run this one.
+    Run(Box<Setup>),
+    /// Stop the runs, and the study of their linearised model.
+    Stop,
+    /// Look at the moment T, and stay there.
+    GoTo(f64),
+    /// Play from the present moment on, or pause.
+    TogglePlay,
+    /// Play on for seconds of the clock.
+    PlayOn(f64),
+    /// Study how many operating points it takes.
+    StudyNumber,
+    /// Stop that study.
+    StopNumber,
+}
+
 /// What the window knows of contacts in time.
 #[derive(Default)]
 pub struct TransientView {
@@ -57,17 +75,26 @@ pub struct TransientView {
     pub work: Background<News>,
     /// Why a model could not be had of a run.
     pub notes: Vec<String>,
-    /// A field of the form whose entry was refused, and why.
-    pub refused: Option<(&'static str, String)>,
     /// The moment that is looked at.
     pub player: Player,
-    /// Whether the form is put away.
-    pub form_hidden: bool,
     /// Counts the starts: plots of new results forget how the former ones were zoomed.
     pub generation: u64,
 }
 
 impl Setup {
+    /// What a document would have run; where its file lies, the table lies that it takes inputs from.
+    pub fn of(document: &Document, file: Option<&Path>) -> Self {
+        let study = document.transient_study();
+        let folder = file.and_then(Path::parent).unwrap_or(Path::new(""));
+        Self {
+            point: document.point,
+            lubricant: document.lubricant,
+            sampled: study.sampled.as_ref().map(|path| folder.join(path)),
+            study,
+            grid: document.transient_grid().spec().unwrap_or(GridSpec::EXPLORER),
+        }
+    }
+
     /// Seconds per unit of T: a/u_m of the reference contact.
     pub fn time_scale_s(&self) -> f64 {
         self.point.hertz().half_width_m / self.point.speed_m_per_s
@@ -136,13 +163,39 @@ impl TransientView {
         self.reference_of(first)
     }
 
+    /// Does what was asked for.
+    pub fn execute(&mut self, ctx: &Context, command: InTimeCommand) {
+        match command {
+            InTimeCommand::Run(setup) => self.start(ctx, *setup),
+            InTimeCommand::Stop => self.stop(),
+            InTimeCommand::GoTo(time) => self.player.go_to(time),
+            InTimeCommand::TogglePlay => self.player.toggle(),
+            InTimeCommand::PlayOn(seconds) => {
+                let duration = self.setup.as_ref().map_or(0.0, |setup| setup.study.duration);
+                self.player.advance(seconds, duration);
+            }
+            InTimeCommand::StudyNumber => {
+                if let (Some(linearised), Some(full)) = (&self.linearised, self.reference_of_linearised()) {
+                    let (model, full) = (Arc::clone(&linearised.model), full.without_fields());
+                    self.number.start(ctx, model, full);
+                }
+            }
+            InTimeCommand::StopNumber => self.number.work.stop(),
+        }
+    }
+
     /// Stops the runs, and the study of their linearised model; what they have found stays.
     pub fn stop(&self) {
         self.work.stop();
         self.number.work.stop();
     }
 
-    fn start(&mut self, ctx: &Context, setup: Setup) {
+    /// Runs a contact in time, unless it is refused.
+    pub fn start(&mut self, ctx: &Context, setup: Setup) {
+        if let Err(error) = setup.study.own_march(setup.point, setup.lubricant, Frame::Fixed).problem() {
+            self.work.message = Some(error.to_string());
+            return;
+        }
         let setup = Arc::new(setup);
         self.notes.clear();
         self.runs.clear();
@@ -179,6 +232,15 @@ impl Document {
         Ok(())
     }
 
+    /// Why there are no contacts in time of this kind; `None` where there are.
+    pub fn no_transient(&self) -> Option<&'static str> {
+        match (self.point.kind, self.lubricant.shear) {
+            (ContactKind::Point, _) => Some("This version follows only line contacts in time; choose a line contact"),
+            (ContactKind::Line, ShearLaw::Newtonian) => None,
+            _ => Some("This version follows only Newtonian lubricants in time; choose one without shear constants"),
+        }
+    }
+
     /// Whether its file holds the contact in time: a scene that asks another question keeps that; a point contact and a lubricant that thins
     /// under shear have none.
     pub fn saves_transient(&self) -> bool {
@@ -209,37 +271,5 @@ fn breathing() -> TransientStudy {
         linearised: None,
         mass_between: None,
         published: Vec::new(),
-    }
-}
-
-impl Desk {
-    /// What would be run.
-    pub fn transient_setup(&self) -> Setup {
-        let document = &self.document;
-        Setup {
-            point: document.point,
-            lubricant: document.lubricant,
-            study: document.transient_study(),
-            sampled: self.sampled_path(),
-            grid: document.transient_grid().spec().unwrap_or(GridSpec::EXPLORER),
-        }
-    }
-
-    /// Runs the contact in time that the tab shows, unless it is refused.
-    pub fn start_transient(&mut self, ctx: &Context) {
-        let setup = self.transient_setup();
-        match setup.study.own_march(setup.point, setup.lubricant, Frame::Fixed).problem() {
-            Ok(_) => self.transient.start(ctx, setup),
-            Err(error) => self.transient.work.message = Some(error.to_string()),
-        }
-    }
-
-    /// Why there are no contacts in time of this kind; `None` where there are.
-    pub fn no_transient(&self) -> Option<&'static str> {
-        match (self.document.point.kind, self.document.lubricant.shear) {
-            (ContactKind::Point, _) => Some("This version follows only line contacts in time; choose a line contact"),
-            (ContactKind::Line, ShearLaw::Newtonian) => None,
-            _ => Some("This version follows only Newtonian lubricants in time; choose one without shear constants"),
-        }
     }
 }

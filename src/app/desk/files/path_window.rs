@@ -133,7 +133,10 @@ impl Desk {
         }
         let result = match window.purpose.clone() {
             Purpose::Open => self.open_path(&path),
-            Purpose::Inputs => self.read_inputs(&path),
+            Purpose::Inputs => self
+                .document
+                .read_inputs(&path)
+                .map(|()| self.files.notice = Some(Ok(format!("Read {}", path.display())))),
             Purpose::Save => self.save_to(&path),
             Purpose::Csv { text } => atomic_file::replace(&path, text.as_bytes())
                 .map_err(|e| e.to_string())

@@ -7,20 +7,21 @@ mod table;
 mod trajectory;
 mod weights;
 
-use super::transient;
+use super::in_time::{self, methods};
+use crate::app::command::Command;
+use crate::app::context::{Commands, Context};
 use crate::app::controls::{choice, message_ui, why};
-use crate::app::desk::Desk;
+use crate::app::form::LastField;
 use crate::app::numbers;
-use crate::app::purpose::Purpose;
 use crate::app::theme::Palette;
 use crate::app::transient::linearised::{Linearised, PointNow};
 use crate::app::transient::method::{WEIGHTINGS, weighting_name};
-use crate::app::transient::{Run, TransientView};
+use crate::app::transient::{InTimeCommand, Run, TransientView};
 use crate::solver::full::transient::Quantity;
 use crate::solver::reduced::tpwl::Weighting;
 use egui::{Button, Color32, Grid, Pos2, ProgressBar, Response, ScrollArea, Ui};
 use egui_plot::{PlotPoint, PlotTransform};
-use std::sync::Arc;
+use table::Sorting;
 
 /// Width of the settings.
 const FORM_WIDTH: f32 = 296.0;
@@ -32,7 +33,7 @@ const LEAST_HEIGHT: f32 = 118.0;
 const GRAB: f32 = 12.0;
 
 /// What the tab keeps between frames; none of it belongs to the scene.
-pub struct TpwlView {
+pub struct Tpwl {
     /// What is drawn along the training trajectory.
     quantity: Quantity,
     /// Coordinates of the plane, from 0; the last one is H_0.
@@ -41,22 +42,24 @@ pub struct TpwlView {
     trajectory: usize,
     /// Whether the study of numbers stands in place of the weights.
     numbers: bool,
-    sorting: table::Sorting,
+    sorting: Sorting,
     /// Settings shown or hidden; shown until there is a model where nobody has decided.
     form: Option<bool>,
     why: bool,
+    last: LastField,
 }
 
-impl Default for TpwlView {
+impl Default for Tpwl {
     fn default() -> Self {
         Self {
             quantity: Quantity::CentralFilm,
             coordinates: [0, 1],
             trajectory: 0,
             numbers: false,
-            sorting: table::Sorting::default(),
+            sorting: Sorting::default(),
             form: None,
             why: false,
+            last: None,
         }
     }
 }
@@ -64,7 +67,7 @@ impl Default for TpwlView {
 /// What all pictures of one frame share.
 struct Shown<'a> {
     view: &'a TransientView,
-    tab: &'a TpwlView,
+    tab: &'a Tpwl,
     linearised: &'a Linearised,
     /// Its runs.
     runs: Vec<(Weighting, &'a Run)>,
@@ -75,11 +78,11 @@ struct Shown<'a> {
 }
 
 impl<'a> Shown<'a> {
-    fn new(ui: &Ui, desk: &'a Desk, linearised: &'a Linearised) -> Self {
-        let view = &desk.transient;
+    fn new(ui: &Ui, tab: &'a Tpwl, context: &Context<'a>, linearised: &'a Linearised) -> Self {
+        let view = context.transient;
         let runs: Vec<_> = view.linearised_runs().collect();
         let points = linearised.points_at(&runs, view.player.time());
-        Self { view, tab: &desk.views.tpwl, linearised, runs, points, palette: Palette::of(ui), fit: desk.fit_plots }
+        Self { view, tab, linearised, runs, points, palette: Palette::of(ui), fit: context.fit }
     }
 
     /// The operating points of the trajectory that is drawn.
@@ -108,53 +111,169 @@ const WHY: &str = "Near a state that has been seen, the contact answers a small 
     half about the points and half about their barycentre, which cancels that, while far from every point, under inputs steeper than the \
     trained ones, no weights help and the reduced model is the right choice.";
 
-/// The tab.
-pub fn ui(ui: &mut Ui, desk: &mut Desk) {
-    if let Some(why) = desk.no_transient() {
-        ui.centered_and_justified(|ui| ui.weak(why));
-        return;
-    }
-    ui.horizontal_top(|ui| {
-        if form_shown(desk) {
-            ui.vertical(|ui| {
-                ui.set_width(FORM_WIDTH);
-                ScrollArea::vertical().id_salt("tpwl form").auto_shrink(false).show(ui, |ui| {
-                    transient::form::edit(ui, desk, |ui, form, study| {
-                        transient::methods::linearised_ui(ui, form, study);
-                        form.message(ui, "Methods");
-                        transient::methods::trainings_ui(ui, form, study);
-                    });
-                    ui.weak("Inputs, duration and steps are those of the Transient tab.");
-                });
-            });
-            ui.separator();
+impl Tpwl {
+    /// The tab.
+    pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        if let Some(why) = context.document.no_transient() {
+            ui.centered_and_justified(|ui| ui.weak(why));
+            return;
         }
-        ui.vertical(|ui| {
-            ScrollArea::vertical().id_salt("tpwl").auto_shrink(false).show(ui, |ui| results(ui, desk));
+        ui.horizontal_top(|ui| {
+            if self.form_shown(context) {
+                ui.vertical(|ui| {
+                    ui.set_width(FORM_WIDTH);
+                    let area = ScrollArea::vertical().id_salt("tpwl form").auto_shrink(false);
+                    area.show(ui, |ui| self.form_ui(ui, context, commands));
+                });
+                ui.separator();
+            }
+            ui.vertical(|ui| {
+                let area = ScrollArea::vertical().id_salt("tpwl").auto_shrink(false);
+                area.show(ui, |ui| self.results(ui, context, commands));
+            });
         });
-    });
+    }
+
+    fn form_ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        self.last = in_time::edit(ui, ("tpwl", self.last), context, commands, |ui, form, study| {
+            methods::linearised_ui(ui, form, study);
+            form.message(ui, "Methods");
+            methods::trainings_ui(ui, form, study);
+        });
+        ui.weak("Inputs, duration and steps are those of the Transient tab.");
+    }
+
+    fn form_shown(&self, context: &Context<'_>) -> bool {
+        self.form.unwrap_or(context.transient.linearised.is_none())
+    }
+
+    fn results(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        let (top, height) = (ui.cursor().top(), ui.available_height());
+        self.buttons(ui, context, commands);
+        why(ui, self.why, WHY);
+        in_time::status(ui, context);
+        number_status(ui, context.transient);
+        let Some(linearised) = &context.transient.linearised else {
+            nothing_yet(ui, context);
+            return;
+        };
+        in_time::player(ui, context.transient, commands);
+        self.choices(ui, linearised);
+        let rest = height - (ui.cursor().top() - top) - 30.0;
+        let mut sorting = self.sorting;
+        let wanted = pictures(ui, &Shown::new(ui, self, context, linearised), &mut sorting, rest);
+        self.sorting = sorting;
+        commands.extend(wanted.map(|time| Command::InTime(InTimeCommand::GoTo(time))));
+    }
+
+    fn buttons(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        let view = context.transient;
+        ui.horizontal_wrapped(|ui| {
+            let mut form = self.form_shown(context);
+            let tip = "Shows how the linearised model is made, or leaves the room to pictures";
+            if ui.toggle_value(&mut form, "Model set-up").on_hover_text(tip).changed() {
+                self.form = Some(form);
+            }
+            in_time::run_button(ui, context, commands);
+            let there = view.linearised.is_some();
+            let ready = there && view.work.standing().is_none();
+            let tip = "Error of H_c against the number of operating points: both rules on a ladder of tolerances, by both \
+                       weightings, along these inputs";
+            if view.number.work.standing().is_some() {
+                if ui.button("Stop the study").on_hover_text("What has been found so far stays (Esc)").clicked() {
+                    commands.push(Command::InTime(InTimeCommand::StopNumber));
+                }
+            } else if enabled(ui, ready, "Number against error", tip).clicked()
+                && view.reference_of_linearised().is_some()
+            {
+                commands.push(Command::InTime(InTimeCommand::StudyNumber));
+                self.numbers = true;
+            }
+            let mut table = |ui: &mut Ui, name: &str, tip: &str, text: fn(&Shown<'_>) -> String| {
+                if enabled(ui, there, name, tip).clicked()
+                    && let Some(linearised) = &view.linearised
+                {
+                    commands.push(Command::csv(text(&Shown::new(ui, self, context, linearised))));
+                }
+            };
+            let tip = "All operating points with inputs, state norms, weights and distances at this moment";
+            table(ui, "Export points…", tip, export::points);
+            let tip = "Every step’s operating points and weights, and how far it lies from them";
+            table(ui, "Export weights…", tip, export::weights);
+            if !view.number.rows.is_empty() {
+                let tip = "Rule, tolerance, number of points, weights and error of every model tried";
+                if ui.button("Export numbers…").on_hover_text(tip).clicked() {
+                    commands.push(Command::csv(export::numbers(view)));
+                }
+            }
+            let tip = "Any of these plots, or the whole tab, as SVG or PNG with axes and parameters";
+            if enabled(ui, there, "Export plot…", tip).clicked() {
+                commands.push(Command::ExportPlot);
+            }
+            ui.toggle_value(&mut self.why, "Why").on_hover_text("What the model does, in three sentences");
+        });
+    }
+
+    /// What is drawn: quantity, training, coordinates, and what stands below.
+    fn choices(&mut self, ui: &mut Ui, linearised: &Linearised) {
+        let modes = linearised.model.space.modes();
+        let trainings = linearised.trainings.len();
+        self.trajectory = self.trajectory.min(trainings.saturating_sub(1));
+        self.coordinates = self.coordinates.map(|k| k.min(modes));
+        ui.horizontal_wrapped(|ui| {
+            let combo = |ui: &mut Ui, content: &mut dyn FnMut(&mut Ui)| {
+                Grid::new(ui.next_auto_id()).spacing([6.0, 0.0]).min_col_width(0.0).show(ui, |ui| content(ui));
+            };
+            combo(ui, &mut |ui| {
+                let quantities = [Quantity::CentralFilm, Quantity::CentralPressure];
+                let name = |quantity| match quantity {
+                    Quantity::CentralPressure => ("Central pressure", "P_c of the full system"),
+                    _ => ("Central film", "H_c of the full system"),
+                };
+                choice(
+                    ui,
+                    "Along",
+                    "What is drawn along the training trajectory",
+                    &mut self.quantity,
+                    &quantities,
+                    name,
+                );
+            });
+            if trainings > 1 {
+                let label = ui.label("Training");
+                egui::ComboBox::from_id_salt("training shown")
+                    .selected_text((self.trajectory + 1).to_string())
+                    .width(56.0)
+                    .show_ui(ui, |ui| {
+                        for k in 0..trainings {
+                            ui.selectable_value(&mut self.trajectory, k, (k + 1).to_string());
+                        }
+                    })
+                    .response
+                    .labelled_by(label.id);
+            }
+            for (name, at) in [("Across", 0), ("Up", 1)] {
+                let label =
+                    ui.label(name).on_hover_text("A reduced coordinate of the plane: a pressure mode’s, or H_0");
+                egui::ComboBox::from_id_salt(("coordinate", at))
+                    .selected_text(plane::coordinate_name(self.coordinates[at], modes))
+                    .width(84.0)
+                    .show_ui(ui, |ui| {
+                        for k in 0..=modes {
+                            ui.selectable_value(&mut self.coordinates[at], k, plane::coordinate_name(k, modes));
+                        }
+                    })
+                    .response
+                    .labelled_by(label.id);
+            }
+            ui.selectable_value(&mut self.numbers, false, "Weights");
+            ui.selectable_value(&mut self.numbers, true, "Number and error");
+        });
+    }
 }
 
-fn form_shown(desk: &Desk) -> bool {
-    desk.views.tpwl.form.unwrap_or(desk.transient.linearised.is_none())
-}
-
-fn results(ui: &mut Ui, desk: &mut Desk) {
-    let (top, height) = (ui.cursor().top(), ui.available_height());
-    buttons(ui, desk);
-    why(ui, desk.views.tpwl.why, WHY);
-    transient::status(ui, desk);
-    number_status(ui, desk);
-    let Some(linearised) = desk.transient.linearised.clone() else {
-        nothing_yet(ui, desk);
-        return;
-    };
-    transient::player(ui, &mut desk.transient);
-    choices(ui, desk, &linearised);
-    let rest = height - (ui.cursor().top() - top) - 30.0;
-    let shown = Shown::new(ui, desk, &linearised);
-    let mut sorting = desk.views.tpwl.sorting;
-    let mut wanted = None;
+/// All pictures; returns the moment that was clicked at.
+fn pictures(ui: &mut Ui, shown: &Shown<'_>, sorting: &mut Sorting, rest: f32) -> Option<f64> {
     if ui.available_width() >= SIDE_BY_SIDE {
         let unit = (0.5 * rest).max(2.0 * LEAST_HEIGHT);
         let width = ui.available_width();
@@ -168,23 +287,19 @@ fn results(ui: &mut Ui, desk: &mut Desk) {
             });
         };
         let (mut first, mut second, mut third, mut fourth) = (None, None, None, None);
-        halves(ui, &mut |ui| first = trajectory::ui(ui, &shown, 0.5 * unit), &mut |ui| {
-            second = plane::ui(ui, &shown, unit);
+        halves(ui, &mut |ui| first = trajectory::ui(ui, shown, 0.5 * unit), &mut |ui| {
+            second = plane::ui(ui, shown, unit);
         });
-        halves(ui, &mut |ui| third = lower(ui, &shown, unit), &mut |ui| {
-            fourth = table::ui(ui, &shown, &mut sorting, unit);
+        halves(ui, &mut |ui| third = lower(ui, shown, unit), &mut |ui| {
+            fourth = table::ui(ui, shown, sorting, unit);
         });
-        wanted = first.or(second).or(third).or(fourth);
+        first.or(second).or(third).or(fourth)
     } else {
         let unit = 1.2 * LEAST_HEIGHT;
-        wanted = trajectory::ui(ui, &shown, unit).or(wanted);
-        wanted = plane::ui(ui, &shown, 1.6 * unit).or(wanted);
-        wanted = lower(ui, &shown, 1.6 * unit).or(wanted);
-        wanted = table::ui(ui, &shown, &mut sorting, 1.6 * unit).or(wanted);
-    }
-    desk.views.tpwl.sorting = sorting;
-    if let Some(time) = wanted {
-        desk.transient.player.go_to(time);
+        let first = trajectory::ui(ui, shown, unit);
+        let second = plane::ui(ui, shown, 1.6 * unit).or(first);
+        let third = lower(ui, shown, 1.6 * unit).or(second);
+        table::ui(ui, shown, sorting, 1.6 * unit).or(third)
     }
 }
 
@@ -199,77 +314,23 @@ fn lower(ui: &mut Ui, shown: &Shown<'_>, height: f32) -> Option<f64> {
 }
 
 /// What to do where there is no linearised model yet.
-fn nothing_yet(ui: &mut Ui, desk: &mut Desk) {
-    if desk.transient.work.standing().is_some() {
+fn nothing_yet(ui: &mut Ui, context: &Context<'_>) {
+    if context.transient.work.standing().is_some() {
         return;
     }
-    if desk.document.transient_study().linearised.is_some() {
+    if context.document.transient_study().linearised.is_some() {
         ui.weak("Run it in time: the full system first, whose trajectory is then linearised and followed.");
         return;
     }
     ui.weak("Tick Linearised model to choose operating points along a trajectory, and run it in time.");
 }
 
-fn buttons(ui: &mut Ui, desk: &mut Desk) {
-    let ctx = ui.ctx().clone();
-    let linearised = desk.transient.linearised.clone();
-    ui.horizontal_wrapped(|ui| {
-        let mut form = form_shown(desk);
-        let tip = "Shows how the linearised model is made, or leaves the room to pictures";
-        if ui.toggle_value(&mut form, "Model set-up").on_hover_text(tip).changed() {
-            desk.views.tpwl.form = Some(form);
-        }
-        transient::run_button(ui, desk);
-        let ready = linearised.is_some() && desk.transient.work.standing().is_none();
-        let tip = "Error of H_c against the number of operating points: both rules on a ladder of tolerances, by both weightings, along \
-                   these inputs";
-        if desk.transient.number.work.standing().is_some() {
-            if ui.button("Stop the study").on_hover_text("What has been found so far stays (Esc)").clicked() {
-                desk.transient.number.work.stop();
-            }
-        } else if enabled(ui, ready, "Number against error", tip).clicked()
-            && let (Some(linearised), Some(full)) = (&linearised, desk.transient.reference_of_linearised())
-        {
-            let (model, full) = (Arc::clone(&linearised.model), full.without_fields());
-            desk.transient.number.start(&ctx, model, full);
-            desk.views.tpwl.numbers = true;
-        }
-        let there = linearised.is_some();
-        let tip = "All operating points with inputs, state norms, weights and distances at this moment";
-        if enabled(ui, there, "Export points…", tip).clicked()
-            && let Some(linearised) = &linearised
-        {
-            let text = export::points(&Shown::new(ui, desk, linearised));
-            desk.ask_path(&ctx, Purpose::Csv { text });
-        }
-        let tip = "Every step’s operating points and weights, and how far it lies from them";
-        if enabled(ui, there, "Export weights…", tip).clicked()
-            && let Some(linearised) = &linearised
-        {
-            let text = export::weights(&Shown::new(ui, desk, linearised));
-            desk.ask_path(&ctx, Purpose::Csv { text });
-        }
-        if !desk.transient.number.rows.is_empty() {
-            let tip = "Rule, tolerance, number of points, weights and error of every model tried";
-            if ui.button("Export numbers…").on_hover_text(tip).clicked() {
-                let text = export::numbers(&desk.transient);
-                desk.ask_path(&ctx, Purpose::Csv { text });
-            }
-        }
-        let tip = "Any of these plots, or the whole tab, as SVG or PNG with axes and parameters";
-        if enabled(ui, there, "Export plot…", tip).clicked() {
-            desk.figures.ask();
-        }
-        ui.toggle_value(&mut desk.views.tpwl.why, "Why").on_hover_text("What the model does, in three sentences");
-    });
-}
-
 fn enabled(ui: &mut Ui, on: bool, name: &str, tip: &str) -> Response {
     ui.add_enabled(on, Button::new(name)).on_hover_text(tip).on_disabled_hover_text(tip)
 }
 
-fn number_status(ui: &mut Ui, desk: &Desk) {
-    let study = &desk.transient.number;
+fn number_status(ui: &mut Ui, view: &TransientView) {
+    let study = &view.number;
     if let Some(standing) = study.work.standing() {
         ui.horizontal(|ui| {
             ui.label(&standing.stage);
@@ -281,56 +342,6 @@ fn number_status(ui: &mut Ui, desk: &Desk) {
     if let Some(message) = &study.work.message {
         message_ui(ui, message);
     }
-}
-
-/// What is drawn: quantity, training, coordinates, and what stands below.
-fn choices(ui: &mut Ui, desk: &mut Desk, linearised: &Linearised) {
-    let tab = &mut desk.views.tpwl;
-    let modes = linearised.model.space.modes();
-    let trainings = linearised.trainings.len();
-    tab.trajectory = tab.trajectory.min(trainings.saturating_sub(1));
-    tab.coordinates = tab.coordinates.map(|k| k.min(modes));
-    ui.horizontal_wrapped(|ui| {
-        let combo = |ui: &mut Ui, content: &mut dyn FnMut(&mut Ui)| {
-            Grid::new(ui.next_auto_id()).spacing([6.0, 0.0]).min_col_width(0.0).show(ui, |ui| content(ui));
-        };
-        combo(ui, &mut |ui| {
-            let quantities = [Quantity::CentralFilm, Quantity::CentralPressure];
-            let name = |quantity| match quantity {
-                Quantity::CentralPressure => ("Central pressure", "P_c of the full system"),
-                _ => ("Central film", "H_c of the full system"),
-            };
-            choice(ui, "Along", "What is drawn along the training trajectory", &mut tab.quantity, &quantities, name);
-        });
-        if trainings > 1 {
-            let label = ui.label("Training");
-            egui::ComboBox::from_id_salt("training shown")
-                .selected_text((tab.trajectory + 1).to_string())
-                .width(56.0)
-                .show_ui(ui, |ui| {
-                    for k in 0..trainings {
-                        ui.selectable_value(&mut tab.trajectory, k, (k + 1).to_string());
-                    }
-                })
-                .response
-                .labelled_by(label.id);
-        }
-        for (name, at) in [("Across", 0), ("Up", 1)] {
-            let label = ui.label(name).on_hover_text("A reduced coordinate of the plane: a pressure mode’s, or H_0");
-            egui::ComboBox::from_id_salt(("coordinate", at))
-                .selected_text(plane::coordinate_name(tab.coordinates[at], modes))
-                .width(84.0)
-                .show_ui(ui, |ui| {
-                    for k in 0..=modes {
-                        ui.selectable_value(&mut tab.coordinates[at], k, plane::coordinate_name(k, modes));
-                    }
-                })
-                .response
-                .labelled_by(label.id);
-        }
-        ui.selectable_value(&mut tab.numbers, false, "Weights");
-        ui.selectable_value(&mut tab.numbers, true, "Number and error");
-    });
 }
 
 /// The point whose place on the screen is nearest to the pointer, if it is near.

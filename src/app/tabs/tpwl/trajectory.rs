@@ -4,7 +4,6 @@
 use super::{Shown, near, point_under};
 use crate::app::numbers;
 use crate::app::tabs::axes;
-use crate::app::tabs::transient::series::thinned;
 use crate::app::theme::THIN_WIDTH;
 use crate::app::transient::linearised::PointNow;
 use crate::app::transient::method::rule_name;
@@ -45,7 +44,7 @@ fn plot<'a>(ui: &Ui, shown: &Shown<'_>, id: &str, titles: (&str, &str), height: 
 /// The trajectory as a line.
 fn curve(shown: &Shown<'_>) -> Vec<PlotPoint> {
     let moments = shown.linearised.trainings.get(shown.tab.trajectory).map_or(&[][..], Vec::as_slice);
-    thinned(moments.iter().map(|moment| PlotPoint::new(moment.time, moment.value(shown.tab.quantity))).collect())
+    axes::thinned(moments.iter().map(|moment| PlotPoint::new(moment.time, moment.value(shown.tab.quantity))).collect())
 }
 
 fn place(shown: &Shown<'_>, time: f64) -> Option<PlotPoint> {

@@ -1,6 +1,6 @@
 //! The training as pictures: where its full solutions lie, and how bad the approximations were that led to them.
 
-use crate::app::desk::Desk;
+use crate::app::context::Context;
 use crate::app::numbers;
 use crate::app::tabs::axes;
 use crate::app::theme::{Palette, faded};
@@ -25,9 +25,9 @@ fn legible(input: GridInput, height: f32) -> Vec<GridMark> {
 }
 
 /// What the marks mean, above the charts: they leave no corner free.
-pub fn key(ui: &mut Ui, desk: &Desk) {
+pub fn key(ui: &mut Ui, context: &Context<'_>) {
     let palette = Palette::of(ui);
-    let chart = &desk.training.chart;
+    let chart = &context.training.chart;
     let searched = chart.solved.iter().filter(|dot| dot.searched).count();
     let failed = chart.bad.iter().filter(|bad| bad.indicator.is_none()).count();
     let entries = [
@@ -44,12 +44,12 @@ pub fn key(ui: &mut Ui, desk: &Desk) {
 }
 
 /// The M–L plane: full solutions by how they were decided on, bad approximations, failed reduced solves, the range.
-pub fn plane(ui: &mut Ui, desk: &Desk, height: f32) {
+pub fn plane(ui: &mut Ui, context: &Context<'_>, height: f32) {
     let palette = Palette::of(ui);
-    let chart = &desk.training.chart;
+    let chart = &context.training.chart;
     // What runs, else what would be started.
-    let runs = desk.training.spec.as_deref().filter(|_| desk.training.job().is_some());
-    let spec = runs.or_else(|| desk.training_spec());
+    let runs = context.training.spec.as_deref().filter(|_| context.training.job().is_some());
+    let spec = runs.or_else(|| context.document.training_spec());
     let range = spec.map(|spec| spec.domain());
     let group = |searched: bool| -> Vec<PlotPoint> {
         chart.solved.iter().filter(|dot| dot.searched == searched).map(|dot| dot.at).collect()
@@ -93,7 +93,7 @@ pub fn plane(ui: &mut Ui, desk: &Desk, height: f32) {
                 let crosses = dots("Reduced solve failed", failed, palette.wrong, 6.0).shape(MarkerShape::Cross);
                 plot.points(crosses.allow_hover(false));
             }
-            if let Some(last) = chart.solved.last().filter(|_| desk.training.job().is_some_and(|job| job.trains)) {
+            if let Some(last) = chart.solved.last().filter(|_| context.training.job().is_some_and(|job| job.trains)) {
                 let ring = dots("", vec![last.at], palette.accent, 8.0).filled(false).id("newest");
                 plot.points(ring.shape(MarkerShape::Circle).allow_hover(false));
             }
@@ -103,10 +103,10 @@ pub fn plane(ui: &mut Ui, desk: &Desk, height: f32) {
 
 /// The indicator of every bad approximation against the number of full solutions when it was found; tolerances as
 /// lines.
-pub fn indicator(ui: &mut Ui, desk: &Desk, height: f32) {
+pub fn indicator(ui: &mut Ui, context: &Context<'_>, height: f32) {
     let palette = Palette::of(ui);
-    let chart = &desk.training.chart;
-    let tolerances: &[f64] = match desk.training.spec.as_deref().map(|spec| &spec.plan) {
+    let chart = &context.training.chart;
+    let tolerances: &[f64] = match context.training.spec.as_deref().map(|spec| &spec.plan) {
         Some(Plan::Adaptive { tolerances, .. }) => tolerances,
         Some(Plan::WorstOfPool { tolerance, .. }) => std::slice::from_ref(tolerance),
         _ => &[],

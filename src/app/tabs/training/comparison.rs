@@ -1,7 +1,7 @@
 //! The model that was made beside the one before it.
 
+use crate::app::context::Context;
 use crate::app::controls::warning_ui;
-use crate::app::desk::Desk;
 use crate::app::numbers;
 use crate::app::theme::rich;
 use crate::engine::ModelScore;
@@ -11,8 +11,8 @@ use egui::{Grid, Ui};
 type Row = (&'static str, &'static str, fn(&ModelScore) -> String);
 
 /// The table, when there is one.
-pub fn ui(ui: &mut Ui, desk: &Desk) {
-    let Some(comparison) = &desk.training.comparison else { return };
+pub fn ui(ui: &mut Ui, context: &Context<'_>) {
+    let Some(comparison) = &context.training.comparison else { return };
     ui.add_space(4.0);
     ui.strong("Compared with the model before");
     ui.weak(format!(

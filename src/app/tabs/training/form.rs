@@ -1,10 +1,11 @@
 //! The specification of a training as a form: presets, range, plan, reduction. What makes no sense is refused beside
 //! its field.
 
-use super::fields::{Form, choose, row, short};
+use super::TrainingTab;
+use crate::app::context::{Commands, Context};
 use crate::app::controls::{heading, named};
-use crate::app::desk::Desk;
 use crate::app::document::Edit;
+use crate::app::form::{Form, choose, row, short};
 use crate::app::training::presets;
 use crate::scene::QuantityBox;
 use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
@@ -14,11 +15,11 @@ use crate::solver::training::{Indicator, Plan, Range, SlidingRange, TrainingSpec
 use egui::{TextEdit, Ui};
 
 /// The form.
-pub fn ui(ui: &mut Ui, desk: &mut Desk) {
-    let Some(mut spec) = desk.training_spec().cloned() else { return };
-    let before = spec.clone();
-    let mut form = Form { refused: desk.training.refused.take(), changed: None };
-    ui.add_enabled_ui(desk.training.job().is_none(), |ui| {
+pub fn ui(ui: &mut Ui, tab: &mut TrainingTab, context: &Context<'_>, commands: &mut Commands) {
+    let Some(before) = context.document.training_spec() else { return };
+    let mut spec = before.clone();
+    let mut form = Form::new("training", tab.last, context);
+    ui.add_enabled_ui(context.training.job().is_none(), |ui| {
         ui.horizontal(|ui| {
             for (name, preset) in presets::of_kind(spec.contact()) {
                 if ui.button(name).on_hover_text("Sets everything below").clicked() {
@@ -28,21 +29,17 @@ pub fn ui(ui: &mut Ui, desk: &mut Desk) {
             }
         });
         form.message(ui, "presets");
-        title_ui(ui, &mut desk.training.title, &mut spec);
+        title_ui(ui, &mut tab.title, &mut spec);
         range_ui(ui, &mut form, &mut spec);
         plan_ui(ui, &mut form, &mut spec);
         reduction_ui(ui, &mut form, &mut spec);
     });
-    let Form { refused, changed } = form;
-    desk.training.refused = refused;
-    if spec != before {
-        if spec.range != before.range {
-            presets::fit_windows(&mut spec);
-        }
-        let result = desk.document.edit(Edit::Training(Box::new(spec)));
-        desk.training.refused = result.err().map(|message| (changed.unwrap_or("presets"), message));
+    if spec.range != before.range {
+        presets::fit_windows(&mut spec);
     }
-    if !desk.document.saves_training() && desk.document.training.is_some() {
+    let edit = (spec != *before).then(|| Edit::Training(Box::new(spec)));
+    tab.last = form.ask(edit, "presets", commands);
+    if !context.document.saves_training() && context.document.training.is_some() {
         ui.weak("The open scene asks another question: it is saved without this training.");
     }
 }
@@ -68,7 +65,7 @@ const ALPHA: (&str, f64) = ("1/GPa", 1e-9);
 const VISCOSITY: (&str, f64) = ("mPa·s", 1e-3);
 const GIGAPASCAL: (&str, f64) = ("GPa", 1e9);
 
-fn range_ui(ui: &mut Ui, form: &mut Form, spec: &mut TrainingSpec) {
+fn range_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
     heading(ui, "Range");
     let is_box = matches!(spec.range, Range::Box(_));
     let mut wanted = is_box;
@@ -215,7 +212,7 @@ impl Kind {
     }
 }
 
-fn plan_ui(ui: &mut Ui, form: &mut Form, spec: &mut TrainingSpec) {
+fn plan_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
     heading(ui, "Plan");
     let kind = Kind::of(&spec.plan);
     let mut wanted = kind;
@@ -283,7 +280,7 @@ fn plan_ui(ui: &mut Ui, form: &mut Form, spec: &mut TrainingSpec) {
     spec.seed = seed as u64;
 }
 
-fn indicator_ui(ui: &mut Ui, form: &mut Form, indicator: &mut Indicator) {
+fn indicator_ui(ui: &mut Ui, form: &mut Form<'_>, indicator: &mut Indicator) {
     let before = *indicator;
     let options = [Indicator::Correction, Indicator::Residual, Indicator::Dissertation];
     choose(ui, "Judged by", "The indicator of a bad approximation", indicator, &options, |indicator| match indicator {
@@ -302,7 +299,7 @@ fn indicator_ui(ui: &mut Ui, form: &mut Form, indicator: &mut Indicator) {
 }
 
 /// The tolerances, descending; each shown as a number of its own.
-fn ladder_ui(ui: &mut Ui, form: &mut Form, tolerances: &mut Vec<f64>) {
+fn ladder_ui(ui: &mut Ui, form: &mut Form<'_>, tolerances: &mut Vec<f64>) {
     let tip = "On the indicator, descending: a rung ends with enough good approximations in a row";
     row(ui, "Tolerances", tip, |ui| {
         ui.vertical(|ui| {
@@ -328,7 +325,7 @@ fn ladder_ui(ui: &mut Ui, form: &mut Form, tolerances: &mut Vec<f64>) {
     form.message(ui, "Tolerances");
 }
 
-fn reduction_ui(ui: &mut Ui, form: &mut Form, spec: &mut TrainingSpec) {
+fn reduction_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
     heading(ui, "Reduction");
     let tip = "Share of the singular values that may be neglected";
     form.row(ui, "Pressure loss", PLAIN, &mut spec.pressure_loss, &format!("{tip} (2.92)"));

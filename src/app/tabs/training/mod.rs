@@ -2,108 +2,111 @@
 
 mod charts;
 mod comparison;
-pub(super) mod fields;
 mod form;
 
-use crate::app::controls::{message_ui, sentence, warning_ui};
-use crate::app::desk::Desk;
+use crate::app::command::Command;
+use crate::app::context::{Commands, Context};
+use crate::app::controls::{message_ui, named, sentence, warning_ui};
+use crate::app::form::LastField;
 use crate::app::numbers;
 use crate::app::purpose::Purpose;
-use crate::app::training::{Notice, Running};
+use crate::app::training::{Notice, Running, TrainingCommand};
 use crate::engine::job::Standing;
-use egui::{Button, ProgressBar, Response, ScrollArea, Ui};
+use egui::{Button, ProgressBar, ScrollArea, Ui};
 
 /// Width of the form.
 const FORM_WIDTH: f32 = 316.0;
 
-/// The tab.
-pub fn ui(ui: &mut Ui, desk: &mut Desk) {
-    ui.horizontal_top(|ui| {
-        ui.vertical(|ui| {
-            ui.set_width(FORM_WIDTH);
-            ScrollArea::vertical().id_salt("training form").auto_shrink(false).show(ui, |ui| form::ui(ui, desk));
-        });
-        ui.separator();
-        ui.vertical(|ui| {
-            ScrollArea::vertical().id_salt("training").auto_shrink(false).show(ui, |ui| {
-                let (top, height) = (ui.cursor().top(), ui.available_height());
-                buttons(ui, desk);
-                status(ui, desk);
-                comparison::ui(ui, desk);
-                charts::key(ui, desk);
-                let searches = desk.training.spec.as_ref().is_some_and(|spec| spec.plan.searches());
-                let rest = (height - (ui.cursor().top() - top) - 12.0).max(300.0);
-                let lower = if searches { (0.34 * rest).max(115.0) } else { 0.0 };
-                charts::plane(ui, desk, rest - lower);
-                if searches {
-                    charts::indicator(ui, desk, lower);
-                }
-            });
-        });
-    });
+/// The tab: what is being entered in its form.
+#[derive(Default)]
+pub struct TrainingTab {
+    /// The title while it is typed.
+    title: Option<String>,
+    last: LastField,
 }
 
-fn buttons(ui: &mut Ui, desk: &mut Desk) {
-    let ctx = ui.ctx().clone();
-    let runs = desk.training.job().is_some();
-    let enabled = |ui: &mut Ui, on: bool, name: &str, tip: &str| -> Response {
-        ui.add_enabled(on, Button::new(name)).on_hover_text(tip).on_disabled_hover_text(tip)
+impl TrainingTab {
+    /// The tab.
+    pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        ui.horizontal_top(|ui| {
+            ui.vertical(|ui| {
+                ui.set_width(FORM_WIDTH);
+                let area = ScrollArea::vertical().id_salt("training form").auto_shrink(false);
+                area.show(ui, |ui| form::ui(ui, self, context, commands));
+            });
+            ui.separator();
+            ui.vertical(|ui| {
+                let area = ScrollArea::vertical().id_salt("training").auto_shrink(false);
+                area.show(ui, |ui| results(ui, context, commands));
+            });
+        });
+    }
+}
+
+fn results(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+    let (top, height) = (ui.cursor().top(), ui.available_height());
+    buttons(ui, context, commands);
+    status(ui, context);
+    comparison::ui(ui, context);
+    charts::key(ui, context);
+    let searches = context.training.spec.as_ref().is_some_and(|spec| spec.plan.searches());
+    let rest = (height - (ui.cursor().top() - top) - 12.0).max(300.0);
+    let lower = if searches { (0.34 * rest).max(115.0) } else { 0.0 };
+    charts::plane(ui, context, rest - lower);
+    if searches {
+        charts::indicator(ui, context, lower);
+    }
+}
+
+fn buttons(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+    use TrainingCommand as C;
+    let training = context.training;
+    let runs = training.job().is_some();
+    let mut button = |ui: &mut Ui, on: bool, name: &str, tip: &str, command: Command| {
+        let button = ui.add_enabled(on, Button::new(name)).on_hover_text(tip).on_disabled_hover_text(tip);
+        if button.clicked() {
+            commands.push(command);
+        }
     };
     ui.horizontal_wrapped(|ui| {
         if runs {
             let tip =
                 "Ends the work; a training keeps its full solutions and makes a model of them. Again: no model either";
-            if ui.button("Stop").on_hover_text(tip).clicked() {
-                desk.training.stop();
-            }
+            button(ui, true, "Stop", tip, Command::Training(C::Stop));
         } else {
-            let free = !desk.training.left_behind;
+            let free = !training.left_behind;
             let tip = if free {
                 "Takes the full solutions and makes a model of them, beside the live picture"
             } else {
                 "First resume or discard the training that was left unfinished"
             };
-            if enabled(ui, free, "Start training", tip).clicked() {
-                desk.start_training(&ctx);
-            }
+            button(ui, free, "Start training", tip, Command::Train);
         }
-        if desk.training.unfinished.is_some() {
+        if training.unfinished.is_some() {
             let tip = "Goes on as if it had never been stopped: the model will be the same";
-            if enabled(ui, !runs, "Resume training", tip).clicked() {
-                desk.training.resume(&ctx);
-            }
-            if enabled(ui, !runs, "Discard", "Forgets the unfinished training").clicked() {
-                desk.training.discard();
-            }
+            button(ui, !runs, "Resume training", tip, Command::Training(C::Resume));
+            button(ui, !runs, "Discard", "Forgets the unfinished training", Command::Training(C::Discard));
         }
     });
-    if desk.training.made.is_none() {
-        return;
-    }
+    let Some(made) = &training.made else { return };
     ui.horizontal_wrapped(|ui| {
-        let used = desk.uses_made_model();
+        let used = training.uses_made(context.answers);
         let tip = "The picture, the badge and all tabs use it from now on";
-        if enabled(ui, !used, "Use this model", tip).clicked() {
-            desk.use_made_model();
+        button(ui, !used, "Use this model", tip, Command::Training(C::UseMade));
+        if used {
+            let tip = "Puts the model in use that was before";
+            button(ui, true, "Back to the former model", tip, Command::Training(C::UseFormer));
         }
-        if used && enabled(ui, true, "Back to the former model", "Puts the model in use that was before").clicked() {
-            desk.use_former_model();
-        }
-        if enabled(ui, true, "Save model…", "Writes it as a .rom file").clicked()
-            && let Some(made) = desk.training.made.clone()
-        {
-            desk.ask_path(&ctx, Purpose::Model { bytes: made.bytes });
-        }
-        let other = desk.model().is_some();
+        let save = Command::Ask(Purpose::Model { bytes: made.bytes.clone() });
+        button(ui, true, "Save model…", "Writes it as a .rom file", save);
+        let other = context.answers.model(context.document).is_some();
         let tip = "Size, time and errors of both at the same random points, against full solutions";
-        if enabled(ui, other && !runs, "Compare models", tip).clicked() {
-            desk.compare_models(&ctx);
-        }
+        button(ui, other && !runs, "Compare models", tip, Command::Training(C::Compare));
     });
 }
 
-fn status(ui: &mut Ui, desk: &mut Desk) {
-    for notice in &desk.training.notices {
+fn status(ui: &mut Ui, context: &Context<'_>) {
+    for notice in &context.training.notices {
         match notice {
             Notice::Done(text) => {
                 ui.label(sentence(text));
@@ -112,11 +115,11 @@ fn status(ui: &mut Ui, desk: &mut Desk) {
             Notice::Wrong(text) => message_ui(ui, text),
         }
     }
-    if let Some(job) = desk.training.job() {
+    if let Some(job) = context.training.job() {
         running(ui, job);
         return;
     }
-    if let Some(made) = &desk.training.made {
+    if let Some(made) = &context.training.made {
         let model = &made.model;
         let windows = model.windows.len();
         let largest =
@@ -129,8 +132,8 @@ fn status(ui: &mut Ui, desk: &mut Desk) {
             numbers::digits(made.bytes.len() as f64 / 1e6, 2)
         );
         ui.weak(text).on_hover_text(model.log.join("\n"));
-    } else if desk.training.left_behind
-        && let Some(unfinished) = &desk.training.unfinished
+    } else if context.training.left_behind
+        && let Some(unfinished) = &context.training.unfinished
     {
         warning_ui(
             ui,
@@ -152,7 +155,7 @@ fn running(ui: &mut Ui, running: &Running) {
     ui.label(if stopping { format!("Stopping. {stage}") } else { stage });
     let width = ui.available_width().min(420.0);
     let bar = ui.add(ProgressBar::new(fraction).text(count).desired_width(width));
-    crate::app::controls::named(ui, bar, "Progress of the training");
+    named(ui, bar, "Progress of the training");
     if running.most > 0 {
         let solved = running.chart().solved.len();
         let left = match running.time_left() {

@@ -2,7 +2,6 @@
 //! is compared with, and what it cost.
 
 use super::series;
-use crate::app::desk::Desk;
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
 use crate::app::transient::{Run, TransientView};
@@ -14,8 +13,7 @@ use egui_plot::LineStyle;
 const WIDE: f32 = 520.0;
 
 /// The table.
-pub fn ui(ui: &mut Ui, desk: &Desk) {
-    let view = &desk.transient;
+pub fn ui(ui: &mut Ui, view: &TransientView) {
     let wide = ui.available_width() >= WIDE;
     let quiet = Palette::of(ui).quiet;
     let title = |ui: &mut Ui, text: &str, tip: &str| {

@@ -1,13 +1,13 @@
 //! What drives the contact as a form: the three inputs with a preview, duration, steps and frames. What makes no sense
 //! is refused beside its field.
 
-use super::methods;
+use crate::app::command::Command;
+use crate::app::context::{Commands, Context};
 use crate::app::controls::heading;
-use crate::app::desk::Desk;
-use crate::app::document::Edit;
+use crate::app::form::{Form, LastField, choose};
 use crate::app::purpose::Purpose;
 use crate::app::tabs::axes;
-use crate::app::tabs::training::fields::{Form, choose};
+use crate::app::tabs::in_time::{edit, methods};
 use crate::app::theme::Palette;
 use crate::app::transient::input::Input;
 use crate::app::transient::method::{frame_meaning, frame_name};
@@ -58,10 +58,10 @@ fn names(input: Input) -> Names {
     }
 }
 
-/// The form.
-pub fn ui(ui: &mut Ui, desk: &mut Desk) {
+/// The form; `last` is the field that was changed last.
+pub fn ui(ui: &mut Ui, last: &mut LastField, context: &Context<'_>, commands: &mut Commands) {
     let mut read_table = false;
-    edit(ui, desk, |ui, form, study| {
+    *last = edit(ui, ("transient", *last), context, commands, |ui, form, study| {
         heading(ui, "Inputs");
         for input in Input::ALL {
             signal_ui(ui, form, &names(input), input.of_mut(&mut study.inputs));
@@ -80,25 +80,11 @@ pub fn ui(ui: &mut Ui, desk: &mut Desk) {
         frames_ui(ui, form, &mut study.frames);
         methods::ui(ui, form, study);
     });
-    if !desk.document.saves_transient() && desk.document.transient.is_some() {
+    if !context.document.saves_transient() && context.document.transient.is_some() {
         ui.weak("The open scene asks another question: it is saved without this set-up.");
     }
     if read_table {
-        desk.ask_path(&ui.ctx().clone(), Purpose::Inputs);
-    }
-}
-
-/// A form over the contact in time of the document, which takes what makes sense; the rest is refused beside its field.
-pub fn edit(ui: &mut Ui, desk: &mut Desk, content: impl FnOnce(&mut Ui, &mut Form, &mut TransientStudy)) {
-    let mut study = desk.document.transient_study();
-    let before = study.clone();
-    let mut form = Form { refused: desk.transient.refused.take(), changed: None };
-    ui.add_enabled_ui(desk.transient.work.standing().is_none(), |ui| content(ui, &mut form, &mut study));
-    let Form { refused, changed } = form;
-    desk.transient.refused = refused;
-    if study != before {
-        let result = desk.document.edit(Edit::Transient(Box::new(study)));
-        desk.transient.refused = result.err().map(|message| (changed.unwrap_or("Frames"), message));
+        commands.push(Command::Ask(Purpose::Inputs));
     }
 }
 
@@ -159,7 +145,7 @@ impl Kind {
 }
 
 /// One input: which function of time, and its constants.
-fn signal_ui(ui: &mut Ui, form: &mut Form, names: &Names, signal: &mut Signal) {
+fn signal_ui(ui: &mut Ui, form: &mut Form<'_>, names: &Names, signal: &mut Signal) {
     let kind = Kind::of(signal);
     let mut wanted = kind;
     let mut options = Kind::GIVEN.to_vec();
@@ -240,7 +226,7 @@ fn preview(ui: &mut Ui, inputs: &Inputs, duration: f64) {
     }
 }
 
-fn time_ui(ui: &mut Ui, form: &mut Form, study: &mut TransientStudy) {
+fn time_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
     heading(ui, "Time");
     let plain = ("", 1.0);
     form.row(ui, "Duration {T}", plain, &mut study.duration, "The last T, in units of a/u_m of the reference contact");
@@ -275,7 +261,7 @@ fn time_ui(ui: &mut Ui, form: &mut Form, study: &mut TransientStudy) {
 }
 
 /// The frames, each a run of its own.
-fn frames_ui(ui: &mut Ui, form: &mut Form, frames: &mut Vec<Frame>) {
+fn frames_ui(ui: &mut Ui, form: &mut Form<'_>, frames: &mut Vec<Frame>) {
     heading(ui, "Frames");
     for frame in Frame::ALL {
         let mut on = frames.contains(&frame);
@@ -283,7 +269,7 @@ fn frames_ui(ui: &mut Ui, form: &mut Form, frames: &mut Vec<Frame>) {
             let chosen: Vec<Frame> =
                 Frame::ALL.into_iter().filter(|f| if *f == frame { on } else { frames.contains(f) }).collect();
             if chosen.is_empty() {
-                form.refused = Some(("Frames", "at least one frame is needed".to_owned()));
+                form.refused = Some(("Frames", "at least one frame is needed"));
             } else {
                 *frames = chosen;
                 form.changed = Some("Frames");

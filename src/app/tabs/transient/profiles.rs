@@ -1,7 +1,6 @@
 //! Pressure and film of every run at the moment that is looked at.
 
 use super::series::{drawn, style};
-use crate::app::desk::Desk;
 use crate::app::numbers;
 use crate::app::tabs::axes;
 use crate::app::theme::{Palette, THIN_WIDTH};
@@ -14,9 +13,8 @@ use egui_plot::{Line, LineStyle, PlotPoint, PlotPoints, PlotUi};
 const X_RANGE: (f64, f64) = (-2.2, 1.6);
 
 /// Both plots, each as high as given.
-pub fn ui(ui: &mut Ui, desk: &Desk, height: f32) {
+pub fn ui(ui: &mut Ui, view: &TransientView, fit: bool, height: f32) {
     let palette = Palette::of(ui);
-    let view = &desk.transient;
     let most = |quantity: Quantity| {
         let values = view.runs.iter().flat_map(|run| &run.trajectory.moments).map(|moment| moment.value(quantity));
         numbers::round_up(1.12 * values.fold(0.0, f64::max))
@@ -39,14 +37,14 @@ pub fn ui(ui: &mut Ui, desk: &Desk, height: f32) {
     let pressure = stacked("profile of pressure", ("", "Pressure {P}"), most(Quantity::MaximumPressure));
     let film = stacked("profile of film", ("{X}", "Film {H}"), 3.0 * most(Quantity::CentralFilm));
     axes::show(pressure, ui, "Pressure at this moment", |plot| {
-        axes::fit(plot, desk.fit_plots);
+        axes::fit(plot, fit);
         if let Some(moment) = view.runs.first().and_then(|run| moment_at(run, time)) {
             hertz(plot, moment, &palette);
         }
         curves(plot, view, time, (palette.pressure, &palette), |(x, p, _)| PlotPoint::new(x, p));
     });
     axes::show(film, ui, "Film at this moment", |plot| {
-        axes::fit(plot, desk.fit_plots);
+        axes::fit(plot, fit);
         curves(plot, view, time, (palette.film, &palette), |(x, _, h)| PlotPoint::new(x, h));
     });
 }
@@ -74,8 +72,8 @@ fn curves(
     of: impl Fn((f64, f64, f64)) -> PlotPoint,
 ) {
     for (k, run) in drawn(view) {
-        let Some(desk) = run.state_at(time) else { continue };
-        let points = run.profile(desk).map(&of).collect();
+        let Some(state) = run.state_at(time) else { continue };
+        let points = run.profile(state).map(&of).collect();
         let (color, width, line_style) = style(view, k, color, palette);
         let line = Line::new(run.name(), PlotPoints::Owned(points));
         plot.line(line.color(color).width(width).style(line_style).allow_band(false));

@@ -1,6 +1,5 @@
 //! Central pressure and film against time, and how far runs lie apart.
 
-use crate::app::desk::Desk;
 use crate::app::tabs::axes;
 use crate::app::theme::{Palette, THIN_WIDTH, faded};
 use crate::app::transient::method::Method;
@@ -9,9 +8,6 @@ use crate::solver::full::transient::{Frame, Interpolation, Quantity};
 use crate::solver::reduced::tpwl::Weighting;
 use egui::{Color32, Id, Ui, Vec2b};
 use egui_plot::{HLine, Line, LineStyle, PlotPoint, PlotPoints, VLine};
-
-/// Points of a curve beyond which only the extremes of neighbouring ones are drawn.
-const MOST_POINTS: usize = 3000;
 
 /// The line of a run: the frame by dashes; a linearised model broad and pale, the reduced model thick, the full one
 /// thin over them, the first of full ones alone thick.
@@ -42,17 +38,17 @@ pub fn drawn(view: &TransientView) -> impl Iterator<Item = (usize, &Run)> {
 }
 
 /// The plots; returns the time that was clicked at.
-pub fn ui(ui: &mut Ui, desk: &Desk, unit: f32) -> Option<f64> {
+pub fn ui(ui: &mut Ui, view: &TransientView, unit: f32) -> Option<f64> {
     let palette = Palette::of(ui);
-    let several = desk.transient.runs.len() > 1;
+    let several = view.runs.len() > 1;
     let pressure = Chart { name: "pressure", quantity: Quantity::CentralPressure, color: palette.pressure };
     let film = Chart { name: "film", quantity: Quantity::CentralFilm, color: palette.film };
-    let mut clicked = pressure.show(ui, desk, unit, ("", "Pressure {P_c}"), false);
-    clicked = film.show(ui, desk, unit, (if several { "" } else { "{T}" }, "Film {H_c}"), false).or(clicked);
+    let mut clicked = pressure.show(ui, view, unit, ("", "Pressure {P_c}"), false);
+    clicked = film.show(ui, view, unit, (if several { "" } else { "{T}" }, "Film {H_c}"), false).or(clicked);
     if several {
         let titles = ("{T}", "Δ{H_c} / %");
         let deviation = Chart { name: "deviation", ..film };
-        clicked = deviation.show(ui, desk, 0.7 * unit, titles, true).or(clicked);
+        clicked = deviation.show(ui, view, 0.7 * unit, titles, true).or(clicked);
     }
     clicked
 }
@@ -66,9 +62,15 @@ struct Chart {
 
 impl Chart {
     /// The quantity of all runs, or how far they lie from what they are compared with, in percent.
-    fn show(&self, ui: &mut Ui, desk: &Desk, height: f32, titles: (&str, &str), deviation: bool) -> Option<f64> {
+    fn show(
+        &self,
+        ui: &mut Ui,
+        view: &TransientView,
+        height: f32,
+        titles: (&str, &str),
+        deviation: bool,
+    ) -> Option<f64> {
         let palette = Palette::of(ui);
-        let view = &desk.transient;
         let first = view.runs.first()?;
         let duration = view.setup.as_ref().map_or(0.0, |setup| setup.study.duration);
         let group = Id::unique(("transient", view.generation));
@@ -104,7 +106,7 @@ impl Chart {
                     (false, _) => values(run, self.quantity),
                 };
                 let (color, width, line_style) = style(view, k, self.color, &palette);
-                let line = Line::new(run.name(), PlotPoints::Owned(thinned(points)));
+                let line = Line::new(run.name(), PlotPoints::Owned(axes::thinned(points)));
                 plot.line(line.color(color).width(width).style(line_style).allow_band(false));
             }
             let now = VLine::new("", view.player.time()).id("now").color(palette.accent).width(1.0);
@@ -124,37 +126,4 @@ fn deviations(run: &Run, reference: &Run, quantity: Quantity) -> Vec<PlotPoint> 
         Some(PlotPoint::new(time, 100.0 * (value / reference.trajectory.at(quantity, time)? - 1.0)))
     };
     run.trajectory.moments.iter().filter_map(|moment| percent(moment.time, moment.value(quantity))).collect()
-}
-
-/// As many points as a screen can show, with all extremes.
-pub fn thinned(points: Vec<PlotPoint>) -> Vec<PlotPoint> {
-    if points.len() <= MOST_POINTS {
-        return points;
-    }
-    let group = points.len().div_ceil(MOST_POINTS / 2);
-    points
-        .chunks(group)
-        .flat_map(|chunk| {
-            let least = chunk.iter().copied().min_by(|a, b| a.y.total_cmp(&b.y));
-            let greatest = chunk.iter().copied().max_by(|a, b| a.y.total_cmp(&b.y));
-            let mut pair: Vec<PlotPoint> = least.into_iter().chain(greatest).collect();
-            pair.sort_by(|a, b| a.x.total_cmp(&b.x));
-            pair
-        })
-        .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn long_series_keep_their_extremes_and_their_order() {
-        let wave = |k: usize| PlotPoint::new(k as f64, (k as f64 / 900.0).sin() + if k == 7777 { 5.0 } else { 0.0 });
-        let points = thinned((0..20_000).map(wave).collect());
-        assert!(points.len() <= MOST_POINTS + 2);
-        assert!(points.iter().any(|p| p.x == 7777.0));
-        assert!(points.windows(2).all(|pair| pair[0].x <= pair[1].x));
-        assert_eq!(thinned((0..10).map(wave).collect()).len(), 10);
-    }
 }

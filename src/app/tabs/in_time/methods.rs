@@ -2,14 +2,14 @@
 //! and the linearised one with their settings, and what they are trained on.
 
 use crate::app::controls::heading;
-use crate::app::tabs::training::fields::{Form, choose};
+use crate::app::form::{Form, choose};
 use crate::app::transient::method::{RULES, WEIGHTINGS, rule_name, weighting_name};
 use crate::scene::{Drive, LinearisedTransient, ReducedTransient, TransientStudy};
 use crate::solver::reduced::tpwl::Weighting;
 use egui::{Checkbox, Ui};
 
 /// All methods.
-pub fn ui(ui: &mut Ui, form: &mut Form, study: &mut TransientStudy) {
+pub fn ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
     heading(ui, "Methods");
     let tip = "Always run: models are trained by it and compared with it";
     ui.add_enabled(false, Checkbox::new(&mut true, "Full system")).on_disabled_hover_text(tip);
@@ -30,7 +30,7 @@ pub fn ui(ui: &mut Ui, form: &mut Form, study: &mut TransientStudy) {
 }
 
 /// The linearised model alone.
-pub fn linearised_ui(ui: &mut Ui, form: &mut Form, study: &mut TransientStudy) {
+pub fn linearised_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
     let mut on = study.linearised.is_some();
     let tip = "Superposes linearised systems of trained moments (TPWL, 4.27): one small linear system per step; in the fixed frame";
     if ui.add(Checkbox::new(&mut on, "Linearised model")).on_hover_text(tip).changed() {
@@ -92,7 +92,7 @@ pub fn linearised_ui(ui: &mut Ui, form: &mut Form, study: &mut TransientStudy) {
         });
     }
     if chosen.is_empty() {
-        form.refused = Some(("Weights", "at least one kind of weights is needed".to_owned()));
+        form.refused = Some(("Weights", "at least one kind of weights is needed"));
     } else {
         linearised.weightings = chosen;
     }
@@ -105,7 +105,7 @@ pub fn linearised_ui(ui: &mut Ui, form: &mut Form, study: &mut TransientStudy) {
 }
 
 /// What the models are trained on: the run itself, or other inputs that were kept for it.
-pub fn trainings_ui(ui: &mut Ui, form: &mut Form, study: &mut TransientStudy) {
+pub fn trainings_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
     if study.reduced.is_none() && study.linearised.is_none() {
         return;
     }

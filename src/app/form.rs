@@ -1,9 +1,12 @@
-//! Rows of the form: numbers that are dragged or typed, intervals, counts, choices, each with why its last entry was
-//! refused.
+//! A form over a part of the document: numbers that are dragged or typed, intervals, counts, choices, each with why its
+//! last entry was refused.
 
-use crate::app::controls::{choice, explained, message_ui, named};
-use crate::app::numbers;
-use crate::app::theme::rich;
+use super::command::Command;
+use super::context::{Commands, Context};
+use super::controls::{Entries, choice, explained, named};
+use super::document::Edit;
+use super::numbers;
+use super::theme::rich;
 use egui::{DragValue, Ui};
 
 /// Width of the column of names.
@@ -11,19 +14,47 @@ const NAMES: f32 = 112.0;
 /// Width of a number.
 const NUMBER: f32 = 66.0;
 
-/// What the fields share.
-pub struct Form {
-    /// A field whose entry was refused, and why.
-    pub refused: Option<(&'static str, String)>,
+/// The field of a form that was changed last: beside it stands why that was refused.
+pub type LastField = Option<&'static str>;
+
+/// What the fields of a form share in one frame.
+pub struct Form<'a> {
+    /// Under this name the window knows what was refused.
+    name: &'static str,
+    last: LastField,
+    entries: &'a Entries,
     /// The field that was changed in this frame.
     pub changed: Option<&'static str>,
+    /// A field whose entry makes no sense whatever the others hold, and why.
+    pub refused: Option<(&'static str, &'static str)>,
 }
 
-impl Form {
+impl<'a> Form<'a> {
+    /// A form whose entries are refused under a name of its own.
+    pub fn new(name: &'static str, last: LastField, context: &Context<'a>) -> Self {
+        Self { name, last, entries: context.entries, changed: None, refused: None }
+    }
+
+    /// Asks for the change that was made in this frame, if there is one; returns the field that was changed last, which
+    /// is `otherwise` where none has said that it was.
+    pub fn ask(self, edit: Option<Edit>, otherwise: &'static str, commands: &mut Commands) -> LastField {
+        match (edit, self.refused) {
+            (Some(edit), _) => {
+                commands.edit(edit, self.name);
+                self.changed.or(Some(otherwise))
+            }
+            (None, Some((field, why))) => {
+                commands.push(Command::Refuse(self.name, why));
+                Some(field)
+            }
+            (None, None) => self.last,
+        }
+    }
+
     /// Why the last entry in a field was refused.
     pub fn message(&self, ui: &mut Ui, field: &str) {
-        if let Some((_, message)) = self.refused.as_ref().filter(|(refused, _)| *refused == field) {
-            message_ui(ui, message);
+        if self.last == Some(field) {
+            self.entries.message_ui(ui, self.name);
         }
     }
 

@@ -1,0 +1,121 @@
+//! What the tabs of contacts in time share: their form, the button that runs them, how far they are, and the moment
+//! that is looked at.
+
+pub mod methods;
+
+use crate::app::command::Command;
+use crate::app::context::{Commands, Context};
+use crate::app::controls::{message_ui, named, sentence, warning_ui};
+use crate::app::document::Edit;
+use crate::app::form::{Form, LastField};
+use crate::app::numbers;
+use crate::app::theme::rich;
+use crate::app::transient::{InTimeCommand, Run, Setup, TransientView};
+use crate::engine::TOO_STEEP;
+use crate::scene::TransientStudy;
+use crate::solver::full::transient::Ended;
+use crate::solver::reduced::tpwl::TpwlRecord;
+use egui::{ProgressBar, Slider, Ui};
+
+/// A form over the contact in time of the document, refused under a name of its own; returns the field that was changed
+/// last.
+pub fn edit(
+    ui: &mut Ui,
+    (name, last): (&'static str, LastField),
+    context: &Context<'_>,
+    commands: &mut Commands,
+    content: impl FnOnce(&mut Ui, &mut Form<'_>, &mut TransientStudy),
+) -> LastField {
+    let before = context.document.transient_study();
+    let mut study = before.clone();
+    let mut form = Form::new(name, last, context);
+    ui.add_enabled_ui(context.transient.work.standing().is_none(), |ui| content(ui, &mut form, &mut study));
+    let edit = (study != before).then(|| Edit::Transient(Box::new(study)));
+    form.ask(edit, "Frames", commands)
+}
+
+/// The runs, started or stopped.
+pub fn run_button(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+    if context.transient.work.standing().is_some() {
+        if ui.button("Stop").on_hover_text("What has been computed so far stays (Esc)").clicked() {
+            commands.push(Command::InTime(InTimeCommand::Stop));
+        }
+    } else if ui
+        .button("Run in time")
+        .on_hover_text("Takes the contact of the sliders through time, frame after frame, then by each model")
+        .clicked()
+    {
+        let setup = Box::new(Setup::of(context.document, context.file));
+        commands.push(Command::InTime(InTimeCommand::Run(setup)));
+    }
+}
+
+/// What runs and how far it is; how runs ended that did not reach the end; whether all of it is still what the sliders
+/// say.
+pub fn status(ui: &mut Ui, context: &Context<'_>) {
+    let view = context.transient;
+    if let Some(standing) = view.work.standing() {
+        ui.horizontal(|ui| {
+            ui.label(&standing.stage);
+            let fraction = if standing.total > 0 { standing.done as f32 / standing.total as f32 } else { 0.0 };
+            let bar = ProgressBar::new(fraction).desired_width(120.0).desired_height(8.0);
+            let bar = ui.add(bar);
+            named(ui, bar, "Progress of the contact in time");
+            ui.weak(numbers::standing(&standing));
+        });
+    }
+    if let Some(message) = &view.work.message {
+        message_ui(ui, message);
+    }
+    for note in &view.notes {
+        message_ui(ui, note);
+    }
+    let steep = |(_, run): (_, &Run)| run.record.as_ref().is_some_and(TpwlRecord::too_steep);
+    if view.linearised_runs().any(steep) {
+        warning_ui(ui, &format!("{TOO_STEEP}. Tick Reduced model, or train on inputs like these"));
+    }
+    for run in &view.runs {
+        let said = |ended: &Ended| format!("{} {}", run.name(), ended.describe());
+        match run.ended.then_some(&run.trajectory.ended) {
+            Some(ended @ (Ended::StepRefused { .. } | Ended::ContactRefused { .. })) => message_ui(ui, &said(ended)),
+            Some(ended @ Ended::Cancelled { .. }) => {
+                ui.weak(sentence(&said(ended)));
+            }
+            Some(Ended::Finished) | None => {}
+        }
+    }
+    let wanted = Setup::of(context.document, context.file);
+    if let Some(setup) = view.setup.as_ref().filter(|setup| ***setup != wanted) {
+        let of = numbers::moes(setup.point.moes());
+        warning_ui(ui, &format!("What is shown belongs to {of} and a former set-up; run it again for the present one"));
+    }
+}
+
+/// The moment that is looked at: a slider over what was computed, and a button that plays it.
+pub fn player(ui: &mut Ui, view: &TransientView, commands: &mut Commands) {
+    let Some(setup) = &view.setup else { return };
+    let playing = view.player.playing();
+    let mut ask = |command| commands.push(Command::InTime(command));
+    if playing {
+        let seconds = ui.input(|i| i.stable_dt).min(0.1);
+        ask(InTimeCommand::PlayOn(f64::from(seconds)));
+    }
+    ui.horizontal(|ui| {
+        let (name, tip) = if playing { ("Pause", "Stand still here") } else { ("Play", "Play the profiles in time") };
+        if ui.button(name).on_hover_text(tip).clicked() {
+            ask(InTimeCommand::TogglePlay);
+        }
+        let mut time = view.player.time();
+        let text =
+            format!("{{T}} = {}, {}", numbers::significant(time), numbers::duration(time * setup.time_scale_s()));
+        ui.spacing_mut().slider_width = (ui.available_width() - 190.0).max(80.0);
+        let response = ui.add(Slider::new(&mut time, 0.0..=view.player.end().max(f64::MIN_POSITIVE)).show_value(false));
+        let response = named(ui, response, "Time T");
+        if response.changed() {
+            ask(InTimeCommand::GoTo(time));
+        }
+        let tip =
+            "The moment whose profiles are shown, in units of a/u_m of the reference contact (2.22) and on the clock";
+        ui.label(rich(&text, 13.5, ui.visuals().text_color())).on_hover_text(tip);
+    });
+}
