@@ -4,7 +4,7 @@ use crate::common::scene_files;
 use ehl_explorer::engine::{Workbench, run_scene};
 use ehl_explorer::scene::study::point::Point;
 use ehl_explorer::scene::study::random_test::RandomTest;
-use ehl_explorer::scene::{Grid, Method, ModelSource, Scene, Study, TransientStudy};
+use ehl_explorer::scene::{Grid, Method, ModelSource, Scene, SceneOutcome, Study, TransientStudy};
 use ehl_explorer::scene::{StudyObserver, StudyRow};
 use ehl_explorer::solver::full::transient::{Frame, Signal, TimeStep};
 use ehl_explorer::solver::observer::Observer;
