@@ -44,7 +44,7 @@ pub fn run(args: &TrainArgs) -> Result<Verdict, Failure> {
         }
         None => TrainingState::new(spec),
     };
-    let watch = Watch { progress: ProgressLine::new(true), keeper: TrainingKeeper::new(kept) };
+    let watch = ProgressObserver { progress: ProgressLine::new(true), keeper: TrainingKeeper::new(kept) };
     let trained = train_resumable(&mut state, &watch);
     watch.progress.finish();
     let model = match trained {
@@ -66,18 +66,18 @@ pub fn run(args: &TrainArgs) -> Result<Verdict, Failure> {
 }
 
 /// Shows how far the training is and keeps it on disk meanwhile.
-struct Watch {
+struct ProgressObserver {
     progress: ProgressLine,
     keeper: TrainingKeeper,
 }
 
-impl Observer for Watch {
+impl Observer for ProgressObserver {
     fn progress(&self, progress: Progress) {
         self.progress.progress(progress);
     }
 }
 
-impl TrainingObserver for Watch {
+impl TrainingObserver for ProgressObserver {
     fn checkpoint(&self, state: &TrainingState) {
         self.keeper.checkpoint(state);
     }

@@ -145,11 +145,11 @@ pub struct ErrorSplit {
 /// Splits errors of one model under one truncation; keeps grids, operators and work space between contacts.
 pub struct ErrorSplitter {
     sampled: Online,
-    windows: Vec<Option<Rivals>>,
+    windows: Vec<Option<References>>,
 }
 
 /// What a window's reduced solutions are compared with.
-struct Rivals {
+struct References {
     all_rows: Online,
     full: ContactSolver,
     /// Finer than the model's grid, or coarser where a finer one would take too long.
@@ -177,20 +177,21 @@ impl ErrorSplitter {
         sampled.forget();
         let reduced = sampled.solve(point, lubricant)?;
         let model = Arc::clone(&sampled.model);
-        let (Some(window), Some(rivals)) = (model.windows.get(reduced.window), windows.get_mut(reduced.window)) else {
+        let (Some(window), Some(references)) = (model.windows.get(reduced.window), windows.get_mut(reduced.window))
+        else {
             return Err(ReducedError::Empty.into());
         };
-        let rivals = match rivals {
-            Some(rivals) => rivals,
-            None => rivals.insert(Rivals::new(&model, window, sampled.options())?),
+        let references = match references {
+            Some(references) => references,
+            None => references.insert(References::new(&model, window, sampled.options())?),
         };
-        rivals.all_rows.forget();
-        let galerkin = rivals.all_rows.solve(point, lubricant).map_err(SplitError::Galerkin)?;
-        let galerkin = rivals.all_rows.reconstruct(&galerkin).map_err(SplitError::Galerkin)?;
+        references.all_rows.forget();
+        let galerkin = references.all_rows.solve(point, lubricant).map_err(SplitError::Galerkin)?;
+        let galerkin = references.all_rows.reconstruct(&galerkin).map_err(SplitError::Galerkin)?;
         // The truth must not depend on what it judges: the full solve starts cold.
-        let solved = rivals.full.solve(point, lubricant, Start::Cold, observer)?;
+        let solved = references.full.solve(point, lubricant, Start::Cold, observer)?;
         let full = converged(solved, "the model’s grid")?;
-        let solved = rivals.second.solve(point, lubricant, Start::From(&full), observer)?;
+        let solved = references.second.solve(point, lubricant, Start::From(&full), observer)?;
         let second = converged(solved, "the second grid")?;
         let best = best_approximation(window, &full, &reduced);
         let best = sampled.reconstruct(&best)?;
@@ -215,7 +216,7 @@ impl ErrorSplitter {
     }
 }
 
-impl Rivals {
+impl References {
     fn new(model: &ReducedModel, window: &Window, options: &ReducedOptions) -> Result<Self, SplitError> {
         let second = match &window.grid {
             ContactGrid::Line(grid) => ContactSolver::Line(FullSolver::on(grid.refined()?)),

@@ -164,7 +164,7 @@ fn goal_equations(
             }));
             let transient = Transient { keep: Keep::Scalars, ..trajectory.transient.clone() };
             let stage = format!("Rows along training {} of {}", index + 1, trajectories.len());
-            march(&mut model, &transient, &Watch { observer, stage, duration: transient.duration })?;
+            march(&mut model, &transient, &MarchObserver { observer, stage, duration: transient.duration })?;
             drop(model);
             if observer.cancelled() { Err(TrainingError::Cancelled) } else { Ok(equations) }
         })
@@ -175,19 +175,19 @@ fn goal_equations(
 }
 
 /// Tells how far a march is.
-struct Watch<'a> {
+struct MarchObserver<'a> {
     observer: &'a dyn Observer,
     stage: String,
     duration: f64,
 }
 
-impl Observer for Watch<'_> {
+impl Observer for MarchObserver<'_> {
     fn cancelled(&self) -> bool {
         self.observer.cancelled()
     }
 }
 
-impl TransientObserver for Watch<'_> {
+impl TransientObserver for MarchObserver<'_> {
     fn moment(&self, moment: &Moment) {
         let done = (1000.0 * moment.time / self.duration) as usize;
         self.observer.progress(Progress { stage: self.stage.clone(), done, total: 1000 });

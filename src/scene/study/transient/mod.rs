@@ -14,7 +14,7 @@ pub use march::{By, March};
 pub(crate) use models::train_linearised;
 pub use models::{Kind, Model};
 pub use published::PublishedMarch;
-pub(crate) use timed_march::{Timed, Told, timed_march};
+pub(crate) use timed_march::{Listener, Timed, timed_march};
 
 use crate::scene::sampled;
 use crate::scene::study::question::{
@@ -201,8 +201,8 @@ impl Question for TransientStudy {
 
 impl Runner<'_, '_> {
     /// Who hears of a march of a name.
-    fn told(&self, march: &str) -> Option<Told<'_>> {
-        Some(Told { march: Arc::from(march), tell: self.tell, wants_states: self.setting.wants_states })
+    fn told(&self, march: &str) -> Option<Listener<'_>> {
+        Some(Listener { march: Arc::from(march), tell: self.tell, wants_states: self.setting.wants_states })
     }
 
     /// A full march, and its fields where they were kept.

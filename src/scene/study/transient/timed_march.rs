@@ -20,7 +20,7 @@ pub(crate) struct Timed {
 }
 
 /// Who hears of a march's moments, and of its fields where they are wanted.
-pub(crate) struct Told<'a> {
+pub(crate) struct Listener<'a> {
     /// The march.
     pub march: Arc<str>,
     /// Where its rows go.
@@ -35,9 +35,9 @@ pub(crate) fn timed_march(
     transient: &Transient,
     stage: String,
     observer: &dyn Observer,
-    told: Option<Told<'_>>,
+    told: Option<Listener<'_>>,
 ) -> Result<Timed, RunError> {
-    if let Some(Told { march, tell, .. }) = &told {
+    if let Some(Listener { march, tell, .. }) = &told {
         tell(Row::Begun { march: Arc::clone(march), transient: Box::new(transient.clone()) });
     }
     let progress = Mutex::new(Steps { begun: None, seconds: Vec::new(), time: 0.0, next_picture: 0.0 });
@@ -55,7 +55,7 @@ struct StepClock<'a> {
     observer: &'a dyn Observer,
     stage: String,
     duration: f64,
-    told: Option<Told<'a>>,
+    told: Option<Listener<'a>>,
     progress: Mutex<Steps>,
 }
 
@@ -89,7 +89,7 @@ impl TransientObserver for StepClock<'_> {
         steps.time = moment.time;
         let done = (1000.0 * moment.time / self.duration) as usize;
         self.observer.progress(Progress { stage: self.stage.clone(), done, total: 1000 });
-        if let Some(Told { march, tell, .. }) = &self.told {
+        if let Some(Listener { march, tell, .. }) = &self.told {
             tell(Row::Moment { march: Arc::clone(march), moment: *moment, seconds });
         }
         steps.begun = Some(Instant::now());
@@ -106,7 +106,7 @@ impl TransientObserver for StepClock<'_> {
         let interval = self.duration / PICTURES;
         let mut steps = self.steps();
         steps.next_picture = interval * ((state.time / interval + 1e-6).floor() + 1.0);
-        if let Some(Told { march, tell, .. }) = &self.told {
+        if let Some(Listener { march, tell, .. }) = &self.told {
             tell(Row::State { march: Arc::clone(march), state: Arc::new(state.clone()) });
         }
         // The picture is no part of the step.
