@@ -1,5 +1,5 @@
-//! What the user edits and what a file holds: the operating point, what follows when M or L moves, the lubricant, the truncation.
-//! Undo and redo are snapshots of it.
+//! What the user edits and what a file holds: the operating point, what follows when M or L moves, the lubricant, the
+//! truncation. Undo and redo are snapshots of it.
 
 #[cfg(test)]
 mod tests;
@@ -111,7 +111,8 @@ impl Document {
         self.accept(OperatingPoint { sliding: here.sliding, ..point })
     }
 
-    /// What follows when M moves and when L moves: what was chosen, unless the lubricant determines α, which then cannot follow.
+    /// What follows when M moves and when L moves: what was chosen, unless the lubricant determines α, which then
+    /// cannot follow.
     pub fn followers(&self) -> (LoadFollower, LubricantFollower) {
         let chosen = (self.view.when_m_moves, self.view.when_l_moves);
         match chosen {
@@ -137,8 +138,8 @@ impl Document {
         self.point.sliding.newtonian_plateau_ratio.unwrap_or(self.lubricant.shear.plateau())
     }
 
-    /// Changes between line and point contact. M, L and the lubricant stay, E′ too; radius, speed and load are those of the other kind's
-    /// default realisation.
+    /// Changes between line and point contact. M, L and the lubricant stay, E′ too; radius, speed and load are those of
+    /// the other kind's default realisation.
     ///
     /// # Errors
     /// A sentence when the point would be refused; the document is unchanged then.
@@ -173,8 +174,8 @@ impl Document {
         self.grid = Grid::Plane { dx, dy, domain, refinement };
     }
 
-    /// Sets one quantity. What follows M and L was chosen; of the others M and L follow. A plateau ratio that is the lubricant's own stays that
-    /// of another lubricant too.
+    /// Sets one quantity. What follows M and L was chosen; of the others M and L follow. A plateau ratio that is the
+    /// lubricant's own stays that of another lubricant too.
     ///
     /// # Errors
     /// A sentence when the value is refused; the document is unchanged then.
@@ -214,8 +215,9 @@ impl Document {
         self.set_contact(point, lubricant)
     }
 
-    /// Takes a named lubricant. One with an ambient viscosity of its own brings the contact in which its source studies it; laws that go with
-    /// any contact keep the present one, or at least its M and L where its viscosity belonged to the former lubricant.
+    /// Takes a named lubricant. One with an ambient viscosity of its own brings the contact in which its source studies
+    /// it; laws that go with any contact keep the present one, or at least its M and L where its viscosity belonged to
+    /// the former lubricant.
     ///
     /// # Errors
     /// A sentence when a law is not defined here; the document is unchanged then.
@@ -245,8 +247,8 @@ impl Document {
         Ok(())
     }
 
-    /// Whether its file holds the training: a scene that asks another question keeps that, a contact of the other kind asks its own, and a new
-    /// one has room for one question.
+    /// Whether its file holds the training: a scene that asks another question keeps that, a contact of the other kind
+    /// asks its own, and a new one has room for one question.
     pub fn saves_training(&self) -> bool {
         let kind = self.point.kind;
         self.training.as_ref().is_none_or(|spec| spec.contact() == kind)

@@ -187,7 +187,8 @@ impl Explorer {
         self.frame_s = begin.elapsed().as_secs_f64();
     }
 
-    /// Brings the tab to the front that answers a scene which was just opened, and runs its study where that is done without asking.
+    /// Brings the tab to the front that answers a scene which was just opened, and runs its study where that is done
+    /// without asking.
     fn answer_opened(&mut self, ctx: &egui::Context) {
         let Some(tab) = self.desk.opened.take() else { return };
         self.show(tab);

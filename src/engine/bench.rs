@@ -22,10 +22,12 @@ use serde::Serialize;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// What all rows of line contacts are compared with: Newton with a dense LU per step on the same 1201 nodes, as the dissertation has it.
+/// What all rows of line contacts are compared with: Newton with a dense LU per step on the same 1201 nodes, as the
+/// dissertation has it.
 pub const BASELINE: &str = "line/dense-newton";
 
-/// What all rows of point contacts are compared with: the cold full solve. A dense LU of 11960 unknowns would take minutes.
+/// What all rows of point contacts are compared with: the cold full solve. A dense LU of 11960 unknowns would take
+/// minutes.
 pub const POINT_BASELINE: &str = "point/full/cold";
 
 /// What all rows of steps in time are compared with: the full step on the same 1201 nodes.
@@ -83,8 +85,8 @@ pub struct Bench {
     pub notes: Vec<String>,
 }
 
-/// Measures the table over random points of Table 3.1's box for line and of Table 3.4's for point contacts, and of Table 3.6's ranges for
-/// shear-thinning ones: the same points for every row of a kind.
+/// Measures the table over random points of Table 3.1's box for line and of Table 3.4's for point contacts, and of
+/// Table 3.6's ranges for shear-thinning ones: the same points for every row of a kind.
 ///
 /// `quick` takes fewer points and ends within 40 s.
 ///
@@ -144,8 +146,8 @@ pub fn run(quick: bool) -> Result<Bench, EngineError> {
 }
 
 impl Bench {
-    /// Reduced solves of shear-thinning contacts of one kind, H_c and traction without any field, and whole traction curves; a note where
-    /// there is no model.
+    /// Reduced solves of shear-thinning contacts of one kind, H_c and traction without any field, and whole traction
+    /// curves; a note where there is no model.
     fn reduced_shear_rows(
         &mut self,
         [solve, curve]: [&'static str; 2],
@@ -261,8 +263,8 @@ fn cold_and_warm(
     Ok([cold, warm])
 }
 
-/// Steps in time, of the full system and of the reduced models that reproduce them: the load of case 1 of Table 4.1 on the contact of Table
-/// 4.2, fixed frame.
+/// Steps in time, of the full system and of the reduced models that reproduce them: the load of case 1 of Table 4.1 on
+/// the contact of Table 4.2, fixed frame.
 fn transient_rows(size: usize) -> Result<Vec<Timing>, EngineError> {
     let [radius_m, speed_m_per_s, load] = [2e-3, 5.0, 2e5];
     let [modulus_pa, viscosity_pa_s, alpha_per_pa] = [231e9, 0.01, 1e-8];

@@ -1,4 +1,5 @@
-//! What is expensive and shared, in one place: grids with their kernels, full solvers, reduced models, and their operators.
+//! What is expensive and shared, in one place: grids with their kernels, full solvers, reduced models, and their
+//! operators.
 
 use super::EngineError;
 use super::model_file::{self, ModelFileError};
@@ -13,7 +14,8 @@ use std::time::SystemTime;
 
 /// Grids and idle full solvers of line contacts kept at a time; the least recently used goes first.
 const KEPT_LINES: usize = 6;
-/// The same of point contacts: a quick grid, the chosen one and a second one. Each solver may hold some hundred megabytes.
+/// The same of point contacts: a quick grid, the chosen one and a second one. Each solver may hold some hundred
+/// megabytes.
 const KEPT_POINTS: usize = 3;
 /// Reduced models kept beside those in the program: a model of some windows has some ten megabytes.
 const KEPT_MODELS: usize = 12;

@@ -17,7 +17,8 @@ use std::time::Instant;
 /// Newtonian traction coefficients beyond this are no physics: real oils yield or thin long before.
 const PLAUSIBLE_TRACTION: f64 = 0.2;
 
-/// The store as one job uses it: with the folder that its paths refer to, and reduced solvers that remember only what this job has solved.
+/// The store as one job uses it: with the folder that its paths refer to, and reduced solvers that remember only what
+/// this job has solved.
 #[derive(Default)]
 pub struct Workbench {
     store: Store,

@@ -127,8 +127,8 @@ impl Answer {
         self.solution.as_ref().filter(|_| self.converged)
     }
 
-    /// Traction coefficient (3.41) over the whole domain, at the request's slide-to-roll ratio; a reduced model's by its own rule, which its bound
-    /// belongs to.
+    /// Traction coefficient (3.41) over the whole domain, at the request's slide-to-roll ratio; a reduced model's by
+    /// its own rule, which its bound belongs to.
     pub fn traction(&self) -> Option<f64> {
         let by_rule = self.reduced.as_ref().and_then(|facts| facts.traction);
         self.result().map(|solution| by_rule.unwrap_or_else(|| solution.traction_coefficient()))

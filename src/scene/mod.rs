@@ -1,8 +1,9 @@
 //! The experiment as a document: one contact, one question about it, and what is expected of the answer.
 //!
-//! A [`Scene`] is plain data. The explorer builds, changes and saves it; the engine runs it; [`document`] reads and writes it as RON
-//! with line and column in every error; [`check`] refuses values that make no sense, naming the field. What the explorer needs
-//! beyond the experiment to open a scene as it was saved stands in its [`View`]; windows, themes and zoom are not part of it.
+//! A [`Scene`] is plain data. The explorer builds, changes and saves it; the engine runs it; [`document`] reads and
+//! writes it as RON with line and column in every error; [`check`] refuses values that make no sense, naming the field.
+//! What the explorer needs beyond the experiment to open a scene as it was saved stands in its [`View`]; windows,
+//! themes and zoom are not part of it.
 
 #![warn(clippy::indexing_slicing)]
 
@@ -100,8 +101,8 @@ pub struct Scene {
     /// Whether it takes less than ten seconds of one processor: `run --all --quick` and the tests run those.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub quick: bool,
-    /// Whether some of its solves are meant to fail. Without this, or an expectation that admits failures, a solve that fails lets the scene fall
-    /// short.
+    /// Whether some of its solves are meant to fail. Without this, or an expectation that admits failures, a solve that
+    /// fails lets the scene fall short.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub failures_expected: bool,
     /// What the explorer keeps with it; results do not depend on it.

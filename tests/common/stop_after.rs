@@ -11,8 +11,8 @@ use std::time::Duration;
 /// What the wish to stop may still cost: a frame or two of a person's attention.
 pub const PROMISE: Duration = Duration::from_millis(100);
 
-/// Wishes to stop some processor time after a stage has begun. It looks at one thread only: waiting for another costs nothing and ends with
-/// the next question.
+/// Wishes to stop some processor time after a stage has begun. It looks at one thread only: waiting for another costs
+/// nothing and ends with the next question.
 pub struct StopAfter {
     stage: &'static str,
     after: Duration,
@@ -48,8 +48,8 @@ impl TrainingObserver for StopAfter {}
 
 impl StudyObserver for StopAfter {}
 
-/// Asserts that work on one thread ends within the promise, in processor time, of wishes at several moments after a stage has begun (any
-/// stage, where it has no name). The work says whether it was cancelled.
+/// Asserts that work on one thread ends within the promise, in processor time, of wishes at several moments after a
+/// stage has begun (any stage, where it has no name). The work says whether it was cancelled.
 pub fn assert_stops(name: &str, stage: &'static str, moments: &[u64], mut work: impl FnMut(&StopAfter) -> bool + Send) {
     for &after in moments {
         let wish = Duration::from_millis(after);

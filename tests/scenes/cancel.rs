@@ -1,4 +1,5 @@
-//! How soon a cancelled study returns: counted in processor time of one thread, so that other work on the machine does not matter.
+//! How soon a cancelled study returns: counted in processor time of one thread, so that other work on the machine does
+//! not matter.
 
 use crate::common::scene_files;
 use crate::common::stop_after::assert_stops;

@@ -1,4 +1,5 @@
-//! A study of a contact in time with several frames, inputs, rules and trained loads: what it gives, and what it refuses.
+//! A study of a contact in time with several frames, inputs, rules and trained loads: what it gives, and what it
+//! refuses.
 
 use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene};
 use ehl_explorer::scene::Scene;

@@ -1,4 +1,5 @@
-//! The embedded reduced model against full solutions on its own grid, across window edges, and as a dragged slider meets it.
+//! The embedded reduced model against full solutions on its own grid, across window edges, and as a dragged slider
+//! meets it.
 
 use ehl_explorer::engine::model_file::embedded;
 use ehl_explorer::solver::full::{ContactSolver, Solution, Start};

@@ -1,4 +1,5 @@
-//! Full solutions of point contacts against independent ones on the same grid, and the corners of the dissertation's box.
+//! Full solutions of point contacts against independent ones on the same grid, and the corners of the dissertation's
+//! box.
 
 use ehl_explorer::scene::QuantityBox;
 use ehl_explorer::solver::discrete::grid::PointGridSpec;

@@ -36,7 +36,8 @@ pub fn errors(reduced: &Solution, traction: f64, truth: &Solution) -> [f64; 3] {
     [off(reduced.scalars.h_c, truth.scalars.h_c), off(reduced.scalars.h_min, truth.scalars.h_min), traction]
 }
 
-/// Asserts that sliding the other way gives the same film and the opposite traction, and that a plateau of one ignores sliding.
+/// Asserts that sliding the other way gives the same film and the opposite traction, and that a plateau of one ignores
+/// sliding.
 pub fn assert_mirrored(mut online: Online, point: OperatingPoint, tolerance: f64) {
     let mut film = |srr: f64, npr: f64| {
         online.forget();
@@ -52,8 +53,8 @@ pub fn assert_mirrored(mut online: Online, point: OperatingPoint, tolerance: f64
     assert!((film(0.0, 1.0).0 / film(0.9, 1.0).0 - 1.0).abs() < tolerance);
 }
 
-/// Asserts that each contact lies outside by what a word names, as SRR, NPR and the modulus do beside `base`, and that the model of Newtonian
-/// contacts refuses the lubricant.
+/// Asserts that each contact lies outside by what a word names, as SRR, NPR and the modulus do beside `base`, and that
+/// the model of Newtonian contacts refuses the lubricant.
 pub fn assert_limits_are_said(online: &Online, base: OperatingPoint, further: &[(OperatingPoint, &str)]) {
     let trust = |point: &OperatingPoint| online.model.trust(&Problem::new(point, SQUALANE_PIP).unwrap());
     let common = [

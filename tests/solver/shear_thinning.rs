@@ -1,5 +1,5 @@
-//! Shear-thinning contacts of both kinds: against independent solutions on the same grids, over the whole range of Table 3.6, and their
-//! symmetries.
+//! Shear-thinning contacts of both kinds: against independent solutions on the same grids, over the whole range of
+//! Table 3.6, and their symmetries.
 
 use ehl_explorer::scene::named_lubricant::by_name;
 use ehl_explorer::solver::discrete::grid::{ContactGridSpec, GridSpec, PointGridSpec};
@@ -58,7 +58,8 @@ fn solve_from(solver: &mut ContactSolver, problem: Problem, start: Start<'_>) ->
     solution
 }
 
-/// Asserts that H_c, H_min and traction (against the larger of it and 0.005) are as in a reference, and tells by how much they differ.
+/// Asserts that H_c, H_min and traction (against the larger of it and 0.005) are as in a reference, and tells by how
+/// much they differ.
 fn differences(solver: &mut ContactSolver, wanted: &Value, fluid: &str, load: f64, bounds: [f64; 3]) -> [f64; 3] {
     let number = |name: &str| wanted[name].as_f64().unwrap();
     let [speed, srr, npr] = ["speed_m_per_s", "slide_to_roll_ratio", "newtonian_plateau_ratio"].map(number);
@@ -163,7 +164,8 @@ fn sliding_and_plateaus_beyond_table_3_6_converge_and_a_neighbour_is_a_good_star
     }
 }
 
-/// `panels` equal ones, a multiple of two, with six Gauss points each: two production rules on half the film, and so on.
+/// `panels` equal ones, a multiple of two, with six Gauss points each: two production rules on half the film, and so
+/// on.
 fn finer_rule(panels: usize) -> &'static FilmRule {
     let width = 2.0 / panels as f64;
     let part = |k: usize| PRODUCTION_RULE.map(|(at, weight)| (-0.5 + (k as f64 + at + 0.5) * width, weight * width));

@@ -1,4 +1,5 @@
-//! A contact in time against an independent solution on the same grid with the same steps, and a film against a published one.
+//! A contact in time against an independent solution on the same grid with the same steps, and a film against a
+//! published one.
 
 use ehl_explorer::solver::discrete::grid::{GridSpec, PointGridSpec};
 use ehl_explorer::solver::full::transient::{self, Frame, Inputs, Keep, Signal, TimeStep, Transient};
@@ -40,7 +41,8 @@ fn a_breathing_contact_agrees_with_an_independent_one_at_every_moment() {
         }
     }
     println!("greatest relative differences of P_c, H_c, H_min: {worst:?}");
-    // The independent solution keeps its factorisation while the front of the rupture moves: its smallest film has three digits.
+    // The independent solution keeps its factorisation while the front of the rupture moves: its smallest film has
+    // three digits.
     assert!(worst[0] < 5e-6 && worst[1] < 5e-6 && worst[2] < 5e-4, "{worst:?}");
 }
 

@@ -1,4 +1,5 @@
-//! The Accuracy tab without a display: its studies run, can be stopped, lead to the contacts they found, and know when they are old.
+//! The Accuracy tab without a display: its studies run, can be stopped, lead to the contacts they found, and know when
+//! they are old.
 
 use crate::common::scratch::Scratch;
 use crate::driver::{Window, choose, click, give_path, set, shows, undo, wait_until};

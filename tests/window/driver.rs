@@ -123,7 +123,8 @@ pub fn time(harness: &Window) -> f64 {
     harness.get_by_role_and_label(Role::Slider, "Time T").accesskit_node().numeric_value().unwrap()
 }
 
-/// Asserts what a frame may cost in the mean, in milliseconds of this thread's processor time; before each something is done.
+/// Asserts what a frame may cost in the mean, in milliseconds of this thread's processor time; before each something is
+/// done.
 pub fn assert_cheap(harness: &mut Window, frames: u16, most_ms: f64, mut change: impl FnMut(&mut Window, u16)) {
     let begin = of_this_thread();
     for k in 0..frames {

@@ -1,4 +1,5 @@
-//! Every study runs in the window as it does headless: the same contacts, the same numbers to the last bit, with its verdicts beside.
+//! Every study runs in the window as it does headless: the same contacts, the same numbers to the last bit, with its
+//! verdicts beside.
 
 use crate::common::scratch::Scratch;
 use crate::driver::{click, shows, wait_within, window};
@@ -30,7 +31,8 @@ fn training(plan: &str) -> String {
     )
 }
 
-/// A scene of a study opened in the window and run headless: all tables agree, and the window shows how its expectations fared.
+/// A scene of a study opened in the window and run headless: all tables agree, and the window shows how its
+/// expectations fared.
 fn agrees(folder: &Path, name: &str, text: &str, runs_by_itself: bool) {
     let path = folder.join(format!("{name}.ron"));
     std::fs::write(&path, text).unwrap();

@@ -1,5 +1,5 @@
-//! Linearised models without a display: trained and run beside the full system, looked into, tried with other numbers of points, exported,
-//! stopped and saved; any plot as a picture.
+//! Linearised models without a display: trained and run beside the full system, looked into, tried with other numbers
+//! of points, exported, stopped and saved; any plot as a picture.
 
 use crate::common::scratch::Scratch;
 use crate::driver::{

@@ -38,7 +38,8 @@ fn film(harness: &Window) -> f64 {
     harness.state().central_film().expect("a picture of the sliders")
 }
 
-/// Asserts that eleven full solutions lie on a reduced curve of 41 contacts: films to 1 %, tractions to what is given for each.
+/// Asserts that eleven full solutions lie on a reduced curve of 41 contacts: films to 1 %, tractions to what is given
+/// for each.
 fn assert_full_beside_reduced(rows: &[Vec<f64>], within: impl Fn(f64) -> f64) {
     let (full, reduced): (Vec<_>, Vec<_>) = rows.iter().partition(|row| row[0] == 1.0);
     assert_eq!((full.len(), reduced.len()), (11, 41));

@@ -1,4 +1,5 @@
-//! The Transient tab without a display: a contact is taken through time, watched, stopped, looked at, exported and saved.
+//! The Transient tab without a display: a contact is taken through time, watched, stopped, looked at, exported and
+//! saved.
 
 use crate::common::scratch::Scratch;
 use crate::driver::{
@@ -79,7 +80,8 @@ fn frames_are_run_compared_scrubbed_played_and_exported() {
 #[test]
 fn a_stopped_run_keeps_what_it_has_and_the_sliders_make_it_old() {
     let (mut harness, _folder) = open("stopped", &scene(BREATHING, 4000.0, "Fixed"));
-    // Twice: a stopped run leaves room for the next. How soon it stops is judged without the window, where studies are cancelled.
+    // Twice: a stopped run leaves room for the next. How soon it stops is judged without the window, where studies are
+    // cancelled.
     for _ in 0..2 {
         click(&mut harness, "Run in time");
         wait(&mut harness, "some steps", |app| !app.marching() || app.transient_moments() > 20);

@@ -117,7 +117,8 @@ impl Desk {
         self.entries.answer(field, result);
     }
 
-    /// The question which plot is to be exported, and the picture once it is made. Called when everything else is drawn.
+    /// The question which plot is to be exported, and the picture once it is made. Called when everything else is
+    /// drawn.
     pub fn figures_ui(&mut self, ctx: &egui::Context) {
         let mut figures = std::mem::take(&mut self.figures);
         let made = figures.ui(ctx, |subject| self.caption(subject));

@@ -122,7 +122,8 @@ pub fn begin(ctx: &Context) {
 }
 
 impl Figures {
-    /// The question, and the picture once the screen shows nothing but the plot, or why there is none. Called when everything else is drawn.
+    /// The question, and the picture once the screen shows nothing but the plot, or why there is none. Called when
+    /// everything else is drawn.
     pub fn ui(&mut self, ctx: &Context, caption: impl Fn(Subject) -> String) -> Option<Result<Purpose, String>> {
         if self.asks {
             self.choose_figure(ctx);

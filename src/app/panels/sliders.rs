@@ -1,4 +1,5 @@
-//! The sliders of M, L, SRR and NPR with their typed entries: one below the other in the panel, side by side in a presentation.
+//! The sliders of M, L, SRR and NPR with their typed entries: one below the other in the panel, side by side in a
+//! presentation.
 
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{Entries, RangeSlider, described, explained, named, number_field};

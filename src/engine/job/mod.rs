@@ -1,8 +1,8 @@
-//! Work that takes longer than a frame: on a thread of its own, with messages, progress, time left, a stop that is heard at once, and unable
-//! to take anything else down.
+//! Work that takes longer than a frame: on a thread of its own, with messages, progress, time left, a stop that is
+//! heard at once, and unable to take anything else down.
 //!
-//! A [`Job`] is what its owner holds, a [`Reporter`] what the work tells it by. Dropping the job stops the work. A [`Queue`] gives jobs to one
-//! thread that keeps only the newest request of each urgency: the live picture.
+//! A [`Job`] is what its owner holds, a [`Reporter`] what the work tells it by. Dropping the job stops the work. A
+//! [`Queue`] gives jobs to one thread that keeps only the newest request of each urgency: the live picture.
 
 mod queue;
 mod study;
@@ -201,7 +201,8 @@ impl<M: Send> Reporter<M> {
         self.wish.stopped()
     }
 
-    /// What stops only where nothing is to be made even of what there is: after a second wish, or when nobody waits any more.
+    /// What stops only where nothing is to be made even of what there is: after a second wish, or when nobody waits any
+    /// more.
     pub fn abandoned(&self) -> Abandoned<'_> {
         Abandoned(&self.wish)
     }

@@ -12,8 +12,9 @@ impl StudyObserver for Reporter<StudyRow> {
 }
 
 impl Scene {
-    /// Begins to answer the scene's question with what is in a store; its paths refer to the folder `base`. What the rows say is read off
-    /// them by [`Scene::outcome`] and its study. A job that was stopped ends with the rows that there are.
+    /// Begins to answer the scene's question with what is in a store; its paths refer to the folder `base`. What the
+    /// rows say is read off them by [`Scene::outcome`] and its study. A job that was stopped ends with the rows that
+    /// there are.
     pub fn ask(self, store: &Store, base: impl Into<PathBuf>, wake: Wake) -> Job<StudyRow> {
         let mut bench = Workbench::on(store, base);
         let name = self.title.clone();

@@ -21,7 +21,8 @@ pub struct Sweep {
     /// Whether full solves start cold instead.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub cold: bool,
-    /// Whether reduced methods are compared with full solutions on the model's own grid: then what the grids differ by is no part of the error.
+    /// Whether reduced methods are compared with full solutions on the model's own grid: then what the grids differ by
+    /// is no part of the error.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub compare_on_model_grid: bool,
 }

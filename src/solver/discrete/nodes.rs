@@ -1,5 +1,5 @@
-//! The nodes of a contact at one state, Newtonian or generalized: the one place where they are evaluated, for the full system, reduced
-//! and linearised models, error measures and balances alike.
+//! The nodes of a contact at one state, Newtonian or generalized: the one place where they are evaluated, for the full
+//! system, reduced and linearised models, error measures and balances alike.
 
 use super::reynolds::film_integrals::KnownFilm;
 use super::reynolds::generalized::{FilmTreatment, NodeState, PlaneGradient, ShearNode, gradient_slopes};
@@ -73,7 +73,8 @@ impl Nodes {
         !self.thinning.is_empty()
     }
 
-    /// Evaluates all nodes of (P, H); `gradient` gives (P_X, P_Y) of each, which a Newtonian lubricant does not ask for.
+    /// Evaluates all nodes of (P, H); `gradient` gives (P_X, P_Y) of each, which a Newtonian lubricant does not ask
+    /// for.
     pub fn evaluate(
         &mut self,
         laws: Laws<'_>,

@@ -2,7 +2,8 @@
 
 use super::solution::Solution;
 
-/// The cell of ascending nodes that holds a place: index of its upper end, and how far between both ends the place lies.
+/// The cell of ascending nodes that holds a place: index of its upper end, and how far between both ends the place
+/// lies.
 pub(super) fn cell(nodes: &[f64], at: f64) -> Option<(usize, f64)> {
     let upper = nodes.partition_point(|&node| node < at).max(1);
     let (low, high) = (*nodes.get(upper - 1)?, *nodes.get(upper)?);
@@ -10,8 +11,8 @@ pub(super) fn cell(nodes: &[f64], at: f64) -> Option<(usize, f64)> {
 }
 
 impl Solution {
-    /// X, P, H along X at an ordinate Y of either half, linearly between the nodes across; of a line contact its profile, whatever Y is.
-    /// Empty outside the domain.
+    /// X, P, H along X at an ordinate Y of either half, linearly between the nodes across; of a line contact its
+    /// profile, whatever Y is. Empty outside the domain.
     pub fn along(&self, y: f64) -> Vec<(f64, f64, f64)> {
         let ny = self.y.len();
         if ny == 1 {
@@ -22,7 +23,8 @@ impl Solution {
         (0..self.x.len()).map(|i| (self.x[i], between(&self.pressure, i), between(&self.film, i))).collect()
     }
 
-    /// Y, P, H across both halves at an abscissa X, linearly between the nodes along; empty for a line contact and outside the domain.
+    /// Y, P, H across both halves at an abscissa X, linearly between the nodes along; empty for a line contact and
+    /// outside the domain.
     pub fn across(&self, x: f64) -> Vec<(f64, f64, f64)> {
         let ny = self.y.len();
         let Some((i, t)) = cell(&self.x, x).filter(|_| ny > 1) else { return Vec::new() };
@@ -32,7 +34,8 @@ impl Solution {
         half.clone().chain(half.rev().skip(1).map(|(y, p, h)| (-y, p, h))).collect()
     }
 
-    /// P and H at a place of a point contact, bilinearly between the nodes of either half; `None` outside and for a line contact.
+    /// P and H at a place of a point contact, bilinearly between the nodes of either half; `None` outside and for a
+    /// line contact.
     pub fn at(&self, x: f64, y: f64) -> Option<(f64, f64)> {
         let ny = self.y.len();
         let ((i, s), (j, t)) = (cell(&self.x, x)?, cell(&self.y, -y.abs())?);

@@ -58,8 +58,9 @@ impl Problem {
         Self::new(&OperatingPoint { sliding, ..*point }, lubricant)
     }
 
-    /// Checks the point and the lubricant and makes them dimensionless. Where α follows from the viscosity law, the problem's point has that α,
-    /// whatever the given one has; where the lubricant thins under shear, its point has the plateau ratio that counts.
+    /// Checks the point and the lubricant and makes them dimensionless. Where α follows from the viscosity law, the
+    /// problem's point has that α, whatever the given one has; where the lubricant thins under shear, its point has the
+    /// plateau ratio that counts.
     ///
     /// # Errors
     /// When the point, its sliding or the lubricant is outside its valid range.
@@ -153,7 +154,8 @@ pub struct Report {
     pub linear_iterations: usize,
     /// Starts that were tried (1 when the first one converged).
     pub attempts: usize,
-    /// Residual 2-norm before each Newton step: rows weighted by √w so that it approximates the L2 norm over the domain.
+    /// Residual 2-norm before each Newton step: rows weighted by √w so that it approximates the L2 norm over the
+    /// domain.
     pub residuals: Vec<f64>,
     /// Size of each Newton step: ‖Δz‖/‖z‖ for a line, max|ΔP| for a point contact.
     pub steps: Vec<f64>,
@@ -246,8 +248,8 @@ impl Mesh {
 
 /// Fields and scalars of one contact, with what they were computed for and how.
 ///
-/// Node arrays run over X and, fastest, over Y: node (i, j) has the index i·n_y + j, and the last j lies on the axis Y = 0. A line
-/// contact is the case n_y = 1.
+/// Node arrays run over X and, fastest, over Y: node (i, j) has the index i·n_y + j, and the last j lies on the axis Y
+/// = 0. A line contact is the case n_y = 1.
 #[derive(Clone, Debug)]
 pub struct Solution {
     /// What was solved.
@@ -269,8 +271,8 @@ pub struct Solution {
 }
 
 impl Solution {
-    /// The same film as the solution of another problem that has it too: sliding moves no film that does not thin under shear, and a limiting
-    /// stress none at all.
+    /// The same film as the solution of another problem that has it too: sliding moves no film that does not thin under
+    /// shear, and a limiting stress none at all.
     pub fn of_problem(self, problem: Problem) -> Self {
         Self { problem, ..self }
     }
@@ -309,7 +311,8 @@ impl Solution {
             .map(move |k| (self.x[k / ny], self.y[k % ny], self.pressure[k], self.film[k]))
     }
 
-    /// Position and height of the pressure spike on the axis: the last local maximum in 0.2 < X < 1.2 that stands out, if there is one.
+    /// Position and height of the pressure spike on the axis: the last local maximum in 0.2 < X < 1.2 that stands out,
+    /// if there is one.
     pub fn spike(&self) -> Option<(f64, f64)> {
         let axis: Vec<(f64, f64)> = self.profile().map(|(x, p, _)| (x, p)).collect();
         let peak = axis.windows(3).rev().find(|w| {
@@ -326,9 +329,11 @@ impl Solution {
         axis.get(last + 1).map(|&(x, _)| x)
     }
 
-    /// Newtonian traction over the whole domain, (3.41), positive for SRR > 0, as the mean shear stress on the surfaces over the load.
+    /// Newtonian traction over the whole domain, (3.41), positive for SRR > 0, as the mean shear stress on the surfaces
+    /// over the load.
     pub fn traction(&self) -> Traction {
-        // τ = η u_s / h with u_s = SRR u_m; friction = ∫τ dx / w, the Poiseuille part cancels in the mean of both surfaces.
+        // τ = η u_s / h with u_s = SRR u_m; friction = ∫τ dx / w, the Poiseuille part cancels in the mean of both
+        // surfaces.
         let point = &self.problem.point;
         let stress_scale = point.viscosity_pa_s * point.speed_m_per_s / point.film_scale_m();
         let stress = |k: usize| {
@@ -339,7 +344,8 @@ impl Solution {
         Traction { per_srr: self.force_per_load(stress) }
     }
 
-    /// ∫ of a stress \[Pa\] given at the nodes over the whole domain, both halves of a point contact's, by the trapezoidal rule, over the load.
+    /// ∫ of a stress \[Pa\] given at the nodes over the whole domain, both halves of a point contact's, by the
+    /// trapezoidal rule, over the load.
     pub(super) fn force_per_load(&self, stress: impl Fn(usize) -> f64) -> f64 {
         let ny = self.y.len();
         // Across the contact: over both halves, where there is anything across.

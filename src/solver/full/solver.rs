@@ -1,5 +1,5 @@
-//! Solving contacts: where Newton starts, and what is tried until it converges: a former solution, cold starts with other films, then
-//! continuation from an easier contact.
+//! Solving contacts: where Newton starts, and what is tried until it converges: a former solution, cold starts with
+//! other films, then continuation from an easier contact.
 
 use super::cut::cell;
 use super::newton_space::NewtonSpace;
@@ -20,7 +20,8 @@ use std::sync::Arc;
 pub enum Start<'a> {
     /// Hertzian pressure and a film from a formula.
     Cold,
-    /// Any solution of the same kind of contact, also at another operating point or on another grid; one of the other kind means cold.
+    /// Any solution of the same kind of contact, also at another operating point or on another grid; one of the other
+    /// kind means cold.
     From(&'a Solution),
 }
 
@@ -65,8 +66,9 @@ impl<S: NewtonSpace> Solver<S> {
         &self.reference
     }
 
-    /// Solves one contact. A failed start is followed by others and at last by continuation from an easier contact; the solution's report
-    /// says how it ended. A solution that has not converged holds the last state and must not be shown as a result.
+    /// Solves one contact. A failed start is followed by others and at last by continuation from an easier contact; the
+    /// solution's report says how it ended. A solution that has not converged holds the last state and must not be
+    /// shown as a result.
     ///
     /// # Errors
     /// When the operating point or the lubricant is refused, or it is of the other kind.
@@ -140,7 +142,8 @@ impl<S: NewtonSpace> Solver<S> {
         Ok((system, problem))
     }
 
-    /// The system on the grid under a scale: the kept one where it has that scale. Another scale has other coefficients.
+    /// The system on the grid under a scale: the kept one where it has that scale. Another scale has other
+    /// coefficients.
     fn system_at(&mut self, scale: f64) -> System<S> {
         match self.system.take() {
             Some(system) if system.space.mesh().scale() == scale => system,
@@ -223,7 +226,8 @@ impl<S: NewtonSpace> Solver<S> {
     }
 }
 
-/// Central film in the solver's scaling, H = (h/R) (R/a)²: Moes' formula for a line, Hamrock and Dowson's for a point contact.
+/// Central film in the solver's scaling, H = (h/R) (R/a)²: Moes' formula for a line, Hamrock and Dowson's for a point
+/// contact.
 fn formula_film(problem: &Problem) -> f64 {
     match problem.point.kind {
         // (h/R)(2U)^(−1/2) with a²/R² = 8 w/(π E′ R) = 8 M (2U)^(1/2)/π.
@@ -243,8 +247,8 @@ fn cold_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, film: f
     system.set_central_film(film * formula_film(problem));
 }
 
-/// A former solution on this grid: pressure as it is, whatever the scale of its registration, or interpolated; central film scaled by the
-/// formula.
+/// A former solution on this grid: pressure as it is, whatever the scale of its registration, or interpolated; central
+/// film scaled by the formula.
 fn warm_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, former: &Solution) {
     let same_grid = former.mesh.shares_nodes(&system.space.mesh());
     if same_grid {
@@ -346,8 +350,8 @@ impl ContactSolver {
         }
     }
 
-    /// Takes a few Newton steps from fields on its grid, by which their error can be judged: undamped where there is a line search, since by
-    /// the residual it would hide the error: beside a solution the penalty makes it jump.
+    /// Takes a few Newton steps from fields on its grid, by which their error can be judged: undamped where there is a
+    /// line search, since by the residual it would hide the error: beside a solution the penalty makes it jump.
     pub fn corrected(&mut self, fields: &Solution, steps: usize) -> Solution {
         match self {
             Self::Line(solver) => {

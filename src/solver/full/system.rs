@@ -1,7 +1,8 @@
 //! The discrete system of one problem over a space, and Newton's method on it: rows, Jacobian products, stopping.
 //!
-//! Unknowns are (P, H₀), the deformation is condensed. The Jacobian A + B K is never assembled: A and B are stencils, K is applied.
-//! How far a step is taken, and what preconditions the linear solves, is the space's own, see [`NewtonSpace`].
+//! Unknowns are (P, H₀), the deformation is condensed. The Jacobian A + B K is never assembled: A and B are stencils, K
+//! is applied. How far a step is taken, and what preconditions the linear solves, is the space's own, see
+//! [`NewtonSpace`].
 
 use super::gmres::{Gmres, LinearOutcome};
 use super::newton_space::{NewtonSpace, Preconditioner, Taken};
@@ -17,7 +18,8 @@ use crate::solver::observer::{NewtonStep, Observer};
 /// Settings of a full solve; those of the step control beside those of every space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SolveOptions<C> {
-    /// Newton's method stops when the size of a step falls below this: ‖Δz‖/‖z‖ with z = (P, H₀) on a line; max|ΔP| on a plane, where
+    /// Newton's method stops when the size of a step falls below this: ‖Δz‖/‖z‖ with z = (P, H₀) on a line; max|ΔP| on
+    /// a plane, where
     /// |ΔH₀| must fall below a tenth of it too.
     pub tolerance: f64,
     /// Newton steps per attempt.

@@ -1,4 +1,5 @@
-//! What a shear-thinning lubricant adds to the Jacobian: the derivatives by nodal gradients, ∂f/∂P += (∂f/∂P_X) G_X + (∂f/∂P_Y) G_Y.
+//! What a shear-thinning lubricant adds to the Jacobian: the derivatives by nodal gradients, ∂f/∂P += (∂f/∂P_X) G_X +
+//! (∂f/∂P_Y) G_Y.
 
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::STENCIL;

@@ -9,21 +9,25 @@
 //! | best approximation | Galerkin solution: all rows, same basis | projection |
 //! | Galerkin solution | the reduced solution: sampled rows | sampling |
 //!
-//! The steps are signed, in units of the full film on the model's grid, and add up to the whole by construction. They may cancel: a film
-//! of the Galerkin solution is often nearer to the truth than that of the best approximation, because its H₀ is free to follow.
+//! The steps are signed, in units of the full film on the model's grid, and add up to the whole by construction. They
+//! may cancel: a film of the Galerkin solution is often nearer to the truth than that of the best approximation,
+//! because its H₀ is free to follow.
 //!
-//! **Best approximation**: the state (P, H₀) projected onto the trial space, in the weighted product under which the basis is orthonormal,
-//! among pressures that carry the load, as every reduced solution does. No reduced solution is nearer to P in that norm.
+//! **Best approximation**: the state (P, H₀) projected onto the trial space, in the weighted product under which the
+//! basis is orthonormal, among pressures that carry the load, as every reduced solution does. No reduced solution is
+//! nearer to P in that norm.
 //!
-//! **Discretisation**: full solutions on the model's grid and on the next finer one (`ReferenceGrid::refined`), and Richardson's
-//! extrapolation with order two, which the scheme has (H_c on uniform grids: 1.98–1.99). The ends of the domain are the model's own; what a
-//! longer inlet would change is not part of it. The smallest *nodal* film has an error that jumps with the node it falls on, so the parabola
-//! through it and its neighbours is extrapolated and the nodal value held against that. Against three grids finer
-//! than a coarse one of 300 nodes (M 25, 40, 70) this was right to 0.05 % for H_c and to 4, 9 and 13 % for H_min. Heights of spikes do not converge on
-//! these grids; pressures therefore have no discretisation part. Point contacts are extrapolated in both directions at once, with a second
+//! **Discretisation**: full solutions on the model's grid and on the next finer one (`ReferenceGrid::refined`), and
+//! Richardson's extrapolation with order two, which the scheme has (H_c on uniform grids: 1.98–1.99). The ends of the
+//! domain are the model's own; what a longer inlet would change is not part of it. The smallest *nodal* film has an
+//! error that jumps with the node it falls on, so the parabola through it and its neighbours is extrapolated and the
+//! nodal value held against that. Against three grids finer than a coarse one of 300 nodes (M 25, 40, 70) this was
+//! right to 0.05 % for H_c and to 4, 9 and 13 % for H_min. Heights of spikes do not converge on these grids; pressures
+//! therefore have no discretisation part. Point contacts are extrapolated in both directions at once, with a second
 //! grid of half the spacings ([`second_grid`]), or of twice the spacings where the finer one would take too long.
 //!
-//! A reduced model of point contacts may have a softer penalty than the full system. What that costs is part of the projection.
+//! A reduced model of point contacts may have a softer penalty than the full system. What that costs is part of the
+//! projection.
 
 use super::model::{ReducedModel, Window};
 use super::online::{Online, ReducedError, ReducedOptions, ReducedSolution};

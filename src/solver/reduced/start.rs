@@ -1,14 +1,16 @@
-//! Where the online Newton iteration starts: an interpolation between the training solutions around the point, and the nearest of them.
+//! Where the online Newton iteration starts: an interpolation between the training solutions around the point, and the
+//! nearest of them.
 //!
-//! Nearest snapshots alone (the dissertation's choice) needed 10 iterations at the 90th and 34 at the 99th percentile of the
-//! embedded model's range; with the interpolation it is 6 and 9, because film and spike are carried along.
+//! Nearest snapshots alone (the dissertation's choice) needed 10 iterations at the 90th and 34 at the 99th percentile
+//! of the embedded model's range; with the interpolation it is 6 and 9, because film and spike are carried along.
 
 use super::dense;
 use super::model::{Snapshot, Window, separation};
 use crate::solver::physics::contact::{ContactKind, FilmFormula, OperatingPoint, moes_film};
 use faer::Mat;
 
-/// Snapshots that take part in the interpolation of Newtonian contacts, and in that of shear-thinning ones, which have two parameters more.
+/// Snapshots that take part in the interpolation of Newtonian contacts, and in that of shear-thinning ones, which have
+/// two parameters more.
 const NEIGHBOURS: [usize; 2] = [6, 10];
 /// Weight of (ln α ratio)² beside (3.20).
 const ALPHA_WEIGHT: f64 = 0.02;
@@ -26,7 +28,8 @@ pub(super) struct Guess {
 const DRAG_DISTANCE: f64 = 1e-3;
 /// The longest step, squared, of a curve that is followed: the distance of (3.20) between neighbours.
 const LONGEST_STEP: f64 = 0.03;
-/// How far a contact may lie beside the line through the last two, and ahead of them, in lengths of the way to it and of their distance.
+/// How far a contact may lie beside the line through the last two, and ahead of them, in lengths of the way to it and
+/// of their distance.
 const BESIDE: f64 = 0.25;
 const AHEAD: f64 = 1.5;
 
@@ -103,8 +106,8 @@ fn square(v: [f64; 5]) -> f64 {
     v.iter().map(|v| v * v).sum()
 }
 
-/// The film of a formula in the solver's scaling up to a constant, what films are compared by: Moes' for line, Hamrock and Dowson's for
-/// point contacts.
+/// The film of a formula in the solver's scaling up to a constant, what films are compared by: Moes' for line, Hamrock
+/// and Dowson's for point contacts.
 pub(super) fn film_number(point: &OperatingPoint) -> f64 {
     match point.kind {
         ContactKind::Line => {
@@ -131,8 +134,9 @@ pub(super) fn unchanged(window: &Window, point: &OperatingPoint) -> Option<Guess
     window.nearest(point).map(|(snapshot, _)| Guess { coefficients: snapshot.coefficients.clone(), h_c: snapshot.h_c })
 }
 
-/// Interpolation between the nearest training solutions: weights that reproduce functions linear in (ln M, L, ln α), and of shear-thinning
-/// contacts in |SRR| and NPR, and strongly prefer near ones (6 neighbours and 1/d² beat 10 and 16, and 1/d).
+/// Interpolation between the nearest training solutions: weights that reproduce functions linear in (ln M, L, ln α),
+/// and of shear-thinning contacts in |SRR| and NPR, and strongly prefer near ones (6 neighbours and 1/d² beat 10 and
+/// 16, and 1/d).
 pub(super) fn interpolated(window: &Window, point: &OperatingPoint, thinning: bool) -> Option<Guess> {
     let (neighbours, count) = (NEIGHBOURS[usize::from(thinning)], FEATURES[usize::from(thinning)]);
     let moes = point.moes();

@@ -9,12 +9,13 @@ use crate::solver::physics::lubricant::Lubricant;
 pub struct CurvePoint {
     /// What varies, here.
     pub value: f64,
-    /// Its solution, with H_c and traction among its scalars; why there is none where the contact is refused or Newton did not converge.
+    /// Its solution, with H_c and traction among its scalars; why there is none where the contact is refused or Newton
+    /// did not converge.
     pub solution: Result<ReducedSolution, ReducedError>,
 }
 
-/// Solves the contacts of a curve in the order of the values, as they are asked for: whoever draws one may stop in between. What the solver
-/// solved before has no influence.
+/// Solves the contacts of a curve in the order of the values, as they are asked for: whoever draws one may stop in
+/// between. What the solver solved before has no influence.
 pub fn traction_curve<'a>(
     online: &'a mut Online,
     point: &'a OperatingPoint,

@@ -67,8 +67,8 @@ pub struct Jobs {
     running: Vec<Running>,
 }
 
-/// A live solve that ran longer than this is given up for a newer one. A point contact's takes longer: were it given up at every
-/// movement of the hand, the picture would stand still.
+/// A live solve that ran longer than this is given up for a newer one. A point contact's takes longer: were it given up
+/// at every movement of the hand, the picture would stand still.
 fn live_patience(kind: ContactKind) -> Duration {
     match kind {
         ContactKind::Line => Duration::from_millis(80),
@@ -84,7 +84,8 @@ impl Jobs {
         Self { queue, running: Vec::new() }
     }
 
-    /// Hands a solve over. It replaces one of the same kind that has not started; all but live solves of other parameters stop.
+    /// Hands a solve over. It replaces one of the same kind that has not started; all but live solves of other
+    /// parameters stop.
     pub fn submit(&mut self, ctx: &egui::Context, request: Request) {
         let (kind, key) = (request.kind, request.key);
         for running in &self.running {

@@ -46,7 +46,8 @@ pub enum GridChoice {
 }
 
 impl GridChoice {
-    /// The grid of the window of a model that serves a contact; without a model the chosen one of a point contact, or the explorer's.
+    /// The grid of the window of a model that serves a contact; without a model the chosen one of a point contact, or
+    /// the explorer's.
     pub fn of(model: Option<&ReducedModel>, plane: Option<PointGridSpec>, moes: Moes) -> Self {
         match (model.and_then(|model| model.windows.get(model.window_for(moes))), plane) {
             (Some(window), _) => Self::Existing(window.grid.clone()),

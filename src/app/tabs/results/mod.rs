@@ -1,5 +1,5 @@
-//! The answer to a scene's question, whatever it is: its study runs on the engine as it does headless, and its charts, tables and verdicts
-//! come as they are found.
+//! The answer to a scene's question, whatever it is: its study runs on the engine as it does headless, and its charts,
+//! tables and verdicts come as they are found.
 
 mod chart;
 mod run;

@@ -39,7 +39,8 @@ impl Convolution {
         self.forward.get_scratch_len().max(self.inverse.get_scratch_len()).max(1)
     }
 
-    /// The spectrum of an even kernel, which is real, given by its circular signal; scaled so that going there and back changes nothing.
+    /// The spectrum of an even kernel, which is real, given by its circular signal; scaled so that going there and back
+    /// changes nothing.
     ///
     /// # Errors
     /// When the signal has not the length of the transforms.

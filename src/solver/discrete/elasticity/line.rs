@@ -1,7 +1,7 @@
 //! Elastic deformation of the half-space under line loads: δ = K P with the logarithmic kernel (2.27).
 //!
-//! On a uniform grid K is Toeplitz, with the exact integral (2.39) of a constant pressure per cell, and is applied by FFT. On a graded grid
-//! K is the exact integral of hat functions, stored dense.
+//! On a uniform grid K is Toeplitz, with the exact integral (2.39) of a constant pressure per cell, and is applied by
+//! FFT. On a graded grid K is the exact integral of hat functions, stored dense.
 
 use super::convolution::{Convolution, KernelError};
 use faer::linalg::matmul::matmul;
@@ -60,7 +60,8 @@ impl Flexibility {
         Ok(Self::Toeplitz(Toeplitz { column, spectrum, convolution }))
     }
 
-    /// Kernel of hat functions on the nodes `x` (leading outside node included); the first two and the last carry no pressure.
+    /// Kernel of hat functions on the nodes `x` (leading outside node included); the first two and the last carry no
+    /// pressure.
     pub fn graded(x: &[f64]) -> Self {
         let n = x.len();
         Self::Dense(Mat::from_fn(n, n, |i, j| {

@@ -1,4 +1,5 @@
-//! Elastic deformation of the half-space: under line loads ([`mod@line`], (2.27)) and under pressures on a plane ([`mod@point`], (2.25)).
+//! Elastic deformation of the half-space: under line loads ([`mod@line`], (2.27)) and under pressures on a plane
+//! ([`mod@point`], (2.25)).
 
 mod convolution;
 pub mod line;

@@ -1,8 +1,9 @@
-//! Elastic deformation of the half-space under a pressure that is constant on rectangles, and its mirror image: Δ = K P, (2.38).
+//! Elastic deformation of the half-space under a pressure that is constant on rectangles, and its mirror image: Δ = K
+//! P, (2.38).
 //!
-//! Along X the nodes are equidistant and K is Toeplitz: it is applied by FFT, zero-padded. Across there are few nodes, so each
-//! frequency has a small dense matrix of its own, with the mirror at Y = 0 included. That costs as much as a second FFT over the mirrored
-//! domain would, halves the number of transforms, and leaves the spacing across free.
+//! Along X the nodes are equidistant and K is Toeplitz: it is applied by FFT, zero-padded. Across there are few nodes,
+//! so each frequency has a small dense matrix of its own, with the mirror at Y = 0 included. That costs as much as a
+//! second FFT over the mirrored domain would, halves the number of transforms, and leaves the spacing across free.
 
 use super::convolution::{Convolution, KernelError};
 use rayon::prelude::*;
@@ -19,7 +20,8 @@ pub struct PointFlexibility {
     y: Vec<f64>,
     /// Upper edge of each node's cell; 0 on the axis.
     edges: Vec<f64>,
-    /// Per frequency a matrix of n_y rows and n_y − 1 columns (cell j + 1), column after column; real, since K is even in X.
+    /// Per frequency a matrix of n_y rows and n_y − 1 columns (cell j + 1), column after column; real, since K is even
+    /// in X.
     spectrum: Vec<f64>,
     convolution: Convolution,
 }
@@ -51,7 +53,8 @@ pub fn rectangle_kernel(x: f64, y: f64, hx: f64, hy: f64) -> f64 {
 
 /// (2/π²) times the integral of 1/r over the strip of width `hx` around x and from 0 to v across; odd in v.
 fn strip(x: f64, v: f64, hx: f64) -> f64 {
-    // u asinh(v/|u|) + v asinh(u/|v|) differs from the usual u ln(v + r) + v ln(u + r) by terms that cancel between the corners.
+    // u asinh(v/|u|) + v asinh(u/|v|) differs from the usual u ln(v + r) + v ln(u + r) by terms that cancel between the
+    // corners.
     let corner = |u: f64| {
         let along = if u == 0.0 { 0.0 } else { u * (v / u.abs()).asinh() };
         let across = if v == 0.0 { 0.0 } else { v * (u / v.abs()).asinh() };
@@ -61,8 +64,9 @@ fn strip(x: f64, v: f64, hx: f64) -> f64 {
 }
 
 impl PointFlexibility {
-    /// The kernel of `nx` nodes with spacing `hx` along X and nodes at the ordinates `y` across, whose cells end at `edges` (upper edge
-    /// of each; the first node carries no pressure). Pressures at both ends along X are taken as zero.
+    /// The kernel of `nx` nodes with spacing `hx` along X and nodes at the ordinates `y` across, whose cells end at
+    /// `edges` (upper edge of each; the first node carries no pressure). Pressures at both ends along X are taken as
+    /// zero.
     ///
     /// # Errors
     /// When it cannot be transformed.
@@ -104,8 +108,8 @@ impl PointFlexibility {
         Ok(kernel)
     }
 
-    /// Hands out the deformation of a node of ordinate `j` by unit pressure on each cell and its mirror image, `d` columns away.
-    /// Cell c belongs to ordinate c + 1.
+    /// Hands out the deformation of a node of ordinate `j` by unit pressure on each cell and its mirror image, `d`
+    /// columns away. Cell c belongs to ordinate c + 1.
     fn row_entries(&self, d: usize, j: usize, mut put: impl FnMut(usize, f64)) {
         let (x, y) = (d as f64 * self.hx, self.y[j]);
         let near = |edge: f64| strip(x, y - edge, self.hx);
@@ -118,8 +122,8 @@ impl PointFlexibility {
         }
     }
 
-    /// Deformations of all ordinates by the cells of all unknowns, `d` columns away: a matrix of n_y rows and n_y − 1 columns, column after
-    /// column, as the preconditioner needs it for small d.
+    /// Deformations of all ordinates by the cells of all unknowns, `d` columns away: a matrix of n_y rows and n_y − 1
+    /// columns, column after column, as the preconditioner needs it for small d.
     pub fn column_block(&self, d: usize) -> Vec<f64> {
         let mut block = vec![0.0; self.ny * (self.ny - 1)];
         for j in 0..self.ny {

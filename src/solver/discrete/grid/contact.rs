@@ -1,8 +1,8 @@
-//! The grid of either kind of contact, as a reduced model sees it: node arrays with weights, rows of the Reynolds equation, and the
-//! deformation operator, whatever their layout.
+//! The grid of either kind of contact, as a reduced model sees it: node arrays with weights, rows of the Reynolds
+//! equation, and the deformation operator, whatever their layout.
 //!
-//! Along X everything is told in a reference coordinate ξ with X = −1 + (ξ + 1)s and H = H₀ − ½ ln s + (X² + Y²)/2 + s K P: the scale s
-//! registers line contacts by their spike. A point contact is the case s = 1.
+//! Along X everything is told in a reference coordinate ξ with X = −1 + (ξ + 1)s and H = H₀ − ½ ln s + (X² + Y²)/2 + s
+//! K P: the scale s registers line contacts by their spike. A point contact is the case s = 1.
 
 use super::GridError;
 use super::line::{FIRST_UNKNOWN, GridSpec, ReferenceGrid};
@@ -16,8 +16,8 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A description of the grid of either kind of contact. Scenes write it as the line grids `Uniform` and `Graded`, or as the `Plane` of a point
-/// contact.
+/// A description of the grid of either kind of contact. Scenes write it as the line grids `Uniform` and `Graded`, or as
+/// the `Plane` of a point contact.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "Written", into = "Written")]
 pub enum ContactGridSpec {
@@ -204,8 +204,8 @@ impl ContactGrid {
         }
     }
 
-    /// The row of an unknown in ξ: the nodes it depends on and its coefficients. Where a node is lacking, another stands in its
-    /// place with weight zero.
+    /// The row of an unknown in ξ: the nodes it depends on and its coefficients. Where a node is lacking, another
+    /// stands in its place with weight zero.
     pub fn row(&self, unknown: usize) -> ([usize; STENCIL], RowGeometry) {
         match self {
             Self::Line(grid) => {
@@ -218,8 +218,8 @@ impl ContactGrid {
         }
     }
 
-    /// Nodes and weights of the cubic interpolation at X = 0 (and Y = 0) under scale s; a single unit weight where a node of a point
-    /// contact lies there.
+    /// Nodes and weights of the cubic interpolation at X = 0 (and Y = 0) under scale s; a single unit weight where a
+    /// node of a point contact lies there.
     pub fn at_zero(&self, scale: f64) -> [(usize, f64); 4] {
         match self {
             Self::Line(grid) => {

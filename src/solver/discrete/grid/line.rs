@@ -1,11 +1,12 @@
-//! The computational domain of a line contact: uniform as in the dissertation, or graded towards the ends of the Hertzian zone.
+//! The computational domain of a line contact: uniform as in the dissertation, or graded towards the ends of the
+//! Hertzian zone.
 //!
-//! A grid is a *reference* grid in ξ, built once with its elastic kernel, and an affine map X = −1 + (ξ + 1) s. For s = 1 they are the
-//! same. Registration chooses s so that the pressure spike always sits at ξ = 1: the contacts of a whole range
-//! of M and L then look alike to a reduced basis, and one fine patch of nodes serves all their spikes.
+//! A grid is a *reference* grid in ξ, built once with its elastic kernel, and an affine map X = −1 + (ξ + 1) s. For s =
+//! 1 they are the same. Registration chooses s so that the pressure spike always sits at ξ = 1: the contacts of a whole
+//! range of M and L then look alike to a reduced basis, and one fine patch of nodes serves all their spikes.
 //!
-//! Node arrays everywhere in the solver have one extra leading node: index 0 lies outside the inlet (the upwind stencil of the first
-//! unknown reaches it), index 1 is the inlet, the last index the outlet. P vanishes at all three.
+//! Node arrays everywhere in the solver have one extra leading node: index 0 lies outside the inlet (the upwind stencil
+//! of the first unknown reaches it), index 1 is the inlet, the last index the outlet. P vanishes at all three.
 
 mod refined;
 
@@ -55,7 +56,8 @@ impl GridSpec {
     /// The dissertation's grid: 1201 nodes from −4 to 2.
     pub const DISSERTATION: Self = Self::Uniform { dx: 0.005, domain: (-4.0, 2.0) };
 
-    /// The explorer's default for every contact: 632 registered nodes, fine at ξ = ±1, with an inlet long enough for M = 2.
+    /// The explorer's default for every contact: 632 registered nodes, fine at ξ = ±1, with an inlet long enough for M
+    /// = 2.
     pub const EXPLORER: Self =
         Self::Graded { nodes: EXPLORER_NODES, domain: (EXPLORER_INLET, EXPLORER_OUTLET), registered: true };
 
@@ -196,7 +198,8 @@ impl LineGrid {
         self.scale * self.reference.flexibility.entry(i, j) + self.kernel_shift() * self.reference.weights[j]
     }
 
-    /// Weights and first index of the cubic (4-point Lagrange) interpolation at X; a single unit weight where X is a node.
+    /// Weights and first index of the cubic (4-point Lagrange) interpolation at X; a single unit weight where X is a
+    /// node.
     pub fn interpolation(&self, x: f64) -> (usize, [f64; 4]) {
         let (first, weights) = super::cubic(&self.x[INLET..], x);
         (first + INLET, weights)
@@ -218,7 +221,8 @@ fn node_weights(xi: &[f64]) -> Vec<f64> {
 /// Wanted relative spacing at ξ: fine at ±1, moderate inside, growing with the distance into the inlet.
 fn wanted_spacing(xi: f64) -> f64 {
     let bump = |center: f64, depth: f64, width: f64| depth / (1.0 + ((xi - center) / width).powi(2));
-    // The inlet of heavy loads is what limits H_c: with this distribution 560 nodes leave 0.2 % at M = 165 and 0.7 % at M = 500.
+    // The inlet of heavy loads is what limits H_c: with this distribution 560 nodes leave 0.2 % at M = 165 and 0.7 % at
+    // M = 500.
     let base =
         0.016 / (1.0 + bump(-1.02, 14.0, 0.04) + bump(-1.0, 2.0, 0.3) + bump(1.0, 3.0, 0.05) + bump(0.93, 1.0, 0.2));
     let inlet = (-1.15 - xi).max(0.0);
@@ -242,8 +246,9 @@ fn cells(from: f64, to: f64, samples: usize) -> f64 {
     (0..samples).map(|i| cells_between(at(i), at(i + 1))).sum()
 }
 
-/// `nodes` abscissae (and the outside one) that equidistribute 1/spacing, with one node exactly at ξ = 1 where registration puts the spike:
-/// grids of equal resolution then share their nodes in the contact, whatever their inlets. The ends move by half a cell at most.
+/// `nodes` abscissae (and the outside one) that equidistribute 1/spacing, with one node exactly at ξ = 1 where
+/// registration puts the spike: grids of equal resolution then share their nodes in the contact, whatever their inlets.
+/// The ends move by half a cell at most.
 fn graded_nodes(nodes: usize, from: f64, to: f64) -> Vec<f64> {
     // ∫ dξ/spacing on fine samples; all later steps are exact to rounding.
     let samples = 40 * nodes;
@@ -283,10 +288,10 @@ pub fn registration_scale(moes: Moes) -> f64 {
 
 /// Fitted position X_s of the pressure spike, in (0.2, 1).
 ///
-/// ln((1 − X_s)/X_s) is a cubic in ln M plus a term that fades with L, fitted to the spikes of 75 full solutions with M 2…500 and L 10…22
-/// (Roelands, Dowson–Higginson, default realisation, ΔX = 0.0025, spike refined by a parabola): root mean square deviation 0.015.
-/// Below L ≈ 12 the spike fades and the fit continues smoothly at its value there. Only smoothness matters to the method: the
-/// map moves nodes, never the equations.
+/// ln((1 − X_s)/X_s) is a cubic in ln M plus a term that fades with L, fitted to the spikes of 75 full solutions with M
+/// 2…500 and L 10…22 (Roelands, Dowson–Higginson, default realisation, ΔX = 0.0025, spike refined by a parabola): root
+/// mean square deviation 0.015. Below L ≈ 12 the spike fades and the fit continues smoothly at its value there. Only
+/// smoothness matters to the method: the map moves nodes, never the equations.
 pub fn spike_position(Moes { m, l }: Moes) -> f64 {
     let x = m.clamp(1.5, 1000.0).ln();
     let effective_l = 12.0 + 2.0 * (0.5 * (l.min(40.0) - 12.0)).exp().ln_1p();

@@ -1,5 +1,5 @@
-//! The computational domains: of a line contact along X ([`mod@line`]), of the half of a point contact that its symmetry leaves ([`mod@point`]),
-//! and of either kind ([`mod@contact`]).
+//! The computational domains: of a line contact along X ([`mod@line`]), of the half of a point contact that its
+//! symmetry leaves ([`mod@point`]), and of either kind ([`mod@contact`]).
 
 pub mod contact;
 mod error;
@@ -14,8 +14,8 @@ pub use line::{
 };
 pub use point::{PointGrid, PointGridSpec};
 
-/// First index and weights of the cubic (4-point Lagrange) interpolation at X among increasing `nodes`; a single unit weight where X
-/// is a node.
+/// First index and weights of the cubic (4-point Lagrange) interpolation at X among increasing `nodes`; a single unit
+/// weight where X is a node.
 pub(crate) fn cubic(nodes: &[f64], x: f64) -> (usize, [f64; 4]) {
     let first = nodes.partition_point(|&node| node < x).saturating_sub(2).min(nodes.len() - 4);
     let near = &nodes[first..first + 4];

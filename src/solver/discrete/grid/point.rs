@@ -1,7 +1,8 @@
-//! The computational domain of a circular point contact: by symmetry the half Y ≤ 0, with P = 0 at inlet, outlet and outer edge.
+//! The computational domain of a circular point contact: by symmetry the half Y ≤ 0, with P = 0 at inlet, outlet and
+//! outer edge.
 //!
-//! Node arrays run over all nodes, Y fastest: node (i, j) has the index i·n_y + j, with j = 0 on the outer edge and j = n_y − 1 on
-//! the symmetry axis Y = 0. The unknown pressures are those inside and on the axis, in the same order.
+//! Node arrays run over all nodes, Y fastest: node (i, j) has the index i·n_y + j, with j = 0 on the outer edge and j =
+//! n_y − 1 on the symmetry axis Y = 0. The unknown pressures are those inside and on the axis, in the same order.
 
 use super::{GridError, MAX_BYTES, cubic};
 use crate::solver::discrete::elasticity::{PointFlexibility, PointScratch};
@@ -9,8 +10,8 @@ use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A description of a point grid, as scenes and the command line give it: equidistant along X, equidistant or finer in the side lobes
-/// across.
+/// A description of a point grid, as scenes and the command line give it: equidistant along X, equidistant or finer in
+/// the side lobes across.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PointGridSpec {
@@ -40,7 +41,8 @@ impl PointGridSpec {
     /// within 2 % of that on 301×161.
     pub const EXPLORER: Self = Self { refinement: 4.0, ..Self::DISSERTATION };
 
-    /// The coarse one of Table 2.3, 151×41 nodes: for pictures that follow the hand. H_c is 5 % too small there at M = 200.
+    /// The coarse one of Table 2.3, 151×41 nodes: for pictures that follow the hand. H_c is 5 % too small there at M =
+    /// 200.
     pub const QUICK: Self = Self::uniform(0.04, 0.05, (-4.0, 2.0, -2.0));
 
     /// 601×81 nodes.
@@ -75,8 +77,8 @@ impl PointGridSpec {
         Ok((((to - from) / self.dx).round() as usize + 1, cells as usize + 1))
     }
 
-    /// Cells between an ordinate Y ≤ 0 and the axis: ∫ dY/spacing, the spacing being dy/(1 + (refinement − 1)/(1 + t²)) with t the
-    /// distance to the side lobe in units of its width.
+    /// Cells between an ordinate Y ≤ 0 and the axis: ∫ dY/spacing, the spacing being dy/(1 + (refinement − 1)/(1 + t²))
+    /// with t the distance to the side lobe in units of its width.
     fn cells_beyond(&self, y: f64) -> f64 {
         let angle = |y: f64| ((y - SIDE_LOBE) / SIDE_LOBE_WIDTH).atan();
         (-y + (self.refinement - 1.0) * SIDE_LOBE_WIDTH * (angle(0.0) - angle(y))) / self.dy
@@ -145,7 +147,8 @@ pub struct PointGrid {
     pub x: Vec<f64>,
     /// Ordinates Y from the outer edge to 0.
     pub y: Vec<f64>,
-    /// Quadrature weights of node arrays: the cells of both halves, so that wᵀP is the integral (2.29). Zero where P vanishes.
+    /// Quadrature weights of node arrays: the cells of both halves, so that wᵀP is the integral (2.29). Zero where P
+    /// vanishes.
     pub weights: Vec<f64>,
     /// Deformation of every node by every pressure.
     pub flexibility: PointFlexibility,
@@ -210,8 +213,8 @@ impl PointGrid {
         (unknown / m + 1) * self.ny() + unknown % m + 1
     }
 
-    /// The row of an unknown: the nodes it depends on and its coefficients. Where the first column or the axis lacks a node, a
-    /// neighbour stands in its place with weight zero.
+    /// The row of an unknown: the nodes it depends on and its coefficients. Where the first column or the axis lacks a
+    /// node, a neighbour stands in its place with weight zero.
     pub fn row(&self, unknown: usize) -> ([usize; STENCIL], RowGeometry) {
         let (m, ny) = (self.column_unknowns(), self.ny());
         let (column, j) = (unknown / m, unknown % m + 1);

@@ -77,14 +77,16 @@ impl BandMatrix {
         self.band.factorise();
     }
 
-    /// Stores the kernel's entries near the diagonal, node i against nodes i − band − 2 … i + band + 2, for all Newton steps.
+    /// Stores the kernel's entries near the diagonal, node i against nodes i − band − 2 … i + band + 2, for all Newton
+    /// steps.
     fn store_kernel(&mut self, grid: &LineGrid, (band, levelled): (usize, bool)) {
         let (n, stored, reach) = (grid.len(), 2 * band + 5, band + 2);
         self.kernel.clear();
         self.kernel.resize(n * stored, 0.0);
         self.kernel_form = (band, levelled);
         for i in 0..n {
-            // The load of a step is zero, so a constant added to the kernel changes nothing but its truncation: it ends at zero.
+            // The load of a step is zero, so a constant added to the kernel changes nothing but its truncation: it ends
+            // at zero.
             let edge = if i + reach + 1 < n { i + reach } else { i - reach };
             let level = if levelled { grid.kernel_entry(i, edge) / grid.weights[edge] } else { 0.0 };
             for c in 0..stored {

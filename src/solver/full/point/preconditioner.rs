@@ -1,4 +1,5 @@
-//! The matrix near the Jacobian of point contacts: A + trunc(B K), kept up to a few columns away along X with all couplings across.
+//! The matrix near the Jacobian of point contacts: A + trunc(B K), kept up to a few columns away along X with all
+//! couplings across.
 
 use super::block_tridiagonal::BlockTridiagonal;
 use crate::solver::discrete::grid::PointGrid;
@@ -6,7 +7,8 @@ use crate::solver::discrete::reynolds::{CENTER, EAST, NORTH, Row, SOUTH, STENCIL
 use crate::solver::full::newton_space::Factors;
 use rayon::prelude::*;
 
-/// Columns of the product B K that are kept on either side: with one, contacts of low load and thick oil fail; three are no faster.
+/// Columns of the product B K that are kept on either side: with one, contacts of low load and thick oil fail; three
+/// are no faster.
 const REACH: usize = 2;
 
 /// The factorised matrix and its work space.
@@ -104,8 +106,8 @@ impl PlaneMatrix {
     }
 }
 
-/// One column of B K for all rows of a column of unknowns: six kernel entries each, weighted by the derivatives with respect to H.
-/// The kernels are those from WEST2, WEST, the column itself and EAST; the cell's entries begin at `at`.
+/// One column of B K for all rows of a column of unknowns: six kernel entries each, weighted by the derivatives with
+/// respect to H. The kernels are those from WEST2, WEST, the column itself and EAST; the cell's entries begin at `at`.
 #[inline]
 fn combine(entries: &mut [f32], weights: &[f32], [w2, w, own, e]: [&[f32]; 4], at: usize) {
     let m = entries.len();

@@ -13,7 +13,8 @@ pub enum Frame {
     /// Not at all: scales of the reference contact, (2.22), (2.23).
     #[default]
     Fixed,
-    /// The nodes move with the dry contact: (4.9) with the growth of the scale of H, and upwind from wherever the flow comes.
+    /// The nodes move with the dry contact: (4.9) with the growth of the scale of H, and upwind from wherever the flow
+    /// comes.
     ArbitraryLagrangianEulerian,
     /// Every step has a grid of its own, onto which the former steps are carried: (4.10), (4.11).
     Remeshed(Interpolation),

@@ -89,8 +89,8 @@ impl FilmFormula {
         }
     }
 
-    /// The formula's film over the radius, h/R, in U = η₀u_m/(E′R), G = αE′ and W = w/(E′R) of a line, w/(E′R²) of a point contact;
-    /// meaningless for the other kind of contact.
+    /// The formula's film over the radius, h/R, in U = η₀u_m/(E′R), G = αE′ and W = w/(E′R) of a line, w/(E′R²) of a
+    /// point contact; meaningless for the other kind of contact.
     pub fn relative_film(self, point: &OperatingPoint) -> f64 {
         let area = match point.kind {
             ContactKind::Line => point.radius_m,
@@ -128,7 +128,8 @@ impl FilmFormula {
 /// Hamrock and Dowson's ellipticity parameter 1.03 (R_y/R_x)^0.64 of a circular contact.
 const CIRCLE: f64 = 1.03;
 
-/// The four asymptotes of a film number H = (h/R)(2U)^(−1/2), as Moes' and Nijenbanning, Venner and Moes' formulas join them.
+/// The four asymptotes of a film number H = (h/R)(2U)^(−1/2), as Moes' and Nijenbanning, Venner and Moes' formulas join
+/// them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmAsymptotes {
     /// Rigid bodies, constant viscosity.
@@ -142,7 +143,8 @@ pub struct FilmAsymptotes {
 }
 
 impl FilmAsymptotes {
-    /// The asymptotes at M and L: of a line contact, Moes 1992; of a circular point contact, Nijenbanning, Venner & Moes 1994 at equal radii.
+    /// The asymptotes at M and L: of a line contact, Moes 1992; of a circular point contact, Nijenbanning, Venner &
+    /// Moes 1994 at equal radii.
     pub fn of(kind: ContactKind, Moes { m, l }: Moes) -> Self {
         match kind {
             ContactKind::Line => Self {
@@ -163,9 +165,10 @@ impl FilmAsymptotes {
 
 /// Moes' film number H = (h/R)(2U)^(−1/2) of a kind of contact, central film.
 ///
-/// Line: Moes, Wear 159 (1992) 57–66; 5 ≤ M ≤ 1000, 0 ≤ L ≤ 25, Barus viscosity, incompressible fluid. Circular point contact: Nijenbanning,
-/// Venner & Moes, Wear 176 (1994) 217–229, at equal radii. Full solutions with Barus' law and no compressibility lie 8–15 % above it,
-/// with Roelands and Dowson–Higginson 6–13 % below (M 20…200, L 2.5…10, default realisation).
+/// Line: Moes, Wear 159 (1992) 57–66; 5 ≤ M ≤ 1000, 0 ≤ L ≤ 25, Barus viscosity, incompressible fluid. Circular point
+/// contact: Nijenbanning, Venner & Moes, Wear 176 (1994) 217–229, at equal radii. Full solutions with Barus' law and no
+/// compressibility lie 8–15 % above it, with Roelands and Dowson–Higginson 6–13 % below (M 20…200, L 2.5…10, default
+/// realisation).
 pub fn moes_film(kind: ContactKind, moes: Moes) -> f64 {
     let a = FilmAsymptotes::of(kind, moes);
     match kind {
@@ -201,7 +204,8 @@ mod tests {
 
     #[test]
     fn the_point_formula_agrees_with_published_and_independent_films() {
-        // Film numbers extrapolated by an independent multigrid code (Roelands, compressible): within some per cent of the fit.
+        // Film numbers extrapolated by an independent multigrid code (Roelands, compressible): within some per cent of
+        // the fit.
         for (m, l, film) in [(20.0, 5.0, 2.99), (50.0, 10.0, 4.03), (100.0, 5.0, 2.74)] {
             let fit = moes_film(ContactKind::Point, Moes { m, l });
             assert!((fit / film - 1.0).abs() < 0.05, "{m} {l}: {fit}");

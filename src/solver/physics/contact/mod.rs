@@ -1,4 +1,5 @@
-//! What is asked: the operating point in SI units, its Hertzian scales, its Moes numbers, and every conversion between them.
+//! What is asked: the operating point in SI units, its Hertzian scales, its Moes numbers, and every conversion between
+//! them.
 //!
 //! This is the only place where SI quantities meet dimensionless ones; the rest of the solver is scale-free.
 
@@ -74,8 +75,8 @@ impl Sliding {
     /// Pure rolling with the lubricant's own plateau ratio.
     pub const NONE: Self = Self { slide_to_roll_ratio: 0.0, newtonian_plateau_ratio: None };
 
-    /// What SRR and NPR add to the distance (3.20) of two contacts. Films are even in SRR; they change by some 4 % up to SRR = 1 and by some 40 %
-    /// from NPR 0.2 to 1, and the weights follow that.
+    /// What SRR and NPR add to the distance (3.20) of two contacts. Films are even in SRR; they change by some 4 % up
+    /// to SRR = 1 and by some 40 % from NPR 0.2 to 1, and the weights follow that.
     pub fn distance(self, other: Self) -> f64 {
         let plateau = |sliding: Self| sliding.newtonian_plateau_ratio.unwrap_or(1.0);
         let srr = self.slide_to_roll_ratio.abs() - other.slide_to_roll_ratio.abs();
@@ -221,7 +222,8 @@ impl OperatingPoint {
         self.hertz().half_width_m.powi(2) / self.radius_m
     }
 
-    /// What turns the integral of a stress \[Pa\] over X, and Y, into a share of the load: a/w for a line, a²/w for a point contact \[1/Pa\].
+    /// What turns the integral of a stress \[Pa\] over X, and Y, into a share of the load: a/w for a line, a²/w for a
+    /// point contact \[1/Pa\].
     pub fn area_per_load(&self) -> f64 {
         let half_width = self.hertz().half_width_m;
         match self.kind {

@@ -55,8 +55,9 @@ impl MoesRequest {
 
 /// The operating point with the requested Moes numbers (inverse of (3.19), (3.22)).
 ///
-/// Followers, by what is fixed: nothing of speed, load, radius → speed from L, load from M. Speed fixed → α from L. Load fixed →
-/// radius from M. Load and speed fixed → radius from M, α from L. Load and radius fixed → speed from M, α from L.
+/// Followers, by what is fixed: nothing of speed, load, radius → speed from L, load from M. Speed fixed → α from L.
+/// Load fixed → radius from M. Load and speed fixed → radius from M, α from L. Load and radius fixed → speed from M, α
+/// from L.
 ///
 /// # Errors
 /// When more is fixed than M and L leave free, or the result is outside any sense.

@@ -1,8 +1,9 @@
 //! The next finer grid of the same grading: every interval halved, every old node kept.
 //!
-//! A graded interval is halved in the grading's own coordinate ∫dξ/spacing, not in ξ. Halving in ξ would leave a staircase of
-//! spacings whose truncation error differs from that of the coarse grid by more than the factor 2² that Richardson's
-//! extrapolation counts on. A new grid of twice as many nodes would do neither: its ends lie elsewhere, by up to half a cell.
+//! A graded interval is halved in the grading's own coordinate ∫dξ/spacing, not in ξ. Halving in ξ would leave a
+//! staircase of spacings whose truncation error differs from that of the coarse grid by more than the factor 2² that
+//! Richardson's extrapolation counts on. A new grid of twice as many nodes would do neither: its ends lie elsewhere, by
+//! up to half a cell.
 
 use super::{
     GridError, GridSpec, INLET, MAX_GRADED_NODES, MAX_UNIFORM_NODES, ReferenceGrid, cells_between, wanted_spacing,
@@ -10,7 +11,8 @@ use super::{
 use std::sync::Arc;
 
 impl ReferenceGrid {
-    /// The grid with every interval halved. Node k of this grid is node 2k − 1 of the finer one (k ≥ 1), and the ends stay.
+    /// The grid with every interval halved. Node k of this grid is node 2k − 1 of the finer one (k ≥ 1), and the ends
+    /// stay.
     ///
     /// # Errors
     /// When it would have too many nodes.
