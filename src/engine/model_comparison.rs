@@ -7,7 +7,7 @@ use crate::solver::full::Problem;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
-use crate::solver::training::{Progress, Range, TrainingObserver, random_points};
+use crate::solver::training::{Progress, Range, TrainingError, TrainingObserver, random_points};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -74,7 +74,7 @@ pub fn compare_models(
     seed: u64,
     observer: &dyn TrainingObserver,
 ) -> Result<ModelComparison, EngineError> {
-    range.check()?;
+    range.check().map_err(TrainingError::from)?;
     let contact = models.first().map_or_else(ContactKind::default, |model| model.contact());
     let points = random_points(range, contact, count, seed);
     if points.is_empty() {

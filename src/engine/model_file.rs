@@ -9,7 +9,7 @@ use crate::solver::reduced::ReducedModel;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
 /// Real models have a few MB.
 const FORMAT: Format = Format { magic: b"EHLROM\r\n", version: VERSION, max_payload: 512 << 20 };
 

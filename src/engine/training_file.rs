@@ -232,34 +232,18 @@ mod tests {
     use super::*;
     use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
     use crate::solver::physics::contact::OperatingPoint;
-    use crate::solver::reduced::Sampling;
     use crate::solver::training::{Plan, Range, Search, Solved, WindowSpec, WindowState};
 
     fn state(folder: &str) -> (TrainingState, PathBuf) {
-        let spec = TrainingSpec {
-            title: "kept".to_owned(),
-            range: Range::Moes {
-                m: (10.0, 20.0),
-                l: (2.0, 3.0),
-                alpha: (1e-8, 2e-8),
-                max_hertz_pressure: 3e9,
-                viscosity: 0.01,
-            },
-            lubricant: Default::default(),
-            plan: Plan::FarthestPoint { snapshots: 8 },
-            windows: Windows::Given(vec![WindowSpec {
-                m: (10.0, 20.0),
-                grid: ContactGridSpec::Line(GridSpec::EXPLORER),
-            }]),
-            pressure_loss: 1e-6,
-            deformation_loss: 1e-6,
-            sampling: Sampling::QDeim,
-            rows_per_mode: 2.0,
-            penalty: 1e6,
-            positive_modes: false,
-            evidence: 0,
-            seed: 1,
+        let range = Range::Moes {
+            m: (10.0, 20.0),
+            l: (2.0, 3.0),
+            alpha: (1e-8, 2e-8),
+            max_hertz_pressure: 3e9,
+            viscosity: 0.01,
         };
+        let (grid, plan) = (ContactGridSpec::Line(GridSpec::EXPLORER), Plan::FarthestPoint { snapshots: 8 });
+        let spec = TrainingSpec { title: "kept".to_owned(), ..TrainingSpec::new(range, (10.0, 20.0), grid, plan) };
         let point = OperatingPoint::TABLE_2_1;
         let solved = Solved { place: 0, point, pressure: vec![0.5; 633], h_0: -0.1, h_c: 0.04 };
         let window = WindowState {

@@ -4,6 +4,7 @@ use super::atomic_file::WriteError;
 use super::sampled::SampledError;
 use crate::solver::full::SolveError;
 use crate::solver::full::transient::TransientError;
+use crate::solver::limits::Refused;
 use crate::solver::physics::contact::ContactError;
 use crate::solver::reduced::ReducedError;
 use crate::solver::reduced::tpwl::TpwlError;
@@ -36,13 +37,8 @@ pub enum SceneError {
     #[error("it has format version 0, which does not exist; write `version: {VERSION}`")]
     NoVersion,
     /// A value makes no sense.
-    #[error("`{field}` {problem}")]
-    Field {
-        /// The field, with dots between levels.
-        field: String,
-        /// What is wrong and what would be accepted.
-        problem: String,
-    },
+    #[error(transparent)]
+    Field(#[from] Refused),
     /// The operating point makes no sense.
     #[error("`at`: {0}")]
     At(#[from] ContactError),

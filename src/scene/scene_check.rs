@@ -19,7 +19,8 @@ impl Scene {
         grid::check(&self.grid, self.contact)?;
         self.study.check(&self.experiment())?;
         self.view.iter().try_for_each(view)?;
-        self.expect.iter().enumerate().try_for_each(|(i, entry)| expectation(i, entry))
+        self.expect.iter().enumerate().try_for_each(|(i, entry)| expectation(i, entry))?;
+        Ok(())
     }
 }
 

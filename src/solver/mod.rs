@@ -4,6 +4,7 @@
 
 pub mod discrete;
 pub mod full;
+pub mod limits;
 pub mod observer;
 pub mod physics;
 pub mod reduced;

@@ -6,8 +6,7 @@ use ehl_explorer::scene::study::plan_comparison::PlanComparison;
 use ehl_explorer::scene::study::tolerance_study::ToleranceStudy;
 use ehl_explorer::scene::{ComparedPlan, OnlineScheme, QuantityBox, Scene, Study};
 use ehl_explorer::solver::discrete::grid::{ContactGridSpec, GridSpec};
-use ehl_explorer::solver::reduced::Sampling;
-use ehl_explorer::solver::training::{Indicator, Plan, Range, TrainingSpec, WindowSpec, Windows};
+use ehl_explorer::solver::training::{Indicator, Plan, Range, TrainingSpec};
 use std::path::{Path, PathBuf};
 
 const BOX: QuantityBox = QuantityBox {
@@ -28,24 +27,9 @@ impl Folder {
 
     fn training(&self, name: &str, plan: Plan) -> PathBuf {
         let mut scene = Scene::at_moes(40.0, 10.0);
-        scene.study = Study::Training(TrainingSpec {
-            title: name.to_owned(),
-            range: Range::Box(BOX),
-            lubricant: Default::default(),
-            plan,
-            windows: Windows::Given(vec![WindowSpec {
-                m: (1.0, 500.0),
-                grid: ContactGridSpec::Line(GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) }),
-            }]),
-            pressure_loss: 1e-6,
-            deformation_loss: 1e-6,
-            sampling: Sampling::QDeim,
-            evidence: 0,
-            rows_per_mode: 2.0,
-            penalty: 1e6,
-            positive_modes: false,
-            seed: 3,
-        });
+        let grid = ContactGridSpec::Line(GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) });
+        let spec = TrainingSpec::new(Range::Box(BOX), (1.0, 500.0), grid, plan);
+        scene.study = Study::Training(TrainingSpec { title: name.to_owned(), evidence: 0, seed: 3, ..spec });
         let file = format!("{name}.ron");
         self.0.write(&file, &scene.to_ron().unwrap());
         file.into()

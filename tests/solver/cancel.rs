@@ -9,36 +9,25 @@ use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, si_from_m
 use ehl_explorer::solver::reduced::Sampling;
 use ehl_explorer::solver::training::{
     Indicator, Plan, Progress, QuantityBox, Range, TrainingError, TrainingObserver, TrainingSpec, TrainingState,
-    WindowSpec, Windows, train_resumable,
+    train_resumable,
 };
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The explorer's grid and enough solutions for bases of their real size.
 fn spec(sampling: Sampling) -> TrainingSpec {
-    TrainingSpec {
-        title: "cancelled".to_owned(),
-        range: Range::Box(QuantityBox::TABLE_3_1),
-        lubricant: Default::default(),
-        plan: Plan::Adaptive {
-            start: 60,
-            indicator: Indicator::Correction,
-            tolerances: vec![1e-4],
-            successes: 100,
-            local_sigma: 0.1,
-            local_successes: 20,
-            vicinity: 8,
-            limit: 120,
-        },
-        windows: Windows::Given(vec![WindowSpec { m: (5.0, 200.0), grid: ContactGridSpec::Line(GridSpec::EXPLORER) }]),
-        pressure_loss: 1e-7,
-        deformation_loss: 1e-6,
-        sampling,
-        rows_per_mode: 2.0,
-        penalty: 1e6,
-        positive_modes: false,
-        evidence: 300,
-        seed: 1,
-    }
+    let plan = Plan::Adaptive {
+        start: 60,
+        indicator: Indicator::Correction,
+        tolerances: vec![1e-4],
+        successes: 100,
+        local_sigma: 0.1,
+        local_successes: 20,
+        vicinity: 8,
+        limit: 120,
+    };
+    let (range, grid) = (Range::Box(QuantityBox::TABLE_3_1), ContactGridSpec::Line(GridSpec::EXPLORER));
+    let spec = TrainingSpec::new(range, (5.0, 200.0), grid, plan);
+    TrainingSpec { pressure_loss: 1e-7, sampling, evidence: 300, ..spec }
 }
 
 #[test]

@@ -7,11 +7,12 @@ use ehl_explorer::engine::SceneOutcome;
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
 use ehl_explorer::scene::study::sweep::Sweep;
 use ehl_explorer::scene::{Method, Study};
+use ehl_explorer::solver::discrete::grid::{ContactGridSpec, GridSpec};
 use ehl_explorer::solver::full::{ContactSolver, Start};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Quantity, Sliding};
 use ehl_explorer::solver::physics::lubricant::Lubricant;
-use ehl_explorer::solver::reduced::{ErrorMeasures, Norm, Online, ReducedOptions, Sampling, Trust, traction_curve};
-use ehl_explorer::solver::training::{Plan, Range, SlidingRange, TrainingSpec, Windows};
+use ehl_explorer::solver::reduced::{ErrorMeasures, Norm, Online, ReducedOptions, Trust, traction_curve};
+use ehl_explorer::solver::training::{Plan, Range, SlidingRange, TrainingSpec};
 
 const LINE: ContactKind = ContactKind::Line;
 
@@ -173,20 +174,10 @@ fn its_file_keeps_what_a_shear_thinning_lubricant_adds() {
 
 #[test]
 fn a_range_with_sliding_needs_a_lubricant_that_feels_it() {
-    let spec = |lubricant: Lubricant, alpha: f64| TrainingSpec {
-        title: String::new(),
-        range: Range::Sliding(SlidingRange { m: (10.0, 20.0), l: (6.0, 8.0), alpha, ..shear_models::range(LINE) }),
-        lubricant,
-        plan: Plan::FarthestPoint { snapshots: 10 },
-        windows: Windows::Automatic { modes: 50 },
-        pressure_loss: 1e-5,
-        deformation_loss: 1e-5,
-        sampling: Sampling::Cubature,
-        rows_per_mode: 2.5,
-        penalty: 1e5,
-        positive_modes: true,
-        evidence: 0,
-        seed: 1,
+    let spec = |lubricant: Lubricant, alpha: f64| {
+        let range = SlidingRange { m: (10.0, 20.0), l: (6.0, 8.0), alpha, ..shear_models::range(LINE) };
+        let (grid, plan) = (ContactGridSpec::Line(GridSpec::EXPLORER), Plan::FarthestPoint { snapshots: 10 });
+        TrainingSpec { lubricant, ..TrainingSpec::new(Range::Sliding(range), range.m, grid, plan) }
     };
     let sentence = |spec: TrainingSpec| spec.check().unwrap_err().to_string();
     assert!(sentence(spec(Lubricant::default(), 2e-8)).contains("no shear constants"));

@@ -4,6 +4,7 @@ use crate::common::scene_files;
 use ehl_explorer::engine::model_file::to_bytes;
 use ehl_explorer::scene::Study;
 use ehl_explorer::solver::discrete::grid::{ContactGridSpec, GridSpec, PointGridSpec};
+use ehl_explorer::solver::physics::contact::ContactKind;
 use ehl_explorer::solver::training::{Plan, Range, TrainingSpec, Windows, train};
 
 /// The training of an embedded model with fewer full solutions, on a coarser grid.
@@ -37,7 +38,7 @@ fn small(scene: &str) -> TrainingSpec {
             };
         }),
     }
-    spec.evidence = 150;
+    spec.evidence = if spec.contact() == ContactKind::Line { 300 } else { 150 };
     spec
 }
 

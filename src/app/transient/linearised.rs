@@ -8,7 +8,7 @@ use crate::engine::job::{Background, Ending, Job, Reporter};
 use crate::solver::full::transient::{Keep, Moment, Quantity, Trajectory, Transient, TransientObserver, march};
 use crate::solver::observer::Observer;
 use crate::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, Weight, Weighting};
-use crate::solver::training::aside;
+use crate::solver::training::on_one_thread;
 use egui::Context;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
@@ -155,7 +155,7 @@ fn work(model: &Arc<TpwlModel>, full: &Trajectory, reporter: &Reporter<NumberRow
             let stage = format!("Number of operating points, {}", rule_name(rule).0);
             reporter.stage(&stage, last, most);
             let shared = Arc::clone(model);
-            let Ok(made) = aside(reporter, move || shared.reselected(selection)) else { return Ok(()) };
+            let Ok(made) = on_one_thread(reporter, move || shared.reselected(selection)) else { return Ok(()) };
             let made = made.map_err(|error| error.to_string())?;
             let points = made.points.len();
             if points >= LEAST_POINTS && points > last {

@@ -15,7 +15,7 @@ use crate::solver::full::transient::{
 use crate::solver::observer::Observer;
 use crate::solver::reduced::tpwl::{TpwlError, TpwlMarch, TpwlRecord};
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel};
-use crate::solver::training::{TrainingError, TrajectoryTraining, aside, train_trajectories};
+use crate::solver::training::{TrainingError, TrajectoryTraining, on_one_thread, train_trajectories};
 use egui::Context;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
@@ -126,7 +126,7 @@ fn linearise(
     reporter: &Reporter<News>,
 ) -> Result<Option<Linearised>, String> {
     let settings = linearised.clone();
-    let made = aside(reporter, move || {
+    let made = on_one_thread(reporter, move || {
         let model = train_linearised(&settings, &trained.iter().collect::<Vec<_>>())?;
         let other = OtherRule::of(&model);
         let trainings = trained.iter().map(|trajectory| trajectory.moments.clone()).collect();

@@ -3,7 +3,7 @@
 use super::question::{
     Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
-use crate::scene::check::{self, refuse};
+use crate::scene::check::refuse;
 use crate::solver::reduced::{ReducedModel, Window};
 use crate::solver::training::TrainingSpec;
 use std::sync::Arc;
@@ -41,8 +41,7 @@ impl Question for TrainingSpec {
             );
             return Err(refuse("study.windows", problem));
         }
-        check::test_range(&self.range)?;
-        TrainingSpec::check(self).map_err(|problem| refuse("study", format!("is refused: {problem}")))
+        TrainingSpec::check(self).map_err(|refused| refused.within("study"))
     }
 
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {

@@ -7,26 +7,16 @@
 //! points drawn like the evidence, whatever the law misses.
 //!
 //! What the quantile counts in decides how loose a bound is. Of errors that are normally distributed, with a size known everywhere, no bound
-//! that holds for 99.6 % is less than 4.3 times the true error in the median. Measured at fresh points as cover of H_c and median bound/error of
-//! H_c, H_min and traction (embedded models; evidence as for their trainings):
-//!
-//! | counted in | line | shear-thinning line | shear-thinning point |
-//! |---|---|---|---|
-//! | local scatter of the logarithms | 99.7 %, 3.7, 6.1 | 99.4 %, 6.2, 7.1, 8.2 | 99.7 %, 6.5, 4.1, 5.8 |
-//! | local root mean square | 99.7 %, 3.4, 5.4 | 99.7 %, 5.6, 5.2, 8.1 | 99.7 %, 5.8, 4.2, 5.1 |
-//!
-//! Predicting the sign and size of the error, as a Gaussian process over the place or as a regression on the sampled rows' residuals and on
-//! the coefficients, gained nothing on top (5.0 to 5.5 where the mean square alone had 4.9 and 5.3): they explain at most 30 % of the variance.
+//! that holds for 99.6 % is less than 4.3 times the true error in the median; counted in the local root mean square, which follows how large errors
+//! are around a place, it comes near that. Predicting the sign of the error on top would gain nothing.
 
 mod features;
 mod neighbours;
 mod quantity;
-mod stored;
 #[cfg(test)]
 mod tests;
 
 pub use features::{Evidence, Features, Measured};
-pub use stored::RollingCalibration;
 
 use features::{FEATURES, SIGNS, SLIDING_FEATURES};
 use neighbours::Neighbours;

@@ -147,39 +147,17 @@ mod tests {
     use super::super::{Online, Sampling, Starts};
     use super::*;
     use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
-    use crate::solver::discrete::reynolds::PENALTY;
     use crate::solver::full::{ContactSolver, Start};
     use crate::solver::physics::contact::ContactKind;
     use crate::solver::physics::lubricant::Lubricant;
-    use crate::solver::training::{Plan, QuantityBox, Range, TrainingSpec, WindowSpec, Windows, random_points, train};
+    use crate::solver::training::small::line;
+    use crate::solver::training::{TrainingSpec, WindowSpec, Windows, random_points, train};
     use std::sync::Arc;
 
     fn spec(sampling: Sampling, registered: bool) -> TrainingSpec {
-        TrainingSpec {
-            title: String::new(),
-            range: Range::Box(QuantityBox {
-                radius: (3e-3, 4e-3),
-                speed: (2.0, 4.0),
-                load: (2e5, 4e5),
-                alpha: (8e-9, 12e-9),
-                modulus: 231e9,
-                viscosity: 0.01,
-            }),
-            lubricant: Lubricant::default(),
-            plan: Plan::FarthestPoint { snapshots: 24 },
-            windows: Windows::Given(vec![WindowSpec {
-                m: (1.0, 500.0),
-                grid: ContactGridSpec::Line(GridSpec::Graded { nodes: 200, domain: (-6.0, 1.9), registered }),
-            }]),
-            pressure_loss: 1e-5,
-            deformation_loss: 1e-4,
-            sampling,
-            rows_per_mode: 2.0,
-            penalty: PENALTY,
-            positive_modes: false,
-            evidence: 0,
-            seed: 5,
-        }
+        let grid = ContactGridSpec::Line(GridSpec::Graded { nodes: 200, domain: (-6.0, 1.9), registered });
+        let windows = Windows::Given(vec![WindowSpec { m: (1.0, 500.0), grid }]);
+        TrainingSpec { windows, pressure_loss: 1e-5, deformation_loss: 1e-4, ..line(sampling, 24) }
     }
 
     /// Reduced solutions at random points with what they are measured by.

@@ -1,40 +1,25 @@
 //! The parts of an error: they add up, the best approximation is the best, and the discretisation part is what much finer grids say.
 
 use super::{ErrorSplitter, Online, ReducedModel, ReducedOptions, Sampling, SplitError};
-use crate::solver::discrete::grid::{ContactGridSpec, GridSpec, PointGridSpec, ReferenceGrid};
-use crate::solver::discrete::reynolds::PENALTY;
+use crate::solver::discrete::grid::{PointGridSpec, ReferenceGrid};
 use crate::solver::full::{FullSolver, PointSolver, Solution, Start};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::physics::lubricant::Lubricant;
-use crate::solver::training::{Plan, QuantityBox, Range, TrainingSpec, WindowSpec, Windows, train};
+use crate::solver::training::small::{self, POINT_GRID, line_grid};
+use crate::solver::training::{Plan, Range, TrainingSpec, train};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 fn model(sampling: Sampling) -> Arc<ReducedModel> {
-    let spec = TrainingSpec {
-        title: "Middle of the sliders".to_owned(),
-        range: Range::Moes {
-            m: (20.0, 80.0),
-            l: (6.0, 12.0),
-            alpha: (9e-9, 18e-9),
-            max_hertz_pressure: 3.2e9,
-            viscosity: 0.01,
-        },
-        lubricant: Lubricant::default(),
-        plan: Plan::FarthestPoint { snapshots: 50 },
-        windows: Windows::Given(vec![WindowSpec {
-            m: (20.0, 80.0),
-            grid: ContactGridSpec::Line(GridSpec::Graded { nodes: 300, domain: (-6.0, 1.9), registered: true }),
-        }]),
-        pressure_loss: 1e-6,
-        deformation_loss: 1e-7,
-        sampling,
-        rows_per_mode: 2.0,
-        penalty: PENALTY,
-        positive_modes: false,
-        evidence: 0,
-        seed: 1,
+    let middle = Range::Moes {
+        m: (20.0, 80.0),
+        l: (6.0, 12.0),
+        alpha: (9e-9, 18e-9),
+        max_hertz_pressure: 3.2e9,
+        viscosity: 0.01,
     };
+    let spec = TrainingSpec::new(middle, (20.0, 80.0), line_grid(300), Plan::FarthestPoint { snapshots: 50 });
+    let spec = TrainingSpec { deformation_loss: 1e-7, sampling, evidence: 0, ..spec };
     Arc::new(train(&spec, &()).unwrap())
 }
 
@@ -113,29 +98,7 @@ fn the_discretisation_part_is_what_much_finer_grids_say() {
 
 #[test]
 fn a_point_contacts_error_has_the_same_parts() {
-    let spec = PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5));
-    let training = TrainingSpec {
-        title: "Small points".to_owned(),
-        range: Range::Box(QuantityBox {
-            radius: (10e-3, 11e-3),
-            speed: (2.0, 3.0),
-            load: (30.0, 45.0),
-            alpha: (8e-9, 11e-9),
-            modulus: 231e9,
-            viscosity: 0.01,
-        }),
-        lubricant: Lubricant::default(),
-        plan: Plan::FarthestPoint { snapshots: 16 },
-        windows: Windows::Given(vec![WindowSpec { m: (1.0, 2000.0), grid: ContactGridSpec::Point(spec) }]),
-        pressure_loss: 1e-4,
-        deformation_loss: 1e-3,
-        sampling: Sampling::Cubature,
-        rows_per_mode: 4.0,
-        penalty: 1e5,
-        positive_modes: false,
-        evidence: 0,
-        seed: 2,
-    };
+    let training = TrainingSpec { deformation_loss: 1e-3, rows_per_mode: 4.0, ..small::point(Sampling::Cubature, 16) };
     let model = Arc::new(train(&training, &()).unwrap());
     let point = OperatingPoint {
         kind: ContactKind::Point,
@@ -150,7 +113,7 @@ fn a_point_contacts_error_has_the_same_parts() {
         .unwrap();
     let solved =
         |spec| PointSolver::new(spec).unwrap().solve(&point, Lubricant::default(), Start::Cold, &()).unwrap().scalars;
-    let (full, finer) = (solved(spec), solved(PointGridSpec::uniform(0.03, 0.05, (-2.7, 1.5, -1.5))));
+    let (full, finer) = (solved(POINT_GRID), solved(PointGridSpec::uniform(0.03, 0.05, (-2.7, 1.5, -1.5))));
     let reduction = |reduced: f64, full: f64| reduced / full - 1.0;
     assert!((split.h_c.reduction() - reduction(split.scalars.h_c, full.h_c)).abs() < 1e-6, "{:?}", split.h_c);
     assert!((split.h_min.reduction() - reduction(split.scalars.h_min, full.h_min)).abs() < 1e-6, "{:?}", split.h_min);

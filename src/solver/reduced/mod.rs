@@ -24,9 +24,7 @@ mod traction;
 mod traction_curve;
 pub mod transient;
 
-pub use calibration::{
-    Calibration, ErrorEstimate, Estimated, Evidence, Features, LEAST_EVIDENCE, Measured, RollingCalibration,
-};
+pub use calibration::{Calibration, ErrorEstimate, Estimated, Evidence, Features, LEAST_EVIDENCE, Measured};
 pub use cubature::{GoalEquations, cubature};
 pub use error_measures::{ErrorMeasures, Norm, Residuals};
 pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};

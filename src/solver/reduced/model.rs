@@ -26,10 +26,8 @@ pub struct Domain {
     /// Ambient viscosity \[Pa·s\].
     pub viscosity_pa_s: f64,
     /// Laws of the lubricant.
-    #[serde(with = "laws_at_rest")]
     pub lubricant: Lubricant,
     /// What else a shear-thinning lubricant was trained for.
-    #[serde(skip)]
     pub sliding: Option<SlidingDomain>,
 }
 
@@ -44,21 +42,6 @@ pub struct SlidingDomain {
     pub modulus_pa: f64,
 }
 
-/// Encodes the laws of density and viscosity only: what a shear-thinning lubricant has beside them is stored with what it was trained for.
-mod laws_at_rest {
-    use crate::solver::physics::lubricant::{DensityLaw, Lubricant, ViscosityLaw};
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    pub fn serialize<S: Serializer>(lubricant: &Lubricant, serializer: S) -> Result<S::Ok, S::Error> {
-        (lubricant.density, lubricant.viscosity).serialize(serializer)
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Lubricant, D::Error> {
-        let (density, viscosity) = <(DensityLaw, ViscosityLaw)>::deserialize(deserializer)?;
-        Ok(Lubricant { density, viscosity, ..Lubricant::default() })
-    }
-}
-
 /// Whether a model was trained for a problem.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Trust {
@@ -71,8 +54,7 @@ pub enum Trust {
 /// A training solution as the model keeps it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
-    /// The operating point; its sliding is stored with what a shear-thinning model was trained for.
-    #[serde(with = "without_sliding")]
+    /// The operating point.
     pub point: OperatingPoint,
     /// Its coefficients in the pressure basis.
     pub coefficients: Vec<f64>,
@@ -80,21 +62,6 @@ pub struct Snapshot {
     pub h_0: f64,
     /// Its central film H_c, from the full solution.
     pub h_c: f64,
-}
-
-/// Encodes an operating point without its sliding.
-mod without_sliding {
-    use crate::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    pub fn serialize<S: Serializer>(point: &OperatingPoint, serializer: S) -> Result<S::Ok, S::Error> {
-        (point.kind, point.quantities()).serialize(serializer)
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<OperatingPoint, D::Error> {
-        let (kind, quantities) = <(ContactKind, [f64; 6])>::deserialize(deserializer)?;
-        Ok(OperatingPoint::from_quantities(kind, quantities, Sliding::NONE))
-    }
 }
 
 /// One local model: a window of M with its own grid, bases and sampled rows.

@@ -1,20 +1,15 @@
 //! From a specification to a model: snapshots, bases, row snapshots, sampled rows.
 
-use super::aside::aside;
-use super::plan::grid_points;
+use super::one_thread::on_one_thread;
+use super::plan::{Within, grid_points};
 use super::rows::sample_rows;
 use super::state::{FEWEST, Part, Solved, TrainingState, train_resumable};
-use super::{
-    Plan, Progress, QuantityBox, Range, SlidingRange, TrainingError, TrainingObserver, TrainingSpec, WindowSpec,
-    Windows,
-};
+use super::{Progress, QuantityBox, Range, SlidingRange, TrainingError, TrainingObserver, TrainingSpec, WindowSpec};
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::{ContactSolver, Start};
 use crate::solver::physics::contact::{DEFAULT_VISCOSITY_PA_S, MoesRequest, OperatingPoint};
-use crate::solver::physics::lubricant::ShearLaw;
 use crate::solver::reduced::{
-    Domain, LEAST_EVIDENCE, PodBasis, ReducedModel, Sampling, SlidingDomain, Snapshot, TestSpace, Window, all_rows,
-    deformation_weights,
+    Domain, PodBasis, ReducedModel, Sampling, SlidingDomain, Snapshot, TestSpace, Window, all_rows, deformation_weights,
 };
 use faer::Mat;
 use fastrand::Rng;
@@ -28,117 +23,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// When the specification is refused, a full solve fails, or the observer cancels.
 pub fn train(spec: &TrainingSpec, observer: &dyn TrainingObserver) -> Result<ReducedModel, TrainingError> {
     train_resumable(&mut TrainingState::new(spec.clone()), observer)
-}
-
-pub(super) fn check(spec: &TrainingSpec) -> Result<(), TrainingError> {
-    spec.range.check()?;
-    let refuse = |sentence: String| Err(TrainingError::Specification(sentence));
-    check_lubricant(spec)?;
-    match &spec.windows {
-        Windows::Given(windows) => check_given(spec, windows)?,
-        Windows::Automatic { modes } if !(8..=1000).contains(modes) => {
-            return refuse(format!("automatic windows have at most {modes} modes; between 8 and 1000 are accepted"));
-        }
-        Windows::Automatic { .. } => {}
-    }
-    for (name, loss) in [("pressure_loss", spec.pressure_loss), ("deformation_loss", spec.deformation_loss)] {
-        if !(0.0..1.0).contains(&loss) {
-            return refuse(format!("{name} is {loss}, but must be at least 0 and below 1"));
-        }
-    }
-    if !(1.0..=20.0).contains(&spec.rows_per_mode) {
-        return refuse(format!("rows_per_mode is {}, but must lie between 1 and 20", spec.rows_per_mode));
-    }
-    if !(1e2..=1e9).contains(&spec.penalty) {
-        return refuse(format!("penalty is {}, but must lie between 1e2 and 1e9", spec.penalty));
-    }
-    if spec.evidence > 0 && !(LEAST_EVIDENCE..=100_000).contains(&spec.evidence) {
-        return refuse(format!(
-            "evidence is {}, but must lie between {LEAST_EVIDENCE} and 100000, or be 0 for a model without an error bound",
-            spec.evidence
-        ));
-    }
-    match &spec.plan {
-        Plan::FarthestPoint { snapshots } if !(4..=5000).contains(snapshots) => {
-            refuse(format!("the plan asks for {snapshots} snapshots; between 4 and 5000 are accepted"))
-        }
-        Plan::Grid { nodes } if nodes.iter().any(|n| *n > 100) || nodes.iter().product::<usize>() < 4 => {
-            refuse("the grid plan needs at least 4 points and at most 100 along each quantity".to_owned())
-        }
-        Plan::Grid { .. } if !matches!(spec.range, Range::Box(_)) => {
-            refuse("the grid plan of Table 3.2 needs a box of SI quantities".to_owned())
-        }
-        Plan::Adaptive { start, tolerances, successes, local_sigma, local_successes, vicinity, limit, .. } => {
-            super::adaptive::check(*start, tolerances, *limit)?;
-            let searches = (1..=100_000).contains(successes) && *local_successes <= 100_000;
-            if !searches || *vicinity > 10_000 || tolerances.len() > 32 {
-                return refuse(format!(
-                    "the search ends after {successes} successes, locally after {local_successes}, with {vicinity} candidates in a vicinity, at {} \
-                     tolerances; 1 to 100000, at most 100000, 10000 and 32 are accepted",
-                    tolerances.len()
-                ));
-            }
-            if local_sigma.is_finite() && *local_sigma > 0.0 && *local_sigma <= 1.0 {
-                return Ok(());
-            }
-            refuse(format!("local_sigma is {local_sigma}, but must be positive and at most 1 (the width of the range)"))
-        }
-        Plan::WorstOfPool { start, tolerance, pool, per_round, limit, .. } => {
-            super::adaptive::check(*start, &[*tolerance], *limit)?;
-            if *per_round > 0 && per_round <= pool && *pool <= 100_000 {
-                return Ok(());
-            }
-            refuse(format!(
-                "per_round is {per_round} of a pool of {pool}; at least 1, at most the pool of up to 100000"
-            ))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// A range with SRR and NPR belongs to a lubricant that thins under shear, and only such a range does; its α is the lubricant's own.
-fn check_lubricant(spec: &TrainingSpec) -> Result<(), TrainingError> {
-    let refuse = |sentence: String| Err(TrainingError::Specification(sentence));
-    match (&spec.range, spec.lubricant.shear == ShearLaw::Newtonian) {
-        (Range::Sliding(_), true) => {
-            refuse("the range names SRR and NPR, but the lubricant has no shear constants".to_owned())
-        }
-        (Range::Sliding(SlidingRange { alpha, .. }), false) => match spec.lubricant.own_coefficient() {
-            Some(own) if (alpha / own - 1.0).abs() > 1e-3 => refuse(format!(
-                "alpha is {alpha:.4e} 1/Pa, but the lubricant's viscosity law determines {own:.4e} 1/Pa; write that"
-            )),
-            _ => Ok(()),
-        },
-        (_, false) => {
-            refuse("a lubricant that thins under shear needs a range of SRR and NPR: `Sliding(…)`".to_owned())
-        }
-        (_, true) => Ok(()),
-    }
-}
-
-fn check_given(spec: &TrainingSpec, windows: &[WindowSpec]) -> Result<(), TrainingError> {
-    let refuse = |sentence: String| Err(TrainingError::Specification(sentence));
-    if windows.is_empty() {
-        return refuse("a model needs at least one window".to_owned());
-    }
-    if windows.len() > 64 {
-        return refuse(format!("a model of {} windows is asked for; at most 64 are accepted", windows.len()));
-    }
-    if windows.iter().any(|w| w.grid.kind() != spec.contact()) {
-        return refuse("all windows must be of one kind of contact: all grids Plane, or none".to_owned());
-    }
-    if !windows.iter().all(|w| w.m.0 > 0.0 && w.m.0 < w.m.1) || !windows.windows(2).all(|p| p[0].m.1 <= p[1].m.0) {
-        return refuse("windows must be non-empty intervals of M in ascending order".to_owned());
-    }
-    let range = domain(spec).m;
-    if let Some(w) = windows.iter().find(|w| w.m.1 < range.0 || w.m.0 > range.1) {
-        let (from, to) = w.m;
-        return refuse(format!(
-            "the window M {from}…{to} lies outside the range, whose M is {:.4}…{:.4}",
-            range.0, range.1
-        ));
-    }
-    Ok(())
 }
 
 /// What the model declares to be trained for.
@@ -197,8 +81,8 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
     }
 }
 
-/// Everything one window is made with.
-pub(super) struct Shop<'a> {
+/// A window in training: everything it is made with.
+pub(super) struct WindowTraining<'a> {
     pub spec: &'a TrainingSpec,
     pub window: WindowSpec,
     pub grid: ContactGrid,
@@ -212,7 +96,7 @@ pub(super) struct Shop<'a> {
 /// Full solutions between two checkpoints.
 const SOLVED_AT_ONCE: usize = 16;
 
-impl<'a> Shop<'a> {
+impl<'a> WindowTraining<'a> {
     pub fn new(
         spec: &'a TrainingSpec,
         window: WindowSpec,
@@ -221,8 +105,13 @@ impl<'a> Shop<'a> {
         observer: &'a dyn TrainingObserver,
     ) -> Result<Self, TrainingError> {
         let wanted = window.grid;
-        let grid = aside(observer, move || wanted.build())?.map_err(crate::solver::full::SolveError::from)?;
+        let grid = on_one_thread(observer, move || wanted.build())?.map_err(crate::solver::full::SolveError::from)?;
         Ok(Self { spec, window, grid, reach, most_modes, observer })
+    }
+
+    /// The contacts that it is trained from.
+    pub fn within(&self) -> Within {
+        self.spec.within(self.reach)
     }
 
     pub fn too_few(&self, count: usize) -> TrainingError {
@@ -303,7 +192,7 @@ impl<'a> Shop<'a> {
         let (from, to) = window.m;
         let failed = || TrainingError::Decomposition { from, to };
         let (wanted, grid, solutions) = (Modes::of(spec), grid.clone(), solutions.to_vec());
-        let mut model = aside(*observer, move || {
+        let mut model = on_one_thread(*observer, move || {
             let (pressure, deformation, snapshots) = bases(wanted, &grid, &solutions)?;
             let rows = all_rows(&TestSpace::new(&pressure, &grid));
             Some(Window::new((from, to), grid, pressure, deformation, snapshots, Sampling::All, rows))

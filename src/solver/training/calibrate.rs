@@ -3,9 +3,8 @@
 //! At random points (3.17) of the window's own range the reduced solution is carried on by three full Newton steps, under shear-thinning until
 //! they converge; what they change is its error. That is evidence for [`Calibration`], and nothing else: no basis sees these points.
 
-use super::aside::aside;
 use super::indicator::Corrector;
-use super::plan::random_points_within;
+use super::one_thread::on_one_thread;
 use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::reduced::{Calibration, Evidence, Features, Online, ReducedModel, ReducedOptions, Window};
 use fastrand::Rng;
@@ -29,8 +28,7 @@ pub(super) fn calibrate(
 ) -> Result<Option<Calibration>, TrainingError> {
     let Some(window) = model.windows.first() else { return Ok(None) };
     let seed = spec.seed ^ 0x9E37_79B9_7F4A_7C15_u64.wrapping_mul(k as u64 + 1);
-    let (served, mut rng) = (served(k, last, window), Rng::with_seed(seed));
-    let points = random_points_within(&spec.range, spec.contact(), served, spec.evidence, &mut rng);
+    let points = spec.within(served(k, last, window)).random_points(spec.evidence, &mut Rng::with_seed(seed));
     let sliding = model.domain.sliding.is_some();
     let stage = format!("Measuring errors, M {}…{}", window.m.0, window.m.1);
     let done = AtomicUsize::new(0);
@@ -56,7 +54,7 @@ pub(super) fn calibrate(
         )
         .collect::<Result<_, _>>()?;
     let evidence: Vec<Evidence> = measured.into_iter().flatten().collect();
-    aside(observer, move || Calibration::fit(&evidence))
+    on_one_thread(observer, move || Calibration::fit(&evidence))
 }
 
 /// The range of M in which window `k` serves: the first and the last one also serve what lies beyond.

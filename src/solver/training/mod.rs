@@ -3,12 +3,13 @@
 //! The same specification gives the same model: everything random comes from its seed, and parallel work is collected in order.
 
 mod adaptive;
-mod aside;
 mod build;
 mod calibrate;
+mod check;
 pub mod distance;
 mod indicator;
 mod layout;
+mod one_thread;
 mod plan;
 #[cfg(test)]
 mod point_tests;
@@ -18,6 +19,8 @@ mod range;
 mod resume_tests;
 mod rows;
 mod sliding_range;
+#[cfg(test)]
+pub(crate) mod small;
 mod split;
 mod state;
 #[cfg(test)]
@@ -29,10 +32,10 @@ mod trajectories_tests;
 
 pub use crate::solver::observer::{Observer, Progress};
 pub use adaptive::{BadPoint, Search};
-pub use aside::aside;
 pub use build::train;
 pub use calibrate::EVIDENCE;
 pub use indicator::Indicator;
+pub use one_thread::on_one_thread;
 pub use plan::random_points;
 pub use quantity_box::QuantityBox;
 pub use range::Range;
@@ -40,8 +43,10 @@ pub use sliding_range::SlidingRange;
 pub use state::{Solved, TrainingState, WindowState, train_resumable};
 pub use trajectories::{TrajectoryTraining, train_trajectories};
 
+use self::plan::Within;
 use super::discrete::grid::ContactGridSpec;
 use super::discrete::reynolds::PENALTY;
+use super::limits::Refused;
 use super::physics::contact::ContactKind;
 use super::physics::lubricant::Lubricant;
 use super::reduced::{Domain, Sampling};
@@ -154,12 +159,32 @@ fn evidence() -> usize {
 }
 
 impl TrainingSpec {
+    /// A training of Newtonian contacts on one grid, with everything else as a scene has it that leaves it out, losses of information of 1e-6 and two
+    /// rows per mode.
+    pub fn new(range: Range, m: (f64, f64), grid: ContactGridSpec, plan: Plan) -> Self {
+        Self {
+            title: String::new(),
+            range,
+            lubricant: Lubricant::default(),
+            plan,
+            windows: Windows::Given(vec![WindowSpec { m, grid }]),
+            pressure_loss: 1e-6,
+            deformation_loss: 1e-6,
+            sampling: Sampling::default(),
+            rows_per_mode: 2.0,
+            penalty: PENALTY,
+            positive_modes: false,
+            evidence: EVIDENCE,
+            seed: 1,
+        }
+    }
+
     /// Refuses what no training can be made of, before anything is solved.
     ///
     /// # Errors
-    /// A sentence that names the field.
-    pub fn check(&self) -> Result<(), TrainingError> {
-        build::check(self)
+    /// Naming the field.
+    pub fn check(&self) -> Result<(), Refused> {
+        check::check(self)
     }
 
     /// The kind of contact it is about: that of its grids; windows chosen by the training are of line contacts.
@@ -168,6 +193,11 @@ impl TrainingSpec {
             Windows::Given(windows) => windows.first().map_or_else(ContactKind::default, |window| window.grid.kind()),
             Windows::Automatic { .. } => ContactKind::Line,
         }
+    }
+
+    /// Its contacts with M in an interval.
+    fn within(&self, m: (f64, f64)) -> Within {
+        Within { range: self.range, kind: self.contact(), m }
     }
 
     /// What the model will declare to be trained for.
@@ -214,6 +244,9 @@ impl TrainingObserver for AtomicBool {}
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TrainingError {
     /// The specification is refused.
+    #[error(transparent)]
+    Refused(#[from] Refused),
+    /// The specification makes sense, but no model.
     #[error("{0}")]
     Specification(String),
     /// A full solution the plan asks for could not be had.

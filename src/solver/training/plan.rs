@@ -7,8 +7,7 @@ use fastrand::Rng;
 use std::f64::consts::PI;
 
 /// Weight of (ln α ratio)² beside (3.20) when points of a range in (M, L, α) are spread: α changes H_c by a few per cent at equal M
-/// and L. Boxes of SI quantities use (3.20) alone, as the dissertation does: there a weight took 3 of 120 points too many from M and L
-/// and cost failures at low M and high L.
+/// and L. Boxes of SI quantities spread by (3.20) with a quarter of it: more would take points from M and L, whose corners need them.
 const ALPHA_WEIGHT: f64 = 0.02;
 
 /// A random point near another one by (3.18), coordinates in the unit cube: μ = min(max(μ_ref + σN, 0), 1).
@@ -28,89 +27,77 @@ const MAX_DRAWS: usize = 10_000;
 /// A point with its coordinates in the unit cube.
 pub(super) type Drawn = ([f64; 4], OperatingPoint);
 
-/// Up to `count` points of a range with M in an interval, at the coordinates that `draw` gives; fewer where hardly any is admissible.
-pub(super) fn admissible(
-    range: &Range,
-    kind: ContactKind,
-    m: (f64, f64),
-    count: usize,
-    mut draw: impl FnMut() -> [f64; 4],
-) -> Vec<Drawn> {
-    let mut one = || {
-        let unit = draw();
-        let point = range.at(kind, unit).filter(|p| (m.0..=m.1).contains(&p.moes().m))?;
-        Some((unit, point))
-    };
-    (0..count).map_while(|_| (0..MAX_DRAWS).find_map(|_| one())).collect()
+/// The contacts of a range, of one kind and with M in an interval.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Within {
+    pub range: Range,
+    pub kind: ContactKind,
+    pub m: (f64, f64),
 }
 
 /// Random points of a range by (3.17), which pushes towards its boundary: the same ones for the same seed, whoever asks. Fewer than
 /// `count` where hardly any contact of the range is admissible.
 pub fn random_points(range: &Range, kind: ContactKind, count: usize, seed: u64) -> Vec<OperatingPoint> {
-    random_points_within(range, kind, (0.0, f64::INFINITY), count, &mut Rng::with_seed(seed))
+    Within::all(*range, kind).random_points(count, &mut Rng::with_seed(seed))
 }
 
-/// The same with M in an interval.
-pub(super) fn random_points_within(
-    range: &Range,
-    kind: ContactKind,
-    m: (f64, f64),
-    count: usize,
-    rng: &mut Rng,
-) -> Vec<OperatingPoint> {
-    admissible(range, kind, m, count, || global_point(rng)).into_iter().map(|(_, point)| point).collect()
-}
-
-/// Farthest-point sampling (3.16): every next point of a random pool is the one farthest from all chosen ones.
-pub(super) fn farthest_points(
-    range: &Range,
-    kind: ContactKind,
-    m: (f64, f64),
-    count: usize,
-    rng: &mut Rng,
-) -> Vec<OperatingPoint> {
-    farther_points(range, kind, m, &[], count, rng)
-}
-
-/// (3.16) beside points that are there already: `count` more of them.
-pub(super) fn farther_points(
-    range: &Range,
-    kind: ContactKind,
-    m: (f64, f64),
-    known: &[OperatingPoint],
-    count: usize,
-    rng: &mut Rng,
-) -> Vec<OperatingPoint> {
-    let mut pool = random_points_within(range, kind, m, (40 * count).max(2000), rng);
-    // The corners of the range are its extremes, and a random pool never quite reaches them.
-    let corners = (0..16u8).filter_map(|c| range.at(kind, std::array::from_fn(|k| f64::from(c >> k & 1))));
-    pool.extend(corners.filter(|p| (m.0..=m.1).contains(&p.moes().m)));
-    let coordinates: Vec<_> = pool.iter().map(|p| (p.moes(), p.alpha_per_pa.ln(), p.sliding)).collect();
-    let alpha_weight = if matches!(range, Range::Box(_)) { 0.005 } else { ALPHA_WEIGHT };
-    let mut nearest = vec![f64::INFINITY; pool.len()];
-    let approach = |nearest: &mut [f64], point: &OperatingPoint| {
-        let (moes, log_alpha) = (point.moes(), point.alpha_per_pa.ln());
-        for (best, (other, other_alpha, sliding)) in nearest.iter_mut().zip(&coordinates) {
-            let d = distance(moes, *other) + alpha_weight * (log_alpha - other_alpha).powi(2);
-            *best = best.min(d + point.sliding.distance(*sliding));
-        }
-    };
-    let farthest = |nearest: &[f64]| {
-        (0..pool.len()).max_by(|&a, &b| nearest[a].total_cmp(&nearest[b])).filter(|&i| nearest[i] > 0.0)
-    };
-    known.iter().for_each(|point| approach(&mut nearest, point));
-    let mut chosen = Vec::with_capacity(count);
-    let mut next = if known.is_empty() {
-        (0..pool.len()).min_by(|&a, &b| coordinates[a].0.m.total_cmp(&coordinates[b].0.m))
-    } else {
-        farthest(&nearest)
-    };
-    while let Some(index) = next.filter(|_| chosen.len() < count) {
-        chosen.push(pool[index]);
-        approach(&mut nearest, &pool[index]);
-        next = farthest(&nearest);
+impl Within {
+    /// With any M.
+    pub fn all(range: Range, kind: ContactKind) -> Self {
+        Self { range, kind, m: (0.0, f64::INFINITY) }
     }
-    chosen
+
+    fn at(&self, unit: [f64; 4]) -> Option<OperatingPoint> {
+        self.range.at(self.kind, unit).filter(|point| (self.m.0..=self.m.1).contains(&point.moes().m))
+    }
+
+    /// Up to `count` points at the coordinates that `draw` gives; fewer where hardly any is admissible.
+    pub fn drawn(&self, count: usize, mut draw: impl FnMut() -> [f64; 4]) -> Vec<Drawn> {
+        let mut one = || {
+            let unit = draw();
+            self.at(unit).map(|point| (unit, point))
+        };
+        (0..count).map_while(|_| (0..MAX_DRAWS).find_map(|_| one())).collect()
+    }
+
+    /// Random points by (3.17).
+    pub fn random_points(&self, count: usize, rng: &mut Rng) -> Vec<OperatingPoint> {
+        self.drawn(count, || global_point(rng)).into_iter().map(|(_, point)| point).collect()
+    }
+
+    /// Farthest-point sampling (3.16) beside points that are known already: every next point of a random pool is the one farthest from all.
+    pub fn farthest_points(&self, known: &[OperatingPoint], count: usize, rng: &mut Rng) -> Vec<OperatingPoint> {
+        let mut pool = self.random_points((40 * count).max(2000), rng);
+        // The corners of the range are its extremes, and a random pool never quite reaches them.
+        let corners = (0..16u8).filter_map(|c| self.at(std::array::from_fn(|k| f64::from(c >> k & 1))));
+        pool.extend(corners);
+        let coordinates: Vec<_> = pool.iter().map(|p| (p.moes(), p.alpha_per_pa.ln(), p.sliding)).collect();
+        let alpha_weight = if matches!(self.range, Range::Box(_)) { 0.005 } else { ALPHA_WEIGHT };
+        let mut nearest = vec![f64::INFINITY; pool.len()];
+        let approach = |nearest: &mut [f64], point: &OperatingPoint| {
+            let (moes, log_alpha) = (point.moes(), point.alpha_per_pa.ln());
+            for (best, (other, other_alpha, sliding)) in nearest.iter_mut().zip(&coordinates) {
+                let d = distance(moes, *other) + alpha_weight * (log_alpha - other_alpha).powi(2);
+                *best = best.min(d + point.sliding.distance(*sliding));
+            }
+        };
+        let farthest = |nearest: &[f64]| {
+            (0..pool.len()).max_by(|&a, &b| nearest[a].total_cmp(&nearest[b])).filter(|&i| nearest[i] > 0.0)
+        };
+        known.iter().for_each(|point| approach(&mut nearest, point));
+        let mut chosen = Vec::with_capacity(count);
+        let mut next = if known.is_empty() {
+            (0..pool.len()).min_by(|&a, &b| coordinates[a].0.m.total_cmp(&coordinates[b].0.m))
+        } else {
+            farthest(&nearest)
+        };
+        while let Some(index) = next.filter(|_| chosen.len() < count) {
+            chosen.push(pool[index]);
+            approach(&mut nearest, &pool[index]);
+            next = farthest(&nearest);
+        }
+        chosen
+    }
 }
 
 /// The tensor grid of Table 3.2 over a box: equidistant in R, u_m and α, logarithmic in w. Empty for a range given in M and L.
@@ -170,9 +157,9 @@ mod tests {
 
     #[test]
     fn farthest_points_are_spread_wider_than_random_ones_and_follow_the_seed() {
-        let all = (0.0, f64::INFINITY);
-        let chosen = farthest_points(&TABLE_3_1, LINE, all, 60, &mut Rng::with_seed(3));
-        assert_eq!(chosen, farthest_points(&TABLE_3_1, LINE, all, 60, &mut Rng::with_seed(3)));
+        let farthest = || Within::all(TABLE_3_1, LINE).farthest_points(&[], 60, &mut Rng::with_seed(3));
+        let chosen = farthest();
+        assert_eq!(chosen, farthest());
         let random = random_points(&TABLE_3_1, LINE, 60, 4);
         let closest = |points: &[OperatingPoint]| {
             let mut d = f64::INFINITY;

@@ -1,6 +1,8 @@
 //! The range of Tables 3.1 and 3.4: a box of SI quantities.
 
-use crate::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
+use super::range::{between, single};
+use crate::solver::limits::Refused;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity, Sliding};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -42,14 +44,20 @@ impl QuantityBox {
     }
 
     /// The dissertation's Table 3.4, whose printed radii and loads contradict its M and L: with these they hold.
-    pub const TABLE_3_4: Self = Self {
-        radius: (10e-3, 20e-3),
-        speed: (1.0, 10.0),
-        load: (20.0, 100.0),
-        alpha: (5e-9, 20e-9),
-        modulus: 231e9,
-        viscosity: 0.01,
-    };
+    pub const TABLE_3_4: Self = Self { radius: (10e-3, 20e-3), load: (20.0, 100.0), ..Self::TABLE_3_1 };
+
+    /// Refuses what is empty, inverted or beyond any sense.
+    ///
+    /// # Errors
+    /// Naming the interval.
+    pub fn check(&self) -> Result<(), Refused> {
+        between(Quantity::Radius, self.radius)?;
+        between(Quantity::Speed, self.speed)?;
+        between(Quantity::Load, self.load)?;
+        between(Quantity::Alpha, self.alpha)?;
+        single(Quantity::Modulus, self.modulus)?;
+        single(Quantity::Viscosity, self.viscosity)
+    }
 
     /// The point of a kind at fractions (0…1) of radius, speed, load and alpha.
     pub fn at(&self, kind: ContactKind, [radius, speed, load, alpha]: [f64; 4]) -> OperatingPoint {

@@ -1,7 +1,8 @@
 //! Where contacts lie: what a model is trained for, and where random ones are drawn.
 
-use super::{QuantityBox, SlidingRange, TrainingError};
-use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
+use super::{QuantityBox, SlidingRange};
+use crate::solver::limits::{Refused, interval, number};
+use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, si_from_moes};
 use serde::{Deserialize, Serialize};
 
 /// A set of contacts.
@@ -40,57 +41,27 @@ pub enum Range {
 }
 
 impl Range {
-    /// Refuses empty, inverted or non-finite ranges.
+    /// Refuses what is empty, inverted or beyond any sense.
     ///
     /// # Errors
     /// Naming the interval.
-    pub fn check(&self) -> Result<(), TrainingError> {
-        let intervals: &[(&str, (f64, f64))] = match self {
-            Self::Box(QuantityBox { radius, speed, load, alpha, modulus, viscosity }) => &[
-                ("radius", *radius),
-                ("speed", *speed),
-                ("load", *load),
-                ("alpha", *alpha),
-                ("modulus", (*modulus, *modulus)),
-                ("viscosity", (*viscosity, *viscosity)),
-            ],
+    pub fn check(&self) -> Result<(), Refused> {
+        match *self {
+            Self::Box(range) => range.check(),
             Self::Realisation { m, l, max_hertz_pressure } => {
-                &[("m", *m), ("l", *l), ("max_hertz_pressure", (*max_hertz_pressure, *max_hertz_pressure))]
+                between(Quantity::M, m)?;
+                between(Quantity::L, l)?;
+                hertz_pressure(max_hertz_pressure)
             }
-            Self::Moes { m, l, alpha, max_hertz_pressure, viscosity } => &[
-                ("m", *m),
-                ("l", *l),
-                ("alpha", *alpha),
-                ("max_hertz_pressure", (*max_hertz_pressure, *max_hertz_pressure)),
-                ("viscosity", (*viscosity, *viscosity)),
-            ],
-            Self::Sliding(SlidingRange { m, l, srr, npr, radius, modulus, viscosity, alpha, max_hertz_pressure }) => {
-                for (name, (low, high), most) in [("srr", *srr, 10.0), ("npr", *npr, 1.0)] {
-                    if !(0.0 <= low && low <= high && high <= most) {
-                        return Err(TrainingError::Specification(format!(
-                            "the range of {name} is {low}…{high}; both ends must lie between 0 and {most}, the first not above the second"
-                        )));
-                    }
-                }
-                &[
-                    ("m", *m),
-                    ("l", *l),
-                    ("radius", (*radius, *radius)),
-                    ("modulus", (*modulus, *modulus)),
-                    ("viscosity", (*viscosity, *viscosity)),
-                    ("alpha", (*alpha, *alpha)),
-                    ("max_hertz_pressure", max_hertz_pressure.map_or((1.0, 1.0), |limit| (limit, limit))),
-                ]
+            Self::Moes { m, l, alpha, max_hertz_pressure, viscosity } => {
+                between(Quantity::M, m)?;
+                between(Quantity::L, l)?;
+                hertz_pressure(max_hertz_pressure)?;
+                between(Quantity::Alpha, alpha)?;
+                single(Quantity::Viscosity, viscosity)
             }
-        };
-        for (name, (low, high)) in intervals {
-            if !(low.is_finite() && high.is_finite() && *low > 0.0 && low <= high) {
-                return Err(TrainingError::Specification(format!(
-                    "the range of {name} is {low}…{high}; both ends must be positive and finite, the first not above the second"
-                )));
-            }
+            Self::Sliding(range) => range.check(),
         }
-        Ok(())
     }
 
     /// The operating point of a kind at coordinates in the unit cube, of which as many are used as the range has quantities; `None` where the
@@ -120,6 +91,23 @@ impl Range {
     }
 }
 
+/// Refuses an interval of a quantity that reaches beyond its limits.
+pub(super) fn between(quantity: Quantity, ends: (f64, f64)) -> Result<(), Refused> {
+    let (low, high) = quantity.range();
+    interval(&quantity.name().to_lowercase(), ends, low, high)
+}
+
+/// Refuses a quantity beyond its limits.
+pub(super) fn single(quantity: Quantity, value: f64) -> Result<(), Refused> {
+    let (low, high) = quantity.range();
+    number(quantity.name(), value, low, high)
+}
+
+/// Refuses a limit of p_H \[Pa\] that is none.
+pub(super) fn hertz_pressure(most: f64) -> Result<(), Refused> {
+    number("max_hertz_pressure", most, 1e5, 1e12)
+}
+
 /// The contact of a request, unless it is pressed harder.
 fn up_to(max_hertz_pressure: f64, request: &MoesRequest) -> Option<OperatingPoint> {
     si_from_moes(request).ok().filter(|point| point.hertz().pressure_pa <= max_hertz_pressure)
@@ -129,18 +117,13 @@ fn up_to(max_hertz_pressure: f64, request: &MoesRequest) -> Option<OperatingPoin
 mod tests {
     use super::*;
     use crate::solver::training::random_points;
+    use crate::solver::training::small::moes;
 
     const LINE: ContactKind = ContactKind::Line;
 
     #[test]
     fn the_moes_range_respects_its_pressure_limit() {
-        let range = Range::Moes {
-            m: (2.0, 500.0),
-            l: (1.0, 20.0),
-            alpha: (5e-9, 20e-9),
-            max_hertz_pressure: 3.2e9,
-            viscosity: 0.01,
-        };
+        let range = moes((2.0, 500.0), (1.0, 20.0), 3.2e9);
         for p in random_points(&range, LINE, 300, 1) {
             assert!(p.hertz().pressure_pa <= 3.2e9);
             assert!((5e-9..=20.0001e-9).contains(&p.alpha_per_pa));

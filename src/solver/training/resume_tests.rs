@@ -1,5 +1,6 @@
 //! Trainings as a whole: stopped and resumed, on any number of threads, with tolerances out of reach.
 
+use super::small::moes;
 use super::*;
 use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
 use crate::solver::reduced::{ReducedModel, Window};
@@ -9,27 +10,19 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 /// A small box on a coarse grid: a full solve takes a fraction of a millisecond.
 fn small(plan: Plan) -> TrainingSpec {
     let grid = ContactGridSpec::Line(GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) });
+    let range = Range::Box(QuantityBox {
+        radius: (2e-3, 3e-3),
+        speed: (3.0, 5.0),
+        load: (1e5, 2e5),
+        alpha: (6e-9, 10e-9),
+        ..QuantityBox::TABLE_3_1
+    });
     TrainingSpec {
-        title: "small".to_owned(),
-        range: Range::Box(QuantityBox {
-            radius: (2e-3, 3e-3),
-            speed: (3.0, 5.0),
-            load: (1e5, 2e5),
-            alpha: (6e-9, 10e-9),
-            modulus: 231e9,
-            viscosity: 0.01,
-        }),
-        lubricant: Default::default(),
-        plan,
         windows: Windows::Given(vec![WindowSpec { m: (5.0, 25.0), grid }, WindowSpec { m: (25.0, 200.0), grid }]),
         pressure_loss: 1e-7,
-        deformation_loss: 1e-6,
-        sampling: Sampling::QDeim,
-        rows_per_mode: 2.0,
-        penalty: PENALTY,
-        positive_modes: false,
         evidence: 0,
         seed: 3,
+        ..TrainingSpec::new(range, (5.0, 200.0), grid, plan)
     }
 }
 
@@ -164,13 +157,7 @@ fn a_training_that_is_stopped_in_its_trials_says_that_there_is_no_model_yet() {
 fn a_range_in_which_full_solves_fail_names_the_point_and_keeps_what_it_has() {
     // Films far below what this grid resolves beyond M of a few hundred.
     let mut spec = small(Plan::FarthestPoint { snapshots: 60 });
-    spec.range = Range::Moes {
-        m: (20.0, 50_000.0),
-        l: (0.05, 2.5),
-        alpha: (5e-9, 20e-9),
-        max_hertz_pressure: 1e12,
-        viscosity: 0.01,
-    };
+    spec.range = moes((20.0, 50_000.0), (0.05, 2.5), 1e12);
     let grid = ContactGridSpec::Line(GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) });
     spec.windows = Windows::Given(vec![WindowSpec { m: (20.0, 50_000.0), grid }]);
     let mut state = TrainingState::new(spec);
@@ -185,16 +172,14 @@ fn a_range_in_which_full_solves_fail_names_the_point_and_keeps_what_it_has() {
 
 #[test]
 fn a_range_that_holds_no_contact_is_refused_with_a_sentence() {
-    let nowhere = Range::Moes {
-        m: (400.0, 500.0),
-        l: (19.0, 20.0),
-        alpha: (5e-9, 20e-9),
-        max_hertz_pressure: 1e6,
+    let nowhere = moes((400.0, 500.0), (19.0, 20.0), 1e6);
+    let one_point = Range::Moes {
+        m: (20.0, 20.0),
+        l: (19.0, 19.0),
+        alpha: (5e-9, 5e-9),
+        max_hertz_pressure: 1e10,
         viscosity: 0.01,
     };
-    let Range::Moes { l, alpha, viscosity, .. } = nowhere else { panic!("intervals of M and L") };
-    let one_point =
-        Range::Moes { m: (20.0, 20.0), l: (l.0, l.0), alpha: (alpha.0, alpha.0), max_hertz_pressure: 1e10, viscosity };
     let plan = Plan::FarthestPoint { snapshots: 8 };
     let given = |m| Windows::Given(vec![WindowSpec { m, grid: ContactGridSpec::Line(GridSpec::EXPLORER) }]);
     for (range, windows, holds) in [
@@ -224,10 +209,10 @@ fn the_number_of_threads_changes_nothing() {
 
 #[test]
 fn a_tolerance_that_cannot_be_met_ends_at_the_limit_and_is_said() {
-    for plan in [adaptive(vec![1e-2, 1e-13], 12), pool(1e-13, 12)] {
+    for plan in [adaptive(vec![1e-2, 1e-12], 12), pool(1e-12, 12)] {
         let model = train(&small(plan), &()).unwrap();
         assert!(model.windows.iter().all(|w| w.snapshots.len() == 12));
-        assert!(model.log.iter().any(|line| line.contains("tolerance 1e-13 was not met")), "{:?}", model.log);
+        assert!(model.log.iter().any(|line| line.contains("tolerance 1e-12 was not met")), "{:?}", model.log);
     }
 }
 
@@ -266,8 +251,8 @@ fn plans_that_make_no_sense_are_refused_with_a_sentence() {
     let message = |plan| train(&small(plan), &()).unwrap_err().to_string();
     assert!(message(adaptive(vec![], 20)).contains("tolerances"));
     assert!(message(adaptive(vec![1e-3, 1e-2], 20)).contains("descending"));
-    assert!(message(adaptive(vec![f64::NAN], 20)).contains("positive"));
-    assert!(message(adaptive(vec![1e-3], 3)).contains("stops at 3"));
+    assert!(message(adaptive(vec![f64::NAN], 20)).contains("finite"));
+    assert!(message(adaptive(vec![1e-3], 3)).contains("`plan.limit` is 3"));
     assert!(
         message(Plan::WorstOfPool {
             start: 6,
@@ -277,8 +262,8 @@ fn plans_that_make_no_sense_are_refused_with_a_sentence() {
             tolerance: 1.0,
             limit: 9
         })
-        .contains("per_round is 3")
+        .contains("`plan.per_round` is 3")
     );
     let few = train(&automatic(pool(1e-3, 20), 2), &()).unwrap_err().to_string();
-    assert!(few.contains("at most 2 modes"), "{few}");
+    assert!(few.contains("`windows.modes` is 2"), "{few}");
 }

@@ -1,8 +1,7 @@
 //! Row sampling of a window: the all-rows reduced model runs at random parameters, for a cubature at the trainings too, and what its iterates
 //! show decides which rows stay.
 
-use super::aside::aside;
-use super::plan::random_points_within;
+use super::one_thread::on_one_thread;
 use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{
@@ -72,7 +71,7 @@ pub(super) fn sample_rows(
     observer: &dyn TrainingObserver,
 ) -> Result<Option<SampledRows>, TrainingError> {
     let Some(window) = exact.windows.first() else { return Ok(None) };
-    let points = random_points_within(&spec.range, spec.contact(), reach, ROW_SNAPSHOT_SOLVES, rng);
+    let points = spec.within(reach).random_points(ROW_SNAPSHOT_SOLVES, rng);
     let mut tasks: Vec<Task<'_>> = points.into_iter().map(Task::At).collect();
     if spec.sampling == Sampling::Cubature {
         tasks.extend((0..window.snapshots.len()).filter_map(|k| Task::beside(window, k)));
@@ -105,7 +104,7 @@ pub(super) fn sample_rows(
         .collect::<Result<_, _>>()?;
     observer.progress(Progress { stage: "Row sampling".to_owned(), done: 0, total: 1 });
     let (sampling, rows_per_mode) = (spec.sampling, spec.rows_per_mode);
-    aside(observer, move || {
+    on_one_thread(observer, move || {
         let sampled = choose(&test, sampling, rows_per_mode, collected, none);
         sampled.filter(|s| is_finite(s.reconstruction.as_ref()))
     })

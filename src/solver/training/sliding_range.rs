@@ -1,6 +1,8 @@
 //! The range of shear-thinning contacts: M, L, SRR and NPR of one lubricant between bodies of one material.
 
-use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
+use super::range::{between, hertz_pressure, single};
+use crate::solver::limits::Refused;
+use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, Sliding, si_from_moes};
 use serde::{Deserialize, Serialize};
 
 /// All contacts of a shear-thinning lubricant with M, L, SRR and NPR in these intervals and p_H up to a limit. M and L do not say all about
@@ -30,6 +32,22 @@ pub struct SlidingRange {
 }
 
 impl SlidingRange {
+    /// Refuses what is empty, inverted or beyond any sense.
+    ///
+    /// # Errors
+    /// Naming the interval.
+    pub fn check(&self) -> Result<(), Refused> {
+        between(Quantity::M, self.m)?;
+        between(Quantity::L, self.l)?;
+        between(Quantity::SlideToRollRatio, self.srr)?;
+        between(Quantity::NewtonianPlateauRatio, self.npr)?;
+        single(Quantity::Radius, self.radius)?;
+        single(Quantity::Modulus, self.modulus)?;
+        single(Quantity::Viscosity, self.viscosity)?;
+        single(Quantity::Alpha, self.alpha)?;
+        self.max_hertz_pressure.map_or(Ok(()), hertz_pressure)
+    }
+
     /// The operating point of a kind at coordinates in the unit cube, by ln M, L, SRR and NPR; `None` where the range excludes it.
     pub fn at(&self, kind: ContactKind, unit: [f64; 4]) -> Option<OperatingPoint> {
         let linear = |(low, high): (f64, f64), t: f64| low + (high - low) * t;

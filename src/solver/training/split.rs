@@ -1,28 +1,10 @@
 //! Splitting a window of M that needs more pressure modes than it may have. Both halves inherit its full solutions: they share one grid.
 //!
-//! Tried over the explorer's range (M 2…500, L 1…21.2, α 5…20.1/GPa; worst of a pool to 1e-3, Q-DEIM with two rows per mode; one
-//! seed, no failures in 4,000 tests anywhere, errors at 1,000–2,000 of them; times side by side on one busy machine):
-//!
-//! | windows | start, loss | full solutions | modes of each | file | median | H_c 95 % / max |
-//! |---|---|---|---|---|---|---|
-//! | by hand: M 2–9–40–500, no search | 180, 3e-7 | 540 | 118, 99, 70 | 3.0 MB | 0.78 ms | 2.5e-4 / 1.5e-3 |
-//! | ≤ 90 modes, edge by equal modes at the loss itself | 110, 1e-7 | 652 | 82, 90, 89, 90, 87, 71 | 5.0 MB | 0.46 ms | 2.9e-4 / 1.2e-3 |
-//! | the same | 100, 3e-7 | 501 | 88, 83, 82, 89 | 3.4 MB | 0.52 ms | 2.7e-4 / 5.6e-4 |
-//! | the same | 60, 1e-7 | 319 | 84, 83 | 1.7 MB | 0.54 ms | 3.7e-4 / 1.7e-3 |
-//! | ≤ 90 modes, edge as below | 100, 3e-7 | 470 | 88, 90, 87, 65 | 3.2 MB | 0.51 ms | 3.4e-4 / 8.5e-4 |
-//! | the same, errors judged by undamped steps | 100, 3e-7 | 536 | 89, 87, 83, 87, 69 | 4.2 MB | 0.52 ms | 2.9e-4 / 9.1e-4 |
-//! | ≤ 100 modes, likewise | 100, 1e-7 | 406 | 91, 96, 98 | 2.9 MB | 0.65 ms | 2.8e-4 / 1.6e-3 |
-//! | **≤ 90 modes, likewise** | 80, 1e-7 | 427 | 87, 88, 84, 67 | 3.3 MB | 0.51 ms | 1.6e-4 / 5.6e-4 |
-//!
-//! The last two were measured after the errors were judged by undamped steps, the last one has no failures in 100,000 tests either. What none of
-//! them watches is the pressure: where the spike appears (M ≈ 5, L ≈ 16) the last but one is 5 % off it, the last one 1 %.
-//! With modes as many as solutions (start 60) the sizes are small but 1 of 100 solves takes 12 iterations instead of 8 and typical errors are six times
-//! larger. Loss 3e-7 with at most 95 modes left one window (M 31…500, 69 modes) short of the tolerance after 180 solutions: the loss, not
-//! the number of solutions, limited it. Cubature with 1.75 rows per mode gave up at M 2…3.5, where its equations are satisfied by fewer than
-//! 1.2 rows per mode: Q-DEIM stays. The dissertation's search in place of the pool (start 100, loss 3e-7)
-//! took 543 solutions and 44 s of processor time where the pool took 470 and 15 s: it retrains after every one.
+//! The edge lies where both halves need equally many modes. The cost of a reduced solve grows with the cube of the modes, the size of the model
+//! with the number of windows; modes as many as there are solutions make a bad model, so that the first solutions (`start`) should outnumber the
+//! modes of a window clearly.
 
-use super::aside::aside;
+use super::one_thread::on_one_thread;
 use super::state::{OVERLAP, Solved, TrainingState, WindowState};
 use super::{TrainingError, TrainingObserver};
 use crate::solver::discrete::grid::ContactGrid;
@@ -51,7 +33,7 @@ pub(super) fn split(state: &mut TrainingState, k: usize, observer: &dyn Training
     let own = &state.windows[k];
     let (from, to) = own.window.m;
     let (wanted, solved) = (own.window.grid, own.solved.clone());
-    let edge = aside(observer, move || {
+    let edge = on_one_thread(observer, move || {
         let grid = wanted.build().map_err(crate::solver::full::SolveError::from)?;
         balanced_edge(&solved, (from, to), &grid).ok_or(TrainingError::Decomposition { from, to })
     })??;
@@ -105,19 +87,13 @@ mod tests {
     use super::*;
     use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
     use crate::solver::physics::contact::ContactKind;
-    use crate::solver::training::Range;
-    use crate::solver::training::plan::farthest_points;
+    use crate::solver::training::plan::Within;
+    use crate::solver::training::small::moes;
 
     /// Solutions whose pressures have nothing in common: every one needs a mode.
     fn solutions(grid: &ContactGrid) -> Vec<Solved> {
-        let range = Range::Moes {
-            m: (2.0, 500.0),
-            l: (2.0, 8.0),
-            alpha: (5e-9, 20e-9),
-            max_hertz_pressure: 6e9,
-            viscosity: 0.01,
-        };
-        let points = farthest_points(&range, ContactKind::Line, (0.0, f64::INFINITY), 60, &mut Rng::with_seed(1));
+        let range = moes((2.0, 500.0), (2.0, 8.0), 6e9);
+        let points = Within::all(range, ContactKind::Line).farthest_points(&[], 60, &mut Rng::with_seed(1));
         let solved = points.into_iter().enumerate().map(|(place, point)| {
             let pressure = (0..grid.len()).map(|i| if i > 1 && i % 64 == place { 1.0 } else { 0.0 }).collect();
             Solved { place, point, pressure, h_0: 0.0, h_c: 1.0 }

@@ -1,10 +1,11 @@
 //! What a training has done so far: enough to stop after any full solution, go on later, and arrive at the same model.
 
 use super::adaptive::Search;
-use super::aside::aside;
-use super::build::{Shop, alone, check, domain};
+use super::build::{WindowTraining, alone, domain};
 use super::calibrate::calibrate;
-use super::plan::{farther_points, grid_points};
+use super::check::check;
+use super::one_thread::on_one_thread;
+use super::plan::grid_points;
 use super::split::{may_split, split};
 use super::traction::traction_rule;
 use super::{Plan, Range, TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows, layout};
@@ -244,9 +245,9 @@ fn train_window(
     let reach = reach(&state.windows, k);
     let own = &mut state.windows[k];
     let mut rng = Rng::with_seed(own.seed);
-    let mut shop = Shop::new(spec, own.window, reach, most_modes, observer)?;
+    let mut work = WindowTraining::new(spec, own.window, reach, most_modes, observer)?;
     let known: Vec<OperatingPoint> = own.solved.iter().take(own.inherited).map(|s| s.point).collect();
-    if own.solved.iter().any(|s| s.pressure.len() != shop.grid.len()) {
+    if own.solved.iter().any(|s| s.pressure.len() != work.grid.len()) {
         return Err(TrainingError::Specification("the stored full solutions belong to another grid".to_owned()));
     }
     // Drawn again when resumed, so that the random numbers behind it are the same.
@@ -259,10 +260,10 @@ fn train_window(
         Plan::FarthestPoint { snapshots: wanted }
         | Plan::Adaptive { start: wanted, .. }
         | Plan::WorstOfPool { start: wanted, .. } => {
-            let (range, kind, known, mut random) = (spec.range, spec.contact(), known.clone(), rng.clone());
+            let (within, known, mut random) = (work.within(), known.clone(), rng.clone());
             let more = wanted.saturating_sub(known.len());
-            let (points, random) = aside(observer, move || {
-                let points = farther_points(&range, kind, reach, &known, more, &mut random);
+            let (points, random) = on_one_thread(observer, move || {
+                let points = within.farthest_points(&known, more, &mut random);
                 (points, random)
             })?;
             rng = random;
@@ -270,19 +271,19 @@ fn train_window(
         }
     };
     if known.len() + points.len() < FEWEST {
-        return Err(shop.too_few(known.len() + points.len()));
+        return Err(work.too_few(known.len() + points.len()));
     }
     if !own.planned {
         own.decide(points);
         own.planned = true;
     }
-    shop.solve_pending(state, Part::Window(k))?;
+    work.solve_pending(state, Part::Window(k))?;
     if !spec.plan.searches() {
-        let window = shop.assemble(&state.windows[k].solved)?;
-        return window.map(|window| shop.sample(window, &mut rng)).transpose();
+        let window = work.assemble(&state.windows[k].solved)?;
+        return window.map(|window| work.sample(window, &mut rng)).transpose();
     }
     // Two seeds from the common sequence; the rows are sampled at the same random points in every round.
     let (search_seed, row_seed) = (rng.u64(..), rng.u64(..));
     state.windows[k].search.begin(search_seed);
-    super::adaptive::search(&mut shop, state, k, row_seed)
+    super::adaptive::search(&mut work, state, k, row_seed)
 }

@@ -1,5 +1,6 @@
 //! Behaviour of training: the same specification gives the same model, models reproduce what they were trained on, bad requests are refused.
 
+use super::small::line;
 use super::*;
 use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
 use crate::solver::full::{ContactSolver, Start};
@@ -8,31 +9,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn small(sampling: Sampling) -> TrainingSpec {
-    TrainingSpec {
-        title: "A corner of Table 3.1".to_owned(),
-        range: Range::Box(QuantityBox {
-            radius: (3e-3, 4e-3),
-            speed: (2.0, 4.0),
-            load: (2e5, 4e5),
-            alpha: (8e-9, 12e-9),
-            modulus: 231e9,
-            viscosity: 0.01,
-        }),
-        lubricant: Lubricant::default(),
-        plan: Plan::FarthestPoint { snapshots: 50 },
-        windows: Windows::Given(vec![WindowSpec {
-            m: (1.0, 500.0),
-            grid: ContactGridSpec::Line(GridSpec::Graded { nodes: 240, domain: (-6.0, 1.9), registered: true }),
-        }]),
-        pressure_loss: 1e-6,
-        deformation_loss: 1e-6,
-        sampling,
-        rows_per_mode: 2.0,
-        penalty: PENALTY,
-        positive_modes: false,
-        evidence: 0,
-        seed: 5,
-    }
+    line(sampling, 50)
 }
 
 #[test]

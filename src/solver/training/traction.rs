@@ -1,7 +1,6 @@
 //! The rule by which a finished window knows its traction without large-scale work.
 
-use super::aside::aside;
-use super::plan::random_points_within;
+use super::one_thread::on_one_thread;
 use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, TractionRule};
@@ -26,7 +25,7 @@ pub(super) fn traction_rule(
     observer: &dyn TrainingObserver,
 ) -> Result<Option<TractionRule>, TrainingError> {
     let mut rng = Rng::with_seed(seed ^ 0x7AC7_1041);
-    let mut points: Vec<OperatingPoint> = random_points_within(&spec.range, spec.contact(), reach, SOLUTIONS, &mut rng);
+    let mut points: Vec<OperatingPoint> = spec.within(reach).random_points(SOLUTIONS, &mut rng);
     for point in points.iter_mut().step_by(2) {
         point.sliding.slide_to_roll_ratio *= SLOWEST.powf(rng.f64());
     }
@@ -47,5 +46,5 @@ pub(super) fn traction_rule(
         .collect::<Result<_, _>>()?;
     let stresses: Vec<Vec<f64>> = stresses.into_iter().flatten().collect();
     let model = Arc::clone(model);
-    aside(observer, move || TractionRule::fit(model.windows.first()?, &stresses))
+    on_one_thread(observer, move || TractionRule::fit(model.windows.first()?, &stresses))
 }

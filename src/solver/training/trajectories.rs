@@ -1,7 +1,7 @@
 //! Training of a reduced model of contacts in time: bases from the steps of full trajectories, rows by a cubature that carries the steps
 //! which the all-rows model takes along the same inputs. Both know how strongly each row answers to its pressure.
 
-use super::aside::aside;
+use super::one_thread::on_one_thread;
 use super::rows::add_goals;
 use super::{Observer, Progress, TrainingError};
 use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN, ReferenceGrid, dot};
@@ -64,7 +64,7 @@ pub fn train_trajectories(
     let equations = goal_equations(&exact, &test, trajectories, training, observer)?;
     observer.progress(Progress { stage: "Row sampling".to_owned(), done: 0, total: 1 });
     let target = (test.modes.ncols() as f64 * training.rows_per_mode).round() as usize;
-    let sampled = aside(observer, move || cubature(&test, &equations, target))?;
+    let sampled = on_one_thread(observer, move || cubature(&test, &equations, target))?;
     let sampled = sampled.filter(|s: &SampledRows| is_finite(s.reconstruction.as_ref()));
     let mut model = exact;
     model.window.set_rows(Sampling::Cubature, sampled.ok_or(TrainingError::Trajectories)?);
@@ -104,7 +104,7 @@ fn bases(
     let pressures = Mat::from_fn(grid.xi.len(), chosen.len(), |i, j| chosen[j][i]);
     let (contact, loss) = (ContactGrid::Line(Arc::clone(grid)), training.loss);
     let (weights, emphasis) = (grid.weights.clone(), emphasis(grid, sizes));
-    let (pressure, deformation) = aside(observer, {
+    let (pressure, deformation) = on_one_thread(observer, {
         let contact = contact.clone();
         move || {
             let pressure = PodBasis::emphasised(pressures.as_ref(), &weights, &emphasis, loss);

@@ -263,7 +263,8 @@ impl TransientStudy {
 
     /// Checks every march that it asks for.
     fn check_marches(&self, experiment: &Experiment) -> Checked {
-        let (point, lubricant) = (experiment.point()?, experiment.lubricant);
+        let point = experiment.point().map_err(|problem| refuse("at", format!("is refused: {problem}")))?;
+        let lubricant = experiment.lubricant;
         let check = |field: String, transient: &Transient| {
             transient.check().map_err(|problem| refuse(field, format!("is refused: {problem}")))
         };

@@ -10,7 +10,7 @@ use crate::scene::table::Table;
 use crate::solver::full::transient::{Frame, FullMarch, Keep, Marching, Trajectory, Transient};
 use crate::solver::reduced::tpwl::{TpwlError, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel};
-use crate::solver::training::{TrajectoryTraining, aside, train_trajectories};
+use crate::solver::training::{TrajectoryTraining, on_one_thread, train_trajectories};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -198,7 +198,7 @@ impl Runner<'_, '_> {
             let begun = Instant::now();
             let (asked, known, trainings) = (linearised.clone(), first.clone(), Arc::clone(trainings));
             // Nothing can interrupt it: a cancel need not wait.
-            let model = Arc::new(aside(self.setting.observer, move || match &known {
+            let model = Arc::new(on_one_thread(self.setting.observer, move || match &known {
                 None => train_linearised(&asked, &trainings.iter().collect::<Vec<_>>()),
                 Some(first) => {
                     first.reselected(asked.points.map_or(selection, |points| first.selection_of(selection, points)))

@@ -17,7 +17,7 @@ const PATIENCE: Duration = Duration::from_millis(10);
 ///
 /// # Errors
 /// When the observer cancels.
-pub fn aside<T: Send + 'static>(
+pub fn on_one_thread<T: Send + 'static>(
     observer: &dyn Observer,
     work: impl FnOnce() -> T + Send + 'static,
 ) -> Result<T, TrainingError> {

@@ -1,0 +1,58 @@
+//! What numbers from outside may be: finite and sane, and named where they are not.
+
+/// A value that is refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("`{field}` {problem}")]
+pub struct Refused {
+    /// The field, with dots between levels.
+    pub field: String,
+    /// What is wrong and what would be accepted.
+    pub problem: String,
+}
+
+impl Refused {
+    /// Refuses a field.
+    pub fn new(field: impl Into<String>, problem: impl Into<String>) -> Self {
+        Self { field: field.into(), problem: problem.into() }
+    }
+
+    /// The same seen from outside: the field belongs to another one.
+    pub fn within(self, outer: &str) -> Self {
+        Self { field: format!("{outer}.{}", self.field), ..self }
+    }
+}
+
+/// Refuses a number that is not finite or lies outside an interval.
+///
+/// # Errors
+/// Naming the field.
+pub fn number(field: &str, value: f64, low: f64, high: f64) -> Result<(), Refused> {
+    if (low..=high).contains(&value) {
+        return Ok(());
+    }
+    Err(Refused::new(field, format!("is {value}, but must be a finite number between {low:e} and {high:e}")))
+}
+
+/// Refuses a count outside an interval.
+///
+/// # Errors
+/// Naming the field.
+pub fn count(field: &str, value: usize, low: usize, high: usize) -> Result<(), Refused> {
+    if (low..=high).contains(&value) {
+        return Ok(());
+    }
+    Err(Refused::new(field, format!("is {value}, but must lie between {low} and {high}")))
+}
+
+/// Refuses an interval that is inverted or reaches beyond another one.
+///
+/// # Errors
+/// Naming the field, and its end where one is wrong.
+pub fn interval(field: &str, (from, to): (f64, f64), low: f64, high: f64) -> Result<(), Refused> {
+    number(&format!("{field}.0"), from, low, high)?;
+    number(&format!("{field}.1"), to, low, high)?;
+    if from > to {
+        return Err(Refused::new(field, format!("runs from {from} down to {to}; write the smaller value first")));
+    }
+    Ok(())
+}

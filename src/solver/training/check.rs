@@ -1,0 +1,122 @@
+//! What a specification of a training may say.
+
+use super::{Plan, Range, SlidingRange, TrainingSpec, WindowSpec, Windows};
+use crate::solver::limits::{Refused, count, interval, number};
+use crate::solver::physics::lubricant::ShearLaw;
+use crate::solver::reduced::LEAST_EVIDENCE;
+
+/// Most points of a plan, or judged in one go.
+const MOST_POINTS: usize = 100_000;
+/// Most full solutions of a window.
+const MOST_SNAPSHOTS: usize = 5000;
+
+/// Refuses what no training can be made of, naming the field.
+pub(super) fn check(spec: &TrainingSpec) -> Result<(), Refused> {
+    spec.range.check().map_err(|refused| refused.within("range"))?;
+    lubricant(spec)?;
+    windows(spec)?;
+    number("pressure_loss", spec.pressure_loss, 1e-15, 0.5)?;
+    number("deformation_loss", spec.deformation_loss, 1e-15, 0.5)?;
+    number("rows_per_mode", spec.rows_per_mode, 1.0, 20.0)?;
+    number("penalty", spec.penalty, 1e2, 1e9)?;
+    if spec.evidence > 0 && !(LEAST_EVIDENCE..=MOST_POINTS).contains(&spec.evidence) {
+        return Err(Refused::new(
+            "evidence",
+            format!(
+                "is {}, but must lie between {LEAST_EVIDENCE} and {MOST_POINTS}, or be 0 for a model without an error bound",
+                spec.evidence
+            ),
+        ));
+    }
+    plan(spec).map_err(|refused| refused.within("plan"))
+}
+
+fn plan(spec: &TrainingSpec) -> Result<(), Refused> {
+    match &spec.plan {
+        Plan::FarthestPoint { snapshots } => count("snapshots", *snapshots, 4, MOST_SNAPSHOTS),
+        Plan::Grid { .. } if !matches!(spec.range, Range::Box(_)) => {
+            Err(Refused::new("nodes", "make the grid of Table 3.2, which needs a range that is a box of SI quantities"))
+        }
+        Plan::Grid { nodes } => {
+            nodes.iter().try_for_each(|&n| count("nodes", n, 1, 100))?;
+            count("nodes (product)", nodes.iter().product(), 4, MOST_POINTS)
+        }
+        Plan::Adaptive { start, tolerances, successes, local_sigma, local_successes, vicinity, limit, .. } => {
+            search(*start, tolerances, *limit)?;
+            count("successes", *successes, 1, MOST_POINTS)?;
+            number("local_sigma", *local_sigma, 1e-6, 1.0)?;
+            count("local_successes", *local_successes, 0, MOST_POINTS)?;
+            count("vicinity", *vicinity, 0, 10_000)
+        }
+        Plan::WorstOfPool { start, pool, per_round, tolerance, limit, .. } => {
+            search(*start, &[*tolerance], *limit)?;
+            count("pool", *pool, 1, MOST_POINTS)?;
+            count("per_round", *per_round, 1, *pool)
+        }
+    }
+}
+
+/// What all plans share that search for bad approximations.
+fn search(start: usize, tolerances: &[f64], limit: usize) -> Result<(), Refused> {
+    count("start", start, 4, MOST_SNAPSHOTS)?;
+    count("limit", limit, start, MOST_SNAPSHOTS)?;
+    count("tolerances (how many)", tolerances.len(), 1, 32)?;
+    tolerances.iter().try_for_each(|&tolerance| number("tolerances", tolerance, 1e-12, 1e12))?;
+    match tolerances.windows(2).find(|pair| pair[0] <= pair[1]) {
+        Some(pair) => {
+            Err(Refused::new("tolerances", format!("must be descending, but {} follows {}", pair[1], pair[0])))
+        }
+        None => Ok(()),
+    }
+}
+
+/// A range with SRR and NPR belongs to a lubricant that thins under shear, and only such a range does; its α is the lubricant's own.
+fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
+    match (&spec.range, spec.lubricant.shear == ShearLaw::Newtonian) {
+        (Range::Sliding(_), true) => {
+            Err(Refused::new("range", "names SRR and NPR, but the lubricant has no shear constants"))
+        }
+        (Range::Sliding(SlidingRange { srr, alpha, .. }), false) => {
+            interval("range.srr", *srr, 0.0, 10.0)?;
+            match spec.lubricant.own_coefficient() {
+                Some(own) if (alpha / own - 1.0).abs() > 1e-3 => Err(Refused::new(
+                    "range.alpha",
+                    format!(
+                        "is {alpha:.4e} 1/Pa, but the lubricant's viscosity law determines {own:.4e} 1/Pa; write that"
+                    ),
+                )),
+                _ => Ok(()),
+            }
+        }
+        (_, false) => {
+            Err(Refused::new("range", "must name SRR and NPR for a lubricant that thins under shear: `Sliding(…)`"))
+        }
+        (_, true) => Ok(()),
+    }
+}
+
+fn windows(spec: &TrainingSpec) -> Result<(), Refused> {
+    match &spec.windows {
+        Windows::Given(windows) => given(spec, windows),
+        Windows::Automatic { modes } => count("windows.modes", *modes, 8, 1000),
+    }
+}
+
+fn given(spec: &TrainingSpec, windows: &[WindowSpec]) -> Result<(), Refused> {
+    let refuse = |problem: String| Err(Refused::new("windows", problem));
+    count("windows (how many)", windows.len(), 1, 64)?;
+    windows.iter().try_for_each(|window| interval("windows.m", window.m, 1e-3, 1e6))?;
+    if windows.iter().any(|w| w.grid.kind() != spec.contact()) {
+        return refuse("must be of one kind of contact: all grids Plane, or none".to_owned());
+    }
+    if windows.iter().any(|w| w.m.0 >= w.m.1) || windows.windows(2).any(|pair| pair[0].m.1 > pair[1].m.0) {
+        return refuse("must be non-empty intervals of M in ascending order".to_owned());
+    }
+    let (low, high) = spec.domain().m;
+    match windows.iter().find(|w| w.m.1 < low || w.m.0 > high) {
+        Some(WindowSpec { m: (from, to), .. }) => {
+            refuse(format!("contain M {from}…{to}, outside the range, whose M is {low:.4}…{high:.4}"))
+        }
+        None => Ok(()),
+    }
+}
