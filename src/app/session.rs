@@ -76,8 +76,8 @@ pub fn restore(explorer: &mut Explorer, storage: &dyn Storage, with_document: bo
     session.display.restore(explorer);
     let desk = &mut explorer.desk;
     desk.files.recent = session.recent;
-    if tabs::is_complete(&session.tree) {
-        explorer.tree = session.tree;
+    if let Some(tree) = tabs::completed(session.tree) {
+        explorer.tree = tree;
     }
     if with_document && let Ok(document) = Document::from_ron(&session.document) {
         desk.files.set_saved(Document::from_ron(&session.saved).unwrap_or_else(|_| document.clone()));
@@ -111,6 +111,21 @@ mod tests {
         }
 
         fn flush(&mut self) {}
+    }
+
+    #[test]
+    fn a_layout_from_before_a_tab_was_added_keeps_its_order_and_gets_the_tab() {
+        let old: Vec<Tab> = Tab::ALL.into_iter().filter(|tab| *tab != Tab::Results).rev().collect();
+        let tree = tabs::completed(Tree::new_tabs(egui::Id::unique("tabs"), old.clone())).unwrap();
+        let panes: Vec<Tab> = match tree.root().and_then(|root| tree.tiles.get(root)) {
+            Some(egui_tiles::Tile::Container(container)) => {
+                container.children().filter_map(|id| tree.tiles.get_pane(id).copied()).collect()
+            }
+            _ => Vec::new(),
+        };
+        assert_eq!(panes, [&old[..], &[Tab::Results]].concat());
+        assert!(tabs::completed(Tree::new_tabs(egui::Id::unique("tabs"), vec![Tab::Profiles; 2])).is_none());
+        assert!(tabs::completed(Tree::empty(egui::Id::unique("tabs"))).is_none());
     }
 
     #[test]

@@ -57,10 +57,23 @@ pub fn default_tree() -> Tree<Tab> {
     Tree::new_tabs(egui::Id::unique("tabs"), Tab::ALL.to_vec())
 }
 
-/// Whether a restored layout still has every tab exactly once.
-pub fn is_complete(tree: &Tree<Tab>) -> bool {
-    Tab::ALL.iter().all(|tab| tree.tiles.tiles().filter(|t| matches!(t, Tile::Pane(p) if p == tab)).count() == 1)
-        && tree.root().is_some()
+/// A layout that was restored, with the tabs that are new since it was kept; none where it is damaged.
+pub fn completed(mut tree: Tree<Tab>) -> Option<Tree<Tab>> {
+    let root = tree.root()?;
+    let count =
+        |tree: &Tree<Tab>, tab: Tab| tree.tiles.tiles().filter(|t| matches!(t, Tile::Pane(p) if *p == tab)).count();
+    for tab in Tab::ALL {
+        match count(&tree, tab) {
+            0 => {
+                let pane = tree.tiles.insert_pane(tab);
+                let Some(Tile::Container(container)) = tree.tiles.get_mut(root) else { return None };
+                container.add_child(pane);
+            }
+            1 => {}
+            _ => return None,
+        }
+    }
+    Some(tree)
 }
 
 /// Draws the tabs.

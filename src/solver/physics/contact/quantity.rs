@@ -56,7 +56,7 @@ impl Quantity {
             Self::Radius => "Radius R [m]",
             Self::Speed => "Entrainment speed u_m [m/s]",
             Self::Load => "Load w [N/m or N]",
-            Self::Modulus => "Reduced modulus E′ [Pa]",
+            Self::Modulus => "Reduced modulus E’ [Pa]",
             Self::Viscosity => "Viscosity η₀ [Pa s]",
             Self::Alpha => "Pressure–viscosity coefficient α [1/Pa]",
             Self::SlideToRollRatio => "Slide-to-roll ratio SRR",
