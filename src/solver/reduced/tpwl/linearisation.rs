@@ -12,25 +12,26 @@ use crate::solver::full::Problem;
 use crate::solver::full::transient::Input;
 use faer::{Mat, MatRef};
 
-/// Values and derivatives of g and f at (ỹ, u), tested with weighted rows of Vᵀ. The last equation is the load's, w̄
-/// π/2 − ∫P, which has no g.
-///
-/// In the dissertation's letters B = `storage_state`, C = `storage_input`, E = `flux_state`, F = `flux_input`; A and D
-/// follow from the values, see [`Linearisation::intercepts`].
+/// g and f at (ỹ, u), tested with weighted rows of Vᵀ, with their derivatives. The last equation is the load's, w̄ π/2 −
+/// ∫P, which has no g.
 #[derive(Clone, Debug)]
 pub struct Linearisation {
     /// g: ρ̄H.
-    pub storage: Vec<f64>,
+    pub storage: LinearFunction,
     /// f: diffusion, convection, penalty; load.
-    pub flux: Vec<f64>,
-    /// ∂g/∂ỹ, (4.22).
-    pub storage_state: Mat<f64>,
-    /// ∂f/∂ỹ, (4.25).
-    pub flux_state: Mat<f64>,
-    /// ∂g/∂u, one column per input, (4.23).
-    pub storage_input: Mat<f64>,
-    /// ∂f/∂u, (4.26).
-    pub flux_input: Mat<f64>,
+    pub flux: LinearFunction,
+}
+
+/// A system function with its derivatives. Those of g are the dissertation's B and C, those of f its E and F; A and D
+/// follow from the values, see [`Linearisation::intercepts`].
+#[derive(Clone, Debug)]
+pub struct LinearFunction {
+    /// Its value.
+    pub value: Vec<f64>,
+    /// Its derivative by ỹ, (4.22) and (4.25).
+    pub by_state: Mat<f64>,
+    /// Its derivative by u, one column per input, (4.23) and (4.26).
+    pub by_input: Mat<f64>,
 }
 
 /// g and f alone.
@@ -140,30 +141,24 @@ impl Linearisation {
         }
         flux[(modes, first_input + 2)] = problem.load;
         flux[(modes, value)] = fields.load_defect(space, problem);
-        let column = |of: &Mat<f64>| of.col(value).iter().copied().collect();
-        Self {
-            storage: column(&storage),
-            flux: column(&flux),
-            storage_state: storage.subcols(0, modes + 1).to_owned(),
-            flux_state: flux.subcols(0, modes + 1).to_owned(),
-            storage_input: storage.subcols(first_input, INPUTS).to_owned(),
-            flux_input: flux.subcols(first_input, INPUTS).to_owned(),
-        }
+        let function = |of: &Mat<f64>| LinearFunction {
+            value: of.col(value).iter().copied().collect(),
+            by_state: of.subcols(0, modes + 1).to_owned(),
+            by_input: of.subcols(first_input, INPUTS).to_owned(),
+        };
+        Self { storage: function(&storage), flux: function(&flux) }
     }
 
     /// What is subtracted from the values to give A and D, (4.21) and (4.24): B ỹ + C u and E ỹ + F u.
     pub fn intercepts(&self, state: &[f64], input: Input) -> SystemFunctions {
         let input = input_vector(input);
-        let product = |by_state: &Mat<f64>, by_input: &Mat<f64>| {
+        let product = |LinearFunction { by_state, by_input, .. }: &LinearFunction| {
             let row = |i: usize| -> f64 {
                 let own: f64 = state.iter().enumerate().map(|(j, y)| by_state[(i, j)] * y).sum();
                 own + input.iter().enumerate().map(|(j, u)| by_input[(i, j)] * u).sum::<f64>()
             };
             (0..by_state.nrows()).map(row).collect()
         };
-        SystemFunctions {
-            storage: product(&self.storage_state, &self.storage_input),
-            flux: product(&self.flux_state, &self.flux_input),
-        }
+        SystemFunctions { storage: product(&self.storage), flux: product(&self.flux) }
     }
 }

@@ -18,7 +18,7 @@ mod superposition;
 mod tests;
 mod weights;
 
-pub use linearisation::{Linearisation, SystemFunctions};
+pub use linearisation::{LinearFunction, Linearisation, SystemFunctions};
 pub use march::{TpwlMarch, solve};
 pub use model::{ParameterSet, TpwlError, TpwlModel, TpwlTraining, TrainedPoint};
 pub use record::{TpwlRecord, TpwlStep};

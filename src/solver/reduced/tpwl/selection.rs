@@ -193,13 +193,13 @@ fn step_error(system: &Linearisation, point: &TrainedMoment, moments: &[TrainedM
         (state, Col::from_fn(here.len(), |j| here[j] - there[j]))
     };
     let (exact, input) = deviation(now);
-    let mut rhs = ColRef::from_slice(&system.flux) + &system.flux_input * &input;
-    rhs -= &system.storage_input * &input * faer::Scale(quotient.now);
+    let mut rhs = ColRef::from_slice(&system.flux.value) + &system.flux.by_input * &input;
+    rhs -= &system.storage.by_input * &input * faer::Scale(quotient.now);
     for (weight, moment) in quotient.former.into_iter().zip([former, before]) {
         let (state, input) = deviation(moment);
-        rhs -= (&system.storage_state * &state + &system.storage_input * &input) * faer::Scale(weight);
+        rhs -= (&system.storage.by_state * &state + &system.storage.by_input * &input) * faer::Scale(weight);
     }
-    let matrix = &system.storage_state * faer::Scale(quotient.now) - &system.flux_state;
+    let matrix = &system.storage.by_state * faer::Scale(quotient.now) - &system.flux.by_state;
     let reached = matrix.partial_piv_lu().solve(&rhs);
     (&reached - &exact).norm_l2()
 }

@@ -1,5 +1,6 @@
 //! The superposition of linearised systems, (4.27), and the one linear system that a step solves.
 
+use super::linearisation::LinearFunction;
 use super::model::{TpwlModel, TrainedPoint};
 use super::space::INPUTS;
 use super::weights::{Weight, Weighting};
@@ -18,15 +19,8 @@ pub struct Superposition {
     pub state: Vec<f64>,
     /// ū.
     pub input: [f64; INPUTS],
-    storage: Functions,
-    flux: Functions,
-}
-
-/// One of the two system functions.
-struct Functions {
-    value: Vec<f64>,
-    by_state: Mat<f64>,
-    by_input: Mat<f64>,
+    storage: LinearFunction,
+    flux: LinearFunction,
 }
 
 /// A dense system with all work space of its factorisation.
@@ -45,8 +39,8 @@ fn add_product(a: MatRef<'_, f64>, x: &[f64], factor: f64, out: &mut [f64]) {
     matmul(out.as_mat_mut(), Accum::Add, a, x.as_mat(), factor, Par::Seq);
 }
 
-impl Functions {
-    fn new(len: usize) -> Self {
+impl LinearFunction {
+    fn zero(len: usize) -> Self {
         Self { value: vec![0.0; len], by_state: Mat::zeros(len, len), by_input: Mat::zeros(len, INPUTS) }
     }
 
@@ -54,13 +48,13 @@ impl Functions {
     /// points, ½ about points and barycentre by halves.
     fn superpose<'a>(&mut self, (state, input): (&[f64], &[f64]), theta: f64, parts: impl Iterator<Item = Part<'a>>) {
         self.value.fill(0.0);
-        for (k, part) in parts.enumerate() {
-            let Part { weight, by_state, by_input, .. } = part;
-            let terms = part.value.iter().zip(part.intercept).zip(part.slope);
+        for (k, Part { weight, function, intercept, slope, load_difference }) in parts.enumerate() {
+            let terms = function.value.iter().zip(intercept).zip(slope);
             for (out, ((value, intercept), slope)) in self.value.iter_mut().zip(terms) {
-                *out += weight * (value - theta * intercept + part.load_difference * slope);
+                *out += weight * (value - theta * intercept + load_difference * slope);
             }
-            for (sum, part) in [(&mut self.by_state, by_state), (&mut self.by_input, by_input)] {
+            let derivatives = [(&mut self.by_state, &function.by_state), (&mut self.by_input, &function.by_input)];
+            for (sum, part) in derivatives {
                 if k == 0 {
                     zip!(sum, part).for_each(|unzip!(sum, part)| *sum = weight * *part);
                 } else {
@@ -76,12 +70,10 @@ impl Functions {
 /// What one point adds to one system function.
 struct Part<'a> {
     weight: f64,
-    value: &'a [f64],
+    function: &'a LinearFunction,
     intercept: &'a [f64],
     slope: &'a [f64],
     load_difference: f64,
-    by_state: &'a Mat<f64>,
-    by_input: &'a Mat<f64>,
 }
 
 impl Superposition {
@@ -92,8 +84,8 @@ impl Superposition {
             weights: Vec::with_capacity(most),
             state: vec![0.0; len],
             input: [0.0; INPUTS],
-            storage: Functions::new(len),
-            flux: Functions::new(len),
+            storage: LinearFunction::zero(len),
+            flux: LinearFunction::zero(len),
         }
     }
 
@@ -112,34 +104,18 @@ impl Superposition {
             Weighting::DualTaylor => (0.5, 0.5),
             Weighting::Dissertation => (1.0, 0.0),
         };
-        let difference = |point: &TrainedPoint| slope * (load - model.sets[point.set].problem.point.load);
         let about = (state.as_slice(), input.as_slice());
-        storage.superpose(
-            about,
-            theta,
-            points().map(|(weight, point)| Part {
-                weight,
-                value: &point.system.storage,
-                intercept: &point.intercepts.storage,
-                slope: &point.load_slope.storage,
-                load_difference: difference(point),
-                by_state: &point.system.storage_state,
-                by_input: &point.system.storage_input,
-            }),
-        );
-        flux.superpose(
-            about,
-            theta,
-            points().map(|(weight, point)| Part {
-                weight,
-                value: &point.system.flux,
-                intercept: &point.intercepts.flux,
-                slope: &point.load_slope.flux,
-                load_difference: difference(point),
-                by_state: &point.system.flux_state,
-                by_input: &point.system.flux_input,
-            }),
-        );
+        type Own = for<'a> fn(&'a TrainedPoint) -> (&'a LinearFunction, &'a [f64], &'a [f64]);
+        let of_storage: Own = |p| (&p.system.storage, &p.intercepts.storage, &p.load_slope.storage);
+        let of_flux: Own = |p| (&p.system.flux, &p.intercepts.flux, &p.load_slope.flux);
+        for (sum, own) in [(storage, of_storage), (flux, of_flux)] {
+            let parts = points().map(|(weight, point)| {
+                let (function, intercept, slopes) = own(point);
+                let load_difference = slope * (load - model.sets[point.set].problem.point.load);
+                Part { weight, function, intercept, slope: slopes, load_difference }
+            });
+            sum.superpose(about, theta, parts);
+        }
     }
 
     /// Solves q g(y, u) + `history` = f(y, u) for y and gives g there; q = 0 asks for the stationary state. False where

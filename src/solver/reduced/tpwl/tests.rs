@@ -100,13 +100,13 @@ fn linearised_systems_agree_with_finite_differences() {
     for j in [0, 1, 7, 40, space.modes()] {
         let mode = |of: &faer::Mat<f64>, i: usize, h_0: f64| if j < space.modes() { of[(i, j)] } else { h_0 };
         let fields = (&|i: usize| mode(&space.pressure, i, 0.0), &|i: usize| mode(&space.deformation, i, 1.0));
-        let exact = (column(&exact.storage_state, j), column(&exact.flux_state, j));
+        let exact = (column(&exact.storage.by_state, j), column(&exact.flux.by_state, j));
         compare(&format!("state {j}"), exact, &|by| beside((fields.0, fields.1), base, by));
     }
     for (j, name) in ["curvature", "speed", "load"].into_iter().enumerate() {
         let still = |_: usize| 0.0;
         let shape = |i: usize| if j == 0 { 0.5 * space.grid.x[i] * space.grid.x[i] } else { 0.0 };
-        compare(name, (column(&exact.storage_input, j), column(&exact.flux_input, j)), &|by| {
+        compare(name, (column(&exact.storage.by_input, j), column(&exact.flux.by_input, j)), &|by| {
             let moved = match j {
                 0 => base,
                 1 => Input { speed: base.speed + by, ..base },
@@ -141,14 +141,15 @@ fn a_step_about_an_operating_point_is_the_reduced_newton_step() {
     let point = &model.points[number];
     let len = model.space.len();
     let quotient = BackwardDifference::second_order(0.005, 0.004);
-    let former: Vec<f64> = point.system.storage.iter().enumerate().map(|(i, g)| g + 1e-4 * (i as f64).sin()).collect();
+    let former: Vec<f64> =
+        point.system.storage.value.iter().enumerate().map(|(i, g)| g + 1e-4 * (i as f64).sin()).collect();
     let input = Input { load: point.moment.input.load + 0.01, ..point.moment.input };
     // Newton from the point under the new input, but linearised in it too.
-    let Linearisation { storage, flux, storage_state, flux_state, storage_input, flux_input } = &point.system;
+    let Linearisation { storage: g, flux: f } = &point.system;
     let change = faer::Col::from_fn(INPUTS, |k| input_vector(input)[k] - point.input[k]);
-    let matrix = storage_state * faer::Scale(quotient.now) - flux_state;
-    let by_input = flux_input * &change - storage_input * &change * faer::Scale(quotient.now);
-    let rhs = faer::Col::from_fn(len, |i| flux[i] - quotient.of([storage[i], former[i], former[i]]) + by_input[i]);
+    let matrix = &g.by_state * faer::Scale(quotient.now) - &f.by_state;
+    let by_input = &f.by_input * &change - &g.by_input * &change * faer::Scale(quotient.now);
+    let rhs = faer::Col::from_fn(len, |i| f.value[i] - quotient.of([g.value[i], former[i], former[i]]) + by_input[i]);
     let newton = matrix.partial_piv_lu().solve(&rhs);
     for weighting in [Weighting::DualTaylor, Weighting::Dissertation] {
         let mut superposition = Superposition::new(weighting, len, 1);
