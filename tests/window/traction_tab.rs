@@ -295,6 +295,7 @@ fn contacts_that_a_sketch_cannot_give_are_left_out_with_the_reason() {
 #[test]
 fn shear_across_the_film_is_shown_on_request() {
     let mut harness = squalane();
+    click(&mut harness, "Profiles");
     assert!(harness.query_by_label("Shear across the film").is_none());
     choose(&mut harness, "Across the film", "shear stress");
     assert!(harness.query_by_label("Shear across the film").is_some());

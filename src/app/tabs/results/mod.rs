@@ -119,8 +119,9 @@ impl ResultsView {
         if beside {
             ui.horizontal_top(|ui| {
                 let width = ui.available_width() - VERDICTS - 12.0;
-                ui.allocate_ui(egui::vec2(width, whole.y), |ui| {
-                    ui.set_width(width);
+                ui.vertical(|ui| {
+                    ui.set_min_height(whole.y);
+                    ui.set_max_width(width);
                     shown_ui(ui, look, &self.shown, fresh);
                 });
                 ui.separator();
