@@ -36,7 +36,7 @@ impl Look {
             let stride = series.points.len().div_ceil(DRAWN).max(1);
             if stride > 1 {
                 series.points = series.points.iter().copied().step_by(stride).collect();
-                series.name = format!("{}, every {stride}th", series.name);
+                series.name = format!("{}, one in {stride}", series.name);
             }
         }
         let outcome = scene.outcome(rows, begun.elapsed().as_secs_f64());
