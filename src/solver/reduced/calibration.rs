@@ -1,14 +1,15 @@
 //! How far a reduced solution is off, in the units people care about: a calibrated bound without large-scale work.
 //!
-//! The residual alone does not say it (`training/indicator.rs` has the correlations). What is cheap to know about a reduced solution (where it
-//! lies, e_f^I, how much it leans on the basis's last modes) is therefore related to errors that were measured at random points when the
-//! training ended: a quadratic law in the logarithms, then the root mean square of the errors around in units of the law, then the quantile
-//! of the errors in units of both. That quantile is taken leaving one out (split-free conformal prediction), so that it holds for fresh
-//! points drawn like the evidence, whatever the law misses.
+//! The residual alone does not say it (`training/indicator.rs` has the correlations). What is cheap to know about a
+//! reduced solution (where it lies, e_f^I, how much it leans on the basis's last modes) is therefore related to errors
+//! that were measured at random points when the training ended: a quadratic law in the logarithms, then the root mean
+//! square of the errors around in units of the law, then the quantile of the errors in units of both. That quantile is
+//! taken leaving one out (split-free conformal prediction), so that it holds for fresh points drawn like the evidence,
+//! whatever the law misses.
 //!
-//! What the quantile counts in decides how loose a bound is. Of errors that are normally distributed, with a size known everywhere, no bound
-//! that holds for 99.6 % is less than 4.3 times the true error in the median; counted in the local root mean square, which follows how large errors
-//! are around a place, it comes near that. Predicting the sign of the error on top would gain nothing.
+//! What the quantile counts in decides how loose a bound is. Of errors that are normally distributed, with a size known
+//! everywhere, no bound that holds for 99.6 % is less than 4.3 times the true error in the median; counted in the local
+//! root mean square, which follows how large errors are around a place, it comes near that.
 
 mod features;
 mod neighbours;
@@ -48,7 +49,8 @@ pub struct ErrorEstimate {
     pub h_min: Estimated,
     /// Of the state, e_z of (3.10).
     pub state: Estimated,
-    /// Of the traction coefficient (3.41), of a model that knows sliding and where an isothermal traction has a meaning.
+    /// Of the traction coefficient (3.41), of a model that knows sliding and where an isothermal traction has a
+    /// meaning.
     pub traction: Option<Estimated>,
 }
 
@@ -135,7 +137,8 @@ impl Calibration {
             && self.quantities.iter().all(|quantity| quantity.sound(terms, evidence))
     }
 
-    /// Features in −1…1 (clamped to the evidence), and by how much ln e_f^I and the last modes exceed it: errors are taken to grow with them.
+    /// Features in −1…1 (clamped to the evidence), and by how much ln e_f^I and the last modes exceed it: errors are
+    /// taken to grow with them.
     fn scaled(&self, features: &Features) -> (Vec<f64>, f64) {
         let mut beyond = 0.0;
         let scale = |(k, (&(low, high), &value)): (usize, (&(f64, f64), &f64))| {

@@ -4,7 +4,7 @@
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatRef, Par, Spec};
+use faer::{Accum, Mat, MatMut, MatRef, Par, Spec};
 
 /// A B.
 pub(crate) fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
@@ -30,6 +30,42 @@ pub(crate) fn solved(a: MatRef<'_, f64>, mut b: Mat<f64>) -> Mat<f64> {
     let (_, order) = factor::lu_in_place(lu.as_mut(), &mut forward, &mut backward, Par::Seq, stack, Spec::default());
     solve::solve_in_place(lu.as_ref(), lu.as_ref(), order, b.as_mut(), Par::Seq, stack);
     b
+}
+
+/// A small square system with one right-hand side and all work space: solving it allocates nothing.
+pub(crate) struct SmallSystem {
+    /// The matrix; its factors once it is solved.
+    pub matrix: Mat<f64>,
+    /// Right-hand side, then solution; not finite where the matrix is singular.
+    pub rhs: Vec<f64>,
+    perm: Vec<usize>,
+    perm_inverse: Vec<usize>,
+    memory: MemBuffer,
+}
+
+impl SmallSystem {
+    /// Work space for `len` equations.
+    pub fn new(len: usize) -> Self {
+        let memory = factor::lu_in_place_scratch::<usize, f64>(len, len, Par::Seq, Spec::default())
+            .or(solve::solve_in_place_scratch::<usize, f64>(len, 1, Par::Seq));
+        Self {
+            matrix: Mat::zeros(len, len),
+            rhs: vec![0.0; len],
+            perm: vec![0; len],
+            perm_inverse: vec![0; len],
+            memory: MemBuffer::new(memory),
+        }
+    }
+
+    /// Solves it, by an LU factorisation with partial pivoting.
+    pub fn solve(&mut self) {
+        let stack = MemStack::new(&mut self.memory);
+        let (matrix, perms) = (self.matrix.as_mut(), (&mut self.perm, &mut self.perm_inverse));
+        let (_, perm) = factor::lu_in_place(matrix, perms.0, perms.1, Par::Seq, stack, Spec::default());
+        let lu = self.matrix.as_ref();
+        let rhs = MatMut::from_column_major_slice_mut(&mut self.rhs, lu.nrows(), 1);
+        solve::solve_in_place(lu, lu, perm, rhs, Par::Seq, stack);
+    }
 }
 
 #[cfg(test)]

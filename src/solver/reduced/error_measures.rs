@@ -1,11 +1,13 @@
 //! Error measures of section 3.1.2: e_z against a full solution (3.10), the residuals e_f (3.14) and e_f^I (3.15).
 //!
-//! The state is the dissertation's, z = (P, δ, H₀). P and δ are node arrays, δ the elastic deformation H − H₀ − (X² + Y²)/2; f_δ = δ − K P is
-//! taken in the reference coordinate, in which the reduced model lives. Which norm ‖·‖ is meant is a choice of [`Norm`]. A model
-//! whose deformation is the exact K V_p has f_δ = 0 and no δ̃; with V_δ the Galerkin rows give δ̃ = V_δᵀ W K V_p p̃.
+//! The state is the dissertation's, z = (P, δ, H₀). P and δ are node arrays, δ the elastic deformation H − H₀ − (X² +
+//! Y²)/2; f_δ = δ − K P is taken in the reference coordinate, in which the reduced model lives. Which norm ‖·‖ is meant
+//! is a choice of [`Norm`]. A model whose deformation is the exact K V_p has f_δ = 0 and no δ̃; with V_δ the Galerkin
+//! rows give δ̃ = V_δᵀ W K V_p p̃.
 //!
-//! ‖f_δ‖² = z̃ᵀ E_δ z̃ costs no large-scale work, but is a difference of large numbers: below about 1e-7 ‖K V_p p̃‖ it is rounding, and
-//! where that makes it negative it counts as zero. What the norm is computed from then is far below the other parts of the residual.
+//! ‖f_δ‖² = z̃ᵀ E_δ z̃ costs no large-scale work, but is a difference of large numbers: below about 1e-7 ‖K V_p p̃‖ it
+//! is rounding, and where that makes it negative it counts as zero. What the norm is computed from then is far below
+//! the other parts of the residual.
 
 use super::dense::{product, quadratic_form};
 use super::model::{Window, deformation_weights};
@@ -22,7 +24,8 @@ use serde::{Deserialize, Serialize};
 pub enum Norm {
     /// All nodes count alike: the dissertation's ‖·‖₂, which grows with the number of nodes.
     Euclidean,
-    /// Nodes count by their cell sizes, so that grids can be compared: the L2 norm over X (and Y). The online residual is measured in it.
+    /// Nodes count by their cell sizes, so that grids can be compared: the L2 norm over X (and Y). The online residual
+    /// is measured in it.
     #[default]
     Quadrature,
 }
@@ -62,8 +65,8 @@ impl ErrorMeasures {
         let cells = deformation_weights(&window.grid);
         let weighted = Mat::from_fn(basis.nrows(), kept, |i, j| cells[i] * basis[(i, j)]);
         let projection = product(weighted.transpose(), flexed);
-        // f_δ = [−K V_p, V_δ] (p̃, δ̃), (3.12); E_δ is its Gram matrix, so both off-diagonal blocks carry the minus sign that
-        // the lower left one of (3.13) lacks in print. Its zero row and column of H₀ are left out.
+        // f_δ = [−K V_p, V_δ] (p̃, δ̃), (3.12); E_δ is its Gram matrix, so both off-diagonal blocks carry the minus
+        // sign that the lower left one of (3.13) lacks in print. Its zero row and column of H₀ are left out.
         let size = modes + if kept > 0 { kept } else { 0 };
         let weight = |i: usize| match norm {
             Norm::Euclidean => 1.0,

@@ -1,4 +1,5 @@
-//! The parts of an error: they add up, the best approximation is the best, and the discretisation part is what much finer grids say.
+//! The parts of an error: they add up, the best approximation is the best, and the discretisation part is what much
+//! finer grids say.
 
 use super::{ErrorSplitter, Online, ReducedModel, ReducedOptions, Sampling, SplitError};
 use crate::solver::discrete::grid::{PointGridSpec, ReferenceGrid};

@@ -71,7 +71,8 @@ pub struct Window {
     pub m: (f64, f64),
     /// The grid of its solutions.
     pub grid: ContactGrid,
-    /// Penalty factor γ̄ of (2.36) in the reduced equations. Sampled rows of a point contact want it softer than the full system.
+    /// Penalty factor γ̄ of (2.36) in the reduced equations. Sampled rows of a point contact want it softer than the
+    /// full system.
     pub penalty: f64,
     /// Pressure basis.
     pub pressure: PodBasis,
@@ -118,7 +119,8 @@ pub fn separation(a: &OperatingPoint, b: &OperatingPoint) -> f64 {
     distance(a.moes(), b.moes()) + a.sliding.distance(b.sliding)
 }
 
-/// Weights under which deformations are decomposed: the cell sizes, with the neighbour's at the nodes that carry no pressure.
+/// Weights under which deformations are decomposed: the cell sizes, with the neighbour's at the nodes that carry no
+/// pressure.
 pub fn deformation_weights(grid: &ContactGrid) -> Vec<f64> {
     let weights = grid.weights();
     let n = weights.len();
@@ -132,7 +134,8 @@ pub fn deformation_weights(grid: &ContactGrid) -> Vec<f64> {
 }
 
 impl Window {
-    /// Assembles a window from its bases, with the penalty of the full system; K V_p is computed here, so that it need not be stored.
+    /// Assembles a window from its bases, with the penalty of the full system; K V_p is computed here, so that it need
+    /// not be stored.
     pub fn new(
         m: (f64, f64),
         grid: ContactGrid,
@@ -218,8 +221,8 @@ impl Domain {
         [m, l, alpha, p_h].iter().find_map(Bounded::outside).map_or(Trust::Trained, Trust::Outside)
     }
 
-    /// A sentence where M, L or p_H lie outside, with any fluid: pressures and films of such shapes were never trained. Of another fluid inside,
-    /// the bases still know the shapes, and the reduced equations are its own.
+    /// A sentence where M, L or p_H lie outside, with any fluid: pressures and films of such shapes were never trained.
+    /// Of another fluid inside, the bases still know the shapes, and the reduced equations are its own.
     pub fn strange_shape(&self, problem: &Problem) -> Option<String> {
         self.shapes(problem).iter().find_map(Bounded::outside)
     }

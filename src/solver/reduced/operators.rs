@@ -4,16 +4,14 @@ mod newton;
 
 pub(crate) use newton::{Case, Iterate, OnlineOutcome, RowObserver, Stop};
 
-use super::dense;
+use super::dense::{self, SmallSystem};
 use super::model::{Window, deformation_weights};
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::generalized::NodeState;
 use crate::solver::discrete::reynolds::{CENTER, RowGeometry, STENCIL};
 use crate::solver::full::{Problem, mid_film_stress};
 use crate::solver::physics::contact::ContactKind;
-use faer::dyn_stack::MemBuffer;
-use faer::linalg::lu::partial_pivoting::{factor, solve};
-use faer::{Mat, MatRef, Par};
+use faer::{Mat, MatRef};
 
 /// What Newton's iteration needs of a window, and its work space.
 pub(crate) struct Operators {
@@ -62,12 +60,10 @@ struct Scratch {
     values: Vec<f64>,
     jacobian_rows: Vec<f64>,
     film_column: Vec<f64>,
-    reduced: Mat<f64>,
+    /// The reduced Jacobian, load row included, and the step.
+    system: SmallSystem,
+    /// What observers see of the former before it is factorised.
     jacobian: Mat<f64>,
-    rhs: Vec<f64>,
-    perm: Vec<usize>,
-    perm_inverse: Vec<usize>,
-    memory: MemBuffer,
     product: Vec<f64>,
 }
 
@@ -144,8 +140,6 @@ impl Operators {
         };
         let (n, s) = (rows.len(), support.len());
         let size = modes + 1;
-        let memory = factor::lu_in_place_scratch::<usize, f64>(size, size, Par::Seq, faer::Spec::default())
-            .or(solve::solve_in_place_scratch::<usize, f64>(size, 1, Par::Seq));
         Self {
             modes,
             stencil,
@@ -166,12 +160,8 @@ impl Operators {
                 values: vec![0.0; n],
                 jacobian_rows: vec![0.0; n * modes],
                 film_column: vec![0.0; n],
-                reduced: Mat::zeros(size, size),
+                system: SmallSystem::new(size),
                 jacobian: Mat::zeros(size, size),
-                rhs: vec![0.0; size],
-                perm: vec![0; size],
-                perm_inverse: vec![0; size],
-                memory: MemBuffer::new(memory),
                 product: vec![0.0; n],
             },
             support: support.iter().map(place).collect(),

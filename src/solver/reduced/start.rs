@@ -1,8 +1,6 @@
 //! Where the online Newton iteration starts: an interpolation between the training solutions around the point, and the
 //! nearest of them.
-//!
-//! Nearest snapshots alone (the dissertation's choice) needed 10 iterations at the 90th and 34 at the 99th percentile
-//! of the embedded model's range; with the interpolation it is 6 and 9, because film and spike are carried along.
+//! The interpolation carries film and spike along; the nearest snapshot alone is the dissertation's choice.
 
 use super::dense;
 use super::model::{Snapshot, Window, separation};
@@ -135,8 +133,7 @@ pub(super) fn unchanged(window: &Window, point: &OperatingPoint) -> Option<Guess
 }
 
 /// Interpolation between the nearest training solutions: weights that reproduce functions linear in (ln M, L, ln α),
-/// and of shear-thinning contacts in |SRR| and NPR, and strongly prefer near ones (6 neighbours and 1/d² beat 10 and
-/// 16, and 1/d).
+/// and of shear-thinning contacts in |SRR| and NPR, and strongly prefer near ones.
 pub(super) fn interpolated(window: &Window, point: &OperatingPoint, thinning: bool) -> Option<Guess> {
     let (neighbours, count) = (NEIGHBOURS[usize::from(thinning)], FEATURES[usize::from(thinning)]);
     let moes = point.moes();

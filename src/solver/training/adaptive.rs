@@ -1,16 +1,17 @@
 //! The automatic algorithm of section 3.1.3 (Fig. 3.2), and a greedy beside it.
 //!
-//! Both begin with solutions pre-computed by (3.16). [`Plan::Adaptive`] then looks for bad approximations over the whole range by
-//! (3.17); at the first one it looks around for a worse one, adds its full solution, retrains, and searches its neighbourhood
-//! by (3.18) before it goes on globally. Enough good approximations in a row end a rung of the ladder of tolerances.
-//! [`Plan::WorstOfPool`] judges a whole pool per round and adds the worst. A failed reduced solve counts as worst.
+//! Both begin with solutions pre-computed by (3.16). [`Plan::Adaptive`] then looks for bad approximations over the
+//! whole range by (3.17); at the first one it looks around for a worse one, adds its full solution, retrains, and
+//! searches its neighbourhood by (3.18) before it goes on globally. Enough good approximations in a row end a rung of
+//! the ladder of tolerances. [`Plan::WorstOfPool`] judges a whole pool per round and adds the worst. A failed reduced
+//! solve counts as worst.
 //!
-//! A search by the correction of few Newton steps needs about 80 full solutions of Table 3.1's box, one by the residual about 90; each judged point
-//! costs three full Newton steps beside the 15 of a cold full solution. Few good approximations in a row leave the largest error to chance:
-//! with 100 of them one seed in three gave contacts that failed, the scenes ask for 300. The greedy judges twice as many points for the same
-//! errors, and retrains less often.
+//! Each point judged by the correction costs three full Newton steps beside the 15 of a cold full solution. Few good
+//! approximations in a row leave the largest error to chance: scenes ask for 300. The greedy judges twice as many points
+//! for the same errors, and retrains less often.
 //!
-//! Points are drawn in order and judged in parallel, so that the result follows the seed whatever the number of threads.
+//! Points are drawn in order and judged in parallel, so that the result follows the seed whatever the number of
+//! threads.
 
 use super::build::WindowTraining;
 use super::indicator::{Indicator, Judges};
@@ -94,8 +95,9 @@ impl Search {
     }
 }
 
-/// Searches window `k` to the end; returns its last model, or `None` once it needs more modes than it may have. A cubature takes longer
-/// than a round of the search: there it is the model with all rows that is judged, and rows are sampled once at the end.
+/// Searches window `k` to the end; returns its last model, or `None` once it needs more modes than it may have. A
+/// cubature takes longer than a round of the search: there it is the model with all rows that is judged, and rows are
+/// sampled once at the end.
 pub(super) fn search(
     work: &mut WindowTraining<'_>,
     state: &mut TrainingState,
@@ -138,7 +140,8 @@ fn judge(judges: &mut Judges<'_>, drawn: &[Drawn], own: &WindowState) -> Result<
     Ok(errors)
 }
 
-/// The dissertation's search: goes on until a bad approximation is found, and returns the worst in its vicinity; or ends.
+/// The dissertation's search: goes on until a bad approximation is found, and returns the worst in its vicinity; or
+/// ends.
 fn find_bad(
     work: &WindowTraining<'_>,
     plan: &Plan,

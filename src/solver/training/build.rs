@@ -27,58 +27,33 @@ pub fn train(spec: &TrainingSpec, observer: &dyn TrainingObserver) -> Result<Red
 
 /// What the model declares to be trained for.
 pub(super) fn domain(spec: &TrainingSpec) -> Domain {
-    match spec.range {
-        Range::Moes { m, l, alpha, max_hertz_pressure, viscosity } => Domain {
-            m,
-            l,
-            alpha_per_pa: alpha,
-            max_hertz_pressure_pa: max_hertz_pressure,
-            viscosity_pa_s: viscosity,
-            lubricant: spec.lubricant,
-            sliding: None,
-        },
+    let (m, l, alpha_per_pa, max_hertz_pressure_pa, viscosity_pa_s) = match spec.range {
+        Range::Moes { m, l, alpha, max_hertz_pressure, viscosity } => (m, l, alpha, max_hertz_pressure, viscosity),
         Range::Sliding(range) => {
-            let SlidingRange { m, l, srr, npr, modulus, viscosity, alpha, .. } = range;
             // The lubricant's own coefficient counts, and L goes with it.
+            let SlidingRange { m, l, viscosity, alpha, .. } = range;
             let own = spec.lubricant.own_coefficient().unwrap_or(alpha);
-            Domain {
-                m,
-                l: (l.0 * own / alpha, l.1 * own / alpha),
-                alpha_per_pa: (own, own),
-                max_hertz_pressure_pa: range.highest_pressure(spec.contact()),
-                viscosity_pa_s: viscosity,
-                lubricant: spec.lubricant,
-                sliding: Some(SlidingDomain { srr, npr, modulus_pa: modulus }),
-            }
+            let l = (l.0 * own / alpha, l.1 * own / alpha);
+            (m, l, (own, own), range.highest_pressure(spec.contact()), viscosity)
         }
         Range::Realisation { m, l, max_hertz_pressure } => {
             let end = |l| MoesRequest::new(spec.contact(), m.0, l).default_alpha();
-            Domain {
-                m,
-                l,
-                alpha_per_pa: (end(l.0), end(l.1)),
-                max_hertz_pressure_pa: max_hertz_pressure,
-                viscosity_pa_s: DEFAULT_VISCOSITY_PA_S,
-                lubricant: spec.lubricant,
-                sliding: None,
-            }
+            (m, l, (end(l.0), end(l.1)), max_hertz_pressure, DEFAULT_VISCOSITY_PA_S)
         }
         Range::Box(QuantityBox { alpha, viscosity, .. }) => {
             let corners = grid_points(&spec.range, spec.contact(), [2, 2, 2, 2]);
             let span = |value: &dyn Fn(&OperatingPoint) -> f64| {
                 corners.iter().map(value).fold((f64::INFINITY, 0.0f64), |(a, b), v| (a.min(v), b.max(v)))
             };
-            Domain {
-                m: span(&|p| p.moes().m),
-                l: span(&|p| p.moes().l),
-                alpha_per_pa: alpha,
-                max_hertz_pressure_pa: span(&|p| p.hertz().pressure_pa).1,
-                viscosity_pa_s: viscosity,
-                lubricant: spec.lubricant,
-                sliding: None,
-            }
+            let highest = span(&|p| p.hertz().pressure_pa).1;
+            (span(&|p| p.moes().m), span(&|p| p.moes().l), alpha, highest, viscosity)
         }
-    }
+    };
+    let sliding = match spec.range {
+        Range::Sliding(SlidingRange { srr, npr, modulus, .. }) => Some(SlidingDomain { srr, npr, modulus_pa: modulus }),
+        _ => None,
+    };
+    Domain { m, l, alpha_per_pa, max_hertz_pressure_pa, viscosity_pa_s, lubricant: spec.lubricant, sliding }
 }
 
 /// A window in training: everything it is made with.
@@ -191,9 +166,10 @@ impl<'a> WindowTraining<'a> {
         observer.progress(Progress { stage: format!("Bases, M {}…{}", window.m.0, window.m.1), done: 0, total: 1 });
         let (from, to) = window.m;
         let failed = || TrainingError::Decomposition { from, to };
-        let (wanted, grid, solutions) = (Modes::of(spec), grid.clone(), solutions.to_vec());
+        let (losses, positive) = ([spec.pressure_loss, spec.deformation_loss], spec.positive_modes);
+        let (grid, solutions) = (grid.clone(), solutions.to_vec());
         let mut model = on_one_thread(*observer, move || {
-            let (pressure, deformation, snapshots) = bases(wanted, &grid, &solutions)?;
+            let (pressure, deformation, snapshots) = bases(losses, positive, &grid, &solutions)?;
             let rows = all_rows(&TestSpace::new(&pressure, &grid));
             Some(Window::new((from, to), grid, pressure, deformation, snapshots, Sampling::All, rows))
         })?
@@ -217,34 +193,21 @@ impl<'a> WindowTraining<'a> {
     }
 }
 
-/// Losses of information that the modes may neglect, and whether they are made of max(P, 0).
-#[derive(Clone, Copy)]
-struct Modes {
-    pressure_loss: f64,
-    deformation_loss: f64,
+/// POD of pressures, of max(P, 0) where modes are to be `positive`, and of deformations, each up to a loss of
+/// information, and the snapshots in the pressure basis.
+fn bases(
+    [pressure_loss, deformation_loss]: [f64; 2],
     positive: bool,
-}
-
-impl Modes {
-    fn of(spec: &TrainingSpec) -> Self {
-        Self {
-            pressure_loss: spec.pressure_loss,
-            deformation_loss: spec.deformation_loss,
-            positive: spec.positive_modes,
-        }
-    }
-}
-
-/// POD of pressures and deformations, and the snapshots in the pressure basis.
-fn bases(wanted: Modes, grid: &ContactGrid, solutions: &[Solved]) -> Option<(PodBasis, PodBasis, Vec<Snapshot>)> {
+    grid: &ContactGrid,
+    solutions: &[Solved],
+) -> Option<(PodBasis, PodBasis, Vec<Snapshot>)> {
     let (nodes, weights) = (grid.len(), grid.weights());
     let pressures = Mat::from_fn(nodes, solutions.len(), |i, j| {
         let pressure = solutions[j].pressure[i];
-        if wanted.positive { pressure.max(0.0) } else { pressure }
+        if positive { pressure.max(0.0) } else { pressure }
     });
-    let pressure = PodBasis::new(pressures.as_ref(), weights, wanted.pressure_loss)?;
-    let deformation =
-        PodBasis::new(grid.flex(&pressures).as_ref(), &deformation_weights(grid), wanted.deformation_loss)?;
+    let pressure = PodBasis::new(pressures.as_ref(), weights, pressure_loss)?;
+    let deformation = PodBasis::new(grid.flex(&pressures).as_ref(), &deformation_weights(grid), deformation_loss)?;
     let snapshots = solutions
         .iter()
         .zip(pressures.col_iter())

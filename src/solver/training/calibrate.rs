@@ -1,21 +1,21 @@
 //! What a finished window finds out about its own errors.
 //!
-//! At random points (3.17) of the window's own range the reduced solution is carried on by three full Newton steps, under shear-thinning until
-//! they converge; what they change is its error. That is evidence for [`Calibration`], and nothing else: no basis sees these points.
+//! At random points (3.17) of the window's own range the reduced solution is carried on by three full Newton steps,
+//! under shear-thinning until they converge; what they change is its error. That is evidence for [`Calibration`], and
+//! nothing else: no basis sees these points.
 
 use super::indicator::Corrector;
-use super::one_thread::on_one_thread;
-use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
+use super::one_thread::{in_parallel, on_one_thread};
+use super::{TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::reduced::{Calibration, Evidence, Features, Online, ReducedModel, ReducedOptions, Window};
 use fastrand::Rng;
-use rayon::prelude::*;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Measured points of a window unless a specification says otherwise.
 pub const EVIDENCE: usize = 1000;
 
-/// Measures window `k`, `model` being the model of it alone. Points where the reduced model fails are no evidence: there nothing is shown.
+/// Measures window `k`, `model` being the model of it alone. Points where the reduced model fails are no evidence:
+/// there nothing is shown.
 ///
 /// # Errors
 /// When the observer cancels.
@@ -31,28 +31,13 @@ pub(super) fn calibrate(
     let points = spec.within(served(k, last, window)).random_points(spec.evidence, &mut Rng::with_seed(seed));
     let sliding = model.domain.sliding.is_some();
     let stage = format!("Measuring errors, M {}…{}", window.m.0, window.m.1);
-    let done = AtomicUsize::new(0);
-    let measured: Vec<Option<Evidence>> = points
-        .par_iter()
-        .map_init(
-            || (Online::new(Arc::clone(model), ReducedOptions::default()), Corrector::of(window)),
-            |(online, corrector), point| {
-                if observer.cancelled() {
-                    return Err(TrainingError::Cancelled);
-                }
-                online.forget();
-                let evidence = online.solve(point, spec.lubricant).ok().and_then(|solved| {
-                    let errors = corrector.errors(online, &solved)?;
-                    Some(Evidence { features: Features::of(&solved, sliding), errors })
-                });
-                let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-                if done.is_multiple_of(16) {
-                    observer.progress(Progress { stage: stage.clone(), done, total: points.len() });
-                }
-                Ok(evidence)
-            },
-        )
-        .collect::<Result<_, _>>()?;
+    let solvers = || (Online::new(Arc::clone(model), ReducedOptions::default()), Corrector::of(window));
+    let measured = in_parallel(observer, &stage, &points, solvers, |(online, corrector), _, point| {
+        online.forget();
+        let solved = online.solve(point, spec.lubricant).ok()?;
+        let errors = corrector.errors(online, &solved)?;
+        Some(Evidence { features: Features::of(&solved, sliding), errors })
+    })?;
     let evidence: Vec<Evidence> = measured.into_iter().flatten().collect();
     on_one_thread(observer, move || Calibration::fit(&evidence))
 }

@@ -70,7 +70,8 @@ fn search(start: usize, tolerances: &[f64], limit: usize) -> Result<(), Refused>
     }
 }
 
-/// A range with SRR and NPR belongs to a lubricant that thins under shear, and only such a range does; its α is the lubricant's own.
+/// A range with SRR and NPR belongs to a lubricant that thins under shear, and only such a range does; its α is the
+/// lubricant's own.
 fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
     match (&spec.range, spec.lubricant.shear == ShearLaw::Newtonian) {
         (Range::Sliding(_), true) => {

@@ -1,12 +1,12 @@
 //! How different two solutions are, told from their parameters alone (3.1.1).
 //!
-//! s = ωᵀ g_s, (3.3), with candidate functions that vanish for equal contacts, (3.4), (3.5). The weights maximise the correlation (3.8)
-//! with the distances (3.6) of known solutions under ω ≥ 0, (3.9). With a = ⟨D₂, G_k⟩ and Q = ⟨G_j, G_k⟩ that is the non-negative least-squares
-//! problem min ½ωᵀQω − aᵀω, since the correlation does not feel the length of ω.
+//! s = ωᵀ g_s, (3.3), with candidate functions that vanish for equal contacts, (3.4), (3.5). The weights maximise the
+//! correlation (3.8) with the distances (3.6) of known solutions under ω ≥ 0, (3.9). With a = ⟨D₂, G_k⟩ and Q = ⟨G_j,
+//! G_k⟩ that is the non-negative least-squares problem min ½ωᵀQω − aᵀω, since the correlation does not feel the length
+//! of ω.
 //!
-//! Full solutions of Table 3.1's box give the form of (3.20) weights 1 : 0.001 on the registered graded grid, as printed, and 1 : 0.0016 on the
-//! dissertation's uniform one (`scenes/reduced/distance_measure_*.ron`). Distances (3.6) are not squared: |ΔM|/√(M₁² + M₂²), the root of its first
-//! term, fits them better than (3.20)'s square.
+//! Distances (3.6) are not squared: |ΔM|/√(M₁² + M₂²), the root of (3.20)'s first term, fits them better than its square
+//! (`scenes/reduced/distance_measure_*.ron`).
 
 use crate::solver::physics::contact::OperatingPoint;
 

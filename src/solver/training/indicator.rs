@@ -1,10 +1,10 @@
 //! How good a reduced solution is, judged without the full one (3.1.2).
 //!
-//! The residual ranks pressures, not films. The change under Newton steps of the full system ranks films: Spearman's correlation with the true
-//! error of H_c is 0.97, where the residual's lies between 0.25 and 0.76. The steps are undamped: damping by the residual hides the error, since
-//! the penalty makes it jump beside a solution though the step is good. Three of them find H_min well enough for a calibrated bound. Under
-//! shear-thinning no number of steps is enough everywhere: there the full system is solved until it converges. It is large-scale work, though
-//! no cold full solution.
+//! The residual ranks pressures, not films. The change under Newton steps of the full system ranks films: Spearman's
+//! correlation with the true error of H_c is 0.97, that of the residual at most 0.76. The steps are undamped: damping by
+//! the residual hides the error, since the penalty makes it jump beside a solution though the step is good. Three of them find H_min well enough for a calibrated bound. Under shear-thinning no number of steps is
+//! enough everywhere: there the full system is solved until it converges. It is large-scale work, though no cold full
+//! solution.
 
 use super::build::alone;
 use super::{TrainingError, TrainingObserver, TrainingSpec};
@@ -26,11 +26,12 @@ pub enum Indicator {
     /// e_f^I of (3.15), the dissertation's: no large-scale work at all.
     #[default]
     Residual,
-    /// e_f^I of (3.15) as the dissertation has it: in the Euclidean norm, of its own online scheme (δ̃ in the state, the nearest snapshot
-    /// as the only start). Its tolerances 100 … 0.1 mean this.
+    /// e_f^I of (3.15) as the dissertation has it: in the Euclidean norm, of its own online scheme (δ̃ in the state,
+    /// the nearest snapshot as the only start). Its tolerances 100 … 0.1 mean this.
     Dissertation,
-    /// By how much three Newton steps of the full system, taken from the reduced solution, change it: the largest of |ΔH_c/H_c|,
-    /// ½|ΔH_min/H_min| and e_z of (3.10). A tolerance on it is one on what people read off, and the state keeps the spike in place.
+    /// By how much three Newton steps of the full system, taken from the reduced solution, change it: the largest of
+    /// |ΔH_c/H_c|, ½|ΔH_min/H_min| and e_z of (3.10). A tolerance on it is one on what people read off, and the state
+    /// keeps the spike in place.
     Correction,
 }
 
@@ -58,8 +59,8 @@ impl<'a> Judges<'a> {
         Self { indicator, lubricant: spec.lubricant, measures, solvers, observer }
     }
 
-    /// The indicator at each point, infinite where the reduced model fails. Every solve starts afresh, so that neither order
-    /// nor threads matter.
+    /// The indicator at each point, infinite where the reduced model fails. Every solve starts afresh, so that neither
+    /// order nor threads matter.
     pub fn judge(&mut self, points: &[OperatingPoint]) -> Result<Vec<f64>, TrainingError> {
         let Self { indicator, lubricant, measures, solvers, observer } = self;
         let measures = measures.as_ref();
@@ -123,9 +124,10 @@ impl Corrector {
         Self { grid: window.grid.clone(), full: None }
     }
 
-    /// Relative errors of H_c, H_min, the state (e_z of (3.10)) and, where the model has a rule for it and it has a meaning, the traction, as
-    /// a few full Newton steps from a reduced solution find them: nearly exact where the model is fair, and large where it is not. Of a model
-    /// that knows sliding they are those against the full solution; none where that fails.
+    /// Relative errors of H_c, H_min, the state (e_z of (3.10)) and, where the model has a rule for it and it has a
+    /// meaning, the traction, as a few full Newton steps from a reduced solution find them: nearly exact where the
+    /// model is fair, and large where it is not. Of a model that knows sliding they are those against the full
+    /// solution; none where that fails.
     pub fn errors(&mut self, online: &Online, solved: &ReducedSolution) -> Option<Measured> {
         let before = online.reconstruct(solved).ok()?;
         let sliding = online.model.domain.sliding.is_some();

@@ -1,14 +1,15 @@
 //! The grid of automatic windows, chosen by trial from the range alone.
 //!
-//! All windows share one grid: their edges then show no change of discretisation, and a window that is split hands every full solution on.
-//! Both trials use the explorer's spacing and outlet.
+//! All windows share one grid: their edges then show no change of discretisation, and a window that is split hands
+//! every full solution on. Both trials use the explorer's spacing and outlet.
 //!
-//! **Inlet**: the shortest of a ladder whose central films at the first 12 farthest points (3.16) agree with those of a very long inlet to
-//! 4e-3. The lightest load with the largest L decides it.
+//! **Inlet**: the shortest of a ladder whose central films at the first 12 farthest points (3.16) agree with those of a
+//! very long inlet to 4e-3. The lightest load with the largest L decides it.
 //!
-//! **Registration**: with and without, the first half of 48 trial solutions makes a basis and the second half is projected on it; the
-//! smaller of the largest errors decides. The trial solutions on the chosen grid are the first of the training. Registration pays for wide
-//! windows and small numbers of modes; for narrow windows and small losses it hardly matters.
+//! **Registration**: with and without, the first half of 48 trial solutions makes a basis and the second half is
+//! projected on it; the smaller of the largest errors decides. The trial solutions on the chosen grid are the first of
+//! the training. Registration pays for wide windows and small numbers of modes; for narrow windows and small losses it
+//! hardly matters.
 
 use super::build::{WindowTraining, domain};
 use super::one_thread::on_one_thread;

@@ -1,6 +1,7 @@
 //! Making reduced models: sampling plans, snapshots in parallel, bases, row sampling.
 //!
-//! The same specification gives the same model: everything random comes from its seed, and parallel work is collected in order.
+//! The same specification gives the same model: everything random comes from its seed, and parallel work is collected
+//! in order.
 
 mod adaptive;
 mod build;
@@ -82,7 +83,8 @@ pub enum Plan {
         local_sigma: f64,
         /// Good approximations in a row that end a local search; 0 leaves it out.
         local_successes: usize,
-        /// Candidates in the close vicinity (σ/2) of a bad point of which the worst is solved in full; 0 takes the point itself.
+        /// Candidates in the close vicinity (σ/2) of a bad point of which the worst is solved in full; 0 takes the
+        /// point itself.
         vicinity: usize,
         /// Full solutions at most.
         limit: usize,
@@ -139,8 +141,8 @@ pub struct TrainingSpec {
     /// Penalty factor γ̄ of (2.36) in the reduced equations; the full solutions keep their own.
     #[serde(default = "penalty")]
     pub penalty: f64,
-    /// Whether modes are made of max(P, 0). What a penalty leaves of negative pressures goes with 1/γ̄: the full solutions' own contradict a softer
-    /// one, and the film takes the difference (2e-3 of H_c at M 60 for γ̄ 1e5).
+    /// Whether modes are made of max(P, 0). What a penalty leaves of negative pressures goes with 1/γ̄: the full
+    /// solutions' own contradict a softer one, and the film takes the difference (2e-3 of H_c at M 60 for γ̄ 1e5).
     #[serde(default)]
     pub positive_modes: bool,
     /// Random points per window at which its errors are measured for the calibrated bound; 0 leaves the bound out.
@@ -159,8 +161,8 @@ fn evidence() -> usize {
 }
 
 impl TrainingSpec {
-    /// A training of Newtonian contacts on one grid, with everything else as a scene has it that leaves it out, losses of information of 1e-6 and two
-    /// rows per mode.
+    /// A training of Newtonian contacts on one grid, with everything else as a scene has it that leaves it out, losses
+    /// of information of 1e-6 and two rows per mode.
     pub fn new(range: Range, m: (f64, f64), grid: ContactGridSpec, plan: Plan) -> Self {
         Self {
             title: String::new(),
@@ -212,7 +214,8 @@ impl TrainingSpec {
 pub enum Windows {
     /// As listed, by ascending M.
     Given(Vec<WindowSpec>),
-    /// Of a line contact, chosen by the training from its range: inlet and registration of the grid by trial, edges by splitting.
+    /// Of a line contact, chosen by the training from its range: inlet and registration of the grid by trial, edges by
+    /// splitting.
     Automatic {
         /// Pressure modes beyond which a window is split: what a reduced solve costs grows with their cube.
         modes: usize,

@@ -1,9 +1,11 @@
 //! Work that nothing can interrupt (a decomposition, a kernel, a plan of many points), done so that a cancel need not
-//! wait for it.
+//! wait for it; and work of many parts, done on all threads.
 
-use super::TrainingError;
+use super::{Progress, TrainingError};
 use crate::solver::observer::Observer;
+use rayon::prelude::*;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
@@ -39,4 +41,28 @@ pub fn on_one_thread<T: Send + 'static>(
             Err(_) => return Err(TrainingError::Cancelled),
         }
     }
+}
+
+/// Does `work` for every item, on all threads with a tool of `tool` each; what came of the items is in their order.
+///
+/// # Errors
+/// When the observer cancels.
+pub(super) fn in_parallel<T: Sync, W, R: Send>(
+    observer: &dyn Observer,
+    stage: &str,
+    items: &[T],
+    tool: impl Fn() -> W + Sync + Send,
+    work: impl Fn(&mut W, usize, &T) -> R + Sync + Send,
+) -> Result<Vec<R>, TrainingError> {
+    let done = AtomicUsize::new(0);
+    let one = |tool: &mut W, (index, item): (usize, &T)| {
+        if observer.cancelled() {
+            return Err(TrainingError::Cancelled);
+        }
+        let result = work(tool, index, item);
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        observer.progress(Progress { stage: stage.to_owned(), done, total: items.len() });
+        Ok(result)
+    };
+    items.par_iter().enumerate().map_init(tool, one).collect()
 }

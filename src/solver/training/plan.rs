@@ -6,8 +6,9 @@ use crate::solver::reduced::distance;
 use fastrand::Rng;
 use std::f64::consts::PI;
 
-/// Weight of (ln α ratio)² beside (3.20) when points of a range in (M, L, α) are spread: α changes H_c by a few per cent at equal M
-/// and L. Boxes of SI quantities spread by (3.20) with a quarter of it: more would take points from M and L, whose corners need them.
+/// Weight of (ln α ratio)² beside (3.20) when points of a range in (M, L, α) are spread: α changes H_c by a few per
+/// cent at equal M and L. Boxes of SI quantities spread by (3.20) with a quarter of it: more would take points from M
+/// and L, whose corners need them.
 const ALPHA_WEIGHT: f64 = 0.02;
 
 /// A random point near another one by (3.18), coordinates in the unit cube: μ = min(max(μ_ref + σN, 0), 1).
@@ -35,8 +36,8 @@ pub(super) struct Within {
     pub m: (f64, f64),
 }
 
-/// Random points of a range by (3.17), which pushes towards its boundary: the same ones for the same seed, whoever asks. Fewer than
-/// `count` where hardly any contact of the range is admissible.
+/// Random points of a range by (3.17), which pushes towards its boundary: the same ones for the same seed, whoever
+/// asks. Fewer than `count` where hardly any contact of the range is admissible.
 pub fn random_points(range: &Range, kind: ContactKind, count: usize, seed: u64) -> Vec<OperatingPoint> {
     Within::all(*range, kind).random_points(count, &mut Rng::with_seed(seed))
 }
@@ -65,7 +66,8 @@ impl Within {
         self.drawn(count, || global_point(rng)).into_iter().map(|(_, point)| point).collect()
     }
 
-    /// Farthest-point sampling (3.16) beside points that are known already: every next point of a random pool is the one farthest from all.
+    /// Farthest-point sampling (3.16) beside points that are known already: every next point of a random pool is the
+    /// one farthest from all.
     pub fn farthest_points(&self, known: &[OperatingPoint], count: usize, rng: &mut Rng) -> Vec<OperatingPoint> {
         let mut pool = self.random_points((40 * count).max(2000), rng);
         // The corners of the range are its extremes, and a random pool never quite reaches them.
@@ -100,7 +102,8 @@ impl Within {
     }
 }
 
-/// The tensor grid of Table 3.2 over a box: equidistant in R, u_m and α, logarithmic in w. Empty for a range given in M and L.
+/// The tensor grid of Table 3.2 over a box: equidistant in R, u_m and α, logarithmic in w. Empty for a range given in M
+/// and L.
 pub(super) fn grid_points(range: &Range, kind: ContactKind, nodes: [usize; 4]) -> Vec<OperatingPoint> {
     let Range::Box(QuantityBox { load, .. }) = range else { return Vec::new() };
     let unit = |i: usize, n: usize| if n < 2 { 0.5 } else { i as f64 / (n - 1) as f64 };

@@ -13,8 +13,8 @@ use serde::{Deserialize, Serialize};
 pub enum Range {
     /// A box of SI quantities, (3.16). Tables 3.1 and 3.4.
     Box(QuantityBox),
-    /// All contacts with M, L, α in these intervals and p_H up to a limit, at η₀ and the default R (3 mm line, 10 mm point) and
-    /// E′ = 231 GPa; by ln M, L and ln α.
+    /// All contacts with M, L, α in these intervals and p_H up to a limit, at η₀ and the default R (3 mm line, 10 mm
+    /// point) and E′ = 231 GPa; by ln M, L and ln α.
     Moes {
         /// Load number.
         m: (f64, f64),
@@ -64,8 +64,8 @@ impl Range {
         }
     }
 
-    /// The operating point of a kind at coordinates in the unit cube, of which as many are used as the range has quantities; `None` where the
-    /// range excludes it.
+    /// The operating point of a kind at coordinates in the unit cube, of which as many are used as the range has
+    /// quantities; `None` where the range excludes it.
     pub fn at(&self, kind: ContactKind, unit: [f64; 4]) -> Option<OperatingPoint> {
         let linear = |(low, high): (f64, f64), t: f64| low + (high - low) * t;
         let logarithmic = |(low, high): (f64, f64), t: f64| low * (high / low).powf(t);

@@ -1,7 +1,7 @@
-//! Row sampling of a window: the all-rows reduced model runs at random parameters, for a cubature at the trainings too, and what its iterates
-//! show decides which rows stay.
+//! Row sampling of a window: the all-rows reduced model runs at random parameters, for a cubature at the trainings too,
+//! and what its iterates show decides which rows stay.
 
-use super::one_thread::on_one_thread;
+use super::one_thread::{in_parallel, on_one_thread};
 use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{
@@ -11,10 +11,8 @@ use crate::solver::reduced::{
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
 use fastrand::Rng;
-use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Random parameters at which iterates are collected (reduced solves only).
 const ROW_SNAPSHOT_SOLVES: usize = 160;
@@ -58,8 +56,8 @@ enum Evidence {
     Goals(GoalEquations),
 }
 
-/// Runs `exact` (the window alone, with all rows) at random parameters, collects every iterate, and samples. `None` when the linear algebra
-/// gives up.
+/// Runs `exact` (the window alone, with all rows) at random parameters, collects every iterate, and samples. `None`
+/// when the linear algebra gives up.
 ///
 /// # Errors
 /// When the observer cancels.
@@ -79,29 +77,14 @@ pub(super) fn sample_rows(
     let test = Arc::new(TestSpace::new(&window.pressure, &window.grid));
     let none = GoalEquations::over(&test);
     let stage = format!("Row snapshots, M {}…{}", window.m.0, window.m.1);
-    let done = AtomicUsize::new(0);
-    let collected: Vec<Evidence> = tasks
-        .par_iter()
-        .enumerate()
-        .map_init(
-            || Online::new(Arc::clone(exact), ReducedOptions::default()),
-            |online, (index, task)| {
-                if observer.cancelled() {
-                    return Err(TrainingError::Cancelled);
-                }
-                let evidence = match spec.sampling {
-                    Sampling::Cubature => {
-                        let mut rng = Rng::with_seed(spec.seed.wrapping_add(index as u64));
-                        Evidence::Goals(goals(spec, online, &test, none.clone(), task, &mut rng))
-                    }
-                    _ => Evidence::Snapshots(snapshots(spec, online, &test, task)),
-                };
-                let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-                observer.progress(Progress { stage: stage.clone(), done, total: tasks.len() });
-                Ok(evidence)
-            },
-        )
-        .collect::<Result<_, _>>()?;
+    let online = || Online::new(Arc::clone(exact), ReducedOptions::default());
+    let collected = in_parallel(observer, &stage, &tasks, online, |online, index, task| match spec.sampling {
+        Sampling::Cubature => {
+            let mut rng = Rng::with_seed(spec.seed.wrapping_add(index as u64));
+            Evidence::Goals(goals(spec, online, &test, none.clone(), task, &mut rng))
+        }
+        _ => Evidence::Snapshots(snapshots(spec, online, &test, task)),
+    })?;
     observer.progress(Progress { stage: "Row sampling".to_owned(), done: 0, total: 1 });
     let (sampling, rows_per_mode) = (spec.sampling, spec.rows_per_mode);
     on_one_thread(observer, move || {
@@ -137,8 +120,8 @@ fn choose(
     }
 }
 
-/// Residual and Jacobian snapshots of one solve, scaled by √w and by the largest of them. Empty when it diverges: that teaches nothing about the
-/// rows a good iteration meets.
+/// Residual and Jacobian snapshots of one solve, scaled by √w and by the largest of them. Empty when it diverges: that
+/// teaches nothing about the rows a good iteration meets.
 fn snapshots(spec: &TrainingSpec, online: &mut Online, test: &TestSpace, task: &Task<'_>) -> RowSnapshots {
     let scaled = |v: &[f64]| -> Vec<f64> { v.iter().zip(&test.weights).map(|(v, w)| v * w.sqrt()).collect() };
     let mut rows = RowSnapshots::default();

@@ -5,8 +5,8 @@ use crate::solver::limits::Refused;
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, Sliding, si_from_moes};
 use serde::{Deserialize, Serialize};
 
-/// All contacts of a shear-thinning lubricant with M, L, SRR and NPR in these intervals and p_H up to a limit. M and L do not say all about
-/// them: E′ fixes the stress.
+/// All contacts of a shear-thinning lubricant with M, L, SRR and NPR in these intervals and p_H up to a limit. M and L
+/// do not say all about them: E′ fixes the stress.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SlidingRange {
@@ -48,7 +48,8 @@ impl SlidingRange {
         self.max_hertz_pressure.map_or(Ok(()), hertz_pressure)
     }
 
-    /// The operating point of a kind at coordinates in the unit cube, by ln M, L, SRR and NPR; `None` where the range excludes it.
+    /// The operating point of a kind at coordinates in the unit cube, by ln M, L, SRR and NPR; `None` where the range
+    /// excludes it.
     pub fn at(&self, kind: ContactKind, unit: [f64; 4]) -> Option<OperatingPoint> {
         let linear = |(low, high): (f64, f64), t: f64| low + (high - low) * t;
         let (low, high) = self.m;

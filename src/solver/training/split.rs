@@ -1,8 +1,9 @@
-//! Splitting a window of M that needs more pressure modes than it may have. Both halves inherit its full solutions: they share one grid.
+//! Splitting a window of M that needs more pressure modes than it may have. Both halves inherit its full solutions:
+//! they share one grid.
 //!
-//! The edge lies where both halves need equally many modes. The cost of a reduced solve grows with the cube of the modes, the size of the model
-//! with the number of windows; modes as many as there are solutions make a bad model, so that the first solutions (`start`) should outnumber the
-//! modes of a window clearly.
+//! The edge lies where both halves need equally many modes. The cost of a reduced solve grows with the cube of the
+//! modes, the size of the model with the number of windows; modes as many as there are solutions make a bad model, so
+//! that the first solutions (`start`) should outnumber the modes of a window clearly.
 
 use super::one_thread::on_one_thread;
 use super::state::{OVERLAP, Solved, TrainingState, WindowState};
@@ -57,10 +58,11 @@ fn reached(part: (f64, f64), whole: (f64, f64), solved: &Solved) -> bool {
     (part.0 == whole.0 || m >= part.0 / OVERLAP) && (part.1 == whole.1 || m <= part.1 * OVERLAP)
 }
 
-/// The M, to two digits, at which both sides need equally many modes at a loss of information; `None` when the whole cannot be decomposed.
+/// The M, to two digits, at which both sides need equally many modes at a loss of information; `None` when the whole
+/// cannot be decomposed.
 ///
-/// The loss is the one that three quarters of as many modes as there are solutions leave: a smaller one needs nearly as many modes as there are
-/// solutions on either side, and would compare their numbers only.
+/// The loss is the one that three quarters of as many modes as there are solutions leave: a smaller one needs nearly as
+/// many modes as there are solutions on either side, and would compare their numbers only.
 fn balanced_edge(solved: &[Solved], whole: (f64, f64), grid: &ContactGrid) -> Option<f64> {
     let basis = |part: (f64, f64), loss: f64| {
         let inside: Vec<&Solved> = solved.iter().filter(|s| reached(part, whole, s)).collect();

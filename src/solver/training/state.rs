@@ -97,8 +97,8 @@ impl TrainingState {
         self.solves
     }
 
-    /// The model of what there is, without another full solution: what a stopped training is worth. Its domain ends where the
-    /// windows do that have solutions enough.
+    /// The model of what there is, without another full solution: what a stopped training is worth. Its domain ends
+    /// where the windows do that have solutions enough.
     ///
     /// # Errors
     /// When the first window has fewer than four solutions, or the observer cancels.

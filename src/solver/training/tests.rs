@@ -1,4 +1,5 @@
-//! Behaviour of training: the same specification gives the same model, models reproduce what they were trained on, bad requests are refused.
+//! Behaviour of training: the same specification gives the same model, models reproduce what they were trained on, bad
+//! requests are refused.
 
 use super::small::line;
 use super::*;
@@ -35,7 +36,8 @@ fn every_sampling_reproduces_the_training_solutions() {
             let solved = online.solve(&snapshot.point, Lubricant::default()).unwrap();
             let h_c = online.scalars(&solved).unwrap().h_c;
             let error = (h_c / snapshot.h_c - 1.0).abs();
-            // What the greedy lacks are quadrature weights: it reproduces less exactly, as the dissertation's tables show.
+            // What the greedy lacks are quadrature weights: it reproduces less exactly, as the dissertation's tables
+            // show.
             let bar = if sampling == Sampling::Greedy { 2e-2 } else { 2e-3 };
             assert!(error < bar, "{sampling:?}: {error:.1e} at {:?}", snapshot.point.moes());
         }

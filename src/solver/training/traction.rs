@@ -1,16 +1,16 @@
 //! The rule by which a finished window knows its traction without large-scale work.
 
-use super::one_thread::on_one_thread;
-use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
+use super::one_thread::{in_parallel, on_one_thread};
+use super::{TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, TractionRule};
 use fastrand::Rng;
-use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Reduced solutions that a rule is fitted to, several per node.
 const SOLUTIONS: usize = 1000;
-/// Every second of them slides more slowly, down to this share of its SRR: there the stress gathers in the middle of the contact.
+/// Every second of them slides more slowly, down to this share of its SRR: there the stress gathers in the middle of
+/// the contact.
 const SLOWEST: f64 = 1e-3;
 
 /// Fits the rule of a window to reduced solutions, `model` being the model of it alone; `None` where the fit fails.
@@ -29,21 +29,12 @@ pub(super) fn traction_rule(
     for point in points.iter_mut().step_by(2) {
         point.sliding.slide_to_roll_ratio *= SLOWEST.powf(rng.f64());
     }
-    observer.progress(Progress { stage: "Traction".to_owned(), done: 0, total: 1 });
-    let stresses: Vec<Option<Vec<f64>>> = points
-        .par_iter()
-        .map_init(
-            || Online::new(Arc::clone(model), ReducedOptions::default()),
-            |online, point| {
-                if observer.cancelled() {
-                    return Err(TrainingError::Cancelled);
-                }
-                online.forget();
-                let fields = online.solve(point, spec.lubricant).and_then(|solved| online.reconstruct(&solved));
-                Ok(fields.ok().map(|fields| fields.mid_film_stress()))
-            },
-        )
-        .collect::<Result<_, _>>()?;
+    let online = || Online::new(Arc::clone(model), ReducedOptions::default());
+    let stresses = in_parallel(observer, "Traction", &points, online, |online, _, point| {
+        online.forget();
+        let fields = online.solve(point, spec.lubricant).and_then(|solved| online.reconstruct(&solved));
+        fields.ok().map(|fields| fields.mid_film_stress())
+    })?;
     let stresses: Vec<Vec<f64>> = stresses.into_iter().flatten().collect();
     let model = Arc::clone(model);
     on_one_thread(observer, move || TractionRule::fit(model.windows.first()?, &stresses))

@@ -1,5 +1,6 @@
-//! Training of a reduced model of contacts in time: bases from the steps of full trajectories, rows by a cubature that carries the steps
-//! which the all-rows model takes along the same inputs. Both know how strongly each row answers to its pressure.
+//! Training of a reduced model of contacts in time: bases from the steps of full trajectories, rows by a cubature that
+//! carries the steps which the all-rows model takes along the same inputs. Both know how strongly each row answers to
+//! its pressure.
 
 use super::one_thread::on_one_thread;
 use super::rows::add_goals;
@@ -43,7 +44,8 @@ const ITERATES: usize = 600;
 /// Trains a model of one frame from full trajectories that kept their states.
 ///
 /// # Errors
-/// When the trajectories hold no states or are of different frames or grids, when the linear algebra gives up, or the observer cancels.
+/// When the trajectories hold no states or are of different frames or grids, when the linear algebra gives up, or the
+/// observer cancels.
 pub fn train_trajectories(
     grid: &Arc<ReferenceGrid>,
     trajectories: &[Trajectory],
@@ -71,16 +73,18 @@ pub fn train_trajectories(
     Ok(model)
 }
 
-/// What the rows are tested with: V, each row by its cell's size over the fourth root of its own size. With the emphasis of [`emphasis`] on the other
-/// side, rows and modes meet halfway: the far inlet and the nodes that the rupture passes, whose rows answer up to 10⁸ times as
-/// strongly as those under the contact, no longer decide over the film by the little that modes miss there.
+/// What the rows are tested with: V, each row by its cell's size over the fourth root of its own size. With the
+/// emphasis of [`emphasis`] on the other side, rows and modes meet halfway: the far inlet and the nodes that the
+/// rupture passes, whose rows answer up to 10⁸ times as strongly as those under the contact, no longer decide over the
+/// film by the little that modes miss there.
 fn test_space(basis: &PodBasis, grid: &ContactGrid, sizes: &[f64]) -> TestSpace {
     let mut test = TestSpace::new(basis, grid);
     test.weights.iter_mut().zip(sizes).for_each(|(weight, size)| *weight /= size.sqrt().sqrt());
     test
 }
 
-/// The weights under which modes are chosen: cell sizes times the root of the rows' sizes, where pressures are to be met best.
+/// The weights under which modes are chosen: cell sizes times the root of the rows' sizes, where pressures are to be
+/// met best.
 fn emphasis(grid: &ReferenceGrid, sizes: &[f64]) -> Vec<f64> {
     let mut weights = grid.weights.clone();
     let unknowns = weights[FIRST_UNKNOWN..].iter_mut();

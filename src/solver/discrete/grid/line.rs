@@ -221,8 +221,7 @@ fn node_weights(xi: &[f64]) -> Vec<f64> {
 /// Wanted relative spacing at ξ: fine at ±1, moderate inside, growing with the distance into the inlet.
 fn wanted_spacing(xi: f64) -> f64 {
     let bump = |center: f64, depth: f64, width: f64| depth / (1.0 + ((xi - center) / width).powi(2));
-    // The inlet of heavy loads is what limits H_c: with this distribution 560 nodes leave 0.2 % at M = 165 and 0.7 % at
-    // M = 500.
+    // The inlet of heavy loads is what limits H_c.
     let base =
         0.016 / (1.0 + bump(-1.02, 14.0, 0.04) + bump(-1.0, 2.0, 0.3) + bump(1.0, 3.0, 0.05) + bump(0.93, 1.0, 0.2));
     let inlet = (-1.15 - xi).max(0.0);

@@ -4,11 +4,8 @@
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::solution::{Mesh, Solution};
 
-/// Curvature of the film across the side lobes beyond which they are called unresolved.
-///
-/// Measured on 13 contacts with M 13…1000, each with ΔY 0.05, 0.025 and 0.0125, against the value extrapolated in ΔY:
-/// with a curvature of 0.1 H_min is 2 % too small, at 0.25 4–7 %, at 0.45 8 %, at 1.2 20–25 %, at 6 (M = 858, L = 8, ΔY
-/// 0.05) by a factor 3, at 14 by 4.
+/// Curvature of the film across the side lobes beyond which they are called unresolved. For M 13…1000, H_min is 2 % too
+/// small at a curvature of 0.1, 8 % at 0.45, 20 to 25 % at 1.2, and too small by a factor 3 at 6.
 const UNRESOLVED_CURVATURE: f64 = 0.5;
 
 /// A quantity in the limit of fine grids, by Richardson's extrapolation with the scheme's second order.

@@ -16,11 +16,6 @@ impl BackwardDifference {
         Self { now: (1.0 + 2.0 * r) / (1.0 + r) / step, former: [-(1.0 + r) / step, r * r / (1.0 + r) / step] }
     }
 
-    /// Implicit Euler, which needs no history.
-    pub fn first_order(step: f64) -> Self {
-        Self { now: 1.0 / step, former: [-1.0 / step, 0.0] }
-    }
-
     /// The quotient of three values, the newest first.
     pub fn of(&self, [now, former, before]: [f64; 3]) -> f64 {
         self.now * now + self.former[0] * former + self.former[1] * before
@@ -54,7 +49,6 @@ mod tests {
         for (got, want) in [(quotient.now, 3.0), (quotient.former[0], -4.0), (quotient.former[1], 1.0)] {
             assert!((got - want).abs() < 1e-14);
         }
-        assert!((BackwardDifference::first_order(0.5).of([3.0, 2.0, 9.0]) - 2.0).abs() < 1e-14);
     }
 
     #[test]

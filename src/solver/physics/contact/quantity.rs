@@ -167,7 +167,8 @@ impl Quantity {
         })
     }
 
-    /// The same contact with another value of it. M moves by the load, L by α; a speed, radius, modulus or viscosity moves M and L along.
+    /// The same contact with another value of it. M moves by the load, L by α; a speed, radius, modulus or viscosity
+    /// moves M and L along.
     pub fn at(self, point: &OperatingPoint, value: f64) -> OperatingPoint {
         let mut point = *point;
         match self {

@@ -1,13 +1,12 @@
 //! Powers of several numbers at once, by a logarithm and an exponential without branches and tables: loops over them
 //! run in vector registers.
 //!
-//! The power laws of a shear-thinning film take two of each at every point of the rule across it: with the C library's
-//! functions, one number after the other, they made up two thirds of a reduced solve. Reductions and coefficients are
-//! those of fdlibm (Sun Microsystems 1993, `e_log.c`, `e_exp.c`); both functions are within 1e-15 relative of the
-//! library's where these do not vanish.
+//! The power laws of a shear-thinning film take two of each at every point of the rule across it. Reductions and
+//! coefficients are those of fdlibm (Sun Microsystems 1993, `e_log.c`, `e_exp.c`); both functions are within 1e-15
+//! relative of the C library's where these do not vanish.
 
 /// Raises every x > 0 to a power. A slice, and a function of its own: unrolled over an array of twelve it would not run
-/// in vector registers, which takes half as long again.
+/// in vector registers.
 #[inline(never)]
 pub(super) fn raise(values: &mut [f64], exponent: f64) {
     for x in values.iter_mut() {

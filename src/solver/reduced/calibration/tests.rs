@@ -1,4 +1,5 @@
-//! Calibrated bounds on synthetic evidence: they cover fresh cases, follow what exceeds the evidence, and survive being stored.
+//! Calibrated bounds on synthetic evidence: they cover fresh cases, follow what exceeds the evidence, and survive being
+//! stored.
 
 use super::*;
 use fastrand::Rng;

@@ -7,11 +7,9 @@ use crate::solver::discrete::nodes::{Laws, Order};
 use crate::solver::discrete::reynolds::STENCIL;
 use crate::solver::discrete::reynolds::generalized::FilmTreatment;
 use crate::solver::full::Problem;
-use crate::solver::reduced::dense::quadratic_form;
-use faer::dyn_stack::MemStack;
-use faer::linalg::lu::partial_pivoting::{factor, solve};
+use crate::solver::reduced::dense::{SmallSystem, quadratic_form};
 use faer::linalg::matmul::matmul;
-use faer::{Accum, ColMut, ColRef, Conj, MatMut, MatRef, Par};
+use faer::{Accum, ColMut, ColRef, MatRef, Par};
 
 /// The nodes of a row by twos: a row of the Jacobian is read and written half as often.
 const PAIRS: [(usize, usize); STENCIL / 2] = [(0, 1), (2, 3), (4, 5)];
@@ -95,7 +93,7 @@ impl Operators {
                     residual: &s.values,
                     jacobian_step: &s.product,
                     jacobian: s.jacobian.as_ref(),
-                    step: &s.rhs,
+                    step: &s.system.rhs,
                     coefficients,
                     lift: case.lift,
                     h_c: *h_0 - 0.5 * case.scale.ln() + dot(case.lift, coefficients),
@@ -105,12 +103,12 @@ impl Operators {
             let s = &mut self.scratch;
             s.fields.iter_mut().zip(&s.step_fields).for_each(|(field, step)| *field += omega * step);
             let (mut change, mut size) = (0.0, 0.0);
-            for (c, d) in coefficients.iter_mut().zip(&self.scratch.rhs) {
+            for (c, d) in coefficients.iter_mut().zip(&self.scratch.system.rhs) {
                 *c += omega * d;
                 change += d * d;
                 size += *c * *c;
             }
-            *h_0 += omega * self.scratch.rhs[self.modes];
+            *h_0 += omega * self.scratch.system.rhs[self.modes];
             outcome.step = (change / size).sqrt();
             if !outcome.step.is_finite() {
                 return outcome;
@@ -195,64 +193,41 @@ impl Operators {
         sum.sqrt()
     }
 
-    /// Solves the reduced linear system; the step is left in `scratch.rhs`. False when it is singular.
+    /// Solves the reduced linear system; the step is left in `scratch.system.rhs`. False when it is singular.
     /// `keep` keeps a copy of the reduced Jacobian for an observer.
     fn linear_step(&mut self, problem: &Problem, scale: f64, coefficients: &[f64], keep: bool) -> bool {
         let modes = self.modes;
         let s = &mut self.scratch;
         let rows = s.values.len();
         let jacobian = MatRef::from_row_major_slice(&s.jacobian_rows, rows, modes);
-        let g = self.reconstruction.as_ref();
-        matmul(s.reduced.get_mut(..modes, ..modes), Accum::Replace, g, jacobian, 1.0, Par::Seq);
-        matmul(
-            s.reduced.get_mut(..modes, modes..),
-            Accum::Replace,
-            g,
-            ColRef::from_slice(&s.film_column).as_mat(),
-            1.0,
-            Par::Seq,
-        );
-        matmul(
-            ColMut::from_slice_mut(&mut s.rhs[..modes]).as_mat_mut(),
-            Accum::Replace,
-            g,
-            ColRef::from_slice(&s.values).as_mat(),
-            -1.0,
-            Par::Seq,
-        );
+        let (g, SmallSystem { matrix, rhs, .. }) = (self.reconstruction.as_ref(), &mut s.system);
+        matmul(matrix.get_mut(..modes, ..modes), Accum::Replace, g, jacobian, 1.0, Par::Seq);
+        let (films, values) = (ColRef::from_slice(&s.film_column), ColRef::from_slice(&s.values));
+        matmul(matrix.get_mut(..modes, modes..), Accum::Replace, g, films.as_mat(), 1.0, Par::Seq);
+        let reduced = ColMut::from_slice_mut(&mut rhs[..modes]);
+        matmul(reduced.as_mat_mut(), Accum::Replace, g, values.as_mat(), -1.0, Par::Seq);
         let mut carried = 0.0;
         for (k, (l, c)) in self.load_row.iter().zip(coefficients).enumerate() {
-            s.reduced[(modes, k)] = scale * l;
+            matrix[(modes, k)] = scale * l;
             carried += scale * l * c;
         }
-        s.reduced[(modes, modes)] = 0.0;
-        s.rhs[modes] = problem.load - carried;
+        matrix[(modes, modes)] = 0.0;
+        rhs[modes] = problem.load - carried;
         if keep {
-            s.jacobian.copy_from(&s.reduced);
+            s.jacobian.copy_from(&*matrix);
         }
-        let stack = MemStack::new(&mut s.memory);
-        let (_, perm) = factor::lu_in_place(
-            s.reduced.as_mut(),
-            &mut s.perm,
-            &mut s.perm_inverse,
-            Par::Seq,
-            stack,
-            faer::Spec::default(),
-        );
-        let lu = s.reduced.as_ref();
-        let rhs = MatMut::from_column_major_slice_mut(&mut s.rhs, modes + 1, 1);
-        solve::solve_in_place_with_conj(lu, lu, perm, Conj::No, rhs, Par::Seq, stack);
-        s.rhs.iter().all(|v| v.is_finite())
+        s.system.solve();
+        s.system.rhs.iter().all(|v| v.is_finite())
     }
 
     /// ω = min(1, 0.3/max|ΔP|), and no sampled film loses more than 70 %.
     fn damping(&mut self, scale: f64) -> f64 {
         let s = &mut self.scratch;
-        product(&self.state_rows, self.modes, &s.rhs[..self.modes], &mut s.step_fields);
+        product(&self.state_rows, self.modes, &s.system.rhs[..self.modes], &mut s.step_fields);
         let (pressure, deformation) = s.step_fields.split_at(self.support.len());
         let largest = pressure.iter().fold(0.0f64, |a, b| a.max(b.abs()));
         let mut omega = if largest > 0.3 { 0.3 / largest } else { 1.0 };
-        let dh_0 = s.rhs[self.modes];
+        let dh_0 = s.system.rhs[self.modes];
         for (&film, d) in s.films.iter().zip(deformation) {
             let change = dh_0 + scale * d;
             if change < -0.7 * film && film > 0.0 {
@@ -265,10 +240,10 @@ impl Operators {
     /// J V Δz̃ on the sampled rows, for the row snapshots.
     fn jacobian_times_step(&mut self) {
         let s = &mut self.scratch;
-        let dh_0 = s.rhs[self.modes];
+        let dh_0 = s.system.rhs[self.modes];
         for (r, out) in s.product.iter_mut().enumerate() {
             let row = &s.jacobian_rows[r * self.modes..(r + 1) * self.modes];
-            *out = s.film_column[r] * dh_0 + row.iter().zip(&s.rhs).map(|(a, b)| a * b).sum::<f64>();
+            *out = s.film_column[r] * dh_0 + row.iter().zip(&s.system.rhs).map(|(a, b)| a * b).sum::<f64>();
         }
     }
 }

@@ -12,8 +12,8 @@ use crate::solver::full::Problem;
 use crate::solver::full::transient::Input;
 use faer::{Mat, MatRef};
 
-/// g and f at (ỹ, u), tested with weighted rows of Vᵀ, with their derivatives. The last equation is the load's, w̄ π/2 −
-/// ∫P, which has no g.
+/// g and f at (ỹ, u), tested with weighted rows of Vᵀ, with their derivatives. The last equation is the load's, w̄ π/2
+/// − ∫P, which has no g.
 #[derive(Clone, Debug)]
 pub struct Linearisation {
     /// g: ρ̄H.

@@ -5,7 +5,7 @@ use super::model::{TpwlError, TpwlModel, check_frame};
 use super::record::{TpwlRecord, TpwlStep};
 use super::search::Search;
 use super::space::{INPUTS, input_vector};
-use super::superposition::{SmallSystem, Superposition};
+use super::superposition::Superposition;
 use super::weights::{Weight, Weighting, square_distance};
 use crate::solver::discrete::grid::LineGrid;
 use crate::solver::full::transient::{
@@ -15,6 +15,7 @@ use crate::solver::full::transient::{
 use crate::solver::full::{Scalars, Termination};
 use crate::solver::observer::Observer;
 use crate::solver::reduced::contact_rows::ContactRows;
+use crate::solver::reduced::dense::SmallSystem;
 
 /// A model in use for one contact.
 pub struct TpwlMarch<'a> {

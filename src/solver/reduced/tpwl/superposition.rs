@@ -4,10 +4,9 @@ use super::linearisation::LinearFunction;
 use super::model::{TpwlModel, TrainedPoint};
 use super::space::INPUTS;
 use super::weights::{Weight, Weighting};
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::lu::partial_pivoting::{factor, solve};
+use crate::solver::reduced::dense::SmallSystem;
 use faer::linalg::matmul::matmul;
-use faer::{Accum, ColMut, ColRef, Conj, Mat, MatMut, MatRef, Par, Spec, unzip, zip};
+use faer::{Accum, ColMut, ColRef, Mat, MatRef, Par, unzip, zip};
 
 /// A superposed system g = ḡ + B (y − ȳ) + C (u − ū), f likewise with E and F, about the barycentre (ȳ, ū) of its
 /// points.
@@ -21,16 +20,6 @@ pub struct Superposition {
     pub input: [f64; INPUTS],
     storage: LinearFunction,
     flux: LinearFunction,
-}
-
-/// A dense system with all work space of its factorisation.
-pub struct SmallSystem {
-    matrix: Mat<f64>,
-    /// Right-hand side, then solution.
-    pub rhs: Vec<f64>,
-    perm: Vec<usize>,
-    perm_inverse: Vec<usize>,
-    memory: MemBuffer,
 }
 
 /// out += A x.
@@ -144,29 +133,5 @@ impl Superposition {
             *y = center + step;
         }
         state.iter().all(|y| y.is_finite())
-    }
-}
-
-impl SmallSystem {
-    /// Work space for `len` equations.
-    pub fn new(len: usize) -> Self {
-        let memory = factor::lu_in_place_scratch::<usize, f64>(len, len, Par::Seq, Spec::default())
-            .or(solve::solve_in_place_scratch::<usize, f64>(len, 1, Par::Seq));
-        Self {
-            matrix: Mat::zeros(len, len),
-            rhs: vec![0.0; len],
-            perm: vec![0; len],
-            perm_inverse: vec![0; len],
-            memory: MemBuffer::new(memory),
-        }
-    }
-
-    fn solve(&mut self) {
-        let stack = MemStack::new(&mut self.memory);
-        let (matrix, perms) = (self.matrix.as_mut(), (&mut self.perm, &mut self.perm_inverse));
-        let (_, perm) = factor::lu_in_place(matrix, perms.0, perms.1, Par::Seq, stack, Spec::default());
-        let lu = self.matrix.as_ref();
-        let rhs = MatMut::from_column_major_slice_mut(&mut self.rhs, lu.nrows(), 1);
-        solve::solve_in_place_with_conj(lu, lu, perm, Conj::No, rhs, Par::Seq, stack);
     }
 }

@@ -1,7 +1,7 @@
 //! Linearised systems against finite differences, steps against Newton's, marches against the full system.
 
 use super::linearisation::{Fields, PENALTY_SLOPE};
-use super::superposition::{SmallSystem, Superposition};
+use super::superposition::Superposition;
 use super::*;
 use crate::solver::discrete::grid::{FIRST_UNKNOWN, GridSpec};
 use crate::solver::full::Problem;
@@ -10,6 +10,7 @@ use crate::solver::full::transient::{
 };
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::reduced::dense::SmallSystem;
 use faer::linalg::solvers::Solve;
 use std::sync::LazyLock;
 
