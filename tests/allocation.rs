@@ -6,7 +6,7 @@ use ehl_explorer::engine::model_file::{embedded, embedded_shear_of};
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
 use ehl_explorer::solver::discrete::grid::GridSpec;
 use ehl_explorer::solver::full::transient::{
-    self, Frame, Inputs, Keep, Marching, Moment, Signal, TimeStep, Transient, TransientObserver, march,
+    self, Inputs, Keep, Marching, Moment, Signal, Transient, TransientObserver, march,
 };
 use ehl_explorer::solver::observer::Observer;
 use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
@@ -97,15 +97,9 @@ impl TransientObserver for Counts {
 #[test]
 fn online_steps_in_time_do_not_allocate() {
     let coarse = GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) };
-    let breathing = Transient {
-        point: OperatingPoint::TABLE_2_1,
-        lubricant: Lubricant::default(),
-        inputs: Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 1.0 }),
-        frame: Frame::Fixed,
-        duration: 0.62,
-        time_step: TimeStep::Fixed(0.01),
-        keep: Keep::Every(1),
-    };
+    let load = Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 1.0 });
+    let breathing = Transient::new(OperatingPoint::TABLE_2_1, load, 0.62, 0.01);
+    let breathing = Transient { keep: Keep::Every(1), ..breathing };
     let full = transient::solve(coarse, &breathing, &()).unwrap();
     assert!(full.finished());
     let training = TpwlTraining { modes: 40, selection: Selection::Distance { tolerance: 0.02 } };

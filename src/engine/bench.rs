@@ -8,9 +8,7 @@ use crate::scene::study::transient::{Timed, timed_march};
 use crate::scene::{QuantityBox, named_lubricant};
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 use crate::solver::full::dense::{dense_kernel, dense_newton};
-use crate::solver::full::transient::{
-    Frame, FullMarch, Inputs, Keep, Marching, Signal, TimeStep, Trajectory, Transient,
-};
+use crate::solver::full::transient::{FullMarch, Inputs, Keep, Marching, Signal, Trajectory, Transient};
 use crate::solver::full::{FullSolver, PointSolver, Problem, Solution, SolveError, SolveOptions, Start};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity};
 use crate::solver::physics::lubricant::{Lubricant, Sliding};
@@ -99,19 +97,12 @@ pub fn run(quick: bool) -> Result<Bench, EngineError> {
     let mut solver = FullSolver::new(GridSpec::DISSERTATION)?;
     let mut bench = Bench::default();
 
-    let mut dense = Timing::new(BASELINE, BASELINE_BUDGET[size]);
     let kernel = dense_kernel(&solver.grid().scaled(1.0));
     let options = SolveOptions::default();
-    for point in &points[..BASELINE_POINTS[size]] {
-        if dense.spent() && dense.seconds.len() >= 3 {
-            break;
-        }
-        let clock = Instant::now();
+    let dense = timed(BASELINE, BASELINE_BUDGET[size], 3, &points[..BASELINE_POINTS[size]], |point| {
         let (mut system, problem) = solver.cold_system(point, lubricant)?;
-        let steps = dense_newton(&mut system, &problem, &options, &kernel);
-        dense.record(clock, steps < options.max_newton);
-    }
-
+        Ok(dense_newton(&mut system, &problem, &options, &kernel) < options.max_newton)
+    })?;
     let mut rows = vec![dense];
     let newtonian = |point: &OperatingPoint| Problem::new(point, lubricant);
     let problems = points[..FULL_POINTS[size]].iter().map(newtonian).collect::<Result<Vec<_>, _>>()?;
@@ -124,7 +115,7 @@ pub fn run(quick: bool) -> Result<Bench, EngineError> {
         solver.solve_problem(problem, start, &())
     })?);
     if let Some(mut online) = bench.online("line/reduced", ContactKind::Line, false) {
-        rows.push(reduced_row("line/reduced", &mut online, (&points, lubricant), true, ROW_BUDGET[size]));
+        rows.push(reduced_row("line/reduced", &mut online, (&points, lubricant), true, ROW_BUDGET[size])?);
     }
     let names = ["line/shear/reduced", "line/shear/traction-curve"];
     rows.extend(bench.reduced_shear_rows(names, ContactKind::Line, size)?);
@@ -136,7 +127,7 @@ pub fn run(quick: bool) -> Result<Bench, EngineError> {
         let range = Range::Box(QuantityBox::TABLE_3_4);
         let points = random_points(&range, ContactKind::Point, REDUCED_POINTS[size], SEED);
         for (name, fields) in [("point/reduced", false), ("point/reduced/fields", true)] {
-            rows.push(reduced_row(name, &mut online, (&points, Lubricant::default()), fields, POINT_BUDGET[size]));
+            rows.push(reduced_row(name, &mut online, (&points, lubricant), fields, POINT_BUDGET[size])?);
         }
     }
     let names = ["point/shear/reduced", "point/shear/traction-curve"];
@@ -158,9 +149,9 @@ impl Bench {
         let problems = shear_problems(kind, REDUCED_SHEAR_POINTS[size])?;
         let points: Vec<OperatingPoint> = problems.iter().map(|problem| problem.point).collect();
         let lubricant = named_lubricant::SQUALANE_PIP;
-        let solves = reduced_row(solve, &mut online, (&points, lubricant), false, POINT_BUDGET[size]);
+        let solves = reduced_row(solve, &mut online, (&points, lubricant), false, POINT_BUDGET[size])?;
         let curves = (&points[..CURVES[size]], lubricant);
-        Ok(vec![solves, curve_row(curve, &mut online, curves, POINT_BUDGET[size])])
+        Ok(vec![solves, curve_row(curve, &mut online, curves, POINT_BUDGET[size])?])
     }
 
     /// The embedded model of a row; a note where there is none.
@@ -239,59 +230,34 @@ fn cold_and_warm(
     problems: &[Problem],
     mut solve: impl FnMut(Problem, Start<'_>) -> Result<Solution, SolveError>,
 ) -> Result<[Timing; 2], EngineError> {
-    let [mut cold, mut warm] = names.map(|name| Timing::new(name, budget));
     let mut solutions: Vec<Solution> = Vec::new();
-    for &problem in problems {
-        if cold.spent() && cold.seconds.len() >= 4 {
-            break;
-        }
-        let clock = Instant::now();
+    let cold = timed(names[0], budget, 4, problems, |&problem| {
         let solution = solve(problem, Start::Cold)?;
-        cold.record(clock, solution.converged());
+        let converged = solution.converged();
         solutions.extend(Some(solution).filter(Solution::converged));
-    }
-    warm.begun = Instant::now();
-    for (k, own) in solutions.iter().enumerate() {
-        let Some(start) = nearest_other(&solutions, k) else { break };
-        if warm.spent() && warm.seconds.len() >= 4 {
-            break;
-        }
-        let clock = Instant::now();
-        let solution = solve(own.problem, Start::From(start))?;
-        warm.record(clock, solution.converged());
-    }
+        Ok(converged)
+    })?;
+    let starts = solutions.iter().enumerate().filter_map(|(k, own)| Some((own, nearest_other(&solutions, k)?)));
+    let warm =
+        timed(names[1], budget, 4, starts, |(own, start)| Ok(solve(own.problem, Start::From(start))?.converged()))?;
     Ok([cold, warm])
 }
 
 /// Steps in time, of the full system and of the reduced models that reproduce them: the load of case 1 of Table 4.1 on
 /// the contact of Table 4.2, fixed frame.
 fn transient_rows(size: usize) -> Result<Vec<Timing>, EngineError> {
-    let [radius_m, speed_m_per_s, load] = [2e-3, 5.0, 2e5];
-    let [modulus_pa, viscosity_pa_s, alpha_per_pa] = [231e9, 0.01, 1e-8];
-    let kind = ContactKind::Line;
-    let transient = Transient {
-        point: OperatingPoint::from_quantities(
-            kind,
-            [radius_m, speed_m_per_s, load, modulus_pa, viscosity_pa_s, alpha_per_pa],
-            Sliding::NONE,
-        ),
-        lubricant: Lubricant::default(),
-        inputs: Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 1.0 / 3.0 }),
-        frame: Frame::Fixed,
-        duration: MARCH_DURATION[size],
-        time_step: TimeStep::Fixed(2.5e-3),
-        keep: Keep::Every(1),
-    };
+    let load = Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 1.0 / 3.0 });
+    let transient = Transient::new(OperatingPoint::TABLE_4_2, load, MARCH_DURATION[size], 2.5e-3);
+    let transient = Transient { keep: Keep::Every(1), ..transient };
     let grid = GridSpec::DISSERTATION.build().map_err(SolveError::from)?;
-    let mut full = Timing::new(TRANSIENT_BASELINE, ROW_BUDGET[size]);
+    let mut full = Timing::new(TRANSIENT_BASELINE);
     let trajectory = full.add_steps(&mut FullMarch::new(Arc::clone(&grid), &transient)?, &transient)?;
     let settings = TrajectoryTraining { loss: 1e-5, ..TrajectoryTraining::default() };
     let linearised = TpwlModel::train(&[&trajectory], TPWL_TRAINING)?;
     let model = train_trajectories(&grid, &[trajectory], &settings, &())?;
     // Models are used for what they cost least: nobody asks for fields at every step.
     let transient = Transient { keep: Keep::Scalars, ..transient };
-    let [mut reduced, mut superposed] =
-        ["line/transient/rnsa-step", "line/transient/tpwl-step"].map(|name| Timing::new(name, ROW_BUDGET[size]));
+    let [mut reduced, mut superposed] = ["line/transient/rnsa-step", "line/transient/tpwl-step"].map(Timing::new);
     for _ in 0..MARCHES {
         reduced.add_steps(&mut ReducedMarch::new(&model)?, &transient)?;
         superposed.add_steps(&mut TpwlMarch::new(&linearised, &transient, Weighting::DualTaylor)?, &transient)?;
@@ -306,25 +272,17 @@ fn reduced_row(
     (points, lubricant): (&[OperatingPoint], Lubricant),
     fields: bool,
     budget: Duration,
-) -> Timing {
-    let mut timing = Timing::new(name, budget);
+) -> Result<Timing, EngineError> {
     if let Some(first) = points.first() {
         // Operators belong to the model, not to its solves.
         online.prepare(first.moes());
     }
-    for point in points {
-        if timing.spent() {
-            break;
-        }
-        let clock = Instant::now();
-        let solved = online.solve(point, lubricant);
-        let converged = match solved {
+    timed(name, budget, 0, points, |point| {
+        Ok(match online.solve(point, lubricant) {
             Ok(solution) if fields => online.scalars(&solution).is_ok(),
             solved => solved.is_ok(),
-        };
-        timing.record(clock, converged);
-    }
-    timing
+        })
+    })
 }
 
 /// Whole traction curves over SRR by a reduced model, one for the speed, load and plateau ratio of each point.
@@ -333,21 +291,14 @@ fn curve_row(
     online: &mut Online,
     (points, lubricant): (&[OperatingPoint], Lubricant),
     budget: Duration,
-) -> Timing {
-    let mut timing = Timing::new(name, budget);
+) -> Result<Timing, EngineError> {
     let values: Vec<f64> = (0..CURVE_POINTS).map(|k| k as f64 / (CURVE_POINTS - 1) as f64).collect();
-    for point in points {
-        if timing.spent() {
-            break;
-        }
-        online.prepare(point.moes());
-        let clock = Instant::now();
+    points.iter().for_each(|point| online.prepare(point.moes()));
+    timed(name, budget, 0, points, |point| {
         let curve = traction_curve(online, point, lubricant, Quantity::SlideToRollRatio, &values);
         let converged = curve.filter(|place| place.solution.as_ref().is_ok_and(|solved| solved.traction.is_some()));
-        let converged = converged.count() == values.len();
-        timing.record(clock, converged);
-    }
-    timing
+        Ok(converged.count() == values.len())
+    })
 }
 
 /// The solution nearest to number `k` by (3.20) and in SRR and NPR, other than itself.
@@ -362,24 +313,35 @@ fn nearest_other(solutions: &[Solution], k: usize) -> Option<&Solution> {
 
 struct Timing {
     name: &'static str,
-    begun: Instant,
-    budget: Duration,
     seconds: Vec<f64>,
     failures: usize,
 }
 
+/// Times `solve`, which says whether it converged, for one item after the other until the budget is spent, for `least`
+/// of them in any case.
+fn timed<T>(
+    name: &'static str,
+    budget: Duration,
+    least: usize,
+    items: impl IntoIterator<Item = T>,
+    mut solve: impl FnMut(T) -> Result<bool, EngineError>,
+) -> Result<Timing, EngineError> {
+    let (begun, mut timing) = (Instant::now(), Timing::new(name));
+    for item in items {
+        if begun.elapsed() > budget && timing.seconds.len() >= least {
+            break;
+        }
+        let clock = Instant::now();
+        let converged = solve(item)?;
+        timing.seconds.push(clock.elapsed().as_secs_f64());
+        timing.failures += usize::from(!converged);
+    }
+    Ok(timing)
+}
+
 impl Timing {
-    fn new(name: &'static str, budget: Duration) -> Self {
-        Self { name, begun: Instant::now(), budget, seconds: Vec::new(), failures: 0 }
-    }
-
-    fn spent(&self) -> bool {
-        self.begun.elapsed() > self.budget
-    }
-
-    fn record(&mut self, clock: Instant, converged: bool) {
-        self.seconds.push(clock.elapsed().as_secs_f64());
-        self.failures += usize::from(!converged);
+    fn new(name: &'static str) -> Self {
+        Self { name, seconds: Vec::new(), failures: 0 }
     }
 
     /// Marches and records every step.

@@ -232,16 +232,11 @@ mod tests {
     use super::*;
     use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
     use crate::solver::physics::contact::OperatingPoint;
-    use crate::solver::training::{Plan, Range, Search, Solved, WindowSpec, WindowState};
+    use crate::solver::training::small::moes;
+    use crate::solver::training::{Plan, Search, Solved, WindowSpec, WindowState};
 
     fn state(folder: &str) -> (TrainingState, PathBuf) {
-        let range = Range::Moes {
-            m: (10.0, 20.0),
-            l: (2.0, 3.0),
-            alpha: (1e-8, 2e-8),
-            max_hertz_pressure: 3e9,
-            viscosity: 0.01,
-        };
+        let range = moes((10.0, 20.0), (2.0, 3.0), 3e9);
         let (grid, plan) = (ContactGridSpec::Line(GridSpec::EXPLORER), Plan::FarthestPoint { snapshots: 8 });
         let spec = TrainingSpec { title: "kept".to_owned(), ..TrainingSpec::new(range, (10.0, 20.0), grid, plan) };
         let point = OperatingPoint::TABLE_2_1;

@@ -227,7 +227,7 @@ fn shear_rates_add_up_to_the_sliding_speed() {
     let mut solver = ContactSolver::on(&LINE.build().unwrap());
     let solution = solve(&mut solver, problem(0.74, 0.5, 0.2227));
     let film_scale = solution.problem.point.film_scale_m();
-    let heights: Vec<Vec<_>> = (0..=40).map(|k| solution.shear_along_axis(f64::from(k) / 40.0)).collect();
+    let heights: Vec<Vec<_>> = (0..=40).map(|k| solution.shear_field(&[f64::from(k) / 40.0])).collect();
     for (i, (x, _, film)) in solution.profile().enumerate() {
         // The trapezoidal rule across the film.
         let weight = |k: usize| if k == 0 || k == 40 { 0.0125 } else { 0.025 };

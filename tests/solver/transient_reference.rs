@@ -2,7 +2,7 @@
 //! published one.
 
 use ehl_explorer::solver::discrete::grid::{GridSpec, PointGridSpec};
-use ehl_explorer::solver::full::transient::{self, Frame, Inputs, Keep, Signal, TimeStep, Transient};
+use ehl_explorer::solver::full::transient::{self, Inputs, Signal, Transient};
 use ehl_explorer::solver::full::{PointSolver, Start};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use ehl_explorer::solver::physics::lubricant::Lubricant;
@@ -18,15 +18,8 @@ fn rows<const N: usize>(table: &str) -> Vec<[f64; N]> {
 
 #[test]
 fn a_breathing_contact_agrees_with_an_independent_one_at_every_moment() {
-    let breathing = Transient {
-        point: OperatingPoint::TABLE_2_1,
-        lubricant: Lubricant::default(),
-        inputs: Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 4.0 }),
-        frame: Frame::Fixed,
-        duration: 8.0,
-        time_step: TimeStep::Fixed(0.01),
-        keep: Keep::Scalars,
-    };
+    let load = Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 4.0 });
+    let breathing = Transient::new(OperatingPoint::TABLE_2_1, load, 8.0, 0.01);
     let trajectory = transient::solve(GridSpec::DISSERTATION, &breathing, &()).unwrap();
     assert!(trajectory.finished() && trajectory.moments.len() == 801);
     let reference = rows::<4>(include_str!("../data/line_transient.csv"));

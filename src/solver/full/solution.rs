@@ -94,15 +94,6 @@ impl Problem {
     pub fn laws(&self) -> Laws<'_> {
         Laws { fluid: &self.fluid, shear: self.shear.as_ref(), inverse_lambda: self.inverse_lambda }
     }
-
-    /// The same for a solver that is made for one kind of contact.
-    ///
-    /// # Errors
-    /// When the point is of the other kind, or it or the lubricant is outside its valid range.
-    pub fn of_kind(kind: ContactKind, point: &OperatingPoint, lubricant: Lubricant) -> Result<Self, SolveError> {
-        expect_kind(kind, point)?;
-        Self::new(point, lubricant)
-    }
 }
 
 /// Refuses a point of the other kind.

@@ -79,7 +79,8 @@ impl<S: NewtonSpace> Solver<S> {
         start: Start<'_>,
         observer: &dyn Observer,
     ) -> Result<Solution, SolveError> {
-        self.solve_problem(Problem::of_kind(S::KIND, point, lubricant)?, start, observer)
+        expect_kind(S::KIND, point)?;
+        self.solve_problem(Problem::new(point, lubricant)?, start, observer)
     }
 
     /// The same for a problem that exists already, under sliding for instance.
@@ -136,7 +137,8 @@ impl<S: NewtonSpace> Solver<S> {
         point: &OperatingPoint,
         lubricant: Lubricant,
     ) -> Result<(System<S>, Problem), SolveError> {
-        let problem = Problem::of_kind(S::KIND, point, lubricant)?;
+        expect_kind(S::KIND, point)?;
+        let problem = Problem::new(point, lubricant)?;
         let mut system = System::new(S::on(&self.reference, S::scale_of(&self.reference, problem.moes)));
         cold_state(&mut system, &problem, S::COLD_FILMS[0]);
         Ok((system, problem))
@@ -331,7 +333,10 @@ impl ContactSolver {
         start: Start<'_>,
         observer: &dyn Observer,
     ) -> Result<Solution, SolveError> {
-        self.solve_problem(Problem::of_kind(self.grid_spec().kind(), point, lubricant)?, start, observer)
+        match self {
+            Self::Line(solver) => solver.solve(point, lubricant, start, observer),
+            Self::Point(solver) => solver.solve(point, lubricant, start, observer),
+        }
     }
 
     /// The same for a problem that exists already.

@@ -2,7 +2,7 @@
 
 use super::newton_space::NewtonSpace;
 use super::*;
-use crate::solver::discrete::grid::{FIRST_UNKNOWN, GridSpec};
+use crate::solver::discrete::grid::{FIRST_UNKNOWN, GridSpec, PointGridSpec};
 use crate::solver::discrete::reynolds::{CENTER, PENALTY, STENCIL};
 use crate::solver::discrete::space::LineSpace;
 use crate::solver::observer::{NewtonStep, Observer};
@@ -11,6 +11,7 @@ use crate::solver::physics::lubricant::{DensityLaw, Lubricant, ShearLaw, Viscosi
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 const COARSE: GridSpec = GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) };
+const PLANE: PointGridSpec = PointGridSpec::uniform(0.04, 0.1, (-4.0, 2.0, -2.0));
 
 fn at(m: f64, l: f64) -> OperatingPoint {
     si_from_moes(&MoesRequest::new(ContactKind::Line, m, l)).unwrap()
@@ -124,20 +125,24 @@ fn heavy_load_tends_to_hertz_and_light_load_to_the_rigid_solution() {
 fn only_the_dimensionless_groups_matter_to_an_incompressible_barus_fluid() {
     let laws =
         Lubricant { density: DensityLaw::Incompressible, viscosity: ViscosityLaw::Barus, ..Lubricant::default() };
-    let film = |request: MoesRequest| {
-        let point = si_from_moes(&request).unwrap();
-        let s = FullSolver::new(COARSE).unwrap().solve(&point, laws, Start::Cold, &()).unwrap();
-        assert!(s.converged());
-        s.scalars.h_c
-    };
-    let base = MoesRequest::new(ContactKind::Line, 20.0, 6.0);
-    let reference = film(base);
-    for request in [
-        MoesRequest { radius_m: Some(0.05), ..base },
-        MoesRequest { modulus_pa: Some(5e10), viscosity_pa_s: Some(0.2), ..base },
-        MoesRequest { alpha_per_pa: Some(3e-8), ..base },
+    for (mut solver, m, bar) in [
+        (ContactSolver::Line(FullSolver::new(COARSE).unwrap()), 20.0, 1e-9),
+        (ContactSolver::Point(PointSolver::new(PLANE).unwrap()), 50.0, 1e-6),
     ] {
-        assert!((film(request) / reference - 1.0).abs() < 1e-9, "{request:?}");
+        let base = MoesRequest::new(solver.grid_spec().kind(), m, 6.0);
+        let mut film = |request: MoesRequest| {
+            let s = solver.solve(&si_from_moes(&request).unwrap(), laws, Start::Cold, &()).unwrap();
+            assert!(s.converged());
+            s.scalars.h_c
+        };
+        let reference = film(base);
+        for request in [
+            MoesRequest { radius_m: Some(0.05), ..base },
+            MoesRequest { modulus_pa: Some(5e10), viscosity_pa_s: Some(0.2), ..base },
+            MoesRequest { alpha_per_pa: Some(3e-8), ..base },
+        ] {
+            assert!((film(request) / reference - 1.0).abs() < bar, "{request:?}");
+        }
     }
 }
 
@@ -159,9 +164,15 @@ fn a_warm_start_is_much_cheaper_than_a_cold_one_also_from_another_grid() {
 
 #[test]
 fn the_load_is_carried_exactly_and_the_residual_vanishes() {
-    for (m, l) in [(3.0, 10.0), (40.0, 10.0), (300.0, 4.0)] {
-        let s = solve(GridSpec::EXPLORER, &at(m, l));
-        assert!(s.converged() && s.scalars.load_residual < 1e-12 && s.report.residual_norm < 1e-8);
+    let line = [(3.0, 10.0), (40.0, 10.0), (300.0, 4.0)].map(|(m, l)| (solve(GridSpec::EXPLORER, &at(m, l)), 1e-8));
+    let mut solver = PointSolver::new(PointGridSpec { dy: 0.05, ..PLANE }).unwrap();
+    let plane = [(20.0, 12.0), (100.0, 5.0), (400.0, 3.0)].map(|(m, l)| {
+        let point = si_from_moes(&MoesRequest::new(ContactKind::Point, m, l)).unwrap();
+        (solver.solve(&point, Lubricant::default(), Start::Cold, &()).unwrap(), 1e-4)
+    });
+    for (s, bar) in line.into_iter().chain(plane) {
+        assert!(s.converged() && s.report.attempts == 1, "{:?}", s.report);
+        assert!(s.scalars.load_residual < 1e-12 && s.report.residual_norm < bar, "{:?}", s.report);
         assert!(s.film.iter().all(|&h| h > 0.0));
         assert!(s.pressure.iter().all(|&p| p > -1e-4), "the penalty keeps pressures from going negative");
     }

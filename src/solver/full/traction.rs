@@ -33,14 +33,9 @@ struct FilmStress {
 }
 
 impl Solution {
-    /// Shear along the axis Y = 0 at height z = Z h above the lower surface, 0 ≤ Z ≤ 1, in the order of
-    /// [`Solution::profile`]. A limiting stress, where the lubricant has one, cuts the stress; the rate is the one of
-    /// the film without it.
-    pub fn shear_along_axis(&self, height: f64) -> Vec<Shear> {
-        self.shear_field(&[height])
-    }
-
-    /// The same at several heights, those of a node one after the other.
+    /// Shear along the axis Y = 0 at heights z = Z h above the lower surface, 0 ≤ Z ≤ 1, in the order of
+    /// [`Solution::profile`], the heights of a node one after the other. A limiting stress, where the lubricant has one,
+    /// cuts the stress; the rate is the one of the film without it.
     pub fn shear_field(&self, heights: &[f64]) -> Vec<Shear> {
         let gradient = PlaneGradient::new(&self.x, &self.y);
         let axis = self.y.len() - 1;

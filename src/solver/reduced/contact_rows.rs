@@ -89,14 +89,12 @@ mod tests {
     use crate::solver::discrete::grid::{FIRST_UNKNOWN, GridSpec};
     use crate::solver::full::transient::{Frame, Input, Inputs};
     use crate::solver::full::{Problem, scalars_of};
-    use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-    use crate::solver::physics::lubricant::{Lubricant, Sliding};
+    use crate::solver::physics::contact::OperatingPoint;
+    use crate::solver::physics::lubricant::Lubricant;
 
     #[test]
     fn they_give_the_scalars_of_the_fields() {
-        let quantities = [2e-3, 5.0, 2e5, 231e9, 0.01, 1e-8];
-        let point = OperatingPoint::from_quantities(ContactKind::Line, quantities, Sliding::NONE);
-        let problem = Problem::new(&point, Lubricant::default()).unwrap();
+        let problem = Problem::new(&OperatingPoint::TABLE_4_2, Lubricant::default()).unwrap();
         let at = Frame::Fixed.conditions(&problem, 0.0, Input { radius: 0.8, ..Inputs::default().at(0.0) }).unwrap();
         // No node of the third grid lies at X = 0.
         for (dx, domain) in [(0.005, (-4.0, 2.0)), (0.02, (-3.0, 1.6)), (0.017, (-3.0, 1.57))] {

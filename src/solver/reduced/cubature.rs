@@ -101,14 +101,9 @@ impl GoalEquations {
             fit.prune(&mut support, target)?;
         }
         let weights = fit.non_negative(&mut support)?;
-        let rule = support.iter().zip(&weights).map(|(&i, w)| (self.candidates[i], w / fit.norms[i]));
-        let mut pairs: Vec<(usize, f64)> = rule.collect();
-        pairs.sort_by_key(|p| p.0);
-        Some(pairs.into_iter().unzip())
+        Some(fit.rule(&support, &weights))
     }
-}
 
-impl GoalEquations {
     /// Rows and relative weights, at most `most`, by the non-negative least squares of Lawson and Hanson (1974, chapter
     /// 23), which lowers the residual with every row: for equations that can be met closely, whose neighbouring columns
     /// hardly differ. `None` when they are degenerate.
@@ -152,10 +147,7 @@ impl GoalEquations {
                 weights.retain(|_| kept.next().unwrap_or(false));
             }
         }
-        let rule = support.iter().zip(&weights).map(|(&i, w)| (self.candidates[i], w / fit.norms[i]));
-        let mut pairs: Vec<(usize, f64)> = rule.collect();
-        pairs.sort_by_key(|p| p.0);
-        Some(pairs.into_iter().unzip())
+        Some(fit.rule(&support, &weights))
     }
 }
 
@@ -184,6 +176,14 @@ impl<'a> Fit<'a> {
         norms.iter_mut().for_each(|norm| *norm = norm.sqrt());
         let (columns, gram) = (Mat::zeros(equations.count(), 0), Mat::zeros(0, 0));
         Self { equations, norms, seen: Vec::new(), place: vec![None; n], columns, gram, right: Vec::new() }
+    }
+
+    /// Rows, ascending, and relative weights of a fit.
+    fn rule(&self, support: &[usize], weights: &[f64]) -> (Vec<usize>, Vec<f64>) {
+        let rule = support.iter().zip(weights).map(|(&i, w)| (self.equations.candidates[i], w / self.norms[i]));
+        let mut pairs: Vec<(usize, f64)> = rule.collect();
+        pairs.sort_by_key(|p| p.0);
+        pairs.into_iter().unzip()
     }
 
     /// Whether a column may be used at all: rows that never matter may not.

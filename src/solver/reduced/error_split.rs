@@ -58,24 +58,9 @@ pub enum SplitError {
     /// The model with all rows has none.
     #[error("with all rows {0}")]
     Galerkin(#[source] ReducedError),
-    /// A full solve did not converge.
-    #[error("the full solve on {grid} {how}", how = .termination.describe())]
-    Full {
-        /// Which grid.
-        grid: &'static str,
-        /// How it ended.
-        termination: Termination,
-    },
-    /// The second grid does not belong to the first.
-    #[error(
-        "the grid's part cannot be extrapolated: {first} and {second} nodes across the contact do not belong together"
-    )]
-    Incomparable {
-        /// Nodes across on the model's grid.
-        first: usize,
-        /// Nodes across on the second one.
-        second: usize,
-    },
+    /// A full solve did not converge, or the second grid does not belong to the first: a sentence.
+    #[error("{0}")]
+    Full(String),
     /// The observer asked to stop.
     #[error("cancelled")]
     Cancelled,
@@ -233,11 +218,11 @@ impl References {
     }
 }
 
-fn converged(solution: Solution, grid: &'static str) -> Result<Solution, SplitError> {
+fn converged(solution: Solution, grid: &str) -> Result<Solution, SplitError> {
     match solution.report.termination {
         Termination::Converged => Ok(solution),
         Termination::Cancelled => Err(SplitError::Cancelled),
-        termination => Err(SplitError::Full { grid, termination }),
+        termination => Err(SplitError::Full(format!("the full solve on {grid} {}", termination.describe()))),
     }
 }
 
@@ -279,8 +264,14 @@ fn limits(window: &Window, full: &Solution, second: &Solution) -> Result<(f64, f
             Ok((h_c, extrapolate(lowest_film(full), lowest_film(second))))
         }
         ContactGrid::Point(_) => {
-            let incomparable = SplitError::Incomparable { first: full.y.len(), second: second.y.len() };
-            let accuracy = Accuracy::of_either(full, second).ok_or(incomparable)?;
+            let incomparable = || {
+                let (first, second) = (full.y.len(), second.y.len());
+                SplitError::Full(format!(
+                    "the grid's part cannot be extrapolated: {first} and {second} nodes across the contact do not belong \
+                     together"
+                ))
+            };
+            let accuracy = Accuracy::of_either(full, second).ok_or_else(incomparable)?;
             Ok((accuracy.h_c.limit, accuracy.h_min.limit))
         }
     }

@@ -7,18 +7,12 @@ use crate::solver::full::{FullSolver, PointSolver, Solution, Start};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::training::small::{self, POINT_GRID, line_grid};
-use crate::solver::training::{Plan, Range, TrainingSpec, train};
+use crate::solver::training::{Plan, TrainingSpec, train};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 fn model(sampling: Sampling) -> Arc<ReducedModel> {
-    let middle = Range::Moes {
-        m: (20.0, 80.0),
-        l: (6.0, 12.0),
-        alpha: (9e-9, 18e-9),
-        max_hertz_pressure: 3.2e9,
-        viscosity: 0.01,
-    };
+    let middle = small::moes_with((20.0, 80.0), (6.0, 12.0), (9e-9, 18e-9), 3.2e9);
     let spec = TrainingSpec::new(middle, (20.0, 80.0), line_grid(300), Plan::FarthestPoint { snapshots: 50 });
     let spec = TrainingSpec { deformation_loss: 1e-7, sampling, evidence: 0, ..spec };
     Arc::new(train(&spec, &()).unwrap())

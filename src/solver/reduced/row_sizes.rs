@@ -1,6 +1,6 @@
 //! How strongly the rows of the full system answer to their own pressures along trajectories.
 
-use crate::solver::discrete::grid::LineGrid;
+use crate::solver::discrete::grid::{FIRST_UNKNOWN, LineGrid};
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::CENTER;
 use crate::solver::discrete::reynolds::generalized::PlaneGradient;
@@ -41,29 +41,28 @@ pub(crate) fn mean_diagonals(grid: &LineGrid, trajectories: &[&Trajectory], pena
     sums.iter().map(|sum| sum / count).collect()
 }
 
+/// What each row of the full system counts in a linearised one: cell sizes over the root of the rows' mean diagonals.
+/// The root is halfway to rows of equal diagonals, with which the reduced system is no longer stable in time.
+pub(crate) fn row_weights(grid: &LineGrid, trajectories: &[&Trajectory], penalty: f64) -> Vec<f64> {
+    let weights = grid.weights[FIRST_UNKNOWN..].iter().zip(mean_diagonals(grid, trajectories, penalty));
+    weights.map(|(weight, diagonal)| weight / diagonal.sqrt()).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::solver::discrete::elasticity::Scratch;
-    use crate::solver::discrete::grid::{FIRST_UNKNOWN, GridSpec};
-    use crate::solver::full::transient::{self, Frame, Inputs, Keep, Signal, TimeStep, Transient};
+    use crate::solver::discrete::grid::GridSpec;
+    use crate::solver::full::transient::{self, Inputs, Keep, Signal, Transient};
     use crate::solver::physics::contact::OperatingPoint;
-    use crate::solver::physics::lubricant::Lubricant;
 
     #[test]
     fn sizes_are_difference_quotients_of_whole_rows_and_span_many_orders() {
         let spec = GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) };
         let step = 0.01;
         let load = Signal::Harmonic { amplitude: 0.1, period: 0.2 };
-        let asked = Transient {
-            point: OperatingPoint::TABLE_2_1,
-            lubricant: Lubricant::default(),
-            inputs: Inputs::load(load),
-            frame: Frame::Fixed,
-            duration: 0.1,
-            time_step: TimeStep::Fixed(step),
-            keep: Keep::Every(5),
-        };
+        let asked = Transient::new(OperatingPoint::TABLE_2_1, Inputs::load(load), 0.1, step);
+        let asked = Transient { keep: Keep::Every(5), ..asked };
         let trajectory = transient::solve(spec, &asked, &()).unwrap();
         let grid = spec.build().unwrap().scaled(1.0);
         let penalty = 1e4;

@@ -14,12 +14,10 @@ mod one_thread;
 mod plan;
 #[cfg(test)]
 mod point_tests;
-mod quantity_box;
 mod range;
 #[cfg(test)]
 mod resume_tests;
 mod rows;
-mod sliding_range;
 #[cfg(test)]
 pub(crate) mod small;
 mod split;
@@ -38,9 +36,7 @@ pub use calibrate::EVIDENCE;
 pub use indicator::Indicator;
 pub use one_thread::on_one_thread;
 pub use plan::random_points;
-pub use quantity_box::QuantityBox;
-pub use range::Range;
-pub use sliding_range::SlidingRange;
+pub use range::{QuantityBox, Range, SlidingRange};
 pub use state::{Solved, TrainingState, WindowState, train_resumable};
 pub use trajectories::{TrajectoryTraining, train_trajectories};
 

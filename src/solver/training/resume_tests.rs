@@ -1,6 +1,6 @@
 //! Trainings as a whole: stopped and resumed, on any number of threads, with tolerances out of reach.
 
-use super::small::moes;
+use super::small::{moes, moes_with};
 use super::*;
 use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
 use crate::solver::reduced::{ReducedModel, Window};
@@ -173,13 +173,7 @@ fn a_range_in_which_full_solves_fail_names_the_point_and_keeps_what_it_has() {
 #[test]
 fn a_range_that_holds_no_contact_is_refused_with_a_sentence() {
     let nowhere = moes((400.0, 500.0), (19.0, 20.0), 1e6);
-    let one_point = Range::Moes {
-        m: (20.0, 20.0),
-        l: (19.0, 19.0),
-        alpha: (5e-9, 5e-9),
-        max_hertz_pressure: 1e10,
-        viscosity: 0.01,
-    };
+    let one_point = moes_with((20.0, 20.0), (19.0, 19.0), (5e-9, 5e-9), 1e10);
     let plan = Plan::FarthestPoint { snapshots: 8 };
     let given = |m| Windows::Given(vec![WindowSpec { m, grid: ContactGridSpec::Line(GridSpec::EXPLORER) }]);
     for (range, windows, holds) in [

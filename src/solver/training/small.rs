@@ -50,5 +50,10 @@ pub(crate) fn point(sampling: Sampling, snapshots: usize) -> TrainingSpec {
 
 /// Contacts with these numbers up to a pressure, at an α of 5…20 1/GPa.
 pub(crate) fn moes(m: (f64, f64), l: (f64, f64), max_hertz_pressure: f64) -> Range {
-    Range::Moes { m, l, alpha: (5e-9, 20e-9), max_hertz_pressure, viscosity: 0.01 }
+    moes_with(m, l, (5e-9, 20e-9), max_hertz_pressure)
+}
+
+/// The same at another α.
+pub(crate) fn moes_with(m: (f64, f64), l: (f64, f64), alpha: (f64, f64), max_hertz_pressure: f64) -> Range {
+    Range::Moes { m, l, alpha, max_hertz_pressure, viscosity: 0.01 }
 }

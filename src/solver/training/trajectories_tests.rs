@@ -4,10 +4,9 @@
 use super::{TrajectoryTraining, train_trajectories};
 use crate::solver::discrete::grid::{GridSpec, ReferenceGrid};
 use crate::solver::full::transient::{
-    Frame, FullMarch, Inputs, Interpolation, Keep, Quantity, Signal, TimeStep, Trajectory, Transient, march,
+    Frame, FullMarch, Inputs, Interpolation, Keep, Quantity, Signal, Trajectory, Transient, march,
 };
 use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel};
 use std::sync::Arc;
 
@@ -17,27 +16,9 @@ fn grid() -> Arc<ReferenceGrid> {
     GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) }.build().unwrap()
 }
 
-/// Table 4.2's.
-const POINT: OperatingPoint = OperatingPoint {
-    radius_m: 2e-3,
-    speed_m_per_s: 5.0,
-    load: 2e5,
-    modulus_pa: 231e9,
-    viscosity_pa_s: 0.01,
-    alpha_per_pa: 1e-8,
-    ..OperatingPoint::TABLE_2_1
-};
-
 fn transient(frame: Frame, load: Signal) -> Transient {
-    Transient {
-        point: POINT,
-        lubricant: Lubricant::default(),
-        inputs: Inputs::load(load),
-        frame,
-        duration: 1.0,
-        time_step: TimeStep::Fixed(0.005),
-        keep: Keep::Every(1),
-    }
+    let marched = Transient::new(OperatingPoint::TABLE_4_2, Inputs::load(load), 1.0, 0.005);
+    Transient { frame, keep: Keep::Every(1), ..marched }
 }
 
 fn full(transient: &Transient) -> Trajectory {
@@ -79,7 +60,7 @@ fn a_model_reproduces_its_training_in_every_frame_and_follows_an_unseen_load() {
 fn rows_and_modes_that_meet_halfway_reproduce_a_heavy_contact() {
     // Case 2 of Table 4.5: the rupture passes nodes whose penalty answers 10⁵ times as strongly as the rows under the
     // contact. Cell sizes alone, for rows and modes alike, leave 1.4e-4 here.
-    let heavy = OperatingPoint { radius_m: 0.01, speed_m_per_s: 2.5, load: 12e5, alpha_per_pa: 2e-8, ..POINT };
+    let heavy = OperatingPoint { load: 12e5, ..OperatingPoint::TABLE_4_5 };
     let load = Signal::Harmonic { amplitude: 0.1, period: 0.5 };
     let training = full(&Transient { point: heavy, ..transient(Frame::Fixed, load) });
     let settings = TrajectoryTraining { loss: 1e-5, ..TrajectoryTraining::default() };

@@ -78,13 +78,16 @@ impl GridSpec {
             Self::Uniform { domain, .. } | Self::Graded { domain, .. } => domain,
         };
         if !((-200.0..=-1.5).contains(&from) && (1.2..=20.0).contains(&to)) {
-            return Err(GridError::Domain { from, to });
+            return Err(GridError::Refused(format!(
+                "the domain {from}…{to} cuts the contact; its inlet must lie between −200 and −1.5 and its outlet \
+                 between 1.2 and 20"
+            )));
         }
         let xi = match *self {
             Self::Uniform { dx, .. } => {
                 let cells = ((to - from) / dx).round();
                 if !(cells.is_finite() && dx > 0.0 && cells >= 60.0 && cells < MAX_UNIFORM_NODES as f64) {
-                    return Err(GridError::Size { nodes: cells + 1.0, min: 61, max: MAX_UNIFORM_NODES });
+                    return Err(GridError::nodes(cells + 1.0, MAX_UNIFORM_NODES));
                 }
                 let cells = cells as usize;
                 let step = (to - from) / cells as f64;
@@ -92,7 +95,7 @@ impl GridSpec {
             }
             Self::Graded { nodes, .. } => {
                 if !(61..=MAX_GRADED_NODES).contains(&nodes) {
-                    return Err(GridError::Size { nodes: nodes as f64, min: 61, max: MAX_GRADED_NODES });
+                    return Err(GridError::nodes(nodes as f64, MAX_GRADED_NODES));
                 }
                 graded_nodes(nodes, from, to)
             }

@@ -63,15 +63,23 @@ impl PointGridSpec {
     pub fn nodes(&self) -> Result<(usize, usize), GridError> {
         let (from, to, edge) = self.domain;
         if !((-50.0..=-1.5).contains(&from) && (1.2..=20.0).contains(&to) && (-20.0..=-1.2).contains(&edge)) {
-            return Err(GridError::HalfDomain { from, to, edge });
+            return Err(GridError::Refused(format!(
+                "the half domain {from} ≤ X ≤ {to}, {edge} ≤ Y ≤ 0 cuts the contact; its inlet must lie between −50 \
+                 and −1.5, its outlet between 1.2 and 20, its edge between −20 and −1.2"
+            )));
         }
         for (name, spacing, widest) in [("ΔX", self.dx, WIDEST_DX), ("ΔY", self.dy, WIDEST_DY)] {
             if !(1e-4..=widest).contains(&spacing) {
-                return Err(GridError::Spacing { name, spacing, widest });
+                return Err(GridError::Refused(format!(
+                    "{name} is {spacing}, but must lie between 1e-4 and {widest}: fewer nodes cannot hold the contact"
+                )));
             }
         }
         if !(1.0..=8.0).contains(&self.refinement) {
-            return Err(GridError::Refinement(self.refinement));
+            let refinement = self.refinement;
+            return Err(GridError::Refused(format!(
+                "the refinement of the side lobes is {refinement}, but must lie between 1 (equidistant) and 8"
+            )));
         }
         let cells = self.cells_beyond(edge).round();
         Ok((((to - from) / self.dx).round() as usize + 1, cells as usize + 1))
@@ -117,7 +125,15 @@ impl PointGridSpec {
     pub fn check(&self) -> Result<(usize, usize), GridError> {
         let (nx, ny) = self.nodes()?;
         let bytes = Self::bytes(nx, ny);
-        if bytes > MAX_BYTES { Err(GridError::Memory { nx, ny, bytes }) } else { Ok((nx, ny)) }
+        if bytes <= MAX_BYTES {
+            return Ok((nx, ny));
+        }
+        Err(GridError::Refused(format!(
+            "a grid of {nx}×{ny} nodes would need {:.1} GB of memory; at most {:.1} GB are accepted: take a wider \
+             spacing, above all across (dy)",
+            bytes / 1e9,
+            MAX_BYTES / 1e9
+        )))
     }
 
     /// Bytes that the kernel and the preconditioner of nx × ny nodes take: they grow as nx·ny², all else as nx·ny.

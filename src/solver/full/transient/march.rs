@@ -6,6 +6,7 @@ use super::pace::{Pace, TimeStep};
 use super::signal::{InputError, Inputs};
 use super::trajectory::{Effort, Ended, Moment, State, Trajectory};
 use crate::solver::discrete::grid::LineGrid;
+use crate::solver::full::solution::expect_kind;
 use crate::solver::full::{Mesh, Problem, SolveError, Termination};
 use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
@@ -49,16 +50,9 @@ pub enum TransientError {
     /// The inputs are refused.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// The duration or a step is no positive number, or there would be too many steps.
-    #[error("the {quantity} is {value}, but must be {accepted}")]
-    Time {
-        /// Which quantity.
-        quantity: &'static str,
-        /// Its value.
-        value: f64,
-        /// What would be accepted.
-        accepted: String,
-    },
+    /// The duration or a step is no positive number, or there would be too many steps: a sentence.
+    #[error("{0}")]
+    Time(String),
     /// Shear-thinning in time.
     #[error("shear-thinning lubricants are not part of this version's contacts in time; use a Newtonian lubricant")]
     Shear,
@@ -131,15 +125,23 @@ pub trait Marching {
 const MOST_STEPS: f64 = 2e6;
 
 impl Transient {
+    /// A contact with the lubricant laws of the default, in the fixed frame, with equal steps; no fields are kept.
+    pub fn new(point: OperatingPoint, inputs: Inputs, duration: f64, step: f64) -> Self {
+        let (lubricant, time_step) = (Lubricant::default(), TimeStep::Fixed(step));
+        Self { point, lubricant, inputs, frame: Frame::Fixed, duration, time_step, keep: Keep::Scalars }
+    }
+
     /// Refuses inputs and times without sense.
     ///
     /// # Errors
     /// With what is wrong.
     pub fn check(&self) -> Result<(), TransientError> {
+        let refuse = |quantity: &str, value: f64, accepted: &str| {
+            Err(TransientError::Time(format!("the {quantity} is {value}, but must be {accepted}")))
+        };
         let positive = |quantity, value: f64| {
-            let accepted = || "a finite number above zero".to_owned();
             let fine = value.is_finite() && value > 0.0;
-            if fine { Ok(()) } else { Err(TransientError::Time { quantity, value, accepted: accepted() }) }
+            if fine { Ok(()) } else { refuse(quantity, value, "a finite number above zero") }
         };
         positive("duration", self.duration)?;
         let longest = match self.time_step {
@@ -152,7 +154,7 @@ impl Transient {
         positive("time step", longest)?;
         if longest > self.duration || self.duration / longest > MOST_STEPS {
             let accepted = format!("between {:e} and the duration {}", self.duration / MOST_STEPS, self.duration);
-            return Err(TransientError::Time { quantity: "time step", value: longest, accepted });
+            return refuse("time step", longest, &accepted);
         }
         Ok(self.inputs.check(self.duration)?)
     }
@@ -163,7 +165,8 @@ impl Transient {
     /// When the contact, the inputs, the times or the lubricant is refused.
     pub fn problem(&self) -> Result<Problem, TransientError> {
         self.check()?;
-        let problem = Problem::of_kind(ContactKind::Line, &self.point, self.lubricant)?;
+        expect_kind(ContactKind::Line, &self.point)?;
+        let problem = Problem::new(&self.point, self.lubricant)?;
         if problem.shear.is_some() {
             return Err(TransientError::Shear);
         }

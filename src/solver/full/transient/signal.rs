@@ -69,64 +69,10 @@ pub struct Input {
     pub load: f64,
 }
 
-/// Why inputs are refused.
+/// Why inputs are refused: a sentence that names the input and, where there is one, the time.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum InputError {
-    /// R̄ or w̄ does not stay positive.
-    #[error("the {input} falls to {value:.4} times its reference at T = {time:.4}, but must stay above zero")]
-    NotPositive {
-        /// Which input.
-        input: &'static str,
-        /// Its value.
-        value: f64,
-        /// When.
-        time: f64,
-    },
-    /// A value is NaN or infinite.
-    #[error("the {input} is {value} at T = {time:.4}, but must be a finite number")]
-    NotFinite {
-        /// Which input.
-        input: &'static str,
-        /// Its value.
-        value: f64,
-        /// When.
-        time: f64,
-    },
-    /// A period or slope makes no sense.
-    #[error("the {input} has the {constant} {value}, but it must be {accepted}")]
-    Constant {
-        /// Which input.
-        input: &'static str,
-        /// Which constant.
-        constant: &'static str,
-        /// Its value.
-        value: f64,
-        /// What would be accepted.
-        accepted: &'static str,
-    },
-    /// Sampled times do not rise.
-    #[error("the times of the {input} must rise, but {time} (entry {entry}) does not lie after {before}")]
-    Order {
-        /// Which input.
-        input: &'static str,
-        /// Which entry, from 1.
-        entry: usize,
-        /// Its time.
-        time: f64,
-        /// The time before.
-        before: f64,
-    },
-    /// Sampled times and values do not match.
-    #[error("the {input} has {times} times but {values} values; both are needed, as many of each")]
-    Length {
-        /// Which input.
-        input: &'static str,
-        /// Times given.
-        times: usize,
-        /// Values given.
-        values: usize,
-    },
-}
+#[error("{0}")]
+pub struct InputError(String);
 
 /// Samples over which inputs are watched for a passage through zero, beside their own knots.
 const WATCHED: usize = 20_000;
@@ -162,13 +108,12 @@ impl Signal {
     }
 
     fn check_constants(&self, input: &'static str) -> Result<(), InputError> {
+        let refuse = |constant: &str, value: f64, accepted: &str| {
+            Err(InputError(format!("the {input} has the {constant} {value}, but it must be {accepted}")))
+        };
         let positive = |constant, value: f64| {
-            let accepted = "a finite number above zero";
-            if value.is_finite() && value > 0.0 {
-                Ok(())
-            } else {
-                Err(InputError::Constant { input, constant, value, accepted })
-            }
+            let fine = value.is_finite() && value > 0.0;
+            if fine { Ok(()) } else { refuse(constant, value, "a finite number above zero") }
         };
         match self {
             Self::Constant => Ok(()),
@@ -181,17 +126,22 @@ impl Signal {
                 if (0.0..1.0).contains(s) {
                     return Ok(());
                 }
-                let accepted = "at least 0 (a triangle) and below 1 (a square)";
-                Err(InputError::Constant { input, constant: "steepness s", value: *s, accepted })
+                refuse("steepness s", *s, "at least 0 (a triangle) and below 1 (a square)")
             }
             Self::Sampled { times, values } => {
                 if times.len() != values.len() || times.is_empty() {
-                    return Err(InputError::Length { input, times: times.len(), values: values.len() });
+                    let (times, values) = (times.len(), values.len());
+                    return Err(InputError(format!(
+                        "the {input} has {times} times but {values} values; both are needed, as many of each"
+                    )));
                 }
                 for (entry, &time) in times.iter().enumerate() {
                     let before = if entry == 0 { f64::NEG_INFINITY } else { times[entry - 1] };
                     if !time.is_finite() || time <= before {
-                        return Err(InputError::Order { input, entry: entry + 1, time, before });
+                        let entry = entry + 1;
+                        return Err(InputError(format!(
+                            "the times of the {input} must rise, but {time} (entry {entry}) does not lie after {before}"
+                        )));
                     }
                 }
                 Ok(())
@@ -232,10 +182,14 @@ impl Inputs {
             for time in times {
                 let value = signal.at(time);
                 if !value.is_finite() {
-                    return Err(InputError::NotFinite { input, value, time });
+                    return Err(InputError(format!(
+                        "the {input} is {value} at T = {time:.4}, but must be a finite number"
+                    )));
                 }
                 if input != "speed" && value <= 0.0 {
-                    return Err(InputError::NotPositive { input, value, time });
+                    return Err(InputError(format!(
+                        "the {input} falls to {value:.4} times its reference at T = {time:.4}, but must stay above zero"
+                    )));
                 }
             }
         }

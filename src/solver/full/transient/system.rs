@@ -133,12 +133,10 @@ impl Marching for FullMarch {
         self.set_state(at, 0.0);
         self.system.set_central_film(solution.scalars.h_c * at.input.load / at.scales.film);
         let report = self.newton(at, &SolveOptions::default(), observer);
-        let mut effort = converged(&report)?;
-        effort.newton_iterations += solution.report.newton_iterations;
-        effort.linear_iterations += solution.report.linear_iterations;
+        let effort = converged(&report)?;
         self.remember();
         self.history.rest();
-        Ok(effort)
+        Ok(effort.and(effort_of(&solution.report)))
     }
 
     fn step(&mut self, step: &Step, observer: &dyn Observer) -> Result<Effort, Termination> {
@@ -160,10 +158,7 @@ impl Marching for FullMarch {
         // The former state lies farther off: damped as from anywhere.
         let second = self.newton(&step.now, &farther, observer);
         self.start = extrapolation;
-        let mut effort = converged(&second)?;
-        effort.newton_iterations += first.newton_iterations;
-        effort.linear_iterations += first.linear_iterations;
-        Ok(effort)
+        Ok(converged(&second)?.and(effort_of(&first)))
     }
 
     fn deviation(&self) -> f64 {

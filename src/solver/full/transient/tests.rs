@@ -14,27 +14,10 @@ const REMESHED: Frame = Frame::Remeshed(Interpolation::CubicSpline);
 const ALL: (f64, f64) = (0.0, f64::INFINITY);
 const FRAMES: [Frame; 3] = [Frame::Fixed, Frame::ArbitraryLagrangianEulerian, REMESHED];
 
-const TABLE_4_2: OperatingPoint = OperatingPoint {
-    radius_m: 2e-3,
-    speed_m_per_s: 5.0,
-    load: 2e5,
-    modulus_pa: 231e9,
-    viscosity_pa_s: 0.01,
-    alpha_per_pa: 1e-8,
-    ..OperatingPoint::TABLE_2_1
-};
-
 /// Case 1 of Table 4.1.
 fn case_1(duration: f64, step: f64) -> Transient {
-    Transient {
-        point: TABLE_4_2,
-        lubricant: Lubricant::default(),
-        inputs: Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 1.0 / 3.0 }),
-        frame: Frame::Fixed,
-        duration,
-        time_step: TimeStep::Fixed(step),
-        keep: Keep::Scalars,
-    }
+    let load = Signal::Harmonic { amplitude: 0.1, period: 1.0 / 3.0 };
+    Transient::new(OperatingPoint::TABLE_4_2, Inputs::load(load), duration, step)
 }
 
 fn finished(spec: GridSpec, transient: &Transient) -> Trajectory {
@@ -45,11 +28,8 @@ fn finished(spec: GridSpec, transient: &Transient) -> Trajectory {
 
 #[test]
 fn table_2_1_breathes_as_the_independent_solution_does() {
-    let transient = Transient {
-        point: OperatingPoint::TABLE_2_1,
-        inputs: Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 4.0 }),
-        ..case_1(8.0, 0.02)
-    };
+    let load = Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 4.0 });
+    let transient = Transient::new(OperatingPoint::TABLE_2_1, load, 8.0, 0.02);
     let trajectory = finished(GridSpec::DISSERTATION, &transient);
     let window = (4.0, 8.0);
     for (quantity, mean, amplitude) in [
@@ -123,7 +103,7 @@ fn constant_inputs_keep_the_stationary_contact() {
     let others = Inputs { radius: rest(1.2), speed: rest(0.8), load: rest(1.5) };
     for inputs in [Inputs::default(), others] {
         let at = inputs.at(0.0);
-        let point = point_at(&TABLE_4_2, at);
+        let point = point_at(&OperatingPoint::TABLE_4_2, at);
         let want = FullSolver::new(MIDDLE).unwrap().solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
         // Its own scales are not the reference's.
         let (film, pressure) = (at.load * want.scalars.h_c, (at.load / at.radius).sqrt() * want.scalars.p_c);

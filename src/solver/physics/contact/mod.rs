@@ -161,6 +161,20 @@ impl OperatingPoint {
         sliding: Sliding::NONE,
     };
 
+    /// Table 4.2 of the dissertation: the line contact of its first transient cases.
+    pub const TABLE_4_2: Self = Self {
+        radius_m: 2e-3,
+        speed_m_per_s: 5.0,
+        load: 2e5,
+        modulus_pa: 231e9,
+        viscosity_pa_s: 0.01,
+        alpha_per_pa: 1e-8,
+        ..Self::TABLE_2_1
+    };
+
+    /// Case 1 of the dissertation's Table 4.5; case 2 is its sixfold load.
+    pub const TABLE_4_5: Self = Self { radius_m: 0.01, speed_m_per_s: 2.5, alpha_per_pa: 2e-8, ..Self::TABLE_4_2 };
+
     /// The point of a kind with the six SI quantities in the order of [`OperatingPoint::quantities`].
     pub fn from_quantities(kind: ContactKind, quantities: [f64; 6], sliding: Sliding) -> Self {
         let [radius_m, speed_m_per_s, load, modulus_pa, viscosity_pa_s, alpha_per_pa] = quantities;

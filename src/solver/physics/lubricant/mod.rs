@@ -71,54 +71,17 @@ pub struct Lubricant {
     pub limiting_stress: Option<LimitingStress>,
 }
 
-/// Why a lubricant cannot be used at an operating point.
+/// Why a lubricant cannot be used at an operating point: a sentence.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum LubricantError {
-    /// Roelands' law needs η₀ > exp(−9.67) Pa·s.
-    #[error(
-        "Roelands' law needs an ambient viscosity above {minimum:.3e} Pa·s, but it is {viscosity:.3e} Pa·s; use Barus' law or a larger viscosity"
-    )]
-    RoelandsViscosity {
-        /// The viscosity given \[Pa·s\].
-        viscosity: f64,
-        /// The smallest accepted one \[Pa·s\].
-        minimum: f64,
-    },
-    /// A constant of a law, or an operating condition, is outside its sense.
-    #[error("{constant} is {value}, but must be a finite number between {min:e} and {max:e}")]
-    Constant {
-        /// What it is.
-        constant: &'static str,
-        /// The value given.
-        value: f64,
-        /// Smallest accepted value.
-        min: f64,
-        /// Largest accepted value.
-        max: f64,
-    },
-    /// The free volume ends under the contact's own pressure.
-    #[error(
-        "at the Hertzian pressure of {:.3} GPa the lubricant's relative volume falls under its occupied volume, where Doolittle's law ends ({:.3} GPa); use a smaller load or another lubricant", pressure / 1e9, largest / 1e9
-    )]
-    OccupiedVolume {
-        /// Hertzian pressure \[Pa\].
-        pressure: f64,
-        /// The law's end \[Pa\].
-        largest: f64,
-    },
-    /// A plateau ratio without a law it could belong to.
-    #[error(
-        "the Newtonian plateau ratio is {ratio}, but the lubricant has no shear constants; only 1 (Newtonian) is accepted"
-    )]
-    NoShearLaw {
-        /// The ratio given.
-        ratio: f64,
-    },
-}
+#[error("{0}")]
+pub struct LubricantError(String);
 
 /// Refuses a constant that is not finite or outside its range.
-fn check_constant(constant: &'static str, value: f64, min: f64, max: f64) -> Result<(), LubricantError> {
-    if (min..=max).contains(&value) { Ok(()) } else { Err(LubricantError::Constant { constant, value, min, max }) }
+fn check_constant(constant: &str, value: f64, min: f64, max: f64) -> Result<(), LubricantError> {
+    if (min..=max).contains(&value) {
+        return Ok(());
+    }
+    Err(LubricantError(format!("{constant} is {value}, but must be a finite number between {min:e} and {max:e}")))
 }
 
 /// Density and viscosity at one pressure with their derivatives with respect to P.
@@ -154,8 +117,11 @@ impl Lubricant {
     pub fn scaled(self, point: &OperatingPoint) -> Result<ScaledFluid, LubricantError> {
         let roelands_log = point.viscosity_pa_s.ln() + 9.67;
         if self.viscosity == ViscosityLaw::Roelands && roelands_log <= 0.05 {
-            let minimum = (0.05f64 - 9.67).exp();
-            return Err(LubricantError::RoelandsViscosity { viscosity: point.viscosity_pa_s, minimum });
+            let (viscosity, minimum) = (point.viscosity_pa_s, (0.05f64 - 9.67).exp());
+            return Err(LubricantError(format!(
+                "Roelands' law needs an ambient viscosity above {minimum:.3e} Pa·s, but it is {viscosity:.3e} Pa·s; use \
+                 Barus' law or a larger viscosity"
+            )));
         }
         self.check()?;
         let pressure = point.hertz().pressure_pa;
@@ -173,7 +139,12 @@ impl Lubricant {
     pub(crate) fn check_pressure(&self, pressure: f64) -> Result<(), LubricantError> {
         match self.viscosity {
             ViscosityLaw::Doolittle(law) if pressure >= law.largest_pressure() => {
-                Err(LubricantError::OccupiedVolume { pressure, largest: law.largest_pressure() })
+                let (pressure, largest) = (pressure / 1e9, law.largest_pressure() / 1e9);
+                Err(LubricantError(format!(
+                    "at the Hertzian pressure of {pressure:.3} GPa the lubricant's relative volume falls under its \
+                     occupied volume, where Doolittle's law ends ({largest:.3} GPa); use a smaller load or another \
+                     lubricant"
+                )))
             }
             _ => Ok(()),
         }

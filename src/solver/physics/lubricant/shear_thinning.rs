@@ -244,7 +244,10 @@ impl ScaledShear {
         let plateau = sliding.newtonian_plateau_ratio.unwrap_or(law.plateau());
         check_plateau(plateau)?;
         if plateau < 1.0 && law == ShearLaw::Newtonian {
-            return Err(LubricantError::NoShearLaw { ratio: plateau });
+            return Err(LubricantError(format!(
+                "the Newtonian plateau ratio is {plateau}, but the lubricant has no shear constants; only 1 (Newtonian) \
+                 is accepted"
+            )));
         }
         let Some((fluidity, stress_scale_pa)) = Fluidity::of(law, plateau).filter(|_| plateau < 1.0) else {
             return Ok(None);

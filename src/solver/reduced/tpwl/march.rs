@@ -79,7 +79,7 @@ impl<'a> TpwlMarch<'a> {
         check_frame(transient.frame)?;
         let watched = (0..=WATCHED).map(|k| transient.duration * k as f64 / WATCHED as f64);
         if let Some(time) = watched.into_iter().find(|&time| transient.inputs.speed.at(time) <= 0.0) {
-            return Err(TpwlError::Reversal { speed: transient.inputs.speed.at(time), time });
+            return Err(TpwlError::reversal(transient.inputs.speed.at(time), time));
         }
         let search = Search::new(model, weighting, model.shares(&problem)?);
         let (len, most) = (model.space.len(), search.most_weights());

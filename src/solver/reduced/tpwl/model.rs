@@ -1,14 +1,14 @@
 //! The model: operating points of training trajectories with their linearised systems.
 
-use super::linearisation::{Linearisation, SystemFunctions};
-use super::rows::row_weights;
-use super::selection::{Selection, Selector, TrainedMoment, select, with_points};
+use super::linearisation::{Linearisation, PENALTY_SLOPE, SystemFunctions};
+use super::selection::{Selection, Selector, TrainedMoment, with_points};
 use super::space::{INPUTS, ReducedSpace, input_vector, same_but_load};
 use super::weights::square_distance;
 use crate::solver::full::transient::{Frame, Trajectory, TransientError};
 use crate::solver::full::{Mesh, Problem, SolveError};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::PodBasis;
+use crate::solver::reduced::row_sizes::row_weights;
 use faer::Mat;
 use serde::{Deserialize, Serialize};
 
@@ -31,64 +31,30 @@ pub enum TpwlError {
     /// There is nothing to learn from.
     #[error("a trajectory-piecewise-linear model needs at least one training trajectory")]
     NoTraining,
-    /// A trajectory kept no fields.
-    #[error("training trajectory {trajectory} keeps the fields of {states} moments, but at least {least} are needed")]
-    NoFields {
-        /// Which, from 1.
-        trajectory: usize,
-        /// Moments whose fields it has.
-        states: usize,
-        /// Fewest needed.
-        least: usize,
-    },
-    /// A moving frame.
-    #[error(
-        "trajectory-piecewise-linear models live in the fixed frame, not in the {} one: inputs would move the whole grid",
-        frame.name()
-    )]
-    Frame {
-        /// The frame asked for.
-        frame: Frame,
-    },
-    /// The surfaces turn round.
-    #[error(
-        "the speed falls to {speed:.4} times its reference at T = {time:.4}; a trajectory-piecewise-linear model needs one that stays above zero"
-    )]
-    Reversal {
-        /// ū.
-        speed: f64,
-        /// When.
-        time: f64,
-    },
+    /// The trajectories do not go together or are none that a model can be made of, the settings make no sense, or the
+    /// model was not made for the contact: a sentence.
+    #[error("{0}")]
+    Refused(String),
+}
+
+impl TpwlError {
+    /// A speed that turns round.
+    pub(super) fn reversal(speed: f64, time: f64) -> Self {
+        Self::Refused(format!(
+            "the speed falls to {speed:.4} times its reference at T = {time:.4}; a trajectory-piecewise-linear model \
+             needs one that stays above zero"
+        ))
+    }
+
     /// Contacts that differ in more than their load.
-    #[error("the {what} differs from the first training trajectory's; only the load may")]
-    Other {
-        /// What differs.
-        what: &'static str,
-    },
-    /// A load outside the trained ones.
-    #[error("the load {load} N/m lies outside the trained {from}…{to} N/m")]
-    Load {
-        /// Load asked for.
-        load: f64,
-        /// Smallest trained.
-        from: f64,
-        /// Largest trained.
-        to: f64,
-    },
-    /// The snapshots hold a number that is none.
-    #[error("the basis cannot be built: a training trajectory holds numbers that are not finite")]
-    Basis,
-    /// The number of modes or the tolerance makes no sense.
-    #[error("the {quantity} of the model is {value}, but must be {accepted}")]
-    Setting {
-        /// Which.
-        quantity: &'static str,
-        /// Its value.
-        value: f64,
-        /// What would be accepted.
-        accepted: &'static str,
-    },
+    fn other(what: &str) -> Self {
+        Self::Refused(format!("the {what} differs from the first training trajectory's; only the load may"))
+    }
+
+    /// A setting without sense.
+    fn setting(quantity: &str, value: f64, accepted: &str) -> Self {
+        Self::Refused(format!("the {quantity} of the model is {value}, but must be {accepted}"))
+    }
 }
 
 /// An operating point: a moment of a training trajectory with its linearised system, which is never changed.
@@ -207,7 +173,8 @@ impl TpwlModel {
         let mut chosen = vec![Vec::new(); self.trajectories.len()];
         for set in &self.sets {
             for &trajectory in &set.trajectories {
-                chosen[trajectory] = select(rule, &self.space, &set.problem, &self.trajectories[trajectory]);
+                let mut selector = Selector::new(&self.space, &set.problem, &self.trajectories[trajectory]);
+                chosen[trajectory] = selector.choose(rule);
             }
         }
         chosen
@@ -218,15 +185,18 @@ impl TpwlModel {
         let first = check(trajectories, training)?;
         let grid = match first.mesh {
             Mesh::Line { spec, scale } => spec.build().map_err(refused)?.scaled(scale),
-            Mesh::Point(_) => return Err(TpwlError::Other { what: "kind of contact" }),
+            Mesh::Point(_) => return Err(TpwlError::other("kind of contact")),
         };
         let count: usize = trajectories.iter().map(|t| t.states.len()).sum();
         let stride = count.div_ceil(MOST_SNAPSHOTS);
         let snapshots: Vec<&[f64]> =
             trajectories.iter().flat_map(|t| &t.states).step_by(stride).map(|s| s.pressure.as_slice()).collect();
         let matrix = Mat::from_fn(grid.len(), snapshots.len(), |i, j| snapshots[j][i]);
-        let basis = PodBasis::new(matrix.as_ref(), &grid.weights, 0.0).ok_or(TpwlError::Basis)?;
-        let row_weights = row_weights(&grid, trajectories);
+        let basis = PodBasis::new(matrix.as_ref(), &grid.weights, 0.0).ok_or_else(|| {
+            let sentence = "the basis cannot be built: a training trajectory holds numbers that are not finite";
+            TpwlError::Refused(sentence.to_owned())
+        })?;
+        let row_weights = row_weights(&grid, trajectories, PENALTY_SLOPE);
         let space = ReducedSpace::new(grid, &basis, training.modes, row_weights);
         let moments: Vec<Vec<TrainedMoment>> = trajectories.iter().map(|t| moments(&space, t)).collect();
         let mut problems: Vec<Problem> = Vec::new();
@@ -312,10 +282,10 @@ impl TpwlModel {
             return Err(TpwlError::NoTraining);
         };
         if problem.lubricant != first.problem.lubricant {
-            return Err(TpwlError::Other { what: "lubricant" });
+            return Err(TpwlError::other("lubricant"));
         }
         if !same_but_load(&problem.point, &first.problem.point) {
-            return Err(TpwlError::Other { what: "contact" });
+            return Err(TpwlError::other("contact"));
         }
         let load_of = |set: &ParameterSet| set.problem.point.load;
         let load = problem.point.load;
@@ -327,7 +297,10 @@ impl TpwlModel {
                 let share = (load - low) / (load_of(set) - low);
                 Ok(vec![(below, 1.0 - share), (above, share)])
             }
-            _ => Err(TpwlError::Load { load, from: load_of(first), to: load_of(last) }),
+            _ => {
+                let (from, to) = (load_of(first), load_of(last));
+                Err(TpwlError::Refused(format!("the load {load} N/m lies outside the trained {from}…{to} N/m")))
+            }
         }
     }
 }
@@ -343,14 +316,13 @@ const LEAST_STATES: usize = 3;
 /// Refuses settings without sense.
 fn check_settings(TpwlTraining { modes, selection }: TpwlTraining) -> Result<(), TpwlError> {
     if modes == 0 {
-        return Err(TpwlError::Setting { quantity: "number of modes", value: 0.0, accepted: "at least 1" });
+        return Err(TpwlError::setting("number of modes", 0.0, "at least 1"));
     }
     let tolerance = selection.tolerance();
     if tolerance.is_finite() && tolerance > 0.0 {
         return Ok(());
     }
-    let accepted = "a finite number above zero";
-    Err(TpwlError::Setting { quantity: "tolerance of the selection", value: tolerance, accepted })
+    Err(TpwlError::setting("tolerance of the selection", tolerance, "a finite number above zero"))
 }
 
 /// Refuses trajectories that do not go together, and settings without sense; returns the first trajectory.
@@ -360,11 +332,14 @@ fn check<'a>(trajectories: &[&'a Trajectory], training: TpwlTraining) -> Result<
     for (k, trajectory) in trajectories.iter().enumerate() {
         check_frame(trajectory.transient.frame)?;
         if trajectory.states.len() < LEAST_STATES {
-            let states = trajectory.states.len();
-            return Err(TpwlError::NoFields { trajectory: k + 1, states, least: LEAST_STATES });
+            return Err(TpwlError::Refused(format!(
+                "training trajectory {} keeps the fields of {} moments, but at least {LEAST_STATES} are needed",
+                k + 1,
+                trajectory.states.len()
+            )));
         }
         if let Some(moment) = trajectory.moments.iter().find(|moment| moment.input.speed <= 0.0) {
-            return Err(TpwlError::Reversal { speed: moment.input.speed, time: moment.time });
+            return Err(TpwlError::reversal(moment.input.speed, moment.time));
         }
         let what = match (trajectory, first) {
             (a, b) if a.mesh != b.mesh => "grid",
@@ -372,14 +347,20 @@ fn check<'a>(trajectories: &[&'a Trajectory], training: TpwlTraining) -> Result<
             (a, b) if !same_but_load(&a.problem.point, &b.problem.point) => "contact",
             _ => continue,
         };
-        return Err(TpwlError::Other { what });
+        return Err(TpwlError::other(what));
     }
     Ok(first)
 }
 
 /// Refuses a moving frame.
 pub fn check_frame(frame: Frame) -> Result<(), TpwlError> {
-    if frame == Frame::Fixed { Ok(()) } else { Err(TpwlError::Frame { frame }) }
+    if frame == Frame::Fixed {
+        return Ok(());
+    }
+    Err(TpwlError::Refused(format!(
+        "trajectory-piecewise-linear models live in the fixed frame, not in the {} one: inputs would move the whole grid",
+        frame.name()
+    )))
 }
 
 /// A trajectory in the reduced space.

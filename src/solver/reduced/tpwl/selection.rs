@@ -74,11 +74,6 @@ pub struct Selector<'a> {
     systems: Vec<Option<Linearisation>>,
 }
 
-/// Indices of the moments a rule chooses from one trajectory; the first moment is always one of them.
-pub fn select(rule: Selection, space: &ReducedSpace, problem: &Problem, moments: &[TrainedMoment]) -> Vec<usize> {
-    Selector::new(space, problem, moments).choose(rule)
-}
-
 impl<'a> Selector<'a> {
     /// Nothing linearised yet.
     pub fn new(space: &'a ReducedSpace, problem: &'a Problem, moments: &'a [TrainedMoment]) -> Self {

@@ -29,7 +29,7 @@ pub struct ReducedSpace {
     pub deformation: Mat<f64>,
     /// wᵀ V: what each mode carries.
     pub load: Vec<f64>,
-    /// What each row of the full system counts when it is tested with Vᵀ, see `rows::row_weights`.
+    /// What each row of the full system counts when it is tested with Vᵀ, see `row_sizes::row_weights`.
     pub row_weights: Vec<f64>,
 }
 

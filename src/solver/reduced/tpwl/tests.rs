@@ -6,10 +6,9 @@ use super::*;
 use crate::solver::discrete::grid::{FIRST_UNKNOWN, GridSpec};
 use crate::solver::full::Problem;
 use crate::solver::full::transient::{
-    self, BackwardDifference, Frame, Input, Inputs, Keep, Quantity, Signal, TimeStep, Trajectory, Transient,
+    self, BackwardDifference, Frame, Input, Inputs, Keep, Quantity, Signal, Trajectory, Transient,
 };
 use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::dense::SmallSystem;
 use faer::linalg::solvers::Solve;
 use std::sync::LazyLock;
@@ -17,21 +16,10 @@ use std::sync::LazyLock;
 const COARSE: GridSpec = GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) };
 const STEP_SELECTION: Selection = Selection::Step { tolerance: 1e-3 };
 
-/// Case 1 of Table 4.5.
-const CASE_1: OperatingPoint = OperatingPoint {
-    radius_m: 0.01,
-    speed_m_per_s: 2.5,
-    load: 2e5,
-    modulus_pa: 231e9,
-    viscosity_pa_s: 0.01,
-    alpha_per_pa: 2e-8,
-    ..OperatingPoint::TABLE_2_1
-};
+const CASE_1: OperatingPoint = OperatingPoint::TABLE_4_5;
 
 fn transient(point: OperatingPoint, inputs: Inputs, duration: f64) -> Transient {
-    let time_step = TimeStep::Fixed(1.0 / 200.0);
-    let lubricant = Lubricant::default();
-    Transient { point, lubricant, inputs, frame: Frame::Fixed, duration, time_step, keep: Keep::Scalars }
+    Transient::new(point, inputs, duration, 1.0 / 200.0)
 }
 
 fn full(transient: &Transient) -> Trajectory {
@@ -229,9 +217,9 @@ fn inputs_far_from_the_trained_ones_are_told_apart() {
 
 #[test]
 fn both_rules_choose_more_points_where_less_is_tolerated() {
-    let (space, problem, moments) = (&MODEL.space, &MODEL.sets[0].problem, &MODEL.trajectories[0]);
+    let moments = &MODEL.trajectories[0];
     let count = |rule| {
-        let chosen = select(rule, space, problem, moments);
+        let chosen = MODEL.selected(rule).remove(0);
         assert_eq!(chosen[0], 0);
         assert!(chosen.windows(2).all(|pair| pair[0] < pair[1]));
         chosen.len()

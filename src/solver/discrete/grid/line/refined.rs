@@ -23,7 +23,7 @@ impl ReferenceGrid {
             GridSpec::Graded { .. } => (MAX_GRADED_NODES, halfway),
         };
         if nodes > max {
-            return Err(GridError::Size { nodes: nodes as f64, min: 61, max });
+            return Err(GridError::nodes(nodes as f64, max));
         }
         let mut xi = Vec::with_capacity(nodes + 1);
         for pair in self.xi.windows(2) {
