@@ -15,6 +15,11 @@ pub struct Display {
     pub zoom: f32,
 }
 
+impl Display {
+    /// Smallest and largest size of everything.
+    pub const ZOOMS: (f32, f32) = (0.6, 3.0);
+}
+
 impl Default for Display {
     fn default() -> Self {
         Self { cuts: Cuts::default(), theme: egui::ThemePreference::System, zoom: 1.0 }

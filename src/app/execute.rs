@@ -5,9 +5,11 @@ use super::answers::jobs::wake;
 use super::command::Command;
 use super::context::Commands;
 use super::desk::files::Pending;
+use super::display::Display;
 use super::export;
 use super::presentation::{Presentation, enlargement};
 use super::purpose::Purpose;
+use super::session::Place;
 use super::tab::Tab;
 use super::tabs;
 use super::traction;
@@ -70,6 +72,7 @@ impl Explorer {
             Command::NormalText => self.set_zoom(1.0),
             Command::ResetLayout => {
                 self.tree = tabs::default_tree();
+                self.place.sliders = Place::default().sliders;
                 self.desk.fit_plots = true;
                 ctx.memory_mut(|m| m.data.clear());
             }
@@ -145,7 +148,8 @@ impl Explorer {
     }
 
     fn set_zoom(&mut self, zoom: f32) {
-        self.desk.display.zoom = zoom.clamp(0.6, 3.0);
+        let (least, most) = Display::ZOOMS;
+        self.desk.display.zoom = zoom.clamp(least, most);
     }
 
     /// Sets the size of everything: as it was chosen, and larger in a presentation.

@@ -45,6 +45,7 @@ use egui_tiles::Tree;
 use model_source::Models;
 use palette::Palette;
 use panels::help::Help;
+use session::{Keeper, Place};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -61,28 +62,23 @@ const APP_ID: &str = "ehl-explorer";
 pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
     let mut explorer = Explorer::with_embedded_models();
     if let Some(folder) = eframe::storage_dir(APP_ID) {
-        explorer = explorer.keeping_trainings_in(&folder);
+        explorer = explorer.keeping_trainings_in(&folder).keeping_session_in(&folder, scene.is_none());
     }
     if let Some(path) = &scene {
         explorer.open_scene(path)?;
     }
     let options = eframe::NativeOptions {
-        viewport: egui::ViewportBuilder::default()
-            .with_app_id(APP_ID)
-            .with_title("EHL Explorer")
-            .with_inner_size([1280.0, 800.0])
-            .with_min_inner_size([900.0, 560.0]),
+        viewport: explorer.place.window().with_app_id(APP_ID).with_title("EHL Explorer"),
         renderer: eframe::Renderer::Glow,
+        // The session is kept by its own keeper. What the toolkit would keep is not checked, nor written as a whole.
+        persist_window: false,
+        persistence_path: Some(PathBuf::new()),
         ..eframe::NativeOptions::default()
     };
-    let restore = scene.is_none();
     eframe::run_native(
         APP_ID,
         options,
         Box::new(move |creation| {
-            if let Some(storage) = creation.storage {
-                session::restore(&mut explorer, storage, restore);
-            }
             // A session that ended in the midst of a presentation begins in a window.
             creation.egui_ctx.send_viewport_cmd(egui::ViewportCommand::Fullscreen(false));
             Ok(Box::new(explorer))
@@ -106,6 +102,8 @@ pub struct Explorer {
     help: Help,
     frame_s: f64,
     installed: bool,
+    place: Place,
+    keeper: Option<Keeper>,
 }
 
 impl Explorer {
@@ -128,6 +126,8 @@ impl Explorer {
             help: Help::default(),
             frame_s: 0.0,
             installed: false,
+            place: Place::default(),
+            keeper: None,
         }
     }
 
@@ -140,6 +140,16 @@ impl Explorer {
     /// Keeps trainings in a folder while they run, and offers to go on with what is found there.
     pub fn keeping_trainings_in(mut self, folder: &Path) -> Self {
         self.desk.training.keep_in(folder);
+        self
+    }
+
+    /// Restores the last session of a folder, its document too where wanted, and keeps this one there.
+    pub fn keeping_session_in(mut self, folder: &Path, with_document: bool) -> Self {
+        session::restore(&mut self, folder, with_document);
+        match Keeper::new(folder) {
+            Ok(keeper) => self.keeper = Some(keeper),
+            Err(sentence) => self.desk.files.notice = Some(Err(sentence)),
+        }
         self
     }
 
@@ -180,6 +190,7 @@ impl Explorer {
         commands.extend(self.palette.ui(&ctx, &self.desk));
         self.settle(&ctx);
         self.execute_all(&ctx, &mut commands);
+        self.keep_session(&ctx);
         // What a plot or a command changed shows in the next frame.
         if !self.desk.answers.is_answer_to(&self.desk.document) {
             ctx.request_repaint();
@@ -201,12 +212,21 @@ impl Explorer {
     fn settle(&mut self, ctx: &egui::Context) {
         let gesture = ctx.input(|i| i.pointer.any_down());
         let desk = &mut self.desk;
-        if !gesture && desk.history.commit(&desk.document) {
-            // The session is written with the next frame after its interval: see to it that there is one.
-            ctx.request_repaint_after_secs(desk::AUTO_SAVE_S as f32 + 1.0);
+        if !gesture {
+            desk.history.commit(&desk.document);
         }
         desk.answers.settle(ctx, &desk.document);
         desk.fit_plots = false;
+    }
+
+    /// Hands what has changed in this frame to the keeper of the session.
+    fn keep_session(&mut self, ctx: &egui::Context) {
+        let Some(mut keeper) = self.keeper.take() else { return };
+        self.place.follow(ctx);
+        if let Some(sentence) = keeper.follow(self) {
+            self.desk.files.notice = Some(Err(sentence));
+        }
+        self.keeper = Some(keeper);
     }
 
     /// The panels around the tabs that are drawn before them.
@@ -220,7 +240,8 @@ impl Explorer {
         } else {
             Panel::top("menu").show(ui, |ui| panels::menu::ui(ui, desk, commands));
             Panel::bottom("jobs").show(ui, |ui| panels::strip::ui(ui, desk, frame_s, commands));
-            Panel::left("sliders").default_size(312.0).size_range(250.0..=520.0).show(ui, |ui| {
+            let ((least, most), width) = (Place::SLIDERS, self.place.sliders);
+            let sliders = Panel::left("sliders").default_size(width).size_range(least..=most).show(ui, |ui| {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                     panels::operating_point::ui(ui, &context, &mut entries, commands);
                     let laws = &context.document.lubricant;
@@ -230,6 +251,7 @@ impl Explorer {
                     ui.add_space(8.0);
                 });
             });
+            self.place.sliders = sliders.response.rect.width().clamp(least, most);
         }
         (desk.entries, desk.own_lubricant) = (entries, own_laws);
     }
@@ -391,11 +413,7 @@ impl eframe::App for Explorer {
         Self::ui(self, ui);
     }
 
-    fn save(&mut self, storage: &mut dyn eframe::Storage) {
-        session::save(self, storage);
-    }
-
-    fn auto_save_interval(&self) -> std::time::Duration {
-        std::time::Duration::from_secs(desk::AUTO_SAVE_S)
+    fn persist_egui_memory(&self) -> bool {
+        false
     }
 }

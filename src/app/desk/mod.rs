@@ -27,9 +27,6 @@ use files::Files;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Seconds between two writes of the session.
-pub const AUTO_SAVE_S: u64 = 10;
-
 /// What the window works with.
 pub struct Desk {
     /// What is edited.

@@ -25,7 +25,7 @@ use super::desk::Desk;
 use super::figure;
 use super::tab::Tab;
 use egui::Ui;
-use egui_tiles::{Behavior, Tile, TileId, Tiles, Tree, UiResponse};
+use egui_tiles::{Behavior, TileId, Tiles, Tree, UiResponse};
 
 /// What each tab keeps of its own.
 #[derive(Default)]
@@ -55,25 +55,6 @@ pub struct Views {
 /// The tabs as they are at first.
 pub fn default_tree() -> Tree<Tab> {
     Tree::new_tabs(egui::Id::unique("tabs"), Tab::ALL.to_vec())
-}
-
-/// A layout that was restored, with the tabs that are new since it was kept; none where it is damaged.
-pub fn completed(mut tree: Tree<Tab>) -> Option<Tree<Tab>> {
-    let root = tree.root()?;
-    let count =
-        |tree: &Tree<Tab>, tab: Tab| tree.tiles.tiles().filter(|t| matches!(t, Tile::Pane(p) if *p == tab)).count();
-    for tab in Tab::ALL {
-        match count(&tree, tab) {
-            0 => {
-                let pane = tree.tiles.insert_pane(tab);
-                let Some(Tile::Container(container)) = tree.tiles.get_mut(root) else { return None };
-                container.add_child(pane);
-            }
-            1 => {}
-            _ => return None,
-        }
-    }
-    Some(tree)
 }
 
 /// Draws the tabs.

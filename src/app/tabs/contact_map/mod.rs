@@ -4,7 +4,7 @@
 mod contours;
 mod export;
 mod images;
-mod optics;
+pub mod optics;
 mod scale;
 
 pub use export::particulars;

@@ -4,6 +4,7 @@ use super::MapView;
 use crate::app::controls::{described, named};
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
+use crate::solver::physics::optics::Interferometer;
 use egui::{DragValue, Ui};
 
 /// A number of the optics as it is shown and changed.
@@ -34,6 +35,17 @@ const REFRACTIVE_INDEX: Dial = dial("{n}", "Refractive index", (1.0, 2.5), 0.005
 const PHASE: Dial =
     Dial { scale: std::f64::consts::PI / 180.0, unit: "°", ..dial("{φ}", "Phase", (0.0, 360.0), 1.0, PHASE_TIP) };
 const VISIBILITY: Dial = dial("{V}", "Visibility", (0.0, 1.0), 0.01, VISIBILITY_TIP);
+
+/// Whether optics that were read from a file are such as can be set.
+pub fn are_sound(rig: &Interferometer) -> bool {
+    let numbers = [rig.wavelength_m, rig.refractive_index, rig.phase, rig.visibility];
+    let dials = [WAVELENGTH, REFRACTIVE_INDEX, PHASE, VISIBILITY];
+    // Degrees and back may leave the last digit another.
+    dials
+        .iter()
+        .zip(numbers)
+        .all(|(Dial { scale, range: (low, high), .. }, number)| (low - 1e-6..=high + 1e-6).contains(&(number / scale)))
+}
 
 impl Dial {
     fn ui(&self, ui: &mut Ui, value: &mut f64) {

@@ -1,0 +1,421 @@
+//! The last session: one file, `session.ron`, that is replaced as a whole soon after every change. Whatever of it cannot
+//! be read is left at its default, said, and kept beside it as `session.ron.bad`.
+
+mod keeper;
+mod layout;
+
+use super::Explorer;
+use super::display::Display;
+use super::document::Document;
+use super::tab::Tab;
+use super::tabs::contact_map::{MapView, optics};
+use super::tabs::{self, profiles};
+use super::traction;
+use crate::scene::atomic_file::{self, WriteError};
+use egui::{Context, Rect};
+use egui_tiles::Tree;
+pub use keeper::Keeper;
+use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::{self, Read as _};
+use std::path::{Path, PathBuf};
+
+/// Name of the file in the session's folder.
+const FILE: &str = "session.ron";
+/// Where versions before 0.2 kept the session beside what the window's toolkit keeps.
+const FORMER_FILE: &str = "app.ron";
+/// Largest file that is read \[bytes\]: two scenes and a few lines.
+const MAX_BYTES: u64 = 16 << 20;
+
+/// What is restored when the explorer is started again.
+#[derive(Clone, PartialEq)]
+pub struct Session {
+    document: Document,
+    saved: Document,
+    path: Option<PathBuf>,
+    recent: Vec<PathBuf>,
+    shown: Shown,
+    place: Place,
+    tree: Tree<Tab>,
+}
+
+/// The same as it is written.
+#[derive(Serialize, Deserialize)]
+#[serde(default)]
+struct Written {
+    document: String,
+    saved: String,
+    path: Option<PathBuf>,
+    recent: Vec<PathBuf>,
+    display: Shown,
+    place: Place,
+    tree: Tree<Tab>,
+}
+
+impl Default for Written {
+    fn default() -> Self {
+        let (shown, place) = (Shown::default(), Place::default());
+        let (document, saved) = (String::new(), String::new());
+        Self { document, saved, path: None, recent: Vec::new(), display: shown, place, tree: tabs::default_tree() }
+    }
+}
+
+/// Where the window stands and how large it is, in points of the screen, whatever the size of everything in it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Place {
+    corner: Option<(f32, f32)>,
+    /// Width and height.
+    pub size: (f32, f32),
+    /// Whether it fills the screen.
+    pub maximized: bool,
+    /// Width of the panel with the sliders.
+    pub sliders: f32,
+}
+
+impl Default for Place {
+    fn default() -> Self {
+        Self { corner: None, size: (1280.0, 800.0), maximized: false, sliders: 312.0 }
+    }
+}
+
+/// Whether a number of a file lies where numbers of its kind do; not a number lies nowhere.
+fn within<T: PartialOrd>(value: T, (from, to): (T, T)) -> bool {
+    from <= value && value <= to
+}
+
+impl Place {
+    /// Smallest size of a window.
+    pub const LEAST: (f32, f32) = (900.0, 560.0);
+    /// Widths of the panel with the sliders.
+    pub const SLIDERS: (f32, f32) = (250.0, 520.0);
+
+    fn is_sound(&self) -> bool {
+        let ((width, height), (least_width, least_height)) = (self.size, Self::LEAST);
+        within(width, (0.5 * least_width, 16e3))
+            && within(height, (0.5 * least_height, 16e3))
+            && within(self.sliders, Self::SLIDERS)
+            && self.corner.is_none_or(|(x, y)| within(x, (-16e3, 16e3)) && within(y, (-16e3, 16e3)))
+    }
+
+    /// Takes in where the window stands; a window that fills the screen remembers where it stood before.
+    pub fn follow(&mut self, ctx: &Context) {
+        let zoom = ctx.zoom_factor();
+        ctx.input(|input| {
+            let viewport = input.viewport();
+            self.maximized = viewport.maximized.unwrap_or(false);
+            if self.maximized || viewport.fullscreen == Some(true) || viewport.minimized == Some(true) {
+                return;
+            }
+            if let Some(size) = viewport.inner_rect.map(|rect| rect.size() * zoom).filter(|size| size.is_finite()) {
+                self.size = (size.x.round(), size.y.round());
+            }
+            let corner = |rect: Rect| ((rect.min.x * zoom).round(), (rect.min.y * zoom).round());
+            self.corner = viewport.outer_rect.map(corner).or(self.corner);
+        });
+    }
+
+    /// A window there.
+    pub fn window(&self) -> egui::ViewportBuilder {
+        let window = egui::ViewportBuilder::default()
+            .with_inner_size([self.size.0, self.size.1])
+            .with_min_inner_size([Self::LEAST.0, Self::LEAST.1])
+            .with_maximized(self.maximized);
+        // Windows shows nothing of a window whose screen has been taken away.
+        match self.corner.filter(|_| !cfg!(windows)) {
+            Some((x, y)) => window.with_position([x, y]),
+            None => window,
+        }
+    }
+}
+
+/// How everything is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+struct Shown {
+    #[serde(flatten)]
+    display: Display,
+    #[serde(flatten)]
+    profiles: profiles::Choices,
+    traction: traction::Choices,
+    map: MapView,
+}
+
+impl Shown {
+    fn of(Explorer { desk, .. }: &Explorer) -> Self {
+        let views = &desk.views;
+        Self {
+            display: desk.display,
+            profiles: views.profiles.choices,
+            traction: views.traction.choices,
+            map: views.map.view,
+        }
+    }
+
+    fn restore(self, Explorer { desk, .. }: &mut Explorer) {
+        desk.display = self.display;
+        let views = &mut desk.views;
+        (views.profiles.choices, views.traction.choices, views.map.view) = (self.profiles, self.traction, self.map);
+    }
+
+    fn is_sound(&self) -> bool {
+        let Display { cuts, zoom, .. } = self.display;
+        within(zoom, Display::ZOOMS) && cuts.x.is_finite() && cuts.y.is_finite() && optics::are_sound(&self.map.rig)
+    }
+}
+
+impl Session {
+    /// What there is to restore.
+    pub fn of(explorer: &Explorer) -> Self {
+        let desk = &explorer.desk;
+        Self {
+            document: desk.document.clone(),
+            saved: desk.files.saved().clone(),
+            path: desk.files.path.clone(),
+            recent: desk.files.recent.clone(),
+            shown: Shown::of(explorer),
+            place: explorer.place,
+            tree: explorer.tree.clone(),
+        }
+    }
+
+    /// Whether it is what [`Session::of`] would give.
+    fn is_of(&self, explorer: &Explorer) -> bool {
+        let (desk, files) = (&explorer.desk, &explorer.desk.files);
+        self.document == desk.document
+            && self.saved == *files.saved()
+            && self.path == files.path
+            && self.recent == files.recent
+            && self.shown == Shown::of(explorer)
+            && self.place == explorer.place
+            && self.tree == explorer.tree
+    }
+
+    /// The text of the file.
+    ///
+    /// # Errors
+    /// A sentence; in practice never.
+    fn to_ron(&self) -> Result<String, String> {
+        let written = Written {
+            document: self.document.to_ron()?,
+            saved: self.saved.to_ron()?,
+            path: self.path.clone(),
+            recent: self.recent.clone(),
+            display: self.shown,
+            place: self.place,
+            tree: self.tree.clone(),
+        };
+        ron::ser::to_string_pretty(&written, ron::ser::PrettyConfig::new()).map_err(|error| error.to_string())
+    }
+
+    /// A session from the text of the file, with what of it had to be left at its default.
+    fn from_ron(text: &str) -> (Self, Vec<&'static str>) {
+        let mut lost = Vec::new();
+        let written = ron::from_str::<Written>(text).unwrap_or_else(|_| {
+            lost.push("its text");
+            Written::default()
+        });
+        let mut sound = |what: &'static str, sound: bool| {
+            if !sound {
+                lost.push(what);
+            }
+            sound
+        };
+        let Written { document, saved, path, recent, display, place, tree } = written;
+        let document = (!document.is_empty()).then(|| Document::from_ron(&document));
+        sound("the document", !matches!(document, Some(Err(_))));
+        let known = matches!(document, Some(Ok(_)));
+        let document = document.and_then(Result::ok).unwrap_or_default();
+        let saved = if known { Document::from_ron(&saved).ok() } else { None };
+        let tree = layout::checked(&tree);
+        sound("its layout", tree.is_some());
+        let session = Self {
+            saved: saved.unwrap_or_else(|| document.clone()),
+            document,
+            path: path.filter(|_| known),
+            recent,
+            shown: if sound("how things were shown", display.is_sound()) { display } else { Shown::default() },
+            place: if sound("the place of the window", place.is_sound()) { place } else { Place::default() },
+            tree: tree.unwrap_or_else(tabs::default_tree),
+        };
+        (session, lost)
+    }
+
+    /// Restores how things are shown, and the document too when `with_document`.
+    fn restore(self, explorer: &mut Explorer, with_document: bool) {
+        self.shown.restore(explorer);
+        explorer.place = self.place;
+        explorer.tree = self.tree;
+        let desk = &mut explorer.desk;
+        desk.files.recent = self.recent;
+        if with_document {
+            desk.files.set_saved(self.saved);
+            desk.files.path = self.path;
+            desk.replace_document(self.document);
+        }
+    }
+
+    /// Writes it as a whole or not at all.
+    ///
+    /// # Errors
+    /// A sentence when it cannot be written.
+    fn write(&self, path: &Path) -> Result<(), String> {
+        let text = self.to_ron()?;
+        atomic_file::replace(path, text.as_bytes()).map_err(|WriteError { path, reason }| {
+            format!("The session cannot be kept in {}: {reason}", path.display())
+        })
+    }
+}
+
+/// The text of the last session in a folder, if there was one.
+fn text_in(folder: &Path) -> io::Result<Option<String>> {
+    let read = |path: &Path| match File::open(path) {
+        Ok(file) => {
+            let mut text = String::new();
+            file.take(MAX_BYTES).read_to_string(&mut text).map(|_| Some(text))
+        }
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(error),
+    };
+    let now = read(&folder.join(FILE))?;
+    let former = || {
+        let text = read(&folder.join(FORMER_FILE)).ok()??;
+        ron::from_str::<HashMap<String, String>>(&text).ok()?.remove("session")
+    };
+    Ok(now.or_else(former))
+}
+
+/// Restores the last session of a folder, the document too when `with_document`; says what could not be restored.
+pub fn restore(explorer: &mut Explorer, folder: &Path, with_document: bool) {
+    let path = folder.join(FILE);
+    let (session, lost) = match text_in(folder) {
+        Ok(None) => return,
+        Ok(Some(text)) => Session::from_ron(&text),
+        Err(_) => Session::from_ron("\u{0}"),
+    };
+    session.restore(explorer, with_document);
+    if lost.is_empty() {
+        return;
+    }
+    let bad = folder.join(format!("{FILE}.bad"));
+    let kept = match std::fs::rename(&path, &bad) {
+        Ok(()) => format!("the file is kept as {}", bad.display()),
+        Err(error) => format!("the file cannot be kept as {} ({error})", bad.display()),
+    };
+    let lost = lost.join(", ");
+    explorer.desk.files.notice = Some(Err(format!("Not all of the last session could be restored ({lost}); {kept}")));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::traction::Against;
+    use crate::scene::named_lubricant::by_name;
+    use crate::solver::physics::contact::{Moes, Quantity};
+
+    /// An explorer with its session in a folder of the system's for this test.
+    fn in_folder(name: &str) -> (PathBuf, impl Fn(bool) -> Explorer) {
+        let folder = std::env::temp_dir().join(format!("ehl-session-{name}-{}", std::process::id()));
+        let _ = std::fs::remove_dir_all(&folder);
+        let kept = folder.clone();
+        (folder, move |with_document| Explorer::new(None).keeping_session_in(&kept, with_document))
+    }
+
+    /// Ends the explorer after what it has is handed over.
+    fn close(mut explorer: Explorer) {
+        let mut keeper = explorer.keeper.take().unwrap();
+        assert_eq!(keeper.follow(&explorer), None);
+    }
+
+    fn notice(explorer: &Explorer) -> Option<&str> {
+        explorer.desk.files.notice.as_ref().and_then(|notice| notice.as_ref().err()).map(String::as_str)
+    }
+
+    #[test]
+    fn a_session_comes_back_with_its_unsaved_changes_and_its_truncation() {
+        let (folder, start) = in_folder("own");
+        let mut explorer = start(true);
+        let document = &mut explorer.desk.document;
+        document.pick_lubricant(&by_name("squalane-pip").unwrap()).unwrap();
+        document.set_moes(Moes { m: 55.0, l: 8.0 }).unwrap();
+        document.set_quantity(Quantity::SlideToRollRatio, 0.3).unwrap();
+        document.set_quantity(Quantity::NewtonianPlateauRatio, 0.4).unwrap();
+        document.view.pressure_loss = Some(1e-6);
+        explorer.desk.views.traction.choices.against = Against::Stribeck;
+        explorer.place = Place { corner: Some((3.0, 4.0)), size: (1000.0, 700.0), maximized: true, sliders: 400.0 };
+        let (former, place) = (explorer.desk.document.clone(), explorer.place);
+        let (shown, tree) = (Shown::of(&explorer), explorer.tree.clone());
+        close(explorer);
+        let mut again = start(true);
+        assert_eq!(notice(&again), None);
+        let document = &again.desk.document;
+        assert_eq!((document.point, document.view), (former.point, former.view));
+        assert_eq!(document.lubricant, former.lubricant);
+        assert!(Shown::of(&again) == shown && again.place == place && again.tree == tree);
+        assert!(again.desk.dirty(), "what was not saved is still unsaved");
+        let session = Session::of(&again);
+        assert!(session.is_of(&again));
+        again.desk.files.set_saved(again.desk.document.clone());
+        close(again);
+        assert!(!start(true).desk.dirty());
+        let without = start(false);
+        assert!(without.desk.document == Document::default() && without.place == place);
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn a_session_of_a_former_version_is_understood() {
+        let (folder, start) = in_folder("former");
+        std::fs::create_dir_all(&folder).unwrap();
+        let mut explorer = Explorer::new(None);
+        explorer.desk.document.set_moes(Moes { m: 55.0, l: 8.0 }).unwrap();
+        let text = Session::of(&explorer).to_ron().unwrap();
+        let former =
+            ron::to_string(&HashMap::from([("egui", "(options:(zoom_factor:NaN))"), ("session", &text)])).unwrap();
+        std::fs::write(folder.join(FORMER_FILE), former).unwrap();
+        assert!(start(true).desk.document.point == explorer.desk.document.point);
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn what_cannot_be_read_is_left_at_its_default_said_and_kept() {
+        let (folder, start) = in_folder("damaged");
+        let mut explorer = start(true);
+        explorer.desk.document.set_moes(Moes { m: 55.0, l: 8.0 }).unwrap();
+        let changed = explorer.desk.document.point;
+        close(explorer);
+        let (path, bad) = (folder.join(FILE), folder.join("session.ron.bad"));
+        let whole = std::fs::read_to_string(&path).unwrap();
+        let zoom = |value: &str| whole.replace("\"zoom\": 1.0", &format!("\"zoom\": {value}"));
+        let width = |value: &str| whole.replace("sliders: 312.0", &format!("sliders: {value}"));
+        let size = |value: &str| whole.replace("size: (1280.0", &format!("size: ({value}"));
+        let first = |from: &str, to: &str| whole.replacen(from, to, 1);
+        let cases = [
+            ("its text", "(damaged".to_owned()),
+            ("its text", whole[..whole.len() / 2].to_owned()),
+            ("the document", first("Scene(", "Seen(")),
+            ("its layout", first("Pane(Profiles)", "Pane(Regimes)")),
+            ("how things were shown", zoom("0.0")),
+            ("how things were shown", zoom("-1.0")),
+            ("how things were shown", zoom("inf")),
+            ("how things were shown", zoom("NaN")),
+            ("how things were shown", zoom("1e9")),
+            ("the place of the window", width("NaN")),
+            ("the place of the window", size("1e30")),
+        ];
+        for (what, text) in cases {
+            assert_ne!(text, whole, "{what}");
+            std::fs::write(&path, &text).unwrap();
+            let explorer = start(true);
+            let sentence = notice(&explorer).unwrap_or_default();
+            assert!(sentence.contains(what) && sentence.contains("session.ron.bad"), "{what}: {sentence}");
+            assert_eq!(std::fs::read_to_string(&bad).unwrap(), text);
+            assert!(explorer.desk.display.zoom == 1.0 && explorer.place == Place::default());
+            assert_eq!(explorer.desk.document.point == changed, !matches!(what, "its text" | "the document"), "{what}");
+        }
+        std::fs::write(&path, [0xff, 0xfe, 0x00]).unwrap();
+        assert!(notice(&start(true)).unwrap().contains("its text"));
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+}
