@@ -67,6 +67,9 @@ struct InfoArgs {
 
 /// The program: parses the command line, runs the command, returns its exit code.
 pub fn main() -> ExitCode {
+    if let Some(failure) = negative_infinity() {
+        return finish(Err(failure));
+    }
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) => {
@@ -106,6 +109,17 @@ fn explore(scene: Option<PathBuf>) -> Result<Verdict, Failure> {
         })?;
     }
     crate::app::run(scene).map(|()| Verdict::Done).map_err(Failure::Request)
+}
+
+/// A number that looks like an option: it is refused by its own name.
+fn negative_infinity() -> Option<Failure> {
+    let words: Vec<String> = std::env::args_os().map(|word| word.to_string_lossy().into_owned()).collect();
+    words.windows(2).find_map(|pair| match pair {
+        [option, value] if ["-inf", "-infinity", "-nan"].contains(&value.to_lowercase().as_str()) => {
+            Some(Failure::Request(format!("{option} is {value}, but must be a finite number")))
+        }
+        _ => None,
+    })
 }
 
 /// The first paragraph of clap's message, on one line.

@@ -5,6 +5,7 @@ use crate::engine::Request;
 use crate::scene::named_lubricant::{NAMED, NamedLubricant, by_name};
 use crate::scene::{At, Grid, Method, ModelSource};
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
+use crate::solver::limits::Number;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint, reduced_modulus};
 use crate::solver::physics::lubricant::{DensityLaw, Lubricant, ShearLaw, Sliding, ViscosityLaw};
 use clap::{Args, ValueEnum};
@@ -167,7 +168,11 @@ fn domain(text: &str) -> Result<Domain, String> {
     match numbers.as_deref() {
         Ok(&[from, to]) => Ok(Domain { x: (from, to), y: None }),
         Ok(&[from, to, side]) => Ok(Domain { x: (from, to), y: Some(side) }),
-        _ => Err("two numbers with a comma between them are accepted, as in --domain=-4,2".to_owned()),
+        _ => Err(
+            "accepted are the inlet and the outlet with a comma between them, as in --domain=-4,2, and after another \
+                  comma the outer edge of a point contact, as in --domain=-4,2,-2"
+                .to_owned(),
+        ),
     }
 }
 
@@ -224,16 +229,17 @@ impl PointOptions {
     pub fn request(&self) -> Result<(Request, Method), Failure> {
         let srr = self.srr.unwrap_or(0.0);
         if !(srr.is_finite() && srr.abs() <= 10.0) {
-            return refuse(format!("--srr is {srr}, but must be a finite number between -10 and 10"));
+            return refuse(format!("--srr is {}, but must be a finite number between -10 and 10", Number(srr)));
         }
         let mut lubricant = self.lubricant.map_or_else(Lubricant::default, |named| named.laws);
         if let Some(npr) = self.npr {
             if !(0.0..=1.0).contains(&npr) {
-                return refuse(format!("--npr is {npr}, but must lie between 0 and 1"));
+                return refuse(format!("--npr is {}, but must lie between 0 and 1", Number(npr)));
             }
             if npr < 1.0 && lubricant.shear == ShearLaw::Newtonian {
                 return refuse(format!(
-                    "--npr is {npr}, but the lubricant has no shear constants; only 1 (Newtonian) is accepted"
+                    "--npr is {}, but the lubricant has no shear constants; only 1 (Newtonian) is accepted",
+                    Number(npr)
                 ));
             }
         }

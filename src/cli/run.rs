@@ -37,7 +37,7 @@ pub struct RunArgs {
     pub(super) json: bool,
 }
 
-/// Runs the command: all scenes are read before the first is run.
+/// Runs the command: all scenes and their models are read before the first is run.
 pub fn run(args: &RunArgs) -> Result<Verdict, Failure> {
     if args.all {
         return super::run_all::run(args);
@@ -46,8 +46,15 @@ pub fn run(args: &RunArgs) -> Result<Verdict, Failure> {
     make_out(args)?;
     let store = Store::default();
     let mut verdict = Verdict::Done;
+    let named = |path: &Path, reason: EngineError| match reason {
+        reason if reason.cancelled() => reason.into(),
+        reason => Failure::Request(format!("the scene {}: {reason}", path.display())),
+    };
     for (path, scene) in args.scenes.iter().zip(&scenes) {
-        let outcome = outcome_of(path, scene, &store)?;
+        Workbench::on(&store, base(path)).check_models(scene).map_err(|reason| named(path, reason))?;
+    }
+    for (path, scene) in args.scenes.iter().zip(&scenes) {
+        let outcome = outcome_of(path, scene, &store).map_err(|reason| named(path, reason))?;
         if !outcome.passed() {
             verdict = Verdict::FellShort;
         }
@@ -65,11 +72,15 @@ pub(super) fn make_out(args: &RunArgs) -> Result<(), Failure> {
     Ok(std::fs::create_dir_all(folder).map_err(|reason| WriteError { path: folder.clone(), reason })?)
 }
 
+/// The folder that a scene's paths refer to.
+fn base(path: &Path) -> &Path {
+    path.parent().unwrap_or(Path::new(""))
+}
+
 /// Runs one scene, whose paths refer to its folder.
 pub(super) fn outcome_of(path: &Path, scene: &Scene, store: &Store) -> Result<SceneOutcome, EngineError> {
     let progress = ProgressLine::new(false);
-    let base = path.parent().unwrap_or(Path::new(""));
-    let outcome = run_scene(scene, &mut Workbench::on(store, base), &progress);
+    let outcome = run_scene(scene, &mut Workbench::on(store, base(path)), &progress);
     progress.finish();
     outcome
 }

@@ -27,15 +27,16 @@ pub fn run(args: &TrainArgs) -> Result<Verdict, Failure> {
     let Study::Training(spec) = Scene::read(&args.scene)?.study else {
         return Err(EngineError::NoTraining { path: args.scene.clone() }.into());
     };
+    let kept = training_file::beside(&args.out);
     let folder = args.out.parent().filter(|folder| !folder.as_os_str().is_empty());
     if args.out.is_dir() || folder.is_some_and(|folder| !folder.is_dir()) {
-        // Better now than after minutes of training.
         return Err(Failure::Request(format!(
             "cannot write {}: --out must name a file in a folder that exists",
             args.out.display()
         )));
     }
-    let kept = training_file::beside(&args.out);
+    // What would fail at the end fails here already.
+    let keeper = TrainingKeeper::new(kept.clone()).map_err(EngineError::from)?;
     let mut state = match training_file::unfinished(&kept, &spec).map_err(EngineError::from)? {
         Some(state) => {
             let sentence = format!("going on with {}: {} full solutions are there", kept.display(), state.solutions());
@@ -44,22 +45,33 @@ pub fn run(args: &TrainArgs) -> Result<Verdict, Failure> {
         }
         None => TrainingState::new(spec),
     };
-    let watch = ProgressObserver { progress: ProgressLine::new(true), keeper: TrainingKeeper::new(kept) };
+    let watch = ProgressObserver { progress: ProgressLine::new(true), keeper };
     let trained = train_resumable(&mut state, &watch);
     watch.progress.finish();
+    let keep = |keeper: TrainingKeeper| match keeper.keep(&state) {
+        Err(reason) if state.solutions() > 0 => output::complain(&reason.to_string()),
+        _ => {}
+    };
     let model = match trained {
         Ok(model) => model,
         Err(error) => {
-            if state.solutions() > 0
-                && let Err(reason) = watch.keeper.keep(&state)
-            {
-                output::complain(&reason.to_string());
-            }
+            keep(watch.keeper);
             return Err(EngineError::from(error).into());
         }
     };
-    model_file::write(&model, &args.out)
-        .map_err(|reason| EngineError::Model { path: args.out.clone(), reason: reason.into() })?;
+    if let Err(reason) = model_file::write(&model, &args.out) {
+        keep(watch.keeper);
+        let refused = EngineError::Model { path: args.out.clone(), reason: reason.into() };
+        let name = args.out.file_name().unwrap_or_default().to_string_lossy();
+        let elsewhere = std::env::temp_dir().join(format!("{}-{name}", std::process::id()));
+        return match model_file::write(&model, &elsewhere) {
+            Ok(()) => {
+                output::complain(&format!("{refused}; the model is in {} instead", elsewhere.display()));
+                Ok(Verdict::FellShort)
+            }
+            Err(_) => Err(refused.into()),
+        };
+    }
     watch.keeper.discard().map_err(EngineError::from)?;
     output::print(&info::describe(&model))?;
     Ok(Verdict::Done)
@@ -79,6 +91,8 @@ impl Observer for ProgressObserver {
 
 impl TrainingObserver for ProgressObserver {
     fn checkpoint(&self, state: &TrainingState) {
-        self.keeper.checkpoint(state);
+        if let Err(reason) = self.keeper.checkpoint(state) {
+            output::complain(&reason.to_string());
+        }
     }
 }

@@ -1,12 +1,14 @@
 //! Files with a checked header, shared by reduced models and unfinished trainings.
 //!
-//! Layout: magic (8 bytes), version (u32), payload length (u64), XXH3 hash of the payload (u64), all little-endian,
-//! then the payload.
+//! Layout: magic (8 bytes), version (u32), payload length (u64), XXH3 hash of everything else (u64), all little-endian,
+//! then the payload, and nothing after it.
 
 use std::io::{self, Read};
 use std::path::Path;
-use xxhash_rust::xxh3::xxh3_64;
+use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
+/// Bytes before the hash.
+const BEFORE_HASH: usize = 20;
 /// Bytes before the payload.
 pub(super) const HEADER: usize = 28;
 
@@ -14,7 +16,7 @@ pub(super) const HEADER: usize = 28;
 pub(super) struct Format {
     /// What every file of the kind begins with.
     pub magic: &'static [u8; 8],
-    /// The version that is written, and the only one that is read.
+    /// The version that is written. The one before it is read as well: only the payload was under its hash.
     pub version: u32,
     /// Largest payload that is read \[bytes\].
     pub max_payload: u64,
@@ -64,7 +66,7 @@ impl Format {
         bytes.extend_from_slice(self.magic);
         bytes.extend_from_slice(&self.version.to_le_bytes());
         bytes.extend_from_slice(&(payload.len() as u64).to_le_bytes());
-        bytes.extend_from_slice(&xxh3_64(payload).to_le_bytes());
+        bytes.extend_from_slice(&hash(&bytes, payload).to_le_bytes());
         bytes.extend_from_slice(payload);
         bytes
     }
@@ -75,10 +77,15 @@ impl Format {
         let rest = bytes.get(HEADER..).unwrap_or_default();
         let cut = Flaw::Truncated { found: bytes.len() as u64, wanted: announced + HEADER as u64 };
         let payload = usize::try_from(announced).ok().and_then(|length| rest.get(..length)).ok_or(cut)?;
-        if u64_at(bytes, 20) != Some(xxh3_64(payload)) {
-            return Err(Flaw::Changed);
+        let own = match version(bytes) {
+            found if found < self.version => xxh3_64(payload),
+            _ => hash(bytes.get(..BEFORE_HASH).unwrap_or_default(), payload),
+        };
+        if rest.len() == payload.len() && u64_at(bytes, BEFORE_HASH) == Some(own) {
+            Ok(payload)
+        } else {
+            Err(Flaw::Changed)
         }
-        Ok(payload)
     }
 
     /// Reads a whole file. Its announced size is checked before anything is allocated.
@@ -91,7 +98,8 @@ impl Format {
         if length.saturating_sub(HEADER as u64) < wanted {
             return Err(Flaw::Truncated { found: length, wanted: wanted + HEADER as u64 }.into());
         }
-        file.take(wanted).read_to_end(&mut bytes)?;
+        // One byte more shows that there is something after the payload.
+        file.take(wanted + 1).read_to_end(&mut bytes)?;
         Ok(bytes)
     }
 
@@ -103,12 +111,12 @@ impl Format {
         if bytes.len() < HEADER {
             return Err(Flaw::Truncated { found: bytes.len() as u64, wanted: HEADER as u64 });
         }
-        let version = u64_at(bytes, 8).unwrap_or_default() as u32;
-        if version > self.version {
-            return Err(Flaw::Newer { found: version });
+        let found = version(bytes);
+        if found > self.version {
+            return Err(Flaw::Newer { found });
         }
-        if version < self.version {
-            return Err(Flaw::Older { found: version });
+        if found + 1 < self.version {
+            return Err(Flaw::Older { found });
         }
         let announced = u64_at(bytes, 12).unwrap_or_default();
         if announced > self.max_payload {
@@ -116,6 +124,17 @@ impl Format {
         }
         Ok(announced)
     }
+}
+
+fn hash(before: &[u8], payload: &[u8]) -> u64 {
+    let mut hash = Xxh3::new();
+    hash.update(before);
+    hash.update(payload);
+    hash.digest()
+}
+
+fn version(bytes: &[u8]) -> u32 {
+    u64_at(bytes, 8).unwrap_or_default() as u32
 }
 
 fn u64_at(bytes: &[u8], at: usize) -> Option<u64> {

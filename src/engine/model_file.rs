@@ -9,7 +9,7 @@ use crate::solver::reduced::ReducedModel;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-const VERSION: u32 = 6;
+const VERSION: u32 = 7;
 /// Real models have a few MB.
 const FORMAT: Format = Format { magic: b"EHLROM\r\n", version: VERSION, max_payload: 512 << 20 };
 
@@ -29,7 +29,7 @@ static EMBEDDED: [((ContactKind, bool), &[u8]); 4] = [
 #[derive(Debug, thiserror::Error)]
 pub enum ModelFileError {
     /// Reading failed.
-    #[error("cannot read {}: {source}", path.display())]
+    #[error("cannot read {}: {}", path.display(), atomic_file::said(source))]
     Io {
         /// The file.
         path: PathBuf,
@@ -75,6 +75,12 @@ pub enum ModelFileError {
     Damaged {
         /// What does not fit.
         what: &'static str,
+    },
+    /// Its parts do not give what it was trained from.
+    #[error("the window M {}…{} of the model does not solve its own training points; train it again", m.0, m.1)]
+    Unproven {
+        /// Range of M of the window.
+        m: (f64, f64),
     },
     /// Its grid is refused.
     #[error("the model file's grid is refused: {0}")]
@@ -146,9 +152,11 @@ pub fn read(path: &Path) -> Result<ReducedModel, ModelFileError> {
 /// Writes a model file as a whole or not at all.
 ///
 /// # Errors
-/// When the file cannot be written.
+/// When the file cannot be written, or would be refused by [`read`].
 pub fn write(model: &ReducedModel, path: &Path) -> Result<(), ModelFileError> {
-    Ok(atomic_file::replace(path, &to_bytes(model)?)?)
+    let bytes = to_bytes(model)?;
+    stored_model::prove(model)?;
+    Ok(atomic_file::replace(path, &bytes)?)
 }
 
 /// The content of a model file.
@@ -171,12 +179,13 @@ pub fn from_bytes(bytes: &[u8]) -> Result<ReducedModel, ModelFileError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::checked_file::HEADER;
 
     #[test]
     fn the_embedded_models_are_intact_small_and_survive_a_round_trip() {
         for (_, bytes) in EMBEDDED {
             assert!(bytes.len() < 6_000_000, "{} bytes", bytes.len());
-            assert!(to_bytes(&from_bytes(bytes).unwrap()).unwrap() == bytes);
+            assert!(to_bytes(&from_bytes(bytes).unwrap()).unwrap()[HEADER..] == bytes[HEADER..]);
         }
     }
 
@@ -200,19 +209,59 @@ mod tests {
             from_bytes(&bytes)
         };
         assert!(matches!(of_version(99), Err(ModelFileError::Newer { found: 99 })));
-        assert!(matches!(of_version(VERSION as u8 - 1), Err(ModelFileError::Older { found }) if found == VERSION - 1));
+        assert!(matches!(of_version(VERSION as u8 - 2), Err(ModelFileError::Older { found }) if found == VERSION - 2));
     }
 
     #[test]
-    fn a_payload_that_lies_about_its_shapes_is_refused_even_with_a_right_hash() {
+    fn everything_but_the_hash_itself_is_under_it_and_nothing_follows() {
+        let model = embedded_shear_of(ContactKind::Line).unwrap();
+        let bytes = to_bytes(&model).unwrap();
+        for place in (8..HEADER).chain([HEADER + 7]) {
+            let mut changed = bytes.clone();
+            changed[place] ^= 1;
+            assert!(from_bytes(&changed).is_err(), "byte {place}");
+        }
+        let longer = [&bytes[..], &[0]].concat();
+        assert!(matches!(from_bytes(&longer), Err(ModelFileError::Damaged { .. })));
+        let mut former = FORMAT.seal(b"payload");
+        former[8] = VERSION as u8 - 1;
+        former[20..HEADER].copy_from_slice(&xxhash_rust::xxh3::xxh3_64(b"payload").to_le_bytes());
+        assert!(matches!(FORMAT.open(&former), Ok(b"payload")), "the version before is still read");
+    }
+
+    #[test]
+    fn a_payload_that_lies_is_refused_even_with_a_right_hash() {
         let model = embedded().unwrap();
-        let mut wrong = (*model).clone();
-        wrong.windows[0].sampled_rows[0] = 1_000_000;
-        wrong.windows[0].sampled_rows.sort_unstable();
-        assert!(matches!(from_bytes(&to_bytes(&wrong).unwrap()), Err(ModelFileError::Damaged { .. })));
-        let mut wrong = (*model).clone();
-        wrong.windows[1].snapshots[0].h_c = f64::NAN;
-        assert!(from_bytes(&to_bytes(&wrong).unwrap()).is_err());
+        let refused = |spoil: &dyn Fn(&mut ReducedModel)| {
+            let mut wrong = (*model).clone();
+            spoil(&mut wrong);
+            from_bytes(&to_bytes(&wrong).unwrap()).err()
+        };
+        let lies: [&dyn Fn(&mut ReducedModel); 9] = [
+            &|m| *m.windows[0].sampled_rows.last_mut().unwrap() = 1_000_000,
+            &|m| m.windows[1].snapshots[0].h_c = f64::NAN,
+            &|m| m.windows[1].snapshots.truncate(3),
+            &|m| m.windows[0].m = (7.0, 4.0),
+            &|m| m.windows.swap(0, 3),
+            &|m| m.domain.l.0 = f64::NAN,
+            &|m| m.domain.m = (500.0, 2.0),
+            &|m| m.domain.max_hertz_pressure_pa = f64::INFINITY,
+            &|m| m.domain.viscosity_pa_s = -1.0,
+        ];
+        for (k, lie) in lies.iter().enumerate() {
+            assert!(matches!(refused(lie), Some(ModelFileError::Damaged { .. })), "lie {k}");
+        }
+        // Parts that fit each other, but do not belong together.
+        let other = refused(&|m| {
+            m.windows[0].reconstruction *= faer::Scale(-1.0);
+            m.windows[0].snapshots.iter_mut().for_each(|snapshot| snapshot.h_c *= 2.0);
+        });
+        assert!(matches!(other, Some(ModelFileError::Unproven { .. })), "{other:?}");
+        let mut loud = (*model).clone();
+        loud.title.push_str("\u{1b}[2J");
+        loud.log.push("a\u{7}b".to_owned());
+        let quiet = from_bytes(&to_bytes(&loud).unwrap()).unwrap();
+        assert!(quiet.title == format!("{}[2J", model.title) && quiet.log.last().unwrap() == "ab");
     }
 
     #[test]

@@ -187,6 +187,16 @@ impl StoredBasis {
         Self { modes: StoredMatrix::stepped(&basis.modes, across, &scales, accuracy), singular_values: sigma.clone() }
     }
 
+    /// Entries of the node arrays that its modes say they are.
+    pub fn rows(&self) -> usize {
+        self.modes.rows
+    }
+
+    /// Modes that it says there are.
+    pub fn columns(&self) -> usize {
+        self.modes.columns
+    }
+
     /// The basis, if it has `rows` rows and is sound.
     pub fn into_basis(self, rows: usize) -> Option<PodBasis> {
         let sound =

@@ -5,11 +5,11 @@
 
 use super::model_file::ModelFileError;
 use super::stored_matrix::{StoredBasis, StoredMatrix};
-use crate::solver::discrete::grid::{ContactGrid, ContactGridSpec};
+use crate::solver::discrete::grid::{ContactGrid, ContactGridSpec, GridError, GridSpec};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::{ShearLaw, Sliding};
 use crate::solver::reduced::{
-    Calibration, Domain, ReducedModel, SampledRows, Sampling, Snapshot, TractionRule, Window,
+    Calibration, Domain, ReducedModel, SampledRows, Sampling, SlidingDomain, Snapshot, TractionRule, Window,
 };
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -46,10 +46,64 @@ struct StoredWindow {
     calibration: Option<Calibration>,
 }
 
-/// Whether a domain can be that of a model: one that knows sliding is of a lubricant that thins under shear, and only such a one.
+/// Whether two numbers are the ends of an interval within 0…`most`.
+fn sound_interval((low, high): (f64, f64), most: f64) -> bool {
+    0.0 <= low && low <= high && high <= most
+}
+
+/// Whether a domain can be that of a model: one that knows sliding is of a lubricant that thins under shear, and only
+/// such a one.
 fn sound_domain(domain: &Domain) -> bool {
-    let thins = domain.lubricant.shear != ShearLaw::Newtonian;
-    thins == domain.sliding.is_some() && domain.lubricant.check().is_ok()
+    let Domain { m, l, alpha_per_pa, max_hertz_pressure_pa, viscosity_pa_s, lubricant, sliding } = domain;
+    let positive = |value: f64| value > 0.0 && value.is_finite();
+    let thins = lubricant.shear != ShearLaw::Newtonian;
+    let sliding_is_sound = |sliding: &SlidingDomain| {
+        sound_interval(sliding.srr, f64::MAX) && sound_interval(sliding.npr, 1.0) && positive(sliding.modulus_pa)
+    };
+    thins == sliding.is_some()
+        && lubricant.check().is_ok()
+        && [m, l, alpha_per_pa].into_iter().all(|interval| sound_interval(*interval, f64::MAX))
+        && [*max_hertz_pressure_pa, *viscosity_pa_s].into_iter().all(positive)
+        && sliding.as_ref().is_none_or(sliding_is_sound)
+}
+
+/// Entries of node arrays on a grid, without building it.
+fn entries(grid: &ContactGridSpec) -> Result<usize, GridError> {
+    Ok(match grid {
+        ContactGridSpec::Line(GridSpec::Graded { nodes, .. }) => nodes.saturating_add(1),
+        ContactGridSpec::Line(GridSpec::Uniform { dx, domain: (from, to) }) => {
+            (((to - from) / dx).round() as usize).saturating_add(2)
+        }
+        ContactGridSpec::Point(spec) => spec.check().map(|(nx, ny)| nx * ny)?,
+    })
+}
+
+/// Refuses what would take more memory than a model of so many bytes does, before anything of it is built: modes come
+/// from snapshots, and every node of a grid has a byte at least.
+fn check_counts(windows: &[StoredWindow], bytes: usize) -> Result<(), ModelFileError> {
+    let mut nodes = 0usize;
+    for window in windows {
+        let rows = entries(&window.grid)?;
+        nodes = nodes.saturating_add(rows);
+        let fits = |basis: &StoredBasis| basis.rows() == rows && basis.columns() <= window.snapshots.len();
+        if !(fits(&window.pressure) && fits(&window.deformation)) {
+            return Err(ModelFileError::Damaged { what: "bases" });
+        }
+    }
+    if nodes > bytes { Err(ModelFileError::Damaged { what: "grids" }) } else { Ok(()) }
+}
+
+/// Solves each window at two of its own snapshots, the first and the last.
+///
+/// # Errors
+/// When a window does not give the H_c that it was trained from.
+pub(super) fn prove(model: &ReducedModel) -> Result<(), ModelFileError> {
+    let sliding = model.domain.sliding.is_some();
+    let proven = |window: &Window| window.reproduces_snapshots(model.domain.lubricant, sliding);
+    match model.windows.par_iter().find_first(|window| !proven(window)) {
+        Some(window) => Err(ModelFileError::Unproven { m: window.m }),
+        None => Ok(()),
+    }
 }
 
 impl StoredWindow {
@@ -136,10 +190,17 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
 pub(super) fn decode(payload: &[u8]) -> Result<ReducedModel, ModelFileError> {
     let stored: StoredModel =
         postcard::from_bytes(payload).map_err(|_| ModelFileError::Damaged { what: "its content cannot be decoded" })?;
-    let StoredModel { title, domain, windows, scene, log } = stored;
+    let StoredModel { mut title, domain, windows, scene, mut log } = stored;
     if !sound_domain(&domain) {
         return Err(ModelFileError::Damaged { what: "its domain" });
     }
+    let ascending = windows.is_sorted_by(|a, b| a.m.0 <= b.m.0);
+    if !(ascending && windows.iter().all(|window| sound_interval(window.m, f64::MAX))) {
+        return Err(ModelFileError::Damaged { what: "ranges of its windows" });
+    }
+    check_counts(&windows, payload.len())?;
+    // They are shown on terminals.
+    log.iter_mut().chain([&mut title]).for_each(|text| text.retain(|letter| !letter.is_control()));
     let grids = grids(&windows)?;
     let sliding = domain.sliding.is_some();
     let windows: Vec<Window> =
@@ -150,7 +211,9 @@ pub(super) fn decode(payload: &[u8]) -> Result<ReducedModel, ModelFileError> {
     if windows.iter().any(|window| window.grid.kind() != kind) {
         return Err(ModelFileError::Damaged { what: "windows of different contacts" });
     }
-    Ok(ReducedModel { title, domain, windows, scene, log })
+    let model = ReducedModel { title, domain, windows, scene, log };
+    prove(&model)?;
+    Ok(model)
 }
 
 /// The grid of each window. Building one is the costly part of reading a model, so equal ones are built once.

@@ -6,19 +6,23 @@
 use super::EngineError;
 use super::checked_file::{Flaw, Format, Unreadable};
 use crate::scene::atomic_file::{self, WriteError};
-use crate::solver::training::{Observer, TrainingObserver, TrainingSpec, TrainingState, Windows};
+use crate::solver::training::{TrainingSpec, TrainingState, Windows};
 use std::collections::HashSet;
 use std::ffi::OsString;
-use std::io;
+use std::fs::{File, TryLockError};
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{SyncSender, TrySendError, sync_channel};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 /// 5000 full solutions in each of some windows, on the finest grids that are used.
 const FORMAT: Format = Format { magic: b"EHLTRN\r\n", version: VERSION, max_payload: 2 << 30 };
+
+/// Room that a training has before it begins \[bytes\]: two copies of 200 full solutions of point contacts fit.
+const ROOM: usize = 32 << 20;
 
 /// Shortest time between two writes.
 const INTERVAL: Duration = Duration::from_secs(1);
@@ -45,6 +49,12 @@ pub enum TrainingFileError {
         /// What is wrong.
         what: String,
     },
+    /// Another training keeps itself there now.
+    #[error("{} is being written by another training; wait for its end or choose another --out", path.display())]
+    InUse {
+        /// The file.
+        path: PathBuf,
+    },
     /// It belongs to another specification.
     #[error(
         "{} keeps {solutions} full solutions of another training, “{title}”; finish that one with its own scene, delete the file, or choose another --out",
@@ -62,8 +72,12 @@ pub enum TrainingFileError {
 
 /// Where the training of a model file is kept until it is done: `FILE.rom.training`.
 pub fn beside(model: &Path) -> PathBuf {
-    let mut name = OsString::from(model);
-    name.push(".training");
+    with_suffix(model, ".training")
+}
+
+fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
+    let mut name = OsString::from(path);
+    name.push(suffix);
     name.into()
 }
 
@@ -101,6 +115,7 @@ fn is_sound(state: &TrainingState) -> bool {
         Windows::Automatic { .. } => true,
     };
     windows_fit
+        && !state.spec.title.chars().any(char::is_control)
         && state.windows.iter().chain(&state.trials).all(|window| {
             let places = window.solved.iter().map(|s| s.place).chain(window.pending.iter().map(|p| p.0));
             let points = window.solved.iter().map(|s| &s.point).chain(window.pending.iter().map(|p| &p.1));
@@ -139,23 +154,80 @@ pub fn write(state: &TrainingState, path: &Path) -> Result<(), TrainingFileError
     Ok(atomic_file::replace(path, &FORMAT.seal(&encoded))?)
 }
 
+/// The right to write an unfinished training: `FILE.rom.training.lock`, deleted when it is given back.
+struct Lock {
+    path: PathBuf,
+    // The system gives it back when the program ends, however it does.
+    _file: File,
+}
+
+impl Lock {
+    /// Takes it, which shows as well that the folder may be written.
+    fn take(path: &Path) -> Result<Self, TrainingFileError> {
+        let refused = |reason| WriteError { path: path.to_owned(), reason };
+        let lock = with_suffix(path, ".lock");
+        let file = File::options().write(true).create(true).truncate(false).open(&lock).map_err(refused)?;
+        match file.try_lock() {
+            Err(TryLockError::WouldBlock) => Err(TrainingFileError::InUse { path: path.to_owned() }),
+            // Where the system knows no locks, two trainings cannot be told apart.
+            Ok(()) | Err(TryLockError::Error(_)) => Ok(Self { path: lock, _file: file }),
+        }
+    }
+}
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        // One that is left behind is taken over by the next training.
+        let _ = std::fs::remove_file(&self.path);
+    }
+}
+
+/// Refuses a place without room for a training.
+fn try_room(path: &Path) -> Result<(), WriteError> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let fill = || {
+        let mut file = tempfile::tempfile_in(folder)?;
+        let block = vec![0xa5; 1 << 20];
+        (0..ROOM).step_by(block.len()).try_for_each(|_| file.write_all(&block))
+    };
+    fill().map_err(|reason| WriteError { path: path.to_owned(), reason })
+}
+
 /// Keeps a training on disk while it runs.
 pub struct TrainingKeeper {
     path: PathBuf,
     states: SyncSender<TrainingState>,
     handed_over: Mutex<Option<Instant>>,
-    writer: Option<JoinHandle<Result<(), TrainingFileError>>>,
+    refusal: Arc<Mutex<Option<TrainingFileError>>>,
+    writer: Option<JoinHandle<()>>,
+    _lock: Lock,
 }
 
 impl TrainingKeeper {
     /// A keeper that writes to `path`; nothing is written before the first full solutions are there.
-    pub fn new(path: PathBuf) -> Self {
+    ///
+    /// # Errors
+    /// When another training is kept there, or the place cannot be written or has no room.
+    pub fn new(path: PathBuf) -> Result<Self, TrainingFileError> {
+        let lock = Lock::take(&path)?;
+        try_room(&path)?;
         let (states, waiting) = sync_channel::<TrainingState>(1);
-        let target = path.clone();
-        let write_all = move || waiting.iter().try_for_each(|state| write(&state, &target));
+        let (target, refusal) = (path.clone(), Arc::<Mutex<Option<TrainingFileError>>>::default());
+        let said = Arc::clone(&refusal);
+        let write_all = move || {
+            let mut failing = false;
+            for state in waiting {
+                let written = write(&state, &target);
+                // The same reason is not told again every second.
+                let first = !std::mem::replace(&mut failing, written.is_err());
+                if let (true, Err(error)) = (first, written) {
+                    *said.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
+                }
+            }
+        };
         // Without a thread only the end is written.
         let writer = std::thread::Builder::new().name("training file".to_owned()).spawn(write_all).ok();
-        Self { path, states, handed_over: Mutex::new(None), writer }
+        Ok(Self { path, states, handed_over: Mutex::new(None), refusal, writer, _lock: lock })
     }
 
     /// The file.
@@ -169,7 +241,7 @@ impl TrainingKeeper {
     /// When it cannot be written.
     pub fn keep(self, state: &TrainingState) -> Result<(), TrainingFileError> {
         let path = self.path.clone();
-        self.settle()?;
+        let _lock = self.settle();
         write(state, &path)
     }
 
@@ -179,32 +251,31 @@ impl TrainingKeeper {
     /// When the file cannot be deleted.
     pub fn discard(self) -> Result<(), TrainingFileError> {
         let path = self.path.clone();
-        // What could not be written need not be deleted.
-        let _ = self.settle();
+        let _lock = self.settle();
         remove(&path)
     }
 
     /// Waits until the writer has written what it was given.
-    fn settle(self) -> Result<(), TrainingFileError> {
-        let Self { states, writer, .. } = self;
+    fn settle(self) -> Lock {
+        let Self { states, writer, _lock: lock, .. } = self;
         drop(states);
         // A writer that panicked has written nothing more: the end is written by the caller.
-        writer.and_then(|thread| thread.join().ok()).unwrap_or(Ok(()))
+        let _ = writer.map(JoinHandle::join);
+        lock
     }
-}
 
-impl Observer for TrainingKeeper {}
-
-impl TrainingObserver for TrainingKeeper {
-    fn checkpoint(&self, state: &TrainingState) {
+    /// Hands over a state, at most once a second.
+    ///
+    /// # Errors
+    /// When a former one could not be written; later ones are tried all the same.
+    pub fn checkpoint(&self, state: &TrainingState) -> Result<(), TrainingFileError> {
         let mut handed_over = self.handed_over.lock().unwrap_or_else(PoisonError::into_inner);
-        if state.solutions() == 0 || handed_over.is_some_and(|at| at.elapsed() < INTERVAL) {
-            return;
-        }
-        // A writer that is still at work gets the next state instead; one that gave up says so at the end.
-        if !matches!(self.states.try_send(state.clone()), Err(TrySendError::Full(_))) {
+        let due = state.solutions() > 0 && handed_over.is_none_or(|at| at.elapsed() >= INTERVAL);
+        // A writer that is still at work gets the next state instead.
+        if due && !matches!(self.states.try_send(state.clone()), Err(TrySendError::Full(_))) {
             *handed_over = Some(Instant::now());
         }
+        self.refusal.lock().unwrap_or_else(PoisonError::into_inner).take().map_or(Ok(()), Err)
     }
 }
 
@@ -298,17 +369,38 @@ mod tests {
     #[test]
     fn a_keeper_writes_the_first_and_the_last_state_and_cleans_up() {
         let (state, path) = state("keeper");
-        let keeper = TrainingKeeper::new(path.clone());
-        keeper.checkpoint(&TrainingState::new(state.spec.clone()));
-        keeper.checkpoint(&state);
+        let keeper = TrainingKeeper::new(path.clone()).unwrap();
+        keeper.checkpoint(&TrainingState::new(state.spec.clone())).unwrap();
+        keeper.checkpoint(&state).unwrap();
+        let second = TrainingKeeper::new(path.clone()).err().unwrap();
+        assert!(matches!(second, TrainingFileError::InUse { .. }), "{second}");
         let mut later = state.clone();
         later.windows[0].search.judged = 3;
         keeper.keep(&later).unwrap();
         assert_eq!(read(&path).unwrap(), later);
-        TrainingKeeper::new(path.clone()).discard().unwrap();
+        let keeper = TrainingKeeper::new(path.clone()).unwrap();
+        let folder = path.parent().unwrap().to_owned();
+        #[cfg(unix)]
+        {
+            // A folder in which nothing can be made any more.
+            let away = folder.with_extension("away");
+            std::fs::rename(&folder, &away).unwrap();
+            keeper.checkpoint(&state).unwrap();
+            let patience = Instant::now();
+            let said = loop {
+                if let Err(error) = keeper.checkpoint(&state) {
+                    break error.to_string();
+                }
+                assert!(patience.elapsed() < Duration::from_secs(60), "the failure is not told");
+                std::thread::sleep(Duration::from_millis(10));
+            };
+            assert!(said.contains("a.rom.training"), "{said}");
+            std::fs::rename(&away, &folder).unwrap();
+        }
+        keeper.discard().unwrap();
         assert!(!path.exists());
-        let (folder, _) = (path.parent().unwrap(), &path);
-        assert_eq!(std::fs::read_dir(folder).unwrap().count(), 0);
+        assert!(TrainingKeeper::new(folder.join("no/such.training")).is_err());
+        assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 0);
         std::fs::remove_dir_all(folder).unwrap();
     }
 }

@@ -264,6 +264,20 @@ impl Drop for Workbench {
     }
 }
 
+impl Workbench {
+    /// Whether the models of a scene can be had.
+    ///
+    /// # Errors
+    /// When one cannot be read, or no training is where one should be.
+    pub fn check_models(&self, scene: &Scene) -> Result<(), EngineError> {
+        scene.study.methods().iter().filter_map(Method::model).try_for_each(|source| match source {
+            ModelSource::Embedded => Ok(()),
+            ModelSource::File(path) => self.store.model_of_file(&self.base.join(path)).map(drop),
+            ModelSource::Trained(path) => self.training(path).map(drop),
+        })
+    }
+}
+
 /// The window of a model that serves a contact.
 fn window_of(model: &ReducedModel, moes: Moes) -> Result<&Window, EngineError> {
     let none = || EngineError::Study(format!("the reduced model `{}` holds no window", model.title));

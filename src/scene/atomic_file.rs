@@ -6,12 +6,20 @@ use std::path::{Path, PathBuf};
 
 /// A file could not be written; whatever stood there before still does.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot write {}: {reason}; choose a file in a folder that exists and may be written", path.display())]
+#[error("cannot write {}: {}; choose a file in a folder that exists and may be written", path.display(), said(reason))]
 pub struct WriteError {
     /// The file.
     pub path: PathBuf,
     /// Why.
     pub reason: io::Error,
+}
+
+/// Why the system refuses a file, in words where its own are a number.
+pub fn said(reason: &io::Error) -> String {
+    match reason.kind() {
+        io::ErrorKind::InvalidFilename => "its name is longer than the system accepts".to_owned(),
+        _ => reason.to_string(),
+    }
 }
 
 /// Writes `bytes` to `path`: first beside it, then in its place, so that a failure never leaves half a file.
@@ -35,7 +43,8 @@ fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     }
     let name = target.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "it names no file"))?;
     let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let prefix = format!(".{}.", name.to_string_lossy());
+    // A name of full length leaves no room for more.
+    let prefix: String = format!(".{}.", name.to_string_lossy()).chars().take(40).collect();
     let mut builder = tempfile::Builder::new();
     builder.prefix(&prefix).suffix(".part");
     // Others may read it as any file of this user, not only this user as a temporary one.

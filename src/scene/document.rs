@@ -73,7 +73,7 @@ impl Scene {
         let mut bytes = Vec::new();
         // Devices and pipes announce no length: what is read is limited instead.
         let read = File::open(path).and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes));
-        read.map_err(|error| unreadable(error.to_string()))?;
+        read.map_err(|error| unreadable(atomic_file::said(&error)))?;
         if bytes.len() as u64 > MAX_BYTES {
             return Err(unreadable(format!("it is larger than {MAX_BYTES} bytes, which no scene is")));
         }

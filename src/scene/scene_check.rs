@@ -2,6 +2,7 @@
 
 use super::check::{Checked, number, refuse};
 use super::{Expectation, Scene, SceneError, View, Within, grid};
+use crate::solver::limits::plain;
 use crate::solver::physics::lubricant::{LubricantError, ScaledShear};
 
 impl Scene {
@@ -10,6 +11,7 @@ impl Scene {
     /// # Errors
     /// With the first such field.
     pub fn check(&self) -> Result<(), SceneError> {
+        plain("title", &self.title)?;
         let lubricant = |problem: LubricantError| refuse("lubricant", format!("is refused: {problem}"));
         self.lubricant.check().map_err(lubricant)?;
         let point = self.point()?;

@@ -1,5 +1,7 @@
 //! Tables of numbers and their CSV.
 
+pub use crate::solver::limits::Number;
+
 /// A named table; NaN stands for an empty cell.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
@@ -84,17 +86,6 @@ pub fn significant(value: f64, digits: i32) -> String {
     } else {
         let decimals = (digits - 1).max(0) as usize;
         format!("{value:.decimals$e}")
-    }
-}
-
-/// A number in its shortest exact form, with an exponent where it is very small or large.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Number(pub f64);
-
-impl std::fmt::Display for Number {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let size = self.0.abs();
-        if size != 0.0 && !(1e-4..1e15).contains(&size) { write!(f, "{:e}", self.0) } else { write!(f, "{}", self.0) }
     }
 }
 

@@ -22,6 +22,17 @@ impl Refused {
     }
 }
 
+/// A number in its shortest exact form, with an exponent where it is very small or large.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Number(pub f64);
+
+impl std::fmt::Display for Number {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let size = self.0.abs();
+        if size != 0.0 && !(1e-4..1e15).contains(&size) { write!(f, "{:e}", self.0) } else { write!(f, "{}", self.0) }
+    }
+}
+
 /// Refuses a number that is not finite or lies outside an interval.
 ///
 /// # Errors
@@ -30,7 +41,18 @@ pub fn number(field: &str, value: f64, low: f64, high: f64) -> Result<(), Refuse
     if (low..=high).contains(&value) {
         return Ok(());
     }
-    Err(Refused::new(field, format!("is {value}, but must be a finite number between {low:e} and {high:e}")))
+    Err(Refused::new(field, format!("is {}, but must be a finite number between {low:e} and {high:e}", Number(value))))
+}
+
+/// Refuses a text for people that would move a terminal's cursor or colour its letters.
+///
+/// # Errors
+/// Naming the field.
+pub fn plain(field: &str, text: &str) -> Result<(), Refused> {
+    if text.chars().any(char::is_control) {
+        return Err(Refused::new(field, "has control characters; write plain text"));
+    }
+    Ok(())
 }
 
 /// Refuses a count outside an interval.
@@ -52,6 +74,7 @@ pub fn interval(field: &str, (from, to): (f64, f64), low: f64, high: f64) -> Res
     number(&format!("{field}.0"), from, low, high)?;
     number(&format!("{field}.1"), to, low, high)?;
     if from > to {
+        let (from, to) = (Number(from), Number(to));
         return Err(Refused::new(field, format!("runs from {from} down to {to}; write the smaller value first")));
     }
     Ok(())

@@ -172,6 +172,7 @@ impl Training {
         let Some(running) = &mut self.job else { return };
         if running.trains {
             self.chart = running.chart();
+            self.notices.extend(running.unkept().map(Notice::Wrong));
         }
         let Some((ending, news)) = running.receive() else { return };
         let seconds = running.job.since().elapsed().as_secs_f64();

@@ -80,6 +80,8 @@ struct Live {
     chart: Arc<Chart>,
     /// The last checkpoints with their numbers of full solutions, of the slowest part: the search, where there is one.
     pace: VecDeque<(Instant, usize)>,
+    /// Why it is not kept on disk, until that is told.
+    unkept: Option<String>,
 }
 
 /// Most full solutions a plan takes.
@@ -141,6 +143,11 @@ impl Running {
         Some((ending, self.news.take()))
     }
 
+    /// Why the training is not kept on disk, once.
+    pub fn unkept(&self) -> Option<String> {
+        lock(&self.live).unkept.take()
+    }
+
     /// Full solutions so far.
     pub fn chart(&self) -> Arc<Chart> {
         Arc::clone(&lock(&self.live).chart)
@@ -182,8 +189,8 @@ impl Observer for Watch<'_> {
 
 impl TrainingObserver for Watch<'_> {
     fn checkpoint(&self, state: &TrainingState) {
-        if let Some(keeper) = &self.keeper {
-            keeper.checkpoint(state);
+        if let Some(Err(reason)) = self.keeper.as_ref().map(|keeper| keeper.checkpoint(state)) {
+            lock(&self.live).unkept = Some(reason.to_string());
         }
         let chart = Arc::new(Chart::of(state));
         let mut live = lock(&self.live);
@@ -221,7 +228,10 @@ fn look(path: PathBuf) -> Result<Option<Box<TrainingState>>, String> {
 }
 
 fn train(mut state: TrainingState, file: Option<PathBuf>, mut watch: Watch<'_>) -> Trained {
-    watch.keeper = file.map(TrainingKeeper::new);
+    match file.map(TrainingKeeper::new).transpose() {
+        Ok(keeper) => watch.keeper = keeper,
+        Err(reason) => lock(&watch.live).unkept = Some(format!("{reason}. This training is not kept on disk")),
+    }
     let result = guarded(|| train_resumable(&mut state, &watch));
     let keeper = watch.keeper.take();
     let (ended, made) = match result {

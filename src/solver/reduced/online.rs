@@ -2,6 +2,7 @@
 
 mod attempt;
 mod fields;
+mod proof;
 mod settings;
 
 pub use settings::{ReducedError, ReducedOptions, Starts};

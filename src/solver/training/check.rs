@@ -1,7 +1,7 @@
 //! What a specification of a training may say.
 
 use super::{Plan, Range, SlidingRange, TrainingSpec, WindowSpec, Windows};
-use crate::solver::limits::{Refused, count, interval, number};
+use crate::solver::limits::{Refused, count, interval, number, plain};
 use crate::solver::physics::lubricant::ShearLaw;
 use crate::solver::reduced::LEAST_EVIDENCE;
 
@@ -12,6 +12,7 @@ const MOST_SNAPSHOTS: usize = 5000;
 
 /// Refuses what no training can be made of, naming the field.
 pub(super) fn check(spec: &TrainingSpec) -> Result<(), Refused> {
+    plain("title", &spec.title)?;
     spec.range.check().map_err(|refused| refused.within("range"))?;
     lubricant(spec)?;
     windows(spec)?;

@@ -29,7 +29,7 @@ pub enum ContactGridSpec {
 
 /// How a grid is written: one enum over both kinds.
 #[derive(Clone, Copy, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(rename = "Grid", deny_unknown_fields)]
 enum Written {
     Uniform {
         dx: f64,

@@ -13,6 +13,7 @@ mod refined;
 use super::{GridError, dot};
 use crate::solver::discrete::elasticity::{Flexibility, Scratch};
 use crate::solver::discrete::reynolds::RowGeometry;
+use crate::solver::limits::Number;
 use crate::solver::physics::contact::Moes;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -78,6 +79,7 @@ impl GridSpec {
             Self::Uniform { domain, .. } | Self::Graded { domain, .. } => domain,
         };
         if !((-200.0..=-1.5).contains(&from) && (1.2..=20.0).contains(&to)) {
+            let (from, to) = (Number(from), Number(to));
             return Err(GridError::Refused(format!(
                 "the domain {from}…{to} cuts the contact; its inlet must lie between −200 and −1.5 and its outlet \
                  between 1.2 and 20"

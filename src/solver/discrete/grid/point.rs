@@ -7,6 +7,7 @@
 use super::{GridError, MAX_BYTES, cubic};
 use crate::solver::discrete::elasticity::{PointFlexibility, PointScratch};
 use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
+use crate::solver::limits::Number;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -63,6 +64,7 @@ impl PointGridSpec {
     pub fn nodes(&self) -> Result<(usize, usize), GridError> {
         let (from, to, edge) = self.domain;
         if !((-50.0..=-1.5).contains(&from) && (1.2..=20.0).contains(&to) && (-20.0..=-1.2).contains(&edge)) {
+            let [from, to, edge] = [from, to, edge].map(Number);
             return Err(GridError::Refused(format!(
                 "the half domain {from} ≤ X ≤ {to}, {edge} ≤ Y ≤ 0 cuts the contact; its inlet must lie between −50 \
                  and −1.5, its outlet between 1.2 and 20, its edge between −20 and −1.2"
@@ -70,13 +72,14 @@ impl PointGridSpec {
         }
         for (name, spacing, widest) in [("ΔX", self.dx, WIDEST_DX), ("ΔY", self.dy, WIDEST_DY)] {
             if !(1e-4..=widest).contains(&spacing) {
+                let spacing = Number(spacing);
                 return Err(GridError::Refused(format!(
                     "{name} is {spacing}, but must lie between 1e-4 and {widest}: fewer nodes cannot hold the contact"
                 )));
             }
         }
         if !(1.0..=8.0).contains(&self.refinement) {
-            let refinement = self.refinement;
+            let refinement = Number(self.refinement);
             return Err(GridError::Refused(format!(
                 "the refinement of the side lobes is {refinement}, but must lie between 1 (equidistant) and 8"
             )));

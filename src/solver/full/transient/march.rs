@@ -8,6 +8,7 @@ use super::trajectory::{Effort, Ended, Moment, State, Trajectory};
 use crate::solver::discrete::grid::LineGrid;
 use crate::solver::full::solution::expect_kind;
 use crate::solver::full::{Mesh, Problem, SolveError, Termination};
+use crate::solver::limits::Number;
 use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
@@ -137,6 +138,7 @@ impl Transient {
     /// With what is wrong.
     pub fn check(&self) -> Result<(), TransientError> {
         let refuse = |quantity: &str, value: f64, accepted: &str| {
+            let value = Number(value);
             Err(TransientError::Time(format!("the {quantity} is {value}, but must be {accepted}")))
         };
         let positive = |quantity, value: f64| {

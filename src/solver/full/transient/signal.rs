@@ -1,5 +1,6 @@
 //! What drives a contact in time: R̄(T), ū(T) and w̄(T) of (2.18) to (2.20).
 
+use crate::solver::limits::Number;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
@@ -109,6 +110,7 @@ impl Signal {
 
     fn check_constants(&self, input: &'static str) -> Result<(), InputError> {
         let refuse = |constant: &str, value: f64, accepted: &str| {
+            let value = Number(value);
             Err(InputError(format!("the {input} has the {constant} {value}, but it must be {accepted}")))
         };
         let positive = |constant, value: f64| {

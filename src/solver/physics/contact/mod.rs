@@ -11,6 +11,7 @@ pub use film_formulas::{FilmAsymptotes, FilmFormula, FilmPrediction, moes_film};
 pub use moes::{DEFAULT_VISCOSITY_PA_S, MoesRequest, si_from_moes};
 pub use quantity::Quantity;
 
+use crate::solver::limits::Number;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -41,7 +42,7 @@ impl ContactKind {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ContactError {
     /// A quantity is NaN, infinite, or outside its valid range.
-    #[error("{quantity} is {value}{unit}, but must be a finite number between {min:e} and {max:e}{unit}")]
+    #[error("{quantity} is {}{unit}, but must be a finite number between {min:e} and {max:e}{unit}", Number(*value))]
     OutOfRange {
         /// Name of the quantity as the field calls it.
         quantity: &'static str,

@@ -17,6 +17,7 @@ pub use pressure_coefficient::GAUSS_6;
 pub use shear_thinning::{Fluidity, LimitingStress, ScaledShear, ShearLaw};
 
 use super::contact::OperatingPoint;
+use crate::solver::limits::Number;
 use serde::{Deserialize, Serialize};
 
 /// Pressure \[Pa\] under which laws are frozen: no physical state, only passing Newton iterates, gets there.
@@ -81,6 +82,7 @@ fn check_constant(constant: &str, value: f64, min: f64, max: f64) -> Result<(), 
     if (min..=max).contains(&value) {
         return Ok(());
     }
+    let value = Number(value);
     Err(LubricantError(format!("{constant} is {value}, but must be a finite number between {min:e} and {max:e}")))
 }
 

@@ -6,6 +6,7 @@ use super::space::{INPUTS, ReducedSpace, input_vector, same_but_load};
 use super::weights::square_distance;
 use crate::solver::full::transient::{Frame, Trajectory, TransientError};
 use crate::solver::full::{Mesh, Problem, SolveError};
+use crate::solver::limits::Number;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::PodBasis;
 use crate::solver::reduced::row_sizes::row_weights;
@@ -53,6 +54,7 @@ impl TpwlError {
 
     /// A setting without sense.
     fn setting(quantity: &str, value: f64, accepted: &str) -> Self {
+        let value = Number(value);
         Self::Refused(format!("the {quantity} of the model is {value}, but must be {accepted}"))
     }
 }
@@ -298,7 +300,7 @@ impl TpwlModel {
                 Ok(vec![(below, 1.0 - share), (above, share)])
             }
             _ => {
-                let (from, to) = (load_of(first), load_of(last));
+                let [load, from, to] = [load, load_of(first), load_of(last)].map(Number);
                 Err(TpwlError::Refused(format!("the load {load} N/m lies outside the trained {from}…{to} N/m")))
             }
         }
