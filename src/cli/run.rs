@@ -113,11 +113,11 @@ fn describe(outcome: &SceneOutcome) -> String {
     let mut text = format!("{} ({:.2} s)\n", outcome.title, outcome.wall_s);
     let method = |method: &Option<Method>| method.as_ref().map_or("", Method::name);
     // Writing to a string cannot fail.
-    for warning in &outcome.warnings {
+    for warning in &outcome.found.warnings {
         let _ = writeln!(text, "  note   {warning}");
     }
     if outcome.verdicts.is_empty() {
-        for value in &outcome.values {
+        for value in &outcome.found.values {
             let _ = writeln!(text, "         {:<26} {:<8} {}", value.name, method(&value.method), Number(value.value));
         }
     }
@@ -125,12 +125,13 @@ fn describe(outcome: &SceneOutcome) -> String {
         text.push_str(&table.to_text("  "));
     }
     for verdict in &outcome.verdicts {
+        let expected = &verdict.expected;
         let word = if verdict.holds { "ok   " } else { "SHORT" };
         let value = verdict.value.map_or("no such value".to_owned(), |value| Number(value).to_string());
-        let (name, wanted) = (&verdict.name, &verdict.wanted);
-        let _ = writeln!(text, "  {word}  {name:<26} {:<8} {value} (wanted {wanted})", method(&verdict.method));
+        let (name, wanted) = (&expected.name, expected.wanted());
+        let _ = writeln!(text, "  {word}  {name:<26} {:<8} {value} (wanted {wanted})", method(&expected.method));
     }
-    if !outcome.converged {
+    if !outcome.found.converged {
         let _ = writeln!(text, "  note   some solves did not converge");
     }
     text

@@ -2,7 +2,7 @@
 
 use super::SceneOutcome;
 use super::table::significant;
-use crate::scene::{Scene, SceneFileError};
+use crate::scene::{Scene, SceneFileError, Verdict};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -73,18 +73,18 @@ impl Entry {
         let mut entry = Self { place: file.place.clone(), hash: hash(&file.scene), ..Self::default() };
         match outcome {
             Ok(outcome) => {
-                for verdict in &outcome.verdicts {
+                for Verdict { expected, value, holds } in &outcome.verdicts {
                     let method =
-                        verdict.method.as_ref().map_or(String::new(), |method| format!(" ({})", method.name()));
-                    let mut wanted = format!("`{}`{method}: {}", verdict.name, verdict.wanted);
-                    if !verdict.from.is_empty() {
-                        wanted = format!("{wanted}; {}", verdict.from);
+                        expected.method.as_ref().map_or(String::new(), |method| format!(" ({})", method.name()));
+                    let mut wanted = format!("`{}`{method}: {}", expected.name, expected.wanted());
+                    if !expected.from.is_empty() {
+                        wanted = format!("{wanted}; {}", expected.from);
                     }
-                    let value = verdict.value.map_or("no such value".to_owned(), |value| significant(value, 4));
-                    entry.push(file, &wanted, &value, verdict.holds);
+                    let value = value.map_or("no such value".to_owned(), |value| significant(value, 4));
+                    entry.push(file, &wanted, &value, *holds);
                 }
                 if outcome.verdicts.is_empty() || (entry.short == 0 && !outcome.passed()) {
-                    let converged = if outcome.converged { "yes" } else { "no" };
+                    let converged = if outcome.found.converged { "yes" } else { "no" };
                     entry.push(file, "every solve converges", converged, outcome.passed());
                 }
             }
@@ -173,23 +173,22 @@ pub fn page(entries: &[Entry]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::Verdict;
-    use crate::scene::Method;
+    use crate::scene::{Expectation, Method, Within};
 
     fn file(place: &str) -> SceneFile {
         SceneFile { path: place.into(), place: place.to_owned(), scene: Scene::at_moes(40.0, 10.0) }
     }
 
     fn outcome(holds: bool) -> SceneOutcome {
-        let verdict = Verdict {
+        let expected = Expectation {
             name: "H_c".to_owned(),
             method: Some(Method::Full),
-            value: Some(0.039_971_9),
-            wanted: "0.04 ± 1e-3".to_owned(),
+            value: Some(0.04),
+            within: Within::Absolute(1e-3),
             from: "Table 2.1 | given".to_owned(),
-            holds,
         };
-        SceneOutcome { converged: true, verdicts: vec![verdict], ..SceneOutcome::default() }
+        let verdicts = vec![Verdict { expected, value: Some(0.039_971_9), holds }];
+        SceneOutcome { verdicts, ..SceneOutcome::default() }
     }
 
     #[test]

@@ -47,7 +47,7 @@ pub(crate) use parallel::full_solutions;
 pub use run::run_scene;
 pub use statistics::{median, percentile, rank_correlation};
 pub use study::transient::{Drive, LinearisedTransient, PublishedMarch, ReducedTransient, TransientStudy};
-pub use study::{ComparedPlan, ComparedSampling, Contacts, Formula, OnlineScheme, Study, StudyObserver, StudyRow};
+pub use study::{ComparedPlan, ComparedSampling, Contacts, OnlineScheme, Study, StudyObserver, StudyRow};
 pub use table::{Column, Table};
 pub use view::{LoadFollower, LubricantFollower, View};
 
@@ -60,8 +60,9 @@ use serde::{Deserialize, Serialize};
 /// How far the α of a scene may lie from the one that a viscosity law determines and still count as the same, rounded.
 const ROUNDED_ALPHA: f64 = 1e-3;
 
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
+/// Whether a field may be left out of the text of a scene.
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 /// An experiment.
@@ -73,7 +74,7 @@ pub struct Scene {
     /// Title for people.
     pub title: String,
     /// Where the experiment comes from: a table, a figure, a paper.
-    #[serde(default, skip_serializing_if = "String::is_empty")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub source: String,
     /// Line or point contact.
     #[serde(default)]
@@ -85,10 +86,10 @@ pub struct Scene {
     #[serde(default)]
     pub at: At,
     /// Slide-to-roll ratio SRR.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub srr: f64,
     /// Newtonian plateau ratio NPR of a shear-thinning lubricant, in place of its own.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub npr: Option<f64>,
     /// Grid of full solutions; a reduced model always uses its own.
     #[serde(default)]
@@ -96,17 +97,17 @@ pub struct Scene {
     /// The question.
     pub study: Study,
     /// What the answer should be.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub expect: Vec<Expectation>,
     /// Whether it takes less than ten seconds of one processor: `run --all --quick` and the tests run those.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub quick: bool,
     /// Whether some of its solves are meant to fail. Without this, or an expectation that admits failures, a solve that
     /// fails lets the scene fall short.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub failures_expected: bool,
     /// What the explorer keeps with it; results do not depend on it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub view: Option<View>,
 }
 

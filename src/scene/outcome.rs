@@ -20,16 +20,10 @@ pub struct NamedValue {
 /// One expectation held against the answer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
-    /// Name of the value.
-    pub name: String,
-    /// The method, where one was named.
-    pub method: Option<Method>,
+    /// What was expected.
+    pub expected: Expectation,
     /// The answer; none where the scene gave no such value.
     pub value: Option<f64>,
-    /// What was wanted, in words.
-    pub wanted: String,
-    /// Where the expectation comes from.
-    pub from: String,
     /// Whether it holds.
     pub holds: bool,
 }
@@ -54,18 +48,14 @@ pub struct SceneOutcome {
     pub source: String,
     /// Seconds of the whole run.
     pub wall_s: f64,
-    /// Whether every solve converged.
-    pub converged: bool,
-    /// Whether the scene says that some need not.
+    /// Whether the scene says that some solves need not converge.
     pub failures_expected: bool,
-    /// All values.
-    pub values: Vec<NamedValue>,
+    /// What the rows say.
+    pub found: Findings,
     /// All expectations.
     pub verdicts: Vec<Verdict>,
     /// Tables of the study.
     pub tables: Vec<Table>,
-    /// What a reader must know.
-    pub warnings: Vec<String>,
 }
 
 impl Default for Findings {
@@ -103,40 +93,25 @@ impl Findings {
 
     /// The value of a name: of the method where one is given, else the first of that name.
     pub fn value(&self, name: &str, method: Option<&Method>) -> Option<f64> {
-        value(&self.values, name, method)
+        let fits = |v: &&NamedValue| v.name == name && method.is_none_or(|m| v.method.as_ref() == Some(m));
+        self.values.iter().find(fits).map(|v| v.value)
     }
 
     /// Expectations held against the values.
     pub fn verdicts(&self, expected: &[Expectation]) -> Vec<Verdict> {
-        let verdict = |expectation: &Expectation| {
-            let value = self.value(&expectation.name, expectation.method.as_ref());
-            Verdict {
-                name: expectation.name.clone(),
-                method: expectation.method.clone(),
-                value,
-                wanted: expectation.wanted(),
-                from: expectation.from.clone(),
-                holds: value.is_some_and(|answer| expectation.within.holds(expectation.value, answer)),
-            }
+        let verdict = |expected: &Expectation| {
+            let value = self.value(&expected.name, expected.method.as_ref());
+            let holds = value.is_some_and(|answer| expected.within.holds(expected.value, answer));
+            Verdict { expected: expected.clone(), value, holds }
         };
         expected.iter().map(verdict).collect()
     }
 }
 
-fn value(values: &[NamedValue], name: &str, method: Option<&Method>) -> Option<f64> {
-    let fits = |v: &&NamedValue| v.name == name && method.is_none_or(|m| v.method.as_ref() == Some(m));
-    values.iter().find(fits).map(|v| v.value)
-}
-
 impl SceneOutcome {
-    /// The value of a name: of the method where one is given, else the first of that name.
-    pub fn value(&self, name: &str, method: Option<&Method>) -> Option<f64> {
-        value(&self.values, name, method)
-    }
-
     /// Whether every expectation holds, and every solve converged unless the scene says that some need not.
     pub fn passed(&self) -> bool {
-        self.verdicts.iter().all(|verdict| verdict.holds) && (self.converged || self.failures_expected)
+        self.verdicts.iter().all(|verdict| verdict.holds) && (self.found.converged || self.failures_expected)
     }
 
     /// The object of `run --json`.
@@ -151,25 +126,26 @@ impl SceneOutcome {
         let expectations: Vec<Value> = self
             .verdicts
             .iter()
-            .map(|v| {
-                let verdict = if v.holds { "ok" } else { "short" };
-                let value = v.value.map_or(Value::Null, number);
-                let object =
-                    json!({"name": v.name, "value": value, "wanted": v.wanted, "verdict": verdict, "from": v.from});
-                with_method(object, &v.method)
+            .map(|Verdict { expected, value, holds }| {
+                let verdict = if *holds { "ok" } else { "short" };
+                let (value, wanted) = (value.map_or(Value::Null, number), expected.wanted());
+                let (name, from) = (&expected.name, &expected.from);
+                let object = json!({"name": name, "value": value, "wanted": wanted, "verdict": verdict, "from": from});
+                with_method(object, &expected.method)
             })
             .collect();
         let values: Vec<Value> = self
+            .found
             .values
             .iter()
             .map(|v| with_method(json!({"name": v.name, "value": number(v.value)}), &v.method))
             .collect();
         let mut object = json!({
-            "title": self.title, "source": self.source, "wall_s": self.wall_s, "converged": self.converged,
+            "title": self.title, "source": self.source, "wall_s": self.wall_s, "converged": self.found.converged,
             "passed": self.passed(), "expectations": expectations, "values": values,
         });
-        if let (Some(fields), false) = (object.as_object_mut(), self.warnings.is_empty()) {
-            fields.insert("warning".to_owned(), json!(self.warnings.join("; ")));
+        if let (Some(fields), false) = (object.as_object_mut(), self.found.warnings.is_empty()) {
+            fields.insert("warning".to_owned(), json!(self.found.warnings.join("; ")));
         }
         object
     }
@@ -178,19 +154,16 @@ impl SceneOutcome {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Within;
 
     #[test]
     fn a_solve_that_failed_counts_unless_failures_are_expected() {
-        let good = SceneOutcome { converged: true, ..SceneOutcome::default() };
-        let verdict = |holds| Verdict {
-            name: "H_c".to_owned(),
-            method: None,
-            value: Some(1.0),
-            wanted: String::new(),
-            from: String::new(),
-            holds,
-        };
-        let failed = SceneOutcome { converged: false, verdicts: vec![verdict(true)], ..good.clone() };
+        let good = SceneOutcome::default();
+        let (name, from, within) = ("H_c".to_owned(), String::new(), Within::AtLeast(0.0));
+        let expected = Expectation { name, method: None, value: None, within, from };
+        let verdict = |holds| Verdict { expected: expected.clone(), value: Some(1.0), holds };
+        let found = Findings { converged: false, ..Findings::default() };
+        let failed = SceneOutcome { found, verdicts: vec![verdict(true)], ..good.clone() };
         assert!(good.passed() && !failed.passed());
         assert!(SceneOutcome { failures_expected: true, ..failed.clone() }.passed());
         assert!(!SceneOutcome { failures_expected: true, verdicts: vec![verdict(false)], ..failed }.passed());

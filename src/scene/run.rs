@@ -33,12 +33,10 @@ impl Scene {
             title: self.title.clone(),
             source: self.source.clone(),
             wall_s,
-            converged: found.converged,
             failures_expected: self.failures_expected || self.expect.iter().any(Expectation::admits_failures),
             verdicts: found.verdicts(&self.expect),
             tables: self.study.tables(rows),
-            values: found.values,
-            warnings: found.warnings,
+            found,
         }
     }
 }

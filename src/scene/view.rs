@@ -1,5 +1,6 @@
 //! What the explorer keeps with a scene so that nothing is lost when it is saved and opened again.
 
+use super::is_default;
 use serde::{Deserialize, Serialize};
 
 /// How the explorer edits a scene: what follows when a slider moves, and how the reduced model is truncated. Running a
@@ -48,10 +49,6 @@ pub enum LubricantFollower {
     Alpha,
     /// Radius R at constant speed and α.
     Radius,
-}
-
-fn is_default<T: Default + PartialEq>(value: &T) -> bool {
-    *value == T::default()
 }
 
 impl LoadFollower {

@@ -66,7 +66,7 @@ fn plans_are_compared_side_by_side() {
         online: OnlineScheme::Explorer,
     });
     let outcome = folder.run(study.clone());
-    let value = |name: &str| outcome.value(name, None).unwrap_or_else(|| panic!("no {name}"));
+    let value = |name: &str| outcome.found.value(name, None).unwrap_or_else(|| panic!("no {name}"));
     assert_eq!((value("wide.snapshots"), value("corners.snapshots")), (40.0, 16.0));
     assert_eq!((value("full_failures"), value("order.against")), (0.0, 0.0));
     // More snapshots, spread wider: slower decay of information, better approximation of what was never seen.
@@ -79,7 +79,7 @@ fn plans_are_compared_side_by_side() {
     assert_eq!(rows("trajectory"), Some((21, 3 + 2 * 8)));
     assert_eq!(rows("loss_of_information"), Some((41, 5)));
     // Nothing but the two times may differ between runs, and this study measures none.
-    assert_eq!(folder.run(study).values, outcome.values);
+    assert_eq!(folder.run(study).found.values, outcome.found.values);
 }
 
 #[test]
@@ -97,15 +97,15 @@ fn a_cut_training_is_the_training_with_that_tolerance() {
         })
     };
     let both = folder.run(study(&ladder));
-    assert_eq!(both.value("rungs_met", None), Some(2.0));
+    assert_eq!(both.found.value("rungs_met", None), Some(2.0));
     let short = folder.training("short", adaptive(Indicator::Correction, vec![3e-2]));
     let first = folder.run(study(&short));
     for name in ["snapshots", "basis_p", "failures", "e_z_mean", "e_f_I_mean", "H_c_error_max"] {
-        let value = |outcome: &SceneOutcome| outcome.value(&format!("3e-2.{name}"), None).unwrap();
+        let value = |outcome: &SceneOutcome| outcome.found.value(&format!("3e-2.{name}"), None).unwrap();
         assert_eq!(value(&both), value(&first), "{name}");
     }
-    assert!(both.value("3e-3.snapshots", None) > both.value("3e-2.snapshots", None));
-    assert!(both.value("3e-3.H_c_error_p95", None) < both.value("3e-2.H_c_error_p95", None));
+    assert!(both.found.value("3e-3.snapshots", None) > both.found.value("3e-2.snapshots", None));
+    assert!(both.found.value("3e-3.H_c_error_p95", None) < both.found.value("3e-2.H_c_error_p95", None));
 }
 
 #[test]
@@ -121,8 +121,8 @@ fn the_dissertations_own_indicator_trains_a_model() {
         online: OnlineScheme::Dissertation,
     });
     let outcome = folder.run(study);
-    assert_eq!(outcome.value("rungs_met", None), Some(2.0));
-    assert!(outcome.value("1e0.e_f_I_mean", None).unwrap() < 1.0);
+    assert_eq!(outcome.found.value("rungs_met", None), Some(2.0));
+    assert!(outcome.found.value("1e0.e_f_I_mean", None).unwrap() < 1.0);
 }
 
 #[test]

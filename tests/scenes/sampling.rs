@@ -36,7 +36,7 @@ fn a_cubature_of_few_rows_does_what_all_rows_do() {
     folder.write("training.ron", TRAINING);
     let scene = Scene::from_ron(COMPARISON).unwrap();
     let outcome = run_scene(&scene, &mut Workbench::new(&*folder), &()).unwrap();
-    let value = |name: &str| outcome.value(name, None).unwrap_or_else(|| panic!("{name} is missing"));
+    let value = |name: &str| outcome.found.value(name, None).unwrap_or_else(|| panic!("{name} is missing"));
     let modes = value("basis_p");
     assert_eq!(value("snapshots"), 20.0);
     assert_eq!(value("all.rows"), 69.0 * 15.0);

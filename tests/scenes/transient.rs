@@ -16,12 +16,12 @@ fn scene(study: &str) -> Result<Scene, String> {
 
 fn run(study: &str) -> SceneOutcome {
     let outcome = run_scene(&scene(study).unwrap(), &mut Workbench::new(""), &()).unwrap();
-    assert!(outcome.converged, "{:?}", outcome.warnings);
+    assert!(outcome.found.converged, "{:?}", outcome.found.warnings);
     outcome
 }
 
 fn value(outcome: &SceneOutcome, name: &str) -> f64 {
-    outcome.value(name, None).unwrap_or_else(|| panic!("no {name}"))
+    outcome.found.value(name, None).unwrap_or_else(|| panic!("no {name}"))
 }
 
 const SINE: &str = "inputs: (load: Harmonic(amplitude: 0.1, period: 0.5)), duration: 0.5";

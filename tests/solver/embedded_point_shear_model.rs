@@ -165,7 +165,7 @@ fn dimensions_grow_as_less_may_be_lost() {
         over[1].values = Steps::List(vec![0.2, 0.6]);
     }
     let outcome = scene_files::run("table_3_7", &scene);
-    let value = |name: &str| outcome.value(name, None).unwrap();
+    let value = |name: &str| outcome.found.value(name, None).unwrap();
     assert_eq!((value("snapshots"), value("full_failures")), (24.0, 0.0));
     assert_eq!(value("dofs"), 2.0 * value("nodes_x") * value("nodes_y") + 1.0);
     let of = |field: &str| ["1e-3", "1e-4", "1e-5"].map(|loss| value(&format!("basis_{field}[{loss}]")));

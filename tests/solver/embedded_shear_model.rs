@@ -193,12 +193,12 @@ fn figures_of_line_contacts_stand_on_the_models_own_grid_beside_the_reference() 
         let short: Vec<_> = outcome.verdicts.iter().filter(|verdict| !verdict.holds).collect();
         assert!(short.is_empty() && outcome.verdicts.len() >= 6, "{name}: {short:?}");
         // Against the dissertation's grid, which begins at X = -4, the grids would be part of the error.
-        let of = |outcome: &SceneOutcome| outcome.value("H_c_error_max", Some(&Method::EMBEDDED)).unwrap();
+        let of = |outcome: &SceneOutcome| outcome.found.value("H_c_error_max", Some(&Method::EMBEDDED)).unwrap();
         if let Study::Sweep(Sweep { compare_on_model_grid, .. }) = &mut scene.study {
             *compare_on_model_grid = false;
         }
         let elsewhere = scene_files::run(name, &scene);
         assert!(of(&elsewhere) > 3.0 * of(&outcome), "{name}: {} and {}", of(&elsewhere), of(&outcome));
-        assert!(elsewhere.value("failures_on_model_grid", None).is_none());
+        assert!(elsewhere.found.value("failures_on_model_grid", None).is_none());
     }
 }

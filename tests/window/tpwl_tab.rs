@@ -207,8 +207,8 @@ fn the_same_scene_runs_headless_and_is_refused_without_the_fixed_frame() {
     let wanted = "reduced: (loss: 1e-6), linearised: (modes: 90, selection: Distance(tolerance: 0.1), points: 40)";
     let run = |text: &str| run_scene(&Scene::from_ron(text).unwrap(), &mut Workbench::new(Path::new(".")), &());
     let outcome = run(&scene(SINE, wanted)).unwrap();
-    assert!(outcome.converged && outcome.warnings.is_empty(), "{:?}", outcome.warnings);
-    let value = |name: &str| outcome.values.iter().find(|value| value.name == name).unwrap().value;
+    assert!(outcome.found.converged && outcome.found.warnings.is_empty(), "{:?}", outcome.found.warnings);
+    let value = |name: &str| outcome.found.values.iter().find(|value| value.name == name).unwrap().value;
     assert!((value("fixed.tpwl.points") - 40.0).abs() <= 2.0, "{} points", value("fixed.tpwl.points"));
     assert_eq!((value("fixed.tpwl.modes"), value("fixed.tpwl.dual_taylor.steps")), (90.0, 100.0));
     let difference = value("fixed.tpwl.dual_taylor.H_c.difference_l2");

@@ -47,7 +47,7 @@ mod tests {
             let last = name.rsplit('.').next().unwrap_or(name);
             last.ends_with("_s") || last.contains("_s_") || last == "speed_up"
         };
-        let values = outcome.values.into_iter().filter(|value| !timed(&value.name));
+        let values = outcome.found.values.into_iter().filter(|value| !timed(&value.name));
         values.map(|value| (value.name, value.value.to_bits())).collect()
     }
 

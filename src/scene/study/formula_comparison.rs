@@ -16,42 +16,11 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct FormulaComparison {
     /// The formula.
-    pub formula: Formula,
+    pub formula: FilmFormula,
     /// Load numbers.
     pub m: Vec<f64>,
     /// Lubricant numbers.
     pub l: Vec<f64>,
-}
-
-/// A published film formula.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Formula {
-    /// Moes, central film.
-    Moes,
-    /// Dowson & Higginson, minimum film.
-    DowsonHigginson,
-    /// Dowson & Toyoda, central film.
-    DowsonToyoda,
-    /// Hamrock & Dowson, point contact, central film.
-    HamrockDowsonCentral,
-    /// Hamrock & Dowson, point contact, minimum film.
-    HamrockDowsonMinimum,
-    /// Nijenbanning, Venner & Moes, point contact, central film.
-    NijenbanningVennerMoes,
-}
-
-impl Formula {
-    /// The solver's name for it.
-    pub fn film_formula(self) -> FilmFormula {
-        match self {
-            Self::Moes => FilmFormula::MoesLine,
-            Self::DowsonHigginson => FilmFormula::DowsonHigginson,
-            Self::DowsonToyoda => FilmFormula::DowsonToyoda,
-            Self::HamrockDowsonCentral => FilmFormula::HamrockDowsonCentral,
-            Self::HamrockDowsonMinimum => FilmFormula::HamrockDowsonMinimum,
-            Self::NijenbanningVennerMoes => FilmFormula::NijenbanningVennerMoes,
-        }
-    }
 }
 
 /// One contact.
@@ -80,7 +49,7 @@ impl Question for FormulaComparison {
     type Row = Row;
 
     fn check(&self, experiment: &Experiment) -> Checked {
-        let wanted = self.formula.film_formula().contact();
+        let wanted = self.formula.contact();
         if wanted != experiment.contact {
             let (wanted, contact) = (wanted.name(), experiment.contact.name());
             let problem = format!("is made for {wanted} contacts, but the scene's is a {contact} contact");
@@ -94,7 +63,6 @@ impl Question for FormulaComparison {
 
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
         let Setting { experiment, observer, .. } = *setting;
-        let formula = self.formula.film_formula();
         let mut former: Option<Solution> = None;
         let all = self.l.iter().flat_map(|&l| self.m.iter().map(move |&m| (m, l)));
         for (i, (m, l)) in all.enumerate() {
@@ -104,9 +72,9 @@ impl Question for FormulaComparison {
             let answer = setting.bench.answer(&request, &Method::Full, former.as_ref(), observer)?;
             let full_m = answer.result().map(|solution| {
                 let s = &solution.scalars;
-                point.film_scale_m() * if formula.predicts_minimum() { s.h_min } else { s.h_c }
+                point.film_scale_m() * if self.formula.predicts_minimum() { s.h_min } else { s.h_c }
             });
-            let predicted = formula.predict(&point);
+            let predicted = self.formula.predict(&point);
             tell(Row { m, l, full_m, formula_m: predicted.film_m, in_range: predicted.in_range });
             former = answer.solution.filter(|_| answer.converged).or(former);
         }

@@ -16,8 +16,15 @@
 //! ```
 //!
 //! [`run_scene`](super::run_scene) does all of it for who only wants the outcome. A new study is a file with a
-//! [`Question`], and a line in each of [`Study`], [`StudyRow`], `StudyRow::inner` and `Study::asked`.
+//! [`Question`], and a line in the list of studies below.
 #![allow(clippy::indexing_slicing, reason = "rows, methods and models of one run: places in lists that it made itself")]
+
+/// Of rows of several kinds those of one, in their order.
+macro_rules! only {
+    ($rows:expr, $kind:path) => {
+        $rows.iter().filter_map(|row| if let $kind(row) = row { Some(row) } else { None }).collect::<Vec<_>>()
+    };
+}
 
 pub mod dimensions;
 pub mod distance_measure;
@@ -39,7 +46,6 @@ pub mod transient;
 
 pub use error_measures::OnlineScheme;
 pub use error_split::Contacts;
-pub use formula_comparison::Formula;
 pub use path::{OnModelGrid, PathRow};
 pub use plan_comparison::ComparedPlan;
 pub use question::{Question, Setting, Tell};
@@ -55,13 +61,87 @@ use super::outcome::Findings;
 use super::table::Table;
 use crate::solver::training::{TrainingObserver, TrainingSpec};
 use serde::{Deserialize, Serialize};
-use std::any::Any;
 use std::sync::atomic::AtomicBool;
 
-/// What is asked of a scene's contact.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum Study {
+/// What is asked of a scene's contact, what comes of it, and how each is handed to the file of its study.
+macro_rules! studies {
+    ($($(#[$about:meta])* $name:ident($question:ty),)*) => {
+        /// What is asked of a scene's contact.
+        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub enum Study {
+            $($(#[$about])* $name($question),)*
+        }
+
+        /// A row of any study.
+        #[derive(Clone, Debug)]
+        pub enum StudyRow {
+            $(
+                #[doc = concat!("What comes of [`Study::", stringify!($name), "`].")]
+                $name(<$question as Question>::Row),
+            )*
+        }
+
+        impl Study {
+            /// Refuses a question that makes no sense, naming the field.
+            pub(super) fn check(&self, experiment: &Experiment) -> Checked {
+                match self {
+                    $(Self::$name(question) => Question::check(question, experiment),)*
+                }
+            }
+
+            /// The methods it uses, in order.
+            pub fn methods(&self) -> &[Method] {
+                match self {
+                    $(Self::$name(question) => question.methods(),)*
+                }
+            }
+
+            /// Answers the question; the observer is told each row as soon as it is known. What was told is worth
+            /// keeping also where it ends early.
+            ///
+            /// # Errors
+            /// When something is refused, a model cannot be had, or the observer cancels. Solves that do not converge
+            /// are rows.
+            pub fn run(
+                &self,
+                experiment: &Experiment,
+                bench: &mut dyn Bench,
+                observer: &dyn StudyObserver,
+            ) -> Result<(), RunError> {
+                let mut setting = Setting { experiment, bench, observer, wants_states: observer.wants_states() };
+                match self {
+                    $(Self::$name(question) => question.run(&mut setting, &|row| observer.row(StudyRow::$name(row))),)*
+                }
+            }
+
+            /// What rows say: values by the names that expectations use, and warnings.
+            pub fn findings(&self, experiment: &Experiment, rows: &[StudyRow]) -> Findings {
+                let mut found = Findings::default();
+                match self {
+                    $(Self::$name(question) => question.findings(experiment, &only!(rows, StudyRow::$name), &mut found),)*
+                }
+                found
+            }
+
+            /// Rows in numbers, of as many as there are.
+            pub fn tables(&self, rows: &[StudyRow]) -> Vec<Table> {
+                match self {
+                    $(Self::$name(question) => question.tables(&only!(rows, StudyRow::$name)),)*
+                }
+            }
+
+            /// How rows are best looked at, as many as there are.
+            pub fn charts(&self, rows: &[StudyRow]) -> Vec<Chart> {
+                match self {
+                    $(Self::$name(question) => question.charts(&only!(rows, StudyRow::$name)),)*
+                }
+            }
+        }
+    };
+}
+
+studies! {
     /// The contact itself.
     Point(point::Point),
     /// The contact along one to three varied quantities, the last one fastest; each solve starts from its neighbour.
@@ -98,39 +178,12 @@ pub enum Study {
     FormulaComparison(formula_comparison::FormulaComparison),
 }
 
-/// A row of any study.
-#[derive(Clone, Debug)]
-pub enum StudyRow {
-    /// One method at the contact.
-    Point(point::Row),
-    /// One contact of a sweep.
-    Sweep(PathRow),
-    /// One contact of the test trajectory.
-    Trajectory(PathRow),
-    /// One random test, or the full solution it is compared with.
-    RandomTest(random_test::Row),
-    /// One contact's error.
-    ErrorSplit(error_split::Row),
-    /// One grid.
-    GridStudy(grid_study::Row),
-    /// All dimensions.
-    Dimensions(dimensions::Row),
-    /// The model.
-    Training(training::Row),
-    /// One random point.
-    ErrorMeasures(error_measures::Row),
-    /// The measure.
-    DistanceMeasure(distance_measure::Row),
-    /// One plan, trained or tested.
-    PlanComparison(plan_comparison::Row),
-    /// One rung of the ladder, or what all rungs share.
-    ToleranceStudy(tolerance_study::Row),
-    /// One way of sampling, or what all ways share.
-    SamplingComparison(sampling_comparison::Row),
-    /// A moment, fields, a march that has ended, a model.
-    Transient(transient::Row),
-    /// One contact.
-    FormulaComparison(formula_comparison::Row),
+impl Study {
+    /// The reduced model whose grid [`Grid::Model`](super::Grid::Model) means: the first one used, else the embedded
+    /// one.
+    pub fn grid_model(&self) -> ModelSource {
+        self.methods().iter().find_map(Method::model).cloned().unwrap_or_default()
+    }
 }
 
 /// Watches a study.
@@ -148,139 +201,3 @@ impl StudyObserver for () {}
 
 /// Stops a study from another thread.
 impl StudyObserver for AtomicBool {}
-
-impl StudyRow {
-    fn inner(&self) -> &dyn Any {
-        match self {
-            Self::Point(row) => row,
-            Self::Sweep(row) | Self::Trajectory(row) => row,
-            Self::RandomTest(row) => row,
-            Self::ErrorSplit(row) => row,
-            Self::GridStudy(row) => row,
-            Self::Dimensions(row) => row,
-            Self::Training(row) => row,
-            Self::ErrorMeasures(row) => row,
-            Self::DistanceMeasure(row) => row,
-            Self::PlanComparison(row) => row,
-            Self::ToleranceStudy(row) => row,
-            Self::SamplingComparison(row) => row,
-            Self::Transient(row) => row,
-            Self::FormulaComparison(row) => row,
-        }
-    }
-}
-
-/// A question whose rows are those of any study.
-trait Asked {
-    fn check(&self, experiment: &Experiment) -> Checked;
-    fn methods(&self) -> &[Method];
-    fn run(&self, setting: &mut Setting<'_>, observer: &dyn StudyObserver) -> Result<(), RunError>;
-    fn findings(&self, experiment: &Experiment, rows: &[StudyRow], found: &mut Findings);
-    fn tables(&self, rows: &[StudyRow]) -> Vec<Table>;
-    fn charts(&self, rows: &[StudyRow]) -> Vec<Chart>;
-}
-
-/// A question, and how its rows become rows of any study.
-struct Of<'a, Q: Question>(&'a Q, fn(Q::Row) -> StudyRow);
-
-impl<Q: Question> Of<'_, Q> {
-    fn own<'a>(&self, rows: &'a [StudyRow]) -> Vec<&'a Q::Row> {
-        rows.iter().filter_map(|row| row.inner().downcast_ref()).collect()
-    }
-}
-
-impl<Q: Question> Asked for Of<'_, Q> {
-    fn check(&self, experiment: &Experiment) -> Checked {
-        self.0.check(experiment)
-    }
-
-    fn methods(&self) -> &[Method] {
-        self.0.methods()
-    }
-
-    fn run(&self, setting: &mut Setting<'_>, observer: &dyn StudyObserver) -> Result<(), RunError> {
-        self.0.run(setting, &|row| observer.row((self.1)(row)))
-    }
-
-    fn findings(&self, experiment: &Experiment, rows: &[StudyRow], found: &mut Findings) {
-        self.0.findings(experiment, &self.own(rows), found);
-    }
-
-    fn tables(&self, rows: &[StudyRow]) -> Vec<Table> {
-        self.0.tables(&self.own(rows))
-    }
-
-    fn charts(&self, rows: &[StudyRow]) -> Vec<Chart> {
-        self.0.charts(&self.own(rows))
-    }
-}
-
-impl Study {
-    fn asked<T>(&self, answer: impl FnOnce(&dyn Asked) -> T) -> T {
-        match self {
-            Self::Point(study) => answer(&Of(study, StudyRow::Point)),
-            Self::Sweep(study) => answer(&Of(study, StudyRow::Sweep)),
-            Self::Trajectory(study) => answer(&Of(study, StudyRow::Trajectory)),
-            Self::RandomTest(study) => answer(&Of(study, StudyRow::RandomTest)),
-            Self::ErrorSplit(study) => answer(&Of(study, StudyRow::ErrorSplit)),
-            Self::GridStudy(study) => answer(&Of(study, StudyRow::GridStudy)),
-            Self::Dimensions(study) => answer(&Of(study, StudyRow::Dimensions)),
-            Self::Training(study) => answer(&Of(study, StudyRow::Training)),
-            Self::ErrorMeasures(study) => answer(&Of(study, StudyRow::ErrorMeasures)),
-            Self::DistanceMeasure(study) => answer(&Of(study, StudyRow::DistanceMeasure)),
-            Self::PlanComparison(study) => answer(&Of(study, StudyRow::PlanComparison)),
-            Self::ToleranceStudy(study) => answer(&Of(study, StudyRow::ToleranceStudy)),
-            Self::SamplingComparison(study) => answer(&Of(study, StudyRow::SamplingComparison)),
-            Self::Transient(study) => answer(&Of(study, StudyRow::Transient)),
-            Self::FormulaComparison(study) => answer(&Of(study, StudyRow::FormulaComparison)),
-        }
-    }
-
-    /// Refuses a question that makes no sense, naming the field.
-    pub(super) fn check(&self, experiment: &Experiment) -> Checked {
-        self.asked(|question| question.check(experiment))
-    }
-
-    /// The methods it uses, in order.
-    pub fn methods(&self) -> Vec<Method> {
-        self.asked(|question| question.methods().to_vec())
-    }
-
-    /// The reduced model whose grid [`Grid::Model`](super::Grid::Model) means: the first one used, else the embedded
-    /// one.
-    pub fn grid_model(&self) -> ModelSource {
-        self.methods().iter().find_map(Method::model).cloned().unwrap_or_default()
-    }
-
-    /// Answers the question; the observer is told each row as soon as it is known. What was told is worth keeping also
-    /// where it ends early.
-    ///
-    /// # Errors
-    /// When something is refused, a model cannot be had, or the observer cancels. Solves that do not converge are rows.
-    pub fn run(
-        &self,
-        experiment: &Experiment,
-        bench: &mut dyn Bench,
-        observer: &dyn StudyObserver,
-    ) -> Result<(), RunError> {
-        let mut setting = Setting { experiment, bench, observer, wants_states: observer.wants_states() };
-        self.asked(|question| question.run(&mut setting, observer))
-    }
-
-    /// What rows say: values by the names that expectations use, and warnings.
-    pub fn findings(&self, experiment: &Experiment, rows: &[StudyRow]) -> Findings {
-        let mut found = Findings::default();
-        self.asked(|question| question.findings(experiment, rows, &mut found));
-        found
-    }
-
-    /// Rows in numbers, of as many as there are.
-    pub fn tables(&self, rows: &[StudyRow]) -> Vec<Table> {
-        self.asked(|question| question.tables(rows))
-    }
-
-    /// How rows are best looked at, as many as there are.
-    pub fn charts(&self, rows: &[StudyRow]) -> Vec<Chart> {
-        self.asked(|question| question.charts(rows))
-    }
-}

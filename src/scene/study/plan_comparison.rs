@@ -163,22 +163,6 @@ struct Truth {
     along: Vec<Option<Solution>>,
 }
 
-fn trained<'a>(rows: &[&'a Row]) -> Vec<&'a Trained> {
-    let trained = |row: &&'a Row| match row {
-        Row::Trained(trained) => Some(trained),
-        Row::Tested(_) => None,
-    };
-    rows.iter().filter_map(trained).collect()
-}
-
-fn tested<'a>(rows: &[&'a Row]) -> Vec<&'a Tested> {
-    let tested = |row: &&'a Row| match row {
-        Row::Tested(tested) => Some(tested),
-        Row::Trained(_) => None,
-    };
-    rows.iter().filter_map(tested).collect()
-}
-
 /// Modes of the smallest pressure basis.
 fn common_modes(plans: &[&Trained]) -> usize {
     plans.iter().map(|plan| plan.window().pressure.modes.ncols()).min().unwrap_or(0)
@@ -274,7 +258,7 @@ impl Question for PlanComparison {
     /// rates differ as the published ones do, `order.against` those that differ the other way; equal rates count as
     /// neither.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
-        let (plans, tested) = (trained(rows), tested(rows));
+        let (plans, tested) = (only!(rows, Row::Trained), only!(rows, Row::Tested));
         for Trained { plan, model } in &plans {
             found.warnings.extend(model.log.iter().map(|line| format!("{}: {line}", plan.name)));
         }
@@ -310,12 +294,12 @@ impl Question for PlanComparison {
     }
 
     fn tables(&self, rows: &[&Row]) -> Vec<Table> {
-        let plans = trained(rows);
-        vec![snapshot_table(&plans), loss_table(&plans), trajectory_table(&tested(rows))]
+        let plans = only!(rows, Row::Trained);
+        vec![snapshot_table(&plans), loss_table(&plans), trajectory_table(&only!(rows, Row::Tested))]
     }
 
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
-        let (plans, tested) = (trained(rows), tested(rows));
+        let (plans, tested) = (only!(rows, Row::Trained), only!(rows, Row::Tested));
         let (m, l) = (ChartAxis::log("Load number M"), ChartAxis::linear("Lubricant number L"));
         let mut places = Chart::new("Snapshots", m, l);
         let k = ChartAxis::linear("Modes k");

@@ -11,13 +11,12 @@ use crate::scene::bench::Bench;
 use crate::scene::method::Method;
 use crate::solver::observer::Progress;
 use crate::solver::training::TrainingObserver;
-use std::any::Any;
 
 /// A question about an experiment. Its rows are all that comes of it: values, tables and charts are read off them, also
 /// while it runs.
 pub trait Question: Sync {
     /// What it finds out, piece by piece.
-    type Row: Any;
+    type Row;
 
     /// Refuses what makes no sense, naming the field.
     ///

@@ -89,14 +89,6 @@ const COLUMNS: [Column<Way>; 6] = [
     ("newton_median", |way| median(&way.newton)),
 ];
 
-fn ways<'a>(rows: &[&'a Row]) -> Vec<&'a Way> {
-    let way = |row: &&'a Row| match row {
-        Row::Way(way) => Some(way),
-        Row::Trained { .. } => None,
-    };
-    rows.iter().filter_map(way).collect()
-}
-
 impl Question for SamplingComparison {
     type Row = Row;
 
@@ -169,13 +161,13 @@ impl Question for SamplingComparison {
     }
 
     fn tables(&self, rows: &[&Row]) -> Vec<Table> {
-        vec![Table::of("samplings", &COLUMNS, ways(rows))]
+        vec![Table::of("samplings", &COLUMNS, only!(rows, Row::Way))]
     }
 
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
         let y = ChartAxis::log("Relative error of H_c");
         let mut chart = Chart::new("Errors of H_c, from the least to the largest", ChartAxis::linear("Share"), y);
-        for way in ways(rows) {
+        for way in only!(rows, Row::Way) {
             let mut errors = way.errors[0].clone();
             errors.sort_by(f64::total_cmp);
             let count = errors.len() as f64;
@@ -183,7 +175,7 @@ impl Question for SamplingComparison {
             chart.add(way.name.as_str(), Marks::Line, points);
         }
         let mut failures = Chart::new("Failures", ChartAxis::linear("Sampled rows"), ChartAxis::linear("Failures"));
-        for way in ways(rows) {
+        for way in only!(rows, Row::Way) {
             failures.add(way.name.as_str(), Marks::Dots, [[way.rows as f64, way.failures as f64]]);
         }
         vec![chart, failures]

@@ -96,14 +96,6 @@ const COLUMNS: [Column<Rung>; 14] = [
     ("online_mean_s", |rung| mean(&rung.seconds)),
 ];
 
-fn rungs<'a>(rows: &[&'a Row]) -> Vec<&'a Rung> {
-    let rung = |row: &&'a Row| match row {
-        Row::Rung(rung) => Some(rung),
-        Row::Trained { .. } => None,
-    };
-    rows.iter().filter_map(rung).collect()
-}
-
 impl Question for ToleranceStudy {
     type Row = Row;
 
@@ -178,7 +170,7 @@ impl Question for ToleranceStudy {
     /// Values are named `1e1.snapshots`, with the tolerance of the rung. e_z and e_f^I are Euclidean, means along the
     /// trajectory (3.21).
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
-        let rungs = rungs(rows);
+        let rungs = only!(rows, Row::Rung);
         for rung in &rungs {
             for (column, get) in &COLUMNS[1..] {
                 found.push(format!("{:e}.{column}", rung.tolerance), None, get(rung));
@@ -195,11 +187,11 @@ impl Question for ToleranceStudy {
     }
 
     fn tables(&self, rows: &[&Row]) -> Vec<Table> {
-        vec![Table::of("tolerances", &COLUMNS, rungs(rows))]
+        vec![Table::of("tolerances", &COLUMNS, only!(rows, Row::Rung))]
     }
 
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
-        let rungs = rungs(rows);
+        let rungs = only!(rows, Row::Rung);
         let chart = |title: &str, log: bool, shown: &[&str]| {
             let y = ChartAxis { label: title.to_owned(), log };
             let mut chart = Chart::new(title, ChartAxis::log("Tolerance"), y);

@@ -227,13 +227,13 @@ fn verdicts_ui(ui: &mut Ui, look: &Look) {
                 verdict_ui(ui, verdict, look.complete, &palette);
             }
         });
-        for warning in &outcome.warnings {
+        for warning in &outcome.found.warnings {
             warning_ui(ui, warning);
         }
         if outcome.verdicts.is_empty() {
             ui.add_space(4.0);
             Grid::new("values").num_columns(2).striped(true).spacing([8.0, 3.0]).show(ui, |ui| {
-                for value in &outcome.values {
+                for value in &outcome.found.values {
                     ui.label(of_method(&value.name, value.method.as_ref()));
                     ui.label(numbers::significant(value.value));
                     ui.end_row();
@@ -250,8 +250,9 @@ fn verdict_ui(ui: &mut Ui, verdict: &Verdict, complete: bool, palette: &Palette)
         (false, false) => ("open", palette.quiet),
     };
     ui.label(rich(mark, 11.0, color));
-    let tip = format!("Wanted {}; {}", verdict.wanted, verdict.from);
-    ui.label(of_method(&verdict.name, verdict.method.as_ref())).on_hover_text(&tip);
+    let expected = &verdict.expected;
+    let tip = format!("Wanted {}; {}", expected.wanted(), expected.from);
+    ui.label(of_method(&expected.name, expected.method.as_ref())).on_hover_text(&tip);
     let value = verdict.value.map_or_else(|| "–".to_owned(), numbers::significant);
     ui.label(value).on_hover_text(tip);
     ui.end_row();

@@ -4,6 +4,7 @@ use super::published::{self, PublishedMarch};
 use crate::scene::check::{Checked, count, interval, number, refuse};
 use crate::scene::experiment::Experiment;
 use crate::scene::grid::Grid;
+use crate::scene::is_default;
 use crate::solver::full::transient::{Frame, Inputs, TimeStep, Transient};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::ShearLaw;
@@ -130,10 +131,6 @@ fn one() -> u64 {
 
 fn is_one(seed: &u64) -> bool {
     *seed == one()
-}
-
-fn is_default(inputs: &Inputs) -> bool {
-    *inputs == Inputs::default()
 }
 
 fn fixed() -> Vec<Frame> {

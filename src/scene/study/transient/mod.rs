@@ -80,19 +80,7 @@ struct Runner<'a, 'b> {
 }
 
 fn marches<'a>(rows: &[&'a Row]) -> Vec<&'a March> {
-    let march = |row: &&'a Row| match row {
-        Row::Marched(march) => Some(march.as_ref()),
-        _ => None,
-    };
-    rows.iter().filter_map(march).collect()
-}
-
-fn models<'a>(rows: &[&'a Row]) -> Vec<&'a Model> {
-    let model = |row: &&'a Row| match row {
-        Row::Model(model) => Some(model),
-        _ => None,
-    };
-    rows.iter().filter_map(model).collect()
+    only!(rows, Row::Marched).into_iter().map(Arc::as_ref).collect()
 }
 
 impl Question for TransientStudy {
@@ -147,7 +135,7 @@ impl Question for TransientStudy {
     ///
     /// Values of marches along further inputs have the name of these in front, as in `triangle.fixed.rnsa.H_c.difference_l2`.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
-        let (marches, models) = (marches(rows), models(rows));
+        let (marches, models) = (marches(rows), only!(rows, Row::Model));
         for row in rows {
             match row {
                 Row::Marched(march) => march.findings(self, &marches, found),
@@ -171,7 +159,7 @@ impl Question for TransientStudy {
         };
         let mut tables: Vec<Table> = rows.iter().filter_map(table).collect();
         if self.reduced.is_some() || self.linearised.is_some() {
-            tables.push(costs::table(self, &marches(rows), &models(rows)));
+            tables.push(costs::table(self, &marches(rows), &only!(rows, Row::Model)));
         }
         tables
     }

@@ -1,11 +1,13 @@
 //! Published film-thickness formulas for line and circular point contacts, each with its source and range of validity.
 
 use super::{ContactKind, Moes, OperatingPoint};
+use serde::{Deserialize, Serialize};
 
 /// A published formula, as the Regimes tab and the formula-comparison scene list them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum FilmFormula {
     /// Moes' curve fit through the four asymptotes (central film).
+    #[serde(rename = "Moes")]
     MoesLine,
     /// Dowson & Higginson (minimum film).
     DowsonHigginson,
