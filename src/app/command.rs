@@ -2,7 +2,7 @@
 
 use super::answers::picture::Cuts;
 use super::document::Edit;
-use super::purpose::Purpose;
+use super::purpose::{Purpose, Written};
 use super::tab::Tab;
 use super::traction::{Served, Sweep};
 use super::training::TrainingCommand;
@@ -111,132 +111,100 @@ pub enum Command {
     Training(TrainingCommand),
 }
 
+/// A command as menus show it.
+pub struct Item {
+    /// The menu.
+    pub menu: &'static str,
+    /// Its group there; a line stands between groups.
+    pub group: u8,
+    /// What it does.
+    pub command: Command,
+    /// Its name; `…` where a dialog follows.
+    pub name: &'static str,
+    /// Other words that people look for it by.
+    pub synonyms: &'static str,
+    key: Option<(Modifiers, Key)>,
+}
+
+const PLAIN: Modifiers = Modifiers::NONE;
+const CTRL: Modifiers = Modifiers::COMMAND;
+const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
+
 /// The menus from left to right, each in its groups.
-pub const MENUS: [(&str, &[&[Command]]); 5] = {
+pub static MENUS: [Item; 33] = {
     use Command as C;
+    const fn item(
+        menu: &'static str,
+        group: u8,
+        command: Command,
+        name: &'static str,
+        synonyms: &'static str,
+        key: Option<(Modifiers, Key)>,
+    ) -> Item {
+        Item { menu, group, command, name, synonyms, key }
+    }
     [
-        ("File", &[&[C::New, C::Open], &[C::Save, C::SaveAs], &[C::ExportPlot, C::ExportProfiles], &[C::Quit]]),
-        ("Edit", &[&[C::Undo, C::Redo], &[C::Pin, C::Unpin], &[C::CopyReadouts]]),
-        (
-            "View",
-            &[
-                &[C::Palette, C::Presentation],
-                &[C::Overlay, C::Difference],
-                &[C::LightTheme, C::DarkTheme, C::SystemTheme],
-                &[C::LargerText, C::SmallerText, C::NormalText],
-                &[C::FitPlots, C::ResetLayout],
-            ],
-        ),
-        ("Run", &[&[C::Verify, C::EstimateGridError], &[C::SolveAlong, C::RunInTime, C::Train], &[C::Cancel]]),
-        ("Help", &[&[C::Manual, C::Keyboard], &[C::About]]),
+        item("File", 0, C::New, "New", "", Some((CTRL, Key::N))),
+        item("File", 0, C::Open, "Open…", "", Some((CTRL, Key::O))),
+        item("File", 1, C::Save, "Save", "", Some((CTRL, Key::S))),
+        item("File", 1, C::SaveAs, "Save as…", "", Some((CTRL_SHIFT, Key::S))),
+        item("File", 2, C::ExportPlot, "Export plot…", "picture figure image svg png", Some((CTRL, Key::E))),
+        item("File", 2, C::ExportProfiles, "Export profiles as CSV…", "table data", None),
+        item("File", 3, C::Quit, "Quit", "", Some((CTRL, Key::Q))),
+        item("Edit", 0, C::Undo, "Undo", "", Some((CTRL, Key::Z))),
+        item("Edit", 0, C::Redo, "Redo", "", Some((CTRL_SHIFT, Key::Z))),
+        item("Edit", 1, C::Pin, "Pin curve", "compare keep", Some((CTRL, Key::D))),
+        item("Edit", 1, C::Unpin, "Remove all pins", "", Some((CTRL_SHIFT, Key::D))),
+        item("Edit", 2, C::CopyReadouts, "Copy read-outs", "clipboard table values", Some((CTRL_SHIFT, Key::C))),
+        item("View", 0, C::Palette, "Command palette…", "", Some((CTRL, Key::P))),
+        item("View", 0, C::Presentation, "Presentation", "full screen projector lecture", Some((PLAIN, Key::F11))),
+        item("View", 1, C::Overlay, "Show or hide the full solution", "overlay reduced compare", None),
+        item("View", 1, C::Difference, "Show or hide the difference", "overlay reduced compare", None),
+        item("View", 2, C::LightTheme, "Light theme", "colours colors mode", None),
+        item("View", 2, C::DarkTheme, "Dark theme", "colours colors mode", None),
+        item("View", 2, C::SystemTheme, "System theme", "colours colors mode", None),
+        item("View", 3, C::LargerText, "Larger text", "zoom font size scale", Some((CTRL, Key::Plus))),
+        item("View", 3, C::SmallerText, "Smaller text", "zoom font size scale", Some((CTRL, Key::Minus))),
+        item("View", 3, C::NormalText, "Normal text", "zoom font size scale", Some((CTRL, Key::Num0))),
+        item("View", 4, C::FitPlots, "Fit plots to data", "zoom reset axes", Some((PLAIN, Key::F2))),
+        item("View", 4, C::ResetLayout, "Reset layout", "tabs panels windows", None),
+        item("Run", 0, C::Verify, "Verify now", "full solve check", Some((PLAIN, Key::F5))),
+        item("Run", 0, C::EstimateGridError, "Estimate grid error", "accuracy nodes refine", None),
+        item("Run", 1, C::SolveAlong, "Full solutions along the traction curve", "", None),
+        item("Run", 1, C::RunInTime, "Run in time", "transient march", None),
+        item("Run", 1, C::Train, "Start training", "reduced model snapshots", None),
+        item("Run", 2, C::Cancel, "Cancel", "stop abort", Some((PLAIN, Key::Escape))),
+        item("Help", 0, C::Manual, "Manual", "help documentation tour physics", Some((PLAIN, Key::F1))),
+        item("Help", 0, C::Keyboard, "Keyboard", "keys shortcuts help", None),
+        item("Help", 1, C::About, "About EHL Explorer", "", None),
     ]
 };
 
-const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
+impl Item {
+    /// Its key, when it has one.
+    pub fn shortcut(&self) -> Option<KeyboardShortcut> {
+        self.key.map(|(modifiers, key)| KeyboardShortcut::new(modifiers, key))
+    }
+}
 
 impl Command {
     /// Asks where a table is to be written.
     pub fn csv(text: String) -> Self {
-        Self::Ask(Purpose::Csv { text })
+        Self::Ask(Purpose::Write(Written::Table, text.into_bytes().into()))
     }
 
-    /// All of them with the names of their menus, in their order.
-    pub fn all() -> impl Iterator<Item = (&'static str, Self)> {
-        MENUS.into_iter().flat_map(|(menu, groups)| {
-            groups.iter().flat_map(move |group| group.iter().map(move |command| (menu, command.clone())))
-        })
+    fn item(&self) -> Option<&'static Item> {
+        MENUS.iter().find(|item| item.command == *self)
     }
 
-    /// As menus show it; `…` where a dialog follows.
+    /// As menus show it; empty where none does.
     pub fn name(&self) -> &'static str {
-        match self {
-            Self::New => "New",
-            Self::Open => "Open…",
-            Self::Save => "Save",
-            Self::SaveAs => "Save as…",
-            Self::ExportPlot => "Export plot…",
-            Self::ExportProfiles => "Export profiles as CSV…",
-            Self::Quit => "Quit",
-            Self::Undo => "Undo",
-            Self::Redo => "Redo",
-            Self::CopyReadouts => "Copy read-outs",
-            Self::Pin => "Pin curve",
-            Self::Unpin => "Remove all pins",
-            Self::Palette => "Command palette…",
-            Self::Presentation => "Presentation",
-            Self::Overlay => "Show or hide the full solution",
-            Self::Difference => "Show or hide the difference",
-            Self::FitPlots => "Fit plots to data",
-            Self::LightTheme => "Light theme",
-            Self::DarkTheme => "Dark theme",
-            Self::SystemTheme => "System theme",
-            Self::LargerText => "Larger text",
-            Self::SmallerText => "Smaller text",
-            Self::NormalText => "Normal text",
-            Self::ResetLayout => "Reset layout",
-            Self::Verify => "Verify now",
-            Self::EstimateGridError => "Estimate grid error",
-            Self::SolveAlong => "Full solutions along the traction curve",
-            Self::RunInTime => "Run in time",
-            Self::Train => "Start training",
-            Self::Cancel => "Cancel",
-            Self::Manual => "Manual",
-            Self::Keyboard => "Keyboard",
-            Self::About => "About EHL Explorer",
-            _ => "",
-        }
-    }
-
-    /// Other words that people look for it by.
-    pub fn synonyms(&self) -> &'static str {
-        match self {
-            Self::ExportPlot => "picture figure image svg png",
-            Self::ExportProfiles => "table data",
-            Self::CopyReadouts => "clipboard table values",
-            Self::Pin => "compare keep",
-            Self::Presentation => "full screen projector lecture",
-            Self::Overlay | Self::Difference => "overlay reduced compare",
-            Self::FitPlots => "zoom reset axes",
-            Self::LightTheme | Self::DarkTheme | Self::SystemTheme => "colours colors mode",
-            Self::LargerText | Self::SmallerText | Self::NormalText => "zoom font size scale",
-            Self::ResetLayout => "tabs panels windows",
-            Self::Verify => "full solve check",
-            Self::EstimateGridError => "accuracy nodes refine",
-            Self::RunInTime => "transient march",
-            Self::Train => "reduced model snapshots",
-            Self::Cancel => "stop abort",
-            Self::Manual => "help documentation tour physics",
-            Self::Keyboard => "keys shortcuts help",
-            _ => "",
-        }
+        self.item().map_or("", |item| item.name)
     }
 
     /// Its key, when it has one.
     pub fn shortcut(&self) -> Option<KeyboardShortcut> {
-        let (modifiers, key) = match self {
-            Self::New => (Modifiers::COMMAND, Key::N),
-            Self::Open => (Modifiers::COMMAND, Key::O),
-            Self::Save => (Modifiers::COMMAND, Key::S),
-            Self::SaveAs => (CTRL_SHIFT, Key::S),
-            Self::ExportPlot => (Modifiers::COMMAND, Key::E),
-            Self::Quit => (Modifiers::COMMAND, Key::Q),
-            Self::Undo => (Modifiers::COMMAND, Key::Z),
-            Self::Redo => (CTRL_SHIFT, Key::Z),
-            Self::CopyReadouts => (CTRL_SHIFT, Key::C),
-            Self::Pin => (Modifiers::COMMAND, Key::D),
-            Self::Unpin => (CTRL_SHIFT, Key::D),
-            Self::Palette => (Modifiers::COMMAND, Key::P),
-            Self::Presentation => (Modifiers::NONE, Key::F11),
-            Self::FitPlots => (Modifiers::NONE, Key::F2),
-            Self::LargerText => (Modifiers::COMMAND, Key::Plus),
-            Self::SmallerText => (Modifiers::COMMAND, Key::Minus),
-            Self::NormalText => (Modifiers::COMMAND, Key::Num0),
-            Self::Verify => (Modifiers::NONE, Key::F5),
-            Self::Cancel => (Modifiers::NONE, Key::Escape),
-            Self::Manual => (Modifiers::NONE, Key::F1),
-            _ => return None,
-        };
-        Some(KeyboardShortcut::new(modifiers, key))
+        self.item()?.shortcut()
     }
 
     /// The commands whose keys were pressed in this frame.
@@ -244,16 +212,13 @@ impl Command {
         // A text field keeps its own undo, and Escape must still leave it.
         let typing = ctx.text_edit_focused();
         let left_to_fields = [Self::Undo, Self::Redo, Self::Cancel];
-        let keys = Self::all().filter_map(|(_, command)| {
-            let shortcut = command.shortcut()?;
-            Some((command, shortcut))
-        });
-        let keys = keys.filter(|(command, _)| !(typing && left_to_fields.contains(command)));
+        let keys = MENUS.iter().filter_map(|item| Some((&item.command, item.shortcut()?)));
+        let keys = keys.filter(|(command, _)| !(typing && left_to_fields.contains(*command)));
         // Those with Shift first: Ctrl+Shift+Z must not be taken for Ctrl+Z.
         let (shifted, plain): (Vec<_>, Vec<_>) = keys.partition(|(_, shortcut)| shortcut.modifiers.shift);
         let pressed = |shortcut: &KeyboardShortcut| ctx.input_mut(|i| i.consume_shortcut(shortcut));
         let both = shifted.into_iter().chain(plain);
-        both.filter(|(_, shortcut)| pressed(shortcut)).map(|(command, _)| command).collect()
+        both.filter(|(_, shortcut)| pressed(shortcut)).map(|(command, _)| command.clone()).collect()
     }
 }
 
@@ -263,12 +228,11 @@ mod tests {
 
     #[test]
     fn no_command_stands_in_two_menus_and_no_key_or_name_means_two_things() {
-        let all: Vec<Command> = Command::all().map(|(_, command)| command).collect();
-        for (k, command) in all.iter().enumerate() {
-            for other in &all[..k] {
-                assert_ne!(command, other);
-                assert_ne!(command.name(), other.name());
-                assert!(command.shortcut().is_none() || command.shortcut() != other.shortcut(), "{}", command.name());
+        for (k, item) in MENUS.iter().enumerate() {
+            for other in &MENUS[..k] {
+                assert_ne!(item.command, other.command);
+                assert_ne!(item.name, other.name);
+                assert!(item.key.is_none() || item.key != other.key, "{}", item.name);
             }
         }
     }

@@ -36,17 +36,17 @@ impl Explorer {
             Command::ExportPlot => desk.figures.ask(),
             Command::ExportProfiles => {
                 if let Some(text) = export::profiles(&desk.answers, desk.display.cuts) {
-                    desk.ask_path(ctx, Purpose::Csv { text });
+                    self.execute(ctx, Command::csv(text));
                 }
             }
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
             Command::Undo => {
                 desk.history.undo(&mut desk.document);
-                desk.forget_entries();
+                desk.entries.clear();
             }
             Command::Redo => {
                 desk.history.redo(&mut desk.document);
-                desk.forget_entries();
+                desk.entries.clear();
             }
             Command::CopyReadouts => ctx.copy_text(export::readouts_table(&desk.answers)),
             Command::Pin => desk.answers.pin(),

@@ -11,28 +11,54 @@ pub enum Purpose {
     Save,
     /// Read inputs of a contact in time.
     Inputs,
-    /// Write a reduced model.
-    Model {
-        /// The content of its file.
-        bytes: Arc<Vec<u8>>,
-    },
-    /// Write a table.
-    Csv {
-        /// Its content.
-        text: String,
-    },
-    /// Write a picture.
-    Picture {
-        /// The content of its file.
-        bytes: Arc<[u8]>,
-        /// How its name ends: `png` or `svg`.
-        extension: &'static str,
-    },
+    /// Write a file with this content.
+    Write(Written, Arc<Vec<u8>>),
+}
+
+/// What is written beside scenes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Written {
+    /// A reduced model.
+    Model,
+    /// A table.
+    Table,
+    /// A drawing.
+    Svg,
+    /// An image.
+    Png,
+}
+
+/// How a path is asked for.
+pub struct Words {
+    /// Above the field.
+    pub title: &'static str,
+    /// On the button.
+    pub action: &'static str,
+    /// What such files are called.
+    pub files: &'static str,
+    /// How their names end.
+    pub endings: &'static [&'static str],
+    /// A name to begin with.
+    pub name: &'static str,
 }
 
 impl Purpose {
     /// Whether a file is read: then it must exist, and none is replaced.
     pub fn reads(&self) -> bool {
         matches!(self, Self::Open | Self::Inputs)
+    }
+
+    /// How a path is asked for.
+    pub fn words(&self) -> Words {
+        let (title, action, files, endings, name): (_, _, _, &[&str], _) = match self {
+            Self::Open => ("Open a scene or a reduced model", "Open", "Scene or reduced model", &["ron", "rom"], ""),
+            Self::Save => ("Save the scene", "Save", "Scene", &["ron"], "contact.ron"),
+            Self::Inputs => ("Inputs from a table", "Read", "Table", &["csv"], ""),
+            Self::Write(Written::Model, _) => ("Save the reduced model", "Save", "Reduced model", &["rom"], "line.rom"),
+            Self::Write(Written::Table, _) => ("Export the data as CSV", "Export", "Table", &["csv"], "profiles.csv"),
+            Self::Write(Written::Svg, _) => ("Export the picture", "Export", "Picture", &["svg"], "contact.svg"),
+            Self::Write(Written::Png, _) => ("Export the picture", "Export", "Picture", &["png"], "contact.png"),
+        };
+        Words { title, action, files, endings, name }
     }
 }

@@ -181,11 +181,6 @@ impl Desk {
         self.document = document;
         self.own_lubricant = false;
         self.views.results.forget();
-        self.forget_entries();
-    }
-
-    /// Forgets what was typed and refused: the document is another one now.
-    pub fn forget_entries(&mut self) {
         self.entries.clear();
     }
 }

@@ -10,7 +10,7 @@ pub use texture::Texture;
 
 use super::controls::named;
 use super::png;
-use super::purpose::Purpose;
+use super::purpose::{Purpose, Written};
 use egui::{ColorImage, Context, FontId, Id, LayerId, Modal, Order, Rect, Ui, ViewportCommand, pos2, vec2};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
@@ -138,7 +138,7 @@ impl Figures {
             (Some((receiver, rect)), _) => match receiver.try_recv() {
                 Ok(image) => {
                     let bytes = png::encode(&cropped(&image, wanted.whole, ctx.pixels_per_point()));
-                    return Some(Ok(Purpose::Picture { bytes: bytes.into(), extension: "png" }));
+                    return Some(Ok(Purpose::Write(Written::Png, bytes.into())));
                 }
                 Err(TryRecvError::Empty) if wanted.frames < PATIENCE => {
                     draw_caption(ctx, *rect, &caption);
@@ -158,7 +158,7 @@ impl Figures {
                     let shapes = graphics.get(plot.layer).map(|list| list.all_entries());
                     svg::drawing(shapes.into_iter().flatten(), plot.rect, &caption, background, &textures)
                 });
-                return Some(Ok(Purpose::Picture { bytes: text.into_bytes().into(), extension: "svg" }));
+                return Some(Ok(Purpose::Write(Written::Svg, text.into_bytes().into())));
             }
             (None, Some(plot)) if wanted.frames > SETTLED => {
                 let rect = draw_caption(ctx, plot.rect, &caption);

@@ -1,6 +1,6 @@
 //! What the palette offers: commands, tabs, kinds of contact, lubricants, recent scenes.
 
-use crate::app::command::Command;
+use crate::app::command::{Command, MENUS};
 use crate::app::desk::Desk;
 use crate::app::document::Edit;
 use crate::app::panels::lubricant::GROUP;
@@ -43,11 +43,11 @@ pub fn all(desk: &Desk) -> Vec<Entry> {
     let tabs =
         Tab::ALL.map(|tab| Entry::new("Tab", format!("Go to {}", tab.title()), tab.subjects(), Command::Go(tab)));
     // The palette itself is open already.
-    let commands = Command::all().filter(|(_, command)| *command != Command::Palette);
-    let commands = commands.map(|(menu, command)| Entry {
-        shortcut: command.shortcut(),
-        refusal: desk.refusal(&command),
-        ..Entry::new(menu, command.name().to_owned(), command.synonyms(), command.clone())
+    let commands = MENUS.iter().filter(|item| item.command != Command::Palette);
+    let commands = commands.map(|item| Entry {
+        shortcut: item.shortcut(),
+        refusal: desk.refusal(&item.command),
+        ..Entry::new(item.menu, item.name.to_owned(), item.synonyms, item.command.clone())
     });
     let mut entries: Vec<Entry> = tabs.into_iter().chain(commands).collect();
     let kinds = [(ContactKind::Line, "Line contact", "roller"), (ContactKind::Point, "Point contact", "ball")];

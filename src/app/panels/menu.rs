@@ -1,6 +1,6 @@
 //! The menu bar.
 
-use crate::app::command::{Command, MENUS};
+use crate::app::command::{Command, Item, MENUS};
 use crate::app::context::Commands;
 use crate::app::controls::named;
 use crate::app::desk::Desk;
@@ -10,14 +10,15 @@ use egui::{Align, Button, Label, Layout, MenuBar, RichText, Ui};
 /// The menu bar; chosen commands are added to `chosen`.
 pub fn ui(ui: &mut Ui, desk: &Desk, commands: &mut Commands) {
     MenuBar::new().ui(ui, |ui| {
-        for (menu, groups) in MENUS {
-            ui.menu_button(menu, |ui| {
-                for (k, group) in groups.iter().enumerate() {
+        for menu in MENUS.chunk_by(|a, b| a.menu == b.menu) {
+            let name = menu.first().map_or("", |item| item.menu);
+            ui.menu_button(name, |ui| {
+                for (k, group) in menu.chunk_by(|a, b| a.group == b.group).enumerate() {
                     if k > 0 {
                         ui.separator();
                     }
-                    group.iter().for_each(|command| item(ui, desk, command, commands));
-                    if group.contains(&Command::Open) {
+                    group.iter().for_each(|item| item_ui(ui, desk, item, commands));
+                    if group.iter().any(|item| item.command == Command::Open) {
                         recent(ui, desk, commands);
                     }
                 }
@@ -30,18 +31,18 @@ pub fn ui(ui: &mut Ui, desk: &Desk, commands: &mut Commands) {
     });
 }
 
-fn item(ui: &mut Ui, desk: &Desk, command: &Command, commands: &mut Commands) {
-    let mut button = Button::new(command.name());
-    if let Some(shortcut) = command.shortcut() {
+fn item_ui(ui: &mut Ui, desk: &Desk, item: &Item, commands: &mut Commands) {
+    let mut button = Button::new(item.name);
+    if let Some(shortcut) = item.shortcut() {
         button = button.shortcut_text(ui.ctx().format_shortcut(&shortcut));
     }
-    let refusal = desk.refusal(command);
+    let refusal = desk.refusal(&item.command);
     let mut response = ui.add_enabled(refusal.is_none(), button);
     if let Some(why) = refusal {
         response = response.on_disabled_hover_text(why);
     }
     if response.clicked() {
-        commands.push(command.clone());
+        commands.push(item.command.clone());
         ui.close();
     }
 }

@@ -14,52 +14,41 @@ pub enum Direction {
 }
 
 impl Direction {
+    fn either<T>(self, along: T, across: T) -> T {
+        match self {
+            Self::Along => along,
+            Self::Across => across,
+        }
+    }
+
     /// P along it.
     pub fn pressure(self, picture: &Picture) -> &[PlotPoint] {
-        match self {
-            Self::Along => &picture.pressure,
-            Self::Across => &picture.across.pressure,
-        }
+        self.either(&picture.pressure, &picture.across.pressure)
     }
 
     /// H along it.
     pub fn film(self, picture: &Picture) -> &[PlotPoint] {
-        match self {
-            Self::Along => &picture.film,
-            Self::Across => &picture.across.film,
-        }
+        self.either(&picture.film, &picture.across.film)
     }
 
     /// Name of the coordinate.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Along => "X",
-            Self::Across => "Y",
-        }
+        self.either("X", "Y")
     }
 
     /// Name of a profile along it.
     pub fn profile_name(self, of: &str) -> String {
-        match self {
-            Self::Along => format!("{of} profile"),
-            Self::Across => format!("{of} profile across"),
-        }
+        self.either(format!("{of} profile"), format!("{of} profile across"))
     }
 
     /// Range at first: the contact with its inlet and outlet, or with both sides.
     pub fn range(self) -> (f64, f64) {
-        match self {
-            Self::Along => (-2.2, 1.6),
-            Self::Across => (-1.6, 1.6),
-        }
+        self.either((-2.2, 1.6), (-1.6, 1.6))
     }
 
     /// Names of the plots that share an axis; those of the other direction have their own.
     pub fn id(self, plot: &str) -> String {
-        match self {
-            Self::Along => plot.to_owned(),
-            Self::Across => format!("{plot} across"),
-        }
+        self.either(plot.to_owned(), format!("{plot} across"))
     }
 
     /// Title of the axis, with the place of the cut.
@@ -75,35 +64,26 @@ impl Direction {
 
     /// Where on the other axis the profile lies.
     pub fn elsewhere(self, cuts: Cuts) -> f64 {
-        match self {
-            Self::Along => cuts.y,
-            Self::Across => cuts.x,
-        }
+        self.either(cuts.y, cuts.x)
     }
 
     /// Where on its own axis the other profile lies.
     pub fn other(self, cuts: Cuts) -> f64 {
-        match self {
-            Self::Along => cuts.x,
-            Self::Across => cuts.y,
-        }
+        self.either(cuts.x, cuts.y)
     }
 
     /// Moves the other profile.
     pub fn move_other(self, cuts: &mut Cuts, to: f64) {
-        match self {
-            Self::Along => cuts.x = to,
-            Self::Across => cuts.y = to,
-        }
+        *self.either(&mut cuts.x, &mut cuts.y) = to;
     }
 
     /// Where a profile meets the smallest film, if it does: within two hundredths of the contact.
     pub fn minimum(self, picture: &Picture, cuts: Cuts) -> Option<f64> {
         const NEAR: f64 = 0.02;
         let s = picture.solution.scalars;
-        match self {
-            Self::Along => ((cuts.y.abs() + s.y_h_min).abs() < NEAR).then_some(s.x_h_min),
-            Self::Across => ((cuts.x - s.x_h_min).abs() < NEAR).then_some(s.y_h_min),
-        }
+        self.either(
+            ((cuts.y.abs() + s.y_h_min).abs() < NEAR).then_some(s.x_h_min),
+            ((cuts.x - s.x_h_min).abs() < NEAR).then_some(s.y_h_min),
+        )
     }
 }

@@ -9,6 +9,7 @@ pub mod contact_map;
 mod cut_line;
 mod direction;
 mod formulas;
+mod grip;
 mod in_time;
 pub mod profiles;
 mod raster;

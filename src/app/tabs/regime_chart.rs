@@ -6,7 +6,7 @@ use crate::scene::QuantityBox;
 use crate::solver::physics::contact::{
     ContactKind, FilmAsymptotes, Moes, MoesRequest, PLAUSIBLE_HERTZ_PRESSURE_PA, moes_film, si_from_moes,
 };
-use crate::solver::reduced::Domain;
+use crate::solver::reduced::{Domain, ReducedModel};
 use egui::ColorImage;
 use egui_plot::PlotPoint;
 
@@ -59,22 +59,41 @@ impl Regime {
         [Self::RigidIsoviscous, Self::ElasticIsoviscous, Self::RigidPiezoviscous, Self::ElasticPiezoviscous];
 }
 
-/// Lines of the chart in (log10 M, log10 L).
+/// What a line of the chart is. The table of the chart knows them by their places here.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A contour of the film number.
+    Contour,
+    /// A boundary between two regimes.
+    Boundary,
+    /// p_H = 3.2 GPa in the default realisation.
+    PressureLimit,
+    /// Outline of what the model is trained for, cut by its pressure limit.
+    Trained,
+    /// Contacts that the model was trained by; no line.
+    Snapshots,
+    /// Outline of the point contacts of Table 3.4.
+    Table,
+    /// The trajectory (3.21) through them, Fig. 3.8.
+    Trajectory,
+}
+
+/// A line of the chart in (log10 M, log10 L).
+pub struct ChartLine {
+    /// What it is.
+    pub kind: Kind,
+    /// The film number of a contour; which boundary it is.
+    pub value: Option<f64>,
+    /// Its points.
+    pub points: Vec<PlotPoint>,
+}
+
+/// All lines of the chart.
 pub struct ChartLines {
-    /// Boundaries between regimes.
-    pub boundaries: Vec<Vec<PlotPoint>>,
-    /// Contours of the film number, with their value as text.
-    pub contours: Vec<(String, Vec<PlotPoint>)>,
+    /// In the order of their kinds.
+    pub lines: Vec<ChartLine>,
     /// Where the regimes' names stand.
     pub names: Vec<(Regime, PlotPoint)>,
-    /// p_H = 3.2 GPa in the default realisation.
-    pub pressure_limit: Vec<PlotPoint>,
-    /// Outline of what the model is trained for, cut by its pressure limit.
-    pub trained: Option<Vec<PlotPoint>>,
-    /// Outline of the point contacts of Table 3.4.
-    pub table: Vec<PlotPoint>,
-    /// The trajectory (3.21) through them, Fig. 3.8.
-    pub trajectory: Vec<PlotPoint>,
 }
 
 /// Points along each line.
@@ -84,53 +103,58 @@ fn spread((low, high): (f64, f64), k: usize, of: usize) -> f64 {
     (low.ln() + (high.ln() - low.ln()) * k as f64 / (of - 1) as f64).exp()
 }
 
-fn point(m: f64, l: f64) -> PlotPoint {
+/// A place of the chart.
+pub fn point(m: f64, l: f64) -> PlotPoint {
     PlotPoint::new(m.log10(), l.log10())
 }
 
 impl ChartLines {
-    /// All lines for a kind of contact, with the outline of a model where there is one.
-    pub fn new(kind: ContactKind, domain: Option<&Domain>) -> Self {
-        let contour = |h: f64| (format!("{h}"), contour(kind, h));
-        let (table, trajectory) = match kind {
-            ContactKind::Line => (Vec::new(), Vec::new()),
-            ContactKind::Point => (outline(&QuantityBox::TABLE_3_4, kind), trajectory(&QuantityBox::TABLE_3_4, kind)),
-        };
-        Self {
-            boundaries: boundaries(kind),
-            contours: CONTOURS.into_iter().map(contour).filter(|c| c.1.len() > 1).collect(),
-            names: names(kind),
-            pressure_limit: pressure_limit(kind, PLAUSIBLE_HERTZ_PRESSURE_PA, M_AXIS, L_AXIS),
-            trained: domain.map(|domain| trained(kind, domain)),
-            table,
-            trajectory,
+    /// All lines for a kind of contact, and of its model where there is one.
+    pub fn new(kind: ContactKind, model: Option<&ReducedModel>) -> Self {
+        let mut lines = Vec::new();
+        let mut add = |kind, value, points| lines.push(ChartLine { kind, value, points });
+        for film in CONTOURS {
+            let points = contour(kind, film);
+            if points.len() > 1 {
+                add(Kind::Contour, Some(film), points);
+            }
         }
+        for (k, points) in boundaries(kind).into_iter().enumerate() {
+            add(Kind::Boundary, Some(k as f64), points);
+        }
+        add(Kind::PressureLimit, None, pressure_limit(kind));
+        if let Some(model) = model {
+            let snapshots =
+                model.windows.iter().flat_map(|window| &window.snapshots).map(|snapshot| snapshot.point.moes());
+            add(Kind::Trained, None, trained(kind, &model.domain));
+            add(Kind::Snapshots, None, snapshots.map(|moes| point(moes.m, moes.l)).collect());
+        }
+        if kind == ContactKind::Point {
+            add(Kind::Table, None, outline(&QuantityBox::TABLE_3_4, kind));
+            add(Kind::Trajectory, None, trajectory(&QuantityBox::TABLE_3_4, kind));
+        }
+        Self { lines, names: names(kind) }
     }
 
     /// The lines as a table.
-    pub fn csv(&self, snapshots: &[PlotPoint]) -> String {
-        let row = |p: &PlotPoint, kind: f64, value: Option<f64>| {
-            vec![Some(10f64.powf(p.x)), Some(10f64.powf(p.y)), Some(kind), value]
+    pub fn csv(&self) -> String {
+        let row = |line: &ChartLine, p: &PlotPoint| {
+            vec![Some(10f64.powf(p.x)), Some(10f64.powf(p.y)), Some(f64::from(line.kind as u8)), line.value]
         };
-        let contours =
-            self.contours.iter().flat_map(|(name, points)| points.iter().map(move |p| row(p, 0.0, name.parse().ok())));
-        let boundaries = self
-            .boundaries
-            .iter()
-            .enumerate()
-            .flat_map(|(k, points)| points.iter().map(move |p| row(p, 1.0, Some(k as f64))));
-        let limit = self.pressure_limit.iter().map(|p| row(p, 2.0, None));
-        let trained = self.trained.iter().flatten().map(|p| row(p, 3.0, None));
-        let snapshots = snapshots.iter().map(|p| row(p, 4.0, None));
-        let table = self.table.iter().map(|p| row(p, 5.0, None));
-        let trajectory = self.trajectory.iter().map(|p| row(p, 6.0, None));
-        let comment = "kind 0: contour of Moes' film number (value); 1: regime boundary; 2: p_H 3.2 GPa; 3: trained range; 4: snapshot; 5: Table 3.4; 6: trajectory (3.21)";
-        export::csv(
-            &[comment.to_owned()],
-            &["M", "L", "kind", "value"],
-            contours.chain(boundaries).chain(limit).chain(trained).chain(snapshots).chain(table).chain(trajectory),
-        )
+        let rows = self.lines.iter().flat_map(|line| line.points.iter().map(move |p| row(line, p)));
+        let comment = "kind 0: contour of Moes' film number (value); 1: regime boundary; 2: p_H 3.2 GPa; \
+                       3: trained range; 4: snapshot; 5: Table 3.4; 6: trajectory (3.21)";
+        export::csv(&[comment.to_owned()], &["M", "L", "kind", "value"], rows)
     }
+}
+
+/// The greatest place in a range of positive numbers up to which a condition holds that holds at its lower end.
+fn up_to((mut low, mut high): (f64, f64), holds: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..40 {
+        let middle = (low * high).sqrt();
+        if holds(middle) { low = middle } else { high = middle }
+    }
+    low
 }
 
 /// Regime boundaries: along each row and column of a fine lattice, the places where the regime changes, sharpened by
@@ -200,15 +224,8 @@ fn contour(kind: ContactKind, film: f64) -> Vec<PlotPoint> {
         .filter_map(|k| {
             let m = spread(M_AXIS, k, SAMPLES);
             let value = |l: f64| moes_film(kind, Moes { m, l });
-            let (mut low, mut high) = L_AXIS;
-            if !(value(low) <= film && film <= value(high)) {
-                return None;
-            }
-            for _ in 0..40 {
-                let middle = (low * high).sqrt();
-                if value(middle) < film { low = middle } else { high = middle }
-            }
-            Some(point(m, low))
+            let within = value(L_AXIS.0) <= film && film <= value(L_AXIS.1);
+            within.then(|| point(m, up_to(L_AXIS, |l| value(l) < film)))
         })
         .collect()
 }
@@ -226,21 +243,15 @@ fn hertz_pressure(kind: ContactKind, m: f64, l: f64) -> f64 {
     si_from_moes(&MoesRequest::new(kind, m, l)).map_or(f64::INFINITY, |p| p.hertz().pressure_pa)
 }
 
-/// L at which the default realisation reaches a Hertz pressure, for every M that does within the range. p_H rises with
-/// L.
-fn pressure_limit(kind: ContactKind, limit: f64, m_range: (f64, f64), l_range: (f64, f64)) -> Vec<PlotPoint> {
+/// L at which the default realisation reaches p_H = 3.2 GPa, for every M that does within the chart. p_H rises with L.
+fn pressure_limit(kind: ContactKind) -> Vec<PlotPoint> {
+    const LIMIT: f64 = PLAUSIBLE_HERTZ_PRESSURE_PA;
     (0..SAMPLES)
         .filter_map(|k| {
-            let m = spread(m_range, k, SAMPLES);
-            let (mut low, mut high) = l_range;
-            if hertz_pressure(kind, m, low) > limit || hertz_pressure(kind, m, high) < limit {
-                return None;
-            }
-            for _ in 0..30 {
-                let middle = (low * high).sqrt();
-                if hertz_pressure(kind, m, middle) < limit { low = middle } else { high = middle }
-            }
-            Some(point(m, low))
+            let m = spread(M_AXIS, k, SAMPLES);
+            let pressure = |l: f64| hertz_pressure(kind, m, l);
+            let within = pressure(L_AXIS.0) <= LIMIT && LIMIT <= pressure(L_AXIS.1);
+            within.then(|| point(m, up_to(L_AXIS, |l| pressure(l) < LIMIT)))
         })
         .collect()
 }
@@ -248,17 +259,8 @@ fn pressure_limit(kind: ContactKind, limit: f64, m_range: (f64, f64), l_range: (
 /// The box of M and L, its upper right corner cut by the pressure limit.
 fn trained(kind: ContactKind, domain: &Domain) -> Vec<PlotPoint> {
     let (m, l) = (domain.m, domain.l);
-    let top = |m: f64| {
-        let (mut low, mut high) = l;
-        if hertz_pressure(kind, m, high) <= domain.max_hertz_pressure_pa {
-            return high;
-        }
-        for _ in 0..30 {
-            let middle = (low * high).sqrt();
-            if hertz_pressure(kind, m, middle) < domain.max_hertz_pressure_pa { low = middle } else { high = middle }
-        }
-        low
-    };
+    let below = |m: f64, l: f64| hertz_pressure(kind, m, l) <= domain.max_hertz_pressure_pa;
+    let top = |m: f64| if below(m, l.1) { l.1 } else { up_to(l, |l| below(m, l)) };
     let mut outline = vec![point(m.0, l.0)];
     outline.extend((0..SAMPLES).map(|k| spread(m, k, SAMPLES)).map(|m| point(m, top(m))));
     outline.extend([point(m.1, l.0), point(m.0, l.0)]);
@@ -332,28 +334,30 @@ mod tests {
     fn chart_lines_are_finite_and_present() {
         for kind in [ContactKind::Line, ContactKind::Point] {
             let lines = ChartLines::new(kind, None);
-            assert!(lines.boundaries.len() >= 4 && lines.contours.len() >= 6, "{kind:?}");
-            assert!(lines.pressure_limit.len() > 10, "{kind:?}");
+            let of = |kind: Kind| lines.lines.iter().filter(move |line| line.kind == kind);
+            assert!(of(Kind::Boundary).count() >= 4 && of(Kind::Contour).count() >= 6, "{kind:?}");
+            assert!(of(Kind::PressureLimit).all(|line| line.points.len() > 10), "{kind:?}");
             assert_eq!(lines.names.len(), 4);
-            let all = lines.boundaries.iter().flatten().chain(lines.contours.iter().flat_map(|c| &c.1));
-            assert!(all.chain(&lines.pressure_limit).all(|p| p.x.is_finite() && p.y.is_finite()));
-            assert_eq!(lines.table.is_empty(), kind == ContactKind::Line);
+            let all = lines.lines.iter().flat_map(|line| &line.points);
+            assert!(all.clone().count() > 500 && all.into_iter().all(|p| p.x.is_finite() && p.y.is_finite()));
+            assert_eq!(of(Kind::Table).count() == 0, kind == ContactKind::Line);
         }
     }
 
     #[test]
     fn the_box_of_table_3_4_has_the_numbers_the_dissertation_states_and_holds_its_trajectory() {
-        let lines = ChartLines::new(ContactKind::Point, None);
+        let lines = ChartLines::new(ContactKind::Point, None).lines;
+        let of = |kind: Kind| &lines.iter().find(|line| line.kind == kind).unwrap().points;
+        let table = of(Kind::Table);
         let ends = |of: fn(&PlotPoint) -> f64| {
-            let values = || lines.table.iter().map(of);
+            let values = || table.iter().map(of);
             (10f64.powf(values().fold(f64::MAX, f64::min)), 10f64.powf(values().fold(f64::MIN, f64::max)))
         };
         let ((m_low, m_high), (l_low, l_high)) = (ends(|p| p.x), ends(|p| p.y));
         assert!((m_low - 12.8).abs() < 0.05 && (m_high - 857.9).abs() < 0.5, "{m_low} {m_high}");
         assert!((l_low - 1.7).abs() < 0.05 && (l_high - 14.1).abs() < 0.05, "{l_low} {l_high}");
-        for p in &lines.trajectory {
-            let inside = lines
-                .table
+        for p in of(Kind::Trajectory) {
+            let inside = table
                 .windows(2)
                 .all(|w| (w[1].x - w[0].x) * (p.y - w[0].y) - (w[1].y - w[0].y) * (p.x - w[0].x) > -1e-9);
             assert!(inside, "{p:?}");

@@ -1,7 +1,8 @@
 //! The M–L chart: which asymptote of Moes' formula rules where, what the reduced model was trained for, and the current
 //! contact, which can be dragged. Beside it the published film formulas.
 
-use super::regime_chart::{ChartLines, L_AXIS, M_AXIS, Regime, shading};
+use super::grip::Grip;
+use super::regime_chart::{ChartLine, ChartLines, Kind, L_AXIS, M_AXIS, Regime, point, shading};
 use super::{axes, formulas};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
@@ -11,14 +12,14 @@ use crate::app::numbers;
 use crate::app::theme::{Palette, faded, rich};
 use crate::solver::physics::contact::{ContactKind, Moes};
 use crate::solver::reduced::ReducedModel;
-use egui::{Align2, RichText, Ui};
+use egui::{Align2, RichText, Ui, WidgetText};
 use egui_plot::{Line, LineStyle, MarkerShape, PlotImage, PlotPoint, PlotPoints, PlotUi, Points, Text};
 use std::sync::Arc;
 
 /// How near (in screen points) the pointer must be to take the contact along.
 const GRAB_RADIUS: f32 = 18.0;
 
-/// What lines and snapshots were made for: a kind of contact, and its reduced model where there is one.
+/// What lines were made for: a kind of contact, and its reduced model where there is one.
 #[derive(Clone)]
 struct Owner(ContactKind, Option<Arc<ReducedModel>>);
 
@@ -33,8 +34,6 @@ impl PartialEq for Owner {
 pub struct Regimes {
     texture: Option<(ContactKind, bool, Texture)>,
     lines: Option<(Owner, ChartLines)>,
-    snapshots: Option<(Owner, Vec<PlotPoint>)>,
-    dragging: bool,
 }
 
 /// Under this name a drag is refused.
@@ -75,13 +74,8 @@ impl Regimes {
         }
         let owner = Owner(kind, context.answers.model(context.document).cloned());
         if self.lines.as_ref().is_none_or(|lines| lines.0 != owner) {
-            let lines = ChartLines::new(kind, owner.1.as_deref().map(|model| &model.domain));
-            self.lines = Some((owner.clone(), lines));
-        }
-        if self.snapshots.as_ref().is_none_or(|snapshots| snapshots.0 != owner) {
-            let points = owner.1.iter().flat_map(|model| &model.windows).flat_map(|w| &w.snapshots);
-            let points = points.map(|s| at(s.point.moes())).collect();
-            self.snapshots = Some((owner, points));
+            let lines = ChartLines::new(kind, owner.1.as_deref());
+            self.lines = Some((owner, lines));
         }
         let mut toolbar_export = false;
         ui.horizontal_wrapped(|ui| {
@@ -97,7 +91,8 @@ impl Regimes {
         });
         context.entries.message_ui(ui, FIELD);
         let here = context.document.point.moes();
-        let grabbed = self.dragging;
+        let grip = Grip::new("regimes", "contact");
+        let grabbed = grip.is_held(ui);
         let fit = context.fit;
         let pins: Vec<[f64; 2]> = context
             .answers
@@ -110,7 +105,6 @@ impl Regimes {
         let chart_height = (height - 34.0).max(160.0);
         let Some((_, lines)) = &self.lines else { return };
         let texture = self.texture.as_ref().map(|t| t.2.shown(&ctx));
-        let snapshots = self.snapshots.as_ref().map(|s| s.1.as_slice()).unwrap_or_default();
         let response = axes::show(
             axes::plot(ui, "regimes", chart_height, "Load number {M}", "Lubricant number {L}")
                 .default_x_bounds(M_AXIS.0.log10(), M_AXIS.1.log10())
@@ -141,61 +135,15 @@ impl Regimes {
                 if let Some(texture) = texture {
                     image(plot, texture);
                 }
-                for (name, points) in &lines.contours {
-                    let line = Line::new(name.clone(), PlotPoints::Borrowed(points));
-                    plot.line(line.color(faded(palette.film, 0.55)).width(1.0).style(LineStyle::dotted_dense()));
-                    if let Some(end) = points.iter().rev().find(|p| p.x < M_AXIS.1.log10() - 0.04) {
-                        let text = RichText::new(name).size(10.5).color(palette.film);
-                        plot.text(
-                            Text::new("", *end, text)
-                                .anchor(Align2::RIGHT_BOTTOM)
-                                .id(("contour", name))
-                                .allow_hover(false),
-                        );
-                    }
-                }
-                for (k, points) in lines.boundaries.iter().enumerate() {
-                    let line = Line::new("", PlotPoints::Borrowed(points)).id(("boundary", k));
-                    plot.line(line.color(palette.quiet).width(1.2).allow_hover(false));
+                // Dots lie over lines.
+                let (dots, all): (Vec<_>, Vec<_>) = lines.lines.iter().partition(|l| l.kind == Kind::Snapshots);
+                for (k, line) in all.into_iter().chain(dots).enumerate() {
+                    draw(plot, line, k, &palette);
                 }
                 for (regime, place) in &lines.names {
                     let text = RichText::new(regime.name()).size(12.0).color(palette.quiet).italics();
                     plot.text(Text::new("", *place, text).id(("regime", regime.name())).allow_hover(false));
                 }
-                let limit =
-                    Line::new("p_H = 3.2 GPa in the default realisation", PlotPoints::Borrowed(&lines.pressure_limit));
-                plot.line(limit.color(palette.warning).width(1.4).style(LineStyle::dashed_loose()));
-                if let Some(end) = lines.pressure_limit.first() {
-                    let text = rich("{p_H} = 3.2 GPa", 11.5, palette.warning);
-                    plot.text(Text::new("", *end, text).anchor(Align2::RIGHT_TOP).id("limit").allow_hover(false));
-                }
-                if let Some(outline) = &lines.trained {
-                    plot.line(
-                        Line::new("Trained range", PlotPoints::Borrowed(outline)).color(palette.accent).width(1.8),
-                    );
-                    // Outside the outline, at its lower left corner.
-                    let low = |a: &PlotPoint, b: &PlotPoint| (a.x + a.y).total_cmp(&(b.x + b.y));
-                    if let Some(corner) = outline.iter().min_by(|a, b| low(a, b)) {
-                        let text = RichText::new("trained range").size(11.0).color(palette.accent);
-                        let label = Text::new("", *corner, text).anchor(Align2::LEFT_TOP);
-                        plot.text(label.id("trained label").allow_hover(false));
-                    }
-                }
-                if let Some(corner) = lines.table.first() {
-                    let table = Line::new("Table 3.4", PlotPoints::Borrowed(&lines.table));
-                    plot.line(table.color(palette.deformation).width(1.6));
-                    let text = RichText::new("Table 3.4").size(11.0).color(palette.deformation);
-                    plot.text(
-                        Text::new("", *corner, text).anchor(Align2::RIGHT_CENTER).id("table label").allow_hover(false),
-                    );
-                    let path = Line::new("Trajectory (3.21)", PlotPoints::Borrowed(&lines.trajectory));
-                    plot.line(path.color(faded(palette.deformation, 0.75)).width(1.0).style(LineStyle::dashed_dense()));
-                }
-                plot.points(
-                    Points::new("Snapshots", PlotPoints::Borrowed(snapshots))
-                        .color(faded(palette.accent, 0.7))
-                        .radius(1.8),
-                );
                 plot.points(
                     Points::new("Pinned", pins)
                         .color(palette.quiet)
@@ -215,35 +163,72 @@ impl Regimes {
         let response = response.response;
         let spot = transform.position_from_point(&at(here));
         let near = |p: egui::Pos2| p.distance(spot) < GRAB_RADIUS;
-        let over = response.hover_pos().is_some_and(near) || self.dragging;
-        if over {
+        let near = response.hover_pos().is_some_and(near);
+        if near || grabbed {
             ctx.set_cursor_icon(egui::CursorIcon::Grab);
         }
-        // Taking hold before the drag begins keeps the chart itself still.
-        if ui.input(|i| i.pointer.primary_pressed()) && response.hover_pos().is_some_and(near) {
-            self.dragging = true;
-        }
-        if !ui.input(|i| i.pointer.primary_down()) {
-            self.dragging = false;
-        }
-        if self.dragging
-            && let Some(pointer) = ui.input(|i| i.pointer.latest_pos())
-            && ui.input(|i| i.pointer.press_origin()).is_some_and(|origin| origin.distance(pointer) > 1.0)
-        {
+        if let Some(pointer) = grip.follow(ui, near) {
             let value = transform.value_from_position(pointer);
             let m = 10f64.powf(value.x.clamp(M_AXIS.0.log10(), M_AXIS.1.log10()));
             let l = 10f64.powf(value.y.clamp(L_AXIS.0.log10(), L_AXIS.1.log10()));
             commands.edit(Edit::Moes(Moes { m, l }), FIELD);
         }
         if toolbar_export {
-            let snapshots = self.snapshots.as_ref().map(|s| s.1.as_slice()).unwrap_or_default();
-            commands.extend(self.lines.as_ref().map(|(_, lines)| Command::csv(lines.csv(snapshots))));
+            commands.extend(self.lines.as_ref().map(|(_, lines)| Command::csv(lines.csv())));
         }
     }
 }
 
 fn at(moes: Moes) -> PlotPoint {
-    PlotPoint::new(moes.m.log10(), moes.l.log10())
+    point(moes.m, moes.l)
+}
+
+/// A line of the chart with its name, which stands clear of it.
+fn draw<'a>(plot: &mut PlotUi<'a>, line: &'a ChartLine, place: usize, palette: &Palette) {
+    let points = &line.points;
+    let film = || line.value.map_or_else(String::new, |value| value.to_string());
+    let (name, color, width, style) = match line.kind {
+        Kind::Contour => (film(), faded(palette.film, 0.55), 1.0, LineStyle::dotted_dense()),
+        Kind::Boundary => (String::new(), palette.quiet, 1.2, LineStyle::Solid),
+        Kind::PressureLimit => {
+            let name = "p_H = 3.2 GPa in the default realisation".to_owned();
+            (name, palette.warning, 1.4, LineStyle::dashed_loose())
+        }
+        Kind::Trained => ("Trained range".to_owned(), palette.accent, 1.8, LineStyle::Solid),
+        Kind::Snapshots => {
+            let dots = Points::new("Snapshots", PlotPoints::Borrowed(points)).color(faded(palette.accent, 0.7));
+            return plot.points(dots.radius(1.8));
+        }
+        Kind::Table => ("Table 3.4".to_owned(), palette.deformation, 1.6, LineStyle::Solid),
+        Kind::Trajectory => {
+            let color = faded(palette.deformation, 0.75);
+            ("Trajectory (3.21)".to_owned(), color, 1.0, LineStyle::dashed_dense())
+        }
+    };
+    let small = |text: &str, size, color| WidgetText::from(RichText::new(text).size(size).color(color));
+    let label: Option<(WidgetText, Option<&PlotPoint>, Align2)> = match line.kind {
+        Kind::Contour => {
+            let end = points.iter().rev().find(|p| p.x < M_AXIS.1.log10() - 0.04);
+            Some((small(&name, 10.5, palette.film), end, Align2::RIGHT_BOTTOM))
+        }
+        Kind::PressureLimit => {
+            let text = rich("{p_H} = 3.2 GPa", 11.5, palette.warning).into();
+            Some((text, points.first(), Align2::RIGHT_TOP))
+        }
+        Kind::Trained => {
+            // Outside the outline, at its lower left corner.
+            let corner = points.iter().min_by(|a, b| (a.x + a.y).total_cmp(&(b.x + b.y)));
+            Some((small("trained range", 11.0, color), corner, Align2::LEFT_TOP))
+        }
+        Kind::Table => Some((small("Table 3.4", 11.0, color), points.first(), Align2::RIGHT_CENTER)),
+        Kind::Boundary | Kind::Snapshots | Kind::Trajectory => None,
+    };
+    let drawn =
+        Line::new(name, PlotPoints::Borrowed(points)).id(("line", place)).color(color).width(width).style(style);
+    plot.line(drawn.allow_hover(line.kind != Kind::Boundary));
+    if let Some((text, Some(at), anchor)) = label {
+        plot.text(Text::new("", *at, text).anchor(anchor).id(("name", place)).allow_hover(false));
+    }
 }
 
 fn image(plot: &mut PlotUi<'_>, texture: egui::TextureId) {

@@ -2,7 +2,7 @@
 
 use crate::app::controls::message_ui;
 use crate::app::desk::Desk;
-use crate::app::purpose::Purpose;
+use crate::app::purpose::{Purpose, Words, Written};
 use crate::scene::atomic_file;
 use egui::{Context, Id, Modal, RichText, TextEdit};
 use std::path::{Path, PathBuf};
@@ -25,13 +25,8 @@ pub(super) struct PathWindow {
 impl Desk {
     /// Asks for a path, by the system's dialog and by a text field for where there is none.
     pub fn ask_path(&mut self, ctx: &Context, purpose: Purpose) {
-        let suggestion = match &purpose {
-            Purpose::Open | Purpose::Inputs => String::new(),
-            Purpose::Save => self.files.path.as_deref().unwrap_or(Path::new("contact.ron")).display().to_string(),
-            Purpose::Csv { .. } => "profiles.csv".to_owned(),
-            Purpose::Picture { extension, .. } => format!("contact.{extension}"),
-            Purpose::Model { .. } => "line.rom".to_owned(),
-        };
+        let known = self.files.path.as_deref().filter(|_| purpose == Purpose::Save);
+        let suggestion = known.unwrap_or(Path::new(purpose.words().name)).display().to_string();
         let browse = self.files.native_dialogs.then(|| (browse(ctx, &purpose, &suggestion), Instant::now()));
         self.files.window =
             Some(PathWindow { purpose, path: suggestion, message: None, overwrite: None, browse, fresh: true });
@@ -61,14 +56,7 @@ impl Desk {
 
     pub(super) fn path_window_ui(&mut self, ctx: &Context) {
         let Some(window) = &mut self.files.window else { return };
-        let (title, action) = match window.purpose {
-            Purpose::Open => ("Open a scene or a reduced model", "Open"),
-            Purpose::Inputs => ("Inputs from a table", "Read"),
-            Purpose::Save => ("Save the scene", "Save"),
-            Purpose::Csv { .. } => ("Export the data as CSV", "Export"),
-            Purpose::Picture { .. } => ("Export the picture", "Export"),
-            Purpose::Model { .. } => ("Save the reduced model", "Save"),
-        };
+        let Words { title, action, .. } = window.purpose.words();
         let waiting = window.browse.is_some();
         let (mut act, mut close, mut again) = (false, false, false);
         let response = Modal::new(Id::unique("path window")).show(ctx, |ui| {
@@ -133,20 +121,17 @@ impl Desk {
         }
         let result = match window.purpose.clone() {
             Purpose::Open => self.open_path(&path),
+            Purpose::Save => self.save_to(&path),
             Purpose::Inputs => self
                 .document
                 .read_inputs(&path)
                 .map(|()| self.files.notice = Some(Ok(format!("Read {}", path.display())))),
-            Purpose::Save => self.save_to(&path),
-            Purpose::Csv { text } => atomic_file::replace(&path, text.as_bytes())
-                .map_err(|e| e.to_string())
-                .map(|()| self.files.notice = Some(Ok(format!("Exported {}", path.display())))),
-            Purpose::Picture { bytes, .. } => atomic_file::replace(&path, &bytes)
-                .map_err(|e| e.to_string())
-                .map(|()| self.files.notice = Some(Ok(format!("Exported {}", path.display())))),
-            Purpose::Model { bytes } => atomic_file::replace(&path, &bytes)
-                .map_err(|e| e.to_string())
-                .map(|()| self.files.notice = Some(Ok(format!("Saved the model {}", path.display())))),
+            Purpose::Write(what, bytes) => {
+                let done = if what == Written::Model { "Saved the model" } else { "Exported" };
+                atomic_file::replace(&path, &bytes)
+                    .map_err(|e| e.to_string())
+                    .map(|()| self.files.notice = Some(Ok(format!("{done} {}", path.display()))))
+            }
         };
         match (result, &mut self.files.window) {
             (Ok(()), _) => {
@@ -170,20 +155,12 @@ fn browse(ctx: &Context, purpose: &Purpose, suggestion: &str) -> Receiver<Option
     let (ctx, purpose, suggestion) = (ctx.clone(), purpose.clone(), PathBuf::from(suggestion));
     let run = move || {
         let name = suggestion.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-        let mut dialog = match purpose {
-            Purpose::Csv { .. } | Purpose::Inputs => rfd::FileDialog::new().add_filter("Table", &["csv"]),
-            Purpose::Picture { extension, .. } => rfd::FileDialog::new().add_filter("Picture", &[extension]),
-            Purpose::Model { .. } => rfd::FileDialog::new().add_filter("Reduced model", &["rom"]),
-            Purpose::Open => rfd::FileDialog::new().add_filter("Scene or reduced model", &["ron", "rom"]),
-            Purpose::Save => rfd::FileDialog::new().add_filter("Scene", &["ron"]),
-        };
+        let Words { files, endings, .. } = purpose.words();
+        let mut dialog = rfd::FileDialog::new().add_filter(files, endings);
         if let Some(folder) = suggestion.parent().filter(|p| p.is_dir()) {
             dialog = dialog.set_directory(folder);
         }
-        let answer = match purpose {
-            Purpose::Open | Purpose::Inputs => dialog.pick_file(),
-            _ => dialog.set_file_name(name).save_file(),
-        };
+        let answer = if purpose.reads() { dialog.pick_file() } else { dialog.set_file_name(name).save_file() };
         // The window may be closed by now: then nobody waits for the answer.
         if sender.send(answer).is_ok() {
             ctx.request_repaint();

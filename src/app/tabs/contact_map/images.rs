@@ -24,8 +24,6 @@ pub struct Images {
     range: (f64, f64),
     domain: (f64, f64, f64),
     made_of: Option<(Arc<Solution>, MapView)>,
-    /// Which of both cuts the pointer holds: that at X, that at Y.
-    pub dragging: [bool; 2],
 }
 
 /// Contour lines wanted between both ends of the scale.
@@ -71,11 +69,6 @@ impl Images {
     /// Values at the ends of the scale.
     pub fn range(&self) -> (f64, f64) {
         self.range
-    }
-
-    /// Whether the pointer holds a cut.
-    pub fn is_dragging(&self) -> bool {
-        self.dragging.contains(&true)
     }
 
     /// The image as a PNG file; empty where there is none.

@@ -16,8 +16,9 @@ use crate::app::context::{Commands, Context};
 use crate::app::controls::described;
 use crate::app::figure::{self, Subject};
 use crate::app::numbers;
-use crate::app::purpose::Purpose;
+use crate::app::purpose::{Purpose, Written};
 use crate::app::tabs::cut_line::{self, snapped};
+use crate::app::tabs::grip::Grip;
 use crate::app::tabs::{axes, badge};
 use crate::app::theme::{Palette, faded};
 use crate::solver::physics::contact::ContactKind;
@@ -138,7 +139,7 @@ impl ContactMap {
         });
         figure::offer_of(ui, NAME, whole.response.rect, Subject::Map);
         let (response, transform) = whole.inner;
-        self.drag_cuts(ui, context.cuts, &response, &transform, commands);
+        drag_cuts(ui, context.cuts, &response, &transform, commands);
     }
 
     fn toolbar(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
@@ -176,50 +177,36 @@ impl ContactMap {
             commands.push(Command::Draw(NAME));
         }
         if item(ui, "Image as PNG…", "The map alone, pixel by pixel") {
-            let bytes = self.images.png().into();
-            commands.push(Command::Ask(Purpose::Picture { bytes, extension: "png" }));
+            commands.push(Command::Ask(Purpose::Write(Written::Png, self.images.png().into())));
         }
     }
+}
 
-    fn drag_cuts(
-        &mut self,
-        ui: &Ui,
-        mut cuts: Cuts,
-        response: &Response,
-        transform: &PlotTransform,
-        commands: &mut Commands,
-    ) {
-        let spot = transform.position_from_point(&PlotPoint::new(cuts.x, cuts.y));
-        let near = |p: egui::Pos2| [(p.x - spot.x).abs() < GRAB, (p.y - spot.y).abs() < GRAB];
-        let hovered = response.hover_pos().map_or([false; 2], near);
-        let [x, y] = if self.images.is_dragging() { self.images.dragging } else { hovered };
-        if x || y {
-            ui.ctx().set_cursor_icon(match (x, y) {
-                (true, true) => CursorIcon::Move,
-                (true, false) => CursorIcon::ResizeHorizontal,
-                _ => CursorIcon::ResizeVertical,
-            });
+/// What the hand takes along: the cut at X, and that at Y.
+fn grips() -> [Grip; 2] {
+    ["cut x", "cut y"].map(|cut| Grip::new("map", cut))
+}
+
+fn drag_cuts(ui: &Ui, mut cuts: Cuts, response: &Response, transform: &PlotTransform, commands: &mut Commands) {
+    let spot = transform.position_from_point(&PlotPoint::new(cuts.x, cuts.y));
+    let near = |p: egui::Pos2| [(p.x - spot.x).abs() < GRAB, (p.y - spot.y).abs() < GRAB];
+    let hovered = response.hover_pos().map_or([false; 2], near);
+    let held = grips().map(|grip| grip.is_held(ui));
+    match if held.contains(&true) { held } else { hovered } {
+        [false, false] => {}
+        [true, true] => ui.ctx().set_cursor_icon(CursorIcon::Move),
+        [true, false] => ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal),
+        [false, true] => ui.ctx().set_cursor_icon(CursorIcon::ResizeVertical),
+    }
+    for ((grip, near), along_x) in grips().into_iter().zip(hovered).zip([true, false]) {
+        let Some(pointer) = grip.follow(ui, near) else { continue };
+        let to = transform.value_from_position(pointer);
+        if along_x {
+            cuts.x = snapped(to.x);
+        } else {
+            cuts.y = snapped(to.y);
         }
-        // Taking hold before the drag begins keeps the map itself still.
-        if ui.input(|i| i.pointer.primary_pressed()) {
-            self.images.dragging = hovered;
-        }
-        if !ui.input(|i| i.pointer.primary_down()) {
-            self.images.dragging = [false; 2];
-        }
-        if self.images.is_dragging()
-            && let Some(pointer) = ui.input(|i| i.pointer.latest_pos())
-            && ui.input(|i| i.pointer.press_origin()).is_some_and(|origin| origin.distance(pointer) > 1.0)
-        {
-            let value = transform.value_from_position(pointer);
-            if x {
-                cuts.x = snapped(value.x);
-            }
-            if y {
-                cuts.y = snapped(value.y);
-            }
-            commands.push(Command::Cut(cuts));
-        }
+        commands.push(Command::Cut(cuts));
     }
 }
 
@@ -236,13 +223,14 @@ struct Drawing<'a> {
 impl Drawing<'_> {
     fn ui(&self, ui: &mut Ui, height: f32) -> (Response, PlotTransform) {
         let palette = Palette::of(ui);
+        let held = grips().iter().any(|grip| grip.is_held(ui));
         let Self { picture, images, view, cuts, fit, stale } = *self;
         let shown = axes::show(
             axes::plot(ui, "contact map", height, "{X} = {x}/{a}", "{Y} = {y}/{a}")
                 .data_aspect(1.0)
                 .default_x_bounds(X_RANGE.0, X_RANGE.1)
                 .default_y_bounds(Y_RANGE.0, Y_RANGE.1)
-                .allow_drag(!images.is_dragging())
+                .allow_drag(!held)
                 .label_formatter(|at| hover(picture, &view, at)),
             ui,
             NAME,

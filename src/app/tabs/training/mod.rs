@@ -9,7 +9,7 @@ use crate::app::context::{Commands, Context};
 use crate::app::controls::{message_ui, named, sentence, warning_ui};
 use crate::app::form::LastField;
 use crate::app::numbers;
-use crate::app::purpose::Purpose;
+use crate::app::purpose::{Purpose, Written};
 use crate::app::training::{Notice, Running, TrainingCommand};
 use crate::engine::job::Standing;
 use egui::{Button, ProgressBar, ScrollArea, Ui};
@@ -97,7 +97,7 @@ fn buttons(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
             let tip = "Puts the model in use that was before";
             button(ui, true, "Back to the former model", tip, Command::Training(C::UseFormer));
         }
-        let save = Command::Ask(Purpose::Model { bytes: made.bytes.clone() });
+        let save = Command::Ask(Purpose::Write(Written::Model, made.bytes.clone()));
         button(ui, true, "Save model…", "Writes it as a .rom file", save);
         let other = context.answers.model(context.document).is_some();
         let tip = "Size, time and errors of both at the same random points, against full solutions";
