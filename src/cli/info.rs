@@ -52,13 +52,11 @@ pub fn describe(model: &ReducedModel) -> String {
         };
         let _ = writeln!(
             text,
-            "  window M {}…{}: {grid}; {} snapshots, {} pressure modes, {} deformation modes, {} sampled rows ({:?}), γ̄ {:e}",
+            "  window M {}…{}: {grid}; {} snapshots, {} ({:?}), γ̄ {:e}",
             window.m.0,
             window.m.1,
             window.snapshots.len(),
-            window.pressure.modes.ncols(),
-            window.deformation.modes.ncols(),
-            window.sampled_rows.len(),
+            window.size(),
             window.sampling,
             window.penalty
         );

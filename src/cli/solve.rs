@@ -141,8 +141,7 @@ fn describe(Report { result, accuracy }: &Report) -> String {
     let linear = result.linear_iterations.map_or(String::new(), |n| format!(", {n} linear"));
     line("iterations", format!("{} Newton{linear}", result.newton_iterations));
     if let Some(reduced) = &result.reduced {
-        let (p, delta, rows) = (reduced.basis_p, reduced.basis_delta, reduced.sampled_rows);
-        line("reduced", format!("{p} pressure modes, {delta} deformation modes, {rows} sampled rows"));
+        line("reduced", reduced.size.to_string());
         line("trained here", if reduced.trained { "yes" } else { "no" }.to_owned());
         if let Some(estimate) = result.value("reduced.residual_estimate") {
             line("estimate e_f", format!("{estimate:.3e}"));

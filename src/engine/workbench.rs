@@ -123,9 +123,7 @@ impl Workbench {
             warnings.push(reason.clone());
         }
         let mut facts = ReducedFacts {
-            basis_p: window.pressure.modes.ncols(),
-            basis_delta: window.deformation.modes.ncols(),
-            sampled_rows: window.sampled_rows.len(),
+            size: window.size(),
             trained: trust == Trust::Trained,
             residual_estimate: None,
             error: None,
@@ -136,7 +134,7 @@ impl Workbench {
                 facts.residual_estimate = Some(solved.residual_estimate);
                 facts.error = solved.error;
                 facts.traction = solved.traction;
-                facts.basis_p = solved.coefficients.len();
+                facts.size.pressure = solved.coefficients.len();
                 // A Newtonian film does not feel the sliding, but its traction does.
                 let solution = online.reconstruct(&solved)?.of_problem(*problem);
                 warnings.extend(resolution_warning(&solution));
@@ -155,7 +153,7 @@ impl Workbench {
             warnings,
             nodes,
             nodes_across,
-            dofs: facts.basis_p + 1,
+            dofs: facts.size.pressure + 1,
             newton_iterations,
             linear_iterations: None,
             wall_s,

@@ -7,7 +7,7 @@ use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
-use crate::solver::reduced::{ErrorEstimate, ReducedModel};
+use crate::solver::reduced::{ErrorEstimate, ModelSize, ReducedModel};
 use crate::solver::training::{TrainingObserver, TrainingSpec};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -105,12 +105,8 @@ pub struct Answer {
 /// What a reduced solve adds to its answer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReducedFacts {
-    /// Pressure modes.
-    pub basis_p: usize,
-    /// Deformation modes.
-    pub basis_delta: usize,
-    /// Sampled rows.
-    pub sampled_rows: usize,
+    /// Modes that were used, and sampled rows.
+    pub size: ModelSize,
     /// Whether the model was trained for the point.
     pub trained: bool,
     /// e_f^I, (3.15); none without convergence.

@@ -22,7 +22,7 @@ use crate::scene::statistics::mean;
 use crate::solver::discrete::grid::ContactGridSpec;
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::{Moes, OperatingPoint};
-use crate::solver::reduced::{ErrorMeasures, Norm, PodBasis, ReducedModel, Window};
+use crate::solver::reduced::{ErrorMeasures, ModelSize, Norm, PodBasis, ReducedModel, Window};
 use crate::solver::training::{QuantityBox, Range};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -327,9 +327,10 @@ fn snapshots(trained: &Trained, found: &mut Findings) {
     let light = window.snapshots.iter().filter(|snapshot| snapshot.point.moes().m < LIGHT_M).count();
     found.push(format!("{name}.snapshots"), None, count as f64);
     found.push(format!("{name}.share_below_m_30"), None, light as f64 / count as f64);
-    found.push(format!("{name}.basis_p"), None, window.pressure.modes.ncols() as f64);
-    found.push(format!("{name}.basis_delta"), None, window.deformation.modes.ncols() as f64);
-    found.push(format!("{name}.sampled_rows"), None, window.sampled_rows.len() as f64);
+    let ModelSize { pressure, deformation, rows } = window.size();
+    for (what, size) in [("basis_p", pressure), ("basis_delta", deformation), ("sampled_rows", rows)] {
+        found.push(format!("{name}.{what}"), None, size as f64);
+    }
 }
 
 /// Modes that a plan's solutions need at losses of information.

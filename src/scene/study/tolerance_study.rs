@@ -13,7 +13,7 @@ use crate::scene::parallel::{full_solutions, reduced_solutions};
 use crate::scene::random_points::all_random_points;
 use crate::scene::statistics::{mean, median, percentile};
 use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::reduced::{ErrorMeasures, Norm, Online};
+use crate::solver::reduced::{ErrorMeasures, ModelSize, Norm, Online};
 use crate::solver::training::{Plan, QuantityBox, Range, TrainingState, Windows, train_resumable};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -60,40 +60,45 @@ pub struct Rung {
     pub tolerance: f64,
     /// Full solutions until then.
     pub snapshots: usize,
-    /// Pressure and deformation modes.
-    pub modes: (usize, usize),
-    /// Sampled rows.
-    pub sampled_rows: usize,
+    /// How large the model is.
+    pub size: ModelSize,
     /// Random tests that failed.
     pub failures: usize,
-    /// Contacts of the trajectory with a full solution and no reduced one.
-    pub trajectory_failures: usize,
-    /// e_z along the trajectory.
+    /// What was measured along the trajectory.
+    pub along: Along,
+}
+
+/// What is measured of a model along the trajectory (3.21).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Along {
+    /// Contacts with a full solution and no reduced one.
+    pub failures: usize,
+    /// e_z.
     pub states: Vec<f64>,
-    /// e_f^I along the trajectory.
+    /// e_f^I.
     pub residuals: Vec<f64>,
-    /// |H̃_c/H_c − 1| along the trajectory.
+    /// |H̃_c/H_c − 1|.
     pub films: Vec<f64>,
-    /// Seconds of the reduced solves along the trajectory.
+    /// Seconds of the reduced solves.
     pub seconds: Vec<f64>,
 }
 
 const COLUMNS: [Column<Rung>; 14] = [
     ("tolerance", |rung| rung.tolerance),
     ("snapshots", |rung| rung.snapshots as f64),
-    ("basis_p", |rung| rung.modes.0 as f64),
-    ("basis_delta", |rung| rung.modes.1 as f64),
+    ("basis_p", |rung| rung.size.pressure as f64),
+    ("basis_delta", |rung| rung.size.deformation as f64),
     // The dissertation's count of unknowns (p̃, δ̃, H₀); online, modes + 1 of them are iterated on.
-    ("degrees_of_freedom", |rung| (rung.modes.0 + rung.modes.1 + 1) as f64),
-    ("sampled_rows", |rung| rung.sampled_rows as f64),
+    ("degrees_of_freedom", |rung| (rung.size.pressure + rung.size.deformation + 1) as f64),
+    ("sampled_rows", |rung| rung.size.rows as f64),
     ("failures", |rung| rung.failures as f64),
-    ("trajectory_failures", |rung| rung.trajectory_failures as f64),
-    ("e_z_mean", |rung| mean(&rung.states)),
-    ("e_f_I_mean", |rung| mean(&rung.residuals)),
-    ("H_c_error_median", |rung| median(&rung.films)),
-    ("H_c_error_p95", |rung| percentile(&rung.films, 0.95)),
-    ("H_c_error_max", |rung| percentile(&rung.films, 1.0)),
-    ("online_mean_s", |rung| mean(&rung.seconds)),
+    ("trajectory_failures", |rung| rung.along.failures as f64),
+    ("e_z_mean", |rung| mean(&rung.along.states)),
+    ("e_f_I_mean", |rung| mean(&rung.along.residuals)),
+    ("H_c_error_median", |rung| median(&rung.along.films)),
+    ("H_c_error_p95", |rung| percentile(&rung.along.films, 0.95)),
+    ("H_c_error_max", |rung| percentile(&rung.along.films, 1.0)),
+    ("online_mean_s", |rung| mean(&rung.along.seconds)),
 ];
 
 impl Question for ToleranceStudy {
@@ -132,18 +137,8 @@ impl Question for ToleranceStudy {
             let model = Arc::new(cut.model(observer)?);
             let window = &model.windows[0];
             let tested = reduced_solutions(&model, options, &points, experiment.lubricant, |_| false, observer)?;
-            let mut rung = Rung {
-                tolerance: *tolerance,
-                snapshots: solutions,
-                modes: (window.pressure.modes.ncols(), window.deformation.modes.ncols()),
-                sampled_rows: window.sampled_rows.len(),
-                failures: tested.iter().filter(|solved| solved.is_none()).count(),
-                trajectory_failures: 0,
-                states: Vec::new(),
-                residuals: Vec::new(),
-                films: Vec::new(),
-                seconds: Vec::new(),
-            };
+            let failures = tested.iter().filter(|solved| solved.is_none()).count();
+            let mut measured = Along::default();
             let measures = ErrorMeasures::new(window, &options, Norm::Euclidean);
             let mut online = Online::new(Arc::clone(&model), options);
             if let Some(first) = along.first() {
@@ -153,16 +148,17 @@ impl Question for ToleranceStudy {
                 online.forget();
                 let clock = Instant::now();
                 let solved = online.solve(point, experiment.lubricant);
-                rung.seconds.push(clock.elapsed().as_secs_f64());
+                measured.seconds.push(clock.elapsed().as_secs_f64());
                 if let (Ok(solved), Some(full)) = (solved, full) {
                     let fields = online.reconstruct(&solved)?;
-                    rung.residuals.push(measures.residuals(&solved.coefficients, &fields).sampled_rows);
-                    rung.states.push(measures.state_error(&fields, full));
-                    rung.films.push((fields.scalars.h_c / full.scalars.h_c - 1.0).abs());
+                    measured.residuals.push(measures.residuals(&solved.coefficients, &fields).sampled_rows);
+                    measured.states.push(measures.state_error(&fields, full));
+                    measured.films.push((fields.scalars.h_c / full.scalars.h_c - 1.0).abs());
                 }
             }
-            rung.trajectory_failures = along.len() - full_failures - rung.films.len();
-            tell(Row::Rung(rung));
+            measured.failures = along.len() - full_failures - measured.films.len();
+            let (tolerance, size) = (*tolerance, window.size());
+            tell(Row::Rung(Rung { tolerance, snapshots: solutions, size, failures, along: measured }));
         }
         Ok(())
     }

@@ -24,8 +24,8 @@ const WINDOW: [Column<Window>; 7] = [
     ("m_to", |window| window.m.1),
     ("nodes", |window| (window.grid.nodes().0 * window.grid.nodes().1) as f64),
     ("snapshots", |window| window.snapshots.len() as f64),
-    ("basis_p", |window| window.pressure.modes.ncols() as f64),
-    ("basis_delta", |window| window.deformation.modes.ncols() as f64),
+    ("basis_p", |window| window.size().pressure as f64),
+    ("basis_delta", |window| window.size().deformation as f64),
     ("sampled_rows", |window| window.sampled_rows.len() as f64),
 ];
 

@@ -30,7 +30,7 @@ pub use cubature::{GoalEquations, cubature};
 pub use error_measures::{ErrorMeasures, Norm, Residuals};
 pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
 pub use model::{
-    Domain, ReducedModel, SlidingDomain, Snapshot, Trust, Window, deformation_weights, distance, separation,
+    Domain, ModelSize, ReducedModel, SlidingDomain, Snapshot, Trust, Window, deformation_weights, distance, separation,
 };
 pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution, Starts};
 pub(crate) use operators::Iterate;

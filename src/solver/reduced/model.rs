@@ -94,6 +94,24 @@ pub struct Window {
     pub calibration: Option<Calibration>,
 }
 
+/// How large the model of a window is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ModelSize {
+    /// Pressure modes.
+    pub pressure: usize,
+    /// Deformation modes.
+    pub deformation: usize,
+    /// Sampled rows.
+    pub rows: usize,
+}
+
+impl std::fmt::Display for ModelSize {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { pressure, deformation, rows } = self;
+        write!(f, "{pressure} pressure modes, {deformation} deformation modes, {rows} sampled rows")
+    }
+}
+
 /// A reduced model of stationary contacts of one kind.
 #[derive(Clone, Debug)]
 pub struct ReducedModel {
@@ -161,6 +179,12 @@ impl Window {
             traction: None,
             calibration: None,
         }
+    }
+
+    /// How large it is with all its modes.
+    pub fn size(&self) -> ModelSize {
+        let (pressure, deformation) = (self.pressure.modes.ncols(), self.deformation.modes.ncols());
+        ModelSize { pressure, deformation, rows: self.sampled_rows.len() }
     }
 
     /// Replaces the sampled rows, which ends a calibration and the rule for the traction on their nodes.
