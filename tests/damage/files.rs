@@ -1,0 +1,108 @@
+//! Scenes, models and unfinished trainings that are damaged, with checksums that fit.
+
+use crate::common::scene_files;
+use crate::common::scratch::Scratch;
+use crate::{alone, cases, most_bytes, spoil};
+use ehl_explorer::engine::{model_file, training_file};
+use ehl_explorer::scene::Scene;
+use ehl_explorer::solver::discrete::grid::{ContactGridSpec, GridSpec};
+use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint};
+use ehl_explorer::solver::training::{
+    Plan, Range, Search, Solved, TrainingSpec, TrainingState, WindowSpec, WindowState,
+};
+use fastrand::Rng;
+
+/// Most bytes that reading a damaged file may take.
+const MOST_BYTES: usize = 200_000_000;
+
+/// A sentence that a refusal can be told by: something, on one line, without a panic's words.
+fn is_sentence(text: &str) -> bool {
+    !text.is_empty() && !text.contains('\n') && !text.contains("panicked")
+}
+
+fn check(case: usize, (bytes, refusal): (usize, Option<String>)) {
+    assert!(bytes < MOST_BYTES, "case {case} took {bytes} bytes");
+    assert!(refusal.as_deref().is_none_or(is_sentence), "case {case}: {refusal:?}");
+}
+
+#[test]
+fn damaged_scenes_are_refused_in_a_sentence_or_mean_what_they_say() {
+    let _alone = alone();
+    let mut rng = Rng::with_seed(1);
+    let texts: Vec<String> =
+        scene_files::all().iter().map(|file| std::fs::read_to_string(&file.path).unwrap()).collect();
+    let mut read = 0;
+    for case in 0..cases(3000, 20_000) {
+        let whole = spoil::one(&mut rng, &texts).clone();
+        let spoiled = spoil::text(&mut rng, &whole);
+        check(
+            case,
+            most_bytes(|| match Scene::from_ron(&spoiled) {
+                Ok(scene) => {
+                    read += 1;
+                    let again = Scene::from_ron(&scene.to_ron().unwrap());
+                    assert!(again.as_ref() == Ok(&scene), "case {case}: {again:?}\n{spoiled}");
+                    None
+                }
+                Err(error) => Some(error.to_string()),
+            }),
+        );
+    }
+    println!("{read} of the damaged scenes are scenes");
+}
+
+#[test]
+fn damaged_models_are_refused_in_a_sentence_or_solve_their_own_snapshots() {
+    let _alone = alone();
+    let mut rng = Rng::with_seed(2);
+    for (contact, cases) in [(ContactKind::Line, cases(150, 19_000)), (ContactKind::Point, cases(10, 1000))] {
+        let model = model_file::embedded_shear_of(contact).unwrap();
+        let whole = model_file::to_bytes(&model).unwrap();
+        drop(model);
+        let mut read = 0;
+        for case in 0..cases {
+            let spoiled = spoil::payload(&mut rng, &whole);
+            let mut refusal = |spoiled: &[u8]| match model_file::from_bytes(spoiled) {
+                Ok(_) => {
+                    read += 1;
+                    None
+                }
+                Err(error) => Some(error.to_string()),
+            };
+            check(case, most_bytes(|| refusal(&spoiled)));
+        }
+        println!("{read} of {cases} damaged models of {} contacts could be used", contact.name());
+    }
+}
+
+/// A training of which one contact is solved and one is to be.
+fn training() -> TrainingState {
+    let range =
+        Range::Moes { m: (10.0, 20.0), l: (2.0, 3.0), alpha: (1e-8, 2e-8), max_hertz_pressure: 3e9, viscosity: 0.01 };
+    let (grid, plan) = (ContactGridSpec::Line(GridSpec::EXPLORER), Plan::FarthestPoint { snapshots: 8 });
+    let spec = TrainingSpec::new(range, (10.0, 20.0), grid, plan);
+    let point = OperatingPoint::TABLE_2_1;
+    let window = WindowState {
+        window: WindowSpec { m: (10.0, 20.0), grid },
+        seed: 1,
+        inherited: 0,
+        solved: vec![Solved { place: 0, point, pressure: vec![0.5; 633], h_0: -0.1, h_c: 0.04 }],
+        pending: vec![(1, point)],
+        planned: true,
+        search: Search::default(),
+    };
+    TrainingState { windows: vec![window], solves: 1, ..TrainingState::new(spec) }
+}
+
+#[test]
+fn damaged_trainings_are_refused_in_a_sentence_or_are_sound() {
+    let _alone = alone();
+    let (mut rng, folder) = (Rng::with_seed(3), Scratch::new("damaged-training"));
+    let path = folder.join("a.rom.training");
+    training_file::write(&training(), &path).unwrap();
+    let whole = std::fs::read(&path).unwrap();
+    for case in 0..cases(2000, 20_000) {
+        std::fs::write(&path, spoil::payload(&mut rng, &whole)).unwrap();
+        check(case, most_bytes(|| training_file::read(&path).err().map(|error| error.to_string())));
+    }
+}
