@@ -2,8 +2,9 @@
 
 use super::numbers;
 use super::theme::Palette;
+use crate::engine::job::Standing;
 use egui::text::LayoutJob;
-use egui::{ComboBox, Key, Response, RichText, Slider, SliderClamping, TextEdit, Ui, WidgetText, pos2};
+use egui::{ComboBox, Key, ProgressBar, Response, RichText, Slider, SliderClamping, TextEdit, Ui, WidgetText, pos2};
 use std::collections::HashMap;
 use std::ops::RangeInclusive;
 
@@ -52,6 +53,18 @@ pub fn message_ui(ui: &mut Ui, message: &str) {
 pub fn warning_ui(ui: &mut Ui, message: &str) {
     let color = Palette::of(ui).warning;
     ui.label(RichText::new(sentence(message)).small().color(color));
+}
+
+/// What runs, how far it is and how long the rest takes; `name` is the bar's.
+pub fn standing_ui(ui: &mut Ui, standing: Option<Standing>, name: &str) {
+    let Some(standing) = standing else { return };
+    ui.horizontal(|ui| {
+        ui.label(sentence(&standing.stage));
+        let fraction = if standing.total > 0 { standing.done as f32 / standing.total as f32 } else { 0.0 };
+        let bar = ui.add(ProgressBar::new(fraction).desired_width(120.0).desired_height(8.0));
+        named(ui, bar, name);
+        ui.weak(numbers::standing(&standing));
+    });
 }
 
 /// What a tab shows and why it is so, for teaching; where it is wanted.

@@ -1,12 +1,13 @@
 //! The reduced model as it is used: with the truncation that the document asks for.
 
-use crate::engine::Store;
-use crate::scene::View;
-use crate::solver::full::{ContactSolver, Scalars, Solution, SolveError, Start};
-use crate::solver::observer::Observer;
-use crate::solver::physics::contact::{Moes, OperatingPoint};
-use crate::solver::physics::lubricant::Lubricant;
-use crate::solver::reduced::{Online, ReducedError, ReducedModel, ReducedOptions, ReducedSolution, Window};
+use super::answers::jobs::wake;
+use super::document::Key;
+use crate::engine::job::Job;
+use crate::engine::{Store, Workbench};
+use crate::scene::{At, Grid, Method, ModelSource, Scene, Study, StudyRow, View};
+use crate::solver::physics::contact::{Moes, OperatingPoint, Sliding};
+use crate::solver::reduced::{ReducedModel, ReducedOptions};
+use crate::solver::training::{Range, random_points};
 use std::sync::Arc;
 
 /// A model and its truncation: what a study judges, and by which it knows later whether it is out of date.
@@ -34,19 +35,49 @@ impl InUse {
         Self { model: Arc::clone(model), pressure_loss: view.pressure_loss, deformation_loss }
     }
 
-    /// The online settings in one of its windows.
-    pub fn options(&self, window: &Window) -> ReducedOptions {
-        ReducedOptions {
-            pressure_modes: self.pressure_loss.map(|loss| window.pressure.modes_for(loss)),
-            deformation_modes: self.deformation_loss.map(|loss| window.deformation.modes_for(loss)),
-            ..ReducedOptions::default()
-        }
+    /// The method that studies know it by, where it stands in place of the embedded model.
+    pub fn method(&self) -> Method {
+        let Self { pressure_loss, deformation_loss, .. } = *self;
+        Method::Reduced { model: ModelSource::Embedded, pressure_loss, deformation_loss }
     }
 
     /// The online settings where a contact is solved.
     pub fn options_at(&self, moes: Moes) -> ReducedOptions {
         let window = self.model.windows.get(self.model.window_for(moes));
-        window.map_or_else(ReducedOptions::default, |window| self.options(window))
+        window.map_or_else(ReducedOptions::default, |window| self.method().options(window))
+    }
+
+    /// What the model was trained for: the range of its training where it knows it, else the intervals it declares.
+    pub fn trained_range(&self) -> Range {
+        match Scene::from_ron(&self.model.scene).map(|scene| scene.study) {
+            Ok(Study::Training(spec)) => spec.range,
+            _ => {
+                let d = &self.model.domain;
+                Range::Moes {
+                    m: d.m,
+                    l: d.l,
+                    alpha: d.alpha_per_pa,
+                    max_hertz_pressure: d.max_hertz_pressure_pa,
+                    viscosity: d.viscosity_pa_s,
+                }
+            }
+        }
+    }
+
+    /// A question about it, with a contact of the range that it was trained for; in full on its own grid.
+    ///
+    /// # Errors
+    /// When that range holds none.
+    pub fn question(&self, title: &str, study: Study) -> Result<Scene, String> {
+        let none = "the model’s range holds no admissible contact to test";
+        let points = random_points(&self.trained_range(), self.model.contact(), 1, 1);
+        let point = OperatingPoint { sliding: Sliding::NONE, ..*points.first().ok_or(none)? };
+        Ok(question(title, &Key { point, lubricant: self.model.domain.lubricant }, Grid::Model, study))
+    }
+
+    /// Begins to answer a question about it.
+    pub fn ask(&self, ctx: &egui::Context, store: &Store, question: Scene) -> Job<StudyRow> {
+        question.ask(Workbench::on(store, "").using(&self.model), wake(ctx))
     }
 
     /// For people and the heads of tables.
@@ -62,79 +93,20 @@ impl InUse {
     }
 }
 
-/// Solves by a model as it is used, with what is in a store; operators are made when first needed.
-pub struct Solvers {
-    in_use: InUse,
-    store: Store,
-    windows: Vec<Option<Online>>,
-}
-
-impl Solvers {
-    /// Solvers that nothing has been solved with.
-    pub fn new(store: &Store, in_use: &InUse) -> Self {
-        let windows = in_use.model.windows.iter().map(|_| None).collect();
-        Self { in_use: in_use.clone(), store: store.clone(), windows }
-    }
-
-    fn online(&mut self, moes: Moes) -> Result<&mut Online, ReducedError> {
-        let Self { in_use, store, windows } = self;
-        let place = windows.get_mut(in_use.model.window_for(moes)).ok_or(ReducedError::Empty)?;
-        Ok(place.get_or_insert_with(|| store.online(&in_use.model, in_use.options_at(moes))))
-    }
-
-    /// The reduced solution and its fields, from its neighbours along a path.
-    ///
-    /// # Errors
-    /// When the point is refused or Newton does not converge.
-    pub fn along(
-        &mut self,
-        point: &OperatingPoint,
-        lubricant: Lubricant,
-    ) -> Result<(ReducedSolution, Solution), ReducedError> {
-        let online = self.online(point.moes())?;
-        let solved = online.solve(point, lubricant)?;
-        let fields = online.reconstruct(&solved)?;
-        Ok((solved, fields))
-    }
-
-    /// The reduced solution, independent of what was solved before.
-    ///
-    /// # Errors
-    /// When the point is refused or Newton does not converge.
-    pub fn reduced(
-        &mut self,
-        point: &OperatingPoint,
-        lubricant: Lubricant,
-    ) -> Result<(ReducedSolution, Scalars), ReducedError> {
-        let online = self.online(point.moes())?;
-        online.forget();
-        let solved = online.solve(point, lubricant)?;
-        let scalars = online.scalars(&solved)?;
-        Ok((solved, scalars))
-    }
-
-    /// The full solution on the model's own grid; `None` when it does not converge.
-    ///
-    /// # Errors
-    /// When the point is refused.
-    pub fn full(
-        &self,
-        point: &OperatingPoint,
-        lubricant: Lubricant,
-        start: Start<'_>,
-        observer: &dyn Observer,
-    ) -> Result<Option<Solution>, SolveError> {
-        let model = &self.in_use.model;
-        let Some(window) = model.windows.get(model.window_for(point.moes())) else { return Ok(None) };
-        let solve = |solver: &mut ContactSolver| solver.solve(point, lubricant, start, observer);
-        Ok(Some(self.store.with_full_solver(&window.grid, solve)?).filter(Solution::converged))
-    }
-}
-
-impl Drop for Solvers {
-    fn drop(&mut self) {
-        for online in self.windows.drain(..).flatten() {
-            self.store.give_back(online);
-        }
+/// A question about a contact, to be asked of the engine.
+pub fn question(title: &str, key: &Key, grid: Grid, study: Study) -> Scene {
+    let point = &key.point;
+    let Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: npr } = point.sliding;
+    let moes = point.moes();
+    Scene {
+        title: title.to_owned(),
+        contact: point.kind,
+        lubricant: key.lubricant,
+        at: At::from(*point),
+        srr,
+        npr,
+        grid,
+        study,
+        ..Scene::at_moes(moes.m, moes.l)
     }
 }

@@ -90,7 +90,12 @@ mod tests {
         });
         assert!(message(Scene { study: alone, ..good.clone() }).contains("study.compare_on_model_grid"));
         let range = QuantityBox { load: (2.0, f64::NAN), ..QuantityBox::TABLE_3_1 };
-        let study = Study::Trajectory(trajectory::Trajectory { range, points: 10, methods: vec![Method::Full] });
+        let study = Study::Trajectory(trajectory::Trajectory {
+            range: Some(range),
+            through: None,
+            points: 10,
+            methods: vec![Method::Full],
+        });
         assert!(message(Scene { study, ..good.clone() }).contains("study.range.load.1"));
         let study = Study::ErrorSplit(error_split::ErrorSplitStudy { contacts: Contacts::Here, method: Method::Full });
         assert!(message(Scene { study, ..good.clone() }).contains("study.method"));

@@ -19,8 +19,8 @@ use crate::app::tabs::Views;
 use crate::app::traction::TractionView;
 use crate::app::training::Training;
 use crate::app::transient::TransientView;
-use crate::engine::Store;
 use crate::engine::job::{Standing, Wake};
+use crate::engine::{Store, Workbench};
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::reduced::ReducedModel;
 use files::Files;
@@ -172,7 +172,8 @@ impl Desk {
     /// Runs the study of the scene on the screen.
     pub fn run_study(&mut self, wake: Wake) {
         let base = self.files.path.as_deref().and_then(Path::parent).unwrap_or(Path::new("")).to_owned();
-        self.views.results.start(self.document.to_scene(), base, &self.answers.store, wake);
+        let bench = Workbench::on(&self.answers.store, base);
+        self.views.results.start(self.document.to_scene(), bench, wake);
     }
 
     /// Replaces the document, as New and Open do.

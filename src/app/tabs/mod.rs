@@ -80,7 +80,7 @@ impl Behavior<Tab> for Tabs<'_> {
                 Tab::Regimes => views.regimes.ui(ui, &desk.context(), commands),
                 Tab::Basis => basis::ui(ui, &mut views.basis, &desk.context(), commands),
                 Tab::Traction => views.traction.ui(ui, &desk.context(), commands),
-                Tab::Results => views.results.ui(ui, &desk.document.to_scene(), commands),
+                Tab::Results => views.results.ui(ui, &desk.document, commands),
                 Tab::Accuracy => accuracy::ui(ui, &mut views.accuracy, &desk.context(), commands),
                 Tab::Training => views.training.ui(ui, &desk.context(), commands),
                 Tab::Transient => views.transient.ui(ui, &desk.context(), commands),

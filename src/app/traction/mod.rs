@@ -2,7 +2,6 @@
 
 mod curve;
 pub mod export;
-mod full;
 mod served;
 mod sweep;
 
@@ -11,12 +10,15 @@ pub use served::{Served, sweep};
 pub use sweep::{Against, Sample, Sweep, Varied};
 
 use super::answers::Answers;
+use super::answers::jobs::wake;
 use super::document::{Document, Edit};
 use super::numbers;
-use crate::engine::Store;
 use crate::engine::job::Background;
+use crate::engine::{Store, Workbench};
+use crate::scene::{Grid, Method, StudyRow};
+use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::physics::contact::Quantity;
-use curve::Worker;
+use curve::Live;
 use egui::Context;
 use serde::{Deserialize, Serialize};
 
@@ -31,6 +33,8 @@ pub struct Markers {
     pub sweep: Sweep,
     /// What has been solved so far.
     pub samples: Vec<Sample>,
+    /// Contacts that are left out: the solver did not converge.
+    failed: usize,
 }
 
 /// How the tab shows it; not part of the document.
@@ -55,19 +59,31 @@ pub struct TractionView {
     /// Full solutions.
     pub markers: Option<Markers>,
     /// Their work.
-    pub full: Background<Sample>,
-    worker: Option<Worker>,
+    pub full: Background<StudyRow>,
+    live: Live,
     wanted: Option<(Sweep, Served)>,
 }
 
 impl TractionView {
     /// Takes in what came since the last frame.
     pub fn receive(&mut self) {
-        if let Some(curve) = self.worker.as_mut().and_then(Worker::latest) {
+        if let Some(curve) = self.live.finished() {
             self.curve = Some(curve);
         }
-        if let Some(markers) = &mut self.markers {
-            self.full.receive(|sample| markers.samples.push(sample));
+        let Some(markers) = &mut self.markers else { return };
+        let works = self.full.job().is_some();
+        self.full.receive(|row| {
+            if let StudyRow::Sweep(row) = row {
+                match Sample::of(&row) {
+                    Some(sample) => markers.samples.push(sample),
+                    None => markers.failed += 1,
+                }
+            }
+        });
+        let failed = markers.failed;
+        if works && self.full.job().is_none() && failed > 0 {
+            let why = || format!("{failed} of {MARKERS} full solutions did not converge and are left out");
+            self.full.message.get_or_insert_with(why);
         }
     }
 
@@ -88,7 +104,7 @@ impl TractionView {
     pub fn follow(&mut self, ctx: &Context, store: &Store, sweep: Sweep, served: Served) {
         if !self.is_asked(&sweep, &served) {
             self.wanted = Some((sweep.clone(), served.clone()));
-            self.worker.get_or_insert_with(|| Worker::new(store)).ask(ctx, sweep, served);
+            self.live.ask(ctx, store, sweep, served);
         }
     }
 
@@ -101,8 +117,16 @@ impl TractionView {
             Ok(served) => Some(&served.by.model),
             Err(_) => answers.model(document).filter(|_| plane.is_none()),
         };
-        self.markers = Some(Markers { sweep: sweep.clone(), samples: Vec::new() });
-        self.full.run(full::start(ctx, &answers.store, sweep, model.cloned(), plane));
+        let grid = match (model, plane) {
+            (Some(_), _) => Grid::Model,
+            (None, Some(PointGridSpec { dx, dy, domain, refinement })) => Grid::Plane { dx, dy, domain, refinement },
+            (None, None) => Grid::Graded,
+        };
+        let bench = Workbench::on(&answers.store, "");
+        let bench = if let Some(model) = model { bench.using(model) } else { bench };
+        let question = sweep.question("Full solutions along the curve", grid, MARKERS, Method::Full);
+        self.full.run(question.ask(bench, wake(ctx)));
+        self.markers = Some(Markers { sweep, samples: Vec::new(), failed: 0 });
     }
 }
 

@@ -1,8 +1,11 @@
 //! Contacts along one quantity: which it is, between which values, and where they stand on an axis.
 
 use crate::app::document::Key;
-use crate::solver::full::{Problem, Solution};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::app::in_use::question;
+use crate::scene::study::{PathRow, sweep as scene};
+use crate::scene::{Axis, Grid, Method, Scene, Steps, Study};
+use crate::solver::full::Problem;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity};
 use crate::solver::reduced::Domain;
 use serde::{Deserialize, Serialize};
 
@@ -197,20 +200,19 @@ impl Against {
 }
 
 impl Sweep {
-    /// The values of so many contacts.
-    pub fn values(&self, count: usize) -> impl Iterator<Item = f64> + '_ {
+    /// The question for so many contacts of it by one method.
+    pub(super) fn question(&self, title: &str, grid: Grid, count: usize, method: Method) -> Scene {
         let (from, to) = self.ends;
-        let share = move |k: usize| k as f64 / (count - 1) as f64;
-        (0..count).map(
-            move |k| {
-                if self.logarithmic { from * (to / from).powf(share(k)) } else { from + (to - from) * share(k) }
-            },
-        )
-    }
-
-    /// The contact of a value.
-    pub fn point(&self, value: f64) -> OperatingPoint {
-        self.varied.at(&self.base.point, value)
+        let n = count;
+        let values = if self.logarithmic { Steps::Log { from, to, n } } else { Steps::Linear { from, to, n } };
+        let vary = match self.varied {
+            Varied::SlideToRoll => Quantity::SlideToRollRatio,
+            Varied::Plateau => Quantity::NewtonianPlateauRatio,
+            Varied::Speed => Quantity::Speed,
+        };
+        let over = vec![Axis { vary, values }];
+        let study = scene::Sweep { over, methods: vec![method], cold: false, compare_on_model_grid: false };
+        question(title, &self.base, grid, Study::Sweep(study))
     }
 
     /// A sentence where every traction along it is no physics.
@@ -220,15 +222,16 @@ impl Sweep {
 }
 
 impl Sample {
-    /// What a solution adds up to; its traction where a reduced model knows it without all nodes.
-    pub(super) fn of(point: OperatingPoint, solution: &Solution, traction: Option<f64>) -> Self {
-        let scale = point.film_scale_m();
-        Self {
-            point,
-            h_c_m: solution.scalars.h_c * scale,
-            h_min_m: solution.scalars.h_min * scale,
-            traction: traction.unwrap_or_else(|| solution.traction_coefficient()).abs(),
-        }
+    /// What a contact of a sweep adds up to by its first method; none where that failed.
+    pub(super) fn of(row: &PathRow) -> Option<Self> {
+        let result = row.results.first()?;
+        let (scalars, scale) = (result.scalars?, row.point.film_scale_m());
+        Some(Self {
+            point: row.point,
+            h_c_m: scalars.h_c * scale,
+            h_min_m: scalars.h_min * scale,
+            traction: result.traction?.abs(),
+        })
     }
 }
 
@@ -280,14 +283,5 @@ mod tests {
         }
         let key = key(ContactKind::Line);
         assert_eq!((Varied::SlideToRoll.of(&key), Varied::Plateau.of(&key)), (0.3, 0.2227));
-    }
-
-    #[test]
-    fn contacts_lie_between_the_ends_by_differences_or_by_ratios() {
-        let sweep =
-            |logarithmic| Sweep { varied: Varied::Speed, base: key(ContactKind::Line), ends: (0.5, 8.0), logarithmic };
-        assert_eq!(sweep(false).values(4).collect::<Vec<_>>(), [0.5, 3.0, 5.5, 8.0]);
-        let values: Vec<f64> = sweep(true).values(5).collect();
-        assert!(values.iter().zip([0.5, 1.0, 2.0, 4.0, 8.0]).all(|(a, b)| (a / b - 1.0).abs() < 1e-12), "{values:?}");
     }
 }

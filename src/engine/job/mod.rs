@@ -95,7 +95,8 @@ impl<M: Send + 'static> Job<M> {
     pub fn start(name: &str, wake: Wake, work: impl FnOnce(&Reporter<M>) -> Ending + Send + 'static) -> Self {
         let (job, reporter) = Self::waiting(name, wake);
         // Where no thread can be had, the reporter is gone and the next poll says so.
-        let _handle = std::thread::Builder::new().name(name.to_owned()).spawn(move || reporter.run(work));
+        let thread = std::thread::Builder::new().name(name.replace('\0', " "));
+        let _handle = thread.spawn(move || reporter.run(work));
         job
     }
 
@@ -298,6 +299,14 @@ impl<M: Send + 'static> Background<M> {
     pub fn run(&mut self, job: Job<M>) {
         self.message = None;
         self.job = Some(job);
+    }
+
+    /// The same where there may be a sentence why there is no job.
+    pub fn start(&mut self, job: Result<Job<M>, String>) {
+        match job {
+            Ok(job) => self.run(job),
+            Err(why) => *self = Self { message: Some(why), job: None },
+        }
     }
 
     /// Hands over what came since the last call.

@@ -1,27 +1,33 @@
 //! The question of a scene as a job, whose messages are the rows of its study.
 
-use super::{Job, Reporter, Wake};
-use crate::engine::{Store, Workbench};
+use super::{Job, Reporter, Wake, on_spare_cores};
+use crate::engine::{EngineError, Workbench};
 use crate::scene::{Scene, StudyObserver, StudyRow};
-use std::path::PathBuf;
 
 impl StudyObserver for Reporter<StudyRow> {
     fn row(&self, row: StudyRow) {
         self.send(row);
     }
+
+    fn wants_states(&self) -> bool {
+        true
+    }
 }
 
 impl Scene {
-    /// Begins to answer the scene's question with what is in a store; its paths refer to the folder `base`. What the
-    /// rows say is read off them by [`Scene::outcome`] and its study. A job that was stopped ends with the rows that
-    /// there are.
-    pub fn ask(self, store: &Store, base: impl Into<PathBuf>, wake: Wake) -> Job<StudyRow> {
-        let mut bench = Workbench::on(store, base);
+    /// Begins to answer the scene's question on a bench. What the rows say is read off them by [`Scene::outcome`] and
+    /// its study. A job that was stopped ends with the rows that there are.
+    pub fn ask(self, mut bench: Workbench, wake: Wake) -> Job<StudyRow> {
         let name = self.title.clone();
         Job::start(&name, wake, move |reporter| {
-            self.check().map_err(|refused| refused.to_string())?;
-            let ending = self.study.run(&self.experiment(), &mut bench, reporter);
-            ending.or_else(|error| if error.cancelled() { Ok(()) } else { Err(error.to_string()) })
+            let answer = || -> Result<(), EngineError> {
+                self.check()?;
+                self.study.run(&self.experiment(), &mut bench, reporter)
+            };
+            match on_spare_cores(answer) {
+                Err(error) if !error.cancelled() && !reporter.cancelled() => Err(error.to_string()),
+                _ => Ok(()),
+            }
         })
     }
 }
@@ -29,6 +35,7 @@ impl Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::Store;
     use crate::scene::{SceneOutcome, run_scene};
     use std::time::{Duration, Instant};
 
@@ -64,7 +71,7 @@ mod tests {
             assert!(headless.len() > 5, "{study}: {headless:?}");
             // Twice, so that the second one works with what the first has left in the store.
             for _ in 0..2 {
-                let mut job = scene.clone().ask(&store, "", Wake::default());
+                let mut job = scene.clone().ask(Workbench::on(&store, ""), Wake::default());
                 let (begun, mut rows) = (Instant::now(), Vec::new());
                 let ending = loop {
                     if let Some(ending) = job.poll(|row| rows.push(row)) {

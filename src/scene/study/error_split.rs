@@ -105,7 +105,7 @@ impl Question for ErrorSplitStudy {
         };
         let model = setting.bench.model_for(source, experiment.contact, &experiment.lubricant, observer)?;
         let points = match &self.contacts {
-            Contacts::Here => vec![(f64::NAN, experiment.point()?)],
+            Contacts::Here => vec![(f64::NAN, experiment.request()?.point)],
             Contacts::Trajectory { range, points } => trajectory_points(range, experiment, *points)?,
         };
         // A truncation keeps another number of modes in each window.

@@ -63,13 +63,17 @@ pub(super) fn trajectory_points(
     experiment: &Experiment,
     count: usize,
 ) -> Result<Vec<(f64, OperatingPoint)>, RunError> {
-    let contact = |i: usize| {
-        let c = 2.0 * i as f64 / (count - 1) as f64;
+    let contact = |c: f64| {
         let point = range.trajectory(experiment.contact, c);
         point.check()?;
         Ok((c, point))
     };
-    (0..count).map(contact).collect()
+    places(count).map(contact).collect()
+}
+
+/// Equidistant c of the test trajectory, both ends counted.
+pub(super) fn places(count: usize) -> impl Iterator<Item = f64> {
+    (0..count).map(move |i| 2.0 * i as f64 / (count - 1) as f64)
 }
 
 impl Path<'_> {

@@ -119,23 +119,34 @@ impl Test {
     }
 }
 
-/// All tests so far, each with what is known of its truth: nothing yet, or a full solution that failed or not.
-pub fn tests<'a>(rows: impl IntoIterator<Item = &'a Row>) -> Vec<(Test, Option<Option<Film>>)> {
-    let mut tests = Vec::new();
-    for row in rows {
-        match *row {
-            Row::Test(test) => tests.push((test, None)),
-            Row::Truth(index, film) => {
-                if let Some((_, truth)) = tests.get_mut(index) {
-                    *truth = Some(film);
-                }
+/// A test with what is known of its truth: nothing yet, or a full solution that failed or not.
+pub type Tested = (Test, Option<Option<Film>>);
+
+/// Relative errors of H_c, H_min and traction, where a truth is known.
+pub fn errors((test, truth): &Tested) -> [Option<f64>; 3] {
+    test.film.zip(truth.flatten()).map_or([None; 3], |(film, full)| film.errors(&full))
+}
+
+/// Adds a row to the tests that came before it.
+pub fn add(tests: &mut Vec<Tested>, row: Row) {
+    match row {
+        Row::Test(test) => tests.push((test, None)),
+        Row::Truth(index, film) => {
+            if let Some((_, truth)) = tests.get_mut(index) {
+                *truth = Some(film);
             }
         }
     }
+}
+
+/// All tests so far.
+pub fn tests<'a>(rows: impl IntoIterator<Item = &'a Row>) -> Vec<Tested> {
+    let mut tests = Vec::new();
+    rows.into_iter().for_each(|row| add(&mut tests, *row));
     tests
 }
 
-fn own(rows: &[&Row]) -> Vec<(Test, Option<Option<Film>>)> {
+fn own(rows: &[&Row]) -> Vec<Tested> {
     tests(rows.iter().copied())
 }
 
@@ -208,9 +219,8 @@ impl Question for RandomTest {
         }
         let mut errors: [Vec<f64>; 3] = Default::default();
         let mut bounds: [Vec<f64>; 3] = Default::default();
-        for (test, truth) in &tests {
-            let (Some(film), Some(Some(full))) = (test.film, truth) else { continue };
-            for (k, (error, bound)) in film.errors(full).into_iter().zip(test.bounds()).enumerate() {
+        for tested in &tests {
+            for (k, (error, bound)) in self::errors(tested).into_iter().zip(tested.0.bounds()).enumerate() {
                 errors[k].extend(error);
                 bounds[k].extend(error.zip(bound).map(|(error, bound)| bound / error));
             }
@@ -231,7 +241,7 @@ impl Question for RandomTest {
 
     fn tables(&self, rows: &[&Row]) -> Vec<Table> {
         let mut table = Table::new("random", &COLUMNS.map(|(name, _)| name));
-        let row = |(test, truth): (Test, Option<Option<Film>>)| {
+        let row = |(test, truth): Tested| {
             let full = truth.flatten().unwrap_or(Film::NONE);
             COLUMNS.iter().map(|(_, get)| get(&test, &full)).collect()
         };
@@ -245,7 +255,7 @@ impl Question for RandomTest {
         let mut map =
             Chart::new("Random tests", ChartAxis::log("Load number M"), ChartAxis::linear("Lubricant number L"));
         let at = |solved: bool| {
-            let of = move |(test, _): &&(Test, _)| test.film.is_some() == solved;
+            let of = move |(test, _): &&Tested| test.film.is_some() == solved;
             tests.iter().filter(of).map(|(test, _)| test.point.moes()).map(|moes| [moes.m, moes.l])
         };
         map.add("converged", Marks::Dots, at(true));
@@ -256,9 +266,7 @@ impl Question for RandomTest {
             let mut chart = Chart::new(format!("Errors of {name}"), x, y);
             let bounds = tests.iter().filter_map(|(test, _)| Some([test.point.moes().m, test.bounds()[k]?]));
             chart.add("bound", Marks::Dots, bounds);
-            let errors = tests
-                .iter()
-                .filter_map(|(test, truth)| Some([test.point.moes().m, test.film?.errors(&(*truth)??)[k]?]));
+            let errors = tests.iter().filter_map(|tested| Some([tested.0.point.moes().m, self::errors(tested)[k]?]));
             chart.add("true", Marks::Dots, errors);
             chart
         });

@@ -109,8 +109,12 @@ impl QuantityBox {
 
     /// The point of the test trajectory (3.21) at the running parameter c.
     pub fn trajectory(&self, kind: ContactKind, c: f64) -> OperatingPoint {
-        let wave = |halves: f64| 0.5 + 0.5 * (halves * PI * c).sin();
-        self.at(kind, [wave(3.0), wave(4.0), wave(5.0), wave(2.0)])
+        self.at(kind, Self::trajectory_place(c))
+    }
+
+    /// Its coordinates in the unit cube.
+    pub fn trajectory_place(c: f64) -> [f64; 4] {
+        [3.0, 4.0, 5.0, 2.0].map(|halves: f64| 0.5 + 0.5 * (halves * PI * c).sin())
     }
 }
 

@@ -1,25 +1,21 @@
 //! The reduced model along the test trajectory (3.21), and its error against full solutions.
 
-use super::random_tests::trained_range;
-use super::{AccuracyView, CONTACT_COLUMNS, Running, contact_cells, count, progress, run_or_stop, stale_note};
-use crate::app::answers::jobs::wake;
+use super::{AccuracyView, CONTACT_COLUMNS, contact_cells, count, run_or_stop, stale_note};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
-use crate::app::controls::message_ui;
+use crate::app::controls::{message_ui, standing_ui};
 use crate::app::export;
-use crate::app::in_use::{InUse, Solvers};
+use crate::app::in_use::InUse;
 use crate::app::tabs::axes;
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, rich};
 use crate::engine::Store;
-use crate::engine::job::{Background, Ending, Job, Reporter};
-use crate::scene::QuantityBox;
-use crate::solver::full::{Problem, Solution, Start};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-use crate::solver::reduced::Trust;
-use crate::solver::training::Range;
+use crate::engine::job::Background;
+use crate::scene::study::PathRow;
+use crate::scene::study::trajectory::Trajectory;
+use crate::scene::{ContactResult, Method, QuantityBox, Study, StudyRow};
+use crate::solver::physics::contact::ContactKind;
 use egui::{Color32, ComboBox, Id, Ui, Vec2b};
 use egui_plot::{Corner, Legend, Line, LineStyle, PlotUi, VLine};
-use std::f64::consts::PI;
 
 /// Where the trajectory runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -41,120 +37,93 @@ impl Through {
     }
 }
 
+/// Which trajectory is wanted.
 #[derive(Clone, Copy, PartialEq)]
-struct Plan {
+struct Wanted {
     through: Through,
     points: usize,
 }
 
-/// One contact of the trajectory.
-#[derive(Clone, Copy)]
-struct Step {
-    c: f64,
-    /// `None` where the range excludes the place.
-    point: Option<OperatingPoint>,
-    trained: bool,
-    reduced: Option<f64>,
-    bound: Option<f64>,
-    full: Option<f64>,
-}
+/// One contact of the trajectory by the reduced model and in full.
+struct Step(PathRow);
 
 impl Step {
+    fn c(&self) -> f64 {
+        self.0.values.first().copied().unwrap_or(f64::NAN)
+    }
+
+    fn by_model(&self) -> Option<&ContactResult> {
+        self.0.results.first()
+    }
+
+    fn reduced(&self) -> Option<f64> {
+        Some(self.by_model()?.scalars?.h_c)
+    }
+
+    fn full(&self) -> Option<f64> {
+        Some(self.0.results.get(1)?.scalars?.h_c)
+    }
+
+    fn bound(&self) -> Option<f64> {
+        Some(self.by_model()?.reduced.as_ref()?.error?.h_c.bound)
+    }
+
+    fn trained(&self) -> bool {
+        self.by_model().is_some_and(|result| !result.untrained())
+    }
+
     fn error(&self) -> Option<f64> {
-        Some((self.reduced? / self.full? - 1.0).abs())
+        Some((self.reduced()? / self.full()? - 1.0).abs())
     }
 }
 
 struct Results {
     in_use: InUse,
-    plan: Plan,
+    wanted: Wanted,
     steps: Vec<Step>,
+    /// Whether more may come.
+    open: bool,
 }
 
 /// State of the view.
 pub struct Along {
-    plan: Plan,
-    work: Background<Step>,
+    wanted: Wanted,
+    /// What runs, and why the last run ended early.
+    pub work: Background<StudyRow>,
     results: Option<Results>,
 }
 
 impl Default for Along {
     fn default() -> Self {
-        Self { plan: Plan { through: Through::default(), points: 201 }, work: Background::default(), results: None }
+        let wanted = Wanted { through: Through::default(), points: 201 };
+        Self { wanted, work: Background::default(), results: None }
     }
 }
 
 impl Along {
     /// Takes in what came.
     pub fn receive(&mut self) {
-        if let Some(results) = &mut self.results {
-            self.work.receive(|step| results.steps.push(step));
-        }
-    }
-
-    /// The run under way.
-    pub fn task(&self) -> Option<&dyn Running> {
-        self.work.job().map(|job| job as &dyn Running)
-    }
-
-    fn start(&mut self, ctx: &egui::Context, store: &Store, in_use: &InUse) {
-        let plan = self.plan;
-        self.results = Some(Results { in_use: in_use.clone(), plan, steps: Vec::new() });
-        let (store, in_use) = (store.clone(), in_use.clone());
-        self.work.run(Job::start("Trajectory", wake(ctx), move |reporter| work(&store, &in_use, plan, reporter)));
-    }
-}
-
-/// The contact of (3.21) at c in a range: in a box of SI quantities the dissertation's, in others the same waves of its
-/// coordinates.
-fn contact(range: &Range, kind: ContactKind, c: f64) -> Option<OperatingPoint> {
-    let wave = |halves: f64| 0.5 + 0.5 * (halves * PI * c).sin();
-    range.at(kind, [3.0, 4.0, 5.0, 2.0].map(wave))
-}
-
-fn range_of(in_use: &InUse, through: Through) -> Range {
-    match through {
-        Through::Trained => trained_range(&in_use.model),
-        Through::Dissertation => Range::Box(QuantityBox::of_tables(in_use.model.contact())),
-    }
-}
-
-/// Each full solution starts from its neighbour on the path, never from a reduced one.
-fn work(store: &Store, in_use: &InUse, plan: Plan, reporter: &Reporter<Step>) -> Ending {
-    let lubricant = in_use.model.domain.lubricant;
-    let range = range_of(in_use, plan.through);
-    let mut solvers = Solvers::new(store, in_use);
-    let mut former: Option<Solution> = None;
-    for i in 0..plan.points {
-        let c = 2.0 * i as f64 / (plan.points - 1) as f64;
-        let mut step = Step {
-            c,
-            point: contact(&range, in_use.model.contact(), c),
-            trained: false,
-            reduced: None,
-            bound: None,
-            full: None,
-        };
-        if let Some(point) = &step.point {
-            let problem = Problem::new(point, lubricant).map_err(|error| error.to_string())?;
-            step.trained = in_use.model.trust(&problem) == Trust::Trained;
-            if let Ok((solution, scalars)) = solvers.reduced(point, lubricant) {
-                step.reduced = Some(scalars.h_c);
-                step.bound = solution.error.map(|e| e.h_c.bound);
+        let Some(results) = &mut self.results else { return };
+        self.work.receive(|row| {
+            if let StudyRow::Trajectory(row) = row {
+                results.steps.push(Step(row));
             }
-            let start = former.as_ref().map_or(Start::Cold, Start::From);
-            let full = solvers.full(point, lubricant, start, reporter);
-            let full = full.map_err(|error| error.to_string())?;
-            step.full = full.as_ref().map(|solution| solution.scalars.h_c);
-            former = full.or(former);
-        }
-        if reporter.cancelled() {
-            break;
-        }
-        reporter.send(step);
-        reporter.stage("Trajectory", i + 1, plan.points);
+        });
+        results.open = self.work.job().is_some();
     }
-    Ok(())
+
+    /// Each full solution starts from its neighbour on the path, never from a reduced one.
+    fn start(&mut self, ctx: &egui::Context, store: &Store, in_use: &InUse) {
+        let wanted = self.wanted;
+        self.results = Some(Results { in_use: in_use.clone(), wanted, steps: Vec::new(), open: true });
+        let (range, through) = match wanted.through {
+            Through::Dissertation => (Some(QuantityBox::of_tables(in_use.model.contact())), None),
+            Through::Trained => (None, Some(in_use.trained_range())),
+        };
+        let methods = vec![in_use.method(), Method::Full];
+        let study = Study::Trajectory(Trajectory { range, through, points: wanted.points, methods });
+        self.work.start(in_use.question("Trajectory", study).map(|question| in_use.ask(ctx, store, question)));
+    }
 }
 
 /// The view.
@@ -165,20 +134,21 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
     let mut export_now = false;
     ui.horizontal_wrapped(|ui| {
         let through = ui.label("Through").on_hover_text("The range in which the parameters swing by (3.21)");
-        let choice = ComboBox::from_id_salt("through").selected_text(along.plan.through.name(kind)).show_ui(ui, |ui| {
-            for option in [Through::Dissertation, Through::Trained] {
-                ui.selectable_value(&mut along.plan.through, option, option.name(kind));
-            }
-        });
+        let choice =
+            ComboBox::from_id_salt("through").selected_text(along.wanted.through.name(kind)).show_ui(ui, |ui| {
+                for option in [Through::Dissertation, Through::Trained] {
+                    ui.selectable_value(&mut along.wanted.through, option, option.name(kind));
+                }
+            });
         choice.response.labelled_by(through.id);
-        count(ui, "Contacts", "Equidistant values of c from 0 to 2", &mut along.plan.points, 11..=1001);
-        if run_or_stop(ui, "Follow the trajectory", "Reduced and full solutions along it", along.task()) {
+        count(ui, "Contacts", "Equidistant values of c from 0 to 2", &mut along.wanted.points, 11..=1001);
+        if run_or_stop(ui, "Follow the trajectory", "Reduced and full solutions along it", &along.work) {
             along.start(&ctx, &context.answers.store, in_use);
         }
         let there = along.results.as_ref().is_some_and(|r| !r.steps.is_empty());
         let button = ui.add_enabled(there, egui::Button::new("Export CSV…"));
         export_now = button.on_hover_text("Every contact with both films, bound and true error").clicked();
-        progress(ui, along.task());
+        standing_ui(ui, along.work.standing(), "Progress of the trajectory");
     });
     if let Some(message) = &along.work.message {
         message_ui(ui, message);
@@ -192,7 +162,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
         stale_note(ui, &results.in_use);
     }
     ui.label(rich(&summary(results), 13.5, Palette::of(ui).quiet));
-    super::bound_note(ui, results.steps.iter().map(|s| s.bound));
+    super::bound_note(ui, results.steps.iter().map(Step::bound));
     film_plot(ui, results, stale, 0.4 * ui.available_height());
     error_plot(ui, results, stale, (ui.available_height() - 4.0).max(110.0));
     if export_now {
@@ -202,17 +172,17 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
 }
 
 fn summary(results: &Results) -> String {
-    let Results { plan, steps, .. } = results;
-    let solved = steps.iter().filter(|s| s.point.is_some());
-    let failures = solved.clone().filter(|s| s.reduced.is_none()).count();
-    let outside = solved.filter(|s| !s.trained).count();
-    let excluded = steps.iter().filter(|s| s.point.is_none()).count();
+    let Results { wanted, steps, .. } = results;
+    let failures = steps.iter().filter(|step| step.reduced().is_none()).count();
+    let outside = steps.iter().filter(|step| !step.trained()).count();
+    // Places that the range excludes have no row.
+    let excluded = if results.open { 0 } else { wanted.points.saturating_sub(steps.len()) };
     let worst = steps.iter().filter_map(Step::error).fold(0.0, f64::max);
     let mut text = format!(
         "{} of {} contacts through {}, {failures} failures, largest error of {{H_c}} {}",
         steps.len(),
-        plan.points,
-        plan.through.name(results.in_use.model.contact()),
+        wanted.points,
+        wanted.through.name(results.in_use.model.contact()),
         crate::app::numbers::error_percent(worst)
     );
     if outside > 0 {
@@ -224,16 +194,26 @@ fn summary(results: &Results) -> String {
     text
 }
 
-/// Unbroken pieces of a quantity along the path.
-fn pieces(steps: &[Step], value: impl Fn(&Step) -> Option<f64>) -> Vec<Vec<[f64; 2]>> {
-    let mut pieces = vec![Vec::new()];
-    for step in steps {
-        match (value(step), pieces.last_mut()) {
-            (Some(v), Some(piece)) => piece.push([step.c, v]),
-            _ => pieces.push(Vec::new()),
+impl Results {
+    /// Unbroken pieces of a quantity along the path; where the range excludes a place a line ends as well.
+    fn pieces(&self, value: impl Fn(&Step) -> Option<f64>) -> Vec<Vec<[f64; 2]>> {
+        pieces(self.steps.iter().map(|step| (step.c(), value(step))), 3.0 / (self.wanted.points - 1) as f64)
+    }
+}
+
+/// Pieces of a line through places that have a value and are not further apart than a limit.
+fn pieces(points: impl Iterator<Item = (f64, Option<f64>)>, apart: f64) -> Vec<Vec<[f64; 2]>> {
+    let mut pieces: Vec<Vec<[f64; 2]>> = Vec::new();
+    let mut former = None;
+    for (c, value) in points {
+        let goes_on = former.is_some_and(|former| c - former < apart);
+        former = value.map(|_| c);
+        match (value, pieces.last_mut().filter(|_| goes_on)) {
+            (Some(value), Some(piece)) => piece.push([c, value]),
+            (Some(value), None) => pieces.push(vec![[c, value]]),
+            (None, _) => {}
         }
     }
-    pieces.retain(|piece| !piece.is_empty());
     pieces
 }
 
@@ -261,8 +241,8 @@ fn film_plot(ui: &mut Ui, results: &Results, stale: bool, height: f32) {
         ui,
         "Film along the trajectory",
         |plot| {
-            draw(plot, "Reduced model", pieces(&results.steps, |s| s.reduced), (color, LIVE_WIDTH, LineStyle::Solid));
-            draw(plot, "Full solution", pieces(&results.steps, |s| s.full), (full, FULL_WIDTH, LineStyle::Solid));
+            draw(plot, "Reduced model", results.pieces(Step::reduced), (color, LIVE_WIDTH, LineStyle::Solid));
+            draw(plot, "Full solution", results.pieces(Step::full), (full, FULL_WIDTH, LineStyle::Solid));
         },
     );
 }
@@ -279,13 +259,13 @@ fn error_plot(ui: &mut Ui, results: &Results, stale: bool, height: f32) {
         ui,
         "Error along the trajectory",
         |plot| {
-            let truth = pieces(&results.steps, |s| log(s.error()));
+            let truth = results.pieces(|s| log(s.error()));
             draw(plot, "True error", truth, (grey(palette.film), 1.8, LineStyle::Solid));
-            let bound = pieces(&results.steps, |s| log(s.bound));
+            let bound = results.pieces(|s| log(s.bound()));
             draw(plot, "Bound", bound, (grey(palette.accent), 1.2, LineStyle::dashed_dense()));
-            let failed = results.steps.iter().filter(|s| s.point.is_some() && s.reduced.is_none());
+            let failed = results.steps.iter().filter(|step| step.reduced().is_none());
             for (k, step) in failed.enumerate() {
-                plot.vline(VLine::new("failed", step.c).color(grey(palette.wrong)).width(1.0).id(("failed", k)));
+                plot.vline(VLine::new("failed", step.c()).color(grey(palette.wrong)).width(1.0).id(("failed", k)));
             }
         },
     );
@@ -296,15 +276,16 @@ fn csv(results: &Results) -> String {
         results.in_use.describe(),
         format!(
             "trajectory (3.21) through {}",
-            results.plan.through.name(results.in_use.model.contact()).replace('’', "'")
+            results.wanted.through.name(results.in_use.model.contact()).replace('’', "'")
         ),
     ];
     let own = ["trained", "H_c", "H_c_full", "H_c_error_bound", "H_c_error"];
     let header: Vec<&str> = ["c"].into_iter().chain(CONTACT_COLUMNS).chain(own).collect();
     let rows = results.steps.iter().map(|step| {
-        let mut row = vec![Some(step.c)];
-        row.extend(step.point.as_ref().map_or([None; 8], |point| contact_cells(point).map(Some)));
-        row.extend([Some(f64::from(u8::from(step.trained))), step.reduced, step.full, step.bound, step.error()]);
+        let mut row = vec![Some(step.c())];
+        row.extend(contact_cells(&step.0.point).map(Some));
+        let trained = Some(f64::from(u8::from(step.trained())));
+        row.extend([trained, step.reduced(), step.full(), step.bound(), step.error()]);
         row
     });
     export::csv(&comments, &header, rows)
@@ -315,17 +296,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_path_is_the_dissertations_and_gaps_break_lines() {
-        let range = Range::Box(QuantityBox::TABLE_3_1);
-        for c in [0.0, 0.37, 1.9] {
-            assert_eq!(
-                contact(&range, ContactKind::Line, c),
-                Some(QuantityBox::TABLE_3_1.trajectory(ContactKind::Line, c))
-            );
-        }
-        let step = |c, reduced| Step { c, point: None, trained: true, reduced, bound: None, full: None };
-        let steps =
-            [step(0.0, Some(1.0)), step(0.1, None), step(0.2, None), step(0.3, Some(2.0)), step(0.4, Some(3.0))];
-        assert_eq!(pieces(&steps, |s| s.reduced), [vec![[0.0, 1.0]], vec![[0.3, 2.0], [0.4, 3.0]]]);
+    fn gaps_break_lines() {
+        let points = [(0.0, Some(1.0)), (0.1, None), (0.2, None), (0.3, Some(2.0)), (0.4, Some(3.0)), (0.6, Some(4.0))];
+        let lines = pieces(points.into_iter(), 0.15);
+        assert_eq!(lines, [vec![[0.0, 1.0]], vec![[0.3, 2.0], [0.4, 3.0]], vec![[0.6, 4.0]]]);
     }
 }

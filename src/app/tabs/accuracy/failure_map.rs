@@ -1,7 +1,7 @@
 //! Random tests in the M–L plane: where the reduced model fails, and how large its error is elsewhere. A click goes
 //! there.
 
-use super::random_tests::{Results, Test};
+use super::random_tests::{Results, bound_of, error_of};
 use super::worst::Worst;
 use super::{AccuracyView, CONTACT_COLUMNS, contact_cells, tests_toolbar, worst};
 use crate::app::command::Command;
@@ -12,6 +12,7 @@ use crate::app::in_use::InUse;
 use crate::app::numbers;
 use crate::app::tabs::axes;
 use crate::app::theme::{Palette, rich, sequential};
+use crate::scene::study::random_test::{Tested, errors};
 use crate::solver::physics::contact::{Moes, OperatingPoint};
 use egui::{Color32, Ui};
 use egui_plot::{Corner, HoverPosition, Legend, MarkerShape, PlotPoint, PlotPoints, Points};
@@ -34,10 +35,10 @@ pub enum By {
 
 impl By {
     /// The error it looks at.
-    pub fn of(self, test: &Test) -> Option<f64> {
+    pub fn of(self, tested: &Tested) -> Option<f64> {
         match self {
-            Self::Bound => test.bound(),
-            Self::Truth => test.true_error(),
+            Self::Bound => bound_of(tested),
+            Self::Truth => error_of(tested),
         }
     }
 }
@@ -62,13 +63,13 @@ impl Drawn {
     fn new(results: &Results, by: By) -> Self {
         let mut drawn =
             Self { of: stamp(results, by), classes: Default::default(), unknown: Vec::new(), failures: Vec::new() };
-        for test in &results.tests {
-            let place = match (test.solved, by.of(test)) {
+        for tested in &results.tests {
+            let place = match (tested.0.film, by.of(tested)) {
                 (None, _) => &mut drawn.failures,
                 (_, Some(error)) => &mut drawn.classes[class(error)],
                 (_, None) => &mut drawn.unknown,
             };
-            place.push(at(test.point.moes()));
+            place.push(at(tested.0.point.moes()));
         }
         drawn
     }
@@ -123,7 +124,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
         ui.weak(summary(results));
     });
     if map.by == By::Bound {
-        super::bound_note(ui, results.tests.iter().map(|t| t.bound()));
+        super::bound_note(ui, results.tests.iter().map(bound_of));
     }
     if map.drawn.as_ref().is_none_or(|d| d.of != stamp(results, map.by)) {
         map.drawn = Some(Drawn::new(results, map.by));
@@ -159,13 +160,13 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
 
 /// Numbers of tests, failures and comparisons.
 pub fn summary(results: &Results) -> String {
-    let (made, wanted) = (results.tests.len(), results.plan.tests);
+    let (made, wanted) = (results.tests.len(), results.wanted.tests);
     let failures = match results.failures() {
         0 => "no failures".to_owned(),
         1 => "1 failure".to_owned(),
         n => format!("{n} failures"),
     };
-    let compared = results.tests.iter().filter(|t| t.truth.is_some()).count();
+    let compared = results.tests.iter().filter(|(_, truth)| truth.is_some()).count();
     format!("{made} of {wanted} tests, {failures}, {compared} compared")
 }
 
@@ -208,25 +209,26 @@ fn chart(ui: &mut Ui, map: &Map, results: &Results, here: Moes, height: f32, sta
     let response = response.response;
     let response = response.on_hover_cursor(egui::CursorIcon::Crosshair);
     let pointer = response.interact_pointer_pos().filter(|_| response.clicked())?;
-    nearest(results, |moes| transform.position_from_point(&at(moes)).distance(pointer)).map(|test| test.point)
+    nearest(results, |moes| transform.position_from_point(&at(moes)).distance(pointer)).map(|(test, _)| test.point)
 }
 
 /// The test nearest by a distance on the screen, if it is near.
-fn nearest(results: &Results, distance: impl Fn(Moes) -> f32) -> Option<&Test> {
-    let distances = results.tests.iter().map(|test| (test, distance(test.point.moes())));
-    distances.filter(|(_, d)| *d < NEAR).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(test, _)| test)
+fn nearest(results: &Results, distance: impl Fn(Moes) -> f32) -> Option<&Tested> {
+    let distances = results.tests.iter().map(|tested| (tested, distance(tested.0.point.moes())));
+    distances.filter(|(_, d)| *d < NEAR).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(tested, _)| tested)
 }
 
 /// What is known of the test at a place of the map.
 fn label(results: &Results, place: PlotPoint) -> Option<String> {
-    let test = results.tests.iter().find(|test| at(test.point.moes()) == place)?;
+    let tested = results.tests.iter().find(|(test, _)| at(test.point.moes()) == place)?;
+    let point = &tested.0.point;
     let error = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), numbers::error_percent);
     Some(format!(
         "{}, α {}/GPa\nerror of H_c within {}, truly {}\nclick to go there",
-        numbers::moes(test.point.moes()),
-        numbers::digits(test.point.alpha_per_pa * 1e9, 3),
-        error(test.bound()),
-        error(test.true_error())
+        numbers::moes(point.moes()),
+        numbers::digits(point.alpha_per_pa * 1e9, 3),
+        error(bound_of(tested)),
+        error(error_of(tested))
     ))
 }
 
@@ -234,25 +236,22 @@ fn label(results: &Results, place: PlotPoint) -> Option<String> {
 pub fn csv(results: &Results) -> String {
     let comments = [
         results.in_use.describe(),
-        format!("random tests (3.17) of the trained range, seed {}", results.plan.seed),
+        format!("random tests (3.17) of the trained range, seed {}", results.wanted.seed),
         "converged 0: the reduced model failed; empty errors: not compared, or no full solution".to_owned(),
     ];
     let own = ["converged", "newton_steps", "H_c", "H_min", "H_c_error_bound", "H_c_error", "H_min_error"];
     let header: Vec<&str> = CONTACT_COLUMNS.into_iter().chain(own).collect();
-    let rows = results.tests.iter().map(|test| {
+    let rows = results.tests.iter().map(|tested| {
+        let (test, [h_c, h_min, _]) = (&tested.0, errors(tested));
         let mut row = contact_cells(&test.point).map(Some).to_vec();
-        let errors = match test.truth {
-            Some(super::random_tests::Truth::Known(errors)) => Some(errors),
-            _ => None,
-        };
         row.extend([
-            Some(f64::from(u8::from(test.solved.is_some()))),
-            test.solved.map(|s| s.iterations as f64),
-            test.solved.map(|s| s.h_c),
-            test.solved.map(|s| s.h_min),
-            test.bound(),
-            errors.map(|e| e.h_c),
-            errors.map(|e| e.h_min),
+            Some(f64::from(u8::from(test.film.is_some()))),
+            test.film.map(|_| test.newton_iterations as f64),
+            test.film.map(|film| film.h_c),
+            test.film.map(|film| film.h_min),
+            bound_of(tested),
+            h_c,
+            h_min,
         ]);
         row
     });

@@ -10,14 +10,14 @@ mod truth;
 mod worst;
 
 use crate::app::context::{Commands, Context};
-use crate::app::controls::{message_ui, named, warning_ui};
+use crate::app::controls::{message_ui, named, standing_ui, warning_ui};
 use crate::app::in_use::InUse;
-use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
 use crate::engine::Store;
-use crate::engine::job::{Job, Standing};
+use crate::engine::job::{Background, Standing};
+use crate::scene::StudyRow;
 use crate::solver::physics::contact::OperatingPoint;
-use egui::{DragValue, ProgressBar, Ui};
+use egui::{DragValue, Ui};
 use random_tests::{MOST_COMPARED, RandomTests, TESTS};
 
 /// A view of the tab.
@@ -50,24 +50,6 @@ impl View {
     }
 }
 
-/// Work under way, whatever its messages are.
-pub trait Running {
-    /// How far it is.
-    fn standing(&self) -> Standing;
-    /// Asks it to stop.
-    fn stop(&self);
-}
-
-impl<M: Send + 'static> Running for Job<M> {
-    fn standing(&self) -> Standing {
-        Self::standing(self)
-    }
-
-    fn stop(&self) {
-        Self::stop(self);
-    }
-}
-
 /// The tab's studies and what they found.
 #[derive(Default)]
 pub struct AccuracyView {
@@ -75,7 +57,7 @@ pub struct AccuracyView {
     split: split::Split,
     tests: RandomTests,
     map: failure_map::Map,
-    truth: Option<truth::Shown>,
+    truth: Option<truth::Scatter>,
     along: along::Along,
 }
 
@@ -89,16 +71,16 @@ impl AccuracyView {
 
     /// How far the study is that runs; the first where there are several.
     pub fn standing(&self) -> Option<Standing> {
-        self.running().next().map(Running::standing)
+        self.works().into_iter().find_map(Background::standing)
     }
 
     /// Stops every study; what they have found stays.
     pub fn stop(&self) {
-        self.running().for_each(Running::stop);
+        self.works().into_iter().for_each(Background::stop);
     }
 
-    fn running(&self) -> impl Iterator<Item = &dyn Running> {
-        [self.tests.task(), self.along.task(), self.split.task()].into_iter().flatten()
+    fn works(&self) -> [&Background<StudyRow>; 3] {
+        [&self.tests.work, &self.along.work, &self.split.work]
     }
 }
 
@@ -137,46 +119,38 @@ fn count(ui: &mut Ui, name: &str, tip: &str, value: &mut usize, range: std::ops:
 }
 
 /// Run, or Stop while it runs. Returns whether a run is wanted.
-fn run_or_stop(ui: &mut Ui, run: &str, tip: &str, task: Option<&dyn Running>) -> bool {
-    let Some(task) = task else {
+fn run_or_stop(ui: &mut Ui, run: &str, tip: &str, work: &Background<StudyRow>) -> bool {
+    if work.job().is_none() {
         return ui.button(run).on_hover_text(tip).clicked();
-    };
+    }
     if ui.button("Stop").on_hover_text("What has been found so far stays (Esc)").clicked() {
-        task.stop();
+        work.stop();
     }
     false
-}
-
-/// How far a run is and how long the rest takes; last in its row, so that nothing else moves with it.
-fn progress(ui: &mut Ui, task: Option<&dyn Running>) {
-    let Some(standing) = task.map(Running::standing) else { return };
-    let fraction = if standing.total > 0 { standing.done as f32 / standing.total as f32 } else { 0.0 };
-    ui.add(ProgressBar::new(fraction).desired_width(90.0).desired_height(8.0));
-    ui.weak(numbers::standing(&standing)).on_hover_text(standing.stage);
 }
 
 /// The row over both views of the random tests. Returns whether the table is wanted as a file.
 fn tests_toolbar(ui: &mut Ui, store: &Store, tests: &mut RandomTests, in_use: &InUse) -> bool {
     let mut export = false;
     ui.horizontal_wrapped(|ui| {
-        let plan = &mut tests.plan;
+        let wanted = &mut tests.wanted;
         let tip = "Reduced solves at random contacts (3.17) of the range the model was trained for";
-        count(ui, "Random tests", tip, &mut plan.tests, TESTS);
+        count(ui, "Random tests", tip, &mut wanted.tests, TESTS);
         let tip = "How many of them are compared with full solutions on the model’s own grid";
-        count(ui, "Compared in full", tip, &mut plan.compared, 0..=MOST_COMPARED);
+        count(ui, "Compared in full", tip, &mut wanted.compared, 0..=MOST_COMPARED);
         let tip = "The same seed gives the same contacts";
         ui.label("Seed").on_hover_text(tip);
-        let seed = ui.add(DragValue::new(&mut plan.seed));
+        let seed = ui.add(DragValue::new(&mut wanted.seed));
         named(ui, seed, "Seed").on_hover_text(tip);
-        if run_or_stop(ui, "Run tests", "Tests the model as it is truncated now", tests.task()) {
+        if run_or_stop(ui, "Run tests", "Tests the model as it is truncated now", &tests.work) {
             tests.start(&ui.ctx().clone(), store, in_use);
         }
         let there = tests.results.as_ref().is_some_and(|r| !r.tests.is_empty());
         let button = ui.add_enabled(there, egui::Button::new("Export CSV…"));
         export = button.on_hover_text("Every test with its contact, films, bound and true errors").clicked();
-        progress(ui, tests.task());
+        standing_ui(ui, tests.work.standing(), "Progress of the random tests");
     });
-    if let Some(message) = tests.message() {
+    if let Some(message) = &tests.work.message {
         message_ui(ui, message);
     }
     if let Some(results) = tests.results.as_ref().filter(|r| r.in_use != *in_use) {

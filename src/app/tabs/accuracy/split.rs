@@ -1,23 +1,25 @@
 //! Where the error of this contact comes from: basis, projection, sampling and discretisation beside each other.
 
-use super::{AccuracyView, Running, run_or_stop, stale_note};
+use super::{AccuracyView, run_or_stop, stale_note};
 use crate::app::answers::REST_S;
-use crate::app::answers::jobs::wake;
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{message_ui, sentence, spoken, warning_ui};
 use crate::app::document::Key;
 use crate::app::export;
-use crate::app::in_use::InUse;
+use crate::app::in_use::{InUse, question};
 use crate::app::numbers;
 use crate::app::tabs::axes;
 use crate::app::theme::{Palette, rich};
-use crate::engine::job::{Background, Ending, Job, Reporter};
+use crate::engine::Store;
+use crate::engine::job::Background;
+use crate::scene::study::error_split::{ErrorSplitStudy, Row};
+use crate::scene::{Contacts, Grid as SceneGrid, Study, StudyRow};
 use crate::solver::full::Problem;
-use crate::solver::reduced::{ErrorSplit, ErrorSplitter, Parts, SplitError, Trust};
+use crate::solver::reduced::{ErrorSplit, Parts, Trust};
 use egui::{Align2, Grid, Ui, Vec2b};
 use egui_plot::{Bar, BarChart, GridMark, PlotPoint, Text};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 /// Decades that the bars show at most: what is smaller than the rest by more does not matter.
 const DECADES: f64 = 7.0;
@@ -58,64 +60,41 @@ struct Asked {
     in_use: InUse,
 }
 
-type Found = Result<Box<ErrorSplit>, SplitError>;
-/// The splitter of the last model, handed from one job to the next: its operators and finer grids are worth keeping.
-type Kept = Arc<Mutex<Option<(InUse, Vec<Option<ErrorSplitter>>)>>>;
-
 /// State of the view.
 #[derive(Default)]
 pub struct Split {
-    kept: Kept,
-    work: Background<Found>,
+    /// What runs, and why there is no split.
+    pub work: Background<StudyRow>,
     /// What was last asked for, answered or not.
     asked: Option<Asked>,
-    shown: Option<(Asked, Box<ErrorSplit>)>,
+    found: Option<(Asked, Arc<ErrorSplit>)>,
 }
 
 impl Split {
     /// Takes in what came.
     pub fn receive(&mut self) {
         let Some(asked) = &self.asked else { return };
-        let mut refused = None;
-        self.work.receive(|found| match found {
-            Ok(split) => self.shown = Some((asked.clone(), split)),
-            Err(SplitError::Cancelled) => refused = Some("stopped before it was done".to_owned()),
-            Err(error) => refused = Some(error.to_string()),
+        let (mut refused, worked) = (None, self.work.job().is_some());
+        self.work.receive(|row| match row {
+            StudyRow::ErrorSplit(Row { split: Ok(split), .. }) => self.found = Some((asked.clone(), split)),
+            StudyRow::ErrorSplit(Row { split: Err(why), .. }) => refused = Some(why),
+            _ => {}
         });
+        let ended = worked && self.work.job().is_none();
+        if ended && self.work.message.is_none() && self.found.as_ref().is_none_or(|found| found.0 != *asked) {
+            refused.get_or_insert_with(|| "stopped before it was done".to_owned());
+        }
         if refused.is_some() {
             self.work.message = refused;
         }
     }
 
-    /// The split under way.
-    pub fn task(&self) -> Option<&dyn Running> {
-        self.work.job().map(|job| job as &dyn Running)
+    fn start(&mut self, ctx: &egui::Context, store: &Store, asked: Asked) {
+        let study = ErrorSplitStudy { contacts: Contacts::Here, method: asked.in_use.method() };
+        let question = question("Splitting the error", &asked.key, SceneGrid::Model, Study::ErrorSplit(study));
+        self.work.run(asked.in_use.ask(ctx, store, question));
+        self.asked = Some(asked);
     }
-
-    fn start(&mut self, ctx: &egui::Context, asked: Asked) {
-        self.asked = Some(asked.clone());
-        let kept = Arc::clone(&self.kept);
-        // A task that is replaced stops; the new one waits for the splitter until it has.
-        self.work.run(Job::start("Splitting the error", wake(ctx), move |reporter| work(&kept, &asked, reporter)));
-    }
-}
-
-fn work(kept: &Kept, asked: &Asked, reporter: &Reporter<Found>) -> Ending {
-    // A job that panicked may have left half a state: the splitter is taken out while it works.
-    let taken = kept.lock().unwrap_or_else(PoisonError::into_inner).take();
-    let windows = asked.in_use.model.windows.len();
-    let mut splitters = match taken {
-        Some((in_use, splitters)) if in_use == asked.in_use => splitters,
-        _ => (0..windows).map(|_| None).collect(),
-    };
-    let at = asked.in_use.model.window_for(asked.key.point.moes());
-    let options = asked.in_use.options_at(asked.key.point.moes());
-    let Some(place) = splitters.get_mut(at) else { return Err("the reduced model holds no bases".to_owned()) };
-    let splitter = place.get_or_insert_with(|| ErrorSplitter::new(Arc::clone(&asked.in_use.model), options));
-    let found = splitter.split(&asked.key.point, asked.key.lubricant, reporter);
-    reporter.send(found.map(Box::new));
-    *kept.lock().unwrap_or_else(PoisonError::into_inner) = Some((asked.in_use.clone(), splitters));
-    Ok(())
 }
 
 /// The view.
@@ -126,13 +105,13 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
     let mut export_now = false;
     ui.horizontal_wrapped(|ui| {
         let tip = "Solves this contact reduced, reduced with all rows, in full, and in full on the next finer grid";
-        if run_or_stop(ui, "Split the error", tip, own.split.task()) {
-            own.split.start(&ctx, now.clone());
+        if run_or_stop(ui, "Split the error", tip, &own.split.work) {
+            own.split.start(&ctx, &context.answers.store, now.clone());
         }
-        let there = own.split.shown.is_some();
+        let there = own.split.found.is_some();
         let button = ui.add_enabled(there, egui::Button::new("Export CSV…"));
         export_now = button.on_hover_text("All parts for H_c, H_min and the pressure").clicked();
-        if let Some((asked, _)) = &own.split.shown {
+        if let Some((asked, _)) = &own.split.found {
             ui.label(numbers::moes(asked.key.point.moes()));
         }
     });
@@ -142,7 +121,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
     if let Some(Trust::Outside(why)) = context.answers.trust(context.document) {
         warning_ui(ui, &format!("{why}; the split is made on request only"));
     }
-    let Some((asked, split)) = &own.split.shown else {
+    let Some((asked, split)) = &own.split.found else {
         super::nothing_yet(ui, "The parts appear when the sliders rest");
         return;
     };
@@ -168,12 +147,10 @@ fn start_when_rested(ui: &Ui, own: &mut AccuracyView, context: &Context<'_>, now
     if known || !trained {
         return;
     }
-    if let Some(task) = own.split.task() {
-        task.stop();
-    }
+    own.split.work.stop();
     let rested = context.answers.rested_s(ui.input(|i| i.time));
     if rested >= REST_S {
-        own.split.start(ui.ctx(), now.clone());
+        own.split.start(ui.ctx(), &context.answers.store, now.clone());
     } else {
         ui.ctx().request_repaint_after_secs((REST_S - rested) as f32);
     }
@@ -198,8 +175,8 @@ fn bars(ui: &mut Ui, split: &ErrorSplit, current: bool) {
     let room = (ui.available_height() - 190.0).max(150.0);
     let one = |ui: &mut Ui, k: usize, height: f32, rows: bool| {
         let (symbol, name, parts) = both[k];
-        let look = Look { range: (low, end), height, rows, current };
-        bar_plot(ui, (symbol, name), &values(parts), &look);
+        let drawing = Drawing { range: (low, end), height, rows, current };
+        bar_plot(ui, (symbol, name), &values(parts), &drawing);
     };
     if wide {
         // The rows' names stand once, on the left.
@@ -220,15 +197,15 @@ fn bars(ui: &mut Ui, split: &ErrorSplit, current: bool) {
 
 /// How one plot of bars is drawn: its axis (log10), its height, whether rows have their names, whether it is up to
 /// date.
-struct Look {
+struct Drawing {
     range: (f64, f64),
     height: f32,
     rows: bool,
     current: bool,
 }
 
-fn bar_plot(ui: &mut Ui, (symbol, name): (&str, &str), values: &[f64; 6], look: &Look) {
-    let &Look { range: (low, end), height, rows, current } = look;
+fn bar_plot(ui: &mut Ui, (symbol, name): (&str, &str), values: &[f64; 6], drawing: &Drawing) {
+    let &Drawing { range: (low, end), height, rows, current } = drawing;
     let palette = Palette::of(ui);
     let title = format!("Relative error of {symbol}");
     let marks = f64::from((ui.available_width() - if rows { NAMES } else { 0.0 }) / LABEL).max(2.0);

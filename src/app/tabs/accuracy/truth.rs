@@ -1,7 +1,7 @@
 //! What the calibrated bound is worth: bound against true error of H_c wherever both are known.
 
 use super::failure_map::{By, csv, stamp, summary};
-use super::random_tests::Results;
+use super::random_tests::{Results, bound_of};
 use super::{AccuracyView, tests_toolbar};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
@@ -44,7 +44,7 @@ impl Worth {
 }
 
 /// What the view shows, made when something changed.
-pub struct Shown {
+pub struct Scatter {
     of: (usize, usize, By),
     worth: Worth,
     /// (log10 of the truth, log10 of the bound) where the bound holds.
@@ -55,7 +55,7 @@ pub struct Shown {
     line: (f64, f64),
 }
 
-impl Shown {
+impl Scatter {
     /// `None` without any pair.
     fn new(results: &Results) -> Option<Self> {
         let pairs: Vec<(f64, f64)> = results.pairs().collect();
@@ -85,10 +85,10 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
         return;
     };
     ui.weak(summary(results));
-    super::bound_note(ui, results.tests.iter().map(|t| t.bound()));
+    super::bound_note(ui, results.tests.iter().map(bound_of));
     let shown = &mut own.truth;
     if shown.as_ref().is_none_or(|s| s.of != stamp(results, By::Truth)) {
-        *shown = Shown::new(results);
+        *shown = Scatter::new(results);
     }
     match shown {
         Some(shown) => {
@@ -135,7 +135,7 @@ fn worth_ui(ui: &mut Ui, worth: &Worth) {
     });
 }
 
-fn scatter(ui: &mut Ui, shown: &Shown, stale: bool) {
+fn scatter(ui: &mut Ui, shown: &Scatter, stale: bool) {
     let palette = Palette::of(ui);
     let grey = |color| if stale { palette.reference } else { color };
     let (low, high) = shown.line;

@@ -1,7 +1,7 @@
 //! The worst of the random tests, failures first. A click goes there.
 
 use super::failure_map::{By, stamp};
-use super::random_tests::Results;
+use super::random_tests::{Results, bound_of, error_of};
 use crate::app::controls::named;
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
@@ -26,8 +26,8 @@ impl Worst {
         }
         self.of = Some(stamp(results, by));
         let badness = |k: &usize| match &results.tests[*k] {
-            test if test.solved.is_none() => Some(f64::INFINITY),
-            test => by.of(test),
+            (test, _) if test.film.is_none() => Some(f64::INFINITY),
+            tested => by.of(tested),
         };
         let mut rated: Vec<(usize, f64)> =
             (0..results.tests.len()).filter_map(|k| badness(&k).map(|error| (k, error))).collect();
@@ -47,23 +47,24 @@ pub fn ui(ui: &mut Ui, worst: &Worst, results: &Results) -> Option<OperatingPoin
                 ui.label(rich(title, 12.0, palette.quiet));
             }
             ui.end_row();
-            for (place, test) in worst.order.iter().filter_map(|k| results.tests.get(*k)).enumerate() {
-                let moes = test.point.moes();
+            for (place, tested) in worst.order.iter().filter_map(|k| results.tests.get(*k)).enumerate() {
+                let point = tested.0.point;
+                let moes = point.moes();
                 ui.weak((place + 1).to_string());
                 let text = format!("{}, {}", numbers::digits(moes.m, 3), numbers::digits(moes.l, 3));
                 let tip = format!(
                     "Go there: {}, α {}/GPa (Ctrl+Z comes back)",
                     numbers::moes(moes),
-                    numbers::digits(test.point.alpha_per_pa * 1e9, 3)
+                    numbers::digits(point.alpha_per_pa * 1e9, 3)
                 );
                 let link = ui.link(text).on_hover_text(tip);
                 if named(ui, link, &format!("Go to worst case {}", place + 1)).clicked() {
-                    wanted = Some(test.point);
+                    wanted = Some(point);
                 }
                 let error = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), numbers::error_percent);
-                if test.solved.is_some() {
-                    ui.label(error(test.bound()));
-                    ui.label(error(test.true_error()));
+                if tested.0.film.is_some() {
+                    ui.label(error(bound_of(tested)));
+                    ui.label(error(error_of(tested)));
                 } else {
                     ui.colored_label(palette.wrong, "failed");
                     ui.label("");

@@ -5,7 +5,7 @@ pub mod methods;
 
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
-use crate::app::controls::{message_ui, named, sentence, warning_ui};
+use crate::app::controls::{message_ui, named, sentence, standing_ui, warning_ui};
 use crate::app::document::Edit;
 use crate::app::form::{Form, LastField};
 use crate::app::numbers;
@@ -15,7 +15,7 @@ use crate::engine::TOO_STEEP;
 use crate::scene::TransientStudy;
 use crate::solver::full::transient::Ended;
 use crate::solver::reduced::tpwl::TpwlRecord;
-use egui::{ProgressBar, Slider, Ui};
+use egui::{Slider, Ui};
 
 /// A form over the contact in time of the document, refused under a name of its own; returns the field that was changed
 /// last.
@@ -54,16 +54,7 @@ pub fn run_button(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
 /// say.
 pub fn status(ui: &mut Ui, context: &Context<'_>) {
     let view = context.transient;
-    if let Some(standing) = view.work.standing() {
-        ui.horizontal(|ui| {
-            ui.label(&standing.stage);
-            let fraction = if standing.total > 0 { standing.done as f32 / standing.total as f32 } else { 0.0 };
-            let bar = ProgressBar::new(fraction).desired_width(120.0).desired_height(8.0);
-            let bar = ui.add(bar);
-            named(ui, bar, "Progress of the contact in time");
-            ui.weak(numbers::standing(&standing));
-        });
-    }
+    standing_ui(ui, view.work.standing(), "Progress of the contact in time");
     if let Some(message) = &view.work.message {
         message_ui(ui, message);
     }

@@ -7,15 +7,15 @@ mod table;
 
 use crate::app::command::Command;
 use crate::app::context::Commands;
-use crate::app::controls::{message_ui, named, warning_ui};
+use crate::app::controls::{message_ui, named, standing_ui, warning_ui};
+use crate::app::document::Document;
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
-use crate::engine::Store;
+use crate::engine::Workbench;
 use crate::engine::job::{Standing, Wake};
 use crate::scene::{Method, Scene, Table, Verdict};
-use egui::{ComboBox, Grid, ProgressBar, RichText, ScrollArea, Ui};
+use egui::{ComboBox, Grid, RichText, ScrollArea, Ui};
 use run::{Look, Run};
-use std::path::PathBuf;
 
 /// Width of the verdicts beside the charts.
 const VERDICTS: f32 = 330.0;
@@ -32,21 +32,22 @@ enum Shown {
 /// The tab's run and what is shown of it.
 pub struct ResultsView {
     run: Option<Run>,
+    /// The document that was on the screen last, as a scene.
+    seen: Option<(Document, Scene)>,
     shown: Shown,
     fresh: bool,
 }
 
 impl Default for ResultsView {
     fn default() -> Self {
-        Self { run: None, shown: Shown::Charts, fresh: true }
+        Self { run: None, seen: None, shown: Shown::Charts, fresh: true }
     }
 }
 
 impl ResultsView {
-    /// Runs the study of a scene; relative paths refer to `base`.
-    pub fn start(&mut self, scene: Scene, base: PathBuf, store: &Store, wake: Wake) {
-        self.run = Some(Run::start(scene, base, store.clone(), wake));
-        *self = Self { run: self.run.take(), ..Self::default() };
+    /// Runs the study of a scene on a bench.
+    pub fn start(&mut self, scene: Scene, bench: Workbench, wake: Wake) {
+        *self = Self { run: Some(Run::start(scene, bench, wake)), ..Self::default() };
     }
 
     /// Forgets what was run: another scene is on the screen.
@@ -63,7 +64,7 @@ impl ResultsView {
 
     /// How far the study is that runs.
     pub fn standing(&self) -> Option<Standing> {
-        self.run.as_ref()?.work.standing()
+        self.run.as_ref()?.standing()
     }
 
     /// Stops it; what it has found stays.
@@ -84,8 +85,15 @@ impl ResultsView {
         self.run.as_ref()?.look.as_ref()?.table(name)
     }
 
-    /// The tab for the scene on the screen.
-    pub fn ui(&mut self, ui: &mut Ui, scene: &Scene, commands: &mut Commands) {
+    /// The tab for the document on the screen.
+    pub fn ui(&mut self, ui: &mut Ui, document: &Document, commands: &mut Commands) {
+        let seen = self.seen.take().filter(|seen| seen.0 == *document);
+        let seen = seen.unwrap_or_else(|| (document.clone(), document.to_scene()));
+        self.scene_ui(ui, &seen.1, commands);
+        self.seen = Some(seen);
+    }
+
+    fn scene_ui(&mut self, ui: &mut Ui, scene: &Scene, commands: &mut Commands) {
         let title = if scene.title.is_empty() { "Results" } else { &scene.title };
         ui.horizontal_wrapped(|ui| {
             ui.heading(title);
@@ -171,11 +179,7 @@ impl ResultsView {
                 commands.extend(table.map(|table| Command::csv(table.to_csv())));
             }
             self.shown = chosen;
-            if let Some(standing) = standing {
-                let share = if standing.total > 0 { standing.done as f32 / standing.total as f32 } else { 0.0 };
-                ui.add(ProgressBar::new(share).desired_width(110.0).desired_height(8.0));
-                ui.weak(format!("{}: {}", standing.stage, numbers::standing(&standing)));
-            }
+            standing_ui(ui, standing, "Progress of the study");
         });
     }
 }

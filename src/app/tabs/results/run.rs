@@ -1,13 +1,9 @@
-//! A scene's study at work beside the window: its rows are kept there, and what they look like so far comes here.
+//! A scene's study at work beside the window: its rows are kept, and looked at now and then.
 
-use crate::engine::Store;
 use crate::engine::Workbench;
-use crate::engine::job::{Background, Job, Reporter, Wake, on_spare_cores};
-use crate::scene::{Chart, Scene, SceneOutcome, StudyObserver, StudyRow, Table};
-use crate::solver::observer::{Observer, Progress};
-use crate::solver::training::TrainingObserver;
-use std::path::PathBuf;
-use std::sync::{Mutex, PoisonError};
+use crate::engine::job::{Background, Job, Standing, Wake};
+use crate::scene::study::transient;
+use crate::scene::{Chart, Scene, SceneOutcome, StudyRow, Table};
 use std::time::{Duration, Instant};
 
 /// Shortest time between two looks at a study that runs.
@@ -27,10 +23,13 @@ pub struct Look {
     pub rows: usize,
     /// Whether this is all there will be.
     pub complete: bool,
+    /// What taking it took.
+    took: Duration,
 }
 
 impl Look {
-    fn at(scene: &Scene, rows: &[StudyRow], begun: Instant, complete: bool) -> Self {
+    fn at(scene: &Scene, rows: &[StudyRow], wall_s: f64, complete: bool) -> Self {
+        let begun = Instant::now();
         let mut charts = scene.study.charts(rows);
         for series in charts.iter_mut().flat_map(|chart| &mut chart.series) {
             let stride = series.points.len().div_ceil(DRAWN).max(1);
@@ -39,8 +38,8 @@ impl Look {
                 series.name = format!("{}, one in {stride}", series.name);
             }
         }
-        let outcome = scene.outcome(rows, begun.elapsed().as_secs_f64());
-        Self { charts, outcome, rows: rows.len(), complete }
+        let outcome = scene.outcome(rows, wall_s);
+        Self { charts, outcome, rows: rows.len(), complete, took: begun.elapsed() }
     }
 
     /// A table by its name.
@@ -49,88 +48,89 @@ impl Look {
     }
 }
 
-/// The study of a scene: the last look at it, and its work.
+/// The study of a scene: its rows, and the last look at them.
 pub struct Run {
     /// The scene as it was when it was run.
     pub scene: Scene,
     /// The last look at its rows.
     pub look: Option<Look>,
     /// What runs, and why it ended early.
-    pub work: Background<Look>,
+    pub work: Background<StudyRow>,
+    /// All rows; they are lent to a look while it is taken, and new ones wait here.
+    rows: Vec<StudyRow>,
+    looking: Background<(Vec<StudyRow>, Look)>,
+    wake: Wake,
+    begun: Instant,
+    next_look: Instant,
+    /// Rows that no look has seen.
+    unseen: bool,
+    stopped: bool,
+    /// Seconds of the whole study, once it has ended.
+    wall_s: Option<f64>,
 }
 
 impl Run {
-    /// Starts the study of a scene, whose relative paths refer to `base`.
-    pub fn start(scene: Scene, base: PathBuf, store: Store, wake: Wake) -> Self {
+    /// Starts the study of a scene.
+    pub fn start(scene: Scene, bench: Workbench, wake: Wake) -> Self {
         let mut work = Background::default();
-        let own = scene.clone();
-        work.run(Job::start("Results", wake, move |reporter: &Reporter<Look>| {
-            let mut bench = Workbench::on(&store, base);
-            let watch = Watch::new(&own, reporter);
-            own.check().map_err(|refused| format!("the scene is refused: {refused}"))?;
-            let ended = on_spare_cores(|| own.study.run(&own.experiment(), &mut bench, &watch));
-            let stopped = reporter.cancelled();
-            watch.look(ended.is_ok() && !stopped);
-            match ended {
-                Err(_) if stopped => Ok(()),
-                ended => ended.map_err(|error| error.to_string()),
-            }
-        }));
-        Self { scene, look: None, work }
+        work.run(scene.clone().ask(bench, wake.clone()));
+        let begun = Instant::now();
+        Self {
+            scene,
+            look: None,
+            work,
+            rows: Vec::new(),
+            looking: Background::default(),
+            wake,
+            begun,
+            next_look: begun,
+            unseen: false,
+            stopped: false,
+            wall_s: None,
+        }
+    }
+
+    /// How far it is, the last look included.
+    pub fn standing(&self) -> Option<Standing> {
+        self.work.standing().or_else(|| self.looking.standing())
     }
 
     /// Takes in what came since the last frame.
     pub fn receive(&mut self) {
-        let look = &mut self.look;
-        self.work.receive(|newer| *look = Some(newer));
-    }
-}
-
-/// Keeps the rows, and looks at them now and then.
-struct Watch<'a> {
-    scene: &'a Scene,
-    reporter: &'a Reporter<Look>,
-    begun: Instant,
-    kept: Mutex<Kept>,
-}
-
-struct Kept {
-    rows: Vec<StudyRow>,
-    next_look: Instant,
-}
-
-impl<'a> Watch<'a> {
-    fn new(scene: &'a Scene, reporter: &'a Reporter<Look>) -> Self {
-        let begun = Instant::now();
-        Self { scene, reporter, begun, kept: Mutex::new(Kept { rows: Vec::new(), next_look: begun }) }
-    }
-
-    fn look(&self, complete: bool) {
-        let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        self.reporter.send(Look::at(self.scene, &kept.rows, self.begun, complete));
-    }
-}
-
-impl Observer for Watch<'_> {
-    fn progress(&self, progress: Progress) {
-        self.reporter.progress(progress);
-    }
-
-    fn cancelled(&self) -> bool {
-        self.reporter.cancelled()
-    }
-}
-
-impl TrainingObserver for Watch<'_> {}
-
-impl StudyObserver for Watch<'_> {
-    fn row(&self, row: StudyRow) {
-        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.rows.push(row);
-        let now = Instant::now();
-        if now >= kept.next_look {
-            self.reporter.send(Look::at(self.scene, &kept.rows, self.begun, false));
-            kept.next_look = Instant::now() + LOOK_EVERY.max(now.elapsed() * LOOK_SHARE);
+        let Self { work, looking, rows, look, unseen, .. } = self;
+        self.stopped |= work.job().is_some_and(Job::stopping);
+        work.receive(|row| {
+            *unseen = true;
+            // Fields are in no chart and no table.
+            if !matches!(row, StudyRow::Transient(transient::Row::State { .. })) {
+                rows.push(row);
+            }
+        });
+        looking.receive(|(mut seen, newer)| {
+            seen.append(rows);
+            (*rows, *look) = (seen, Some(newer));
+        });
+        if work.job().is_none() && self.wall_s.is_none() {
+            self.wall_s = Some(self.begun.elapsed().as_secs_f64());
+            *unseen = true;
         }
+        let due = self.wall_s.is_some() || Instant::now() >= self.next_look;
+        if self.unseen && due && self.looking.job().is_none() {
+            self.take_a_look();
+        }
+    }
+
+    fn take_a_look(&mut self) {
+        self.unseen = false;
+        let (scene, rows, now) = (self.scene.clone(), std::mem::take(&mut self.rows), Instant::now());
+        let complete = self.wall_s.is_some() && !self.stopped && self.work.message.is_none();
+        let wall_s = self.wall_s.unwrap_or_else(|| self.begun.elapsed().as_secs_f64());
+        let taken = self.look.as_ref().map_or(Duration::ZERO, |look| look.took);
+        self.next_look = now + LOOK_EVERY.max(taken * LOOK_SHARE);
+        self.looking.run(Job::start("Looking at the rows", self.wake.clone(), move |reporter| {
+            let look = Look::at(&scene, &rows, wall_s, complete);
+            reporter.send((rows, look));
+            Ok(())
+        }));
     }
 }

@@ -10,16 +10,17 @@ mod weights;
 use super::in_time::{self, methods};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
-use crate::app::controls::{choice, message_ui, why};
+use crate::app::controls::{choice, message_ui, standing_ui, why};
 use crate::app::form::LastField;
 use crate::app::numbers;
 use crate::app::theme::Palette;
 use crate::app::transient::linearised::{Linearised, PointNow};
 use crate::app::transient::method::{WEIGHTINGS, weighting_name};
 use crate::app::transient::{InTimeCommand, Run, TransientView};
+use crate::engine::job::Standing;
 use crate::solver::full::transient::Quantity;
 use crate::solver::reduced::tpwl::Weighting;
-use egui::{Button, Color32, Grid, Pos2, ProgressBar, Response, ScrollArea, Ui};
+use egui::{Button, Color32, Grid, Pos2, Response, ScrollArea, Ui};
 use egui_plot::{PlotPoint, PlotTransform};
 use table::Sorting;
 
@@ -331,14 +332,9 @@ fn enabled(ui: &mut Ui, on: bool, name: &str, tip: &str) -> Response {
 
 fn number_status(ui: &mut Ui, view: &TransientView) {
     let study = &view.number;
-    if let Some(standing) = study.work.standing() {
-        ui.horizontal(|ui| {
-            ui.label(&standing.stage);
-            let fraction = if standing.total > 0 { standing.done as f32 / standing.total as f32 } else { 0.0 };
-            ui.add(ProgressBar::new(fraction).desired_width(120.0).desired_height(8.0));
-            ui.weak(numbers::duration(standing.since_s));
-        });
-    }
+    // The ladder's rungs take longer and longer: their number says nothing of the time that is left.
+    let standing = study.work.standing().map(|standing| Standing { left_s: None, ..standing });
+    standing_ui(ui, standing, "Progress of the study of their number");
     if let Some(message) = &study.work.message {
         message_ui(ui, message);
     }

@@ -6,12 +6,12 @@ mod fluid;
 use crate::app::answers::REST_S;
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
-use crate::app::controls::{message_ui, named, sentence, warning_ui, why};
+use crate::app::controls::{message_ui, sentence, standing_ui, warning_ui, why};
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
 use crate::app::traction::{Against, Choices, Curve, LeftOut, Markers, Served, Sweep, Varied, export, sweep};
 use crate::solver::full::Solution;
-use egui::{Button, Checkbox, ComboBox, ProgressBar, Ui};
+use egui::{Button, Checkbox, ComboBox, Ui};
 use std::sync::Arc;
 
 /// Seconds of rest after which a curve of other sliders is drawn grey.
@@ -162,15 +162,7 @@ fn exports(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
 /// What runs, what is amiss, and what the curve says in numbers.
 fn status(ui: &mut Ui, context: &Context<'_>, sweep: &Sweep, served: &Result<Served, String>) {
     let view = context.traction;
-    if let Some(standing) = view.full.standing() {
-        ui.horizontal(|ui| {
-            ui.label(&standing.stage);
-            let fraction = if standing.total > 0 { standing.done as f32 / standing.total as f32 } else { 0.0 };
-            let bar = ui.add(ProgressBar::new(fraction).desired_width(120.0).desired_height(8.0));
-            named(ui, bar, "Progress of the full solutions");
-            ui.weak(numbers::standing(&standing));
-        });
-    }
+    standing_ui(ui, view.full.standing(), "Progress of the full solutions");
     match served {
         Ok(Served { untrained: None, .. }) => {}
         Ok(Served { untrained: Some(why), .. }) => warning_ui(
