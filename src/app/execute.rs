@@ -94,7 +94,7 @@ impl Explorer {
             }
             Command::RunInTime => {
                 let setup = Setup::of(&desk.document, desk.files.path.as_deref());
-                desk.transient.start(ctx, setup);
+                desk.transient.start(ctx, &desk.answers.store, setup);
                 self.show(Tab::Transient);
             }
             Command::Train => {
@@ -107,7 +107,7 @@ impl Explorer {
             Command::Manual => self.help.manual.open(),
             Command::Keyboard => self.help.manual.open_keys(),
             Command::About => self.help.about = true,
-            Command::InTime(command) => desk.transient.execute(ctx, command),
+            Command::InTime(command) => desk.transient.execute(ctx, &desk.answers.store, command),
             Command::Training(command) => desk.training.execute(ctx, &mut desk.answers, command),
             Command::Edit(edit, field) => desk.edit(edit, field),
             Command::Refuse(field, why) => desk.entries.answer(field, Err(why.to_owned())),

@@ -346,7 +346,7 @@ impl Explorer {
 
     /// Whether a training or a comparison runs.
     pub fn training(&self) -> bool {
-        self.desk.training.job().is_some()
+        self.desk.training.standing().is_some()
     }
 
     /// Title of the reduced model in use.
@@ -361,7 +361,7 @@ impl Explorer {
 
     /// Whether a contact is taken through time.
     pub fn marching(&self) -> bool {
-        self.desk.transient.work.standing().is_some()
+        self.desk.transient.standing().is_some()
     }
 
     /// Whether the number of operating points is studied.

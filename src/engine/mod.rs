@@ -2,8 +2,7 @@
 //!
 //! * [`Workbench`] solves single contacts by any method and keeps grids, work space and models between solves: it is the bench of studies.
 //! * [`run_scene`] answers a scene's question.
-//! * [`mod@bench`] is the speed table, [`model_file`] the `.rom` format, [`training_file`] keeps unfinished trainings;
-//!   [`compare_models`] holds models side by side.
+//! * [`mod@bench`] is the speed table, [`model_file`] the `.rom` format, [`training_file`] keeps unfinished trainings.
 
 #![warn(clippy::indexing_slicing)]
 
@@ -11,7 +10,6 @@ pub mod bench;
 mod checked_file;
 mod grid_accuracy;
 pub mod job;
-mod model_comparison;
 pub mod model_file;
 pub mod results;
 mod store;
@@ -21,12 +19,10 @@ pub mod training_file;
 mod workbench;
 
 pub use grid_accuracy::GridAccuracy;
-pub use model_comparison::{ModelComparison, ModelScore, Spread, compare_models};
 pub use store::Store;
 pub use workbench::Workbench;
 
 pub use crate::scene::study::transient::TOO_STEEP;
-pub(crate) use crate::scene::study::transient::train_linearised;
 pub use crate::scene::{
     Answer, ContactResult, NamedValue, RESULT_COLUMNS, ReducedFacts, Request, RunError as EngineError, SceneOutcome,
     Table, Verdict, film_shear_table, median, percentile, profile_table, rank_correlation, run_scene, table,

@@ -43,7 +43,6 @@ pub use experiment::Experiment;
 pub use grid::Grid;
 pub use method::{Method, ModelSource};
 pub use outcome::{Findings, NamedValue, SceneOutcome, Verdict};
-pub(crate) use parallel::full_solutions;
 pub use run::run_scene;
 pub use statistics::{median, percentile, rank_correlation};
 pub use study::transient::{Drive, LinearisedTransient, PublishedMarch, ReducedTransient, TransientStudy};

@@ -36,7 +36,7 @@ impl Count<'_> {
 
 /// Cold full solutions, none where the solver does not converge; `grid` gives the grid of a point. Cold, so that no
 /// reduced solution can lead them to its root.
-pub(crate) fn full_solutions(
+pub(super) fn full_solutions(
     grid: impl Fn(&OperatingPoint) -> ContactGrid + Sync,
     points: &[OperatingPoint],
     lubricant: Lubricant,

@@ -2,11 +2,13 @@
 //! they are old.
 
 use crate::common::scratch::Scratch;
-use crate::driver::{Window, choose, click, give_path, set, shows, undo, wait_until};
+use crate::driver::{Table, Window, choose, click, give_path, set, shows, undo, wait_until};
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
 use ehl_explorer::app::Explorer;
-use ehl_explorer::engine::model_file;
+use ehl_explorer::engine::{SceneOutcome, Workbench, model_file, run_scene};
+use ehl_explorer::scene::{Grid, Scene, Study};
+use ehl_explorer::solver::training::Range;
 use std::time::Duration;
 
 /// The Accuracy tab at one of its views, over a settled picture.
@@ -44,6 +46,22 @@ fn exported(harness: &mut Window, name: &str) -> Vec<String> {
     text.lines().map(str::to_owned).collect()
 }
 
+/// What a headless run answers to a question about the contact that the window begins with.
+fn headless(study: &str) -> SceneOutcome {
+    let text = format!("Scene(version: 1, title: \"t\", at: Moes(m: 40.0, l: 10.0), study: {study})");
+    let scene = Scene { grid: Grid::Model, ..Scene::from_ron(&text).unwrap() };
+    run_scene(&scene, &mut Workbench::new(""), &()).unwrap()
+}
+
+/// Asserts that columns of an exported table hold what columns of a headless study's table hold, to the last bit.
+fn assert_same(exported: &[String], outcome: &SceneOutcome, columns: &[(&str, &str)]) {
+    let (own, headless) = (Table::of(&exported.join("\n")), Table::of(&outcome.tables[0].to_csv()));
+    for (name, of) in columns {
+        let bits = |values: Vec<f64>| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+        assert_eq!(bits(own.column(name)), bits(headless.column(of)), "{name}");
+    }
+}
+
 /// Truncates the model as opening a scene with a view does.
 fn truncate(harness: &mut Window) {
     let text = "Scene(version: 1, title: \"t\", at: Moes(m: 40.0, l: 10.0), study: Point(methods: [Full]), \
@@ -67,6 +85,11 @@ fn the_parts_appear_when_the_sliders_rest_and_follow_them() {
     assert!(
         (parts[0] + parts[1] + parts[2] - parts[3]).abs() < 1e-12 && (parts[3] + parts[4] - parts[5]).abs() < 1e-12
     );
+    let outcome = headless("ErrorSplit(contacts: Here, method: Reduced())");
+    for (part, name) in parts.iter().zip(["basis", "projection", "sampling", "reduction", "discretisation", "whole"]) {
+        let value = outcome.value(&format!("H_c.{name}"), None).unwrap();
+        assert_eq!(part.to_bits(), value.to_bits(), "{name} on the screen and headless");
+    }
     harness.get_by_label("Load number M").set_value_accesskit(80.0);
     harness.run_steps(1);
     assert!(shows(&harness, "not to the sliders"));
@@ -92,6 +115,28 @@ fn the_failure_map_counts_and_its_worst_case_is_a_click_away() {
     let table = exported(&mut harness, "map.csv");
     assert_eq!(table.len(), 4 + 200);
     assert!(table[3].starts_with("M,L,R_m"));
+    let domain = model_file::embedded().unwrap().domain.clone();
+    let range = Range::Moes {
+        m: domain.m,
+        l: domain.l,
+        alpha: domain.alpha_per_pa,
+        max_hertz_pressure: domain.max_hertz_pressure_pa,
+        viscosity: domain.viscosity_pa_s,
+    };
+    let mut scene = Scene::from_ron(
+        "Scene(version: 1, title: \"t\", at: Moes(m: 40.0, l: 10.0), study: RandomTest(range: Box(radius: (2e-3, 3e-3), \
+        speed: (3.0, 5.0), load: (1e5, 2e5), alpha: (6e-9, 10e-9), modulus: 231e9, viscosity: 0.01), tests: 200, \
+        seed: 1, method: Reduced(), compare: 10))",
+    )
+    .unwrap();
+    let Study::RandomTest(test) = &mut scene.study else { panic!() };
+    test.range = range;
+    let outcome = run_scene(&scene, &mut Workbench::new(""), &()).unwrap();
+    assert_same(
+        &table,
+        &outcome,
+        &[("M", "M"), ("H_c", "H_c"), ("H_min", "H_min"), ("newton_steps", "newton_iterations")],
+    );
     truncate(&mut harness);
     assert!(shows(&harness, "has changed since"));
 }
@@ -138,6 +183,10 @@ fn the_trajectory_is_followed_in_both_ranges() {
     assert!(shows(&harness, "11 of 11 contacts through Table 3.1’s box, 0 failures"));
     let table = exported(&mut harness, "along.csv");
     assert_eq!(table.len(), 3 + 11);
+    let range = "radius: (2e-3, 4e-3), speed: (1.0, 10.0), load: (1e5, 5e5), alpha: (5e-9, 20e-9), modulus: 231e9, \
+        viscosity: 0.01";
+    let outcome = headless(&format!("Trajectory(range: ({range}), points: 11, methods: [Reduced(), Full])"));
+    assert_same(&table, &outcome, &[("H_c", "reduced.H_c"), ("H_c_full", "full.H_c")]);
     harness.get_by_label("Film along the trajectory");
     harness.get_by_label("Error along the trajectory");
     choose(&mut harness, "Through", "the trained range");

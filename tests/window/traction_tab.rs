@@ -8,6 +8,7 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
+use ehl_explorer::engine::{Workbench, run_scene};
 use ehl_explorer::scene::Scene;
 use std::path::Path;
 
@@ -177,6 +178,15 @@ fn the_curve_follows_the_sliders_full_solutions_lie_on_it_and_a_press_goes_there
     let table = export(&mut harness, "Export CSV…", &folder.join("traction.csv"));
     let rows = Table::of(&table).rows;
     assert_full_beside_reduced(&rows, |_| 1e-4);
+    // The same sweep headless gives the same numbers.
+    let mut scene = Scene::read(Path::new("scenes/shear/fig_3_14_line.ron")).unwrap();
+    let axis = "Scene(version: 1, title: \"t\", at: Moes(m: 40.0, l: 10.0), study: Sweep(over: \
+        [(vary: SlideToRollRatio, values: Linear(from: 0.0, to: 1.0, n: 41))], methods: [Reduced()]))";
+    (scene.study, scene.npr) = (Scene::from_ron(axis).unwrap().study, Some(0.4));
+    let outcome = run_scene(&scene, &mut Workbench::new(""), &()).unwrap();
+    let headless = Table::of(&outcome.tables[0].to_csv()).column("reduced.traction");
+    let curve: Vec<f64> = rows.iter().filter(|row| row[0] == 0.0).map(|row| row[6]).collect();
+    assert!(curve.iter().zip(&headless).all(|(a, b)| a.to_bits() == b.abs().to_bits()), "{curve:?} and {headless:?}");
     let figure = export_plot(&mut harness, "Traction and film as SVG…", &folder.join("traction.svg"));
     // Traction and central film are solid, and each full solution has a ring for its traction and both films.
     assert_eq!((solid_curves(&figure), figure.matches("r=\"4.00\" fill=\"none\"").count()), (2, 33));

@@ -1,7 +1,7 @@
 //! How the picture follows the document: at once by the reduced model, else by the full solver in the worker; and when
 //! the sliders rest, the truth about it.
 
-use super::jobs::{GridChoice, JobKind, Request};
+use super::jobs::{FullSolve, GridChoice, JobKind};
 use super::picture::{Cuts, Origin, Picture};
 use super::{Answers, Ask, PassedOver, REST_S};
 use crate::app::document::{Document, Key};
@@ -138,7 +138,7 @@ impl Answers {
             JobKind::Verify => None,
             _ => self.picture.as_ref().map(|p| Arc::clone(&p.solution)),
         };
-        self.jobs.submit(ctx, Request { kind, key, grid, start });
+        self.jobs.submit(ctx, FullSolve { kind, key, grid, start });
     }
 
     /// Starts the verification when the sliders have rested. Called last in every frame.

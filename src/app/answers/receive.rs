@@ -1,7 +1,7 @@
 //! What finished jobs bring: a picture, the truth about it, what its grid costs, or why there is none.
 
 use super::grid_error::GridError;
-use super::jobs::{GridChoice, JobKind, Outcome, Request, Running};
+use super::jobs::{FullSolve, GridChoice, JobKind, Outcome, Running};
 use super::picture::{Comparison, Origin, Picture};
 use super::{Answers, Failure};
 use crate::app::document::Key;
@@ -124,7 +124,7 @@ impl Answers {
         let Mesh::Point(spec) = full.solution.mesh else { return };
         let (key, start) = (full.key, Some(Arc::clone(&full.solution)));
         let grid = GridChoice::Spec(ContactGridSpec::Point(second_grid(spec)));
-        self.jobs.submit(ctx, Request { kind: JobKind::Estimate, key, grid, start });
+        self.jobs.submit(ctx, FullSolve { kind: JobKind::Estimate, key, grid, start });
     }
 }
 

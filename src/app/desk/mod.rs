@@ -145,8 +145,8 @@ impl Desk {
     pub fn study(&self) -> Option<Standing> {
         let transient = &self.transient;
         let studied = self.views.accuracy.standing().or(self.views.results.standing());
-        let in_time = transient.work.standing().or(transient.number.work.standing());
-        studied.or(in_time).or(self.traction.full.standing())
+        let in_time = transient.standing().or(transient.number.work.standing());
+        studied.or(in_time).or(self.traction.full.standing()).or(self.training.standing())
     }
 
     /// Takes in what finished work brings. Called first in every frame.

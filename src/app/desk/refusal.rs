@@ -35,18 +35,15 @@ impl Desk {
                     "A Newtonian lubricant has no plateau ratio to vary",
                 ),
             },
-            Command::RunInTime => match self.transient.work.standing() {
+            Command::RunInTime => match self.transient.standing() {
                 Some(_) => (true, RUNS_ALREADY),
                 None => return self.document.no_transient(),
             },
-            Command::Train => match self.training.job() {
+            Command::Train => match self.training.standing() {
                 Some(_) => (true, "A training or comparison runs already"),
                 None => (self.training.left_behind, "First resume or discard the training that was left unfinished"),
             },
-            Command::Cancel => {
-                let background = self.training.job().is_some() || self.study().is_some();
-                (!background && self.answers.jobs.running().is_empty(), "Nothing runs")
-            }
+            Command::Cancel => (self.study().is_none() && self.answers.jobs.running().is_empty(), "Nothing runs"),
             _ => return None,
         };
         refused.then_some(why)

@@ -37,7 +37,6 @@ pub fn ui(ui: &mut Ui, desk: &Desk, frame_s: f64, commands: &mut Commands) {
                     commands.push(Command::Cancel);
                 }
             }
-            (None, None) if desk.training.job().is_some() => training_ui(ui, desk, commands),
             (None, None) => {
                 let idle = ui.weak("Ready");
                 if let Some(failure) = desk.answers.failure.as_ref().or(desk.answers.verify_failure.as_ref()) {
@@ -61,18 +60,4 @@ pub fn ui(ui: &mut Ui, desk: &Desk, frame_s: f64, commands: &mut Commands) {
             ui.weak("Time per solve");
         });
     });
-}
-
-/// A training at work, in one line.
-fn training_ui(ui: &mut Ui, desk: &Desk, commands: &mut Commands) {
-    let Some(running) = desk.training.job() else { return };
-    let standing = running.job.standing();
-    ui.label(running.job.name());
-    if standing.total > 0 {
-        ui.weak(format!("{}, {} of {}", standing.stage, standing.done, standing.total));
-    }
-    ui.weak(numbers::duration(standing.since_s));
-    if ui.small_button("Cancel").clicked() {
-        commands.push(Command::Cancel);
-    }
 }

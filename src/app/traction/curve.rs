@@ -36,12 +36,12 @@ pub struct Curve {
 
 /// The curve under way, and the one that is wanted when it has ended.
 #[derive(Default)]
-pub struct Live {
+pub struct LiveCurve {
     running: Option<(Curve, usize, Job<StudyRow>)>,
     next: Option<(Context, Store, Sweep, Served)>,
 }
 
-impl Live {
+impl LiveCurve {
     /// Wants a curve; it replaces a request that has not begun.
     pub fn ask(&mut self, ctx: &Context, store: &Store, sweep: Sweep, served: Served) {
         self.next = Some((ctx.clone(), store.clone(), sweep, served));

@@ -18,7 +18,7 @@ use crate::engine::{Store, Workbench};
 use crate::scene::{Grid, Method, StudyRow};
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::physics::contact::Quantity;
-use curve::Live;
+use curve::LiveCurve;
 use egui::Context;
 use serde::{Deserialize, Serialize};
 
@@ -60,7 +60,7 @@ pub struct TractionView {
     pub markers: Option<Markers>,
     /// Their work.
     pub full: Background<StudyRow>,
-    live: Live,
+    live: LiveCurve,
     wanted: Option<(Sweep, Served)>,
 }
 

@@ -1,6 +1,7 @@
 //! Training reduced models from the window: what runs, what it left, and what becomes of it.
 
 pub mod chart;
+pub mod comparison;
 pub mod presets;
 mod worker;
 
@@ -8,14 +9,16 @@ pub use worker::{Made, Running};
 
 use super::answers::Answers;
 use super::document::Document;
-use crate::engine::{ModelComparison, training_file};
+use crate::engine::job::{Background, Standing};
+use crate::engine::training_file;
 use crate::solver::reduced::ReducedModel;
 use crate::solver::training::{Plan, TrainingSpec, TrainingState, WindowState};
 use chart::Chart;
+use comparison::Comparison;
 use egui::Context;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use worker::{Ended, News, Task, Trained};
+use worker::{Ended, Trained};
 
 /// Name of the file in the session's folder.
 const FILE: &str = "unfinished.training";
@@ -52,6 +55,7 @@ pub enum TrainingCommand {
 #[derive(Default)]
 pub struct Training {
     job: Option<Running>,
+    looking: Background<Box<TrainingState>>,
     /// What is drawn.
     pub chart: Arc<Chart>,
     /// The training that the chart and the model belong to.
@@ -65,7 +69,7 @@ pub struct Training {
     /// The model that was in use before it.
     pub former: Option<Arc<ReducedModel>>,
     /// Both side by side.
-    pub comparison: Option<ModelComparison>,
+    pub comparison: Option<Comparison>,
     /// How the last job ended.
     pub notices: Vec<Notice>,
     file: Option<PathBuf>,
@@ -80,13 +84,19 @@ impl Training {
     /// Looks for a training that a former session left behind.
     pub fn look(&mut self, ctx: &Context) {
         if let Some(path) = &self.file {
-            self.job = Some(Running::start(ctx, Task::Look(path.clone())));
+            self.looking.run(worker::look(ctx, path.clone()));
         }
     }
 
-    /// What runs.
+    /// The training that runs.
     pub fn job(&self) -> Option<&Running> {
         self.job.as_ref()
+    }
+
+    /// How far the work is: a training, a look for one, a comparison.
+    pub fn standing(&self) -> Option<Standing> {
+        let trains = self.job.as_ref().map(|running| running.job.standing());
+        trains.or_else(|| self.looking.standing()).or_else(|| self.comparison.as_ref()?.standing())
     }
 
     /// Starts the training that the document shows, unless its specification is refused.
@@ -132,9 +142,11 @@ impl Training {
         let in_use = answers.models.of(made.model.contact(), &spec.lubricant);
         let in_use = in_use.filter(|model| !Arc::ptr_eq(model, &made.model));
         let Some(former) = in_use.or(self.former.as_ref()) else { return };
-        let task = Task::Compare(Arc::clone(former), Arc::clone(&made.model), spec.clone());
-        self.comparison = None;
-        self.job = Some(Running::start(ctx, task));
+        let models = [Arc::clone(former), Arc::clone(&made.model)];
+        match Comparison::start(ctx, &answers.store, models, spec) {
+            Ok(comparison) => self.comparison = Some(comparison),
+            Err(why) => self.notices.push(Notice::Wrong(why)),
+        }
     }
 
     /// Trains on from a state.
@@ -146,7 +158,7 @@ impl Training {
         self.made = None;
         self.comparison = None;
         self.notices.clear();
-        self.job = Some(Running::start(ctx, Task::Train(Box::new(state), self.file.clone())));
+        self.job = Some(Running::start(ctx, state, self.file.clone()));
     }
 
     fn discard(&mut self) {
@@ -165,36 +177,35 @@ impl Training {
         if let Some(running) = &self.job {
             running.job.stop();
         }
+        self.comparison.iter().for_each(Comparison::stop);
     }
 
-    /// Takes the result of a job that has ended.
+    /// Takes in what came since the last frame.
     pub fn receive(&mut self) {
-        let Some(running) = &mut self.job else { return };
-        if running.trains {
-            self.chart = running.chart();
-            self.notices.extend(running.unkept().map(Notice::Wrong));
+        let mut found = None;
+        self.looking.receive(|state| found = Some(state));
+        if let Some(state) = found {
+            self.chart = Arc::new(Chart::of(&state));
+            self.spec = Some(Box::new(state.spec.clone()));
+            self.unfinished = Some(state);
+            self.left_behind = true;
         }
-        let Some((ending, news)) = running.receive() else { return };
+        if let Some(why) = self.looking.message.take() {
+            // Whatever it is, it is not ours to overwrite.
+            self.file = None;
+            self.notices.push(Notice::Wrong(format!("{why}. Until then trainings are not kept on disk")));
+        }
+        let wrong = self.comparison.as_mut().and_then(Comparison::receive);
+        self.notices.extend(wrong.map(Notice::Wrong));
+        let Some(running) = &mut self.job else { return };
+        self.chart = running.chart();
+        self.notices.extend(running.unkept().map(Notice::Wrong));
+        let Some((ending, trained)) = running.receive() else { return };
         let seconds = running.job.since().elapsed().as_secs_f64();
         self.job = None;
-        if let Err(why) = ending {
-            self.notices.push(Notice::Wrong(why));
-        }
-        match news {
-            Some(News::Found(Ok(Some(state)))) => {
-                self.chart = Arc::new(Chart::of(&state));
-                self.spec = Some(Box::new(state.spec.clone()));
-                self.unfinished = Some(state);
-                self.left_behind = true;
-            }
-            Some(News::Found(Ok(None))) | None => {}
-            Some(News::Found(Err(message))) => {
-                // Whatever it is, it is not ours to overwrite.
-                self.file = None;
-                self.notices.push(Notice::Wrong(format!("{message}. Until then trainings are not kept on disk")));
-            }
-            Some(News::Compared(comparison)) => self.comparison = Some(comparison),
-            Some(News::Trained(trained)) => self.take(*trained, seconds),
+        self.notices.extend(ending.err().map(Notice::Wrong));
+        if let Some(trained) = trained {
+            self.take(trained, seconds);
         }
     }
 

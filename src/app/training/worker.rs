@@ -3,8 +3,8 @@
 use super::chart::Chart;
 use crate::app::answers::jobs::wake;
 use crate::engine::job::{Ending, Job, Reporter, guarded, on_spare_cores};
+use crate::engine::model_file;
 use crate::engine::training_file::{self, TrainingKeeper};
-use crate::engine::{ModelComparison, compare_models, model_file};
 use crate::solver::reduced::ReducedModel;
 use crate::solver::training::{
     Observer, Plan, Progress, TrainingError, TrainingObserver, TrainingSpec, TrainingState, Windows, train_resumable,
@@ -14,32 +14,8 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
-/// Random points at which two models are compared.
-const COMPARED_POINTS: usize = 200;
-/// Seed of those points: the same ones for every pair.
-const COMPARED_SEED: u64 = 31;
 /// Checkpoints by which the pace is judged.
 const PACE: usize = 12;
-
-/// What is to be done.
-pub enum Task {
-    /// Look for a training that a former session left behind.
-    Look(PathBuf),
-    /// Train on from a state; it is kept in the file meanwhile.
-    Train(Box<TrainingState>, Option<PathBuf>),
-    /// Compare two models over the range of the second's training.
-    Compare(Arc<ReducedModel>, Arc<ReducedModel>, Box<TrainingSpec>),
-}
-
-/// What comes of it.
-pub enum News {
-    /// What a former session left behind, or a sentence why it is of no use.
-    Found(Result<Option<Box<TrainingState>>, String>),
-    /// The end of a training.
-    Trained(Box<Trained>),
-    /// The comparison.
-    Compared(ModelComparison),
-}
 
 /// How a training ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -98,49 +74,37 @@ fn most_solutions(spec: &TrainingSpec) -> usize {
     }
 }
 
-/// Work that runs.
+/// A training that runs.
 pub struct Running {
-    /// Whether it is a training.
-    pub trains: bool,
     /// Most full solutions there will be.
     pub most: usize,
     /// Whether there may be fewer.
     pub fewer: bool,
     live: Arc<Mutex<Live>>,
-    news: Option<News>,
+    trained: Option<Trained>,
     /// How far it is.
-    pub job: Job<News>,
+    pub job: Job<Trained>,
 }
 
 impl Running {
-    /// Begins.
-    pub fn start(ctx: &egui::Context, task: Task) -> Self {
-        let (mut live, mut most, mut fewer) = (Live::default(), 0, false);
-        let name = match &task {
-            Task::Look(_) => "Looking for an unfinished training",
-            Task::Train(state, _) => {
-                live.chart = Arc::new(Chart::of(state));
-                most = most_solutions(&state.spec);
-                fewer = state.spec.plan.searches();
-                "Training"
-            }
-            Task::Compare(..) => "Comparing two models",
-        };
-        let trains = matches!(task, Task::Train(..));
-        let live = Arc::new(Mutex::new(live));
+    /// Trains on from a state; it is kept in the file meanwhile.
+    pub fn start(ctx: &egui::Context, state: TrainingState, file: Option<PathBuf>) -> Self {
+        let (most, fewer) = (most_solutions(&state.spec), state.spec.plan.searches());
+        let live = Arc::new(Mutex::new(Live { chart: Arc::new(Chart::of(&state)), ..Live::default() }));
         let theirs = Arc::clone(&live);
-        let job = Job::start(name, wake(ctx), move |reporter| {
-            let watch = Watch { reporter, live: theirs, searches: fewer, keeper: None };
-            on_spare_cores(|| work(task, watch))
+        let job = Job::start("Training", wake(ctx), move |reporter| {
+            let watched = Watched { reporter, live: theirs, searches: fewer, keeper: None };
+            reporter.send(on_spare_cores(|| train(state, file, watched)));
+            Ok(())
         });
-        Self { trains, most, fewer, live, news: None, job }
+        Self { most, fewer, live, trained: None, job }
     }
 
     /// How it ended and what came of it, once it has ended.
-    pub fn receive(&mut self) -> Option<(Ending, Option<News>)> {
-        let news = &mut self.news;
-        let ending = self.job.poll(|came| *news = Some(came))?;
-        Some((ending, self.news.take()))
+    pub fn receive(&mut self) -> Option<(Ending, Option<Trained>)> {
+        let trained = &mut self.trained;
+        let ending = self.job.poll(|came| *trained = Some(came))?;
+        Some((ending, self.trained.take()))
     }
 
     /// Why the training is not kept on disk, once.
@@ -170,14 +134,14 @@ fn lock(live: &Mutex<Live>) -> MutexGuard<'_, Live> {
 }
 
 /// Shows the work in the window and keeps it on disk.
-struct Watch<'a> {
-    reporter: &'a Reporter<News>,
+struct Watched<'a> {
+    reporter: &'a Reporter<Trained>,
     live: Arc<Mutex<Live>>,
     searches: bool,
     keeper: Option<TrainingKeeper>,
 }
 
-impl Observer for Watch<'_> {
+impl Observer for Watched<'_> {
     fn progress(&self, progress: Progress) {
         self.reporter.progress(progress);
     }
@@ -187,7 +151,7 @@ impl Observer for Watch<'_> {
     }
 }
 
-impl TrainingObserver for Watch<'_> {
+impl TrainingObserver for Watched<'_> {
     fn checkpoint(&self, state: &TrainingState) {
         if let Some(Err(reason)) = self.keeper.as_ref().map(|keeper| keeper.checkpoint(state)) {
             lock(&self.live).unkept = Some(reason.to_string());
@@ -205,29 +169,17 @@ impl TrainingObserver for Watch<'_> {
     }
 }
 
-fn work(task: Task, watch: Watch<'_>) -> Ending {
-    let reporter = watch.reporter;
-    reporter.send(match task {
-        Task::Look(path) => News::Found(look(path)),
-        Task::Train(state, file) => News::Trained(Box::new(train(*state, file, watch))),
-        Task::Compare(former, made, spec) => {
-            let models = [former, made];
-            let compared =
-                compare_models(&models, &spec.range, spec.lubricant, COMPARED_POINTS, COMPARED_SEED, reporter);
-            News::Compared(compared.map_err(|error| error.to_string())?)
+/// Begins to look for a training that a former session left behind in a file; nothing comes where there is none.
+pub fn look(ctx: &egui::Context, path: PathBuf) -> Job<Box<TrainingState>> {
+    Job::start("Looking for an unfinished training", wake(ctx), move |reporter| {
+        if path.exists() {
+            reporter.send(Box::new(training_file::read(&path).map_err(|error| error.to_string())?));
         }
-    });
-    Ok(())
+        Ok(())
+    })
 }
 
-fn look(path: PathBuf) -> Result<Option<Box<TrainingState>>, String> {
-    if !path.exists() {
-        return Ok(None);
-    }
-    training_file::read(&path).map(|state| Some(Box::new(state))).map_err(|error| error.to_string())
-}
-
-fn train(mut state: TrainingState, file: Option<PathBuf>, mut watch: Watch<'_>) -> Trained {
+fn train(mut state: TrainingState, file: Option<PathBuf>, mut watch: Watched<'_>) -> Trained {
     match file.map(TrainingKeeper::new).transpose() {
         Ok(keeper) => watch.keeper = keeper,
         Err(reason) => lock(&watch.live).unkept = Some(format!("{reason}. This training is not kept on disk")),
@@ -250,7 +202,7 @@ fn train(mut state: TrainingState, file: Option<PathBuf>, mut watch: Watch<'_>) 
 }
 
 /// The model of what there is, unless that is not wanted either.
-fn rest(state: &TrainingState, reporter: &Reporter<News>) -> Result<Made, String> {
+fn rest(state: &TrainingState, reporter: &Reporter<Trained>) -> Result<Made, String> {
     guarded(|| state.model(&reporter.abandoned())).and_then(|result| match result {
         Ok(model) => file_of(model),
         Err(TrainingError::Cancelled) => Err("no model was made of them".to_owned()),

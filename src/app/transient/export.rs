@@ -1,6 +1,6 @@
 //! Contacts in time for other programs: the series of all runs, and their profiles at the moment that is looked at.
 
-use super::{Run, Setup, TransientView};
+use super::{Run, Setup, TransientView, method};
 use crate::app::export;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::transient::{Inputs, Signal};
@@ -61,7 +61,7 @@ pub fn profiles(view: &TransientView) -> Option<String> {
 }
 
 fn name(run: &Run) -> String {
-    format!("{}.{}", run.method.word(), run.frame().name())
+    format!("{}.{}", method::word(run.by), run.frame().name())
 }
 
 fn table(setup: &Setup, more: &[String], columns: &[&str], blocks: Vec<Block>) -> String {
@@ -83,9 +83,10 @@ fn table(setup: &Setup, more: &[String], columns: &[&str], blocks: Vec<Block>) -
 /// The set-up as lines over a table.
 pub fn describe(setup: &Setup) -> Vec<String> {
     let Inputs { radius, speed, load } = &setup.study.inputs;
-    let grid = match setup.grid {
-        GridSpec::Uniform { dx, domain } => format!("uniform grid of {dx} over {domain:?}"),
-        GridSpec::Graded { nodes, domain, .. } => format!("{nodes} graded nodes over {domain:?}"),
+    let grid = match setup.grid.spec() {
+        Some(GridSpec::Uniform { dx, domain }) => format!("uniform grid of {dx} over {domain:?}"),
+        Some(GridSpec::Graded { nodes, domain, .. }) => format!("{nodes} graded nodes over {domain:?}"),
+        None => "the reduced model's grid".to_owned(),
     };
     let described = |signal: &Signal| match signal {
         Signal::Sampled { times, .. } => format!("{} given values", times.len()),

@@ -5,13 +5,13 @@ use super::Run;
 use super::method::{RULES, WEIGHTINGS, rule_name};
 use crate::app::answers::jobs::wake;
 use crate::engine::job::{Background, Ending, Job, Reporter};
-use crate::solver::full::transient::{Keep, Moment, Quantity, Trajectory, Transient, TransientObserver, march};
-use crate::solver::observer::Observer;
+use crate::engine::median;
+use crate::scene::study::transient::{Timed, timed_march};
+use crate::solver::full::transient::{Keep, Moment, Quantity, Trajectory, Transient};
 use crate::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, Weight, Weighting};
 use crate::solver::training::on_one_thread;
 use egui::Context;
-use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Instant;
+use std::sync::Arc;
 
 /// A linearised model with what is shown of it.
 pub struct Linearised {
@@ -121,6 +121,7 @@ pub struct NumberStudy {
     pub work: Background<NumberRow>,
 }
 
+const STAGE: &str = "Number of operating points";
 /// Most operating points that are tried.
 const MOST_POINTS: usize = 160;
 /// Fewest that are.
@@ -134,14 +135,17 @@ impl NumberStudy {
     /// Starts it anew on the inputs of a full run.
     pub fn start(&mut self, ctx: &Context, model: Arc<TpwlModel>, full: Trajectory) {
         self.rows.clear();
-        self.work
-            .run(Job::start("Number of operating points", wake(ctx), move |reporter| work(&model, &full, reporter)));
+        self.work.run(Job::start(STAGE, wake(ctx), move |reporter| work(&model, &full, reporter)));
     }
 
     /// Takes in what came.
     pub fn receive(&mut self) {
         self.work.receive(|row| self.rows.push(row));
     }
+}
+
+fn stage(rule: Selection) -> String {
+    format!("{STAGE}, {}", rule_name(rule).0)
 }
 
 fn work(model: &Arc<TpwlModel>, full: &Trajectory, reporter: &Reporter<NumberRow>) -> Ending {
@@ -152,19 +156,18 @@ fn work(model: &Arc<TpwlModel>, full: &Trajectory, reporter: &Reporter<NumberRow
         let mut last = 0;
         for rung in 0..RUNGS {
             let selection = rule.with_tolerance(coarsest * 0.5f64.powi(rung as i32));
-            let stage = format!("Number of operating points, {}", rule_name(rule).0);
-            reporter.stage(&stage, last, most);
+            reporter.stage(&stage(rule), last, most);
             let shared = Arc::clone(model);
             let Ok(made) = on_one_thread(reporter, move || shared.reselected(selection)) else { return Ok(()) };
             let made = made.map_err(|error| error.to_string())?;
             let points = made.points.len();
             if points >= LEAST_POINTS && points > last {
                 for weighting in WEIGHTINGS {
-                    let row = tried(&made, &transient, full, weighting, reporter)?;
+                    let row = tried(&made, &transient, full, weighting, reporter);
                     if reporter.cancelled() {
                         return Ok(());
                     }
-                    reporter.send(row);
+                    reporter.send(row?);
                 }
             }
             last = last.max(points);
@@ -185,36 +188,14 @@ fn tried(
     reporter: &Reporter<NumberRow>,
 ) -> Result<NumberRow, String> {
     let mut marching = TpwlMarch::new(model, transient, weighting).map_err(|error| error.to_string())?;
-    let clock = Clock { reporter, steps: Mutex::new((Instant::now(), Vec::new())) };
-    let trajectory = march(&mut marching, transient, &clock).map_err(|error| error.to_string())?;
-    let (_, seconds) = clock.steps.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let marched = timed_march(&mut marching, transient, stage(model.training.selection), reporter, None);
+    let Timed { trajectory, seconds } = marched.map_err(|error| error.to_string())?;
     let difference = trajectory.difference(full, Quantity::CentralFilm, (0.0, transient.duration));
     Ok(NumberRow {
         selection: model.training.selection,
         points: model.points.len(),
         weighting,
         difference: difference.filter(|_| trajectory.finished()).map(|(_, l2)| l2),
-        step_s: crate::engine::median(seconds.get(1..).unwrap_or(&[])),
+        step_s: median(&seconds),
     })
-}
-
-/// Measures every step, and stops with the study.
-struct Clock<'a> {
-    reporter: &'a Reporter<NumberRow>,
-    steps: Mutex<(Instant, Vec<f64>)>,
-}
-
-impl Observer for Clock<'_> {
-    fn cancelled(&self) -> bool {
-        self.reporter.cancelled()
-    }
-}
-
-impl TransientObserver for Clock<'_> {
-    fn moment(&self, _moment: &Moment) {
-        let mut steps = self.steps.lock().unwrap_or_else(PoisonError::into_inner);
-        let seconds = steps.0.elapsed().as_secs_f64();
-        steps.1.push(seconds);
-        steps.0 = Instant::now();
-    }
 }

@@ -1,30 +1,17 @@
 //! The methods by which the steps of a contact in time can be solved, and the frames they are solved in, as people call
 //! them.
 
+use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::{Frame, Interpolation};
 use crate::solver::reduced::tpwl::{Selection, Weighting};
 
-/// How the steps of a contact in time are solved. A further method slots in here and where the worker builds its model.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Method {
-    /// The full system.
-    #[default]
-    Full,
-    /// A reduced model that is trained beforehand (RNSA).
-    Reduced,
-    /// A superposition of linearised systems (TPWL), by one of its weightings.
-    Linearised(Weighting),
-}
-
-impl Method {
-    /// The word that stands for it in tables.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Full => "full",
-            Self::Reduced => "rnsa",
-            Self::Linearised(Weighting::DualTaylor) => "tpwl_dual_taylor",
-            Self::Linearised(Weighting::Dissertation) => "tpwl_dissertation",
-        }
+/// The word that stands for a method in tables.
+pub fn word(by: MarchedBy) -> &'static str {
+    match by {
+        MarchedBy::Full => "full",
+        MarchedBy::Reduced => "rnsa",
+        MarchedBy::Linearised(Weighting::DualTaylor) => "tpwl_dual_taylor",
+        MarchedBy::Linearised(Weighting::Dissertation) => "tpwl_dissertation",
     }
 }
 
@@ -53,14 +40,14 @@ pub fn frame_meaning(frame: Frame) -> &'static str {
 }
 
 /// The name of a run among others.
-pub fn run_name(method: Method, frame: Frame) -> String {
+pub fn run_name(by: MarchedBy, frame: Frame) -> String {
     let frame = frame_name(frame);
-    match method {
-        Method::Full => frame.to_owned(),
-        Method::Reduced => format!("{frame}, reduced"),
+    match by {
+        MarchedBy::Full => frame.to_owned(),
+        MarchedBy::Reduced => format!("{frame}, reduced"),
         // It lives in the fixed frame alone.
-        Method::Linearised(Weighting::DualTaylor) => "Linearised, dual Taylor".to_owned(),
-        Method::Linearised(Weighting::Dissertation) => "Linearised, weights (4.29)".to_owned(),
+        MarchedBy::Linearised(Weighting::DualTaylor) => "Linearised, dual Taylor".to_owned(),
+        MarchedBy::Linearised(Weighting::Dissertation) => "Linearised, weights (4.29)".to_owned(),
     }
 }
 

@@ -6,23 +6,24 @@ pub mod linearised;
 pub mod method;
 mod player;
 mod run;
-mod worker;
 
 pub use player::Player;
 pub use run::{ModelSize, Run};
-pub use worker::News;
 
-use super::document::{Document, HOME};
-use crate::engine::job::Background;
-use crate::scene::{At, Grid, Scene, Study, TransientStudy};
-use crate::solver::discrete::grid::GridSpec;
-use crate::solver::full::transient::{Frame, Inputs, Quantity, Signal, TimeStep};
+use super::answers::jobs::wake;
+use super::document::Document;
+use super::document::Key;
+use super::in_use::question;
+use crate::engine::job::{Background, Job, Standing};
+use crate::engine::{Store, Workbench};
+use crate::scene::study::transient::{Kind, MarchedBy, Model, Row};
+use crate::scene::{Grid, LinearisedTransient, Scene, Study, StudyRow, TransientStudy};
+use crate::solver::full::transient::{Ended, Frame, Inputs, Moment, Quantity, Signal, TimeStep};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use crate::solver::reduced::tpwl::Weighting;
 use egui::Context;
-use linearised::{Linearised, NumberStudy};
-use method::Method;
+use linearised::{Linearised, NumberStudy, OtherRule};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -38,7 +39,7 @@ pub struct Setup {
     /// The table that inputs are taken from when it is run.
     pub sampled: Option<PathBuf>,
     /// The grid of the full system.
-    pub grid: GridSpec,
+    pub grid: Grid,
 }
 
 /// What can be asked of contacts in time.
@@ -72,11 +73,17 @@ pub struct TransientView {
     /// How many operating points it takes.
     pub number: NumberStudy,
     /// What runs, and why there is nothing or no more.
-    pub work: Background<News>,
+    pub work: Background<StudyRow>,
+    /// Seconds and moments of the marches that the models of the last frame are trained by, where they are others.
+    trained: Option<(f64, Vec<Vec<Moment>>)>,
+    /// What the next march by a model is made of.
+    model: Option<ModelSize>,
+    looking: Background<Linearised>,
     /// Why a model could not be had of a run.
     pub notes: Vec<String>,
     /// The moment that is looked at.
     pub player: Player,
+    ctx: Option<Context>,
     /// Counts the starts: plots of new results forget how the former ones were zoomed.
     pub generation: u64,
 }
@@ -91,8 +98,23 @@ impl Setup {
             lubricant: document.lubricant,
             sampled: study.sampled.as_ref().map(|path| folder.join(path)),
             study,
-            grid: document.transient_grid().spec().unwrap_or(GridSpec::EXPLORER),
+            grid: document.transient_grid(),
         }
+    }
+
+    /// The question: the study itself, without what only headless runs compare.
+    fn question(&self) -> Scene {
+        let once = |linearised: &LinearisedTransient| LinearisedTransient { further: Vec::new(), ..linearised.clone() };
+        let study = TransientStudy {
+            sampled: self.sampled.clone(),
+            further: Vec::new(),
+            published: Vec::new(),
+            mass_between: None,
+            linearised: self.study.linearised.as_ref().map(once),
+            ..self.study.clone()
+        };
+        let key = Key { point: self.point, lubricant: self.lubricant };
+        question("Contact in time", &key, self.grid, Study::Transient(study))
     }
 
     /// Seconds per unit of T: a/u_m of the reference contact.
@@ -105,24 +127,19 @@ impl TransientView {
     /// Takes in what came since the last frame.
     pub fn receive(&mut self) {
         self.number.receive();
-        let (runs, linearised, notes) = (&mut self.runs, &mut self.linearised, &mut self.notes);
-        self.work.receive(|news| match (news, runs.last_mut()) {
-            (News::Begun { method, trajectory, model }, _) => runs.push(Run::begun(method, *trajectory, model)),
-            (News::Linearised(model), _) => *linearised = Some(model),
-            (News::Refused(why), _) => notes.push(why),
-            (News::Record(record), Some(run)) => run.record = Some(*record),
-            (News::Moment(moment, seconds), Some(run)) => {
-                run.trajectory.moments.push(moment);
-                run.seconds.push(seconds);
+        let (mut rows, works) = (Vec::new(), self.work.job().is_some());
+        self.work.receive(|row| rows.push(row));
+        for row in rows {
+            if let StudyRow::Transient(row) = row {
+                self.take(row);
             }
-            (News::State(state), Some(run)) => run.trajectory.states.push(state),
-            (News::Ended(ended, rejected), Some(run)) => {
-                run.ended = true;
-                run.trajectory.ended = ended;
-                run.trajectory.rejected_steps = rejected;
-            }
-            (News::Moment(..) | News::State(_) | News::Ended(..) | News::Record(_), None) => {}
-        });
+        }
+        let stopped = works && self.work.job().is_none() && self.work.message.is_none();
+        if let Some(run) = self.runs.last_mut().filter(|run| stopped && !run.ended) {
+            (run.ended, run.trajectory.ended) = (true, Ended::Cancelled { time: run.reached() });
+        }
+        let linearised = &mut self.linearised;
+        self.looking.receive(|found| *linearised = Some(Arc::new(found)));
         for k in 0..self.runs.len() {
             if self.runs[k].ended && self.runs[k].difference.is_none() {
                 self.runs[k].difference = self.difference(k);
@@ -132,13 +149,68 @@ impl TransientView {
         self.player.reached(reached);
     }
 
+    fn take(&mut self, row: Row) {
+        match (row, self.runs.last_mut()) {
+            (Row::Begun { by, trajectory, .. }, _) => {
+                let model = self.model.filter(|_| by != MarchedBy::Full);
+                self.runs.push(Run::begun(by, *trajectory, model));
+            }
+            (Row::Moment { moment, seconds, .. }, Some(run)) => {
+                run.trajectory.moments.push(moment);
+                run.seconds.push(seconds);
+            }
+            (Row::State { state, .. }, Some(run)) => run.trajectory.states.push(Arc::unwrap_or_clone(state)),
+            (Row::Marched(march), Some(run)) => {
+                run.ended = true;
+                run.trajectory.ended = march.trajectory.ended.clone();
+                run.trajectory.rejected_steps = march.trajectory.rejected_steps;
+                run.record.clone_from(&march.record);
+                if run.by == MarchedBy::Full {
+                    self.trained = None;
+                }
+            }
+            (Row::Trained { wall_s, moments, cut_short, .. }, _) => {
+                self.trained = Some((wall_s, moments));
+                self.notes.extend(cut_short);
+            }
+            (Row::Model(model), _) => self.take_model(&model),
+            (Row::Moment { .. } | Row::State { .. } | Row::Marched(_), None) => {}
+        }
+    }
+
+    fn take_model(&mut self, made: &Model) {
+        let trained_s = self.trained.as_ref().map_or(0.0, |trained| trained.0);
+        let what = if matches!(made.kind, Kind::Reduced(_)) { "rows" } else { "operating points" };
+        let (modes, chosen, training_s) = (made.modes(), made.chosen(), trained_s + made.wall_s);
+        self.model = Some(ModelSize { modes, chosen, what, training_s });
+        let (Kind::Linearised { model, .. }, Some(ctx)) = (&made.kind, &self.ctx) else { return };
+        let own = self.runs.iter().rev().find(|run| run.by == MarchedBy::Full);
+        let own = || own.map(|run| run.trajectory.moments.clone()).into_iter().collect();
+        let (trainings, own) = match &self.trained {
+            Some((_, trainings)) => (trainings.clone(), false),
+            None => (own(), true),
+        };
+        let model = Arc::clone(model);
+        // What the other rule would choose takes longer than a frame.
+        self.looking.run(Job::start("Looking into the linearised model", wake(ctx), move |reporter| {
+            let other = OtherRule::of(&model);
+            reporter.send(Linearised { model, trainings, own, other });
+            Ok(())
+        }));
+    }
+
+    /// How far the runs are.
+    pub fn standing(&self) -> Option<Standing> {
+        self.work.standing().or_else(|| self.looking.standing())
+    }
+
     /// What a run is compared with: a model with the full system in its frame, a full one with the first; `None` for the first itself.
     pub fn reference_of(&self, k: usize) -> Option<&Run> {
         let (run, earlier) = (self.runs.get(k)?, self.runs.get(..k)?);
-        match run.method {
-            Method::Full => earlier.first(),
-            Method::Reduced | Method::Linearised(_) => {
-                earlier.iter().find(|other| other.method == Method::Full && other.frame() == run.frame())
+        match run.by {
+            MarchedBy::Full => earlier.first(),
+            MarchedBy::Reduced | MarchedBy::Linearised(_) => {
+                earlier.iter().find(|other| other.by == MarchedBy::Full && other.frame() == run.frame())
             }
         }
     }
@@ -151,22 +223,22 @@ impl TransientView {
 
     /// The runs of the linearised model, by their weightings.
     pub fn linearised_runs(&self) -> impl Iterator<Item = (Weighting, &Run)> {
-        self.runs.iter().filter_map(|run| match run.method {
-            Method::Linearised(weighting) => Some((weighting, run)),
-            Method::Full | Method::Reduced => None,
+        self.runs.iter().filter_map(|run| match run.by {
+            MarchedBy::Linearised(weighting) => Some((weighting, run)),
+            MarchedBy::Full | MarchedBy::Reduced => None,
         })
     }
 
     /// The full run that the linearised ones are compared with.
     pub fn reference_of_linearised(&self) -> Option<&Run> {
-        let first = self.runs.iter().position(|run| matches!(run.method, Method::Linearised(_)))?;
+        let first = self.runs.iter().position(|run| matches!(run.by, MarchedBy::Linearised(_)))?;
         self.reference_of(first)
     }
 
     /// Does what was asked for.
-    pub fn execute(&mut self, ctx: &Context, command: InTimeCommand) {
+    pub fn execute(&mut self, ctx: &Context, store: &Store, command: InTimeCommand) {
         match command {
-            InTimeCommand::Run(setup) => self.start(ctx, *setup),
+            InTimeCommand::Run(setup) => self.start(ctx, store, *setup),
             InTimeCommand::Stop => self.stop(),
             InTimeCommand::GoTo(time) => self.player.go_to(time),
             InTimeCommand::TogglePlay => self.player.toggle(),
@@ -191,20 +263,14 @@ impl TransientView {
     }
 
     /// Runs a contact in time, unless it is refused.
-    pub fn start(&mut self, ctx: &Context, setup: Setup) {
+    pub fn start(&mut self, ctx: &Context, store: &Store, setup: Setup) {
         if let Err(error) = setup.study.own_march(setup.point, setup.lubricant, Frame::Fixed).problem() {
             self.work.message = Some(error.to_string());
             return;
         }
-        let setup = Arc::new(setup);
-        self.notes.clear();
-        self.runs.clear();
-        self.linearised = None;
-        self.number = NumberStudy::default();
-        self.generation += 1;
-        self.player = Player::default();
-        self.work.run(worker::start(ctx, Arc::clone(&setup)));
-        self.setup = Some(setup);
+        *self = Self { generation: self.generation + 1, ctx: Some(ctx.clone()), ..Self::default() };
+        self.work.run(setup.question().ask(Workbench::on(store, ""), wake(ctx)));
+        self.setup = Some(Arc::new(setup));
     }
 }
 
@@ -220,14 +286,8 @@ impl Document {
     /// A sentence when it makes no sense; the document is unchanged then.
     pub fn set_transient(&mut self, study: TransientStudy) -> Result<(), String> {
         study.own_march(self.point, self.lubricant, Frame::Fixed).problem().map_err(|e| e.to_string())?;
-        let scene = Scene {
-            at: At::from(self.point),
-            lubricant: self.lubricant,
-            grid: self.transient_grid(),
-            study: Study::Transient(study.clone()),
-            ..Scene::at_moes(HOME.m, HOME.l)
-        };
-        scene.check().map_err(|e| e.to_string())?;
+        let asked = question("Contact in time", &self.key(), self.transient_grid(), Study::Transient(study.clone()));
+        asked.check().map_err(|e| e.to_string())?;
         self.transient = Some(study);
         Ok(())
     }

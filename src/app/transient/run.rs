@@ -1,6 +1,8 @@
 //! One method in one frame: what has come of it, and what it cost.
 
-use super::method::{self, Method};
+use super::method;
+use crate::engine::median;
+use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::{Frame, State, Trajectory};
 use crate::solver::reduced::tpwl::TpwlRecord;
 
@@ -10,7 +12,7 @@ const ROUNDING: f64 = 1e-12;
 /// One method in one frame, as far as it has come.
 pub struct Run {
     /// How its steps are solved.
-    pub method: Method,
+    pub by: MarchedBy,
     /// What has come of it; how it ended counts once it has.
     pub trajectory: Trajectory,
     /// Seconds that each moment took.
@@ -41,12 +43,12 @@ pub struct ModelSize {
 impl Run {
     /// Its name among others.
     pub fn name(&self) -> String {
-        method::run_name(self.method, self.frame())
+        method::run_name(self.by, self.frame())
     }
 
     /// A run of which nothing is known yet.
-    pub fn begun(method: Method, trajectory: Trajectory, model: Option<ModelSize>) -> Self {
-        Self { method, trajectory, seconds: Vec::new(), ended: false, model, difference: None, record: None }
+    pub fn begun(by: MarchedBy, trajectory: Trajectory, model: Option<ModelSize>) -> Self {
+        Self { by, trajectory, seconds: Vec::new(), ended: false, model, difference: None, record: None }
     }
 
     /// The step of its record that led to T, or the last one before.
@@ -81,23 +83,11 @@ impl Run {
 
     /// Its trajectory with no fields, to be compared with.
     pub fn without_fields(&self) -> Trajectory {
-        let Trajectory { transient, problem, mesh, moments, rejected_steps, ended, .. } = &self.trajectory;
-        Trajectory {
-            transient: transient.clone(),
-            problem: *problem,
-            mesh: *mesh,
-            x: Vec::new(),
-            moments: moments.clone(),
-            states: Vec::new(),
-            rejected_steps: *rejected_steps,
-            ended: ended.clone(),
-        }
+        Trajectory { x: Vec::new(), states: Vec::new(), ..self.trajectory.clone() }
     }
 
     /// The median of the seconds per step, without the start; `None` before the first step.
     pub fn seconds_per_step(&self) -> Option<f64> {
-        let mut seconds = self.seconds.get(1..)?.to_vec();
-        let middle = seconds.len() / 2;
-        (middle < seconds.len()).then(|| *seconds.select_nth_unstable_by(middle, f64::total_cmp).1)
+        Some(median(self.seconds.get(1..)?)).filter(|seconds| seconds.is_finite())
     }
 }

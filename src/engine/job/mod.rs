@@ -82,7 +82,6 @@ impl Wish {
 
 /// Work under way, or waiting for its thread.
 pub struct Job<M> {
-    name: String,
     events: Receiver<Event<M>>,
     wish: Arc<Wish>,
     since: Instant,
@@ -106,8 +105,7 @@ impl<M: Send + 'static> Job<M> {
         let (wish, since) = (Arc::new(Wish::default()), Instant::now());
         let stage = Progress { stage: name.to_owned(), done: 0, total: 0 };
         let reporter = Reporter { events: sender, wish: Arc::clone(&wish), wake, woken: Mutex::new(since) };
-        let name = name.to_owned();
-        (Self { name, events, wish, since, stage, stage_since: since }, reporter)
+        (Self { events, wish, since, stage, stage_since: since }, reporter)
     }
 
     /// Hands over what came since the last call; returns how the job ended once it has.
@@ -159,11 +157,6 @@ impl<M> Job<M> {
     /// Whether its work has begun.
     pub fn begun(&self) -> bool {
         self.wish.begun.get().is_some()
-    }
-
-    /// What it is, for people.
-    pub fn name(&self) -> &str {
-        &self.name
     }
 
     /// When it was asked for.

@@ -2,7 +2,7 @@
 
 mod request;
 
-pub use request::{GridChoice, JobKind, Outcome, Request};
+pub use request::{FullSolve, GridChoice, JobKind, Outcome};
 
 use crate::app::document::Key;
 use crate::engine::Store;
@@ -63,7 +63,7 @@ impl Running {
 
 /// The solves for the picture that wait or run.
 pub struct Jobs {
-    queue: Queue<Request, News>,
+    queue: Queue<FullSolve, News>,
     running: Vec<Running>,
 }
 
@@ -86,7 +86,7 @@ impl Jobs {
 
     /// Hands a solve over. It replaces one of the same kind that has not started; all but live solves of other
     /// parameters stop.
-    pub fn submit(&mut self, ctx: &egui::Context, request: Request) {
+    pub fn submit(&mut self, ctx: &egui::Context, request: FullSolve) {
         let (kind, key) = (request.kind, request.key);
         for running in &self.running {
             match running.kind {
@@ -133,7 +133,7 @@ impl Jobs {
     }
 }
 
-fn solve(store: &Store, request: &Request, reporter: &Reporter<News>) -> Ending {
+fn solve(store: &Store, request: &FullSolve, reporter: &Reporter<News>) -> Ending {
     let grid = request.grid.with(store).map_err(|refused| refused.to_string())?;
     let start = request.start.as_deref().map_or(Start::Cold, Start::From);
     let (solution, wall_s) = store.with_full_solver(&grid, |solver| {
@@ -175,7 +175,7 @@ mod tests {
         let mut jobs = Jobs::new(&Store::default());
         let key = Key { point: OperatingPoint::TABLE_2_1, lubricant: Lubricant::default() };
         let grid = GridChoice::Spec(ContactGridSpec::Line(GridSpec::EXPLORER));
-        jobs.submit(&egui::Context::default(), Request { kind: JobKind::Verify, key, grid, start: None });
+        jobs.submit(&egui::Context::default(), FullSolve { kind: JobKind::Verify, key, grid, start: None });
         let begin = Instant::now();
         loop {
             if let Some((job, outcome)) = jobs.poll().pop() {

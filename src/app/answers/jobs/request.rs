@@ -70,7 +70,7 @@ impl GridChoice {
 
 /// A full solve that is wanted.
 #[derive(Clone)]
-pub struct Request {
+pub struct FullSolve {
     /// What for.
     pub kind: JobKind,
     /// What to solve.

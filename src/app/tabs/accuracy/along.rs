@@ -77,7 +77,7 @@ impl Step {
     }
 }
 
-struct Results {
+struct Followed {
     in_use: InUse,
     wanted: Wanted,
     steps: Vec<Step>,
@@ -90,7 +90,7 @@ pub struct Along {
     wanted: Wanted,
     /// What runs, and why the last run ended early.
     pub work: Background<StudyRow>,
-    results: Option<Results>,
+    results: Option<Followed>,
 }
 
 impl Default for Along {
@@ -115,7 +115,7 @@ impl Along {
     /// Each full solution starts from its neighbour on the path, never from a reduced one.
     fn start(&mut self, ctx: &egui::Context, store: &Store, in_use: &InUse) {
         let wanted = self.wanted;
-        self.results = Some(Results { in_use: in_use.clone(), wanted, steps: Vec::new(), open: true });
+        self.results = Some(Followed { in_use: in_use.clone(), wanted, steps: Vec::new(), open: true });
         let (range, through) = match wanted.through {
             Through::Dissertation => (Some(QuantityBox::of_tables(in_use.model.contact())), None),
             Through::Trained => (None, Some(in_use.trained_range())),
@@ -171,8 +171,8 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
     }
 }
 
-fn summary(results: &Results) -> String {
-    let Results { wanted, steps, .. } = results;
+fn summary(results: &Followed) -> String {
+    let Followed { wanted, steps, .. } = results;
     let failures = steps.iter().filter(|step| step.reduced().is_none()).count();
     let outside = steps.iter().filter(|step| !step.trained()).count();
     // Places that the range excludes have no row.
@@ -180,7 +180,7 @@ fn summary(results: &Results) -> String {
     let worst = steps.iter().filter_map(Step::error).fold(0.0, f64::max);
     let mut text = format!(
         "{} of {} contacts through {}, {failures} failures, largest error of {{H_c}} {}",
-        steps.len(),
+        steps.len() + excluded,
         wanted.points,
         wanted.through.name(results.in_use.model.contact()),
         crate::app::numbers::error_percent(worst)
@@ -194,7 +194,7 @@ fn summary(results: &Results) -> String {
     text
 }
 
-impl Results {
+impl Followed {
     /// Unbroken pieces of a quantity along the path; where the range excludes a place a line ends as well.
     fn pieces(&self, value: impl Fn(&Step) -> Option<f64>) -> Vec<Vec<[f64; 2]>> {
         pieces(self.steps.iter().map(|step| (step.c(), value(step))), 3.0 / (self.wanted.points - 1) as f64)
@@ -232,7 +232,7 @@ fn linked<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> e
         .legend(Legend::default().position(Corner::RightTop).follow_insertion_order(true).background_alpha(0.6))
 }
 
-fn film_plot(ui: &mut Ui, results: &Results, stale: bool, height: f32) {
+fn film_plot(ui: &mut Ui, results: &Followed, stale: bool, height: f32) {
     let palette = Palette::of(ui);
     let color = if stale { palette.reference } else { palette.film };
     let full = if stale { palette.reference } else { palette.over(palette.film) };
@@ -247,7 +247,7 @@ fn film_plot(ui: &mut Ui, results: &Results, stale: bool, height: f32) {
     );
 }
 
-fn error_plot(ui: &mut Ui, results: &Results, stale: bool, height: f32) {
+fn error_plot(ui: &mut Ui, results: &Followed, stale: bool, height: f32) {
     let palette = Palette::of(ui);
     let grey = |color| if stale { palette.reference } else { color };
     // Smaller errors are the full solver's own tolerance, and zero has no logarithm.
@@ -271,7 +271,7 @@ fn error_plot(ui: &mut Ui, results: &Results, stale: bool, height: f32) {
     );
 }
 
-fn csv(results: &Results) -> String {
+fn csv(results: &Followed) -> String {
     let comments = [
         results.in_use.describe(),
         format!(

@@ -47,19 +47,19 @@ impl By {
 #[derive(Default)]
 pub struct Map {
     by: By,
-    drawn: Option<Drawn>,
+    drawn: Option<DrawnTests>,
     worst: Worst,
 }
 
 /// The tests as series of points, made when something changed.
-struct Drawn {
+struct DrawnTests {
     of: (usize, usize, By),
     classes: [Vec<PlotPoint>; CLASSES],
     unknown: Vec<PlotPoint>,
     failures: Vec<PlotPoint>,
 }
 
-impl Drawn {
+impl DrawnTests {
     fn new(results: &Results, by: By) -> Self {
         let mut drawn =
             Self { of: stamp(results, by), classes: Default::default(), unknown: Vec::new(), failures: Vec::new() };
@@ -127,7 +127,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
         super::bound_note(ui, results.tests.iter().map(bound_of));
     }
     if map.drawn.as_ref().is_none_or(|d| d.of != stamp(results, map.by)) {
-        map.drawn = Some(Drawn::new(results, map.by));
+        map.drawn = Some(DrawnTests::new(results, map.by));
     }
     map.worst.sort(results, map.by);
     let stale = results.in_use != *in_use;

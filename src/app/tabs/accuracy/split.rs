@@ -55,7 +55,7 @@ const ROWS: [(&str, &str); 6] = [
 
 /// What a split is of.
 #[derive(Clone, PartialEq)]
-struct Asked {
+struct SplitOf {
     key: Key,
     in_use: InUse,
 }
@@ -66,8 +66,8 @@ pub struct Split {
     /// What runs, and why there is no split.
     pub work: Background<StudyRow>,
     /// What was last asked for, answered or not.
-    asked: Option<Asked>,
-    found: Option<(Asked, Arc<ErrorSplit>)>,
+    asked: Option<SplitOf>,
+    found: Option<(SplitOf, Arc<ErrorSplit>)>,
 }
 
 impl Split {
@@ -89,7 +89,7 @@ impl Split {
         }
     }
 
-    fn start(&mut self, ctx: &egui::Context, store: &Store, asked: Asked) {
+    fn start(&mut self, ctx: &egui::Context, store: &Store, asked: SplitOf) {
         let study = ErrorSplitStudy { contacts: Contacts::Here, method: asked.in_use.method() };
         let question = question("Splitting the error", &asked.key, SceneGrid::Model, Study::ErrorSplit(study));
         self.work.run(asked.in_use.ask(ctx, store, question));
@@ -100,7 +100,7 @@ impl Split {
 /// The view.
 pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: &mut Commands, in_use: &InUse) {
     let ctx = ui.ctx().clone();
-    let now = Asked { key: context.document.key(), in_use: in_use.clone() };
+    let now = SplitOf { key: context.document.key(), in_use: in_use.clone() };
     start_when_rested(ui, own, context, &now);
     let mut export_now = false;
     ui.horizontal_wrapped(|ui| {
@@ -140,7 +140,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
 }
 
 /// Starts by itself once per contact and model, when the sliders rest where the model was trained.
-fn start_when_rested(ui: &Ui, own: &mut AccuracyView, context: &Context<'_>, now: &Asked) {
+fn start_when_rested(ui: &Ui, own: &mut AccuracyView, context: &Context<'_>, now: &SplitOf) {
     let known = own.split.asked.as_ref() == Some(now);
     let trained = Problem::new(&now.key.point, now.key.lubricant)
         .is_ok_and(|problem| now.in_use.model.trust(&problem) == Trust::Trained);
@@ -304,7 +304,7 @@ fn table(ui: &mut Ui, split: &ErrorSplit, current: bool) {
     });
 }
 
-fn csv(asked: &Asked, split: &ErrorSplit) -> String {
+fn csv(asked: &SplitOf, split: &ErrorSplit) -> String {
     let moes = asked.key.point.moes();
     let rows: Vec<&str> = ROWS.iter().map(|row| row.0).collect();
     let comments = [

@@ -29,14 +29,14 @@ pub fn edit(
     let before = context.document.transient_study();
     let mut study = before.clone();
     let mut form = Form::new(name, last, context);
-    ui.add_enabled_ui(context.transient.work.standing().is_none(), |ui| content(ui, &mut form, &mut study));
+    ui.add_enabled_ui(context.transient.standing().is_none(), |ui| content(ui, &mut form, &mut study));
     let edit = (study != before).then(|| Edit::Transient(Box::new(study)));
     form.ask(edit, "Frames", commands)
 }
 
 /// The runs, started or stopped.
 pub fn run_button(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-    if context.transient.work.standing().is_some() {
+    if context.transient.standing().is_some() {
         if ui.button("Stop").on_hover_text("What has been computed so far stays (Esc)").clicked() {
             commands.push(Command::InTime(InTimeCommand::Stop));
         }
@@ -54,7 +54,7 @@ pub fn run_button(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
 /// say.
 pub fn status(ui: &mut Ui, context: &Context<'_>) {
     let view = context.transient;
-    standing_ui(ui, view.work.standing(), "Progress of the contact in time");
+    standing_ui(ui, view.standing(), "Progress of the contact in time");
     if let Some(message) = &view.work.message {
         message_ui(ui, message);
     }

@@ -22,7 +22,7 @@ const VERDICTS: f32 = 330.0;
 
 /// What is shown of a study.
 #[derive(Clone, Debug, PartialEq, Eq)]
-enum Shown {
+enum ResultsChoice {
     /// Its charts.
     Charts,
     /// A table, by its name.
@@ -34,13 +34,13 @@ pub struct ResultsView {
     run: Option<Run>,
     /// The document that was on the screen last, as a scene.
     seen: Option<(Document, Scene)>,
-    shown: Shown,
+    shown: ResultsChoice,
     fresh: bool,
 }
 
 impl Default for ResultsView {
     fn default() -> Self {
-        Self { run: None, seen: None, shown: Shown::Charts, fresh: true }
+        Self { run: None, seen: None, shown: ResultsChoice::Charts, fresh: true }
     }
 }
 
@@ -158,21 +158,21 @@ impl ResultsView {
             let look = self.run.as_ref().and_then(|run| run.look.as_ref());
             let tables: &[Table] = look.map_or(&[], |look| &look.outcome.tables);
             let text = match &self.shown {
-                Shown::Charts => "Charts".to_owned(),
-                Shown::Table(name) => format!("Table {name}"),
+                ResultsChoice::Charts => "Charts".to_owned(),
+                ResultsChoice::Table(name) => format!("Table {name}"),
             };
             let mut chosen = self.shown.clone();
             let combo = ComboBox::from_id_salt("shown of results").selected_text(text).width(180.0).show_ui(ui, |ui| {
-                ui.selectable_value(&mut chosen, Shown::Charts, "Charts");
+                ui.selectable_value(&mut chosen, ResultsChoice::Charts, "Charts");
                 for table in tables {
                     let name = table.name.clone();
-                    ui.selectable_value(&mut chosen, Shown::Table(name.clone()), format!("Table {name}"));
+                    ui.selectable_value(&mut chosen, ResultsChoice::Table(name.clone()), format!("Table {name}"));
                 }
             });
             named(ui, combo.response, "Shown of the results");
             let table = match &chosen {
-                Shown::Table(name) => look.and_then(|look| look.table(name)),
-                Shown::Charts => tables.first(),
+                ResultsChoice::Table(name) => look.and_then(|look| look.table(name)),
+                ResultsChoice::Charts => tables.first(),
             };
             let button = ui.add_enabled(table.is_some(), egui::Button::new("Export CSV…"));
             if button.on_hover_text("The table that is chosen, or the first one").clicked() {
@@ -184,13 +184,13 @@ impl ResultsView {
     }
 }
 
-fn shown_ui(ui: &mut Ui, look: &Look, shown: &Shown, fresh: bool) {
+fn shown_ui(ui: &mut Ui, look: &Look, shown: &ResultsChoice, fresh: bool) {
     match shown {
-        Shown::Table(name) => match look.table(name) {
+        ResultsChoice::Table(name) => match look.table(name) {
             Some(of) => table::ui(ui, of),
             None => _ = ui.weak("There is no such table yet"),
         },
-        Shown::Charts => {
+        ResultsChoice::Charts => {
             let charts: Vec<_> = look.charts.iter().filter(|chart| !chart.series.is_empty()).collect();
             if charts.is_empty() {
                 match look.outcome.tables.first() {

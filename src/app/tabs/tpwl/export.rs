@@ -1,14 +1,15 @@
 //! The linearised model for other programs: its operating points, the weights of every step, and the study of numbers.
 
-use super::Shown;
+use super::ShownModel;
 use crate::app::export;
 use crate::app::transient::export::describe;
-use crate::app::transient::method::{Method, RULES, WEIGHTINGS, rule_name};
+use crate::app::transient::method::{RULES, WEIGHTINGS, rule_name, word};
 use crate::app::transient::{TransientView, linearised::NumberRow};
+use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::Quantity;
 
 /// What the model belongs to and how it was made.
-fn comments(shown: &Shown<'_>) -> Vec<String> {
+fn comments(shown: &ShownModel<'_>) -> Vec<String> {
     let model = &shown.linearised.model;
     let selection = model.training.selection;
     let mut lines = shown.view.setup.as_ref().map_or_else(Vec::new, |setup| describe(setup));
@@ -24,7 +25,7 @@ fn comments(shown: &Shown<'_>) -> Vec<String> {
 }
 
 /// All operating points, with their weights and distances at the moment that is looked at.
-pub fn points(shown: &Shown<'_>) -> String {
+pub fn points(shown: &ShownModel<'_>) -> String {
     let model = &shown.linearised.model;
     let [across, up] = shown.tab.coordinates;
     let header = [
@@ -74,7 +75,7 @@ pub fn points(shown: &Shown<'_>) -> String {
 }
 
 /// The operating points and weights of every step, one line for each weight.
-pub fn weights(shown: &Shown<'_>) -> String {
+pub fn weights(shown: &ShownModel<'_>) -> String {
     let mut lines = comments(shown);
     lines.push("weighting 1 is the dual Taylor form, 2 the weights (4.29)".to_owned());
     let header = ["weighting", "T", "point", "point_T", "weight", "distance_from_barycentre", "spacing"];
@@ -97,7 +98,7 @@ pub fn weights(shown: &Shown<'_>) -> String {
 pub fn numbers(view: &TransientView) -> String {
     let mut lines = view.setup.as_ref().map_or_else(Vec::new, |setup| describe(setup));
     let names = RULES.map(|rule| rule_name(rule).0).join(", 2 ");
-    let words = WEIGHTINGS.map(|weighting| Method::Linearised(weighting).word()).join(", 2 ");
+    let words = WEIGHTINGS.map(|weighting| word(MarchedBy::Linearised(weighting))).join(", 2 ");
     lines.push(format!("rule 1 {names}; weighting 1 {words}"));
     let header = ["rule", "tolerance", "points", "weighting", "H_c_difference_l2", "step_s_median"];
     let row = |row: &NumberRow| {

@@ -66,7 +66,7 @@ impl Default for Tpwl {
 }
 
 /// What all pictures of one frame share.
-struct Shown<'a> {
+struct ShownModel<'a> {
     view: &'a TransientView,
     tab: &'a Tpwl,
     linearised: &'a Linearised,
@@ -78,7 +78,7 @@ struct Shown<'a> {
     fit: bool,
 }
 
-impl<'a> Shown<'a> {
+impl<'a> ShownModel<'a> {
     fn new(ui: &Ui, tab: &'a Tpwl, context: &Context<'a>, linearised: &'a Linearised) -> Self {
         let view = context.transient;
         let runs: Vec<_> = view.linearised_runs().collect();
@@ -162,7 +162,7 @@ impl Tpwl {
         self.choices(ui, linearised);
         let rest = height - (ui.cursor().top() - top) - 30.0;
         let mut sorting = self.sorting;
-        let wanted = pictures(ui, &Shown::new(ui, self, context, linearised), &mut sorting, rest);
+        let wanted = pictures(ui, &ShownModel::new(ui, self, context, linearised), &mut sorting, rest);
         self.sorting = sorting;
         commands.extend(wanted.map(|time| Command::InTime(InTimeCommand::GoTo(time))));
     }
@@ -177,7 +177,7 @@ impl Tpwl {
             }
             in_time::run_button(ui, context, commands);
             let there = view.linearised.is_some();
-            let ready = there && view.work.standing().is_none();
+            let ready = there && view.standing().is_none();
             let tip = "Error of H_c against the number of operating points: both rules on a ladder of tolerances, by both \
                        weightings, along these inputs";
             if view.number.work.standing().is_some() {
@@ -190,11 +190,11 @@ impl Tpwl {
                 commands.push(Command::InTime(InTimeCommand::StudyNumber));
                 self.numbers = true;
             }
-            let mut table = |ui: &mut Ui, name: &str, tip: &str, text: fn(&Shown<'_>) -> String| {
+            let mut table = |ui: &mut Ui, name: &str, tip: &str, text: fn(&ShownModel<'_>) -> String| {
                 if enabled(ui, there, name, tip).clicked()
                     && let Some(linearised) = &view.linearised
                 {
-                    commands.push(Command::csv(text(&Shown::new(ui, self, context, linearised))));
+                    commands.push(Command::csv(text(&ShownModel::new(ui, self, context, linearised))));
                 }
             };
             let tip = "All operating points with inputs, state norms, weights and distances at this moment";
@@ -274,7 +274,7 @@ impl Tpwl {
 }
 
 /// All pictures; returns the moment that was clicked at.
-fn pictures(ui: &mut Ui, shown: &Shown<'_>, sorting: &mut Sorting, rest: f32) -> Option<f64> {
+fn pictures(ui: &mut Ui, shown: &ShownModel<'_>, sorting: &mut Sorting, rest: f32) -> Option<f64> {
     if ui.available_width() >= SIDE_BY_SIDE {
         let unit = (0.5 * rest).max(2.0 * LEAST_HEIGHT);
         let width = ui.available_width();
@@ -305,7 +305,7 @@ fn pictures(ui: &mut Ui, shown: &Shown<'_>, sorting: &mut Sorting, rest: f32) ->
 }
 
 /// The weights, or the study of numbers.
-fn lower(ui: &mut Ui, shown: &Shown<'_>, height: f32) -> Option<f64> {
+fn lower(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
     if shown.tab.numbers {
         number::ui(ui, shown, height);
         None
@@ -316,7 +316,7 @@ fn lower(ui: &mut Ui, shown: &Shown<'_>, height: f32) -> Option<f64> {
 
 /// What to do where there is no linearised model yet.
 fn nothing_yet(ui: &mut Ui, context: &Context<'_>) {
-    if context.transient.work.standing().is_some() {
+    if context.transient.standing().is_some() {
         return;
     }
     if context.document.transient_study().linearised.is_some() {
@@ -348,14 +348,14 @@ fn near<T>(places: impl Iterator<Item = (T, PlotPoint)>, transform: &PlotTransfo
 }
 
 /// What the weights of a point are, for people.
-fn weights_text(shown: &Shown<'_>, now: &PointNow) -> String {
+fn weights_text(shown: &ShownModel<'_>, now: &PointNow) -> String {
     let each = (0..WEIGHTINGS.len()).filter(|&k| shown.was_run(k));
     let said = each.map(|k| format!("{} {}", weighting_name(WEIGHTINGS[k]).0, numbers::digits(now.weights[k], 3)));
     said.collect::<Vec<_>>().join(", ")
 }
 
 /// Says which operating point lies under the pointer; returns the moment to go to when it is clicked.
-fn point_under(shown: &Shown<'_>, response: Response, under: Option<&PointNow>) -> Option<f64> {
+fn point_under(shown: &ShownModel<'_>, response: Response, under: Option<&PointNow>) -> Option<f64> {
     let (now, trained) = under.and_then(|now| Some((now, shown.linearised.model.points.get(now.point)?)))?;
     let clicked = response.clicked();
     response.on_hover_text_at_pointer(format!(

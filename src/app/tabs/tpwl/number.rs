@@ -1,6 +1,6 @@
 //! Error against the number of operating points: both rules, both weightings.
 
-use super::Shown;
+use super::ShownModel;
 use crate::app::tabs::axes;
 use crate::app::theme::rich;
 use crate::app::transient::linearised::NumberRow;
@@ -9,7 +9,7 @@ use egui::Ui;
 use egui_plot::{Corner, Legend, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points, VLine};
 
 /// The plot, with logarithmic axes.
-pub fn ui(ui: &mut Ui, shown: &Shown<'_>, height: f32) {
+pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) {
     let study = &shown.view.number;
     if study.rows.is_empty() {
         ui.weak(if study.work.standing().is_some() {

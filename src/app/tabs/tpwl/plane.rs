@@ -1,7 +1,7 @@
 //! The plane of two reduced coordinates: training trajectories, operating points, and the path of the run through them.
 
 use super::trajectory::{marks, weighted};
-use super::{Shown, near, point_under};
+use super::{ShownModel, near, point_under};
 use crate::app::tabs::axes;
 use crate::app::transient::linearised::PointNow;
 use egui::{Ui, Vec2b};
@@ -21,7 +21,7 @@ fn axis_title(k: usize, modes: usize) -> String {
 }
 
 /// The plane; returns the moment that was clicked at.
-pub fn ui(ui: &mut Ui, shown: &Shown<'_>, height: f32) -> Option<f64> {
+pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
     let model = &shown.linearised.model;
     let [across, up] = shown.tab.coordinates;
     let modes = model.space.modes();
@@ -68,7 +68,7 @@ pub fn ui(ui: &mut Ui, shown: &Shown<'_>, height: f32) -> Option<f64> {
 }
 
 /// The path of the first linearised run, and where it is at this moment.
-fn path(shown: &Shown<'_>, at: impl Fn(&[f64]) -> Option<PlotPoint>) -> (Vec<PlotPoint>, Option<PlotPoint>) {
+fn path(shown: &ShownModel<'_>, at: impl Fn(&[f64]) -> Option<PlotPoint>) -> (Vec<PlotPoint>, Option<PlotPoint>) {
     let Some((run, record)) = shown.runs.iter().find_map(|(_, run)| Some((run, run.record.as_ref()?))) else {
         return (Vec::new(), None);
     };

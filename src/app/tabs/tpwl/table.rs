@@ -1,6 +1,6 @@
 //! All operating points as a sorted table: number, T, weights, distance. A click on a row goes to its moment.
 
-use super::Shown;
+use super::ShownModel;
 use crate::app::controls::named;
 use crate::app::numbers;
 use crate::app::theme::rich;
@@ -53,7 +53,7 @@ impl Sorting {
 }
 
 /// The table; returns the moment that was clicked at.
-pub fn ui(ui: &mut Ui, shown: &Shown<'_>, sorting: &mut Sorting, height: f32) -> Option<f64> {
+pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, sorting: &mut Sorting, height: f32) -> Option<f64> {
     let model = &shown.linearised.model;
     let with_time = |now: &PointNow| Some((*now, model.points.get(now.point)?.moment.time));
     let mut rows: Vec<(PointNow, f64)> = shown.points.iter().filter_map(with_time).collect();

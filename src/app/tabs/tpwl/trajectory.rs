@@ -1,7 +1,7 @@
 //! The training trajectory with its operating points, chosen by the rule in use, and what the other rule would choose
 //! instead.
 
-use super::{Shown, near, point_under};
+use super::{ShownModel, near, point_under};
 use crate::app::numbers;
 use crate::app::tabs::axes;
 use crate::app::theme::THIN_WIDTH;
@@ -13,7 +13,7 @@ use egui::{Color32, Id, Ui, Vec2b};
 use egui_plot::{Line, MarkerShape, Plot, PlotPoint, PlotPoints, Points, VLine};
 
 /// Both plots, each as high as given; returns the moment that was clicked at.
-pub fn ui(ui: &mut Ui, shown: &Shown<'_>, height: f32) -> Option<f64> {
+pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
     let own = shown.linearised.model.training.selection;
     let first = chosen(ui, shown, own, height);
     let other = &shown.linearised.other;
@@ -22,14 +22,14 @@ pub fn ui(ui: &mut Ui, shown: &Shown<'_>, height: f32) -> Option<f64> {
 }
 
 /// The colour of what is drawn, and its symbol.
-fn look(shown: &Shown<'_>) -> (Color32, &'static str) {
+fn look(shown: &ShownModel<'_>) -> (Color32, &'static str) {
     match shown.tab.quantity {
         Quantity::CentralPressure => (shown.palette.pressure, "{P_c}"),
         _ => (shown.palette.film, "{H_c}"),
     }
 }
 
-fn plot<'a>(ui: &Ui, shown: &Shown<'_>, id: &str, titles: (&str, &str), height: f32) -> Plot<'a> {
+fn plot<'a>(ui: &Ui, shown: &ShownModel<'_>, id: &str, titles: (&str, &str), height: f32) -> Plot<'a> {
     let group = Id::unique(("tpwl trajectory", shown.view.generation, shown.tab.trajectory));
     let (generation, quantity, trajectory) = (shown.view.generation, shown.tab.quantity, shown.tab.trajectory);
     axes::plot(ui, &format!("{id} {generation} {quantity:?} {trajectory}"), height, titles.0, titles.1)
@@ -42,12 +42,12 @@ fn plot<'a>(ui: &Ui, shown: &Shown<'_>, id: &str, titles: (&str, &str), height: 
 }
 
 /// The trajectory as a line.
-fn curve(shown: &Shown<'_>) -> Vec<PlotPoint> {
+fn curve(shown: &ShownModel<'_>) -> Vec<PlotPoint> {
     let moments = shown.linearised.trainings.get(shown.tab.trajectory).map_or(&[][..], Vec::as_slice);
     axes::thinned(moments.iter().map(|moment| PlotPoint::new(moment.time, moment.value(shown.tab.quantity))).collect())
 }
 
-fn place(shown: &Shown<'_>, time: f64) -> Option<PlotPoint> {
+fn place(shown: &ShownModel<'_>, time: f64) -> Option<PlotPoint> {
     let value = shown.linearised.value(shown.tab.trajectory, shown.tab.quantity, time)?;
     Some(PlotPoint::new(time, value))
 }
@@ -60,7 +60,7 @@ fn title(ui: &mut Ui, rule: Selection, points: usize, used: &str) {
 }
 
 /// The rule in use: points grow with their weights, and a click goes to their moment.
-fn chosen(ui: &mut Ui, shown: &Shown<'_>, rule: Selection, height: f32) -> Option<f64> {
+fn chosen(ui: &mut Ui, shown: &ShownModel<'_>, rule: Selection, height: f32) -> Option<f64> {
     let places: Vec<(&PointNow, PlotPoint)> = shown
         .of_trajectory()
         .filter_map(|now| {
@@ -91,7 +91,7 @@ fn chosen(ui: &mut Ui, shown: &Shown<'_>, rule: Selection, height: f32) -> Optio
 }
 
 /// The other rule, when it is to choose as many points.
-fn not_chosen(ui: &mut Ui, shown: &Shown<'_>, rule: Selection, chosen: &[usize], height: f32) -> Option<f64> {
+fn not_chosen(ui: &mut Ui, shown: &ShownModel<'_>, rule: Selection, chosen: &[usize], height: f32) -> Option<f64> {
     title(ui, rule, chosen.len(), "the other rule");
     let (color, symbol) = look(shown);
     let moments = shown.linearised.model.trajectories.get(shown.tab.trajectory).map_or(&[][..], Vec::as_slice);
@@ -121,7 +121,7 @@ pub fn marks(name: &str, dots: Vec<PlotPoint>, radius: f32, color: Color32) -> P
 }
 
 /// Points that carry the present moment: as large as their weight; of the second weighting as rings.
-pub fn weighted(shown: &Shown<'_>, places: &[(&PointNow, PlotPoint)]) -> Vec<Points<'static>> {
+pub fn weighted(shown: &ShownModel<'_>, places: &[(&PointNow, PlotPoint)]) -> Vec<Points<'static>> {
     let mut markers = Vec::new();
     for weighting in 0..2 {
         for (now, place) in places.iter().filter(|(now, _)| now.weights[weighting] > 0.0) {

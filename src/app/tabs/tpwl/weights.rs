@@ -1,6 +1,6 @@
 //! The weights of the operating points at this moment, both kinds over each other.
 
-use super::{Shown, near, point_under};
+use super::{ShownModel, near, point_under};
 use crate::app::numbers;
 use crate::app::tabs::axes;
 use crate::app::theme::faded;
@@ -14,7 +14,7 @@ const STEMS: [f32; 2] = [4.0, 11.0];
 const TOP: f64 = 1.15;
 
 /// Stems over the numbers of the points; returns the moment that was clicked at.
-pub fn ui(ui: &mut Ui, shown: &Shown<'_>, height: f32) -> Option<f64> {
+pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
     head(ui, shown);
     let number = |point: usize| point as f64 + 1.0;
     let mut stems = Vec::new();
@@ -62,7 +62,7 @@ pub fn ui(ui: &mut Ui, shown: &Shown<'_>, height: f32) -> Option<f64> {
 }
 
 /// How far the step lies from what was trained, and the key of the colours.
-fn head(ui: &mut Ui, shown: &Shown<'_>) {
+fn head(ui: &mut Ui, shown: &ShownModel<'_>) {
     let reach = shown.runs.iter().find_map(|(_, run)| {
         let record = run.record.as_ref()?;
         record.steps().get(run.step_at(shown.view.player.time())?).map(|step| step.reach())

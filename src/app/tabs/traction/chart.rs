@@ -1,6 +1,6 @@
 //! The two plots: traction above, film below, on one axis; a press in either goes to a contact.
 
-use super::Shown;
+use super::ShownSweep;
 use crate::app::context::Context;
 use crate::app::document::Key;
 use crate::app::figure::{self, Subject};
@@ -88,14 +88,14 @@ pub fn differences(curve: &Curve, markers: Option<&Markers>) -> Option<(f64, f64
 }
 
 /// The plots; returns the place on the axis that was pressed.
-pub fn ui(ui: &mut Ui, choices: &Choices, context: &Context<'_>, sweep: &Sweep, shown: &Shown<'_>) -> Option<f64> {
+pub fn ui(ui: &mut Ui, choices: &Choices, context: &Context<'_>, sweep: &Sweep, shown: &ShownSweep<'_>) -> Option<f64> {
     let palette = Palette::of(ui);
     let axes = Axes { against: choices.against, sweep, logarithmic: choices.logarithmic };
     let unit = ((ui.available_height() - 6.0) / 2.0).max(LEAST_HEIGHT);
     let here = context.answers.current_picture();
     let grey = shown.unphysical.is_some();
     let sketch = shown.curve.is_some_and(|curve| curve.served.untrained.is_some());
-    let traction = Chart {
+    let traction = LinkedPlot {
         name: "Traction along the quantity",
         id: "traction",
         titles: ("", "Traction coefficient µ"),
@@ -108,7 +108,7 @@ pub fn ui(ui: &mut Ui, choices: &Choices, context: &Context<'_>, sweep: &Sweep, 
         here: here.map(|picture| picture.traction.abs()),
         legend: Corner::LeftTop,
     };
-    let film = Chart {
+    let film = LinkedPlot {
         name: "Film along the quantity",
         id: "film",
         titles: (axes.against.axis(sweep.base.point.kind), "Film in µm"),
@@ -133,7 +133,7 @@ pub fn ui(ui: &mut Ui, choices: &Choices, context: &Context<'_>, sweep: &Sweep, 
 }
 
 /// One of both plots.
-struct Chart<'a> {
+struct LinkedPlot<'a> {
     name: &'static str,
     id: &'static str,
     titles: (&'a str, &'a str),
@@ -143,8 +143,15 @@ struct Chart<'a> {
     legend: Corner,
 }
 
-impl Chart<'_> {
-    fn show(&self, ui: &mut Ui, context: &Context<'_>, axes: &Axes<'_>, shown: &Shown<'_>, height: f32) -> Option<f64> {
+impl LinkedPlot<'_> {
+    fn show(
+        &self,
+        ui: &mut Ui,
+        context: &Context<'_>,
+        axes: &Axes<'_>,
+        shown: &ShownSweep<'_>,
+        height: f32,
+    ) -> Option<f64> {
         let palette = Palette::of(ui);
         let marks = f64::from((ui.available_width() / 90.0).clamp(3.0, 9.0));
         let current = axes.along(axes.against.of(&context.document.key()));

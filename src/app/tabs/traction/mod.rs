@@ -54,7 +54,7 @@ impl Traction {
         }
         toolbar(ui, choices, context, commands, true);
         status(ui, context, &sweep, &served);
-        let shown = Shown::of(context, &sweep, &served, ui.input(|i| i.time));
+        let shown = ShownSweep::of(context, &sweep, &served, ui.input(|i| i.time));
         if shown.curve.is_none() && shown.markers.is_none() {
             let waits = match served {
                 Ok(_) if !context.traction.curve_is_current() => "The curve is being computed",
@@ -69,7 +69,7 @@ impl Traction {
 }
 
 /// What there is to draw, and what of it is old.
-struct Shown<'a> {
+struct ShownSweep<'a> {
     curve: Option<&'a Curve>,
     markers: Option<&'a Markers>,
     curve_stale: bool,
@@ -78,7 +78,7 @@ struct Shown<'a> {
     unphysical: Option<String>,
 }
 
-impl<'a> Shown<'a> {
+impl<'a> ShownSweep<'a> {
     fn of(context: &Context<'a>, sweep: &Sweep, served: &Result<Served, String>, now: f64) -> Self {
         let view = context.traction;
         let varied = sweep.varied;

@@ -93,7 +93,7 @@ pub fn plane(ui: &mut Ui, context: &Context<'_>, height: f32) {
                 let crosses = dots("Reduced solve failed", failed, palette.wrong, 6.0).shape(MarkerShape::Cross);
                 plot.points(crosses.allow_hover(false));
             }
-            if let Some(last) = chart.solved.last().filter(|_| context.training.job().is_some_and(|job| job.trains)) {
+            if let Some(last) = chart.solved.last().filter(|_| context.training.job().is_some()) {
                 let ring = dots("", vec![last.at], palette.accent, 8.0).filled(false).id("newest");
                 plot.points(ring.shape(MarkerShape::Circle).allow_hover(false));
             }

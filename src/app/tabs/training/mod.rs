@@ -61,7 +61,7 @@ fn results(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
 fn buttons(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     use TrainingCommand as C;
     let training = context.training;
-    let runs = training.job().is_some();
+    let runs = training.standing().is_some();
     let mut button = |ui: &mut Ui, on: bool, name: &str, tip: &str, command: Command| {
         let button = ui.add_enabled(on, Button::new(name)).on_hover_text(tip).on_disabled_hover_text(tip);
         if button.clicked() {
@@ -115,8 +115,8 @@ fn status(ui: &mut Ui, context: &Context<'_>) {
             Notice::Wrong(text) => message_ui(ui, text),
         }
     }
-    if let Some(job) = context.training.job() {
-        running(ui, job);
+    if let Some(standing) = context.training.standing() {
+        standing_ui(ui, standing, context.training.job());
         return;
     }
     if let Some(made) = &context.training.made {
@@ -147,27 +147,26 @@ fn status(ui: &mut Ui, context: &Context<'_>) {
 }
 
 /// What runs, how far it is, and how long it may take.
-fn running(ui: &mut Ui, running: &Running) {
-    let Standing { stage, done, total, .. } = running.job.standing();
+fn standing_ui(ui: &mut Ui, standing: Standing, running: Option<&Running>) {
+    let Standing { stage, done, total, .. } = standing;
     let count = if total > 0 { format!("{done} of {total}") } else { String::new() };
     let (stage, fraction) = (sentence(&stage), done as f32 / total.max(1) as f32);
-    let stopping = running.job.stopping();
+    let stopping = running.is_some_and(|running| running.job.stopping());
     ui.label(if stopping { format!("Stopping. {stage}") } else { stage });
     let width = ui.available_width().min(420.0);
     let bar = ui.add(ProgressBar::new(fraction).text(count).desired_width(width));
     named(ui, bar, "Progress of the training");
-    if running.most > 0 {
-        let solved = running.chart().solved.len();
-        let left = match running.time_left() {
-            Some(seconds) if seconds >= 1.0 && !stopping => {
-                let word = if running.fewer { "at most" } else { "about" };
-                format!("; {word} {} left", remaining(seconds))
-            }
-            _ => String::new(),
-        };
-        let of = if running.fewer { "at most " } else { "" };
-        ui.weak(format!("{solved} full solutions of {of}{}{left}", running.most));
-    }
+    let Some(running) = running else { return };
+    let solved = running.chart().solved.len();
+    let left = match running.time_left() {
+        Some(seconds) if seconds >= 1.0 && !stopping => {
+            let word = if running.fewer { "at most" } else { "about" };
+            format!("; {word} {} left", remaining(seconds))
+        }
+        _ => String::new(),
+    };
+    let of = if running.fewer { "at most " } else { "" };
+    ui.weak(format!("{solved} full solutions of {of}{}{left}", running.most));
 }
 
 /// A time to wait, no more exact than it is known.

@@ -55,7 +55,7 @@ impl Transient {
         self.buttons(ui, context, commands);
         in_time::status(ui, context);
         if context.transient.runs.iter().all(|run| run.trajectory.moments.is_empty()) {
-            if context.transient.work.standing().is_none() {
+            if context.transient.standing().is_none() {
                 ui.weak("Run it in time to see pressure and film follow the inputs.");
             }
             return;

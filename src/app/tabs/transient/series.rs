@@ -2,8 +2,8 @@
 
 use crate::app::tabs::axes;
 use crate::app::theme::{Palette, THIN_WIDTH, faded};
-use crate::app::transient::method::Method;
 use crate::app::transient::{Run, TransientView};
+use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::{Frame, Interpolation, Quantity};
 use crate::solver::reduced::tpwl::Weighting;
 use egui::{Color32, Id, Ui, Vec2b};
@@ -14,16 +14,16 @@ use egui_plot::{HLine, Line, LineStyle, PlotPoint, PlotPoints, VLine};
 pub fn style(view: &TransientView, k: usize, color: Color32, palette: &Palette) -> (Color32, f32, LineStyle) {
     let Some(run) = view.runs.get(k) else { return (color, 1.0, LineStyle::Solid) };
     let dashes = match run.frame() {
-        _ if run.method == Method::Linearised(Weighting::Dissertation) => LineStyle::dashed_dense(),
+        _ if run.by == MarchedBy::Linearised(Weighting::Dissertation) => LineStyle::dashed_dense(),
         Frame::Fixed => LineStyle::Solid,
         Frame::ArbitraryLagrangianEulerian => LineStyle::dashed_loose(),
         Frame::Remeshed(Interpolation::CubicSpline) => LineStyle::dashed_dense(),
         Frame::Remeshed(Interpolation::Linear) => LineStyle::dotted_dense(),
     };
-    let thick = match run.method {
-        Method::Linearised(_) => return (faded(color, 0.5), 5.0, dashes),
-        Method::Reduced => true,
-        Method::Full => k == 0 && view.runs.iter().all(|run| run.method == Method::Full),
+    let thick = match run.by {
+        MarchedBy::Linearised(_) => return (faded(color, 0.5), 5.0, dashes),
+        MarchedBy::Reduced => true,
+        MarchedBy::Full => k == 0 && view.runs.iter().all(|run| run.by == MarchedBy::Full),
     };
     let (color, width) = if thick { (color, 2.6) } else { (palette.over(color), 1.4) };
     (color, width, dashes)
@@ -31,36 +31,36 @@ pub fn style(view: &TransientView, k: usize, color: Color32, palette: &Palette) 
 
 /// The runs as they are drawn, thick ones first: a thin line stays visible over a thick one.
 pub fn drawn(view: &TransientView) -> impl Iterator<Item = (usize, &Run)> {
-    let of = |wanted: fn(Method) -> bool| view.runs.iter().enumerate().filter(move |(_, run)| wanted(run.method));
-    of(|method| matches!(method, Method::Linearised(_)))
-        .chain(of(|method| method == Method::Reduced))
-        .chain(of(|method| method == Method::Full))
+    let of = |wanted: fn(MarchedBy) -> bool| view.runs.iter().enumerate().filter(move |(_, run)| wanted(run.by));
+    of(|by| matches!(by, MarchedBy::Linearised(_)))
+        .chain(of(|by| by == MarchedBy::Reduced))
+        .chain(of(|by| by == MarchedBy::Full))
 }
 
 /// The plots; returns the time that was clicked at.
 pub fn ui(ui: &mut Ui, view: &TransientView, unit: f32) -> Option<f64> {
     let palette = Palette::of(ui);
     let several = view.runs.len() > 1;
-    let pressure = Chart { name: "pressure", quantity: Quantity::CentralPressure, color: palette.pressure };
-    let film = Chart { name: "film", quantity: Quantity::CentralFilm, color: palette.film };
+    let pressure = LinkedPlot { name: "pressure", quantity: Quantity::CentralPressure, color: palette.pressure };
+    let film = LinkedPlot { name: "film", quantity: Quantity::CentralFilm, color: palette.film };
     let mut clicked = pressure.show(ui, view, unit, ("", "Pressure {P_c}"), false);
     clicked = film.show(ui, view, unit, (if several { "" } else { "{T}" }, "Film {H_c}"), false).or(clicked);
     if several {
         let titles = ("{T}", "Δ{H_c} / %");
-        let deviation = Chart { name: "deviation", ..film };
+        let deviation = LinkedPlot { name: "deviation", ..film };
         clicked = deviation.show(ui, view, 0.7 * unit, titles, true).or(clicked);
     }
     clicked
 }
 
 /// One plot of a quantity against time.
-struct Chart {
+struct LinkedPlot {
     name: &'static str,
     quantity: Quantity,
     color: Color32,
 }
 
-impl Chart {
+impl LinkedPlot {
     /// The quantity of all runs, or how far they lie from what they are compared with, in percent.
     fn show(
         &self,

@@ -7,7 +7,7 @@ use crate::scene::outcome::Findings;
 use crate::scene::statistics::{median, percentile};
 use crate::scene::table::{Column, Table};
 use crate::solver::full::transient::{Moment, Quantity, Trajectory};
-use crate::solver::reduced::tpwl::{TpwlRecord, TpwlStep};
+use crate::solver::reduced::tpwl::{TpwlRecord, TpwlStep, Weighting};
 
 /// A march that has ended.
 #[derive(Clone, Debug)]
@@ -24,6 +24,18 @@ pub struct March {
     pub mass_defect: Option<f64>,
     /// What each step of a linearised model drew on.
     pub record: Option<TpwlRecord>,
+}
+
+/// How the steps of a march are solved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MarchedBy {
+    /// The full system.
+    #[default]
+    Full,
+    /// A reduced model that was trained beforehand (RNSA).
+    Reduced,
+    /// A superposition of linearised systems (TPWL), by one of its weightings.
+    Linearised(Weighting),
 }
 
 /// By what a march was made, and which one it is held against.

@@ -10,8 +10,7 @@ mod published;
 mod timed_march;
 
 pub use data::{Drive, LinearisedTransient, ReducedTransient, TransientStudy};
-pub use march::{By, March};
-pub(crate) use models::train_linearised;
+pub use march::{By, March, MarchedBy};
 pub use models::{Kind, Model};
 pub use published::PublishedMarch;
 pub(crate) use timed_march::{Listener, Timed, timed_march};
@@ -35,8 +34,10 @@ pub enum Row {
     Begun {
         /// What its values will begin with.
         march: Arc<str>,
-        /// What is marched.
-        transient: Box<Transient>,
+        /// By what it is made.
+        by: MarchedBy,
+        /// What is marched, with no moment in it yet.
+        trajectory: Box<Trajectory>,
     },
     /// A moment of the march that began last.
     Moment {
@@ -189,8 +190,8 @@ impl Question for TransientStudy {
 
 impl Runner<'_, '_> {
     /// Who hears of a march of a name.
-    fn told(&self, march: &str) -> Option<Listener<'_>> {
-        Some(Listener { march: Arc::from(march), tell: self.tell, wants_states: self.setting.wants_states })
+    fn told(&self, march: &str, by: MarchedBy) -> Option<Listener<'_>> {
+        Some(Listener { march: Arc::from(march), by, tell: self.tell, wants_states: self.setting.wants_states })
     }
 
     /// A full march, and its fields where they were kept.
@@ -202,7 +203,8 @@ impl Runner<'_, '_> {
         let name = drive.result(frame.name());
         let mut model = FullMarch::new(Arc::clone(&self.grid), &transient)?;
         let stage = format!("{name}, full");
-        let mut timed = timed_march(&mut model, &transient, stage, self.setting.observer, self.told(&name))?;
+        let told = self.told(&name, MarchedBy::Full);
+        let mut timed = timed_march(&mut model, &transient, stage, self.setting.observer, told)?;
         let balance = study.mass_between.and_then(|places| timed.trajectory.mass_balance(places));
         let states = std::mem::take(&mut timed.trajectory.states);
         let first = study.frames.first().filter(|first| **first != frame).map(|first| drive.result(first.name()));

@@ -1,7 +1,7 @@
 //! The models of a contact in time: trained on the spot, then marched beside the full system.
 
 use super::data::{Drive, LinearisedTransient, ReducedTransient, TransientStudy};
-use super::march::{By, March};
+use super::march::{By, March, MarchedBy};
 use super::timed_march::{Timed, timed_march};
 use super::{Row, Runner};
 use crate::scene::error::RunError;
@@ -50,10 +50,7 @@ pub enum Kind {
 ///
 /// # Errors
 /// When the trajectories do not go together.
-pub(crate) fn train_linearised(
-    linearised: &LinearisedTransient,
-    trajectories: &[&Trajectory],
-) -> Result<TpwlModel, TpwlError> {
+fn train_linearised(linearised: &LinearisedTransient, trajectories: &[&Trajectory]) -> Result<TpwlModel, TpwlError> {
     let training = TpwlTraining { modes: linearised.modes, selection: linearised.selection };
     match linearised.points {
         Some(points) => TpwlModel::train_with_points(trajectories, training, points),
@@ -222,20 +219,20 @@ impl Runner<'_, '_> {
     pub fn compared(&self, model: &Model, drive: &Drive, full: &March) -> Result<(), RunError> {
         let transient = Transient { keep: Keep::Scalars, ..full.trajectory.transient.clone() };
         let by = |method| By::Model { model: model.name.clone(), method, full: full.name.clone() };
-        let march = |name: &str, marching: &mut dyn Marching| {
-            timed_march(marching, &transient, name.to_owned(), self.setting.observer, self.told(name))
+        let march = |name: &str, by, marching: &mut dyn Marching| {
+            timed_march(marching, &transient, name.to_owned(), self.setting.observer, self.told(name, by))
         };
         match &model.kind {
             Kind::Reduced(reduced) => {
                 let name = drive.result(&model.name);
-                let timed = march(&name, &mut ReducedMarch::new(reduced)?)?;
+                let timed = march(&name, MarchedBy::Reduced, &mut ReducedMarch::new(reduced)?)?;
                 (self.tell)(Row::Marched(Arc::new(March::new(&name, by("rnsa"), timed))));
             }
             Kind::Linearised { model: linearised, weightings, .. } => {
                 for &weighting in weightings {
                     let name = format!("{}.{}", drive.result(&model.name), weighting.name());
                     let mut marching = TpwlMarch::new(linearised, &transient, weighting)?;
-                    let timed = march(&name, &mut marching)?;
+                    let timed = march(&name, MarchedBy::Linearised(weighting), &mut marching)?;
                     let record = Some(marching.record().clone());
                     (self.tell)(Row::Marched(Arc::new(March { record, ..March::new(&name, by("tpwl"), timed) })));
                 }

@@ -1,9 +1,10 @@
 //! A march with the seconds of each of its steps, told moment by moment.
 
-use super::Row;
+use super::{MarchedBy, Row};
 use crate::scene::error::RunError;
 use crate::scene::study::question::Tell;
-use crate::solver::full::transient::{Marching, Moment, State, Trajectory, Transient, TransientObserver, march};
+use crate::solver::full::Mesh;
+use crate::solver::full::transient::{Ended, Marching, Moment, State, Trajectory, Transient, TransientObserver, march};
 use crate::solver::observer::{Observer, Progress};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
@@ -23,6 +24,8 @@ pub(crate) struct Timed {
 pub(crate) struct Listener<'a> {
     /// The march.
     pub march: Arc<str>,
+    /// By what it is made.
+    pub by: MarchedBy,
     /// Where its rows go.
     pub tell: &'a Tell<'a, Row>,
     /// Whether fields are wanted.
@@ -37,8 +40,19 @@ pub(crate) fn timed_march(
     observer: &dyn Observer,
     told: Option<Listener<'_>>,
 ) -> Result<Timed, RunError> {
-    if let Some(Listener { march, tell, .. }) = &told {
-        tell(Row::Begun { march: Arc::clone(march), transient: Box::new(transient.clone()) });
+    if let Some(Listener { march, by, tell, .. }) = &told {
+        let grid = model.grid();
+        let trajectory = Box::new(Trajectory {
+            problem: transient.problem()?,
+            transient: transient.clone(),
+            mesh: Mesh::Line { spec: grid.reference.spec, scale: grid.scale },
+            x: grid.x.clone(),
+            moments: Vec::new(),
+            states: Vec::new(),
+            rejected_steps: 0,
+            ended: Ended::Finished,
+        });
+        tell(Row::Begun { march: Arc::clone(march), by: *by, trajectory });
     }
     let progress = Mutex::new(Steps { begun: None, seconds: Vec::new(), time: 0.0, next_picture: 0.0 });
     let clock = StepClock { observer, stage, duration: transient.duration, told, progress };
