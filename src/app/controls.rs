@@ -55,16 +55,22 @@ pub fn warning_ui(ui: &mut Ui, message: &str) {
     ui.label(RichText::new(sentence(message)).small().color(color));
 }
 
-/// What runs, how far it is and how long the rest takes; `name` is the bar's.
+/// What runs, how far it is and how long the rest takes, on a row of its own or briefly at the end of one; `name` is the
+/// bar's.
 pub fn standing_ui(ui: &mut Ui, standing: Option<Standing>, name: &str) {
     let Some(standing) = standing else { return };
-    ui.horizontal(|ui| {
-        ui.label(sentence(&standing.stage));
+    let (stage, briefly) = (sentence(&standing.stage), ui.layout().is_horizontal());
+    let content = |ui: &mut Ui| {
+        if !briefly {
+            ui.label(&stage);
+        }
         let fraction = if standing.total > 0 { standing.done as f32 / standing.total as f32 } else { 0.0 };
-        let bar = ui.add(ProgressBar::new(fraction).desired_width(120.0).desired_height(8.0));
+        let bar = ProgressBar::new(fraction).desired_width(if briefly { 90.0 } else { 120.0 }).desired_height(8.0);
+        let bar = ui.add(bar);
         named(ui, bar, name);
-        ui.weak(numbers::standing(&standing));
-    });
+        ui.weak(numbers::standing(&standing)).on_hover_text(&stage);
+    };
+    if briefly { content(ui) } else { ui.horizontal(content).inner }
 }
 
 /// What a tab shows and why it is so, for teaching; where it is wanted.

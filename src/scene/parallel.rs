@@ -27,7 +27,7 @@ struct Count<'a> {
 impl Count<'_> {
     fn one_more(&self) -> Result<(), RunError> {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
-        if done.is_multiple_of(REPORT_EVERY) {
+        if done % REPORT_EVERY == 1 {
             self.observer.progress(Progress { stage: self.stage.to_owned(), done, total: self.total });
         }
         if self.observer.cancelled() { Err(RunError::Cancelled) } else { Ok(()) }
