@@ -87,7 +87,7 @@ fn the_parts_appear_when_the_sliders_rest_and_follow_them() {
     );
     let outcome = headless("ErrorSplit(contacts: Here, method: Reduced())");
     for (part, name) in parts.iter().zip(["basis", "projection", "sampling", "reduction", "discretisation", "whole"]) {
-        let value = outcome.value(&format!("H_c.{name}"), None).unwrap();
+        let value = outcome.found.value(&format!("H_c.{name}"), None).unwrap();
         assert_eq!(part.to_bits(), value.to_bits(), "{name} on the screen and headless");
     }
     harness.get_by_label("Load number M").set_value_accesskit(80.0);

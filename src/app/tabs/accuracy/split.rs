@@ -74,15 +74,20 @@ impl Split {
     /// Takes in what came.
     pub fn receive(&mut self) {
         let Some(asked) = &self.asked else { return };
-        let (mut refused, worked) = (None, self.work.job().is_some());
-        self.work.receive(|row| match row {
-            StudyRow::ErrorSplit(Row { split: Ok(split), .. }) => self.found = Some((asked.clone(), split)),
-            StudyRow::ErrorSplit(Row { split: Err(why), .. }) => refused = Some(why),
-            _ => {}
+        let (mut refused, mut answered, worked) = (None, false, self.work.job().is_some());
+        self.work.receive(|row| {
+            let StudyRow::ErrorSplit(Row { split, .. }) = row else { return };
+            answered = true;
+            match split {
+                Ok(split) => self.found = Some((asked.clone(), split)),
+                Err(why) => refused = Some(why),
+            }
         });
-        let ended = worked && self.work.job().is_none();
-        if ended && self.work.message.is_none() && self.found.as_ref().is_none_or(|found| found.0 != *asked) {
-            refused.get_or_insert_with(|| "stopped before it was done".to_owned());
+        if answered {
+            // One contact has one row: nothing else is to come.
+            self.work = Background::default();
+        } else if worked && self.work.job().is_none() && self.work.message.is_none() {
+            refused = Some("stopped before it was done".to_owned());
         }
         if refused.is_some() {
             self.work.message = refused;
