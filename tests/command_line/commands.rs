@@ -215,6 +215,11 @@ fn bad_options_are_refused_with_one_sentence() {
         (&["--dy", "0.1"], "--dy"),
         (&["--domain=-4,2,-2"], "--domain"),
         (&["--domain=4"], "--domain"),
+        (&["--domain=-4,2,-2,1"], "the outer edge of a point contact"),
+        (&["--domain=-4,1e-300"], "1e-300"),
+        (&["--load", "-inf"], "--load is -inf, but must be a finite number"),
+        (&["--npr", "1e-300"], "--npr is 1e-300,"),
+        (&["--method", "reduced", "--rom", &"m".repeat(300)], "longer than the system accepts"),
         (&["--domain=-1,2"], "domain"),
         (&["--domain=nan,2"], "domain"),
         (&["--dx", "0"], "nodes"),
@@ -255,6 +260,16 @@ fn bad_scenes_are_refused_with_one_sentence() {
     assert_refused(&[&unknown], "line 3");
     let newer = write("newer.ron", "Scene(version: 99, title: \"x\", dream: Deep(3))");
     assert_refused(&["run", &newer], "99");
+    let good = write("good.ron", "Scene(version: 1, title: \"x\", study: Point(methods: [Reduced()]))");
+    let no_model = "Scene(version: 1, title: \"x\", study: Point(methods: [Reduced(model: File(\"none.rom\"))]))";
+    let no_model = write("no_model.ron", no_model);
+    assert_refused(&["run", &good, &no_model], "no_model.ron: the reduced model");
+    let loud = write("loud.ron", "Scene(version: 1, title: \"\\u{1b}[2J\", study: Point(methods: [Full]))");
+    assert_refused(&["run", &loud], "control characters");
+    let grid = "Training((title: \"x\", grid: Hexagonal, range: Box((load: (1.0, 2.0)))))";
+    let grid = write("grid.ron", &format!("Scene(version: 1, title: \"x\", study: {grid})"));
+    let told = String::from_utf8(program(&["run", &grid]).stderr).unwrap();
+    assert!(!told.contains("Written"), "{told}");
     let nan =
         write("nan.ron", "Scene(version: 1, title: \"x\", at: Moes(m: NaN, l: 1), study: Point(methods: [Full]))");
     assert_refused(&["run", &nan], "Moes number M");
