@@ -4,9 +4,9 @@ use super::failure::Failure;
 use crate::engine::Request;
 use crate::scene::named_lubricant::{NAMED, NamedLubricant, by_name};
 use crate::scene::{At, Grid, Method, ModelSource};
-use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
+use crate::solver::discrete::grid::{GridError, GridSpec, PointGridSpec};
 use crate::solver::limits::Number;
-use crate::solver::physics::contact::{ContactKind, OperatingPoint, reduced_modulus};
+use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint, reduced_modulus};
 use crate::solver::physics::lubricant::{DensityLaw, Lubricant, ShearLaw, Sliding, ViscosityLaw};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -110,7 +110,8 @@ pub struct PointOptions {
     /// Newtonian plateau ratio of a shear-thinning lubricant (default: its own); 1 is a Newtonian fluid
     #[arg(long, allow_negative_numbers = true)]
     pub npr: Option<f64>,
-    /// Grid of a full solution (default: the dissertation's uniform one)
+    /// Grid of a full solution (default: the dissertation's uniform one, or one that does for the contact where that
+    /// does not)
     #[arg(long, value_enum)]
     pub grid: Option<GridName>,
     /// Spacing ΔX of a uniform grid (default: 0.005 line, 0.02 point)
@@ -248,7 +249,7 @@ impl PointOptions {
         let method = self.method()?;
         let sliding = Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: self.npr };
         let point = OperatingPoint { sliding, ..self.point(&lubricant)? };
-        let grid = self.grid(&method)?;
+        let grid = self.grid(&method, point.moes())?;
         let grid_model = self.model_source();
         Ok((Request { point, lubricant, grid, grid_model }, method))
     }
@@ -326,7 +327,7 @@ impl PointOptions {
     }
 
     /// The grid of a full solution of a point contact.
-    fn plane(&self) -> Result<Grid, Failure> {
+    fn plane(&self, moes: Moes) -> Result<Grid, Failure> {
         let default = match self.grid {
             None | Some(GridName::Uniform) => PointGridSpec::DISSERTATION,
             Some(GridName::Graded) => PointGridSpec::EXPLORER,
@@ -335,16 +336,19 @@ impl PointOptions {
             }
             Some(GridName::Model) => return Ok(Grid::Model),
         };
+        let refused = |error: GridError| Failure::Request(error.to_string());
+        let own = self.dx.is_some() || self.dy.is_some() || self.domain.is_some();
+        let default = if own { default } else { default.for_contact(moes).map_err(refused)? };
         let (from, to, edge) = default.domain;
         let ends = self.domain.map_or((from, to), |domain| domain.x);
         let edge = self.domain.and_then(|domain| domain.y).unwrap_or(edge);
         let (dx, dy) = (self.dx.unwrap_or(default.dx), self.dy.unwrap_or(default.dy));
         let spec = PointGridSpec { dx, dy, domain: (ends.0, ends.1, edge), ..default };
-        spec.check().map_err(|error| Failure::Request(error.to_string()))?;
+        spec.check().map_err(refused)?;
         Ok(Grid::Plane { dx, dy, domain: spec.domain, refinement: spec.refinement })
     }
 
-    fn grid(&self, method: &Method) -> Result<Grid, Failure> {
+    fn grid(&self, method: &Method, moes: Moes) -> Result<Grid, Failure> {
         let point = self.kind() == ContactKind::Point;
         if !point && (self.dy.is_some() || self.domain.is_some_and(|domain| domain.y.is_some())) {
             return refuse("a line contact has no Y: leave out --dy and the third number of --domain");
@@ -360,10 +364,17 @@ impl PointOptions {
             return Ok(Grid::Model);
         }
         if point {
-            return self.plane();
+            return self.plane(moes);
         }
         let ends = self.domain.map(|domain| domain.x);
         let grid = match self.grid {
+            // Where the dissertation's grid is too short or too coarse, the explorer's one for the contact.
+            None | Some(GridName::Uniform)
+                if self.dx.is_none() && ends.is_none() && !GridSpec::DISSERTATION.does(moes) =>
+            {
+                GridSpec::explorer_for(moes).map_err(|error| Failure::Request(error.to_string()))?;
+                Grid::Graded
+            }
             None | Some(GridName::Uniform) => {
                 Grid::Uniform { dx: self.dx.unwrap_or(0.005), domain: ends.unwrap_or((-4.0, 2.0)) }
             }

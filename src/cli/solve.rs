@@ -6,11 +6,15 @@ use super::{Verdict, output};
 use crate::engine::{ContactResult, GridAccuracy, Table, Workbench, film_shear_table, profile_table};
 use crate::scene::{Bench, Method, atomic_file};
 use crate::solver::full::Solution;
+use crate::solver::observer::{NewtonStep, Observer};
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::training::TrainingObserver;
 use clap::Args;
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
 
 /// Values with nine decimals: what they are called here, and in a result.
 const DIMENSIONLESS: [(&str, &str); 8] = [
@@ -68,7 +72,14 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
         ));
     }
     let mut workbench = Workbench::new("");
-    let answer = workbench.answer(&request, &method, None, &())?;
+    let progress = Progress { begin: Instant::now(), next: AtomicUsize::new(2) };
+    let mut answer = workbench.answer(&request, &method, None, &progress)?;
+    if !answer.converged && method != Method::Full {
+        // The request asks for the model's own grid already.
+        let why = std::mem::take(&mut answer.warnings);
+        answer = workbench.answer(&request, &Method::Full, None, &progress)?;
+        answer.warnings.splice(0..0, why.into_iter().chain(["the full solver took over".to_owned()]));
+    }
     type Fields = fn(&Solution) -> Table;
     let files: [(&Option<PathBuf>, Fields); 2] = [
         (&args.profiles, |solution| profile_table("profiles", solution)),
@@ -82,7 +93,7 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
     }
     let mut report = Report { result: ContactResult::from(&answer), accuracy: None };
     if args.accuracy && answer.converged {
-        report.accuracy = Some(workbench.grid_accuracy(&answer, &())?);
+        report.accuracy = Some(workbench.grid_accuracy(&answer, &progress)?);
     }
     if args.json {
         output::print_json(&report)?;
@@ -91,6 +102,26 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
     }
     Ok(if answer.converged { Verdict::Done } else { Verdict::FellShort })
 }
+
+/// Says on standard error how a solve goes on, from the second second on.
+struct Progress {
+    begin: Instant,
+    /// The second in which it speaks next.
+    next: AtomicUsize,
+}
+
+impl Observer for Progress {
+    fn newton_step(&self, step: &NewtonStep) {
+        let NewtonStep { iteration, step, .. } = step;
+        let seconds = self.begin.elapsed().as_secs_f64();
+        if seconds >= self.next.load(Ordering::Relaxed) as f64 {
+            self.next.store((1.3 * seconds) as usize + 2, Ordering::Relaxed);
+            output::complain(&format!("{seconds:.0} s: Newton step {iteration}, the last of size {step:.1e}"));
+        }
+    }
+}
+
+impl TrainingObserver for Progress {}
 
 /// A result, with what the grid of a point contact costs where that was asked for.
 #[derive(Serialize)]

@@ -7,6 +7,7 @@ use super::output::{self, ProgressLine};
 use crate::engine::{ContactResult, RESULT_COLUMNS, Request, Table, Workbench};
 use crate::scene::check::MAX_POINTS;
 use crate::scene::{Bench, Method, Steps, atomic_file};
+use crate::solver::full::Solution;
 use crate::solver::observer::{Observer, Progress};
 use clap::Args;
 use std::path::PathBuf;
@@ -81,7 +82,7 @@ pub fn run(args: &SweepArgs) -> Result<Verdict, Failure> {
     let mut table = Table::new("sweep", &[&names[..], &columns].concat());
     let mut workbench = Workbench::new("");
     let progress = ProgressLine::new(false);
-    let (mut former, mut failures) = (None, 0);
+    let (mut former, mut failures, mut doubtful, mut worst) = (None, 0, 0, String::new());
     let total = requests.len();
     for (i, (values, request, method)) in requests.into_iter().enumerate() {
         progress.progress(Progress { stage: "sweep".to_owned(), done: i, total });
@@ -92,6 +93,10 @@ pub fn run(args: &SweepArgs) -> Result<Verdict, Failure> {
         }
         table.rows.push(values.into_iter().chain(report.row(&columns)).collect());
         if answer.converged {
+            if let Some(warning) = answer.solution.as_ref().and_then(Solution::grid_warning) {
+                doubtful += 1;
+                worst = warning;
+            }
             former = answer.solution;
         } else {
             failures += 1;
@@ -102,6 +107,9 @@ pub fn run(args: &SweepArgs) -> Result<Verdict, Failure> {
         Some(path) => atomic_file::replace(path, table.to_csv().as_bytes())?,
         None if !args.json => output::print(&table.to_csv())?,
         None => {}
+    }
+    if doubtful > 0 {
+        output::complain(&format!("the grid does not do for {doubtful} of {total} points; the last of them: {worst}"));
     }
     if failures > 0 {
         output::complain(&format!("{failures} of {total} points did not converge; their scalars are left empty"));

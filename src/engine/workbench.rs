@@ -57,7 +57,8 @@ impl Workbench {
         let (solution, wall_s) = self.store.with_full_solver(&grid, |solver| {
             let clock = Instant::now();
             let solution = solver.solve(&request.point, request.lubricant, start, observer);
-            (solution, clock.elapsed().as_secs_f64())
+            let wall_s = clock.elapsed().as_secs_f64();
+            (solution.map(|solution| solver.judged(solution)), wall_s)
         });
         let solution = solution?;
         if observer.cancelled() {
@@ -74,6 +75,7 @@ impl Workbench {
                 report.residual_norm
             ));
         }
+        warnings.extend(solution.grid_warning());
         warnings.extend(resolution_warning(&solution).filter(|_| solution.converged()));
         let (nx, ny) = (solution.x.len(), solution.y.len());
         let (nodes, dofs) = match problem.point.kind {
@@ -140,11 +142,13 @@ impl Workbench {
                 warnings.extend(resolution_warning(&solution));
                 (Some(solution), solved.iterations)
             }
-            Err(error @ ReducedError::NotConverged { iterations, .. }) => {
-                warnings.push(error.to_string());
-                (None, iterations)
-            }
-            Err(refused) => return Err(refused.into()),
+            Err(error) => match error.without_solution() {
+                Some(iterations) => {
+                    warnings.push(error.to_string());
+                    (None, iterations)
+                }
+                None => return Err(error.into()),
+            },
         };
         Ok(Answer {
             request: request.clone(),
@@ -221,6 +225,9 @@ impl Bench for Workbench {
     fn grid(&mut self, request: &Request, observer: &dyn TrainingObserver) -> Result<ContactGrid, EngineError> {
         let kind = request.point.kind;
         let spec = match kind {
+            _ if request.grid == Grid::Graded => {
+                Some(ContactGridSpec::explorer_for(kind, request.point.moes()).map_err(SolveError::from)?)
+            }
             ContactKind::Line => request.grid.spec().map(ContactGridSpec::Line),
             ContactKind::Point => request.grid.point_spec().map(ContactGridSpec::Point),
         };

@@ -2,7 +2,7 @@
 
 use super::bench::{Answer, ReducedFacts};
 use super::table::Table;
-use crate::solver::full::{Scalars, Shear, Solution};
+use crate::solver::full::{GridCost, Scalars, Shear, Solution};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
@@ -23,6 +23,10 @@ pub struct ContactResult {
     pub nodes: (usize, usize),
     /// Unknowns iterated on.
     pub dofs: usize,
+    /// What the grid of a full solution costs H_c.
+    pub grid_cost: Option<GridCost>,
+    /// A sentence where that is more than a few percent.
+    pub grid_warning: Option<String>,
     /// Dimensionless scalars of the solution.
     pub scalars: Option<Scalars>,
     /// Traction coefficient (3.41).
@@ -56,7 +60,7 @@ pub enum Value {
 type Get = fn(&ContactResult) -> Option<Value>;
 
 /// Every value by its name, with a dot where it lies in a group, in the order of the JSON object.
-const VALUES: [(&str, Get); 42] = [
+const VALUES: [(&str, Get); 44] = [
     ("contact", |r| text(r.point.kind.name())),
     ("method", |r| text(r.method)),
     ("converged", |r| Some(Value::Truth(r.converged))),
@@ -75,6 +79,8 @@ const VALUES: [(&str, Get); 42] = [
     ("grid.nx", |r| Some(Value::Count(r.nodes.0))),
     ("grid.ny", |r| Some(Value::Count(r.nodes.1))),
     ("grid.dofs", |r| Some(Value::Count(r.dofs))),
+    ("grid.truncation_error", |r| number(r.grid_cost?.truncation)),
+    ("grid.resolution_error", |r| number(r.grid_cost?.resolution)),
     ("H_c", |r| number(r.scalars?.h_c)),
     ("H_min", |r| number(r.scalars?.h_min)),
     ("X_H_min", |r| number(r.scalars?.x_h_min)),
@@ -144,6 +150,8 @@ impl From<&Answer> for ContactResult {
             grid: if answer.reduced.is_some() { "model" } else { answer.request.grid.kind() },
             nodes: (answer.nodes, answer.nodes_across),
             dofs: answer.dofs,
+            grid_cost: answer.result().and_then(|solution| solution.grid_cost),
+            grid_warning: answer.result().and_then(Solution::grid_warning),
             scalars: answer.result().map(|solution| solution.scalars),
             traction: answer.traction(),
             residual_norm: answer.solution.as_ref().map(|solution| solution.report.residual_norm),

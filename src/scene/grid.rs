@@ -1,7 +1,7 @@
 //! The grid of full solutions as a scene writes it.
 
 use super::check::{Checked, count, number, refuse};
-use crate::solver::discrete::grid::{GridSpec, MAX_GRADED_NODES, PointGridSpec};
+use crate::solver::discrete::grid::{GridSpec, LONGEST_INLET, LONGEST_OUTLET, MAX_GRADED_NODES, PointGridSpec};
 use crate::solver::physics::contact::ContactKind;
 use serde::{Deserialize, Serialize};
 
@@ -16,7 +16,8 @@ pub enum Grid {
         /// Inlet and outlet.
         domain: (f64, f64),
     },
-    /// The explorer's graded grid: along X for a line, across for a point contact.
+    /// The explorer's graded grid: along X for a line, across for a point contact; longer or finer where the contact
+    /// wants that.
     #[default]
     Graded,
     /// A graded grid of one's own.
@@ -105,8 +106,8 @@ pub(super) fn check(grid: &Grid, contact: ContactKind) -> Checked {
         _ => {}
     }
     let domain = |(from, to): (f64, f64)| {
-        number("grid.domain.0", from, -200.0, -1.5)?;
-        number("grid.domain.1", to, 1.2, 20.0)
+        number("grid.domain.0", from, -LONGEST_INLET, -1.5)?;
+        number("grid.domain.1", to, 1.2, LONGEST_OUTLET)
     };
     match *grid {
         Grid::Uniform { dx, domain: ends } => {

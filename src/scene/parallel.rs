@@ -6,7 +6,7 @@ use crate::solver::full::{ContactSolver, Solution, Start};
 use crate::solver::observer::{Observer, Progress};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
-use crate::solver::reduced::{Online, ReducedError, ReducedModel, ReducedOptions, ReducedSolution};
+use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, ReducedSolution};
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -99,7 +99,7 @@ pub(super) fn reduced_solutions(
                         let fields = if wanted { Some(online.reconstruct(&solved)?) } else { None };
                         Ok(Some(Reduced { solved, fields }))
                     }
-                    Err(ReducedError::NotConverged { .. }) => Ok(None),
+                    Err(error) if error.without_solution().is_some() => Ok(None),
                     Err(refused) => Err(refused.into()),
                 }
             };

@@ -158,6 +158,37 @@ fn a_point_contact_prints_its_plane_and_its_fields() {
     assert!(line["Y_H_min"].is_null() && line["grid"]["ny"] == 1);
 }
 
+/// On the default grid, on an own one, and in full.
+#[test]
+fn a_grid_that_does_not_do_is_said_and_the_default_one_does() {
+    let short = ["solve", "--json", "--moes-m", "0.25", "--moes-l", "5.86"];
+    let default = json(&program(&short));
+    assert!(
+        (default["H_c"].as_f64().unwrap() / 16.7 - 1.0).abs() < 0.02 && default.get("warning").is_none(),
+        "{default}"
+    );
+    let own = json(&program(&[&short[..], &["--domain=-4,2", "--dx", "0.02"]].concat()));
+    assert!(
+        own["warning"].as_str().is_some_and(|words| words.contains("the inlet at X = -4.000 is too near")),
+        "{own}"
+    );
+    assert!(own["grid"]["truncation_error"].as_f64().unwrap() > 0.1);
+    let sweep = program(&["sweep", "m=10:200:2", "--moes-l", "5", "--dx", "0.05"]);
+    assert!(String::from_utf8_lossy(&sweep.stderr).contains("the grid does not do for"));
+    for contact in ["line", "point"] {
+        assert_refused(&["solve", "--contact", contact, "--moes-m", "9e4", "--moes-l", "0.1"], "too thin");
+    }
+}
+
+/// M = 0.06 lies far outside the embedded model, whose bases hold no such contact.
+#[test]
+fn where_a_reduced_model_fails_the_full_solver_takes_over_and_says_so() {
+    let answer = json(&program(&["solve", "--json", "--method", "reduced", "--moes-m", "0.06", "--moes-l", "5"]));
+    assert_eq!((&answer["method"], &answer["converged"]), (&"full".into(), &true.into()), "{answer}");
+    let warning = answer["warning"].as_str().unwrap();
+    assert!(warning.contains("the full solver took over") && answer["H_min"].as_f64().unwrap() > 0.0, "{warning}");
+}
+
 #[test]
 fn a_reduced_point_contact_agrees_with_the_full_one_on_its_grid() {
     let at = ["solve", "--json", "--contact", "point", "--moes-m", "100", "--moes-l", "6"];

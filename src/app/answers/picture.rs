@@ -89,7 +89,7 @@ pub struct Picture {
     pub rupture: Option<f64>,
     /// The pressure spike.
     pub spike: Option<(f64, f64)>,
-    /// A sentence where the grid does not resolve the side lobes of a point contact.
+    /// A sentence where the grid ends too early or is too coarse, or does not resolve the side lobes.
     pub unresolved: Option<String>,
 }
 
@@ -110,7 +110,7 @@ impl Picture {
             unphysical: solution.traction_warning(),
             rupture: solution.rupture(),
             spike: solution.spike(),
-            unresolved: resolution_warning(&solution),
+            unresolved: solution.grid_warning().or_else(|| resolution_warning(&solution)),
             solution,
         };
         picture.draw_curves();

@@ -73,7 +73,7 @@ pub fn verdict(answers: &Answers) -> Verdict {
             Kind::Neutral,
         ),
         (Origin::Full, _) => match &picture.unresolved {
-            Some(warning) => make("Side lobes unresolved", format!("full solution on {}", grid(picture)), warning.clone(), Kind::Warning),
+            Some(warning) => make(if picture.solution.grid_warning().is_some() { "Grid does not do" } else { "Side lobes unresolved" }, format!("full solution on {}", grid(picture)), warning.clone(), Kind::Warning),
             None => make(
                 "Verified",
                 if picture.has_plane() { format!("full solution on {}", grid(picture)) } else { full.to_owned() },

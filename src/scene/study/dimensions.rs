@@ -24,6 +24,9 @@ pub struct Dimensions {
     pub losses: Vec<f64>,
 }
 
+/// Most full solutions that are kept at once, of a line and of a point contact: some hundred MB of fields.
+const MOST_SNAPSHOTS: [usize; 2] = [10_000, 1_000];
+
 /// All dimensions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
@@ -53,6 +56,8 @@ impl Question for Dimensions {
 
     fn check(&self, experiment: &Experiment) -> Checked {
         check_axes(&self.over, experiment)?;
+        let contacts = self.over.iter().map(|axis| axis.values.len()).fold(1, usize::saturating_mul);
+        count("study.over (points)", contacts, 1, MOST_SNAPSHOTS[experiment.contact as usize])?;
         count("study.losses (how many)", self.losses.len(), 1, 32)?;
         self.losses.iter().try_for_each(|&loss| number("study.losses", loss, 1e-15, 0.5))
     }

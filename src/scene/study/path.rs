@@ -144,6 +144,7 @@ pub(super) fn findings(methods: &[Method], experiment: &Experiment, rows: &[&Pat
         found.converged &= failures == 0;
         found.push("failures_on_model_grid", None, failures as f64);
     }
+    found.warnings.extend(grid_warning(rows));
     let full = methods.iter().position(|method| *method == Method::Full);
     for (k, method) in methods.iter().enumerate() {
         let of = Some(method);
@@ -165,6 +166,17 @@ pub(super) fn findings(methods: &[Method], experiment: &Experiment, rows: &[&Pat
             found.push_spread(&format!("{name}_error"), of, &errors);
         }
     }
+}
+
+/// How many contacts of a path the grid does not do for, and the worst of them.
+fn grid_warning(rows: &[&PathRow]) -> Option<String> {
+    let doubts = rows
+        .iter()
+        .flat_map(|row| &row.results)
+        .filter_map(|result| Some((result.grid_warning.as_ref()?, result.grid_cost?)));
+    let doubts: Vec<_> = doubts.collect();
+    let (worst, _) = doubts.iter().max_by(|a, b| a.1.total().total_cmp(&b.1.total()))?;
+    Some(format!("the grid does not do for {} of {} contacts; the worst: {worst}", doubts.len(), rows.len()))
 }
 
 /// The relative error of a method at one contact, where it is known.

@@ -3,7 +3,7 @@
 use super::question::{
     Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
-use crate::scene::check::{self, MAX_TESTS, count};
+use crate::scene::check::{self, MAX_COMPARED, MAX_TESTS, count};
 use crate::scene::method::Method;
 use crate::scene::parallel::full_solutions_told;
 use crate::scene::random_points::all_random_points;
@@ -155,7 +155,7 @@ impl Question for RandomTest {
 
     fn check(&self, _experiment: &Experiment) -> Checked {
         count("study.tests", self.tests, 1, MAX_TESTS)?;
-        count("study.compare", self.compare, 0, self.tests)?;
+        count("study.compare", self.compare, 0, self.tests.min(MAX_COMPARED))?;
         check::test_range(&self.range)
     }
 

@@ -55,6 +55,9 @@ pub trait Space: Sync {
     /// place with weight zero.
     fn row(&self, unknown: usize) -> ([usize; STENCIL], RowGeometry);
 
+    /// The same with every other node, by which the error of the first one shows; none where a node lies outside.
+    fn wide_row(&self, unknown: usize) -> Option<([usize; STENCIL], RowGeometry)>;
+
     /// Calls `f` with the unknown, its row's nodes and its item, for one item per unknown.
     fn each_row<T: Send>(&self, items: &mut [T], f: impl Fn(usize, [usize; STENCIL], &mut T) + Sync);
 
@@ -161,6 +164,15 @@ impl Space for LineSpace {
         (self.upstream[unknown].stencil(unknown), self.rows[unknown])
     }
 
+    fn wide_row(&self, unknown: usize) -> Option<([usize; STENCIL], RowGeometry)> {
+        let (own, x) = (unknown + FIRST_UNKNOWN, &self.grid.x);
+        let stencil = [own.checked_sub(4).filter(|&node| node >= INLET)?, own - 2, own, own + 2, own, own];
+        if own + 2 >= x.len() {
+            return None;
+        }
+        Some((stencil, RowGeometry::new([x[own - 4], x[own - 2], x[own], x[own + 2]])))
+    }
+
     #[inline]
     fn each_row<T: Send>(&self, items: &mut [T], f: impl Fn(usize, [usize; STENCIL], &mut T) + Sync) {
         for (k, (item, upstream)) in items.iter_mut().zip(&self.upstream).enumerate() {
@@ -207,6 +219,21 @@ impl Space for PlaneSpace {
     #[inline]
     fn row(&self, unknown: usize) -> ([usize; STENCIL], RowGeometry) {
         self.grid.row(unknown)
+    }
+
+    fn wide_row(&self, unknown: usize) -> Option<([usize; STENCIL], RowGeometry)> {
+        let PointGrid { x, y, .. } = &*self.grid;
+        let (ny, node) = (y.len(), self.grid.node(unknown));
+        let (i, j) = (node / ny, node % ny);
+        if i < 4 || i + 2 >= x.len() || j < 2 {
+            return None;
+        }
+        // Beyond the axis lies the mirror image.
+        let axis = ny - 1;
+        let (north, beyond) = if j + 2 > axis { (2 * axis - j - 2, -1.0) } else { (j + 2, 1.0) };
+        let across = (j < axis).then(|| beyond * y[north] - y[j]);
+        let geometry = RowGeometry::new([x[i - 4], x[i - 2], x[i], x[i + 2]]).across(y[j] - y[j - 2], across);
+        Some(([node - 4 * ny, node - 2 * ny, node, node + 2 * ny, node - 2, i * ny + north], geometry))
     }
 
     #[inline]

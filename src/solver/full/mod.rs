@@ -16,12 +16,14 @@ mod tests;
 mod thinning;
 mod traction;
 pub mod transient;
+mod trust;
 
 pub use line::Backtracking;
 pub use point::LimitedSteps;
 pub(crate) use solution::under_contact;
 pub use solution::{Mesh, Problem, Report, Scalars, Solution, SolveError, Termination, Traction, scalars_of};
-pub use solver::{ContactSolver, FullSolver, PointSolver, Solver, Start};
+pub use solver::{ContactSolver, FullSolver, PointSolver, Solver, Start, most_newton};
 pub use system::{SolveOptions, System};
 pub(crate) use traction::mid_film_stress;
 pub use traction::{PLAUSIBLE_EXPONENT, Shear};
+pub use trust::GridCost;

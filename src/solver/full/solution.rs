@@ -1,5 +1,6 @@
 //! What is solved and what comes out: a problem and a solution are values that know what they belong to.
 
+use super::trust::GridCost;
 use crate::solver::discrete::grid::{GridError, GridSpec, PointGridSpec, dot};
 use crate::solver::discrete::nodes::Laws;
 use crate::solver::discrete::space::Grid;
@@ -109,6 +110,10 @@ pub enum Termination {
     Converged,
     /// The iteration limit was reached.
     IterationLimit,
+    /// The effort of a whole solve was spent, see [`most_newton`].
+    ///
+    /// [`most_newton`]: super::most_newton
+    Effort,
     /// The iterates left every sensible range.
     Diverged,
     /// The pressures left the range of the viscosity law.
@@ -124,6 +129,9 @@ impl Termination {
             Self::Converged => "converged",
             Self::IterationLimit => {
                 "stopped at the iteration limit; try a start from a converged neighbour, a finer grid or a longer inlet"
+            }
+            Self::Effort => {
+                "was given up after its effort was spent; try a start from a converged neighbour, another grid or an easier contact"
             }
             Self::Diverged => "diverged; try a start from a converged neighbour, a smaller load or a finer grid",
             Self::OccupiedVolume => {
@@ -170,7 +178,8 @@ impl Report {
 
     /// Whether no further start needs to be tried.
     pub(super) fn ended(&self) -> bool {
-        self.attempts > 0 && matches!(self.termination, Termination::Converged | Termination::Cancelled)
+        use Termination::{Cancelled, Converged, Effort};
+        self.attempts > 0 && matches!(self.termination, Converged | Cancelled | Effort)
     }
 }
 
@@ -259,6 +268,10 @@ pub struct Solution {
     pub scalars: Scalars,
     /// How it was obtained.
     pub report: Report,
+    /// What its grid costs the central film, where that was asked for ([`ContactSolver::judged`]).
+    ///
+    /// [`ContactSolver::judged`]: super::ContactSolver::judged
+    pub grid_cost: Option<GridCost>,
 }
 
 impl Solution {

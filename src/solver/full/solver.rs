@@ -34,10 +34,16 @@ enum Beginning<'a> {
     Warm(&'a Solution),
 }
 
+/// Newton steps that a whole solve takes at most, all its starts together, on a grid of so many unknowns: 3,000, on large
+/// grids fewer, and never fewer than 200.
+pub fn most_newton(unknowns: usize) -> usize {
+    (4_000_000 / unknowns.max(1)).clamp(200, 3000)
+}
+
 /// Solves contacts of one kind on one grid; keeps the grid and the work space between solves.
 pub struct Solver<S: NewtonSpace> {
     reference: S::Reference,
-    system: Option<System<S>>,
+    pub(super) system: Option<System<S>>,
     /// Settings of every solve.
     pub options: SolveOptions<S::Control>,
 }
@@ -146,7 +152,7 @@ impl<S: NewtonSpace> Solver<S> {
 
     /// The system on the grid under a scale: the kept one where it has that scale. Another scale has other
     /// coefficients.
-    fn system_at(&mut self, scale: f64) -> System<S> {
+    pub(super) fn system_at(&mut self, scale: f64) -> System<S> {
         match self.system.take() {
             Some(system) if system.space.mesh().scale() == scale => system,
             _ => System::new(S::on(&self.reference, scale)),
@@ -161,7 +167,12 @@ impl<S: NewtonSpace> Solver<S> {
             Beginning::Cold(film) => cold_state(&mut system, problem, film),
             Beginning::Warm(former) => warm_state(&mut system, problem, former),
         }
-        system.newton(problem, &self.options, observer, report);
+        let most = most_newton(system.rows.len());
+        let left = most.saturating_sub(report.newton_iterations).min(self.options.max_newton);
+        system.newton(problem, &SolveOptions { max_newton: left, ..self.options }, observer, report);
+        if report.termination == Termination::IterationLimit && report.newton_iterations >= most {
+            report.termination = Termination::Effort;
+        }
         self.system = Some(system);
     }
 
@@ -180,6 +191,7 @@ impl<S: NewtonSpace> Solver<S> {
             film: film.clone(),
             scalars: scalars_of(space.grid(), &problem, pressure, film, *h_0),
             report,
+            grid_cost: None,
         }
     }
 
@@ -213,7 +225,7 @@ impl<S: NewtonSpace> Solver<S> {
             let Some(wanted) = wanted else { return };
             self.attempt(&wanted, Beginning::Warm(&last), observer, report);
             match report.termination {
-                Termination::Cancelled => return,
+                Termination::Cancelled | Termination::Effort => return,
                 Termination::Converged => {
                     t = next;
                     last = self.solution(wanted, Report::empty());
@@ -353,6 +365,15 @@ impl ContactSolver {
             Self::Line(solver) => solver.solve_problem(problem, start, observer),
             Self::Point(solver) => solver.solve_problem(problem, start, observer),
         }
+    }
+
+    /// A solution on its grid with what that costs the central film; as it is where it has not converged.
+    pub fn judged(&mut self, solution: Solution) -> Solution {
+        let grid_cost = solution.converged().then(|| match self {
+            Self::Line(solver) => solver.grid_cost(&solution),
+            Self::Point(solver) => solver.grid_cost(&solution),
+        });
+        Solution { grid_cost, ..solution }
     }
 
     /// Takes a few Newton steps from fields on its grid, by which their error can be judged: undamped where there is a

@@ -180,7 +180,8 @@ impl<S: NewtonSpace> System<S> {
             }
             report.residuals.push(residual);
             let forcing = S::forcing(&options.control, &mut memory, residual);
-            let linear = self.solve_linear(problem, options, forcing, observer);
+            let load = if S::CLIPS { problem.load - dot(self.space.grid().weights(), &self.pressure) } else { 0.0 };
+            let linear = self.solve_linear(options, forcing, load, observer);
             report.linear_iterations += linear.iterations;
             if observer.cancelled() {
                 report.termination = Termination::Cancelled;
@@ -206,12 +207,12 @@ impl<S: NewtonSpace> System<S> {
         report.residual_norm = residual;
     }
 
-    /// Solves the linearised system for `update` = (ΔP, ΔH₀). Returns how the linear solver ended.
-    fn solve_linear(
+    /// Solves the linearised system for `update` = (ΔP, ΔH₀), ΔP to carry `load`. Returns how the linear solver ended.
+    pub(super) fn solve_linear(
         &mut self,
-        problem: &Problem,
         options: &SolveOptions<S::Control>,
         tolerance: f64,
+        load: f64,
         observer: &dyn Observer,
     ) -> LinearOutcome {
         let Self { space, krylov, scratch, step, step_deformation, rows, scaling, preconditioner, rhs, update, .. } =
@@ -233,7 +234,7 @@ impl<S: NewtonSpace> System<S> {
             *r = -row.value * s;
         }
         let weights = space.grid().weights();
-        rhs[u] = if S::CLIPS { problem.load - dot(weights, &self.pressure) } else { 0.0 };
+        rhs[u] = load;
         krylov.solve(
             rhs,
             update,

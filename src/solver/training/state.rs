@@ -11,7 +11,7 @@ use super::traction::traction_rule;
 use super::{Plan, Range, TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows, layout};
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::reduced::{ReducedModel, Window};
+use crate::solver::reduced::{ReducedModel, Snapshot, Window};
 use fastrand::Rng;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -174,6 +174,9 @@ pub fn train_resumable(
     go(state, false, observer)
 }
 
+/// A window whose grid is expected to cost more than this share of H_c is told so.
+const TOO_COSTLY: f64 = 0.1;
+
 /// Trains every window; `ended` takes them as they are.
 fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -> Result<ReducedModel, TrainingError> {
     let spec = state.spec.clone();
@@ -203,6 +206,11 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
             trained.sampled_rows.len(),
             trained.grid.unknowns(),
         ));
+        let cost = |snapshot: &Snapshot| trained.grid.spec().expected_cost(snapshot.point.moes());
+        let worst = trained.snapshots.iter().map(cost).fold(0.0, f64::max);
+        if worst > TOO_COSTLY {
+            log.push(format!("this grid costs H_c up to some {:.0} %: take a longer or a finer one", 100.0 * worst));
+        }
         log.extend(state.windows[k].search.describe(&spec.plan));
         if let Some(rule) = &trained.traction {
             log.push(format!("traction from the stress at {} nodes", rule.nodes.len()));

@@ -139,7 +139,8 @@ fn solve(store: &Store, request: &FullSolve, reporter: &Reporter<News>) -> Endin
     let (solution, wall_s) = store.with_full_solver(&grid, |solver| {
         let begin = Instant::now();
         let solution = solver.solve(&request.key.point, request.key.lubricant, start, &Steps(reporter));
-        (solution, begin.elapsed().as_secs_f64())
+        let wall_s = begin.elapsed().as_secs_f64();
+        (solution.map(|solution| solver.judged(solution)), wall_s)
     });
     let solution = solution.map_err(|refused| refused.to_string())?;
     reporter.send(News::Solved(Box::new(solution), wall_s));

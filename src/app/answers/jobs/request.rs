@@ -51,7 +51,9 @@ impl GridChoice {
     pub fn of(model: Option<&ReducedModel>, plane: Option<PointGridSpec>, moes: Moes) -> Self {
         match (model.and_then(|model| model.windows.get(model.window_for(moes))), plane) {
             (Some(window), _) => Self::Existing(window.grid.clone()),
-            (None, None) => Self::Spec(ContactGridSpec::Line(GridSpec::EXPLORER)),
+            (None, None) => {
+                Self::Spec(ContactGridSpec::Line(GridSpec::explorer_for(moes).unwrap_or(GridSpec::EXPLORER)))
+            }
             (None, Some(plane)) => Self::Spec(ContactGridSpec::Point(plane)),
         }
     }

@@ -27,6 +27,11 @@ pub const MAX_GRADED_NODES: usize = 4001;
 /// Largest number of nodes a uniform grid may have.
 pub const MAX_UNIFORM_NODES: usize = 200_001;
 
+/// Farthest inlet a domain may have, as −X.
+pub const LONGEST_INLET: f64 = 2000.0;
+/// Farthest outlet.
+pub const LONGEST_OUTLET: f64 = 1000.0;
+
 const EXPLORER_NODES: usize = 632;
 const EXPLORER_INLET: f64 = -20.0;
 const EXPLORER_OUTLET: f64 = 3.2;
@@ -64,10 +69,8 @@ impl GridSpec {
 
     /// [`GridSpec::EXPLORER`]'s spacing and outlet with another inlet: as many nodes as that takes.
     pub fn explorer_from(inlet: f64, registered: bool) -> Self {
-        let count = |from: f64| cells(from, EXPLORER_OUTLET, FINE_SAMPLES);
-        let share = count(inlet) / count(EXPLORER_INLET);
-        let nodes = ((EXPLORER_NODES - 1) as f64 * share).round().max(0.0) as usize + 1;
-        Self::Graded { nodes, domain: (inlet, EXPLORER_OUTLET), registered }
+        let domain = (inlet, EXPLORER_OUTLET);
+        Self::Graded { nodes: explorer_cells(domain) + 1, domain, registered }
     }
 
     /// Builds the reference grid and its kernel; the costly part, done once per specification.
@@ -78,11 +81,11 @@ impl GridSpec {
         let (from, to) = match *self {
             Self::Uniform { domain, .. } | Self::Graded { domain, .. } => domain,
         };
-        if !((-200.0..=-1.5).contains(&from) && (1.2..=20.0).contains(&to)) {
+        if !((-LONGEST_INLET..=-1.5).contains(&from) && (1.2..=LONGEST_OUTLET).contains(&to)) {
             let (from, to) = (Number(from), Number(to));
             return Err(GridError::Refused(format!(
-                "the domain {from}…{to} cuts the contact; its inlet must lie between −200 and −1.5 and its outlet \
-                 between 1.2 and 20"
+                "the domain {from}…{to} cuts the contact; its inlet must lie between −{LONGEST_INLET} and −1.5 and its \
+                 outlet between 1.2 and {LONGEST_OUTLET}"
             )));
         }
         let xi = match *self {
@@ -221,6 +224,13 @@ impl LineGrid {
 fn node_weights(xi: &[f64]) -> Vec<f64> {
     let n = xi.len();
     (0..n).map(|i| if (FIRST_UNKNOWN..n - 1).contains(&i) { 0.5 * (xi[i + 1] - xi[i - 1]) } else { 0.0 }).collect()
+}
+
+/// Cells of a domain in [`GridSpec::EXPLORER`]'s spacing.
+pub(super) fn explorer_cells((from, to): (f64, f64)) -> usize {
+    let count = |from: f64, to: f64| cells(from, to, FINE_SAMPLES);
+    let share = count(from, to) / count(EXPLORER_INLET, EXPLORER_OUTLET);
+    ((EXPLORER_NODES - 1) as f64 * share).round().max(0.0) as usize
 }
 
 /// Wanted relative spacing at ξ: fine at ±1, moderate inside, growing with the distance into the inlet.

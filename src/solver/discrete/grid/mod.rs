@@ -3,14 +3,16 @@
 
 pub mod contact;
 mod error;
+mod fitting;
 pub mod line;
 pub mod point;
 
 pub use contact::{ContactGrid, ContactGridSpec};
 pub use error::{GridError, MAX_BYTES};
+pub use fitting::that_would_do;
 pub use line::{
-    FIRST_UNKNOWN, GridSpec, INLET, LineGrid, MAX_GRADED_NODES, MAX_UNIFORM_NODES, ReferenceGrid, registration_scale,
-    spike_position,
+    FIRST_UNKNOWN, GridSpec, INLET, LONGEST_INLET, LONGEST_OUTLET, LineGrid, MAX_GRADED_NODES, MAX_UNIFORM_NODES,
+    ReferenceGrid, registration_scale, spike_position,
 };
 pub use point::{PointGrid, PointGridSpec};
 

@@ -4,7 +4,7 @@
 //! Node arrays run over all nodes, Y fastest: node (i, j) has the index i·n_y + j, with j = 0 on the outer edge and j =
 //! n_y − 1 on the symmetry axis Y = 0. The unknown pressures are those inside and on the axis, in the same order.
 
-use super::{GridError, MAX_BYTES, cubic};
+use super::{GridError, LONGEST_INLET, LONGEST_OUTLET, MAX_BYTES, cubic};
 use crate::solver::discrete::elasticity::{PointFlexibility, PointScratch};
 use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
 use crate::solver::limits::Number;
@@ -26,10 +26,11 @@ pub struct PointGridSpec {
     pub domain: (f64, f64, f64),
 }
 
-/// Widest spacing along X.
+/// Widest spacing along X, and across, in the usual domains.
 const WIDEST_DX: f64 = 0.1;
-/// Widest spacing across.
 const WIDEST_DY: f64 = 0.2;
+/// Cells along X and across that larger ones must have at least.
+const FEWEST: (f64, f64) = (60.0, 10.0);
 /// Where the side lobes lie in heavily loaded contacts, and how wide the refined zone around them is.
 const SIDE_LOBE: f64 = -0.95;
 const SIDE_LOBE_WIDTH: f64 = 0.1;
@@ -63,14 +64,17 @@ impl PointGridSpec {
     /// When the domain cuts the contact, or the spacing is too wide or too narrow.
     pub fn nodes(&self) -> Result<(usize, usize), GridError> {
         let (from, to, edge) = self.domain;
-        if !((-50.0..=-1.5).contains(&from) && (1.2..=20.0).contains(&to) && (-20.0..=-1.2).contains(&edge)) {
+        let along = (-LONGEST_INLET..=-1.5).contains(&from) && (1.2..=LONGEST_OUTLET).contains(&to);
+        if !(along && (-LONGEST_OUTLET..=-1.2).contains(&edge)) {
             let [from, to, edge] = [from, to, edge].map(Number);
             return Err(GridError::Refused(format!(
-                "the half domain {from} ≤ X ≤ {to}, {edge} ≤ Y ≤ 0 cuts the contact; its inlet must lie between −50 \
-                 and −1.5, its outlet between 1.2 and 20, its edge between −20 and −1.2"
+                "the half domain {from} ≤ X ≤ {to}, {edge} ≤ Y ≤ 0 cuts the contact; its inlet must lie between \
+                 −{LONGEST_INLET} and −1.5, its outlet between 1.2 and {LONGEST_OUTLET}, its edge between \
+                 −{LONGEST_OUTLET} and −1.2"
             )));
         }
-        for (name, spacing, widest) in [("ΔX", self.dx, WIDEST_DX), ("ΔY", self.dy, WIDEST_DY)] {
+        let widest = (WIDEST_DX.max((to - from) / FEWEST.0), WIDEST_DY.max(-edge / FEWEST.1));
+        for (name, spacing, widest) in [("ΔX", self.dx, widest.0), ("ΔY", self.dy, widest.1)] {
             if !(1e-4..=widest).contains(&spacing) {
                 let spacing = Number(spacing);
                 return Err(GridError::Refused(format!(

@@ -256,6 +256,11 @@ fn walk(
         if observer.cancelled() {
             return Err(Ended::Cancelled { time: at.time });
         }
+        // Adaptive steps may become shorter than the longest.
+        if trajectory.moments.len() as f64 > MOST_STEPS + 1.0 {
+            let (time, step, termination) = (at.time, pace.length, Termination::Effort);
+            return Err(Ended::StepRefused { time, step, termination });
+        }
         let now = conditions(pace.aim(at.time))?;
         let step = Step::new(frame, now, [at.scales, former], pace.length, pace.before);
         match model.step(&step, observer) {

@@ -139,6 +139,7 @@ impl Ended {
                 "could not take the step of {step:.1e} to T = {time:.4}, whose iteration {}; what was computed before is kept",
                 match termination {
                     Termination::IterationLimit => "did not end",
+                    Termination::Effort => "would have been one of too many",
                     _ => "diverged",
                 }
             ),

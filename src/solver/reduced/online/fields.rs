@@ -37,6 +37,7 @@ impl Online {
                 steps: Vec::new(),
                 residual_norm: solution.residual_estimate,
             },
+            grid_cost: None,
         })
     }
 
@@ -46,6 +47,12 @@ impl Online {
     /// When the solution's point is refused or it belongs to another model.
     pub fn scalars(&self, solution: &ReducedSolution) -> Result<Scalars, ReducedError> {
         Ok(self.fields(solution)?.scalars(solution.h_0))
+    }
+
+    /// The smallest film at any node.
+    pub(super) fn lowest_film(&self, solution: &ReducedSolution) -> Result<f64, ReducedError> {
+        let lower = |a: f64, b: &f64| if b.is_nan() { *b } else { a.min(*b) };
+        Ok(self.fields(solution)?.film.iter().fold(f64::INFINITY, lower))
     }
 
     fn fields(&self, solution: &ReducedSolution) -> Result<Fields, ReducedError> {

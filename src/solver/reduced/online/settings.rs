@@ -35,6 +35,20 @@ pub enum ReducedError {
         /// Last relative step.
         step: f64,
     },
+    /// Newton's iteration ended where the model was not trained, in what no contact can be.
+    #[error("the reduced solution is none, {0}; use the full solver here")]
+    Implausible(String),
+}
+
+impl ReducedError {
+    /// The Newton steps of an iteration that was run and gave no solution; none where the request itself is refused.
+    pub fn without_solution(&self) -> Option<usize> {
+        match self {
+            Self::NotConverged { iterations, .. } => Some(*iterations),
+            Self::Implausible(_) => Some(0),
+            _ => None,
+        }
+    }
 }
 
 /// From where an online iteration is started.

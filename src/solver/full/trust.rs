@@ -1,0 +1,229 @@
+//! How far the grid lets a full answer be trusted: what its central film is off by because the domain ends and because
+//! its spacing is finite, for the price of two linear solves.
+//!
+//! Both are linear responses of the converged system, −J⁻¹ times what the discrete equations lack:
+//!
+//! - The domain sets P = 0 where an endless inlet has a pressure. Beyond the ends of the domain the gap grows like R²/2
+//!   with the distance R, the oil is as thin as at ambient pressure, and the pressure of the full film there, that of
+//!   half Sommerfeld's tail, is λ̄|X|/(3H²) in a line and λ̄|X|/(5H²) in a point contact (P ∝ cos θ/R³). It enters the
+//!   rows beside the ends, and the load that the missing part would carry the load's equation.
+//! - The rows of a scheme of second order, evaluated on every other node of the solution, miss three times what the
+//!   solution itself misses of the differential equation.
+
+use super::newton_space::NewtonSpace;
+use super::solution::{Problem, Solution};
+use super::solver::Solver;
+use super::system::System;
+use crate::solver::discrete::grid::{INLET, that_would_do};
+use crate::solver::discrete::reynolds::{EAST, NORTH, SOUTH, WEST};
+use crate::solver::discrete::space::Grid;
+use crate::solver::physics::contact::ContactKind;
+
+/// What the grid costs H_c: relative errors to first order, positive where the true film is thicker. Far beyond a tenth
+/// they are too small: the film by which they are judged is too thin itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GridCost {
+    /// Since the inlet ends too early, or the sides too near.
+    pub truncation: f64,
+    /// Since the spacing is finite.
+    pub resolution: f64,
+}
+
+/// An answer whose grid costs more than this share of H_c carries a warning.
+const TOLERATED: f64 = 0.03;
+/// Beyond this the truth is likely to be farther off.
+const SATURATED: f64 = 0.1;
+
+/// Accuracy of the linear solves, and their iterations at most.
+const LINEAR: (f64, usize) = (1e-4, 60);
+
+impl GridCost {
+    /// The relative error of H_c by both.
+    pub fn total(self) -> f64 {
+        self.truncation.abs() + self.resolution.abs()
+    }
+}
+
+impl Solution {
+    /// A sentence where the grid costs the central film more than a few percent, with a grid that would do.
+    pub fn grid_warning(&self) -> Option<String> {
+        let cost = self.grid_cost?;
+        let total = cost.total();
+        if total <= TOLERATED {
+            return None;
+        }
+        if total.is_nan() {
+            return Some("what the grid costs H_c cannot be told; compare with a finer one".to_owned());
+        }
+        let (reach, spacing) = that_would_do(self.problem.point.kind, self.problem.moes);
+        let mut parts = Vec::new();
+        if cost.truncation.abs() > 0.3 * TOLERATED {
+            let x = self.x[self.first()];
+            let wanted = reach.max(-x * (cost.truncation.abs() / 0.01).sqrt()).ceil();
+            parts.push(match self.y[..] {
+                [_] => format!("the inlet at X = {x:.3} is too near, one at {:.0} would do", -wanted),
+                _ => format!(
+                    "the ends of the domain at X = {x:.3} and Y = {:.3} are too near, {:.0} and {:.0} would do",
+                    self.y[0],
+                    -wanted,
+                    -0.5 * wanted
+                ),
+            });
+        }
+        if cost.resolution.abs() > 0.3 * TOLERATED {
+            let behind = self.x.partition_point(|&x| x < -1.0).clamp(1, self.x.len() - 1);
+            let own = self.x[behind] - self.x[behind - 1];
+            let wanted = spacing.min(own * (0.01 / cost.resolution.abs()).sqrt());
+            parts.push(format!("the spacing of {own:.2e} at X = -1 is too wide, {wanted:.1e} would do"));
+        }
+        let more = if total > SATURATED { " or more" } else { "" };
+        Some(format!("H_c is off by about {:.0} %{more}: {}", 100.0 * total, parts.join("; ")))
+    }
+}
+
+impl<S: NewtonSpace> Solver<S> {
+    /// What the grid costs the central film of a converged solution on it.
+    pub fn grid_cost(&mut self, solution: &Solution) -> GridCost {
+        let mut system = self.system_at(solution.mesh.scale());
+        system.set_pressure(&solution.problem, &solution.pressure);
+        system.set_h_0(solution.scalars.h_0);
+        let cost = system.grid_cost(&solution.problem, &self.options);
+        self.system = Some(system);
+        cost
+    }
+}
+
+impl<S: NewtonSpace> System<S> {
+    fn grid_cost(&mut self, problem: &Problem, options: &super::SolveOptions<S::Control>) -> GridCost {
+        self.nodes.forget();
+        self.evaluate(problem, options.penalty);
+        let missing = self.missing_pressure(problem);
+        let load = self.missing_load(&missing);
+        for k in 0..self.rows.len() {
+            let (stencil, _) = self.space.row(k);
+            let row = &mut self.rows[k];
+            row.value = [WEST, EAST, SOUTH, NORTH].iter().map(|&at| row.d_p[at] * missing[stencil[at]]).sum();
+        }
+        let truncation = self.central_response(options, -load);
+        for k in 0..self.rows.len() {
+            let coarse = self.space.wide_row(k).filter(|(stencil, _)| {
+                // The film ruptures where it likes: there a row is no difference quotient.
+                stencil.iter().all(|&node| self.nodes[node].pressure >= 0.0)
+            });
+            self.rows[k].value = coarse
+                .map_or(0.0, |(stencil, geometry)| -self.nodes.row(&geometry, options.penalty, stencil).value / 3.0);
+        }
+        let resolution = self.central_response(options, 0.0);
+        GridCost { truncation, resolution }
+    }
+
+    /// The response of H_c to the values of the rows and to a load that the nodes carry in addition, over H_c.
+    fn central_response(&mut self, options: &super::SolveOptions<S::Control>, load: f64) -> f64 {
+        let options = super::SolveOptions { max_krylov: LINEAR.1, ..*options };
+        self.solve_linear(&options, LINEAR.0, load, &());
+        let shift = self.update[self.rows.len()];
+        self.space.spread(&self.update, &mut self.step);
+        self.space.grid().deform(&self.step, &mut self.step_deformation, &mut self.scratch);
+        let grid = self.space.grid();
+        (grid.central(&self.step_deformation) + shift) / grid.central(&self.film)
+    }
+
+    /// The pressure of an endless film at the ends of the domain, node array; zero inside and behind the contact.
+    fn missing_pressure(&self, problem: &Problem) -> Vec<f64> {
+        let (x, y) = self.space.grid().abscissae();
+        let weights = self.space.grid().weights();
+        let share = match S::KIND {
+            ContactKind::Line => 3.0,
+            ContactKind::Point => 5.0,
+        };
+        let at = |node: usize| {
+            let (x, film) = (x[node / y.len()], self.film[node]);
+            if weights[node] > 0.0 || x >= 0.0 {
+                return 0.0;
+            }
+            -x / (share * problem.inverse_lambda * film * film)
+        };
+        (0..weights.len()).map(at).collect()
+    }
+
+    /// The load of such a pressure beyond the domain, of both halves of a point contact: it falls with the third power
+    /// of the distance, so that its integral is that of P x·n over the ends, a half of it in one dimension.
+    fn missing_load(&self, missing: &[f64]) -> f64 {
+        let (x, y) = self.space.grid().abscissae();
+        if S::KIND == ContactKind::Line {
+            return -0.5 * missing[INLET] * x[INLET];
+        }
+        let along_end = |nodes: &[f64], at: &dyn Fn(usize) -> f64| -> f64 {
+            (1..nodes.len()).map(|k| 0.5 * (at(k) + at(k - 1)) * (nodes[k] - nodes[k - 1])).sum()
+        };
+        let inlet = along_end(y, &|j| missing[j]);
+        let edge = along_end(x, &|i| missing[i * y.len()]);
+        -2.0 * (inlet * x[0] + edge * y[0])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::discrete::grid::{ContactGridSpec, GridSpec, PointGridSpec};
+    use crate::solver::full::{ContactSolver, Start};
+    use crate::solver::physics::contact::{Moes, MoesRequest, si_from_moes};
+    use crate::solver::physics::lubricant::Lubricant;
+
+    fn judged(spec: ContactGridSpec, m: f64, l: f64) -> Solution {
+        let point = si_from_moes(&MoesRequest::new(spec.kind(), m, l)).unwrap();
+        let mut solver = ContactSolver::on(&spec.build().unwrap());
+        let solution = solver.solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
+        assert!(solution.converged(), "M {m}, L {l}: {:?}", solution.report);
+        solver.judged(solution)
+    }
+
+    fn uniform(dx: f64) -> ContactGridSpec {
+        ContactGridSpec::Line(GridSpec::Uniform { dx, domain: (-4.0, 2.0) })
+    }
+
+    /// Contacts on domains that end too early or with spacings that are too wide, the film of an endless domain, and
+    /// what the sentence speaks of.
+    #[test]
+    fn a_film_that_the_grid_moves_by_more_than_a_twentieth_carries_a_warning_and_the_grid_for_the_contact_does() {
+        for (m, l, dx, truth, word) in [
+            (0.06, 5.0, 0.02, 261.0, "inlet"),
+            (0.25, 5.86, 0.005, 16.7, "inlet"),
+            (0.5, 10.0, 0.005, 5.4, "inlet"),
+            (40.0, 10.0, 0.1, 0.0371, "spacing"),
+        ] {
+            let poor = judged(uniform(dx), m, l);
+            assert!((poor.scalars.h_c / truth - 1.0).abs() > 0.05);
+            let warning = poor.grid_warning().unwrap();
+            assert!(warning.starts_with("H_c is off by about") && warning.contains(word), "{warning}");
+            let own = ContactGridSpec::explorer_for(ContactKind::Line, Moes { m, l }).unwrap();
+            let good = judged(own, m, l);
+            assert_eq!(good.grid_warning(), None, "M {m}, L {l}");
+            assert!((good.scalars.h_c / truth - 1.0).abs() < 0.03, "M {m}, L {l}: {}", good.scalars.h_c);
+        }
+    }
+
+    #[test]
+    fn what_a_grid_costs_is_told_before_a_better_one_shows_it() {
+        for (spec, m, l, most) in
+            [(uniform(0.005), 200.0, 10.0, 0.1), (uniform(0.02), 40.0, 10.0, 0.2), (uniform(0.005), 2.0, 5.0, 0.2)]
+        {
+            let told = judged(spec, m, l);
+            let better = judged(ContactGridSpec::Line(GridSpec::EXPLORER), m, l);
+            let (cost, shown) = (told.grid_cost.unwrap().total(), better.scalars.h_c / told.scalars.h_c - 1.0);
+            assert!((cost / shown - 1.0).abs() < most, "M {m}, L {l}: {cost} told, {shown} shown");
+        }
+        assert!(judged(uniform(0.005), 40.0, 10.0).grid_cost.unwrap().total() < 5e-3);
+    }
+
+    #[test]
+    fn a_point_contact_whose_domain_is_too_small_or_coarse_carries_a_warning() {
+        let quick = PointGridSpec::uniform(0.08, 0.2, (-4.0, 2.0, -2.0));
+        for (m, l, word) in [(1.1, 11.2, "ends of the domain"), (200.0, 10.0, "spacing")] {
+            let warning = judged(ContactGridSpec::Point(quick), m, l).grid_warning().unwrap();
+            assert!(warning.contains(word), "M {m}, L {l}: {warning}");
+        }
+        let usual = judged(ContactGridSpec::Point(PointGridSpec { dx: 0.03, ..PointGridSpec::QUICK }), 50.0, 5.0);
+        assert_eq!(usual.grid_warning(), None);
+    }
+}
