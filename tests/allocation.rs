@@ -105,7 +105,7 @@ fn online_steps_in_time_do_not_allocate() {
     let training = TpwlTraining { modes: 40, selection: Selection::Distance { tolerance: 0.02 } };
     let linearised = TpwlModel::train(&[&full], training).unwrap();
     let settings = TrajectoryTraining { loss: 1e-5, ..TrajectoryTraining::default() };
-    let sampled = train_trajectories(&coarse.build().unwrap(), &[full], &settings, &()).unwrap();
+    let sampled = train_trajectories(&coarse.line().unwrap(), &[full], &settings, &()).unwrap();
 
     let online = Transient { keep: Keep::Scalars, ..breathing };
     let steps_that_allocate = |model: &mut dyn Marching| {

@@ -170,8 +170,8 @@ impl Document {
     }
 
     /// Chooses the grid of a point contact's full solutions.
-    pub fn set_plane(&mut self, PointGridSpec { dx, dy, domain, refinement }: PointGridSpec) {
-        self.grid = Grid::Plane { dx, dy, domain, refinement };
+    pub fn set_plane(&mut self, plane: PointGridSpec) {
+        self.grid = Grid::Plane(plane);
     }
 
     /// Sets one quantity. What follows M and L was chosen; of the others M and L follow. A plateau ratio that is the

@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use super::{Verdict, output};
 use crate::engine::{EngineError, model_file};
-use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
+use crate::solver::discrete::grid::GridSpec;
 use crate::solver::reduced::ReducedModel;
 use std::fmt::Write;
 use std::path::Path;
@@ -38,14 +38,14 @@ pub fn describe(model: &ReducedModel) -> String {
     }
     for window in &model.windows {
         let grid = match window.grid.spec() {
-            ContactGridSpec::Line(GridSpec::Uniform { dx, domain }) => {
+            GridSpec::Uniform { dx, domain } => {
                 format!("uniform, dx {dx}, {}…{}", domain.0, domain.1)
             }
-            ContactGridSpec::Line(GridSpec::Graded { nodes, domain, registered }) => {
+            GridSpec::Graded { nodes, domain, registered } => {
                 let registered = if registered { ", registered" } else { "" };
                 format!("graded, {nodes} nodes, ξ {}…{}{registered}", domain.0, domain.1)
             }
-            ContactGridSpec::Point(spec) => {
+            GridSpec::Plane(spec) => {
                 let ((nx, ny), (from, to, edge)) = (window.grid.nodes(), spec.domain);
                 format!("{nx}×{ny} nodes, X {from}…{to}, Y {edge}…0")
             }

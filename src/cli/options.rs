@@ -345,7 +345,7 @@ impl PointOptions {
         let (dx, dy) = (self.dx.unwrap_or(default.dx), self.dy.unwrap_or(default.dy));
         let spec = PointGridSpec { dx, dy, domain: (ends.0, ends.1, edge), ..default };
         spec.check().map_err(refused)?;
-        Ok(Grid::Plane { dx, dy, domain: spec.domain, refinement: spec.refinement })
+        Ok(Grid::Plane(spec))
     }
 
     fn grid(&self, method: &Method, moes: Moes) -> Result<Grid, Failure> {
@@ -372,7 +372,7 @@ impl PointOptions {
             None | Some(GridName::Uniform)
                 if self.dx.is_none() && ends.is_none() && !GridSpec::DISSERTATION.does(moes) =>
             {
-                GridSpec::explorer_for(moes).map_err(|error| Failure::Request(error.to_string()))?;
+                GridSpec::explorer_for(ContactKind::Line, moes).map_err(|error| Failure::Request(error.to_string()))?;
                 Grid::Graded
             }
             None | Some(GridName::Uniform) => {

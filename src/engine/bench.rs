@@ -249,7 +249,7 @@ fn transient_rows(size: usize) -> Result<Vec<Timing>, EngineError> {
     let load = Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 1.0 / 3.0 });
     let transient = Transient::new(OperatingPoint::TABLE_4_2, load, MARCH_DURATION[size], 2.5e-3);
     let transient = Transient { keep: Keep::Every(1), ..transient };
-    let grid = GridSpec::DISSERTATION.build().map_err(SolveError::from)?;
+    let grid = GridSpec::DISSERTATION.line().map_err(SolveError::from)?;
     let mut full = Timing::new(TRANSIENT_BASELINE);
     let trajectory = full.add_steps(&mut FullMarch::new(Arc::clone(&grid), &transient)?, &transient)?;
     let settings = TrajectoryTraining { loss: 1e-5, ..TrajectoryTraining::default() };

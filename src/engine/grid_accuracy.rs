@@ -4,9 +4,8 @@ use super::EngineError;
 use super::workbench::Workbench;
 use super::{Answer, Request};
 use crate::scene::{Bench, Grid};
-use crate::solver::discrete::grid::PointGridSpec;
+use crate::solver::full::Solution;
 use crate::solver::full::point::{Accuracy, resolution_warning, second_grid};
-use crate::solver::full::{Mesh, Solution};
 use crate::solver::training::TrainingObserver;
 use serde::Serialize;
 
@@ -60,11 +59,9 @@ impl Workbench {
     ) -> Result<GridAccuracy, EngineError> {
         let none = |why: &str| EngineError::Study(format!("the grid's error cannot be estimated: {why}"));
         let solution = answer.result().ok_or_else(|| none("the solve did not converge"))?;
-        let Mesh::Point(spec) = solution.mesh else {
-            return Err(none("only full solutions of point contacts have one"));
-        };
-        let PointGridSpec { dx, dy, refinement, domain } = second_grid(spec);
-        let request = Request { grid: Grid::Plane { dx, dy, refinement, domain }, ..answer.request.clone() };
+        let spec = solution.mesh.plane();
+        let spec = spec.ok_or_else(|| none("only full solutions of point contacts have one"))?;
+        let request = Request { grid: Grid::Plane(second_grid(spec)), ..answer.request.clone() };
         let second = self.answer(&request, &answer.method, Some(solution), observer)?;
         let second = second.result().ok_or_else(|| none("the solve on the second grid did not converge"))?;
         GridAccuracy::of(solution, second).ok_or_else(|| none("both grids do not belong together"))

@@ -3,7 +3,7 @@
 
 use super::EngineError;
 use super::model_file::{self, ModelFileError};
-use crate::solver::discrete::grid::{ContactGrid, ContactGridSpec, GridError};
+use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec};
 use crate::solver::full::ContactSolver;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions};
@@ -50,7 +50,7 @@ impl Store {
     ///
     /// # Errors
     /// When the specification is refused.
-    pub fn grid(&self, spec: ContactGridSpec) -> Result<ContactGrid, GridError> {
+    pub fn grid(&self, spec: GridSpec) -> Result<ContactGrid, GridError> {
         let grid = match take(&self.0.grids, |grid| grid.spec() == spec) {
             Some(grid) => grid,
             None => spec.build()?,
@@ -163,8 +163,8 @@ mod tests {
     use super::*;
     use crate::solver::discrete::grid::GridSpec;
 
-    fn line(nodes: usize) -> ContactGridSpec {
-        ContactGridSpec::Line(GridSpec::Uniform { dx: 6.0 / nodes as f64, domain: (-4.0, 2.0) })
+    fn line(nodes: usize) -> GridSpec {
+        GridSpec::Uniform { dx: 6.0 / nodes as f64, domain: (-4.0, 2.0) }
     }
 
     fn same(a: &ContactGrid, b: &ContactGrid) -> bool {

@@ -5,7 +5,7 @@
 
 use super::model_file::ModelFileError;
 use super::stored_matrix::{StoredBasis, StoredMatrix};
-use crate::solver::discrete::grid::{ContactGrid, ContactGridSpec, GridError, GridSpec};
+use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::{ShearLaw, Sliding};
 use crate::solver::reduced::{
@@ -34,7 +34,7 @@ struct StoredModel {
 #[derive(Serialize, Deserialize)]
 struct StoredWindow {
     m: (f64, f64),
-    grid: ContactGridSpec,
+    grid: GridSpec,
     penalty: f64,
     pressure: StoredBasis,
     deformation: StoredBasis,
@@ -68,13 +68,11 @@ fn sound_domain(domain: &Domain) -> bool {
 }
 
 /// Entries of node arrays on a grid, without building it.
-fn entries(grid: &ContactGridSpec) -> Result<usize, GridError> {
+fn entries(grid: &GridSpec) -> Result<usize, GridError> {
     Ok(match grid {
-        ContactGridSpec::Line(GridSpec::Graded { nodes, .. }) => nodes.saturating_add(1),
-        ContactGridSpec::Line(GridSpec::Uniform { dx, domain: (from, to) }) => {
-            (((to - from) / dx).round() as usize).saturating_add(2)
-        }
-        ContactGridSpec::Point(spec) => spec.check().map(|(nx, ny)| nx * ny)?,
+        GridSpec::Graded { nodes, .. } => nodes.saturating_add(1),
+        GridSpec::Uniform { dx, domain: (from, to) } => (((to - from) / dx).round() as usize).saturating_add(2),
+        GridSpec::Plane(spec) => spec.check().map(|(nx, ny)| nx * ny)?,
     })
 }
 

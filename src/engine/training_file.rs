@@ -301,19 +301,19 @@ pub fn remove(path: &Path) -> Result<(), TrainingFileError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
+    use crate::solver::discrete::grid::GridSpec;
     use crate::solver::physics::contact::OperatingPoint;
     use crate::solver::training::small::moes;
     use crate::solver::training::{Plan, Search, Solved, WindowSpec, WindowState};
 
     fn state(folder: &str) -> (TrainingState, PathBuf) {
         let range = moes((10.0, 20.0), (2.0, 3.0), 3e9);
-        let (grid, plan) = (ContactGridSpec::Line(GridSpec::EXPLORER), Plan::FarthestPoint { snapshots: 8 });
+        let (grid, plan) = (GridSpec::EXPLORER, Plan::FarthestPoint { snapshots: 8 });
         let spec = TrainingSpec { title: "kept".to_owned(), ..TrainingSpec::new(range, (10.0, 20.0), grid, plan) };
         let point = OperatingPoint::TABLE_2_1;
         let solved = Solved { place: 0, point, pressure: vec![0.5; 633], h_0: -0.1, h_c: 0.04 };
         let window = WindowState {
-            window: WindowSpec { m: (10.0, 20.0), grid: ContactGridSpec::Line(GridSpec::EXPLORER) },
+            window: WindowSpec { m: (10.0, 20.0), grid: GridSpec::EXPLORER },
             seed: 1,
             inherited: 0,
             solved: vec![solved],

@@ -3,7 +3,7 @@
 use super::store::Store;
 use super::{Answer, EngineError, ReducedFacts, Request};
 use crate::scene::{Bench, Grid, Method, ModelSource, Scene, Study};
-use crate::solver::discrete::grid::{ContactGrid, ContactGridSpec};
+use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::full::point::resolution_warning;
 use crate::solver::full::{Problem, Solution, SolveError, Start};
 use crate::solver::physics::contact::{ContactKind, Moes, PLAUSIBLE_HERTZ_PRESSURE_PA};
@@ -226,10 +226,10 @@ impl Bench for Workbench {
         let kind = request.point.kind;
         let spec = match kind {
             _ if request.grid == Grid::Graded => {
-                Some(ContactGridSpec::explorer_for(kind, request.point.moes()).map_err(SolveError::from)?)
+                Some(GridSpec::explorer_for(kind, request.point.moes()).map_err(SolveError::from)?)
             }
-            ContactKind::Line => request.grid.spec().map(ContactGridSpec::Line),
-            ContactKind::Point => request.grid.point_spec().map(ContactGridSpec::Point),
+            ContactKind::Line => request.grid.spec(),
+            ContactKind::Point => request.grid.point_spec().map(GridSpec::Plane),
         };
         match spec {
             Some(spec) => Ok(self.store.grid(spec).map_err(SolveError::from)?),

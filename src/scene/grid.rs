@@ -31,28 +31,10 @@ pub enum Grid {
     },
     /// Nodes on the half Y ≤ 0 of a point contact; the dissertation's are
     /// `Plane(dx: 0.02, dy: 0.05, domain: (-4.0, 2.0, -2.0))`.
-    Plane {
-        /// Spacing ΔX.
-        dx: f64,
-        /// Spacing ΔY.
-        dy: f64,
-        /// Inlet, outlet and outer edge.
-        domain: (f64, f64, f64),
-        /// How many times finer the spacing across is in the side lobes.
-        #[serde(default = "equidistant", skip_serializing_if = "is_equidistant")]
-        refinement: f64,
-    },
+    Plane(PointGridSpec),
     /// The grid of the reduced model in the study (of the embedded one where there is none), so that both can be
     /// compared.
     Model,
-}
-
-fn equidistant() -> f64 {
-    1.0
-}
-
-fn is_equidistant(refinement: &f64) -> bool {
-    *refinement == 1.0
 }
 
 impl Grid {
@@ -62,7 +44,7 @@ impl Grid {
     /// The solver's specification for a point contact; `None` where this is no grid of one.
     pub fn point_spec(&self) -> Option<PointGridSpec> {
         match *self {
-            Self::Plane { dx, dy, domain, refinement } => Some(PointGridSpec { dx, dy, refinement, domain }),
+            Self::Plane(spec) => Some(spec),
             Self::Graded => Some(PointGridSpec::EXPLORER),
             Self::Uniform { .. } | Self::GradedNodes { .. } | Self::Model => None,
         }
@@ -75,7 +57,7 @@ impl Grid {
             Self::Uniform { dx, domain } => Some(GridSpec::Uniform { dx, domain }),
             Self::Graded => Some(GridSpec::EXPLORER),
             Self::GradedNodes { nodes, domain, registered } => Some(GridSpec::Graded { nodes, domain, registered }),
-            Self::Model | Self::Plane { .. } => None,
+            Self::Model | Self::Plane(_) => None,
         }
     }
 
@@ -83,9 +65,8 @@ impl Grid {
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Uniform { .. } => "uniform",
-            Self::Plane { refinement, .. } if is_equidistant(refinement) => "uniform",
-            Self::Plane { .. } => "graded",
-            Self::Graded | Self::GradedNodes { .. } => "graded",
+            Self::Plane(spec) if spec.refinement == 1.0 => "uniform",
+            Self::Plane(_) | Self::Graded | Self::GradedNodes { .. } => "graded",
             Self::Model => "model",
         }
     }
@@ -94,7 +75,7 @@ impl Grid {
 /// Refuses a grid that makes no sense or is none of this kind of contact.
 pub(super) fn check(grid: &Grid, contact: ContactKind) -> Checked {
     match (contact, grid) {
-        (ContactKind::Line, Grid::Plane { .. }) => {
+        (ContactKind::Line, Grid::Plane(_)) => {
             return Err(refuse("grid", "is Plane, but a line contact has no Y; write Uniform, Graded or GradedNodes"));
         }
         (ContactKind::Point, Grid::Uniform { .. } | Grid::GradedNodes { .. }) => {
@@ -118,10 +99,9 @@ pub(super) fn check(grid: &Grid, contact: ContactKind) -> Checked {
             count("grid.nodes", nodes, 61, MAX_GRADED_NODES)?;
             domain(ends)
         }
-        Grid::Plane { dx, dy, domain, refinement } => PointGridSpec { dx, dy, refinement, domain }
-            .check()
-            .map(|_| ())
-            .map_err(|problem| refuse("grid", format!("makes no sense: {problem}"))),
+        Grid::Plane(spec) => {
+            spec.check().map(|_| ()).map_err(|problem| refuse("grid", format!("makes no sense: {problem}")))
+        }
         Grid::Graded | Grid::Model => Ok(()),
     }
 }

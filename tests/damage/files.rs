@@ -5,7 +5,7 @@ use crate::common::scratch::Scratch;
 use crate::{alone, cases, most_bytes, spoil};
 use ehl_explorer::engine::{model_file, training_file};
 use ehl_explorer::scene::Scene;
-use ehl_explorer::solver::discrete::grid::{ContactGridSpec, GridSpec};
+use ehl_explorer::solver::discrete::grid::GridSpec;
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint};
 use ehl_explorer::solver::training::{
     Plan, Range, Search, Solved, TrainingSpec, TrainingState, WindowSpec, WindowState,
@@ -79,7 +79,7 @@ fn damaged_models_are_refused_in_a_sentence_or_solve_their_own_snapshots() {
 fn training() -> TrainingState {
     let range =
         Range::Moes { m: (10.0, 20.0), l: (2.0, 3.0), alpha: (1e-8, 2e-8), max_hertz_pressure: 3e9, viscosity: 0.01 };
-    let (grid, plan) = (ContactGridSpec::Line(GridSpec::EXPLORER), Plan::FarthestPoint { snapshots: 8 });
+    let (grid, plan) = (GridSpec::EXPLORER, Plan::FarthestPoint { snapshots: 8 });
     let spec = TrainingSpec::new(range, (10.0, 20.0), grid, plan);
     let point = OperatingPoint::TABLE_2_1;
     let window = WindowState {

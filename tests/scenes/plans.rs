@@ -5,7 +5,7 @@ use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene};
 use ehl_explorer::scene::study::plan_comparison::PlanComparison;
 use ehl_explorer::scene::study::tolerance_study::ToleranceStudy;
 use ehl_explorer::scene::{ComparedPlan, OnlineScheme, QuantityBox, Scene, Study};
-use ehl_explorer::solver::discrete::grid::{ContactGridSpec, GridSpec};
+use ehl_explorer::solver::discrete::grid::GridSpec;
 use ehl_explorer::solver::training::{Indicator, Plan, Range, TrainingSpec};
 use std::path::{Path, PathBuf};
 
@@ -27,7 +27,7 @@ impl Folder {
 
     fn training(&self, name: &str, plan: Plan) -> PathBuf {
         let mut scene = Scene::at_moes(40.0, 10.0);
-        let grid = ContactGridSpec::Line(GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) });
+        let grid = GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) };
         let spec = TrainingSpec::new(Range::Box(BOX), (1.0, 500.0), grid, plan);
         scene.study = Study::Training(TrainingSpec { title: name.to_owned(), evidence: 0, seed: 3, ..spec });
         let file = format!("{name}.ron");

@@ -2,7 +2,7 @@
 //! the machine does not matter.
 
 use crate::common::stop_after::assert_stops;
-use ehl_explorer::solver::discrete::grid::{ContactGridSpec, GridSpec, PointGridSpec};
+use ehl_explorer::solver::discrete::grid::{GridSpec, PointGridSpec};
 use ehl_explorer::solver::full::{PointSolver, Start, Termination};
 use ehl_explorer::solver::observer::Observer;
 use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, si_from_moes};
@@ -25,7 +25,7 @@ fn spec(sampling: Sampling) -> TrainingSpec {
         vicinity: 8,
         limit: 120,
     };
-    let (range, grid) = (Range::Box(QuantityBox::TABLE_3_1), ContactGridSpec::Line(GridSpec::EXPLORER));
+    let (range, grid) = (Range::Box(QuantityBox::TABLE_3_1), GridSpec::EXPLORER);
     let spec = TrainingSpec::new(range, (5.0, 200.0), grid, plan);
     TrainingSpec { pressure_loss: 1e-7, sampling, evidence: 300, ..spec }
 }

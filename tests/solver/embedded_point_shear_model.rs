@@ -8,7 +8,7 @@ use ehl_explorer::scene::named_lubricant::{SQUALANE_PIP, by_name};
 use ehl_explorer::scene::study::dimensions::Dimensions;
 use ehl_explorer::scene::study::sweep::Sweep;
 use ehl_explorer::scene::{Axis, Steps, Study};
-use ehl_explorer::solver::discrete::grid::{ContactGridSpec, PointGridSpec};
+use ehl_explorer::solver::discrete::grid::{GridSpec, PointGridSpec};
 use ehl_explorer::solver::full::{ContactSolver, Start};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use ehl_explorer::solver::reduced::{Online, ReducedModel, ReducedOptions, Sampling, Trust};
@@ -109,7 +109,7 @@ fn its_file_keeps_what_a_shear_thinning_lubricant_adds() {
 
 fn small() -> (SlidingRange, TrainingSpec) {
     let range = SlidingRange { m: (30.0, 45.0), l: (7.0, 9.0), npr: (0.2, 0.5), ..range() };
-    let grid = ContactGridSpec::Point(PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5)));
+    let grid = GridSpec::Plane(PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5)));
     let plan = Plan::FarthestPoint { snapshots: 28 };
     let spec = TrainingSpec {
         lubricant: SQUALANE_PIP,
@@ -159,7 +159,8 @@ fn figures_stand_side_by_side_in_full_and_reduced() {
 #[test]
 fn dimensions_grow_as_less_may_be_lost() {
     let mut scene = scene_files::read("table_3_7");
-    scene.grid = ehl_explorer::scene::Grid::Plane { dx: 0.06, dy: 0.1, domain: (-2.7, 1.5, -1.5), refinement: 1.0 };
+    let plane = PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5));
+    scene.grid = ehl_explorer::scene::Grid::Plane(plane);
     if let Study::Dimensions(Dimensions { over, .. }) = &mut scene.study {
         over[0].values = Steps::Log { from: 0.4, to: 2.0, n: 4 };
         over[1].values = Steps::List(vec![0.2, 0.6]);

@@ -7,7 +7,7 @@ use ehl_explorer::engine::SceneOutcome;
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
 use ehl_explorer::scene::study::sweep::Sweep;
 use ehl_explorer::scene::{Method, Study};
-use ehl_explorer::solver::discrete::grid::{ContactGridSpec, GridSpec};
+use ehl_explorer::solver::discrete::grid::GridSpec;
 use ehl_explorer::solver::full::{ContactSolver, Start};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Quantity, Sliding};
 use ehl_explorer::solver::physics::lubricant::Lubricant;
@@ -176,7 +176,7 @@ fn its_file_keeps_what_a_shear_thinning_lubricant_adds() {
 fn a_range_with_sliding_needs_a_lubricant_that_feels_it() {
     let spec = |lubricant: Lubricant, alpha: f64| {
         let range = SlidingRange { m: (10.0, 20.0), l: (6.0, 8.0), alpha, ..shear_models::range(LINE) };
-        let (grid, plan) = (ContactGridSpec::Line(GridSpec::EXPLORER), Plan::FarthestPoint { snapshots: 10 });
+        let (grid, plan) = (GridSpec::EXPLORER, Plan::FarthestPoint { snapshots: 10 });
         TrainingSpec { lubricant, ..TrainingSpec::new(Range::Sliding(range), range.m, grid, plan) }
     };
     let sentence = |spec: TrainingSpec| spec.check().unwrap_err().to_string();

@@ -3,7 +3,7 @@
 use crate::common::scene_files;
 use ehl_explorer::engine::model_file::to_bytes;
 use ehl_explorer::scene::Study;
-use ehl_explorer::solver::discrete::grid::{ContactGridSpec, GridSpec, PointGridSpec};
+use ehl_explorer::solver::discrete::grid::{GridSpec, PointGridSpec};
 use ehl_explorer::solver::physics::contact::ContactKind;
 use ehl_explorer::solver::training::{Plan, Range, TrainingSpec, Windows, train};
 
@@ -29,12 +29,8 @@ fn small(scene: &str) -> TrainingSpec {
         Windows::Automatic { modes } => *modes = 12,
         Windows::Given(windows) => windows.iter_mut().for_each(|window| {
             window.grid = match window.grid {
-                ContactGridSpec::Line(_) => {
-                    ContactGridSpec::Line(GridSpec::Graded { nodes: 240, domain: (-8.0, 3.2), registered: true })
-                }
-                ContactGridSpec::Point(_) => {
-                    ContactGridSpec::Point(PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5)))
-                }
+                GridSpec::Plane(_) => GridSpec::Plane(PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5))),
+                _ => GridSpec::Graded { nodes: 240, domain: (-8.0, 3.2), registered: true },
             };
         }),
     }

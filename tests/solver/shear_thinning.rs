@@ -2,7 +2,7 @@
 //! Table 3.6, and their symmetries.
 
 use ehl_explorer::scene::named_lubricant::by_name;
-use ehl_explorer::solver::discrete::grid::{ContactGridSpec, GridSpec, PointGridSpec};
+use ehl_explorer::solver::discrete::grid::{GridSpec, PointGridSpec};
 use ehl_explorer::solver::discrete::reynolds::film_integrals::{FilmRule, PRODUCTION_RULE};
 use ehl_explorer::solver::full::{ContactSolver, FullSolver, Problem, Solution, Start};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, reduced_modulus};
@@ -10,8 +10,8 @@ use ehl_explorer::solver::physics::lubricant::{LimitingStress, Lubricant, Slidin
 use serde_json::Value;
 
 const GRID: GridSpec = GridSpec::Uniform { dx: 0.01, domain: (-4.0, 2.0) };
-const LINE: ContactGridSpec = ContactGridSpec::Line(GRID);
-const POINT: ContactGridSpec = ContactGridSpec::Point(PointGridSpec::uniform(0.04, 0.1, (-4.0, 2.0, -2.0)));
+const LINE: GridSpec = GRID;
+const POINT: GridSpec = GridSpec::Plane(PointGridSpec::uniform(0.04, 0.1, (-4.0, 2.0, -2.0)));
 
 /// The bodies of Tables 3.5 and 3.8 with one of their lubricants.
 fn contact(kind: ContactKind, fluid: &str, load: f64, speed_m_per_s: f64, srr: f64, npr: f64) -> Problem {
@@ -96,7 +96,7 @@ fn full_solutions_of_line_contacts_agree_with_independent_ones() {
 #[test]
 fn full_solutions_of_point_contacts_agree_with_independent_ones() {
     let reference: Value = serde_json::from_str(include_str!("../data/point_shear_thinning.json")).unwrap();
-    let grid = ContactGridSpec::Point(PointGridSpec::DISSERTATION).build().unwrap();
+    let grid = GridSpec::Plane(PointGridSpec::DISSERTATION).build().unwrap();
     let mut solver = ContactSolver::on(&grid);
     let mut all = Vec::new();
     for sweep in ["speed_sweep", "srr_sweep", "npr_sweep", "pao650"] {

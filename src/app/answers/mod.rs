@@ -15,7 +15,7 @@ use crate::app::in_use::InUse;
 use crate::app::model_source::Models;
 use crate::engine::Store;
 use crate::solver::discrete::grid::PointGridSpec;
-use crate::solver::full::{Mesh, Problem, Report};
+use crate::solver::full::{Problem, Report};
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
 use grid_error::GridError;
 use jobs::Jobs;
@@ -191,7 +191,7 @@ impl Answers {
     /// Whether the picture is a full solution on another grid than the one that was chosen, and will be replaced by one
     /// on that.
     pub fn is_quick(&self) -> bool {
-        let on = |picture: &Picture, plane: PointGridSpec| picture.solution.mesh == Mesh::Point(plane);
+        let on = |picture: &Picture, plane: PointGridSpec| picture.solution.mesh.plane() == Some(plane);
         matches!((&self.picture, self.plane()), (Some(picture), Some(plane))
             if picture.origin == Origin::Full && !on(picture, plane))
     }

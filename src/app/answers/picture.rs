@@ -3,7 +3,7 @@
 use crate::app::document::Key;
 use crate::app::numbers;
 use crate::solver::full::point::resolution_warning;
-use crate::solver::full::{Mesh, Problem, Solution};
+use crate::solver::full::{Problem, Solution};
 use crate::solver::reduced::ErrorEstimate;
 use egui_plot::PlotPoint;
 use serde::{Deserialize, Serialize};
@@ -144,7 +144,7 @@ impl Picture {
 
     /// Whether it is of a point contact.
     pub fn has_plane(&self) -> bool {
-        matches!(self.solution.mesh, Mesh::Point(_))
+        self.solution.mesh.plane().is_some()
     }
 
     /// Central film in m.

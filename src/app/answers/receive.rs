@@ -5,9 +5,9 @@ use super::jobs::{FullSolve, GridChoice, JobKind, Outcome, Running};
 use super::picture::{Comparison, Origin, Picture};
 use super::{Answers, Failure};
 use crate::app::document::Key;
-use crate::solver::discrete::grid::ContactGridSpec;
+use crate::solver::discrete::grid::GridSpec;
+use crate::solver::full::Report;
 use crate::solver::full::point::second_grid;
-use crate::solver::full::{Mesh, Report};
 use egui::Context;
 use std::sync::Arc;
 
@@ -62,7 +62,7 @@ impl Answers {
                 self.full_wall_s = Some(wall_s);
                 self.last_report = Some((job.key, solution.report.clone()));
                 let reduced = self.picture.as_ref().is_some_and(|p| p.key == job.key && p.origin != Origin::Full);
-                if !reduced && self.plane().is_some_and(|plane| solution.mesh != Mesh::Point(plane)) {
+                if !reduced && self.plane().is_some_and(|plane| solution.mesh.plane() != Some(plane)) {
                     // Another grid has been chosen meanwhile, and answers later.
                     return;
                 }
@@ -104,7 +104,7 @@ impl Answers {
 
     /// Whether a full solution on the chosen grid is there for a contact.
     pub(super) fn is_settled(&self, key: &Key) -> bool {
-        let on_plane = |full: &Picture| self.plane().is_none_or(|plane| full.solution.mesh == Mesh::Point(plane));
+        let on_plane = |full: &Picture| self.plane().is_none_or(|plane| full.solution.mesh.plane() == Some(plane));
         self.plane().is_some() && self.full.as_ref().is_some_and(|full| full.key == *key && on_plane(full))
     }
 
@@ -121,9 +121,9 @@ impl Answers {
     pub fn estimate_grid_error(&mut self, ctx: &Context) {
         self.no_estimate = None;
         let Some(full) = self.full.as_ref().filter(|_| self.full_is_current()) else { return };
-        let Mesh::Point(spec) = full.solution.mesh else { return };
+        let Some(spec) = full.solution.mesh.plane() else { return };
         let (key, start) = (full.key, Some(Arc::clone(&full.solution)));
-        let grid = GridChoice::Spec(ContactGridSpec::Point(second_grid(spec)));
+        let grid = GridChoice::Spec(GridSpec::Plane(second_grid(spec)));
         self.jobs.submit(ctx, FullSolve { kind: JobKind::Estimate, key, grid, start });
     }
 }

@@ -8,7 +8,6 @@ use crate::app::document::Edit;
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
 use crate::solver::discrete::grid::PointGridSpec;
-use crate::solver::full::Mesh;
 use crate::solver::full::point::second_grid;
 use crate::solver::physics::contact::ContactKind;
 use egui::{Grid, Ui};
@@ -71,7 +70,7 @@ fn error_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, comman
     let runs = answers.jobs.busy(JobKind::Estimate);
     let there = answers.can_estimate();
     let mesh = answers.full.as_ref().map(|full| full.solution.mesh);
-    let spec = if let Some(Mesh::Point(spec)) = mesh { spec } else { document.plane() };
+    let spec = mesh.and_then(|mesh| mesh.plane()).unwrap_or(document.plane());
     let (nx, ny) = second_grid(spec).nodes().unwrap_or_default();
     let tip = format!(
         "Solves the same contact on {nx}×{ny} nodes and extrapolates H_c and H_min to fine grids, by the second order of the scheme"

@@ -16,7 +16,6 @@ use super::numbers;
 use crate::engine::job::Background;
 use crate::engine::{Store, Workbench};
 use crate::scene::{Grid, Method, StudyRow};
-use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::physics::contact::Quantity;
 use curve::LiveCurve;
 use egui::Context;
@@ -119,7 +118,7 @@ impl TractionView {
         };
         let grid = match (model, plane) {
             (Some(_), _) => Grid::Model,
-            (None, Some(PointGridSpec { dx, dy, domain, refinement })) => Grid::Plane { dx, dy, domain, refinement },
+            (None, Some(plane)) => Grid::Plane(plane),
             (None, None) => Grid::Graded,
         };
         let bench = Workbench::on(&answers.store, "");

@@ -66,7 +66,7 @@ pub fn fit_windows(spec: &mut TrainingSpec) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
+    use crate::solver::discrete::grid::GridSpec;
     use crate::solver::training::{Range, WindowSpec};
 
     #[test]
@@ -83,7 +83,7 @@ mod tests {
 
     #[test]
     fn windows_follow_the_range() {
-        let grid = ContactGridSpec::Line(GridSpec::EXPLORER);
+        let grid = GridSpec::EXPLORER;
         let windows = [(2.0, 9.0), (9.0, 40.0), (40.0, 500.0)].map(|m| WindowSpec { m, grid });
         let mut spec = TrainingSpec { windows: Windows::Given(windows.into()), ..slider_range().unwrap().clone() };
         let mut fitted = |range| {

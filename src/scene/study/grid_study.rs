@@ -8,6 +8,7 @@ use crate::scene::check::{count, number, refuse};
 use crate::scene::contact_result::ContactResult;
 use crate::scene::grid::Grid;
 use crate::scene::method::Method;
+use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::Solution;
 use serde::{Deserialize, Serialize};
 
@@ -59,7 +60,7 @@ impl Question for GridStudy {
             return Err(refuse("study.dx", "must fall by one constant factor, as 0.02, 0.01, 0.005 do"));
         }
         match experiment.grid {
-            Grid::Uniform { .. } | Grid::Plane { .. } => Ok(()),
+            Grid::Uniform { .. } | Grid::Plane(_) => Ok(()),
             _ => Err(refuse("grid", "must be Uniform or Plane for a grid study, which takes its domain from it")),
         }
     }
@@ -71,7 +72,7 @@ impl Question for GridStudy {
             setting.step("grids", i, self.dx.len())?;
             let grid = match setting.experiment.grid {
                 Grid::Uniform { domain, .. } => Grid::Uniform { dx, domain },
-                Grid::Plane { dy, domain, refinement, .. } => Grid::Plane { dx, dy, domain, refinement },
+                Grid::Plane(spec) => Grid::Plane(PointGridSpec { dx, ..spec }),
                 _ => return Err(RunError::Study("a grid study needs a Uniform or Plane `grid`".to_owned())),
             };
             let request = Request { grid, ..template.clone() };

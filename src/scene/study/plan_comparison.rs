@@ -19,7 +19,7 @@ use crate::scene::method::ModelSource;
 use crate::scene::parallel::{Reduced, film_errors, full_solutions, reduced_solutions};
 use crate::scene::random_points::all_random_points;
 use crate::scene::statistics::mean;
-use crate::solver::discrete::grid::ContactGridSpec;
+use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::{Moes, OperatingPoint};
 use crate::solver::reduced::{ErrorMeasures, ModelSize, Norm, PodBasis, ReducedModel, Window};
@@ -158,7 +158,7 @@ fn losses(basis: &PodBasis) -> Vec<f64> {
 
 /// Full solutions on one grid.
 struct Truth {
-    grid: ContactGridSpec,
+    grid: GridSpec,
     random: Vec<Option<Solution>>,
     along: Vec<Option<Solution>>,
 }

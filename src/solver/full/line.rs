@@ -75,7 +75,7 @@ impl NewtonSpace for LineSpace {
     const EASY_L: (f64, f64) = (2.0, 8.0);
 
     fn build(spec: GridSpec) -> Result<Arc<ReferenceGrid>, SolveError> {
-        Ok(spec.build()?)
+        Ok(spec.line()?)
     }
 
     fn scale_of(reference: &Arc<ReferenceGrid>, moes: Moes) -> f64 {
@@ -87,7 +87,7 @@ impl NewtonSpace for LineSpace {
     }
 
     fn mesh(&self) -> Mesh {
-        Mesh::Line { spec: self.grid.reference.spec, scale: self.grid.scale }
+        Mesh { spec: self.grid.reference.spec, scale: self.grid.scale }
     }
 
     fn forcing(_: &Backtracking, memory: &mut Residuals, residual: f64) -> f64 {

@@ -213,35 +213,21 @@ pub struct Traction {
     pub per_srr: f64,
 }
 
-/// The grid that a solution lives on.
+/// The grid that a solution lives on. Node arrays of a line contact have one extra leading node outside the inlet.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Mesh {
-    /// Of a line contact; its node arrays have one extra leading node outside the inlet.
-    Line {
-        /// Reference grid.
-        spec: GridSpec,
-        /// Scale of the registration map.
-        scale: f64,
-    },
-    /// Of the half Y ≤ 0 of a point contact.
-    Point(PointGridSpec),
+pub struct Mesh {
+    /// What it was built from; of a line contact its reference grid.
+    pub spec: GridSpec,
+    /// Scale of the registration map; 1 where there is none.
+    pub scale: f64,
 }
 
 impl Mesh {
-    /// Whether both are built from the same specification: the same nodes but for the scale of their registration.
-    pub fn shares_nodes(&self, other: &Self) -> bool {
-        match (self, other) {
-            (Self::Line { spec, .. }, Self::Line { spec: others, .. }) => spec == others,
-            (Self::Point(spec), Self::Point(others)) => spec == others,
-            _ => false,
-        }
-    }
-
-    /// Scale of the registration map; 1 where there is none.
-    pub fn scale(&self) -> f64 {
-        match self {
-            Self::Line { scale, .. } => *scale,
-            Self::Point(_) => 1.0,
+    /// The specification of a point contact's grid; `None` of a line contact's.
+    pub fn plane(&self) -> Option<PointGridSpec> {
+        match self.spec {
+            GridSpec::Plane(spec) => Some(spec),
+            _ => None,
         }
     }
 }
@@ -295,9 +281,9 @@ impl Solution {
 
     /// Index of the first abscissa that belongs to the domain.
     pub(super) fn first(&self) -> usize {
-        match self.mesh {
-            Mesh::Line { .. } => 1,
-            Mesh::Point(_) => 0,
+        match self.mesh.spec.kind() {
+            ContactKind::Line => 1,
+            ContactKind::Point => 0,
         }
     }
 

@@ -5,7 +5,7 @@ use super::cut::cell;
 use super::newton_space::NewtonSpace;
 use super::solution::{Problem, Report, Solution, SolveError, Termination, expect_kind, scalars_of};
 use super::system::{SolveOptions, System};
-use crate::solver::discrete::grid::{ContactGrid, ContactGridSpec};
+use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::discrete::space::{Grid, LineSpace, PlaneSpace};
 use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{
@@ -125,7 +125,7 @@ impl<S: NewtonSpace> Solver<S> {
 
     /// Takes a few undamped Newton steps from fields on this grid, by which their error can be judged.
     pub fn corrected(&mut self, fields: &Solution, options: &SolveOptions<S::Control>) -> Solution {
-        let mut system = self.system_at(fields.mesh.scale());
+        let mut system = self.system_at(fields.mesh.scale);
         system.set_pressure(&fields.problem, &fields.pressure);
         system.set_central_film(fields.scalars.h_c);
         let mut report = Report::empty();
@@ -154,7 +154,7 @@ impl<S: NewtonSpace> Solver<S> {
     /// coefficients.
     pub(super) fn system_at(&mut self, scale: f64) -> System<S> {
         match self.system.take() {
-            Some(system) if system.space.mesh().scale() == scale => system,
+            Some(system) if system.space.mesh().scale == scale => system,
             _ => System::new(S::on(&self.reference, scale)),
         }
     }
@@ -264,7 +264,7 @@ fn cold_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, film: f
 /// A former solution on this grid: pressure as it is, whatever the scale of its registration, or interpolated; central
 /// film scaled by the formula.
 fn warm_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, former: &Solution) {
-    let same_grid = former.mesh.shares_nodes(&system.space.mesh());
+    let same_grid = former.mesh.spec == system.space.mesh().spec;
     if same_grid {
         system.set_pressure(problem, &former.pressure);
     } else {
@@ -327,10 +327,10 @@ impl ContactSolver {
     }
 
     /// What its grid was built from.
-    pub fn grid_spec(&self) -> ContactGridSpec {
+    pub fn grid_spec(&self) -> GridSpec {
         match self {
-            Self::Line(solver) => ContactGridSpec::Line(solver.grid().spec),
-            Self::Point(solver) => ContactGridSpec::Point(solver.grid().spec),
+            Self::Line(solver) => solver.grid().spec,
+            Self::Point(solver) => GridSpec::Plane(solver.grid().spec),
         }
     }
 

@@ -19,8 +19,7 @@ use crate::solver::observer::{NewtonStep, Observer};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SolveOptions<C> {
     /// Newton's method stops when the size of a step falls below this: ‖Δz‖/‖z‖ with z = (P, H₀) on a line; max|ΔP| on
-    /// a plane, where
-    /// |ΔH₀| must fall below a tenth of it too.
+    /// a plane, where |ΔH₀| must fall below a tenth of it too.
     pub tolerance: f64,
     /// Newton steps per attempt.
     pub max_newton: usize,

@@ -64,7 +64,7 @@ fn jacobian_products_are_the_derivative_of_the_residual() {
     for lubricant in [Lubricant::default(), thinning] {
         let problem = Problem::new(&OperatingPoint::TABLE_2_1, lubricant).unwrap();
         for spec in [COARSE, GridSpec::Graded { nodes: 160, domain: (-6.0, 1.9), registered: true }] {
-            let grid = spec.build().unwrap().for_contact(problem.moes);
+            let grid = spec.line().unwrap().for_contact(problem.moes);
             let mut system = System::new(LineSpace::new(grid.clone()));
             let start = |x: &f64| 0.9 * (1.0 - x * x).max(0.0).sqrt() + 0.02 * (-x * x).exp();
             system.set_pressure(&problem, &grid.x.iter().map(start).collect::<Vec<f64>>());

@@ -84,7 +84,7 @@ impl Solution {
 impl<S: NewtonSpace> Solver<S> {
     /// What the grid costs the central film of a converged solution on it.
     pub fn grid_cost(&mut self, solution: &Solution) -> GridCost {
-        let mut system = self.system_at(solution.mesh.scale());
+        let mut system = self.system_at(solution.mesh.scale);
         system.set_pressure(&solution.problem, &solution.pressure);
         system.set_h_0(solution.scalars.h_0);
         let cost = system.grid_cost(&solution.problem, &self.options);
@@ -165,12 +165,12 @@ impl<S: NewtonSpace> System<S> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::discrete::grid::{ContactGridSpec, GridSpec, PointGridSpec};
+    use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
     use crate::solver::full::{ContactSolver, Start};
     use crate::solver::physics::contact::{Moes, MoesRequest, si_from_moes};
     use crate::solver::physics::lubricant::Lubricant;
 
-    fn judged(spec: ContactGridSpec, m: f64, l: f64) -> Solution {
+    fn judged(spec: GridSpec, m: f64, l: f64) -> Solution {
         let point = si_from_moes(&MoesRequest::new(spec.kind(), m, l)).unwrap();
         let mut solver = ContactSolver::on(&spec.build().unwrap());
         let solution = solver.solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
@@ -178,8 +178,8 @@ mod tests {
         solver.judged(solution)
     }
 
-    fn uniform(dx: f64) -> ContactGridSpec {
-        ContactGridSpec::Line(GridSpec::Uniform { dx, domain: (-4.0, 2.0) })
+    fn uniform(dx: f64) -> GridSpec {
+        GridSpec::Uniform { dx, domain: (-4.0, 2.0) }
     }
 
     /// Contacts on domains that end too early or with spacings that are too wide, the film of an endless domain, and
@@ -196,7 +196,7 @@ mod tests {
             assert!((poor.scalars.h_c / truth - 1.0).abs() > 0.05);
             let warning = poor.grid_warning().unwrap();
             assert!(warning.starts_with("H_c is off by about") && warning.contains(word), "{warning}");
-            let own = ContactGridSpec::explorer_for(ContactKind::Line, Moes { m, l }).unwrap();
+            let own = GridSpec::explorer_for(ContactKind::Line, Moes { m, l }).unwrap();
             let good = judged(own, m, l);
             assert_eq!(good.grid_warning(), None, "M {m}, L {l}");
             assert!((good.scalars.h_c / truth - 1.0).abs() < 0.03, "M {m}, L {l}: {}", good.scalars.h_c);
@@ -209,7 +209,7 @@ mod tests {
             [(uniform(0.005), 200.0, 10.0, 0.1), (uniform(0.02), 40.0, 10.0, 0.2), (uniform(0.005), 2.0, 5.0, 0.2)]
         {
             let told = judged(spec, m, l);
-            let better = judged(ContactGridSpec::Line(GridSpec::EXPLORER), m, l);
+            let better = judged(GridSpec::EXPLORER, m, l);
             let (cost, shown) = (told.grid_cost.unwrap().total(), better.scalars.h_c / told.scalars.h_c - 1.0);
             assert!((cost / shown - 1.0).abs() < most, "M {m}, L {l}: {cost} told, {shown} shown");
         }
@@ -220,10 +220,10 @@ mod tests {
     fn a_point_contact_whose_domain_is_too_small_or_coarse_carries_a_warning() {
         let quick = PointGridSpec::uniform(0.08, 0.2, (-4.0, 2.0, -2.0));
         for (m, l, word) in [(1.1, 11.2, "ends of the domain"), (200.0, 10.0, "spacing")] {
-            let warning = judged(ContactGridSpec::Point(quick), m, l).grid_warning().unwrap();
+            let warning = judged(GridSpec::Plane(quick), m, l).grid_warning().unwrap();
             assert!(warning.contains(word), "M {m}, L {l}: {warning}");
         }
-        let usual = judged(ContactGridSpec::Point(PointGridSpec { dx: 0.03, ..PointGridSpec::QUICK }), 50.0, 5.0);
+        let usual = judged(GridSpec::Plane(PointGridSpec { dx: 0.03, ..PointGridSpec::QUICK }), 50.0, 5.0);
         assert_eq!(usual.grid_warning(), None);
     }
 }

@@ -98,7 +98,7 @@ mod tests {
         let at = Frame::Fixed.conditions(&problem, 0.0, Input { radius: 0.8, ..Inputs::default().at(0.0) }).unwrap();
         // No node of the third grid lies at X = 0.
         for (dx, domain) in [(0.005, (-4.0, 2.0)), (0.02, (-3.0, 1.6)), (0.017, (-3.0, 1.57))] {
-            let grid = GridSpec::Uniform { dx, domain }.build().unwrap().scaled(1.0);
+            let grid = GridSpec::Uniform { dx, domain }.line().unwrap().scaled(1.0);
             let mut random = fastrand::Rng::with_seed(3);
             let modes = 7;
             let inner = FIRST_UNKNOWN..grid.len() - 1;

@@ -100,7 +100,7 @@ impl ErrorMeasures {
     /// e_f and e_f^I of a reduced solution, given by its pressure coefficients and its reconstructed fields.
     pub fn residuals(&self, coefficients: &[f64], fields: &Solution) -> Residuals {
         let problem = &fields.problem;
-        let (scale, weights) = (fields.mesh.scale(), self.grid.weights());
+        let (scale, weights) = (fields.mesh.scale, self.grid.weights());
         let gradient = PlaneGradient::new(&fields.x, &fields.y);
         let nodes = Nodes::of(problem.laws(), &gradient, &fields.pressure, &fields.film);
         let squared: Vec<f64> = (0..self.grid.unknowns())
@@ -129,7 +129,7 @@ impl ErrorMeasures {
         let (bent, approximate) = (full.deformation(), fields.deformation());
         let (mut error, mut size) = ((fields.scalars.h_0 - full.scalars.h_0).powi(2), full.scalars.h_0.powi(2));
         for (i, cell) in cells.iter().enumerate() {
-            let weight = self.weight(cell * full.mesh.scale());
+            let weight = self.weight(cell * full.mesh.scale);
             error += weight * (fields.pressure[i] - full.pressure[i]).powi(2);
             error += weight * (approximate[i] - bent[i]).powi(2);
             size += weight * (full.pressure[i].powi(2) + bent[i].powi(2));
@@ -149,7 +149,7 @@ impl ErrorMeasures {
 mod tests {
     use super::super::{Online, Sampling, Starts};
     use super::*;
-    use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
+    use crate::solver::discrete::grid::GridSpec;
     use crate::solver::full::{ContactSolver, Start};
     use crate::solver::physics::contact::ContactKind;
     use crate::solver::physics::lubricant::Lubricant;
@@ -158,7 +158,7 @@ mod tests {
     use std::sync::Arc;
 
     fn spec(sampling: Sampling, registered: bool) -> TrainingSpec {
-        let grid = ContactGridSpec::Line(GridSpec::Graded { nodes: 200, domain: (-6.0, 1.9), registered });
+        let grid = GridSpec::Graded { nodes: 200, domain: (-6.0, 1.9), registered };
         let windows = Windows::Given(vec![WindowSpec { m: (1.0, 500.0), grid }]);
         TrainingSpec { windows, pressure_loss: 1e-5, deformation_loss: 1e-4, ..line(sampling, 24) }
     }
@@ -197,7 +197,7 @@ mod tests {
                         let bent: f64 = (0..modes).map(|k| window.flexed[(i, k)] * state[k]).sum();
                         let kept: f64 =
                             (0..kept_modes).map(|k| window.deformation.modes[(i, k)] * state[modes + k]).sum();
-                        let weight = if norm == Norm::Euclidean { 1.0 } else { cells[i] * fields.mesh.scale() };
+                        let weight = if norm == Norm::Euclidean { 1.0 } else { cells[i] * fields.mesh.scale };
                         weight * (kept - bent).powi(2)
                     })
                     .sum::<f64>()

@@ -229,16 +229,12 @@ fn converged(solution: Solution, grid: &str) -> Result<Solution, SplitError> {
 /// The projection of a full state onto the trial space of a reduced solution, among pressures that carry the load.
 fn best_approximation(window: &Window, full: &Solution, reduced: &ReducedSolution) -> ReducedSolution {
     let weights = window.grid.weights();
-    let modes = window.pressure.modes.get(.., ..reduced.coefficients.len());
-    let against = |values: &dyn Fn(usize) -> f64| -> Vec<f64> {
-        (0..modes.ncols())
-            .map(|k| weights.iter().enumerate().map(|(i, w)| w * modes[(i, k)] * values(i)).sum())
-            .collect()
-    };
-    let mut coefficients = against(&|i| full.pressure[i]);
-    let load = against(&|_| 1.0);
+    let mut coefficients = window.pressure.coefficients(weights, |i| full.pressure[i]);
+    let mut load = window.pressure.coefficients(weights, |_| 1.0);
+    coefficients.truncate(reduced.coefficients.len());
+    load.truncate(reduced.coefficients.len());
     // The modes are orthonormal, so the shortest way to the right load runs along its own coefficients.
-    let missing = full.problem.load / full.mesh.scale() - dot(&load, &coefficients);
+    let missing = full.problem.load / full.mesh.scale - dot(&load, &coefficients);
     let step = missing / dot(&load, &load);
     for (c, l) in coefficients.iter_mut().zip(&load) {
         *c += step * l;

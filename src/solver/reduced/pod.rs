@@ -1,7 +1,7 @@
 //! Proper orthogonal decomposition under quadrature weights, (2.88)–(2.95).
 
 use faer::linalg::solvers::Svd;
-use faer::{Mat, MatRef};
+use faer::{ColRef, Mat, MatRef};
 
 /// A POD basis with all its singular values.
 #[derive(Clone, Debug)]
@@ -47,6 +47,12 @@ impl PodBasis {
         Some(Self { modes: modes.get(.., ..keep.min(modes.ncols())).to_owned(), ..plain })
     }
 
+    /// Vᵀ W v: the coefficients of a node array, given by its value at each node.
+    pub fn coefficients(&self, weights: &[f64], value: impl Fn(usize) -> f64) -> Vec<f64> {
+        let of = |mode: ColRef<'_, f64>| mode.iter().zip(weights).enumerate().map(|(i, (v, w))| w * v * value(i)).sum();
+        self.modes.col_iter().map(of).collect()
+    }
+
     /// Loss of information when only the first `k` modes are kept, (2.90).
     pub fn loss(&self, k: usize) -> f64 {
         let total: f64 = self.singular_values.iter().sum();
@@ -89,9 +95,7 @@ mod tests {
             }
         }
         for j in 0..6 {
-            let coefficients: Vec<f64> = (0..basis.modes.ncols())
-                .map(|k| (0..30).map(|i| weights[i] * basis.modes[(i, k)] * snapshots[(i, j)]).sum())
-                .collect();
+            let coefficients = basis.coefficients(&weights, |i| snapshots[(i, j)]);
             for i in 0..30 {
                 let rebuilt: f64 = coefficients.iter().enumerate().map(|(k, c)| c * basis.modes[(i, k)]).sum();
                 assert!((rebuilt - snapshots[(i, j)]).abs() < 1e-10);

@@ -64,7 +64,7 @@ mod tests {
         let asked = Transient::new(OperatingPoint::TABLE_2_1, Inputs::load(load), 0.1, step);
         let asked = Transient { keep: Keep::Every(5), ..asked };
         let trajectory = transient::solve(spec, &asked, &()).unwrap();
-        let grid = spec.build().unwrap().scaled(1.0);
+        let grid = spec.line().unwrap().scaled(1.0);
         let penalty = 1e4;
         let sizes = mean_diagonals(&grid, &[&trajectory], penalty);
         let problem = &trajectory.problem;

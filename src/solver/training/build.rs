@@ -213,9 +213,7 @@ fn bases(
         .zip(pressures.col_iter())
         .map(|(s, p)| Snapshot {
             point: s.point,
-            coefficients: (0..pressure.modes.ncols())
-                .map(|k| (0..nodes).map(|i| weights[i] * pressure.modes[(i, k)] * p[i]).sum())
-                .collect(),
+            coefficients: pressure.coefficients(weights, |i| p[i]),
             h_0: s.h_0,
             h_c: s.h_c,
         })

@@ -16,7 +16,7 @@ use super::one_thread::on_one_thread;
 use super::plan::Within;
 use super::state::{FEWEST, Part, Solved, TrainingState, WindowState};
 use super::{Plan, TrainingError, TrainingObserver, WindowSpec};
-use crate::solver::discrete::grid::{ContactGridSpec, GridSpec, ReferenceGrid};
+use crate::solver::discrete::grid::{GridSpec, ReferenceGrid};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::reduced::PodBasis;
 use faer::Mat;
@@ -48,7 +48,7 @@ pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver)
         )));
     }
     let mut tried = |inlet: f64, registered: bool, points: &[OperatingPoint]| {
-        let grid = ContactGridSpec::Line(GridSpec::explorer_from(inlet, registered));
+        let grid = GridSpec::explorer_from(inlet, registered);
         try_grid(state, WindowSpec { m: whole, grid }, points, observer)
     };
     let few = &points[..INLET_POINTS.min(points.len())];
@@ -89,7 +89,7 @@ pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver)
         _ if registered => with.1,
         _ => without.1,
     };
-    let window = WindowSpec { m: whole, grid: ContactGridSpec::Line(GridSpec::explorer_from(inlet, registered)) };
+    let window = WindowSpec { m: whole, grid: GridSpec::explorer_from(inlet, registered) };
     state.trials.clear();
     state.windows = vec![WindowState::new(window, spec.seed, inherited)];
     Ok(())
@@ -123,7 +123,7 @@ fn try_grid(
 fn held_out(grid: GridSpec, solved: &[Solved], observer: &dyn TrainingObserver) -> Result<f64, TrainingError> {
     let solved = solved.to_vec();
     on_one_thread(observer, move || {
-        let grid = grid.build().map_err(crate::solver::full::SolveError::from)?;
+        let grid = grid.line().map_err(crate::solver::full::SolveError::from)?;
         let (first, second) = solved.split_at(solved.len().div_ceil(2));
         let pressures = Mat::from_fn(grid.xi.len(), first.len(), |i, j| first[j].pressure[i]);
         let basis = PodBasis::new(pressures.as_ref(), &grid.weights, 0.0)
@@ -136,8 +136,7 @@ fn held_out(grid: GridSpec, solved: &[Solved], observer: &dyn TrainingObserver) 
 fn projection_error(basis: &PodBasis, grid: &ReferenceGrid, pressure: &[f64]) -> f64 {
     let size = |v: &[f64]| v.iter().zip(&grid.weights).map(|(v, w)| w * v * v).sum::<f64>().sqrt();
     let mut rest = pressure.to_vec();
-    for mode in basis.modes.col_iter() {
-        let share: f64 = mode.iter().zip(&grid.weights).zip(pressure).map(|((v, w), p)| w * v * p).sum();
+    for (mode, share) in basis.modes.col_iter().zip(basis.coefficients(&grid.weights, |i| pressure[i])) {
         rest.iter_mut().zip(mode.iter()).for_each(|(r, v)| *r -= share * v);
     }
     size(&rest) / size(pressure)
@@ -172,7 +171,7 @@ mod tests {
     #[test]
     fn what_the_first_half_spans_is_explained() {
         let spec = GridSpec::explorer_from(-5.0, true);
-        let grid = spec.build().unwrap();
+        let grid = spec.line().unwrap();
         let range = moes((5.0, 50.0), (5.0, 8.0), 4e9);
         let point = Within::all(range, ContactKind::Line).farthest_points(&[], 1, &mut Rng::with_seed(1))[0];
         let solved = |a: f64, b: f64| {

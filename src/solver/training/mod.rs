@@ -41,7 +41,7 @@ pub use state::{Solved, TrainingState, WindowState, train_resumable};
 pub use trajectories::{TrajectoryTraining, train_trajectories};
 
 use self::plan::Within;
-use super::discrete::grid::ContactGridSpec;
+use super::discrete::grid::GridSpec;
 use super::discrete::reynolds::PENALTY;
 use super::limits::Refused;
 use super::physics::contact::ContactKind;
@@ -138,7 +138,7 @@ pub struct TrainingSpec {
     #[serde(default = "penalty")]
     pub penalty: f64,
     /// Whether modes are made of max(P, 0). What a penalty leaves of negative pressures goes with 1/γ̄: the full
-    /// solutions' own contradict a softer one, and the film takes the difference (2e-3 of H_c at M 60 for γ̄ 1e5).
+    /// solutions' own contradict a softer one, and the film takes the difference.
     #[serde(default)]
     pub positive_modes: bool,
     /// Random points per window at which its errors are measured for the calibrated bound; 0 leaves the bound out.
@@ -159,7 +159,7 @@ fn evidence() -> usize {
 impl TrainingSpec {
     /// A training of Newtonian contacts on one grid, with everything else as a scene has it that leaves it out, losses
     /// of information of 1e-6 and two rows per mode.
-    pub fn new(range: Range, m: (f64, f64), grid: ContactGridSpec, plan: Plan) -> Self {
+    pub fn new(range: Range, m: (f64, f64), grid: GridSpec, plan: Plan) -> Self {
         Self {
             title: String::new(),
             range,
@@ -225,7 +225,7 @@ pub struct WindowSpec {
     /// Range of M it serves (training reaches beyond by an overlap).
     pub m: (f64, f64),
     /// Its grid.
-    pub grid: ContactGridSpec,
+    pub grid: GridSpec,
 }
 
 /// Watches a training.
@@ -269,16 +269,9 @@ pub enum TrainingError {
         /// Upper end of the window.
         to: f64,
     },
-    /// No trajectories to learn from.
-    #[error(
-        "a training needs trajectories of one frame on one unregistered grid that kept their fields, each with at least its start"
-    )]
-    NoTrajectories,
-    /// The bases of trajectories, or the rule for their rows, could not be had.
-    #[error(
-        "the trajectories could not be decomposed, or no rule of few rows carries their steps; try a larger loss of information or more rows per mode"
-    )]
-    Trajectories,
+    /// There are no trajectories to learn from, or no bases or rule for their rows could be had.
+    #[error("{0}")]
+    Trajectories(&'static str),
     /// A training trajectory is refused.
     #[error(transparent)]
     Transient(#[from] super::full::transient::TransientError),

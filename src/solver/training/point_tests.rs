@@ -40,10 +40,7 @@ fn a_point_model_solves_fresh_points_with_all_rows_and_with_few() {
 #[test]
 fn grids_of_both_kinds_and_senseless_penalties_are_refused() {
     let given = |m, grid| WindowSpec { m, grid };
-    let mixed = vec![
-        given((1.0, 50.0), ContactGridSpec::Point(POINT_GRID)),
-        given((50.0, 2000.0), ContactGridSpec::Line(GridSpec::EXPLORER)),
-    ];
+    let mixed = vec![given((1.0, 50.0), GridSpec::Plane(POINT_GRID)), given((50.0, 2000.0), GridSpec::EXPLORER)];
     let mixed = TrainingSpec { windows: Windows::Given(mixed), ..point(Sampling::All, 8) };
     assert!(mixed.check().unwrap_err().to_string().contains("one kind of contact"));
     for penalty in [0.0, f64::NAN, 1e12] {

@@ -2,14 +2,14 @@
 
 use super::small::{moes, moes_with};
 use super::*;
-use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
+use crate::solver::discrete::grid::GridSpec;
 use crate::solver::reduced::{ReducedModel, Window};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// A small box on a coarse grid: a full solve takes a fraction of a millisecond.
 fn small(plan: Plan) -> TrainingSpec {
-    let grid = ContactGridSpec::Line(GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) });
+    let grid = GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) };
     let range = Range::Box(QuantityBox {
         radius: (2e-3, 3e-3),
         speed: (3.0, 5.0),
@@ -158,7 +158,7 @@ fn a_range_in_which_full_solves_fail_names_the_point_and_keeps_what_it_has() {
     // Films far below what this grid resolves beyond M of a few hundred.
     let mut spec = small(Plan::FarthestPoint { snapshots: 60 });
     spec.range = moes((20.0, 50_000.0), (0.05, 2.5), 1e12);
-    let grid = ContactGridSpec::Line(GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) });
+    let grid = GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) };
     spec.windows = Windows::Given(vec![WindowSpec { m: (20.0, 50_000.0), grid }]);
     let mut state = TrainingState::new(spec);
     let error = train_resumable(&mut state, &()).unwrap_err();
@@ -175,7 +175,7 @@ fn a_range_that_holds_no_contact_is_refused_with_a_sentence() {
     let nowhere = moes((400.0, 500.0), (19.0, 20.0), 1e6);
     let one_point = moes_with((20.0, 20.0), (19.0, 19.0), (5e-9, 5e-9), 1e10);
     let plan = Plan::FarthestPoint { snapshots: 8 };
-    let given = |m| Windows::Given(vec![WindowSpec { m, grid: ContactGridSpec::Line(GridSpec::EXPLORER) }]);
+    let given = |m| Windows::Given(vec![WindowSpec { m, grid: GridSpec::EXPLORER }]);
     for (range, windows, holds) in [
         (nowhere, given((400.0, 500.0)), "holds 0"),
         (nowhere, Windows::Automatic { modes: 90 }, "holds 0"),

@@ -1,15 +1,15 @@
 //! Small trainings, which tests make of many things.
 
 use super::{Plan, QuantityBox, Range, TrainingSpec};
-use crate::solver::discrete::grid::{ContactGridSpec, GridSpec, PointGridSpec};
+use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 use crate::solver::reduced::Sampling;
 
 /// A grid of point contacts on which a full solve takes milliseconds.
 pub(crate) const POINT_GRID: PointGridSpec = PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5));
 
 /// A registered graded grid of few nodes.
-pub(crate) fn line_grid(nodes: usize) -> ContactGridSpec {
-    ContactGridSpec::Line(GridSpec::Graded { nodes, domain: (-6.0, 1.9), registered: true })
+pub(crate) fn line_grid(nodes: usize) -> GridSpec {
+    GridSpec::Graded { nodes, domain: (-6.0, 1.9), registered: true }
 }
 
 /// Line contacts of a corner of Table 3.1.
@@ -35,7 +35,7 @@ pub(crate) fn point(sampling: Sampling, snapshots: usize) -> TrainingSpec {
         alpha: (8e-9, 11e-9),
         ..QuantityBox::TABLE_3_4
     };
-    let (grid, plan) = (ContactGridSpec::Point(POINT_GRID), Plan::FarthestPoint { snapshots });
+    let (grid, plan) = (GridSpec::Plane(POINT_GRID), Plan::FarthestPoint { snapshots });
     TrainingSpec {
         pressure_loss: 1e-4,
         deformation_loss: 1e-4,

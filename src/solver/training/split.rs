@@ -87,7 +87,7 @@ fn balanced_edge(solved: &[Solved], whole: (f64, f64), grid: &ContactGrid) -> Op
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
+    use crate::solver::discrete::grid::GridSpec;
     use crate::solver::physics::contact::ContactKind;
     use crate::solver::training::plan::Within;
     use crate::solver::training::small::moes;
@@ -105,7 +105,7 @@ mod tests {
 
     #[test]
     fn the_edge_lies_where_both_sides_need_equally_many_modes() {
-        let grid = ContactGridSpec::Line(GridSpec::explorer_from(-5.0, true)).build().unwrap();
+        let grid = GridSpec::explorer_from(-5.0, true).build().unwrap();
         let solved = solutions(&grid);
         let edge = balanced_edge(&solved, (2.0, 500.0), &grid).unwrap();
         let below = solved.iter().filter(|s| s.point.moes().m <= edge * OVERLAP).count();
@@ -115,7 +115,7 @@ mod tests {
 
     #[test]
     fn halves_reach_beyond_their_common_edge_only() {
-        let grid = ContactGridSpec::Line(GridSpec::explorer_from(-5.0, true)).build().unwrap();
+        let grid = GridSpec::explorer_from(-5.0, true).build().unwrap();
         let solved = solutions(&grid);
         let of = |part| -> Vec<f64> {
             solved.iter().filter(|s| reached(part, (2.0, 500.0), s)).map(|s| s.point.moes().m).collect()

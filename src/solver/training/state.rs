@@ -196,15 +196,12 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
             let last = k + 1 == state.windows.len();
             trained.calibration = calibrate(&spec, &Arc::new(alone(&spec, &trained)), k, last, observer)?;
         }
+        let ((from, to), solutions, rows) = (trained.m, trained.snapshots.len(), trained.sampled_rows.len());
+        let [pressure, deformation] = [&trained.pressure, &trained.deformation].map(|basis| basis.modes.ncols());
         log.push(format!(
-            "M {}…{}: {} full solutions, {} pressure and {} deformation modes, {} of {} rows",
-            trained.m.0,
-            trained.m.1,
-            trained.snapshots.len(),
-            trained.pressure.modes.ncols(),
-            trained.deformation.modes.ncols(),
-            trained.sampled_rows.len(),
-            trained.grid.unknowns(),
+            "M {from}…{to}: {solutions} full solutions, {pressure} pressure and {deformation} deformation modes, \
+             {rows} of {} rows",
+            trained.grid.unknowns()
         ));
         let cost = |snapshot: &Snapshot| trained.grid.spec().expected_cost(snapshot.point.moes());
         let worst = trained.snapshots.iter().map(cost).fold(0.0, f64::max);

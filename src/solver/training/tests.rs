@@ -3,7 +3,7 @@
 
 use super::small::line;
 use super::*;
-use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
+use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::{ContactSolver, Start};
 use crate::solver::reduced::{Online, ReducedOptions, Sampling};
 use std::sync::Arc;
@@ -122,10 +122,7 @@ fn requests_that_make_no_sense_are_refused_with_a_sentence() {
         (TrainingSpec { plan: Plan::FarthestPoint { snapshots: 1 }, ..base.clone() }, "snapshots"),
         (
             TrainingSpec {
-                windows: Windows::Given(vec![WindowSpec {
-                    m: (1e3, 2e3),
-                    grid: ContactGridSpec::Line(GridSpec::EXPLORER),
-                }]),
+                windows: Windows::Given(vec![WindowSpec { m: (1e3, 2e3), grid: GridSpec::EXPLORER }]),
                 ..base.clone()
             },
             "window",

@@ -5,7 +5,7 @@
 use super::one_thread::on_one_thread;
 use super::rows::add_goals;
 use super::{Observer, Progress, TrainingError};
-use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN, ReferenceGrid, dot};
+use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN, ReferenceGrid};
 use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::full::transient::{Frame, Keep, Moment, Trajectory, Transient, TransientObserver, march};
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel, TrajectoryStart};
@@ -36,6 +36,12 @@ impl Default for TrajectoryTraining {
     }
 }
 
+/// What trajectories must be to learn from them.
+const NONE: &str = "a training needs trajectories of one frame on one unregistered grid that kept their fields, each \
+                    with at least its start";
+/// What may help where trajectories teach nothing.
+const DEGENERATE: &str = "the trajectories could not be decomposed, or no rule of few rows carries their steps; try a \
+                          larger loss of information or more rows per mode";
 /// Most states that enter the bases: of longer trajectories every n-th one.
 const MOST_SNAPSHOTS: usize = 900;
 /// Iterates that the cubature has to satisfy.
@@ -52,13 +58,13 @@ pub fn train_trajectories(
     training: &TrajectoryTraining,
     observer: &dyn Observer,
 ) -> Result<TrajectoryModel, TrainingError> {
-    let frame = trajectories.first().ok_or(TrainingError::NoTrajectories)?.transient.frame;
+    let frame = trajectories.first().ok_or(TrainingError::Trajectories(NONE))?.transient.frame;
     let length = grid.xi.len();
     let of_one_kind = |t: &Trajectory| {
         t.transient.frame == frame && !t.states.is_empty() && t.x == grid.xi && t.states[0].pressure.len() == length
     };
     if !trajectories.iter().all(of_one_kind) {
-        return Err(TrainingError::NoTrajectories);
+        return Err(TrainingError::Trajectories(NONE));
     }
     let sizes = mean_diagonals(&grid.scaled(1.0), &trajectories.iter().collect::<Vec<_>>(), PENALTY);
     let exact = bases(grid, trajectories, (&sizes, training), frame, observer)?;
@@ -69,7 +75,7 @@ pub fn train_trajectories(
     let sampled = on_one_thread(observer, move || cubature(&test, &equations, target))?;
     let sampled = sampled.filter(|s: &SampledRows| is_finite(s.reconstruction.as_ref()));
     let mut model = exact;
-    model.window.set_rows(Sampling::Cubature, sampled.ok_or(TrainingError::Trajectories)?);
+    model.window.set_rows(Sampling::Cubature, sampled.ok_or(TrainingError::Trajectories(DEGENERATE))?);
     Ok(model)
 }
 
@@ -117,19 +123,13 @@ fn bases(
             (pressure, deformation)
         }
     })?;
-    let pressure = pressure.ok_or(TrainingError::Trajectories)?;
-    let deformation = deformation.ok_or(TrainingError::Trajectories)?;
+    let pressure = pressure.ok_or(TrainingError::Trajectories(DEGENERATE))?;
+    let deformation = deformation.ok_or(TrainingError::Trajectories(DEGENERATE))?;
     let starts = trajectories
         .iter()
         .filter_map(|t| {
             let state = t.states.first()?;
-            let coefficient = |mode: &[f64]| -> f64 {
-                let weighted: Vec<f64> = mode.iter().zip(&grid.weights).map(|(v, w)| v * w).collect();
-                dot(&weighted, &state.pressure)
-            };
-            let modes = 0..pressure.modes.ncols();
-            let column = |k: usize| -> Vec<f64> { pressure.modes.col(k).iter().copied().collect() };
-            let coefficients = modes.map(|k| coefficient(&column(k))).collect();
+            let coefficients = pressure.coefficients(&grid.weights, |i| state.pressure[i]);
             Some(TrajectoryStart { point: t.transient.point, coefficients, h_0: state.h_0 })
         })
         .collect();

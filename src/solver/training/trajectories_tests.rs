@@ -13,7 +13,7 @@ use std::sync::Arc;
 const ALL: (f64, f64) = (0.0, f64::INFINITY);
 
 fn grid() -> Arc<ReferenceGrid> {
-    GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) }.build().unwrap()
+    GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) }.line().unwrap()
 }
 
 fn transient(frame: Frame, load: Signal) -> Transient {

@@ -167,7 +167,7 @@ impl Observer for Steps<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
+    use crate::solver::discrete::grid::GridSpec;
     use crate::solver::physics::contact::OperatingPoint;
     use crate::solver::physics::lubricant::Lubricant;
 
@@ -175,7 +175,7 @@ mod tests {
     fn a_job_comes_back_with_what_it_was_for() {
         let mut jobs = Jobs::new(&Store::default());
         let key = Key { point: OperatingPoint::TABLE_2_1, lubricant: Lubricant::default() };
-        let grid = GridChoice::Spec(ContactGridSpec::Line(GridSpec::EXPLORER));
+        let grid = GridChoice::Spec(GridSpec::EXPLORER);
         jobs.submit(&egui::Context::default(), FullSolve { kind: JobKind::Verify, key, grid, start: None });
         let begin = Instant::now();
         loop {

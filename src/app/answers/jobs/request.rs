@@ -2,9 +2,9 @@
 
 use crate::app::document::Key;
 use crate::engine::Store;
-use crate::solver::discrete::grid::{ContactGrid, ContactGridSpec, GridError, GridSpec, PointGridSpec};
+use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec, PointGridSpec};
 use crate::solver::full::Solution;
-use crate::solver::physics::contact::Moes;
+use crate::solver::physics::contact::{ContactKind, Moes};
 use crate::solver::reduced::ReducedModel;
 use std::sync::Arc;
 
@@ -42,7 +42,7 @@ pub enum GridChoice {
     /// A reduced model's own grid.
     Existing(ContactGrid),
     /// A specification.
-    Spec(ContactGridSpec),
+    Spec(GridSpec),
 }
 
 impl GridChoice {
@@ -51,10 +51,8 @@ impl GridChoice {
     pub fn of(model: Option<&ReducedModel>, plane: Option<PointGridSpec>, moes: Moes) -> Self {
         match (model.and_then(|model| model.windows.get(model.window_for(moes))), plane) {
             (Some(window), _) => Self::Existing(window.grid.clone()),
-            (None, None) => {
-                Self::Spec(ContactGridSpec::Line(GridSpec::explorer_for(moes).unwrap_or(GridSpec::EXPLORER)))
-            }
-            (None, Some(plane)) => Self::Spec(ContactGridSpec::Point(plane)),
+            (None, None) => Self::Spec(GridSpec::explorer_for(ContactKind::Line, moes).unwrap_or(GridSpec::EXPLORER)),
+            (None, Some(plane)) => Self::Spec(GridSpec::Plane(plane)),
         }
     }
 

@@ -8,7 +8,7 @@ use crate::app::document::Edit;
 use crate::app::form::{Form, choose, row, short};
 use crate::app::training::presets;
 use crate::scene::QuantityBox;
-use crate::solver::discrete::grid::{ContactGridSpec, GridSpec};
+use crate::solver::discrete::grid::GridSpec;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::Sampling;
 use crate::solver::training::{Indicator, Plan, Range, SlidingRange, TrainingSpec, Windows};
@@ -131,9 +131,9 @@ fn described_windows(windows: &Windows) -> String {
     };
     let ranges: Vec<String> = given.iter().map(|w| format!("{}…{}", short(w.m.0), short(w.m.1))).collect();
     let grid = given.first().map_or_else(String::new, |w| match w.grid {
-        ContactGridSpec::Line(GridSpec::Graded { nodes, .. }) => format!(", {nodes} graded nodes"),
-        ContactGridSpec::Line(GridSpec::Uniform { dx, .. }) => format!(", uniform grid of {dx}"),
-        ContactGridSpec::Point(spec) => match spec.nodes() {
+        GridSpec::Graded { nodes, .. } => format!(", {nodes} graded nodes"),
+        GridSpec::Uniform { dx, .. } => format!(", uniform grid of {dx}"),
+        GridSpec::Plane(spec) => match spec.nodes() {
             Ok((nx, ny)) => format!(", {nx}×{ny} nodes"),
             Err(error) => format!(", {error}"),
         },

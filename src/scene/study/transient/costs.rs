@@ -62,8 +62,7 @@ pub(super) fn table(study: &TransientStudy, marches: &[&March], models: &[&Model
 mod tests {
     use super::*;
     use crate::scene::{Scene, Study};
-    use crate::solver::full::Mesh;
-    use crate::solver::full::transient::{Ended, Frame, Moment, Trajectory};
+    use crate::solver::full::transient::{Frame, Moment, Trajectory};
 
     fn march(name: &str, by: By, steps: usize, step_s: f64) -> March {
         let scene = Scene::from_ron(SCENE).unwrap();
@@ -84,16 +83,9 @@ mod tests {
             x_p_max: 0.0,
             effort: Default::default(),
         };
-        let trajectory = Trajectory {
-            problem: transient.problem().unwrap(),
-            mesh: Mesh::Line { spec: scene.grid.spec().unwrap(), scale: 1.0 },
-            x: Vec::new(),
-            moments: (0..=steps).map(moment).collect(),
-            states: Vec::new(),
-            rejected_steps: 0,
-            ended: Ended::Finished,
-            transient,
-        };
+        let grid = scene.grid.spec().unwrap().line().unwrap().scaled(1.0);
+        let begun = Trajectory::begun(&transient, &grid).unwrap();
+        let trajectory = Trajectory { moments: (0..=steps).map(moment).collect(), ..begun };
         March { name: name.to_owned(), by, trajectory, seconds: vec![step_s; steps], mass_defect: None, record: None }
     }
 

@@ -45,7 +45,7 @@ pub(crate) fn timed_march(
         let trajectory = Box::new(Trajectory {
             problem: transient.problem()?,
             transient: transient.clone(),
-            mesh: Mesh::Line { spec: grid.reference.spec, scale: grid.scale },
+            mesh: Mesh { spec: grid.reference.spec, scale: grid.scale },
             x: grid.x.clone(),
             moments: Vec::new(),
             states: Vec::new(),

@@ -198,7 +198,7 @@ mod tests {
             crate::solver::discrete::grid::GridSpec::Uniform { dx: 0.005, domain: (-4.0, 2.0) },
             crate::solver::discrete::grid::GridSpec::Graded { nodes: 600, domain: (-8.0, 1.9), registered: false },
         ] {
-            let grid = spec.build().unwrap().scaled(1.0);
+            let grid = spec.line().unwrap().scaled(1.0);
             let p: Vec<f64> = grid.x.iter().map(|x| (1.0 - x * x).max(0.0).sqrt()).collect();
             let mut d = vec![0.0; p.len()];
             grid.deform(&p, &mut d, &mut Scratch::default());
@@ -216,7 +216,7 @@ mod tests {
     fn a_registered_grid_deforms_as_the_same_nodes_built_directly() {
         let spec =
             crate::solver::discrete::grid::GridSpec::Graded { nodes: 200, domain: (-5.0, 1.9), registered: false };
-        let mapped = spec.build().unwrap().scaled(0.8);
+        let mapped = spec.line().unwrap().scaled(0.8);
         let direct = Flexibility::graded(&mapped.x);
         let p: Vec<f64> = (0..mapped.len())
             .map(|i| if i < 2 || i + 1 == mapped.len() { 0.0 } else { (i as f64).sin().abs() })

@@ -5,7 +5,7 @@
 //! K P: the scale s registers line contacts by their spike. A point contact is the case s = 1.
 
 use super::GridError;
-use super::line::{FIRST_UNKNOWN, GridSpec, ReferenceGrid};
+use super::line::{FIRST_UNKNOWN, ReferenceGrid};
 use super::point::{PointGrid, PointGridSpec};
 use crate::solver::discrete::elasticity::{Flexibility, PointScratch, Scratch};
 use crate::solver::discrete::reynolds::generalized::PlaneGradient;
@@ -16,73 +16,37 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A description of the grid of either kind of contact. Scenes write it as the line grids `Uniform` and `Graded`, or as
-/// the `Plane` of a point contact.
+/// A description of a grid, as scenes and the command line give it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(from = "Written", into = "Written")]
-pub enum ContactGridSpec {
-    /// Of a line contact.
-    Line(GridSpec),
-    /// Of the half Y ≤ 0 of a point contact.
-    Point(PointGridSpec),
-}
-
-/// How a grid is written: one enum over both kinds.
-#[derive(Clone, Copy, Serialize, Deserialize)]
 #[serde(rename = "Grid", deny_unknown_fields)]
-enum Written {
+pub enum GridSpec {
+    /// Of a line contact: equidistant nodes from the inlet to the outlet, both ends counted; kernel (2.39).
     Uniform {
+        /// Spacing ΔX.
         dx: f64,
+        /// Inlet and outlet.
         domain: (f64, f64),
     },
+    /// Of a line contact: nodes graded towards X = ±1, kernel of hat functions, registered by the pressure spike when
+    /// `registered`.
     Graded {
+        /// Number of nodes, both ends counted.
         nodes: usize,
+        /// Inlet and outlet in the reference coordinate ξ.
         domain: (f64, f64),
+        /// Whether the spike is mapped to ξ = 1.
         registered: bool,
     },
-    Plane {
-        dx: f64,
-        dy: f64,
-        domain: (f64, f64, f64),
-        #[serde(default = "equidistant")]
-        refinement: f64,
-    },
+    /// Of the half Y ≤ 0 of a point contact.
+    Plane(PointGridSpec),
 }
 
-fn equidistant() -> f64 {
-    1.0
-}
-
-impl From<Written> for ContactGridSpec {
-    fn from(written: Written) -> Self {
-        match written {
-            Written::Uniform { dx, domain } => Self::Line(GridSpec::Uniform { dx, domain }),
-            Written::Graded { nodes, domain, registered } => Self::Line(GridSpec::Graded { nodes, domain, registered }),
-            Written::Plane { dx, dy, domain, refinement } => Self::Point(PointGridSpec { dx, dy, refinement, domain }),
-        }
-    }
-}
-
-impl From<ContactGridSpec> for Written {
-    fn from(spec: ContactGridSpec) -> Self {
-        match spec {
-            ContactGridSpec::Line(GridSpec::Uniform { dx, domain }) => Self::Uniform { dx, domain },
-            ContactGridSpec::Line(GridSpec::Graded { nodes, domain, registered }) => {
-                Self::Graded { nodes, domain, registered }
-            }
-            ContactGridSpec::Point(PointGridSpec { dx, dy, refinement, domain }) => {
-                Self::Plane { dx, dy, domain, refinement }
-            }
-        }
-    }
-}
-
-impl ContactGridSpec {
+impl GridSpec {
     /// The kind of contact it is a grid of.
     pub fn kind(&self) -> ContactKind {
         match self {
-            Self::Line(_) => ContactKind::Line,
-            Self::Point(_) => ContactKind::Point,
+            Self::Uniform { .. } | Self::Graded { .. } => ContactKind::Line,
+            Self::Plane(_) => ContactKind::Point,
         }
     }
 
@@ -92,8 +56,8 @@ impl ContactGridSpec {
     /// When the specification is refused.
     pub fn build(&self) -> Result<ContactGrid, GridError> {
         Ok(match self {
-            Self::Line(spec) => ContactGrid::Line(spec.build()?),
-            Self::Point(spec) => ContactGrid::Point(spec.build()?),
+            Self::Uniform { .. } | Self::Graded { .. } => ContactGrid::Line(self.line()?),
+            Self::Plane(spec) => ContactGrid::Point(spec.build()?),
         })
     }
 }
@@ -109,10 +73,10 @@ pub enum ContactGrid {
 
 impl ContactGrid {
     /// What it was built from.
-    pub fn spec(&self) -> ContactGridSpec {
+    pub fn spec(&self) -> GridSpec {
         match self {
-            Self::Line(grid) => ContactGridSpec::Line(grid.spec),
-            Self::Point(grid) => ContactGridSpec::Point(grid.spec),
+            Self::Line(grid) => grid.spec,
+            Self::Point(grid) => GridSpec::Plane(grid.spec),
         }
     }
 
@@ -286,31 +250,33 @@ fn column_by_column<S: Default + Send>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ron::extensions::Extensions;
 
     #[test]
     fn a_grid_is_written_as_scenes_write_it() {
+        let options = ron::Options::default().with_default_extension(Extensions::UNWRAP_VARIANT_NEWTYPES);
         for (spec, text) in [
             (
-                ContactGridSpec::Line(GridSpec::Graded { nodes: 200, domain: (-6.0, 1.9), registered: true }),
+                GridSpec::Graded { nodes: 200, domain: (-6.0, 1.9), registered: true },
                 "Graded(nodes:200,domain:(-6.0,1.9),registered:true)",
             ),
             (
-                ContactGridSpec::Point(PointGridSpec::DISSERTATION),
+                GridSpec::Plane(PointGridSpec::DISSERTATION),
                 "Plane(dx:0.02,dy:0.05,domain:(-4.0,2.0,-2.0),refinement:1.0)",
             ),
         ] {
-            assert_eq!(ron::to_string(&spec).unwrap(), text);
-            assert_eq!(ron::from_str::<ContactGridSpec>(text).unwrap(), spec);
+            assert_eq!(options.to_string(&spec).unwrap(), text);
+            assert_eq!(options.from_str::<GridSpec>(text).unwrap(), spec);
         }
-        let short: ContactGridSpec = ron::from_str("Plane(dx:0.02,dy:0.05,domain:(-4.0,2.0,-2.0))").unwrap();
-        assert_eq!(short, ContactGridSpec::Point(PointGridSpec::DISSERTATION));
-        assert!(ron::from_str::<ContactGridSpec>("Plane(dx:0.02,dy:0.05,domain:(-4,2,-2),depth:1)").is_err());
+        let short: GridSpec = options.from_str("Plane(dx:0.02,dy:0.05,domain:(-4.0,2.0,-2.0))").unwrap();
+        assert_eq!(short, GridSpec::Plane(PointGridSpec::DISSERTATION));
+        assert!(options.from_str::<GridSpec>("Plane(dx:0.02,dy:0.05,domain:(-4,2,-2),depth:1)").is_err());
     }
 
     #[test]
     fn rows_and_weights_of_both_kinds_refer_to_their_node_arrays() {
-        let line = ContactGridSpec::Line(GridSpec::DISSERTATION).build().unwrap();
-        let point = ContactGridSpec::Point(PointGridSpec::uniform(0.1, 0.1, (-2.0, 1.5, -1.5))).build().unwrap();
+        let line = GridSpec::DISSERTATION.build().unwrap();
+        let point = GridSpec::Plane(PointGridSpec::uniform(0.1, 0.1, (-2.0, 1.5, -1.5))).build().unwrap();
         for grid in [line, point] {
             for unknown in [0, 1, grid.unknowns() / 2, grid.unknowns() - 1] {
                 let (stencil, _) = grid.row(unknown);

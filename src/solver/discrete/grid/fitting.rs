@@ -8,9 +8,9 @@
 //!
 //! [`GridCost`]: crate::solver::full::GridCost
 
-use super::contact::ContactGridSpec;
+use super::contact::GridSpec;
 use super::error::GridError;
-use super::line::{GridSpec, LONGEST_INLET, MAX_GRADED_NODES, explorer_cells, registration_scale};
+use super::line::{LONGEST_INLET, MAX_GRADED_NODES, explorer_cells, registration_scale};
 use super::point::PointGridSpec;
 use crate::solver::physics::contact::{ContactKind, Moes, moes_film};
 use std::f64::consts::PI;
@@ -125,7 +125,7 @@ impl GridSpec {
         let fit = Fit::new(ContactKind::Line, moes);
         match *self {
             Self::Uniform { dx, domain } => fit.truncation(-domain.0) <= TRUNCATION && fit.resolution(dx) <= RESOLUTION,
-            Self::Graded { .. } => false,
+            Self::Graded { .. } | Self::Plane(_) => false,
         }
     }
 
@@ -134,7 +134,7 @@ impl GridSpec {
     ///
     /// # Errors
     /// When no such grid resolves the film.
-    pub fn explorer_for(moes: Moes) -> Result<Self, GridError> {
+    fn line_for(moes: Moes) -> Result<Self, GridError> {
         let Self::Graded { nodes, domain, registered } = Self::EXPLORER else { return Ok(Self::EXPLORER) };
         let fit = Fit::new(ContactKind::Line, moes);
         let reach = |times: f64| (times * -domain.0 - 1.0) * registration_scale(moes) + 1.0;
@@ -185,18 +185,18 @@ impl PointGridSpec {
     }
 }
 
-impl ContactGridSpec {
+impl GridSpec {
     /// The share of H_c that this grid is expected to cost a contact, by the ends of its domain and by its spacing.
     pub fn expected_cost(&self, moes: Moes) -> f64 {
         let fit = Fit::new(self.kind(), moes);
         let (reach, spacing) = match *self {
-            Self::Line(GridSpec::Uniform { dx, domain }) => (-domain.0, dx),
-            Self::Line(GridSpec::Graded { nodes, domain, registered }) => {
+            Self::Uniform { dx, domain } => (-domain.0, dx),
+            Self::Graded { nodes, domain, registered } => {
                 let scale = if registered { registration_scale(moes) } else { 1.0 };
                 let coarser = explorer_cells(domain) as f64 / (nodes - 1) as f64;
                 ((-domain.0 - 1.0) * scale + 1.0, EXPLORER_SPACING * coarser)
             }
-            Self::Point(PointGridSpec { dx, domain, .. }) => (f64::min(-domain.0, -2.0 * domain.2), dx),
+            Self::Plane(PointGridSpec { dx, domain, .. }) => (f64::min(-domain.0, -2.0 * domain.2), dx),
         };
         fit.truncation(reach) + fit.resolution(spacing)
     }
@@ -207,8 +207,8 @@ impl ContactGridSpec {
     /// When no grid of its kind resolves the film.
     pub fn explorer_for(kind: ContactKind, moes: Moes) -> Result<Self, GridError> {
         match kind {
-            ContactKind::Line => GridSpec::explorer_for(moes).map(Self::Line),
-            ContactKind::Point => PointGridSpec::EXPLORER.for_contact(moes).map(Self::Point),
+            ContactKind::Line => Self::line_for(moes),
+            ContactKind::Point => PointGridSpec::EXPLORER.for_contact(moes).map(Self::Plane),
         }
     }
 }
@@ -220,7 +220,7 @@ mod tests {
     #[test]
     fn usual_contacts_keep_the_usual_grids_and_others_get_longer_or_finer_ones() {
         for (m, l) in [(2.0, 5.0), (40.0, 10.0), (500.0, 3.0)] {
-            assert_eq!(GridSpec::explorer_for(Moes { m, l }), Ok(GridSpec::EXPLORER));
+            assert_eq!(GridSpec::explorer_for(ContactKind::Line, Moes { m, l }), Ok(GridSpec::EXPLORER));
         }
         for (m, l) in [(12.8, 1.7), (200.0, 10.0)] {
             let spec = PointGridSpec::DISSERTATION;
@@ -229,9 +229,15 @@ mod tests {
         for (m, l, does) in [(40.0, 10.0, true), (0.5, 10.0, false), (2000.0, 1.0, false)] {
             assert_eq!(GridSpec::DISSERTATION.does(Moes { m, l }), does);
         }
-        let Ok(GridSpec::Graded { domain, .. }) = GridSpec::explorer_for(Moes { m: 0.1, l: 10.0 }) else { panic!() };
+        let Ok(GridSpec::Graded { domain, .. }) = GridSpec::explorer_for(ContactKind::Line, Moes { m: 0.1, l: 10.0 })
+        else {
+            panic!()
+        };
         assert!(domain.0 <= -160.0 && domain.1 > 20.0);
-        let Ok(GridSpec::Graded { nodes, .. }) = GridSpec::explorer_for(Moes { m: 3e3, l: 1.0 }) else { panic!() };
+        let Ok(GridSpec::Graded { nodes, .. }) = GridSpec::explorer_for(ContactKind::Line, Moes { m: 3e3, l: 1.0 })
+        else {
+            panic!()
+        };
         assert!(nodes > 1000);
         assert_eq!(PointGridSpec::DISSERTATION.for_contact(Moes { m: 860.0, l: 5.0 }).unwrap().dx, 0.01);
     }
@@ -247,7 +253,7 @@ mod tests {
     #[test]
     fn a_film_too_thin_for_any_grid_is_refused() {
         for kind in [ContactKind::Line, ContactKind::Point] {
-            let message = ContactGridSpec::explorer_for(kind, Moes { m: 1e5, l: 0.1 }).unwrap_err().to_string();
+            let message = GridSpec::explorer_for(kind, Moes { m: 1e5, l: 0.1 }).unwrap_err().to_string();
             assert!(message.contains("too thin"), "{message}");
         }
     }

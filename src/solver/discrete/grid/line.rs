@@ -10,12 +10,11 @@
 
 mod refined;
 
-use super::{GridError, dot};
+use super::{GridError, GridSpec, dot};
 use crate::solver::discrete::elasticity::{Flexibility, Scratch};
 use crate::solver::discrete::reynolds::RowGeometry;
 use crate::solver::limits::Number;
 use crate::solver::physics::contact::Moes;
-use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Index of the inlet node in node arrays.
@@ -36,28 +35,6 @@ const EXPLORER_NODES: usize = 632;
 const EXPLORER_INLET: f64 = -20.0;
 const EXPLORER_OUTLET: f64 = 3.2;
 
-/// A description of a line grid, as scenes and the command line give it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum GridSpec {
-    /// Equidistant nodes from the inlet to the outlet, both ends counted; kernel (2.39).
-    Uniform {
-        /// Spacing ΔX.
-        dx: f64,
-        /// Inlet and outlet.
-        domain: (f64, f64),
-    },
-    /// Nodes graded towards X = ±1, kernel of hat functions, registered by the pressure spike when `registered`.
-    Graded {
-        /// Number of nodes, both ends counted.
-        nodes: usize,
-        /// Inlet and outlet in the reference coordinate ξ.
-        domain: (f64, f64),
-        /// Whether the spike is mapped to ξ = 1.
-        registered: bool,
-    },
-}
-
 impl GridSpec {
     /// The dissertation's grid: 1201 nodes from −4 to 2.
     pub const DISSERTATION: Self = Self::Uniform { dx: 0.005, domain: (-4.0, 2.0) };
@@ -73,23 +50,25 @@ impl GridSpec {
         Self::Graded { nodes: explorer_cells(domain) + 1, domain, registered }
     }
 
-    /// Builds the reference grid and its kernel; the costly part, done once per specification.
+    /// Builds the reference grid of line contacts and its kernel; the costly part, done once per specification.
     ///
     /// # Errors
-    /// When the domain cuts the contact or the number of nodes is out of range.
-    pub fn build(&self) -> Result<Arc<ReferenceGrid>, GridError> {
-        let (from, to) = match *self {
-            Self::Uniform { domain, .. } | Self::Graded { domain, .. } => domain,
-        };
-        if !((-LONGEST_INLET..=-1.5).contains(&from) && (1.2..=LONGEST_OUTLET).contains(&to)) {
+    /// When the domain cuts the contact, the number of nodes is out of range, or it is a grid of point contacts.
+    pub fn line(&self) -> Result<Arc<ReferenceGrid>, GridError> {
+        let holds_the_contact = |(from, to): (f64, f64)| {
+            if (-LONGEST_INLET..=-1.5).contains(&from) && (1.2..=LONGEST_OUTLET).contains(&to) {
+                return Ok(());
+            }
             let (from, to) = (Number(from), Number(to));
-            return Err(GridError::Refused(format!(
+            Err(GridError::Refused(format!(
                 "the domain {from}…{to} cuts the contact; its inlet must lie between −{LONGEST_INLET} and −1.5 and its \
                  outlet between 1.2 and {LONGEST_OUTLET}"
-            )));
-        }
+            )))
+        };
         let xi = match *self {
-            Self::Uniform { dx, .. } => {
+            Self::Uniform { dx, domain } => {
+                holds_the_contact(domain)?;
+                let (from, to) = domain;
                 let cells = ((to - from) / dx).round();
                 if !(cells.is_finite() && dx > 0.0 && cells >= 60.0 && cells < MAX_UNIFORM_NODES as f64) {
                     return Err(GridError::nodes(cells + 1.0, MAX_UNIFORM_NODES));
@@ -98,11 +77,16 @@ impl GridSpec {
                 let step = (to - from) / cells as f64;
                 (0..cells + 2).map(|i| from + (i as f64 - 1.0) * step).collect()
             }
-            Self::Graded { nodes, .. } => {
+            Self::Graded { nodes, domain, .. } => {
+                holds_the_contact(domain)?;
                 if !(61..=MAX_GRADED_NODES).contains(&nodes) {
                     return Err(GridError::nodes(nodes as f64, MAX_GRADED_NODES));
                 }
-                graded_nodes(nodes, from, to)
+                graded_nodes(nodes, domain.0, domain.1)
+            }
+            Self::Plane(_) => {
+                let sentence = "a line contact has no Y; its grid is uniform or graded along X";
+                return Err(GridError::Refused(sentence.to_owned()));
             }
         };
         Ok(Arc::new(ReferenceGrid::of_nodes(*self, xi)?))
@@ -142,7 +126,7 @@ impl ReferenceGrid {
     fn of_nodes(spec: GridSpec, xi: Vec<f64>) -> Result<Self, GridError> {
         let flexibility = match spec {
             GridSpec::Uniform { .. } => Flexibility::uniform(xi[1] - xi[0], xi.len())?,
-            GridSpec::Graded { .. } => Flexibility::graded(&xi),
+            _ => Flexibility::graded(&xi),
         };
         Ok(Self { spec, weights: node_weights(&xi), xi, flexibility })
     }
@@ -320,7 +304,7 @@ mod tests {
 
     #[test]
     fn the_dissertations_grid_has_1201_nodes_with_both_ends() {
-        let grid = GridSpec::DISSERTATION.build().unwrap().scaled(1.0);
+        let grid = GridSpec::DISSERTATION.line().unwrap().scaled(1.0);
         assert_eq!(grid.len() - 1, 1201);
         assert_eq!(grid.unknowns(), 1199);
         assert!((grid.x[INLET] + 4.0).abs() < 1e-12 && (grid.x[1201] - 2.0).abs() < 1e-12);
@@ -329,7 +313,7 @@ mod tests {
 
     #[test]
     fn graded_nodes_increase_smoothly_and_are_fine_where_the_pressure_turns() {
-        let grid = GridSpec::Graded { nodes: 720, domain: (-8.0, 1.9), registered: false }.build().unwrap();
+        let grid = GridSpec::Graded { nodes: 720, domain: (-8.0, 1.9), registered: false }.line().unwrap();
         let xi = &grid.xi;
         let steps: Vec<f64> = xi.windows(2).map(|w| w[1] - w[0]).collect();
         assert!(steps.iter().all(|&h| h > 0.0));
@@ -341,8 +325,7 @@ mod tests {
     #[test]
     fn another_inlet_keeps_the_explorers_nodes_in_the_contact() {
         assert_eq!(GridSpec::explorer_from(-20.0, true), GridSpec::EXPLORER);
-        let (long, short) =
-            (GridSpec::EXPLORER.build().unwrap(), GridSpec::explorer_from(-10.0, true).build().unwrap());
+        let (long, short) = (GridSpec::EXPLORER.line().unwrap(), GridSpec::explorer_from(-10.0, true).line().unwrap());
         assert!(short.xi.len() < long.xi.len());
         let from_the_spike = |xi: &[f64]| {
             let spike = xi.iter().position(|&v| v == 1.0).unwrap();
@@ -355,7 +338,7 @@ mod tests {
     #[test]
     fn interpolation_is_exact_for_cubics_and_at_nodes() {
         let grid = GridSpec::Graded { nodes: 300, domain: (-8.0, 1.9), registered: true }
-            .build()
+            .line()
             .unwrap()
             .for_contact(Moes { m: 20.0, l: 8.0 });
         let cubic = |x: f64| 1.0 + x * (0.5 + x * (-0.3 + x * 0.1));
@@ -375,7 +358,7 @@ mod tests {
             GridSpec::Graded { nodes: 10, domain: (-8.0, 2.0), registered: true },
             GridSpec::Graded { nodes: 500, domain: (f64::NAN, 2.0), registered: true },
         ] {
-            assert!(spec.build().is_err(), "{spec:?}");
+            assert!(spec.line().is_err(), "{spec:?}");
         }
     }
 }

@@ -7,12 +7,12 @@ mod fitting;
 pub mod line;
 pub mod point;
 
-pub use contact::{ContactGrid, ContactGridSpec};
+pub use contact::{ContactGrid, GridSpec};
 pub use error::{GridError, MAX_BYTES};
 pub use fitting::that_would_do;
 pub use line::{
-    FIRST_UNKNOWN, GridSpec, INLET, LONGEST_INLET, LONGEST_OUTLET, LineGrid, MAX_GRADED_NODES, MAX_UNIFORM_NODES,
-    ReferenceGrid, registration_scale, spike_position,
+    FIRST_UNKNOWN, INLET, LONGEST_INLET, LONGEST_OUTLET, LineGrid, MAX_GRADED_NODES, MAX_UNIFORM_NODES, ReferenceGrid,
+    registration_scale, spike_position,
 };
 pub use point::{PointGrid, PointGridSpec};
 

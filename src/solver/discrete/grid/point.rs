@@ -14,16 +14,21 @@ use std::sync::Arc;
 /// A description of a point grid, as scenes and the command line give it: equidistant along X, equidistant or finer in
 /// the side lobes across.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(rename = "Plane", deny_unknown_fields)]
 pub struct PointGridSpec {
     /// Spacing ΔX.
     pub dx: f64,
     /// Spacing ΔY; away from the side lobes where they are refined.
     pub dy: f64,
-    /// How many times finer the spacing across is in the side lobes, in which H_min lies; 1 is equidistant.
-    pub refinement: f64,
     /// Inlet, outlet and outer edge (Y₀ < 0) of the half domain.
     pub domain: (f64, f64, f64),
+    /// How many times finer the spacing across is in the side lobes, in which H_min lies; 1 is equidistant.
+    #[serde(default = "equidistant")]
+    pub refinement: f64,
+}
+
+fn equidistant() -> f64 {
+    1.0
 }
 
 /// Widest spacing along X, and across, in the usual domains.

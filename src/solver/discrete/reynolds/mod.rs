@@ -214,21 +214,17 @@ mod tests {
                         let scale_p = exact.d_p.iter().fold(0.0f64, |a, b| a.max(b.abs()));
                         let scale_h = exact.d_h.iter().fold(0.0f64, |a, b| a.max(b.abs()));
                         for k in 0..STENCIL {
-                            let step = 1e-7;
-                            let (mut up, mut down) = (pressures, pressures);
-                            up[k] += step;
-                            down[k] -= step;
-                            let difference = (evaluate(&fluid, &up, &films, &geometry).value
-                                - evaluate(&fluid, &down, &films, &geometry).value)
-                                / (2.0 * step);
-                            assert!((difference - exact.d_p[k]).abs() < 1e-6 * scale_p, "dP {k}");
-                            let (mut up, mut down) = (films, films);
-                            up[k] += step;
-                            down[k] -= step;
-                            let difference = (evaluate(&fluid, &pressures, &up, &geometry).value
-                                - evaluate(&fluid, &pressures, &down, &geometry).value)
-                                / (2.0 * step);
-                            assert!((difference - exact.d_h[k]).abs() < 1e-6 * scale_h, "dH {k}");
+                            let moved = |mut values: [f64; STENCIL], by: f64| {
+                                values[k] += by;
+                                values
+                            };
+                            let difference = |value: &dyn Fn(f64) -> f64| (value(1e-7) - value(-1e-7)) / 2e-7;
+                            let by_pressure =
+                                difference(&|by| evaluate(&fluid, &moved(pressures, by), &films, &geometry).value);
+                            let by_film =
+                                difference(&|by| evaluate(&fluid, &pressures, &moved(films, by), &geometry).value);
+                            assert!((by_pressure - exact.d_p[k]).abs() < 1e-6 * scale_p, "dP {k}");
+                            assert!((by_film - exact.d_h[k]).abs() < 1e-6 * scale_h, "dH {k}");
                         }
                     }
                 }

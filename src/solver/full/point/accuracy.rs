@@ -2,7 +2,7 @@
 //! one.
 
 use crate::solver::discrete::grid::PointGridSpec;
-use crate::solver::full::solution::{Mesh, Solution};
+use crate::solver::full::solution::Solution;
 
 /// Curvature of the film across the side lobes beyond which they are called unresolved. For M 13…1000, H_min is 2 % too
 /// small at a curvature of 0.1, 8 % at 0.45, 20 to 25 % at 1.2, and too small by a factor 3 at 6.
@@ -56,7 +56,7 @@ impl Accuracy {
     /// Compares solutions of one problem on two grids over one domain. The estimate covers the directions in which the
     /// spacing differs; where both do, it must be by the same factor. None where the two cannot be compared so.
     pub fn of(coarse: &Solution, fine: &Solution) -> Option<Self> {
-        let (Mesh::Point(wide), Mesh::Point(narrow)) = (coarse.mesh, fine.mesh) else { return None };
+        let (wide, narrow) = coarse.mesh.plane().zip(fine.mesh.plane())?;
         if coarse.problem != fine.problem || wide.domain != narrow.domain || wide.refinement != narrow.refinement {
             return None;
         }

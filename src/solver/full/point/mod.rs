@@ -14,7 +14,7 @@ use super::newton_space::{NewtonSpace, StepControl, Taken};
 use super::solution::{Mesh, Problem, SolveError};
 use super::system::{SolveOptions, System};
 use super::thinning::Thinning;
-use crate::solver::discrete::grid::{PointGrid, PointGridSpec};
+use crate::solver::discrete::grid::{GridSpec, PointGrid, PointGridSpec};
 use crate::solver::discrete::reynolds::generalized::FilmTreatment;
 use crate::solver::discrete::reynolds::{PENALTY, Row};
 use crate::solver::discrete::space::{PlaneSpace, Space};
@@ -107,7 +107,7 @@ impl NewtonSpace for PlaneSpace {
     }
 
     fn mesh(&self) -> Mesh {
-        Mesh::Point(self.grid.spec)
+        Mesh { spec: GridSpec::Plane(self.grid.spec), scale: 1.0 }
     }
 
     fn forcing(control: &LimitedSteps, _: &mut Cycles, _: f64) -> f64 {

@@ -213,18 +213,8 @@ pub fn march(
     transient: &Transient,
     observer: &dyn TransientObserver,
 ) -> Result<Trajectory, TransientError> {
-    let problem = transient.problem()?;
-    let grid = model.grid();
-    let mut trajectory = Trajectory {
-        transient: transient.clone(),
-        problem,
-        mesh: Mesh::Line { spec: grid.reference.spec, scale: grid.scale },
-        x: grid.x.clone(),
-        moments: Vec::new(),
-        states: Vec::new(),
-        rejected_steps: 0,
-        ended: Ended::Finished,
-    };
+    let mut trajectory = Trajectory::begun(transient, model.grid())?;
+    let problem = trajectory.problem;
     trajectory.ended = match walk(model, &problem, observer, &mut trajectory) {
         Ok(()) => Ended::Finished,
         Err(ended) => ended,
@@ -291,6 +281,23 @@ fn walk(
 }
 
 impl Trajectory {
+    /// The trajectory of a contact on a grid before its first moment.
+    ///
+    /// # Errors
+    /// When the contact, the inputs, the times or the lubricant is refused.
+    pub fn begun(transient: &Transient, grid: &LineGrid) -> Result<Self, TransientError> {
+        Ok(Self {
+            transient: transient.clone(),
+            problem: transient.problem()?,
+            mesh: Mesh { spec: grid.reference.spec, scale: grid.scale },
+            x: grid.x.clone(),
+            moments: Vec::new(),
+            states: Vec::new(),
+            rejected_steps: 0,
+            ended: Ended::Finished,
+        })
+    }
+
     /// Adds the state found last, and tells of it.
     fn record(
         &mut self,

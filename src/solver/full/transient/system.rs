@@ -37,7 +37,7 @@ pub fn solve(
     transient: &Transient,
     observer: &dyn TransientObserver,
 ) -> Result<Trajectory, TransientError> {
-    let reference = spec.build().map_err(SolveError::from)?;
+    let reference = spec.line().map_err(SolveError::from)?;
     march(&mut FullMarch::new(reference, transient)?, transient, observer)
 }
 

@@ -28,56 +28,42 @@ pub enum Quantity {
     NewtonianPlateauRatio,
 }
 
+/// What [`Quantity::facts`] lists.
+type Facts = (&'static str, &'static str, (&'static str, &'static str), &'static str, (f64, f64));
+
 impl Quantity {
     /// The six in SI units, in the order of [`OperatingPoint::quantities`].
     pub const SI: [Self; 6] = [Self::Radius, Self::Speed, Self::Load, Self::Modulus, Self::Viscosity, Self::Alpha];
 
+    /// Its word, its label, its symbol with the subscript of that, its unit and its range.
+    const fn facts(self) -> Facts {
+        match self {
+            Self::M => ("M", "Load number M", ("M", ""), "", (0.05, 1e5)),
+            Self::L => ("L", "Lubricant number L", ("L", ""), "", (1e-3, 1e3)),
+            Self::Radius => ("radius", "Radius R [m]", ("R", ""), " m", (1e-6, 1e3)),
+            Self::Speed => ("speed", "Entrainment speed u_m [m/s]", ("u", "m"), " m/s", (1e-9, 1e4)),
+            Self::Load => ("load", "Load w [N/m or N]", ("w", ""), " N (or N/m)", (1e-6, 1e10)),
+            Self::Modulus => ("modulus", "Reduced modulus E’ [Pa]", ("E'", ""), " Pa", (1e5, 1e14)),
+            Self::Viscosity => ("viscosity", "Viscosity η₀ [Pa s]", ("η", "0"), " Pa·s", (1e-6, 1e4)),
+            Self::Alpha => ("alpha", "Pressure–viscosity coefficient α [1/Pa]", ("α", ""), " 1/Pa", (1e-12, 1e-5)),
+            Self::SlideToRollRatio => ("srr", "Slide-to-roll ratio SRR", ("SRR", ""), "", (-10.0, 10.0)),
+            Self::NewtonianPlateauRatio => ("npr", "Newtonian plateau ratio NPR", ("NPR", ""), "", (0.0, 1.0)),
+        }
+    }
+
     /// The word that stands for it in tables, options and messages.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::M => "M",
-            Self::L => "L",
-            Self::Radius => "radius",
-            Self::Speed => "speed",
-            Self::Load => "load",
-            Self::Modulus => "modulus",
-            Self::Viscosity => "viscosity",
-            Self::Alpha => "alpha",
-            Self::SlideToRollRatio => "srr",
-            Self::NewtonianPlateauRatio => "npr",
-        }
+        self.facts().0
     }
 
     /// Its name for people, with symbol and SI unit.
     pub fn label(self) -> &'static str {
-        match self {
-            Self::M => "Load number M",
-            Self::L => "Lubricant number L",
-            Self::Radius => "Radius R [m]",
-            Self::Speed => "Entrainment speed u_m [m/s]",
-            Self::Load => "Load w [N/m or N]",
-            Self::Modulus => "Reduced modulus E’ [Pa]",
-            Self::Viscosity => "Viscosity η₀ [Pa s]",
-            Self::Alpha => "Pressure–viscosity coefficient α [1/Pa]",
-            Self::SlideToRollRatio => "Slide-to-roll ratio SRR",
-            Self::NewtonianPlateauRatio => "Newtonian plateau ratio NPR",
-        }
+        self.facts().1
     }
 
     /// Its symbol and the subscript of that.
     pub fn symbol(self) -> (&'static str, &'static str) {
-        match self {
-            Self::M => ("M", ""),
-            Self::L => ("L", ""),
-            Self::Radius => ("R", ""),
-            Self::Speed => ("u", "m"),
-            Self::Load => ("w", ""),
-            Self::Modulus => ("E'", ""),
-            Self::Viscosity => ("η", "0"),
-            Self::Alpha => ("α", ""),
-            Self::SlideToRollRatio => ("SRR", ""),
-            Self::NewtonianPlateauRatio => ("NPR", ""),
-        }
+        self.facts().2
     }
 
     /// What it is, and its equation.
@@ -100,15 +86,7 @@ impl Quantity {
 
     /// Its SI unit as it stands behind a number: with a leading space, or empty.
     pub fn unit(self) -> &'static str {
-        match self {
-            Self::Radius => " m",
-            Self::Speed => " m/s",
-            Self::Load => " N (or N/m)",
-            Self::Modulus => " Pa",
-            Self::Viscosity => " Pa·s",
-            Self::Alpha => " 1/Pa",
-            Self::M | Self::L | Self::SlideToRollRatio | Self::NewtonianPlateauRatio => "",
-        }
+        self.facts().3
     }
 
     /// The unit in which people read it, and SI units in that.
@@ -127,18 +105,7 @@ impl Quantity {
 
     /// Smallest and largest accepted value: wider than any contact, narrow enough to keep numbers sane.
     pub const fn range(self) -> (f64, f64) {
-        match self {
-            Self::M => (0.05, 1e5),
-            Self::L => (1e-3, 1e3),
-            Self::Radius => (1e-6, 1e3),
-            Self::Speed => (1e-9, 1e4),
-            Self::Load => (1e-6, 1e10),
-            Self::Modulus => (1e5, 1e14),
-            Self::Viscosity => (1e-6, 1e4),
-            Self::Alpha => (1e-12, 1e-5),
-            Self::SlideToRollRatio => (-10.0, 10.0),
-            Self::NewtonianPlateauRatio => (0.0, 1.0),
-        }
+        self.facts().4
     }
 
     /// Where sliders and curves of it begin and end.

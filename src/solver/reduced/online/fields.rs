@@ -16,13 +16,13 @@ impl Online {
         let fields = self.fields(solution)?;
         let scalars = fields.scalars(solution.h_0);
         let Fields { problem, grid, scale, pressure, film } = fields;
-        let (mesh, x, y) = match &grid {
-            ContactGrid::Line(grid) => (Mesh::Line { spec: grid.spec, scale }, grid.scaled(scale).x, vec![0.0]),
-            ContactGrid::Point(grid) => (Mesh::Point(grid.spec), grid.x.clone(), grid.y.clone()),
+        let (x, y) = match &grid {
+            ContactGrid::Line(grid) => (grid.scaled(scale).x, vec![0.0]),
+            ContactGrid::Point(grid) => (grid.x.clone(), grid.y.clone()),
         };
         Ok(Solution {
             problem,
-            mesh,
+            mesh: Mesh { spec: grid.spec(), scale },
             scalars,
             x,
             y,

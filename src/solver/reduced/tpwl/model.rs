@@ -185,10 +185,8 @@ impl TpwlModel {
     /// Space, trajectories in it and their sets, without operating points.
     fn reduce(trajectories: &[&Trajectory], training: TpwlTraining) -> Result<Self, TpwlError> {
         let first = check(trajectories, training)?;
-        let grid = match first.mesh {
-            Mesh::Line { spec, scale } => spec.build().map_err(refused)?.scaled(scale),
-            Mesh::Point(_) => return Err(TpwlError::other("kind of contact")),
-        };
+        let Mesh { spec, scale } = first.mesh;
+        let grid = spec.line().map_err(refused)?.scaled(scale);
         let count: usize = trajectories.iter().map(|t| t.states.len()).sum();
         let stride = count.div_ceil(MOST_SNAPSHOTS);
         let snapshots: Vec<&[f64]> =

@@ -20,7 +20,7 @@ impl ReferenceGrid {
         let nodes = 2 * (self.xi.len() - 1) - 1;
         let (max, halve): (usize, fn(f64, f64) -> f64) = match self.spec {
             GridSpec::Uniform { .. } => (MAX_UNIFORM_NODES, |a, b| 0.5 * (a + b)),
-            GridSpec::Graded { .. } => (MAX_GRADED_NODES, halfway),
+            _ => (MAX_GRADED_NODES, halfway),
         };
         if nodes > max {
             return Err(GridError::nodes(nodes as f64, max));
@@ -33,6 +33,7 @@ impl ReferenceGrid {
         let spec = match self.spec {
             GridSpec::Uniform { dx, .. } => GridSpec::Uniform { dx: 0.5 * dx, domain },
             GridSpec::Graded { registered, .. } => GridSpec::Graded { nodes, domain, registered },
+            plane @ GridSpec::Plane(_) => plane,
         };
         Ok(Arc::new(Self::of_nodes(spec, xi)?))
     }
@@ -57,7 +58,7 @@ mod tests {
             GridSpec::Uniform { dx: 0.01, domain: (-4.0, 2.0) },
             GridSpec::Graded { nodes: 300, domain: (-12.0, 2.5), registered: true },
         ] {
-            let coarse = spec.build().unwrap();
+            let coarse = spec.line().unwrap();
             let fine = coarse.refined().unwrap();
             assert_eq!(fine.xi.len() - 1, 2 * (coarse.xi.len() - 1) - 1);
             for (k, xi) in coarse.xi.iter().enumerate().skip(1) {
@@ -73,7 +74,7 @@ mod tests {
 
     #[test]
     fn a_grid_is_not_refined_beyond_its_limit() {
-        let grid = GridSpec::Graded { nodes: 2500, domain: (-8.0, 2.0), registered: false }.build().unwrap();
+        let grid = GridSpec::Graded { nodes: 2500, domain: (-8.0, 2.0), registered: false }.line().unwrap();
         assert!(grid.refined().unwrap_err().to_string().contains("4999 nodes"));
     }
 }
