@@ -1,5 +1,6 @@
 //! What a contact and its fluid are, before anything is discretised.
 
 pub mod contact;
+pub mod engineering;
 pub mod lubricant;
 pub mod optics;

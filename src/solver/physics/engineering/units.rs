@@ -1,0 +1,311 @@
+//! Numbers with units as people type them: `300 N/mm`, `0,4 µm`, `68 cSt`, `5 %`, `1500 rpm`, `80 °C`.
+
+use std::f64::consts::PI;
+
+/// 0 °C in K.
+pub const KELVIN: f64 = 273.15;
+
+/// What a typed number measures. Results are in SI units: m, m/s, N, N/m, Pa, Pa·s, m²/s, 1/Pa, K, kg/m³, s, and plain
+/// ratios.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Dimension {
+    /// m.
+    Length,
+    /// m/s; a speed of rotation where the radius of the body that turns \[m\] is known.
+    Speed {
+        /// Radius at which the surface moves.
+        radius_m: Option<f64>,
+    },
+    /// N.
+    Force,
+    /// N/m.
+    LineLoad,
+    /// Pa.
+    Pressure,
+    /// Pa·s; a kinematic viscosity where the density \[kg/m³\] is known.
+    Viscosity {
+        /// Density of the oil.
+        density: Option<f64>,
+    },
+    /// m²/s.
+    KinematicViscosity,
+    /// 1/Pa.
+    PressureCoefficient,
+    /// K.
+    Temperature,
+    /// kg/m³.
+    Density,
+    /// s.
+    Time,
+    /// A plain number.
+    Ratio,
+}
+
+/// Why a typed text is no value of a dimension.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum UnitError {
+    /// Nothing was typed.
+    #[error("a number is needed here")]
+    Empty,
+    /// It does not begin with a finite number.
+    #[error("“{text}” is no number; write it like {example}")]
+    NoNumber {
+        /// What was typed.
+        text: String,
+        /// What would be accepted.
+        example: String,
+    },
+    /// The unit is not one of this dimension.
+    #[error("“{unit}” is no unit of {of}; accepted are {accepted}")]
+    Unit {
+        /// The unit typed.
+        unit: String,
+        /// The dimension.
+        of: &'static str,
+        /// Units of the dimension.
+        accepted: String,
+    },
+    /// A speed of rotation without a radius.
+    #[error("“{unit}” needs the radius of the body that turns; enter that first, or a speed in m/s")]
+    NeedsRadius {
+        /// The unit typed.
+        unit: String,
+    },
+    /// A kinematic viscosity without a density.
+    #[error("“{unit}” is a kinematic viscosity and needs the density of the oil; enter that first, or mPa·s")]
+    NeedsDensity {
+        /// The unit typed.
+        unit: String,
+    },
+}
+
+/// Units with their size in SI units; the first of each is an example.
+type Units = &'static [(&'static str, f64)];
+
+const ROTATION: Units = &[("rpm", PI / 30.0), ("1/min", PI / 30.0), ("U/min", PI / 30.0), ("rad/s", 1.0)];
+const KINEMATIC: Units = &[("cSt", 1e-6), ("mm²/s", 1e-6), ("m²/s", 1.0), ("St", 1e-4)];
+
+impl Dimension {
+    /// Its name with the article.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Length => "a length",
+            Self::Speed { .. } => "a speed",
+            Self::Force => "a force",
+            Self::LineLoad => "a load per length",
+            Self::Pressure => "a pressure or modulus",
+            Self::Viscosity { .. } => "a viscosity",
+            Self::KinematicViscosity => "a kinematic viscosity",
+            Self::PressureCoefficient => "a pressure–viscosity coefficient",
+            Self::Temperature => "a temperature",
+            Self::Density => "a density",
+            Self::Time => "a time",
+            Self::Ratio => "a ratio",
+        }
+    }
+
+    /// Its units.
+    pub fn units(self) -> Units {
+        match self {
+            Self::Length => &[("mm", 1e-3), ("µm", 1e-6), ("nm", 1e-9), ("cm", 1e-2), ("m", 1.0), ("in", 0.0254)],
+            Self::Speed { .. } => &[("m/s", 1.0), ("mm/s", 1e-3), ("km/h", 1.0 / 3.6)],
+            Self::Force => &[("N", 1.0), ("kN", 1e3), ("mN", 1e-3), ("MN", 1e6)],
+            Self::LineLoad => &[("N/mm", 1e3), ("kN/m", 1e3), ("N/m", 1.0), ("kN/mm", 1e6), ("MN/m", 1e6)],
+            Self::Pressure => &[
+                ("GPa", 1e9),
+                ("MPa", 1e6),
+                ("kPa", 1e3),
+                ("Pa", 1.0),
+                ("bar", 1e5),
+                ("N/mm²", 1e6),
+                ("psi", 6894.757),
+            ],
+            Self::Viscosity { .. } => &[("mPa·s", 1e-3), ("Pa·s", 1.0), ("cP", 1e-3), ("P", 0.1)],
+            Self::KinematicViscosity => KINEMATIC,
+            Self::PressureCoefficient => {
+                &[("1/GPa", 1e-9), ("GPa⁻¹", 1e-9), ("1/Pa", 1.0), ("Pa⁻¹", 1.0), ("1/MPa", 1e-6), ("mm²/N", 1e-6)]
+            }
+            Self::Temperature => &[("°C", 1.0), ("C", 1.0), ("K", 1.0), ("°F", 5.0 / 9.0), ("F", 5.0 / 9.0)],
+            Self::Density => &[("kg/m³", 1.0), ("g/cm³", 1e3), ("kg/l", 1e3)],
+            Self::Time => &[("ms", 1e-3), ("µs", 1e-6), ("s", 1.0)],
+            Self::Ratio => &[("%", 1e-2), ("‰", 1e-3)],
+        }
+    }
+}
+
+/// The value in SI units of a typed text. A number without a unit is in `field_unit`, the one that stands beside the
+/// field (empty for a plain number).
+///
+/// # Errors
+/// A sentence that says what was typed and what would be accepted.
+pub fn parse(text: &str, dimension: Dimension, field_unit: &str) -> Result<f64, UnitError> {
+    let plain: String = text.chars().filter(|c| !c.is_whitespace()).map(plain_character).collect();
+    if plain.is_empty() {
+        return Err(UnitError::Empty);
+    }
+    let (number, unit) = split(&plain);
+    let example = || {
+        let unit = dimension.units().first().map_or("", |(unit, _)| unit);
+        UnitError::NoNumber { text: text.trim().to_owned(), example: format!("12.5 {unit}") }
+    };
+    let value = number.parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(example)?;
+    let typed = if unit.is_empty() { field_unit } else { unit };
+    let si = in_si(value, typed, dimension)?;
+    if si.is_finite() { Ok(si) } else { Err(example()) }
+}
+
+fn in_si(value: f64, typed: &str, dimension: Dimension) -> Result<f64, UnitError> {
+    if typed.is_empty() && dimension == Dimension::Ratio {
+        return Ok(value);
+    }
+    let size = |units: Units| units.iter().find(|(unit, _)| key(unit) == key(typed)).map(|(_, size)| *size);
+    if let Some(size) = size(dimension.units()) {
+        let (offset, zero) = match (dimension, key(typed).as_str()) {
+            (Dimension::Temperature, "C") => (0.0, KELVIN),
+            (Dimension::Temperature, "F") => (-32.0, KELVIN),
+            _ => (0.0, 0.0),
+        };
+        return Ok((value + offset) * size + zero);
+    }
+    match dimension {
+        Dimension::Speed { radius_m } => {
+            if let Some(size) = size(ROTATION) {
+                let unit = typed.to_owned();
+                return radius_m.map(|radius| value * size * radius).ok_or(UnitError::NeedsRadius { unit });
+            }
+        }
+        Dimension::Viscosity { density } => {
+            if let Some(size) = size(KINEMATIC) {
+                let unit = typed.to_owned();
+                return density.map(|density| value * size * density).ok_or(UnitError::NeedsDensity { unit });
+            }
+        }
+        _ => {}
+    }
+    let accepted: Vec<&str> = dimension.units().iter().map(|(unit, _)| *unit).collect();
+    Err(UnitError::Unit { unit: typed.to_owned(), of: dimension.name(), accepted: accepted.join(", ") })
+}
+
+/// Minus signs and decimal commas as programs write them.
+fn plain_character(c: char) -> char {
+    match c {
+        ',' => '.',
+        '−' | '–' => '-',
+        'μ' => 'µ',
+        other => other,
+    }
+}
+
+/// The longest beginning that is a number and leaves no broken unit: of “201/GPa”, which was “20 1/GPa”, it is 20.
+fn split(plain: &str) -> (&str, &str) {
+    let ends = plain.char_indices().map(|(at, c)| at + c.len_utf8());
+    let parts = ends.filter_map(|end| plain.split_at_checked(end));
+    let whole = parts.filter(|(number, unit)| is_number(number) && !unit.starts_with('/'));
+    whole.last().unwrap_or(("", plain))
+}
+
+fn is_number(text: &str) -> bool {
+    text.ends_with(|c: char| c.is_ascii_digit() || c == '.') && text.parse::<f64>().is_ok()
+}
+
+/// A unit without what people leave out or write in another way.
+fn key(unit: &str) -> String {
+    let kept = unit.chars().filter(|c| !matches!(c, '·' | '*' | '^' | '°' | ' ' | '\u{2009}'));
+    let plain: String = kept
+        .map(|c| match c {
+            '²' => '2',
+            '³' => '3',
+            'µ' | 'μ' => 'u',
+            '⁻' => '-',
+            '¹' => '1',
+            other => other,
+        })
+        .collect();
+    // Typed by hand these are unambiguous in any case.
+    match plain.to_lowercase().as_str() {
+        "rpm" | "cst" | "cp" | "gpa" | "kn" | "1/gpa" | "n/mm" | "kn/m" | "n/m" => plain.to_lowercase(),
+        _ => plain,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const OIL: Dimension = Dimension::Viscosity { density: Some(850.0) };
+    const ROLLER: Dimension = Dimension::Speed { radius_m: Some(0.02) };
+
+    #[test]
+    fn people_type_units_in_many_ways() {
+        for (text, dimension, field, si) in [
+            ("300 N/mm", Dimension::LineLoad, "kN/m", 3e5),
+            ("300N/mm", Dimension::LineLoad, "kN/m", 3e5),
+            ("300", Dimension::LineLoad, "kN/m", 3e5),
+            ("0.4 µm", Dimension::Length, "mm", 4e-7),
+            ("0,4 μm", Dimension::Length, "mm", 4e-7),
+            ("0,4um", Dimension::Length, "mm", 4e-7),
+            ("68 cSt", OIL, "mPa·s", 68e-6 * 850.0),
+            ("20 cP", OIL, "mPa·s", 0.02),
+            ("20 mPa s", OIL, "mPa·s", 0.02),
+            ("5 %", Dimension::Ratio, "", 0.05),
+            ("−5%", Dimension::Ratio, "", -0.05),
+            ("0.05", Dimension::Ratio, "", 0.05),
+            ("5", Dimension::Ratio, "%", 0.05),
+            ("1500 rpm", ROLLER, "m/s", 1500.0 * 2.0 * PI / 60.0 * 0.02),
+            ("3", ROLLER, "m/s", 3.0),
+            ("80 °C", Dimension::Temperature, "°C", 353.15),
+            ("176 F", Dimension::Temperature, "°C", 353.15),
+            ("353.15 K", Dimension::Temperature, "°C", 353.15),
+            ("20 1/GPa", Dimension::PressureCoefficient, "1/GPa", 2e-8),
+            ("2e-8 1/Pa", Dimension::PressureCoefficient, "1/GPa", 2e-8),
+            ("20 GPa^-1", Dimension::PressureCoefficient, "1/GPa", 2e-8),
+            ("231 gpa", Dimension::Pressure, "GPa", 231e9),
+            ("0.87 g/cm3", Dimension::Density, "kg/m³", 870.0),
+            ("132 us", Dimension::Time, "ms", 132e-6),
+        ] {
+            let value = parse(text, dimension, field).expect(text);
+            assert!((value - si).abs() <= 1e-12 * si.abs(), "{text}: {value} instead of {si}");
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_is_refused_with_what_would() {
+        for (text, dimension, said) in [
+            ("", Dimension::Length, "a number is needed here"),
+            ("12 mPa·s", Dimension::LineLoad, "“mPa·s” is no unit of a load per length; accepted are N/mm"),
+            ("1500 rpm", Dimension::Speed { radius_m: None }, "needs the radius of the body that turns"),
+            ("68 cSt", Dimension::Viscosity { density: None }, "needs the density of the oil"),
+            ("thick", Dimension::Length, "“thick” is no number; write it like 12.5 mm"),
+            ("inf mm", Dimension::Length, "is no number"),
+            ("nan", Dimension::Ratio, "is no number"),
+            ("1e308 km/h", Dimension::Length, "is no unit of a length"),
+            ("1e308 MN/m", Dimension::LineLoad, "is no number"),
+        ] {
+            let error = parse(text, dimension, "").expect_err(text).to_string();
+            assert!(error.contains(said), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn every_unit_reads_itself() {
+        for dimension in [
+            Dimension::Length,
+            ROLLER,
+            Dimension::Force,
+            Dimension::LineLoad,
+            Dimension::Pressure,
+            OIL,
+            Dimension::KinematicViscosity,
+            Dimension::PressureCoefficient,
+            Dimension::Temperature,
+            Dimension::Density,
+            Dimension::Time,
+            Dimension::Ratio,
+        ] {
+            for (unit, _) in dimension.units() {
+                let typed = parse(&format!("2 {unit}"), dimension, "").expect(unit);
+                assert_eq!(typed, parse("2", dimension, unit).expect(unit), "{unit}");
+            }
+        }
+    }
+}
