@@ -43,6 +43,21 @@ impl Entries {
     }
 }
 
+impl Entries {
+    /// Shows the first message about a group of fields where room for two lines is always kept, so that nothing below
+    /// moves.
+    pub fn reserved_ui<'a>(&self, ui: &mut Ui, names: impl IntoIterator<Item = &'a str>) {
+        let height = 2.0 * ui.text_style_height(&egui::TextStyle::Small) + ui.spacing().item_spacing.y;
+        let layout = egui::Layout::top_down(egui::Align::LEFT);
+        ui.allocate_ui_with_layout([ui.available_width(), height].into(), layout, |ui| {
+            ui.set_min_height(height);
+            if let Some(message) = names.into_iter().find_map(|name| self.messages.get(name)) {
+                message_ui(ui, message);
+            }
+        });
+    }
+}
+
 /// A sentence about something that is wrong, beside what it is about.
 pub fn message_ui(ui: &mut Ui, message: &str) {
     let color = Palette::of(ui).wrong;
@@ -158,6 +173,19 @@ pub fn number_field(
     width: f32,
     tooltip: &str,
 ) -> Option<f64> {
+    typed_field(ui, entries, name, value, width, tooltip, numbers::parse)
+}
+
+/// A number that is typed as `read` understands it, and shown in the same unit.
+pub fn typed_field(
+    ui: &mut Ui,
+    entries: &mut Entries,
+    name: &'static str,
+    value: f64,
+    width: f32,
+    tooltip: &str,
+    read: impl Fn(&str) -> Result<f64, String>,
+) -> Option<f64> {
     let shown = numbers::significant(value);
     let mut text = entries.buffers.get(name).cloned().unwrap_or_else(|| shown.clone());
     let wrong = entries.messages.contains_key(name);
@@ -199,7 +227,7 @@ pub fn number_field(
             entries.messages.remove(name);
             return None;
         }
-        match numbers::parse(&typed) {
+        match read(&typed) {
             Ok(number) => return Some(number),
             Err(message) => entries.answer(name, Err(message)),
         }

@@ -5,6 +5,7 @@
 mod tests;
 
 mod edit;
+mod held;
 mod history;
 mod key;
 
@@ -12,7 +13,7 @@ pub use edit::Edit;
 pub use history::History;
 pub use key::Key;
 
-use crate::scene::named_lubricant::NamedLubricant;
+use crate::scene::named_lubricant::{MINERAL_OIL, NamedLubricant};
 use crate::scene::study::point::Point;
 use crate::scene::{At, Grid, LoadFollower, LubricantFollower, Method, Scene, Study, TransientStudy, View};
 use crate::solver::discrete::grid::PointGridSpec;
@@ -61,7 +62,7 @@ impl Default for Document {
         Self {
             title: default_title(ContactKind::Line).to_owned(),
             point: si_from_moes(&request).unwrap_or(OperatingPoint::TABLE_2_1),
-            lubricant: Lubricant::default(),
+            lubricant: MINERAL_OIL,
             grid: Grid::Graded,
             view: View::default(),
             training: None,
@@ -93,7 +94,7 @@ impl Document {
             viscosity_pa_s: Some(here.viscosity_pa_s),
             ..MoesRequest::new(here.kind, wanted.m, wanted.l)
         };
-        let (radius, speed, load, alpha) = match self.followers() {
+        let (radius, speed, load, alpha) = match self.followers_to(wanted)? {
             (LoadFollower::Load, LubricantFollower::Realisation) => (true, false, false, false),
             (LoadFollower::Load, LubricantFollower::Speed) => (true, false, false, true),
             (LoadFollower::Load, LubricantFollower::Alpha) => (true, true, false, false),
@@ -108,6 +109,9 @@ impl Document {
         request.load = load.then_some(here.load);
         request.alpha_per_pa = alpha.then_some(here.alpha_per_pa);
         let point = si_from_moes(&request).map_err(|e| e.to_string())?;
+        // To the last bit, rounding left aside.
+        let held = Quantity::SI.into_iter().filter(|quantity| self.holds(*quantity));
+        let point = held.fold(point, |point, q| q.of(&here).map_or(point, |value| q.at(&point, value)));
         self.accept(OperatingPoint { sliding: here.sliding, ..point })
     }
 
@@ -138,8 +142,8 @@ impl Document {
         self.point.sliding.newtonian_plateau_ratio.unwrap_or(self.lubricant.shear.plateau())
     }
 
-    /// Changes between line and point contact. M, L and the lubricant stay, E′ too; radius, speed and load are those of
-    /// the other kind's default realisation.
+    /// Changes between line and point contact. M, L, R, u_m, E′, η₀ and α stay; the load, which is another quantity
+    /// then, follows M and is no longer held.
     ///
     /// # Errors
     /// A sentence when the point would be refused; the document is unchanged then.
@@ -149,14 +153,9 @@ impl Document {
             return Ok(());
         }
         let moes = here.moes();
-        let request = MoesRequest {
-            modulus_pa: Some(here.modulus_pa),
-            viscosity_pa_s: Some(here.viscosity_pa_s),
-            alpha_per_pa: Some(here.alpha_per_pa),
-            ..MoesRequest::new(kind, moes.m, moes.l)
-        };
-        let point = si_from_moes(&request).map_err(|e| e.to_string())?;
-        self.accept(OperatingPoint { sliding: here.sliding, ..point })?;
+        let other = OperatingPoint { kind, ..here };
+        self.accept(Quantity::M.at(&other, moes.m))?;
+        self.view.held.set(Quantity::Load, false);
         self.grid = Grid::Graded;
         if self.title == default_title(here.kind) {
             default_title(kind).clone_into(&mut self.title);
@@ -209,29 +208,32 @@ impl Document {
     /// A sentence when a law is not defined here; the document is unchanged then.
     pub fn set_lubricant(&mut self, lubricant: Lubricant) -> Result<(), String> {
         let mut point = self.point;
+        let mut lubricant = lubricant;
         if lubricant.shear == ShearLaw::Newtonian {
             point.sliding.newtonian_plateau_ratio = None;
+        } else if let Some(limit) = &mut lubricant.limiting_stress {
+            // A film that thins bends its own traction.
+            limit.eyring = None;
         }
         self.set_contact(point, lubricant)
     }
 
-    /// Takes a named lubricant. One with an ambient viscosity of its own brings the contact in which its source studies
-    /// it; laws that go with any contact keep the present one, or at least its M and L where its viscosity belonged to
-    /// the former lubricant.
+    /// Takes a named lubricant, and with it only what belongs to the lubricant: its laws, and η₀ and α where it has its
+    /// own. The contact in which its source studies it is another edit.
     ///
     /// # Errors
     /// A sentence when a law is not defined here; the document is unchanged then.
     pub fn pick_lubricant(&mut self, named: &NamedLubricant) -> Result<(), String> {
-        let (here, moes) = (self.point, self.point.moes());
-        let point = match named.studied_contact(here.kind) {
-            Some(studied) => studied,
-            None if self.lubricant.own_coefficient().is_some() => {
-                si_from_moes(&MoesRequest::new(here.kind, moes.m, moes.l)).map_err(|e| e.to_string())?
+        let own = named.viscosity_pa_s.unwrap_or(self.point.viscosity_pa_s);
+        let sliding = Sliding { newtonian_plateau_ratio: None, ..self.point.sliding };
+        let point = OperatingPoint { sliding, viscosity_pa_s: own, ..self.point };
+        self.set_contact(point, named.laws)?;
+        for quantity in [Quantity::Viscosity, Quantity::Alpha] {
+            if named.viscosity_pa_s.is_some() {
+                self.view.held.set(quantity, false);
             }
-            None => here,
-        };
-        let sliding = Sliding { newtonian_plateau_ratio: None, ..here.sliding };
-        self.set_contact(OperatingPoint { sliding, ..point }, named.laws)
+        }
+        Ok(())
     }
 
     /// Changes the training it describes.

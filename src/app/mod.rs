@@ -244,8 +244,7 @@ impl Explorer {
             let sliders = Panel::left("sliders").default_size(width).size_range(least..=most).show(ui, |ui| {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                     panels::operating_point::ui(ui, &context, &mut entries, commands);
-                    let laws = &context.document.lubricant;
-                    panels::lubricant::ui(ui, laws, &mut own_laws, &mut entries, commands);
+                    panels::lubricant::ui(ui, context.document, &mut own_laws, &mut entries, commands);
                     panels::settings::ui(ui, &context, commands);
                     panels::plane::ui(ui, &context, commands);
                     ui.add_space(8.0);

@@ -85,7 +85,10 @@ mod tests {
         assert!(Arc::ptr_eq(of(&barus), newtonian));
         assert!(Arc::ptr_eq(of(&by_name("pao-650").unwrap().laws), thinning));
         // A limiting stress changes neither pressure nor film.
-        let limited = Lubricant { limiting_stress: Some(LimitingStress { ambient: 5e6, slope: 0.05 }), ..SQUALANE_PIP };
+        let limited = Lubricant {
+            limiting_stress: Some(LimitingStress { ambient: 5e6, slope: 0.05, eyring: None }),
+            ..SQUALANE_PIP
+        };
         assert!(Arc::ptr_eq(of(&limited), thinning));
     }
 

@@ -48,7 +48,7 @@ pub use statistics::{median, percentile, rank_correlation};
 pub use study::transient::{Drive, LinearisedTransient, PublishedMarch, ReducedTransient, TransientStudy};
 pub use study::{ComparedPlan, ComparedSampling, Contacts, OnlineScheme, Study, StudyObserver, StudyRow};
 pub use table::{Column, Table};
-pub use view::{LoadFollower, LubricantFollower, View};
+pub use view::{Held, LoadFollower, LubricantFollower, View};
 
 pub use crate::solver::training::QuantityBox;
 

@@ -1,7 +1,9 @@
 //! Lubricants that have a name: a set of laws under a word that command lines and people can use.
 
 use crate::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
-use crate::solver::physics::lubricant::{DensityLaw, Doolittle, Lubricant, ShearLaw, Tait, ViscosityLaw};
+use crate::solver::physics::lubricant::{
+    DensityLaw, Doolittle, LimitingStress, Lubricant, ShearLaw, Tait, ViscosityLaw,
+};
 
 /// A lubricant with its name and one line about it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,8 +55,22 @@ pub const SQUALANE_PIP: Lubricant = Lubricant {
     limiting_stress: None,
 };
 
+/// The dissertation's oil with customary constants of friction: an Eyring stress of 5 MPa and a limit of 5 % of the
+/// pressure. They act on the traction; pressure and film are those of a Newtonian oil.
+pub const MINERAL_OIL: Lubricant =
+    Lubricant { limiting_stress: Some(LimitingStress { ambient: 5e6, slope: 0.05, eyring: Some(5e6) }), ..NEWTONIAN };
+
 /// All named lubricants.
-pub static NAMED: [NamedLubricant; 5] = [
+pub static NAMED: [NamedLubricant; 6] = [
+    NamedLubricant {
+        name: "mineral-oil",
+        title: "Mineral oil",
+        laws: MINERAL_OIL,
+        viscosity_pa_s: None,
+        studied: None,
+        about: "Roelands (2.12), Dowson–Higginson (2.10); the traction bends at an Eyring stress of 5 MPa and is limited to \
+            5 MPa + 5 % of the pressure, the film stays Newtonian",
+    },
     NamedLubricant {
         name: "roelands-oil",
         title: "Roelands oil",
@@ -128,9 +144,13 @@ impl NamedLubricant {
     }
 }
 
-/// The named lubricant with these laws, whatever stress limits its traction.
+/// The named lubricant with these laws; where none has all of them, the one whose film is the same, whatever stress
+/// limits the traction.
 pub fn of_laws(laws: &Lubricant) -> Option<&'static NamedLubricant> {
-    NAMED.iter().find(|named| named.laws.of_the_film() == laws.of_the_film())
+    let film = |named: &&NamedLubricant| {
+        named.laws.limiting_stress.is_none() && named.laws.of_the_film() == laws.of_the_film()
+    };
+    NAMED.iter().find(|named| named.laws == *laws).or_else(|| NAMED.iter().find(film))
 }
 
 /// The lubricant of a name.
@@ -147,7 +167,6 @@ pub fn by_name(name: &str) -> Result<NamedLubricant, String> {
 mod tests {
     use super::*;
     use crate::solver::full::Problem;
-    use crate::solver::physics::lubricant::LimitingStress;
 
     #[test]
     fn studied_contacts_have_the_pressures_of_their_sources() {
@@ -166,7 +185,10 @@ mod tests {
 
     #[test]
     fn a_lubricant_keeps_its_name_under_a_limiting_stress_and_loses_it_with_other_constants() {
-        let limited = Lubricant { limiting_stress: Some(LimitingStress { ambient: 5e6, slope: 0.05 }), ..SQUALANE_PIP };
+        let limited = Lubricant {
+            limiting_stress: Some(LimitingStress { ambient: 5e6, slope: 0.05, eyring: None }),
+            ..SQUALANE_PIP
+        };
         assert_eq!(of_laws(&limited).map(|named| named.name), Some("squalane-pip"));
         let thicker = Lubricant { shear: ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 }, ..SQUALANE_PIP };
         assert_eq!(of_laws(&thicker), None);

@@ -1,6 +1,7 @@
 //! What the explorer keeps with a scene so that nothing is lost when it is saved and opened again.
 
 use super::is_default;
+use crate::solver::physics::contact::Quantity;
 use serde::{Deserialize, Serialize};
 
 /// How the explorer edits a scene: what follows when a slider moves, and how the reduced model is truncated. Running a
@@ -14,6 +15,9 @@ pub struct View {
     /// What follows when L moves; must be one of [`LoadFollower::partners`].
     #[serde(skip_serializing_if = "is_default")]
     pub when_l_moves: LubricantFollower,
+    /// Quantities in SI units that stay when M or L moves.
+    #[serde(skip_serializing_if = "is_default")]
+    pub held: Held,
     /// Loss of information the pressure basis may neglect; `None` keeps every mode.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pressure_loss: Option<f64>,
@@ -23,6 +27,41 @@ pub struct View {
     /// Deformation of the reduced model through V_δ (the dissertation's) instead of exactly.
     #[serde(skip_serializing_if = "is_default")]
     pub projected_deformation: bool,
+}
+
+/// A set of quantities in SI units, in files a list of their names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
+#[serde(from = "Vec<Quantity>", into = "Vec<Quantity>")]
+pub struct Held([bool; 6]);
+
+impl Held {
+    /// Whether a quantity is in it.
+    pub fn contains(self, quantity: Quantity) -> bool {
+        Quantity::SI.iter().zip(self.0).any(|(si, held)| held && *si == quantity)
+    }
+
+    /// Takes a quantity in, or out.
+    pub fn set(&mut self, quantity: Quantity, held: bool) {
+        for (si, place) in Quantity::SI.iter().zip(&mut self.0) {
+            if *si == quantity {
+                *place = held;
+            }
+        }
+    }
+}
+
+impl From<Vec<Quantity>> for Held {
+    fn from(quantities: Vec<Quantity>) -> Self {
+        let mut held = Self::default();
+        quantities.into_iter().for_each(|quantity| held.set(quantity, true));
+        held
+    }
+}
+
+impl From<Held> for Vec<Quantity> {
+    fn from(held: Held) -> Self {
+        Quantity::SI.into_iter().filter(|quantity| held.contains(*quantity)).collect()
+    }
 }
 
 /// The quantity that follows when M moves.
@@ -105,6 +144,7 @@ mod tests {
         let view = View {
             when_m_moves: LoadFollower::Radius,
             when_l_moves: LubricantFollower::Speed,
+            held: vec![Quantity::Radius, Quantity::Speed].into(),
             pressure_loss: Some(1.25e-7),
             deformation_loss: Some(3e-9),
             projected_deformation: true,

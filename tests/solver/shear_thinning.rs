@@ -212,7 +212,8 @@ fn frozen_film_integrals_lead_to_the_same_solution() {
 fn a_limiting_stress_bounds_the_traction_and_leaves_the_film() {
     for ((kind, mut solver), (slope, ambient)) in Solvers::new().0.into_iter().zip([(0.04, 1e6), (0.03, 1e5)]) {
         let free = squalane(kind, 0.74, 1.0, 0.2227);
-        let laws = Lubricant { limiting_stress: Some(LimitingStress { ambient, slope }), ..free.lubricant };
+        let laws =
+            Lubricant { limiting_stress: Some(LimitingStress { ambient, slope, eyring: None }), ..free.lubricant };
         let limited = Problem::new(&free.point, laws).unwrap();
         let [free, limited] = [free, limited].map(|problem| solve(&mut solver, problem));
         assert_eq!(free.scalars.h_c, limited.scalars.h_c);
@@ -220,6 +221,31 @@ fn a_limiting_stress_bounds_the_traction_and_leaves_the_film() {
         let traction = limited.traction_coefficient();
         assert!(traction < free.traction_coefficient() && traction < 1.2 * slope, "{traction}");
     }
+}
+
+#[test]
+fn an_eyring_stress_bends_the_traction_of_a_newtonian_film_node_by_node() {
+    let mut solver = ContactSolver::on(&LINE.build().unwrap());
+    let sliding = Sliding { slide_to_roll_ratio: 0.05, newtonian_plateau_ratio: None };
+    let point = OperatingPoint { sliding, ..OperatingPoint::TABLE_2_1 };
+    let mut with = |limiting_stress| {
+        let laws = Lubricant { limiting_stress, ..Lubricant::default() };
+        solve(&mut solver, Problem::new(&point, laws).unwrap())
+    };
+    let (eyring, slope) = (5e6, 0.04);
+    let free = with(None);
+    let limit = LimitingStress { ambient: 0.0, slope, eyring: Some(eyring) };
+    let bent = with(Some(limit));
+    assert_eq!(free.scalars, bent.scalars, "the film does not know of it");
+    let p_h = point.hertz().pressure_pa;
+    for ((newtonian, bent), p) in free.mid_film_stress().iter().zip(bent.mid_film_stress()).zip(&free.pressure) {
+        let expected = (eyring * (newtonian / eyring).asinh()).min(slope * p_h * p.max(0.0));
+        assert!((bent - expected).abs() <= 1e-12 * expected.abs(), "{bent} {expected}");
+    }
+    let (bent, free) = (bent.traction_coefficient(), free.traction_coefficient());
+    assert!(free > 0.5 && bent > 0.01 && bent < slope, "{free} {bent}");
+    let twice = Lubricant { limiting_stress: Some(limit), ..problem(0.74, 0.0, 0.2227).lubricant };
+    assert!(twice.check().unwrap_err().to_string().contains("thins under shear by its own law"));
 }
 
 #[test]
@@ -250,7 +276,7 @@ fn a_limiting_stress_ends_the_warning_of_a_heavy_contact() {
     let unlimited = solve(&mut solver, limited(None));
     assert!(unlimited.traction_warning().is_some_and(|sentence| sentence.contains("unphysical")));
     let slope = 0.04;
-    let bounded = solve(&mut solver, limited(Some(LimitingStress { ambient: 1e6, slope })));
+    let bounded = solve(&mut solver, limited(Some(LimitingStress { ambient: 1e6, slope, eyring: None })));
     assert!(bounded.traction_warning().is_none() && bounded.scalars.h_c == unlimited.scalars.h_c);
     let traction = bounded.traction_coefficient();
     assert!(traction < unlimited.traction_coefficient() && traction < 1.3 * slope, "{traction}");

@@ -15,6 +15,10 @@ pub enum Edit {
     Moes(Moes),
     /// One quantity.
     Quantity(Quantity, f64),
+    /// One quantity that was typed in SI units and stays.
+    Typed(Quantity, f64),
+    /// Whether a quantity is held.
+    Hold(Quantity, bool),
     /// Line or point contact.
     Kind(ContactKind),
     /// Laws and constants of the lubricant.
@@ -46,6 +50,8 @@ impl Document {
         match edit {
             Edit::Moes(moes) => return self.set_moes(moes),
             Edit::Quantity(quantity, value) => return self.set_quantity(quantity, value),
+            Edit::Typed(quantity, value) => return self.type_quantity(quantity, value),
+            Edit::Hold(quantity, held) => self.view.held.set(quantity, held),
             Edit::Kind(kind) => return self.set_kind(kind),
             Edit::Laws(laws) => return self.set_lubricant(*laws),
             Edit::Named(named) => return self.pick_lubricant(named),

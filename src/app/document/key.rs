@@ -44,7 +44,10 @@ mod tests {
         assert!(slid(oil, 0.0, None).has_film_of(&slid(oil, 0.7, None)));
         assert!(!slid(SQUALANE_PIP, 0.0, None).has_film_of(&slid(SQUALANE_PIP, 0.7, None)));
         assert!(slid(SQUALANE_PIP, 0.0, Some(1.0)).has_film_of(&slid(SQUALANE_PIP, 0.7, Some(1.0))));
-        let limited = Lubricant { limiting_stress: Some(LimitingStress { ambient: 5e6, slope: 0.0 }), ..SQUALANE_PIP };
+        let limited = Lubricant {
+            limiting_stress: Some(LimitingStress { ambient: 5e6, slope: 0.0, eyring: None }),
+            ..SQUALANE_PIP
+        };
         assert!(slid(limited, 0.7, None).has_film_of(&slid(SQUALANE_PIP, 0.7, None)));
         assert!(!slid(oil, 0.0, None).has_film_of(&slid(SQUALANE_PIP, 0.0, None)));
     }

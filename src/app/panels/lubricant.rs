@@ -2,7 +2,7 @@
 
 use crate::app::context::Commands;
 use crate::app::controls::{Entries, NAME_WIDTH, choice, heading, number_field, row_name, sentence};
-use crate::app::document::Edit;
+use crate::app::document::{Document, Edit};
 use crate::app::theme::name_and_symbol;
 use crate::scene::named_lubricant::{self, NAMED, NamedLubricant};
 use crate::solver::physics::lubricant::{
@@ -18,8 +18,10 @@ const DOOLITTLE: Doolittle = Doolittle { b: 4.2, r_0: 0.658, volume: VOLUME };
 const CARREAU: ShearLaw = ShearLaw::Carreau { critical_stress: 1e4, beta: 2.198, n: 0.8, npr: 0.2227 };
 const ELLIS: ShearLaw = ShearLaw::Ellis { critical_stress: 1e5, n: 0.6, npr: 0.0 };
 const EYRING: ShearLaw = ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 };
+/// An Eyring stress of the traction to begin with.
+const EYRING_STRESS_PA: f64 = 5e6;
 /// A limiting stress to begin with: a slope as Bair and Winer found it for mineral oils.
-const LIMITING: LimitingStress = LimitingStress { ambient: 5e6, slope: 0.05 };
+const LIMITING: LimitingStress = LimitingStress { ambient: 5e6, slope: 0.05, eyring: None };
 
 const LIMITING_TIP: &str = "The film carries at most τ_L = τ_L0 + Λ p (Bair & Winer 1979): beyond it the lubricant slips or yields. \
     It limits the traction; pressure and film are computed without it";
@@ -35,13 +37,20 @@ enum Pick {
 }
 
 /// The group Lubricant.
-pub fn ui(ui: &mut Ui, laws: &Lubricant, own_laws: &mut bool, entries: &mut Entries, commands: &mut Commands) {
+pub fn ui(ui: &mut Ui, document: &Document, own_laws: &mut bool, entries: &mut Entries, commands: &mut Commands) {
+    let (laws, kind) = (&document.lubricant, document.point.kind);
     heading(ui, "Lubricant");
     let known = named_lubricant::of_laws(laws).filter(|_| !*own_laws);
     picker(ui, own_laws, commands, known);
     match known {
         Some(lubricant) => {
             ui.weak(sentence(lubricant.about));
+            let tip = "Bodies, speed and load in which its source studies it; undo brings the present ones back";
+            if let Some(point) = lubricant.studied_contact(kind)
+                && ui.button("Take its published contact").on_hover_text(tip).clicked()
+            {
+                commands.edit(Edit::Contact(point, Box::new(*laws)), GROUP);
+            }
         }
         None => own(ui, laws, entries, commands),
     }
@@ -55,8 +64,7 @@ fn picker(ui: &mut Ui, own_laws: &mut bool, commands: &mut Commands, known: Opti
     let options: Vec<Pick> = NAMED.iter().map(|named| Pick::Named(named.name)).chain([Pick::Own]).collect();
     let of = |name: &str| NAMED.iter().find(|named| named.name == name);
     Grid::new("lubricant").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
-        let tip = "The laws of density, viscosity and shear. A lubricant with a viscosity of its own brings the contact in which its \
-            source studies it; undo brings the former one back";
+        let tip = "The laws of density, viscosity and shear. A lubricant with a viscosity of its own brings that; the contact stays";
         choice(ui, "Fluid", tip, &mut wanted, &options, |pick| match pick {
             Pick::Named(name) => of(name).map_or(("", ""), |named| (named.title, named.about)),
             Pick::Own => ("Own", "Laws and constants as you like, beginning with those of the present lubricant"),
@@ -129,15 +137,20 @@ const CONSTANTS: [Constant; 9] = [
 ];
 
 const AMBIENT_TIP: &str = "τ_L0, the limit at ambient pressure";
+const EYRING_TIP: &str =
+    "τ_E: above it the traction bends, τ = τ_E asinh(τ/τ_E), while the film stays Newtonian; Johnson & Tevaarwerk 1977";
 const SLOPE_TIP: &str = "Λ, how the limit rises with pressure";
 
 /// The constants of the stress that limits the traction.
-const LIMITS: [Constant; 2] = [
+const LIMITS: [Constant; 3] = [
     constant("Ambient limiting stress", ("At ambient", "τ", "L0"), MPA, AMBIENT_TIP, |l| {
         Some(&mut l.limiting_stress.as_mut()?.ambient)
     }),
     constant("Slope of the limiting stress", ("Slope", "Λ", ""), NUMBER, SLOPE_TIP, |l| {
         Some(&mut l.limiting_stress.as_mut()?.slope)
+    }),
+    constant("Eyring stress of the traction", ("Eyring", "τ", "E"), MPA, EYRING_TIP, |l| {
+        l.limiting_stress.as_mut()?.eyring.as_mut()
     }),
 ];
 
@@ -239,6 +252,14 @@ fn limiting_stress(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, command
     let mut on = wanted.limiting_stress.is_some();
     if ui.add(Checkbox::new(&mut on, "Limiting shear stress")).on_hover_text(LIMITING_TIP).changed() {
         wanted.limiting_stress = on.then_some(LIMITING);
+    }
+    if wanted.shear == ShearLaw::Newtonian
+        && let Some(limit) = &mut wanted.limiting_stress
+    {
+        let mut bends = limit.eyring.is_some();
+        if ui.add(Checkbox::new(&mut bends, "Eyring traction")).on_hover_text(EYRING_TIP).changed() {
+            limit.eyring = bends.then_some(EYRING_STRESS_PA);
+        }
     }
     let field = constants_ui(ui, entries, &LIMITS, &mut wanted);
     if wanted != before {

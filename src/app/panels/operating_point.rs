@@ -2,12 +2,13 @@
 
 use super::sliders;
 use crate::app::context::{Commands, Context};
-use crate::app::controls::{Entries, NAME_WIDTH, choice, explained, heading, number_field, row_name, warning_ui};
+use crate::app::controls::{Entries, NAME_WIDTH, choice, explained, heading, named, row_name, typed_field, warning_ui};
 use crate::app::document::{Document, Edit};
 use crate::app::numbers;
 use crate::app::theme::name_and_symbol;
 use crate::solver::physics::contact::{ContactKind, PLAUSIBLE_HERTZ_PRESSURE_PA, Quantity};
-use egui::{Grid, Ui};
+use crate::solver::physics::engineering::{self, Dimension};
+use egui::{Grid, RichText, Ui};
 
 const KINDS: [(ContactKind, &str, &str); 2] = [
     (ContactKind::Line, "Line contact", "A long roller on a raceway: load per unit length, the same at every Y"),
@@ -35,7 +36,7 @@ fn kind_ui(ui: &mut Ui, present: ContactKind, entries: &Entries, commands: &mut 
     let mut wanted = present;
     ui.horizontal(|ui| {
         for (kind, name, tip) in KINDS {
-            let tip = format!("{tip}. M, L and the lubricant stay");
+            let tip = format!("{tip}. All stays but the load, which follows M");
             ui.selectable_value(&mut wanted, kind, name).on_hover_text(tip);
         }
     });
@@ -94,13 +95,57 @@ fn si_ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut
             if quantity == Quantity::Alpha && own_alpha {
                 let tip = "α* follows from the lubricant’s own viscosity law: 1/α* = ∫ η₀/μ dp, Blok 1963";
                 ui.label(numbers::significant(si / scale)).on_hover_text(tip);
-            } else if let Some(value) = number_field(ui, entries, field, si / scale, 96.0, meaning) {
-                commands.edit(Edit::Quantity(quantity, value * scale), field);
+                ui.label(unit);
+                return;
+            }
+            let read = |text: &str| read(text, quantity, kind).map(|si| si / scale);
+            if let Some(value) = typed_field(ui, entries, field, si / scale, 78.0, meaning, read) {
+                commands.edit(Edit::Typed(quantity, value * scale), field);
             }
             ui.label(unit);
+            held_ui(ui, document, (quantity, field), commands);
         });
-        entries.message_ui(ui, field);
     }
+    entries.reserved_ui(ui, FIELDS.map(|(_, field)| field));
+}
+
+/// The lock of a quantity that is held, or what it follows.
+fn held_ui(ui: &mut Ui, document: &Document, (quantity, field): (Quantity, &'static str), commands: &mut Commands) {
+    let follows = document.follows(quantity);
+    let (text, name, tip) = if document.holds(quantity) {
+        ("🔒", format!("Free {field}"), "Held: it stays when M or L moves. Click to free it")
+    } else if follows.is_empty() {
+        ("🔓", format!("Hold {field}"), "Free, but nothing moves it now. Click to hold it")
+    } else {
+        (follows, format!("Hold {field}"), "It gives way. Click to hold it; another quantity follows then")
+    };
+    let button = egui::Button::new(RichText::new(text).small().weak()).frame(false);
+    let response = ui.add(button);
+    if named(ui, response, &name).on_hover_text(tip).clicked() {
+        commands.edit(Edit::Hold(quantity, !document.holds(quantity)), field);
+    }
+}
+
+/// The value in SI units of a typed text with or without unit, inside what is accepted.
+fn read(text: &str, quantity: Quantity, kind: ContactKind) -> Result<f64, String> {
+    let dimension = match (quantity, kind) {
+        (Quantity::Radius, _) => Dimension::Length,
+        (Quantity::Speed, _) => Dimension::Speed { radius_m: None },
+        (Quantity::Load, ContactKind::Line) => Dimension::LineLoad,
+        (Quantity::Load, ContactKind::Point) => Dimension::Force,
+        (Quantity::Modulus, _) => Dimension::Pressure,
+        (Quantity::Viscosity, _) => Dimension::Viscosity { density: None },
+        (Quantity::Alpha, _) => Dimension::PressureCoefficient,
+        _ => Dimension::Ratio,
+    };
+    let (unit, scale) = quantity.reading_unit(kind);
+    let value = engineering::parse(text, dimension, unit).map_err(|error| error.to_string())?;
+    let (low, high) = quantity.range();
+    if (low..=high).contains(&value) {
+        return Ok(value);
+    }
+    let [low, high] = [low, high].map(|end| numbers::quantity(end / scale, unit));
+    Err(format!("{} is {}; {low} to {high} are accepted", quantity.name(), numbers::quantity(value / scale, unit)))
 }
 
 fn hertz_ui(ui: &mut Ui, document: &Document) {

@@ -2,10 +2,12 @@
 //! presentation.
 
 use crate::app::context::{Commands, Context};
-use crate::app::controls::{Entries, RangeSlider, described, explained, named, number_field};
+use crate::app::controls::{Entries, RangeSlider, described, explained, named, typed_field};
 use crate::app::document::{Document, Edit, HOME};
+use crate::app::numbers;
 use crate::app::theme::symbol;
 use crate::solver::physics::contact::{ContactKind, Quantity};
+use crate::solver::physics::engineering::{self, Dimension};
 use crate::solver::physics::lubricant::ShearLaw;
 use egui::{Grid, Slider, Ui};
 use std::ops::RangeInclusive;
@@ -137,7 +139,12 @@ impl Row {
         let (sign, _) = self.quantity.symbol();
         explained(ui, symbol(ui, sign, ""), tip);
         let moved = self.slider.show(ui, self.value, width).map(|value| (sign, value));
-        let entered = number_field(ui, entries, self.entry, self.value, ENTRY_WIDTH, tip);
+        let ratio = self.quantity == Quantity::SlideToRollRatio;
+        let read = |text: &str| match ratio {
+            true => engineering::parse(text, Dimension::Ratio, "").map_err(|error| error.to_string()),
+            false => numbers::parse(text),
+        };
+        let entered = typed_field(ui, entries, self.entry, self.value, ENTRY_WIDTH, tip, read);
         let (field, value) = moved.or(entered.map(|value| (self.entry, value)))?;
         Some((self.quantity, field, value))
     }
@@ -148,9 +155,7 @@ fn take(ui: &mut Ui, entries: &Entries, commands: &mut Commands, wanted: Option<
     if let Some((quantity, field, value)) = wanted {
         commands.edit(Edit::Quantity(quantity, value), field);
     }
-    for field in FIELDS {
-        entries.message_ui(ui, field);
-    }
+    entries.reserved_ui(ui, FIELDS);
 }
 
 /// The slider of a fluid that keeps its viscosity: it stands at 1 and says why it does not move.

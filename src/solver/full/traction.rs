@@ -3,7 +3,7 @@
 use super::solution::{Problem, Solution};
 use crate::solver::discrete::reynolds::film_integrals::{PRODUCTION_RULE, film_integrals};
 use crate::solver::discrete::reynolds::generalized::{NodeState, PlaneGradient};
-use crate::solver::physics::lubricant::ScaledShear;
+use crate::solver::physics::lubricant::{LimitingStress, ScaledShear};
 use rayon::prelude::*;
 
 /// α* p_H beyond which an isothermal traction without a limiting stress is no physics: viscosity then outgrows every
@@ -28,8 +28,8 @@ struct FilmStress {
     across_pa: [f64; 2],
     /// μ, the viscosity at rest \[Pa·s\].
     viscosity_pa_s: f64,
-    /// What the lubricant carries at most \[Pa\].
-    limit_pa: f64,
+    /// What bends and cuts it, and the pressure there \[Pa\].
+    limit: Option<(LimitingStress, f64)>,
 }
 
 impl Solution {
@@ -131,7 +131,7 @@ impl FilmStress {
             mid_pa,
             across_pa,
             viscosity_pa_s: point.viscosity_pa_s * viscosity,
-            limit_pa: limit.map_or(f64::INFINITY, |limit| limit.at(pressure * hertz.pressure_pa)),
+            limit: limit.map(|limit| (limit, pressure * hertz.pressure_pa)),
         }
     }
 
@@ -140,9 +140,11 @@ impl FilmStress {
         [0, 1].map(|axis| self.mid_pa[axis] + (height - 0.5) * self.across_pa[axis])
     }
 
-    /// A stress cut to what the lubricant carries, in its own direction.
+    /// A stress bent and cut to what the lubricant carries, in its own direction.
     fn limited(&self, stress: [f64; 2]) -> [f64; 2] {
+        let Some((limit, pressure_pa)) = self.limit else { return stress };
         let size = stress[0].hypot(stress[1]);
-        if size > self.limit_pa { stress.map(|part| part * self.limit_pa / size) } else { stress }
+        let carried = limit.carried(size, pressure_pa);
+        if carried < size { stress.map(|part| part * carried / size) } else { stress }
     }
 }

@@ -49,7 +49,9 @@ pub enum ShearLaw {
 }
 
 /// The stress that a film carries at most, τ_L = τ_L0 + Λ p: beyond it the lubricant slips or yields. It limits
-/// traction; pressure and film, which the inlet makes, are computed without it. Bair & Winer 1979.
+/// traction; pressure and film, which the inlet makes, are computed without it. Bair & Winer 1979. With an Eyring
+/// stress the traction of a film that is computed as Newtonian bends before it is cut: τ = τ_E asinh(τ_N/τ_E), Johnson
+/// & Tevaarwerk 1977.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LimitingStress {
@@ -57,6 +59,9 @@ pub struct LimitingStress {
     pub ambient: f64,
     /// Λ \[-\].
     pub slope: f64,
+    /// τ_E \[Pa\] of the traction alone, of films whose own law is Newtonian.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub eyring: Option<f64>,
 }
 
 impl ShearLaw {
@@ -97,7 +102,13 @@ fn check_plateau(ratio: f64) -> Result<(), LubricantError> {
 impl LimitingStress {
     pub(super) fn check(&self) -> Result<(), LubricantError> {
         check_constant("the limiting stress at ambient pressure", self.ambient, 0.0, 1e10)?;
-        check_constant("the slope of the limiting stress", self.slope, 0.0, 1.0)
+        check_constant("the slope of the limiting stress", self.slope, 0.0, 1.0)?;
+        self.eyring.map_or(Ok(()), |stress| check_constant("the Eyring stress of the traction", stress, 1.0, 1e12))
+    }
+
+    /// What becomes of a stress τ \[Pa\] ≥ 0 at p \[Pa\]: bent by the Eyring stress, cut at the limit.
+    pub fn carried(&self, stress: f64, p: f64) -> f64 {
+        self.eyring.map_or(stress, |eyring| eyring * (stress / eyring).asinh()).min(self.at(p))
     }
 
     /// τ_L \[Pa\] at p \[Pa\].

@@ -30,9 +30,10 @@ impl Lubricant {
                 Some(format!("Eyring shear (tau_E {critical_stress:e} Pa, NPR {npr:e})"))
             }
         };
-        let limit = self
-            .limiting_stress
-            .map(|LimitingStress { ambient, slope }| format!("limiting stress {ambient:e} Pa + {slope:e} p"));
+        let limit = self.limiting_stress.map(|LimitingStress { ambient, slope, eyring }| {
+            let bent = eyring.map_or_else(String::new, |eyring| format!(", Eyring traction (tau_E {eyring:e} Pa)"));
+            format!("limiting stress {ambient:e} Pa + {slope:e} p{bent}")
+        });
         [Some(viscosity), Some(density), shear, limit].into_iter().flatten().collect::<Vec<_>>().join("; ")
     }
 }
@@ -49,7 +50,7 @@ mod tests {
             density: DensityLaw::Tait(volume),
             viscosity: ViscosityLaw::Doolittle(Doolittle { b: 4.0, r_0: 0.65, volume }),
             shear: ShearLaw::Carreau { critical_stress: 1e4, beta: 2.2, n: 0.8, npr: 0.25 },
-            limiting_stress: Some(LimitingStress { ambient: 5e6, slope: 0.05 }),
+            limiting_stress: Some(LimitingStress { ambient: 5e6, slope: 0.05, eyring: None }),
         };
         assert_eq!(
             lubricant.describe(),

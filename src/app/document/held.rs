@@ -1,0 +1,150 @@
+//! What was typed stays: quantities that are held, and what moves instead of them when M or L moves.
+
+use super::Document;
+use crate::scene::{LoadFollower, LubricantFollower};
+use crate::solver::physics::contact::{Moes, Quantity};
+
+/// What gives way for M and what for L.
+pub type Followers = (LoadFollower, LubricantFollower);
+
+/// The quantities that move along with M and with L.
+fn movers((load, lubricant): Followers) -> (&'static [Quantity], &'static [Quantity]) {
+    use LubricantFollower::{Alpha, Radius, Realisation, Speed};
+    use Quantity as Q;
+    match (load, lubricant) {
+        (LoadFollower::Load, Realisation) => (&[Q::Load], &[Q::Alpha, Q::Speed, Q::Load]),
+        (LoadFollower::Load, Speed) => (&[Q::Load], &[Q::Speed, Q::Load]),
+        (LoadFollower::Load, Alpha) => (&[Q::Load], &[Q::Alpha]),
+        (LoadFollower::Load, Radius) => (&[Q::Load], &[Q::Radius, Q::Load]),
+        (LoadFollower::Radius, Realisation) => (&[Q::Radius, Q::Speed], &[Q::Radius, Q::Speed, Q::Alpha]),
+        (LoadFollower::Radius, Speed | Radius) => (&[Q::Radius, Q::Speed], &[Q::Radius, Q::Speed]),
+        (LoadFollower::Radius, Alpha) => (&[Q::Radius, Q::Alpha], &[Q::Alpha]),
+        (LoadFollower::Speed, _) => (&[Q::Speed, Q::Alpha], &[Q::Alpha]),
+    }
+}
+
+impl Document {
+    /// Whether a quantity was typed and stays.
+    pub fn holds(&self, quantity: Quantity) -> bool {
+        self.view.held.contains(quantity)
+    }
+
+    /// Sets a quantity that was typed, and holds it.
+    ///
+    /// # Errors
+    /// A sentence when the value is refused; the document is unchanged then.
+    pub fn type_quantity(&mut self, quantity: Quantity, value: f64) -> Result<(), String> {
+        self.set_quantity(quantity, value)?;
+        self.view.held.set(quantity, true);
+        Ok(())
+    }
+
+    /// What gives way when M, L or both move: what was chosen, or where that moves something held the first that does
+    /// not.
+    ///
+    /// # Errors
+    /// A sentence that names what is held, where nothing is left to give way.
+    pub fn followers_for(&self, m_moves: bool, l_moves: bool) -> Result<Followers, String> {
+        let chosen = self.followers();
+        let free = |pair: &Followers| {
+            let (with_m, with_l) = movers(*pair);
+            let with_m = with_m.iter().filter(|_| m_moves);
+            let mut moving = with_m.chain(with_l.iter().filter(|_| l_moves));
+            moving.all(|quantity| !self.holds(*quantity))
+        };
+        let alpha_is_free = self.lubricant.own_coefficient().is_none();
+        let others = LoadFollower::ALL.into_iter().flat_map(|load| load.partners().iter().map(move |l| (load, *l)));
+        // A lubricant that determines α lets neither α nor what needs it follow.
+        let possible = others.filter(|(load, lubricant)| {
+            let moves_alpha = matches!(lubricant, LubricantFollower::Alpha | LubricantFollower::Realisation);
+            alpha_is_free || !moves_alpha && *load != LoadFollower::Speed
+        });
+        std::iter::once(chosen).chain(possible).find(free).ok_or_else(|| {
+            let held: Vec<&str> = Quantity::SI.into_iter().filter(|q| self.holds(*q)).map(Quantity::name).collect();
+            let moving = if m_moves { "M" } else { "L" };
+            format!("{moving} cannot move: {} are held; free one of them by its lock", held.join(", "))
+        })
+    }
+
+    /// What a move to M and L would change of both.
+    pub(super) fn followers_to(&self, wanted: Moes) -> Result<Followers, String> {
+        let here = self.point.moes();
+        let moved = |from: f64, to: f64| (to / from - 1.0).abs() > 1e-12;
+        self.followers_for(moved(here.m, wanted.m), moved(here.l, wanted.l))
+    }
+
+    /// “follows M”, “follows L” or both, of a quantity that is not held.
+    pub fn follows(&self, quantity: Quantity) -> &'static str {
+        let with_m = self.followers_for(true, false).is_ok_and(|pair| movers(pair).0.contains(&quantity));
+        let with_l = self.followers_for(false, true).is_ok_and(|pair| movers(pair).1.contains(&quantity));
+        match (with_m, with_l) {
+            (true, true) => "follows M, L",
+            (true, false) => "follows M",
+            (false, true) => "follows L",
+            (false, false) => "",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::physics::contact::ContactKind;
+
+    #[test]
+    fn nothing_held_ever_moves_whatever_is_dragged() {
+        let mut random = fastrand::Rng::with_seed(3);
+        let mut refused = 0;
+        for kind in [ContactKind::Line, ContactKind::Point] {
+            let mut document = Document::default();
+            document.set_kind(kind).unwrap();
+            for _ in 0..2000 {
+                let held: Vec<(Quantity, f64)> = Quantity::SI
+                    .into_iter()
+                    .filter(|q| document.holds(*q))
+                    .map(|q| (q, q.of(&document.point).unwrap()))
+                    .collect();
+                let quantity = Quantity::SI[random.usize(..6)];
+                let moes = document.point.moes();
+                let factor = 0.8 + 0.45 * random.f64();
+                let typed = match random.usize(..5) {
+                    0 => {
+                        let value = quantity.of(&document.point).unwrap() * factor;
+                        document.type_quantity(quantity, value).ok().map(|()| quantity)
+                    }
+                    1 => {
+                        document.view.held.set(quantity, false);
+                        Some(quantity)
+                    }
+                    2 => {
+                        refused += usize::from(document.set_moes(Moes { l: moes.l * factor, ..moes }).is_err());
+                        None
+                    }
+                    _ => {
+                        refused += usize::from(document.set_moes(Moes { m: moes.m * factor, ..moes }).is_err());
+                        None
+                    }
+                };
+                for (quantity, value) in held {
+                    let now = quantity.of(&document.point).unwrap();
+                    assert!(typed == Some(quantity) || now == value, "{} was {value} and is {now}", quantity.name());
+                }
+            }
+        }
+        assert!(refused > 0, "the walk never came to where nothing is left to move");
+    }
+
+    #[test]
+    fn another_quantity_gives_way_for_one_that_is_held_and_is_named() {
+        let mut document = Document::default();
+        assert_eq!(document.follows(Quantity::Load), "follows M, L");
+        let load = document.point.load;
+        document.type_quantity(Quantity::Load, 1.1 * load).unwrap();
+        assert_eq!((document.follows(Quantity::Load), document.follows(Quantity::Radius)), ("", "follows M"));
+        for quantity in [Quantity::Radius, Quantity::Speed, Quantity::Alpha] {
+            document.view.held.set(quantity, true);
+        }
+        let said = document.set_moes(Moes { m: 50.0, ..document.point.moes() }).unwrap_err();
+        assert!(said.contains("radius, speed, load, alpha are held"), "{said}");
+    }
+}
