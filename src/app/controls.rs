@@ -186,7 +186,7 @@ pub fn typed_field(
     tooltip: &str,
     read: impl Fn(&str) -> Result<f64, String>,
 ) -> Option<f64> {
-    let shown = numbers::significant(value);
+    let shown = if value.is_infinite() { "∞".to_owned() } else { numbers::significant(value) };
     let mut text = entries.buffers.get(name).cloned().unwrap_or_else(|| shown.clone());
     let wrong = entries.messages.contains_key(name);
     let mut edit = TextEdit::singleline(&mut text).align(egui::Align2::RIGHT_CENTER);

@@ -5,6 +5,7 @@
 mod tests;
 
 mod edit;
+mod engineering;
 mod held;
 mod history;
 mod key;

@@ -179,7 +179,8 @@ impl Explorer {
         self.desk.answers.refresh(&ctx, &self.desk.document);
         self.desk.follow_cuts();
         if self.desk.presentation.is_none() {
-            Panel::bottom("readouts").show(ui, |ui| panels::readouts::ui(ui, &self.desk.answers));
+            Panel::bottom("readouts")
+                .show(ui, |ui| panels::readouts::ui(ui, &self.desk.answers, self.desk.document.view.bodies.as_ref()));
         }
         CentralPanel::no_frame().show(ui, |ui| {
             self.tree.ui(&mut Tabs { desk: &mut self.desk, commands: &mut commands }, ui);
@@ -244,6 +245,7 @@ impl Explorer {
             let sliders = Panel::left("sliders").default_size(width).size_range(least..=most).show(ui, |ui| {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                     panels::operating_point::ui(ui, &context, &mut entries, commands);
+                    panels::bodies::ui(ui, context.document, &mut entries, commands);
                     panels::lubricant::ui(ui, context.document, &mut own_laws, &mut entries, commands);
                     panels::settings::ui(ui, &context, commands);
                     panels::plane::ui(ui, &context, commands);

@@ -2,6 +2,7 @@
 
 use super::is_default;
 use crate::solver::physics::contact::Quantity;
+use crate::solver::physics::engineering::{Bodies, Oil};
 use serde::{Deserialize, Serialize};
 
 /// How the explorer edits a scene: what follows when a slider moves, and how the reduced model is truncated. Running a
@@ -18,6 +19,12 @@ pub struct View {
     /// Quantities in SI units that stay when M or L moves.
     #[serde(skip_serializing_if = "is_default")]
     pub held: Held,
+    /// The oil that η₀ and α were entered as.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub oil: Option<Oil>,
+    /// The bodies that R, E′, u_m and SRR were entered as.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bodies: Option<Bodies>,
     /// Loss of information the pressure basis may neglect; `None` keeps every mode.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pressure_loss: Option<f64>,
@@ -145,6 +152,8 @@ mod tests {
             when_m_moves: LoadFollower::Radius,
             when_l_moves: LubricantFollower::Speed,
             held: vec![Quantity::Radius, Quantity::Speed].into(),
+            oil: None,
+            bodies: Some(Bodies::on_plane(0.01, 1.0, 0.1)),
             pressure_loss: Some(1.25e-7),
             deformation_loss: Some(3e-9),
             projected_deformation: true,

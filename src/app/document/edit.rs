@@ -5,6 +5,7 @@ use crate::scene::named_lubricant::NamedLubricant;
 use crate::scene::{LoadFollower, LubricantFollower, TransientStudy, View};
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint, Quantity};
+use crate::solver::physics::engineering::{Bodies, Oil};
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::training::TrainingSpec;
 
@@ -19,6 +20,10 @@ pub enum Edit {
     Typed(Quantity, f64),
     /// Whether a quantity is held.
     Hold(Quantity, bool),
+    /// The oil that η₀ and α are of; with none they stay as they are.
+    Oil(Option<Oil>),
+    /// The bodies that R, E′, u_m and SRR are of.
+    Bodies(Bodies),
     /// Line or point contact.
     Kind(ContactKind),
     /// Laws and constants of the lubricant.
@@ -52,6 +57,9 @@ impl Document {
             Edit::Quantity(quantity, value) => return self.set_quantity(quantity, value),
             Edit::Typed(quantity, value) => return self.type_quantity(quantity, value),
             Edit::Hold(quantity, held) => self.view.held.set(quantity, held),
+            Edit::Oil(Some(oil)) => return self.set_oil(oil),
+            Edit::Oil(None) => self.view.oil = None,
+            Edit::Bodies(bodies) => return self.set_bodies(bodies),
             Edit::Kind(kind) => return self.set_kind(kind),
             Edit::Laws(laws) => return self.set_lubricant(*laws),
             Edit::Named(named) => return self.pick_lubricant(named),

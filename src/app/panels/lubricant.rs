@@ -1,5 +1,6 @@
 //! The lubricant: a named one, or laws and constants of one's own; the stress that limits its traction.
 
+use super::oil;
 use crate::app::context::Commands;
 use crate::app::controls::{Entries, NAME_WIDTH, choice, heading, number_field, row_name, sentence};
 use crate::app::document::{Document, Edit};
@@ -55,6 +56,7 @@ pub fn ui(ui: &mut Ui, document: &Document, own_laws: &mut bool, entries: &mut E
         None => own(ui, laws, entries, commands),
     }
     entries.message_ui(ui, GROUP);
+    oil::ui(ui, document, entries, commands);
     limiting_stress(ui, laws, entries, commands);
 }
 

@@ -1,8 +1,10 @@
 //! The panels around the tabs.
 
+pub mod bodies;
 pub mod help;
 pub mod lubricant;
 pub mod menu;
+pub mod oil;
 pub mod operating_point;
 pub mod plane;
 pub mod presentation;

@@ -167,10 +167,19 @@ fn hertz_ui(ui: &mut Ui, document: &Document) {
     };
     ui.add_space(4.0);
     Grid::new("hertz").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 3.0]).show(ui, |ui| {
+        let shear = engineering::largest_shear(point.kind, 0.3);
+        let deepest = format!(
+            "{} at {}",
+            numbers::pressure(shear.over_hertz_pressure * hertz.pressure_pa),
+            numbers::length(shear.depth_over_half_width * hertz.half_width_m)
+        );
+        let shear_tip =
+            "The largest shear stress under the dry contact and its depth, where rolling fatigue begins; ν = 0.3";
         let rows = [
             ((width_name, "a", ""), numbers::length(hertz.half_width_m), width_tip),
             (("Hertz pressure", "p", "H"), numbers::pressure(hertz.pressure_pa), pressure_tip),
             (("Stiffening", "αp", "H"), numbers::significant(point.alpha_hertz()), stiffening_tip),
+            (("Shear below", "τ", "max"), deepest, shear_tip),
         ];
         for ((name, base, subscript), value, tip) in rows {
             explained(ui, name_and_symbol(ui, name, base, subscript), tip);

@@ -5,11 +5,13 @@ use crate::app::answers::picture::Picture;
 use crate::app::controls::sentence;
 use crate::app::numbers;
 use crate::app::theme::{Palette, symbol};
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::{Bodies, film_regime};
 use egui::{RichText, Ui, text::LayoutJob};
 use std::sync::Arc;
 
 /// The read-outs.
-pub fn ui(ui: &mut Ui, answers: &Answers) {
+pub fn ui(ui: &mut Ui, answers: &Answers, bodies: Option<&Bodies>) {
     let Some(picture) = &answers.picture else {
         ui.weak("The first picture is being computed");
         return;
@@ -71,6 +73,32 @@ pub fn ui(ui: &mut Ui, answers: &Answers) {
             traction_delta,
             &traction_tip,
         );
+        let point = &picture.key.point;
+        let (force, length) = (picture.traction * point.load, if point.kind == ContactKind::Line { "/mm" } else { "" });
+        if force != 0.0 && !unphysical {
+            let per = if length.is_empty() { 1.0 } else { 1e-3 };
+            let power = force * srr * point.speed_m_per_s * per;
+            cell(
+                ui,
+                symbol(ui, "F", ""),
+                numbers::significant(force * per),
+                format!("N{length}, {} W{length} lost", numbers::digits(power, 3)),
+                palette.traction,
+                None,
+                "Friction force µw, and the power that it turns into heat, µw SRR u_m",
+            );
+        }
+        if let Some(lambda) = bodies.and_then(|bodies| bodies.film_ratio(picture.minimum_film_m()).ok()) {
+            cell(
+                ui,
+                symbol(ui, "λ", ""),
+                numbers::digits(lambda, 3),
+                film_regime(lambda).to_owned(),
+                palette.film,
+                None,
+                "Film ratio λ = h_min/√(Rq₁² + Rq₂²) of the bodies’ roughness",
+            );
+        }
     });
 }
 

@@ -1,5 +1,7 @@
 //! The two bodies: materials, radii, surface speeds and roughness, and what they amount to together.
 
+use serde::{Deserialize, Serialize};
+
 /// An elastic material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
@@ -11,10 +13,12 @@ pub struct Material {
     pub poisson: f64,
 }
 
+const STEEL: Material = Material { name: "Steel", modulus_pa: 210e9, poisson: 0.3 };
+
 /// Materials by name, with usual values of handbooks. Two bodies of this steel have E′ = 230.8 GPa, the program's
 /// default.
 pub const MATERIALS: [Material; 6] = [
-    Material { name: "Steel", modulus_pa: 210e9, poisson: 0.3 },
+    STEEL,
     Material { name: "Silicon nitride", modulus_pa: 310e9, poisson: 0.27 },
     Material { name: "Bronze", modulus_pa: 110e9, poisson: 0.34 },
     Material { name: "Cast iron", modulus_pa: 120e9, poisson: 0.26 },
@@ -30,12 +34,12 @@ pub enum BodyError {
     Radius(f64),
     /// The surfaces do not touch in one spot.
     #[error(
-        "the radii {0} m and {1} m lie closer than any contact: a concave surface must be flatter than the convex one in it"
+        "these radii touch in no one spot: a concave surface must be flatter than the convex one in it, and two planes are none"
     )]
-    Conforming(f64, f64),
+    Conforming,
     /// A modulus or Poisson's ratio outside what solids have.
     #[error(
-        "a Young’s modulus of {0} Pa with a Poisson’s ratio of {1} is no solid: 1e5 to 1e14 Pa and −1 to 0.5 are accepted"
+        "a Young’s modulus of {0} Pa with a Poisson’s ratio of {1} is no solid: 1e5 to 1e14 Pa and −0.9 to 0.5 are accepted"
     )]
     Material(f64, f64),
     /// Neither surface carries oil into the contact.
@@ -46,29 +50,75 @@ pub enum BodyError {
     Roughness(f64, f64),
 }
 
-/// Two bodies in contact.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pair {
-    /// Materials of body 1 and 2.
-    pub materials: [Material; 2],
-    /// Radii R₁ and R₂ \[m\]; negative for a concave surface, infinite for a plane.
-    pub radii_m: [f64; 2],
-    /// Surface speeds u₁ and u₂ \[m/s\].
-    pub speeds_m_per_s: [f64; 2],
+/// One of the two bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    /// Young's modulus E \[Pa\].
+    pub modulus_pa: f64,
+    /// Poisson's ratio ν.
+    pub poisson: f64,
+    /// Radius \[m\], negative for a concave surface; none for a plane.
+    #[serde(default)]
+    pub radius_m: Option<f64>,
+    /// Speed of its surface \[m/s\].
+    pub speed_m_per_s: f64,
+    /// Root-mean-square roughness Rq \[m\].
+    #[serde(default)]
+    pub roughness_m: f64,
 }
 
-impl Pair {
+/// Both bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Bodies(pub Body, pub Body);
+
+impl Body {
+    /// The named material with its elastic constants.
+    pub fn material(&self) -> Option<Material> {
+        MATERIALS.into_iter().find(|m| m.modulus_pa == self.modulus_pa && m.poisson == self.poisson)
+    }
+
+    /// The same body of another material.
+    pub fn of(self, Material { modulus_pa, poisson, .. }: Material) -> Self {
+        Self { modulus_pa, poisson, ..self }
+    }
+
+    /// (1 − ν²)/E \[1/Pa\].
+    fn compliance(&self) -> Result<f64, BodyError> {
+        let Self { modulus_pa, poisson, .. } = *self;
+        // Poisson's ratio −1 would be rigid.
+        let solid = (1e5..=1e14).contains(&modulus_pa) && (-0.9..=0.5).contains(&poisson);
+        if solid { Ok((1.0 - poisson * poisson) / modulus_pa) } else { Err(BodyError::Material(modulus_pa, poisson)) }
+    }
+
+    fn curvature(&self) -> Result<f64, BodyError> {
+        let good = |radius: f64| {
+            if radius.is_finite() && radius != 0.0 { Ok(1.0 / radius) } else { Err(BodyError::Radius(radius)) }
+        };
+        self.radius_m.map_or(Ok(0.0), good)
+    }
+}
+
+impl Bodies {
+    /// Two bodies of steel that amount to a contact: a roller or ball on a plane with the given reduced radius
+    /// \[m\], mean speed \[m/s\] and slide-to-roll ratio, both as smooth as good bearings.
+    pub fn on_plane(radius_m: f64, mean_m_per_s: f64, slide_to_roll: f64) -> Self {
+        let [first, second] = surface_speeds(mean_m_per_s, slide_to_roll);
+        let body = |radius_m, speed_m_per_s| {
+            let Material { modulus_pa, poisson, .. } = STEEL;
+            Body { modulus_pa, poisson, radius_m, speed_m_per_s, roughness_m: 5e-8 }
+        };
+        Self(body(Some(radius_m), first), body(None, second))
+    }
+
     /// Reduced radius R \[m\], 1/R = 1/R₁ + 1/R₂ (2.3).
     ///
     /// # Errors
     /// A radius of zero, or a concave surface that is not flatter than the convex one in it.
     pub fn reduced_radius_m(&self) -> Result<f64, BodyError> {
-        let [first, second] = self.radii_m;
-        if let Some(bad) = self.radii_m.into_iter().find(|radius| radius.is_nan() || *radius == 0.0) {
-            return Err(BodyError::Radius(bad));
-        }
-        let radius = 1.0 / (1.0 / first + 1.0 / second);
-        if radius > 0.0 && radius.is_finite() { Ok(radius) } else { Err(BodyError::Conforming(first, second)) }
+        let curvature = self.0.curvature()? + self.1.curvature()?;
+        let radius = 1.0 / curvature;
+        if curvature > 0.0 && radius.is_finite() { Ok(radius) } else { Err(BodyError::Conforming) }
     }
 
     /// Reduced modulus E′ \[Pa\], 2/E′ = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂ (2.5).
@@ -76,20 +126,7 @@ impl Pair {
     /// # Errors
     /// Constants that no solid has.
     pub fn reduced_modulus_pa(&self) -> Result<f64, BodyError> {
-        let mut compliance = 0.0;
-        for Material { modulus_pa, poisson, .. } in self.materials {
-            if !((1e5..=1e14).contains(&modulus_pa) && (-1.0..=0.5).contains(&poisson)) {
-                return Err(BodyError::Material(modulus_pa, poisson));
-            }
-            compliance += (1.0 - poisson * poisson) / modulus_pa;
-        }
-        // Poisson's ratio −1 on both sides gives rigid bodies.
-        if compliance > 0.0 {
-            Ok(2.0 / compliance)
-        } else {
-            let [Material { modulus_pa, poisson, .. }, _] = self.materials;
-            Err(BodyError::Material(modulus_pa, poisson))
-        }
+        Ok(2.0 / (self.0.compliance()? + self.1.compliance()?))
     }
 
     /// Mean entrainment speed u_m \[m/s\] (2.1) and slide-to-roll ratio SRR = (u₂ − u₁)/u_m (3.25).
@@ -97,30 +134,30 @@ impl Pair {
     /// # Errors
     /// Speeds whose mean is not above zero.
     pub fn entrainment(&self) -> Result<(f64, f64), BodyError> {
-        let [first, second] = self.speeds_m_per_s;
+        let (first, second) = (self.0.speed_m_per_s, self.1.speed_m_per_s);
         let mean = 0.5 * (first + second);
         let inside = mean > 0.0 && mean.is_finite();
         if inside { Ok((mean, (second - first) / mean)) } else { Err(BodyError::Entrainment(first, second)) }
     }
+
+    /// Film ratio λ = h_min/√(Rq₁² + Rq₂²) of the smallest film \[m\].
+    ///
+    /// # Errors
+    /// A roughness below zero, or none at all.
+    pub fn film_ratio(&self, smallest_film_m: f64) -> Result<f64, BodyError> {
+        let (first, second) = (self.0.roughness_m, self.1.roughness_m);
+        let composite = first.hypot(second);
+        if first >= 0.0 && second >= 0.0 && composite > 0.0 && composite.is_finite() {
+            Ok(smallest_film_m / composite)
+        } else {
+            Err(BodyError::Roughness(first, second))
+        }
+    }
 }
 
 /// The two surface speeds \[m/s\] of a mean speed \[m/s\] and a slide-to-roll ratio.
-pub fn surface_speed(mean_m_per_s: f64, slide_to_roll: f64) -> [f64; 2] {
+pub fn surface_speeds(mean_m_per_s: f64, slide_to_roll: f64) -> [f64; 2] {
     [mean_m_per_s * (1.0 - 0.5 * slide_to_roll), mean_m_per_s * (1.0 + 0.5 * slide_to_roll)]
-}
-
-/// Film ratio λ = h_min/√(Rq₁² + Rq₂²) of the smallest film and both root-mean-square roughnesses \[m\].
-///
-/// # Errors
-/// A roughness below zero, or none at all.
-pub fn lambda_ratio(smallest_film_m: f64, roughness_m: [f64; 2]) -> Result<f64, BodyError> {
-    let [first, second] = roughness_m;
-    let composite = first.hypot(second);
-    if first >= 0.0 && second >= 0.0 && composite > 0.0 && composite.is_finite() {
-        Ok(smallest_film_m / composite)
-    } else {
-        Err(BodyError::Roughness(first, second))
-    }
 }
 
 /// What a film ratio means, in the limits that handbooks use.
@@ -136,61 +173,77 @@ pub fn film_regime(lambda: f64) -> &'static str {
 mod tests {
     use super::*;
 
-    const STEEL: Material = MATERIALS[0];
-
-    fn pair(radii_m: [f64; 2], speeds_m_per_s: [f64; 2]) -> Pair {
-        Pair { materials: [STEEL; 2], radii_m, speeds_m_per_s }
+    fn bodies(radii_m: [f64; 2], speeds: [f64; 2]) -> Bodies {
+        let Bodies(first, second) = Bodies::on_plane(0.01, 1.0, 0.0);
+        let radius = |radius: f64| Some(radius).filter(|radius| radius.is_finite());
+        Bodies(
+            Body { radius_m: radius(radii_m[0]), speed_m_per_s: speeds[0], ..first },
+            Body { radius_m: radius(radii_m[1]), speed_m_per_s: speeds[1], ..second },
+        )
     }
 
     #[test]
     fn a_roller_in_a_raceway_is_a_larger_roller_on_a_plane() {
-        let on_plane = pair([0.012, f64::INFINITY], [3.0, 3.0]);
-        assert_eq!(on_plane.reduced_radius_m(), Ok(0.012));
-        let in_ring = pair([0.01, -0.05], [3.0, 3.0]);
-        assert!((in_ring.reduced_radius_m().unwrap() - 0.0125).abs() < 1e-15);
-        let on_ring = pair([0.01, 0.05], [3.0, 3.0]);
-        assert!((on_ring.reduced_radius_m().unwrap() - 0.01 / 1.2).abs() < 1e-15);
+        for (radii, reduced) in [
+            ([0.012, f64::INFINITY], 0.012),
+            ([0.01, -0.05], 0.0125),
+            ([0.01, 0.05], 0.01 / 1.2),
+            ([-0.05, 0.01], 0.0125),
+        ] {
+            let radius = bodies(radii, [1.0; 2]).reduced_radius_m().unwrap();
+            assert!((radius - reduced).abs() < 1e-15, "{radii:?}: {radius}");
+        }
     }
 
     #[test]
     fn steel_on_steel_is_the_default_modulus_and_a_rigid_partner_doubles_it() {
-        let both = pair([0.01; 2], [1.0; 2]).reduced_modulus_pa().unwrap();
+        let Bodies(first, second) = bodies([0.01; 2], [1.0; 2]);
+        let both = Bodies(first, second).reduced_modulus_pa().unwrap();
         assert!((both - 230.77e9).abs() < 0.01e9, "{both}");
-        let hard = Material { name: "rigid", modulus_pa: 1e14, poisson: 0.3 };
-        let one = Pair { materials: [STEEL, hard], ..pair([0.01; 2], [1.0; 2]) }.reduced_modulus_pa().unwrap();
+        let one = Bodies(first, Body { modulus_pa: 1e14, ..second }).reduced_modulus_pa().unwrap();
         assert!((one / both - 2.0).abs() < 5e-3, "{one}");
+        assert_eq!(first.material(), Some(MATERIALS[0]));
+        assert_eq!(first.of(MATERIALS[4]).material().map(|m| m.name), Some("Glass"));
     }
 
     #[test]
     fn speeds_and_sliding_are_each_others_inverse() {
-        let (mean, sliding) = pair([0.01; 2], surface_speed(3.0, 0.05)).entrainment().unwrap();
+        let (mean, sliding) = Bodies::on_plane(0.01, 3.0, 0.05).entrainment().unwrap();
         assert!((mean - 3.0).abs() < 1e-14 && (sliding - 0.05).abs() < 1e-14);
-        assert_eq!(surface_speed(1.0, 2.0), [0.0, 2.0]);
+        assert_eq!(surface_speeds(1.0, 2.0), [0.0, 2.0]);
     }
 
     #[test]
     fn what_is_no_contact_is_refused() {
+        let rough = |first: f64, second: f64| {
+            let Bodies(a, b) = Bodies::on_plane(0.01, 1.0, 0.0);
+            Bodies(Body { roughness_m: first, ..a }, Body { roughness_m: second, ..b }).film_ratio(1e-7)
+        };
+        let odd = |modulus_pa, poisson| {
+            let Bodies(a, b) = Bodies::on_plane(0.01, 1.0, 0.0);
+            Bodies(Body { modulus_pa, poisson, ..a }, b).reduced_modulus_pa()
+        };
         for (bad, said) in [
-            (pair([0.0, 1.0], [1.0; 2]).reduced_radius_m(), "other than 0"),
-            (pair([f64::NAN, 1.0], [1.0; 2]).reduced_radius_m(), "other than 0"),
-            (pair([0.05, -0.05], [1.0; 2]).reduced_radius_m(), "flatter"),
-            (pair([0.05, -0.01], [1.0; 2]).reduced_radius_m(), "flatter"),
-            (pair([0.01; 2], [1.0, -1.0]).entrainment().map(|e| e.0), "carry no oil"),
-            (lambda_ratio(1e-7, [0.0, 0.0]), "one above"),
-            (lambda_ratio(1e-7, [-1e-8, 1e-8]), "at least 0"),
-            (lambda_ratio(1e-7, [f64::NAN, 1e-8]), "at least 0"),
+            (bodies([0.0, 1.0], [1.0; 2]).reduced_radius_m(), "other than 0"),
+            (bodies([0.05, -0.05], [1.0; 2]).reduced_radius_m(), "flatter"),
+            (bodies([0.05, -0.01], [1.0; 2]).reduced_radius_m(), "flatter"),
+            (bodies([f64::INFINITY; 2], [1.0; 2]).reduced_radius_m(), "two planes"),
+            (bodies([0.01; 2], [1.0, -1.0]).entrainment().map(|e| e.0), "carry no oil"),
+            (rough(0.0, 0.0), "one above"),
+            (rough(-1e-8, 1e-8), "at least 0"),
+            (rough(f64::NAN, 1e-8), "at least 0"),
+            (odd(210e9, 0.6), "no solid"),
+            (odd(f64::INFINITY, 0.3), "no solid"),
         ] {
             assert!(bad.unwrap_err().to_string().contains(said), "{said}");
         }
-        let odd = Material { name: "odd", modulus_pa: 210e9, poisson: 0.6 };
-        let made_of_it = Pair { materials: [odd, STEEL], ..pair([0.01; 2], [1.0; 2]) };
-        assert!(made_of_it.reduced_modulus_pa().unwrap_err().to_string().contains("no solid"));
     }
 
     #[test]
     fn the_film_ratio_is_named() {
-        let lambda = lambda_ratio(0.5e-6, [0.3e-6, 0.4e-6]).unwrap();
-        assert!((lambda - 1.0).abs() < 1e-12);
+        let Bodies(a, b) = Bodies::on_plane(0.01, 1.0, 0.0);
+        let pair = Bodies(Body { roughness_m: 0.3e-6, ..a }, Body { roughness_m: 0.4e-6, ..b });
+        assert!((pair.film_ratio(0.5e-6).unwrap() - 1.0).abs() < 1e-12);
         assert!(film_regime(0.5).starts_with("boundary") && film_regime(2.0).starts_with("mixed"));
         assert!(film_regime(3.5).starts_with("full film"));
     }

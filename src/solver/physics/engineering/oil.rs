@@ -1,6 +1,7 @@
 //! Oils by grade and temperature: viscosity, density and the pressure–viscosity coefficient.
 
 use super::units::KELVIN;
+use serde::{Deserialize, Serialize};
 
 /// Why an oil makes no sense.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -19,6 +20,9 @@ pub enum OilError {
     /// It grows thicker when it is heated.
     #[error("the oil would be thicker at {0:.1} °C than at {1:.1} °C; a higher temperature has the lower viscosity")]
     Rising(f64, f64),
+    /// A density that no oil has.
+    #[error("a density of {0} kg/m³ is none of an oil; 500 to 2000 kg/m³ are accepted")]
+    Density(f64),
     /// A grade that is none.
     #[error("{0} is no ISO viscosity grade; 10, 15, 22, 32, 46, 68, 100, 150, 220, 320, 460, 680, 1000 and 1500 are")]
     Grade(f64),
@@ -42,6 +46,64 @@ pub const ISO_VG: [(f64, f64); 14] = [
     (1000.0, 49.86),
     (1500.0, 64.22),
 ];
+
+/// An oil at the temperature of its contact.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Oil {
+    /// How thick it is.
+    pub grade: Grade,
+    /// What it is made of.
+    #[serde(default)]
+    pub family: OilFamily,
+    /// Temperature \[K\].
+    pub temperature_k: f64,
+    /// Density at 15 °C \[kg/m³\].
+    pub density_15: f64,
+}
+
+/// How thick an oil is.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Grade {
+    /// A mineral oil of an ISO viscosity grade with a viscosity index of 95.
+    IsoVg(f64),
+    /// Kinematic viscosity \[m²/s\] at two temperatures \[K\].
+    Two((f64, f64), (f64, f64)),
+}
+
+/// What an oil is at its temperature.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OilState {
+    /// Dynamic viscosity η₀ \[Pa·s\].
+    pub viscosity_pa_s: f64,
+    /// Kinematic viscosity \[m²/s\].
+    pub kinematic_m2_per_s: f64,
+    /// Density \[kg/m³\].
+    pub density: f64,
+    /// Pressure–viscosity coefficient α \[1/Pa\] by the correlation of its family.
+    pub alpha_per_pa: f64,
+}
+
+impl Oil {
+    /// Viscosity, density and α at its temperature.
+    ///
+    /// # Errors
+    /// A grade, viscosities, a temperature or a density that no oil has.
+    pub fn state(&self) -> Result<OilState, OilError> {
+        if !(500.0..=2000.0).contains(&self.density_15) {
+            return Err(OilError::Density(self.density_15));
+        }
+        let law = match self.grade {
+            Grade::IsoVg(grade) => ViscosityTemperature::iso_vg(grade)?,
+            Grade::Two(first, second) => ViscosityTemperature::through(first, second)?,
+        };
+        let kinematic_m2_per_s = law.at(self.temperature_k)?;
+        let density = density_at(self.density_15, self.temperature_k);
+        let viscosity_pa_s = kinematic_m2_per_s * density;
+        let alpha_per_pa = self.family.coefficient(viscosity_pa_s, kinematic_m2_per_s);
+        Ok(OilState { viscosity_pa_s, kinematic_m2_per_s, density, alpha_per_pa })
+    }
+}
 
 /// How a kinematic viscosity depends on the temperature, log₁₀ log₁₀ Z = A − B log₁₀ T (ASTM D341).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -123,9 +185,10 @@ pub fn density_at(density_15: f64, temperature_k: f64) -> f64 {
 }
 
 /// Base oils whose pressure–viscosity coefficient has a published correlation with the viscosity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
 pub enum OilFamily {
     /// Mineral oil.
+    #[default]
     Mineral,
     /// Polyalphaolefin.
     Polyalphaolefin,
@@ -227,6 +290,21 @@ mod tests {
         assert!(through((celsius(-300.0), 68e-6), (celsius(100.0), 8e-6)).contains("−60 to 300 °C"));
         assert!(ViscosityTemperature::iso_vg(33.0).unwrap_err().to_string().contains("no ISO viscosity grade"));
         assert!(ViscosityTemperature::iso_vg(1500.0).unwrap().at(celsius(301.0)).is_err());
+    }
+
+    #[test]
+    fn an_oil_of_a_grade_at_a_temperature_is_a_viscosity_and_a_coefficient() {
+        let oil = Oil {
+            grade: Grade::IsoVg(68.0),
+            family: OilFamily::Mineral,
+            temperature_k: celsius(60.0),
+            density_15: 880.0,
+        };
+        let state = oil.state().unwrap();
+        assert!((24e-3..28e-3).contains(&state.viscosity_pa_s), "{state:?}");
+        assert!((state.viscosity_pa_s / state.kinematic_m2_per_s / state.density - 1.0).abs() < 1e-12);
+        assert!((18e-9..21e-9).contains(&state.alpha_per_pa), "{state:?}");
+        assert!(Oil { density_15: f64::NAN, ..oil }.state().unwrap_err().to_string().contains("none of an oil"));
     }
 
     #[test]

@@ -1,0 +1,124 @@
+//! The two bodies: materials, radii, surface speeds and roughness, which give R, E′, u_m, SRR and the film ratio.
+
+use crate::app::context::Commands;
+use crate::app::controls::{Entries, named, row_name, typed_field, warning_ui};
+use crate::app::document::{Document, Edit};
+use crate::app::theme::name_and_symbol;
+use crate::solver::physics::engineering::{self, Bodies, Body, Dimension, MATERIALS};
+use egui::{CollapsingHeader, ComboBox, Ui};
+
+/// Under this name bodies are refused.
+const GROUP: &str = "bodies";
+
+/// A typed value of a body.
+struct Field {
+    names: [&'static str; 2],
+    row: &'static str,
+    unit: (&'static str, f64),
+    tip: &'static str,
+    dimension: fn(&Body) -> Dimension,
+    get: fn(&Body) -> Option<f64>,
+    set: fn(&mut Body, Option<f64>),
+}
+
+const ROWS: [Field; 3] = [
+    Field {
+        names: ["Radius of body 1", "Radius of body 2"],
+        row: "Radius",
+        unit: ("mm", 1e-3),
+        tip: "Radius of curvature; negative for a concave surface, “plane” for none (2.3)",
+        dimension: |_| Dimension::Length,
+        get: |body| body.radius_m,
+        set: |body, radius| body.radius_m = radius,
+    },
+    Field {
+        names: ["Speed of body 1", "Speed of body 2"],
+        row: "Speed",
+        unit: ("m/s", 1.0),
+        tip: "Speed of the surface through the contact; “1500 rpm” of a body with a radius (2.1)",
+        dimension: |body| Dimension::Speed { radius_m: body.radius_m.map(f64::abs) },
+        get: |body| Some(body.speed_m_per_s),
+        set: |body, speed| body.speed_m_per_s = speed.unwrap_or(body.speed_m_per_s),
+    },
+    Field {
+        names: ["Roughness of body 1", "Roughness of body 2"],
+        row: "Roughness Rq",
+        unit: ("µm", 1e-6),
+        tip: "Root-mean-square roughness, for the film ratio λ = h_min/√(Rq₁² + Rq₂²)",
+        dimension: |_| Dimension::Length,
+        get: |body| Some(body.roughness_m),
+        set: |body, roughness| body.roughness_m = roughness.unwrap_or(body.roughness_m),
+    },
+];
+
+/// The group, folded until it is wanted.
+pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
+    CollapsingHeader::new("Two bodies").default_open(document.view.bodies.is_some()).show(ui, |ui| {
+        let point = &document.point;
+        let present = || Bodies::on_plane(point.radius_m, point.speed_m_per_s, point.sliding.slide_to_roll_ratio);
+        let before = document.view.bodies.unwrap_or_else(present);
+        let mut wanted = before;
+        let mut field = materials_ui(ui, &mut wanted);
+        for row in &ROWS {
+            field = row.ui(ui, &mut wanted, entries).or(field);
+        }
+        if let Some(field) = field.filter(|_| wanted != before) {
+            commands.edit(Edit::Bodies(wanted), field);
+        }
+        if document.view.bodies.is_some() && !document.bodies_count() {
+            warning_ui(ui, "R, E′, u_m or SRR were changed since: they are no longer these bodies’");
+            if ui.button("Take the bodies’ values").clicked() {
+                commands.edit(Edit::Bodies(before), GROUP);
+            }
+        }
+        entries.reserved_ui(ui, ROWS.iter().flat_map(|row| row.names).chain([GROUP]));
+    });
+}
+
+fn materials_ui(ui: &mut Ui, bodies: &mut Bodies) -> Option<&'static str> {
+    let mut chosen = None;
+    ui.horizontal(|ui| {
+        row_name(ui, name_and_symbol(ui, "Material", "", ""), "Young’s modulus and Poisson’s ratio give E′ (2.5)");
+        for (body, name) in [(&mut bodies.0, "Material of body 1"), (&mut bodies.1, "Material of body 2")] {
+            let present = body.material();
+            let text = present.map_or("Own", |material| material.name);
+            let response = ComboBox::from_id_salt(name).width(78.0).selected_text(text).show_ui(ui, |ui| {
+                for material in MATERIALS {
+                    let tip = format!("E {:.0} GPa, ν {}", 1e-9 * material.modulus_pa, material.poisson);
+                    if ui.selectable_label(present == Some(material), material.name).on_hover_text(tip).clicked() {
+                        *body = body.of(material);
+                        chosen = Some(GROUP);
+                    }
+                }
+            });
+            named(ui, response.response, name);
+        }
+    });
+    chosen
+}
+
+impl Field {
+    /// The values of both bodies; returns the name of the one that was entered.
+    fn ui(&self, ui: &mut Ui, bodies: &mut Bodies, entries: &mut Entries) -> Option<&'static str> {
+        let mut entered = None;
+        let (unit, scale) = self.unit;
+        ui.horizontal(|ui| {
+            row_name(ui, name_and_symbol(ui, self.row, "", ""), self.tip);
+            for (body, name) in [&mut bodies.0, &mut bodies.1].into_iter().zip(self.names) {
+                let dimension = (self.dimension)(body);
+                // A plane has no radius: it is shown and typed as infinite.
+                let read = |text: &str| match text.trim().to_lowercase().as_str() {
+                    "plane" | "flat" | "∞" | "inf" => Ok(f64::INFINITY),
+                    _ => engineering::parse(text, dimension, unit).map(|si| si / scale).map_err(|e| e.to_string()),
+                };
+                let value = (self.get)(body).map_or(f64::INFINITY, |si| si / scale);
+                if let Some(typed) = typed_field(ui, entries, name, value, 62.0, self.tip, read) {
+                    (self.set)(body, Some(typed * scale).filter(|si| si.is_finite()));
+                    entered = Some(name);
+                }
+            }
+            ui.label(unit);
+        });
+        entered
+    }
+}

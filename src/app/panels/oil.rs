@@ -1,0 +1,224 @@
+//! An oil by its grade and temperature, which gives η₀ and α.
+
+use crate::app::context::Commands;
+use crate::app::controls::{Entries, NAME_WIDTH, choice, row_name, sentence, typed_field, warning_ui};
+use crate::app::document::{Document, Edit};
+use crate::app::numbers;
+use crate::app::theme::name_and_symbol;
+use crate::solver::physics::engineering::{self, Dimension, Grade, ISO_VG, KELVIN, Oil, OilFamily};
+use egui::{Grid, Ui};
+
+/// Under this name an oil is refused.
+const GROUP: &str = "oil";
+const FIELDS: [&str; 7] =
+    [GROUP, "Oil temperature", "Oil density", "Viscosity 1", "At temperature 1", "Viscosity 2", "At temperature 2"];
+
+/// What is chosen for the oil.
+#[derive(Clone, Copy, PartialEq)]
+enum Choice {
+    /// η₀ and α as they were entered.
+    Entered,
+    Iso(f64),
+    Two,
+}
+
+/// A typed value of an oil.
+struct Field {
+    name: &'static str,
+    row: &'static str,
+    dimension: Dimension,
+    /// Unit that is shown, and SI units in it.
+    unit: (&'static str, f64),
+    tip: &'static str,
+    of: fn(&mut Oil) -> Option<&mut f64>,
+}
+
+const KINEMATIC: (&str, f64) = ("mm²/s", 1e-6);
+const CELSIUS: (&str, f64) = ("°C", 1.0);
+const AT_TIP: &str = "The temperature of that viscosity";
+
+const ROWS: [Field; 6] = [
+    Field {
+        name: FIELDS[3],
+        row: "Viscosity",
+        dimension: Dimension::KinematicViscosity,
+        unit: KINEMATIC,
+        tip: "Kinematic viscosity at the first temperature",
+        of: |oil| Some(&mut two(oil)?.0.1),
+    },
+    Field {
+        name: FIELDS[4],
+        row: "at",
+        dimension: Dimension::Temperature,
+        unit: CELSIUS,
+        tip: AT_TIP,
+        of: |oil| Some(&mut two(oil)?.0.0),
+    },
+    Field {
+        name: FIELDS[5],
+        row: "Viscosity",
+        dimension: Dimension::KinematicViscosity,
+        unit: KINEMATIC,
+        tip: "Kinematic viscosity at the second temperature",
+        of: |oil| Some(&mut two(oil)?.1.1),
+    },
+    Field {
+        name: FIELDS[6],
+        row: "at",
+        dimension: Dimension::Temperature,
+        unit: CELSIUS,
+        tip: AT_TIP,
+        of: |oil| Some(&mut two(oil)?.1.0),
+    },
+    Field {
+        name: FIELDS[1],
+        row: "Temperature",
+        dimension: Dimension::Temperature,
+        unit: CELSIUS,
+        tip: "Temperature of the oil as it enters the contact",
+        of: |oil| Some(&mut oil.temperature_k),
+    },
+    Field {
+        name: FIELDS[2],
+        row: "Density, 15 °C",
+        dimension: Dimension::Density,
+        unit: ("kg/m³", 1.0),
+        tip: "Density at 15 °C; it expands as lubricating oils do (ASTM D1250)",
+        of: |oil| Some(&mut oil.density_15),
+    },
+];
+
+type Points<'a> = (&'a mut (f64, f64), &'a mut (f64, f64));
+
+fn two(oil: &mut Oil) -> Option<Points<'_>> {
+    if let Grade::Two(first, second) = &mut oil.grade { Some((first, second)) } else { None }
+}
+
+/// The oil card.
+pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
+    if document.lubricant.own_coefficient().is_some() {
+        return;
+    }
+    let before = document.view.oil;
+    let mut wanted = before;
+    Grid::new("oil").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
+        grade_ui(ui, &mut wanted);
+        if let Some(oil) = &mut wanted {
+            let tip = "What the oil is made of: its pressure–viscosity coefficient follows a published correlation";
+            choice(ui, "Made of", tip, &mut oil.family, &OilFamily::ALL, |family| (family.name(), family.source()));
+            if before.is_some_and(|former| former.family != oil.family) {
+                oil.density_15 = oil.family.usual_density();
+            }
+        }
+    });
+    let mut field = GROUP;
+    if let Some(oil) = &mut wanted {
+        field = fields_ui(ui, oil, entries).unwrap_or(field);
+    }
+    if wanted != before {
+        commands.edit(Edit::Oil(wanted), field);
+    }
+    if let Some(oil) = before {
+        state_ui(ui, document, oil, commands);
+        entries.reserved_ui(ui, FIELDS);
+    }
+}
+
+fn grade_ui(ui: &mut Ui, wanted: &mut Option<Oil>) {
+    let present = match wanted.map(|oil| oil.grade) {
+        None => Choice::Entered,
+        Some(Grade::IsoVg(grade)) => Choice::Iso(grade),
+        Some(Grade::Two(..)) => Choice::Two,
+    };
+    let mut chosen = present;
+    let grades = ISO_VG.iter().map(|(grade, _)| Choice::Iso(*grade));
+    let options: Vec<Choice> = std::iter::once(Choice::Entered).chain(grades).chain([Choice::Two]).collect();
+    let tip = "An oil by its ISO grade, or by two viscosities, gives η₀ and α at its temperature";
+    choice(ui, "Oil", tip, &mut chosen, &options, |option| match option {
+        Choice::Entered => ("η₀ and α as entered", "No oil by grade"),
+        Choice::Two => ("Two viscosities", "Kinematic viscosities at two temperatures, ASTM D341 between them"),
+        Choice::Iso(grade) => (grade_name(grade), "Mineral oil with a viscosity index of 95"),
+    });
+    if chosen == present {
+        return;
+    }
+    let usual = Oil {
+        grade: Grade::IsoVg(68.0),
+        family: OilFamily::Mineral,
+        temperature_k: KELVIN + 40.0,
+        density_15: OilFamily::Mineral.usual_density(),
+    };
+    let oil = wanted.unwrap_or(usual);
+    *wanted = match chosen {
+        Choice::Entered => None,
+        Choice::Iso(grade) => Some(Oil { grade: Grade::IsoVg(grade), ..oil }),
+        Choice::Two => {
+            let at_40 = if let Grade::IsoVg(grade) = oil.grade { grade } else { 68.0 };
+            let at_100 = ISO_VG.iter().find(|(grade, _)| *grade == at_40).map_or(8.53, |(_, hot)| *hot);
+            let points = [(40.0, at_40), (100.0, at_100)].map(|(celsius, nu)| (KELVIN + celsius, 1e-6 * nu));
+            Some(Oil { grade: Grade::Two(points[0], points[1]), ..oil })
+        }
+    };
+}
+
+fn grade_name(grade: f64) -> &'static str {
+    const NAMES: [&str; ISO_VG.len()] = [
+        "ISO VG 10",
+        "ISO VG 15",
+        "ISO VG 22",
+        "ISO VG 32",
+        "ISO VG 46",
+        "ISO VG 68",
+        "ISO VG 100",
+        "ISO VG 150",
+        "ISO VG 220",
+        "ISO VG 320",
+        "ISO VG 460",
+        "ISO VG 680",
+        "ISO VG 1000",
+        "ISO VG 1500",
+    ];
+    let found = ISO_VG.iter().zip(NAMES).find(|((at_40, _), _)| *at_40 == grade);
+    found.map_or("", |(_, name)| name)
+}
+
+/// A row for each typed value; returns the name of the one that was entered.
+fn fields_ui(ui: &mut Ui, oil: &mut Oil, entries: &mut Entries) -> Option<&'static str> {
+    let mut entered = None;
+    for Field { name, row, dimension, unit: (unit, scale), tip, of } in &ROWS {
+        let Some(value) = of(oil) else { continue };
+        let zero = if *dimension == Dimension::Temperature { KELVIN } else { 0.0 };
+        ui.horizontal(|ui| {
+            row_name(ui, name_and_symbol(ui, row, "", ""), tip);
+            let read = |text: &str| {
+                let si = engineering::parse(text, *dimension, unit).map_err(|error| error.to_string())?;
+                Ok((si - zero) / scale)
+            };
+            if let Some(typed) = typed_field(ui, entries, name, (*value - zero) / scale, 78.0, tip, read) {
+                *value = typed * scale + zero;
+                entered = Some(*name);
+            }
+            ui.label(*unit);
+        });
+    }
+    entered
+}
+
+/// What the oil amounts to, and whether the contact still has it.
+fn state_ui(ui: &mut Ui, document: &Document, oil: Oil, commands: &mut Commands) {
+    if let Ok(state) = oil.state() {
+        let text = format!(
+            "η₀ {}, α {}, ρ {}",
+            numbers::quantity(1e3 * state.viscosity_pa_s, "mPa·s"),
+            numbers::quantity(1e9 * state.alpha_per_pa, "1/GPa"),
+            numbers::quantity(state.density, "kg/m³")
+        );
+        ui.weak(text).on_hover_text(sentence(oil.family.source()));
+    }
+    if !document.oil_counts() {
+        warning_ui(ui, "η₀ or α were changed since: they are no longer this oil’s");
+        if ui.button("Take the oil’s values").clicked() {
+            commands.edit(Edit::Oil(Some(oil)), GROUP);
+        }
+    }
+}
