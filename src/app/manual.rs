@@ -26,6 +26,7 @@ macro_rules! pages {
 const PAGES: &[Page] = pages![
     "start.md",
     "tour.md",
+    "engineering.md",
     "keyboard.md",
     "command_line.md",
     "scenes.md",

@@ -33,7 +33,7 @@ mod transient;
 
 use crate::engine::Store;
 use crate::scene::Table;
-use crate::solver::physics::contact::{ContactKind, Moes};
+use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint};
 use crate::solver::reduced::ReducedModel;
 use answers::jobs::{JobKind, wake};
 use command::Command;
@@ -255,6 +255,11 @@ impl Explorer {
             self.place.sliders = sliders.response.rect.width().clamp(least, most);
         }
         (desk.entries, desk.own_lubricant) = (entries, own_laws);
+    }
+
+    /// The contact on the screen.
+    pub fn point(&self) -> OperatingPoint {
+        self.desk.document.point
     }
 
     /// M and L of the sliders.

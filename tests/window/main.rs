@@ -8,6 +8,7 @@ mod driver;
 mod accuracy_tab;
 mod contact_map;
 mod desktop;
+mod engineering;
 mod explorer;
 mod results_tab;
 mod tpwl_tab;

@@ -2,7 +2,7 @@
 
 use super::Document;
 use crate::solver::physics::contact::{OperatingPoint, Quantity};
-use crate::solver::physics::engineering::{Bodies, Oil};
+use crate::solver::physics::engineering::{Bodies, BodyError, Oil};
 
 const OF_THE_OIL: [Quantity; 2] = [Quantity::Viscosity, Quantity::Alpha];
 const OF_THE_BODIES: [Quantity; 3] = [Quantity::Radius, Quantity::Modulus, Quantity::Speed];
@@ -53,13 +53,10 @@ impl Document {
     }
 
     fn of_bodies(&self, bodies: &Bodies) -> Result<OperatingPoint, String> {
-        let derived = || {
-            let (speed_m_per_s, slide_to_roll_ratio) = bodies.entrainment()?;
-            let (radius_m, modulus_pa) = (bodies.reduced_radius_m()?, bodies.reduced_modulus_pa()?);
-            Ok((radius_m, modulus_pa, speed_m_per_s, slide_to_roll_ratio))
-        };
-        let result: Result<_, crate::solver::physics::engineering::BodyError> = derived();
-        let (radius_m, modulus_pa, speed_m_per_s, srr) = result.map_err(|error| error.to_string())?;
+        let said = |error: BodyError| error.to_string();
+        let (speed_m_per_s, srr) = bodies.entrainment().map_err(said)?;
+        let radius_m = bodies.reduced_radius_m().map_err(said)?;
+        let modulus_pa = bodies.reduced_modulus_pa().map_err(said)?;
         let mut point = OperatingPoint { radius_m, modulus_pa, speed_m_per_s, ..self.point };
         point.sliding.slide_to_roll_ratio = srr;
         Ok(point)

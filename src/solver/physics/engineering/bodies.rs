@@ -1,5 +1,6 @@
 //! The two bodies: materials, radii, surface speeds and roughness, and what they amount to together.
 
+use crate::solver::physics::contact::{ContactError, reduced_modulus};
 use serde::{Deserialize, Serialize};
 
 /// An elastic material.
@@ -27,7 +28,7 @@ pub const MATERIALS: [Material; 6] = [
 ];
 
 /// Why two bodies make no contact.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BodyError {
     /// A radius is zero or no number.
     #[error("a radius is {0} m; it must be a finite number other than 0, negative for a concave surface")]
@@ -37,11 +38,9 @@ pub enum BodyError {
         "these radii touch in no one spot: a concave surface must be flatter than the convex one in it, and two planes are none"
     )]
     Conforming,
-    /// A modulus or Poisson's ratio outside what solids have.
-    #[error(
-        "a Young’s modulus of {0} Pa with a Poisson’s ratio of {1} is no solid: 1e5 to 1e14 Pa and −0.9 to 0.5 are accepted"
-    )]
-    Material(f64, f64),
+    /// Elastic constants that no solid has.
+    #[error(transparent)]
+    Material(#[from] ContactError),
     /// Neither surface carries oil into the contact.
     #[error("surface speeds of {0} m/s and {1} m/s carry no oil into the contact: their mean must be above zero")]
     Entrainment(f64, f64),
@@ -83,14 +82,6 @@ impl Body {
         Self { modulus_pa, poisson, ..self }
     }
 
-    /// (1 − ν²)/E \[1/Pa\].
-    fn compliance(&self) -> Result<f64, BodyError> {
-        let Self { modulus_pa, poisson, .. } = *self;
-        // Poisson's ratio −1 would be rigid.
-        let solid = (1e5..=1e14).contains(&modulus_pa) && (-0.9..=0.5).contains(&poisson);
-        if solid { Ok((1.0 - poisson * poisson) / modulus_pa) } else { Err(BodyError::Material(modulus_pa, poisson)) }
-    }
-
     fn curvature(&self) -> Result<f64, BodyError> {
         let good = |radius: f64| {
             if radius.is_finite() && radius != 0.0 { Ok(1.0 / radius) } else { Err(BodyError::Radius(radius)) }
@@ -126,7 +117,8 @@ impl Bodies {
     /// # Errors
     /// Constants that no solid has.
     pub fn reduced_modulus_pa(&self) -> Result<f64, BodyError> {
-        Ok(2.0 / (self.0.compliance()? + self.1.compliance()?))
+        let Self(first, second) = self;
+        Ok(reduced_modulus(first.modulus_pa, first.poisson, second.modulus_pa, second.poisson)?)
     }
 
     /// Mean entrainment speed u_m \[m/s\] (2.1) and slide-to-roll ratio SRR = (u₂ − u₁)/u_m (3.25).
@@ -219,7 +211,7 @@ mod tests {
             let Bodies(a, b) = Bodies::on_plane(0.01, 1.0, 0.0);
             Bodies(Body { roughness_m: first, ..a }, Body { roughness_m: second, ..b }).film_ratio(1e-7)
         };
-        let odd = |modulus_pa, poisson| {
+        let of = |modulus_pa, poisson| {
             let Bodies(a, b) = Bodies::on_plane(0.01, 1.0, 0.0);
             Bodies(Body { modulus_pa, poisson, ..a }, b).reduced_modulus_pa()
         };
@@ -232,8 +224,8 @@ mod tests {
             (rough(0.0, 0.0), "one above"),
             (rough(-1e-8, 1e-8), "at least 0"),
             (rough(f64::NAN, 1e-8), "at least 0"),
-            (odd(210e9, 0.6), "no solid"),
-            (odd(f64::INFINITY, 0.3), "no solid"),
+            (of(210e9, 0.6), "Poisson ratio"),
+            (of(f64::INFINITY, 0.3), "Young's modulus"),
         ] {
             assert!(bad.unwrap_err().to_string().contains(said), "{said}");
         }
