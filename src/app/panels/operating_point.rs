@@ -8,7 +8,8 @@ use crate::app::numbers;
 use crate::app::theme::name_and_symbol;
 use crate::solver::physics::contact::{ContactKind, PLAUSIBLE_HERTZ_PRESSURE_PA, Quantity};
 use crate::solver::physics::engineering::{self, Dimension};
-use egui::{Grid, RichText, Ui};
+use egui::accesskit::Role;
+use egui::{Grid, Rect, Response, RichText, Sense, Stroke, Ui, WidgetInfo, vec2};
 
 const KINDS: [(ContactKind, &str, &str); 2] = [
     (ContactKind::Line, "Line contact", "A long roller on a raceway: load per unit length, the same at every Y"),
@@ -111,19 +112,33 @@ fn si_ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut
 
 /// The lock of a quantity that is held, or what it follows.
 fn held_ui(ui: &mut Ui, document: &Document, (quantity, field): (Quantity, &'static str), commands: &mut Commands) {
-    let follows = document.follows(quantity);
-    let (text, name, tip) = if document.holds(quantity) {
-        ("🔒", format!("Free {field}"), "Held: it stays when M or L moves. Click to free it")
-    } else if follows.is_empty() {
-        ("🔓", format!("Hold {field}"), "Free, but nothing moves it now. Click to hold it")
-    } else {
-        (follows, format!("Hold {field}"), "It gives way. Click to hold it; another quantity follows then")
+    let (held, follows) = (document.holds(quantity), document.follows(quantity));
+    let (name, tip) = match (held, follows) {
+        (true, _) => (format!("Free {field}"), "Held: it stays when M or L moves. Click to free it"),
+        (_, "") => (format!("Hold {field}"), "Free, but nothing moves it now. Click to hold it"),
+        _ => (format!("Hold {field}"), "It gives way. Click to hold it; another quantity follows then"),
     };
-    let button = egui::Button::new(RichText::new(text).small().weak()).frame(false);
-    let response = ui.add(button);
+    let response = if held || follows.is_empty() {
+        lock_ui(ui, held)
+    } else {
+        ui.add(egui::Button::new(RichText::new(follows).small().weak()).frame(false))
+    };
     if named(ui, response, &name).on_hover_text(tip).clicked() {
-        commands.edit(Edit::Hold(quantity, !document.holds(quantity)), field);
+        commands.edit(Edit::Hold(quantity, !held), field);
     }
+}
+
+/// A small lock, closed or open.
+fn lock_ui(ui: &mut Ui, closed: bool) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(14.0, 14.0), Sense::click());
+    let visuals = ui.style().interact(&response);
+    let color = if closed { visuals.text_color() } else { ui.visuals().weak_text_color() };
+    let body = Rect::from_min_max(rect.min + vec2(2.5, 6.5), rect.max - vec2(2.5, 1.5));
+    let shackle = body.center_top() + vec2(if closed { 0.0 } else { 4.0 }, 0.0);
+    ui.painter().circle_stroke(shackle, 3.0, Stroke::new(1.3, color));
+    ui.painter().rect_filled(body, 1.0, color);
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, closed, "lock"));
+    response
 }
 
 /// The value in SI units of a typed text with or without unit, inside what is accepted.
