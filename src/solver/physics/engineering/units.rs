@@ -200,8 +200,8 @@ fn plain_character(c: char) -> char {
 fn split(plain: &str) -> (&str, &str) {
     let ends = plain.char_indices().map(|(at, c)| at + c.len_utf8());
     let parts = ends.filter_map(|end| plain.split_at_checked(end));
-    let whole = parts.filter(|(number, unit)| is_number(number) && !unit.starts_with('/'));
-    whole.last().unwrap_or(("", plain))
+    let mut whole = parts.filter(|(number, unit)| is_number(number) && !unit.starts_with('/'));
+    whole.next_back().unwrap_or(("", plain))
 }
 
 fn is_number(text: &str) -> bool {
