@@ -90,12 +90,21 @@ impl Document {
     /// A sentence when the point would be refused; the document is unchanged then.
     pub fn set_moes(&mut self, wanted: Moes) -> Result<(), String> {
         let here = self.point;
+        let followers = self.followers_to(wanted)?;
+        let moes = here.moes();
+        match followers {
+            (LoadFollower::Load, _) if wanted.l == moes.l => return self.accept(Quantity::M.at(&here, wanted.m)),
+            (LoadFollower::Load, LubricantFollower::Alpha) if wanted.m == moes.m => {
+                return self.accept(Quantity::L.at(&here, wanted.l));
+            }
+            _ => {}
+        }
         let mut request = MoesRequest {
             modulus_pa: Some(here.modulus_pa),
             viscosity_pa_s: Some(here.viscosity_pa_s),
             ..MoesRequest::new(here.kind, wanted.m, wanted.l)
         };
-        let (radius, speed, load, alpha) = match self.followers_to(wanted)? {
+        let (radius, speed, load, alpha) = match followers {
             (LoadFollower::Load, LubricantFollower::Realisation) => (true, false, false, false),
             (LoadFollower::Load, LubricantFollower::Speed) => (true, false, false, true),
             (LoadFollower::Load, LubricantFollower::Alpha) => (true, true, false, false),

@@ -16,7 +16,7 @@ fn movers((load, lubricant): Followers) -> (&'static [Quantity], &'static [Quant
         (LoadFollower::Load, Speed) => (&[Q::Load], &[Q::Speed, Q::Load]),
         (LoadFollower::Load, Alpha) => (&[Q::Load], &[Q::Alpha]),
         (LoadFollower::Load, Radius) => (&[Q::Load], &[Q::Radius, Q::Load]),
-        (LoadFollower::Radius, Realisation) => (&[Q::Radius, Q::Speed], &[Q::Radius, Q::Speed, Q::Alpha]),
+        (LoadFollower::Radius, Realisation) => (&[Q::Radius, Q::Speed, Q::Alpha], &[Q::Radius, Q::Speed, Q::Alpha]),
         (LoadFollower::Radius, Speed | Radius) => (&[Q::Radius, Q::Speed], &[Q::Radius, Q::Speed]),
         (LoadFollower::Radius, Alpha) => (&[Q::Radius, Q::Alpha], &[Q::Alpha]),
         (LoadFollower::Speed, _) => (&[Q::Speed, Q::Alpha], &[Q::Alpha]),

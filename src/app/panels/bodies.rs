@@ -66,7 +66,7 @@ pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mu
             commands.edit(Edit::Bodies(wanted), field);
         }
         if document.view.bodies.is_some() && !document.bodies_count() {
-            warning_ui(ui, "R, E′, u_m or SRR were changed since: they are no longer these bodies’");
+            warning_ui(ui, "R, E’, u_m or SRR were changed since: they are no longer these bodies’");
             if ui.button("Take the bodies’ values").clicked() {
                 commands.edit(Edit::Bodies(before), GROUP);
             }
@@ -78,7 +78,7 @@ pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mu
 fn materials_ui(ui: &mut Ui, bodies: &mut Bodies) -> Option<&'static str> {
     let mut chosen = None;
     ui.horizontal(|ui| {
-        row_name(ui, name_and_symbol(ui, "Material", "", ""), "Young’s modulus and Poisson’s ratio give E′ (2.5)");
+        row_name(ui, name_and_symbol(ui, "Material", "", ""), "Young’s modulus and Poisson’s ratio give E’ (2.5)");
         for (body, name) in [(&mut bodies.0, "Material of body 1"), (&mut bodies.1, "Material of body 2")] {
             let present = body.material();
             let text = present.map_or("Own", |material| material.name);
