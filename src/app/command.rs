@@ -7,7 +7,7 @@ use super::tab::Tab;
 use super::traction::{Served, Sweep};
 use super::training::TrainingCommand;
 use super::transient::InTimeCommand;
-use egui::{Context, Key, KeyboardShortcut, Modifiers};
+use egui::{Context, Id, Key, KeyboardShortcut, Modifiers};
 use std::path::PathBuf;
 
 /// What the user can ask for: by menu, key and palette, or in a panel or tab.
@@ -210,7 +210,10 @@ impl Command {
     /// The commands whose keys were pressed in this frame.
     pub fn pressed(ctx: &Context) -> Vec<Self> {
         // A text field keeps its own undo, and Escape must still leave it.
-        let typing = ctx.text_edit_focused();
+        // A field that Escape leaves has lost its focus before this frame is drawn.
+        let now = ctx.text_edit_focused();
+        let before = ctx.data_mut(|data| std::mem::replace(data.get_temp_mut_or(Id::unique("typing"), now), now));
+        let typing = now || before;
         let left_to_fields = [Self::Undo, Self::Redo, Self::Cancel];
         let keys = MENUS.iter().filter_map(|item| Some((&item.command, item.shortcut()?)));
         let keys = keys.filter(|(command, _)| !(typing && left_to_fields.contains(*command)));
