@@ -6,7 +6,7 @@ use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use ehl_explorer::app::Explorer;
 use ehl_explorer::scene::named_lubricant::MINERAL_OIL;
-use ehl_explorer::solver::discrete::grid::{ContactGridSpec, GridSpec};
+use ehl_explorer::solver::discrete::grid::GridSpec;
 use ehl_explorer::solver::full::{ContactSolver, Start};
 use ehl_explorer::solver::physics::contact::Quantity;
 
@@ -45,7 +45,7 @@ fn a_roller_with_an_oil_grade_is_entered_in_seven_steps_and_is_the_contact_of_th
     }
     wait(&mut harness, "a verified picture", |app| app.central_film().is_some() && !app.busy());
     // Headless: the same contact and oil on the grid that `solve` takes.
-    let mut solver = ContactSolver::on(&ContactGridSpec::Line(GridSpec::EXPLORER).build().unwrap());
+    let mut solver = ContactSolver::on(&GridSpec::EXPLORER.build().unwrap());
     let headless = solver.solve(&point, MINERAL_OIL, Start::Cold, &()).unwrap();
     let film = harness.state().central_film().unwrap();
     let wanted = headless.scalars.h_c;
