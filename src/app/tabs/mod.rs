@@ -58,6 +58,25 @@ pub fn default_tree() -> Tree<Tab> {
     Tree::new_tabs(egui::Id::unique("tabs"), Tab::ALL.to_vec())
 }
 
+/// Draws one tab, whatever is around it.
+fn tab_ui(ui: &mut Ui, tab: Tab, desk: &mut Desk, commands: &mut Commands) {
+    // A view is taken out while it is drawn: it sees everything else, and nobody sees it half changed.
+    let mut views = std::mem::take(&mut desk.views);
+    match tab {
+        Tab::Profiles => views.profiles.ui(ui, &desk.context(), commands),
+        Tab::ContactMap => views.map.ui(ui, &desk.context(), commands),
+        Tab::Regimes => views.regimes.ui(ui, &desk.context(), commands),
+        Tab::Basis => basis::ui(ui, &mut views.basis, &desk.context(), commands),
+        Tab::Traction => views.traction.ui(ui, &desk.context(), commands),
+        Tab::Results => views.results.ui(ui, &desk.document, commands),
+        Tab::Accuracy => accuracy::ui(ui, &mut views.accuracy, &desk.context(), commands),
+        Tab::Training => views.training.ui(ui, &desk.context(), commands),
+        Tab::Transient => views.transient.ui(ui, &desk.context(), commands),
+        Tab::Tpwl => views.tpwl.ui(ui, &desk.context(), commands),
+    }
+    desk.views = views;
+}
+
 /// Draws the tabs.
 pub struct Tabs<'a> {
     /// What they show.
@@ -71,22 +90,7 @@ impl Behavior<Tab> for Tabs<'_> {
         egui::Frame::new().fill(ui.visuals().panel_fill).inner_margin(egui::Margin::symmetric(10, 8)).show(ui, |ui| {
             ui.set_min_size(ui.available_size());
             figure::offer(ui, &format!("The whole tab {}", tab.title()), ui.max_rect());
-            let Self { desk, commands } = self;
-            // A view is taken out while it is drawn: it sees everything else, and nobody sees it half changed.
-            let mut views = std::mem::take(&mut desk.views);
-            match tab {
-                Tab::Profiles => views.profiles.ui(ui, &desk.context(), commands),
-                Tab::ContactMap => views.map.ui(ui, &desk.context(), commands),
-                Tab::Regimes => views.regimes.ui(ui, &desk.context(), commands),
-                Tab::Basis => basis::ui(ui, &mut views.basis, &desk.context(), commands),
-                Tab::Traction => views.traction.ui(ui, &desk.context(), commands),
-                Tab::Results => views.results.ui(ui, &desk.document, commands),
-                Tab::Accuracy => accuracy::ui(ui, &mut views.accuracy, &desk.context(), commands),
-                Tab::Training => views.training.ui(ui, &desk.context(), commands),
-                Tab::Transient => views.transient.ui(ui, &desk.context(), commands),
-                Tab::Tpwl => views.tpwl.ui(ui, &desk.context(), commands),
-            }
-            desk.views = views;
+            tab_ui(ui, *tab, self.desk, self.commands);
         });
         UiResponse::None
     }
@@ -113,5 +117,53 @@ impl Behavior<Tab> for Tabs<'_> {
 
     fn simplification_options(&self) -> egui_tiles::SimplificationOptions {
         egui_tiles::SimplificationOptions { all_panes_must_have_tabs: true, ..Default::default() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::document::Document;
+    use crate::app::model_source::Models;
+    use crate::engine::Store;
+    use crate::solver::physics::contact::ContactKind;
+    use egui_kittest::Harness;
+    use egui_kittest::kittest::Queryable as _;
+
+    /// What stands in each tab when it is all there is.
+    const SHOWN: [(Tab, &[&str]); 10] = [
+        (Tab::Profiles, &["Pin curve", "Pressure profile", "Film profile"]),
+        (Tab::ContactMap, &["A line contact is the same at every Y"]),
+        (Tab::Regimes, &["Chart of M and L", "Film by published formulas"]),
+        (Tab::Traction, &["Laws of the fluid"]),
+        (Tab::Basis, &["Mode shapes", "Singular values"]),
+        (Tab::Accuracy, &["Failure map"]),
+        (Tab::Training, &["Start training", "Pre-computed"]),
+        (Tab::Transient, &["Inputs against time"]),
+        (Tab::Tpwl, &["Tick Linearised model"]),
+        (Tab::Results, &["Run the study"]),
+    ];
+
+    #[test]
+    fn every_tab_can_be_drawn_alone() {
+        let store = Store::default();
+        let model = store.embedded(ContactKind::Line, false).unwrap();
+        assert_eq!(SHOWN.map(|(tab, _)| tab), Tab::ALL);
+        for (tab, _) in SHOWN {
+            let desk = Desk::new(Document::default(), Models::only(Some(model.clone())), store.clone());
+            let draw = move |ui: &mut Ui, desk: &mut Desk| {
+                desk.receive();
+                desk.answers.refresh(ui.ctx(), &desk.document);
+                tab_ui(ui, tab, desk, &mut Commands::default());
+            };
+            let mut harness = Harness::builder().with_size([1000.0, 700.0]).build_ui_state(draw, desk);
+            harness.run_steps(3);
+            for (other, texts) in SHOWN {
+                for text in texts {
+                    let shown = harness.query_all_by_label_contains(text).next().is_some();
+                    assert_eq!(shown, other == tab, "{text:?} in {tab:?}");
+                }
+            }
+        }
     }
 }
