@@ -65,7 +65,10 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
         explorer = explorer.keeping_trainings_in(&folder).keeping_session_in(&folder, scene.is_none());
     }
     if let Some(path) = &scene {
+        let of_the_session = explorer.desk.files.notice.take();
         explorer.open_scene(path)?;
+        let files = &mut explorer.desk.files;
+        files.notice = of_the_session.or_else(|| files.notice.take());
     }
     let options = eframe::NativeOptions {
         viewport: explorer.place.window().with_app_id(APP_ID).with_title("EHL Explorer"),

@@ -286,6 +286,18 @@ fn text_in(folder: &Path) -> io::Result<Option<String>> {
     Ok(now.or_else(former))
 }
 
+/// Keeps unsaved changes of the last session as a file of their own where another scene takes their place.
+fn set_aside(explorer: &mut Explorer, folder: &Path, document: &Document) -> Result<String, String> {
+    let free = (1..).map(|n| folder.join(format!("unsaved-{n}.ron"))).find(|path| !path.exists());
+    let path = free.unwrap_or_else(|| folder.join("unsaved.ron"));
+    let text = document.to_ron()?;
+    atomic_file::replace(&path, text.as_bytes()).map_err(|WriteError { path, reason }| {
+        format!("Unsaved changes of the last session cannot be kept in {}: {reason}", path.display())
+    })?;
+    explorer.desk.files.recent.insert(0, path.clone());
+    Ok(format!("Unsaved changes of the last session are kept in {} (File, Recent)", path.display()))
+}
+
 /// Restores the last session of a folder, the document too when `with_document`; says what could not be restored.
 pub fn restore(explorer: &mut Explorer, folder: &Path, with_document: bool) {
     let path = folder.join(FILE);
@@ -294,7 +306,11 @@ pub fn restore(explorer: &mut Explorer, folder: &Path, with_document: bool) {
         Ok(Some(text)) => Session::from_ron(&text),
         Err(_) => Session::from_ron("\u{0}"),
     };
+    let unsaved = (!with_document && session.document != session.saved).then(|| session.document.clone());
     session.restore(explorer, with_document);
+    if let Some(document) = unsaved {
+        explorer.desk.files.notice = Some(set_aside(explorer, folder, &document));
+    }
     if lost.is_empty() {
         return;
     }
@@ -361,6 +377,22 @@ mod tests {
         assert!(!start(true).desk.dirty());
         let without = start(false);
         assert!(without.desk.document == Document::default() && without.place == place);
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn unsaved_changes_are_set_aside_when_a_scene_is_opened_in_their_place() {
+        let (folder, start) = in_folder("aside");
+        let mut explorer = start(true);
+        explorer.desk.document.set_moes(Moes { m: 55.0, l: 8.0 }).unwrap();
+        let changed = explorer.desk.document.clone();
+        close(explorer);
+        let other = start(false);
+        let kept = other.desk.files.recent.first().cloned().unwrap();
+        let said = other.desk.files.notice.as_ref().and_then(|notice| notice.as_ref().ok());
+        assert!(said.is_some_and(|said| said.contains("unsaved-1.ron")));
+        let again = Document::from_ron(&std::fs::read_to_string(kept).unwrap()).unwrap();
+        assert_eq!((again.point, again.view), (changed.point, changed.view));
         std::fs::remove_dir_all(&folder).unwrap();
     }
 
