@@ -88,12 +88,11 @@ pub fn verdict(answers: &Answers) -> Verdict {
                 numbers::small(residual_estimate)
             );
             match &answers.comparison {
-                Some(c) if answers.full_is_current() => make(
-                    "Verified",
-                    c.describe(),
-                    format!("True errors against a full solution on the same grid. {}{how}", promised(c, error)),
-                    Kind::Verified,
-                ),
+                Some(c) if answers.full_is_current() => {
+                    let (title, kind) = judged(c);
+                    let why = format!("True errors against a full solution on the same grid. {}{how}", promised(c, error));
+                    make(title, c.describe(), why, kind)
+                }
                 _ => {
                     let (detail, meaning) = match error {
                         Some(e) => (
@@ -120,6 +119,19 @@ pub fn verdict(answers: &Answers) -> Verdict {
                 }
             }
         }
+    }
+}
+
+/// Films that are off by less are verified, those off by more are wrong.
+const GOOD: f64 = 2e-3;
+const POOR: f64 = 1e-2;
+
+/// How a picture stands whose true errors are known, by the larger one of its films.
+fn judged(truth: &Comparison) -> (&'static str, Kind) {
+    match truth.h_c.abs().max(truth.h_min.abs()) {
+        error if error <= GOOD => ("Verified", Kind::Verified),
+        error if error <= POOR => ("Roughly right", Kind::Warning),
+        _ => ("Far off", Kind::Wrong),
     }
 }
 
@@ -169,4 +181,28 @@ pub fn ui(ui: &mut Ui, answers: &Answers) {
         .response;
     let response = described(ui, named(ui, response, "Trust in the picture"), &sentence(&verdict.why));
     response.on_hover_text(sentence(&verdict.why));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::answers::picture::Cuts;
+
+    #[test]
+    fn the_word_follows_the_larger_error_of_both_films() {
+        let truth = |h_c, h_min| Comparison {
+            h_c,
+            h_min,
+            traction: None,
+            max_dp: 0.0,
+            cuts: Cuts::default(),
+            pressure: Vec::new(),
+            film: Vec::new(),
+        };
+        for ((h_c, h_min), word) in
+            [((1e-5, -1e-4), "Verified"), ((1e-5, -5e-3), "Roughly right"), ((0.02, 0.0), "Far off")]
+        {
+            assert_eq!(judged(&truth(h_c, h_min)).0, word, "{h_c} {h_min}");
+        }
+    }
 }
