@@ -68,8 +68,7 @@ pub static NAMED: [NamedLubricant; 6] = [
         laws: MINERAL_OIL,
         viscosity_pa_s: None,
         studied: None,
-        about: "Roelands (2.12), Dowson–Higginson (2.10); the traction bends at an Eyring stress of 5 MPa and is limited to \
-            5 MPa + 5 % of the pressure, the film stays Newtonian",
+        about: "Newtonian film: Roelands (2.12), Dowson–Higginson (2.10); the traction bends and is limited",
     },
     NamedLubricant {
         name: "roelands-oil",

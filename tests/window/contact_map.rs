@@ -9,7 +9,7 @@ use std::path::Path;
 use std::time::Duration;
 
 fn open() -> Window {
-    crate::driver::window(Explorer::new(None).without_system_dialogs(), [1280.0, 800.0])
+    crate::driver::window(Explorer::new(None).without_system_dialogs(), [1280.0, 1200.0])
 }
 
 /// Waits for a full solution on so many nodes.
@@ -43,7 +43,7 @@ fn the_switch_keeps_m_and_l_and_undo_brings_the_line_back() {
     solved(&mut harness, (301, 59));
     assert_eq!(harness.state().badge(), "Verified");
     let load = harness.get_by_role_and_label(Role::TextInput, "Load w").accesskit_node().value();
-    assert!(load.is_some_and(|w| w.parse::<f64>().is_ok_and(|w| (10.0..100.0).contains(&w))), "in newtons");
+    assert!(load.is_some_and(|w| w.parse::<f64>().is_ok_and(|w| (10.0..1000.0).contains(&w))), "in newtons");
     undo(&mut harness);
     wait(&mut harness, "the line contact", |app| !app.is_point() && app.central_film().is_some() && !app.busy());
     assert_eq!(harness.state().nodes().map(|n| n.1), Some(1));
@@ -131,7 +131,7 @@ fn a_heavy_load_on_a_coarse_grid_says_that_the_side_lobes_are_not_resolved() {
     harness.get_by_label("Load number M").set_value_accesskit(700.0);
     harness.run();
     solved(&mut harness, (151, 41));
-    assert_eq!(harness.state().badge(), "Side lobes unresolved");
+    assert_eq!(harness.state().badge(), "Grid does not do");
     assert!(harness.query_by_label_contains("H_min is not resolved").is_some());
 }
 

@@ -65,7 +65,7 @@ fn what_is_typed_is_found_and_done() {
     enter(&mut harness);
     ask(&mut harness, "squalane");
     enter(&mut harness);
-    assert!((harness.state().moes().l / 6.69 - 1.0).abs() < 1e-3 && harness.state().sliding().1 == 0.2227);
+    assert_eq!((harness.state().sliding().1, harness.state().point().viscosity_pa_s), (0.2227, 0.0705));
     ask(&mut harness, "run in time");
     assert_eq!(chosen(&harness), "Run in time");
     enter(&mut harness);

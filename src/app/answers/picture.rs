@@ -110,7 +110,7 @@ impl Picture {
             unphysical: solution.traction_warning(),
             rupture: solution.rupture(),
             spike: solution.spike(),
-            unresolved: solution.grid_warning().or_else(|| resolution_warning(&solution)),
+            unresolved: both(solution.grid_warning(), resolution_warning(&solution)),
             solution,
         };
         picture.draw_curves();
@@ -235,5 +235,13 @@ impl Comparison {
             film: difference(&picture.film, &full.film, b.h_c),
             pressure,
         }
+    }
+}
+
+/// Two warnings one after the other, or the one that there is.
+fn both(first: Option<String>, second: Option<String>) -> Option<String> {
+    match (first, second) {
+        (Some(first), Some(second)) => Some(format!("{first}. {second}")),
+        (first, second) => first.or(second),
     }
 }

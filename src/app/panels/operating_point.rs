@@ -107,7 +107,7 @@ fn si_ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut
             held_ui(ui, document, (quantity, field), commands);
         });
     }
-    entries.reserved_ui(ui, FIELDS.map(|(_, field)| field));
+    entries.reserved_ui(ui, FIELDS.map(|(_, field)| field).into_iter().chain(sliders::FIELDS));
 }
 
 /// The lock of a quantity that is held, or what it follows.

@@ -28,7 +28,7 @@ const NPR_NEWTONIAN_TIP: &str = "The lubricant has no shear constants, so it is 
     choose a lubricant that thins under shear below";
 
 /// Under these names entries are refused.
-const FIELDS: [&str; 8] = ["M", "L", "SRR", "NPR", "M value", "L value", "SRR value", "NPR value"];
+pub const FIELDS: [&str; 8] = ["M", "L", "SRR", "NPR", "M value", "L value", "SRR value", "NPR value"];
 /// Widths of a symbol, of a typed entry, and of what stands between.
 const SYMBOL_WIDTH: f32 = 32.0;
 const ENTRY_WIDTH: f32 = 62.0;
@@ -99,7 +99,7 @@ pub fn column(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, command
             ui.end_row();
         }
     });
-    take(ui, entries, commands, wanted);
+    take(commands, wanted);
 }
 
 /// Those that change the picture, side by side, and at the end of their row something else that needs `room`.
@@ -129,7 +129,10 @@ pub fn in_use(
         }
         rest(ui, commands);
     });
-    take(ui, entries, commands, wanted);
+    take(commands, wanted);
+    for field in FIELDS {
+        entries.message_ui(ui, field);
+    }
 }
 
 impl Row {
@@ -150,12 +153,11 @@ impl Row {
     }
 }
 
-/// Sets what was asked for, and says what was refused.
-fn take(ui: &mut Ui, entries: &Entries, commands: &mut Commands, wanted: Option<Wanted>) {
+/// Sets what was asked for.
+fn take(commands: &mut Commands, wanted: Option<Wanted>) {
     if let Some((quantity, field, value)) = wanted {
         commands.edit(Edit::Quantity(quantity, value), field);
     }
-    entries.reserved_ui(ui, FIELDS);
 }
 
 /// The slider of a fluid that keeps its viscosity: it stands at 1 and says why it does not move.

@@ -229,7 +229,7 @@ impl OilFamily {
                 "Wooster: α = (6 + 9.65 log₁₀ η₀)/GPa, η₀ in mPa·s; measured mineral oils lie between 0.85 and 1.4 times it"
             }
             _ => {
-                "Gold, Schmidt, Dicke, Loos and Assmann 2001: α = s·νᵗ at the temperature of the contact; \
+                "Gold, Schmidt, Dicke, Loos and Assmann 2001: α = s·ν^t at the temperature of the contact; \
                  oils of one family differ from it by some 20 %"
             }
         }

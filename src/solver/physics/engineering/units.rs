@@ -123,7 +123,7 @@ impl Dimension {
             Self::Viscosity { .. } => &[("mPa·s", 1e-3), ("Pa·s", 1.0), ("cP", 1e-3), ("P", 0.1)],
             Self::KinematicViscosity => KINEMATIC,
             Self::PressureCoefficient => {
-                &[("1/GPa", 1e-9), ("GPa⁻¹", 1e-9), ("1/Pa", 1.0), ("Pa⁻¹", 1.0), ("1/MPa", 1e-6), ("mm²/N", 1e-6)]
+                &[("1/GPa", 1e-9), ("GPa-1", 1e-9), ("1/Pa", 1.0), ("Pa-1", 1.0), ("1/MPa", 1e-6), ("mm²/N", 1e-6)]
             }
             Self::Temperature => &[("°C", 1.0), ("C", 1.0), ("K", 1.0), ("°F", 5.0 / 9.0), ("F", 5.0 / 9.0)],
             Self::Density => &[("kg/m³", 1.0), ("g/cm³", 1e3), ("kg/l", 1e3)],
@@ -216,8 +216,6 @@ fn key(unit: &str) -> String {
             '²' => '2',
             '³' => '3',
             'µ' | 'μ' => 'u',
-            '⁻' => '-',
-            '¹' => '1',
             other => other,
         })
         .collect();
