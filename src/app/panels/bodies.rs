@@ -112,7 +112,7 @@ impl Field {
                     _ => engineering::parse(text, dimension, unit).map(|si| si / scale).map_err(|e| e.to_string()),
                 };
                 let value = (self.get)(body).map_or(f64::INFINITY, |si| si / scale);
-                if let Some(typed) = typed_field(ui, entries, name, value, 62.0, self.tip, read) {
+                if let Some(typed) = typed_field(ui, entries, name, value, 66.0, self.tip, read) {
                     (self.set)(body, Some(typed * scale).filter(|si| si.is_finite()));
                     entered = Some(name);
                 }

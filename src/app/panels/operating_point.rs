@@ -100,7 +100,7 @@ fn si_ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut
                 return;
             }
             let read = |text: &str| read(text, quantity, kind).map(|si| si / scale);
-            if let Some(value) = typed_field(ui, entries, field, si / scale, 78.0, meaning, read) {
+            if let Some(value) = typed_field(ui, entries, field, si / scale, 70.0, meaning, read) {
                 commands.edit(Edit::Typed(quantity, value * scale), field);
             }
             ui.label(unit);
