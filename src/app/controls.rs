@@ -41,9 +41,7 @@ impl Entries {
             message_ui(ui, message);
         }
     }
-}
 
-impl Entries {
     /// Shows the first message about a group of fields where room for two lines is always kept, so that nothing below
     /// moves.
     pub fn reserved_ui<'a>(&self, ui: &mut Ui, names: impl IntoIterator<Item = &'a str>) {

@@ -238,10 +238,9 @@ impl Document {
         let sliding = Sliding { newtonian_plateau_ratio: None, ..self.point.sliding };
         let point = OperatingPoint { sliding, viscosity_pa_s: own, ..self.point };
         self.set_contact(point, named.laws)?;
-        for quantity in [Quantity::Viscosity, Quantity::Alpha] {
-            if named.viscosity_pa_s.is_some() {
-                self.view.held.set(quantity, false);
-            }
+        if named.viscosity_pa_s.is_some() {
+            self.view.held.set(Quantity::Viscosity, false);
+            self.view.held.set(Quantity::Alpha, false);
         }
         Ok(())
     }

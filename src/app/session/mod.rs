@@ -294,7 +294,7 @@ fn set_aside(explorer: &mut Explorer, folder: &Path, document: &Document) -> Res
     atomic_file::replace(&path, text.as_bytes()).map_err(|WriteError { path, reason }| {
         format!("Unsaved changes of the last session cannot be kept in {}: {reason}", path.display())
     })?;
-    explorer.desk.files.recent.insert(0, path.clone());
+    explorer.desk.remember(&path);
     Ok(format!("Unsaved changes of the last session are kept in {} (File, Recent)", path.display()))
 }
 

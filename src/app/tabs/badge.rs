@@ -73,7 +73,11 @@ pub fn verdict(answers: &Answers) -> Verdict {
             Kind::Neutral,
         ),
         (Origin::Full, _) => match &picture.unresolved {
-            Some(warning) => make(if picture.solution.grid_warning().is_some() { "Grid does not do" } else { "Side lobes unresolved" }, format!("full solution on {}", grid(picture)), warning.clone(), Kind::Warning),
+            Some(warning) => {
+                let costly = picture.solution.grid_warning().is_some();
+                let title = if costly { "Grid does not do" } else { "Side lobes unresolved" };
+                make(title, format!("full solution on {}", grid(picture)), warning.clone(), Kind::Warning)
+            }
             None => make(
                 "Verified",
                 if picture.has_plane() { format!("full solution on {}", grid(picture)) } else { full.to_owned() },

@@ -170,7 +170,8 @@ impl Desk {
         Ok(())
     }
 
-    fn remember(&mut self, path: &Path) {
+    /// Puts a scene first among those that were used.
+    pub fn remember(&mut self, path: &Path) {
         self.files.recent.retain(|p| p != path);
         self.files.recent.insert(0, path.to_owned());
         self.files.recent.truncate(MOST_RECENT);

@@ -3,8 +3,7 @@
 use super::{MarchedBy, Row};
 use crate::scene::error::RunError;
 use crate::scene::study::question::Tell;
-use crate::solver::full::Mesh;
-use crate::solver::full::transient::{Ended, Marching, Moment, State, Trajectory, Transient, TransientObserver, march};
+use crate::solver::full::transient::{Marching, Moment, State, Trajectory, Transient, TransientObserver, march};
 use crate::solver::observer::{Observer, Progress};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
@@ -41,17 +40,7 @@ pub(crate) fn timed_march(
     told: Option<Listener<'_>>,
 ) -> Result<Timed, RunError> {
     if let Some(Listener { march, by, tell, .. }) = &told {
-        let grid = model.grid();
-        let trajectory = Box::new(Trajectory {
-            problem: transient.problem()?,
-            transient: transient.clone(),
-            mesh: Mesh { spec: grid.reference.spec, scale: grid.scale },
-            x: grid.x.clone(),
-            moments: Vec::new(),
-            states: Vec::new(),
-            rejected_steps: 0,
-            ended: Ended::Finished,
-        });
+        let trajectory = Box::new(Trajectory::begun(transient, model.grid())?);
         tell(Row::Begun { march: Arc::clone(march), by: *by, trajectory });
     }
     let progress = Mutex::new(Steps { begun: None, seconds: Vec::new(), time: 0.0, next_picture: 0.0 });
