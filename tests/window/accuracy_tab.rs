@@ -29,7 +29,13 @@ fn count(harness: &mut Window, name: &str, value: f64) {
     set(harness, Role::SpinButton, name, value);
 }
 
+/// Waits for the end of what has begun by itself.
+fn rest(harness: &mut Window) {
+    wait(harness, "what begins by itself", |h| !h.state().studying());
+}
+
 fn run_tests(harness: &mut Window, tests: f64, compared: f64) {
+    rest(harness);
     count(harness, "Random tests", tests);
     count(harness, "Compared in full", compared);
     click(harness, "Run tests");
@@ -166,7 +172,8 @@ fn a_click_on_the_map_goes_to_the_test_there() {
 #[test]
 fn the_bound_is_held_against_the_truth() {
     let mut harness = open("Bound against truth");
-    assert!(shows(&harness, "Run tests with some of them compared"));
+    rest(&mut harness);
+    assert!(shows(&harness, "Compared: 20"), "a few tests are made unasked");
     run_tests(&mut harness, 200.0, 20.0);
     for name in ["Compared: 20", "Rank correlation: ", "Bound holds: ", "Median effectivity: "] {
         assert!(shows(&harness, name), "{name}");
@@ -177,6 +184,8 @@ fn the_bound_is_held_against_the_truth() {
 #[test]
 fn the_trajectory_is_followed_in_both_ranges() {
     let mut harness = open("Along the trajectory");
+    rest(&mut harness);
+    assert!(shows(&harness, "41 of 41 contacts through Table 3.1’s box"), "it is followed unasked");
     count(&mut harness, "Contacts", 11.0);
     click(&mut harness, "Follow the trajectory");
     wait(&mut harness, "the trajectory", |h| !h.state().studying());
@@ -190,6 +199,7 @@ fn the_trajectory_is_followed_in_both_ranges() {
     harness.get_by_label("Film along the trajectory");
     harness.get_by_label("Error along the trajectory");
     choose(&mut harness, "Through", "the trained range");
+    assert!(shows(&harness, "through Table 3.1’s box"), "what was asked for stays");
     click(&mut harness, "Follow the trajectory");
     wait(&mut harness, "the other trajectory", |h| !h.state().studying());
     assert!(shows(&harness, "11 of 11 contacts through the trained range, 0 failures"));
@@ -198,6 +208,7 @@ fn the_trajectory_is_followed_in_both_ranges() {
 #[test]
 fn a_study_stops_at_once_and_keeps_what_it_found_while_the_picture_lives() {
     let mut harness = open("Failure map");
+    rest(&mut harness);
     count(&mut harness, "Random tests", 10_000.0);
     // How soon is judged without the window, where studies are cancelled.
     for attempt in 0..3 {
@@ -210,6 +221,21 @@ fn a_study_stops_at_once_and_keeps_what_it_found_while_the_picture_lives() {
         wait(&mut harness, "the end", |h| !h.state().studying());
         assert!(shows(&harness, " of 10000 tests") && !shows(&harness, "10000 of 10000"));
     }
+}
+
+#[test]
+fn the_tab_opens_on_results_which_follow_the_model_and_stop_where_nobody_looks() {
+    let mut harness = open("Failure map");
+    assert!(harness.state().studying(), "nobody has to press anything");
+    click(&mut harness, "Profiles");
+    assert!(!harness.state().studying(), "nobody looks");
+    click(&mut harness, "Accuracy");
+    rest(&mut harness);
+    assert!(shows(&harness, "200 of 200 tests, no failures, 20 compared"));
+    truncate(&mut harness);
+    assert!(harness.state().studying() && !shows(&harness, "has changed since"), "another model has other errors");
+    rest(&mut harness);
+    assert!(shows(&harness, "200 of 200 tests"));
 }
 
 #[test]

@@ -80,6 +80,8 @@ impl Step {
 struct Followed {
     in_use: InUse,
     wanted: Wanted,
+    /// Whether nobody asked for it.
+    unasked: bool,
     steps: Vec<Step>,
     /// Whether more may come.
     open: bool,
@@ -112,10 +114,29 @@ impl Along {
         results.open = self.work.job().is_some();
     }
 
+    /// Follows a few contacts unasked, unless somebody has asked for others.
+    fn show(&mut self, ctx: &egui::Context, store: &Store, in_use: &InUse) {
+        let through = self.wanted.through;
+        let other = |results: &Followed| results.in_use != *in_use || results.wanted.through != through;
+        if self.results.as_ref().is_none_or(|results| results.unasked && other(results)) {
+            let points = match in_use.model.contact() {
+                ContactKind::Line => 41,
+                ContactKind::Point => 11,
+            };
+            self.begin(ctx, store, in_use, (Wanted { through, points }, true));
+        }
+    }
+
+    /// Stops what nobody asked for, and forgets it: it begins anew when it is looked at again.
+    pub fn hide(&mut self) {
+        if self.work.job().is_some() && self.results.as_ref().is_some_and(|results| results.unasked) {
+            (self.results, self.work) = (None, Background::default());
+        }
+    }
+
     /// Each full solution starts from its neighbour on the path, never from a reduced one.
-    fn start(&mut self, ctx: &egui::Context, store: &Store, in_use: &InUse) {
-        let wanted = self.wanted;
-        self.results = Some(Followed { in_use: in_use.clone(), wanted, steps: Vec::new(), open: true });
+    fn begin(&mut self, ctx: &egui::Context, store: &Store, in_use: &InUse, (wanted, unasked): (Wanted, bool)) {
+        self.results = Some(Followed { in_use: in_use.clone(), wanted, unasked, steps: Vec::new(), open: true });
         let (range, through) = match wanted.through {
             Through::Dissertation => (Some(QuantityBox::of_tables(in_use.model.contact())), None),
             Through::Trained => (None, Some(in_use.trained_range())),
@@ -130,6 +151,7 @@ impl Along {
 pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: &mut Commands, in_use: &InUse) {
     let ctx = ui.ctx().clone();
     let along = &mut own.along;
+    along.show(&ctx, &context.answers.store, in_use);
     let kind = in_use.model.contact();
     let mut export_now = false;
     ui.horizontal_wrapped(|ui| {
@@ -143,7 +165,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
         choice.response.labelled_by(through.id);
         count(ui, "Contacts", "Equidistant values of c from 0 to 2", &mut along.wanted.points, 11..=1001);
         if run_or_stop(ui, "Follow the trajectory", "Reduced and full solutions along it", &along.work) {
-            along.start(&ctx, &context.answers.store, in_use);
+            along.begin(&ctx, &context.answers.store, in_use, (along.wanted, false));
         }
         let there = along.results.as_ref().is_some_and(|r| !r.steps.is_empty());
         let button = ui.add_enabled(there, egui::Button::new("Export CSV…"));

@@ -59,11 +59,18 @@ pub struct AccuracyView {
     map: failure_map::Map,
     truth: Option<truth::Scatter>,
     along: along::Along,
+    /// Whether the tab was drawn since the last frame.
+    shown: bool,
 }
 
 impl AccuracyView {
-    /// Takes in what the studies have found since the last frame.
+    /// Takes in what the studies have found since the last frame. Those that nobody asked for stop where nobody looks.
     pub fn receive(&mut self) {
+        if !std::mem::take(&mut self.shown) {
+            self.split.hide();
+            self.tests.hide();
+            self.along.hide();
+        }
         self.split.receive();
         self.tests.receive();
         self.along.receive();
@@ -86,6 +93,7 @@ impl AccuracyView {
 
 /// The tab.
 pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: &mut Commands) {
+    own.shown = true;
     ui.horizontal_wrapped(|ui| {
         for view in View::ALL {
             ui.selectable_value(&mut own.view, view, view.name());
@@ -131,6 +139,7 @@ fn run_or_stop(ui: &mut Ui, run: &str, tip: &str, work: &Background<StudyRow>) -
 
 /// The row over both views of the random tests. Returns whether the table is wanted as a file.
 fn tests_toolbar(ui: &mut Ui, store: &Store, tests: &mut RandomTests, in_use: &InUse) -> bool {
+    tests.show(&ui.ctx().clone(), store, in_use);
     let mut export = false;
     ui.horizontal_wrapped(|ui| {
         let wanted = &mut tests.wanted;

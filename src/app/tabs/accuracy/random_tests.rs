@@ -5,6 +5,7 @@ use crate::engine::Store;
 use crate::engine::job::Background;
 use crate::scene::study::random_test::{RandomTest, Tested, add, errors};
 use crate::scene::{Study, StudyRow};
+use crate::solver::physics::contact::ContactKind;
 use egui::Context;
 
 /// Fewest and most tests that can be asked for.
@@ -29,6 +30,17 @@ impl Default for Wanted {
     }
 }
 
+impl Wanted {
+    /// What is tested unasked: as many as are there within a moment.
+    fn small(in_use: &InUse) -> Self {
+        let compared = match in_use.model.contact() {
+            ContactKind::Line => 20,
+            ContactKind::Point => 3,
+        };
+        Self { tests: *TESTS.start(), compared, seed: 1 }
+    }
+}
+
 /// The calibrated bound on the error of H_c of a test.
 pub fn bound_of(tested: &Tested) -> Option<f64> {
     tested.0.bounds()[0]
@@ -45,6 +57,8 @@ pub struct Results {
     pub in_use: InUse,
     /// How it was tested.
     pub wanted: Wanted,
+    /// Whether nobody asked for them.
+    unasked: bool,
     /// The tests so far.
     pub tests: Vec<Tested>,
     /// Rises with everything that comes in.
@@ -77,9 +91,26 @@ pub struct RandomTests {
 impl RandomTests {
     /// Starts anew.
     pub fn start(&mut self, ctx: &Context, store: &Store, in_use: &InUse) {
-        let wanted = self.wanted;
+        self.begin(ctx, store, in_use, (self.wanted, false));
+    }
+
+    /// Makes a few tests of a model unasked, unless somebody has asked for others.
+    pub fn show(&mut self, ctx: &Context, store: &Store, in_use: &InUse) {
+        if self.results.as_ref().is_none_or(|results| results.unasked && results.in_use != *in_use) {
+            self.begin(ctx, store, in_use, (Wanted::small(in_use), true));
+        }
+    }
+
+    /// Stops tests that nobody asked for, and forgets them: they begin anew when they are looked at again.
+    pub fn hide(&mut self) {
+        if self.work.job().is_some() && self.results.as_ref().is_some_and(|results| results.unasked) {
+            (self.results, self.work) = (None, Background::default());
+        }
+    }
+
+    fn begin(&mut self, ctx: &Context, store: &Store, in_use: &InUse, (wanted, unasked): (Wanted, bool)) {
         let Wanted { tests, compared, seed } = wanted;
-        self.results = Some(Results { in_use: in_use.clone(), wanted, tests: Vec::new(), revision: 0 });
+        self.results = Some(Results { in_use: in_use.clone(), wanted, unasked, tests: Vec::new(), revision: 0 });
         let (range, compare) = (in_use.trained_range(), compared.min(tests));
         let study = Study::RandomTest(RandomTest { range, tests, seed, method: in_use.method(), compare });
         self.work.start(in_use.question("Random tests", study).map(|question| in_use.ask(ctx, store, question)));

@@ -67,6 +67,8 @@ pub struct Split {
     pub work: Background<StudyRow>,
     /// What was last asked for, answered or not.
     asked: Option<SplitOf>,
+    /// Whether nobody asked for it.
+    unasked: bool,
     found: Option<(SplitOf, Arc<ErrorSplit>)>,
 }
 
@@ -94,7 +96,15 @@ impl Split {
         }
     }
 
-    fn start(&mut self, ctx: &egui::Context, store: &Store, asked: SplitOf) {
+    /// Stops what nobody asked for, and forgets it: it begins anew when it is looked at again.
+    pub fn hide(&mut self) {
+        if self.work.job().is_some() && self.unasked {
+            (self.asked, self.work) = (None, Background::default());
+        }
+    }
+
+    fn start(&mut self, ctx: &egui::Context, store: &Store, asked: SplitOf, unasked: bool) {
+        self.unasked = unasked;
         let study = ErrorSplitStudy { contacts: Contacts::Here, method: asked.in_use.method() };
         let question = question("Splitting the error", &asked.key, SceneGrid::Model, Study::ErrorSplit(study));
         self.work.run(asked.in_use.ask(ctx, store, question));
@@ -111,7 +121,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
     ui.horizontal_wrapped(|ui| {
         let tip = "Solves this contact reduced, reduced with all rows, in full, and in full on the next finer grid";
         if run_or_stop(ui, "Split the error", tip, &own.split.work) {
-            own.split.start(&ctx, &context.answers.store, now.clone());
+            own.split.start(&ctx, &context.answers.store, now.clone(), false);
         }
         let there = own.split.found.is_some();
         let button = ui.add_enabled(there, egui::Button::new("Export CSV…"));
@@ -155,7 +165,7 @@ fn start_when_rested(ui: &Ui, own: &mut AccuracyView, context: &Context<'_>, now
     own.split.work.stop();
     let rested = context.answers.rested_s(ui.input(|i| i.time));
     if rested >= REST_S {
-        own.split.start(ui.ctx(), &context.answers.store, now.clone());
+        own.split.start(ui.ctx(), &context.answers.store, now.clone(), true);
     } else {
         ui.ctx().request_repaint_after_secs((REST_S - rested) as f32);
     }
