@@ -220,6 +220,7 @@ impl Explorer {
             desk.history.commit(&desk.document);
         }
         desk.answers.settle(ctx, &desk.document);
+        desk.transient.settle(ctx, &desk.answers.store);
         desk.fit_plots = false;
     }
 
@@ -368,9 +369,17 @@ impl Explorer {
         self.desk.views.accuracy.standing().is_some()
     }
 
-    /// Whether a contact is taken through time.
+    /// Whether a contact is taken through time, or about to be.
     pub fn marching(&self) -> bool {
-        self.desk.transient.standing().is_some()
+        self.desk.transient.standing().is_some() || self.desk.transient.waits()
+    }
+
+    /// Whether the contact in time on the screen is the one that is wanted, by how many methods and frames it is there
+    /// to its end, and how many of them are models that were made for a former set-up.
+    pub fn in_time(&self) -> (bool, usize, usize) {
+        let view = &self.desk.transient;
+        let ended = || view.runs.iter().filter(|run| run.ended);
+        (view.is_current(), ended().count(), ended().filter(|run| run.replayed).count())
     }
 
     /// Whether the number of operating points is studied.

@@ -1,7 +1,7 @@
 //! The point contact in the window: the switch, the map, its cuts, the grids, the interferogram.
 
 use crate::common::scratch::Scratch;
-use crate::driver::{Window, assert_cheap, choose, click, give_path, rest, shows, undo, wait};
+use crate::driver::{Window, assert_cheap, choose, click, give_path, rest, rest_in_time, shows, undo, wait};
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
@@ -47,6 +47,26 @@ fn the_switch_keeps_m_and_l_and_undo_brings_the_line_back() {
     undo(&mut harness);
     wait(&mut harness, "the line contact", |app| !app.is_point() && app.central_film().is_some() && !app.busy());
     assert_eq!(harness.state().nodes().map(|n| n.1), Some(1));
+}
+
+#[test]
+fn a_line_contact_shows_its_film_over_time_and_a_ball_with_one_click() {
+    let mut harness = open();
+    wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
+    click(&mut harness, "Contact map");
+    rest_in_time(&mut harness);
+    assert!(shows(&harness, "Film over space and time"));
+    click(&mut harness, "Pressure over time");
+    assert!(shows(&harness, "Pressure over space and time"));
+    let map = harness.get_by_label("Pressure over space and time").rect();
+    assert!(map.width() > 400.0 && map.height() > 400.0);
+    click(&mut harness, "Show a ball instead");
+    assert!(harness.state().is_point());
+    wait(&mut harness, "the ball", |app| app.central_film().is_some());
+    assert!(shows(&harness, "Map of the contact"));
+    click(&mut harness, "Transient");
+    click(&mut harness, "Show a roller instead");
+    assert!(!harness.state().is_point() && shows(&harness, "Load amplitude"));
 }
 
 #[test]

@@ -112,9 +112,19 @@ pub fn solid_curves(drawing: &str) -> usize {
     drawing.lines().filter(|line| line.starts_with("<polyline") && line.matches(',').count() > 30).count()
 }
 
-/// Takes the contact through time, to the end of all runs.
+/// Takes the contact through time, to the end of all runs, unless that has happened by itself.
 pub fn run_in_time(harness: &mut Window) {
-    click(harness, "Run in time");
+    harness.run_steps(3);
+    rest_in_time(harness);
+    let (current, runs, replayed) = harness.state().in_time();
+    if !current || runs == 0 || replayed > 0 {
+        click(harness, "Run in time");
+        rest_in_time(harness);
+    }
+}
+
+/// Waits for the end of what runs in time.
+pub fn rest_in_time(harness: &mut Window) {
     wait_within(Duration::from_secs(900), harness, "the run", |app| !app.marching());
 }
 

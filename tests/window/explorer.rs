@@ -40,12 +40,12 @@ const TABS: [(&str, &[&str]); 9] = [
     ("Profiles", &["Pin curve", "Pressure profile", "Film profile"]),
     ("Regimes", &["Chart of M and L"]),
     ("Traction", &["Laws of the fluid"]),
-    ("Contact map", &["A line contact is the same at every Y"]),
+    ("Contact map", &["Show a ball instead"]),
     ("Reduced basis", &[]),
     ("Accuracy", &[]),
     ("Training", &["Start training", "Pre-computed"]),
-    ("Transient", &["Inputs against time"]),
-    ("TPWL", &["Tick Linearised model"]),
+    ("Transient", &["Load amplitude"]),
+    ("TPWL", &["Number of operating points"]),
 ];
 
 /// Opens all tabs one after the other; each shows what is its own, with `more` beside, and nothing of the others.

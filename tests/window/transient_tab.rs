@@ -3,8 +3,8 @@
 
 use crate::common::scratch::Scratch;
 use crate::driver::{
-    Table, Window, click, export, export_plot, give_path, press, run_in_time, set, shows, solid_curves, time, undo,
-    wait,
+    Table, Window, click, export, export_plot, give_path, press, rest_in_time, run_in_time, set, shows, solid_curves,
+    time, undo, wait,
 };
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
@@ -40,7 +40,12 @@ fn open(name: &str, text: &str) -> (Window, Scratch) {
 fn frames_are_run_compared_scrubbed_played_and_exported() {
     let (mut harness, folder) = open("frames", &scene(BREATHING, 2.0, "Fixed, ArbitraryLagrangianEulerian"));
     run_in_time(&mut harness);
-    assert!(shows(&harness, "Central film against time") && shows(&harness, "Central pressure against time"));
+    assert!(shows(&harness, "Film, pressure and inputs against time"));
+    for (choice, plot) in [("Film", "Central film against time"), ("Pressure", "Central pressure against time")] {
+        click(&mut harness, choice);
+        assert!(shows(&harness, plot), "{plot}");
+    }
+    click(&mut harness, "Together");
     assert!(shows(&harness, "Deviation between runs"));
     assert!(shows(&harness, "Moving nodes (ALE)") && shows(&harness, "Film at this moment"));
     assert!((time(&harness) - 2.0).abs() < 1e-12, "it has followed the run to its end");
@@ -70,7 +75,7 @@ fn frames_are_run_compared_scrubbed_played_and_exported() {
     assert!((centre[h] / rows[10][moving] - 1.0).abs() < 1e-6, "in the scales of the reference contact");
 
     let figure = export_plot(&mut harness, "Series and profiles as SVG…", &folder.join("figure.svg"));
-    // The solid run in central pressure, central film and both profiles.
+    // Of the solid run film and pressure against time, and both profiles.
     assert_eq!(solid_curves(&figure), 4);
     assert!(figure.contains("Moving nodes (ALE)") && figure.ends_with("</svg>\n"));
     assert!(figure.contains("Harmonic"), "what was run, not what the sliders say");
@@ -123,6 +128,7 @@ fn a_step_that_cannot_be_taken_is_named_and_what_was_computed_stays() {
 #[test]
 fn the_set_up_is_edited_undone_refused_and_saved_with_the_scene() {
     let (mut harness, folder) = open("document", &scene(BREATHING, 2.0, "Fixed"));
+    click(&mut harness, "Set-up");
     let value = |harness: &Window, name: &str| harness.get_by_role_and_label(Role::SpinButton, name).value().unwrap();
     assert_eq!(value(&harness, "Load A"), "0.1");
     set(&mut harness, Role::SpinButton, "Load A", 1.5);
@@ -156,24 +162,80 @@ fn the_set_up_is_edited_undone_refused_and_saved_with_the_scene() {
 }
 
 #[test]
-fn a_fresh_window_has_something_to_run() {
+fn a_fresh_window_runs_by_itself_replays_at_once_and_checks_at_rest() {
     let explorer = Explorer::new(None).without_system_dialogs();
-    let mut harness = crate::driver::window(explorer, [1024.0, 640.0]);
+    let mut harness = crate::driver::window(explorer, [1280.0, 800.0]);
     wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
     click(&mut harness, "Transient");
-    assert!(shows(&harness, "Inputs against time"));
-    run_in_time(&mut harness);
-    assert_eq!(harness.state().transient_moments(), 161);
+    assert!(harness.state().marching(), "nobody has to press anything");
+    rest_in_time(&mut harness);
+    assert_eq!((harness.state().transient_moments(), harness.state().in_time()), (3 * 161, (true, 3, 0)));
+    for said in ["Checked", "reduced ", "linearised ", "Film over space and time", "Film at this moment", "(×"] {
+        assert!(shows(&harness, said), "{said}");
+    }
+    assert!(!shows(&harness, "Inputs against time"));
     click(&mut harness, "Set-up");
-    assert!(!shows(&harness, "Inputs against time") && shows(&harness, "Film at this moment"));
+    assert!(shows(&harness, "Inputs against time"));
+    click(&mut harness, "Set-up");
+
+    // Both models answer before the full system does, and then it checks them.
+    set(&mut harness, Role::Slider, "Load amplitude", 0.2);
+    let live = |app: &Explorer| app.in_time() == (true, 2, 2);
+    wait(&mut harness, "the models", live);
+    assert!(shows(&harness, "Live") && shows(&harness, "Film at this moment"));
+    rest_in_time(&mut harness);
+    assert_eq!(harness.state().in_time(), (true, 3, 0));
+    let folder = Scratch::new("fresh");
+    let series = Table::of(&export(&mut harness, "Export series…", &folder.join("series.csv")));
+    assert!((series.column("full.fixed.w_over_ref")[20] - 1.2).abs() < 1e-9, "they are of the new amplitude");
+
+    // The moment stays where it was put, read-outs follow it, and the map goes to another.
+    set(&mut harness, Role::Slider, "Time T", 3.0);
+    set(&mut harness, Role::Slider, "Load period", 8.0);
+    rest_in_time(&mut harness);
+    assert!((time(&harness) - 3.0).abs() < 1e-9);
+    let map = harness.get_by_label("Film over space and time").rect();
+    harness.hover_at(map.center());
+    harness.run_steps(1);
+    harness.drag_at(map.center());
+    harness.run_steps(1);
+    harness.drop_at(map.center());
+    harness.run_steps(2);
+    assert!((time(&harness) - 4.0).abs() < 0.5, "half way up is half of the duration: {}", time(&harness));
+    let map = Table::of(&export(&mut harness, "Export map…", &folder.join("map.csv")));
+    assert_eq!(map.header, ["T", "X", "P", "H"]);
+    assert!(map.rows.len() > 161 * 200 && map.column("H").iter().all(|h| *h > 0.0));
+    click(&mut harness, "Pressure over time");
+    let drawing = export_plot(&mut harness, "Pressure over space and time as SVG…", &folder.join("map.svg"));
+    assert!(drawing.contains("href=\"data:image/png;base64,") && drawing.contains("Harmonic"));
+}
+
+#[test]
+fn what_has_not_come_to_a_moment_is_not_drawn_there() {
+    let frames = "Fixed, ArbitraryLagrangianEulerian";
+    let (mut harness, folder) = open("moment", &scene(BREATHING, 100.0, frames));
+    assert!(!harness.state().marching(), "this takes more than a moment: it waits until it is asked for");
+    assert!(shows(&harness, "Run it in time"));
+    click(&mut harness, "Run in time");
+    wait(&mut harness, "the second frame", |app| !app.marching() || app.transient_moments() > 2040);
+    click(&mut harness, "Stop");
+    rest_in_time(&mut harness);
+    assert!((time(&harness) - 100.0).abs() < 1e-9 && shows(&harness, "Moving nodes (ALE) was cancelled"));
+    let header = Table::of(&export(&mut harness, "Export profiles…", &folder.join("end.csv"))).header;
+    assert!(header.iter().all(|name| name.starts_with("full.fixed.")), "{header:?}");
+    set(&mut harness, Role::Slider, "Time T", 0.5);
+    let header = Table::of(&export(&mut harness, "Export profiles…", &folder.join("early.csv"))).header;
+    assert!(header.iter().any(|name| name.starts_with("full.ale.")), "{header:?}");
 }
 
 #[test]
 fn a_reduced_model_is_trained_on_the_spot_and_runs_beside_the_full_system() {
     let (mut harness, folder) = open("reduced", &scene(BREATHING, 2.0, "Fixed"));
+    click(&mut harness, "Set-up");
     click(&mut harness, "Reduced model");
     run_in_time(&mut harness);
-    assert!(shows(&harness, "Fixed frame, reduced") && shows(&harness, "Deviation between runs"));
+    click(&mut harness, "Set-up");
+    assert!(shows(&harness, "Reduced model") && shows(&harness, "Deviation between runs"));
     assert_eq!(harness.state().transient_moments(), 2 * 41);
     let series = Table::of(&export(&mut harness, "Export series…", &folder.join("series.csv")));
     let (column, rows) = (|name: &str| series.at(name), &series.rows);

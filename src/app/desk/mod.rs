@@ -154,7 +154,7 @@ impl Desk {
         self.answers.receive();
         self.views.accuracy.receive();
         self.views.results.receive();
-        self.transient.receive();
+        self.transient.receive(&self.answers.store);
         self.traction.receive();
         self.training.receive();
     }

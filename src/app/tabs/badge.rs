@@ -20,11 +20,16 @@ pub struct Verdict {
     kind: Kind,
 }
 
+/// How far something can be trusted.
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
+pub enum Kind {
+    /// Nothing is known yet.
     Neutral,
+    /// It was checked.
     Verified,
+    /// Right to know.
     Warning,
+    /// Not to be trusted.
     Wrong,
 }
 
@@ -161,8 +166,13 @@ pub fn stale_note(ui: &mut Ui, picture: &Picture) {
 /// The badge.
 pub fn ui(ui: &mut Ui, answers: &Answers) {
     let verdict = verdict(answers);
+    pill(ui, verdict.kind, [&verdict.title, &verdict.detail, &verdict.why], "Trust in the picture");
+}
+
+/// A badge: its first words, what follows them, and why; screen readers know it by a name.
+pub fn pill(ui: &mut Ui, kind: Kind, [title, detail, why]: [&str; 3], name: &str) {
     let palette = Palette::of(ui);
-    let color = match verdict.kind {
+    let color = match kind {
         Kind::Neutral => palette.quiet,
         Kind::Verified => palette.verified,
         Kind::Warning => palette.warning,
@@ -176,15 +186,15 @@ pub fn ui(ui: &mut Ui, answers: &Answers) {
     let response = frame
         .show(ui, |ui| {
             ui.spacing_mut().item_spacing.x = 6.0;
-            ui.label(RichText::new(&verdict.title).strong().color(color));
-            if !verdict.detail.is_empty() {
+            ui.label(RichText::new(title).strong().color(color));
+            if !detail.is_empty() {
                 let plain: Color32 = ui.visuals().text_color();
-                ui.label(rich(&verdict.detail, 13.0, plain));
+                ui.label(rich(detail, 13.0, plain));
             }
         })
         .response;
-    let response = described(ui, named(ui, response, "Trust in the picture"), &sentence(&verdict.why));
-    response.on_hover_text(sentence(&verdict.why));
+    let response = described(ui, named(ui, response, name), &sentence(why));
+    response.on_hover_text(sentence(why));
 }
 
 #[cfg(test)]

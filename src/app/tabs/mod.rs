@@ -5,6 +5,7 @@ pub mod accuracy;
 mod axes;
 pub mod badge;
 pub mod basis;
+mod color_bar;
 pub mod contact_map;
 mod cut_line;
 mod direction;
@@ -16,6 +17,7 @@ mod raster;
 mod regime_chart;
 pub mod regimes;
 pub mod results;
+mod space_time;
 pub mod tpwl;
 pub mod traction;
 mod training;
@@ -133,14 +135,14 @@ mod tests {
     /// What stands in each tab when it is all there is.
     const SHOWN: [(Tab, &[&str]); 10] = [
         (Tab::Profiles, &["Pin curve", "Pressure profile", "Film profile"]),
-        (Tab::ContactMap, &["A line contact is the same at every Y"]),
+        (Tab::ContactMap, &["Show a ball instead"]),
         (Tab::Regimes, &["Chart of M and L", "Film by published formulas"]),
         (Tab::Traction, &["Laws of the fluid"]),
         (Tab::Basis, &["Mode shapes", "Singular values"]),
         (Tab::Accuracy, &["Failure map"]),
         (Tab::Training, &["Start training", "Pre-computed"]),
-        (Tab::Transient, &["Inputs against time"]),
-        (Tab::Tpwl, &["Tick Linearised model"]),
+        (Tab::Transient, &["Load amplitude"]),
+        (Tab::Tpwl, &["Number of operating points"]),
         (Tab::Results, &["Run the study"]),
     ];
 

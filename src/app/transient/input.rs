@@ -23,6 +23,15 @@ impl Input {
     /// All of them, the one most often varied first.
     pub const ALL: [Self; 3] = [Self::Load, Self::Speed, Self::Radius];
 
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Load => "Load",
+            Self::Speed => "Speed",
+            Self::Radius => "Radius",
+        }
+    }
+
     /// Its function of time.
     pub fn of(self, inputs: &Inputs) -> &Signal {
         match self {

@@ -21,11 +21,12 @@ pub struct Linearised {
     pub trainings: Vec<Vec<Moment>>,
     /// Whether it was trained by the run that it is compared with.
     pub own: bool,
-    /// What the other rule chooses when it is to choose as many points.
-    pub other: OtherRule,
+    /// What the other rule chooses when it is to choose as many points, once that is known.
+    pub other: Option<OtherRule>,
 }
 
 /// A rule, and the moments it chooses of each training trajectory.
+#[derive(Clone)]
 pub struct OtherRule {
     /// The rule.
     pub selection: Selection,
@@ -119,6 +120,7 @@ pub struct NumberStudy {
     pub rows: Vec<NumberRow>,
     /// Its work.
     pub work: Background<NumberRow>,
+    of: Option<Arc<TpwlModel>>,
 }
 
 const STAGE: &str = "Number of operating points";
@@ -135,7 +137,13 @@ impl NumberStudy {
     /// Starts it anew on the inputs of a full run.
     pub fn start(&mut self, ctx: &Context, model: Arc<TpwlModel>, full: Trajectory) {
         self.rows.clear();
+        self.of = Some(Arc::clone(&model));
         self.work.run(Job::start(STAGE, wake(ctx), move |reporter| work(&model, &full, reporter)));
+    }
+
+    /// Whether it was begun for a model.
+    pub fn is_of(&self, model: &Arc<TpwlModel>) -> bool {
+        self.of.as_ref().is_some_and(|of| Arc::ptr_eq(of, model))
     }
 
     /// Takes in what came.

@@ -39,15 +39,16 @@ pub fn frame_meaning(frame: Frame) -> &'static str {
     }
 }
 
-/// The name of a run among others.
+/// The name of a run among others; the fixed frame, in which most are, is not named.
 pub fn run_name(by: MarchedBy, frame: Frame) -> String {
-    let frame = frame_name(frame);
-    match by {
-        MarchedBy::Full => frame.to_owned(),
-        MarchedBy::Reduced => format!("{frame}, reduced"),
+    match (by, frame) {
+        (MarchedBy::Full, Frame::Fixed) => "Full system".to_owned(),
+        (MarchedBy::Full, frame) => frame_name(frame).to_owned(),
+        (MarchedBy::Reduced, Frame::Fixed) => "Reduced model".to_owned(),
+        (MarchedBy::Reduced, frame) => format!("{}, reduced", frame_name(frame)),
         // It lives in the fixed frame alone.
-        MarchedBy::Linearised(Weighting::DualTaylor) => "Linearised, dual Taylor".to_owned(),
-        MarchedBy::Linearised(Weighting::Dissertation) => "Linearised, weights (4.29)".to_owned(),
+        (MarchedBy::Linearised(Weighting::DualTaylor), _) => "Linearised, dual Taylor".to_owned(),
+        (MarchedBy::Linearised(Weighting::Dissertation), _) => "Linearised, weights (4.29)".to_owned(),
     }
 }
 

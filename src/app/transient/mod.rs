@@ -1,52 +1,39 @@
 //! Contacts in time from the window: what was asked, what has come of it so far, and the moment that is looked at.
 
+mod document;
 pub mod export;
+mod follow;
 pub mod input;
 pub mod linearised;
 pub mod method;
 mod player;
+pub mod reach;
 mod run;
+mod setup;
 
 pub use player::Player;
-pub use run::{ModelSize, Run};
+pub use run::Run;
+pub use setup::Setup;
 
 use super::answers::jobs::wake;
-use super::document::Document;
-use super::document::Key;
-use super::in_use::question;
 use crate::engine::job::{Background, Job, Standing};
 use crate::engine::{Store, Workbench};
-use crate::scene::study::transient::{Kind, MarchedBy, Model, Row};
-use crate::scene::{Grid, LinearisedTransient, Scene, Study, StudyRow, TransientStudy};
-use crate::solver::full::transient::{Ended, Frame, Inputs, Moment, Quantity, Signal, TimeStep};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
+use crate::scene::study::transient::{By, Kind, MarchedBy, Model, Row};
+use crate::scene::{Scene, StudyRow};
+use crate::solver::full::transient::{Ended, Frame, Moment, Quantity};
 use crate::solver::reduced::tpwl::Weighting;
 use egui::Context;
+use follow::Following;
 use linearised::{Linearised, NumberStudy, OtherRule};
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
-
-/// What runs belong to.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Setup {
-    /// The reference contact.
-    pub point: OperatingPoint,
-    /// Its lubricant.
-    pub lubricant: Lubricant,
-    /// What varies, how long, and how it is followed.
-    pub study: TransientStudy,
-    /// The table that inputs are taken from when it is run.
-    pub sampled: Option<PathBuf>,
-    /// The grid of the full system.
-    pub grid: Grid,
-}
 
 /// What can be asked of contacts in time.
 #[derive(Clone, Debug, PartialEq)]
 pub enum InTimeCommand {
     /// Run this one.
     Run(Box<Setup>),
+    /// Show this one: at once by models that are there, in full when the hands rest.
+    Follow(Box<Setup>),
     /// Stop the runs, and the study of their linearised model.
     Stop,
     /// Look at the moment T, and stay there.
@@ -69,16 +56,19 @@ pub struct TransientView {
     /// The runs, in their order; the first is what the others are compared with.
     pub runs: Vec<Run>,
     /// The linearised model of the runs, with what is shown of it.
-    pub linearised: Option<Arc<Linearised>>,
+    pub linearised: Option<Linearised>,
     /// How many operating points it takes.
     pub number: NumberStudy,
     /// What runs, and why there is nothing or no more.
     pub work: Background<StudyRow>,
     /// Seconds and moments of the marches that the models of the last frame are trained by, where they are others.
     trained: Option<(f64, Vec<Vec<Moment>>)>,
-    /// What the next march by a model is made of.
-    model: Option<ModelSize>,
-    looking: Background<Linearised>,
+    /// The run that rows go to.
+    filled: Filled,
+    /// What the job under way runs, until its first row.
+    next: Option<Arc<Setup>>,
+    following: Following,
+    looking: Background<OtherRule>,
     /// Why a model could not be had of a run.
     pub notes: Vec<String>,
     /// The moment that is looked at.
@@ -88,44 +78,21 @@ pub struct TransientView {
     pub generation: u64,
 }
 
-impl Setup {
-    /// What a document would have run; where its file lies, the table lies that it takes inputs from.
-    pub fn of(document: &Document, file: Option<&Path>) -> Self {
-        let study = document.transient_study();
-        let folder = file.and_then(Path::parent).unwrap_or(Path::new(""));
-        Self {
-            point: document.point,
-            lubricant: document.lubricant,
-            sampled: study.sampled.as_ref().map(|path| folder.join(path)),
-            study,
-            grid: document.transient_grid(),
-        }
-    }
-
-    /// The question: the study itself, without what only headless runs compare.
-    fn question(&self) -> Scene {
-        let once = |linearised: &LinearisedTransient| LinearisedTransient { further: Vec::new(), ..linearised.clone() };
-        let study = TransientStudy {
-            sampled: self.sampled.clone(),
-            further: Vec::new(),
-            published: Vec::new(),
-            mass_between: None,
-            linearised: self.study.linearised.as_ref().map(once),
-            ..self.study.clone()
-        };
-        let key = Key { point: self.point, lubricant: self.lubricant };
-        question("Contact in time", &key, self.grid, Study::Transient(study))
-    }
-
-    /// Seconds per unit of T: a/u_m of the reference contact.
-    pub fn time_scale_s(&self) -> f64 {
-        self.point.hertz().half_width_m / self.point.speed_m_per_s
-    }
+/// The run that rows go to.
+#[derive(Default)]
+enum Filled {
+    /// None yet.
+    #[default]
+    None,
+    /// The one of this place.
+    Shown(usize),
+    /// One that takes the place of a replayed one once it has ended.
+    Behind(Box<Run>),
 }
 
 impl TransientView {
     /// Takes in what came since the last frame.
-    pub fn receive(&mut self) {
+    pub fn receive(&mut self, store: &Store) {
         self.number.receive();
         let (mut rows, works) = (Vec::new(), self.work.job().is_some());
         self.work.receive(|row| rows.push(row));
@@ -134,14 +101,14 @@ impl TransientView {
                 self.take(row);
             }
         }
-        let stopped = works && self.work.job().is_none() && self.work.message.is_none();
-        if let Some(run) = self.runs.last_mut().filter(|run| stopped && !run.ended) {
-            (run.ended, run.trajectory.ended) = (true, Ended::Cancelled { time: run.reached() });
+        if works && self.work.job().is_none() {
+            self.end();
         }
+        self.receive_replayed(store);
         let linearised = &mut self.linearised;
-        self.looking.receive(|found| *linearised = Some(Arc::new(found)));
+        self.looking.receive(|found| linearised.iter_mut().for_each(|own| own.other = Some(found.clone())));
         for k in 0..self.runs.len() {
-            if self.runs[k].ended && self.runs[k].difference.is_none() {
+            if self.runs[k].difference.is_none() && self.runs[k].ended {
                 self.runs[k].difference = self.difference(k);
             }
         }
@@ -149,52 +116,103 @@ impl TransientView {
         self.player.reached(reached);
     }
 
-    fn take(&mut self, row: Row) {
-        match (row, self.runs.last_mut()) {
-            (Row::Begun { by, trajectory, .. }, _) => {
-                let model = self.model.filter(|_| by != MarchedBy::Full);
-                self.runs.push(Run::begun(by, *trajectory, model));
-            }
-            (Row::Moment { moment, seconds, .. }, Some(run)) => {
-                run.trajectory.moments.push(moment);
-                run.seconds.push(seconds);
-            }
-            (Row::State { state, .. }, Some(run)) => run.trajectory.states.push(Arc::unwrap_or_clone(state)),
-            (Row::Marched(march), Some(run)) => {
-                run.ended = true;
-                run.trajectory.ended = march.trajectory.ended.clone();
-                run.trajectory.rejected_steps = march.trajectory.rejected_steps;
-                run.record.clone_from(&march.record);
-                if run.by == MarchedBy::Full {
-                    self.trained = None;
-                }
-            }
-            (Row::Trained { wall_s, moments, cut_short, .. }, _) => {
-                self.trained = Some((wall_s, moments));
-                self.notes.extend(cut_short);
-            }
-            (Row::Model(model), _) => self.take_model(&model),
-            (Row::Moment { .. } | Row::State { .. } | Row::Marched(_), None) => {}
+    /// The work has ended: what it had begun stays as it is.
+    fn end(&mut self) {
+        let stopped = self.work.message.is_none();
+        if let Some(run) = self.filled().filter(|run| stopped && !run.ended) {
+            (run.ended, run.trajectory.ended) = (true, Ended::Cancelled { time: run.reached() });
+        }
+        self.filled = Filled::None;
+    }
+
+    fn filled(&mut self) -> Option<&mut Run> {
+        match &mut self.filled {
+            Filled::None => None,
+            Filled::Shown(place) => self.runs.get_mut(*place),
+            Filled::Behind(run) => Some(run),
         }
     }
 
+    fn take(&mut self, row: Row) {
+        if let Some(setup) = self.next.take() {
+            self.replace(setup);
+        }
+        match row {
+            Row::Begun { by, trajectory, .. } => {
+                let trained_s = self.trained.as_ref().map_or(0.0, |trained| trained.0);
+                let model = self.following.model(by, trajectory.transient.frame);
+                let mut run = Run::begun(by, *trajectory, model);
+                run.model.iter_mut().for_each(|model| model.training_s += trained_s);
+                let replayed = |own: &Run| own.replayed && own.by == run.by && own.frame() == run.frame();
+                self.filled = if self.runs.iter().any(replayed) {
+                    Filled::Behind(Box::new(run))
+                } else {
+                    Filled::Shown(insert(&mut self.runs, run))
+                };
+            }
+            Row::Marched(march) => {
+                if matches!(march.by, By::Full { .. }) {
+                    self.trained = None;
+                }
+                if let Some(run) = self.filled() {
+                    run.end(&march);
+                }
+                if let Filled::Behind(run) = std::mem::take(&mut self.filled) {
+                    let replayed = |own: &Run| own.replayed && own.by == run.by && own.frame() == run.frame();
+                    if let Some(place) = self.runs.iter().position(replayed) {
+                        self.runs[place] = *run;
+                    }
+                }
+            }
+            Row::Trained { wall_s, moments, cut_short, .. } => {
+                self.trained = Some((wall_s, moments));
+                self.notes.extend(cut_short);
+            }
+            Row::Model(model) => {
+                self.take_model(&model);
+                self.following.keep(self.setup.as_ref(), model);
+            }
+            row @ (Row::Moment { .. } | Row::State { .. }) => {
+                if let Some(run) = self.filled() {
+                    run.take(row);
+                }
+            }
+        }
+    }
+
+    /// Lets runs of another set-up take the place of those on the screen. Replayed ones of the same stay until their
+    /// betters come.
+    fn replace(&mut self, setup: Arc<Setup>) {
+        let (same, last) = (self.setup.as_ref() == Some(&setup), self.following.models_are_last());
+        let follows =
+            |former: &Arc<Setup>| former.point == setup.point && former.study.duration == setup.study.duration;
+        if !self.setup.as_ref().is_some_and(follows) {
+            self.generation += 1;
+        }
+        self.runs.retain(|run| same && run.replayed);
+        self.runs.iter_mut().for_each(|run| run.replayed = !last);
+        if setup.study.linearised.is_none() {
+            self.linearised = None;
+        }
+        self.number = NumberStudy::default();
+        self.notes.clear();
+        self.trained = None;
+        self.setup = Some(setup);
+    }
+
     fn take_model(&mut self, made: &Model) {
-        let trained_s = self.trained.as_ref().map_or(0.0, |trained| trained.0);
-        let what = if matches!(made.kind, Kind::Reduced(_)) { "rows" } else { "operating points" };
-        let (modes, chosen, training_s) = (made.modes(), made.chosen(), trained_s + made.wall_s);
-        self.model = Some(ModelSize { modes, chosen, what, training_s });
         let (Kind::Linearised { model, .. }, Some(ctx)) = (&made.kind, &self.ctx) else { return };
-        let own = self.runs.iter().rev().find(|run| run.by == MarchedBy::Full);
+        let own = self.runs.iter().rev().find(|run| run.by == MarchedBy::Full && run.frame() == Frame::Fixed);
         let own = || own.map(|run| run.trajectory.moments.clone()).into_iter().collect();
         let (trainings, own) = match &self.trained {
             Some((_, trainings)) => (trainings.clone(), false),
             None => (own(), true),
         };
+        self.linearised = Some(Linearised { model: Arc::clone(model), trainings, own, other: None });
         let model = Arc::clone(model);
         // What the other rule would choose takes longer than a frame.
         self.looking.run(Job::start("Looking into the linearised model", wake(ctx), move |reporter| {
-            let other = OtherRule::of(&model);
-            reporter.send(Linearised { model, trainings, own, other });
+            reporter.send(OtherRule::of(&model));
             Ok(())
         }));
     }
@@ -216,17 +234,23 @@ impl TransientView {
     }
 
     fn difference(&self, k: usize) -> Option<f64> {
-        let (run, reference) = (self.runs.get(k)?, self.reference_of(k)?);
+        let (run, reference) = (self.runs.get(k)?, self.reference_of(k).filter(|reference| reference.ended)?);
         let whole = (0.0, run.reached());
         Some(run.trajectory.difference(&reference.trajectory, Quantity::CentralFilm, whole)?.0)
     }
 
-    /// The runs of the linearised model, by their weightings.
+    /// The runs of linearised models, by their weightings.
     pub fn linearised_runs(&self) -> impl Iterator<Item = (Weighting, &Run)> {
         self.runs.iter().filter_map(|run| match run.by {
             MarchedBy::Linearised(weighting) => Some((weighting, run)),
             MarchedBy::Full | MarchedBy::Reduced => None,
         })
+    }
+
+    /// Those of the linearised model that is looked into.
+    pub fn runs_of<'a>(&'a self, linearised: &'a Linearised) -> impl Iterator<Item = (Weighting, &'a Run)> {
+        let own = |run: &Run| run.linearised.as_ref().is_some_and(|model| Arc::ptr_eq(model, &linearised.model));
+        self.linearised_runs().filter(move |(_, run)| own(run))
     }
 
     /// The full run that the linearised ones are compared with.
@@ -239,6 +263,7 @@ impl TransientView {
     pub fn execute(&mut self, ctx: &Context, store: &Store, command: InTimeCommand) {
         match command {
             InTimeCommand::Run(setup) => self.start(ctx, store, *setup),
+            InTimeCommand::Follow(setup) => self.follow(ctx, store, *setup),
             InTimeCommand::Stop => self.stop(),
             InTimeCommand::GoTo(time) => self.player.go_to(time),
             InTimeCommand::TogglePlay => self.player.toggle(),
@@ -257,79 +282,52 @@ impl TransientView {
     }
 
     /// Stops the runs, and the study of their linearised model; what they have found stays.
-    pub fn stop(&self) {
+    pub fn stop(&mut self) {
+        self.following.rest();
         self.work.stop();
         self.number.work.stop();
     }
 
-    /// Runs a contact in time, unless it is refused.
+    /// Runs a contact in time from the beginning, unless it is refused.
     pub fn start(&mut self, ctx: &Context, store: &Store, setup: Setup) {
+        let setup = Arc::new(setup);
+        if self.begin(ctx, store, &setup, setup.question()) {
+            self.following.by_hand(&setup);
+            self.next = None;
+            self.runs.clear();
+            self.linearised = None;
+            self.looking = Background::default();
+            self.replace(setup);
+            self.generation += 1;
+            self.player = Player::default();
+        }
+    }
+
+    /// Begins a question about a set-up; whether it is not refused.
+    fn begin(&mut self, ctx: &Context, store: &Store, setup: &Arc<Setup>, question: Scene) -> bool {
+        self.ctx = Some(ctx.clone());
         if let Err(error) = setup.study.own_march(setup.point, setup.lubricant, Frame::Fixed).problem() {
+            self.work = Background::default();
             self.work.message = Some(error.to_string());
-            return;
+            return false;
         }
-        *self = Self { generation: self.generation + 1, ctx: Some(ctx.clone()), ..Self::default() };
-        self.work.run(setup.question().ask(Workbench::on(store, ""), wake(ctx)));
-        self.setup = Some(Arc::new(setup));
+        self.filled = Filled::None;
+        self.next = Some(Arc::clone(setup));
+        self.work.run(question.ask(Workbench::on(store, ""), wake(ctx)));
+        true
     }
 }
 
-impl Document {
-    /// The contact in time that the tab shows: the document's, or one to begin with.
-    pub fn transient_study(&self) -> TransientStudy {
-        self.transient.clone().unwrap_or_else(breathing)
-    }
-
-    /// Changes the contact in time it describes.
-    ///
-    /// # Errors
-    /// A sentence when it makes no sense; the document is unchanged then.
-    pub fn set_transient(&mut self, study: TransientStudy) -> Result<(), String> {
-        study.own_march(self.point, self.lubricant, Frame::Fixed).problem().map_err(|e| e.to_string())?;
-        let asked = question("Contact in time", &self.key(), self.transient_grid(), Study::Transient(study.clone()));
-        asked.check().map_err(|e| e.to_string())?;
-        self.transient = Some(study);
-        Ok(())
-    }
-
-    /// Why there are no contacts in time of this kind; `None` where there are.
-    pub fn no_transient(&self) -> Option<&'static str> {
-        match (self.point.kind, self.lubricant.shear) {
-            (ContactKind::Point, _) => Some("This version follows only line contacts in time; choose a line contact"),
-            (ContactKind::Line, ShearLaw::Newtonian) => None,
-            _ => Some("This version follows only Newtonian lubricants in time; choose one without shear constants"),
-        }
-    }
-
-    /// Whether its file holds the contact in time: a scene that asks another question keeps that; a point contact and a lubricant that thins
-    /// under shear have none.
-    pub fn saves_transient(&self) -> bool {
-        let asked = self.scene.as_ref().is_none_or(|scene| matches!(scene.study, Study::Transient(_)));
-        asked && self.point.kind == ContactKind::Line && self.lubricant.shear == ShearLaw::Newtonian
-    }
-
-    /// The grid of contacts in time: that of a scene of one, else the dissertation's.
-    pub fn transient_grid(&self) -> Grid {
-        let scene = self.scene.as_ref().filter(|scene| matches!(scene.study, Study::Transient(_)));
-        scene.map_or(Grid::DISSERTATION, |scene| scene.grid)
-    }
-}
-
-/// What the tab begins with: a load that breathes by a tenth, as in Fig. 2.6 (right), twice as long and in coarser steps.
-fn breathing() -> TransientStudy {
-    TransientStudy {
-        inputs: Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 4.0 }),
-        sampled: None,
-        duration: 8.0,
-        further: Vec::new(),
-        time_step: TimeStep::Fixed(0.05),
-        frames: vec![Frame::Fixed],
-        window: None,
-        trainings: Vec::new(),
-        training_loads: Vec::new(),
-        reduced: None,
-        linearised: None,
-        mass_between: None,
-        published: Vec::new(),
-    }
+/// Lays a run behind those of its frame that are told before it; where it lies then.
+fn insert(runs: &mut Vec<Run>, run: Run) -> usize {
+    let rank = |by: MarchedBy| match by {
+        MarchedBy::Full => 0,
+        MarchedBy::Reduced => 1,
+        MarchedBy::Linearised(_) => 2,
+    };
+    let before = |own: &Run| own.frame() == run.frame() && rank(own.by) <= rank(run.by);
+    let first_of_frame = runs.iter().position(|own| own.frame() == run.frame());
+    let place = runs.iter().rposition(before).map(|k| k + 1).or(first_of_frame).unwrap_or(runs.len());
+    runs.insert(place, run);
+    place
 }

@@ -16,9 +16,9 @@ pub struct Player {
 }
 
 impl Player {
-    /// T.
+    /// T, as far as the computation has come.
     pub fn time(&self) -> f64 {
-        self.time
+        self.time.min(self.end)
     }
 
     /// The last T there is.
@@ -77,6 +77,10 @@ mod tests {
         assert_eq!((player.time(), player.end()), (3.0, 4.0));
         player.advance(1.0, 8.0);
         assert_eq!(player.time(), 3.0, "nothing moves unasked");
+        player.reached(1.0);
+        assert_eq!(player.time(), 1.0, "a new run has come no farther");
+        player.reached(4.0);
+        assert_eq!(player.time(), 3.0, "and goes where somebody wanted to look");
         player.toggle();
         player.advance(1.0, 8.0);
         assert!((player.time() - 3.8).abs() < 1e-12 && player.playing());

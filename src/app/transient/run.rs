@@ -2,9 +2,10 @@
 
 use super::method;
 use crate::engine::median;
-use crate::scene::study::transient::MarchedBy;
+use crate::scene::study::transient::{Kind, March, MarchedBy, Model, Row};
 use crate::solver::full::transient::{Frame, State, Trajectory};
-use crate::solver::reduced::tpwl::TpwlRecord;
+use crate::solver::reduced::tpwl::{TpwlModel, TpwlRecord};
+use std::sync::Arc;
 
 /// Times are those of moments: rounding must not show the one before.
 const ROUNDING: f64 = 1e-12;
@@ -25,6 +26,10 @@ pub struct Run {
     pub difference: Option<f64>,
     /// What each step of a linearised model drew on; once it has ended.
     pub record: Option<TpwlRecord>,
+    /// The linearised model that it is by, where it is.
+    pub linearised: Option<Arc<TpwlModel>>,
+    /// Whether it is by a model that was made for a former set-up.
+    pub replayed: bool,
 }
 
 /// What a reduced model is made of, and what it took.
@@ -40,15 +45,56 @@ pub struct ModelSize {
     pub training_s: f64,
 }
 
+impl From<&Model> for ModelSize {
+    fn from(made: &Model) -> Self {
+        let what = if matches!(made.kind, Kind::Reduced(_)) { "rows" } else { "operating points" };
+        Self { modes: made.modes(), chosen: made.chosen(), what, training_s: made.wall_s }
+    }
+}
+
 impl Run {
     /// Its name among others.
     pub fn name(&self) -> String {
         method::run_name(self.by, self.frame())
     }
 
-    /// A run of which nothing is known yet.
-    pub fn begun(by: MarchedBy, trajectory: Trajectory, model: Option<ModelSize>) -> Self {
-        Self { by, trajectory, seconds: Vec::new(), ended: false, model, difference: None, record: None }
+    /// A run of which nothing is known yet, by a model where it is by one.
+    pub fn begun(by: MarchedBy, trajectory: Trajectory, model: Option<&Model>) -> Self {
+        let linearised = model.and_then(|model| match &model.kind {
+            Kind::Linearised { model, .. } => Some(Arc::clone(model)),
+            Kind::Reduced(_) => None,
+        });
+        Self {
+            by,
+            trajectory,
+            seconds: Vec::new(),
+            ended: false,
+            model: model.map(ModelSize::from),
+            difference: None,
+            record: None,
+            linearised,
+            replayed: false,
+        }
+    }
+
+    /// Takes in a moment or its fields.
+    pub fn take(&mut self, row: Row) {
+        match row {
+            Row::Moment { moment, seconds, .. } => {
+                self.trajectory.moments.push(moment);
+                self.seconds.push(seconds);
+            }
+            Row::State { state, .. } => self.trajectory.states.push(Arc::unwrap_or_clone(state)),
+            _ => {}
+        }
+    }
+
+    /// It has ended.
+    pub fn end(&mut self, march: &March) {
+        self.ended = true;
+        self.trajectory.ended = march.trajectory.ended.clone();
+        self.trajectory.rejected_steps = march.trajectory.rejected_steps;
+        self.record.clone_from(&march.record);
     }
 
     /// The step of its record that led to T, or the last one before.
@@ -68,8 +114,11 @@ impl Run {
         self.trajectory.moments.last().map_or(0.0, |moment| moment.time)
     }
 
-    /// The fields last kept at or before T, else the first ones.
+    /// The fields last kept at or before T, else the first ones; `None` where it has not come to T.
     pub fn state_at(&self, time: f64) -> Option<&State> {
+        if self.reached() * (1.0 + ROUNDING) < time {
+            return None;
+        }
         let next = self.trajectory.states.partition_point(|state| state.time <= time * (1.0 + ROUNDING));
         self.trajectory.states.get(next.saturating_sub(1))
     }

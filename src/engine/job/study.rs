@@ -2,7 +2,8 @@
 
 use super::{Job, Reporter, Wake, on_spare_cores};
 use crate::engine::{EngineError, Workbench};
-use crate::scene::{Scene, StudyObserver, StudyRow};
+use crate::scene::study::transient::Model;
+use crate::scene::{Scene, Study, StudyObserver, StudyRow};
 
 impl StudyObserver for Reporter<StudyRow> {
     fn row(&self, row: StudyRow) {
@@ -18,12 +19,26 @@ impl Scene {
     /// Begins to answer the scene's question on a bench. What the rows say is read off them by [`Scene::outcome`] and
     /// its study. A job that was stopped ends with the rows that there are.
     pub fn ask(self, mut bench: Workbench, wake: Wake) -> Job<StudyRow> {
+        self.answering(wake, move |scene, reporter| scene.study.run(&scene.experiment(), &mut bench, reporter))
+    }
+
+    /// Begins to take models that were made before along the inputs of the scene's contact in time, without the full
+    /// system; nothing where it asks another question.
+    pub fn replay(self, models: Vec<Model>, mut bench: Workbench, wake: Wake) -> Job<StudyRow> {
+        self.answering(wake, move |scene, reporter| match &scene.study {
+            Study::Transient(study) => study.replay(&models, &scene.experiment(), &mut bench, reporter),
+            _ => Ok(()),
+        })
+    }
+
+    fn answering(
+        self,
+        wake: Wake,
+        answer: impl FnOnce(&Self, &Reporter<StudyRow>) -> Result<(), EngineError> + Send + 'static,
+    ) -> Job<StudyRow> {
         let name = self.title.clone();
         Job::start(&name, wake, move |reporter| {
-            let answer = || -> Result<(), EngineError> {
-                self.check()?;
-                self.study.run(&self.experiment(), &mut bench, reporter)
-            };
+            let answer = || self.check().map_err(EngineError::from).and_then(|()| answer(&self, reporter));
             match on_spare_cores(answer) {
                 Err(error) if !error.cancelled() && !reporter.cancelled() => Err(error.to_string()),
                 _ => Ok(()),

@@ -7,6 +7,7 @@ use crate::app::color_map;
 use crate::app::figure::Texture;
 use crate::app::numbers;
 use crate::app::png;
+use crate::app::tabs::color_bar::UNITS;
 use crate::app::tabs::raster::Raster;
 use crate::solver::full::Solution;
 use egui::{Color32, ColorImage, Context, TextureId};
@@ -28,16 +29,6 @@ pub struct Images {
 
 /// Contour lines wanted between both ends of the scale.
 const LINES: f64 = 8.0;
-/// Parts of a film's scale, of which those below the smallest film are left out.
-const UNITS: f64 = 8.0;
-
-/// Values that the scale names: round ones from its lower end to its upper one.
-pub fn ticks((low, high): (f64, f64)) -> Vec<f64> {
-    let unit = if low > 0.0 { high / UNITS } else { high / 4.0 };
-    let count = ((high - low) / unit).round() as usize;
-    (0..=count).map(|k| low + unit * k as f64).collect()
-}
-
 impl Images {
     /// Makes image and contours anew where they are out of date.
     pub fn follow(&mut self, ctx: &Context, picture: &Picture, view: &MapView) {
@@ -137,17 +128,4 @@ fn contours(solution: &Solution, shown: Shown, (low, high): (f64, f64)) -> Vec<C
         }
     }
     all
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_scale_names_its_ends_and_round_values_between() {
-        assert_eq!(ticks((0.0, 1.2)).len(), 5);
-        let film = ticks((0.15, 0.4));
-        assert_eq!(film.len(), 6);
-        assert!((film[0] - 0.15).abs() < 1e-12 && (film[5] - 0.4).abs() < 1e-12 && (film[1] - 0.2).abs() < 1e-12);
-    }
 }

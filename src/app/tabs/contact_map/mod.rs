@@ -13,14 +13,16 @@ use images::Images;
 use crate::app::answers::picture::{Cuts, Picture};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
-use crate::app::controls::described;
+use crate::app::controls::{described, sentence};
+use crate::app::document::Edit;
 use crate::app::figure::{self, Subject};
 use crate::app::numbers;
 use crate::app::purpose::{Purpose, Written};
 use crate::app::tabs::cut_line::{self, snapped};
 use crate::app::tabs::grip::Grip;
-use crate::app::tabs::{axes, badge};
+use crate::app::tabs::{axes, badge, color_bar, in_time, space_time};
 use crate::app::theme::{Palette, faded};
+use crate::app::transient::InTimeCommand;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::optics::Interferometer;
 use egui::{Color32, CursorIcon, Response, RichText, Ui};
@@ -35,8 +37,6 @@ const X_RANGE: (f64, f64) = (-2.0, 1.6);
 const Y_RANGE: (f64, f64) = (-1.45, 1.45);
 /// How near (in screen points) the pointer must be to take a cut along.
 const GRAB: f32 = 7.0;
-/// Width of the colour bar with its numbers.
-const SCALE_WIDTH: f32 = 118.0;
 
 /// By which the map is known to screen readers and as a picture.
 const NAME: &str = "Map of the contact";
@@ -101,15 +101,15 @@ pub struct ContactMap {
     /// What is shown.
     pub view: MapView,
     images: Images,
+    /// A line contact over time.
+    over_time: space_time::SpaceTime,
 }
 
 impl ContactMap {
     /// The tab.
     pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         if context.document.point.kind == ContactKind::Line {
-            let text = "A line contact is the same at every Y: its profiles say everything. Choose the point contact under Operating \
-                point to see a map";
-            ui.centered_and_justified(|ui| ui.weak(text));
+            self.line(ui, context, commands);
             return;
         }
         self.toolbar(ui, context, commands);
@@ -129,7 +129,7 @@ impl ContactMap {
             Drawing { picture, images: &self.images, view: self.view, cuts: context.cuts, fit: context.fit, stale };
         let height = ui.available_height();
         let whole = ui.horizontal_top(|ui| {
-            let width = (ui.available_width() - SCALE_WIDTH - 8.0).max(200.0);
+            let width = (ui.available_width() - color_bar::WIDTH - 8.0).max(200.0);
             let drawn = ui.vertical(|ui| {
                 ui.set_width(width);
                 drawing.ui(ui, height)
@@ -140,6 +140,27 @@ impl ContactMap {
         figure::offer_of(ui, NAME, whole.response.rect, Subject::Map);
         let (response, transform) = whole.inner;
         drag_cuts(ui, context.cuts, &response, &transform, commands);
+    }
+
+    /// What a line contact has instead: a ball in its place with one click, and its film over time.
+    fn line(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        ui.horizontal_wrapped(|ui| {
+            let tip = "A point contact with the same quantities, whose film differs over the plane";
+            if ui.button("Show a ball instead").on_hover_text(tip).clicked() {
+                commands.edit(Edit::Kind(ContactKind::Point), "contact");
+            }
+            ui.weak("A line contact is the same at every Y: what it has is its film over time.");
+        });
+        if let Some(why) = context.document.no_transient() {
+            ui.weak(sentence(why));
+            return;
+        }
+        in_time::follow(context, commands);
+        in_time::status(ui, context);
+        let height = ui.available_height() - 30.0;
+        let wanted = self.over_time.ui(ui, context, commands, height);
+        commands.extend(wanted.map(|time| Command::InTime(InTimeCommand::GoTo(time))));
+        in_time::player(ui, context.transient, commands);
     }
 
     fn toolbar(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {

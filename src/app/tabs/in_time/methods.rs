@@ -16,7 +16,7 @@ pub fn ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
     let mut on = study.reduced.is_some();
     let tip = "Solves the nonlinear equations in a reduced space, at sampled rows (RNSA); trained beforehand";
     if ui.add(Checkbox::new(&mut on, "Reduced model")).on_hover_text(tip).changed() {
-        study.reduced = on.then_some(ReducedTransient { loss: 1e-6, rows_per_mode: 2.0, seed: 1 });
+        study.reduced = on.then(ReducedTransient::default);
         form.changed = Some("Methods");
     }
     if let Some(reduced) = &mut study.reduced {

@@ -1,7 +1,9 @@
 //! What the tabs of contacts in time share: their form, the button that runs them, how far they are, and the moment
 //! that is looked at.
 
+pub mod badge;
 pub mod methods;
+pub mod series;
 
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
@@ -13,8 +15,10 @@ use crate::app::theme::rich;
 use crate::app::transient::{InTimeCommand, Run, Setup, TransientView};
 use crate::engine::TOO_STEEP;
 use crate::scene::TransientStudy;
+use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::Ended;
-use crate::solver::reduced::tpwl::TpwlRecord;
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::reduced::tpwl::{TpwlRecord, Weighting};
 use egui::{Slider, Ui};
 
 /// A form over the contact in time of the document, refused under a name of its own; returns the field that was changed
@@ -29,14 +33,51 @@ pub fn edit(
     let before = context.document.transient_study();
     let mut study = before.clone();
     let mut form = Form::new(name, last, context);
-    ui.add_enabled_ui(context.transient.standing().is_none(), |ui| content(ui, &mut form, &mut study));
+    ui.add_enabled_ui(!context.transient.runs_by_hand(), |ui| content(ui, &mut form, &mut study));
     let edit = (study != before).then(|| Edit::Transient(Box::new(study)));
     form.ask(edit, "Frames", commands)
 }
 
+/// Lets the contact in time follow the document: called by every tab that shows it.
+pub fn follow(context: &Context<'_>, commands: &mut Commands) {
+    let wanted = Setup::of(context.document, context.file);
+    if !context.transient.follows(&wanted) && !context.transient.runs_by_hand() {
+        commands.push(Command::InTime(InTimeCommand::Follow(Box::new(wanted))));
+    }
+}
+
+/// What stands where there are no contacts in time: why, and a roller with one click where that helps.
+pub fn elsewhere(ui: &mut Ui, context: &Context<'_>, why: &str, commands: &mut Commands) {
+    ui.weak(sentence(why));
+    let tip = "A line contact with the same quantities";
+    if context.document.point.kind == ContactKind::Point
+        && ui.button("Show a roller instead").on_hover_text(tip).clicked()
+    {
+        commands.edit(Edit::Kind(ContactKind::Line), "contact");
+    }
+}
+
+/// Whether something is computed or about to be, unasked.
+pub fn is_coming(context: &Context<'_>) -> bool {
+    let view = context.transient;
+    let wanted = Setup::of(context.document, context.file);
+    view.standing().is_some() || view.waits() || !view.follows(&wanted)
+}
+
+/// Draws the rest grey where it belongs to a former set-up and nothing of the present one is about to come.
+pub fn grey_where_stale(ui: &mut Ui, context: &Context<'_>) {
+    if !context.transient.is_current() && !context.transient.replays() {
+        ui.multiply_opacity(STALE);
+    }
+}
+
+/// Opacity of what belongs to a former set-up.
+pub const STALE: f32 = 0.4;
+
 /// The runs, started or stopped.
 pub fn run_button(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-    if context.transient.standing().is_some() {
+    let view = context.transient;
+    if view.runs_by_hand() {
         if ui.button("Stop").on_hover_text("What has been computed so far stays (Esc)").clicked() {
             commands.push(Command::InTime(InTimeCommand::Stop));
         }
@@ -54,14 +95,16 @@ pub fn run_button(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
 /// say.
 pub fn status(ui: &mut Ui, context: &Context<'_>) {
     let view = context.transient;
-    standing_ui(ui, view.standing(), "Progress of the contact in time");
+    if view.runs_by_hand() {
+        standing_ui(ui, view.standing(), "Progress of the contact in time");
+    }
     if let Some(message) = &view.work.message {
         message_ui(ui, message);
     }
     for note in &view.notes {
         message_ui(ui, note);
     }
-    let steep = |(_, run): (_, &Run)| run.record.as_ref().is_some_and(TpwlRecord::too_steep);
+    let steep = |(_, run): (_, &Run)| !run.replayed && run.record.as_ref().is_some_and(TpwlRecord::too_steep);
     if view.linearised_runs().any(steep) {
         warning_ui(ui, &format!("{TOO_STEEP}. Tick Reduced model, or train on inputs like these"));
     }
@@ -76,7 +119,8 @@ pub fn status(ui: &mut Ui, context: &Context<'_>) {
         }
     }
     let wanted = Setup::of(context.document, context.file);
-    if let Some(setup) = view.setup.as_ref().filter(|setup| ***setup != wanted) {
+    let asked = |setup: &&std::sync::Arc<Setup>| ***setup != wanted && !wanted.is_quick();
+    if let Some(setup) = view.setup.as_ref().filter(asked) {
         let of = numbers::moes(setup.point.moes());
         warning_ui(ui, &format!("What is shown belongs to {of} and a former set-up; run it again for the present one"));
     }
@@ -99,7 +143,9 @@ pub fn player(ui: &mut Ui, view: &TransientView, commands: &mut Commands) {
         let mut time = view.player.time();
         let text =
             format!("{{T}} = {}, {}", numbers::significant(time), numbers::duration(time * setup.time_scale_s()));
-        ui.spacing_mut().slider_width = (ui.available_width() - 190.0).max(80.0);
+        let costs = costs(view);
+        let room = if ui.available_width() > COSTS_FROM { 190.0 + COSTS } else { 190.0 };
+        ui.spacing_mut().slider_width = (ui.available_width() - room).max(80.0);
         let response = ui.add(Slider::new(&mut time, 0.0..=view.player.end().max(f64::MIN_POSITIVE)).show_value(false));
         let response = named(ui, response, "Time T");
         if response.changed() {
@@ -107,6 +153,44 @@ pub fn player(ui: &mut Ui, view: &TransientView, commands: &mut Commands) {
         }
         let tip =
             "The moment whose profiles are shown, in units of a/u_m of the reference contact (2.22) and on the clock";
-        ui.label(rich(&text, 13.5, ui.visuals().text_color())).on_hover_text(tip);
+        let time = ui.horizontal(|ui| {
+            ui.set_min_width(TIME);
+            ui.label(rich(&text, 13.5, ui.visuals().text_color())).on_hover_text(tip);
+        });
+        if room > 190.0 {
+            ui.weak(costs)
+                .on_hover_text("Medians of the time per step, and how many times faster than the full system");
+        }
+        time.inner
     });
+}
+
+/// Width of the tab from which on costs stand beside the moment, and their own.
+const COSTS_FROM: f32 = 780.0;
+const COSTS: f32 = 330.0;
+/// Width of the moment in numbers.
+const TIME: f32 = 120.0;
+
+/// What a step costs by each method.
+fn costs(view: &TransientView) -> String {
+    let Some(first) = view.runs.first().map(Run::frame) else { return String::new() };
+    let own = || view.runs.iter().filter(|run| run.frame() == first);
+    let full = own().find(|run| run.by == MarchedBy::Full).and_then(Run::seconds_per_step);
+    let said = |run: &Run| {
+        let seconds = run.seconds_per_step()?;
+        let name = match run.by {
+            MarchedBy::Full => "full",
+            MarchedBy::Reduced => "reduced",
+            MarchedBy::Linearised(Weighting::DualTaylor) => "linearised",
+            MarchedBy::Linearised(Weighting::Dissertation) => return None,
+        };
+        let faster = full.filter(|_| run.by != MarchedBy::Full).map(|full| faster(full / seconds));
+        Some(format!("{name} {}{}", numbers::duration(seconds), faster.unwrap_or_default()))
+    };
+    own().filter_map(said).collect::<Vec<_>>().join("   ")
+}
+
+/// How many times faster, in brackets.
+pub fn faster(times: f64) -> String {
+    format!(" (×{}{})", numbers::THIN, numbers::digits(times, 2))
 }

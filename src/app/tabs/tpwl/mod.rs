@@ -1,7 +1,9 @@
 //! The linearised model: where its operating points lie, which of them carry the present moment, and how many it takes.
 
+mod dials;
 mod export;
 mod number;
+mod pictures;
 mod plane;
 mod table;
 mod trajectory;
@@ -10,14 +12,15 @@ mod weights;
 use super::in_time::{self, methods};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
-use crate::app::controls::{choice, message_ui, standing_ui, why};
+use crate::app::controls::{choice, message_ui, why};
+use crate::app::document::Edit;
 use crate::app::form::LastField;
 use crate::app::numbers;
 use crate::app::theme::Palette;
 use crate::app::transient::linearised::{Linearised, PointNow};
 use crate::app::transient::method::{WEIGHTINGS, weighting_name};
 use crate::app::transient::{InTimeCommand, Run, TransientView};
-use crate::engine::job::Standing;
+use crate::scene::LinearisedTransient;
 use crate::solver::full::transient::Quantity;
 use crate::solver::reduced::tpwl::Weighting;
 use egui::{Button, Color32, Grid, Pos2, Response, ScrollArea, Ui};
@@ -26,8 +29,6 @@ use table::Sorting;
 
 /// Width of the settings.
 const FORM_WIDTH: f32 = 296.0;
-/// Width from which on pictures stand side by side.
-const SIDE_BY_SIDE: f32 = 560.0;
 /// Height below which a picture cannot be read.
 const LEAST_HEIGHT: f32 = 118.0;
 /// How near (in screen points) the pointer must be to a point.
@@ -41,11 +42,11 @@ pub struct Tpwl {
     coordinates: [usize; 2],
     /// Which training trajectory is drawn.
     trajectory: usize,
-    /// Whether the study of numbers stands in place of the weights.
-    numbers: bool,
+    /// Whether the other rule's points stand in place of the table.
+    other: bool,
     sorting: Sorting,
-    /// Settings shown or hidden; shown until there is a model where nobody has decided.
-    form: Option<bool>,
+    /// Whether settings are shown.
+    form: bool,
     why: bool,
     last: LastField,
 }
@@ -56,9 +57,9 @@ impl Default for Tpwl {
             quantity: Quantity::CentralFilm,
             coordinates: [0, 1],
             trajectory: 0,
-            numbers: false,
+            other: false,
             sorting: Sorting::default(),
-            form: None,
+            form: false,
             why: false,
             last: None,
         }
@@ -81,7 +82,7 @@ struct ShownModel<'a> {
 impl<'a> ShownModel<'a> {
     fn new(ui: &Ui, tab: &'a Tpwl, context: &Context<'a>, linearised: &'a Linearised) -> Self {
         let view = context.transient;
-        let runs: Vec<_> = view.linearised_runs().collect();
+        let runs: Vec<_> = view.runs_of(linearised).collect();
         let points = linearised.points_at(&runs, view.player.time());
         Self { view, tab, linearised, runs, points, palette: Palette::of(ui), fit: context.fit }
     }
@@ -116,11 +117,13 @@ impl Tpwl {
     /// The tab.
     pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         if let Some(why) = context.document.no_transient() {
-            ui.centered_and_justified(|ui| ui.weak(why));
+            in_time::elsewhere(ui, context, why, commands);
             return;
         }
+        in_time::follow(context, commands);
+        self.fill_numbers(context, commands);
         ui.horizontal_top(|ui| {
-            if self.form_shown(context) {
+            if self.form {
                 ui.vertical(|ui| {
                     ui.set_width(FORM_WIDTH);
                     let area = ScrollArea::vertical().id_salt("tpwl form").auto_shrink(false);
@@ -144,37 +147,56 @@ impl Tpwl {
         ui.weak("Inputs, duration and steps are those of the Transient tab.");
     }
 
-    fn form_shown(&self, context: &Context<'_>) -> bool {
-        self.form.unwrap_or(context.transient.linearised.is_none())
+    /// Lets the study of numbers run by itself, once for each model.
+    fn fill_numbers(&self, context: &Context<'_>, commands: &mut Commands) {
+        let view = context.transient;
+        let Some(linearised) = &view.linearised else { return };
+        let compared = view.reference_of_linearised().is_some_and(|full| full.ended) && !view.waits();
+        if compared && view.is_current() && view.standing().is_none() && !view.number.is_of(&linearised.model) {
+            commands.push(Command::InTime(InTimeCommand::StudyNumber));
+        }
     }
 
     fn results(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         let (top, height) = (ui.cursor().top(), ui.available_height());
         self.buttons(ui, context, commands);
         why(ui, self.why, WHY);
+        ui.horizontal_wrapped(|ui| {
+            dials::ui(ui, context, commands);
+            in_time::badge::ui(ui, context);
+        });
+        if !self.form {
+            context.entries.message_ui(ui, dials::NAME);
+        }
         in_time::status(ui, context);
-        number_status(ui, context.transient);
+        if let Some(message) = &context.transient.number.work.message {
+            message_ui(ui, message);
+        }
         let Some(linearised) = &context.transient.linearised else {
-            nothing_yet(ui, context);
+            nothing_yet(ui, context, commands);
             return;
         };
-        in_time::player(ui, context.transient, commands);
         self.choices(ui, linearised);
-        let rest = height - (ui.cursor().top() - top) - 30.0;
+        dials::inputs_ui(ui, context);
+        let rest = height - (ui.cursor().top() - top) - 34.0;
         let mut sorting = self.sorting;
-        let wanted = pictures(ui, &ShownModel::new(ui, self, context, linearised), &mut sorting, rest);
+        let pictures = ui.scope(|ui| {
+            in_time::grey_where_stale(ui, context);
+            if context.transient.is_current() && context.transient.runs_of(linearised).next().is_none() {
+                ui.multiply_opacity(in_time::STALE);
+            }
+            pictures::all(ui, &ShownModel::new(ui, self, context, linearised), &mut sorting, rest)
+        });
         self.sorting = sorting;
-        commands.extend(wanted.map(|time| Command::InTime(InTimeCommand::GoTo(time))));
+        commands.extend(pictures.inner.map(|time| Command::InTime(InTimeCommand::GoTo(time))));
+        in_time::player(ui, context.transient, commands);
     }
 
     fn buttons(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         let view = context.transient;
         ui.horizontal_wrapped(|ui| {
-            let mut form = self.form_shown(context);
             let tip = "Shows how the linearised model is made, or leaves the room to pictures";
-            if ui.toggle_value(&mut form, "Model set-up").on_hover_text(tip).changed() {
-                self.form = Some(form);
-            }
+            ui.toggle_value(&mut self.form, "Model set-up").on_hover_text(tip);
             in_time::run_button(ui, context, commands);
             let there = view.linearised.is_some();
             let ready = there && view.standing().is_none();
@@ -188,7 +210,6 @@ impl Tpwl {
                 && view.reference_of_linearised().is_some()
             {
                 commands.push(Command::InTime(InTimeCommand::StudyNumber));
-                self.numbers = true;
             }
             let mut table = |ui: &mut Ui, name: &str, tip: &str, text: fn(&ShownModel<'_>) -> String| {
                 if enabled(ui, there, name, tip).clicked()
@@ -267,77 +288,30 @@ impl Tpwl {
                     .response
                     .labelled_by(label.id);
             }
-            ui.selectable_value(&mut self.numbers, false, "Weights");
-            ui.selectable_value(&mut self.numbers, true, "Number and error");
+            let tip = "All points with their weights and distances at this moment";
+            ui.selectable_value(&mut self.other, false, "Table").on_hover_text(tip);
+            let tip = "The points that the other rule would choose, as many";
+            ui.selectable_value(&mut self.other, true, "Other rule").on_hover_text(tip);
         });
-    }
-}
-
-/// All pictures; returns the moment that was clicked at.
-fn pictures(ui: &mut Ui, shown: &ShownModel<'_>, sorting: &mut Sorting, rest: f32) -> Option<f64> {
-    if ui.available_width() >= SIDE_BY_SIDE {
-        let unit = (0.5 * rest).max(2.0 * LEAST_HEIGHT);
-        let width = ui.available_width();
-        let halves = |ui: &mut Ui, left: &mut dyn FnMut(&mut Ui), right: &mut dyn FnMut(&mut Ui)| {
-            ui.horizontal_top(|ui| {
-                ui.vertical(|ui| {
-                    ui.set_width(0.54 * width);
-                    left(ui);
-                });
-                ui.vertical(|ui| right(ui));
-            });
-        };
-        let (mut first, mut second, mut third, mut fourth) = (None, None, None, None);
-        halves(ui, &mut |ui| first = trajectory::ui(ui, shown, 0.5 * unit), &mut |ui| {
-            second = plane::ui(ui, shown, unit);
-        });
-        halves(ui, &mut |ui| third = lower(ui, shown, unit), &mut |ui| {
-            fourth = table::ui(ui, shown, sorting, unit);
-        });
-        first.or(second).or(third).or(fourth)
-    } else {
-        let unit = 1.2 * LEAST_HEIGHT;
-        let first = trajectory::ui(ui, shown, unit);
-        let second = plane::ui(ui, shown, 1.6 * unit).or(first);
-        let third = lower(ui, shown, 1.6 * unit).or(second);
-        table::ui(ui, shown, sorting, 1.6 * unit).or(third)
-    }
-}
-
-/// The weights, or the study of numbers.
-fn lower(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
-    if shown.tab.numbers {
-        number::ui(ui, shown, height);
-        None
-    } else {
-        weights::ui(ui, shown, height)
     }
 }
 
 /// What to do where there is no linearised model yet.
-fn nothing_yet(ui: &mut Ui, context: &Context<'_>) {
-    if context.transient.standing().is_some() {
-        return;
-    }
-    if context.document.transient_study().linearised.is_some() {
+fn nothing_yet(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+    let mut study = context.document.transient_study();
+    if study.linearised.is_none() {
+        ui.weak("This contact in time has no linearised model yet.");
+        if ui.button("Linearise this run").on_hover_text("Adds it with its usual settings").clicked() {
+            study.linearised = Some(LinearisedTransient::default());
+            commands.edit(Edit::Transient(Box::new(study)), dials::NAME);
+        }
+    } else if !in_time::is_coming(context) {
         ui.weak("Run it in time: the full system first, whose trajectory is then linearised and followed.");
-        return;
     }
-    ui.weak("Tick Linearised model to choose operating points along a trajectory, and run it in time.");
 }
 
 fn enabled(ui: &mut Ui, on: bool, name: &str, tip: &str) -> Response {
     ui.add_enabled(on, Button::new(name)).on_hover_text(tip).on_disabled_hover_text(tip)
-}
-
-fn number_status(ui: &mut Ui, view: &TransientView) {
-    let study = &view.number;
-    // The ladder's rungs take longer and longer: their number says nothing of the time that is left.
-    let standing = study.work.standing().map(|standing| Standing { left_s: None, ..standing });
-    standing_ui(ui, standing, "Progress of the study of their number");
-    if let Some(message) = &study.work.message {
-        message_ui(ui, message);
-    }
 }
 
 /// The point whose place on the screen is nearest to the pointer, if it is near.

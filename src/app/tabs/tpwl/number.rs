@@ -5,22 +5,25 @@ use crate::app::tabs::axes;
 use crate::app::theme::rich;
 use crate::app::transient::linearised::NumberRow;
 use crate::app::transient::method::{RULES, WEIGHTINGS, rule_name, weighting_name};
-use egui::Ui;
-use egui_plot::{Corner, Legend, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points, VLine};
+use crate::solver::full::transient::Quantity;
+use egui::{Color32, Ui};
+use egui_plot::{Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points, VLine};
+
+/// What stands above the plot.
+const HEAD: &str = "Error of {H_c}: solid by distance, dashed by missed step";
 
 /// The plot, with logarithmic axes.
 pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) {
     let study = &shown.view.number;
+    let head = if study.rows.is_empty() { "Error by number of points: coming" } else { HEAD };
+    let head = rich(head, 12.5, shown.palette.quiet);
+    ui.label(head).on_hover_text(
+        "Relative L2 difference of H_c from the full run, both rules on a ladder of tolerances; the dotted line and the diamond are the model \
+         in use",
+    );
     if study.rows.is_empty() {
-        ui.weak(if study.work.standing().is_some() {
-            "The coarsest models come first."
-        } else {
-            "Number against error tries both rules on a ladder of tolerances, along these inputs."
-        });
         return;
     }
-    let head = rich("Error of {H_c} against the full run, the number in use dotted", 13.5, shown.palette.quiet);
-    ui.label(head).on_hover_text("Relative L2 difference of H_c over the whole run");
     let curve = |rule: &str, weighting| -> Vec<PlotPoint> {
         let own = |row: &&NumberRow| row.selection.name() == rule && row.weighting == weighting;
         let place = |row: &NumberRow| Some(PlotPoint::new((row.points as f64).log10(), row.difference?.log10()));
@@ -35,11 +38,18 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) {
             lines.push((name, curve(rule.name(), weighting), style, shape, shown.color(k)));
         }
     }
+    let present = shown.runs.iter().filter_map(|(weighting, run)| {
+        let full = shown.view.reference_of_linearised()?;
+        let whole = (0.0, run.reached());
+        let (_, l2) = run.trajectory.difference(&full.trajectory, Quantity::CentralFilm, whole)?;
+        let color = WEIGHTINGS.iter().position(|own| own == weighting).map(|k| shown.color(k))?;
+        Some((PlotPoint::new((shown.linearised.model.points.len() as f64).log10(), l2.log10()), color))
+    });
+    let present: Vec<(PlotPoint, Color32)> = present.filter(|(place, _)| place.y.is_finite()).collect();
     let used = (shown.linearised.model.points.len().max(1) as f64).log10();
     let reference = shown.palette.reference;
     let id = format!("tpwl number {}", shown.view.generation);
     let plot = axes::plot(ui, &id, height - 22.0, "Operating points", "Error of {H_c}")
-        .legend(Legend::default().position(Corner::LeftBottom).follow_insertion_order(true).background_alpha(0.6))
         .x_grid_spacer(axes::log_marks)
         .x_axis_formatter(|mark, _| axes::log_label(mark))
         .y_grid_spacer(axes::decade_marks)
@@ -53,6 +63,10 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) {
             let dots = Points::new(name.clone(), PlotPoints::Owned(points.clone())).id(("dots", k)).shape(shape);
             plot.line(Line::new(name, PlotPoints::Owned(points)).id(("line", k)).color(color).style(style).width(1.6));
             plot.points(dots.color(color).radius(3.2).allow_hover(false));
+        }
+        for (k, (place, color)) in present.into_iter().enumerate() {
+            let mark = Points::new("In use", PlotPoints::Owned(vec![place])).id(("present", k));
+            plot.points(mark.shape(MarkerShape::Diamond).color(color).radius(7.0).allow_hover(false));
         }
     });
 }

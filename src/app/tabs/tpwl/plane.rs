@@ -4,7 +4,7 @@ use super::trajectory::{marks, weighted};
 use super::{ShownModel, near, point_under};
 use crate::app::tabs::axes;
 use crate::app::transient::linearised::PointNow;
-use egui::{Ui, Vec2b};
+use egui::{RichText, Ui, Vec2b};
 use egui_plot::{Line, MarkerShape, PlotPoint, PlotPoints, Points};
 
 /// Most points of the run's path that are drawn.
@@ -37,12 +37,17 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
     let (path, now) = path(shown, at);
     let (dots, markers) = (places.iter().map(|(_, place)| *place).collect(), weighted(shown, &places));
     let id = format!("tpwl plane {} {across} {up}", shown.view.generation);
-    ui.weak("Training, operating points and the run").on_hover_text(
-        "Reduced coordinates V^T W P and H_0: blue the training trajectories, black the operating points, dashed the path of the run, a diamond \
-         the moment that is looked at",
-    );
+    let key = [("training", film), ("operating points", palette.text), ("run, dashed", palette.quiet)];
+    ui.horizontal(|ui| {
+        for (name, color) in key.into_iter().chain([("weights", shown.color(0)), ("now", palette.pressure)]) {
+            ui.label(RichText::new(name).small().color(color)).on_hover_text(
+                "Reduced coordinates V^T W P and H_0: the training trajectories, the operating points, as large as they weigh now, the path of \
+                 the run, and a diamond at the moment that is looked at",
+            );
+        }
+    });
     let plot = axes::plot(ui, &id, height - 22.0, &axis_title(across, modes), &axis_title(up, modes))
-        .x_grid_spacer(|input| axes::round_marks(input, 4.0))
+        .x_grid_spacer(|input| axes::round_marks(input, 3.0))
         .y_grid_spacer(|input| axes::round_marks(input, 5.0))
         .set_margin_fraction(egui::vec2(0.06, 0.06))
         .auto_bounds(Vec2b::TRUE);

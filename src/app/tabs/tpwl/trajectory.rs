@@ -4,22 +4,15 @@
 use super::{ShownModel, near, point_under};
 use crate::app::numbers;
 use crate::app::tabs::axes;
-use crate::app::theme::THIN_WIDTH;
+use crate::app::tabs::in_time::series;
+use crate::app::theme::{THIN_WIDTH, faded};
+use crate::app::transient::Run;
 use crate::app::transient::linearised::PointNow;
 use crate::app::transient::method::rule_name;
 use crate::solver::full::transient::Quantity;
 use crate::solver::reduced::tpwl::Selection;
 use egui::{Color32, Id, Ui, Vec2b};
 use egui_plot::{Line, MarkerShape, Plot, PlotPoint, PlotPoints, Points, VLine};
-
-/// Both plots, each as high as given; returns the moment that was clicked at.
-pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
-    let own = shown.linearised.model.training.selection;
-    let first = chosen(ui, shown, own, height);
-    let other = &shown.linearised.other;
-    let moments = other.chosen.get(shown.tab.trajectory).map_or(&[][..], Vec::as_slice);
-    first.or(not_chosen(ui, shown, other.selection, moments, height))
-}
 
 /// The colour of what is drawn, and its symbol.
 fn look(shown: &ShownModel<'_>) -> (Color32, &'static str) {
@@ -30,10 +23,11 @@ fn look(shown: &ShownModel<'_>) -> (Color32, &'static str) {
 }
 
 fn plot<'a>(ui: &Ui, shown: &ShownModel<'_>, id: &str, titles: (&str, &str), height: f32) -> Plot<'a> {
+    let columns = series::marks(ui.available_width());
     let group = Id::unique(("tpwl trajectory", shown.view.generation, shown.tab.trajectory));
     let (generation, quantity, trajectory) = (shown.view.generation, shown.tab.quantity, shown.tab.trajectory);
     axes::plot(ui, &format!("{id} {generation} {quantity:?} {trajectory}"), height, titles.0, titles.1)
-        .x_grid_spacer(|input| axes::round_marks(input, 6.0))
+        .x_grid_spacer(move |input| axes::round_marks(input, columns))
         .y_grid_spacer(|input| axes::round_marks(input, 3.0))
         .link_axis(group, Vec2b::new(true, false))
         .link_cursor(group, Vec2b::new(true, false))
@@ -45,6 +39,15 @@ fn plot<'a>(ui: &Ui, shown: &ShownModel<'_>, id: &str, titles: (&str, &str), hei
 fn curve(shown: &ShownModel<'_>) -> Vec<PlotPoint> {
     let moments = shown.linearised.trainings.get(shown.tab.trajectory).map_or(&[][..], Vec::as_slice);
     axes::thinned(moments.iter().map(|moment| PlotPoint::new(moment.time, moment.value(shown.tab.quantity))).collect())
+}
+
+/// What the linearised model makes of it, where it was trained by the run itself: broad and pale, as everywhere.
+fn runs(shown: &ShownModel<'_>) -> Vec<(String, Vec<PlotPoint>)> {
+    let runs = shown.runs.iter().filter(|_| shown.linearised.own);
+    let points = |run: &Run| -> Vec<PlotPoint> {
+        run.trajectory.moments.iter().map(|m| PlotPoint::new(m.time, m.value(shown.tab.quantity))).collect()
+    };
+    runs.map(|(_, run)| (run.name(), axes::thinned(points(run)))).collect()
 }
 
 fn place(shown: &ShownModel<'_>, time: f64) -> Option<PlotPoint> {
@@ -60,7 +63,8 @@ fn title(ui: &mut Ui, rule: Selection, points: usize, used: &str) {
 }
 
 /// The rule in use: points grow with their weights, and a click goes to their moment.
-fn chosen(ui: &mut Ui, shown: &ShownModel<'_>, rule: Selection, height: f32) -> Option<f64> {
+pub fn chosen(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
+    let rule = shown.linearised.model.training.selection;
     let places: Vec<(&PointNow, PlotPoint)> = shown
         .of_trajectory()
         .filter_map(|now| {
@@ -73,8 +77,13 @@ fn chosen(ui: &mut Ui, shown: &ShownModel<'_>, rule: Selection, height: f32) -> 
     let (line, time, own) = (curve(shown), shown.view.player.time(), shown.linearised.own);
     let (palette, markers) = (shown.palette, weighted(shown, &places));
     let dots: Vec<PlotPoint> = places.iter().map(|(_, place)| *place).collect();
-    let plot = plot(ui, shown, "tpwl chosen", ("", symbol), height - 22.0);
+    let plot = plot(ui, shown, "tpwl chosen", ("{T}", symbol), height - 22.0);
+    let runs = runs(shown);
     let drawn = axes::show(plot, ui, "Operating points along the trajectory", move |plot| {
+        for (name, points) in runs {
+            let line = Line::new(name, PlotPoints::Owned(points)).color(faded(color, 0.5)).width(5.0);
+            plot.line(line.allow_hover(false));
+        }
         plot.line(Line::new("Training", PlotPoints::Owned(line)).color(color).width(1.6).allow_hover(false));
         if own {
             plot.vline(VLine::new("", time).id("now").color(palette.accent).width(1.0).allow_hover(false));
@@ -91,7 +100,13 @@ fn chosen(ui: &mut Ui, shown: &ShownModel<'_>, rule: Selection, height: f32) -> 
 }
 
 /// The other rule, when it is to choose as many points.
-fn not_chosen(ui: &mut Ui, shown: &ShownModel<'_>, rule: Selection, chosen: &[usize], height: f32) -> Option<f64> {
+pub fn not_chosen(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
+    let Some(other) = &shown.linearised.other else {
+        ui.weak("What the other rule would choose is being found out");
+        return None;
+    };
+    let rule = other.selection;
+    let chosen = other.chosen.get(shown.tab.trajectory).map_or(&[][..], Vec::as_slice);
     title(ui, rule, chosen.len(), "the other rule");
     let (color, symbol) = look(shown);
     let moments = shown.linearised.model.trajectories.get(shown.tab.trajectory).map_or(&[][..], Vec::as_slice);

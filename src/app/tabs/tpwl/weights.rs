@@ -75,7 +75,8 @@ fn head(ui: &mut Ui, shown: &ShownModel<'_>) {
             "The distance of the extrapolated state from the barycentre of the points that carry it, over the distance between those \
              points: beyond about two a linearised model knows nothing",
         );
-        for k in (0..WEIGHTINGS.len()).filter(|&k| shown.was_run(k)) {
+        let both = (0..WEIGHTINGS.len()).all(|k| shown.was_run(k));
+        for k in (0..WEIGHTINGS.len()).filter(|_| both) {
             let (name, meaning) = weighting_name(WEIGHTINGS[k]);
             ui.label(RichText::new(name).color(shown.color(k))).on_hover_text(meaning);
         }

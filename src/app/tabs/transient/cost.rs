@@ -1,16 +1,23 @@
 //! The runs as a table, which is the plots' legend too: where each stands at this moment, how far it lies from what it
 //! is compared with, and what it cost.
 
-use super::series;
 use crate::app::numbers;
+use crate::app::tabs::in_time::faster;
+use crate::app::tabs::in_time::series;
 use crate::app::theme::{Palette, rich};
 use crate::app::transient::{Run, TransientView};
+use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::Quantity;
 use egui::{Grid, Sense, Shape, Stroke, Ui, vec2};
 use egui_plot::LineStyle;
 
 /// Width below which the table leaves out what the plots show anyway.
 const WIDE: f32 = 520.0;
+
+/// Height of the table.
+pub fn height(view: &TransientView) -> f32 {
+    18.0 * (view.setup.as_ref().map_or(0, |setup| setup.runs()).max(view.runs.len()) + 1) as f32
+}
 
 /// The table.
 pub fn ui(ui: &mut Ui, view: &TransientView) {
@@ -65,7 +72,12 @@ fn row(ui: &mut Ui, view: &TransientView, k: usize, run: &Run, wide: bool) {
         let discarded = if rejected > 0 { format!(" + {rejected}") } else { String::new() };
         ui.label(format!("{}{discarded}", run.trajectory.moments.len().saturating_sub(1)));
     }
-    ui.label(run.seconds_per_step().map_or_else(none, numbers::duration));
+    let full = view.reference_of(k).filter(|_| run.by != MarchedBy::Full).and_then(Run::seconds_per_step);
+    let per_step = run.seconds_per_step().map(|seconds| {
+        let faster = full.map_or_else(String::new, |full| faster(full / seconds));
+        format!("{}{faster}", numbers::duration(seconds))
+    });
+    ui.label(per_step.unwrap_or_else(none));
     ui.label(numbers::duration(run.seconds.iter().sum()));
 }
 

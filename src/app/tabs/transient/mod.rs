@@ -1,11 +1,12 @@
 //! The contact in time: what drives it, how film and pressure answer, and how the frames differ.
 
 mod cost;
+mod dials;
 mod form;
 mod profiles;
-mod series;
 
-use super::in_time;
+use super::in_time::{self, series};
+use super::space_time::SpaceTime;
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::figure::{self, Subject};
@@ -17,25 +18,30 @@ use egui::{Button, ScrollArea, Ui};
 const FORM_WIDTH: f32 = 300.0;
 /// Width from which on the profiles stand beside the series.
 const SIDE_BY_SIDE: f32 = 560.0;
+/// Height of what stands above the series, with the room between plots.
+const HEADS: f32 = 48.0;
 /// Heights below which plots cannot be read.
-const LEAST_HEIGHT: f32 = 104.0;
+const LEAST_HEIGHT: f32 = 96.0;
 
-/// The tab: whether its form is put away, and what is being entered there.
+/// The tab: whether its form is shown, what is being entered there, and what is drawn.
 #[derive(Default)]
 pub struct Transient {
-    form_hidden: bool,
+    form: bool,
     last: LastField,
+    along: series::Along,
+    map: SpaceTime,
 }
 
 impl Transient {
     /// The tab.
     pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         if let Some(why) = context.document.no_transient() {
-            ui.centered_and_justified(|ui| ui.weak(why));
+            in_time::elsewhere(ui, context, why, commands);
             return;
         }
+        in_time::follow(context, commands);
         ui.horizontal_top(|ui| {
-            if !self.form_hidden {
+            if self.form {
                 ui.vertical(|ui| {
                     ui.set_width(FORM_WIDTH);
                     let area = ScrollArea::vertical().id_salt("transient form").auto_shrink(false);
@@ -53,29 +59,42 @@ impl Transient {
     fn results(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         let (top, height) = (ui.cursor().top(), ui.available_height());
         self.buttons(ui, context, commands);
+        ui.horizontal_wrapped(|ui| {
+            dials::ui(ui, context, commands);
+            in_time::badge::ui(ui, context);
+        });
         in_time::status(ui, context);
-        if context.transient.runs.iter().all(|run| run.trajectory.moments.is_empty()) {
-            if context.transient.standing().is_none() {
+        if !self.form {
+            context.entries.message_ui(ui, "transient");
+        }
+        let view = context.transient;
+        if view.runs.iter().all(|run| run.trajectory.moments.is_empty()) {
+            if !in_time::is_coming(context) {
                 ui.weak("Run it in time to see pressure and film follow the inputs.");
             }
             return;
         }
-        in_time::player(ui, context.transient, commands);
+        let rest = height - (ui.cursor().top() - top) - 30.0;
         let all = ui.vertical(|ui| {
-            cost::ui(ui, context.transient);
-            plots(ui, context, height - (ui.cursor().top() - top) - 18.0)
+            in_time::grey_where_stale(ui, context);
+            let room = rest - cost::height(view);
+            let wanted = self.plots(ui, context, commands, room);
+            ui.allocate_ui([ui.available_width(), cost::height(view)].into(), |ui| {
+                ui.set_min_height(cost::height(view));
+                cost::ui(ui, view);
+            });
+            wanted
         });
         figure::offer_of(ui, "Series and profiles", all.response.rect, Subject::InTime);
         commands.extend(all.inner.map(|time| Command::InTime(InTimeCommand::GoTo(time))));
+        in_time::player(ui, view, commands);
     }
 
     fn buttons(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         let view = context.transient;
         ui.horizontal_wrapped(|ui| {
-            let mut form = !self.form_hidden;
-            ui.toggle_value(&mut form, "Set-up")
+            ui.toggle_value(&mut self.form, "Set-up")
                 .on_hover_text("Shows what drives the contact, or leaves the room to plots");
-            self.form_hidden = !form;
             in_time::run_button(ui, context, commands);
             let there = view.runs.iter().any(|run| !run.trajectory.moments.is_empty());
             let tip = "All moments of every run with their SI twins, each run in columns of its own";
@@ -94,34 +113,32 @@ impl Transient {
     }
 }
 
-/// Series and profiles, beside each other where there is room; returns the time that was clicked at.
-fn plots(ui: &mut Ui, context: &Context<'_>, height: f32) -> Option<f64> {
-    let view = context.transient;
-    let several = view.runs.len() > 1;
-    let parts = if several { 2.7 } else { 2.0 };
-    if ui.available_width() < SIDE_BY_SIDE {
-        let clicked = series::ui(ui, view, (0.55 * height / parts).max(LEAST_HEIGHT));
-        profiles::ui(ui, view, context.fit, (0.5 * height).max(LEAST_HEIGHT));
-        return clicked;
+impl Transient {
+    /// The contact over space and time beside its profiles, and the series below; returns the time that was clicked at.
+    fn plots(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands, height: f32) -> Option<f64> {
+        let view = context.transient;
+        let several = view.setup.as_ref().is_some_and(|setup| setup.runs() > 1);
+        let parts = if several { [0.5, 0.28, 0.22] } else { [0.58, 0.42, 0.0] };
+        let [upper, middle, lower] = parts.map(|part| (part * (height - HEADS)).max(LEAST_HEIGHT));
+        let upper = upper.max(2.0 * LEAST_HEIGHT);
+        let width = ui.available_width();
+        let map = if width < SIDE_BY_SIDE {
+            let map = self.map.ui(ui, context, commands, upper);
+            profiles::ui(ui, view, context.fit, 0.5 * upper);
+            map
+        } else {
+            let both = ui.horizontal_top(|ui| {
+                let map = ui.vertical(|ui| {
+                    ui.set_width(0.5 * width);
+                    self.map.ui(ui, context, commands, upper)
+                });
+                ui.vertical(|ui| profiles::ui(ui, view, context.fit, 0.5 * upper));
+                map.inner
+            });
+            both.inner
+        };
+        let series = self.along.ui(ui, view, middle, several);
+        let deviation = if several { series::deviation(ui, view, lower) } else { None };
+        map.or(series).or(deviation)
     }
-    let (unit, width) = ((height / parts).max(LEAST_HEIGHT), ui.available_width());
-    let both = ui.horizontal_top(|ui| {
-        let series = ui.vertical(|ui| {
-            ui.set_width(0.56 * width);
-            series::ui(ui, view, unit)
-        });
-        ui.vertical(|ui| profiles::ui(ui, view, context.fit, 0.5 * unit * parts));
-        series.inner
-    });
-    both.inner
-}
-
-/// Marks of an axis of this width that leave their labels room.
-fn marks(width: f32) -> f64 {
-    f64::from((width - 60.0).max(60.0) / 60.0)
-}
-
-/// The same for an axis of this height.
-fn rows(height: f32) -> f64 {
-    f64::from((height - 24.0).max(48.0) / 24.0).min(6.0)
 }

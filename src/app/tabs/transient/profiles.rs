@@ -1,8 +1,8 @@
 //! Pressure and film of every run at the moment that is looked at.
 
-use super::series::{drawn, style};
 use crate::app::numbers;
 use crate::app::tabs::axes;
+use crate::app::tabs::in_time::series::{drawn, marks, rows, style};
 use crate::app::theme::{Palette, THIN_WIDTH};
 use crate::app::transient::{Run, TransientView};
 use crate::solver::full::transient::{Moment, Quantity};
@@ -21,13 +21,14 @@ pub fn ui(ui: &mut Ui, view: &TransientView, fit: bool, height: f32) {
     };
     let time = view.player.time();
     let generation = view.generation;
-    let marks = super::marks(ui.available_width());
+    let columns = marks(ui.available_width());
     let stacked = |name: &str, titles: (&str, &str), top: f64| {
         // The axis stays still while the profiles play.
-        let id = format!("transient {name} {generation}");
+        let id = format!("transient {name} {generation} {top}");
         axes::plot(ui, &id, height, titles.0, titles.1)
-            .x_grid_spacer(move |input| axes::round_marks(input, marks))
-            .y_axis_min_width(48.0)
+            .x_grid_spacer(move |input| axes::round_marks(input, columns))
+            .y_grid_spacer(move |input| axes::round_marks(input, rows(height)))
+            .y_axis_min_width(54.0)
             .link_axis(Id::unique(("transient profiles", generation)), Vec2b::new(true, false))
             .link_cursor(Id::unique(("transient profiles", generation)), Vec2b::new(true, false))
             .set_margin_fraction(egui::vec2(0.0, 0.0))

@@ -101,6 +101,13 @@ pub struct LinearisedTransient {
     pub weightings: Vec<Weighting>,
 }
 
+impl Default for ReducedTransient {
+    /// A loss of 1e-6, two rows per mode.
+    fn default() -> Self {
+        Self { loss: 1e-6, rows_per_mode: two(), seed: one() }
+    }
+}
+
 impl Default for LinearisedTransient {
     /// 100 modes, steps missed by 0.001 (4.30), dual Taylor weights.
     fn default() -> Self {

@@ -15,6 +15,8 @@ pub use models::{Kind, Model};
 pub use published::PublishedMarch;
 pub(crate) use timed_march::{Listener, Timed, timed_march};
 
+use super::{StudyObserver, StudyRow};
+use crate::scene::bench::Bench;
 use crate::scene::sampled;
 use crate::scene::study::question::{
     Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
@@ -116,7 +118,7 @@ impl Question for TransientStudy {
                     models = runner.models(Trajectory { states, ..full.trajectory.clone() })?;
                 }
                 for model in &models {
-                    runner.compared(model, drive, &full)?;
+                    runner.compared(model, drive, (&full.name, &full.trajectory.transient))?;
                 }
             }
         }
@@ -185,6 +187,44 @@ impl Question for TransientStudy {
             chart
         };
         quantities.map(chart).into()
+    }
+}
+
+impl TransientStudy {
+    /// Takes models that were made before along the study's own inputs, without the full system; its rows are those
+    /// that the study has of them.
+    ///
+    /// # Errors
+    /// When the study or a model is refused, or the observer cancels. A linearised model that does not know the
+    /// reference contact is passed over.
+    pub fn replay(
+        &self,
+        models: &[Model],
+        experiment: &Experiment,
+        bench: &mut dyn Bench,
+        observer: &dyn StudyObserver,
+    ) -> Result<(), RunError> {
+        let tell = |row| observer.row(StudyRow::Transient(row));
+        let request = experiment.request()?;
+        let mut study = self.clone();
+        if let Some(path) = &study.sampled {
+            sampled::read_into(&mut study.inputs, &bench.resolve(path))?;
+        }
+        let ContactGrid::Line(grid) = bench.grid(&request, observer)? else { return Ok(()) };
+        let setting = Setting { experiment, bench, observer, wants_states: observer.wants_states() };
+        let runner = Runner { study: &study, grid, setting: &setting, tell: &tell };
+        let drive = Drive { name: String::new(), inputs: study.inputs.clone(), duration: study.duration };
+        for model in models {
+            let transient = study.own_march(request.point, request.lubricant, model.frame);
+            let unknown = match &model.kind {
+                Kind::Linearised { model, .. } => model.shares(&transient.problem()?).is_err(),
+                Kind::Reduced(_) => false,
+            };
+            if !unknown {
+                runner.compared(model, &drive, (&drive.result(model.frame.name()), &transient))?;
+            }
+        }
+        Ok(())
     }
 }
 

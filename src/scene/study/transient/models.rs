@@ -138,11 +138,12 @@ impl Runner<'_, '_> {
         }
         let trained = self.trainings(&own)?;
         let trainings = Arc::new(if trained.is_empty() { vec![own] } else { trained });
-        if let Some(reduced) = reduced {
-            models.push(self.reduced(reduced, frame, &trainings)?);
-        }
+        // The linearised one is there sooner.
         if let Some(linearised) = linearised {
             self.linearised(linearised, frame, &trainings, &mut models)?;
+        }
+        if let Some(reduced) = reduced {
+            models.push(self.reduced(reduced, frame, &trainings)?);
         }
         Ok(models)
     }
@@ -215,10 +216,15 @@ impl Runner<'_, '_> {
         Ok(())
     }
 
-    /// Marches a model along some inputs, beside the full march along them.
-    pub fn compared(&self, model: &Model, drive: &Drive, full: &March) -> Result<(), RunError> {
-        let transient = Transient { keep: Keep::Scalars, ..full.trajectory.transient.clone() };
-        let by = |method| By::Model { model: model.name.clone(), method, full: full.name.clone() };
+    /// Marches a model along some inputs, to be held against the full march of a name.
+    pub fn compared(
+        &self,
+        model: &Model,
+        drive: &Drive,
+        (full, transient): (&str, &Transient),
+    ) -> Result<(), RunError> {
+        let transient = Transient { keep: Keep::Scalars, ..transient.clone() };
+        let by = |method| By::Model { model: model.name.clone(), method, full: full.to_owned() };
         let march = |name: &str, by, marching: &mut dyn Marching| {
             timed_march(marching, &transient, name.to_owned(), self.setting.observer, self.told(name, by))
         };
