@@ -481,3 +481,17 @@ fn shear_thinning_contacts_slide_and_show_the_shear_across_the_film() {
     assert_eq!(table.lines().next().unwrap(), "X,Z,tau_zx_pa,rate_per_s");
     assert_eq!(table.lines().count(), 1 + 601 * 11);
 }
+
+/// Matrix products once reserved twice the last-level cache for every thread, which is a gigabyte on some servers.
+#[cfg(target_os = "linux")]
+#[test]
+fn scenes_run_in_two_gigabytes_of_address_space() {
+    let scenes = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    for scene in ["point/table_2_3.ron", "reduced/fig_3_7_trajectory.ron"] {
+        let script = "ulimit -v 2000000 && exec \"$0\" run \"$1\"";
+        let mut limited = Command::new("sh");
+        limited.args(["-c", script, env!("CARGO_BIN_EXE_ehl-explorer")]).arg(scenes.join(scene));
+        let output = limited.output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{scene}: {}", String::from_utf8_lossy(&output.stderr));
+    }
+}

@@ -1,5 +1,5 @@
-//! Products and solutions of dense matrices on one thread: linear algebra splits its sums by the threads it finds, and
-//! what is computed with them must not depend on how many those are.
+//! Products and solutions of dense matrices on one thread: what is computed with them must not depend on how many
+//! threads there are.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};

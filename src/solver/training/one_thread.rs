@@ -14,8 +14,8 @@ const PATIENCE: Duration = Duration::from_millis(10);
 
 /// Does `work` on a thread of its own while the observer is asked; after a cancel the thread finishes unheard.
 ///
-/// Linear algebra splits its sums by the threads it finds: on one thread a model is the same to the last bit on every
-/// machine size.
+/// The thread is alone in its pool: sums that are split by the threads there are, and with them a model, are the same
+/// to the last bit on every machine size.
 ///
 /// # Errors
 /// When the observer cancels.
