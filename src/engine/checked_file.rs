@@ -16,8 +16,10 @@ pub(super) const HEADER: usize = 28;
 pub(super) struct Format {
     /// What every file of the kind begins with.
     pub magic: &'static [u8; 8],
-    /// The version that is written. The one before it is read as well: only the payload was under its hash.
+    /// The version that is written.
     pub version: u32,
+    /// The oldest version that is read. In those before the one that is written only the payload is under the hash.
+    pub oldest: u32,
     /// Largest payload that is read \[bytes\].
     pub max_payload: u64,
 }
@@ -115,7 +117,7 @@ impl Format {
         if found > self.version {
             return Err(Flaw::Newer { found });
         }
-        if found + 1 < self.version {
+        if found < self.oldest {
             return Err(Flaw::Older { found });
         }
         let announced = u64_at(bytes, 12).unwrap_or_default();

@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 const VERSION: u32 = 7;
 /// Real models have a few MB.
-const FORMAT: Format = Format { magic: b"EHLROM\r\n", version: VERSION, max_payload: 512 << 20 };
+const FORMAT: Format = Format { magic: b"EHLROM\r\n", version: VERSION, oldest: VERSION - 1, max_payload: 512 << 20 };
 
 /// The models that are part of the program: of a kind of contact, for a lubricant that thins under shear or not. Each is trained by a scene.
 static EMBEDDED: [((ContactKind, bool), &[u8]); 4] = [

@@ -1,7 +1,9 @@
 //! Unfinished trainings on disk (`.training`), so that a crash or a cancel loses no finished full solution.
 //!
-//! The header is that of `checked_file`, the payload a [`TrainingState`] in postcard's encoding. Writing waits for
-//! the disk, so it is done by a thread of its own, at most once a second; the training itself pays for a copy only.
+//! The header is that of `checked_file`, the payload the program's version and a [`TrainingState`] in postcard's
+//! encoding: another version's solutions, sums and rules of choice may differ, so that a training that is gone on with
+//! by another one would be neither's. Writing waits for the disk, so it is done by a thread of its own, at most once a
+//! second; the training itself pays for a copy only.
 
 use super::EngineError;
 use super::checked_file::{Flaw, Format, Unreadable};
@@ -17,9 +19,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
 /// 5000 full solutions in each of some windows, on the finest grids that are used.
-const FORMAT: Format = Format { magic: b"EHLTRN\r\n", version: VERSION, max_payload: 2 << 30 };
+const FORMAT: Format = Format { magic: b"EHLTRN\r\n", version: VERSION, oldest: VERSION, max_payload: 2 << 30 };
+/// The program's own version.
+const PROGRAM: &str = env!("CARGO_PKG_VERSION");
+
+/// So much of another version's name is told.
+const LONGEST_VERSION: usize = 40;
 
 /// Room that a training has before it begins \[bytes\]: two copies of 200 full solutions of point contacts fit.
 const ROOM: usize = 32 << 20;
@@ -91,7 +98,7 @@ pub fn read(path: &Path) -> Result<TrainingState, TrainingFileError> {
         refused(match flaw {
             Flaw::Foreign => "it is another kind of file".to_owned(),
             Flaw::Newer { found } | Flaw::Older { found } => {
-                format!("it has version {found}, this program reads version {VERSION}")
+                format!("its format has version {found}, this program reads version {VERSION}")
             }
             Flaw::Truncated { found, wanted } => format!("it is cut off: {found} of {wanted} bytes are there"),
             Flaw::TooLarge { bytes } => format!("it announces {bytes} bytes, more than any training has"),
@@ -103,8 +110,15 @@ pub fn read(path: &Path) -> Result<TrainingState, TrainingFileError> {
         Unreadable::Flaw(flaw) => flawed(flaw),
     })?;
     let payload = FORMAT.open(&bytes).map_err(flawed)?;
-    let state: TrainingState =
-        postcard::from_bytes(payload).map_err(|_| refused("its content cannot be decoded".to_owned()))?;
+    let undecoded = |_| refused("its content cannot be decoded".to_owned());
+    let (program, payload) = postcard::take_from_bytes::<&str>(payload).map_err(undecoded)?;
+    if program != PROGRAM {
+        let program: String = program.chars().filter(|c| !c.is_control()).take(LONGEST_VERSION).collect();
+        return Err(refused(format!(
+            "it was begun by version {program} of the program, and this is version {PROGRAM}, whose solutions and choices may differ"
+        )));
+    }
+    let state: TrainingState = postcard::from_bytes(payload).map_err(undecoded)?;
     if is_sound(&state) { Ok(state) } else { Err(refused("its content contradicts itself".to_owned())) }
 }
 
@@ -149,7 +163,11 @@ pub fn unfinished(path: &Path, spec: &TrainingSpec) -> Result<Option<TrainingSta
 /// # Errors
 /// When the file cannot be written.
 pub fn write(state: &TrainingState, path: &Path) -> Result<(), TrainingFileError> {
-    let encoded = postcard::to_allocvec(state)
+    write_as(PROGRAM, state, path)
+}
+
+fn write_as(program: &str, state: &TrainingState, path: &Path) -> Result<(), TrainingFileError> {
+    let encoded = postcard::to_allocvec(&(program, state))
         .map_err(|_| TrainingFileError::Refused { path: path.to_owned(), what: "it cannot be encoded".to_owned() })?;
     Ok(atomic_file::replace(path, &FORMAT.seal(&encoded))?)
 }
@@ -335,6 +353,19 @@ mod tests {
         let other = TrainingSpec { seed: 2, ..state.spec.clone() };
         let sentence = unfinished(&path, &other).unwrap_err().to_string();
         assert!(sentence.contains("another training, “kept”") && sentence.contains("1 full"), "{sentence}");
+        std::fs::remove_dir_all(path.parent().unwrap()).unwrap();
+    }
+
+    #[test]
+    fn a_training_that_another_version_of_the_program_began_is_refused_and_left_alone() {
+        let (state, path) = state("version");
+        write_as("0.0.1-\u{7}former", &state, &path).unwrap();
+        let before = std::fs::read(&path).unwrap();
+        let sentence = unfinished(&path, &state.spec).unwrap_err().to_string();
+        for part in ["begun by version 0.0.1-former of the program", PROGRAM, "delete it to train from the beginning"] {
+            assert!(sentence.contains(part), "{sentence}");
+        }
+        assert_eq!(std::fs::read(&path).unwrap(), before);
         std::fs::remove_dir_all(path.parent().unwrap()).unwrap();
     }
 
