@@ -11,15 +11,6 @@ use std::time::Duration;
 /// seen while a slider moves.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Contacts that a curve lacks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub struct LeftOut {
-    /// The reduced model did not converge there.
-    pub failed: usize,
-    /// It was not trained for them, and its residual is far beyond those it was measured with.
-    pub doubtful: usize,
-}
-
 /// A sweep by the reduced model.
 pub struct Curve {
     /// The sweep.
@@ -28,8 +19,8 @@ pub struct Curve {
     pub served: Served,
     /// Its contacts, in their order.
     pub samples: Vec<Sample>,
-    /// What it lacks, or a sentence why there is no curve.
-    pub left_out: Result<LeftOut, String>,
+    /// How many of its contacts the reduced model did not converge at, or a sentence why there is no curve.
+    pub left_out: Result<usize, String>,
     /// Seconds it took.
     pub wall_s: f64,
 }
@@ -55,7 +46,7 @@ impl LiveCurve {
         let Some((ctx, store, sweep, served)) = self.next.take() else { return };
         let question = sweep.question("Traction curve", Grid::Graded, CURVE, served.by.method());
         let job = served.by.ask(&ctx, &store, question);
-        let curve = Curve { sweep, served, samples: Vec::new(), left_out: Ok(LeftOut::default()), wall_s: 0.0 };
+        let curve = Curve { sweep, served, samples: Vec::new(), left_out: Ok(0), wall_s: 0.0 };
         self.running = Some((curve, 0, job));
     }
 
@@ -82,9 +73,8 @@ impl Curve {
     fn add(&mut self, row: StudyRow) {
         let (StudyRow::Sweep(row), Ok(left_out)) = (row, &mut self.left_out) else { return };
         match Sample::of(&row) {
-            Some(_) if row.doubtful.contains(&true) => left_out.doubtful += 1,
             Some(sample) => self.samples.push(sample),
-            None => left_out.failed += 1,
+            None => *left_out += 1,
         }
     }
 }

@@ -5,7 +5,7 @@ pub mod export;
 mod served;
 mod sweep;
 
-pub use curve::{Curve, LeftOut};
+pub use curve::Curve;
 pub use served::{Served, sweep};
 pub use sweep::{Against, Sample, Sweep, Varied};
 

@@ -15,10 +15,6 @@ const COMPARED: [&str; 3] = ["H_c", "H_min", "traction"];
 /// Errors of smaller tractions are relative to this.
 const LEAST_TRACTION: f64 = 0.005;
 
-/// How many times the largest residual that was measured when a model was trained an answer may have where it was not
-/// trained.
-const DOUBTFUL_RESIDUAL: f64 = 2.0;
-
 /// One contact of a path by all methods.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathRow {
@@ -28,9 +24,6 @@ pub struct PathRow {
     pub point: OperatingPoint,
     /// Its result by each method.
     pub results: Vec<ContactResult>,
-    /// For each method, whether it is a model's answer that is none: it was not trained for the contact, and the
-    /// residual is far beyond those of its training.
-    pub doubtful: Vec<bool>,
     /// The full solution on the model's grid, where one was asked for.
     pub on_model_grid: OnModelGrid,
 }
@@ -84,13 +77,11 @@ impl Path<'_> {
         for (i, (values, point)) in self.contacts.iter().enumerate() {
             setting.step(self.name, i, self.contacts.len())?;
             let request = setting.experiment.request_at(*point);
-            let (mut results, mut doubtful) = (Vec::new(), Vec::new());
+            let mut results = Vec::new();
             for (method, former) in self.methods.iter().zip(&mut former) {
                 let start = former.as_ref().filter(|_| !self.cold);
                 let answer = setting.bench.answer(&request, method, start, setting.observer)?;
-                let result = ContactResult::from(&answer);
-                doubtful.push(is_doubtful(&result, method, setting)?);
-                results.push(result);
+                results.push(ContactResult::from(&answer));
                 if answer.converged {
                     *former = answer.solution;
                 }
@@ -105,20 +96,10 @@ impl Path<'_> {
                     former_on_model_grid = answer.solution;
                 }
             }
-            tell(PathRow { values: values.clone(), point: *point, results, doubtful, on_model_grid });
+            tell(PathRow { values: values.clone(), point: *point, results, on_model_grid });
         }
         Ok(())
     }
-}
-
-fn is_doubtful(result: &ContactResult, method: &Method, setting: &mut Setting<'_>) -> Result<bool, RunError> {
-    let (true, Some(source)) = (result.untrained(), method.model()) else { return Ok(false) };
-    let Some(residual) = result.reduced.as_ref().and_then(|facts| facts.residual_estimate) else { return Ok(false) };
-    let Setting { experiment, observer, .. } = *setting;
-    let model = setting.bench.model_for(source, experiment.contact, &experiment.lubricant, observer)?;
-    let window = model.windows.get(model.window_for(result.point.moes()));
-    let largest = window.and_then(|window| window.calibration.as_ref()).map(|known| known.largest_residual());
-    Ok(largest.is_some_and(|largest| residual > DOUBTFUL_RESIDUAL * largest))
 }
 
 /// Values: single contacts that are expected, as `H_c[3]`; `points`; of each method `failures` (at plausible
@@ -217,14 +198,14 @@ fn tag(methods: &[Method], k: usize) -> String {
 }
 
 /// Films, traction and pressure along the last varied quantity, a line for each combination of the others and each
-/// method; what failed or is doubtful is left out.
+/// method; what failed is left out.
 pub(super) fn charts(x: &ChartAxis, varied: &[&str], methods: &[Method], rows: &[&PathRow]) -> Vec<Chart> {
     let chart = |(name, axis): (&str, &str)| {
         let mut chart = Chart::new(axis, x.clone(), ChartAxis::linear(axis));
         for k in 0..methods.len() {
             for rows in rows.chunk_by(|a, b| others(a) == others(b)) {
                 let point = |row: &&PathRow| {
-                    let value = row.results.get(k).filter(|_| !row.doubtful[k])?.value(name)?;
+                    let value = row.results.get(k)?.value(name)?;
                     Some([*row.values.last()?, value])
                 };
                 let fixed = varied.iter().zip(others(rows[0])).map(|(name, value)| format!(", {name} {value}"));

@@ -151,6 +151,10 @@ pub fn deformation_weights(grid: &ContactGrid) -> Vec<f64> {
     }
 }
 
+/// How many times the largest residual that was measured in training an answer may have where the model was not
+/// trained.
+const FAR_RESIDUAL: f64 = 10.0;
+
 impl Window {
     /// Assembles a window from its bases, with the penalty of the full system; K V_p is computed here, so that it need
     /// not be stored.
@@ -179,6 +183,16 @@ impl Window {
             traction: None,
             calibration: None,
         }
+    }
+
+    /// Why an iteration outside the model's range has found no solution, by its residual e_f^I: it is far beyond those
+    /// of the training.
+    pub fn residual_doubt(&self, residual: f64) -> Option<String> {
+        let largest = self.calibration.as_ref().map_or(f64::INFINITY, Calibration::largest_residual);
+        let far = residual.is_nan() || residual > FAR_RESIDUAL * largest;
+        far.then(|| {
+            format!("its residual of {residual:.1e} is far beyond those of the training, {largest:.1e} at most")
+        })
     }
 
     /// How large it is with all its modes.

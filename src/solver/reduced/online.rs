@@ -7,7 +7,7 @@ mod settings;
 
 pub use settings::{ReducedError, ReducedOptions, Starts};
 
-use super::calibration::{Calibration, ErrorEstimate, Features};
+use super::calibration::{ErrorEstimate, Features};
 use super::model::{ReducedModel, Snapshot, Trust, Window};
 use super::operators::{Operators, RowObserver};
 use super::start::{self, Former, Known};
@@ -20,9 +20,6 @@ use std::sync::Arc;
 
 /// Newton steps before another start is tried: good starts need 4, and what needs more than 12 mostly never gets there.
 const FIRST_ATTEMPTS: usize = 12;
-
-/// How many times the largest residual that was measured in training one may have where the model was not trained.
-const FAR_RESIDUAL: f64 = 10.0;
 
 /// What the online phase returns: small numbers only; fields are reconstructed on request.
 #[derive(Clone, Debug, PartialEq)]
@@ -119,12 +116,8 @@ impl Online {
     /// Why a solution outside the model's range cannot be one.
     fn doubt(&self, solved: &ReducedSolution) -> Result<Option<String>, ReducedError> {
         let window = self.model.windows.get(solved.window).ok_or(ReducedError::Empty)?;
-        let largest = window.calibration.as_ref().map_or(f64::INFINITY, Calibration::largest_residual);
-        if solved.residual_estimate.is_nan() || solved.residual_estimate > FAR_RESIDUAL * largest {
-            return Ok(Some(format!(
-                "its residual of {:.1e} is far beyond those of the training, {largest:.1e} at most",
-                solved.residual_estimate
-            )));
+        if let Some(why) = window.residual_doubt(solved.residual_estimate) {
+            return Ok(Some(why));
         }
         let lowest = self.lowest_film(solved)?;
         Ok((lowest.is_nan() || lowest <= 0.0).then(|| format!("its film falls to H = {lowest:.1e}")))

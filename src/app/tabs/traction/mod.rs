@@ -9,7 +9,7 @@ use crate::app::context::{Commands, Context};
 use crate::app::controls::{message_ui, sentence, standing_ui, warning_ui, why};
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
-use crate::app::traction::{Against, Choices, Curve, LeftOut, Markers, Served, Sweep, Varied, export, sweep};
+use crate::app::traction::{Against, Choices, Curve, Markers, Served, Sweep, Varied, export, sweep};
 use crate::solver::full::Solution;
 use egui::{Button, Checkbox, ComboBox, Ui};
 use std::sync::Arc;
@@ -201,19 +201,13 @@ fn status(ui: &mut Ui, context: &Context<'_>, sweep: &Sweep, served: &Result<Ser
 }
 
 /// Why there are fewer contacts than the curve should have.
-fn left_out_ui(ui: &mut Ui, LeftOut { failed, doubtful }: LeftOut) {
-    let contacts =
-        |count: usize| if count == 1 { "1 contact, which is".into() } else { format!("{count} contacts, which are") };
-    if failed > 0 {
-        warning_ui(ui, &format!("the reduced model did not converge at {} left out", contacts(failed)));
-    }
-    if doubtful > 0 {
-        let contacts = contacts(doubtful);
-        warning_ui(
-            ui,
-            &format!("the residual is far beyond any that the model was measured with at {contacts} left out"),
-        );
-    }
+fn left_out_ui(ui: &mut Ui, failed: usize) {
+    let contacts = match failed {
+        0 => return,
+        1 => "1 contact, which is".to_owned(),
+        _ => format!("{failed} contacts, which are"),
+    };
+    warning_ui(ui, &format!("the reduced model did not converge at {contacts} left out"));
 }
 
 /// Traction here, the largest of the curve, and how far full solutions lie from it.
