@@ -26,6 +26,9 @@ const EXPLORER_SPACING: f64 = 6e-4;
 /// A point contact's grid is at most this many times finer along X than the one it begins from.
 const FINEST: f64 = 8.0;
 
+/// No film of a contact beyond this load number reaches too far.
+const HEAVIEST: f64 = 1e3;
+
 /// α p_H up to which Moes' formula is good enough to choose a grid by.
 const STIFF: f64 = 50.0;
 
@@ -79,6 +82,15 @@ impl Fit {
         }
     }
 
+    /// The inlet, as −X, from which on the end of the domain costs at most a share of H_c; at most about the longest.
+    fn reach(&self, share: f64) -> f64 {
+        let mut reach = 2.0;
+        while self.truncation(reach) > share && reach < LONGEST_INLET {
+            reach *= 1.25;
+        }
+        reach
+    }
+
     /// What a spacing in front of the contact costs.
     fn resolution(&self, spacing: f64) -> f64 {
         (spacing / self.zone).powi(2)
@@ -89,11 +101,21 @@ impl Fit {
         2.1 * (spacing / self.width).powi(2)
     }
 
-    fn too_wide(&self) -> GridError {
+    /// A film that does not fit into `grid` however it is stretched.
+    fn too_wide(&self, grid: PointGridSpec) -> GridError {
         let Moes { m, l } = self.moes;
+        let holds = |m: &f64| grid.stretched_for(Moes { m: *m, l }).is_some();
+        let lowest = std::iter::successors(Some(m), |m| Some(1.02 * m)).take_while(|m| *m < HEAVIEST).find(holds);
+        let own = match self.reach(TRUNCATION) {
+            reach if reach < LONGEST_INLET => {
+                format!("a grid of your own that reaches X = {:.0} and Y = {:.0} does", -reach, -0.5 * reach)
+            }
+            _ => format!("no grid that ends before X = -{LONGEST_INLET} does"),
+        };
+        let accepted = lowest.map_or_else(String::new, |m| format!("at this L they hold it from M = {m:.2} on, and "));
         GridError::Refused(format!(
             "the film at M = {m:.4}, L = {l:.4} reaches too far: so much of its load lies far from the contact that the \
-             program's own grids do not hold it; a larger M is accepted, or a grid of your own"
+             program's own grids do not hold it; {accepted}{own}"
         ))
     }
 
@@ -112,11 +134,7 @@ impl Fit {
 /// a hundredth of H_c.
 pub fn that_would_do(kind: ContactKind, moes: Moes) -> (f64, f64) {
     let fit = Fit::new(kind, moes);
-    let mut reach = 2.0;
-    while fit.truncation(reach) > 0.01 && reach < LONGEST_INLET {
-        reach *= 1.25;
-    }
-    (reach, 0.1 * fit.zone)
+    (fit.reach(0.01), 0.1 * fit.zone)
 }
 
 impl GridSpec {
@@ -163,15 +181,7 @@ impl PointGridSpec {
     pub fn for_contact(self, moes: Moes) -> Result<Self, GridError> {
         let fit = Fit::new(ContactKind::Point, moes);
         let (from, to, edge) = self.domain;
-        let mut times = 1.0;
-        while fit.truncation(-from * times) > TRUNCATION {
-            times *= 2.0;
-            let cells = if fit.coarse(self.dx * times) > RESOLUTION { 2.0 } else { 1.0 };
-            if fit.coarse(self.dx * times / cells) > RESOLUTION {
-                return Err(fit.too_wide());
-            }
-        }
-        let cells = if times > 1.0 && fit.coarse(self.dx * times) > RESOLUTION { 2.0 } else { 1.0 };
+        let (times, cells) = self.stretched_for(moes).ok_or_else(|| fit.too_wide(self))?;
         let mut finer = 1.0;
         while fit.resolution(self.dx * times / finer) > RESOLUTION {
             if finer >= FINEST {
@@ -182,6 +192,21 @@ impl PointGridSpec {
         let domain = (from * times, to * times, edge * times);
         let dx = self.dx * times / finer.max(cells);
         Ok(Self { dx, dy: self.dy * times / cells, domain, ..self })
+    }
+
+    /// How many times farther its domain must reach for a contact, and how many times more nodes it then has in each
+    /// direction; none where that would take too many.
+    fn stretched_for(&self, moes: Moes) -> Option<(f64, f64)> {
+        let fit = Fit::new(ContactKind::Point, moes);
+        let (mut times, mut cells) = (1.0, 1.0);
+        while fit.truncation(-self.domain.0 * times) > TRUNCATION {
+            times *= 2.0;
+            cells = if fit.coarse(self.dx * times) > RESOLUTION { 2.0 } else { 1.0 };
+            if fit.coarse(self.dx * times / cells) > RESOLUTION {
+                return None;
+            }
+        }
+        Some((times, cells))
     }
 }
 
@@ -248,6 +273,11 @@ mod tests {
         assert!(wide.domain.0 < -4.0 && wide.check().is_ok(), "{wide:?}");
         let refused = PointGridSpec::DISSERTATION.for_contact(Moes { m: 1.1, l: 11.2 }).unwrap_err().to_string();
         assert!(refused.contains("reaches too far"), "{refused}");
+        let lowest: f64 = refused.split("from M = ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+        let accepted = |m: f64| PointGridSpec::DISSERTATION.for_contact(Moes { m, l: 11.2 }).is_ok();
+        assert!(accepted(lowest + 0.01) && !accepted(0.97 * lowest), "{refused}");
+        let far = PointGridSpec::DISSERTATION.for_contact(Moes { m: 0.3, l: 1.0 }).unwrap_err().to_string();
+        assert!(far.contains("no grid that ends before X = -2000 does"), "{far}");
     }
 
     #[test]
