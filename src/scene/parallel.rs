@@ -34,8 +34,8 @@ impl Count<'_> {
     }
 }
 
-/// Cold full solutions, none where the solver does not converge; `grid` gives the grid of a point. Cold, so that no
-/// reduced solution can lead them to its root.
+/// Cold full solutions, none where the solver does not converge, with what their grids cost them; `grid` gives the grid
+/// of a point. Cold, so that no reduced solution can lead them to its root.
 pub(super) fn full_solutions(
     grid: impl Fn(&OperatingPoint) -> ContactGrid + Sync,
     points: &[OperatingPoint],
@@ -64,6 +64,7 @@ pub(super) fn full_solutions_told(
             let known = known.map(|place| solvers.swap_remove(place));
             let mut solver = known.unwrap_or_else(|| ContactSolver::on(&grid));
             let solution = solver.solve(point, lubricant, Start::Cold, observer);
+            let solution = solution.map(|solution| solver.judged(solution));
             solvers.push(solver);
             let solution = solution?;
             count.one_more()?;

@@ -7,7 +7,8 @@ use crate::scene::check::{self, MAX_COMPARED, MAX_TESTS, count};
 use crate::scene::method::Method;
 use crate::scene::parallel::full_solutions_told;
 use crate::scene::random_points::all_random_points;
-use crate::solver::full::Solution;
+use crate::scene::statistics::percentile;
+use crate::solver::full::{GridCost, Solution, grid_doubts};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::ErrorEstimate;
 use crate::solver::training::Range;
@@ -66,6 +67,8 @@ pub struct Film {
     pub h_min: f64,
     /// Traction coefficient; not a number where it has no meaning.
     pub traction: f64,
+    /// What its grid costs H_c; none of a reduced one.
+    pub grid_cost: Option<GridCost>,
 }
 
 /// What a film is compared by.
@@ -97,12 +100,12 @@ const COLUMNS: [Compared; 15] = [
 ];
 
 impl Film {
-    const NONE: Self = Self { h_c: f64::NAN, h_min: f64::NAN, traction: f64::NAN };
+    const NONE: Self = Self { h_c: f64::NAN, h_min: f64::NAN, traction: f64::NAN, grid_cost: None };
 
     fn of_full(full: &Solution) -> Self {
         // Without a meaning there is nothing to compare.
         let traction = if full.traction_warning().is_none() { full.traction_coefficient() } else { f64::NAN };
-        Self { h_c: full.scalars.h_c, h_min: full.scalars.h_min, traction }
+        Self { h_c: full.scalars.h_c, h_min: full.scalars.h_min, traction, grid_cost: full.grid_cost }
     }
 
     /// Relative errors of H_c, H_min and traction against a full solution; none where they are not known.
@@ -179,6 +182,7 @@ impl Question for RandomTest {
                 h_c: solution.scalars.h_c,
                 h_min: solution.scalars.h_min,
                 traction: answer.traction().unwrap_or(f64::NAN),
+                grid_cost: solution.grid_cost,
             });
             tell(Row::Test(Test {
                 point: *point,
@@ -199,7 +203,8 @@ impl Question for RandomTest {
     }
 
     /// Values of the method: `tests`, `failures`, `failure_percent`, Newton steps and seconds; of a reduced one
-    /// `untrained`, `compared`, `full_failures`, its errors, and what its bounds are worth.
+    /// `untrained`, `compared`, `full_failures`, its errors, and what its bounds are worth. `grid_error_max` is the
+    /// largest share of H_c that the grid costs a full solution; a warning says where it is too much.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         let (of, tests) = (Some(&self.method), own(rows));
         let failures = tests.iter().filter(|(test, _)| test.film.is_none()).count();
@@ -210,6 +215,14 @@ impl Question for RandomTest {
         let newton: Vec<f64> = tests.iter().map(|(test, _)| test.newton_iterations as f64).collect();
         let seconds: Vec<f64> = tests.iter().map(|(test, _)| test.wall_s).collect();
         found.push_effort(of, &newton, &seconds);
+        let full = tests.iter().flat_map(|(test, truth)| [(test, test.film), (test, truth.flatten())]);
+        let judged = full.filter_map(|(test, film)| Some((test.point, film?.grid_cost?)));
+        let judged: Vec<(OperatingPoint, GridCost)> = judged.collect();
+        if !judged.is_empty() {
+            let errors: Vec<f64> = judged.iter().map(|(_, cost)| cost.total()).collect();
+            found.push("grid_error_max", None, percentile(&errors, 1.0));
+        }
+        found.warnings.extend(grid_doubts(judged));
         if self.method == Method::Full {
             return;
         }
@@ -282,13 +295,13 @@ mod tests_of_rows {
     fn a_truth_finds_its_test_whenever_it_comes() {
         let test = Test {
             point: OperatingPoint::TABLE_2_1,
-            film: Some(Film { h_c: 1.1, h_min: 0.9, traction: f64::NAN }),
+            film: Some(Film { h_c: 1.1, h_min: 0.9, traction: f64::NAN, grid_cost: None }),
             newton_iterations: 3,
             wall_s: 0.0,
             untrained: false,
             estimate: None,
         };
-        let full = Film { h_c: 1.0, h_min: 1.0, traction: 0.05 };
+        let full = Film { h_c: 1.0, h_min: 1.0, traction: 0.05, grid_cost: None };
         let rows =
             [Row::Test(test), Row::Test(test), Row::Truth(1, Some(full)), Row::Truth(0, None), Row::Truth(7, None)];
         let seen = tests(&rows);

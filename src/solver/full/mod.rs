@@ -26,4 +26,4 @@ pub use solver::{ContactSolver, FullSolver, PointSolver, Solver, Start, most_new
 pub use system::{SolveOptions, System};
 pub(crate) use traction::mid_film_stress;
 pub use traction::{PLAUSIBLE_EXPONENT, Shear};
-pub use trust::GridCost;
+pub use trust::{GridCost, grid_doubts};

@@ -17,7 +17,7 @@ use super::system::System;
 use crate::solver::discrete::grid::{INLET, that_would_do};
 use crate::solver::discrete::reynolds::{EAST, NORTH, SOUTH, WEST};
 use crate::solver::discrete::space::Grid;
-use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint};
 
 /// What the grid costs H_c: relative errors to first order, positive where the true film is thicker. Far beyond a tenth
 /// they are too small: the film by which they are judged is too thin itself.
@@ -42,18 +42,48 @@ impl GridCost {
     pub fn total(self) -> f64 {
         self.truncation.abs() + self.resolution.abs()
     }
+
+    /// A sentence where that is more than a few percent, or cannot be told.
+    pub fn warning(self) -> Option<String> {
+        let total = self.total();
+        if total.is_nan() {
+            return Some("what the grid costs H_c cannot be told; compare with a finer one".to_owned());
+        }
+        let more = if total > SATURATED { " or more" } else { "" };
+        (total > TOLERATED).then(|| format!("H_c is off by about {:.0} %{more}", 100.0 * total))
+    }
+}
+
+/// What the grids cost those of some full solutions that they do not do for: how many these are, of how many, and the
+/// worst of them with its contact.
+pub fn grid_doubts(judged: impl IntoIterator<Item = (OperatingPoint, GridCost)>) -> Option<String> {
+    let (mut all, mut doubtful) = (0, 0);
+    let mut worst: Option<(OperatingPoint, GridCost)> = None;
+    for (point, cost) in judged {
+        all += 1;
+        if cost.warning().is_some() {
+            doubtful += 1;
+            // What cannot be told is the worst.
+            worst = Some(
+                worst.filter(|(_, worst)| worst.total().total_cmp(&cost.total()).is_ge()).unwrap_or((point, cost)),
+            );
+        }
+    }
+    let (point, cost) = worst?;
+    let Moes { m, l } = point.moes();
+    let why = cost.warning()?;
+    Some(format!(
+        "the grid does not do for {doubtful} of {all} full solutions; the worst, at M = {m:.4}, L = {l:.4}: {why}"
+    ))
 }
 
 impl Solution {
     /// A sentence where the grid costs the central film more than a few percent, with a grid that would do.
     pub fn grid_warning(&self) -> Option<String> {
         let cost = self.grid_cost?;
-        let total = cost.total();
-        if total <= TOLERATED {
-            return None;
-        }
-        if total.is_nan() {
-            return Some("what the grid costs H_c cannot be told; compare with a finer one".to_owned());
+        let warning = cost.warning()?;
+        if cost.total().is_nan() {
+            return Some(warning);
         }
         let (reach, spacing) = that_would_do(self.problem.point.kind, self.problem.moes);
         let mut parts = Vec::new();
@@ -76,8 +106,7 @@ impl Solution {
             let wanted = spacing.min(own * (0.01 / cost.resolution.abs()).sqrt());
             parts.push(format!("the spacing of {own:.2e} at X = -1 is too wide, {wanted:.1e} would do"));
         }
-        let more = if total > SATURATED { " or more" } else { "" };
-        Some(format!("H_c is off by about {:.0} %{more}: {}", 100.0 * total, parts.join("; ")))
+        Some(format!("{warning}: {}", parts.join("; ")))
     }
 }
 
@@ -94,7 +123,12 @@ impl<S: NewtonSpace> Solver<S> {
 }
 
 impl<S: NewtonSpace> System<S> {
-    fn grid_cost(&mut self, problem: &Problem, options: &super::SolveOptions<S::Control>) -> GridCost {
+    /// What the grid costs the central film of the stationary state that the system is in.
+    pub(in crate::solver::full) fn grid_cost(
+        &mut self,
+        problem: &Problem,
+        options: &super::SolveOptions<S::Control>,
+    ) -> GridCost {
         self.nodes.forget();
         self.evaluate(problem, options.penalty);
         let missing = self.missing_pressure(problem);
@@ -167,7 +201,7 @@ mod tests {
     use super::*;
     use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
     use crate::solver::full::{ContactSolver, Start};
-    use crate::solver::physics::contact::{Moes, MoesRequest, si_from_moes};
+    use crate::solver::physics::contact::{MoesRequest, si_from_moes};
     use crate::solver::physics::lubricant::Lubricant;
 
     fn judged(spec: GridSpec, m: f64, l: f64) -> Solution {

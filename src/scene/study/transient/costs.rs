@@ -86,7 +86,15 @@ mod tests {
         let grid = scene.grid.spec().unwrap().line().unwrap().scaled(1.0);
         let begun = Trajectory::begun(&transient, &grid).unwrap();
         let trajectory = Trajectory { moments: (0..=steps).map(moment).collect(), ..begun };
-        March { name: name.to_owned(), by, trajectory, seconds: vec![step_s; steps], mass_defect: None, record: None }
+        March {
+            name: name.to_owned(),
+            by,
+            trajectory,
+            seconds: vec![step_s; steps],
+            mass_defect: None,
+            grid_cost: None,
+            record: None,
+        }
     }
 
     const SCENE: &str =

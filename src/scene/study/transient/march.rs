@@ -6,6 +6,7 @@ use super::timed_march::Timed;
 use crate::scene::outcome::Findings;
 use crate::scene::statistics::{median, percentile};
 use crate::scene::table::{Column, Table};
+use crate::solver::full::GridCost;
 use crate::solver::full::transient::{Moment, Quantity, Trajectory};
 use crate::solver::reduced::tpwl::{TpwlRecord, TpwlStep, Weighting};
 
@@ -22,6 +23,8 @@ pub struct March {
     pub seconds: Vec<f64>,
     /// How far its fields are from keeping the mass between the study's places.
     pub mass_defect: Option<f64>,
+    /// What the grid costs H_c at the worst of some moments of a full march, and when that is.
+    pub grid_cost: Option<(f64, GridCost)>,
     /// What each step of a linearised model drew on.
     pub record: Option<TpwlRecord>,
 }
@@ -84,7 +87,15 @@ const SERIES: [Column<Moment>; 13] = [
 impl March {
     pub(super) fn new(name: &str, by: By, timed: Timed) -> Self {
         let trajectory = Trajectory { states: Vec::new(), ..timed.trajectory };
-        Self { name: name.to_owned(), by, trajectory, seconds: timed.seconds, mass_defect: None, record: None }
+        Self {
+            name: name.to_owned(),
+            by,
+            trajectory,
+            seconds: timed.seconds,
+            mass_defect: None,
+            grid_cost: None,
+            record: None,
+        }
     }
 
     /// The march it is held against, among all of them. One by a model that ended early agrees with nothing.
@@ -135,6 +146,11 @@ impl March {
         }
         if let Some(defect) = self.mass_defect {
             found.push(format!("{}.mass_defect", self.name), None, defect);
+        }
+        if let Some((time, cost)) = self.grid_cost {
+            found.push(format!("{}.grid_error", self.name), None, cost.total());
+            let warning = cost.warning().map(|warning| format!("{}: at T = {time:.4} {warning}", self.name));
+            found.warnings.extend(warning.map(|warning| format!("{warning}; the grid does not do for this march")));
         }
         for (quantity_name, quantity) in QUANTITIES {
             if let Some((greatest, l2)) = self.difference(quantity, study, marches) {

@@ -7,6 +7,7 @@
 
 mod difference;
 mod frame;
+mod grid_cost;
 mod history;
 mod march;
 mod mass;

@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 /// The full system, ready to march.
 pub struct FullMarch {
-    system: System<LineSpace>,
+    pub(super) system: System<LineSpace>,
     /// The stationary start, which needs other settings than a step.
     solver: FullSolver,
     reference: Problem,
