@@ -35,9 +35,9 @@ enum Beginning<'a> {
 }
 
 /// Newton steps that a whole solve takes at most, all its starts together, on a grid of so many unknowns: 3,000, on large
-/// grids fewer, and never fewer than 200.
+/// grids fewer, and never fewer than 100.
 pub fn most_newton(unknowns: usize) -> usize {
-    (4_000_000 / unknowns.max(1)).clamp(200, 3000)
+    (4_000_000 / unknowns.max(1)).clamp(100, 3000)
 }
 
 /// Solves contacts of one kind on one grid; keeps the grid and the work space between solves.
