@@ -182,8 +182,12 @@ impl Explorer {
         self.desk.answers.refresh(&ctx, &self.desk.document);
         self.desk.follow_cuts();
         if self.desk.presentation.is_none() {
-            Panel::bottom("readouts")
-                .show(ui, |ui| panels::readouts::ui(ui, &self.desk.answers, self.desk.document.view.bodies.as_ref()));
+            let in_time = self.shows_in_time();
+            Panel::bottom("readouts").show(ui, |ui| {
+                if !in_time || !panels::moment::ui(ui, &self.desk.transient) {
+                    panels::readouts::ui(ui, &self.desk.answers, self.desk.document.view.bodies.as_ref());
+                }
+            });
         }
         CentralPanel::no_frame().show(ui, |ui| {
             self.tree.ui(&mut Tabs { desk: &mut self.desk, commands: &mut commands }, ui);
@@ -347,11 +351,22 @@ impl Explorer {
 
     /// The tab in front.
     pub fn front(&self) -> Option<&'static str> {
-        let front = self.tree.active_tiles().into_iter().find_map(|id| match self.tree.tiles.get(id) {
+        self.tabs_in_front().next().map(Tab::title)
+    }
+
+    /// The tabs that can be seen.
+    fn tabs_in_front(&self) -> impl Iterator<Item = Tab> {
+        self.tree.active_tiles().into_iter().filter_map(|id| match self.tree.tiles.get(id) {
             Some(egui_tiles::Tile::Pane(tab)) => Some(*tab),
             _ => None,
-        });
-        front.map(Tab::title)
+        })
+    }
+
+    /// Whether nothing but contacts in time can be seen: the read-outs are of their moment then.
+    fn shows_in_time(&self) -> bool {
+        let line = self.desk.document.point.kind == ContactKind::Line;
+        let in_time = |tab| matches!(tab, Tab::Transient | Tab::Tpwl | Tab::ContactMap);
+        line && self.desk.document.no_transient().is_none() && self.tabs_in_front().all(in_time)
     }
 
     /// Whether a training or a comparison runs.

@@ -3,8 +3,8 @@
 
 use crate::common::scratch::Scratch;
 use crate::driver::{
-    Table, Window, click, export, export_plot, give_path, press, rest_in_time, run_in_time, set, shows, solid_curves,
-    time, undo, wait,
+    Table, Window, assert_cheap, click, export, export_plot, give_path, press, rest_in_time, run_in_time, set, shows,
+    solid_curves, time, undo, wait,
 };
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
@@ -194,6 +194,7 @@ fn a_fresh_window_runs_by_itself_replays_at_once_and_checks_at_rest() {
     set(&mut harness, Role::Slider, "Load period", 8.0);
     rest_in_time(&mut harness);
     assert!((time(&harness) - 3.0).abs() < 1e-9);
+    assert!(shows(&harness, "T = 3.000, ") && shows(&harness, ", Full system"), "the read-outs are of that moment");
     let map = harness.get_by_label("Film over space and time").rect();
     harness.hover_at(map.center());
     harness.run_steps(1);
@@ -208,6 +209,21 @@ fn a_fresh_window_runs_by_itself_replays_at_once_and_checks_at_rest() {
     click(&mut harness, "Pressure over time");
     let drawing = export_plot(&mut harness, "Pressure over space and time as SVG…", &folder.join("map.svg"));
     assert!(drawing.contains("href=\"data:image/png;base64,") && drawing.contains("Harmonic"));
+}
+
+#[test]
+fn a_frame_of_a_dragged_amplitude_is_cheap() {
+    let explorer = Explorer::new(None).without_system_dialogs();
+    let mut harness = crate::driver::window(explorer, [1280.0, 800.0]);
+    wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
+    click(&mut harness, "Transient");
+    rest_in_time(&mut harness);
+    // Everything replays in other threads; this one draws what they have found.
+    assert_cheap(&mut harness, 40, 16.0, |harness, k| {
+        let slider = harness.get_by_role_and_label(Role::Slider, "Load amplitude");
+        slider.set_value_accesskit(0.1 + 0.002 * f64::from(k));
+    });
+    assert!(harness.state().in_time().1 >= 2);
 }
 
 #[test]

@@ -102,7 +102,8 @@ pub fn ui(ui: &mut Ui, answers: &Answers, bodies: Option<&Bodies>) {
     });
 }
 
-fn cell(
+/// A symbol, its value, and this in SI units.
+pub(super) fn cell(
     ui: &mut Ui,
     name: LayoutJob,
     value: String,

@@ -12,6 +12,9 @@ use egui::Ui;
 const GOOD: f64 = 2e-3;
 const POOR: f64 = 1e-2;
 
+/// Width that it may take.
+const WIDTH: f32 = 300.0;
+
 /// First words, what follows them, and why.
 struct Verdict {
     kind: Kind,
@@ -23,6 +26,9 @@ struct Verdict {
 /// The badge of contacts in time.
 pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     let Verdict { kind, title, detail, why } = verdict(context.transient);
+    if ui.available_size_before_wrap().x < WIDTH {
+        ui.end_row();
+    }
     pill(ui, kind, [title, &detail, why], "Trust in the contact in time");
 }
 

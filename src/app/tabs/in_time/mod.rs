@@ -19,7 +19,7 @@ use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::Ended;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::tpwl::{TpwlRecord, Weighting};
-use egui::{Slider, Ui};
+use egui::{ScrollArea, Slider, Ui};
 
 /// A form over the contact in time of the document, refused under a name of its own; returns the field that was changed
 /// last.
@@ -125,6 +125,25 @@ pub fn status(ui: &mut Ui, context: &Context<'_>) {
         warning_ui(ui, &format!("What is shown belongs to {of} and a former set-up; run it again for the present one"));
     }
 }
+
+/// Pictures that scroll where they have to, and under them the moment that is looked at, always in sight.
+pub fn over_the_time_bar(
+    ui: &mut Ui,
+    name: &str,
+    context: &Context<'_>,
+    commands: &mut Commands,
+    pictures: impl FnOnce(&mut Ui, &mut Commands),
+) {
+    ui.vertical(|ui| {
+        let height = (ui.available_height() - TIME_BAR).max(TIME_BAR);
+        let area = ScrollArea::vertical().id_salt(name).auto_shrink(false).max_height(height);
+        area.show(ui, |ui| pictures(ui, commands));
+        player(ui, context.transient, commands);
+    });
+}
+
+/// Height of the time bar with the room above it.
+const TIME_BAR: f32 = 32.0;
 
 /// The moment that is looked at: a slider over what was computed, and a button that plays it.
 pub fn player(ui: &mut Ui, view: &TransientView, commands: &mut Commands) {

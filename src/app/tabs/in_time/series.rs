@@ -232,7 +232,7 @@ const LEAST_OFF: f64 = 1e-6;
 
 /// Marks of an axis of this width that leave their labels room.
 pub fn marks(width: f32) -> f64 {
-    f64::from((width - 60.0).max(60.0) / 60.0)
+    f64::from((width - 60.0).max(75.0) / 75.0)
 }
 
 /// The same for an axis of this height.

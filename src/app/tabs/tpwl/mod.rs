@@ -131,9 +131,8 @@ impl Tpwl {
                 });
                 ui.separator();
             }
-            ui.vertical(|ui| {
-                let area = ScrollArea::vertical().id_salt("tpwl").auto_shrink(false);
-                area.show(ui, |ui| self.results(ui, context, commands));
+            in_time::over_the_time_bar(ui, "tpwl", context, commands, |ui, commands| {
+                self.results(ui, context, commands);
             });
         });
     }
@@ -178,7 +177,7 @@ impl Tpwl {
         };
         self.choices(ui, linearised);
         dials::inputs_ui(ui, context);
-        let rest = height - (ui.cursor().top() - top) - 34.0;
+        let rest = height - (ui.cursor().top() - top) - 6.0;
         let mut sorting = self.sorting;
         let pictures = ui.scope(|ui| {
             in_time::grey_where_stale(ui, context);
@@ -189,7 +188,6 @@ impl Tpwl {
         });
         self.sorting = sorting;
         commands.extend(pictures.inner.map(|time| Command::InTime(InTimeCommand::GoTo(time))));
-        in_time::player(ui, context.transient, commands);
     }
 
     fn buttons(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {

@@ -6,21 +6,26 @@ use crate::app::theme::rich;
 use crate::app::transient::linearised::NumberRow;
 use crate::app::transient::method::{RULES, WEIGHTINGS, rule_name, weighting_name};
 use crate::solver::full::transient::Quantity;
-use egui::{Color32, Ui};
+use egui::{Color32, RichText, Ui};
 use egui_plot::{Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points, VLine};
 
 /// What stands above the plot.
-const HEAD: &str = "Error of {H_c}: solid by distance, dashed by missed step";
+const HEAD: &str = "Solid distance, dashed missed step";
 
 /// The plot, with logarithmic axes.
 pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) {
     let study = &shown.view.number;
     let head = if study.rows.is_empty() { "Error by number of points: coming" } else { HEAD };
-    let head = rich(head, 12.5, shown.palette.quiet);
-    ui.label(head).on_hover_text(
-        "Relative L2 difference of H_c from the full run, both rules on a ladder of tolerances; the dotted line and the diamond are the model \
-         in use",
-    );
+    ui.horizontal(|ui| {
+        ui.label(rich(head, 12.5, shown.palette.quiet)).on_hover_text(
+            "Relative L2 difference of H_c from the full run: solid the points chosen by distance, dashed by missed steps, on a ladder of \
+             tolerances; the dotted line and the diamond are the model in use",
+        );
+        for (k, name) in ["dual Taylor", "(4.29)"].into_iter().enumerate().filter(|_| !study.rows.is_empty()) {
+            let meaning = weighting_name(WEIGHTINGS[k]).1;
+            ui.label(RichText::new(name).small().color(shown.color(k))).on_hover_text(meaning);
+        }
+    });
     if study.rows.is_empty() {
         return;
     }

@@ -40,6 +40,8 @@ enum Drawn {
     Table,
 }
 
+const ERROR_TIP: &str = "How far H_c of each method lies from the full system’s";
+
 /// The pictures in their order.
 const PICTURES: [Drawn; 6] =
     [Drawn::Trajectory, Drawn::Plane, Drawn::Number, Drawn::Error, Drawn::Weights, Drawn::Table];
@@ -55,7 +57,7 @@ impl Drawn {
                 None
             }
             Self::Error => {
-                ui.weak("Error of each method").on_hover_text("How far H_c of each method lies from the full system’s");
+                ui.weak("Error, linearised broad, reduced thin").on_hover_text(ERROR_TIP);
                 series::deviation(ui, shown.view, height - 22.0)
             }
             Self::Weights => weights::ui(ui, shown, height),

@@ -49,9 +49,8 @@ impl Transient {
                 });
                 ui.separator();
             }
-            ui.vertical(|ui| {
-                let area = ScrollArea::vertical().id_salt("transient").auto_shrink(false);
-                area.show(ui, |ui| self.results(ui, context, commands));
+            in_time::over_the_time_bar(ui, "transient", context, commands, |ui, commands| {
+                self.results(ui, context, commands);
             });
         });
     }
@@ -74,7 +73,7 @@ impl Transient {
             }
             return;
         }
-        let rest = height - (ui.cursor().top() - top) - 30.0;
+        let rest = height - (ui.cursor().top() - top);
         let all = ui.vertical(|ui| {
             in_time::grey_where_stale(ui, context);
             let room = rest - cost::height(view);
@@ -87,7 +86,6 @@ impl Transient {
         });
         figure::offer_of(ui, "Series and profiles", all.response.rect, Subject::InTime);
         commands.extend(all.inner.map(|time| Command::InTime(InTimeCommand::GoTo(time))));
-        in_time::player(ui, view, commands);
     }
 
     fn buttons(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {

@@ -1,0 +1,48 @@
+//! The read-outs of a contact in time: what it amounts to at the moment that is looked at, by the first method that has
+//! come to it.
+
+use super::readouts::cell;
+use crate::app::numbers;
+use crate::app::theme::{Palette, rich, symbol};
+use crate::app::transient::TransientView;
+use crate::solver::full::transient::Quantity;
+use egui::Ui;
+
+/// The read-outs; whether there are any.
+pub fn ui(ui: &mut Ui, view: &TransientView) -> bool {
+    let time = view.player.time();
+    let there = |quantity| view.runs.iter().find_map(|run| Some((run, run.trajectory.at(quantity, time)?)));
+    let (Some(setup), Some((run, h_c))) = (&view.setup, there(Quantity::CentralFilm)) else { return false };
+    let value = |quantity| run.trajectory.at(quantity, time).unwrap_or(f64::NAN);
+    let palette = Palette::of(ui);
+    let (film, pressure) = (setup.point.film_scale_m(), setup.point.hertz().pressure_pa);
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 26.0;
+        if !view.is_current() && !view.replays() {
+            ui.disable();
+        }
+        let moment = format!(
+            "{{T}} = {}, {}, {}",
+            numbers::significant(time),
+            numbers::duration(time * setup.time_scale_s()),
+            run.name()
+        );
+        let films = [("c", h_c, "Central film at this moment"), ("min", value(Quantity::MinimumFilm), SMALLEST)];
+        for (index, h, tip) in films {
+            let si = numbers::length(h * film);
+            cell(ui, symbol(ui, "H", index), numbers::significant(h), si, palette.film, None, tip);
+        }
+        let p = value(Quantity::MaximumPressure);
+        let (name, si) = (symbol(ui, "P", "max"), numbers::pressure(p * pressure));
+        cell(ui, name, numbers::significant(p), si, palette.pressure, None, "Largest pressure at this moment");
+        let load = setup.point.load * setup.study.inputs.load.at(time);
+        let (name, unit) = (symbol(ui, "w", ""), "N/m".to_owned());
+        cell(ui, name, numbers::significant(load), unit, palette.text, None, "Load at this moment");
+        ui.label(rich(&moment, 13.5, palette.quiet))
+            .on_hover_text("The moment of the time bar, and by what it was found");
+    });
+    true
+}
+
+/// What the smallest film is.
+const SMALLEST: &str = "Smallest film of the contact zone at this moment";
