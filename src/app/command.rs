@@ -1,6 +1,7 @@
 //! Everything the user can ask for by menu, key or palette, in one place.
 
 use super::answers::picture::Cuts;
+use super::display::Thresholds;
 use super::document::Edit;
 use super::purpose::{Purpose, Written};
 use super::tab::Tab;
@@ -37,6 +38,10 @@ pub enum Command {
     Pin,
     /// Remove all pins.
     Unpin,
+    /// What can be set once for all documents.
+    Settings,
+    /// From where on the badge uses another word.
+    SetThresholds(Thresholds),
     /// All of these by typing.
     Palette,
     /// Nothing but plots and sliders, large.
@@ -47,6 +52,8 @@ pub enum Command {
     Difference,
     /// Fit all plots to their data.
     FitPlots,
+    /// Say in every tab what is seen and why, or no more.
+    ShowWhy,
     /// Light theme.
     LightTheme,
     /// Dark theme.
@@ -71,6 +78,10 @@ pub enum Command {
     RunInTime,
     /// Train the model that the Training tab specifies.
     Train,
+    /// Forget the training that is not at its end.
+    DiscardTraining,
+    /// Forget the model that was trained.
+    ThrowModelAway,
     /// Stop what runs.
     Cancel,
     /// What can be read about the program and its physics.
@@ -103,6 +114,8 @@ pub enum Command {
     FollowSweep(Box<(Sweep, Served)>),
     /// Go to a place on the axis of the traction curve.
     GoAlong(f64),
+    /// Full solutions along the traction curve where no model was trained for it.
+    FillAlong,
     /// Stop the full solutions along the traction curve.
     StopAlong,
     /// What becomes of contacts in time.
@@ -131,7 +144,7 @@ const CTRL: Modifiers = Modifiers::COMMAND;
 const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
 /// The menus from left to right, each in its groups.
-pub static MENUS: [Item; 33] = {
+pub static MENUS: [Item; 35] = {
     use Command as C;
     const fn item(
         menu: &'static str,
@@ -156,10 +169,19 @@ pub static MENUS: [Item; 33] = {
         item("Edit", 1, C::Pin, "Pin curve", "compare keep", Some((CTRL, Key::D))),
         item("Edit", 1, C::Unpin, "Remove all pins", "", Some((CTRL_SHIFT, Key::D))),
         item("Edit", 2, C::CopyReadouts, "Copy read-outs", "clipboard table values", Some((CTRL_SHIFT, Key::C))),
+        item(
+            "Edit",
+            3,
+            C::Settings,
+            "Settings…",
+            "preferences options thresholds badge theme text",
+            Some((CTRL, Key::Comma)),
+        ),
         item("View", 0, C::Palette, "Command palette…", "", Some((CTRL, Key::P))),
         item("View", 0, C::Presentation, "Presentation", "full screen projector lecture", Some((PLAIN, Key::F11))),
-        item("View", 1, C::Overlay, "Show or hide the full solution", "overlay reduced compare", None),
-        item("View", 1, C::Difference, "Show or hide the difference", "overlay reduced compare", None),
+        item("View", 1, C::Overlay, "Full solution over the profiles", "show hide overlay reduced compare", None),
+        item("View", 1, C::Difference, "Difference of the profiles", "show hide overlay reduced compare", None),
+        item("View", 1, C::ShowWhy, "Why, in three sentences", "teach explain note lecture", None),
         item("View", 2, C::LightTheme, "Light theme", "colours colors mode", None),
         item("View", 2, C::DarkTheme, "Dark theme", "colours colors mode", None),
         item("View", 2, C::SystemTheme, "System theme", "colours colors mode", None),

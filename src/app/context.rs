@@ -4,6 +4,7 @@ use super::answers::Answers;
 use super::answers::picture::Cuts;
 use super::command::Command;
 use super::controls::Entries;
+use super::display::Thresholds;
 use super::document::{Document, Edit};
 use super::traction::TractionView;
 use super::training::Training;
@@ -25,10 +26,14 @@ pub struct Context<'a> {
     pub training: &'a Training,
     /// What was refused, by the names of fields.
     pub entries: &'a Entries,
+    /// Whether tabs say why, for teaching.
+    pub why: bool,
     /// Where the document lies on disk, if it does.
     pub file: Option<&'a Path>,
     /// Where a point contact is cut.
     pub cuts: Cuts,
+    /// From where on the badge uses another word.
+    pub thresholds: Thresholds,
     /// Whether an audience looks: plots and little else.
     pub presenting: bool,
     /// Whether plots are to be fitted to their data in this frame.

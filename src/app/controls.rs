@@ -13,6 +13,8 @@ use std::ops::RangeInclusive;
 pub struct Entries {
     buffers: HashMap<&'static str, String>,
     messages: HashMap<&'static str, String>,
+    /// The field that was refused last.
+    last: Option<&'static str>,
 }
 
 impl Entries {
@@ -30,30 +32,45 @@ impl Entries {
                 self.buffers.remove(name);
             }
             Err(message) => {
+                self.last = Some(name);
                 self.messages.insert(name, message);
             }
         }
     }
 
+    /// The message about a field, if there is one.
+    pub fn message(&self, name: &str) -> Option<&str> {
+        self.messages.get(name).map(String::as_str)
+    }
+
     /// Shows the message about a field, if there is one.
     pub fn message_ui(&self, ui: &mut Ui, name: &str) {
-        if let Some(message) = self.messages.get(name) {
+        if let Some(message) = self.message(name) {
             message_ui(ui, message);
         }
     }
 
-    /// Shows the first message about a group of fields where room for two lines is always kept, so that nothing below
-    /// moves.
+    /// Shows one message about a group of fields, the last one where there are several, where room for two lines is
+    /// always kept, so that nothing below moves.
     pub fn reserved_ui<'a>(&self, ui: &mut Ui, names: impl IntoIterator<Item = &'a str>) {
-        let height = 2.0 * ui.text_style_height(&egui::TextStyle::Small) + ui.spacing().item_spacing.y;
-        let layout = egui::Layout::top_down(egui::Align::LEFT);
-        ui.allocate_ui_with_layout([ui.available_width(), height].into(), layout, |ui| {
-            ui.set_min_height(height);
-            if let Some(message) = names.into_iter().find_map(|name| self.messages.get(name)) {
+        reserved(ui, 2, |ui| {
+            let names: Vec<&str> = names.into_iter().collect();
+            let last = self.last.filter(|last| names.contains(last)).and_then(|last| self.message(last));
+            if let Some(message) = last.or_else(|| names.iter().find_map(|name| self.message(name))) {
                 message_ui(ui, message);
             }
         });
     }
+}
+
+/// Keeps room for so many lines of small text, whatever is said there, so that nothing below moves.
+pub fn reserved(ui: &mut Ui, lines: u8, content: impl FnOnce(&mut Ui)) {
+    let height = f32::from(lines) * ui.text_style_height(&egui::TextStyle::Small) + ui.spacing().item_spacing.y;
+    let layout = egui::Layout::top_down(egui::Align::LEFT);
+    ui.allocate_ui_with_layout([ui.available_width(), height].into(), layout, |ui| {
+        ui.set_min_height(height);
+        content(ui);
+    });
 }
 
 /// A sentence about something that is wrong, beside what it is about.
@@ -162,19 +179,8 @@ pub fn choice<T: Copy + PartialEq>(
     ui.end_row();
 }
 
-/// A number that is typed. Returns it when it was entered and is a number; arrow keys step by one percent.
-pub fn number_field(
-    ui: &mut Ui,
-    entries: &mut Entries,
-    name: &'static str,
-    value: f64,
-    width: f32,
-    tooltip: &str,
-) -> Option<f64> {
-    typed_field(ui, entries, name, value, width, tooltip, numbers::parse)
-}
-
-/// A number that is typed as `read` understands it, and shown in the same unit.
+/// A number that is typed as `read` understands it, and shown in the same unit. Returns it when it was entered and is a
+/// number; arrow keys step by one percent, with Shift by ten.
 pub fn typed_field(
     ui: &mut Ui,
     entries: &mut Entries,

@@ -51,6 +51,8 @@ impl Explorer {
             Command::CopyReadouts => ctx.copy_text(export::readouts_table(&desk.answers)),
             Command::Pin => desk.answers.pin(),
             Command::Unpin => desk.answers.pins.clear(),
+            Command::Settings => self.settings.open = true,
+            Command::SetThresholds(thresholds) => desk.display.thresholds = thresholds,
             Command::Palette => self.palette.open(ctx),
             Command::Presentation => self.present(ctx),
             Command::Overlay => {
@@ -63,6 +65,7 @@ impl Explorer {
                 *difference = !*difference;
                 self.show(Tab::Profiles);
             }
+            Command::ShowWhy => desk.display.why = !desk.display.why,
             Command::FitPlots => desk.fit_plots = true,
             Command::LightTheme => self.set_theme(ctx, ThemePreference::Light),
             Command::DarkTheme => self.set_theme(ctx, ThemePreference::Dark),
@@ -80,10 +83,14 @@ impl Explorer {
             Command::EstimateGridError => desk.answers.estimate_grid_error(ctx),
             Command::SolveAlong => {
                 let choices = &desk.views.traction.choices;
-                desk.traction.start_markers(ctx, &desk.document, &desk.answers, choices);
+                desk.traction.start_markers(ctx, &desk.document, &desk.answers, choices, false);
                 self.show(Tab::Traction);
             }
-            Command::StopAlong => desk.traction.full.stop(),
+            Command::FillAlong => {
+                let choices = &desk.views.traction.choices;
+                desk.traction.start_markers(ctx, &desk.document, &desk.answers, choices, true);
+            }
+            Command::StopAlong => desk.traction.stop_markers(),
             Command::FollowSweep(asked) => {
                 let (sweep, served) = *asked;
                 desk.traction.follow(ctx, &desk.answers.store, sweep, served);
@@ -98,14 +105,22 @@ impl Explorer {
                 self.show(Tab::Transient);
             }
             Command::Train => {
-                desk.training.start(ctx, &desk.document);
+                desk.request(ctx, Pending::Train);
                 self.show(Tab::Training);
             }
+            Command::DiscardTraining => desk.request(ctx, Pending::DiscardTraining),
+            Command::ThrowModelAway => desk.request(ctx, Pending::ThrowModelAway),
+            Command::Cancel if self.settings.open => self.settings.open = false,
+            Command::Cancel if self.help.about => self.help.about = false,
             Command::Cancel if self.help.manual.is_open() => self.help.manual.close(),
             Command::Cancel if desk.presentation.is_some() => self.present(ctx),
             Command::Cancel => desk.stop_all(),
-            Command::Manual => self.help.manual.open(),
-            Command::Keyboard => self.help.manual.open_keys(),
+            Command::Manual if self.help.manual.is_open() => self.help.manual.close(),
+            Command::Manual => {
+                let front = self.tabs_in_front().next();
+                self.help.manual.open_at(front.map_or("start.md", Tab::page));
+            }
+            Command::Keyboard => self.help.manual.open_at("keyboard.md"),
             Command::About => self.help.about = true,
             Command::InTime(command) => desk.transient.execute(ctx, &desk.answers.store, command),
             Command::Training(command) => desk.training.execute(ctx, &mut desk.answers, command),

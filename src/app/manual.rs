@@ -44,7 +44,7 @@ const PAGES: &[Page] = pages![
 /// Longest lines that are pleasant to read \[points\].
 const READABLE_WIDTH: f32 = 780.0;
 
-/// The manual, open or closed. It opens on the page where it was closed.
+/// The manual, open or closed.
 #[derive(Default)]
 pub struct Manual {
     open: bool,
@@ -58,15 +58,10 @@ impl Manual {
         self.open
     }
 
-    /// Opens it where it was closed.
-    pub fn open(&mut self) {
+    /// Opens it on the page of a file.
+    pub fn open_at(&mut self, file: &str) {
         self.open = true;
-    }
-
-    /// Opens it on the list of keys.
-    pub fn open_keys(&mut self) {
-        self.open = true;
-        self.page = PAGES.iter().position(|page| page.file == "keyboard.md").unwrap_or_default();
+        self.page = PAGES.iter().position(|page| page.file == file).unwrap_or_default();
     }
 
     /// Closes it.
@@ -149,6 +144,7 @@ mod tests {
     use super::*;
     use crate::app::Explorer;
     use crate::app::command::MENUS;
+    use crate::app::tab::Tab;
     use egui::accesskit::Role;
     use egui::{Key, ModifierNames, Modifiers};
     use egui_kittest::Harness;
@@ -186,12 +182,22 @@ mod tests {
         press(&mut harness, Key::Escape);
         assert!(!reads(&harness, PAGES[PAGES.len() - 1].title()), "Escape closes it");
         press(&mut harness, Key::F1);
-        assert!(reads(&harness, PAGES[PAGES.len() - 1].title()), "it opens where it was closed");
+        let tour = PAGES.iter().find(|page| page.file == Tab::Profiles.page()).unwrap();
+        assert!(reads(&harness, tour.title()), "it opens at the page of the tab in front");
+        press(&mut harness, Key::F1);
+        assert!(!reads(&harness, tour.title()), "a second F1 closes it");
+    }
+
+    #[test]
+    fn every_tab_has_a_page() {
+        assert!(Tab::ALL.into_iter().all(|tab| PAGES.iter().any(|page| page.file == tab.page())));
     }
 
     #[test]
     fn a_link_leads_to_its_page() {
         let mut harness = open();
+        harness.query_all_by_role_and_label(Role::Button, PAGES[0].title()).next().unwrap().click();
+        harness.run_steps(3);
         harness.query_all_by_role_and_label(Role::Link, "Physics").next().unwrap().click();
         harness.run_steps(3);
         assert!(reads(&harness, "Physics"));

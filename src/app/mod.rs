@@ -10,6 +10,7 @@ mod controls;
 mod desk;
 mod display;
 mod document;
+mod drawn;
 mod execute;
 mod export;
 mod figure;
@@ -33,18 +34,21 @@ mod transient;
 
 use crate::engine::Store;
 use crate::scene::Table;
-use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint};
+use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint, Quantity};
+use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::ReducedModel;
 use answers::jobs::{JobKind, wake};
 use command::Command;
 use context::Commands;
 use desk::Desk;
 use document::Document;
+use drawn::Drawn;
 use egui::{CentralPanel, Panel, ScrollArea, Ui};
 use egui_tiles::Tree;
 use model_source::Models;
 use palette::Palette;
 use panels::help::Help;
+use panels::settings::Settings;
 use session::{Keeper, Place};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -103,6 +107,8 @@ pub struct Explorer {
     tree: Tree<Tab>,
     palette: Palette,
     help: Help,
+    settings: Settings,
+    drawn: Vec<Drawn>,
     frame_s: f64,
     installed: bool,
     place: Place,
@@ -127,6 +133,8 @@ impl Explorer {
             tree: tabs::default_tree(),
             palette: Palette::default(),
             help: Help::default(),
+            settings: Settings::default(),
+            drawn: Vec::new(),
             frame_s: 0.0,
             installed: false,
             place: Place::default(),
@@ -170,6 +178,7 @@ impl Explorer {
         self.scale(&ctx);
         self.palette.begin(&ctx);
         figure::begin(&ctx);
+        drawn::begin(&ctx);
         self.desk.receive();
         let asked = self.desk.files.asks() || self.desk.figures.asks() || self.palette.is_open();
         let mut commands = Commands::default();
@@ -185,16 +194,18 @@ impl Explorer {
             let in_time = self.shows_in_time();
             Panel::bottom("readouts").show(ui, |ui| {
                 if !in_time || !panels::moment::ui(ui, &self.desk.transient) {
-                    panels::readouts::ui(ui, &self.desk.answers, self.desk.document.view.bodies.as_ref());
+                    panels::readouts::ui(ui, &self.desk.answers, &self.desk.document);
                 }
             });
         }
         CentralPanel::no_frame().show(ui, |ui| {
             self.tree.ui(&mut Tabs { desk: &mut self.desk, commands: &mut commands }, ui);
         });
+        self.drawn = drawn::all(&ctx);
         self.desk.files_ui(ui);
         self.desk.figures_ui(&ctx);
         panels::help::ui(&ctx, &mut self.help);
+        self.settings.ui(&ctx, &self.desk, &mut commands);
         commands.extend(self.palette.ui(&ctx, &self.desk));
         self.settle(&ctx);
         self.execute_all(&ctx, &mut commands);
@@ -255,7 +266,7 @@ impl Explorer {
                     panels::operating_point::ui(ui, &context, &mut entries, commands);
                     panels::bodies::ui(ui, context.document, &mut entries, commands);
                     panels::lubricant::ui(ui, context.document, &mut own_laws, &mut entries, commands);
-                    panels::settings::ui(ui, &context, commands);
+                    panels::model::ui(ui, &context, commands);
                     panels::plane::ui(ui, &context, commands);
                     ui.add_space(8.0);
                 });
@@ -313,12 +324,12 @@ impl Explorer {
 
     /// The first words of the trust badge.
     pub fn badge(&self) -> String {
-        tabs::badge::verdict(&self.desk.answers).title
+        tabs::badge::verdict(&self.desk.answers, self.desk.display.thresholds).title
     }
 
     /// What the trust badge says after its first words; symbols stand in braces.
     pub fn badge_detail(&self) -> String {
-        tabs::badge::verdict(&self.desk.answers).detail
+        tabs::badge::verdict(&self.desk.answers, self.desk.display.thresholds).detail
     }
 
     /// Opens a scene, as File → Open does.
@@ -433,6 +444,21 @@ impl Explorer {
     /// Moments that have been computed of contacts in time.
     pub fn transient_moments(&self) -> usize {
         self.desk.transient.runs.iter().map(|run| run.trajectory.moments.len()).sum()
+    }
+
+    /// What the last frame drew: its name, the contact and the lubricant that it belongs to, and whether it is grey.
+    pub fn drawn(&self) -> impl Iterator<Item = (&'static str, OperatingPoint, Lubricant, bool)> {
+        self.drawn.iter().map(|drawn| (drawn.name, drawn.of.point, drawn.of.lubricant, drawn.grey))
+    }
+
+    /// The laws of the lubricant on the screen.
+    pub fn lubricant(&self) -> Lubricant {
+        self.desk.document.lubricant
+    }
+
+    /// The quantities that were typed and stay.
+    pub fn held(&self) -> impl Iterator<Item = Quantity> {
+        Quantity::SI.into_iter().filter(|quantity| self.desk.document.holds(*quantity))
     }
 
     /// Seconds that the last frame took to build.

@@ -1,6 +1,7 @@
 //! Every colour, stroke and text style of the explorer. Quantities keep their hue everywhere (Okabe–Ito), reduced is
 //! the thick line, full the thin one of the same hue, pinned curves fade.
 
+use egui::ecolor::{Hsva, Rgba};
 use egui::text::{LayoutJob, TextFormat};
 use egui::{Align, Color32, Context, CornerRadius, FontId, Stroke, TextStyle, Theme, Ui, Visuals};
 
@@ -11,10 +12,25 @@ pub const FULL_WIDTH: f32 = 1.1;
 /// Width of reference and pinned curves.
 pub const THIN_WIDTH: f32 = 1.2;
 
+/// Contrast that text needs to be read by everybody (WCAG 2.2, level AA).
+pub const READABLE: f32 = 4.5;
+
+/// The contrast of two opaque colours, 1…21, as WCAG 2.2 defines it.
+pub fn contrast(a: Color32, b: Color32) -> f32 {
+    let luminance = |color: Color32| {
+        let [r, g, b, _] = Rgba::from(color).to_array();
+        0.2126 * r + 0.7152 * g + 0.0722 * b + 0.05
+    };
+    let (a, b) = (luminance(a), luminance(b));
+    a.max(b) / a.min(b)
+}
+
 /// The colours of one theme.
 #[derive(Clone, Copy, Debug)]
 pub struct Palette {
     dark: bool,
+    /// The background on which text has least contrast.
+    paper: Color32,
     /// Pressure.
     pub pressure: Color32,
     /// Film thickness.
@@ -51,9 +67,33 @@ impl Palette {
         color.lerp_to_gamma(if self.dark { Color32::WHITE } else { Color32::BLACK }, 0.62)
     }
 
+    /// The shade of a hue in which text can be read on every background of the theme.
+    pub fn ink(&self, color: Color32) -> Color32 {
+        self.ink_on(color, self.paper)
+    }
+
+    /// The same on one background, which is opaque.
+    pub fn ink_on(&self, color: Color32, background: Color32) -> Color32 {
+        let shades = (0..=20).map(|step| color.lerp_to_gamma(self.text, step as f32 / 20.0));
+        shades.into_iter().find(|shade| contrast(*shade, background) >= READABLE).unwrap_or(self.text)
+    }
+
+    /// The hue of a pinned curve, by its number from 1: neighbours lie far from each other on the circle of hues.
+    pub fn pin(&self, number: usize) -> Color32 {
+        const GOLDEN: f32 = 0.618_034;
+        let hue = (0.12 + number as f32 * GOLDEN).fract();
+        let (saturation, value) = if self.dark { (0.55, 0.88) } else { (0.85, 0.55) };
+        Hsva::new(hue, saturation, value, 1.0).into()
+    }
+
     /// Colours for what is on the screen now.
     pub fn of(ui: &Ui) -> Self {
         Self::for_visuals(ui.visuals())
+    }
+
+    /// The same where there is no room to draw in at hand.
+    pub fn of_screen(ctx: &Context) -> Self {
+        Self::for_visuals(&ctx.style_of(ctx.theme()).visuals)
     }
 
     /// Colours for the visuals of a theme.
@@ -61,6 +101,7 @@ impl Palette {
         if visuals.dark_mode {
             Self {
                 dark: true,
+                paper: Color32::from_rgb(0x26, 0x27, 0x2B),
                 pressure: Color32::from_rgb(0xF0, 0x7A, 0x28),
                 film: Color32::from_rgb(0x3C, 0x9F, 0xDE),
                 deformation: Color32::from_rgb(0x1F, 0xB8, 0x8C),
@@ -84,14 +125,15 @@ impl Palette {
         } else {
             Self {
                 dark: false,
+                paper: Color32::from_rgb(0xF0, 0xF0, 0xF2),
                 pressure: Color32::from_rgb(0xD5, 0x5E, 0x00),
                 film: Color32::from_rgb(0x00, 0x72, 0xB2),
                 deformation: Color32::from_rgb(0x00, 0x9E, 0x73),
                 traction: Color32::from_rgb(0xA8, 0x47, 0x8A),
                 reference: Color32::from_gray(0x78),
                 accent: Color32::from_rgb(0x62, 0x4C, 0xC0),
-                verified: Color32::from_rgb(0x2E, 0x7D, 0x4F),
-                warning: Color32::from_rgb(0x9A, 0x68, 0x00),
+                verified: Color32::from_rgb(0x26, 0x70, 0x45),
+                warning: Color32::from_rgb(0x8A, 0x5C, 0x00),
                 wrong: Color32::from_rgb(0xB8, 0x23, 0x23),
                 text: Color32::from_gray(0x24),
                 quiet: Color32::from_gray(0x6A),
@@ -215,6 +257,48 @@ pub fn faded(color: Color32, strength: f32) -> Color32 {
 mod tests {
     use super::*;
     use std::path::Path;
+
+    #[test]
+    fn text_can_be_read_in_both_themes() {
+        assert!((contrast(Color32::WHITE, Color32::BLACK) - 21.0).abs() < 1e-3);
+        let ctx = Context::default();
+        install(&ctx);
+        for theme in [Theme::Light, Theme::Dark] {
+            let style = ctx.style_of(theme);
+            let (visuals, widgets) = (&style.visuals, &style.visuals.widgets);
+            let palette = Palette::for_visuals(visuals);
+            let papers = [visuals.panel_fill, visuals.window_fill, visuals.extreme_bg_color, visuals.faint_bg_color];
+            let quantities = [
+                palette.pressure,
+                palette.film,
+                palette.deformation,
+                palette.traction,
+                palette.reference,
+                palette.accent,
+            ];
+            let inks = quantities.into_iter().chain((1..=8).map(|pin| palette.pin(pin))).map(|hue| palette.ink(hue));
+            let said = [palette.text, palette.quiet, palette.verified, palette.warning, palette.wrong];
+            for ink in inks.chain(said) {
+                for paper in papers {
+                    let contrast = contrast(ink, paper);
+                    assert!(contrast >= READABLE, "{theme:?}: {ink:?} on {paper:?} has {contrast}");
+                }
+            }
+            // Controls bear the colour of text, whatever happens to them.
+            let states = [&widgets.inactive, &widgets.hovered, &widgets.active, &widgets.open];
+            let selected = visuals.panel_fill.blend(visuals.selection.bg_fill);
+            for fill in states.into_iter().flat_map(|state| [state.bg_fill, state.weak_bg_fill]).chain([selected]) {
+                let contrast = contrast(palette.text, visuals.panel_fill.blend(fill));
+                assert!(contrast >= READABLE, "{theme:?}: text on {fill:?} has {contrast}");
+            }
+            // Neighbouring pins are told apart.
+            for pin in 1..8 {
+                let [a, b] = [palette.pin(pin), palette.pin(pin + 1)];
+                let apart = a.to_array().iter().zip(b.to_array()).map(|(a, b)| a.abs_diff(b)).max();
+                assert!(apart > Some(60), "{theme:?}: pin {pin} {a:?} and the next {b:?}");
+            }
+        }
+    }
 
     /// The text of every source below a folder, tests left out.
     fn collect_sources(folder: &Path, sources: &mut Vec<String>) {

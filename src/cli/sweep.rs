@@ -15,8 +15,9 @@ use std::path::PathBuf;
 /// Options of `sweep`.
 #[derive(Debug, Args)]
 pub struct SweepArgs {
-    /// What is varied, once or twice, with :log for a constant ratio; NAME is a numeric option, as moes-m or speed
-    #[arg(value_name = "NAME=FROM:TO:N[:log]", required = true, num_args = 1..=2, value_parser = varied)]
+    /// What is varied, once or twice; NAME is a numeric option, as moes-m or speed. With :log for a constant ratio, with
+    /// :graded:HALF for half of the values up to HALF and ever wider steps, as srr=0:1:41:graded:0.05
+    #[arg(value_name = "NAME=FROM:TO:N[:log|:graded:HALF]", required = true, num_args = 1..=2, value_parser = varied)]
     varied: Vec<Varied>,
     #[command(flatten)]
     point: PointOptions,
@@ -50,12 +51,14 @@ const CONTACT_COLUMNS: [&str; 10] = [
 ];
 
 fn varied(text: &str) -> Result<Varied, String> {
-    let shape = "write NAME=FROM:TO:N, as in moes-m=10:100:19, with :log for a constant ratio";
+    let shape = "write NAME=FROM:TO:N, as in moes-m=10:100:19, with :log for a constant ratio or :graded:HALF for half \
+                 of the values up to HALF";
     let (name, range) = text.split_once('=').ok_or(shape)?;
     let parts: Vec<&str> = range.split(':').collect();
-    let (ends, log) = match parts.as_slice() {
-        [from, to, n] => ((*from, *to, *n), false),
-        [from, to, n, "log"] => ((*from, *to, *n), true),
+    let (ends, log, half) = match parts.as_slice() {
+        [from, to, n] => ((*from, *to, *n), false, None),
+        [from, to, n, "log"] => ((*from, *to, *n), true, None),
+        [from, to, n, "graded", half] => ((*from, *to, *n), false, Some(*half)),
         _ => return Err(shape.to_owned()),
     };
     let number = |text: &str| text.parse::<f64>().map_err(|_| format!("`{text}` is no number; {shape}"));
@@ -70,7 +73,14 @@ fn varied(text: &str) -> Result<Varied, String> {
     if log && !(from > 0.0 && to > 0.0) {
         return Err("a constant ratio needs positive ends; leave out :log".to_owned());
     }
-    let steps = if log { Steps::Log { from, to, n } } else { Steps::Linear { from, to, n } };
+    let steps = match half.map(number).transpose()? {
+        Some(half) => {
+            Steps::check_grading(from, half, to)?;
+            Steps::Graded { from, half, to, n }
+        }
+        None if log => Steps::Log { from, to, n },
+        None => Steps::Linear { from, to, n },
+    };
     Ok(Varied { name: name.to_owned(), steps })
 }
 

@@ -14,9 +14,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Newtonian traction coefficients beyond this are no physics: real oils yield or thin long before.
-const PLAUSIBLE_TRACTION: f64 = 0.2;
-
 /// The store as one job uses it: with the folder that its paths refer to, and reduced solvers that remember only what
 /// this job has solved.
 #[derive(Default)]
@@ -189,14 +186,8 @@ impl Bench for Workbench {
                 .warnings
                 .push(format!("the Hertzian pressure of {:.3} GPa exceeds 3.2 GPa: no real contact", p_h / 1e9));
         }
-        let warning = answer.result().and_then(Solution::traction_warning);
-        let traction = answer.traction().filter(|_| warning.is_none() && problem.shear.is_none()).unwrap_or(0.0).abs();
-        answer.warnings.extend(warning);
-        if traction > PLAUSIBLE_TRACTION {
-            answer.warnings.push(format!(
-                "a Newtonian traction coefficient of {traction:.3e} is unphysical at this pressure: the fluid would shear-thin or yield"
-            ));
-        }
+        let doubt = answer.traction().and_then(|traction| problem.doubts_traction(traction));
+        answer.warnings.extend(doubt);
         Ok(answer)
     }
 

@@ -414,6 +414,8 @@ fn sweep_writes_a_table() {
         ("m=1:2", "NAME=FROM:TO:N"),
         ("m=1:nan:3", "finite"),
         ("m=-1:2:3:log", "positive"),
+        ("m=1:2:3:graded", "NAME=FROM:TO:N"),
+        ("m=1:2:3:graded:1.5", "half of the values up to 1.5 do not fit between 1 and 2"),
         ("m=1:2:99999999", "100000"),
         ("mass=1:2:3", "moes-m"),
         ("m=-5:2:3", "Moes number M"),

@@ -5,6 +5,7 @@
 mod common;
 mod driver;
 
+mod accessible;
 mod accuracy_tab;
 mod contact_map;
 mod desktop;
@@ -15,3 +16,4 @@ mod tpwl_tab;
 mod traction_tab;
 mod training_tab;
 mod transient_tab;
+mod walk;

@@ -65,6 +65,7 @@ fn a_small_training_is_watched_used_compared_and_saved() {
     give_path(&mut harness, &path, "Save");
     assert_eq!(model_file::read(&path).unwrap().title, "Small box");
     assert!(!folder.join("unfinished.training").exists());
+    assert!(!folder.join("trained.rom").exists(), "what is saved need not be kept");
     harness.state_mut().open_scene(&path).unwrap();
     wait(&mut harness, "the model from the file", |app| app.model_title() == Some("Small box"));
 }
@@ -101,9 +102,40 @@ fn a_stopped_training_is_kept_used_and_resumed_after_a_crash() {
     assert!(harness.state().training());
     click(&mut harness, "Stop");
     wait(&mut harness, "the end", |app| !app.training());
-    click(&mut harness, "Discard");
+    click(&mut harness, "Discard…");
+    assert!(kept.exists(), "it asks first");
+    click(&mut harness, "Throw it away");
     assert!(!kept.exists());
     assert!(!harness.get_by_label("Start training").accesskit_node().is_disabled());
+}
+
+#[test]
+fn a_model_is_kept_until_it_is_saved_or_thrown_away_and_nothing_asks_where_nothing_is_lost() {
+    let folder = Scratch::new("training-tab-kept");
+    let kept = folder.join("trained.rom");
+    let mut harness = open(&folder, "Small box", TINY);
+    click(&mut harness, "Start training");
+    wait(&mut harness, "the training", |app| !app.training());
+    assert_eq!(model_file::read(&kept).unwrap().title, "Small box");
+    drop(harness);
+    // The next window has it, and offers to save it.
+    let mut harness = open(&folder, "Small box", TINY);
+    assert!(harness.query_by_label_contains("of a former session is not saved").is_some());
+    click(&mut harness, "Use this model");
+    assert_eq!(harness.state().model_title(), Some("Small box"));
+    // Another training would replace it, so it asks; Cancel leaves everything as it is.
+    click(&mut harness, "Start training");
+    assert!(harness.query_by_label_contains("was trained and is not saved").is_some());
+    click(&mut harness, "Cancel");
+    assert!(!harness.state().training() && kept.exists());
+    click(&mut harness, "Throw away…");
+    click(&mut harness, "Throw it away");
+    assert!(!kept.exists() && harness.query_by_label("Save model…").is_none());
+    // Now nothing is lost, and nothing asks.
+    click(&mut harness, "Start training");
+    assert!(harness.state().training());
+    click(&mut harness, "Stop");
+    wait(&mut harness, "the end", |app| !app.training());
 }
 
 #[test]

@@ -23,6 +23,11 @@ impl Answers {
         let Ask { key, options, .. } = ask;
         let drawn = former.is_some_and(|former| self.picture.as_ref().is_some_and(|p| p.key == former.key));
         let same_means = former.is_some_and(|former| Ask { key, ..former } == ask);
+        // What solves took belongs to a kind of contact and its means.
+        if !same_means || former.is_some_and(|former| former.key.point.kind != key.point.kind) {
+            self.reduced_times.clear();
+            self.full_times.clear();
+        }
         self.changed_at = ctx.input(|i| i.time);
         if former.is_none_or(|former| former.key != key) {
             self.failure = None;
@@ -106,7 +111,7 @@ impl Answers {
         let result = solved.and_then(|reduced| online.reconstruct(&reduced).map(|fields| (reduced, fields)));
         match result {
             Ok((reduced, fields)) => {
-                self.reduced_wall_s = Some(wall_s);
+                self.reduced_times.add(wall_s);
                 let origin = Origin::Reduced {
                     residual_estimate: reduced.residual_estimate,
                     error: reduced.error,

@@ -9,6 +9,7 @@ pub mod grid_error;
 pub mod jobs;
 pub mod picture;
 mod receive;
+mod times;
 
 use crate::app::document::{Document, Key};
 use crate::app::in_use::InUse;
@@ -21,6 +22,7 @@ use grid_error::GridError;
 use jobs::Jobs;
 use picture::{Comparison, Cuts, Origin, Picture};
 use std::sync::Arc;
+use times::Times;
 
 /// Seconds of rest after which a verification starts by itself.
 pub const REST_S: f64 = 0.25;
@@ -92,10 +94,10 @@ pub struct Answers {
     pub passed_over: Option<PassedOver>,
     /// Pinned curves.
     pub pins: Vec<Pin>,
-    /// Seconds of the last reduced solve.
-    pub reduced_wall_s: Option<f64>,
-    /// Seconds of the last full solve.
-    pub full_wall_s: Option<f64>,
+    /// Seconds of the last reduced solves.
+    pub reduced_times: Times,
+    /// Seconds of the last full solves.
+    pub full_times: Times,
     /// Why there is no estimate of what the grid costs, where one was asked for.
     pub no_estimate: Option<String>,
     grid_error: Option<GridError>,
@@ -140,8 +142,8 @@ impl Answers {
             verify_failure: None,
             passed_over: None,
             pins: Vec::new(),
-            reduced_wall_s: None,
-            full_wall_s: None,
+            reduced_times: Times::default(),
+            full_times: Times::default(),
             no_estimate: None,
             grid_error: None,
             online: None,
@@ -213,11 +215,6 @@ impl Answers {
     /// Whether the full solution belongs to the sliders.
     pub fn full_is_current(&self) -> bool {
         self.is_of_the_ask(self.full.as_ref())
-    }
-
-    /// Whether the picture should be drawn grey: not the sliders', and not about to be replaced.
-    pub fn picture_is_stale(&self, now: f64) -> bool {
-        !self.picture_is_current() && (self.failure.is_some() || now - self.changed_at > REST_S)
     }
 
     /// What the grid costs, where that was estimated for the sliders and the chosen grid.

@@ -91,6 +91,8 @@ pub struct Picture {
     pub spike: Option<(f64, f64)>,
     /// A sentence where the grid ends too early or is too coarse, or does not resolve the side lobes.
     pub unresolved: Option<String>,
+    /// Whether its domain or its spacing costs the film too much.
+    pub costly_grid: bool,
 }
 
 impl Picture {
@@ -99,6 +101,8 @@ impl Picture {
     pub fn new(key: Key, origin: Origin, solution: Arc<Solution>, cuts: Cuts, traction: Option<f64>) -> Self {
         let solution = of_contact(solution, &key);
         let slides = key.point.sliding.slide_to_roll_ratio != 0.0;
+        let traction = traction.filter(|_| slides).unwrap_or_else(|| solution.traction_coefficient());
+        let grid_warning = solution.grid_warning();
         let mut picture = Self {
             key,
             origin,
@@ -106,11 +110,12 @@ impl Picture {
             pressure: Vec::new(),
             film: Vec::new(),
             across: Across::default(),
-            traction: traction.filter(|_| slides).unwrap_or_else(|| solution.traction_coefficient()),
-            unphysical: solution.traction_warning(),
+            traction,
+            unphysical: solution.problem.doubts_traction(traction),
             rupture: solution.rupture(),
             spike: solution.spike(),
-            unresolved: both(solution.grid_warning(), resolution_warning(&solution)),
+            costly_grid: grid_warning.is_some(),
+            unresolved: both(grid_warning, resolution_warning(&solution)),
             solution,
         };
         picture.draw_curves();
@@ -122,7 +127,7 @@ impl Picture {
         self.solution = of_contact(Arc::clone(&self.solution), &key);
         self.key = key;
         self.traction = self.solution.traction_coefficient();
-        self.unphysical = self.solution.traction_warning();
+        self.unphysical = self.solution.problem.doubts_traction(self.traction);
     }
 
     /// Lays the curves of a point contact elsewhere.
@@ -214,7 +219,8 @@ impl Comparison {
     /// A picture against the truth.
     pub fn new(picture: &Picture, full: &Picture) -> Self {
         let (a, b) = (&picture.solution.scalars, &full.solution.scalars);
-        let slides = picture.key.point.sliding.slide_to_roll_ratio != 0.0 && picture.unphysical.is_none();
+        let slides =
+            picture.key.point.sliding.slide_to_roll_ratio != 0.0 && picture.solution.traction_warning().is_none();
         let difference = |mine: &[PlotPoint], theirs: &[PlotPoint], scale: f64| -> Vec<PlotPoint> {
             mine.iter().filter_map(|p| value_at(theirs, p.x).map(|v| PlotPoint::new(p.x, (p.y - v) / scale))).collect()
         };

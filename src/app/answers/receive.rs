@@ -30,7 +30,7 @@ impl Answers {
     fn receive_live(&mut self, job: &Running, outcome: Outcome) {
         match outcome {
             Outcome::Solved(solution, wall_s) if solution.converged() => {
-                self.full_wall_s = Some(wall_s);
+                self.full_times.add(wall_s);
                 self.last_report = Some((job.key, solution.report.clone()));
                 if Some(job.key) == self.key() {
                     self.failure = None;
@@ -59,7 +59,7 @@ impl Answers {
     fn receive_verification(&mut self, job: &Running, outcome: Outcome) {
         match outcome {
             Outcome::Solved(solution, wall_s) if solution.converged() => {
-                self.full_wall_s = Some(wall_s);
+                self.full_times.add(wall_s);
                 self.last_report = Some((job.key, solution.report.clone()));
                 let reduced = self.picture.as_ref().is_some_and(|p| p.key == job.key && p.origin != Origin::Full);
                 if !reduced && self.plane().is_some_and(|plane| solution.mesh.plane() != Some(plane)) {

@@ -96,6 +96,8 @@ impl Desk {
             file: self.files.path.as_deref(),
             entries: &self.entries,
             cuts: self.display.cuts,
+            thresholds: self.display.thresholds,
+            why: self.display.why,
             presenting: self.presentation.is_some(),
             fit: self.fit_plots,
         }
@@ -166,7 +168,7 @@ impl Desk {
         self.views.accuracy.stop();
         self.views.results.stop();
         self.transient.stop();
-        self.traction.full.stop();
+        self.traction.stop_markers();
     }
 
     /// Runs the study of the scene on the screen.

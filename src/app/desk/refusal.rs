@@ -7,11 +7,27 @@ use crate::app::answers::picture::Origin;
 use crate::app::command::Command;
 use crate::app::traction::sweep;
 use crate::solver::physics::contact::ContactKind;
+use egui::ThemePreference;
 
 const NO_PICTURE: &str = "There is no picture yet";
 const RUNS_ALREADY: &str = "It runs already";
 
 impl Desk {
+    /// Whether what a command switches is on; `None` of commands that switch nothing.
+    pub fn state(&self, command: &Command) -> Option<bool> {
+        let (profiles, theme) = (&self.views.profiles.choices, self.display.theme);
+        match command {
+            Command::Overlay => Some(profiles.overlay),
+            Command::Difference => Some(profiles.difference),
+            Command::ShowWhy => Some(self.display.why),
+            Command::Presentation => Some(self.presentation.is_some()),
+            Command::LightTheme => Some(theme == ThemePreference::Light),
+            Command::DarkTheme => Some(theme == ThemePreference::Dark),
+            Command::SystemTheme => Some(theme == ThemePreference::System),
+            _ => None,
+        }
+    }
+
     /// Why a command cannot be done now, in a few words; `None` where it can.
     pub fn refusal(&self, command: &Command) -> Option<&'static str> {
         let (refused, why) = match command {

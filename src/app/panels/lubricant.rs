@@ -2,8 +2,9 @@
 
 use super::oil;
 use crate::app::context::Commands;
-use crate::app::controls::{Entries, NAME_WIDTH, choice, heading, number_field, row_name, sentence};
+use crate::app::controls::{Entries, NAME_WIDTH, choice, heading, row_name, sentence, typed_field};
 use crate::app::document::{Document, Edit};
+use crate::app::numbers;
 use crate::app::theme::name_and_symbol;
 use crate::scene::named_lubricant::{self, NAMED, NamedLubricant};
 use crate::solver::physics::lubricant::{
@@ -55,9 +56,10 @@ pub fn ui(ui: &mut Ui, document: &Document, own_laws: &mut bool, entries: &mut E
         }
         None => own(ui, laws, entries, commands),
     }
-    entries.message_ui(ui, GROUP);
     oil::ui(ui, document, entries, commands);
     limiting_stress(ui, laws, entries, commands);
+    let constants = CONSTANTS.iter().chain(&LIMITS).map(|constant| constant.name);
+    entries.reserved_ui(ui, constants.chain([GROUP]));
 }
 
 fn picker(ui: &mut Ui, own_laws: &mut bool, commands: &mut Commands, known: Option<&'static NamedLubricant>) {
@@ -236,13 +238,12 @@ fn constants_ui(ui: &mut Ui, entries: &mut Entries, constants: &[Constant], laws
         let Some(value) = of(laws) else { continue };
         ui.horizontal(|ui| {
             row_name(ui, name_and_symbol(ui, row, base, subscript), tip);
-            if let Some(entered) = number_field(ui, entries, name, *value / scale, 96.0, tip) {
+            if let Some(entered) = typed_field(ui, entries, name, *value / scale, 96.0, tip, numbers::parse) {
                 *value = entered * scale;
                 field = name;
             }
             ui.label(*unit);
         });
-        entries.message_ui(ui, name);
     }
     field
 }

@@ -37,7 +37,14 @@ fn item_ui(ui: &mut Ui, desk: &Desk, item: &Item, commands: &mut Commands) {
         button = button.shortcut_text(ui.ctx().format_shortcut(&shortcut));
     }
     let refusal = desk.refusal(&item.command);
+    let state = desk.state(&item.command);
+    if let Some(on) = state {
+        button = button.selected(on);
+    }
     let mut response = ui.add_enabled(refusal.is_none(), button);
+    if let Some(on) = state {
+        ui.ctx().accesskit_node_builder(response.id, |node| node.set_toggled(on.into()));
+    }
     if let Some(why) = refusal {
         response = response.on_disabled_hover_text(why);
     }

@@ -4,6 +4,7 @@ pub mod bodies;
 pub mod help;
 pub mod lubricant;
 pub mod menu;
+pub mod model;
 pub mod moment;
 pub mod oil;
 pub mod operating_point;

@@ -2,7 +2,9 @@
 
 use super::sliders;
 use crate::app::context::{Commands, Context};
-use crate::app::controls::{Entries, NAME_WIDTH, choice, explained, heading, named, row_name, typed_field, warning_ui};
+use crate::app::controls::{
+    Entries, NAME_WIDTH, choice, explained, heading, named, reserved, row_name, typed_field, warning_ui,
+};
 use crate::app::document::{Document, Edit};
 use crate::app::numbers;
 use crate::app::theme::name_and_symbol;
@@ -25,7 +27,7 @@ pub const KIND: &str = "kind of contact";
 /// The panel's first group.
 pub fn ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
     heading(ui, "Operating point");
-    kind_ui(ui, context.document.point.kind, entries, commands);
+    kind_ui(ui, context.document.point.kind, commands);
     sliders::column(ui, context, entries, commands);
     followers_ui(ui, context.document, commands);
     si_ui(ui, context.document, entries, commands);
@@ -33,7 +35,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &
 }
 
 /// Line or point.
-fn kind_ui(ui: &mut Ui, present: ContactKind, entries: &Entries, commands: &mut Commands) {
+fn kind_ui(ui: &mut Ui, present: ContactKind, commands: &mut Commands) {
     let mut wanted = present;
     ui.horizontal(|ui| {
         for (kind, name, tip) in KINDS {
@@ -44,7 +46,6 @@ fn kind_ui(ui: &mut Ui, present: ContactKind, entries: &Entries, commands: &mut 
     if wanted != present {
         commands.edit(Edit::Kind(wanted), KIND);
     }
-    entries.message_ui(ui, KIND);
 }
 
 fn followers_ui(ui: &mut Ui, document: &Document, commands: &mut Commands) {
@@ -107,7 +108,7 @@ fn si_ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut
             held_ui(ui, document, (quantity, field), commands);
         });
     }
-    entries.reserved_ui(ui, FIELDS.map(|(_, field)| field).into_iter().chain(sliders::FIELDS));
+    entries.reserved_ui(ui, FIELDS.map(|(_, field)| field).into_iter().chain(sliders::FIELDS).chain([KIND]));
 }
 
 /// The lock of a quantity that is held, or what it follows.
@@ -121,16 +122,21 @@ fn held_ui(ui: &mut Ui, document: &Document, (quantity, field): (Quantity, &'sta
     let response = if held || follows.is_empty() {
         lock_ui(ui, held)
     } else {
-        ui.add(egui::Button::new(RichText::new(follows).small().weak()).frame(false))
+        // As wide whatever it says, so that nothing beside it moves.
+        ui.add_sized(HELD, egui::Button::new(RichText::new(follows).small().weak()).frame(false))
     };
     if named(ui, response, &name).on_hover_text(tip).clicked() {
         commands.edit(Edit::Hold(quantity, !held), field);
     }
 }
 
+/// Room for a lock, or for what a quantity follows.
+const HELD: [f32; 2] = [62.0, 22.0];
+
 /// A small lock, closed or open.
 fn lock_ui(ui: &mut Ui, closed: bool) -> Response {
-    let (rect, response) = ui.allocate_exact_size(vec2(14.0, 14.0), Sense::click());
+    let (slot, response) = ui.allocate_exact_size(HELD.into(), Sense::click());
+    let rect = Rect::from_center_size(slot.left_center() + vec2(9.0, 0.0), vec2(14.0, 14.0));
     let visuals = ui.style().interact(&response);
     let color = if closed { visuals.text_color() } else { ui.visuals().weak_text_color() };
     let body = Rect::from_min_max(rect.min + vec2(2.5, 6.5), rect.max - vec2(2.5, 1.5));
@@ -202,7 +208,9 @@ fn hertz_ui(ui: &mut Ui, document: &Document) {
             ui.end_row();
         }
     });
-    if hertz.pressure_pa > PLAUSIBLE_HERTZ_PRESSURE_PA {
-        warning_ui(ui, "Beyond a Hertz pressure of 3.2 GPa steel yields: this is no real contact");
-    }
+    reserved(ui, 1, |ui| {
+        if hertz.pressure_pa > PLAUSIBLE_HERTZ_PRESSURE_PA {
+            warning_ui(ui, "Beyond 3.2 GPa steel yields: no real contact");
+        }
+    });
 }

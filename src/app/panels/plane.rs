@@ -60,10 +60,11 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     if answers.model(document).is_some() {
         ui.weak("Of full solutions outside the reduced model, which has its own grid");
     }
+    // What comes and goes with solves stands last: nothing below it moves.
+    error_ui(ui, context, commands);
     if let Some(warning) = answers.current_picture().and_then(|picture| picture.unresolved.as_ref()) {
         warning_ui(ui, warning);
     }
-    error_ui(ui, context, commands);
 }
 
 fn error_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, commands: &mut Commands) {

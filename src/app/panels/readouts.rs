@@ -3,20 +3,23 @@
 use crate::app::answers::Answers;
 use crate::app::answers::picture::Picture;
 use crate::app::controls::sentence;
+use crate::app::document::Document;
+use crate::app::drawn;
 use crate::app::numbers;
 use crate::app::theme::{Palette, symbol};
 use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::engineering::{Bodies, film_regime};
+use crate::solver::physics::engineering::film_regime;
 use egui::{RichText, Ui, text::LayoutJob};
 use std::sync::Arc;
 
 /// The read-outs.
-pub fn ui(ui: &mut Ui, answers: &Answers, bodies: Option<&Bodies>) {
+pub fn ui(ui: &mut Ui, answers: &Answers, document: &Document) {
+    let bodies = document.view.bodies.as_ref();
     let Some(picture) = &answers.picture else {
         ui.weak("The first picture is being computed");
         return;
     };
-    let stale = answers.picture_is_stale(ui.input(|i| i.time));
+    let stale = drawn::is_grey(ui.ctx(), "read-outs", &picture.key, &document.key());
     let pin = answers.pins.last();
     let palette = Palette::of(ui);
     let srr = picture.key.point.sliding.slide_to_roll_ratio;
@@ -115,7 +118,7 @@ pub(super) fn cell(
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 7.0;
         ui.label(name).on_hover_text(tip);
-        ui.label(RichText::new(value).size(16.0).strong().color(color)).on_hover_text(tip);
+        ui.label(RichText::new(value).size(16.0).strong().color(Palette::of(ui).ink(color))).on_hover_text(tip);
         ui.label(RichText::new(unit)).on_hover_text(tip);
         if let Some(delta) = delta {
             ui.label(RichText::new(format!("Δ {}", numbers::percent(delta))).small().weak())

@@ -1,65 +1,106 @@
-//! The reduced model's settings.
+//! The Settings window: what is set once for all documents, and kept with the session.
 
-use crate::app::context::{Commands, Context};
-use crate::app::controls::{NAME_WIDTH, choice, heading, warning_ui};
-use crate::app::document::Edit;
-use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::lubricant::ShearLaw;
-use crate::solver::reduced::Trust;
-use egui::{Grid, Ui};
+use crate::app::command::Command;
+use crate::app::context::Commands;
+use crate::app::controls::{Entries, heading, row_name, typed_field};
+use crate::app::desk::Desk;
+use crate::app::display::{Display, Thresholds};
+use crate::app::theme::name_and_symbol;
+use crate::solver::physics::engineering::{self, Dimension};
+use egui::{Context, Id, ThemePreference, Ui, Window};
 
-/// The group Model.
-pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-    heading(ui, "Model");
-    model_ui(ui, context, commands);
+/// The names of the thresholds' fields, and what they mean.
+const THRESHOLDS: [(&str, &str, &str); 2] = [
+    (
+        "Verified up to",
+        "Largest error of H_c or H_min, against a full solution on the same grid, that is called Verified",
+        "Error that is verified",
+    ),
+    (
+        "Far off from",
+        "Errors beyond this are called Far off; between both the picture is Roughly right",
+        "Error that is far off",
+    ),
+];
+const PERCENT: f64 = 0.01;
+
+const THEMES: [(ThemePreference, &str, Command); 3] = [
+    (ThemePreference::System, "As the system", Command::SystemTheme),
+    (ThemePreference::Light, "Light", Command::LightTheme),
+    (ThemePreference::Dark, "Dark", Command::DarkTheme),
+];
+
+/// The window, open or closed.
+#[derive(Default)]
+pub struct Settings {
+    /// Whether it is open.
+    pub open: bool,
+    entries: Entries,
 }
 
-fn deformation_operator(projected: bool) -> (&'static str, &'static str) {
-    if projected {
-        ("through its basis", "V_δ V_δ^T K V_p, as in the dissertation: its own truncation")
-    } else {
-        ("exact", "K V_p, no error of its own")
+impl Settings {
+    /// Shows it where it is open.
+    pub fn ui(&mut self, ctx: &Context, desk: &Desk, commands: &mut Commands) {
+        let mut open = self.open;
+        let window = Window::new("Settings").id(Id::unique("settings")).open(&mut open).collapsible(false);
+        window.resizable(false).default_pos(ctx.content_rect().center() - egui::vec2(200.0, 160.0)).show(ctx, |ui| {
+            ui.set_width(360.0);
+            heading(ui, "The badge");
+            self.thresholds_ui(ui, desk.display.thresholds, commands);
+            heading(ui, "Appearance");
+            appearance_ui(ui, &desk.display, commands);
+        });
+        self.open = open;
+    }
+
+    fn thresholds_ui(&mut self, ui: &mut Ui, present: Thresholds, commands: &mut Commands) {
+        let mut wanted = present;
+        let mut entered = None;
+        let values = [&mut wanted.verified, &mut wanted.far_off];
+        for ((row, tip, name), value) in THRESHOLDS.into_iter().zip(values) {
+            ui.horizontal(|ui| {
+                row_name(ui, name_and_symbol(ui, row, "", ""), tip);
+                let read = |text: &str| {
+                    engineering::parse(text, Dimension::Ratio, "%").map(|si| si / PERCENT).map_err(|e| e.to_string())
+                };
+                if let Some(typed) = typed_field(ui, &mut self.entries, name, *value / PERCENT, 70.0, tip, read) {
+                    *value = typed * PERCENT;
+                    entered = Some(name);
+                }
+                ui.label("%");
+            });
+        }
+        if let Some(name) = entered {
+            let checked = wanted.check();
+            if checked.is_ok() {
+                commands.push(Command::SetThresholds(wanted));
+            }
+            self.entries.answer(name, checked);
+        }
+        self.entries.reserved_ui(ui, THRESHOLDS.map(|(.., name)| name));
+        let usual = Thresholds::default();
+        if ui.add_enabled(present != usual, egui::Button::new("Usual thresholds")).clicked() {
+            self.entries.clear();
+            commands.push(Command::SetThresholds(usual));
+        }
     }
 }
 
-fn model_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, commands: &mut Commands) {
-    let moes = document.point.moes();
-    let Some(model) = answers.model(document) else {
-        ui.weak(match (document.point.kind, document.lubricant.shear) {
-            (ContactKind::Line, ShearLaw::Newtonian) => {
-                "No reduced model is loaded; the full solver draws the picture."
+fn appearance_ui(ui: &mut Ui, display: &Display, commands: &mut Commands) {
+    ui.horizontal(|ui| {
+        row_name(ui, name_and_symbol(ui, "Colours", "", ""), "Light, dark, or as the system has it");
+        for (theme, name, command) in THEMES {
+            if ui.selectable_label(display.theme == theme, name).clicked() {
+                commands.push(command);
             }
-            (ContactKind::Point, ShearLaw::Newtonian) => {
-                "There is no reduced model of point contacts; the full solver draws the picture."
-            }
-            _ => "There is no reduced model of lubricants that thin under shear; the full solver draws the picture.",
-        });
-        return;
-    };
-    let Some(window) = model.windows.get(model.window_for(moes)) else { return };
-    let options = answers.options(document);
-    let (all, all_deformation) = (window.pressure.modes.ncols(), window.deformation.modes.ncols());
-    ui.label(&model.title).on_hover_text(model.log.join("\n"));
-    Grid::new("model").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
-        ui.label("Pressure modes").on_hover_text("Kept of all; drag the tolerance in the tab Reduced basis");
-        ui.label(format!("{} of {all}", options.pressure_modes.unwrap_or(all)));
-        ui.end_row();
-        ui.label("Sampled rows").on_hover_text("Rows of the Reynolds equation that the reduced model evaluates");
-        ui.label(format!("{} of {}", window.sampled_rows.len(), window.grid.unknowns()));
-        ui.end_row();
-        let tip = "How the reduced model deforms the bodies";
-        let mut view = document.view;
-        choice(ui, "Deformation", tip, &mut view.projected_deformation, &[false, true], deformation_operator);
-        if view != document.view {
-            commands.edit(Edit::View(view), "Deformation");
-        }
-        if view.projected_deformation {
-            ui.label("Deformation modes");
-            ui.label(format!("{} of {all_deformation}", options.deformation_modes.unwrap_or(all_deformation)));
-            ui.end_row();
         }
     });
-    if let Some(Trust::Outside(why)) = answers.trust(document) {
-        warning_ui(ui, &format!("{why}; the full solver draws the picture"));
-    }
+    ui.horizontal(|ui| {
+        row_name(ui, name_and_symbol(ui, "Text", "", ""), "Size of everything in the window");
+        for command in [Command::SmallerText, Command::NormalText, Command::LargerText] {
+            if ui.button(command.name()).clicked() {
+                commands.push(command);
+            }
+        }
+    });
 }

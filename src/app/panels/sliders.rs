@@ -5,7 +5,7 @@ use crate::app::context::{Commands, Context};
 use crate::app::controls::{Entries, RangeSlider, described, explained, named, typed_field};
 use crate::app::document::{Document, Edit, HOME};
 use crate::app::numbers;
-use crate::app::theme::symbol;
+use crate::app::theme::name_and_symbol;
 use crate::solver::physics::contact::{ContactKind, Quantity};
 use crate::solver::physics::engineering::{self, Dimension};
 use crate::solver::physics::lubricant::ShearLaw;
@@ -29,9 +29,12 @@ const NPR_NEWTONIAN_TIP: &str = "The lubricant has no shear constants, so it is 
 
 /// Under these names entries are refused.
 pub const FIELDS: [&str; 8] = ["M", "L", "SRR", "NPR", "M value", "L value", "SRR value", "NPR value"];
-/// Widths of a symbol, of a typed entry, and of what stands between.
-const SYMBOL_WIDTH: f32 = 32.0;
-const ENTRY_WIDTH: f32 = 62.0;
+/// Widths of a name, of a typed entry, and of what stands between.
+const NAME_WIDTH: f32 = 84.0;
+/// Width of its symbol alone, and the width from which on a slider has room for its whole name beside others.
+const SYMBOL_WIDTH: f32 = 34.0;
+const ROOM_FOR_NAME: f32 = 270.0;
+const ENTRY_WIDTH: f32 = 70.0;
 const GAPS: f32 = 24.0;
 
 /// A slider with all that belongs to it.
@@ -87,14 +90,14 @@ fn rows(Context { document, answers, .. }: &Context<'_>) -> [Row; 4] {
 
 /// All four, one below the other.
 pub fn column(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
-    let width = (ui.available_width() - 132.0).clamp(70.0, 420.0);
+    let width = (ui.available_width() - NAME_WIDTH - ENTRY_WIDTH - GAPS).clamp(70.0, 420.0);
     let mut wanted = None;
     Grid::new("sliders").num_columns(3).spacing([8.0, 6.0]).show(ui, |ui| {
         for row in rows(context) {
             if row.quantity == Quantity::NewtonianPlateauRatio && !thins(context.document) {
                 disabled_plateau(ui, width);
             } else {
-                wanted = row.ui(ui, entries, width).or(wanted);
+                wanted = row.ui(ui, entries, width, true).or(wanted);
             }
             ui.end_row();
         }
@@ -120,11 +123,13 @@ pub fn in_use(
     };
     let rows: Vec<Row> = rows(context).into_iter().filter(used).collect();
     let each = (ui.available_width() - room) / rows.len() as f32;
-    let width = (each - SYMBOL_WIDTH - ENTRY_WIDTH - GAPS).max(60.0);
+    let named = each >= ROOM_FOR_NAME;
+    let name = if named { NAME_WIDTH } else { SYMBOL_WIDTH };
+    let width = (each - name - ENTRY_WIDTH - GAPS).max(40.0);
     let mut wanted = None;
     ui.horizontal(|ui| {
         for row in rows {
-            wanted = row.ui(ui, entries, width).or(wanted);
+            wanted = row.ui(ui, entries, width, named).or(wanted);
             ui.add_space(8.0);
         }
         rest(ui, commands);
@@ -136,11 +141,11 @@ pub fn in_use(
 }
 
 impl Row {
-    /// Symbol, slider and entry; returns what was asked for.
-    fn ui(&self, ui: &mut Ui, entries: &mut Entries, width: f32) -> Option<Wanted> {
+    /// Name, or its symbol alone, slider and entry; returns what was asked for.
+    fn ui(&self, ui: &mut Ui, entries: &mut Entries, width: f32, named: bool) -> Option<Wanted> {
         let tip = self.slider.tooltip;
         let (sign, _) = self.quantity.symbol();
-        explained(ui, symbol(ui, sign, ""), tip);
+        explained(ui, name_and_symbol(ui, if named { word(self.quantity) } else { "" }, sign, ""), tip);
         let moved = self.slider.show(ui, self.value, width).map(|value| (sign, value));
         let ratio = self.quantity == Quantity::SlideToRollRatio;
         let read = |text: &str| match ratio {
@@ -150,6 +155,16 @@ impl Row {
         let entered = typed_field(ui, entries, self.entry, self.value, ENTRY_WIDTH, tip, read);
         let (field, value) = moved.or(entered.map(|value| (self.entry, value)))?;
         Some((self.quantity, field, value))
+    }
+}
+
+/// What a slider moves, in a word.
+fn word(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::M => "Load",
+        Quantity::L => "Lubricant",
+        Quantity::SlideToRollRatio => "Sliding",
+        _ => "Plateau",
     }
 }
 
@@ -163,7 +178,7 @@ fn take(commands: &mut Commands, wanted: Option<Wanted>) {
 /// The slider of a fluid that keeps its viscosity: it stands at 1 and says why it does not move.
 fn disabled_plateau(ui: &mut Ui, width: f32) {
     let tip = NPR_NEWTONIAN_TIP;
-    ui.add_enabled(false, egui::Label::new("NPR")).on_disabled_hover_text(tip);
+    ui.add_enabled(false, egui::Label::new("Plateau NPR")).on_disabled_hover_text(tip);
     ui.spacing_mut().slider_width = width;
     let response =
         ui.add_enabled(false, Slider::new(&mut 1.0, range(Quantity::NewtonianPlateauRatio)).show_value(false));

@@ -2,10 +2,11 @@
 
 use crate::app::command::Command;
 use crate::app::context::Commands;
+use crate::app::controls::named;
 use crate::app::desk::Desk;
 use crate::app::numbers;
 use crate::app::theme::Palette;
-use egui::{Align, Layout, RichText, Ui};
+use egui::{Align, Button, Layout, RichText, Ui};
 
 /// Work younger than this is no news: showing it would only flicker.
 const NEWS_S: f64 = 0.12;
@@ -15,6 +16,12 @@ pub fn ui(ui: &mut Ui, desk: &Desk, frame_s: f64, commands: &mut Commands) {
     ui.horizontal(|ui| {
         let slow = desk.answers.jobs.running().iter().find(|j| j.since.elapsed().as_secs_f64() > NEWS_S);
         let study = desk.study().filter(|standing| standing.since_s > NEWS_S);
+        // At a place of its own, whatever stands beside it.
+        let runs = slow.is_some() || study.is_some();
+        let cancel = ui.add_enabled(runs, Button::new("Cancel").small()).on_disabled_hover_text("Nothing runs");
+        if named(ui, cancel, "Cancel what runs").clicked() {
+            commands.push(Command::Cancel);
+        }
         match (slow, study) {
             (Some(job), _) => {
                 ui.label(job.kind.name());
@@ -26,16 +33,10 @@ pub fn ui(ui: &mut Ui, desk: &Desk, frame_s: f64, commands: &mut Commands) {
                 }
                 ui.weak(step.trim_start_matches(", "));
                 ui.weak(numbers::duration(job.since.elapsed().as_secs_f64()));
-                if ui.small_button("Cancel").clicked() {
-                    commands.push(Command::Cancel);
-                }
             }
             (None, Some(standing)) => {
                 ui.label(&standing.stage);
                 ui.weak(numbers::standing(&standing));
-                if ui.small_button("Cancel").clicked() {
-                    commands.push(Command::Cancel);
-                }
             }
             (None, None) => {
                 let idle = ui.weak("Ready");
@@ -48,16 +49,18 @@ pub fn ui(ui: &mut Ui, desk: &Desk, frame_s: f64, commands: &mut Commands) {
             }
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let (full, reduced) = (&desk.answers.full_times, &desk.answers.reduced_times);
             let time = |seconds: Option<f64>| seconds.map_or_else(|| "–".to_owned(), numbers::duration);
-            ui.weak(format!("full {}", time(desk.answers.full_wall_s))).on_hover_text(format!(
-                "Time of the last full solve. Drawing the window takes {}",
+            ui.weak(format!("full {}", time(full.median_s()))).on_hover_text(format!(
+                "Median of the last {} full solves. Drawing the window takes {}",
+                full.len(),
                 numbers::duration(frame_s)
             ));
             if desk.model().is_some() {
-                ui.weak(format!("reduced {}", time(desk.answers.reduced_wall_s)))
-                    .on_hover_text("Time of the last reduced solve");
+                ui.weak(format!("reduced {}", time(reduced.median_s())))
+                    .on_hover_text(format!("Median of the last {} reduced solves", reduced.len()));
             }
-            ui.weak("Time per solve");
+            ui.weak("Median time per solve");
         });
     });
 }

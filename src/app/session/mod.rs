@@ -160,8 +160,12 @@ impl Shown {
     }
 
     fn is_sound(&self) -> bool {
-        let Display { cuts, zoom, .. } = self.display;
-        within(zoom, Display::ZOOMS) && cuts.x.is_finite() && cuts.y.is_finite() && optics::are_sound(&self.map.rig)
+        let Display { cuts, zoom, thresholds, .. } = self.display;
+        thresholds.check().is_ok()
+            && within(zoom, Display::ZOOMS)
+            && cuts.x.is_finite()
+            && cuts.y.is_finite()
+            && optics::are_sound(&self.map.rig)
     }
 }
 

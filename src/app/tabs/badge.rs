@@ -3,11 +3,13 @@
 use crate::app::answers::jobs::JobKind;
 use crate::app::answers::picture::{Comparison, Origin, Picture};
 use crate::app::answers::{Answers, PassedOver};
-use crate::app::controls::{described, named, sentence, warning_ui};
+use crate::app::context::Context;
+use crate::app::controls::{described, named, sentence};
+use crate::app::display::Thresholds;
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
 use crate::solver::reduced::ErrorEstimate;
-use egui::{Color32, CornerRadius, Frame, Margin, RichText, Stroke, Ui};
+use egui::{Align, Color32, CornerRadius, Frame, Label, Layout, Margin, RichText, Stroke, Ui, vec2};
 
 /// What the badge says.
 pub struct Verdict {
@@ -34,7 +36,7 @@ pub enum Kind {
 }
 
 /// What can be said of the picture.
-pub fn verdict(answers: &Answers) -> Verdict {
+pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
     let make = |title: &str, detail: String, why: String, kind| Verdict { title: title.to_owned(), detail, why, kind };
     if let Some(failure) = &answers.failure {
         let got = failure.report.as_ref().map_or_else(String::new, |r| {
@@ -79,8 +81,7 @@ pub fn verdict(answers: &Answers) -> Verdict {
         ),
         (Origin::Full, _) => match &picture.unresolved {
             Some(warning) => {
-                let costly = picture.solution.grid_warning().is_some();
-                let title = if costly { "Grid does not do" } else { "Side lobes unresolved" };
+                let title = if picture.costly_grid { "Grid does not do" } else { "Side lobes unresolved" };
                 make(title, format!("full solution on {}", grid(picture)), warning.clone(), Kind::Warning)
             }
             None => make(
@@ -98,7 +99,7 @@ pub fn verdict(answers: &Answers) -> Verdict {
             );
             match &answers.comparison {
                 Some(c) if answers.full_is_current() => {
-                    let (title, kind) = judged(c);
+                    let (title, kind) = judged(c, thresholds);
                     let why = format!("True errors against a full solution on the same grid. {}{how}", promised(c, error));
                     make(title, c.describe(), why, kind)
                 }
@@ -131,15 +132,11 @@ pub fn verdict(answers: &Answers) -> Verdict {
     }
 }
 
-/// Films that are off by less are verified, those off by more are wrong.
-const GOOD: f64 = 2e-3;
-const POOR: f64 = 1e-2;
-
 /// How a picture stands whose true errors are known, by the larger one of its films.
-fn judged(truth: &Comparison) -> (&'static str, Kind) {
+fn judged(truth: &Comparison, thresholds: Thresholds) -> (&'static str, Kind) {
     match truth.h_c.abs().max(truth.h_min.abs()) {
-        error if error <= GOOD => ("Verified", Kind::Verified),
-        error if error <= POOR => ("Roughly right", Kind::Warning),
+        error if error <= thresholds.verified => ("Verified", Kind::Verified),
+        error if error <= thresholds.far_off => ("Roughly right", Kind::Warning),
         _ => ("Far off", Kind::Wrong),
     }
 }
@@ -157,16 +154,24 @@ fn promised(truth: &Comparison, error: Option<ErrorEstimate>) -> String {
     format!("The bounds shown before, {h_c} and {h_min}, {}. ", if held { "held" } else { "did not hold" })
 }
 
-/// Says that a picture belongs to other sliders.
-pub fn stale_note(ui: &mut Ui, picture: &Picture) {
-    let note = format!("The picture belongs to {}, not to the sliders", numbers::moes(picture.key.point.moes()));
-    warning_ui(ui, &note);
-}
+/// Height of its row, which is the same whatever it says: nothing below moves.
+const HEIGHT: f32 = 26.0;
 
-/// The badge.
-pub fn ui(ui: &mut Ui, answers: &Answers) {
-    let verdict = verdict(answers);
-    pill(ui, verdict.kind, [&verdict.title, &verdict.detail, &verdict.why], "Trust in the picture");
+/// The badge in a row of its own, and beside it whose picture is shown where that is not the sliders'.
+pub fn ui(ui: &mut Ui, context: &Context<'_>) {
+    let verdict = verdict(context.answers, context.thresholds);
+    let other = context.answers.picture.as_ref().filter(|picture| picture.key != context.document.key());
+    let row = vec2(ui.available_width(), HEIGHT);
+    ui.allocate_ui_with_layout(row, Layout::left_to_right(Align::Center), |ui| {
+        ui.set_min_size(row);
+        pill(ui, verdict.kind, [&verdict.title, &verdict.detail, &verdict.why], "Trust in the picture");
+        if let Some(picture) = other {
+            let of = numbers::moes(picture.key.point.moes());
+            let color = Palette::of(ui).warning;
+            let note = RichText::new(format!("Grey: the picture belongs to {of}")).small().color(color);
+            ui.add(Label::new(note).truncate());
+        }
+    });
 }
 
 /// A badge: its first words, what follows them, and why; screen readers know it by a name.
@@ -178,18 +183,23 @@ pub fn pill(ui: &mut Ui, kind: Kind, [title, detail, why]: [&str; 3], name: &str
         Kind::Warning => palette.warning,
         Kind::Wrong => palette.wrong,
     };
+    let fill = color.gamma_multiply(if ui.visuals().dark_mode { 0.22 } else { 0.13 });
+    let ink = palette.ink_on(color, ui.visuals().panel_fill.blend(fill));
     let frame = Frame::new()
-        .fill(color.gamma_multiply(if ui.visuals().dark_mode { 0.22 } else { 0.13 }))
+        .fill(fill)
         .stroke(Stroke::new(1.0, color.gamma_multiply(0.6)))
         .corner_radius(CornerRadius::same(10))
         .inner_margin(Margin::symmetric(10, 2));
+    // Where there is one row only, words give way; elsewhere the badge goes to the next row.
+    let wraps = ui.layout().main_wrap;
     let response = frame
         .show(ui, |ui| {
             ui.spacing_mut().item_spacing.x = 6.0;
-            ui.label(RichText::new(title).strong().color(color));
+            ui.label(RichText::new(title).strong().color(ink));
             if !detail.is_empty() {
                 let plain: Color32 = ui.visuals().text_color();
-                ui.label(rich(detail, 13.0, plain));
+                let label = Label::new(rich(detail, 13.0, plain));
+                ui.add(if wraps { label.extend() } else { label.truncate() });
             }
         })
         .response;
@@ -216,7 +226,9 @@ mod tests {
         for ((h_c, h_min), word) in
             [((1e-5, -1e-4), "Verified"), ((1e-5, -5e-3), "Roughly right"), ((0.02, 0.0), "Far off")]
         {
-            assert_eq!(judged(&truth(h_c, h_min)).0, word, "{h_c} {h_min}");
+            assert_eq!(judged(&truth(h_c, h_min), Thresholds::default()).0, word, "{h_c} {h_min}");
         }
+        let strict = Thresholds { verified: 5e-5, far_off: 9e-5 };
+        assert_eq!(judged(&truth(1e-5, -1e-4), strict).0, "Far off");
     }
 }

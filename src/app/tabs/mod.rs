@@ -23,7 +23,9 @@ pub mod traction;
 mod training;
 mod transient;
 
+use super::command::Command;
 use super::context::Commands;
+use super::controls::why;
 use super::desk::Desk;
 use super::figure;
 use super::tab::Tab;
@@ -91,10 +93,21 @@ impl Behavior<Tab> for Tabs<'_> {
     fn pane_ui(&mut self, ui: &mut Ui, _tile_id: TileId, tab: &mut Tab) -> UiResponse {
         egui::Frame::new().fill(ui.visuals().panel_fill).inner_margin(egui::Margin::symmetric(10, 8)).show(ui, |ui| {
             ui.set_min_size(ui.available_size());
+            why(ui, self.desk.display.why && self.desk.presentation.is_none(), tab.why());
             figure::offer(ui, &format!("The whole tab {}", tab.title()), ui.max_rect());
             tab_ui(ui, *tab, self.desk, self.commands);
         });
         UiResponse::None
+    }
+
+    /// The note for teaching, at the same place of every tab.
+    fn top_bar_right_ui(&mut self, _: &Tiles<Tab>, ui: &mut Ui, _: TileId, _: &egui_tiles::Tabs, _: &mut f32) {
+        ui.add_space(6.0);
+        let tip = "What is seen in a tab and why it is so, in three sentences";
+        let shown = self.desk.display.why;
+        if ui.selectable_label(shown, "Why").on_hover_text(tip).clicked() {
+            self.commands.push(Command::ShowWhy);
+        }
     }
 
     fn tab_title_for_pane(&mut self, tab: &Tab) -> egui::WidgetText {

@@ -6,6 +6,7 @@ use super::regime_chart::{ChartLine, ChartLines, Kind, L_AXIS, M_AXIS, Regime, p
 use super::{axes, formulas};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
+use crate::app::controls::message_ui;
 use crate::app::document::Edit;
 use crate::app::figure::Texture;
 use crate::app::numbers;
@@ -85,11 +86,14 @@ impl Regimes {
                 }
                 ContactKind::Point => "Drag the contact. Contours: ({h}/{R})/√(2{U}) of Nijenbanning, Venner and Moes",
             };
-            ui.label(rich(hint, 12.5, palette.quiet));
+            // In its place, so that the chart stays where the hand is.
+            match context.entries.message(FIELD) {
+                Some(refusal) => message_ui(ui, refusal),
+                None => _ = ui.label(rich(hint, 12.5, palette.quiet)),
+            }
             toolbar_export = !context.presenting
                 && ui.button("Export CSV…").on_hover_text("Contours, boundaries and snapshots").clicked();
         });
-        context.entries.message_ui(ui, FIELD);
         let here = context.document.point.moes();
         let grip = Grip::new("regimes", "contact");
         let grabbed = grip.is_held(ui);

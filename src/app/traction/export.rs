@@ -35,7 +35,19 @@ fn described(sweep: &Sweep) -> String {
 
 /// The curve and the full solutions, told apart by the column `full`; `None` where there is neither.
 pub fn csv(view: &TractionView) -> Option<String> {
-    const COLUMNS: [&str; 9] = ["full", "SRR", "NPR", "u_m_m_per_s", "M", "L", "traction", "h_c_m", "h_min_m"];
+    const COLUMNS: [&str; 11] = [
+        "full",
+        "SRR",
+        "NPR",
+        "u_m_m_per_s",
+        "M",
+        "L",
+        "traction",
+        "h_c_m",
+        "h_min_m",
+        "newtonian_traction",
+        "unphysical",
+    ];
     let curve = view.curve.iter().map(|curve| (0.0, &curve.sweep, curve.samples.as_slice()));
     let markers = view.markers.iter().map(|markers| (1.0, &markers.sweep, markers.samples.as_slice()));
     let blocks: Vec<(f64, &Sweep, &[Sample])> = curve.chain(markers).collect();
@@ -59,7 +71,7 @@ fn row(full: f64, sweep: &Sweep, sample: &Sample) -> Vec<Option<f64>> {
     let key = Key { point: *point, lubricant: sweep.base.lubricant };
     let npr = super::Varied::Plateau.of(&key);
     let srr = point.sliding.slide_to_roll_ratio;
-    [full, srr, npr, point.speed_m_per_s, moes.m, moes.l, sample.traction, sample.h_c_m, sample.h_min_m]
-        .map(Some)
-        .to_vec()
+    let unphysical = f64::from(u8::from(sample.unphysical));
+    let values = [full, srr, npr, point.speed_m_per_s, moes.m, moes.l, sample.traction, sample.h_c_m, sample.h_min_m];
+    values.map(Some).into_iter().chain([sample.newtonian, Some(unphysical)]).collect()
 }

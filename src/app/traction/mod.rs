@@ -25,6 +25,8 @@ use serde::{Deserialize, Serialize};
 pub const CURVE: usize = 41;
 /// Full solutions that are set on it: every fourth of its contacts.
 const MARKERS: usize = 11;
+/// Full solutions of a line contact that are the curve where no model draws one.
+const FULL_CURVE: usize = 21;
 
 /// Full solutions along a sweep.
 pub struct Markers {
@@ -32,8 +34,35 @@ pub struct Markers {
     pub sweep: Sweep,
     /// What has been solved so far.
     pub samples: Vec<Sample>,
+    /// Some contacts of its Newtonian companion.
+    companions: Vec<Sample>,
+    /// How many are asked for.
+    wanted: usize,
     /// Contacts that are left out: the solver did not converge.
     failed: usize,
+    /// Whether nobody asked for them: they end with what they were begun for.
+    by_themselves: bool,
+}
+
+/// How much of an axis of SRR is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum SlideView {
+    /// 0 to 10 %, where traction rises.
+    #[default]
+    Near,
+    /// All of it.
+    Whole,
+    /// All of it, equal ways for equal ratios.
+    Logarithmic,
+}
+
+impl SlideView {
+    /// All of them, with their names and what they show.
+    pub const ALL: [(Self, &'static str, &'static str); 3] = [
+        (Self::Near, "0–10 %", "Where traction rises"),
+        (Self::Whole, "0–100 %", "All of the sliding that the curve knows"),
+        (Self::Logarithmic, "Log", "All of it; equal ways along are equal ratios"),
+    ];
 }
 
 /// How the tab shows it; not part of the document.
@@ -42,12 +71,22 @@ pub struct Markers {
 pub struct Choices {
     /// What the curves are drawn against.
     pub against: Against,
-    /// Logarithmic axes: along, and of traction and film.
+    /// Logarithmic axes: along where that is not SRR, and of traction and film.
     pub logarithmic: (bool, bool),
+    /// How much of SRR is shown.
+    pub slide: SlideView,
     /// Whether the laws of the fluid are shown in place of the traction.
     pub shows_fluid: bool,
-    /// Whether the note for teaching is shown.
-    pub why: bool,
+}
+
+impl Choices {
+    /// Whether the axis along is logarithmic.
+    pub fn logarithmic_along(&self) -> bool {
+        match self.against {
+            Against::SlideToRoll => self.slide == SlideView::Logarithmic,
+            _ => self.logarithmic.0,
+        }
+    }
 }
 
 /// What the tab knows.
@@ -59,6 +98,7 @@ pub struct TractionView {
     pub markers: Option<Markers>,
     /// Their work.
     pub full: Background<StudyRow>,
+    beside: Background<StudyRow>,
     live: LiveCurve,
     wanted: Option<(Sweep, Served)>,
 }
@@ -71,17 +111,17 @@ impl TractionView {
         }
         let Some(markers) = &mut self.markers else { return };
         let works = self.full.job().is_some();
-        self.full.receive(|row| {
-            if let StudyRow::Sweep(row) = row {
-                match Sample::of(&row) {
-                    Some(sample) => markers.samples.push(sample),
-                    None => markers.failed += 1,
-                }
-            }
+        self.full.receive(|row| match Sample::of_row(&row, &markers.sweep) {
+            Some(sample) => markers.samples.push(sample),
+            None => markers.failed += 1,
         });
-        let failed = markers.failed;
+        self.beside.receive(|row| markers.companions.extend(Sample::of_row(&row, &markers.sweep)));
+        // A companion that fails is left out.
+        self.beside.message = None;
+        markers.sweep.note_newtonian(&mut markers.samples, &markers.companions);
+        let (failed, wanted) = (markers.failed, markers.wanted);
         if works && self.full.job().is_none() && failed > 0 {
-            let why = || format!("{failed} of {MARKERS} full solutions did not converge and are left out");
+            let why = || format!("{failed} of {wanted} full solutions did not converge and are left out");
             self.full.message.get_or_insert_with(why);
         }
     }
@@ -107,9 +147,33 @@ impl TractionView {
         }
     }
 
+    /// Whether full solutions of a sweep were begun, be they at an end or not.
+    pub fn has_markers_of(&self, sweep: &Sweep) -> bool {
+        self.markers.as_ref().is_some_and(|markers| markers.sweep == *sweep)
+    }
+
+    /// Whether full solutions run that nobody asked for and that belong to another sweep.
+    pub fn fills_another(&self, sweep: &Sweep) -> bool {
+        let another = |markers: &Markers| markers.by_themselves && markers.sweep != *sweep;
+        self.full.job().is_some_and(|job| !job.stopping()) && self.markers.as_ref().is_some_and(another)
+    }
+
+    /// Stops the full solutions; those that are there stay.
+    pub fn stop_markers(&self) {
+        self.full.stop();
+        self.beside.stop();
+    }
+
     /// Solves contacts of the sweep through a document's contact in full, one from the other: on the grid of the model where one draws the
     /// curve, so that both can be compared.
-    pub fn start_markers(&mut self, ctx: &Context, document: &Document, answers: &Answers, choices: &Choices) {
+    pub fn start_markers(
+        &mut self,
+        ctx: &Context,
+        document: &Document,
+        answers: &Answers,
+        choices: &Choices,
+        by_themselves: bool,
+    ) {
         let Some((sweep, served)) = served::sweep(document, answers, choices) else { return };
         let plane = document.chosen_plane();
         let model = match &served {
@@ -121,11 +185,19 @@ impl TractionView {
             (None, Some(plane)) => Grid::Plane(plane),
             (None, None) => Grid::Graded,
         };
-        let bench = Workbench::on(&answers.store, "");
-        let bench = if let Some(model) = model { bench.using(model) } else { bench };
-        let question = sweep.question("Full solutions along the curve", grid, MARKERS, Method::Full);
-        self.full.run(question.ask(bench, wake(ctx)));
-        self.markers = Some(Markers { sweep, samples: Vec::new(), failed: 0 });
+        let ask = |title: &str, sweep: &Sweep, count: usize| {
+            let bench = Workbench::on(&answers.store, "");
+            let bench = if let Some(model) = model { bench.using(model) } else { bench };
+            sweep.question(title, grid, count, Method::Full).ask(bench, wake(ctx))
+        };
+        let wanted = if served.is_err() && plane.is_none() { FULL_CURVE } else { MARKERS };
+        self.full.run(ask("Full solutions along the curve", &sweep, wanted));
+        self.beside = Background::default();
+        if let Some(newtonian) = sweep.newtonian().filter(|_| served.is_err()) {
+            self.beside.run(ask("Newtonian traction", &newtonian, sweep.companions(wanted)));
+        }
+        let (samples, companions) = (Vec::new(), Vec::new());
+        self.markers = Some(Markers { sweep, samples, companions, wanted, failed: 0, by_themselves });
     }
 }
 

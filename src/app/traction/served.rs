@@ -8,8 +8,6 @@ use crate::solver::full::Problem;
 use crate::solver::physics::lubricant::ShearLaw;
 use crate::solver::reduced::{Domain, Trust};
 
-/// What a logarithmic axis of SRR begins with, as a share of its end.
-const LOG_SRR: f64 = 5e-3;
 /// What a logarithmic axis of NPR begins with at least.
 const LOG_NPR: f64 = 1e-2;
 
@@ -46,9 +44,9 @@ pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Optio
             None => (varied.everywhere(&point), Err("the reduced model was trained for no such speed".to_owned())),
         },
     };
-    let logarithmic = choices.logarithmic.0;
+    // However sliding is shown, the contacts are the same.
+    let logarithmic = choices.logarithmic.0 && varied != Varied::SlideToRoll;
     let ends = match varied {
-        Varied::SlideToRoll if logarithmic => (ends.0.max(LOG_SRR * ends.1), ends.1),
         Varied::Plateau if logarithmic => (ends.0.max(LOG_NPR), ends.1),
         _ => ends,
     };

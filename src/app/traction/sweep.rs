@@ -3,11 +3,17 @@
 use crate::app::document::Key;
 use crate::app::in_use::question;
 use crate::scene::study::{PathRow, sweep as scene};
-use crate::scene::{Axis, Grid, Method, Scene, Steps, Study};
+use crate::scene::{Axis, Grid, Method, Scene, Steps, Study, StudyRow};
 use crate::solver::full::Problem;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity};
+use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use crate::solver::reduced::Domain;
 use serde::{Deserialize, Serialize};
+
+/// Half of a curve's contacts lie up to this |SRR| beyond its first one: there traction rises.
+const RISES: f64 = 0.05;
+/// SRR is drawn in percent.
+const PERCENT: f64 = 100.0;
 
 /// Ends of SRR and NPR where no model sets them.
 const SRR: (f64, f64) = (0.0, 2.0);
@@ -49,7 +55,7 @@ pub struct Sweep {
     pub base: Key,
     /// First and last value.
     pub ends: (f64, f64),
-    /// Whether its contacts are spaced by equal ratios.
+    /// Whether its contacts are spaced by equal ratios; those of SRR are graded however they are drawn.
     pub logarithmic: bool,
 }
 
@@ -64,6 +70,10 @@ pub struct Sample {
     pub h_min_m: f64,
     /// Size of the traction coefficient over the whole domain, (3.41).
     pub traction: f64,
+    /// What that would be if the lubricant were Newtonian and carried every stress, where it is known.
+    pub newtonian: Option<f64>,
+    /// Whether its traction is no physics.
+    pub unphysical: bool,
 }
 
 impl Varied {
@@ -156,7 +166,7 @@ impl Against {
     /// What it is.
     pub fn tip(self) -> &'static str {
         match self {
-            Self::SlideToRoll => "SRR = (u₂ − u₁)/u_m (3.25)",
+            Self::SlideToRoll => "SRR = (u₂ − u₁)/u_m in percent (3.25)",
             Self::Plateau => "Newtonian plateau ratio NPR of (3.40)",
             Self::Speed => "Mean entrainment speed u_m at constant load",
             Self::Stribeck => "η₀ u_m/w at constant load, as Stribeck drew friction",
@@ -167,7 +177,7 @@ impl Against {
     /// Title of its axis, with symbols in braces.
     pub fn axis(self, kind: ContactKind) -> &'static str {
         match (self, kind) {
-            (Self::SlideToRoll, _) => "Slide-to-roll ratio {SRR}",
+            (Self::SlideToRoll, _) => "Slide-to-roll ratio {SRR} in %",
             (Self::Plateau, _) => "Newtonian plateau ratio {NPR}",
             (Self::Speed, _) => "Speed {u_m} in m/s",
             (Self::Stribeck, ContactKind::Line) => "Stribeck number η₀{u_m}/{w}",
@@ -180,7 +190,8 @@ impl Against {
     pub fn of(self, key: &Key) -> f64 {
         let point = &key.point;
         match self {
-            Self::SlideToRoll | Self::Plateau | Self::Speed => self.varied().of(key),
+            Self::SlideToRoll => PERCENT * self.varied().of(key),
+            Self::Plateau | Self::Speed => self.varied().of(key),
             Self::Stribeck => point.viscosity_pa_s * point.speed_m_per_s / point.load,
             Self::LoadNumber => point.moes().m,
         }
@@ -189,7 +200,8 @@ impl Against {
     /// The value of the quantity behind a place on the axis.
     pub fn value(self, point: &OperatingPoint, place: f64) -> f64 {
         match self {
-            Self::SlideToRoll | Self::Plateau | Self::Speed => place,
+            Self::SlideToRoll => place / PERCENT,
+            Self::Plateau | Self::Speed => place,
             Self::Stribeck => place * point.load / point.viscosity_pa_s,
             Self::LoadNumber => {
                 let exponent = if point.kind == ContactKind::Line { 0.5f64 } else { 0.75 };
@@ -203,8 +215,13 @@ impl Sweep {
     /// The question for so many contacts of it by one method.
     pub(super) fn question(&self, title: &str, grid: Grid, count: usize, method: Method) -> Scene {
         let (from, to) = self.ends;
-        let n = count;
-        let values = if self.logarithmic { Steps::Log { from, to, n } } else { Steps::Linear { from, to, n } };
+        let (n, half) = (count, from + RISES);
+        let graded = self.varied == Varied::SlideToRoll && Steps::check_grading(from, half, to).is_ok();
+        let values = match self.logarithmic {
+            _ if graded => Steps::Graded { from, half, to, n },
+            true => Steps::Log { from, to, n },
+            false => Steps::Linear { from, to, n },
+        };
         let vary = match self.varied {
             Varied::SlideToRoll => Quantity::SlideToRollRatio,
             Varied::Plateau => Quantity::NewtonianPlateauRatio,
@@ -215,6 +232,55 @@ impl Sweep {
         question(title, &self.base, grid, Study::Sweep(study))
     }
 
+    /// The contact along it that slides, thins or moves as another one does: that one itself, if it lies on the sweep.
+    pub fn contact_like(&self, other: &Key) -> Key {
+        let mut point = self.varied.at(&self.base.point, self.varied.of(other));
+        // A plateau that is the lubricant's own, and the sense of sliding, make no other sweep.
+        let theirs = other.point.sliding;
+        if point.sliding.slide_to_roll_ratio == theirs.slide_to_roll_ratio.abs() {
+            point.sliding.slide_to_roll_ratio = theirs.slide_to_roll_ratio;
+        }
+        if self.varied == Varied::Plateau {
+            point.sliding.newtonian_plateau_ratio = theirs.newtonian_plateau_ratio;
+        }
+        Key { point, lubricant: self.base.lubricant }
+    }
+
+    /// The same contacts of a lubricant that keeps its viscosity under every stress; `None` where it is one already, and
+    /// where it is this that varies.
+    pub(super) fn newtonian(&self) -> Option<Self> {
+        let Key { mut point, lubricant } = self.base;
+        let thins = lubricant.shear != ShearLaw::Newtonian;
+        if self.varied == Varied::Plateau || !thins && lubricant.limiting_stress.is_none() {
+            return None;
+        }
+        if thins {
+            point.sliding.newtonian_plateau_ratio = Some(1.0);
+        }
+        Some(Self { base: Key { point, lubricant: lubricant.of_the_film() }, ..self.clone() })
+    }
+
+    /// Contacts of [`Self::newtonian`] beside so many of the sweep: without thinning the film does not feel the sliding,
+    /// so that its traction is proportional to it.
+    pub(super) fn companions(&self, count: usize) -> usize {
+        if self.varied == Varied::SlideToRoll { 2 } else { count }
+    }
+
+    /// Notes beside contacts of the sweep what those of [`Self::newtonian`] amount to.
+    pub(super) fn note_newtonian(&self, samples: &mut [Sample], companions: &[Sample]) {
+        let lubricant = self.base.lubricant;
+        let of = |sample: &Sample| self.varied.of(&Key { point: sample.point, lubricant });
+        for sample in samples {
+            let value = of(sample);
+            sample.newtonian = match self.varied {
+                Varied::SlideToRoll => {
+                    companions.last().filter(|last| of(last) > 0.0).map(|last| last.traction * value / of(last))
+                }
+                _ => companions.iter().find(|other| of(other) == value).map(|other| other.traction),
+            };
+        }
+    }
+
     /// A sentence where every traction along it is no physics.
     pub fn unphysical(&self) -> Option<String> {
         Problem::new(&self.base.point, self.base.lubricant).ok()?.traction_warning()
@@ -222,15 +288,24 @@ impl Sweep {
 }
 
 impl Sample {
+    /// A contact that a study of a sweep tells of; none where it failed.
+    pub(super) fn of_row(row: &StudyRow, sweep: &Sweep) -> Option<Self> {
+        if let StudyRow::Sweep(row) = row { Self::of(row, &sweep.base.lubricant) } else { None }
+    }
+
     /// What a contact of a sweep adds up to by its first method; none where that failed.
-    pub(super) fn of(row: &PathRow) -> Option<Self> {
+    pub(super) fn of(row: &PathRow, lubricant: &Lubricant) -> Option<Self> {
         let result = row.results.first()?;
         let (scalars, scale) = (result.scalars?, row.point.film_scale_m());
+        let traction = result.traction?.abs();
+        let problem = Problem::new(&row.point, *lubricant).ok()?;
         Some(Self {
             point: row.point,
             h_c_m: scalars.h_c * scale,
             h_min_m: scalars.h_min * scale,
-            traction: result.traction?.abs(),
+            traction,
+            newtonian: None,
+            unphysical: problem.doubts_traction(traction).is_some(),
         })
     }
 }
@@ -239,7 +314,7 @@ impl Sample {
 mod tests {
     use super::*;
     use crate::engine::model_file;
-    use crate::scene::named_lubricant::SQUALANE_PIP;
+    use crate::scene::named_lubricant::{MINERAL_OIL, SQUALANE_PIP};
     use crate::solver::physics::contact::Sliding;
 
     /// Table 3.5's contact as a line or a point contact.
@@ -269,6 +344,26 @@ mod tests {
         let point = key(ContactKind::Line).point;
         assert_eq!(Varied::SlideToRoll.trained(&model.domain, &point), Some((0.0, 1.0)));
         assert_eq!(Varied::Plateau.trained(&model.domain, &point), Some((0.2, 1.0)));
+    }
+
+    #[test]
+    fn half_of_the_contacts_lie_where_traction_rises() {
+        let base = Key { lubricant: MINERAL_OIL, ..key(ContactKind::Line) };
+        let sweep = Sweep { varied: Varied::SlideToRoll, base, ends: (0.0, 1.0), logarithmic: false };
+        let Study::Sweep(study) = sweep.question("t", Grid::Graded, 41, Method::Full).study else { panic!() };
+        let values = study.over[0].values.values();
+        assert_eq!(values.iter().filter(|srr| **srr <= 0.05 + 1e-9).count(), 21);
+        // A limited oil has a Newtonian companion, whose traction is proportional to the sliding.
+        let newtonian = sweep.newtonian().unwrap();
+        assert_eq!(newtonian.base.lubricant.limiting_stress, None);
+        assert_eq!((newtonian.newtonian(), sweep.companions(41)), (None, 2));
+        let sample = |srr: f64, traction| {
+            let point = Varied::SlideToRoll.at(&base.point, srr);
+            Sample { point, h_c_m: 1.0, h_min_m: 1.0, traction, newtonian: None, unphysical: false }
+        };
+        let mut samples = [sample(0.0, 0.0), sample(0.1, 0.05)];
+        sweep.note_newtonian(&mut samples, &[sample(0.0, 0.0), sample(1.0, 8.0)]);
+        assert_eq!(samples.map(|sample| sample.newtonian), [Some(0.0), Some(0.8)]);
     }
 
     #[test]

@@ -5,6 +5,7 @@ pub mod comparison;
 pub mod presets;
 mod worker;
 
+use worker::{Files, Found};
 pub use worker::{Made, Running};
 
 use super::answers::Answers;
@@ -16,12 +17,14 @@ use crate::solver::training::{Plan, TrainingSpec, TrainingState, WindowState};
 use chart::Chart;
 use comparison::Comparison;
 use egui::Context;
-use std::path::{Path, PathBuf};
+use std::io::ErrorKind;
+use std::path::Path;
 use std::sync::Arc;
 use worker::{Ended, Trained};
 
-/// Name of the file in the session's folder.
+/// Names of the files in the session's folder.
 const FILE: &str = "unfinished.training";
+const MODEL_FILE: &str = "trained.rom";
 
 /// A sentence about how something ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,6 +46,8 @@ pub enum TrainingCommand {
     Resume,
     /// Forget the unfinished training, also on disk.
     Discard,
+    /// Forget the model that was made, also on disk.
+    ThrowAway,
     /// Put the model that was made in use.
     UseMade,
     /// Put the model in use that was before.
@@ -55,7 +60,7 @@ pub enum TrainingCommand {
 #[derive(Default)]
 pub struct Training {
     job: Option<Running>,
-    looking: Background<Box<TrainingState>>,
+    looking: Background<Found>,
     /// What is drawn.
     pub chart: Arc<Chart>,
     /// The training that the chart and the model belong to.
@@ -72,19 +77,69 @@ pub struct Training {
     pub comparison: Option<Comparison>,
     /// How the last job ended.
     pub notices: Vec<Notice>,
-    file: Option<PathBuf>,
+    files: Option<Files>,
 }
 
 impl Training {
     /// Keeps trainings in a folder from now on.
     pub fn keep_in(&mut self, folder: &Path) {
-        self.file = Some(folder.join(FILE));
+        self.files = Some(Files { training: folder.join(FILE), model: folder.join(MODEL_FILE) });
     }
 
-    /// Looks for a training that a former session left behind.
+    /// Looks for what a former session left behind.
     pub fn look(&mut self, ctx: &Context) {
-        if let Some(path) = &self.file {
-            self.looking.run(worker::look(ctx, path.clone()));
+        if let Some(files) = &self.files {
+            self.looking.run(worker::look(ctx, files.clone()));
+        }
+    }
+
+    /// What another training would replace, each a sentence.
+    pub fn replaced(&self) -> Vec<String> {
+        let unfinished = self.unfinished.iter().map(|state| {
+            format!(
+                "The training “{}”, which stopped at {} full solutions, gives way to the new one.",
+                state.spec.title,
+                state.solutions()
+            )
+        });
+        unfinished.chain(self.unsaved()).collect()
+    }
+
+    /// What is lost when the window closes, each a sentence: what no folder keeps.
+    pub fn unkept(&self) -> Vec<String> {
+        let folder = self.files.is_some();
+        let runs = self.job.is_some().then(|| "A training runs, and no folder keeps its full solutions.".to_owned());
+        let stopped = self.unfinished.as_ref().map(|state| {
+            format!("The training “{}” was stopped, and no folder keeps its full solutions.", state.spec.title)
+        });
+        let in_memory = runs.into_iter().chain(stopped).filter(|_| !folder);
+        let model = self.unsaved().filter(|_| self.made.as_ref().is_some_and(|made| !made.kept));
+        in_memory.chain(model).collect()
+    }
+
+    /// The model that was made and not saved, in a sentence.
+    pub fn unsaved(&self) -> Option<String> {
+        let made = self.made.as_ref().filter(|made| !made.saved)?;
+        Some(format!("The model “{}” was trained and is not saved.", made.model.title))
+    }
+
+    /// Takes in that a model was written to a file.
+    pub fn saved(&mut self, bytes: &Arc<Vec<u8>>) {
+        if let Some(made) = self.made.as_mut().filter(|made| Arc::ptr_eq(&made.bytes, bytes)) {
+            made.saved = true;
+            self.forget_file();
+        }
+    }
+
+    /// Removes the file of the model from the session's folder.
+    fn forget_file(&mut self) {
+        let Some(made) = self.made.as_mut().filter(|made| made.kept) else { return };
+        made.kept = false;
+        if let Some(files) = &self.files
+            && let Err(error) = std::fs::remove_file(&files.model)
+            && error.kind() != ErrorKind::NotFound
+        {
+            self.notices.push(Notice::Wrong(format!("{} cannot be removed: {error}", files.model.display())));
         }
     }
 
@@ -118,6 +173,10 @@ impl Training {
                 }
             }
             TrainingCommand::Discard => self.discard(),
+            TrainingCommand::ThrowAway => {
+                self.forget_file();
+                self.made = None;
+            }
             TrainingCommand::UseMade => {
                 if let Some(made) = &self.made {
                     self.former = answers.use_model(Arc::clone(&made.model));
@@ -155,18 +214,19 @@ impl Training {
         self.spec = Some(Box::new(state.spec.clone()));
         self.unfinished = None;
         self.left_behind = false;
+        self.notices.clear();
+        self.forget_file();
         self.made = None;
         self.comparison = None;
-        self.notices.clear();
-        self.job = Some(Running::start(ctx, state, self.file.clone()));
+        self.job = Some(Running::start(ctx, state, self.files.clone()));
     }
 
     fn discard(&mut self) {
         self.unfinished = None;
         self.left_behind = false;
         self.notices.clear();
-        if let Some(path) = &self.file
-            && let Err(error) = training_file::remove(path)
+        if let Some(files) = &self.files
+            && let Err(error) = training_file::remove(&files.training)
         {
             self.notices.push(Notice::Wrong(error.to_string()));
         }
@@ -182,8 +242,17 @@ impl Training {
 
     /// Takes in what came since the last frame.
     pub fn receive(&mut self) {
-        let mut found = None;
-        self.looking.receive(|state| found = Some(state));
+        let (mut found, mut left) = (None, None);
+        self.looking.receive(|what| match what {
+            Found::Training(state) => found = Some(state),
+            Found::Model(made) => left = Some(made),
+        });
+        if let Some(made) = left {
+            let title = &made.model.title;
+            let text = format!("The model “{title}” of a former session is not saved: save it, or throw it away");
+            self.notices.push(Notice::Short(text));
+            self.made = Some(made);
+        }
         if let Some(state) = found {
             self.chart = Arc::new(Chart::of(&state));
             self.spec = Some(Box::new(state.spec.clone()));
@@ -192,7 +261,7 @@ impl Training {
         }
         if let Some(why) = self.looking.message.take() {
             // Whatever it is, it is not ours to overwrite.
-            self.file = None;
+            self.files = None;
             self.notices.push(Notice::Wrong(format!("{why}. Until then trainings are not kept on disk")));
         }
         let wrong = self.comparison.as_mut().and_then(Comparison::receive);

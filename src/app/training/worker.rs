@@ -5,12 +5,13 @@ use crate::app::answers::jobs::wake;
 use crate::engine::job::{Ending, Job, Reporter, guarded, on_spare_cores};
 use crate::engine::model_file;
 use crate::engine::training_file::{self, TrainingKeeper};
+use crate::scene::atomic_file;
 use crate::solver::reduced::ReducedModel;
 use crate::solver::training::{
     Observer, Plan, Progress, TrainingError, TrainingObserver, TrainingSpec, TrainingState, Windows, train_resumable,
 };
 use std::collections::VecDeque;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
@@ -47,6 +48,27 @@ pub struct Made {
     pub model: Arc<ReducedModel>,
     /// What is written when it is saved.
     pub bytes: Arc<Vec<u8>>,
+    /// Whether the session's folder keeps it until it is saved or thrown away.
+    pub kept: bool,
+    /// Whether it was saved.
+    pub saved: bool,
+}
+
+/// Where a session keeps what trainings leave.
+#[derive(Clone, Debug)]
+pub struct Files {
+    /// A training that is not at its end.
+    pub training: PathBuf,
+    /// The last model, until it is saved or thrown away.
+    pub model: PathBuf,
+}
+
+/// What a former session left.
+pub enum Found {
+    /// A training that is not at its end.
+    Training(Box<TrainingState>),
+    /// A model that was not saved.
+    Model(Made),
 }
 
 /// What a training has found so far; only the last state of it is of interest.
@@ -88,13 +110,13 @@ pub struct Running {
 
 impl Running {
     /// Trains on from a state; it is kept in the file meanwhile.
-    pub fn start(ctx: &egui::Context, state: TrainingState, file: Option<PathBuf>) -> Self {
+    pub fn start(ctx: &egui::Context, state: TrainingState, files: Option<Files>) -> Self {
         let (most, fewer) = (most_solutions(&state.spec), state.spec.plan.searches());
         let live = Arc::new(Mutex::new(Live { chart: Arc::new(Chart::of(&state)), ..Live::default() }));
         let theirs = Arc::clone(&live);
         let job = Job::start("Training", wake(ctx), move |reporter| {
             let watched = Watched { reporter, live: theirs, searches: fewer, keeper: None };
-            reporter.send(on_spare_cores(|| train(state, file, watched)));
+            reporter.send(on_spare_cores(|| train(state, files, watched)));
             Ok(())
         });
         Self { most, fewer, live, trained: None, job }
@@ -169,18 +191,31 @@ impl TrainingObserver for Watched<'_> {
     }
 }
 
-/// Begins to look for a training that a former session left behind in a file; nothing comes where there is none.
-pub fn look(ctx: &egui::Context, path: PathBuf) -> Job<Box<TrainingState>> {
-    Job::start("Looking for an unfinished training", wake(ctx), move |reporter| {
-        if path.exists() {
-            reporter.send(Box::new(training_file::read(&path).map_err(|error| error.to_string())?));
+/// Begins to look for what a former session left behind; nothing comes where there is nothing.
+pub fn look(ctx: &egui::Context, files: Files) -> Job<Found> {
+    Job::start("Looking for what was left", wake(ctx), move |reporter| {
+        // A model comes first: one that cannot be read is no reason to leave a training alone.
+        let model = files.model.exists().then(|| found_model(&files.model));
+        if let Some(Ok(made)) = model {
+            reporter.send(Found::Model(made));
+        }
+        if files.training.exists() {
+            let state = training_file::read(&files.training).map_err(|error| error.to_string())?;
+            reporter.send(Found::Training(Box::new(state)));
         }
         Ok(())
     })
 }
 
-fn train(mut state: TrainingState, file: Option<PathBuf>, mut watch: Watched<'_>) -> Trained {
-    match file.map(TrainingKeeper::new).transpose() {
+fn found_model(path: &Path) -> Result<Made, String> {
+    let model = model_file::read(path).map_err(|error| error.to_string())?;
+    let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
+    Ok(Made { model: Arc::new(model), bytes: Arc::new(bytes), kept: true, saved: false })
+}
+
+fn train(mut state: TrainingState, files: Option<Files>, mut watch: Watched<'_>) -> Trained {
+    let model_path = files.as_ref().map(|files| files.model.clone());
+    match files.map(|files| TrainingKeeper::new(files.training)).transpose() {
         Ok(keeper) => watch.keeper = keeper,
         Err(reason) => lock(&watch.live).unkept = Some(format!("{reason}. This training is not kept on disk")),
     }
@@ -198,7 +233,16 @@ fn train(mut state: TrainingState, file: Option<PathBuf>, mut watch: Watched<'_>
         (Some(keeper), _) if state.solutions() > 0 => keeper.keep(&state),
         _ => Ok(()),
     };
-    Trained { state, ended, made, unkept: kept.err().map(|error| error.to_string()) }
+    let mut unkept = kept.err().map(|error| error.to_string());
+    let made = made.map(|made| match model_path.map(|path| atomic_file::replace(&path, &made.bytes)) {
+        Some(Ok(())) => Made { kept: true, ..made },
+        Some(Err(error)) => {
+            unkept.get_or_insert(format!("{error}. The model is kept only while this window is open"));
+            made
+        }
+        None => made,
+    });
+    Trained { state, ended, made, unkept }
 }
 
 /// The model of what there is, unless that is not wanted either.
@@ -212,5 +256,5 @@ fn rest(state: &TrainingState, reporter: &Reporter<Trained>) -> Result<Made, Str
 
 fn file_of(model: ReducedModel) -> Result<Made, String> {
     let bytes = model_file::to_bytes(&model).map_err(|error| error.to_string())?;
-    Ok(Made { model: Arc::new(model), bytes: Arc::new(bytes) })
+    Ok(Made { model: Arc::new(model), bytes: Arc::new(bytes), kept: false, saved: false })
 }

@@ -141,6 +141,11 @@ fn check_axis(axis: &Axis) -> Checked {
             number(&field, *from, least.max(f64::MIN_POSITIVE), most)?;
             number(&field, *to, least.max(f64::MIN_POSITIVE), most)
         }
+        Steps::Graded { from, half, to, .. } => {
+            limit(*from)?;
+            limit(*to)?;
+            Steps::check_grading(*from, *half, *to).map_err(|why| refuse(&field, why))
+        }
         Steps::List(values) => values.iter().try_for_each(|&value| limit(value)),
     }
 }

@@ -10,6 +10,9 @@ use rayon::prelude::*;
 /// stress a lubricant can carry.
 pub const PLAUSIBLE_EXPONENT: f64 = 12.0;
 
+/// A traction coefficient beyond which no lubricant was ever measured: it would have thinned under shear or yielded.
+pub const PLAUSIBLE_TRACTION: f64 = 0.15;
+
 /// Shear along X at one place of the film.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shear {
@@ -89,6 +92,20 @@ impl Solution {
 }
 
 impl Problem {
+    /// A sentence where a traction coefficient is no physics: wherever every one is, and where it is larger than any that
+    /// was measured. None of no traction at all.
+    pub fn doubts_traction(&self, traction: f64) -> Option<String> {
+        let too_large = || {
+            (traction.abs() > PLAUSIBLE_TRACTION).then(|| {
+                format!(
+                    "a traction coefficient of {traction:.3} is unphysical: beyond {PLAUSIBLE_TRACTION} the lubricant thins \
+                     under shear or yields"
+                )
+            })
+        };
+        if traction == 0.0 { None } else { self.traction_warning().or_else(too_large) }
+    }
+
     /// A sentence where every traction is no physics: at great α* p_H without a limiting stress.
     pub fn traction_warning(&self) -> Option<String> {
         let unlimited = self.lubricant.limiting_stress.is_none();

@@ -1,14 +1,16 @@
 //! Opening, saving and exporting: never blocks the window, never overwrites what the user did not name, never loses
 //! work unasked.
 
+mod losses;
 mod path_window;
 
 use super::Desk;
 use crate::app::document::Document;
 use crate::app::purpose::Purpose;
 use crate::app::tab::Tab;
+use crate::app::training::TrainingCommand;
 use crate::scene::{Scene, Study};
-use egui::{Context, Id, Modal, Ui, ViewportCommand};
+use egui::{Context, Ui, ViewportCommand};
 use path_window::PathWindow;
 use std::path::{Path, PathBuf};
 
@@ -25,6 +27,12 @@ pub enum Pending {
     Open(PathBuf),
     /// The end.
     Quit,
+    /// Another training.
+    Train,
+    /// The end of a training that was stopped.
+    DiscardTraining,
+    /// The end of a model that was trained.
+    ThrowModelAway,
 }
 
 /// What the window knows about files.
@@ -96,13 +104,12 @@ impl Desk {
         self.document != *self.files.saved()
     }
 
-    /// Does something that ends the present document, after asking when there is something to lose.
+    /// Does something that ends what there is, after asking when there is something to lose.
     pub fn request(&mut self, ctx: &Context, pending: Pending) {
-        let ends_document = !matches!(&pending, Pending::Open(path) if is_model(path));
-        if ends_document && self.dirty() {
-            self.files.pending = Some(pending);
-        } else {
+        if self.losses(&pending).is_empty() {
             self.proceed(ctx, pending);
+        } else {
+            self.files.pending = Some(pending);
         }
     }
 
@@ -124,6 +131,9 @@ impl Desk {
                 self.files.quit = true;
                 ctx.send_viewport_cmd(ViewportCommand::Close);
             }
+            Pending::Train => self.training.start(ctx, &self.document),
+            Pending::DiscardTraining => self.training.execute(ctx, &mut self.answers, TrainingCommand::Discard),
+            Pending::ThrowModelAway => self.training.execute(ctx, &mut self.answers, TrainingCommand::ThrowAway),
         }
     }
 
@@ -184,42 +194,13 @@ impl Desk {
         if let Some(path) = dropped.into_iter().next() {
             self.request(&ctx, Pending::Open(path));
         }
-        if ctx.input(|i| i.viewport().close_requested()) && self.dirty() && !self.files.quit {
+        let closes = ctx.input(|i| i.viewport().close_requested()) && !self.files.quit;
+        if closes && !self.losses(&Pending::Quit).is_empty() {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
             self.files.pending = Some(Pending::Quit);
         }
         self.browse_answer(&ctx);
         self.path_window_ui(&ctx);
-        self.unsaved_ui(&ctx);
-    }
-
-    fn unsaved_ui(&mut self, ctx: &Context) {
-        let Some(pending) = self.files.pending.clone() else { return };
-        let (mut save, mut discard, mut cancel) = (false, false, false);
-        let response = Modal::new(Id::unique("unsaved changes")).show(ctx, |ui| {
-            ui.set_width(380.0);
-            ui.heading("Save the changes?");
-            ui.label("The operating point or its settings have changed since they were last saved.");
-            ui.add_space(6.0);
-            ui.horizontal(|ui| {
-                save = ui.button("Save…").clicked();
-                discard = ui.button("Discard changes").clicked();
-                cancel = ui.button("Cancel").clicked();
-            });
-        });
-        if discard {
-            self.files.pending = None;
-            self.proceed(ctx, pending);
-        } else if save {
-            self.files.pending = None;
-            self.save(ctx);
-            if self.files.window.is_some() {
-                self.files.after_save = Some(pending);
-            } else if !self.dirty() {
-                self.proceed(ctx, pending);
-            }
-        } else if cancel || response.should_close() {
-            self.files.pending = None;
-        }
+        self.losses_ui(&ctx);
     }
 }

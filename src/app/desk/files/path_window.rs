@@ -1,4 +1,5 @@
-//! The window that asks for a path: a text field that always works, beside the system's own dialog where there is one.
+//! The window that asks for a path: the system's own dialog first; where there is none it says so, and a text field
+//! does the same.
 
 use crate::app::controls::message_ui;
 use crate::app::desk::Desk;
@@ -20,6 +21,8 @@ pub(super) struct PathWindow {
     overwrite: Option<PathBuf>,
     browse: Option<(Receiver<Option<PathBuf>>, Instant)>,
     fresh: bool,
+    /// Whether the system was found to have no dialog.
+    no_dialog: bool,
 }
 
 impl Desk {
@@ -28,8 +31,15 @@ impl Desk {
         let known = self.files.path.as_deref().filter(|_| purpose == Purpose::Save);
         let suggestion = known.unwrap_or(Path::new(purpose.words().name)).display().to_string();
         let browse = self.files.native_dialogs.then(|| (browse(ctx, &purpose, &suggestion), Instant::now()));
-        self.files.window =
-            Some(PathWindow { purpose, path: suggestion, message: None, overwrite: None, browse, fresh: true });
+        self.files.window = Some(PathWindow {
+            purpose,
+            path: suggestion,
+            message: None,
+            overwrite: None,
+            browse,
+            fresh: true,
+            no_dialog: false,
+        });
     }
 
     pub(super) fn browse_answer(&mut self, ctx: &Context) {
@@ -49,7 +59,7 @@ impl Desk {
                 window.path = path.display().to_string();
                 self.act_on_path(ctx);
             }
-            None if at_once => {}
+            None if at_once => window.no_dialog = true,
             None => self.files.window = None,
         }
     }
@@ -57,7 +67,11 @@ impl Desk {
     pub(super) fn path_window_ui(&mut self, ctx: &Context) {
         let Some(window) = &mut self.files.window else { return };
         let Words { title, action, .. } = window.purpose.words();
-        let waiting = window.browse.is_some();
+        if window.browse.is_some() {
+            self.waiting_ui(ctx);
+            return;
+        }
+        let no_dialog = window.no_dialog;
         let (mut act, mut close, mut again) = (false, false, false);
         let response = Modal::new(Id::unique("path window")).show(ctx, |ui| {
             ui.set_width(440.0);
@@ -78,19 +92,14 @@ impl Desk {
             if let Some(message) = &window.message {
                 message_ui(ui, message);
             }
-            if waiting {
-                ui.label(
-                    RichText::new("The system's file dialog is open; a path typed here does the same.").small().weak(),
-                );
+            if no_dialog {
+                ui.label(RichText::new("The system has no file dialog here: type the path.").small().weak());
             }
             ui.add_space(4.0);
             ui.horizontal(|ui| {
                 let exists = window.overwrite.is_some() && !window.purpose.reads();
                 act |= ui.button(if exists { "Replace the file" } else { action }).clicked();
-                if !waiting {
-                    again =
-                        ui.button("Browse…").on_hover_text("The system's file dialog, where there is one").clicked();
-                }
+                again = ui.button("Browse…").on_hover_text("The system's file dialog, where there is one").clicked();
                 close = ui.button("Cancel").clicked();
             });
         });
@@ -100,6 +109,26 @@ impl Desk {
         }
         if act {
             self.act_on_path(ctx);
+        } else if close || response.should_close() {
+            self.files.window = None;
+            self.files.after_save = None;
+        }
+    }
+
+    /// What stands in the window while the system's dialog is open: a way on where that does not come.
+    fn waiting_ui(&mut self, ctx: &Context) {
+        let Some(window) = &mut self.files.window else { return };
+        let (mut typed, mut close) = (false, false);
+        let response = Modal::new(Id::unique("system dialog")).show(ctx, |ui| {
+            ui.set_width(300.0);
+            ui.label("The system’s file dialog is open.");
+            ui.horizontal(|ui| {
+                typed = ui.button("Type a path instead").clicked();
+                close = ui.button("Cancel").clicked();
+            });
+        });
+        if typed {
+            window.browse = None;
         } else if close || response.should_close() {
             self.files.window = None;
             self.files.after_save = None;
@@ -128,16 +157,17 @@ impl Desk {
                 .map(|()| self.files.notice = Some(Ok(format!("Read {}", path.display())))),
             Purpose::Write(what, bytes) => {
                 let done = if what == Written::Model { "Saved the model" } else { "Exported" };
-                atomic_file::replace(&path, &bytes)
-                    .map_err(|e| e.to_string())
-                    .map(|()| self.files.notice = Some(Ok(format!("{done} {}", path.display()))))
+                atomic_file::replace(&path, &bytes).map_err(|e| e.to_string()).map(|()| {
+                    self.training.saved(&bytes);
+                    self.files.notice = Some(Ok(format!("{done} {}", path.display())));
+                })
             }
         };
         match (result, &mut self.files.window) {
             (Ok(()), _) => {
                 self.files.window = None;
                 if let Some(next) = self.files.after_save.take() {
-                    self.proceed(ctx, next);
+                    self.request(ctx, next);
                 }
             }
             (Err(message), Some(window)) => {

@@ -150,8 +150,8 @@ fn toolbar(
 ) {
     let options = context.answers.options(context.document);
     let view = context.document.view;
+    badge::ui(ui, context);
     ui.horizontal_wrapped(|ui| {
-        badge::ui(ui, context.answers);
         ui.label(format!(
             "Window {} of {}, M {}…{}, {} of {} modes",
             at + 1,

@@ -13,8 +13,9 @@ use images::Images;
 use crate::app::answers::picture::{Cuts, Picture};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
-use crate::app::controls::{described, sentence};
+use crate::app::controls::{described, reserved, sentence};
 use crate::app::document::Edit;
+use crate::app::drawn;
 use crate::app::figure::{self, Subject};
 use crate::app::numbers;
 use crate::app::purpose::{Purpose, Written};
@@ -25,7 +26,7 @@ use crate::app::theme::{Palette, faded};
 use crate::app::transient::InTimeCommand;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::optics::Interferometer;
-use egui::{Color32, CursorIcon, Response, RichText, Ui};
+use egui::{Align, Color32, CursorIcon, Layout, Response, RichText, Ui, vec2};
 use egui_plot::{
     HLine, HoverPosition, Line, LineStyle, PlotImage, PlotPoint, PlotPoints, PlotTransform, PlotUi, Text, VLine,
 };
@@ -112,18 +113,16 @@ impl ContactMap {
             self.line(ui, context, commands);
             return;
         }
+        badge::ui(ui, context);
         self.toolbar(ui, context, commands);
         if self.view.shown == Shown::Interferogram && !context.presenting {
             optics::ui(ui, &mut self.view);
         }
-        let stale = context.answers.picture_is_stale(ui.input(|i| i.time));
         let Some(picture) = context.answers.picture.as_ref().filter(|picture| picture.has_plane()) else {
             ui.centered_and_justified(|ui| ui.weak("The first picture is being computed"));
             return;
         };
-        if stale {
-            badge::stale_note(ui, picture);
-        }
+        let stale = drawn::is_grey(ui.ctx(), "map", &picture.key, &context.document.key());
         self.images.follow(ui.ctx(), picture, &self.view);
         let drawing =
             Drawing { picture, images: &self.images, view: self.view, cuts: context.cuts, fit: context.fit, stale };
@@ -156,16 +155,20 @@ impl ContactMap {
             return;
         }
         in_time::follow(context, commands);
-        in_time::status(ui, context);
-        let height = ui.available_height() - 30.0;
-        let wanted = self.over_time.ui(ui, context, commands, height);
+        // Rooms of their own, so that nothing moves as runs begin and end.
+        reserved(ui, 2, |ui| in_time::status(ui, context));
+        let size = vec2(ui.available_width(), ui.available_height() - 30.0);
+        let shown = ui.allocate_ui_with_layout(size, Layout::top_down(Align::LEFT), |ui| {
+            ui.set_min_size(size);
+            self.over_time.ui(ui, context, commands, size.y)
+        });
+        let wanted = shown.inner;
         commands.extend(wanted.map(|time| Command::InTime(InTimeCommand::GoTo(time))));
         in_time::player(ui, context.transient, commands);
     }
 
     fn toolbar(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         ui.horizontal_wrapped(|ui| {
-            badge::ui(ui, context.answers);
             for shown in Shown::ALL {
                 ui.selectable_value(&mut self.view.shown, shown, shown.name()).on_hover_text(shown.tip());
             }
@@ -290,8 +293,7 @@ fn image(plot: &mut PlotUi<'_>, images: &Images, stale: bool) {
     let Some((texture, (from, to, edge))) = images.texture(plot.ctx()) else { return };
     let center = PlotPoint::new(0.5 * (from + to), 0.0);
     let size = egui::vec2((to - from) as f32, (-2.0 * edge) as f32);
-    let tint = if stale { Color32::from_gray(120) } else { Color32::WHITE };
-    plot.image(PlotImage::new("", texture, center, size).tint(tint).id("field").allow_hover(false));
+    plot.image(PlotImage::new("", texture, center, size).tint(drawn::tint(stale)).id("field").allow_hover(false));
 }
 
 fn hover(picture: &Picture, view: &MapView, at: &HoverPosition<'_>) -> Option<String> {

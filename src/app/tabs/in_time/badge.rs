@@ -1,16 +1,13 @@
 //! How the contact in time on the screen stands: live by models, checked in full, or not there yet.
 
 use crate::app::context::Context;
+use crate::app::display::Thresholds;
 use crate::app::numbers;
 use crate::app::tabs::badge::{Kind, pill};
 use crate::app::transient::{Run, TransientView};
 use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::Ended;
 use egui::Ui;
-
-/// Greatest error of H_c with which a model is verified, and with which it is roughly right.
-const GOOD: f64 = 2e-3;
-const POOR: f64 = 1e-2;
 
 /// Width that it may take.
 const WIDTH: f32 = 300.0;
@@ -25,14 +22,14 @@ struct Verdict {
 
 /// The badge of contacts in time.
 pub fn ui(ui: &mut Ui, context: &Context<'_>) {
-    let Verdict { kind, title, detail, why } = verdict(context.transient);
+    let Verdict { kind, title, detail, why } = verdict(context.transient, context.thresholds);
     if ui.available_size_before_wrap().x < WIDTH {
         ui.end_row();
     }
     pill(ui, kind, [title, &detail, why], "Trust in the contact in time");
 }
 
-fn verdict(view: &TransientView) -> Verdict {
+fn verdict(view: &TransientView, thresholds: Thresholds) -> Verdict {
     let make = |kind, title, detail: String, why| Verdict { kind, title, detail, why };
     let live = view.runs.iter().any(|run| run.replayed);
     let standing = view.work.standing();
@@ -64,8 +61,8 @@ fn verdict(view: &TransientView) -> Verdict {
     let models = view.runs.iter().filter(|run| run.by != MarchedBy::Full);
     match models.filter_map(|run| run.difference).reduce(f64::max) {
         None => make(Kind::Verified, "Full", String::new(), "Every run is the full system’s"),
-        Some(worst) if worst <= GOOD => make(Kind::Verified, "Checked", errors(view), why),
-        Some(worst) if worst <= POOR => make(Kind::Warning, "Roughly right", errors(view), why),
+        Some(worst) if worst <= thresholds.verified => make(Kind::Verified, "Checked", errors(view), why),
+        Some(worst) if worst <= thresholds.far_off => make(Kind::Warning, "Roughly right", errors(view), why),
         Some(_) => make(Kind::Wrong, "Far off", errors(view), why),
     }
 }

@@ -2,13 +2,14 @@
 
 use crate::app::answers::picture::{Picture, value_at};
 use crate::app::color_map;
+use crate::app::drawn;
 use crate::app::figure::Texture;
 use crate::app::numbers;
 use crate::app::tabs::axes;
 use crate::app::tabs::direction::Direction;
 use crate::app::theme::Palette;
 use crate::solver::full::Solution;
-use egui::{Color32, ColorImage, Context, Id, Sense, Ui, Vec2b, vec2};
+use egui::{ColorImage, Context, Id, Sense, Ui, Vec2b, vec2};
 use egui_plot::{HoverPosition, PlotImage, PlotPoint};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -161,9 +162,10 @@ pub fn ui(ui: &mut Ui, image: &FilmShearImage, shown: FilmShear, stale: bool, he
         ui,
         "Shear across the film",
         |plot| {
-            let tint = if stale { Color32::from_gray(120) } else { Color32::WHITE };
             let (center, size) = (PlotPoint::new(0.5 * (from + to), 0.5), vec2((to - from) as f32, 1.0));
-            plot.image(PlotImage::new("", texture, center, size).tint(tint).id("shear field").allow_hover(false));
+            plot.image(
+                PlotImage::new("", texture, center, size).tint(drawn::tint(stale)).id("shear field").allow_hover(false),
+            );
         },
     );
 }

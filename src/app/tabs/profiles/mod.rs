@@ -8,19 +8,20 @@ use crate::app::answers::picture::{Comparison, Cuts, Origin, Picture, value_at};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::named;
+use crate::app::drawn;
 use crate::app::export;
 use crate::app::numbers;
 use crate::app::tabs::cut_line::{self, CutLine};
 use crate::app::tabs::direction::Direction;
 use crate::app::tabs::{axes, badge};
-use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, faded, rich};
+use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, rich};
 use egui::{Align2, Checkbox, Color32, ComboBox, Id, Ui, Vec2b};
-use egui_plot::{
-    Corner, HoverPosition, Legend, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points, Span,
-    Text,
-};
+use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points, Span, Text};
 use film_shear::{FilmShear, FilmShearImage};
 use serde::{Deserialize, Serialize};
+
+/// Where the first pinned curve bears its number, and how much further every other one.
+const PIN_LABELS: (f64, f64) = (-0.92, 0.1);
 
 /// What the tab shows beside the curves, and the image below them.
 #[derive(Default)]
@@ -45,17 +46,16 @@ pub struct Choices {
 impl Profiles {
     /// The tab.
     pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        badge::ui(ui, context);
         toolbar(ui, &mut self.choices, context, commands);
         pins_ui(ui, context, commands);
         let answers = context.answers;
-        let stale = answers.picture_is_stale(ui.input(|i| i.time));
         let Some(picture) = &answers.picture else {
             ui.centered_and_justified(|ui| ui.weak("The first picture is being computed"));
             return;
         };
-        if stale {
-            badge::stale_note(ui, picture);
-        }
+        let present = context.document.key();
+        let stale = drawn::is_grey(ui.ctx(), "profiles", &picture.key, &present);
         let reduced = picture.origin != Origin::Full;
         let full = answers.full.as_ref().filter(|_| self.choices.overlay && reduced);
         let comparison = answers.comparison.as_ref().filter(|_| self.choices.difference);
@@ -65,16 +65,17 @@ impl Profiles {
         }
         let extra = |shown: bool| if shown { 0.6 } else { 0.0 };
         let parts = 2.0 + extra(comparison.is_some()) + extra(shear != FilmShear::Off);
-        let unit = (ui.available_height() - 6.0) / parts;
         let scene = Scene {
             picture,
             full,
             pins: &answers.pins,
             stale,
-            full_stale: !answers.full_is_current(),
+            full_stale: full.is_some_and(|full| drawn::is_grey(ui.ctx(), "full solution", &full.key, &present)),
             fit: context.fit,
             cuts: context.cuts,
         };
+        key(ui, &scene);
+        let unit = (ui.available_height() - 6.0) / parts;
         let mut moved = None;
         let mut stack = |ui: &mut Ui, direction: Direction| {
             let by_pressure = pressure_plot(ui, &scene, direction, unit);
@@ -96,7 +97,7 @@ impl Profiles {
             });
         }
         if let Some(comparison) = comparison {
-            difference_plot(ui, comparison, context.fit, 0.6 * unit);
+            difference_plot(ui, comparison, (context.fit, stale), 0.6 * unit);
         }
         if shear != FilmShear::Off {
             film_shear::ui(ui, &self.image, shear, stale, 0.6 * unit);
@@ -111,11 +112,10 @@ impl Profiles {
 
 fn toolbar(ui: &mut Ui, choices: &mut Choices, context: &Context<'_>, commands: &mut Commands) {
     let answers = context.answers;
+    if context.presenting {
+        return;
+    }
     ui.horizontal_wrapped(|ui| {
-        badge::ui(ui, answers);
-        if context.presenting {
-            return;
-        }
         if ui.button("Pin curve").on_hover_text("Keep this curve and its parameters for comparison (Ctrl+D)").clicked()
         {
             commands.push(Command::Pin);
@@ -163,8 +163,9 @@ fn pins_ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         return;
     }
     ui.horizontal_wrapped(|ui| {
-        let color = ui.visuals().text_color();
         for (k, pin) in pins.iter().enumerate() {
+            let palette = Palette::of(ui);
+            let color = palette.ink(palette.pin(pin.number));
             let moes = pin.picture.key.point.moes();
             let text = format!(
                 "Pin {}: {{M}} {}, {{L}} {}, {{H_c}} {}",
@@ -211,8 +212,16 @@ impl<'a> Scene<'a> {
         color: Color32,
         of: impl Fn(&'a Picture) -> &'a [PlotPoint],
     ) -> Color32 {
-        for pin in self.pins {
-            plot.line(curve(pin_name(pin), of(&pin.picture), faded(color, 0.45), THIN_WIDTH));
+        for (k, pin) in self.pins.iter().enumerate() {
+            let (points, hue) = (of(&pin.picture), palette.pin(pin.number));
+            plot.line(curve(pin_name(pin), points, hue, THIN_WIDTH));
+            // Its number, where numbers of others are not.
+            let x = PIN_LABELS.0 + PIN_LABELS.1 * k as f64;
+            if let Some(y) = value_at(points, x) {
+                let text =
+                    Text::new("", PlotPoint::new(x, y), rich(&format!("{}", pin.number), 11.5, palette.ink(hue)));
+                plot.text(text.anchor(Align2::RIGHT_BOTTOM).id(("pin", pin.number)).allow_hover(false));
+            }
         }
         let live = if self.stale { palette.reference } else { color };
         let name = if self.picture.origin == Origin::Full { "Full solution" } else { "Reduced model" };
@@ -223,6 +232,21 @@ impl<'a> Scene<'a> {
         }
         live
     }
+}
+
+/// What the lines mean, above them: there it covers nothing.
+fn key(ui: &mut Ui, scene: &Scene<'_>) {
+    let palette = Palette::of(ui);
+    let live = if scene.stale { palette.reference } else { palette.pressure };
+    let name = if scene.picture.origin == Origin::Full { "full solution" } else { "reduced model" };
+    let mut lines = vec![axes::KeyLine { name: name.to_owned(), color: live, width: LIVE_WIDTH, dashed: false }];
+    if scene.full.is_some() {
+        let color = if scene.full_stale { palette.reference } else { palette.over(palette.pressure) };
+        lines.push(axes::KeyLine { name: full_name(scene), color, width: FULL_WIDTH, dashed: false });
+    }
+    let hertz = "dry contact (Hertz)".to_owned();
+    lines.push(axes::KeyLine { name: hertz, color: palette.reference, width: THIN_WIDTH, dashed: true });
+    axes::key(ui, &lines);
 }
 
 /// A plot of the stack: shared X axis and cursor.
@@ -236,16 +260,6 @@ fn stacked<'a>(ui: &Ui, direction: Direction, id: &str, height: f32, x_title: &s
         .link_cursor(group, Vec2b::new(true, false))
         .set_margin_fraction(egui::vec2(0.0, 0.0))
         .show_y(false)
-}
-
-/// The legend stands in the profiles along X; those across have the same curves and less room.
-fn with_legend(plot: Plot<'_>, direction: Direction, corner: Corner) -> Plot<'_> {
-    match direction {
-        Direction::Along => {
-            plot.legend(Legend::default().position(corner).follow_insertion_order(true).background_alpha(0.6))
-        }
-        Direction::Across => plot,
-    }
 }
 
 fn hover(picture: &Picture, direction: Direction) -> impl Fn(&HoverPosition<'_>) -> Option<String> + '_ {
@@ -288,7 +302,8 @@ fn mark(plot: &mut PlotUi<'_>, at: (f64, f64), name: &'static str, color: Color3
         Align2::RIGHT_BOTTOM => format!("{name}  "),
         _ => format!("  {name}"),
     };
-    let label = Text::new("", PlotPoint::new(at.0, at.1), rich(&text, 13.0, color));
+    let ink = Palette::of_screen(plot.ctx()).ink(color);
+    let label = Text::new("", PlotPoint::new(at.0, at.1), rich(&text, 13.0, ink));
     plot.text(label.anchor(anchor).id((name, "label")).allow_hover(false));
 }
 
@@ -304,7 +319,7 @@ fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f
     let y_title = if direction == Direction::Along { "Pressure {P} = {p}/{p_H}" } else { "" };
     let cut = scene.cut_line(direction, "pressure");
     let shown = axes::show(
-        with_legend(stacked(ui, direction, "pressure", height, "", y_title), direction, Corner::LeftTop)
+        stacked(ui, direction, "pressure", height, "", y_title)
             .allow_drag(cut.as_ref().is_none_or(|cut| !cut.is_held(ui)))
             .default_x_bounds(from, to)
             .default_y_bounds(-0.04 * top, numbers::round_up(1.12 * top))
@@ -336,7 +351,7 @@ fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f
 fn full_name(scene: &Scene<'_>) -> String {
     match scene.full {
         Some(full) if scene.full_stale => format!("Full, of {}", numbers::moes(full.key.point.moes())),
-        _ => "Full solution".to_owned(),
+        _ => "full solution".to_owned(),
     }
 }
 
@@ -351,9 +366,8 @@ fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) 
     let x_title = direction.x_title(picture, scene.cuts);
     let y_title = if direction == Direction::Along { "Film {H} = {h}{R}/{a}²" } else { "" };
     let cut = scene.cut_line(direction, "film");
-    // The inlet's film comes down from the top left.
     let shown = axes::show(
-        with_legend(stacked(ui, direction, "film", height, &x_title, y_title), direction, Corner::LeftBottom)
+        stacked(ui, direction, "film", height, &x_title, y_title)
             .allow_drag(cut.as_ref().is_none_or(|cut| !cut.is_held(ui)))
             .default_x_bounds(from, to)
             .default_y_bounds(0.0, numbers::round_up(4.0 * top))
@@ -386,20 +400,29 @@ fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) 
     cut?.moved(ui, &shown.response, &shown.transform)
 }
 
-fn difference_plot(ui: &mut Ui, comparison: &Comparison, wanted: bool, height: f32) {
+fn difference_plot(ui: &mut Ui, comparison: &Comparison, (wanted, stale): (bool, bool), height: f32) {
     let palette = Palette::of(ui);
     let (from, to) = Direction::Along.range();
     let plot = stacked(ui, Direction::Along, "difference", height, "", "Reduced − full");
     axes::show(
-        with_legend(plot, Direction::Along, Corner::LeftTop)
-            .default_x_bounds(from, to)
-            .set_margin_fraction(egui::vec2(0.0, 0.08)),
+        plot.default_x_bounds(from, to).set_margin_fraction(egui::vec2(0.0, 0.08)),
         ui,
         "Difference of the profiles",
         |plot| {
             axes::fit(plot, wanted);
-            plot.line(curve("ΔP".to_owned(), &comparison.pressure, palette.pressure, 1.4));
-            plot.line(curve("ΔH/H_c".to_owned(), &comparison.film, palette.film, 1.4));
+            let color = |color| if stale { palette.reference } else { color };
+            let lines = [
+                ("ΔP", "Δ{P}", &comparison.pressure, palette.pressure, Align2::LEFT_BOTTOM),
+                ("ΔH/H_c", "Δ{H}/{H_c}", &comparison.film, palette.film, Align2::LEFT_TOP),
+            ];
+            for (name, label, points, hue, anchor) in lines {
+                plot.line(curve(name.to_owned(), points, color(hue), 1.4));
+                // At its largest, where it stands clear of the other.
+                if let Some(at) = points.iter().max_by(|a, b| a.y.abs().total_cmp(&b.y.abs())) {
+                    let text = Text::new("", *at, rich(&format!("  {label}"), 12.5, palette.ink(color(hue))));
+                    plot.text(text.anchor(anchor).id((name, "label")).allow_hover(false));
+                }
+            }
         },
     );
 }

@@ -12,7 +12,7 @@ mod weights;
 use super::in_time::{self, methods};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
-use crate::app::controls::{choice, message_ui, why};
+use crate::app::controls::{choice, message_ui};
 use crate::app::document::Edit;
 use crate::app::form::LastField;
 use crate::app::numbers;
@@ -47,7 +47,6 @@ pub struct Tpwl {
     sorting: Sorting,
     /// Whether settings are shown.
     form: bool,
-    why: bool,
     last: LastField,
 }
 
@@ -60,7 +59,6 @@ impl Default for Tpwl {
             other: false,
             sorting: Sorting::default(),
             form: false,
-            why: false,
             last: None,
         }
     }
@@ -105,13 +103,6 @@ impl<'a> ShownModel<'a> {
         self.runs.iter().any(|(own, _)| *own == WEIGHTINGS[weighting])
     }
 }
-
-const WHY: &str = "Near a state that has been seen, the contact answers a small change of load nearly in proportion: its equations can be \
-    replaced by their tangents there, d/dT Σ w_i (A_i + B_i y + C_i u) = Σ w_i (D_i + E_i y + F_i u), (4.27), so that a step is one small \
-    linear system. The tangents are taken at operating points along a trained trajectory, and the weights w follow the state: drag the \
-    time and watch them pass from point to point. Tangents on one side of a curved path err to one side; the dual Taylor form expands \
-    half about the points and half about their barycentre, which cancels that, while far from every point, under inputs steeper than the \
-    trained ones, no weights help and the reduced model is the right choice.";
 
 impl Tpwl {
     /// The tab.
@@ -159,7 +150,6 @@ impl Tpwl {
     fn results(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         let (top, height) = (ui.cursor().top(), ui.available_height());
         self.buttons(ui, context, commands);
-        why(ui, self.why, WHY);
         ui.horizontal_wrapped(|ui| {
             dials::ui(ui, context, commands);
             in_time::badge::ui(ui, context);
@@ -230,7 +220,6 @@ impl Tpwl {
             if enabled(ui, there, "Export plot…", tip).clicked() {
                 commands.push(Command::ExportPlot);
             }
-            ui.toggle_value(&mut self.why, "Why").on_hover_text("What the model does, in three sentences");
         });
     }
 

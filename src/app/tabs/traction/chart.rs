@@ -6,24 +6,32 @@ use crate::app::document::Key;
 use crate::app::figure::{self, Subject};
 use crate::app::numbers;
 use crate::app::tabs::axes;
-use crate::app::theme::{LIVE_WIDTH, Palette, faded};
-use crate::app::traction::{Against, Choices, Curve, Markers, Sample, Sweep};
-use egui::{Color32, CursorIcon, Id, PointerButton, Ui, Vec2b};
-use egui_plot::{Corner, HoverPosition, Legend, Line, LineStyle, MarkerShape, Plot, PlotUi, Points, VLine};
+use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, faded, rich};
+use crate::app::traction::{Against, Choices, Curve, Markers, Sample, SlideView, Sweep};
+use crate::solver::full::PLAUSIBLE_TRACTION;
+use egui::{Align2, Color32, CursorIcon, Id, PointerButton, Ui, Vec2b};
+use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotUi, Points, Text, VLine};
 
 /// Heights below which plots cannot be read.
 const LEAST_HEIGHT: f32 = 110.0;
 /// Metres in the micrometres that films are drawn in.
 const MICRO: f64 = 1e-6;
 
-/// Strength of a curve by a model that was not trained for it.
+/// Strength of a curve by a model that was not trained for it, and of the Newtonian companion.
 const SKETCH: f32 = 0.7;
+const COMPANION: f32 = 0.55;
+/// Where the curve of a limited lubricant ends its companion is labelled, as a share of the height.
+const COMPANION_LABEL: f64 = 0.9;
+/// Where a logarithmic axis of SRR begins, in percent.
+const LEAST_SRR: f64 = 0.1;
+/// Where the view of small sliding ends, in percent.
+const NEAR_SRR: f64 = 10.0;
 
 /// Points in the units of the axes.
 type Points2 = Vec<[f64; 2]>;
 
-/// A quantity of a sample.
-type Quantity = fn(&Sample) -> f64;
+/// A quantity of a sample; none where it is not known.
+type Quantity = fn(&Sample) -> Option<f64>;
 
 /// Where samples stand on the axes, logarithms included.
 #[derive(Clone, Copy)]
@@ -31,9 +39,25 @@ struct Axes<'a> {
     against: Against,
     sweep: &'a Sweep,
     logarithmic: (bool, bool),
+    /// First and last place along the axis that are shown.
+    ends: (f64, f64),
 }
 
-impl Axes<'_> {
+impl<'a> Axes<'a> {
+    fn new(choices: &Choices, sweep: &'a Sweep) -> Self {
+        let (against, lubricant) = (choices.against, sweep.base.lubricant);
+        let logarithmic = (choices.logarithmic_along(), choices.logarithmic.1);
+        let at = |value: f64| against.of(&Key { point: sweep.varied.at(&sweep.base.point, value), lubricant });
+        let (first, last) = (at(sweep.ends.0), at(sweep.ends.1));
+        let (from, to) = match (against, choices.slide) {
+            (Against::SlideToRoll, SlideView::Near) => (first, last.min(NEAR_SRR)),
+            (Against::SlideToRoll, SlideView::Logarithmic) => (first.max(LEAST_SRR), last),
+            _ => (first.min(last), first.max(last)),
+        };
+        let ends = if logarithmic.0 { (from.log10(), to.log10()) } else { (from, to) };
+        Self { against, sweep, logarithmic, ends }
+    }
+
     /// A place along the axis as it is drawn; none for what has no logarithm.
     fn along(&self, value: f64) -> Option<f64> {
         drawn(value, self.logarithmic.0)
@@ -44,14 +68,35 @@ impl Axes<'_> {
         if self.logarithmic.0 { 10f64.powf(place) } else { place }
     }
 
+    fn shows(&self, place: f64) -> bool {
+        let slack = 1e-9 * (self.ends.1 - self.ends.0);
+        (self.ends.0 - slack..=self.ends.1 + slack).contains(&place)
+    }
+
     fn place(&self, sample: &Sample) -> Option<f64> {
         self.along(self.against.of(&Key { point: sample.point, lubricant: self.sweep.base.lubricant }))
     }
 
+    fn point(&self, sample: &Sample, of: Quantity) -> Option<[f64; 2]> {
+        Some([self.place(sample)?, drawn(of(sample)?, self.logarithmic.1)?])
+    }
+
     /// The points of a quantity of samples.
-    fn points(&self, samples: &[Sample], of: Quantity) -> Points2 {
-        let point = |sample: &Sample| Some([self.place(sample)?, drawn(of(sample), self.logarithmic.1)?]);
-        samples.iter().filter_map(point).collect()
+    fn points<'s>(&self, samples: impl IntoIterator<Item = &'s Sample>, of: Quantity) -> Points2 {
+        samples.into_iter().filter_map(|sample| self.point(sample, of)).collect()
+    }
+
+    /// The ends of the axis up for values that are shown: from nothing, or from the smallest where it is logarithmic.
+    fn up(&self, values: impl Iterator<Item = f64>) -> (f64, f64) {
+        let (least, most) = values
+            .filter(|value| value.is_finite() && (*value > 0.0 || !self.logarithmic.1))
+            .fold((f64::INFINITY, 0.0f64), |(least, most), value| (least.min(value), most.max(value)));
+        match self.logarithmic.1 {
+            true if most <= 0.0 => (-3.0, 0.0),
+            true => ((0.8 * least).log10(), (1.25 * most).log10()),
+            false if most <= 0.0 => (0.0, PLAUSIBLE_TRACTION),
+            false => (0.0, numbers::round_up(1.08 * most)),
+        }
     }
 }
 
@@ -59,10 +104,11 @@ fn drawn(value: f64, logarithmic: bool) -> Option<f64> {
     if !logarithmic { Some(value) } else { (value > 0.0).then(|| value.log10()) }
 }
 
-/// Traction, and both films in µm.
-const TRACTION: Quantity = |sample| sample.traction;
-const CENTRAL: Quantity = |sample| sample.h_c_m / MICRO;
-const SMALLEST: Quantity = |sample| sample.h_min_m / MICRO;
+/// Traction, that of the Newtonian companion, and both films in µm.
+const TRACTION: Quantity = |sample| Some(sample.traction);
+const NEWTONIAN: Quantity = |sample| sample.newtonian;
+const CENTRAL: Quantity = |sample| Some(sample.h_c_m / MICRO);
+const SMALLEST: Quantity = |sample| Some(sample.h_min_m / MICRO);
 
 /// Largest differences of traction and, relative, of H_c between full solutions and the curve they belong to.
 pub fn differences(curve: &Curve, markers: Option<&Markers>) -> Option<(f64, f64)> {
@@ -90,39 +136,25 @@ pub fn differences(curve: &Curve, markers: Option<&Markers>) -> Option<(f64, f64
 /// The plots; returns the place on the axis that was pressed.
 pub fn ui(ui: &mut Ui, choices: &Choices, context: &Context<'_>, sweep: &Sweep, shown: &ShownSweep<'_>) -> Option<f64> {
     let palette = Palette::of(ui);
-    let axes = Axes { against: choices.against, sweep, logarithmic: choices.logarithmic };
+    let axes = Axes::new(choices, sweep);
     let unit = ((ui.available_height() - 6.0) / 2.0).max(LEAST_HEIGHT);
     let here = context.answers.current_picture();
-    let grey = shown.unphysical.is_some();
-    let sketch = shown.curve.is_some_and(|curve| curve.served.untrained.is_some());
     let traction = LinkedPlot {
         name: "Traction along the quantity",
         id: "traction",
         titles: ("", "Traction coefficient µ"),
-        curves: &[(
-            if sketch { "Traction, model not trained for it" } else { "Traction" },
-            TRACTION,
-            if grey { palette.reference } else { palette.traction },
-            LIVE_WIDTH,
-        )],
-        here: here.map(|picture| picture.traction.abs()),
-        legend: Corner::LeftTop,
+        curves: &[Drawn { name: "traction", of: TRACTION, color: palette.traction, width: LIVE_WIDTH }],
+        here: here.map(|picture| (picture.traction.abs(), picture.unphysical.is_some())),
     };
     let film = LinkedPlot {
         name: "Film along the quantity",
         id: "film",
         titles: (axes.against.axis(sweep.base.point.kind), "Film in µm"),
         curves: &[
-            (
-                if sketch { "Central film, model not trained for it" } else { "Central film" },
-                CENTRAL,
-                palette.film,
-                LIVE_WIDTH,
-            ),
-            (if sketch { "Smallest film (dotted)" } else { "Smallest film (dashed)" }, SMALLEST, palette.film, 1.6),
+            Drawn { name: "central film", of: CENTRAL, color: palette.film, width: LIVE_WIDTH },
+            Drawn { name: "smallest film", of: SMALLEST, color: palette.film, width: 1.6 },
         ],
-        here: here.map(|picture| picture.central_film_m() / MICRO),
-        legend: Corner::LeftBottom,
+        here: here.map(|picture| (picture.central_film_m() / MICRO, false)),
     };
     let both = ui.vertical(|ui| {
         let pressed = traction.show(ui, context, &axes, shown, unit);
@@ -132,15 +164,22 @@ pub fn ui(ui: &mut Ui, choices: &Choices, context: &Context<'_>, sweep: &Sweep, 
     both.inner.map(|place| axes.value(place))
 }
 
+/// A curve of a plot.
+struct Drawn {
+    name: &'static str,
+    of: Quantity,
+    color: Color32,
+    width: f32,
+}
+
 /// One of both plots.
 struct LinkedPlot<'a> {
     name: &'static str,
     id: &'static str,
     titles: (&'a str, &'a str),
-    curves: &'a [(&'static str, Quantity, Color32, f32)],
-    /// The value of the contact on the screen.
-    here: Option<f64>,
-    legend: Corner,
+    curves: &'a [Drawn],
+    /// The value of the contact on the screen, and whether it is no physics.
+    here: Option<(f64, bool)>,
 }
 
 impl LinkedPlot<'_> {
@@ -154,34 +193,31 @@ impl LinkedPlot<'_> {
     ) -> Option<f64> {
         let palette = Palette::of(ui);
         let marks = f64::from((ui.available_width() / 90.0).clamp(3.0, 9.0));
-        let current = axes.along(axes.against.of(&context.document.key()));
-        let response = axes::show(self.plot(ui, axes, height, marks), ui, self.name, |plot| {
+        let current = axes.along(axes.against.of(&context.document.key())).filter(|place| axes.shows(*place));
+        let up = self.up(axes, shown, current.is_some());
+        let response = axes::show(self.plot(ui, axes, height, marks, up), ui, self.name, |plot| {
             axes::fit(plot, context.fit);
             if let Some(current) = current {
                 let line = VLine::new("", current).id("here line").color(palette.accent).width(1.0);
                 plot.vline(line.style(LineStyle::dashed_dense()).allow_hover(false));
             }
-            for (k, &(name, of, color, width)) in self.curves.iter().enumerate() {
-                if let Some(curve) = shown.curve {
-                    let color = if shown.curve_stale { palette.reference } else { color };
-                    // What nobody has measured is no firm line.
-                    let (color, style) = match (curve.served.untrained.is_some(), k) {
-                        (false, 0) => (color, LineStyle::Solid),
-                        (false, _) => (color, LineStyle::dashed_loose()),
-                        (true, 0) => (faded(color, SKETCH), LineStyle::dashed_dense()),
-                        (true, _) => (faded(color, SKETCH), LineStyle::dotted_dense()),
-                    };
-                    let line = Line::new(name, axes.points(&curve.samples, of)).color(color).width(width);
-                    plot.line(line.style(style).id((self.id, k)).allow_band(false));
-                }
+            let samples = shown.samples();
+            if self.id == "traction" {
+                let color = if shown.line_stale() { palette.reference } else { palette.traction };
+                newtonian(plot, axes, samples, faded(color, COMPANION), up);
+            }
+            for (k, curve) in self.curves.iter().enumerate() {
+                self.curve(plot, axes, shown, (k, curve), &palette);
                 if let Some(markers) = shown.markers {
-                    let color = if shown.markers_stale { palette.reference } else { palette.over(color) };
-                    rings(plot, axes.points(&markers.samples, of), color, k);
+                    let color = if shown.markers_stale { palette.reference } else { palette.over(curve.color) };
+                    rings(plot, axes.points(&markers.samples, curve.of), color, k);
                 }
             }
-            if let (Some(place), Some(value)) = (current, self.here.and_then(|value| drawn(value, axes.logarithmic.1)))
+            if let (Some(place), Some((value, unphysical))) = (current, self.here)
+                && let Some(value) = drawn(value, axes.logarithmic.1)
             {
-                let dot = Points::new("", vec![[place, value]]).id("here").color(palette.accent).radius(5.0);
+                let color = if unphysical { palette.reference } else { palette.accent };
+                let dot = Points::new("", vec![[place, value]]).id("here").color(color).radius(5.0);
                 plot.points(dot.allow_hover(false));
             }
         });
@@ -195,16 +231,74 @@ impl LinkedPlot<'_> {
         Some(transform.value_from_position(pointer).x)
     }
 
-    fn plot<'p>(&self, ui: &Ui, axes: &Axes<'_>, height: f32, marks: f64) -> Plot<'p> {
+    /// The ends of the axis up; what is no physics never sets them.
+    fn up(&self, axes: &Axes<'_>, shown: &ShownSweep<'_>, here: bool) -> (f64, f64) {
+        let seen = |sample: &&Sample| axes.place(sample).is_some_and(|place| axes.shows(place));
+        let traction = self.id == "traction";
+        let samples = shown.curve.iter().flat_map(|curve| &curve.samples);
+        let samples = samples.chain(shown.markers.iter().flat_map(|markers| &markers.samples));
+        let samples = samples.filter(seen).filter(|sample| !(traction && sample.unphysical));
+        let of_curves = samples.flat_map(|sample| self.curves.iter().filter_map(|curve| (curve.of)(sample)));
+        let here = self.here.filter(|(_, unphysical)| here && !unphysical).map(|(value, _)| value);
+        axes.up(of_curves.chain(here))
+    }
+
+    /// One curve, grey and thin where it is no physics, with its name at its end.
+    fn curve(
+        &self,
+        plot: &mut PlotUi<'_>,
+        axes: &Axes<'_>,
+        shown: &ShownSweep<'_>,
+        (k, curve): (usize, &Drawn),
+        palette: &Palette,
+    ) {
+        let sketch = shown.curve.is_some_and(|curve| curve.served.untrained.is_some());
+        let color = if shown.line_stale() { palette.reference } else { curve.color };
+        // What nobody has measured is no firm line.
+        let (color, style) = match (sketch, k) {
+            (false, 0) => (color, LineStyle::Solid),
+            (false, _) => (color, LineStyle::dashed_loose()),
+            (true, 0) => (faded(color, SKETCH), LineStyle::dashed_dense()),
+            (true, _) => (faded(color, SKETCH), LineStyle::dotted_dense()),
+        };
+        let width = if shown.curve.is_some() { curve.width } else { FULL_WIDTH };
+        let samples = shown.samples();
+        let doubted = |sample: &Sample| self.id == "traction" && sample.unphysical;
+        let mut end = 0;
+        for (part, run) in samples.chunk_by(|a, b| doubted(a) == doubted(b)).enumerate() {
+            let unphysical = run.first().is_some_and(doubted);
+            end += run.len();
+            // Up to where the next part begins.
+            let next = samples.get(end);
+            let (name, color, style, width) = match unphysical {
+                true => ("traction, unphysical", palette.reference, LineStyle::dotted_loose(), THIN_WIDTH),
+                false => (curve.name, color, style, width),
+            };
+            let points = axes.points(run.iter().chain(next), curve.of);
+            let line = Line::new(name, points).color(color).width(width);
+            plot.line(line.style(style).id((self.id, k, part)).allow_band(false));
+        }
+        let last = axes.points(samples.iter().filter(|sample| !doubted(sample)), curve.of);
+        if let Some([x, y]) = last.into_iter().rfind(|point| axes.shows(point[0])) {
+            let name =
+                if sketch { format!("{}, not trained for it  ", curve.name) } else { format!("{}  ", curve.name) };
+            let text = Text::new("", PlotPoint::new(x, y), rich(&name, axes::TITLE_SIZE, palette.ink(color)));
+            plot.text(text.anchor(Align2::RIGHT_BOTTOM).id((self.id, k, "name")).allow_hover(false));
+        }
+    }
+
+    fn plot<'p>(&self, ui: &Ui, axes: &Axes<'_>, height: f32, marks: f64, up: (f64, f64)) -> Plot<'p> {
         let group = Id::unique("traction sweep");
-        let (along, up) = axes.logarithmic;
+        let (along, logarithmic) = axes.logarithmic;
+        let margin = 0.02 * (axes.ends.1 - axes.ends.0);
+        let unit = if axes.against == Against::SlideToRoll { "\u{2009}%" } else { "" };
         let plot = axes::plot(ui, self.id, height, self.titles.0, self.titles.1)
             .link_axis(group, Vec2b::new(true, false))
             .link_cursor(group, Vec2b::new(true, false))
             .allow_drag(false)
-            .auto_bounds(Vec2b::TRUE)
-            .set_margin_fraction(egui::vec2(0.02, 0.08))
-            .legend(Legend::default().position(self.legend).follow_insertion_order(true).background_alpha(0.6))
+            .default_x_bounds(axes.ends.0 - margin, axes.ends.1 + margin)
+            .default_y_bounds(up.0, up.1)
+            .set_margin_fraction(egui::Vec2::ZERO)
             .show_y(false)
             .label_formatter(move |at: &HoverPosition<'_>| {
                 let (name, position) = match at {
@@ -213,22 +307,43 @@ impl LinkedPlot<'_> {
                 };
                 let value =
                     |v: f64, logarithmic: bool| numbers::significant(if logarithmic { 10f64.powf(v) } else { v });
-                Some(format!("{name}\n{} at {}", value(position.y, up), value(position.x, along)))
+                Some(format!("{name}\n{} at {}{unit}", value(position.y, logarithmic), value(position.x, along)))
             });
         let plot = if along {
             plot.x_grid_spacer(axes::log_marks).x_axis_formatter(|mark, _| axes::log_label(mark))
         } else {
             plot.x_grid_spacer(move |input| axes::round_marks(input, marks))
         };
-        if up {
+        if logarithmic {
             plot.y_grid_spacer(axes::log_marks).y_axis_formatter(|mark, _| axes::log_label(mark))
         } else {
-            plot.include_y(0.0)
+            plot
         }
     }
 }
 
+/// What a lubricant that keeps its viscosity under every stress would carry: it sets no axis, and is labelled where it
+/// leaves the picture.
+fn newtonian(plot: &mut PlotUi<'_>, axes: &Axes<'_>, samples: &[Sample], color: Color32, up: (f64, f64)) {
+    let points = axes.points(samples, NEWTONIAN);
+    if points.is_empty() {
+        return;
+    }
+    let level = up.0 + COMPANION_LABEL * (up.1 - up.0);
+    let crossing = points.windows(2).find(|pair| pair[0][1] < level && pair[1][1] >= level).map(|pair| {
+        let share = (level - pair[0][1]) / (pair[1][1] - pair[0][1]);
+        pair[0][0] + share * (pair[1][0] - pair[0][0])
+    });
+    let ink = Palette::of_screen(plot.ctx()).ink(color);
+    let line = Line::new("if it were Newtonian", points).color(color).width(THIN_WIDTH);
+    plot.line(line.style(LineStyle::dashed_loose()).id("newtonian").allow_band(false));
+    if let Some(x) = crossing {
+        let text = Text::new("", PlotPoint::new(x, level), rich("  if it were Newtonian", axes::TITLE_SIZE, ink));
+        plot.text(text.anchor(Align2::LEFT_CENTER).id("newtonian name").allow_hover(false));
+    }
+}
+
 fn rings(plot: &mut PlotUi<'_>, points: Points2, color: Color32, k: usize) {
-    let rings = Points::new("Full solutions", points).color(color).radius(4.0).filled(false);
+    let rings = Points::new("full solution", points).color(color).radius(4.0).filled(false);
     plot.points(rings.shape(MarkerShape::Circle).id(("rings", k)));
 }

@@ -7,7 +7,7 @@ use crate::app::tabs::axes;
 use crate::app::theme::{LIVE_WIDTH, Palette, THIN_WIDTH, rich};
 use crate::solver::full::{Problem, Solution};
 use egui::{Align2, Ui};
-use egui_plot::{Corner, HoverPosition, Legend, Line, LineStyle, Plot, PlotPoint, Span, Text, VLine};
+use egui_plot::{HoverPosition, Line, LineStyle, Plot, PlotPoint, Span, Text, VLine};
 use std::sync::Arc;
 
 /// Points of a curve.
@@ -149,7 +149,6 @@ fn flow_plot(ui: &mut Ui, met: &Met, height: f32, fit: bool) {
         logarithmic(ui, "flow curve", height, "Shear stress τ in Pa", "Viscosity η in Pa·s")
             .x_grid_spacer(|input| axes::few_decade_marks(input, 6.0))
             .x_axis_formatter(|mark, _| axes::decade_label(mark))
-            .legend(Legend::default().position(Corner::LeftBottom).follow_insertion_order(true).background_alpha(0.6))
             .label_formatter(|at| {
                 let [stress, viscosity] = place(at).map(|log| numbers::significant(10f64.powf(log)));
                 Some(format!("τ = {stress} Pa\nη = {viscosity} Pa·s"))
@@ -165,15 +164,29 @@ fn flow_plot(ui: &mut Ui, met: &Met, height: f32, fit: bool) {
                         .border_width(0.0),
                 );
             }
-            for (name, p, color, width) in
-                [("at p_H", 1.0, palette.pressure, LIVE_WIDTH), ("at p = 0", 0.0, palette.film, LIVE_WIDTH)]
-            {
-                plot.line(Line::new(name, curve(p)).color(color).width(width).allow_band(false));
+            let place = |name: &'static str, at: [f64; 2], label: &str, color, anchor| {
+                let text = rich(label, 12.5, palette.ink(color));
+                Text::new("", PlotPoint::from(at), text).anchor(anchor).id((name, "label")).allow_hover(false)
+            };
+            let curves =
+                [("at p_H", " at {p_H}", 1.0, palette.pressure), ("at p = 0", " at {p} = 0", 0.0, palette.film)];
+            for (name, label, p, color) in curves {
+                let points = curve(p);
+                let first = points.first().copied();
+                plot.line(Line::new(name, points).color(color).width(LIVE_WIDTH).allow_band(false));
+                if let Some(at) = first {
+                    plot.text(place(name, at, label, color, Align2::LEFT_BOTTOM));
+                }
             }
-            for (name, p) in [("τ_L at p = 0", 0.0), ("τ_L at p_H", hertz_pa)] {
+            let foot = curve(0.0).last().map_or(0.0, |last| last[1]);
+            for (name, label, p) in
+                [("τ_L at p = 0", "{τ_L} at {p} = 0 ", 0.0), ("τ_L at p_H", "{τ_L} at {p_H} ", hertz_pa)]
+            {
                 if let Some(stress) = limit.map(|limit| limit.at(p)).filter(|stress| *stress > 0.0) {
                     let line = VLine::new(name, stress.log10()).color(palette.warning).width(THIN_WIDTH);
                     plot.vline(line.style(LineStyle::dashed_dense()));
+                    let anchor = if p == 0.0 { Align2::RIGHT_BOTTOM } else { Align2::RIGHT_TOP };
+                    plot.text(place(name, [stress.log10(), foot], label, palette.warning, anchor));
                 }
             }
         },

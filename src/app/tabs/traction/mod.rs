@@ -7,15 +7,13 @@ use crate::app::answers::REST_S;
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{message_ui, sentence, standing_ui, warning_ui, why};
+use crate::app::drawn;
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
-use crate::app::traction::{Against, Choices, Curve, Markers, Served, Sweep, Varied, export, sweep};
-use crate::solver::full::Solution;
-use egui::{Button, Checkbox, ComboBox, Ui};
+use crate::app::traction::{Against, Choices, Curve, Markers, Sample, Served, SlideView, Sweep, Varied, export, sweep};
+use crate::solver::full::{PLAUSIBLE_TRACTION, Solution};
+use egui::{Align, Button, Checkbox, ComboBox, Layout, ScrollArea, TextStyle, Ui, vec2};
 use std::sync::Arc;
-
-/// Seconds of rest after which a curve of other sliders is drawn grey.
-const STALE_S: f64 = REST_S + 0.75;
 
 /// The tab: how it shows things, and the largest shear stress of a solution.
 #[derive(Default)]
@@ -32,10 +30,9 @@ impl Traction {
         ui.horizontal_wrapped(|ui| {
             ui.selectable_value(&mut choices.shows_fluid, false, "Traction and film");
             ui.selectable_value(&mut choices.shows_fluid, true, "Laws of the fluid");
-            ui.toggle_value(&mut choices.why, "Why").on_hover_text("What is seen here, in three sentences");
         });
         ui.separator();
-        why(ui, choices.why, WHY[usize::from(choices.shows_fluid)]);
+        why(ui, context.why && choices.shows_fluid, WHY_FLUID);
         if choices.shows_fluid {
             fluid::ui(ui, &mut self.stress_met, context);
             return;
@@ -52,19 +49,37 @@ impl Traction {
         {
             commands.push(Command::FollowSweep(Box::new((sweep.clone(), served.clone()))));
         }
+        fill(ui, context, &sweep, &served, commands);
         toolbar(ui, choices, context, commands, true);
         status(ui, context, &sweep, &served);
-        let shown = ShownSweep::of(context, &sweep, &served, ui.input(|i| i.time));
+        let shown = ShownSweep::of(ui, context, &sweep, &served);
         if shown.curve.is_none() && shown.markers.is_none() {
             let waits = match served {
                 Ok(_) if !context.traction.curve_is_current() => "The curve is being computed",
-                Ok(_) => "The reduced model has no answer along here: full solutions draw the curve on request",
-                Err(_) => "Full solutions draw the curve here on request",
+                Ok(_) => "The reduced model has no answer along here: full solutions draw the curve",
+                Err(_) => "Full solutions draw the curve here",
             };
             ui.centered_and_justified(|ui| ui.weak(waits));
             return;
         }
         commands.extend(chart::ui(ui, choices, context, &sweep, &shown).map(Command::GoAlong));
+    }
+}
+
+/// Lets full solutions draw the curve, or lie on its sketch, where no model was trained for it: once the sliders rest.
+fn fill(ui: &Ui, context: &Context<'_>, sweep: &Sweep, served: &Result<Served, String>, commands: &mut Commands) {
+    if context.traction.fills_another(sweep) {
+        commands.push(Command::StopAlong);
+    }
+    let trained = served.as_ref().is_ok_and(|served| served.untrained.is_none());
+    if trained || context.traction.has_markers_of(sweep) {
+        return;
+    }
+    let rest = context.answers.rested_s(ui.input(|i| i.time));
+    if rest < REST_S {
+        ui.ctx().request_repaint_after_secs((REST_S - rest) as f32);
+    } else {
+        commands.push(Command::FillAlong);
     }
 }
 
@@ -74,51 +89,77 @@ struct ShownSweep<'a> {
     markers: Option<&'a Markers>,
     curve_stale: bool,
     markers_stale: bool,
-    /// A sentence where the traction is no physics.
-    unphysical: Option<String>,
 }
 
 impl<'a> ShownSweep<'a> {
-    fn of(context: &Context<'a>, sweep: &Sweep, served: &Result<Served, String>, now: f64) -> Self {
+    fn of(ui: &Ui, context: &Context<'a>, sweep: &Sweep, served: &Result<Served, String>) -> Self {
         let view = context.traction;
         let varied = sweep.varied;
         let curve = view.curve.as_ref().filter(|curve| curve.sweep.varied == varied && !curve.samples.is_empty());
         let markers = view.markers.as_ref().filter(|markers| markers.sweep.varied == varied);
-        let late = served.is_err() || context.answers.rested_s(now) > STALE_S;
+        let markers = markers.filter(|markers| !markers.samples.is_empty());
+        let present =
+            |curve: &&Curve| curve.sweep == *sweep && served.as_ref().is_ok_and(|served| *served == curve.served);
+        let curve_stale = curve.filter(present).is_none();
+        let markers_stale = markers.is_none_or(|markers| markers.sweep != *sweep);
+        // Full solutions of these very contacts replace the curve of others.
+        let curve = curve.filter(|_| !curve_stale || markers_stale);
+        let key = context.document.key();
+        let of = |sweep: &Sweep| sweep.contact_like(&key);
+        let note = |name, sweep: &Sweep| drawn::is_grey(ui.ctx(), name, &of(sweep), &key);
         Self {
-            curve_stale: !view.curve_is_current() && late,
-            markers_stale: markers.is_some_and(|markers| markers.sweep != *sweep),
+            curve_stale: curve.is_some_and(|curve| note("traction curve", &curve.sweep)) || curve_stale,
+            markers_stale: markers.is_some_and(|markers| note("full solutions", &markers.sweep)) || markers_stale,
             curve,
-            markers: markers.filter(|markers| !markers.samples.is_empty()),
-            unphysical: sweep.unphysical(),
+            markers,
         }
     }
 }
 
-/// The notes for teaching: of the traction, and of the laws.
-const WHY: [&str; 2] = [
-    "Surfaces that slide shear the film, and its shear stress, summed up over the contact, is the traction. A lubricant that thins under shear \
-     gives way: the curve bends, and the film gets thinner because the inlet is sheared as well. Under high pressure a film without a limiting \
-     stress would carry more than any lubricant can, so look at p_H first. µ = (1/w) ∫ τ(h/2) dA (3.41)",
-    "Pressure in the contact lets the viscosity rise by many orders of magnitude, shear stress lets it fall again. The shaded parts are what this \
-     very contact meets: their ends decide how much of both the film feels. Where they end left of the bend the lubricant is as good as \
-     Newtonian. η(p, τ) = µ(p) (NPR + (1 − NPR)(1 + (τ/G_c)^β)^((1 − 1/n)/β)) (3.40)",
-];
+impl ShownSweep<'_> {
+    /// What the line goes through: the reduced model's curve, or where there is none the full solutions.
+    fn samples(&self) -> &[Sample] {
+        match (self.curve, self.markers) {
+            (Some(curve), _) => &curve.samples,
+            (None, Some(markers)) => &markers.samples,
+            (None, None) => &[],
+        }
+    }
+
+    fn line_stale(&self) -> bool {
+        if self.curve.is_some() { self.curve_stale } else { self.markers_stale }
+    }
+}
+
+/// What the laws of the fluid are about, for teaching.
+const WHY_FLUID: &str = "Pressure in the contact lets the viscosity rise by many orders of magnitude, shear stress lets it fall again. The shaded parts are \
+     what this very contact meets: their ends decide how much of both the film feels. Where they end left of the bend the lubricant is as good as Newtonian.";
 
 fn toolbar(ui: &mut Ui, choices: &mut Choices, context: &Context<'_>, commands: &mut Commands, sweeps: bool) {
     ui.horizontal_wrapped(|ui| {
         against_ui(ui, choices, commands);
         let (along, up) = &mut choices.logarithmic;
-        ui.add(Checkbox::new(along, "Log x")).on_hover_text("Equal ways along are equal ratios");
+        let before = choices.slide;
+        if choices.against == Against::SlideToRoll {
+            for (view, name, tip) in SlideView::ALL {
+                ui.selectable_value(&mut choices.slide, view, name).on_hover_text(tip);
+            }
+        } else {
+            ui.add(Checkbox::new(along, "Log x")).on_hover_text("Equal ways along are equal ratios");
+        }
+        if choices.slide != before {
+            commands.push(Command::FitPlots);
+        }
         ui.add(Checkbox::new(up, "Log y")).on_hover_text("Equal ways up are equal ratios of traction and of film");
         if context.traction.full.standing().is_some() {
-            if ui.button("Stop").on_hover_text("Full solutions so far stay (Esc)").clicked() {
+            let stop = ui.add_sized(FULL_BUTTON, Button::new("Stop")).on_hover_text("Full solutions so far stay (Esc)");
+            if stop.clicked() {
                 commands.push(Command::StopAlong);
             }
         } else {
             let tip = "Eleven full solutions along the curve, set on it as rings";
-            let button = ui.add_enabled(sweeps, Button::new("Add full solutions")).on_hover_text(tip);
-            if button.clicked() {
+            let button = ui.add_enabled(sweeps, Button::new("Add full solutions").min_size(FULL_BUTTON.into()));
+            if button.on_hover_text(tip).clicked() {
                 commands.push(Command::SolveAlong);
             }
         }
@@ -159,9 +200,26 @@ fn exports(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     }
 }
 
-/// What runs, what is amiss, and what the curve says in numbers.
+/// Size of the button that begins full solutions, and of the one that stops them.
+const FULL_BUTTON: [f32; 2] = [136.0, 22.0];
+/// Lines that are always kept for what is said above the plots, so that these stand still.
+const STATUS_LINES: f32 = 3.0;
+
+/// What runs, what is amiss, and what the curve says in numbers, in a place of a fixed size.
 fn status(ui: &mut Ui, context: &Context<'_>, sweep: &Sweep, served: &Result<Served, String>) {
+    let line = ui.text_style_height(&TextStyle::Small) + ui.spacing().item_spacing.y;
+    let size = vec2(ui.available_width(), STATUS_LINES * line);
+    ui.allocate_ui_with_layout(size, Layout::top_down(Align::LEFT), |ui| {
+        ui.set_min_size(size);
+        let area = ScrollArea::vertical().id_salt("traction status").max_height(size.y).auto_shrink(false);
+        area.show(ui, |ui| said(ui, context, sweep, served));
+    });
+}
+
+fn said(ui: &mut Ui, context: &Context<'_>, sweep: &Sweep, served: &Result<Served, String>) {
     let view = context.traction;
+    ui.label(rich(&summary(context, sweep), 12.5, Palette::of(ui).quiet))
+        .on_hover_text("Of the traction coefficient over the whole domain of an isothermal film (3.41)");
     standing_ui(ui, view.full.standing(), "Progress of the full solutions");
     match served {
         Ok(Served { untrained: None, .. }) => {}
@@ -176,6 +234,8 @@ fn status(ui: &mut Ui, context: &Context<'_>, sweep: &Sweep, served: &Result<Ser
     }
     if let Some(unphysical) = sweep.unphysical() {
         warning_ui(ui, &format!("{unphysical}: it is drawn grey. Set a limiting shear stress, or take less load"));
+    } else if view.curve.iter().flat_map(|curve| &curve.samples).any(|sample| sample.unphysical) {
+        warning_ui(ui, &format!("where µ exceeds {PLAUSIBLE_TRACTION} it is unphysical, and drawn grey"));
     }
     let rolls = sweep.varied != Varied::SlideToRoll && sweep.base.point.sliding.slide_to_roll_ratio == 0.0;
     if rolls {
@@ -197,7 +257,6 @@ fn status(ui: &mut Ui, context: &Context<'_>, sweep: &Sweep, served: &Result<Ser
         let of = numbers::moes(markers.sweep.base.point.moes());
         ui.weak(sentence(&format!("the grey rings are full solutions of another sweep, beginning at {of}")));
     }
-    ui.label(rich(&summary(context, sweep), 13.0, Palette::of(ui).quiet));
 }
 
 /// Why there are fewer contacts than the curve should have.
@@ -220,7 +279,8 @@ fn summary(context: &Context<'_>, sweep: &Sweep) -> String {
     if let Some(curve) =
         context.traction.curve.as_ref().filter(|curve| curve.sweep == *sweep && !curve.samples.is_empty())
     {
-        let tractions = curve.samples.iter().map(|sample| sample.traction);
+        let plausible = curve.samples.iter().filter(|sample| !sample.unphysical);
+        let tractions = plausible.map(|sample| sample.traction);
         if sweep.unphysical().is_none() {
             parts.push(format!("{} at most", numbers::significant(tractions.fold(0.0, f64::max))));
         }
@@ -233,6 +293,5 @@ fn summary(context: &Context<'_>, sweep: &Sweep) -> String {
         }
         parts.push(format!("{} contacts in {}", curve.samples.len(), numbers::duration(curve.wall_s)));
     }
-    parts.push("over the whole domain (3.41), isothermal".to_owned());
     parts.join(";  ")
 }

@@ -85,7 +85,7 @@ fn buttons(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         if training.unfinished.is_some() {
             let tip = "Goes on as if it had never been stopped: the model will be the same";
             button(ui, !runs, "Resume training", tip, Command::Training(C::Resume));
-            button(ui, !runs, "Discard", "Forgets the unfinished training", Command::Training(C::Discard));
+            button(ui, !runs, "Discard…", "Forgets the unfinished training", Command::DiscardTraining);
         }
     });
     let Some(made) = &training.made else { return };
@@ -99,6 +99,8 @@ fn buttons(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         }
         let save = Command::Ask(Purpose::Write(Written::Model, made.bytes.clone()));
         button(ui, true, "Save model…", "Writes it as a .rom file", save);
+        let tip = "Forgets this model; until then the session’s folder keeps it";
+        button(ui, !made.saved, "Throw away…", tip, Command::ThrowModelAway);
         let other = context.answers.model(context.document).is_some();
         let tip = "Size, time and errors of both at the same random points, against full solutions";
         button(ui, other && !runs, "Compare models", tip, Command::Training(C::Compare));
@@ -132,7 +134,8 @@ fn status(ui: &mut Ui, context: &Context<'_>) {
             numbers::digits(made.bytes.len() as f64 / 1e6, 2)
         );
         ui.weak(text).on_hover_text(model.log.join("\n"));
-    } else if context.training.left_behind
+    }
+    if context.training.left_behind
         && let Some(unfinished) = &context.training.unfinished
     {
         warning_ui(

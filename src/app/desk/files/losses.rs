@@ -1,0 +1,78 @@
+//! The question before something is lost: it says what that is, and is asked only then.
+
+use super::{Pending, is_model};
+use crate::app::desk::Desk;
+use egui::{Context, Id, Modal};
+
+impl Pending {
+    /// What the answer is called that lets it happen.
+    fn consent(&self) -> &'static str {
+        match self {
+            Self::New | Self::OpenDialog | Self::Open(_) => "Discard changes",
+            Self::Quit => "Quit all the same",
+            Self::Train => "Start all the same",
+            Self::DiscardTraining | Self::ThrowModelAway => "Throw it away",
+        }
+    }
+}
+
+impl Desk {
+    /// What would be lost by it, each a sentence.
+    pub(super) fn losses(&self, pending: &Pending) -> Vec<String> {
+        let edits = || {
+            let text = "The operating point or its settings have changed since they were last saved.";
+            self.dirty().then(|| text.to_owned())
+        };
+        let study = || {
+            let text = "The study of the scene runs: what it has found so far is not saved.";
+            self.views.results.standing().map(|_| text.to_owned())
+        };
+        match pending {
+            Pending::Open(path) if is_model(path) => Vec::new(),
+            Pending::New | Pending::OpenDialog | Pending::Open(_) => edits().into_iter().chain(study()).collect(),
+            Pending::Quit => edits().into_iter().chain(study()).chain(self.training.unkept()).collect(),
+            Pending::Train => self.training.replaced(),
+            Pending::DiscardTraining => {
+                let solutions = self.training.unfinished.as_ref().map_or(0, |state| state.solutions());
+                vec![format!("{solutions} full solutions of the training that was stopped are forgotten.")]
+            }
+            Pending::ThrowModelAway => self.training.unsaved().into_iter().collect(),
+        }
+    }
+
+    pub(super) fn losses_ui(&mut self, ctx: &Context) {
+        let Some(pending) = self.files.pending.clone() else { return };
+        let losses = self.losses(&pending);
+        let edits =
+            self.dirty() && matches!(pending, Pending::New | Pending::OpenDialog | Pending::Open(_) | Pending::Quit);
+        let (mut save, mut discard, mut cancel) = (false, false, false);
+        let response = Modal::new(Id::unique("unsaved changes")).show(ctx, |ui| {
+            ui.set_width(380.0);
+            ui.heading(if edits { "Save the changes?" } else { "This would be lost" });
+            for sentence in &losses {
+                ui.label(sentence);
+            }
+            ui.add_space(6.0);
+            ui.horizontal(|ui| {
+                save = edits && ui.button("Save…").clicked();
+                let consent = if losses.len() == 1 && edits { "Discard changes" } else { pending.consent() };
+                discard = ui.button(consent).clicked();
+                cancel = ui.button("Cancel").clicked();
+            });
+        });
+        if discard {
+            self.files.pending = None;
+            self.proceed(ctx, pending);
+        } else if save {
+            self.files.pending = None;
+            self.save(ctx);
+            if self.files.window.is_some() {
+                self.files.after_save = Some(pending);
+            } else if !self.dirty() {
+                self.request(ctx, pending);
+            }
+        } else if cancel || response.should_close() {
+            self.files.pending = None;
+        }
+    }
+}
