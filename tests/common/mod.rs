@@ -1,6 +1,7 @@
 //! What the tests of several parts share.
 #![allow(dead_code, reason = "every test binary needs its own part of these")]
 
+pub mod cases;
 pub mod processor_time;
 pub mod scene_files;
 pub mod scratch;

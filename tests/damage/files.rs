@@ -1,8 +1,9 @@
 //! Scenes, models and unfinished trainings that are damaged, with checksums that fit.
 
+use crate::common::cases::cases;
 use crate::common::scene_files;
 use crate::common::scratch::Scratch;
-use crate::{alone, cases, most_bytes, spoil};
+use crate::{alone, most_bytes, spoil};
 use ehl_explorer::engine::{model_file, training_file};
 use ehl_explorer::scene::Scene;
 use ehl_explorer::solver::discrete::grid::GridSpec;

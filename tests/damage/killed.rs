@@ -1,7 +1,8 @@
 //! A window that is killed: what was changed is there again.
 
+use crate::alone;
+use crate::common::cases::cases;
 use crate::common::scratch::Scratch;
-use crate::{alone, cases};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;

@@ -54,8 +54,3 @@ fn most_bytes<T>(work: impl FnOnce() -> T) -> (usize, T) {
     let done = work();
     (MOST.load(Ordering::Relaxed).saturating_sub(before), done)
 }
-
-/// As many cases as the ordinary run takes, or as the long one does.
-fn cases(ordinary: usize, long: usize) -> usize {
-    if std::env::var_os("EHL_LONG").is_some() { long } else { ordinary }
-}

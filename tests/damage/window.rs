@@ -1,7 +1,8 @@
 //! The window with a damaged session, and under a hand that knows nothing.
 
+use crate::common::cases::cases;
 use crate::common::scratch::Scratch;
-use crate::{alone, cases, spoil};
+use crate::{alone, spoil};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, MouseWheelUnit, Pos2, TouchPhase, Vec2, pos2, vec2};
 use egui_kittest::Harness;

@@ -12,6 +12,7 @@ mod embedded_shear_model;
 mod iterations;
 mod line_reference;
 mod point_reference;
+mod random_solves;
 mod rebuilt;
 mod shear_models;
 mod shear_thinning;

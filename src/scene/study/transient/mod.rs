@@ -127,9 +127,9 @@ impl Question for TransientStudy {
 
     /// Values of a full march stand behind the name of its frame (`fixed`, `ale`, `remeshed`, `remeshed_linear`): `H_c.start`, `H_c.mean`,
     /// `H_c.amplitude`, `H_c.offset` (mean over start, less 1) over the window, and so on for H_min, P_c, P_max; `steps`, `rejected_steps`,
-    /// `newton_per_step`, `krylov_per_step`, `step_s_median`, `step_s_p99`, `march_s`; `mass_defect` where places are given;
-    /// `grid_error`, the share of H_c that the grid costs a contact at rest under the inputs of the start, of the thinnest or of the thickest
-    /// film, the largest of them: beyond a few percent a warning says so. Of the second frame on:
+    /// `newton_per_step`, `krylov_per_step`, `step_s_median`, `step_s_p99`, `march_s`; `mass_defect` where places
+    /// are given; `grid_error`, the share of H_c that the grid costs a contact at rest under the inputs of the start, of
+    /// the thinnest or of the thickest film, the largest of them: beyond a few percent a warning says so. Of the second frame on:
     /// `H_c.difference` (greatest, relative) and `H_c.difference_l2` from the first one within the window, and so on.
     ///
     /// A reduced model's stand behind `fixed.rnsa`, a linearised one's behind `fixed.tpwl` (with several rules behind `fixed.tpwl.step_0.001`
