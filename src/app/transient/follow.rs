@@ -189,13 +189,15 @@ impl TransientView {
             return;
         }
         let Some(setup) = replaying.take() else { return };
-        let (new, again) = (std::mem::take(runs), asked.as_ref() != Some(&setup));
-        if self.setup.as_ref() != Some(&setup) {
+        let again = asked.as_ref() != Some(&setup);
+        let new: Vec<Run> = std::mem::take(runs).into_iter().filter(|run| run.ended).collect();
+        // What gives no answer takes nobody's place.
+        if self.setup.as_ref() != Some(&setup) && !new.is_empty() {
             self.setup = Some(setup);
             self.runs.clear();
             self.number = NumberStudy::default();
         }
-        for run in new.into_iter().filter(|run| run.ended) {
+        for run in new {
             let own = self.runs.iter().position(|own| own.by == run.by && own.frame() == run.frame());
             match own {
                 Some(place) if self.runs[place].replayed => self.runs[place] = run,

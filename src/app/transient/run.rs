@@ -3,6 +3,7 @@
 use super::method;
 use crate::engine::median;
 use crate::scene::study::transient::{Kind, March, MarchedBy, Model, Row};
+use crate::solver::full::GridCost;
 use crate::solver::full::transient::{Frame, State, Trajectory};
 use crate::solver::reduced::tpwl::{TpwlModel, TpwlRecord};
 use std::sync::Arc;
@@ -26,6 +27,8 @@ pub struct Run {
     pub difference: Option<f64>,
     /// What each step of a linearised model drew on; once it has ended.
     pub record: Option<TpwlRecord>,
+    /// What the grid costs the film of a full run at the worst of some moments, and when that is; once it has ended.
+    pub grid_cost: Option<(f64, GridCost)>,
     /// The linearised model that it is by, where it is.
     pub linearised: Option<Arc<TpwlModel>>,
     /// Whether it is by a model that was made for a former set-up.
@@ -72,6 +75,7 @@ impl Run {
             model: model.map(ModelSize::from),
             difference: None,
             record: None,
+            grid_cost: None,
             linearised,
             replayed: false,
         }
@@ -95,6 +99,7 @@ impl Run {
         self.trajectory.ended = march.trajectory.ended.clone();
         self.trajectory.rejected_steps = march.trajectory.rejected_steps;
         self.record.clone_from(&march.record);
+        self.grid_cost = march.grid_cost;
     }
 
     /// The step of its record that led to T, or the last one before.

@@ -26,7 +26,10 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     if ui.available_size_before_wrap().x < WIDTH {
         ui.end_row();
     }
-    pill(ui, kind, [title, &detail, why], "Trust in the contact in time");
+    let grid = context.transient.runs.iter().find_map(|run| run.grid_cost).map_or_else(String::new, |(_, cost)| {
+        format!(". The grid leaves H_c off by {}", numbers::error_percent(cost.total()))
+    });
+    pill(ui, kind, [title, &detail, &format!("{why}{grid}")], "Trust in the contact in time");
 }
 
 fn verdict(view: &TransientView, thresholds: Thresholds) -> Verdict {

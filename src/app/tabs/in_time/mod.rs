@@ -109,6 +109,10 @@ pub fn status(ui: &mut Ui, context: &Context<'_>) {
         warning_ui(ui, &format!("{TOO_STEEP}. Tick Reduced model, or train on inputs like these"));
     }
     for run in &view.runs {
+        let doubt = run.grid_cost.and_then(|(time, cost)| Some((time, cost.warning()?)));
+        if let Some((time, warning)) = doubt {
+            warning_ui(ui, &format!("{}: at T = {} {warning}", run.name(), numbers::significant(time)));
+        }
         let said = |ended: &Ended| format!("{} {}", run.name(), ended.describe());
         match run.ended.then_some(&run.trajectory.ended) {
             Some(ended @ (Ended::StepRefused { .. } | Ended::ContactRefused { .. })) => message_ui(ui, &said(ended)),
