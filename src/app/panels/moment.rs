@@ -21,12 +21,7 @@ pub fn ui(ui: &mut Ui, view: &TransientView) -> bool {
         if !view.is_current() && !view.replays() {
             ui.disable();
         }
-        let moment = format!(
-            "{{T}} = {}, {}, {}",
-            numbers::significant(time),
-            numbers::duration(time * setup.time_scale_s()),
-            run.name()
-        );
+        let moment = format!("{{T}} = {}, {}", numbers::significant(time), run.name());
         let films = [("c", h_c, "Central film at this moment"), ("min", value(Quantity::MinimumFilm), SMALLEST)];
         for (index, h, tip) in films {
             let si = numbers::length(h * film);
@@ -36,13 +31,17 @@ pub fn ui(ui: &mut Ui, view: &TransientView) -> bool {
         let (name, si) = (symbol(ui, "P", "max"), numbers::pressure(p * pressure));
         cell(ui, name, numbers::significant(p), si, palette.pressure, None, "Largest pressure at this moment");
         let load = setup.point.load * setup.study.inputs.load.at(time);
-        let (name, unit) = (symbol(ui, "w", ""), "N/m".to_owned());
-        cell(ui, name, numbers::significant(load), unit, palette.text, None, "Load at this moment");
-        ui.label(rich(&moment, 13.5, palette.quiet))
-            .on_hover_text("The moment of the time bar, and by what it was found");
+        let (name, unit) = (symbol(ui, "w", ""), "kN/m".to_owned());
+        cell(ui, name, numbers::significant(1e-3 * load), unit, palette.text, None, "Load at this moment");
+        if ui.available_size_before_wrap().x > MOMENT {
+            let tip = "The moment of the time bar, and by what it was found";
+            ui.label(rich(&moment, 13.5, palette.quiet)).on_hover_text(tip);
+        }
     });
     true
 }
 
+/// Width of the moment in words.
+const MOMENT: f32 = 190.0;
 /// What the smallest film is.
 const SMALLEST: &str = "Smallest film of the contact zone at this moment";
