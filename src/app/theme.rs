@@ -74,6 +74,8 @@ impl Palette {
 
     /// The same on one background, which is opaque.
     pub fn ink_on(&self, color: Color32, background: Color32) -> Color32 {
+        // Faint lines have names that are not.
+        let color = color.to_opaque();
         let shades = (0..=20).map(|step| color.lerp_to_gamma(self.text, step as f32 / 20.0));
         shades.into_iter().find(|shade| contrast(*shade, background) >= READABLE).unwrap_or(self.text)
     }

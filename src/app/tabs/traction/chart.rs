@@ -25,7 +25,7 @@ const COMPANION_LABEL: f64 = 0.9;
 /// Where a logarithmic axis of SRR begins, in percent.
 const LEAST_SRR: f64 = 0.1;
 /// Where the view of small sliding ends, in percent.
-const NEAR_SRR: f64 = 10.0;
+pub const NEAR_SRR: f64 = 10.0;
 
 /// Points in the units of the axes.
 type Points2 = Vec<[f64; 2]>;

@@ -3,6 +3,8 @@
 mod chart;
 mod fluid;
 
+use chart::NEAR_SRR;
+
 use crate::app::answers::REST_S;
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
@@ -51,7 +53,7 @@ impl Traction {
         }
         fill(ui, context, &sweep, &served, commands);
         toolbar(ui, choices, context, commands, true);
-        status(ui, context, &sweep, &served);
+        status(ui, context, (&sweep, choices), &served);
         let shown = ShownSweep::of(ui, context, &sweep, &served);
         if shown.curve.is_none() && shown.markers.is_none() {
             let waits = match served {
@@ -206,20 +208,25 @@ const FULL_BUTTON: [f32; 2] = [136.0, 22.0];
 const STATUS_LINES: f32 = 3.0;
 
 /// What runs, what is amiss, and what the curve says in numbers, in a place of a fixed size.
-fn status(ui: &mut Ui, context: &Context<'_>, sweep: &Sweep, served: &Result<Served, String>) {
+fn status(ui: &mut Ui, context: &Context<'_>, swept: (&Sweep, &Choices), served: &Result<Served, String>) {
     let line = ui.text_style_height(&TextStyle::Small) + ui.spacing().item_spacing.y;
     let size = vec2(ui.available_width(), STATUS_LINES * line);
     ui.allocate_ui_with_layout(size, Layout::top_down(Align::LEFT), |ui| {
         ui.set_min_size(size);
         let area = ScrollArea::vertical().id_salt("traction status").max_height(size.y).auto_shrink(false);
-        area.show(ui, |ui| said(ui, context, sweep, served));
+        area.show(ui, |ui| said(ui, context, swept, served));
     });
 }
 
-fn said(ui: &mut Ui, context: &Context<'_>, sweep: &Sweep, served: &Result<Served, String>) {
+fn said(ui: &mut Ui, context: &Context<'_>, (sweep, choices): (&Sweep, &Choices), served: &Result<Served, String>) {
     let view = context.traction;
     ui.label(rich(&summary(context, sweep), 12.5, Palette::of(ui).quiet))
         .on_hover_text("Of the traction coefficient over the whole domain of an isothermal film (3.41)");
+    let place = choices.against.of(&context.document.key());
+    if choices.against == Against::SlideToRoll && choices.slide == SlideView::Near && place > NEAR_SRR {
+        let place = numbers::quantity(place, "%");
+        ui.weak(format!("The contact on the screen slides at {place}, beyond this view"));
+    }
     standing_ui(ui, view.full.standing(), "Progress of the full solutions");
     match served {
         Ok(Served { untrained: None, .. }) => {}
