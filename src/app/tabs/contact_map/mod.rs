@@ -160,7 +160,8 @@ impl ContactMap {
         let size = vec2(ui.available_width(), ui.available_height() - 30.0);
         let shown = ui.allocate_ui_with_layout(size, Layout::top_down(Align::LEFT), |ui| {
             ui.set_min_size(size);
-            self.over_time.ui(ui, context, commands, size.y)
+            // A little less than its room, so that rounding moves nothing either.
+            self.over_time.ui(ui, context, commands, size.y - 4.0)
         });
         let wanted = shown.inner;
         commands.extend(wanted.map(|time| Command::InTime(InTimeCommand::GoTo(time))));
