@@ -101,6 +101,9 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
     })
 }
 
+/// Least height of the read-outs.
+const READOUTS: f32 = 24.0;
+
 /// The window.
 pub struct Explorer {
     desk: Desk,
@@ -193,6 +196,8 @@ impl Explorer {
         if self.desk.presentation.is_none() {
             let in_time = self.shows_in_time();
             Panel::bottom("readouts").show(ui, |ui| {
+                // Whatever they are of, nothing above them moves.
+                ui.set_min_height(READOUTS);
                 if !in_time || !panels::moment::ui(ui, &self.desk.transient) {
                     panels::readouts::ui(ui, &self.desk.answers, &self.desk.document);
                 }

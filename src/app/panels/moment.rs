@@ -3,7 +3,7 @@
 
 use super::readouts::cell;
 use crate::app::numbers;
-use crate::app::theme::{Palette, rich, symbol};
+use crate::app::theme::{Palette, symbol};
 use crate::app::transient::TransientView;
 use crate::solver::full::transient::Quantity;
 use egui::Ui;
@@ -21,7 +21,6 @@ pub fn ui(ui: &mut Ui, view: &TransientView) -> bool {
         if !view.is_current() && !view.replays() {
             ui.disable();
         }
-        let moment = format!("{{T}} = {}, {}", numbers::significant(time), run.name());
         let films = [("c", h_c, "Central film at this moment"), ("min", value(Quantity::MinimumFilm), SMALLEST)];
         for (index, h, tip) in films {
             let si = numbers::length(h * film);
@@ -35,7 +34,7 @@ pub fn ui(ui: &mut Ui, view: &TransientView) -> bool {
         cell(ui, name, numbers::significant(1e-3 * load), unit, palette.text, None, "Load at this moment");
         if ui.available_size_before_wrap().x > MOMENT {
             let tip = "The moment of the time bar, and by what it was found";
-            ui.label(rich(&moment, 13.5, palette.quiet)).on_hover_text(tip);
+            cell(ui, symbol(ui, "T", ""), numbers::significant(time), run.name(), palette.quiet, None, tip);
         }
     });
     true
