@@ -3,6 +3,7 @@
 use super::answers::picture::Cuts;
 use super::display::Thresholds;
 use super::document::Edit;
+use super::layouts::Layout;
 use super::purpose::{Purpose, Written};
 use super::tab::Tab;
 use super::traction::{Served, Sweep};
@@ -52,6 +53,10 @@ pub enum Command {
     Difference,
     /// Fit all plots to their data.
     FitPlots,
+    /// Arrange the tabs.
+    Arrange(Layout),
+    /// Show the lessons, or no more.
+    Lessons,
     /// Say in every tab what is seen and why, or no more.
     ShowWhy,
     /// Light theme.
@@ -144,7 +149,7 @@ const CTRL: Modifiers = Modifiers::COMMAND;
 const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
 /// The menus from left to right, each in its groups.
-pub static MENUS: [Item; 35] = {
+pub static MENUS: [Item; 40] = {
     use Command as C;
     const fn item(
         menu: &'static str,
@@ -182,14 +187,18 @@ pub static MENUS: [Item; 35] = {
         item("View", 1, C::Overlay, "Full solution over the profiles", "show hide overlay reduced compare", None),
         item("View", 1, C::Difference, "Difference of the profiles", "show hide overlay reduced compare", None),
         item("View", 1, C::ShowWhy, "Why, in three sentences", "teach explain note lecture", None),
-        item("View", 2, C::LightTheme, "Light theme", "colours colors mode", None),
-        item("View", 2, C::DarkTheme, "Dark theme", "colours colors mode", None),
-        item("View", 2, C::SystemTheme, "System theme", "colours colors mode", None),
-        item("View", 3, C::LargerText, "Larger text", "zoom font size scale", Some((CTRL, Key::Plus))),
-        item("View", 3, C::SmallerText, "Smaller text", "zoom font size scale", Some((CTRL, Key::Minus))),
-        item("View", 3, C::NormalText, "Normal text", "zoom font size scale", Some((CTRL, Key::Num0))),
-        item("View", 4, C::FitPlots, "Fit plots to data", "zoom reset axes", Some((PLAIN, Key::F2))),
-        item("View", 4, C::ResetLayout, "Reset layout", "tabs panels windows", None),
+        item("View", 2, C::Arrange(Layout::Explore), "Layout: Explore", "arrange tabs preset", None),
+        item("View", 2, C::Arrange(Layout::Teach), "Layout: Teach", "arrange tabs preset lecture", None),
+        item("View", 2, C::Arrange(Layout::Engineer), "Layout: Engineer", "arrange tabs preset bearing", None),
+        item("View", 2, C::Arrange(Layout::ModelReduction), "Layout: Model reduction", "arrange tabs preset", None),
+        item("View", 3, C::LightTheme, "Light theme", "colours colors mode", None),
+        item("View", 3, C::DarkTheme, "Dark theme", "colours colors mode", None),
+        item("View", 3, C::SystemTheme, "System theme", "colours colors mode", None),
+        item("View", 4, C::LargerText, "Larger text", "zoom font size scale", Some((CTRL, Key::Plus))),
+        item("View", 4, C::SmallerText, "Smaller text", "zoom font size scale", Some((CTRL, Key::Minus))),
+        item("View", 4, C::NormalText, "Normal text", "zoom font size scale", Some((CTRL, Key::Num0))),
+        item("View", 5, C::FitPlots, "Fit plots to data", "zoom reset axes", Some((PLAIN, Key::F2))),
+        item("View", 5, C::ResetLayout, "Reset layout", "tabs panels windows", None),
         item("Run", 0, C::Verify, "Verify now", "full solve check", Some((PLAIN, Key::F5))),
         item("Run", 0, C::EstimateGridError, "Estimate grid error", "accuracy nodes refine", None),
         item("Run", 1, C::SolveAlong, "Full solutions along the traction curve", "", None),
@@ -197,6 +206,7 @@ pub static MENUS: [Item; 35] = {
         item("Run", 1, C::Train, "Start training", "reduced model snapshots", None),
         item("Run", 2, C::Cancel, "Cancel", "stop abort", Some((PLAIN, Key::Escape))),
         item("Help", 0, C::Manual, "Manual", "help documentation tour physics", Some((PLAIN, Key::F1))),
+        item("Help", 0, C::Lessons, "Lessons", "teach learn course steps", None),
         item("Help", 0, C::Keyboard, "Keyboard", "keys shortcuts help", None),
         item("Help", 1, C::About, "About EHL Explorer", "", None),
     ]

@@ -4,7 +4,9 @@ use super::numbers;
 use super::theme::Palette;
 use crate::engine::job::Standing;
 use egui::text::LayoutJob;
-use egui::{ComboBox, Key, ProgressBar, Response, RichText, Slider, SliderClamping, TextEdit, Ui, WidgetText, pos2};
+use egui::{
+    ComboBox, Context, Id, Key, ProgressBar, Response, RichText, Slider, SliderClamping, TextEdit, Ui, WidgetText, pos2,
+};
 use std::collections::HashMap;
 use std::ops::RangeInclusive;
 
@@ -130,7 +132,17 @@ pub fn sentence(text: &str) -> String {
 /// Gives a widget the name that screen readers (and tests) know it by.
 pub fn named(ui: &Ui, response: Response, name: &str) -> Response {
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_label(name));
+    let pointed = ui.ctx().data(|data| data.get_temp::<String>(Id::unique("pointed at")));
+    if pointed.is_some_and(|pointed| pointed == name) {
+        let stroke = egui::Stroke::new(2.0, Palette::of(ui).accent);
+        ui.painter().rect_stroke(response.rect.expand(3.0), 4.0, stroke, egui::StrokeKind::Outside);
+    }
     response
+}
+
+/// Draws a ring around the control of a name, for those who are shown something; none where there is no name.
+pub fn point_at(ctx: &Context, name: Option<&str>) {
+    ctx.data_mut(|data| data.insert_temp(Id::unique("pointed at"), name.unwrap_or_default().to_owned()));
 }
 
 /// What a screen reader says of a label whose text alone would not tell what it is.

@@ -7,11 +7,11 @@ use super::context::Commands;
 use super::desk::files::Pending;
 use super::display::Display;
 use super::export;
+use super::layouts::Layout;
 use super::presentation::{Presentation, enlargement};
 use super::purpose::Purpose;
 use super::session::Place;
 use super::tab::Tab;
-use super::tabs;
 use super::traction;
 use super::transient::Setup;
 use egui::{Context, ThemePreference, ViewportCommand};
@@ -65,6 +65,8 @@ impl Explorer {
                 *difference = !*difference;
                 self.show(Tab::Profiles);
             }
+            Command::Arrange(layout) => self.tree = layout.tree(),
+            Command::Lessons => self.lessons.toggle(),
             Command::ShowWhy => desk.display.why = !desk.display.why,
             Command::FitPlots => desk.fit_plots = true,
             Command::LightTheme => self.set_theme(ctx, ThemePreference::Light),
@@ -74,7 +76,7 @@ impl Explorer {
             Command::SmallerText => self.set_zoom(self.desk.display.zoom / 1.1),
             Command::NormalText => self.set_zoom(1.0),
             Command::ResetLayout => {
-                self.tree = tabs::default_tree();
+                self.tree = Layout::Explore.tree();
                 self.place.sliders = Place::default().sliders;
                 self.desk.fit_plots = true;
                 ctx.memory_mut(|m| m.data.clear());
@@ -113,6 +115,7 @@ impl Explorer {
             Command::Cancel if self.settings.open => self.settings.open = false,
             Command::Cancel if self.help.about => self.help.about = false,
             Command::Cancel if self.help.manual.is_open() => self.help.manual.close(),
+            Command::Cancel if self.lessons.is_open() => self.lessons.close(),
             Command::Cancel if desk.presentation.is_some() => self.present(ctx),
             Command::Cancel => desk.stop_all(),
             Command::Manual if self.help.manual.is_open() => self.help.manual.close(),

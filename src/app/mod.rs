@@ -16,6 +16,8 @@ mod export;
 mod figure;
 mod form;
 mod in_use;
+mod layouts;
+mod lessons;
 mod manual;
 mod model_source;
 mod numbers;
@@ -45,6 +47,8 @@ use document::Document;
 use drawn::Drawn;
 use egui::{CentralPanel, Panel, ScrollArea, Ui};
 use egui_tiles::Tree;
+use layouts::Layout;
+use lessons::{Lessons, OnScreen};
 use model_source::Models;
 use palette::Palette;
 use panels::help::Help;
@@ -66,6 +70,7 @@ const APP_ID: &str = "ehl-explorer";
 pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
     let mut explorer = Explorer::with_embedded_models();
     if let Some(folder) = eframe::storage_dir(APP_ID) {
+        explorer.lessons.look_in(&folder.join("lessons"));
         explorer = explorer.keeping_trainings_in(&folder).keeping_session_in(&folder, scene.is_none());
     }
     if let Some(path) = &scene {
@@ -111,6 +116,7 @@ pub struct Explorer {
     palette: Palette,
     help: Help,
     settings: Settings,
+    lessons: Lessons,
     drawn: Vec<Drawn>,
     frame_s: f64,
     installed: bool,
@@ -133,7 +139,8 @@ impl Explorer {
     fn with_models(models: Models, store: Store) -> Self {
         Self {
             desk: Desk::new(Document::default(), models, store),
-            tree: tabs::default_tree(),
+            tree: Layout::default().tree(),
+            lessons: Lessons::default(),
             palette: Palette::default(),
             help: Help::default(),
             settings: Settings::default(),
@@ -193,6 +200,7 @@ impl Explorer {
         self.answer_opened(&ctx);
         self.desk.answers.refresh(&ctx, &self.desk.document);
         self.desk.follow_cuts();
+        self.lessons_ui(ui, &mut commands);
         if self.desk.presentation.is_none() {
             let in_time = self.shows_in_time();
             Panel::bottom("readouts").show(ui, |ui| {
@@ -220,6 +228,25 @@ impl Explorer {
             ctx.request_repaint();
         }
         self.frame_s = begin.elapsed().as_secs_f64();
+    }
+
+    /// The panel of lessons, where it is open.
+    fn lessons_ui(&mut self, ui: &mut Ui, commands: &mut Commands) {
+        if !self.lessons.is_open() {
+            return;
+        }
+        let screen = OnScreen {
+            point: self.desk.document.point,
+            plateau_ratio: self.desk.document.plateau_ratio(),
+            lubricant: self.desk.document.lubricant,
+            tabs: layouts::seen(&self.tree),
+            pins: self.desk.answers.pins.len(),
+            checked: self.desk.answers.comparison.is_some() && self.desk.answers.picture_is_current(),
+        };
+        let lessons = &mut self.lessons;
+        Panel::right("lessons").exact_size(lessons::WIDTH).resizable(false).show(ui, |ui| {
+            lessons.ui(ui, &screen, commands);
+        });
     }
 
     /// Brings the tab to the front that answers a scene which was just opened, and runs its study where that is done
@@ -372,10 +399,7 @@ impl Explorer {
 
     /// The tabs that can be seen.
     fn tabs_in_front(&self) -> impl Iterator<Item = Tab> {
-        self.tree.active_tiles().into_iter().filter_map(|id| match self.tree.tiles.get(id) {
-            Some(egui_tiles::Tile::Pane(tab)) => Some(*tab),
-            _ => None,
-        })
+        layouts::seen(&self.tree).into_iter()
     }
 
     /// Whether nothing but contacts in time can be seen: the read-outs are of their moment then.

@@ -6,6 +6,7 @@
 #![warn(clippy::indexing_slicing)]
 
 mod bench;
+mod cases;
 mod failure;
 mod info;
 mod options;
@@ -48,6 +49,8 @@ enum Command {
     Solve(solve::SolveArgs),
     /// Solve along one or two varied options, each point starting from its neighbour
     Sweep(sweep::SweepArgs),
+    /// Solve a table of load cases (CSV), a contact a line; bad lines are named, the others solved
+    Cases(cases::CasesArgs),
     /// Run scenes and hold them against their expectations; exit 1 if any falls short
     Run(run::RunArgs),
     /// Train a reduced model as a scene describes
@@ -80,6 +83,7 @@ pub fn main() -> ExitCode {
     finish(match cli.command {
         Some(Command::Solve(args)) => solve::run(&args),
         Some(Command::Sweep(args)) => sweep::run(&args),
+        Some(Command::Cases(args)) => cases::run(&args),
         Some(Command::Run(args)) => run::run(&args),
         Some(Command::Train(args)) => train::run(&args),
         Some(Command::Bench(args)) => bench::run(&args),
@@ -104,7 +108,8 @@ fn explore(scene: Option<PathBuf>) -> Result<Verdict, Failure> {
     if let Some(path) = &scene {
         crate::scene::Scene::read(path).map_err(|error| {
             let looks_like_command = path.extension().is_none() && !path.exists();
-            let hint = if looks_like_command { "; commands are solve, sweep, run, train, bench and info" } else { "" };
+            let hint =
+                if looks_like_command { "; commands are solve, sweep, cases, run, train, bench and info" } else { "" };
             Failure::Request(format!("{error}{hint}"))
         })?;
     }

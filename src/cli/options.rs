@@ -338,7 +338,13 @@ impl PointOptions {
         };
         let refused = |error: GridError| Failure::Request(error.to_string());
         let own = self.dx.is_some() || self.dy.is_some() || self.domain.is_some();
-        let default = if own { default } else { default.for_contact(moes).map_err(refused)? };
+        if !own {
+            return match self.grid {
+                Some(GridName::Graded) => default.for_contact(moes).map(Grid::Plane),
+                _ => Grid::Usual.for_contact(ContactKind::Point, moes),
+            }
+            .map_err(refused);
+        }
         let (from, to, edge) = default.domain;
         let ends = self.domain.map_or((from, to), |domain| domain.x);
         let edge = self.domain.and_then(|domain| domain.y).unwrap_or(edge);
@@ -368,12 +374,9 @@ impl PointOptions {
         }
         let ends = self.domain.map(|domain| domain.x);
         let grid = match self.grid {
-            // Where the dissertation's grid is too short or too coarse, the explorer's one for the contact.
-            None | Some(GridName::Uniform)
-                if self.dx.is_none() && ends.is_none() && !GridSpec::DISSERTATION.does(moes) =>
-            {
-                GridSpec::explorer_for(ContactKind::Line, moes).map_err(|error| Failure::Request(error.to_string()))?;
-                Grid::Graded
+            None | Some(GridName::Uniform) if self.dx.is_none() && ends.is_none() => {
+                let grid = Grid::Usual.for_contact(ContactKind::Line, moes);
+                grid.map_err(|error| Failure::Request(error.to_string()))?
             }
             None | Some(GridName::Uniform) => {
                 Grid::Uniform { dx: self.dx.unwrap_or(0.005), domain: ends.unwrap_or((-4.0, 2.0)) }

@@ -4,7 +4,7 @@ use super::failure::Failure;
 use super::options::PointOptions;
 use super::{Verdict, output};
 use crate::engine::{ContactResult, GridAccuracy, Table, Workbench, film_shear_table, profile_table};
-use crate::scene::{Bench, Method, atomic_file};
+use crate::scene::{Method, Sheet, Solved, answer_or_full, atomic_file};
 use crate::solver::full::Solution;
 use crate::solver::observer::{NewtonStep, Observer};
 use crate::solver::physics::contact::ContactKind;
@@ -55,6 +55,10 @@ pub struct SolveArgs {
     /// Write the shear across the film in the plane Y = 0 as CSV: X, Z = z/h, stress in Pa, rate in 1/s
     #[arg(long, value_name = "FILE.csv")]
     film_shear: Option<PathBuf>,
+    /// Write a results sheet: inputs, results, how they were checked, formulas beside; by the ending Markdown (md), a page
+    /// with figures (html) or a table (csv)
+    #[arg(long, value_name = "FILE.md")]
+    sheet: Option<PathBuf>,
     /// Estimate what a point contact's grid costs H_c and H_min, by a second solve on another grid
     #[arg(long)]
     accuracy: bool,
@@ -71,15 +75,15 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
             "--accuracy belongs to full solutions of point contacts; add --contact point, or leave it out".to_owned(),
         ));
     }
+    if let Some(path) = &args.sheet
+        && Sheet::new("", &[], None).for_file(path).is_none()
+    {
+        let sentence = format!("--sheet {} has no ending that is known; accepted are md, html, csv", path.display());
+        return Err(Failure::Request(sentence));
+    }
     let mut workbench = Workbench::new("");
     let progress = Progress { begin: Instant::now(), next: AtomicUsize::new(2) };
-    let mut answer = workbench.answer(&request, &method, None, &progress)?;
-    if !answer.converged && method != Method::Full {
-        // The request asks for the model's own grid already.
-        let why = std::mem::take(&mut answer.warnings);
-        answer = workbench.answer(&request, &Method::Full, None, &progress)?;
-        answer.warnings.splice(0..0, why.into_iter().chain(["the full solver took over".to_owned()]));
-    }
+    let answer = answer_or_full(&mut workbench, &request, &method, &progress)?;
     type Fields = fn(&Solution) -> Table;
     let files: [(&Option<PathBuf>, Fields); 2] = [
         (&args.profiles, |solution| profile_table("profiles", solution)),
@@ -94,6 +98,13 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
     let mut report = Report { result: ContactResult::from(&answer), accuracy: None };
     if args.accuracy && answer.converged {
         report.accuracy = Some(workbench.grid_accuracy(&answer, &progress)?);
+    }
+    if let Some(path) = &args.sheet {
+        let solved = Solved { result: &report.result, solution: answer.result() };
+        let kind = request.point.kind.name();
+        let title = format!("{}{} contact", kind.get(..1).unwrap_or("").to_uppercase(), kind.get(1..).unwrap_or(""));
+        let text = Sheet::new(&title, &[solved], None).for_file(path).unwrap_or_default();
+        atomic_file::replace(path, text.as_bytes())?;
     }
     if args.json {
         output::print_json(&report)?;

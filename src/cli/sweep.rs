@@ -4,7 +4,7 @@ use super::Verdict;
 use super::failure::Failure;
 use super::options::PointOptions;
 use super::output::{self, ProgressLine};
-use crate::engine::{ContactResult, RESULT_COLUMNS, Request, Table, Workbench};
+use crate::engine::{CONTACT_COLUMNS, ContactResult, RESULT_COLUMNS, Request, Table, Workbench};
 use crate::scene::check::MAX_POINTS;
 use crate::scene::{Bench, Method, Steps, atomic_file};
 use crate::solver::full::Solution;
@@ -35,20 +35,6 @@ pub struct Varied {
     name: String,
     steps: Steps,
 }
-
-/// Values of the contact in the table, before those of its result, as the report names them.
-const CONTACT_COLUMNS: [&str; 10] = [
-    "si.radius",
-    "si.speed",
-    "si.load",
-    "si.modulus",
-    "si.viscosity",
-    "si.alpha",
-    "moes.M",
-    "moes.L",
-    "hertz.a_m",
-    "hertz.p_h_pa",
-];
 
 fn varied(text: &str) -> Result<Varied, String> {
     let shape = "write NAME=FROM:TO:N, as in moes-m=10:100:19, with :log for a constant ratio or :graded:HALF for half \

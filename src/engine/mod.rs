@@ -24,6 +24,7 @@ pub use workbench::Workbench;
 
 pub use crate::scene::study::transient::TOO_STEEP;
 pub use crate::scene::{
-    Answer, ContactResult, NamedValue, RESULT_COLUMNS, ReducedFacts, Request, RunError as EngineError, SceneOutcome,
-    Table, Verdict, film_shear_table, median, percentile, profile_table, rank_correlation, run_scene, table,
+    Answer, CONTACT_COLUMNS, ContactResult, NamedValue, RESULT_COLUMNS, ReducedFacts, Request, RunError as EngineError,
+    SceneOutcome, Table, Verdict, film_shear_table, median, percentile, profile_table, rank_correlation, run_scene,
+    table,
 };

@@ -173,6 +173,8 @@ impl Bench for Workbench {
         observer: &dyn TrainingObserver,
     ) -> Result<Answer, EngineError> {
         let problem = Problem::new(&request.point, request.lubricant)?;
+        let grid = request.grid.for_contact(request.point.kind, problem.moes).map_err(SolveError::from)?;
+        let request = &Request { grid, ..request.clone() };
         if observer.cancelled() {
             return Err(EngineError::Cancelled);
         }
@@ -214,13 +216,12 @@ impl Bench for Workbench {
     }
 
     fn grid(&mut self, request: &Request, observer: &dyn TrainingObserver) -> Result<ContactGrid, EngineError> {
-        let kind = request.point.kind;
+        let (kind, moes) = (request.point.kind, request.point.moes());
+        let grid = request.grid.for_contact(kind, moes).map_err(SolveError::from)?;
         let spec = match kind {
-            _ if request.grid == Grid::Graded => {
-                Some(GridSpec::explorer_for(kind, request.point.moes()).map_err(SolveError::from)?)
-            }
-            ContactKind::Line => request.grid.spec(),
-            ContactKind::Point => request.grid.point_spec().map(GridSpec::Plane),
+            _ if grid == Grid::Graded => Some(GridSpec::explorer_for(kind, moes).map_err(SolveError::from)?),
+            ContactKind::Line => grid.spec(),
+            ContactKind::Point => grid.point_spec().map(GridSpec::Plane),
         };
         match spec {
             Some(spec) => Ok(self.store.grid(spec).map_err(SolveError::from)?),
@@ -229,7 +230,7 @@ impl Bench for Workbench {
             }
             None => {
                 let model = self.model_for(&request.grid_model, kind, &request.lubricant, observer)?;
-                let grid = &window_of(&model, request.point.moes())?.grid;
+                let grid = &window_of(&model, moes)?.grid;
                 if grid.kind() == kind { Ok(grid.clone()) } else { Err(other_contact(&model, kind)) }
             }
         }
@@ -245,6 +246,10 @@ impl Bench for Workbench {
 
     fn trained(&self, spec: &TrainingSpec, observer: &dyn TrainingObserver) -> Result<Arc<ReducedModel>, EngineError> {
         self.store.trained(spec, observer)
+    }
+
+    fn forget(&mut self) {
+        self.online.iter_mut().for_each(Online::forget);
     }
 
     fn resolve(&self, path: &Path) -> PathBuf {

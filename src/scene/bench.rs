@@ -56,8 +56,32 @@ pub trait Bench {
     /// When it gives none or the observer cancels.
     fn trained(&self, spec: &TrainingSpec, observer: &dyn TrainingObserver) -> Result<Arc<ReducedModel>, RunError>;
 
+    /// Forgets what has been solved: the next solution starts as the first one would.
+    fn forget(&mut self);
+
     /// A path of the scene's, relative to its folder.
     fn resolve(&self, path: &Path) -> PathBuf;
+}
+
+/// Solves a contact for certain: where a reduced model has no solution, the full solver takes over on the model's grid
+/// and says so.
+///
+/// # Errors
+/// As [`Bench::answer`].
+pub fn answer_or_full(
+    bench: &mut dyn Bench,
+    request: &Request,
+    method: &Method,
+    observer: &dyn TrainingObserver,
+) -> Result<Answer, RunError> {
+    let mut answer = bench.answer(request, method, None, observer)?;
+    if !answer.converged && method.model().is_some() {
+        let why = std::mem::take(&mut answer.warnings);
+        let request = Request { grid: Grid::Model, ..request.clone() };
+        answer = bench.answer(&request, &Method::Full, None, observer)?;
+        answer.warnings.splice(0..0, why.into_iter().chain(["the full solver took over".to_owned()]));
+    }
+    Ok(answer)
 }
 
 /// What is to be solved.

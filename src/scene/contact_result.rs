@@ -115,6 +115,20 @@ fn text(word: &str) -> Option<Value> {
     Some(Value::Text(word.to_owned()))
 }
 
+/// What tables hold of a contact, before its result.
+pub const CONTACT_COLUMNS: [&str; 10] = [
+    "si.radius",
+    "si.speed",
+    "si.load",
+    "si.modulus",
+    "si.viscosity",
+    "si.alpha",
+    "moes.M",
+    "moes.L",
+    "hertz.a_m",
+    "hertz.p_h_pa",
+];
+
 /// What tables hold of a result.
 pub const RESULT_COLUMNS: [&str; 21] = [
     "converged",

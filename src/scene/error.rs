@@ -1,6 +1,7 @@
 //! Why a scene is refused, or gives no result.
 
 use super::atomic_file::WriteError;
+use super::load_cases::CasesError;
 use super::sampled::SampledError;
 use crate::solver::full::SolveError;
 use crate::solver::full::transient::TransientError;
@@ -118,6 +119,9 @@ pub enum RunError {
     /// Sampled inputs are refused.
     #[error(transparent)]
     Sampled(#[from] SampledError),
+    /// A table of load cases is refused.
+    #[error(transparent)]
+    Cases(#[from] CasesError),
     /// The training gives no model.
     #[error(transparent)]
     Training(#[from] TrainingError),

@@ -1,8 +1,10 @@
 //! The grid of full solutions as a scene writes it.
 
 use super::check::{Checked, count, number, refuse};
-use crate::solver::discrete::grid::{GridSpec, LONGEST_INLET, LONGEST_OUTLET, MAX_GRADED_NODES, PointGridSpec};
-use crate::solver::physics::contact::ContactKind;
+use crate::solver::discrete::grid::{
+    GridError, GridSpec, LONGEST_INLET, LONGEST_OUTLET, MAX_GRADED_NODES, PointGridSpec,
+};
+use crate::solver::physics::contact::{ContactKind, Moes};
 use serde::{Deserialize, Serialize};
 
 /// Grid of full solutions.
@@ -16,6 +18,9 @@ pub enum Grid {
         /// Inlet and outlet.
         domain: (f64, f64),
     },
+    /// The dissertation's uniform grid where it does for the contact; elsewhere a longer or finer one. What `solve` takes
+    /// where it is not told otherwise.
+    Usual,
     /// The explorer's graded grid: along X for a line, across for a point contact; longer or finer where the contact
     /// wants that.
     #[default]
@@ -41,12 +46,25 @@ impl Grid {
     /// The dissertation's grid: 1201 nodes from −4 to 2.
     pub const DISSERTATION: Self = Self::Uniform { dx: 0.005, domain: (-4.0, 2.0) };
 
+    /// The same for one contact: [`Grid::Usual`] becomes the grid that does for it.
+    ///
+    /// # Errors
+    /// When none of the program's own does.
+    pub fn for_contact(self, kind: ContactKind, moes: Moes) -> Result<Self, GridError> {
+        match (self, kind) {
+            (Self::Usual, ContactKind::Point) => PointGridSpec::DISSERTATION.for_contact(moes).map(Self::Plane),
+            (Self::Usual, ContactKind::Line) if GridSpec::DISSERTATION.does(moes) => Ok(Self::DISSERTATION),
+            (Self::Usual, ContactKind::Line) => GridSpec::explorer_for(kind, moes).map(|_| Self::Graded),
+            _ => Ok(self),
+        }
+    }
+
     /// The solver's specification for a point contact; `None` where this is no grid of one.
     pub fn point_spec(&self) -> Option<PointGridSpec> {
         match *self {
             Self::Plane(spec) => Some(spec),
             Self::Graded => Some(PointGridSpec::EXPLORER),
-            Self::Uniform { .. } | Self::GradedNodes { .. } | Self::Model => None,
+            Self::Usual | Self::Uniform { .. } | Self::GradedNodes { .. } | Self::Model => None,
         }
     }
 
@@ -57,14 +75,14 @@ impl Grid {
             Self::Uniform { dx, domain } => Some(GridSpec::Uniform { dx, domain }),
             Self::Graded => Some(GridSpec::EXPLORER),
             Self::GradedNodes { nodes, domain, registered } => Some(GridSpec::Graded { nodes, domain, registered }),
-            Self::Model | Self::Plane(_) => None,
+            Self::Usual | Self::Model | Self::Plane(_) => None,
         }
     }
 
     /// The word that stands for it in results.
     pub fn kind(&self) -> &'static str {
         match self {
-            Self::Uniform { .. } => "uniform",
+            Self::Usual | Self::Uniform { .. } => "uniform",
             Self::Plane(spec) if spec.refinement == 1.0 => "uniform",
             Self::Plane(_) | Self::Graded | Self::GradedNodes { .. } => "graded",
             Self::Model => "model",
@@ -102,6 +120,6 @@ pub(super) fn check(grid: &Grid, contact: ContactKind) -> Checked {
         Grid::Plane(spec) => {
             spec.check().map(|_| ()).map_err(|problem| refuse("grid", format!("makes no sense: {problem}")))
         }
-        Grid::Graded | Grid::Model => Ok(()),
+        Grid::Usual | Grid::Graded | Grid::Model => Ok(()),
     }
 }

@@ -13,6 +13,8 @@ pub struct Table {
     pub rows: Vec<Vec<f64>>,
     /// What each row is called, where rows have names; `run` prints such a table.
     pub labels: Vec<String>,
+    /// What is to be said of each row, where there is anything: the last column.
+    pub remarks: Vec<String>,
 }
 
 /// A number of a row, by its name.
@@ -36,15 +38,17 @@ impl Table {
     }
 
     /// As CSV with a title line; numbers in the shortest form that reads back exactly. Names of rows make up the first
-    /// column.
+    /// column, remarks the last.
     pub fn to_csv(&self) -> String {
         let named = (!self.labels.is_empty()).then_some("name");
-        let titles = named.into_iter().chain(self.columns.iter().map(String::as_str));
+        let said = (!self.remarks.is_empty()).then_some("remark");
+        let titles = named.into_iter().chain(self.columns.iter().map(String::as_str)).chain(said);
         let mut text = titles.map(quoted).collect::<Vec<_>>().join(",");
         text.push('\n');
         for (k, row) in self.rows.iter().enumerate() {
             let exact = |value: &f64| if value.is_finite() { Number(*value).to_string() } else { String::new() };
-            let cells = self.labels.get(k).map(|label| quoted(label)).into_iter().chain(row.iter().map(exact));
+            let words = |words: &[String]| words.get(k).map(|word| quoted(word));
+            let cells = words(&self.labels).into_iter().chain(row.iter().map(exact)).chain(words(&self.remarks));
             text.push_str(&cells.collect::<Vec<_>>().join(","));
             text.push('\n');
         }
@@ -89,7 +93,7 @@ pub fn significant(value: f64, digits: i32) -> String {
     }
 }
 
-fn quoted(title: &str) -> String {
+pub(super) fn quoted(title: &str) -> String {
     if title.contains([',', '"', '\n']) { format!("\"{}\"", title.replace('"', "\"\"")) } else { title.to_owned() }
 }
 
@@ -105,6 +109,8 @@ mod tests {
         assert_eq!(table.to_csv(), "a,\"b,c\"\n0.1,\n2.2e-8,3\n");
         table.labels = vec!["first".to_owned(), "x, y".to_owned()];
         assert_eq!(table.to_csv(), "name,a,\"b,c\"\nfirst,0.1,\n\"x, y\",2.2e-8,3\n");
+        table.remarks = vec!["no film".to_owned(), String::new()];
+        assert_eq!(table.to_csv(), "name,a,\"b,c\",remark\nfirst,0.1,,no film\n\"x, y\",2.2e-8,3,\n");
     }
 
     #[test]

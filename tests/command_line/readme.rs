@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// Options whose value is a file or folder to be written.
-const WRITTEN: [&str; 4] = ["--csv", "--profiles", "--film-shear", "--out"];
+const WRITTEN: [&str; 5] = ["--csv", "--profiles", "--sheet", "--film-shear", "--out"];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -127,7 +127,7 @@ fn every_command_runs_or_at_least_parses() {
         let scenes = scene_files(&arguments);
         let command = arguments.first().cloned().unwrap_or_default();
         let executed = match command.as_str() {
-            "solve" | "sweep" => !arguments.iter().any(|argument| trained.contains(argument)),
+            "solve" | "sweep" | "cases" => !arguments.iter().any(|argument| trained.contains(argument)),
             "info" => !trained.contains(&arguments[1]),
             "run" => !scenes.is_empty() && scenes.iter().all(|(_, scene)| is_quick(scene)),
             "train" => {
@@ -160,7 +160,7 @@ fn every_command_runs_or_at_least_parses() {
         assert!(!output.stdout.is_empty() || !written.is_empty(), "{arguments:?} says nothing");
         assert!(written.iter().all(|path| path.exists()), "{arguments:?} writes nothing");
     }
-    let all = ["bench", "info", "run", "solve", "sweep", "train"];
+    let all = ["bench", "cases", "info", "run", "solve", "sweep", "train"];
     assert!(all.iter().all(|command| seen.contains(*command)), "commands without an example: seen are {seen:?}");
 }
 

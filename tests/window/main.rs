@@ -11,6 +11,7 @@ mod contact_map;
 mod desktop;
 mod engineering;
 mod explorer;
+mod lessons;
 mod results_tab;
 mod tpwl_tab;
 mod traction_tab;

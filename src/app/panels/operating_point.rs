@@ -149,18 +149,8 @@ fn lock_ui(ui: &mut Ui, closed: bool) -> Response {
 
 /// The value in SI units of a typed text with or without unit, inside what is accepted.
 fn read(text: &str, quantity: Quantity, kind: ContactKind) -> Result<f64, String> {
-    let dimension = match (quantity, kind) {
-        (Quantity::Radius, _) => Dimension::Length,
-        (Quantity::Speed, _) => Dimension::Speed { radius_m: None },
-        (Quantity::Load, ContactKind::Line) => Dimension::LineLoad,
-        (Quantity::Load, ContactKind::Point) => Dimension::Force,
-        (Quantity::Modulus, _) => Dimension::Pressure,
-        (Quantity::Viscosity, _) => Dimension::Viscosity { density: None },
-        (Quantity::Alpha, _) => Dimension::PressureCoefficient,
-        _ => Dimension::Ratio,
-    };
     let (unit, scale) = quantity.reading_unit(kind);
-    let value = engineering::parse(text, dimension, unit).map_err(|error| error.to_string())?;
+    let value = engineering::parse(text, Dimension::of(quantity, kind), unit).map_err(|error| error.to_string())?;
     let (low, high) = quantity.range();
     if (low..=high).contains(&value) {
         return Ok(value);

@@ -7,9 +7,10 @@ mod layout;
 use super::Explorer;
 use super::display::Display;
 use super::document::Document;
+use super::layouts::Layout;
 use super::tab::Tab;
 use super::tabs::contact_map::{MapView, optics};
-use super::tabs::{self, profiles};
+use super::tabs::profiles;
 use super::traction;
 use crate::scene::atomic_file::{self, WriteError};
 use egui::{Context, Rect};
@@ -57,7 +58,7 @@ impl Default for Written {
     fn default() -> Self {
         let (shown, place) = (Shown::default(), Place::default());
         let (document, saved) = (String::new(), String::new());
-        Self { document, saved, path: None, recent: Vec::new(), display: shown, place, tree: tabs::default_tree() }
+        Self { document, saved, path: None, recent: Vec::new(), display: shown, place, tree: Layout::default().tree() }
     }
 }
 
@@ -241,7 +242,7 @@ impl Session {
             recent,
             shown: if sound("how things were shown", display.is_sound()) { display } else { Shown::default() },
             place: if sound("the place of the window", place.is_sound()) { place } else { Place::default() },
-            tree: tree.unwrap_or_else(tabs::default_tree),
+            tree: tree.unwrap_or_else(|| Layout::default().tree()),
         };
         (session, lost)
     }

@@ -30,7 +30,7 @@ use super::desk::Desk;
 use super::figure;
 use super::tab::Tab;
 use egui::Ui;
-use egui_tiles::{Behavior, TileId, Tiles, Tree, UiResponse};
+use egui_tiles::{Behavior, TileId, Tiles, UiResponse};
 
 /// What each tab keeps of its own.
 #[derive(Default)]
@@ -55,11 +55,6 @@ pub struct Views {
     pub training: training::TrainingTab,
     /// What the TPWL tab shows.
     pub tpwl: tpwl::Tpwl,
-}
-
-/// The tabs as they are at first.
-pub fn default_tree() -> Tree<Tab> {
-    Tree::new_tabs(egui::Id::unique("tabs"), Tab::ALL.to_vec())
 }
 
 /// Draws one tab, whatever is around it.
@@ -119,7 +114,7 @@ impl Behavior<Tab> for Tabs<'_> {
     }
 
     fn tab_title_spacing(&self, _visuals: &egui::Visuals) -> f32 {
-        10.0
+        6.0
     }
 
     fn tab_bar_color(&self, visuals: &egui::Visuals) -> egui::Color32 {

@@ -185,7 +185,7 @@ impl Question for ErrorMeasureStudy {
             [moes.m, moes.l].into_iter().chain(measures).chain(scales.map(|(get, scale)| get(m) / scale)).collect()
         };
         let rows = measured.iter().map(row).collect();
-        vec![Table { name: "error_measures".to_owned(), columns, rows, labels: Vec::new() }]
+        vec![Table { name: "error_measures".to_owned(), columns, rows, ..Table::default() }]
     }
 
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {

@@ -165,7 +165,7 @@ impl Question for ErrorSplitStudy {
             Some(contact.into_iter().chain(values(split)).collect())
         };
         let rows = rows.iter().filter_map(row).collect();
-        vec![Table { name: "error_split".to_owned(), columns, rows, labels: Vec::new() }]
+        vec![Table { name: "error_split".to_owned(), columns, rows, ..Table::default() }]
     }
 
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {

@@ -32,6 +32,7 @@ pub mod error_measures;
 pub mod error_split;
 pub mod formula_comparison;
 pub mod grid_study;
+pub mod load_cases;
 mod path;
 pub mod plan_comparison;
 pub mod point;
@@ -174,6 +175,8 @@ studies! {
     SamplingComparison(sampling_comparison::SamplingComparison),
     /// The contact in time, under inputs that vary, in full and by models: Figs. 2.6 (right), 4.4, 4.10 to 4.18.
     Transient(transient::TransientStudy),
+    /// A table of load cases, each line a contact of its own.
+    LoadCases(load_cases::LoadCases),
     /// Full solutions against a published film formula at all pairs of M and L in the default realisation.
     FormulaComparison(formula_comparison::FormulaComparison),
 }

@@ -185,11 +185,11 @@ pub(super) fn table(name: &str, varied: &[&str], methods: &[Method], rows: &[&Pa
         let values = row.values.iter().copied().chain(contact).chain([point.hertz().pressure_pa]);
         values.chain(results).collect()
     };
-    Table { name: name.to_owned(), columns, rows: rows.iter().map(row).collect(), labels: Vec::new() }
+    Table { name: name.to_owned(), columns, rows: rows.iter().map(row).collect(), ..Table::default() }
 }
 
 /// `full`, `reduced`, and with a number where a kind occurs again.
-fn tag(methods: &[Method], k: usize) -> String {
+pub(super) fn tag(methods: &[Method], k: usize) -> String {
     let name = methods[k].name();
     match methods[..k].iter().filter(|method| method.name() == name).count() {
         0 => name.to_owned(),

@@ -392,7 +392,7 @@ fn loss_table(plans: &[&Trained]) -> Table {
         name: "loss_of_information".to_owned(),
         columns: std::iter::once("k".to_owned()).chain(named).collect(),
         rows: (0..longest).map(row).collect(),
-        labels: Vec::new(),
+        ..Table::default()
     }
 }
 

@@ -29,6 +29,9 @@ pub fn ui(ui: &mut Ui, table: &Table) {
                 for column in &table.columns {
                     ui.label(rich(column, 12.0, quiet));
                 }
+                if !table.remarks.is_empty() {
+                    ui.label(rich("remark", 12.0, quiet));
+                }
                 ui.end_row();
                 for (k, row) in table.rows.iter().enumerate().take(last).skip(first) {
                     if let Some(label) = table.labels.get(k) {
@@ -37,6 +40,9 @@ pub fn ui(ui: &mut Ui, table: &Table) {
                     for value in row {
                         // What does not apply is left empty, as in the file.
                         ui.label(if value.is_finite() { numbers::significant(*value) } else { String::new() });
+                    }
+                    if let Some(remark) = table.remarks.get(k) {
+                        ui.label(remark);
                     }
                     ui.end_row();
                 }

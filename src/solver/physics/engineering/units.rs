@@ -1,5 +1,6 @@
 //! Numbers with units as people type them: `300 N/mm`, `0,4 µm`, `68 cSt`, `5 %`, `1500 rpm`, `80 °C`.
 
+use crate::solver::physics::contact::{ContactKind, Quantity};
 use std::f64::consts::PI;
 
 /// 0 °C in K.
@@ -86,6 +87,22 @@ const ROTATION: Units = &[("rpm", PI / 30.0), ("1/min", PI / 30.0), ("U/min", PI
 const KINEMATIC: Units = &[("cSt", 1e-6), ("mm²/s", 1e-6), ("m²/s", 1.0), ("St", 1e-4)];
 
 impl Dimension {
+    /// What a quantity of a contact measures.
+    pub fn of(quantity: Quantity, kind: ContactKind) -> Self {
+        match (quantity, kind) {
+            (Quantity::Radius, _) => Self::Length,
+            (Quantity::Speed, _) => Self::Speed { radius_m: None },
+            (Quantity::Load, ContactKind::Line) => Self::LineLoad,
+            (Quantity::Load, ContactKind::Point) => Self::Force,
+            (Quantity::Modulus, _) => Self::Pressure,
+            (Quantity::Viscosity, _) => Self::Viscosity { density: None },
+            (Quantity::Alpha, _) => Self::PressureCoefficient,
+            (Quantity::M | Quantity::L | Quantity::SlideToRollRatio | Quantity::NewtonianPlateauRatio, _) => {
+                Self::Ratio
+            }
+        }
+    }
+
     /// Its name with the article.
     pub fn name(self) -> &'static str {
         match self {
@@ -150,11 +167,11 @@ pub fn parse(text: &str, dimension: Dimension, field_unit: &str) -> Result<f64, 
     };
     let value = number.parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(example)?;
     let typed = if unit.is_empty() { field_unit } else { unit };
-    let si = in_si(value, typed, dimension)?;
+    let si = in_si((number, value), typed, dimension)?;
     if si.is_finite() { Ok(si) } else { Err(example()) }
 }
 
-fn in_si(value: f64, typed: &str, dimension: Dimension) -> Result<f64, UnitError> {
+fn in_si((number, value): (&str, f64), typed: &str, dimension: Dimension) -> Result<f64, UnitError> {
     if typed.is_empty() && dimension == Dimension::Ratio {
         return Ok(value);
     }
@@ -165,7 +182,8 @@ fn in_si(value: f64, typed: &str, dimension: Dimension) -> Result<f64, UnitError
             (Dimension::Temperature, "F") => (-32.0, KELVIN),
             _ => (0.0, 0.0),
         };
-        return Ok((value + offset) * size + zero);
+        let shifted = shifted(number, size).filter(|_| dimension != Dimension::Temperature);
+        return Ok(shifted.unwrap_or((value + offset) * size + zero));
     }
     match dimension {
         Dimension::Speed { radius_m } => {
@@ -184,6 +202,14 @@ fn in_si(value: f64, typed: &str, dimension: Dimension) -> Result<f64, UnitError
     }
     let accepted: Vec<&str> = dimension.units().iter().map(|(unit, _)| *unit).collect();
     Err(UnitError::Unit { unit: typed.to_owned(), of: dimension.name(), accepted: accepted.join(", ") })
+}
+
+/// A number as it is typed times the size of its unit: 12.7 mm are 0.0127 m to the last digit, as a shift of the decimal
+/// point.
+fn shifted(number: &str, size: f64) -> Option<f64> {
+    let places = size.log10().round();
+    let decimal = (size / 10f64.powf(places) - 1.0).abs() < 1e-12 && !number.contains(['e', 'E']);
+    if decimal { format!("{number}e{places}").parse().ok() } else { None }
 }
 
 /// Minus signs and decimal commas as programs write them.
@@ -263,6 +289,19 @@ mod tests {
         ] {
             let value = parse(text, dimension, field).expect(text);
             assert!((value - si).abs() <= 1e-12 * si.abs(), "{text}: {value} instead of {si}");
+        }
+    }
+
+    #[test]
+    fn a_decimal_number_is_the_same_in_every_unit() {
+        for (text, dimension, si) in [
+            ("12.7 mm", Dimension::Length, 0.0127),
+            ("70.5 mPa·s", OIL, 0.0705),
+            ("21.3 1/GPa", Dimension::PressureCoefficient, 2.13e-8),
+            ("0.3 µm", Dimension::Length, 3e-7),
+            ("7 %", Dimension::Ratio, 0.07),
+        ] {
+            assert_eq!(parse(text, dimension, "").expect(text), si, "{text}");
         }
     }
 

@@ -1,0 +1,90 @@
+//! Arrangements of the tabs for what people come for. Tabs can be dragged from there.
+
+use super::tab::Tab;
+use egui_tiles::{Linear, LinearDir, Tile, TileId, Tiles, Tree};
+
+/// An arrangement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Layout {
+    /// One tab at a time.
+    #[default]
+    Explore,
+    /// Profiles beside the chart of regimes.
+    Teach,
+    /// Profiles beside traction and results.
+    Engineer,
+    /// The basis beside its errors.
+    ModelReduction,
+}
+
+impl Layout {
+    /// All of them in their order.
+    #[cfg(test)]
+    const ALL: [Self; 4] = [Self::Explore, Self::Teach, Self::Engineer, Self::ModelReduction];
+
+    /// Tabs that lie beside each other, group by group; the first of each is in front. Those left out go to the last
+    /// group.
+    fn groups(self) -> &'static [&'static [Tab]] {
+        match self {
+            Self::Explore => &[&[]],
+            Self::Teach => &[&[Tab::Profiles, Tab::ContactMap, Tab::Traction, Tab::Transient], &[Tab::Regimes]],
+            Self::Engineer => &[&[Tab::Profiles, Tab::ContactMap, Tab::Regimes], &[Tab::Traction, Tab::Results]],
+            Self::ModelReduction => &[&[Tab::Basis, Tab::Profiles, Tab::ContactMap, Tab::Regimes], &[Tab::Accuracy]],
+        }
+    }
+
+    /// The tabs so arranged, each once.
+    pub fn tree(self) -> Tree<Tab> {
+        let groups = self.groups();
+        let listed: Vec<Tab> = groups.iter().flat_map(|group| group.iter().copied()).collect();
+        let rest = || Tab::ALL.into_iter().filter(|tab| !listed.contains(tab));
+        let mut tiles = Tiles::default();
+        let mut beside: Vec<TileId> = Vec::new();
+        for (k, group) in groups.iter().enumerate() {
+            let last = k + 1 == groups.len();
+            let tabs = group.iter().copied().chain(rest().filter(|_| last));
+            let panes: Vec<TileId> = tabs.map(|tab| tiles.insert_pane(tab)).collect();
+            beside.push(tiles.insert_tab_tile(panes));
+        }
+        let root = match beside[..] {
+            [only] => only,
+            _ => tiles.insert_container(Linear::new(LinearDir::Horizontal, beside)),
+        };
+        Tree::new(egui::Id::unique("tabs"), root, tiles)
+    }
+}
+
+/// Tabs that are to be seen in an arrangement.
+pub fn seen(tree: &Tree<Tab>) -> Vec<Tab> {
+    let tab = |id: TileId| match tree.tiles.get(id) {
+        Some(Tile::Pane(tab)) => Some(*tab),
+        _ => None,
+    };
+    tree.active_tiles().into_iter().filter_map(tab).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_arrangement_has_every_tab_once_and_the_first_of_each_group_in_front() {
+        for layout in Layout::ALL {
+            let tree = layout.tree();
+            let mut tabs: Vec<Tab> = tree
+                .tiles
+                .tiles()
+                .filter_map(|tile| match tile {
+                    Tile::Pane(tab) => Some(*tab),
+                    Tile::Container(_) => None,
+                })
+                .collect();
+            tabs.sort_by_key(|tab| Tab::ALL.iter().position(|other| other == tab));
+            assert_eq!(tabs, Tab::ALL, "{layout:?}");
+            let front: Vec<Tab> = layout.groups().iter().filter_map(|group| group.first().copied()).collect();
+            let seen = seen(&tree);
+            assert!(front.iter().all(|tab| seen.contains(tab)), "{layout:?}: {seen:?}");
+            assert_eq!(seen.len(), layout.groups().len());
+        }
+    }
+}

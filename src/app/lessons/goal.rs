@@ -1,0 +1,117 @@
+//! What a step of a lesson waits for.
+
+use crate::app::tab::Tab;
+use crate::scene::named_lubricant::{NAMED, NamedLubricant, by_name};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity};
+use crate::solver::physics::lubricant::Lubricant;
+
+/// One thing that must hold.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Goal {
+    /// A quantity of the contact lies between two values.
+    Between(Quantity, f64, f64),
+    /// The contact is of a kind.
+    Kind(ContactKind),
+    /// A tab is to be seen.
+    Tab(Tab),
+    /// The lubricant is one with a name.
+    Lubricant(&'static NamedLubricant),
+    /// So many curves are pinned.
+    Pins(usize),
+    /// A full solution has checked the picture.
+    Checked,
+}
+
+/// What is on the screen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OnScreen {
+    /// The contact of the sliders.
+    pub point: OperatingPoint,
+    /// Its NPR, the lubricant's own where it has none.
+    pub plateau_ratio: f64,
+    /// Its lubricant.
+    pub lubricant: Lubricant,
+    /// Tabs that are seen.
+    pub tabs: Vec<Tab>,
+    /// Pinned curves.
+    pub pins: usize,
+    /// Whether a full solution belongs to the picture.
+    pub checked: bool,
+}
+
+/// What a goal may say.
+const ACCEPTED: &str = "accepted are `M between 2 and 3` (likewise L, SRR, NPR), `contact point`, `tab Regimes`, \
+    `lubricant mineral-oil`, `pin 1`, `checked` and `read`";
+
+impl Goal {
+    /// The goals of a line, with commas between them; none of a step that is only read.
+    ///
+    /// # Errors
+    /// With what would be accepted.
+    pub fn all(words: &str) -> Result<Vec<Self>, String> {
+        let goals = words.split(',').map(str::trim).filter(|words| *words != "read");
+        goals.map(|words| Self::read(words).ok_or_else(|| format!("“{words}” is no goal; {ACCEPTED}"))).collect()
+    }
+
+    fn read(words: &str) -> Option<Self> {
+        if words == "checked" {
+            return Some(Self::Checked);
+        }
+        let (first, rest) = words.split_once(' ')?;
+        match first {
+            "contact" => {
+                [ContactKind::Line, ContactKind::Point].into_iter().find(|kind| kind.name() == rest).map(Self::Kind)
+            }
+            "tab" => Tab::ALL.into_iter().find(|tab| tab.title() == rest).map(Self::Tab),
+            "lubricant" => {
+                let known = by_name(rest).ok()?;
+                NAMED.iter().find(|named| named.name == known.name).map(Self::Lubricant)
+            }
+            "pin" => rest.parse().ok().map(Self::Pins),
+            _ => {
+                let quantity = quantity(first)?;
+                let (from, to) = rest.strip_prefix("between ")?.split_once(" and ")?;
+                let (from, to): (f64, f64) = (from.trim().parse().ok()?, to.trim().parse().ok()?);
+                (from < to).then_some(Self::Between(quantity, from, to))
+            }
+        }
+    }
+
+    /// The tab that is to be seen.
+    pub fn tab(&self) -> Option<Tab> {
+        if let Self::Tab(tab) = self { Some(*tab) } else { None }
+    }
+
+    /// Whether it holds.
+    pub fn holds(&self, screen: &OnScreen) -> bool {
+        match self {
+            Self::Between(quantity, from, to) => {
+                let value = quantity.of(&screen.point).unwrap_or(screen.plateau_ratio);
+                (*from..=*to).contains(&value)
+            }
+            Self::Kind(kind) => screen.point.kind == *kind,
+            Self::Tab(tab) => screen.tabs.contains(tab),
+            Self::Lubricant(named) => screen.lubricant == named.laws,
+            Self::Pins(count) => screen.pins >= *count,
+            Self::Checked => screen.checked,
+        }
+    }
+}
+
+fn quantity(name: &str) -> Option<Quantity> {
+    match name {
+        "M" => Some(Quantity::M),
+        "L" => Some(Quantity::L),
+        "SRR" => Some(Quantity::SlideToRollRatio),
+        "NPR" => Some(Quantity::NewtonianPlateauRatio),
+        _ => None,
+    }
+}
+
+/// The accessible name of a control that a lesson calls by its symbol or by that name.
+pub fn control(name: &str) -> &str {
+    match quantity(name) {
+        Some(quantity) => quantity.label(),
+        None => name,
+    }
+}

@@ -1,0 +1,118 @@
+//! `cases`: a table of load cases.
+
+use super::Verdict;
+use super::failure::Failure;
+use super::options::MethodName;
+use super::output::{self, ProgressLine};
+use crate::engine::{ContactResult, Workbench};
+use crate::scene::study::load_cases::{LoadCases, Row};
+use crate::scene::{
+    CaseTable, Grid, Method, ModelSource, Scene, Study, StudyObserver, StudyRow, atomic_file, run_scene,
+};
+use crate::solver::observer::{Observer, Progress};
+use crate::solver::training::TrainingObserver;
+use clap::Args;
+use serde::Serialize;
+use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
+
+/// Options of `cases`.
+#[derive(Debug, Args)]
+pub struct CasesArgs {
+    /// The table: a line of titles, then a contact a line. Columns are name, contact, lubricant, oil, temperature, radius,
+    /// speed, load, modulus, viscosity, alpha, M, L, srr, npr; a unit stands in a title, as `load [N/mm]`, or in a cell
+    #[arg(value_name = "TABLE.csv")]
+    table: PathBuf,
+    /// How each is solved; full,reduced for both
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "full")]
+    method: Vec<MethodName>,
+    /// Reduced model to use (default: the embedded one of the kind of contact)
+    #[arg(long, value_name = "FILE")]
+    rom: Option<PathBuf>,
+    /// Write the table of results as CSV (default: print it)
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Print one JSON object per line and method
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command: bad lines are named, all others solved.
+pub fn run(args: &CasesArgs) -> Result<Verdict, Failure> {
+    let source = || args.rom.clone().map_or(ModelSource::Embedded, ModelSource::File);
+    let method = |name: &MethodName| match name {
+        MethodName::Full => Method::Full,
+        MethodName::Reduced => Method::reduced(source()),
+    };
+    let methods: Vec<Method> = args.method.iter().map(method).collect();
+    if args.rom.is_some() && !args.method.contains(&MethodName::Reduced) {
+        return Err(Failure::Request("--rom has no effect here; add --method reduced".to_owned()));
+    }
+    let study = Study::LoadCases(LoadCases { cases: CaseTable::File(args.table.clone()), methods });
+    let title = format!("Load cases of {}", args.table.display());
+    let scene = Scene { title, grid: Grid::Usual, study, ..Scene::at_moes(40.0, 10.0) };
+    let mut workbench = Workbench::new("");
+    workbench.check_models(&scene)?;
+    let watch = Watch { line: ProgressLine::new(false), rows: Mutex::default() };
+    let outcome = run_scene(&scene, &mut workbench, &watch)?;
+    watch.line.finish();
+    let rows = watch.rows.into_inner().unwrap_or_else(PoisonError::into_inner);
+    if args.json {
+        rows.iter().try_for_each(print)?;
+    }
+    let text = outcome.tables.first().map(|table| table.to_csv()).unwrap_or_default();
+    match &args.csv {
+        Some(path) => atomic_file::replace(path, text.as_bytes())?,
+        None if !args.json => output::print(&text)?,
+        None => {}
+    }
+    outcome.found.warnings.iter().for_each(|warning| output::complain(warning));
+    let failed = rows.iter().flat_map(|row| row.results.iter().flatten()).filter(|result| !result.converged).count();
+    if failed > 0 {
+        output::complain(&format!("{failed} solves did not converge; their results are left empty"));
+    }
+    Ok(if outcome.found.converged { Verdict::Done } else { Verdict::FellShort })
+}
+
+/// A line as JSON: its result by one method, or why it is refused.
+#[derive(Serialize)]
+struct Line<'a> {
+    line: usize,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    name: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refused: Option<&'a str>,
+    #[serde(flatten)]
+    result: Option<&'a ContactResult>,
+}
+
+fn print(row: &Row) -> Result<(), Failure> {
+    let Row { line, name, results } = row;
+    let line = Line { line: *line, name, refused: None, result: None };
+    match results {
+        Err(why) => output::print_json(&Line { refused: Some(why), ..line }),
+        Ok(results) => results.iter().try_for_each(|result| output::print_json(&Line { result: Some(result), ..line })),
+    }
+}
+
+/// Shows how far it is, and keeps the lines.
+struct Watch {
+    line: ProgressLine,
+    rows: Mutex<Vec<Row>>,
+}
+
+impl Observer for Watch {
+    fn progress(&self, progress: Progress) {
+        self.line.progress(progress);
+    }
+}
+
+impl TrainingObserver for Watch {}
+
+impl StudyObserver for Watch {
+    fn row(&self, row: StudyRow) {
+        if let StudyRow::LoadCases(row) = row {
+            self.rows.lock().unwrap_or_else(PoisonError::into_inner).push(row);
+        }
+    }
+}

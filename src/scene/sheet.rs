@@ -1,0 +1,346 @@
+//! A sheet of one contact for the file: inputs with units, results, how they were checked, published formulas beside
+//! them, and what wrote it. As Markdown, HTML with figures, and CSV.
+
+use super::chart::{Chart, ChartAxis, Marks};
+use super::chart_svg::{Page, escaped};
+use super::contact_result::ContactResult;
+use super::table::{quoted, significant};
+use crate::solver::full::Solution;
+use crate::solver::physics::contact::{ContactKind, FilmFormula};
+use crate::solver::physics::engineering::{Bodies, film_regime, largest_shear};
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// Digits of the sheet's numbers for people; its CSV has all.
+const DIGITS: i32 = 5;
+
+/// A contact with its solution, by one method.
+#[derive(Clone, Copy, Debug)]
+pub struct Solved<'a> {
+    /// Scalars and how they were obtained.
+    pub result: &'a ContactResult,
+    /// Fields; none without convergence.
+    pub solution: Option<&'a Solution>,
+}
+
+/// A sheet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sheet {
+    /// Its title.
+    pub title: String,
+    /// What it says, part by part.
+    pub parts: Vec<Part>,
+    /// Pressure and film.
+    pub figures: Vec<Chart>,
+}
+
+/// A part of a sheet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// Its title.
+    pub title: String,
+    /// Its lines.
+    pub lines: Vec<Line>,
+}
+
+/// One line of a sheet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// What it is.
+    pub name: String,
+    /// Its value.
+    pub value: Value,
+    /// Its unit; empty where it has none.
+    pub unit: &'static str,
+    /// What is to be said of it.
+    pub remark: String,
+}
+
+/// A number or words.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A finite number.
+    Number(f64),
+    /// Words.
+    Words(String),
+}
+
+impl Part {
+    fn new(title: &str) -> Self {
+        Self { title: title.to_owned(), lines: Vec::new() }
+    }
+
+    fn words(&mut self, name: &str, words: impl Into<String>) {
+        self.lines.push(Line {
+            name: name.to_owned(),
+            value: Value::Words(words.into()),
+            unit: "",
+            remark: String::new(),
+        });
+    }
+
+    fn number(&mut self, name: &str, value: impl Into<Option<f64>>, unit: &'static str) {
+        self.said(name, value, unit, "");
+    }
+
+    fn said(&mut self, name: &str, value: impl Into<Option<f64>>, unit: &'static str, remark: impl Into<String>) {
+        let Some(value) = value.into().filter(|value| value.is_finite()) else { return };
+        self.lines.push(Line { name: name.to_owned(), value: Value::Number(value), unit, remark: remark.into() });
+    }
+}
+
+impl Sheet {
+    /// The sheet of one contact by one or more methods, the one that counts first. Of bodies, where they are known, the
+    /// roughness says how the film compares with it.
+    pub fn new(title: &str, solved: &[Solved<'_>], bodies: Option<&Bodies>) -> Self {
+        let mut parts = Vec::new();
+        let mut figures = Vec::new();
+        if let Some(first) = solved.first() {
+            parts.push(inputs(first));
+            parts.push(results(first, bodies));
+            parts.extend(solved.iter().map(verification));
+            parts.extend(difference(solved));
+            parts.extend(formulas(first.result));
+            figures = pictures(solved);
+        }
+        parts.push(program());
+        Self { title: title.to_owned(), parts, figures }
+    }
+
+    /// As the ending of a file's name says: md, html or csv; none for others.
+    pub fn for_file(&self, path: &Path) -> Option<String> {
+        match path.extension()?.to_str()? {
+            "md" => Some(self.to_markdown()),
+            "html" | "htm" => Some(self.to_html()),
+            "csv" => Some(self.to_csv()),
+            _ => None,
+        }
+    }
+
+    /// As Markdown: a table for each part.
+    pub fn to_markdown(&self) -> String {
+        let cell = |text: &str| text.replace('|', "\\|").replace('\n', " ");
+        let mut text = format!("# {}\n", self.title);
+        for part in &self.parts {
+            // Writing to a string cannot fail.
+            let _ = write!(text, "\n## {}\n\n| Quantity | Value | Unit | Remark |\n|---|---|---|---|\n", part.title);
+            for line in &part.lines {
+                let (name, value, remark) = (cell(&line.name), cell(&line.value.shown()), cell(&line.remark));
+                let _ = writeln!(text, "| {name} | {value} | {} | {remark} |", line.unit);
+            }
+        }
+        text
+    }
+
+    /// As one page of HTML with its figures in it; it refers to nothing else.
+    pub fn to_html(&self) -> String {
+        let title = escaped(&self.title);
+        let mut text = format!(
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{title}</title>\n<style>\n\
+             body {{ font: 11pt sans-serif; color: #222; max-width: 46em; margin: 2em auto; padding: 0 1em }}\n\
+             table {{ border-collapse: collapse; width: 100% }}\n\
+             td {{ border-bottom: 1px solid #ddd; padding: 0.2em 0.6em 0.2em 0; vertical-align: top }}\n\
+             td.value {{ text-align: right; white-space: nowrap }}\n\
+             td.remark {{ color: #666 }}\n\
+             h2 {{ font-size: 1.1em; margin: 1.4em 0 0.3em }}\n\
+             svg {{ margin: 0.5em 0.5em 0 0 }}\n</style>\n</head>\n<body>\n<h1>{title}</h1>\n"
+        );
+        for part in &self.parts {
+            let _ = write!(text, "<h2>{}</h2>\n<table>\n", escaped(&part.title));
+            for line in &part.lines {
+                let (name, remark) = (escaped(&line.name), escaped(&line.remark));
+                let value = escaped(format!("{} {}", line.value.shown(), line.unit).trim());
+                let class = if matches!(line.value, Value::Number(_)) { " class=\"value\"" } else { "" };
+                let _ =
+                    writeln!(text, "<tr><td>{name}</td><td{class}>{value}</td><td class=\"remark\">{remark}</td></tr>");
+            }
+            text.push_str("</table>\n");
+        }
+        for figure in &self.figures {
+            text.push_str(&figure.to_svg(&Page::default()));
+        }
+        text.push_str("</body>\n</html>\n");
+        text
+    }
+
+    /// As CSV with the columns part, quantity, value, unit, remark; numbers in the shortest form that reads back exactly.
+    pub fn to_csv(&self) -> String {
+        let mut text = String::from("part,quantity,value,unit,remark\n");
+        for part in &self.parts {
+            for line in &part.lines {
+                let cells = [&part.title, &line.name, &line.value.exact(), &line.unit.to_owned(), &line.remark];
+                let cells: Vec<String> = cells.into_iter().map(|cell| quoted(cell)).collect();
+                text.push_str(&cells.join(","));
+                text.push('\n');
+            }
+        }
+        text
+    }
+}
+
+impl Value {
+    fn shown(&self) -> String {
+        match self {
+            Self::Number(number) => significant(*number, DIGITS),
+            Self::Words(words) => words.clone(),
+        }
+    }
+
+    fn exact(&self) -> String {
+        match self {
+            Self::Number(number) => super::table::Number(*number).to_string(),
+            Self::Words(words) => words.clone(),
+        }
+    }
+}
+
+fn inputs(solved: &Solved<'_>) -> Part {
+    let point = &solved.result.point;
+    let mut part = Part::new("Contact");
+    let (kind, load) = match point.kind {
+        ContactKind::Line => ("line contact", "N/m"),
+        ContactKind::Point => ("circular point contact", "N"),
+    };
+    part.words("Kind", kind);
+    part.number("Reduced radius R", point.radius_m, "m");
+    part.number("Reduced modulus E’", point.modulus_pa, "Pa");
+    part.number("Load w", point.load, load);
+    part.number("Entrainment speed u_m", point.speed_m_per_s, "m/s");
+    part.number("Slide-to-roll ratio SRR", point.sliding.slide_to_roll_ratio, "");
+    part.number("Viscosity at ambient pressure η₀", point.viscosity_pa_s, "Pa·s");
+    part.number("Pressure–viscosity coefficient α", point.alpha_per_pa, "1/Pa");
+    if let Some(solution) = solved.solution {
+        part.words("Laws of the lubricant", solution.problem.lubricant.describe());
+    }
+    part.number("Load number M", point.moes().m, "");
+    part.number("Lubricant number L", point.moes().l, "");
+    part
+}
+
+fn results(solved: &Solved<'_>, bodies: Option<&Bodies>) -> Part {
+    let result = solved.result;
+    let (point, hertz) = (&result.point, result.point.hertz());
+    let value = |name: &str| result.value(name);
+    let mut part = Part::new("Results");
+    part.number("Central film h_c", value("h_c_m"), "m");
+    part.number("Smallest film h_min", value("h_min_m"), "m");
+    part.number("Hertzian pressure p_H", hertz.pressure_pa, "Pa");
+    let width = if point.kind == ContactKind::Line { "Half width a" } else { "Radius of the contact a" };
+    part.number(width, hertz.half_width_m, "m");
+    part.number("Largest pressure", value("P_max").map(|p| p * hertz.pressure_pa), "Pa");
+    if point.sliding.slide_to_roll_ratio != 0.0 {
+        let (force, power) = if point.kind == ContactKind::Line { ("N/m", "W/m") } else { ("N", "W") };
+        let traction = value("traction");
+        let lost = point.sliding.slide_to_roll_ratio * point.speed_m_per_s;
+        part.number("Friction coefficient µ", traction, "");
+        part.number("Friction force", traction.map(|mu| mu * point.load), force);
+        part.number("Power lost", traction.map(|mu| mu * point.load * lost), power);
+    }
+    if let (Some(bodies), Some(h_min)) = (bodies, value("h_min_m"))
+        && let Ok(ratio) = bodies.film_ratio(h_min)
+    {
+        part.said("Film ratio λ", ratio, "", film_regime(ratio));
+    }
+    let shear = largest_shear(point.kind, bodies.map_or(0.3, |bodies| bodies.0.poisson));
+    let depth = shear.depth_over_half_width * hertz.half_width_m;
+    part.said(
+        "Largest shear under the surface",
+        shear.over_hertz_pressure * hertz.pressure_pa,
+        "Pa",
+        format!("of the dry contact, {} m deep", significant(depth, 3)),
+    );
+    for (name, symbol) in [("H_c", "H_c"), ("H_min", "H_min"), ("P_max", "P_max")] {
+        part.number(&format!("Dimensionless {symbol}"), value(name), "");
+    }
+    part
+}
+
+fn verification(solved: &Solved<'_>) -> Part {
+    let result = solved.result;
+    let mut part = Part::new(&format!("How it was solved: {}", result.method));
+    part.words("Converged", if result.converged { "yes" } else { "no" });
+    let nodes = match result.nodes {
+        (nx, 1) => nx.to_string(),
+        (nx, ny) => format!("{nx} × {ny}"),
+    };
+    part.words("Grid", format!("{}, {nodes} nodes, {} unknowns", result.grid, result.dofs));
+    part.number("Newton steps", result.newton_iterations as f64, "");
+    part.said("Residual of the load balance", result.value("load_residual"), "", "relative to the load");
+    part.number("Residual norm", result.residual_norm, "");
+    if let Some(cost) = result.grid_cost {
+        part.said("Cost of the domain’s ends", cost.truncation, "", "relative error of H_c, estimated");
+        part.said("Cost of the spacing", cost.resolution, "", "relative error of H_c, estimated");
+    }
+    if let Some(reduced) = &result.reduced {
+        part.words("Reduced model", reduced.size.to_string());
+        part.words("Trained for this contact", if reduced.trained { "yes" } else { "no" });
+        let bounds = [("h_c", "h_c"), ("h_min", "h_min"), ("traction", "µ")].map(|(name, symbol)| {
+            (format!("Error bound of {symbol}"), result.value(&format!("reduced.{name}_error_bound")))
+        });
+        for (name, bound) in bounds {
+            part.said(&name, bound, "", "relative; holds in 99 of 100 contacts");
+        }
+    }
+    for warning in &result.warnings {
+        part.words("Warning", warning);
+    }
+    part
+}
+
+/// How far the other methods lie from the first one.
+fn difference(solved: &[Solved<'_>]) -> Option<Part> {
+    let (first, others) = solved.split_first()?;
+    let mut part = Part::new("Methods compared");
+    for other in others {
+        for name in ["h_c_m", "h_min_m", "traction"] {
+            let (Some(here), Some(there)) = (first.result.value(name), other.result.value(name)) else { continue };
+            if here != 0.0 {
+                let symbol = name.trim_end_matches("_m");
+                let title = format!("{symbol}, {} over {}, less 1", first.result.method, other.result.method);
+                part.number(&title, here / there - 1.0, "");
+            }
+        }
+    }
+    (!part.lines.is_empty()).then_some(part)
+}
+
+/// Published formulas and how far each is off.
+fn formulas(result: &ContactResult) -> Option<Part> {
+    let mut part = Part::new("Published film formulas");
+    for formula in FilmFormula::of(result.point.kind) {
+        let predicted = formula.predict(&result.point);
+        let (film, which) = if formula.predicts_minimum() { ("h_min_m", "h_min") } else { ("h_c_m", "h_c") };
+        let off = result.value(film).map_or_else(String::new, |own| {
+            format!("{:+.1} % against {which} here; ", 100.0 * (predicted.film_m / own - 1.0))
+        });
+        let range = if predicted.in_range { "" } else { "outside its range; " };
+        let remark = format!("{off}{range}{}", formula.source());
+        part.said(&format!("{which} by {}", formula.name()), predicted.film_m, "m", remark);
+    }
+    (!part.lines.is_empty()).then_some(part)
+}
+
+/// Pressure and film in the plane Y = 0, in SI units.
+fn pictures(solved: &[Solved<'_>]) -> Vec<Chart> {
+    let x = || ChartAxis::linear("x [mm]");
+    let mut pressure = Chart::new("Pressure", x(), ChartAxis::linear("p [GPa]"));
+    let mut film = Chart::new("Film", x(), ChartAxis::linear("h [µm]"));
+    for Solved { result, solution } in solved {
+        let Some(solution) = solution else { continue };
+        let (hertz, scale) = (result.point.hertz(), result.point.film_scale_m());
+        let near = || solution.profile().filter(|(x, ..)| (-2.0..=1.5).contains(x));
+        let mm = 1e3 * hertz.half_width_m;
+        pressure.add(result.method, Marks::Line, near().map(|(x, p, _)| [x * mm, p * hertz.pressure_pa * 1e-9]));
+        // The gap in front of the contact would hide the film.
+        let most = 4.0 * solution.scalars.h_c;
+        let close = near().filter(|(_, _, h)| *h <= most);
+        film.add(result.method, Marks::Line, close.map(|(x, _, h)| [x * mm, h * scale * 1e6]));
+    }
+    vec![pressure, film]
+}
+
+fn program() -> Part {
+    let mut part = Part::new("Program");
+    part.words("Written by", format!("{} {}", env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION")));
+    part
+}

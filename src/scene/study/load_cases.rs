@@ -1,0 +1,174 @@
+//! A table of load cases: every line a contact of its own, solved cold as a single one is.
+
+use super::path::tag;
+use super::question::{
+    Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+};
+use crate::scene::bench::answer_or_full;
+use crate::scene::check;
+use crate::scene::contact_result::{CONTACT_COLUMNS, ContactResult, RESULT_COLUMNS};
+use crate::scene::load_cases::{CaseTable, LoadCase};
+use crate::scene::method::Method;
+use serde::{Deserialize, Serialize};
+
+/// Refused lines that are named one by one; the table names all of them.
+const NAMED: usize = 20;
+
+/// A table of load cases. Quantities that it leaves out are the scene's.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LoadCases {
+    /// The table.
+    pub cases: CaseTable,
+    /// How each is solved.
+    pub methods: Vec<Method>,
+}
+
+/// One line of the table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Its line in the table, from 1.
+    pub line: usize,
+    /// Its name; empty where it has none.
+    pub name: String,
+    /// Its result by each method, or why it is refused.
+    pub results: Result<Vec<ContactResult>, String>,
+}
+
+impl Row {
+    /// What is to be said of it: why it is refused, or the warnings of its results.
+    fn remark(&self) -> String {
+        match &self.results {
+            Err(why) => format!("refused: {why}"),
+            Ok(results) => {
+                let mut warnings: Vec<&str> = results.iter().flat_map(|r| &r.warnings).map(String::as_str).collect();
+                warnings.dedup();
+                warnings.join("; ")
+            }
+        }
+    }
+
+    fn results(&self) -> &[ContactResult] {
+        self.results.as_ref().map_or(&[], Vec::as_slice)
+    }
+}
+
+impl Question for LoadCases {
+    type Row = Row;
+
+    fn check(&self, experiment: &Experiment) -> Checked {
+        check::methods("study.methods", &self.methods)?;
+        match &self.cases {
+            // A file is read when it is run: a scene may be written before its table is.
+            CaseTable::File(_) => Ok(()),
+            CaseTable::Text(_) => {
+                let read = self.cases.cases(experiment, &|path| path.to_owned());
+                read.map(drop).map_err(|error| check::refuse("study.cases", format!("are refused: {error}")))
+            }
+        }
+    }
+
+    fn methods(&self) -> &[Method] {
+        &self.methods
+    }
+
+    fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
+        let cases = self.cases.cases(setting.experiment, &|path| setting.bench.resolve(path))?;
+        let total = cases.len();
+        for (i, LoadCase { line, name, request }) in cases.into_iter().enumerate() {
+            setting.step("load cases", i, total)?;
+            // Each line's numbers are those of the same contact solved alone, whatever stands above it.
+            setting.bench.forget();
+            let mut solve = |method: &Method| {
+                let request = request.as_ref().map_err(Clone::clone)?;
+                match answer_or_full(setting.bench, request, method, setting.observer) {
+                    Ok(answer) => Ok(Ok(ContactResult::from(&answer))),
+                    Err(stopped) if stopped.cancelled() => Ok(Err(stopped)),
+                    Err(refused) => Err(refused.to_string()),
+                }
+            };
+            let mut results = Ok(Vec::new());
+            for method in &self.methods {
+                match (solve(method), &mut results) {
+                    (Ok(result), Ok(results)) => results.push(result?),
+                    (Err(why), _) => results = Err(why),
+                    (Ok(_), Err(_)) => {}
+                }
+            }
+            tell(Row { line, name, results });
+        }
+        Ok(())
+    }
+
+    /// Values: `cases`, `refused`, of each method `failures`, and of each reduced one `H_c_error` against the first full
+    /// one.
+    fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
+        let refused = || rows.iter().filter(|row| row.results.is_err());
+        found.push("cases", None, rows.len() as f64);
+        found.push("refused", None, refused().count() as f64);
+        found.converged &= refused().count() == 0;
+        found.warnings.extend(refused().take(NAMED).map(|row| {
+            let name = if row.name.is_empty() { String::new() } else { format!(" ({})", row.name) };
+            format!("line {}{name}: {}", row.line, row.results.as_ref().err().map_or("", String::as_str))
+        }));
+        if refused().count() > NAMED {
+            found.warnings.push(format!("{} more lines are refused; the table names them", refused().count() - NAMED));
+        }
+        let full = self.methods.iter().position(|method| *method == Method::Full);
+        for (k, method) in self.methods.iter().enumerate() {
+            let of = Some(method);
+            let failures = rows.iter().filter_map(|row| row.results().get(k)).filter(|r| !r.converged).count();
+            found.converged &= failures == 0;
+            found.push("failures", of, failures as f64);
+            let (Some(full), Some(_)) = (full, method.model()) else { continue };
+            let error = |row: &&Row| {
+                let h_c = |k: usize| row.results().get(k)?.value("H_c");
+                Some((h_c(k)? / h_c(full)? - 1.0).abs())
+            };
+            let errors: Vec<f64> = rows.iter().filter_map(error).collect();
+            found.push_spread("H_c_error", of, &errors);
+        }
+    }
+
+    fn tables(&self, rows: &[&Row]) -> Vec<Table> {
+        let results = (0..self.methods.len()).map(|k| tag(&self.methods, k));
+        let results = results.flat_map(|tag| RESULT_COLUMNS.map(|column| format!("{tag}.{column}")));
+        let columns: Vec<String> =
+            std::iter::once("line").chain(CONTACT_COLUMNS).map(str::to_owned).chain(results).collect();
+        let numbers = |row: &&Row| -> Vec<f64> {
+            let line = std::iter::once(row.line as f64);
+            let Some(first) = row.results().first() else {
+                return line.chain(std::iter::repeat(f64::NAN)).take(columns.len()).collect();
+            };
+            let results = row.results().iter().flat_map(|result| result.row(&RESULT_COLUMNS));
+            line.chain(first.row(&CONTACT_COLUMNS)).chain(results).collect()
+        };
+        let words = |words: Vec<String>| if words.iter().all(String::is_empty) { Vec::new() } else { words };
+        vec![Table {
+            name: "load_cases".to_owned(),
+            rows: rows.iter().map(numbers).collect(),
+            labels: words(rows.iter().map(|row| row.name.clone()).collect()),
+            remarks: words(rows.iter().map(|row| row.remark()).collect()),
+            columns,
+        }]
+    }
+
+    fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
+        let chart = |(name, title, factor): (&str, &str, f64)| {
+            let mut chart = Chart::new(title, ChartAxis::linear("Line of the table"), ChartAxis::linear(title));
+            for k in 0..self.methods.len() {
+                let point = |row: &&Row| Some([row.line as f64, factor * row.results().get(k)?.value(name)?]);
+                let marks = if k == 0 { Marks::Line } else { Marks::Dots };
+                chart.add(tag(&self.methods, k), marks, rows.iter().filter_map(point));
+            }
+            chart
+        };
+        [
+            ("h_c_m", "Central film h_c [µm]", 1e6),
+            ("h_min_m", "Smallest film h_min [µm]", 1e6),
+            ("traction", "Traction coefficient", 1.0),
+        ]
+        .map(chart)
+        .into()
+    }
+}

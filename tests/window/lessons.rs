@@ -1,0 +1,80 @@
+//! Lessons are walked through as their texts say.
+
+use crate::driver::{Window, click, press, set, shows, wait, window};
+use egui::accesskit::Role;
+use egui::{Key, Modifiers};
+use ehl_explorer::app::Explorer;
+use std::path::Path;
+
+/// The lessons of the program, as they are written, in their order.
+fn texts() -> Vec<String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/lessons");
+    let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    files.iter().map(|file| std::fs::read_to_string(file).unwrap()).collect()
+}
+
+/// Does what one goal of a step asks for, as a reader of the lesson would.
+fn carry_out(harness: &mut Window, goal: &str) {
+    let words: Vec<&str> = goal.split_whitespace().collect();
+    match words[..] {
+        ["read"] => {}
+        ["checked"] => {
+            wait(harness, "a full solution", |app| {
+                ["Verified", "Roughly right", "Far off"].contains(&app.badge().as_str())
+            });
+        }
+        ["tab", ..] => {
+            let title = goal.trim_start_matches("tab ");
+            click(harness, &format!("Open {title}"));
+        }
+        // Whatever tab is in front.
+        ["pin", _] => press(harness, Modifiers::COMMAND, Key::D),
+        [quantity, "between", from, "and", to] => {
+            let name = match quantity {
+                "M" => "Load number M",
+                "L" => "Lubricant number L",
+                "SRR" => "Slide-to-roll ratio SRR",
+                _ => "Newtonian plateau ratio NPR",
+            };
+            let middle = 0.5 * (from.parse::<f64>().unwrap() + to.parse::<f64>().unwrap());
+            set(harness, Role::Slider, name, middle);
+        }
+        _ => panic!("the test does not know how to do “{goal}”"),
+    }
+}
+
+#[test]
+fn each_of_the_ten_is_walked_through_from_a_fresh_start() {
+    let texts = texts();
+    assert_eq!(texts.len(), 10);
+    for (k, text) in texts.iter().enumerate() {
+        let mut harness = window(Explorer::with_embedded_models().without_system_dialogs(), [1280.0, 800.0]);
+        harness.run_steps(3);
+        click(&mut harness, "Help");
+        click(&mut harness, "Lessons");
+        let title = text.lines().next().unwrap().trim_start_matches("# ");
+        click(&mut harness, &format!("{}. {title}", k + 1));
+        let steps: Vec<&str> = text.split("\n## ").skip(1).collect();
+        for (n, step) in steps.iter().enumerate() {
+            let lines = || step.lines().map(|line| line.trim_start_matches("- "));
+            let heading = step.lines().next().unwrap();
+            assert!(shows(&harness, heading), "{title}: {heading}");
+            assert!(shows(&harness, &format!("Step {} of {}", n + 1, steps.len())));
+            let goals = lines().find_map(|line| line.strip_prefix("Do: ")).unwrap_or("read");
+            if goals != "read" && goals != "checked" {
+                assert!(!shows(&harness, "Done"), "{title}: “{heading}” is done before anything was done");
+            }
+            goals.split(", ").for_each(|goal| carry_out(&mut harness, goal));
+            wait(&mut harness, "the picture", |app| !app.busy());
+            harness.run_steps(3);
+            let seen = lines().find_map(|line| line.strip_prefix("Seen: ")).unwrap();
+            let words: Vec<&str> = seen.split_whitespace().take(5).collect();
+            assert!(shows(&harness, &words.join(" ")), "{title}: “{heading}” does not see that it was done");
+            click(&mut harness, if n + 1 == steps.len() { "Finish" } else { "Next" });
+        }
+        assert!(shows(&harness, "Each starts from a contact of its own"), "the list is back");
+        press(&mut harness, Modifiers::NONE, Key::Escape);
+        assert!(!shows(&harness, "Each starts from a contact of its own"), "Escape closes it");
+    }
+}
