@@ -164,13 +164,7 @@ impl Document {
         }
         let moes = here.moes();
         let other = OperatingPoint { kind, ..here };
-        self.accept(Quantity::M.at(&other, moes.m))?;
-        self.view.held.set(Quantity::Load, false);
-        self.grid = Grid::Graded;
-        if self.title == default_title(here.kind) {
-            default_title(kind).clone_into(&mut self.title);
-        }
-        Ok(())
+        self.accept(Quantity::M.at(&other, moes.m))
     }
 
     /// The grid of a point contact's full solutions; the explorer's own where the scene names none.
@@ -207,8 +201,17 @@ impl Document {
     /// A sentence when it would be refused; the document is unchanged then.
     pub fn set_contact(&mut self, point: OperatingPoint, lubricant: Lubricant) -> Result<(), String> {
         let problem = Problem::new(&point, lubricant).map_err(|e| e.to_string())?;
+        let former = self.point.kind;
         self.point = OperatingPoint { alpha_per_pa: problem.point.alpha_per_pa, ..point };
         self.lubricant = lubricant;
+        if former != point.kind {
+            // The load is another quantity now, and a grid is of one kind of contact.
+            self.view.held.set(Quantity::Load, false);
+            self.grid = Grid::Graded;
+            if self.title == default_title(former) {
+                default_title(point.kind).clone_into(&mut self.title);
+            }
+        }
         Ok(())
     }
 

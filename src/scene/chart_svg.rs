@@ -98,8 +98,8 @@ fn decades(from: f64, to: f64) -> Vec<(f64, String)> {
         .collect()
 }
 
-/// Text in lines of at most so many letters.
-fn wrapped(text: &str, letters: usize) -> Vec<String> {
+/// Text in lines of at most so many letters, broken between words.
+pub fn wrapped(text: &str, letters: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
         match lines.last_mut() {
@@ -118,7 +118,7 @@ fn width_of(text: &str) -> f64 {
 }
 
 /// Text for XML.
-pub(super) fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 

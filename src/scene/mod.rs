@@ -39,7 +39,7 @@ pub use at::At;
 pub use axis::{Axis, Steps};
 pub use bench::{Answer, Bench, ReducedFacts, Request, answer_or_full};
 pub use chart::{Chart, ChartAxis, Marks, Series};
-pub use chart_svg::Page;
+pub use chart_svg::{Page, escaped, wrapped};
 pub use contact_result::{CONTACT_COLUMNS, ContactResult, RESULT_COLUMNS, film_shear_table, profile_table};
 pub use error::{Reason, RunError, SceneError, SceneFileError, VERSION};
 pub use expectation::{Expectation, Within};

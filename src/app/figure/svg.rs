@@ -2,6 +2,7 @@
 
 use super::texture::Known;
 use crate::app::png;
+use crate::scene::{escaped, wrapped};
 use egui::epaint::{ClippedShape, ColorMode, PathStroke, TextShape};
 use egui::{Color32, ColorImage, Mesh, Pos2, Rect, Shape, Stroke, TextureId, vec2};
 use std::fmt::Write as _;
@@ -67,29 +68,10 @@ pub fn drawing<'a>(
     out.text
 }
 
-/// Text in lines of at most so many letters, broken between words.
-fn wrapped(text: &str, letters: usize) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split(' ') {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + word.chars().count() < letters => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines
-}
-
 struct Drawing<'a> {
     text: String,
     clips: usize,
     textures: &'a Known,
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// A colour as attributes of that name.

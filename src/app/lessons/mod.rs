@@ -115,9 +115,10 @@ impl Lessons {
             for (k, lesson) in LESSONS.iter().chain(&self.own).enumerate() {
                 let steps = lesson.steps.len();
                 let width = vec2(ui.available_width(), 0.0);
-                let button = Button::new(format!("{}. {}", k + 1, lesson.title)).min_size(width);
-                let response = ui.add(button.shortcut_text(format!("{steps} steps")));
-                if response.on_hover_text(&lesson.about).clicked() {
+                let title = format!("{}. {}", k + 1, lesson.title);
+                let button = Button::new(&title).min_size(width).shortcut_text(format!("{steps} steps"));
+                let response = ui.add(button);
+                if named(ui, response, &title).on_hover_text(&lesson.about).clicked() {
                     chosen = Some(lesson.clone());
                 }
             }

@@ -74,6 +74,7 @@ fn search(start: usize, tolerances: &[f64], limit: usize) -> Result<(), Refused>
 /// A range with SRR and NPR belongs to a lubricant that thins under shear, and only such a range does; its α is the
 /// lubricant's own.
 fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
+    spec.lubricant.check().map_err(|problem| Refused::new("lubricant", format!("is refused: {problem}")))?;
     match (&spec.range, spec.lubricant.shear == ShearLaw::Newtonian) {
         (Range::Sliding(_), true) => {
             Err(Refused::new("range", "names SRR and NPR, but the lubricant has no shear constants"))

@@ -5,6 +5,7 @@ use super::small::line;
 use super::*;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::{ContactSolver, Start};
+use crate::solver::physics::lubricant::ShearLaw;
 use crate::solver::reduced::{Online, ReducedOptions, Sampling};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -115,10 +116,12 @@ fn cancelling_stops_the_training() {
 #[test]
 fn requests_that_make_no_sense_are_refused_with_a_sentence() {
     let base = small(Sampling::QDeim);
+    let not_a_number = ShearLaw::Eyring { critical_stress: f64::NAN, npr: 0.5 };
     for (spec, word) in [
         (TrainingSpec { windows: Windows::Given(Vec::new()), ..base.clone() }, "window"),
         (TrainingSpec { pressure_loss: f64::NAN, ..base.clone() }, "pressure_loss"),
         (TrainingSpec { rows_per_mode: 0.5, ..base.clone() }, "rows_per_mode"),
+        (TrainingSpec { lubricant: Lubricant { shear: not_a_number, ..base.lubricant }, ..base.clone() }, "lubricant"),
         (TrainingSpec { plan: Plan::FarthestPoint { snapshots: 1 }, ..base.clone() }, "snapshots"),
         (
             TrainingSpec {
