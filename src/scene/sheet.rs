@@ -249,8 +249,8 @@ fn results(solved: &Solved<'_>, bodies: Option<&Bodies>) -> Part {
         "Pa",
         format!("of the dry contact, {} m deep", significant(depth, 3)),
     );
-    for (name, symbol) in [("H_c", "H_c"), ("H_min", "H_min"), ("P_max", "P_max")] {
-        part.number(&format!("Dimensionless {symbol}"), value(name), "");
+    for name in ["H_c", "H_min", "P_max"] {
+        part.number(&format!("Dimensionless {name}"), value(name), "");
     }
     part
 }

@@ -4,7 +4,7 @@ use super::path::tag;
 use super::question::{
     Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
-use crate::scene::bench::answer_or_full;
+use crate::scene::bench::{Request, answer_or_full};
 use crate::scene::check;
 use crate::scene::contact_result::{CONTACT_COLUMNS, ContactResult, RESULT_COLUMNS};
 use crate::scene::load_cases::{CaseTable, LoadCase};
@@ -53,6 +53,25 @@ impl Row {
     }
 }
 
+impl LoadCases {
+    /// One contact by each method, or why it is refused.
+    fn solve(
+        &self,
+        setting: &mut Setting<'_>,
+        request: &Request,
+    ) -> Result<Result<Vec<ContactResult>, String>, RunError> {
+        let mut results = Vec::with_capacity(self.methods.len());
+        for method in &self.methods {
+            match answer_or_full(setting.bench, request, method, setting.observer) {
+                Ok(answer) => results.push(ContactResult::from(&answer)),
+                Err(stopped) if stopped.cancelled() => return Err(stopped),
+                Err(refused) => return Ok(Err(refused.to_string())),
+            }
+        }
+        Ok(Ok(results))
+    }
+}
+
 impl Question for LoadCases {
     type Row = Row;
 
@@ -79,22 +98,10 @@ impl Question for LoadCases {
             setting.step("load cases", i, total)?;
             // Each line's numbers are those of the same contact solved alone, whatever stands above it.
             setting.bench.forget();
-            let mut solve = |method: &Method| {
-                let request = request.as_ref().map_err(Clone::clone)?;
-                match answer_or_full(setting.bench, request, method, setting.observer) {
-                    Ok(answer) => Ok(Ok(ContactResult::from(&answer))),
-                    Err(stopped) if stopped.cancelled() => Ok(Err(stopped)),
-                    Err(refused) => Err(refused.to_string()),
-                }
+            let results = match request {
+                Ok(request) => self.solve(setting, &request)?,
+                Err(why) => Err(why),
             };
-            let mut results = Ok(Vec::new());
-            for method in &self.methods {
-                match (solve(method), &mut results) {
-                    (Ok(result), Ok(results)) => results.push(result?),
-                    (Err(why), _) => results = Err(why),
-                    (Ok(_), Err(_)) => {}
-                }
-            }
             tell(Row { line, name, results });
         }
         Ok(())
