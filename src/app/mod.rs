@@ -206,8 +206,9 @@ impl Explorer {
             Panel::bottom("readouts").show(ui, |ui| {
                 // Whatever they are of, nothing above them moves.
                 ui.set_min_height(READOUTS);
-                if !in_time || !panels::moment::ui(ui, &self.desk.transient) {
-                    panels::readouts::ui(ui, &self.desk.answers, &self.desk.document);
+                let context = self.desk.context();
+                if !in_time || !panels::moment::ui(ui, &context) {
+                    panels::readouts::ui(ui, &context);
                 }
             });
         }
@@ -475,14 +476,20 @@ impl Explorer {
         self.desk.transient.runs.iter().map(|run| run.trajectory.moments.len()).sum()
     }
 
-    /// What the last frame drew: its name, the contact and the lubricant that it belongs to, and whether it is grey.
-    pub fn drawn(&self) -> impl Iterator<Item = (&'static str, OperatingPoint, Lubricant, bool)> {
-        self.drawn.iter().map(|drawn| (drawn.name, drawn.of.point, drawn.of.lubricant, drawn.grey))
+    /// What the last frame drew: its name, whether it belongs to what is asked now, and whether it is grey.
+    pub fn drawn(&self) -> impl Iterator<Item = (&'static str, bool, bool)> {
+        let context = self.desk.context();
+        self.drawn.iter().map(move |drawn| (drawn.name, drawn.of.is_present(&context), drawn.grey))
     }
 
     /// The laws of the lubricant on the screen.
     pub fn lubricant(&self) -> Lubricant {
         self.desk.document.lubricant
+    }
+
+    /// The fields of the SI quantities, by the names that screen readers know them by.
+    pub fn fields() -> [(Quantity, &'static str); 6] {
+        panels::operating_point::FIELDS
     }
 
     /// The quantities that were typed and stay.

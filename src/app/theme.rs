@@ -72,6 +72,11 @@ impl Palette {
         self.ink_on(color, self.paper)
     }
 
+    /// The same on every shade of the chart of regimes.
+    pub fn ink_on_regimes(&self, color: Color32) -> Color32 {
+        self.regimes.iter().fold(self.ink(color), |ink, shade| self.ink_on(ink, *shade))
+    }
+
     /// The same on one background, which is opaque.
     pub fn ink_on(&self, color: Color32, background: Color32) -> Color32 {
         // Faint lines have names that are not.
@@ -160,7 +165,7 @@ pub fn install(ctx: &Context) {
             let palette = Palette::for_visuals(visuals);
             if theme == Theme::Light {
                 visuals.panel_fill = Color32::from_rgb(0xF7, 0xF7, 0xF8);
-                visuals.window_fill = Color32::from_rgb(0xFC, 0xFC, 0xFC);
+                visuals.window_fill = Color32::from_rgb(0xF2, 0xF2, 0xF4);
                 visuals.extreme_bg_color = Color32::WHITE;
                 visuals.faint_bg_color = Color32::from_rgb(0xF0, 0xF0, 0xF2);
                 visuals.override_text_color = Some(palette.text);
@@ -285,6 +290,14 @@ mod tests {
                     let contrast = contrast(ink, paper);
                     assert!(contrast >= READABLE, "{theme:?}: {ink:?} on {paper:?} has {contrast}");
                 }
+            }
+            for (hue, shade) in quantities
+                .into_iter()
+                .chain([palette.quiet, palette.warning])
+                .flat_map(|hue| palette.regimes.map(|shade| (hue, shade)))
+            {
+                let contrast = contrast(palette.ink_on_regimes(hue), shade);
+                assert!(contrast >= READABLE, "{theme:?}: {hue:?} on the regime {shade:?} has {contrast}");
             }
             // Controls bear the colour of text, whatever happens to them.
             let states = [&widgets.inactive, &widgets.hovered, &widgets.active, &widgets.open];

@@ -188,8 +188,9 @@ impl Bench for Workbench {
                 .warnings
                 .push(format!("the Hertzian pressure of {:.3} GPa exceeds 3.2 GPa: no real contact", p_h / 1e9));
         }
-        let doubt = answer.traction().and_then(|traction| problem.doubts_traction(traction));
-        answer.warnings.extend(doubt);
+        let scalars = answer.result().map(|solution| solution.scalars);
+        let doubt = answer.traction().zip(scalars).and_then(|(mu, scalars)| problem.doubts_traction(mu, &scalars));
+        answer.warnings.extend(doubt.map(|doubt| doubt.to_string()));
         Ok(answer)
     }
 

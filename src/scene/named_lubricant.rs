@@ -68,7 +68,7 @@ pub static NAMED: [NamedLubricant; 6] = [
         laws: MINERAL_OIL,
         viscosity_pa_s: None,
         studied: None,
-        about: "Newtonian film: Roelands (2.12), Dowson–Higginson (2.10); the traction bends and is limited",
+        about: "Newtonian film: Roelands, Dowson–Higginson; the traction bends and is limited",
     },
     NamedLubricant {
         name: "roelands-oil",
@@ -76,7 +76,7 @@ pub static NAMED: [NamedLubricant; 6] = [
         laws: NEWTONIAN,
         viscosity_pa_s: None,
         studied: None,
-        about: "the dissertation's Newtonian oil: Roelands (2.12), Dowson–Higginson (2.10)",
+        about: "the dissertation's Newtonian oil: Roelands, Dowson–Higginson",
     },
     NamedLubricant {
         name: "barus-oil",
@@ -84,7 +84,7 @@ pub static NAMED: [NamedLubricant; 6] = [
         laws: Lubricant { density: DensityLaw::Incompressible, viscosity: ViscosityLaw::Barus, ..NEWTONIAN },
         viscosity_pa_s: None,
         studied: None,
-        about: "the fluid of Moes' film formula: Barus (2.11), incompressible",
+        about: "the fluid of Moes' film formula: Barus, incompressible",
     },
     NamedLubricant {
         name: "compressible-barus-oil",
@@ -92,7 +92,7 @@ pub static NAMED: [NamedLubricant; 6] = [
         laws: Lubricant { viscosity: ViscosityLaw::Barus, ..NEWTONIAN },
         viscosity_pa_s: None,
         studied: None,
-        about: "Barus (2.11), Dowson–Higginson (2.10)",
+        about: "Barus, Dowson–Higginson",
     },
     NamedLubricant {
         name: "squalane-pip",

@@ -1,25 +1,13 @@
 //! What a screen reader is told, and where the Tab key leads.
 
-use crate::driver::{Window, click, press, wait};
+use crate::driver::{CONTROLS, TABS, Window, click, press, wait};
 use egui::accesskit::Role;
-use egui::{Key, Modifiers, Rect};
+use egui::ecolor::Rgba;
+use egui::epaint::{ClippedShape, TextShape};
+use egui::{Color32, Key, Modifiers, Pos2, Rect, Shape, Theme};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
 
-const TABS: [&str; 10] = [
-    "Profiles",
-    "Contact map",
-    "Regimes",
-    "Traction",
-    "Reduced basis",
-    "Accuracy",
-    "Training",
-    "Transient",
-    "TPWL",
-    "Results",
-];
-const CONTROLS: [Role; 7] =
-    [Role::Button, Role::Slider, Role::SpinButton, Role::CheckBox, Role::RadioButton, Role::ComboBox, Role::TextInput];
 /// Rows whose middles lie closer than this are one row to the eye.
 const ROW: f32 = 8.0;
 
@@ -100,4 +88,104 @@ fn the_tab_key_follows_the_eye_down_the_panel_and_along_its_rows() {
         let follows = down > ROW || down.abs() <= ROW && b.left() > a.left();
         assert!(follows, "{after} at {b:?} comes after {before} at {a:?}");
     }
+}
+
+/// The contrast of two opaque colours, as WCAG 2.2 defines it.
+fn contrast(a: Color32, b: Color32) -> f32 {
+    let luminance = |color: Color32| {
+        let [r, g, b, _] = Rgba::from(color).to_array();
+        0.2126 * r + 0.7152 * g + 0.0722 * b + 0.05
+    };
+    let (a, b) = (luminance(a), luminance(b));
+    a.max(b) / a.min(b)
+}
+
+/// A frame's fills, in their order; none for pictures, whose colours are not known.
+type Fills = Vec<(Rect, Option<Color32>)>;
+
+/// Goes through shapes in the order in which they are painted, and calls `text` with what lies under each text.
+fn painted(clip: Rect, shape: &Shape, fills: &mut Fills, text: &mut dyn FnMut(&TextShape, Pos2, &Fills)) {
+    match shape {
+        Shape::Vec(shapes) => shapes.iter().for_each(|shape| painted(clip, shape, fills, text)),
+        Shape::Rect(rect) if rect.fill.a() > 0 => fills.push((rect.rect.intersect(clip), Some(rect.fill))),
+        Shape::Mesh(mesh) => fills.push((mesh.calc_bounds().intersect(clip), None)),
+        Shape::Text(shape) => {
+            let at = shape.visual_bounding_rect().center();
+            if clip.contains(at) {
+                text(shape, at, fills);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// The colours of a text, letters without ink left out.
+fn inks(shape: &TextShape) -> Vec<Color32> {
+    let of = |format: &egui::TextFormat| match (shape.override_text_color, format.color) {
+        (Some(color), _) => color,
+        (None, Color32::PLACEHOLDER) => shape.fallback_color,
+        (None, color) => color,
+    };
+    let sections = &shape.galley.job.sections;
+    let said = |section: &&egui::text::LayoutSection| {
+        let range = section.byte_range.start.0..section.byte_range.end.0;
+        shape.galley.text().get(range).is_some_and(|text| !text.trim().is_empty())
+    };
+    sections.iter().filter(said).map(|section| of(&section.format).gamma_multiply(shape.opacity_factor)).collect()
+}
+
+/// Texts of a frame that cannot be read: their contrast to what they are painted on is too small. What is disabled is
+/// meant to stand back.
+fn faint(harness: &Window, ground: Color32, checked: &mut usize) -> Vec<String> {
+    let roles = CONTROLS.into_iter().chain([Role::Label]);
+    let disabled: Vec<Rect> = roles
+        .flat_map(|role| harness.query_all_by_role(role).collect::<Vec<_>>())
+        .filter(|node| node.accesskit_node().is_disabled())
+        .map(|node| node.rect())
+        .collect();
+    let (mut fills, mut faults) = (Fills::new(), Vec::new());
+    for ClippedShape { clip_rect, shape, .. } in &harness.output().shapes {
+        painted(*clip_rect, shape, &mut fills, &mut |text, at, fills| {
+            if disabled.iter().any(|rect| rect.contains(at)) {
+                return;
+            }
+            let there: Vec<Option<Color32>> =
+                fills.iter().filter(|(rect, _)| rect.contains(at)).map(|(_, fill)| *fill).collect();
+            let covers = |fill: &Option<Color32>| fill.is_some_and(|fill| fill.is_opaque());
+            let seen = there.iter().skip(there.iter().rposition(covers).unwrap_or(0));
+            let under = seen.copied().try_fold(ground, |under, fill| Some(under.blend(fill?)));
+            let Some(under) = under else { return };
+            for ink in inks(text) {
+                *checked += 1;
+                let reached = contrast(under.blend(ink), under);
+                if reached < 4.5 {
+                    faults.push(format!("“{}” at {at:?}: {ink:?} on {under:?}, {reached:.2}", text.galley.text()));
+                }
+            }
+        });
+    }
+    faults
+}
+
+#[test]
+fn every_text_of_every_tab_can_be_read_in_both_themes() {
+    let mut harness = open();
+    let (mut faults, mut checked) = (Vec::new(), 0);
+    for theme in [Theme::Dark, Theme::Light] {
+        harness.ctx.set_theme(theme);
+        for kind in ["Line contact", "Point contact"] {
+            harness.query_all_by_label(kind).next().unwrap().click();
+            harness.run_steps(3);
+            for tab in TABS {
+                click(&mut harness, tab);
+                wait(&mut harness, "the picture", |app| app.central_film().is_some() && !app.marching());
+                let ground = harness.ctx.style_of(theme).visuals.panel_fill;
+                let found = faint(&harness, ground, &mut checked);
+                faults.extend(found.into_iter().map(|fault| format!("{theme:?}, {kind}, {tab}: {fault}")));
+            }
+        }
+    }
+    println!("{checked} texts");
+    assert!(checked > 4000, "{checked}");
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
 }

@@ -9,6 +9,23 @@ use ehl_explorer::app::Explorer;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+/// The titles of all tabs.
+pub const TABS: [&str; 10] = [
+    "Profiles",
+    "Contact map",
+    "Regimes",
+    "Traction",
+    "Reduced basis",
+    "Accuracy",
+    "Training",
+    "Transient",
+    "TPWL",
+    "Results",
+];
+/// What a hand can be laid on.
+pub const CONTROLS: [Role; 7] =
+    [Role::Button, Role::Slider, Role::SpinButton, Role::CheckBox, Role::RadioButton, Role::ComboBox, Role::TextInput];
+
 /// The explorer in a window of its own.
 pub type Window = Harness<'static, Explorer>;
 

@@ -2,7 +2,8 @@
 //! verdicts beside.
 
 use crate::common::scratch::Scratch;
-use crate::driver::{click, shows, wait_within, window};
+use crate::driver::{Window, click, export, set, shows, wait_until, wait_within, window};
+use egui::accesskit::Role;
 use ehl_explorer::app::Explorer;
 use ehl_explorer::engine::{Workbench, run_scene};
 use ehl_explorer::scene::Scene;
@@ -125,6 +126,27 @@ fn a_contact_in_time_gives_the_same_on_the_screen_and_headless() {
     let study = study.replace("Transient((", "Transient(").replace("1e-5)))", "1e-5))");
     let rest = "grid: Uniform(dx: 0.02, domain: (-4.0, 2.0)),";
     agrees(&folder, "transient", &scene("transient", rest, &study), false);
+}
+
+#[test]
+fn a_contact_without_a_study_shows_what_it_amounts_to() {
+    let folder = Scratch::new("results-contact");
+    let explorer = Explorer::with_embedded_models().without_system_dialogs();
+    let mut harness = window(explorer, [1280.0, 800.0]);
+    click(&mut harness, "Results");
+    let checked = |harness: &Window| shows(harness, "Full solution");
+    wait_until(PATIENCE, &mut harness, "the check", checked);
+    for text in ["Central film H", "Largest pressure P", "Full solution", "Deviation", "Dowson–Higginson", "N/mm"] {
+        assert!(shows(&harness, text), "{text}");
+    }
+    set(&mut harness, Role::Slider, "Load number M", 90.0);
+    assert!(!shows(&harness, "Full solution"), "a former one is not beside it");
+    wait_until(PATIENCE, &mut harness, "the check", checked);
+    let table = export(&mut harness, "Export CSV…", &folder.join("contact.csv"));
+    let line = table.lines().find(|line| line.starts_with("H_c,")).unwrap().to_owned();
+    let [reduced, full] = [1, 2].map(|k| line.split(',').nth(k).unwrap().parse::<f64>().unwrap());
+    assert_eq!(Some(reduced), harness.state().central_film());
+    assert!((reduced / full - 1.0).abs() < 2e-3 && reduced != full, "{line}");
 }
 
 #[test]

@@ -61,8 +61,8 @@ fn a_linearised_model_is_run_looked_into_and_exported() {
     });
     click(&mut harness, "Other rule");
     assert!(shows(&harness, "Points of the other rule"));
-    assert!(shows(&harness, &format!("Missed step (4.30), in use: {points} points")));
-    assert!(shows(&harness, "Distance (2.85), the other rule"));
+    assert!(shows(&harness, &format!("Missed step, in use: {points} points")));
+    assert!(shows(&harness, "Distance, the other rule"));
     assert!(!shows(&harness, "too steep"), "it follows its own training");
     click(&mut harness, "Table");
 
@@ -203,7 +203,7 @@ fn the_model_is_set_up_undone_refused_and_saved_with_the_scene() {
     };
     tick(&mut harness, "Dual Taylor");
     assert!(shows(&harness, "At least one kind of weights is needed"));
-    tick(&mut harness, "Weights (4.29)");
+    tick(&mut harness, "Exponential weights");
     set(&mut harness, Role::SpinButton, "Modes", 80.0);
     undo(&mut harness);
     assert_eq!(value(&harness, "Modes"), "100");

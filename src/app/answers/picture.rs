@@ -3,7 +3,7 @@
 use crate::app::document::Key;
 use crate::app::numbers;
 use crate::solver::full::point::resolution_warning;
-use crate::solver::full::{Problem, Solution};
+use crate::solver::full::{Problem, Solution, TractionDoubt};
 use crate::solver::reduced::ErrorEstimate;
 use egui_plot::PlotPoint;
 use serde::{Deserialize, Serialize};
@@ -83,8 +83,8 @@ pub struct Picture {
     pub across: Across,
     /// Traction coefficient over the whole domain, (3.41).
     pub traction: f64,
-    /// A sentence where that is no physics.
-    pub unphysical: Option<String>,
+    /// Why that is no physics, where it is none.
+    pub unphysical: Option<TractionDoubt>,
     /// Where the film ruptures.
     pub rupture: Option<f64>,
     /// The pressure spike.
@@ -111,7 +111,7 @@ impl Picture {
             film: Vec::new(),
             across: Across::default(),
             traction,
-            unphysical: solution.problem.doubts_traction(traction),
+            unphysical: solution.problem.doubts_traction(traction, &solution.scalars),
             rupture: solution.rupture(),
             spike: solution.spike(),
             costly_grid: grid_warning.is_some(),
@@ -127,7 +127,7 @@ impl Picture {
         self.solution = of_contact(Arc::clone(&self.solution), &key);
         self.key = key;
         self.traction = self.solution.traction_coefficient();
-        self.unphysical = self.solution.problem.doubts_traction(self.traction);
+        self.unphysical = self.solution.problem.doubts_traction(self.traction, &self.solution.scalars);
     }
 
     /// Lays the curves of a point contact elsewhere.

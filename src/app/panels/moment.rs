@@ -2,14 +2,17 @@
 //! come to it.
 
 use super::readouts::cell;
+use crate::app::context::Context;
+use crate::app::drawn::{self, Owner};
 use crate::app::numbers;
 use crate::app::theme::{Palette, symbol};
-use crate::app::transient::TransientView;
 use crate::solver::full::transient::Quantity;
 use egui::Ui;
+use std::sync::Arc;
 
 /// The read-outs; whether there are any.
-pub fn ui(ui: &mut Ui, view: &TransientView) -> bool {
+pub fn ui(ui: &mut Ui, context: &Context<'_>) -> bool {
+    let view = context.transient;
     let time = view.player.time();
     let there = |quantity| view.runs.iter().find_map(|run| Some((run, run.trajectory.at(quantity, time)?)));
     let (Some(setup), Some((run, h_c))) = (&view.setup, there(Quantity::CentralFilm)) else { return false };
@@ -18,7 +21,7 @@ pub fn ui(ui: &mut Ui, view: &TransientView) -> bool {
     let (film, pressure) = (setup.point.film_scale_m(), setup.point.hertz().pressure_pa);
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 26.0;
-        if !view.is_current() && !view.replays() {
+        if drawn::is_grey(ui.ctx(), "read-outs of the moment", Owner::InTime(Arc::clone(setup)), context) {
             ui.disable();
         }
         let films = [("c", h_c, "Central film at this moment"), ("min", value(Quantity::MinimumFilm), SMALLEST)];

@@ -74,7 +74,7 @@ fn followers_ui(ui: &mut Ui, document: &Document, commands: &mut Commands) {
 }
 
 /// The names of the fields of the SI quantities, by which screen readers know them.
-const FIELDS: [(Quantity, &str); 6] = [
+pub const FIELDS: [(Quantity, &str); 6] = [
     (Quantity::Radius, "Radius R"),
     (Quantity::Speed, "Speed u_m"),
     (Quantity::Load, "Load w"),

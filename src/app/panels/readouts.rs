@@ -1,10 +1,9 @@
 //! The read-outs under the plots: what the contact amounts to, and how it differs from the last pin.
 
-use crate::app::answers::Answers;
 use crate::app::answers::picture::Picture;
+use crate::app::context::Context;
 use crate::app::controls::sentence;
-use crate::app::document::Document;
-use crate::app::drawn;
+use crate::app::drawn::{self, Owner};
 use crate::app::numbers;
 use crate::app::theme::{Palette, symbol};
 use crate::solver::physics::contact::ContactKind;
@@ -13,13 +12,14 @@ use egui::{RichText, Ui, text::LayoutJob};
 use std::sync::Arc;
 
 /// The read-outs.
-pub fn ui(ui: &mut Ui, answers: &Answers, document: &Document) {
+pub fn ui(ui: &mut Ui, context: &Context<'_>) {
+    let (answers, document) = (context.answers, context.document);
     let bodies = document.view.bodies.as_ref();
     let Some(picture) = &answers.picture else {
         ui.weak("The first picture is being computed");
         return;
     };
-    let stale = drawn::is_grey(ui.ctx(), "read-outs", &picture.key, &document.key());
+    let stale = drawn::is_grey(ui.ctx(), "read-outs", Owner::Contact(picture.key), context);
     let pin = answers.pins.last();
     let palette = Palette::of(ui);
     let srr = picture.key.point.sliding.slide_to_roll_ratio;
@@ -34,10 +34,11 @@ pub fn ui(ui: &mut Ui, answers: &Answers, document: &Document) {
         // What the grid costs stands beside the value it was estimated for.
         let shown_is_full = answers.full.as_ref().is_some_and(|full| Arc::ptr_eq(&full.solution, &picture.solution));
         let grid_error = answers.grid_error().filter(|_| shown_is_full).map(|error| error.accuracy);
-        let unphysical = picture.unphysical.is_some();
+        let doubt = picture.unphysical;
+        let unphysical = doubt.is_some();
         let traction_tip = "Traction coefficient (3.41): the shear stress at mid-film over the whole domain, over the load. In pure rolling \
             there is none";
-        let traction_tip = picture.unphysical.as_ref().map_or_else(|| traction_tip.to_owned(), |why| sentence(why));
+        let traction_tip = doubt.map_or_else(|| traction_tip.to_owned(), |why| sentence(&why.to_string()));
         let traction_delta = delta(&|p| p.traction).filter(|delta| delta.is_finite() && !unphysical);
         let off = |error: Option<f64>| error.map_or_else(String::new, |e| format!(" ±{}", numbers::error_percent(e)));
         cell(
@@ -71,7 +72,7 @@ pub fn ui(ui: &mut Ui, answers: &Answers, document: &Document) {
             ui,
             symbol(ui, "µ", ""),
             numbers::significant(picture.traction),
-            format!("at SRR {}{}", numbers::digits(srr, 3), if unphysical { ", unphysical" } else { "" }),
+            format!("at SRR {}{}", numbers::digits(srr, 3), doubt.map_or_else(String::new, |why| format!(", {}", why.mark()))),
             if unphysical { palette.reference } else { palette.traction },
             traction_delta,
             &traction_tip,

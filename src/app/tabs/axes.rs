@@ -4,7 +4,7 @@ use crate::app::controls::named;
 use crate::app::figure;
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
-use egui::{Color32, Sense, Stroke, Ui, Vec2b, vec2};
+use egui::{Ui, Vec2b};
 use egui_plot::{GridInput, GridMark, Plot, PlotPoint, PlotResponse, PlotUi};
 
 /// Size of axis titles.
@@ -34,38 +34,6 @@ pub fn plot<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) ->
         plot = plot.x_axis_label(rich(x_title, TITLE_SIZE, color));
     }
     plot
-}
-
-/// A line of a plot as the key above it shows it.
-pub struct KeyLine {
-    /// What it is.
-    pub name: String,
-    /// Its colour.
-    pub color: Color32,
-    /// Its width.
-    pub width: f32,
-    /// Whether it is dashed.
-    pub dashed: bool,
-}
-
-/// Length of the piece of a line that stands before its name.
-const SAMPLE: f32 = 26.0;
-
-/// What the lines of a plot mean, each by a piece of it: above the plot, where it covers nothing.
-pub fn key(ui: &mut Ui, lines: &[KeyLine]) {
-    ui.horizontal_wrapped(|ui| {
-        for KeyLine { name, color, width, dashed } in lines {
-            let (rect, _) = ui.allocate_exact_size(vec2(SAMPLE, 12.0), Sense::hover());
-            let (ends, stroke) = ([rect.left_center(), rect.right_center()], Stroke::new(*width, *color));
-            if *dashed {
-                ui.painter().extend(egui::Shape::dashed_line(&ends, stroke, 5.0, 3.0));
-            } else {
-                ui.painter().line_segment(ends, stroke);
-            }
-            ui.label(rich(name, TITLE_SIZE, ui.visuals().text_color()));
-            ui.add_space(8.0);
-        }
-    });
 }
 
 /// Shows a plot under the name by which screen readers know it, and by which it can be exported as a picture.

@@ -6,9 +6,14 @@ use crate::app::theme::symbol;
 use crate::solver::physics::contact::FilmFormula;
 use egui::{Grid, RichText, Ui};
 
-/// The table.
+/// The table under its title.
 pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     ui.strong("Film by published formulas");
+    table(ui, context);
+}
+
+/// The table alone.
+pub fn table(ui: &mut Ui, context: &Context<'_>) {
     let picture = context.answers.current_picture();
     let central = picture.map(|p| p.central_film_m());
     let minimum = picture.map(|p| p.minimum_film_m());

@@ -12,6 +12,7 @@ mod direction;
 mod formulas;
 mod grip;
 mod in_time;
+mod key;
 pub mod profiles;
 mod raster;
 mod regime_chart;
@@ -67,7 +68,7 @@ fn tab_ui(ui: &mut Ui, tab: Tab, desk: &mut Desk, commands: &mut Commands) {
         Tab::Regimes => views.regimes.ui(ui, &desk.context(), commands),
         Tab::Basis => basis::ui(ui, &mut views.basis, &desk.context(), commands),
         Tab::Traction => views.traction.ui(ui, &desk.context(), commands),
-        Tab::Results => views.results.ui(ui, &desk.document, commands),
+        Tab::Results => views.results.ui(ui, &desk.context(), commands),
         Tab::Accuracy => accuracy::ui(ui, &mut views.accuracy, &desk.context(), commands),
         Tab::Training => views.training.ui(ui, &desk.context(), commands),
         Tab::Transient => views.transient.ui(ui, &desk.context(), commands),

@@ -145,7 +145,8 @@ impl Regimes {
                     draw(plot, line, k, &palette);
                 }
                 for (regime, place) in &lines.names {
-                    let text = RichText::new(regime.name()).size(12.0).color(palette.quiet).italics();
+                    let text =
+                        RichText::new(regime.name()).size(12.0).color(palette.ink_on_regimes(palette.quiet)).italics();
                     plot.text(Text::new("", *place, text).id(("regime", regime.name())).allow_hover(false));
                 }
                 plot.points(
@@ -206,17 +207,18 @@ fn draw<'a>(plot: &mut PlotUi<'a>, line: &'a ChartLine, place: usize, palette: &
         Kind::Table => ("Table 3.4".to_owned(), palette.deformation, 1.6, LineStyle::Solid),
         Kind::Trajectory => {
             let color = faded(palette.deformation, 0.75);
-            ("Trajectory (3.21)".to_owned(), color, 1.0, LineStyle::dashed_dense())
+            ("Test trajectory".to_owned(), color, 1.0, LineStyle::dashed_dense())
         }
     };
-    let small = |text: &str, size, color| WidgetText::from(RichText::new(text).size(size).color(color));
+    let small =
+        |text: &str, size, color| WidgetText::from(RichText::new(text).size(size).color(palette.ink_on_regimes(color)));
     let label: Option<(WidgetText, Option<&PlotPoint>, Align2)> = match line.kind {
         Kind::Contour => {
             let end = points.iter().rev().find(|p| p.x < M_AXIS.1.log10() - 0.04);
             Some((small(&name, 10.5, palette.film), end, Align2::RIGHT_BOTTOM))
         }
         Kind::PressureLimit => {
-            let text = rich("{p_H} = 3.2 GPa", 11.5, palette.warning).into();
+            let text = rich("{p_H} = 3.2 GPa", 11.5, palette.ink_on_regimes(palette.warning)).into();
             Some((text, points.first(), Align2::RIGHT_TOP))
         }
         Kind::Trained => {

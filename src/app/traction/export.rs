@@ -71,7 +71,7 @@ fn row(full: f64, sweep: &Sweep, sample: &Sample) -> Vec<Option<f64>> {
     let key = Key { point: *point, lubricant: sweep.base.lubricant };
     let npr = super::Varied::Plateau.of(&key);
     let srr = point.sliding.slide_to_roll_ratio;
-    let unphysical = f64::from(u8::from(sample.unphysical));
+    let unphysical = f64::from(u8::from(sample.unphysical.is_some()));
     let values = [full, srr, npr, point.speed_m_per_s, moes.m, moes.l, sample.traction, sample.h_c_m, sample.h_min_m];
     values.map(Some).into_iter().chain([sample.newtonian, Some(unphysical)]).collect()
 }

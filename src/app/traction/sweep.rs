@@ -4,7 +4,7 @@ use crate::app::document::Key;
 use crate::app::in_use::question;
 use crate::scene::study::{PathRow, sweep as scene};
 use crate::scene::{Axis, Grid, Method, Scene, Steps, Study, StudyRow};
-use crate::solver::full::Problem;
+use crate::solver::full::{Problem, TractionDoubt};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use crate::solver::reduced::Domain;
@@ -72,8 +72,8 @@ pub struct Sample {
     pub traction: f64,
     /// What that would be if the lubricant were Newtonian and carried every stress, where it is known.
     pub newtonian: Option<f64>,
-    /// Whether its traction is no physics.
-    pub unphysical: bool,
+    /// Why its traction is no physics, where it is none.
+    pub unphysical: Option<TractionDoubt>,
 }
 
 impl Varied {
@@ -305,7 +305,7 @@ impl Sample {
             h_min_m: scalars.h_min * scale,
             traction,
             newtonian: None,
-            unphysical: problem.doubts_traction(traction).is_some(),
+            unphysical: problem.doubts_traction(traction, &scalars),
         })
     }
 }
@@ -359,7 +359,7 @@ mod tests {
         assert_eq!((newtonian.newtonian(), sweep.companions(41)), (None, 2));
         let sample = |srr: f64, traction| {
             let point = Varied::SlideToRoll.at(&base.point, srr);
-            Sample { point, h_c_m: 1.0, h_min_m: 1.0, traction, newtonian: None, unphysical: false }
+            Sample { point, h_c_m: 1.0, h_min_m: 1.0, traction, newtonian: None, unphysical: None }
         };
         let mut samples = [sample(0.0, 0.0), sample(0.1, 0.05)];
         sweep.note_newtonian(&mut samples, &[sample(0.0, 0.0), sample(1.0, 8.0)]);

@@ -112,11 +112,6 @@ impl TransientView {
         self.following.due || self.following.replaying.is_some()
     }
 
-    /// Whether models answer within a moment.
-    pub fn replays(&self) -> bool {
-        self.following.replaying.is_some()
-    }
-
     /// Whether runs that somebody asked for are under way.
     pub fn runs_by_hand(&self) -> bool {
         self.following.by_hand && self.work.job().is_some()

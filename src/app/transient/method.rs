@@ -48,7 +48,7 @@ pub fn run_name(by: MarchedBy, frame: Frame) -> String {
         (MarchedBy::Reduced, frame) => format!("{}, reduced", frame_name(frame)),
         // It lives in the fixed frame alone.
         (MarchedBy::Linearised(Weighting::DualTaylor), _) => "Linearised, dual Taylor".to_owned(),
-        (MarchedBy::Linearised(Weighting::Dissertation), _) => "Linearised, weights (4.29)".to_owned(),
+        (MarchedBy::Linearised(Weighting::Dissertation), _) => "Linearised, exponential weights".to_owned(),
     }
 }
 
@@ -63,7 +63,7 @@ pub fn weighting_name(weighting: Weighting) -> (&'static str, &'static str) {
             "The barycentre of near points that is nearest to the state, expansions half about the points and half about it",
         ),
         Weighting::Dissertation => {
-            ("Weights (4.29)", "The dissertation’s: sharp exponential weights of all points, none below 0.001")
+            ("Exponential weights", "The dissertation’s (4.29): sharp weights of all points, none below 0.001")
         }
     }
 }
@@ -75,12 +75,13 @@ pub const RULES: [Selection; 2] = [Selection::Distance { tolerance: 0.02 }, Sele
 pub fn rule_name(rule: Selection) -> (&'static str, &'static str) {
     match rule {
         Selection::Distance { .. } => (
-            "Distance (2.85)",
-            "A state becomes a point when it is far from all points, relative to the nearest one’s norm",
+            "Distance",
+            "A state becomes a point when it is far from all points, relative to the nearest one’s norm (2.85)",
         ),
         Selection::Step { .. } => (
-            "Missed step (4.30)",
-            "A state becomes a point when the nearest point’s linearised system misses the step to it, relative to its norm",
+            "Missed step",
+            "A state becomes a point when the nearest point’s linearised system misses the step to it, relative to its \
+             norm (4.30)",
         ),
     }
 }

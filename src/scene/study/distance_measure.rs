@@ -139,10 +139,10 @@ impl Question for DistanceMeasure {
     }
 
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
-        let (x, y) = (ChartAxis::linear("Distance of solutions D₂, (3.6)"), ChartAxis::linear("Measure s"));
+        let (x, y) = (ChartAxis::linear("Distance of solutions D₂"), ChartAxis::linear("Measure s"));
         let mut chart = Chart::new("Distance measures", x, y);
         let pairs = || rows.iter().flat_map(|row| &row.pairs);
-        chart.add("(3.20) as printed", Marks::Dots, pairs().map(|pair| [pair.distance, pair.printed]));
+        chart.add("weights as printed", Marks::Dots, pairs().map(|pair| [pair.distance, pair.printed]));
         chart.add("all candidates", Marks::Dots, pairs().map(|pair| [pair.distance, pair.all]));
         vec![chart]
     }

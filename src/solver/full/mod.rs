@@ -25,5 +25,5 @@ pub use solution::{Mesh, Problem, Report, Scalars, Solution, SolveError, Termina
 pub use solver::{ContactSolver, FullSolver, PointSolver, Solver, Start, most_newton};
 pub use system::{SolveOptions, System};
 pub(crate) use traction::mid_film_stress;
-pub use traction::{PLAUSIBLE_EXPONENT, PLAUSIBLE_TRACTION, Shear};
+pub use traction::{PLAUSIBLE_EXPONENT, PLAUSIBLE_TRACTION, Shear, TractionDoubt};
 pub use trust::{GridCost, grid_doubts};

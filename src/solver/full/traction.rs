@@ -1,10 +1,11 @@
 //! Shear across the film, and the traction (3.41) it adds up to.
 
-use super::solution::{Problem, Solution};
+use super::solution::{Problem, Scalars, Solution};
 use crate::solver::discrete::reynolds::film_integrals::{PRODUCTION_RULE, film_integrals};
 use crate::solver::discrete::reynolds::generalized::{NodeState, PlaneGradient};
 use crate::solver::physics::lubricant::{LimitingStress, ScaledShear};
 use rayon::prelude::*;
+use std::fmt::{Display, Formatter};
 
 /// α* p_H beyond which an isothermal traction without a limiting stress is no physics: viscosity then outgrows every
 /// stress a lubricant can carry.
@@ -12,6 +13,59 @@ pub const PLAUSIBLE_EXPONENT: f64 = 12.0;
 
 /// A traction coefficient beyond which no lubricant was ever measured: it would have thinned under shear or yielded.
 pub const PLAUSIBLE_TRACTION: f64 = 0.15;
+
+/// A shear stress \[Pa\] that every lubricant carries; under pressure it carries more.
+const CARRIED_PA: f64 = 5e6;
+
+/// Why a traction is no physics.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TractionDoubt {
+    /// α* p_H, beyond [`PLAUSIBLE_EXPONENT`] without a limiting stress.
+    Exponent(f64),
+    /// The coefficient itself, beyond [`PLAUSIBLE_TRACTION`].
+    Coefficient(f64),
+    /// The shear stress where the pressure is largest \[Pa\], beyond what is carried under it.
+    Stress {
+        /// At mid-film.
+        stress_pa: f64,
+        /// The largest pressure.
+        pressure_pa: f64,
+    },
+}
+
+impl TractionDoubt {
+    /// A few words that a number is marked with.
+    pub fn mark(self) -> &'static str {
+        match self {
+            Self::Exponent(_) | Self::Coefficient(_) => "unphysical",
+            Self::Stress { .. } => "shear stress above the limit",
+        }
+    }
+}
+
+impl Display for TractionDoubt {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Exponent(exponent) => write!(
+                f,
+                "α* p_H is {exponent:.1}: beyond {PLAUSIBLE_EXPONENT} an isothermal traction without a limiting shear \
+                 stress is unphysical"
+            ),
+            Self::Coefficient(traction) => write!(
+                f,
+                "a traction coefficient of {traction:.3} is unphysical: beyond {PLAUSIBLE_TRACTION} the lubricant thins \
+                 under shear or yields"
+            ),
+            Self::Stress { stress_pa, pressure_pa } => write!(
+                f,
+                "the shear stress of {:.3} GPa under {:.3} GPa is above the limit: beyond {PLAUSIBLE_TRACTION} of the \
+                 pressure a lubricant yields, and this one has no limiting stress",
+                1e-9 * stress_pa,
+                1e-9 * pressure_pa
+            ),
+        }
+    }
+}
 
 /// Shear along X at one place of the film.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,29 +146,39 @@ impl Solution {
 }
 
 impl Problem {
-    /// A sentence where a traction coefficient is no physics: wherever every one is, and where it is larger than any that
-    /// was measured. None of no traction at all.
-    pub fn doubts_traction(&self, traction: f64) -> Option<String> {
-        let too_large = || {
-            (traction.abs() > PLAUSIBLE_TRACTION).then(|| {
-                format!(
-                    "a traction coefficient of {traction:.3} is unphysical: beyond {PLAUSIBLE_TRACTION} the lubricant thins \
-                     under shear or yields"
-                )
-            })
-        };
-        if traction == 0.0 { None } else { self.traction_warning().or_else(too_large) }
+    /// Why the traction coefficient of a solution with these scalars is no physics: wherever every one is, where it is
+    /// larger than any that was measured, and where the shear stress is larger than any that is carried. None of no
+    /// traction at all.
+    pub fn doubts_traction(&self, traction: f64, scalars: &Scalars) -> Option<TractionDoubt> {
+        if traction == 0.0 {
+            return None;
+        }
+        let too_large = || (traction.abs() > PLAUSIBLE_TRACTION).then_some(TractionDoubt::Coefficient(traction));
+        self.doubts_every_traction().or_else(too_large).or_else(|| self.doubts_stress(scalars))
     }
 
-    /// A sentence where every traction is no physics: at great α* p_H without a limiting stress.
-    pub fn traction_warning(&self) -> Option<String> {
-        let unlimited = self.lubricant.limiting_stress.is_none();
+    /// Why every traction is no physics: at great α* p_H without a limiting stress.
+    pub fn doubts_every_traction(&self) -> Option<TractionDoubt> {
         let exponent = self.fluid.reciprocal_asymptotic_exponent();
-        (unlimited && exponent > PLAUSIBLE_EXPONENT).then(|| {
-            format!(
-                "α* p_H is {exponent:.1}: beyond {PLAUSIBLE_EXPONENT} an isothermal traction without a limiting shear stress is unphysical"
-            )
-        })
+        (self.is_unlimited() && exponent > PLAUSIBLE_EXPONENT).then_some(TractionDoubt::Exponent(exponent))
+    }
+
+    /// The same as a sentence.
+    pub fn traction_warning(&self) -> Option<String> {
+        self.doubts_every_traction().map(|doubt| doubt.to_string())
+    }
+
+    fn is_unlimited(&self) -> bool {
+        self.lubricant.limiting_stress.is_none()
+    }
+
+    /// The film is as good as parallel where the pressure is largest.
+    fn doubts_stress(&self, scalars: &Scalars) -> Option<TractionDoubt> {
+        let state = NodeState { pressure: scalars.p_max, gradient: [0.0; 2], film: scalars.h_c };
+        let pressure_pa = scalars.p_max * self.point.hertz().pressure_pa;
+        let stress_pa = mid_film_stress(self, state).abs();
+        let above = stress_pa > CARRIED_PA + PLAUSIBLE_TRACTION * pressure_pa;
+        (self.is_unlimited() && above).then_some(TractionDoubt::Stress { stress_pa, pressure_pa })
     }
 }
 
@@ -163,5 +227,37 @@ impl FilmStress {
         let size = stress[0].hypot(stress[1]);
         let carried = limit.carried(size, pressure_pa);
         if carried < size { stress.map(|part| part * carried / size) } else { stress }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::physics::contact::{OperatingPoint, Sliding};
+    use crate::solver::physics::lubricant::{LimitingStress, Lubricant};
+
+    #[test]
+    fn what_no_lubricant_carries_is_doubted_for_the_reason_it_has() {
+        let soft = OperatingPoint { alpha_per_pa: 1e-8, ..OperatingPoint::TABLE_2_1 };
+        let limited = Lubricant {
+            limiting_stress: Some(LimitingStress { ambient: 5e6, slope: 0.05, eyring: None }),
+            ..Lubricant::default()
+        };
+        let scalars = Scalars { p_max: 1.0, h_c: 0.01, ..Scalars::default() };
+        let cases = [
+            (soft, Lubricant::default(), 1e-3, 1e-3, None),
+            (soft, Lubricant::default(), 1e-3, 0.2, Some("unphysical")),
+            (soft, Lubricant::default(), 1.9, 0.1, Some("shear stress above the limit")),
+            (soft, limited, 1.9, 0.1, None),
+            (soft, Lubricant::default(), 1.9, 0.0, None),
+            (OperatingPoint::TABLE_2_1, Lubricant::default(), 1e-3, 1e-3, Some("unphysical")),
+        ];
+        for (point, lubricant, srr, traction, wanted) in cases {
+            let sliding = Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: None };
+            let problem = Problem::new(&OperatingPoint { sliding, ..point }, lubricant).unwrap();
+            let doubt = problem.doubts_traction(traction, &scalars);
+            assert_eq!(doubt.map(TractionDoubt::mark), wanted, "SRR {srr}, µ {traction}: {doubt:?}");
+            assert!(doubt.is_none_or(|doubt| doubt.to_string().contains(['u', 'l'])));
+        }
     }
 }

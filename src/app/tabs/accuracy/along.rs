@@ -4,9 +4,11 @@ use super::{AccuracyView, CONTACT_COLUMNS, contact_cells, count, run_or_stop, st
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{message_ui, standing_ui};
+use crate::app::drawn::{self, Owner};
 use crate::app::export;
 use crate::app::in_use::InUse;
 use crate::app::tabs::axes;
+use crate::app::tabs::key::{self, Entry, Sample};
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, rich};
 use crate::engine::Store;
 use crate::engine::job::Background;
@@ -15,7 +17,7 @@ use crate::scene::study::trajectory::Trajectory;
 use crate::scene::{ContactResult, Method, QuantityBox, Study, StudyRow};
 use crate::solver::physics::contact::ContactKind;
 use egui::{Color32, ComboBox, Id, Ui, Vec2b};
-use egui_plot::{Corner, Legend, Line, LineStyle, PlotUi, VLine};
+use egui_plot::{Line, LineStyle, PlotUi, VLine};
 
 /// Where the trajectory runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -179,9 +181,10 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
         super::nothing_yet(ui, "Follow the trajectory to see film and error along it");
         return;
     };
-    let stale = results.in_use != *in_use;
+    let stale = drawn::is_grey(ui.ctx(), "trajectory", Owner::Model(results.in_use.clone()), context);
     if stale {
         stale_note(ui, &results.in_use);
+        drawn::fade(ui, false);
     }
     ui.label(rich(&summary(results), 13.5, Palette::of(ui).quiet));
     super::bound_note(ui, results.steps.iter().map(Step::bound));
@@ -251,22 +254,27 @@ fn linked<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> e
         .link_axis(Id::unique("trajectory"), Vec2b::new(true, false))
         .link_cursor(Id::unique("trajectory"), Vec2b::new(true, false))
         .auto_bounds(Vec2b::TRUE)
-        .legend(Legend::default().position(Corner::RightTop).follow_insertion_order(true).background_alpha(0.6))
 }
+
+/// By which the plots are known.
+const FILM: &str = "Film along the trajectory";
+const ERROR: &str = "Error along the trajectory";
 
 fn film_plot(ui: &mut Ui, results: &Followed, stale: bool, height: f32) {
     let palette = Palette::of(ui);
     let color = if stale { palette.reference } else { palette.film };
     let full = if stale { palette.reference } else { palette.over(palette.film) };
-    axes::show(
-        linked(ui, "trajectory film", height.max(90.0), "", "Film {H_c}").include_y(0.0),
-        ui,
-        "Film along the trajectory",
-        |plot| {
+    let entries = [
+        Entry::new("reduced model", color, Sample::Line(LIVE_WIDTH)),
+        Entry::new("full solution", full, Sample::Line(FULL_WIDTH)),
+    ];
+    key::over(ui, FILM, height.max(110.0), entries, |ui, height| {
+        let plot = linked(ui, "trajectory film", height, "", "Film {H_c}").include_y(0.0);
+        axes::show(plot, ui, FILM, |plot| {
             draw(plot, "Reduced model", results.pieces(Step::reduced), (color, LIVE_WIDTH, LineStyle::Solid));
             draw(plot, "Full solution", results.pieces(Step::full), (full, FULL_WIDTH, LineStyle::Solid));
-        },
-    );
+        });
+    });
 }
 
 fn error_plot(ui: &mut Ui, results: &Followed, stale: bool, height: f32) {
@@ -274,23 +282,29 @@ fn error_plot(ui: &mut Ui, results: &Followed, stale: bool, height: f32) {
     let grey = |color| if stale { palette.reference } else { color };
     // Smaller errors are the full solver's own tolerance, and zero has no logarithm.
     let log = |value: Option<f64>| value.map(|v| v.max(1e-12).log10());
-    axes::show(
-        linked(ui, "trajectory error", height, "{c}", "Relative error of {H_c}")
+    let (film, accent, wrong) = (grey(palette.film), grey(palette.accent), grey(palette.wrong));
+    let failed = || results.steps.iter().filter(|step| step.reduced().is_none());
+    let mut entries = vec![Entry::new("true error", film, Sample::Line(1.8))];
+    if results.steps.iter().any(|step| step.bound().is_some()) {
+        entries.push(Entry::new("bound", accent, Sample::Dashed(1.2)));
+    }
+    if failed().next().is_some() {
+        entries.push(Entry::new("failed", wrong, Sample::Line(1.0)));
+    }
+    key::over(ui, ERROR, height, entries, |ui, height| {
+        let plot = linked(ui, "trajectory error", height, "{c}", "Relative error of {H_c}")
             .y_grid_spacer(axes::decade_marks)
-            .y_axis_formatter(|mark, _| axes::decade_label(mark)),
-        ui,
-        "Error along the trajectory",
-        |plot| {
+            .y_axis_formatter(|mark, _| axes::decade_label(mark));
+        axes::show(plot, ui, ERROR, |plot| {
             let truth = results.pieces(|s| log(s.error()));
-            draw(plot, "True error", truth, (grey(palette.film), 1.8, LineStyle::Solid));
+            draw(plot, "True error", truth, (film, 1.8, LineStyle::Solid));
             let bound = results.pieces(|s| log(s.bound()));
-            draw(plot, "Bound", bound, (grey(palette.accent), 1.2, LineStyle::dashed_dense()));
-            let failed = results.steps.iter().filter(|step| step.reduced().is_none());
-            for (k, step) in failed.enumerate() {
-                plot.vline(VLine::new("failed", step.c()).color(grey(palette.wrong)).width(1.0).id(("failed", k)));
+            draw(plot, "Bound", bound, (accent, 1.2, LineStyle::dashed_dense()));
+            for (k, step) in failed().enumerate() {
+                plot.vline(VLine::new("failed", step.c()).color(wrong).width(1.0).id(("failed", k)));
             }
-        },
-    );
+        });
+    });
 }
 
 fn csv(results: &Followed) -> String {

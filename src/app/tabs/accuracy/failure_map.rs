@@ -7,15 +7,17 @@ use super::{AccuracyView, CONTACT_COLUMNS, contact_cells, tests_toolbar, worst};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::document::Edit;
+use crate::app::drawn::{self, Owner};
 use crate::app::export;
 use crate::app::in_use::InUse;
 use crate::app::numbers;
 use crate::app::tabs::axes;
+use crate::app::tabs::key::{self, Entry, Sample};
 use crate::app::theme::{Palette, rich, sequential};
 use crate::scene::study::random_test::{Tested, errors};
 use crate::solver::physics::contact::{Moes, OperatingPoint};
 use egui::{Color32, Ui};
-use egui_plot::{Corner, HoverPosition, Legend, MarkerShape, PlotPoint, PlotPoints, Points};
+use egui_plot::{HoverPosition, MarkerShape, PlotPoint, PlotPoints, Points};
 
 /// How near (in screen points) a click must come to a test.
 const NEAR: f32 = 12.0;
@@ -99,6 +101,8 @@ fn at(moes: Moes) -> PlotPoint {
     PlotPoint::new(moes.m.log10(), moes.l)
 }
 
+/// By which the plot is known.
+const MAP: &str = "Map of the random tests";
 /// Under this name a contact that was gone to is refused.
 const FIELD: &str = "failure map";
 
@@ -130,7 +134,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
         map.drawn = Some(DrawnTests::new(results, map.by));
     }
     map.worst.sort(results, map.by);
-    let stale = results.in_use != *in_use;
+    let stale = is_former(ui, results, context);
     let here = context.document.point.moes();
     let mut wanted = None;
     if ui.available_width() > 700.0 {
@@ -158,6 +162,15 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
     }
 }
 
+/// Whether tests are of another model than the one in use; the rest of the room stands back then.
+pub fn is_former(ui: &mut Ui, results: &Results, context: &Context<'_>) -> bool {
+    let former = drawn::is_grey(ui.ctx(), "random tests", Owner::Model(results.in_use.clone()), context);
+    if former {
+        drawn::fade(ui, false);
+    }
+    former
+}
+
 /// Numbers of tests, failures and comparisons.
 pub fn summary(results: &Results) -> String {
     let (made, wanted) = (results.tests.len(), results.wanted.tests);
@@ -175,9 +188,18 @@ fn chart(ui: &mut Ui, map: &Map, results: &Results, here: Moes, height: f32, sta
     let palette = Palette::of(ui);
     let dark = ui.visuals().dark_mode;
     let grey = |color: Color32| if stale { palette.reference } else { color };
-    let response = axes::show(
-        axes::plot(ui, "failure map", height, "Load number {M}", "Lubricant number {L}")
-            .legend(Legend::default().position(Corner::RightTop).follow_insertion_order(true).background_alpha(0.6))
+    let class_color = |k: usize| grey(sequential(k as f32 / (CLASSES - 1) as f32, dark));
+    let classes = drawn.classes.iter().enumerate().filter(|(_, points)| !points.is_empty());
+    let mut entries: Vec<Entry> =
+        classes.map(|(k, _)| Entry::new(class_name(k), class_color(k), Sample::Dot(3.0))).collect();
+    if !drawn.unknown.is_empty() {
+        entries.push(Entry::new("not compared", palette.grid, Sample::Dot(3.0)));
+    }
+    if !drawn.failures.is_empty() {
+        entries.push(Entry::new("failed", grey(palette.wrong), Sample::Cross(4.0)));
+    }
+    let response = key::over(ui, MAP, height, entries, |ui, height| {
+        let plot = axes::plot(ui, "failure map", height, "Load number {M}", "Lubricant number {L}")
             .x_grid_spacer(axes::log_marks)
             .x_axis_formatter(|mark, _| axes::log_label(mark))
             .y_axis_min_width(34.0)
@@ -185,17 +207,15 @@ fn chart(ui: &mut Ui, map: &Map, results: &Results, here: Moes, height: f32, sta
             .label_formatter(|hover| match hover {
                 HoverPosition::NearDataPoint { position, .. } => label(results, *position),
                 HoverPosition::Elsewhere { .. } => None,
-            }),
-        ui,
-        "Map of the random tests",
-        |plot| {
+            });
+        axes::show(plot, ui, MAP, |plot| {
             let unknown = Points::new("not compared", PlotPoints::Borrowed(&drawn.unknown));
             if !drawn.unknown.is_empty() {
                 plot.points(unknown.color(palette.grid).radius(2.0));
             }
             for (k, points) in drawn.classes.iter().enumerate().filter(|(_, points)| !points.is_empty()) {
-                let color = grey(sequential(k as f32 / (CLASSES - 1) as f32, dark));
-                plot.points(Points::new(class_name(k), PlotPoints::Borrowed(points)).color(color).radius(2.4));
+                let points = Points::new(class_name(k), PlotPoints::Borrowed(points));
+                plot.points(points.color(class_color(k)).radius(2.4));
             }
             if !drawn.failures.is_empty() {
                 let failures = Points::new("failed", PlotPoints::Borrowed(&drawn.failures));
@@ -203,8 +223,8 @@ fn chart(ui: &mut Ui, map: &Map, results: &Results, here: Moes, height: f32, sta
             }
             let ring = Points::new("", vec![[at(here).x, at(here).y]]).id("here").color(palette.accent).radius(8.0);
             plot.points(ring.filled(false).shape(MarkerShape::Circle).allow_hover(false));
-        },
-    );
+        })
+    });
     let transform = response.transform;
     let response = response.response;
     let response = response.on_hover_cursor(egui::CursorIcon::Crosshair);

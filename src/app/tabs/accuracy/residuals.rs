@@ -3,21 +3,27 @@
 use crate::app::answers::jobs::Running;
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
+use crate::app::drawn::{self, Owner};
 use crate::app::export;
 use crate::app::numbers;
 use crate::app::tabs::axes;
+use crate::app::tabs::key::{self, Entry, Sample};
 use crate::app::theme::{Palette, rich};
 use egui::{Grid, Ui};
-use egui_plot::{Corner, Legend, Line, MarkerShape, Points};
+use egui_plot::{Line, LineStyle, MarkerShape, Points};
 
 /// A solve younger than this is no news: showing it would only flicker.
 const NEWS_S: f64 = 0.12;
+/// Width of both lines.
+const WIDTH: f32 = 1.6;
+/// By which the plot is known.
+const PLOT: &str = "Newton residuals of the last solve";
 
 /// The view: the solve that runs, else the last one that ended.
 pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let news = |job: &&Running| job.since.elapsed().as_secs_f64() > NEWS_S && !job.steps.is_empty();
     if let Some(job) = context.answers.jobs.running().iter().find(news) {
-        running_ui(ui, job);
+        running_ui(ui, job, context);
         return;
     }
     let Some((key, report)) = &context.answers.last_report else {
@@ -25,7 +31,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         return;
     };
     let moes = key.point.moes();
-    let current = *key == context.document.key();
+    let current = !drawn::is_grey(ui.ctx(), "residuals", Owner::Contact(*key), context);
     let mut export_now = false;
     ui.horizontal_wrapped(|ui| {
         ui.strong("Last full solve");
@@ -51,7 +57,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         }
         ui.end_row();
     });
-    if let Some(c) = &context.answers.comparison {
+    if let Some(c) = context.answers.comparison.as_ref().filter(|_| context.answers.picture_is_current()) {
         let text = format!("Reduced against full: {}", c.describe());
         ui.label(rich(&text, 13.5, ui.visuals().text_color()));
     }
@@ -66,7 +72,8 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
 }
 
 /// A solve at work: its parameters and its residuals so far.
-fn running_ui(ui: &mut Ui, job: &Running) {
+fn running_ui(ui: &mut Ui, job: &Running, context: &Context<'_>) {
+    let current = !drawn::is_grey(ui.ctx(), "residuals", Owner::Contact(job.key), context);
     ui.horizontal_wrapped(|ui| {
         ui.strong(job.kind.name());
         ui.label(format!("{}: at work", numbers::moes(job.key.point.moes())));
@@ -75,33 +82,39 @@ fn running_ui(ui: &mut Ui, job: &Running) {
         }
     });
     let (residuals, steps): (Vec<f64>, Vec<f64>) = job.steps.iter().map(|s| (s.residual, s.step)).unzip();
-    residual_plot(ui, &residuals, &steps, true);
+    residual_plot(ui, &residuals, &steps, current);
 }
 
 fn residual_plot(ui: &mut Ui, residuals: &[f64], steps: &[f64], current: bool) {
     let palette = Palette::of(ui);
     let log = |values: &[f64]| -> Vec<[f64; 2]> {
-        values.iter().enumerate().filter(|(_, v)| **v > 0.0).map(|(k, v)| [k as f64 + 1.0, v.log10()]).collect()
+        values
+            .iter()
+            .enumerate()
+            .filter(|(_, v)| **v > 0.0 && v.is_finite())
+            .map(|(k, v)| [k as f64 + 1.0, v.log10()])
+            .collect()
     };
-    let series = [("Residual", residuals, palette.accent), ("Relative step", steps, palette.reference)];
+    let grey = |color| if current { color } else { palette.reference };
+    let series = [
+        ("Residual", residuals, grey(palette.accent), LineStyle::Solid),
+        ("Relative step", steps, palette.reference, LineStyle::dashed_dense()),
+    ];
+    let entries = series.map(|(name, _, color, style)| Entry::new(name, color, Sample::of_line(style, WIDTH)));
     let height = (ui.available_height() - 4.0).max(120.0);
-    axes::show(
-        axes::plot(ui, "residuals", height, "Newton step", "Residual, relative step")
-            .legend(Legend::default().position(Corner::RightTop).follow_insertion_order(true))
+    key::over(ui, PLOT, height, entries, |ui, height| {
+        let plot = axes::plot(ui, "residuals", height, "Newton step", "Residual, relative step")
             .y_grid_spacer(axes::decade_marks)
             .y_axis_formatter(|mark, _| axes::decade_label(mark))
-            .auto_bounds(egui::Vec2b::TRUE),
-        ui,
-        "Newton residuals of the last solve",
-        |plot| {
-            for (name, values, color) in series {
-                let color = if current { color } else { palette.reference };
+            .auto_bounds(egui::Vec2b::TRUE);
+        axes::show(plot, ui, PLOT, |plot| {
+            for (name, values, color, style) in series {
                 let points = log(values);
-                plot.line(Line::new(name, points.clone()).color(color).width(1.6));
+                plot.line(Line::new(name, points.clone()).color(color).width(WIDTH).style(style));
                 plot.points(
                     Points::new(name, points).color(color).radius(3.0).shape(MarkerShape::Circle).id((name, 1)),
                 );
             }
-        },
-    );
+        });
+    });
 }

@@ -6,6 +6,7 @@ use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{message_ui, sentence, spoken, warning_ui};
 use crate::app::document::Key;
+use crate::app::drawn::{self, Owner};
 use crate::app::export;
 use crate::app::in_use::{InUse, question};
 use crate::app::numbers;
@@ -140,7 +141,8 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
         super::nothing_yet(ui, "The parts appear when the sliders rest");
         return;
     };
-    let current = *asked == now;
+    let owner = Owner::ContactByModel(asked.key, asked.in_use.clone());
+    let current = !drawn::is_grey(ui.ctx(), "parts of the error", owner, context);
     if asked.in_use != now.in_use {
         stale_note(ui, &asked.in_use);
     } else if !current {

@@ -1,6 +1,6 @@
 //! What the calibrated bound is worth: bound against true error of H_c wherever both are known.
 
-use super::failure_map::{By, csv, stamp, summary};
+use super::failure_map::{By, csv, is_former, stamp, summary};
 use super::random_tests::{Results, bound_of};
 use super::{AccuracyView, tests_toolbar};
 use crate::app::command::Command;
@@ -9,13 +9,18 @@ use crate::app::controls::spoken;
 use crate::app::in_use::InUse;
 use crate::app::numbers;
 use crate::app::tabs::axes;
+use crate::app::tabs::key::{self, Entry, Sample};
 use crate::app::theme::Palette;
 use crate::engine::{median, rank_correlation};
 use egui::{Grid, Ui, Vec2b};
-use egui_plot::{Corner, Legend, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points};
+use egui_plot::{Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points};
 
 /// Smaller errors are the full solver's own tolerance.
 const FLOOR: f64 = 1e-11;
+/// Radius of a test's mark.
+const RADIUS: f32 = 2.8;
+/// By which the plot is known.
+const PLOT: &str = "Bound against true error";
 
 /// What a set of pairs (bound, truth) says of the bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,6 +89,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
         super::nothing_yet(ui, "Run tests with some of them compared in full to see what the bound is worth");
         return;
     };
+    let stale = is_former(ui, results, context);
     ui.weak(summary(results));
     super::bound_note(ui, results.tests.iter().map(bound_of));
     let shown = &mut own.truth;
@@ -93,7 +99,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
     match shown {
         Some(shown) => {
             worth_ui(ui, &shown.worth);
-            scatter(ui, shown, results.in_use != *in_use);
+            scatter(ui, shown, stale);
         }
         None => super::nothing_yet(ui, "No test has been compared with a full solution yet"),
     }
@@ -140,9 +146,17 @@ fn scatter(ui: &mut Ui, shown: &Scatter, stale: bool) {
     let grey = |color| if stale { palette.reference } else { color };
     let (low, high) = shown.line;
     let height = (ui.available_height() - 4.0).max(150.0);
-    axes::show(
-        axes::plot(ui, "truth", height, "True relative error of {H_c}", "Bound on the error of {H_c}")
-            .legend(Legend::default().position(Corner::LeftTop).follow_insertion_order(true).background_alpha(0.6))
+    let series = [
+        ("holds", &shown.holds, grey(palette.film), MarkerShape::Circle),
+        ("does not hold", &shown.fails, grey(palette.warning), MarkerShape::Down),
+    ];
+    let entries = series.iter().filter(|series| !series.1.is_empty()).map(|(name, _, color, shape)| {
+        let sample = if *shape == MarkerShape::Down { Sample::Down(RADIUS) } else { Sample::Dot(RADIUS) };
+        Entry::new(*name, *color, sample)
+    });
+    let entries = entries.chain([Entry::new("bound = truth", palette.reference, Sample::Dashed(1.2))]);
+    key::over(ui, PLOT, height, entries, |ui, height| {
+        let plot = axes::plot(ui, "truth", height, "True relative error of {H_c}", "Bound on the error of {H_c}")
             .x_grid_spacer(axes::decade_marks)
             .x_axis_formatter(|mark, _| axes::decade_label(mark))
             .y_grid_spacer(axes::decade_marks)
@@ -155,23 +169,17 @@ fn scatter(ui: &mut Ui, shown: &Scatter, stale: bool) {
                     numbers::error_percent(10f64.powf(position.y))
                 )),
                 egui_plot::HoverPosition::Elsewhere { .. } => None,
-            }),
-        ui,
-        "Bound against true error",
-        |plot| {
+            });
+        axes::show(plot, ui, PLOT, |plot| {
             // Perfect bounds, as far as there are truths.
             let identity = Line::new("bound = truth", vec![[low, low], [high, high]]).color(palette.reference);
             plot.line(identity.width(1.2).style(LineStyle::dashed_dense()).allow_hover(false));
-            let series = [
-                ("holds", &shown.holds, palette.film, MarkerShape::Circle),
-                ("does not hold", &shown.fails, palette.warning, MarkerShape::Down),
-            ];
             for (name, points, color, shape) in series.into_iter().filter(|s| !s.1.is_empty()) {
                 let points = Points::new(name, PlotPoints::Borrowed(points));
-                plot.points(points.color(grey(color)).radius(2.8).shape(shape));
+                plot.points(points.color(color).radius(RADIUS).shape(shape));
             }
-        },
-    );
+        });
+    });
 }
 
 #[cfg(test)]

@@ -4,13 +4,11 @@ use super::{Basis, Field, TRUNCATION};
 use crate::app::context::{Commands, Context};
 use crate::app::document::Edit;
 use crate::app::numbers;
-use crate::app::tabs::axes;
+use crate::app::tabs::{axes, key};
 use crate::app::theme::Palette;
 use crate::solver::reduced::Window;
-use egui::{Align2, RichText, Ui};
-use egui_plot::{
-    Corner, HLine, Legend, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, Points, Text, VLine,
-};
+use egui::{Align2, Color32, RichText, Ui};
+use egui_plot::{HLine, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points, Text, VLine};
 
 /// How near (in screen points) the pointer must be to take a tolerance along.
 const GRAB: f32 = 9.0;
@@ -19,7 +17,6 @@ const LEAST_LOG_LOSS: f64 = -14.0;
 
 fn log_plot<'a>(ui: &Ui, id: &str, height: f32, title: &str) -> Plot<'a> {
     axes::plot(ui, id, height, "Modes {k}", title)
-        .legend(Legend::default().position(Corner::RightTop).follow_insertion_order(true).background_alpha(0.6))
         .y_grid_spacer(axes::decade_marks)
         .y_axis_formatter(|mark, _| axes::decade_label(mark))
         .label_formatter(|at| match at {
@@ -68,6 +65,7 @@ pub fn loss_plot(
             for (field, points) in [Field::Pressure, Field::Deformation].into_iter().zip(&curves.loss) {
                 let color = field.color(&palette);
                 plot.line(Line::new(field.name(), PlotPoints::Borrowed(points)).color(color).width(1.8));
+                name(plot, field, points, color);
             }
             for (field, level) in &lines {
                 let color = field.color(&palette);
@@ -76,7 +74,7 @@ pub fn loss_plot(
                 plot.hline(line.color(color).width(width).style(LineStyle::dashed_dense()).allow_hover(false));
                 let place = PlotPoint::new(1.0, *level);
                 let text = RichText::new(format!("tolerance {}", numbers::digits(10f64.powf(*level), 1))).size(11.0);
-                let label = Text::new("", place, text.color(color)).anchor(Align2::LEFT_TOP);
+                let label = Text::new("", place, text.color(palette.ink(color))).anchor(Align2::LEFT_TOP);
                 plot.text(label.id(("tolerance label", field.name())).allow_hover(false));
             }
             if let Some(kept) = options.pressure_modes {
@@ -115,6 +113,17 @@ pub fn loss_plot(
     }
 }
 
+/// The name of a falling curve beside it, on the side where the other one is not.
+fn name(plot: &mut PlotUi<'_>, field: Field, points: &[PlotPoint], color: Color32) {
+    let anchor = match field {
+        Field::Pressure => Align2::LEFT_BOTTOM,
+        Field::Deformation => Align2::RIGHT_TOP,
+    };
+    if let Some(middle) = points.get(points.len() / 2) {
+        key::name(plot, field.name(), *middle, field.name(), color, anchor);
+    }
+}
+
 /// Singular values against their number.
 pub fn singular_plot(ui: &mut Ui, own: &Basis, fit: bool, height: f32) {
     let palette = Palette::of(ui);
@@ -126,6 +135,7 @@ pub fn singular_plot(ui: &mut Ui, own: &Basis, fit: bool, height: f32) {
             plot.line(Line::new(field.name(), PlotPoints::Borrowed(points)).color(color).width(1.4));
             let dots = Points::new(field.name(), PlotPoints::Borrowed(points)).id((field.name(), 1));
             plot.points(dots.color(color).radius(2.0).shape(MarkerShape::Circle));
+            name(plot, field, points, color);
         }
     });
 }

@@ -8,7 +8,9 @@ mod plane;
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::document::Edit;
+use crate::app::drawn::{self, Owner};
 use crate::app::export;
+use crate::app::in_use::InUse;
 use crate::app::numbers;
 use crate::app::tabs::badge;
 use crate::app::theme::Palette;
@@ -119,6 +121,10 @@ pub fn ui(ui: &mut Ui, own: &mut Basis, context: &Context<'_>, commands: &mut Co
     let Some(window) = model.windows.get(at) else { return };
     if own.curves.as_ref().is_none_or(|c| c.window != at || !Arc::ptr_eq(&c.model, &model)) {
         own.curves = Some(Curves::new(&model, at, window));
+    }
+    if let Some(curves) = &own.curves {
+        let of = Owner::Model(InUse::new(&curves.model, &context.document.view));
+        drawn::note(ui.ctx(), "basis", of, false);
     }
     toolbar(ui, context, commands, &model, (at, window));
     let height = ui.available_height();

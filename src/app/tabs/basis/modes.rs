@@ -2,12 +2,13 @@
 
 use super::{Basis, Field, plane};
 use crate::app::tabs::axes;
+use crate::app::tabs::key::{self, Entry, Sample};
 use crate::app::theme::Palette;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::{PodBasis, Window};
 use egui::{Color32, ComboBox, Ui};
-use egui_plot::{Corner, Legend, Line, MarkerShape, PlotPoint, PlotPoints, Points};
+use egui_plot::{Line, MarkerShape, PlotPoint, PlotPoints, Points};
 
 /// Modes drawn at once.
 const SHOWN_MODES: usize = 4;
@@ -15,6 +16,10 @@ const SHOWN_MODES: usize = 4;
 const CHOICES: f32 = 30.0;
 /// Least height of a plot.
 const LEAST: f32 = 90.0;
+/// Radius of the mark of a sampled row.
+const MARK: f32 = 3.0;
+/// By which the plot is known.
+const SHAPES: &str = "Mode shapes";
 
 /// Choices and plots.
 pub fn ui(ui: &mut Ui, view: &mut Basis, fit: bool, window: &Window, height: f32) {
@@ -90,25 +95,28 @@ fn shapes(
         Some(_) => ("Reference coordinate {ξ}", "modes"),
         None => ("{X} = {x}/{a}, on the axis {Y} = 0", "modes on the axis"),
     };
-    axes::show(
-        axes::plot(ui, id, height, x_title, "Mode, scaled to 1")
-            .legend(Legend::default().position(Corner::LeftTop).follow_insertion_order(true).background_alpha(0.6))
-            .default_x_bounds(-2.2, 1.6),
-        ui,
-        "Mode shapes",
-        |plot| {
+    let look = |k: usize| (color.gamma_multiply(1.0 - 0.24 * (k - first) as f32), if k == first { 2.2 } else { 1.3 });
+    let modes = shown.iter().map(|(_, k, _)| {
+        let (color, width) = look(*k);
+        Entry::new(format!("mode {}", k + 1), color, Sample::Line(width))
+    });
+    let marks = rows.map(|(_, color)| Entry::new("sampled rows", color, Sample::Up(MARK)));
+    let entries: Vec<Entry> = modes.chain(marks).collect();
+    key::over(ui, SHAPES, height, entries, |ui, height| {
+        let plot = axes::plot(ui, id, height, x_title, "Mode, scaled to 1").default_x_bounds(-2.2, 1.6);
+        axes::show(plot, ui, SHAPES, |plot| {
             axes::fit(plot, fit);
             for (_, k, points) in shown {
-                let fade = 1.0 - 0.24 * (k - first) as f32;
+                let (color, width) = look(*k);
                 let line = Line::new(format!("Mode {}", k + 1), PlotPoints::Borrowed(points));
-                plot.line(line.color(color.gamma_multiply(fade)).width(if *k == first { 2.2 } else { 1.3 }));
+                plot.line(line.color(color).width(width));
             }
             if let Some((rows, color)) = rows {
                 let marks = Points::new("Sampled rows", PlotPoints::Borrowed(rows));
-                plot.points(marks.color(color).radius(3.0).shape(MarkerShape::Up));
+                plot.points(marks.color(color).radius(MARK).shape(MarkerShape::Up));
             }
-        },
-    );
+        });
+    });
 }
 
 /// One mode along the axis Y = 0, scaled to a largest magnitude of one: its weights make the columns themselves hard to

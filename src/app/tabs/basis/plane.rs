@@ -3,6 +3,7 @@
 use super::Field;
 use crate::app::figure::Texture;
 use crate::app::tabs::axes;
+use crate::app::tabs::key::{self, Entry, Sample};
 use crate::app::tabs::raster::Raster;
 use crate::app::theme::Palette;
 use crate::solver::discrete::grid::PointGrid;
@@ -14,6 +15,8 @@ use egui_plot::{Line, LineStyle, MarkerShape, PlotImage, PlotPoint, PlotPoints, 
 const SHADES: usize = 257;
 /// Range of X and Y at first.
 const RANGE: (f64, f64) = (-1.5, 1.5);
+/// By which the plot is known.
+const PLOT: &str = "Mode and sampled rows on the plane";
 
 /// One mode as a picture, kept while it is the one to show.
 #[derive(Default)]
@@ -40,14 +43,16 @@ impl ModeMap {
             Texture::put(&mut self.texture, ui.ctx(), "mode", image);
             self.made_of = Some((field, mode, ground));
         }
-        let shown = axes::show(
-            axes::plot(ui, "mode in the plane", height, "{X} = {x}/{a}", "{Y} = {y}/{a}")
+        let entries = [
+            Entry::new("sampled rows", palette.accent, Sample::Dot(2.0)),
+            Entry::new("dry contact (Hertz)", palette.reference, Sample::Dashed(1.0)),
+        ];
+        let shown = key::over(ui, PLOT, height, entries, |ui, height| {
+            let plot = axes::plot(ui, "mode in the plane", height, "{X} = {x}/{a}", "{Y} = {y}/{a}")
                 .data_aspect(1.0)
                 .default_x_bounds(RANGE.0, RANGE.1)
-                .default_y_bounds(RANGE.0, RANGE.1),
-            ui,
-            "Mode and sampled rows on the plane",
-            |plot| {
+                .default_y_bounds(RANGE.0, RANGE.1);
+            axes::show(plot, ui, PLOT, |plot| {
                 axes::fit(plot, fit);
                 if let (Some(texture), [from, .., to], [edge, ..]) =
                     (&self.texture, grid.x.as_slice(), grid.y.as_slice())
@@ -63,8 +68,8 @@ impl ModeMap {
                 plot.line(hertz.style(LineStyle::dashed_dense()).allow_hover(false));
                 let marks = Points::new("Sampled rows", PlotPoints::Borrowed(rows));
                 plot.points(marks.color(palette.accent).radius(1.6).shape(MarkerShape::Circle));
-            },
-        );
+            })
+        });
         let tip = "The first of the chosen modes, coloured where it is positive and grey where it is negative; marks are the sampled rows of \
             the Reynolds equation and their mirror images, the dashed circle is the Hertzian contact";
         shown.response.on_hover_text(tip);

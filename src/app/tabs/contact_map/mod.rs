@@ -13,9 +13,9 @@ use images::Images;
 use crate::app::answers::picture::{Cuts, Picture};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
-use crate::app::controls::{described, reserved, sentence};
+use crate::app::controls::{described, sentence};
 use crate::app::document::Edit;
-use crate::app::drawn;
+use crate::app::drawn::{self, Owner};
 use crate::app::figure::{self, Subject};
 use crate::app::numbers;
 use crate::app::purpose::{Purpose, Written};
@@ -122,7 +122,7 @@ impl ContactMap {
             ui.centered_and_justified(|ui| ui.weak("The first picture is being computed"));
             return;
         };
-        let stale = drawn::is_grey(ui.ctx(), "map", &picture.key, &context.document.key());
+        let stale = drawn::is_grey(ui.ctx(), "map", Owner::Contact(picture.key), context);
         self.images.follow(ui.ctx(), picture, &self.view);
         let drawing =
             Drawing { picture, images: &self.images, view: self.view, cuts: context.cuts, fit: context.fit, stale };
@@ -156,10 +156,11 @@ impl ContactMap {
         }
         in_time::follow(context, commands);
         // Rooms of their own, so that nothing moves as runs begin and end.
-        reserved(ui, 2, |ui| in_time::status(ui, context));
+        in_time::status(ui, context, None);
         let size = vec2(ui.available_width(), ui.available_height() - 30.0);
         let shown = ui.allocate_ui_with_layout(size, Layout::top_down(Align::LEFT), |ui| {
             ui.set_min_size(size);
+            in_time::grey_where_stale(ui, context, "film over time");
             // A little less than its room, so that rounding moves nothing either.
             self.over_time.ui(ui, context, commands, size.y - 4.0)
         });

@@ -7,11 +7,12 @@ pub mod series;
 
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
-use crate::app::controls::{message_ui, named, sentence, standing_ui, warning_ui};
+use crate::app::controls::{named, sentence, standing_ui};
 use crate::app::document::Edit;
+use crate::app::drawn::{self, Owner};
 use crate::app::form::{Form, LastField};
 use crate::app::numbers;
-use crate::app::theme::rich;
+use crate::app::theme::{Palette, rich};
 use crate::app::transient::{InTimeCommand, Run, Setup, TransientView};
 use crate::engine::TOO_STEEP;
 use crate::scene::TransientStudy;
@@ -19,7 +20,9 @@ use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::Ended;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::tpwl::{TpwlRecord, Weighting};
-use egui::{ScrollArea, Slider, Ui};
+use egui::text::{LayoutJob, TextFormat};
+use egui::{Color32, FontId, Label, ScrollArea, Slider, TextStyle, Ui};
+use std::sync::Arc;
 
 /// A form over the contact in time of the document, refused under a name of its own; returns the field that was changed
 /// last.
@@ -64,15 +67,14 @@ pub fn is_coming(context: &Context<'_>) -> bool {
     view.standing().is_some() || view.waits() || !view.follows(&wanted)
 }
 
-/// Draws the rest grey where it belongs to a former set-up and nothing of the present one is about to come.
-pub fn grey_where_stale(ui: &mut Ui, context: &Context<'_>) {
-    if !context.transient.is_current() && !context.transient.replays() {
-        ui.multiply_opacity(STALE);
+/// Draws the rest grey where it belongs to a former set-up.
+pub fn grey_where_stale(ui: &mut Ui, context: &Context<'_>, name: &'static str) {
+    let view = context.transient;
+    let Some(setup) = &view.setup else { return };
+    if drawn::is_grey(ui.ctx(), name, Owner::InTime(Arc::clone(setup)), context) {
+        drawn::fade(ui, is_coming(context));
     }
 }
-
-/// Opacity of what belongs to a former set-up.
-pub const STALE: f32 = 0.4;
 
 /// The runs, started or stopped.
 pub fn run_button(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
@@ -91,43 +93,65 @@ pub fn run_button(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     }
 }
 
-/// What runs and how far it is; how runs ended that did not reach the end; whether all of it is still what the sliders
-/// say.
-pub fn status(ui: &mut Ui, context: &Context<'_>) {
+/// What runs and how far it is, what was refused, how runs ended that did not reach the end, and whether all of it is
+/// still what the sliders say: in one line that is always there, so that nothing below moves. What does not fit is read
+/// under the pointer.
+pub fn status<'a>(ui: &mut Ui, context: &'a Context<'_>, refused: impl IntoIterator<Item = &'a str>) {
     let view = context.transient;
-    if view.runs_by_hand() {
-        standing_ui(ui, view.standing(), "Progress of the contact in time");
+    let palette = Palette::of(ui);
+    let size = TextStyle::Small.resolve(ui.style()).size;
+    let mut line = LayoutJob::default();
+    for (text, color) in sentences(context, refused, &palette) {
+        let before = if line.is_empty() { "" } else { ".  " };
+        let format = TextFormat { font_id: FontId::proportional(size), color, ..TextFormat::default() };
+        line.append(&format!("{before}{}", sentence(&text).trim_end_matches('.')), 0.0, format);
     }
-    if let Some(message) = &view.work.message {
-        message_ui(ui, message);
+    ui.horizontal(|ui| {
+        ui.set_min_height(ui.spacing().interact_size.y);
+        if view.runs_by_hand() {
+            standing_ui(ui, view.standing(), "Progress of the contact in time");
+        }
+        if !line.is_empty() {
+            ui.add(Label::new(line).truncate());
+        }
+    });
+}
+
+/// What there is to say of contacts in time, the worst first.
+fn sentences<'a>(
+    context: &'a Context<'_>,
+    refused: impl IntoIterator<Item = &'a str>,
+    palette: &Palette,
+) -> Vec<(String, Color32)> {
+    let view = context.transient;
+    let wrong = refused.into_iter().chain(view.work.message.as_deref()).chain(view.notes.iter().map(String::as_str));
+    let mut said: Vec<(String, Color32)> = wrong.map(|text| (text.to_owned(), palette.wrong)).collect();
+    for run in view.runs.iter().filter(|run| run.ended) {
+        let ended = &run.trajectory.ended;
+        let color = match ended {
+            Ended::StepRefused { .. } | Ended::ContactRefused { .. } => palette.wrong,
+            Ended::Cancelled { .. } => palette.quiet,
+            Ended::Finished => continue,
+        };
+        said.push((format!("{} {}", run.name(), ended.describe()), color));
     }
-    for note in &view.notes {
-        message_ui(ui, note);
+    let mut warn = |text: String| said.push((text, palette.warning));
+    let wanted = Setup::of(context.document, context.file);
+    let asked = |setup: &&Arc<Setup>| ***setup != wanted && !wanted.is_quick();
+    if let Some(setup) = view.setup.as_ref().filter(asked) {
+        let of = numbers::moes(setup.point.moes());
+        warn(format!("What is shown belongs to {of} and a former set-up; run it again for the present one"));
     }
     let steep = |(_, run): (_, &Run)| !run.replayed && run.record.as_ref().is_some_and(TpwlRecord::too_steep);
     if view.linearised_runs().any(steep) {
-        warning_ui(ui, &format!("{TOO_STEEP}. Tick Reduced model, or train on inputs like these"));
+        warn(format!("{TOO_STEEP}. Tick Reduced model, or train on inputs like these"));
     }
     for run in &view.runs {
-        let doubt = run.grid_cost.and_then(|(time, cost)| Some((time, cost.warning()?)));
-        if let Some((time, warning)) = doubt {
-            warning_ui(ui, &format!("{}: at T = {} {warning}", run.name(), numbers::significant(time)));
-        }
-        let said = |ended: &Ended| format!("{} {}", run.name(), ended.describe());
-        match run.ended.then_some(&run.trajectory.ended) {
-            Some(ended @ (Ended::StepRefused { .. } | Ended::ContactRefused { .. })) => message_ui(ui, &said(ended)),
-            Some(ended @ Ended::Cancelled { .. }) => {
-                ui.weak(sentence(&said(ended)));
-            }
-            Some(Ended::Finished) | None => {}
+        if let Some((time, warning)) = run.grid_cost.and_then(|(time, cost)| Some((time, cost.warning()?))) {
+            warn(format!("{}: at T = {} {warning}", run.name(), numbers::significant(time)));
         }
     }
-    let wanted = Setup::of(context.document, context.file);
-    let asked = |setup: &&std::sync::Arc<Setup>| ***setup != wanted && !wanted.is_quick();
-    if let Some(setup) = view.setup.as_ref().filter(asked) {
-        let of = numbers::moes(setup.point.moes());
-        warning_ui(ui, &format!("What is shown belongs to {of} and a former set-up; run it again for the present one"));
-    }
+    said
 }
 
 /// Pictures that scroll where they have to, and under them the moment that is looked at, always in sight.

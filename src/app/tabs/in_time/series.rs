@@ -74,7 +74,7 @@ impl Along {
             if self.against == Against::Together {
                 let looks = [("central film", palette.film), ("central pressure", palette.pressure)];
                 for (name, color) in looks.into_iter().chain([("inputs, dotted", palette.reference)]) {
-                    ui.label(egui::RichText::new(name).small().color(color));
+                    ui.label(egui::RichText::new(name).small().color(palette.ink(color)));
                 }
             }
         });

@@ -8,11 +8,12 @@ use crate::app::answers::picture::{Comparison, Cuts, Origin, Picture, value_at};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::named;
-use crate::app::drawn;
+use crate::app::drawn::{self, Owner};
 use crate::app::export;
 use crate::app::numbers;
 use crate::app::tabs::cut_line::{self, CutLine};
 use crate::app::tabs::direction::Direction;
+use crate::app::tabs::key::{self, Entry, Sample};
 use crate::app::tabs::{axes, badge};
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, rich};
 use egui::{Align2, Checkbox, Color32, ComboBox, Id, Ui, Vec2b};
@@ -54,8 +55,7 @@ impl Profiles {
             ui.centered_and_justified(|ui| ui.weak("The first picture is being computed"));
             return;
         };
-        let present = context.document.key();
-        let stale = drawn::is_grey(ui.ctx(), "profiles", &picture.key, &present);
+        let stale = drawn::is_grey(ui.ctx(), "profiles", Owner::Contact(picture.key), context);
         let reduced = picture.origin != Origin::Full;
         let full = answers.full.as_ref().filter(|_| self.choices.overlay && reduced);
         let comparison = answers.comparison.as_ref().filter(|_| self.choices.difference);
@@ -70,11 +70,12 @@ impl Profiles {
             full,
             pins: &answers.pins,
             stale,
-            full_stale: full.is_some_and(|full| drawn::is_grey(ui.ctx(), "full solution", &full.key, &present)),
+            full_stale: full
+                .is_some_and(|full| drawn::is_grey(ui.ctx(), "full solution", Owner::Contact(full.key), context)),
             fit: context.fit,
             cuts: context.cuts,
         };
-        key(ui, &scene);
+        key_ui(ui, &scene);
         let unit = (ui.available_height() - 6.0) / parts;
         let mut moved = None;
         let mut stack = |ui: &mut Ui, direction: Direction| {
@@ -235,18 +236,17 @@ impl<'a> Scene<'a> {
 }
 
 /// What the lines mean, above them: there it covers nothing.
-fn key(ui: &mut Ui, scene: &Scene<'_>) {
+fn key_ui(ui: &mut Ui, scene: &Scene<'_>) {
     let palette = Palette::of(ui);
     let live = if scene.stale { palette.reference } else { palette.pressure };
     let name = if scene.picture.origin == Origin::Full { "full solution" } else { "reduced model" };
-    let mut lines = vec![axes::KeyLine { name: name.to_owned(), color: live, width: LIVE_WIDTH, dashed: false }];
+    let mut entries = vec![Entry::new(name, live, Sample::Line(LIVE_WIDTH))];
     if scene.full.is_some() {
         let color = if scene.full_stale { palette.reference } else { palette.over(palette.pressure) };
-        lines.push(axes::KeyLine { name: full_name(scene), color, width: FULL_WIDTH, dashed: false });
+        entries.push(Entry::new(full_name(scene), color, Sample::Line(FULL_WIDTH)));
     }
-    let hertz = "dry contact (Hertz)".to_owned();
-    lines.push(axes::KeyLine { name: hertz, color: palette.reference, width: THIN_WIDTH, dashed: true });
-    axes::key(ui, &lines);
+    entries.push(Entry::new("dry contact (Hertz)", palette.reference, Sample::Dashed(THIN_WIDTH)));
+    key::ui(ui, entries);
 }
 
 /// A plot of the stack: shared X axis and cursor.

@@ -2,18 +2,34 @@
 
 use crate::app::numbers;
 use crate::app::tabs::axes;
+use crate::app::tabs::key::{self, Entry, Sample};
 use crate::app::theme::Palette;
-use crate::scene::{Chart, ChartAxis, Marks};
+use crate::scene::{Chart, Marks};
 use egui::{Color32, Ui, Vec2b};
-use egui_plot::{Corner, Legend, Line, MarkerShape, PlotPoints, Points};
+use egui_plot::{Line, MarkerShape, PlotPoints, Points};
 
-/// Draws a chart `height` high; `fresh` fits it to its data.
+/// Series that are named above a chart at most; of more the rest is named under the pointer.
+const NAMED: usize = 24;
+
+/// Draws a chart with its key, `height` high; `fresh` fits it to its data.
 pub fn ui(ui: &mut Ui, id: &str, chart: &Chart, height: f32, fresh: bool) {
     let palette = Palette::of(ui);
-    let hues = [palette.film, palette.pressure, palette.deformation, palette.traction, palette.accent, palette.text];
+    let entries = chart.series.iter().enumerate().take(NAMED).map(|(k, series)| {
+        let sample = match series.marks {
+            Marks::Line => Sample::Line(2.0),
+            Marks::Dots => Sample::Dot(2.8),
+            Marks::Crosses => Sample::Cross(4.0),
+        };
+        Entry::new(plain(&series.name), color(&palette, series.marks, k), sample)
+    });
+    let entries: Vec<Entry> = entries.collect();
+    key::over(ui, &chart.title, height, entries, |ui, height| plot(ui, id, chart, height, fresh));
+}
+
+fn plot(ui: &mut Ui, id: &str, chart: &Chart, height: f32, fresh: bool) {
+    let palette = Palette::of(ui);
     let (x_log, y_log) = (chart.x.log, chart.y.log);
-    let mut plot = axes::plot(ui, id, height, &plain(&chart.x), &plain(&chart.y))
-        .legend(Legend::default().position(Corner::RightTop).follow_insertion_order(true).background_alpha(0.7))
+    let mut plot = axes::plot(ui, id, height, &plain(&chart.x.label), &plain(&chart.y.label))
         .auto_bounds(Vec2b::TRUE)
         .label_formatter(move |hover| match hover {
             egui_plot::HoverPosition::NearDataPoint { plot_name, position, .. } => {
@@ -33,7 +49,7 @@ pub fn ui(ui: &mut Ui, id: &str, chart: &Chart, height: f32, fresh: bool) {
     }
     axes::show(plot, ui, &chart.title, |plot| {
         for (k, series) in chart.series.iter().enumerate() {
-            let color = if series.marks == Marks::Crosses { palette.wrong } else { hue(&hues, k) };
+            let color = color(&palette, series.marks, k);
             let place = |at: f64, log: bool| if log { at.log10() } else { at };
             let points: PlotPoints<'_> =
                 series.points.iter().map(|[x, y]| [place(*x, x_log), place(*y, y_log)]).collect();
@@ -48,13 +64,17 @@ pub fn ui(ui: &mut Ui, id: &str, chart: &Chart, height: f32, fresh: bool) {
     });
 }
 
-fn hue(hues: &[Color32], k: usize) -> Color32 {
+fn color(palette: &Palette, marks: Marks, k: usize) -> Color32 {
+    if marks == Marks::Crosses {
+        return palette.wrong;
+    }
+    let hues = [palette.film, palette.pressure, palette.deformation, palette.traction, palette.accent, palette.text];
     // After one round the hues come again, fainter.
     let faint = 0.6f32.powi((k / hues.len()) as i32);
     hues.get(k % hues.len()).map_or(Color32::GRAY, |hue| hue.gamma_multiply(faint))
 }
 
 /// Braces mark symbols on the screen; a study's titles have none, but names of files may.
-fn plain(axis: &ChartAxis) -> String {
-    axis.label.replace(['{', '}'], "")
+fn plain(text: &str) -> String {
+    text.replace(['{', '}'], "")
 }

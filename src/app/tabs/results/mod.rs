@@ -2,13 +2,15 @@
 //! tables and verdicts come as they are found.
 
 mod chart;
+mod contact;
 mod run;
 mod table;
 
 use crate::app::command::Command;
-use crate::app::context::Commands;
+use crate::app::context::{Commands, Context};
 use crate::app::controls::{message_ui, named, standing_ui, warning_ui};
 use crate::app::document::Document;
+use crate::app::drawn::{self, Owner};
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
 use crate::engine::Workbench;
@@ -19,6 +21,9 @@ use run::{Look, Run};
 
 /// Width of the verdicts beside the charts.
 const VERDICTS: f32 = 330.0;
+
+/// What running the study does.
+const RUN_TIP: &str = "Answers the question of the open scene here, as “ehl-explorer run” does without a window";
 
 /// What is shown of a study.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -86,14 +91,15 @@ impl ResultsView {
     }
 
     /// The tab for the document on the screen.
-    pub fn ui(&mut self, ui: &mut Ui, document: &Document, commands: &mut Commands) {
+    pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        let document = context.document;
         let seen = self.seen.take().filter(|seen| seen.0 == *document);
         let seen = seen.unwrap_or_else(|| (document.clone(), document.to_scene()));
-        self.scene_ui(ui, &seen.1, commands);
+        self.scene_ui(ui, &seen.1, context, commands);
         self.seen = Some(seen);
     }
 
-    fn scene_ui(&mut self, ui: &mut Ui, scene: &Scene, commands: &mut Commands) {
+    fn scene_ui(&mut self, ui: &mut Ui, scene: &Scene, context: &Context<'_>, commands: &mut Commands) {
         let title = if scene.title.is_empty() { "Results" } else { &scene.title };
         ui.horizontal_wrapped(|ui| {
             ui.heading(title);
@@ -101,18 +107,17 @@ impl ResultsView {
                 ui.weak(&scene.source);
             }
         });
-        self.toolbar(ui, commands);
+        self.toolbar(ui, context, commands);
         let Some(run) = &self.run else {
             ui.separator();
-            ui.weak(
-                "The study answers the question of the open scene here, as `ehl-explorer run` does without a window",
-            );
+            contact::ui(ui, context);
             return;
         };
         if let Some(message) = &run.work.message {
             message_ui(ui, message);
         }
-        let changed = run.scene.study != scene.study || run.scene.experiment() != scene.experiment();
+        let changed = !drawn::asks_the_same(&run.scene, scene);
+        drawn::note(ui.ctx(), "results of a study", Owner::Question(Box::new(run.scene.clone())), changed);
         if changed {
             warning_ui(ui, "These results belong to the scene as it was when it was run; it has changed since");
         }
@@ -121,6 +126,9 @@ impl ResultsView {
             ui.weak("Nothing has been found yet");
             return;
         };
+        if changed {
+            drawn::fade(ui, false);
+        }
         let fresh = std::mem::take(&mut self.fresh);
         let whole = ui.available_size();
         let beside = whole.x > 2.0 * VERDICTS;
@@ -142,7 +150,7 @@ impl ResultsView {
         }
     }
 
-    fn toolbar(&mut self, ui: &mut Ui, commands: &mut Commands) {
+    fn toolbar(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         ui.horizontal_wrapped(|ui| {
             let standing = self.standing();
             match &standing {
@@ -150,10 +158,18 @@ impl ResultsView {
                     self.stop();
                 }
                 Some(_) => {}
-                None if ui.button("Run the study").on_hover_text("Answers the scene’s question anew").clicked() => {
+                None if ui.button("Run the study").on_hover_text(RUN_TIP).clicked() => {
                     commands.push(Command::RunStudy);
                 }
                 None => {}
+            }
+            if self.run.is_none() {
+                let tip = "The table of this contact, with all digits";
+                if ui.button("Export CSV…").on_hover_text(tip).clicked() {
+                    commands.extend(contact::csv(context).map(Command::csv));
+                }
+                ui.weak("This contact");
+                return;
             }
             let look = self.run.as_ref().and_then(|run| run.look.as_ref());
             let tables: &[Table] = look.map_or(&[], |look| &look.outcome.tables);

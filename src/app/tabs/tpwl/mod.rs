@@ -12,8 +12,9 @@ mod weights;
 use super::in_time::{self, methods};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
-use crate::app::controls::{choice, message_ui};
+use crate::app::controls::choice;
 use crate::app::document::Edit;
+use crate::app::drawn;
 use crate::app::form::LastField;
 use crate::app::numbers;
 use crate::app::theme::Palette;
@@ -154,13 +155,9 @@ impl Tpwl {
             dials::ui(ui, context, commands);
             in_time::badge::ui(ui, context);
         });
-        if !self.form {
-            context.entries.message_ui(ui, dials::NAME);
-        }
-        in_time::status(ui, context);
-        if let Some(message) = &context.transient.number.work.message {
-            message_ui(ui, message);
-        }
+        let refused = context.entries.message(dials::NAME).filter(|_| !self.form);
+        let failed = context.transient.number.work.message.as_deref();
+        in_time::status(ui, context, refused.into_iter().chain(failed));
         let Some(linearised) = &context.transient.linearised else {
             nothing_yet(ui, context, commands);
             return;
@@ -170,9 +167,9 @@ impl Tpwl {
         let rest = height - (ui.cursor().top() - top) - 6.0;
         let mut sorting = self.sorting;
         let pictures = ui.scope(|ui| {
-            in_time::grey_where_stale(ui, context);
+            in_time::grey_where_stale(ui, context, "linearised model");
             if context.transient.is_current() && context.transient.runs_of(linearised).next().is_none() {
-                ui.multiply_opacity(in_time::STALE);
+                drawn::fade(ui, in_time::is_coming(context));
             }
             pictures::all(ui, &ShownModel::new(ui, self, context, linearised), &mut sorting, rest)
         });

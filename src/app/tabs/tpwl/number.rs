@@ -2,6 +2,7 @@
 
 use super::ShownModel;
 use crate::app::tabs::axes;
+use crate::app::tabs::key::{self, Entry, Sample};
 use crate::app::theme::rich;
 use crate::app::transient::linearised::NumberRow;
 use crate::app::transient::method::{RULES, WEIGHTINGS, rule_name, weighting_name};
@@ -9,30 +10,38 @@ use crate::solver::full::transient::Quantity;
 use egui::{Color32, RichText, Ui};
 use egui_plot::{Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points, VLine};
 
-/// What stands above the plot.
-const HEAD: &str = "Solid distance, dashed missed step";
+/// Size of what stands above the plot.
+const SIZE: f32 = 11.0;
 
 /// The plot, with logarithmic axes.
 pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) {
     let study = &shown.view.number;
-    let head = if study.rows.is_empty() { "Error by number of points: coming" } else { HEAD };
-    ui.horizontal(|ui| {
-        ui.label(rich(head, 12.5, shown.palette.quiet)).on_hover_text(
-            "Relative L2 difference of H_c from the full run: solid the points chosen by distance, dashed by missed steps, on a ladder of \
-             tolerances; the dotted line and the diamond are the model in use",
-        );
-        for (k, name) in ["dual Taylor", "(4.29)"].into_iter().enumerate().filter(|_| !study.rows.is_empty()) {
+    let head = ui.horizontal(|ui| {
+        if study.rows.is_empty() {
+            ui.label(rich("Error by number of points: coming", 12.5, shown.palette.quiet));
+            return;
+        }
+        ui.spacing_mut().item_spacing.x = 5.0;
+        let line = |name, sample| Entry::new(name, shown.palette.quiet, sample);
+        let rules = [line("distance", Sample::Line(1.6)), line("missed step", Sample::Dashed(1.6))];
+        key::entries_ui(ui, rules, SIZE);
+        for (k, name) in ["dual Taylor", "exponential"].into_iter().enumerate() {
             let meaning = weighting_name(WEIGHTINGS[k]).1;
-            ui.label(RichText::new(name).small().color(shown.color(k))).on_hover_text(meaning);
+            let ink = shown.palette.ink(shown.color(k));
+            ui.label(RichText::new(name).size(SIZE).color(ink)).on_hover_text(meaning);
         }
     });
+    head.response.on_hover_text(
+        "Relative L2 difference of H_c from the full run: solid the points chosen by distance, dashed by missed steps, on a ladder of \
+         tolerances; the dotted line and the diamond are the model in use",
+    );
     if study.rows.is_empty() {
         return;
     }
     let curve = |rule: &str, weighting| -> Vec<PlotPoint> {
         let own = |row: &&NumberRow| row.selection.name() == rule && row.weighting == weighting;
         let place = |row: &NumberRow| Some(PlotPoint::new((row.points as f64).log10(), row.difference?.log10()));
-        study.rows.iter().filter(own).filter_map(place).collect()
+        study.rows.iter().filter(own).filter_map(place).filter(|place| place.y.is_finite()).collect()
     };
     let mut lines = Vec::new();
     for (rule, style, shape) in

@@ -25,7 +25,10 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
     let model = &shown.linearised.model;
     let [across, up] = shown.tab.coordinates;
     let modes = model.space.modes();
-    let at = |state: &[f64]| Some(PlotPoint::new(*state.get(across)?, *state.get(up)?));
+    let at = |state: &[f64]| {
+        let place = PlotPoint::new(*state.get(across)?, *state.get(up)?);
+        (place.x.is_finite() && place.y.is_finite()).then_some(place)
+    };
     let places: Vec<(&PointNow, PlotPoint)> =
         shown.points.iter().filter_map(|now| Some((now, at(&model.points.get(now.point)?.moment.state)?))).collect();
     let (palette, film) = (shown.palette, shown.palette.film);
@@ -40,7 +43,7 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
     let key = [("training", film), ("operating points", palette.text), ("run, dashed", palette.quiet)];
     ui.horizontal(|ui| {
         for (name, color) in key.into_iter().chain([("weights", shown.color(0)), ("now", palette.pressure)]) {
-            ui.label(RichText::new(name).small().color(color)).on_hover_text(
+            ui.label(RichText::new(name).small().color(palette.ink(color))).on_hover_text(
                 "Reduced coordinates V^T W P and H_0: the training trajectories, the operating points, as large as they weigh now, the path of \
                  the run, and a diamond at the moment that is looked at",
             );

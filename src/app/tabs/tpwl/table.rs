@@ -61,7 +61,8 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, sorting: &mut Sorting, height: f3
     let several = shown.linearised.trainings.len() > 1;
     let mut columns = vec![(Column::Point, "Point"), (Column::Time, "{T}")];
     for (k, &weighting) in WEIGHTINGS.iter().enumerate().filter(|(k, _)| shown.was_run(*k)) {
-        columns.push((Column::Weight(k), if weighting == Weighting::DualTaylor { "Dual Taylor" } else { "By (4.29)" }));
+        columns
+            .push((Column::Weight(k), if weighting == Weighting::DualTaylor { "Dual Taylor" } else { "Exponential" }));
     }
     columns.push((Column::Distance, "Distance"));
     let count = columns.len() + usize::from(several);

@@ -78,7 +78,7 @@ fn head(ui: &mut Ui, shown: &ShownModel<'_>) {
         let both = (0..WEIGHTINGS.len()).all(|k| shown.was_run(k));
         for k in (0..WEIGHTINGS.len()).filter(|_| both) {
             let (name, meaning) = weighting_name(WEIGHTINGS[k]);
-            ui.label(RichText::new(name).color(shown.color(k))).on_hover_text(meaning);
+            ui.label(RichText::new(name).color(shown.palette.ink(shown.color(k)))).on_hover_text(meaning);
         }
     });
 }

@@ -8,7 +8,7 @@ use crate::app::numbers;
 use crate::app::tabs::axes;
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, faded, rich};
 use crate::app::traction::{Against, Choices, Curve, Markers, Sample, SlideView, Sweep};
-use crate::solver::full::PLAUSIBLE_TRACTION;
+use crate::solver::full::{PLAUSIBLE_TRACTION, TractionDoubt};
 use egui::{Align2, Color32, CursorIcon, Id, PointerButton, Ui, Vec2b};
 use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotUi, Points, Text, VLine};
 
@@ -22,6 +22,8 @@ const SKETCH: f32 = 0.7;
 const COMPANION: f32 = 0.55;
 /// Where the curve of a limited lubricant ends its companion is labelled, as a share of the height.
 const COMPANION_LABEL: f64 = 0.9;
+/// Heights of the axis above it up to which curves are drawn.
+const HEIGHTS: f64 = 20.0;
 /// Where a logarithmic axis of SRR begins, in percent.
 const LEAST_SRR: f64 = 0.1;
 /// Where the view of small sliding ends, in percent.
@@ -98,6 +100,26 @@ impl<'a> Axes<'a> {
             false => (0.0, numbers::round_up(1.08 * most)),
         }
     }
+}
+
+/// A curve as far as it stays within some heights of its axis, from where it crosses that level on along it: what is no
+/// physics may leave the picture by millions of heights, and would be dashed all the way.
+fn near(points: Points2, up: (f64, f64)) -> Points2 {
+    let level = up.1 + HEIGHTS * (up.1 - up.0);
+    let mut kept = Points2::with_capacity(points.len());
+    let mut former: Option<[f64; 2]> = None;
+    for [x, y] in points {
+        if let Some([x_0, y_0]) = former
+            && (y_0 > level) != (y > level)
+        {
+            kept.push([x_0 + (level - y_0) / (y - y_0) * (x - x_0), level]);
+        }
+        if y <= level {
+            kept.push([x, y]);
+        }
+        former = Some([x, y]);
+    }
+    kept
 }
 
 fn drawn(value: f64, logarithmic: bool) -> Option<f64> {
@@ -207,7 +229,7 @@ impl LinkedPlot<'_> {
                 newtonian(plot, axes, samples, faded(color, COMPANION), up);
             }
             for (k, curve) in self.curves.iter().enumerate() {
-                self.curve(plot, axes, shown, (k, curve), &palette);
+                self.curve(plot, axes, shown, (k, curve), (&palette, up));
                 if let Some(markers) = shown.markers {
                     let color = if shown.markers_stale { palette.reference } else { palette.over(curve.color) };
                     rings(plot, axes.points(&markers.samples, curve.of), color, k);
@@ -237,7 +259,7 @@ impl LinkedPlot<'_> {
         let traction = self.id == "traction";
         let samples = shown.curve.iter().flat_map(|curve| &curve.samples);
         let samples = samples.chain(shown.markers.iter().flat_map(|markers| &markers.samples));
-        let samples = samples.filter(seen).filter(|sample| !(traction && sample.unphysical));
+        let samples = samples.filter(seen).filter(|sample| !traction || sample.unphysical.is_none());
         let of_curves = samples.flat_map(|sample| self.curves.iter().filter_map(|curve| (curve.of)(sample)));
         let here = self.here.filter(|(_, unphysical)| here && !unphysical).map(|(value, _)| value);
         axes.up(of_curves.chain(here))
@@ -250,7 +272,7 @@ impl LinkedPlot<'_> {
         axes: &Axes<'_>,
         shown: &ShownSweep<'_>,
         (k, curve): (usize, &Drawn),
-        palette: &Palette,
+        (palette, up): (&Palette, (f64, f64)),
     ) {
         let sketch = shown.curve.is_some_and(|curve| curve.served.untrained.is_some());
         let color = if shown.line_stale() { palette.reference } else { curve.color };
@@ -263,22 +285,22 @@ impl LinkedPlot<'_> {
         };
         let width = if shown.curve.is_some() { curve.width } else { FULL_WIDTH };
         let samples = shown.samples();
-        let doubted = |sample: &Sample| self.id == "traction" && sample.unphysical;
+        let mark = |sample: &Sample| sample.unphysical.filter(|_| self.id == "traction").map(TractionDoubt::mark);
         let mut end = 0;
-        for (part, run) in samples.chunk_by(|a, b| doubted(a) == doubted(b)).enumerate() {
-            let unphysical = run.first().is_some_and(doubted);
+        for (part, run) in samples.chunk_by(|a, b| mark(a) == mark(b)).enumerate() {
+            let mark = run.first().and_then(mark);
             end += run.len();
             // Up to where the next part begins.
             let next = samples.get(end);
-            let (name, color, style, width) = match unphysical {
-                true => ("traction, unphysical", palette.reference, LineStyle::dotted_loose(), THIN_WIDTH),
-                false => (curve.name, color, style, width),
+            let (name, color, style, width) = match mark {
+                Some(mark) => (format!("traction, {mark}"), palette.reference, LineStyle::dotted_loose(), THIN_WIDTH),
+                None => (curve.name.to_owned(), color, style, width),
             };
-            let points = axes.points(run.iter().chain(next), curve.of);
+            let points = near(axes.points(run.iter().chain(next), curve.of), up);
             let line = Line::new(name, points).color(color).width(width);
             plot.line(line.style(style).id((self.id, k, part)).allow_band(false));
         }
-        let last = axes.points(samples.iter().filter(|sample| !doubted(sample)), curve.of);
+        let last = axes.points(samples.iter().filter(|sample| mark(sample).is_none()), curve.of);
         if let Some([x, y]) = last.into_iter().rfind(|point| axes.shows(point[0])) {
             let name =
                 if sketch { format!("{}, not trained for it  ", curve.name) } else { format!("{}  ", curve.name) };
@@ -335,7 +357,7 @@ fn newtonian(plot: &mut PlotUi<'_>, axes: &Axes<'_>, samples: &[Sample], color: 
         pair[0][0] + share * (pair[1][0] - pair[0][0])
     });
     let ink = Palette::of_screen(plot.ctx()).ink(color);
-    let line = Line::new("if it were Newtonian", points).color(color).width(THIN_WIDTH);
+    let line = Line::new("if it were Newtonian", near(points, up)).color(color).width(THIN_WIDTH);
     plot.line(line.style(LineStyle::dashed_loose()).id("newtonian").allow_band(false));
     if let Some(x) = crossing {
         let text = Text::new("", PlotPoint::new(x, level), rich("  if it were Newtonian", axes::TITLE_SIZE, ink));
@@ -346,4 +368,20 @@ fn newtonian(plot: &mut PlotUi<'_>, axes: &Axes<'_>, samples: &[Sample], color: 
 fn rings(plot: &mut PlotUi<'_>, points: Points2, color: Color32, k: usize) {
     let rings = Points::new("full solution", points).color(color).radius(4.0).filled(false);
     plot.points(rings.shape(MarkerShape::Circle).id(("rings", k)));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_curve_that_leaves_the_picture_ends_where_it_does_and_comes_back_where_it_does() {
+        let steep = vec![[0.0, 0.0], [1.0, 0.02], [2.0, 4.22], [3.0, 8e5], [4.0, 0.01]];
+        let kept = near(steep, (0.0, 0.1));
+        assert_eq!((kept.len(), kept[0], kept[1], kept[4]), (5, [0.0, 0.0], [1.0, 0.02], [4.0, 0.01]));
+        let crossing = 1.0 + (2.1 - 0.02) / 4.2;
+        assert!((kept[2][0] - crossing).abs() < 1e-12 && (kept[2][1] - 2.1).abs() < 1e-12, "{kept:?}");
+        assert!((kept[3][0] - 4.0).abs() < 1e-4 && (kept[3][1] - 2.1).abs() < 1e-12, "{kept:?}");
+        assert_eq!(near(vec![[0.0, 0.3], [1.0, 0.2]], (0.0, 0.1)).len(), 2);
+    }
 }

@@ -9,11 +9,11 @@ use crate::app::answers::REST_S;
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{message_ui, sentence, standing_ui, warning_ui, why};
-use crate::app::drawn;
+use crate::app::drawn::{self, Owner};
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
 use crate::app::traction::{Against, Choices, Curve, Markers, Sample, Served, SlideView, Sweep, Varied, export, sweep};
-use crate::solver::full::{PLAUSIBLE_TRACTION, Solution};
+use crate::solver::full::{PLAUSIBLE_TRACTION, Solution, TractionDoubt};
 use egui::{Align, Button, Checkbox, ComboBox, Layout, ScrollArea, TextStyle, Ui, vec2};
 use std::sync::Arc;
 
@@ -108,7 +108,7 @@ impl<'a> ShownSweep<'a> {
         let curve = curve.filter(|_| !curve_stale || markers_stale);
         let key = context.document.key();
         let of = |sweep: &Sweep| sweep.contact_like(&key);
-        let note = |name, sweep: &Sweep| drawn::is_grey(ui.ctx(), name, &of(sweep), &key);
+        let note = |name, sweep: &Sweep| drawn::is_grey(ui.ctx(), name, Owner::Contact(of(sweep)), context);
         Self {
             curve_stale: curve.is_some_and(|curve| note("traction curve", &curve.sweep)) || curve_stale,
             markers_stale: markers.is_some_and(|markers| note("full solutions", &markers.sweep)) || markers_stale,
@@ -241,8 +241,14 @@ fn said(ui: &mut Ui, context: &Context<'_>, (sweep, choices): (&Sweep, &Choices)
     }
     if let Some(unphysical) = sweep.unphysical() {
         warning_ui(ui, &format!("{unphysical}: it is drawn grey. Set a limiting shear stress, or take less load"));
-    } else if view.curve.iter().flat_map(|curve| &curve.samples).any(|sample| sample.unphysical) {
-        warning_ui(ui, &format!("where µ exceeds {PLAUSIBLE_TRACTION} it is unphysical, and drawn grey"));
+    } else {
+        let doubts = || view.curve.iter().flat_map(|curve| &curve.samples).filter_map(|sample| sample.unphysical);
+        if doubts().any(|doubt| matches!(doubt, TractionDoubt::Coefficient(_))) {
+            warning_ui(ui, &format!("where µ exceeds {PLAUSIBLE_TRACTION} it is unphysical, and drawn grey"));
+        }
+        if let Some(doubt) = doubts().find(|doubt| matches!(doubt, TractionDoubt::Stress { .. })) {
+            warning_ui(ui, &format!("{doubt}; such a traction is drawn grey"));
+        }
     }
     let rolls = sweep.varied != Varied::SlideToRoll && sweep.base.point.sliding.slide_to_roll_ratio == 0.0;
     if rolls {
@@ -286,7 +292,7 @@ fn summary(context: &Context<'_>, sweep: &Sweep) -> String {
     if let Some(curve) =
         context.traction.curve.as_ref().filter(|curve| curve.sweep == *sweep && !curve.samples.is_empty())
     {
-        let plausible = curve.samples.iter().filter(|sample| !sample.unphysical);
+        let plausible = curve.samples.iter().filter(|sample| sample.unphysical.is_none());
         let tractions = plausible.map(|sample| sample.traction);
         if sweep.unphysical().is_none() {
             parts.push(format!("{} at most", numbers::significant(tractions.fold(0.0, f64::max))));

@@ -1,11 +1,12 @@
 //! The training as pictures: where its full solutions lie, and how bad the approximations were that led to them.
 
 use crate::app::context::Context;
+use crate::app::drawn::{self, Owner};
 use crate::app::numbers;
 use crate::app::tabs::axes;
 use crate::app::theme::{Palette, faded};
 use crate::solver::training::Plan;
-use egui::{RichText, Ui};
+use egui::{Color32, RichText, Ui};
 use egui_plot::{GridInput, GridMark, HLine, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points};
 
 /// Width of the axes' numbers: both charts are as wide as each other.
@@ -38,15 +39,24 @@ pub fn key(ui: &mut Ui, context: &Context<'_>) {
     ];
     ui.horizontal_wrapped(|ui| {
         for (color, name, count) in entries.into_iter().filter(|entry| entry.2 > 0) {
-            ui.label(RichText::new(format!("{name} {count}")).small().color(color));
+            ui.label(RichText::new(format!("{name} {count}")).small().color(palette.ink(color)));
         }
     });
+}
+
+/// How what came of a training looks: it stands back where another one is set up now.
+fn look(ui: &Ui, context: &Context<'_>) -> impl Fn(Color32) -> Color32 + use<> {
+    let training = context.training;
+    let there = !training.chart.solved.is_empty() || !training.chart.bad.is_empty();
+    let of = training.spec.as_ref().filter(|_| there).map(|spec| Owner::Training(spec.clone()));
+    let grey = of.is_some_and(|of| drawn::is_grey(ui.ctx(), "training", of, context));
+    move |color| if grey { faded(color, 0.4) } else { color }
 }
 
 /// The M–L plane: full solutions by how they were decided on, bad approximations, failed reduced solves, the range.
 pub fn plane(ui: &mut Ui, context: &Context<'_>, height: f32) {
     let palette = Palette::of(ui);
-    let chart = &context.training.chart;
+    let (chart, look) = (&context.training.chart, look(ui, context));
     // What runs, else what would be started.
     let runs = context.training.spec.as_deref().filter(|_| context.training.job().is_some());
     let spec = runs.or_else(|| context.document.training_spec());
@@ -78,7 +88,7 @@ pub fn plane(ui: &mut Ui, context: &Context<'_>, height: f32) {
                 plot.line(outline.allow_hover(false));
             }
             let dots = |name: &str, points: Vec<PlotPoint>, color, radius: f32| {
-                Points::new(name, PlotPoints::Owned(points)).color(color).radius(radius)
+                Points::new(name, PlotPoints::Owned(points)).color(look(color)).radius(radius)
             };
             plot.points(dots("Pre-computed", group(false), palette.reference, 2.8));
             let (searched, found, failed) = (group(true), bad(false), bad(true));
@@ -105,7 +115,7 @@ pub fn plane(ui: &mut Ui, context: &Context<'_>, height: f32) {
 /// lines.
 pub fn indicator(ui: &mut Ui, context: &Context<'_>, height: f32) {
     let palette = Palette::of(ui);
-    let chart = &context.training.chart;
+    let (chart, look) = (&context.training.chart, look(ui, context));
     let tolerances: &[f64] = match context.training.spec.as_deref().map(|spec| &spec.plan) {
         Some(Plan::Adaptive { tolerances, .. }) => tolerances,
         Some(Plan::WorstOfPool { tolerance, .. }) => std::slice::from_ref(tolerance),
@@ -137,9 +147,9 @@ pub fn indicator(ui: &mut Ui, context: &Context<'_>, height: f32) {
             }
             let now = Points::new("", vec![[solved, top]]).id("now").radius(0.1).allow_hover(false);
             plot.points(now.color(egui::Color32::TRANSPARENT));
-            plot.points(Points::new("Bad approximation", known).color(palette.warning).radius(3.0));
+            plot.points(Points::new("Bad approximation", known).color(look(palette.warning)).radius(3.0));
             if !failed.is_empty() {
-                let crosses = Points::new("Reduced solve failed", failed).color(palette.wrong).radius(5.0);
+                let crosses = Points::new("Reduced solve failed", failed).color(look(palette.wrong)).radius(5.0);
                 plot.points(crosses.shape(MarkerShape::Cross));
             }
         },

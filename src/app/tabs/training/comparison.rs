@@ -16,8 +16,9 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     ui.add_space(4.0);
     ui.strong("Compared with the model before");
     ui.weak(format!(
-        "{POINTS} random points of the trained range (3.17); errors against full solutions on each model’s own grid"
-    ));
+        "{POINTS} random points of the trained range; errors against full solutions on each model’s own grid"
+    ))
+    .on_hover_text("Uniform random numbers in the range (3.17)");
     let unknown = comparison.scores.iter().map(|score| score.value("full_failures")).fold(0.0, f64::max);
     if unknown > 0.0 {
         warning_ui(ui, &format!("At {unknown} points there is no full solution and so no error"));

@@ -4,12 +4,12 @@
 use crate::app::numbers;
 use crate::app::tabs::in_time::faster;
 use crate::app::tabs::in_time::series;
+use crate::app::tabs::key::Sample;
 use crate::app::theme::{Palette, rich};
 use crate::app::transient::{Run, TransientView};
 use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::Quantity;
-use egui::{Grid, Sense, Shape, Stroke, Ui, vec2};
-use egui_plot::LineStyle;
+use egui::{Grid, Ui};
 
 /// Width below which the table leaves out what the plots show anyway.
 const WIDE: f32 = 520.0;
@@ -85,20 +85,7 @@ fn row(ui: &mut Ui, view: &TransientView, k: usize, run: &Run, wide: bool) {
 fn sample(ui: &mut Ui, view: &TransientView, k: usize) {
     let palette = Palette::of(ui);
     let (color, width, style) = series::style(view, k, palette.film, &palette);
-    let (rect, _) = ui.allocate_exact_size(vec2(30.0, 12.0), Sense::hover());
-    let ends = [rect.left_center(), rect.right_center()];
-    let stroke = Stroke::new(width, color);
-    match style {
-        LineStyle::Solid => {
-            ui.painter().line_segment(ends, stroke);
-        }
-        LineStyle::Dashed { length } => {
-            ui.painter().extend(Shape::dashed_line(&ends, stroke, length, length * 0.618));
-        }
-        LineStyle::Dotted { spacing } => {
-            ui.painter().extend(Shape::dotted_line(&ends, color, spacing, 0.5 * width));
-        }
-    }
+    Sample::of_line(style, width).ui(ui, color);
 }
 
 /// Mean of H_c over the window over its stationary start, less 1, in percent.

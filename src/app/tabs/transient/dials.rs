@@ -9,7 +9,7 @@ use crate::app::theme::rich;
 use crate::app::transient::input::Input;
 use crate::scene::TransientStudy;
 use crate::solver::full::transient::Signal;
-use egui::{DragValue, Ui};
+use egui::{DragValue, Label, Ui};
 
 /// Amplitudes that can be dragged to.
 const AMPLITUDES: (f64, f64) = (0.01, 0.5);
@@ -103,5 +103,5 @@ fn swing_ui(ui: &mut Ui, input: Input, study: &mut TransientStudy, scale_s: f64)
     let entry = ui.add_sized([48.0, ui.spacing().interact_size.y], entry);
     named(ui, entry, &format!("{period_name} value")).on_hover_text(tip);
     let text = format!("{{T}} = {}", numbers::duration(*period * scale_s));
-    ui.label(rich(&text, 13.0, ui.visuals().weak_text_color()));
+    ui.add(Label::new(rich(&text, 13.0, ui.visuals().weak_text_color())).extend());
 }

@@ -62,10 +62,7 @@ impl Transient {
             dials::ui(ui, context, commands);
             in_time::badge::ui(ui, context);
         });
-        in_time::status(ui, context);
-        if !self.form {
-            context.entries.message_ui(ui, "transient");
-        }
+        in_time::status(ui, context, context.entries.message("transient").filter(|_| !self.form));
         let view = context.transient;
         if view.runs.iter().all(|run| run.trajectory.moments.is_empty()) {
             if !in_time::is_coming(context) {
@@ -75,7 +72,7 @@ impl Transient {
         }
         let rest = height - (ui.cursor().top() - top);
         let all = ui.vertical(|ui| {
-            in_time::grey_where_stale(ui, context);
+            in_time::grey_where_stale(ui, context, "contact in time");
             let room = rest - cost::height(view);
             let wanted = self.plots(ui, context, commands, room);
             ui.allocate_ui([ui.available_width(), cost::height(view)].into(), |ui| {

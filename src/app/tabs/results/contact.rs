@@ -1,0 +1,142 @@
+//! The contact on the screen as a table: what it amounts to by the reduced model and in full, with units, and what
+//! published formulas say. Needs no study.
+
+use crate::app::answers::picture::{Origin, Picture};
+use crate::app::context::Context;
+use crate::app::drawn::{self, Owner};
+use crate::app::numbers;
+use crate::app::tabs::{badge, formulas};
+use crate::app::theme::{Palette, rich};
+use crate::scene::Table;
+use crate::solver::physics::contact::ContactKind;
+use egui::{Grid, ScrollArea, Ui};
+
+/// Width from which on the formulas stand beside the table.
+const BESIDE: f32 = 860.0;
+
+/// What is less is rounding.
+const NOTHING: f64 = 1e-9;
+
+/// A quantity of a picture: name and symbol, a name for files, what it is, its value, and the same in SI units.
+struct Quantity {
+    name: &'static str,
+    symbol: &'static str,
+    tip: &'static str,
+    value: f64,
+    si: String,
+}
+
+/// What is shown, from top to bottom.
+fn quantities(picture: &Picture) -> Vec<Quantity> {
+    let (s, point) = (picture.solution.scalars, &picture.key.point);
+    let hertz = point.hertz();
+    let film = |h: f64| numbers::length(h * point.film_scale_m());
+    let place = |x: f64| numbers::length(x * hertz.half_width_m);
+    let pressure = |p: f64| numbers::pressure(p * hertz.pressure_pa);
+    let one = |name, symbol, tip, value, si| Quantity { name, symbol, tip, value, si };
+    vec![
+        one("Central film {H_c}", "H_c", "Film at X = 0, and Y = 0; H = hR/a² (2.22)", s.h_c, film(s.h_c)),
+        one("Smallest film {H_min}", "H_min", "Smallest film of the contact zone", s.h_min, film(s.h_min)),
+        one("at {X}", "X_H_min", "Where the film is smallest", s.x_h_min, place(s.x_h_min)),
+        one("Central pressure {P_c}", "P_c", "Pressure at X = 0, and Y = 0; P = p/p_H (2.22)", s.p_c, pressure(s.p_c)),
+        one("Largest pressure {P_max}", "P_max", "Largest pressure of all nodes", s.p_max, pressure(s.p_max)),
+        one("at {X}", "X_P_max", "Where the pressure is largest", s.x_p_max, place(s.x_p_max)),
+        one("Displacement {H_0}", "H_0", "Of both bodies, with the kernel of (2.27) or (2.25)", s.h_0, String::new()),
+        one("Traction coefficient {µ}", "traction", TRACTION, picture.traction, friction(picture)),
+        one("Load left over", "load_residual", "Of the load, relative to it", s.load_residual, String::new()),
+    ]
+}
+
+/// What traction is.
+const TRACTION: &str = "Shear stress at mid-film over the whole domain, over the load (3.41); none in pure rolling";
+
+/// The friction force.
+fn friction(picture: &Picture) -> String {
+    let force = picture.traction * picture.key.point.load;
+    match (picture.unphysical, picture.key.point.kind) {
+        (Some(doubt), _) => doubt.mark().to_owned(),
+        (None, ContactKind::Line) => numbers::quantity(1e-3 * force, "N/mm"),
+        (None, ContactKind::Point) => numbers::quantity(force, "N"),
+    }
+}
+
+/// What is shown beside each other: the picture, and the full solution where that is another one of the same contact.
+fn columns<'a>(context: &Context<'a>) -> Option<(&'a Picture, Option<&'a Picture>)> {
+    let picture = context.answers.picture.as_ref()?;
+    let full = context.answers.full.as_ref();
+    Some((picture, full.filter(|full| picture.origin != Origin::Full && full.key == picture.key)))
+}
+
+fn name(picture: &Picture) -> &'static str {
+    if picture.origin == Origin::Full { "Full solution" } else { "Reduced model" }
+}
+
+/// The page.
+pub fn ui(ui: &mut Ui, context: &Context<'_>) {
+    let Some((picture, full)) = columns(context) else {
+        ui.weak("The first picture is being computed");
+        return;
+    };
+    let stale = drawn::is_grey(ui.ctx(), "results", Owner::Contact(picture.key), context);
+    badge::ui(ui, context);
+    ui.add_space(4.0);
+    ScrollArea::both().id_salt("results of the contact").auto_shrink(false).show(ui, |ui| {
+        if stale {
+            ui.disable();
+        }
+        if ui.available_width() > BESIDE {
+            ui.horizontal_top(|ui| {
+                ui.vertical(|ui| table_ui(ui, picture, full));
+                ui.add_space(18.0);
+                ui.vertical(|ui| formulas::table(ui, context));
+            });
+        } else {
+            table_ui(ui, picture, full);
+            ui.add_space(8.0);
+            formulas::table(ui, context);
+        }
+    });
+}
+
+fn table_ui(ui: &mut Ui, picture: &Picture, full: Option<&Picture>) {
+    let palette = Palette::of(ui);
+    let text = ui.visuals().text_color();
+    Grid::new("results of the contact").striped(true).spacing([16.0, 5.0]).show(ui, |ui| {
+        let mut titles = vec!["", name(picture), "in SI units"];
+        if full.is_some() {
+            titles.extend(["Full solution", "Deviation"]);
+        }
+        for title in titles {
+            ui.label(rich(title, 12.5, palette.quiet));
+        }
+        ui.end_row();
+        let truths = full.map(quantities).unwrap_or_default();
+        for (k, Quantity { name, tip, value, si, .. }) in quantities(picture).into_iter().enumerate() {
+            ui.label(rich(name, 13.5, text)).on_hover_text(tip);
+            ui.strong(numbers::significant(value)).on_hover_text(tip);
+            ui.label(si);
+            if let Some(truth) = truths.get(k).map(|truth| truth.value) {
+                ui.label(numbers::significant(truth)).on_hover_text(tip);
+                // What is to be nothing is as good as nothing by both.
+                let off = |truth| numbers::percent(value / truth - 1.0);
+                ui.label(Some(truth).filter(|truth| truth.abs() > NOTHING).map_or_else(String::new, off))
+                    .on_hover_text("Reduced over full, less one");
+            }
+            ui.end_row();
+        }
+    });
+}
+
+/// The same for the file, where there is anything.
+pub fn csv(context: &Context<'_>) -> Option<String> {
+    let (picture, full) = columns(context)?;
+    let mut titles = vec![if picture.origin == Origin::Full { "full" } else { "reduced" }];
+    titles.extend(full.map(|_| "full"));
+    let mut table = Table::new("contact", &titles);
+    let columns: Vec<Vec<Quantity>> = [Some(picture), full].into_iter().flatten().map(quantities).collect();
+    for (k, Quantity { symbol, .. }) in quantities(picture).into_iter().enumerate() {
+        table.labels.push(symbol.to_owned());
+        table.rows.push(columns.iter().filter_map(|column| Some(column.get(k)?.value)).collect());
+    }
+    Some(table.to_csv())
+}
