@@ -3,14 +3,17 @@
 use super::answers::picture::Cuts;
 use super::display::Thresholds;
 use super::document::Edit;
+use super::in_use::InUse;
 use super::layouts::Layout;
 use super::purpose::{Purpose, Written};
 use super::tab::Tab;
 use super::traction::{Served, Sweep};
 use super::training::TrainingCommand;
 use super::transient::InTimeCommand;
+use crate::scene::Scene;
 use egui::{Context, Id, Key, KeyboardShortcut, Modifiers};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// What the user can ask for: by menu, key and palette, or in a panel or tab.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +22,10 @@ pub enum Command {
     New,
     /// Open a scene.
     Open,
+    /// Show the scenes of the program.
+    Examples,
+    /// Solve a table of load cases.
+    LoadCases,
     /// Save under the known name.
     Save,
     /// Save under a name to be given.
@@ -65,6 +72,8 @@ pub enum Command {
     DarkTheme,
     /// The system's theme.
     SystemTheme,
+    /// Light presentations whatever the theme, or no more.
+    LightPresentation,
     /// Larger text and lines.
     LargerText,
     /// Smaller text and lines.
@@ -105,14 +114,20 @@ pub enum Command {
     Cut(Cuts),
     /// Remove one pin, by its place.
     RemovePin(usize),
+    /// Draw by another reduced model.
+    UseModel(InUse),
     /// Open a certain scene.
     OpenPath(PathBuf),
+    /// Open a scene that lies nowhere yet.
+    OpenScene(Arc<Scene>),
     /// Ask where something is to be written, or what is to be read.
     Ask(Purpose),
     /// Export a plot that is on the screen as a drawing.
     Draw(&'static str),
     /// Run the study of the open scene.
     RunStudy,
+    /// Put the question above the tabs away.
+    CloseHeadline,
     /// Put the sentence about the last file away.
     Dismiss,
     /// Draw a curve by a reduced model.
@@ -149,7 +164,7 @@ const CTRL: Modifiers = Modifiers::COMMAND;
 const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
 /// The menus from left to right, each in its groups.
-pub static MENUS: [Item; 40] = {
+pub static MENUS: &[Item] = {
     use Command as C;
     const fn item(
         menu: &'static str,
@@ -161,9 +176,11 @@ pub static MENUS: [Item; 40] = {
     ) -> Item {
         Item { menu, group, command, name, synonyms, key }
     }
-    [
+    &[
         item("File", 0, C::New, "New", "", Some((CTRL, Key::N))),
         item("File", 0, C::Open, "Open…", "", Some((CTRL, Key::O))),
+        item("File", 0, C::Examples, "Examples…", "scenes tables figures dissertation search", None),
+        item("File", 0, C::LoadCases, "Load cases…", "table csv paste bearings gears batch", None),
         item("File", 1, C::Save, "Save", "", Some((CTRL, Key::S))),
         item("File", 1, C::SaveAs, "Save as…", "", Some((CTRL_SHIFT, Key::S))),
         item("File", 2, C::ExportPlot, "Export plot…", "picture figure image svg png", Some((CTRL, Key::E))),

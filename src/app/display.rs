@@ -60,6 +60,8 @@ pub struct Display {
     pub thresholds: Thresholds,
     /// Whether tabs say why, for teaching.
     pub why: bool,
+    /// Whether a presentation is light whatever the theme: a projector shows no black.
+    pub light_presentation: bool,
 }
 
 impl Display {
@@ -70,7 +72,7 @@ impl Display {
 impl Default for Display {
     fn default() -> Self {
         let (cuts, thresholds) = (Cuts::default(), Thresholds::default());
-        Self { cuts, theme: egui::ThemePreference::System, zoom: 1.0, thresholds, why: false }
+        Self { cuts, theme: egui::ThemePreference::System, zoom: 1.0, thresholds, why: false, light_presentation: true }
     }
 }
 

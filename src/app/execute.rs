@@ -31,6 +31,8 @@ impl Explorer {
         match command {
             Command::New => desk.request(ctx, Pending::New),
             Command::Open => desk.request(ctx, Pending::OpenDialog),
+            Command::Examples => self.examples.open(),
+            Command::LoadCases => desk.load_cases.open(),
             Command::Save => desk.save(ctx),
             Command::SaveAs => desk.ask_path(ctx, Purpose::Save),
             Command::ExportPlot => desk.figures.ask(),
@@ -65,18 +67,19 @@ impl Explorer {
                 *difference = !*difference;
                 self.show(Tab::Profiles);
             }
-            Command::Arrange(layout) => self.tree = layout.tree(),
+            Command::Arrange(layout) => self.tree = layout.tree(ctx.content_rect().width()),
             Command::Lessons => self.lessons.toggle(),
             Command::ShowWhy => desk.display.why = !desk.display.why,
             Command::FitPlots => desk.fit_plots = true,
             Command::LightTheme => self.set_theme(ctx, ThemePreference::Light),
             Command::DarkTheme => self.set_theme(ctx, ThemePreference::Dark),
             Command::SystemTheme => self.set_theme(ctx, ThemePreference::System),
+            Command::LightPresentation => desk.display.light_presentation = !desk.display.light_presentation,
             Command::LargerText => self.set_zoom(self.desk.display.zoom * 1.1),
             Command::SmallerText => self.set_zoom(self.desk.display.zoom / 1.1),
             Command::NormalText => self.set_zoom(1.0),
             Command::ResetLayout => {
-                self.tree = Layout::Explore.tree();
+                self.tree = Layout::Explore.tree(ctx.content_rect().width());
                 self.place.sliders = Place::default().sliders;
                 self.desk.fit_plots = true;
                 ctx.memory_mut(|m| m.data.clear());
@@ -113,6 +116,8 @@ impl Explorer {
             Command::DiscardTraining => desk.request(ctx, Pending::DiscardTraining),
             Command::ThrowModelAway => desk.request(ctx, Pending::ThrowModelAway),
             Command::Cancel if self.settings.open => self.settings.open = false,
+            Command::Cancel if self.examples.is_open() => self.examples.close(),
+            Command::Cancel if desk.load_cases.is_open() => desk.load_cases.close(),
             Command::Cancel if self.help.about => self.help.about = false,
             Command::Cancel if self.help.manual.is_open() => self.help.manual.close(),
             Command::Cancel if self.lessons.is_open() => self.lessons.close(),
@@ -136,13 +141,16 @@ impl Explorer {
                     desk.answers.pins.remove(place);
                 }
             }
+            Command::UseModel(wanted) => _ = desk.answers.use_model(wanted.model),
             Command::OpenPath(path) => desk.request(ctx, Pending::Open(path)),
+            Command::OpenScene(scene) => desk.request(ctx, Pending::OpenScene(scene)),
             Command::Ask(purpose) => desk.ask_path(ctx, purpose),
             Command::Draw(name) => desk.figures.draw(name),
             Command::RunStudy => {
                 desk.run_study(wake(ctx));
                 self.show(Tab::Results);
             }
+            Command::CloseHeadline => desk.headline = None,
             Command::Dismiss => desk.files.notice = None,
         }
     }
@@ -155,8 +163,16 @@ impl Explorer {
     /// Begins a presentation or ends it.
     fn present(&mut self, ctx: &Context) {
         match self.desk.presentation.take() {
-            Some(presentation) => presentation.end(ctx),
-            None => self.desk.presentation = Some(Presentation::begin(ctx)),
+            Some(presentation) => {
+                presentation.end(ctx);
+                ctx.set_theme(self.desk.display.theme);
+            }
+            None => {
+                self.desk.presentation = Some(Presentation::begin(ctx));
+                if self.desk.display.light_presentation {
+                    ctx.set_theme(ThemePreference::Light);
+                }
+            }
         }
     }
 

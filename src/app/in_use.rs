@@ -51,16 +51,7 @@ impl InUse {
     pub fn trained_range(&self) -> Range {
         match Scene::from_ron(&self.model.scene).map(|scene| scene.study) {
             Ok(Study::Training(spec)) => spec.range,
-            _ => {
-                let d = &self.model.domain;
-                Range::Moes {
-                    m: d.m,
-                    l: d.l,
-                    alpha: d.alpha_per_pa,
-                    max_hertz_pressure: d.max_hertz_pressure_pa,
-                    viscosity: d.viscosity_pa_s,
-                }
-            }
+            _ => Range::from(&self.model.domain),
         }
     }
 

@@ -3,6 +3,9 @@
 use super::tab::Tab;
 use egui_tiles::{Linear, LinearDir, Tile, TileId, Tiles, Tree};
 
+/// From this width on a window has room for another tab beside \[points\].
+const WIDE: f32 = 1700.0;
+
 /// An arrangement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Layout {
@@ -24,18 +27,25 @@ impl Layout {
 
     /// Tabs that lie beside each other, group by group; the first of each is in front. Those left out go to the last
     /// group.
-    fn groups(self) -> &'static [&'static [Tab]] {
-        match self {
-            Self::Explore => &[&[]],
-            Self::Teach => &[&[Tab::Profiles, Tab::ContactMap, Tab::Traction, Tab::Transient], &[Tab::Regimes]],
-            Self::Engineer => &[&[Tab::Profiles, Tab::ContactMap, Tab::Regimes], &[Tab::Traction, Tab::Results]],
-            Self::ModelReduction => &[&[Tab::Basis, Tab::Profiles, Tab::ContactMap, Tab::Regimes], &[Tab::Accuracy]],
+    fn groups(self, wide: bool) -> &'static [&'static [Tab]] {
+        use Tab::{Accuracy, Basis, ContactMap, Profiles, Regimes, Results, Tpwl, Traction, Training, Transient};
+        match (self, wide) {
+            (Self::Explore, false) => &[&[]],
+            (Self::Explore, true) => {
+                &[&[Profiles, ContactMap, Basis, Accuracy, Training, Transient, Tpwl, Results], &[Regimes, Traction]]
+            }
+            (Self::Teach, false) => &[&[Profiles, ContactMap, Traction, Transient], &[Regimes]],
+            (Self::Teach, true) => &[&[Profiles, ContactMap, Transient], &[Regimes], &[Traction]],
+            (Self::Engineer, false) => &[&[Profiles, ContactMap, Regimes], &[Traction, Results]],
+            (Self::Engineer, true) => &[&[Profiles, ContactMap], &[Traction, Regimes], &[Results]],
+            (Self::ModelReduction, false) => &[&[Basis, Profiles, ContactMap, Regimes], &[Accuracy]],
+            (Self::ModelReduction, true) => &[&[Basis], &[Profiles, ContactMap, Regimes], &[Accuracy]],
         }
     }
 
-    /// The tabs so arranged, each once.
-    pub fn tree(self) -> Tree<Tab> {
-        let groups = self.groups();
+    /// The tabs so arranged, each once, in a window of a width \[points\].
+    pub fn tree(self, width: f32) -> Tree<Tab> {
+        let groups = self.groups(width >= WIDE);
         let listed: Vec<Tab> = groups.iter().flat_map(|group| group.iter().copied()).collect();
         let rest = || Tab::ALL.into_iter().filter(|tab| !listed.contains(tab));
         let mut tiles = Tiles::default();
@@ -69,8 +79,9 @@ mod tests {
 
     #[test]
     fn every_arrangement_has_every_tab_once_and_the_first_of_each_group_in_front() {
-        for layout in Layout::ALL {
-            let tree = layout.tree();
+        for (layout, width) in Layout::ALL.into_iter().flat_map(|layout| [(layout, 1280.0), (layout, 2560.0)]) {
+            let tree = layout.tree(width);
+            let groups = layout.groups(width >= WIDE);
             let mut tabs: Vec<Tab> = tree
                 .tiles
                 .tiles()
@@ -81,10 +92,10 @@ mod tests {
                 .collect();
             tabs.sort_by_key(|tab| Tab::ALL.iter().position(|other| other == tab));
             assert_eq!(tabs, Tab::ALL, "{layout:?}");
-            let front: Vec<Tab> = layout.groups().iter().filter_map(|group| group.first().copied()).collect();
+            let front: Vec<Tab> = groups.iter().filter_map(|group| group.first().copied()).collect();
             let seen = seen(&tree);
             assert!(front.iter().all(|tab| seen.contains(tab)), "{layout:?}: {seen:?}");
-            assert_eq!(seen.len(), layout.groups().len());
+            assert_eq!(seen.len(), groups.len());
         }
     }
 }

@@ -226,7 +226,7 @@ mod tests {
     #[test]
     fn the_page_of_keys_lists_every_key() {
         let page = PAGES.iter().find(|page| page.file == "keyboard.md").unwrap();
-        for item in &MENUS {
+        for item in MENUS {
             let Some(shortcut) = item.shortcut() else { continue };
             let (name, key) = (item.name.trim_end_matches('…'), shortcut.format(&ModifierNames::NAMES, false));
             let row = format!("| {name} | {key} |");

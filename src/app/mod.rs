@@ -11,6 +11,7 @@ mod desk;
 mod display;
 mod document;
 mod drawn;
+mod examples;
 mod execute;
 mod export;
 mod figure;
@@ -18,6 +19,7 @@ mod form;
 mod in_use;
 mod layouts;
 mod lessons;
+mod load_cases;
 mod manual;
 mod model_source;
 mod numbers;
@@ -47,6 +49,7 @@ use document::Document;
 use drawn::Drawn;
 use egui::{CentralPanel, Panel, ScrollArea, Ui};
 use egui_tiles::Tree;
+use examples::Examples;
 use layouts::Layout;
 use lessons::{Lessons, OnScreen};
 use model_source::Models;
@@ -106,6 +109,8 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
     })
 }
 
+/// A presentation on a screen that is no higher has no read-outs \[points\].
+const LOW: f32 = 500.0;
 /// Least height of the read-outs.
 const READOUTS: f32 = 24.0;
 
@@ -117,6 +122,7 @@ pub struct Explorer {
     help: Help,
     settings: Settings,
     lessons: Lessons,
+    examples: Examples,
     drawn: Vec<Drawn>,
     frame_s: f64,
     installed: bool,
@@ -139,8 +145,9 @@ impl Explorer {
     fn with_models(models: Models, store: Store) -> Self {
         Self {
             desk: Desk::new(Document::default(), models, store),
-            tree: Layout::default().tree(),
+            tree: Layout::default().tree(Place::default().size.0),
             lessons: Lessons::default(),
+            examples: Examples::default(),
             palette: Palette::default(),
             help: Help::default(),
             settings: Settings::default(),
@@ -198,19 +205,19 @@ impl Explorer {
         self.panels(ui, &mut commands);
         self.execute_all(&ctx, &mut commands);
         self.answer_opened(&ctx);
+        let here = self.desk.document.point;
+        self.desk.views.regimes.follow(here.kind, here.moes());
         self.desk.answers.refresh(&ctx, &self.desk.document);
         self.desk.follow_cuts();
         self.lessons_ui(ui, &mut commands);
-        if self.desk.presentation.is_none() {
-            let in_time = self.shows_in_time();
-            Panel::bottom("readouts").show(ui, |ui| {
-                // Whatever they are of, nothing above them moves.
-                ui.set_min_height(READOUTS);
-                let context = self.desk.context();
-                if !in_time || !panels::moment::ui(ui, &context) {
-                    panels::readouts::ui(ui, &context);
-                }
-            });
+        let in_time = self.shows_in_time();
+        // A presentation on a very low screen leaves their room to the plots.
+        let room = self.desk.presentation.is_none() || ctx.content_rect().height() > LOW;
+        if room {
+            self.readouts_ui(ui, in_time);
+        }
+        if let Some(headline) = self.desk.headline.as_ref().filter(|_| self.desk.presentation.is_none()) {
+            Panel::top("headline").show(ui, |ui| headline.ui(ui, &mut commands));
         }
         CentralPanel::no_frame().show(ui, |ui| {
             self.tree.ui(&mut Tabs { desk: &mut self.desk, commands: &mut commands }, ui);
@@ -220,6 +227,8 @@ impl Explorer {
         self.desk.figures_ui(&ctx);
         panels::help::ui(&ctx, &mut self.help);
         self.settings.ui(&ctx, &self.desk, &mut commands);
+        self.examples.ui(&ctx, &mut commands);
+        self.desk.load_cases.ui(&ctx, &self.desk.document, &mut commands);
         commands.extend(self.palette.ui(&ctx, &self.desk));
         self.settle(&ctx);
         self.execute_all(&ctx, &mut commands);
@@ -229,6 +238,18 @@ impl Explorer {
             ctx.request_repaint();
         }
         self.frame_s = begin.elapsed().as_secs_f64();
+    }
+
+    /// What the contact, or the moment that is looked at, amounts to.
+    fn readouts_ui(&self, ui: &mut Ui, in_time: bool) {
+        Panel::bottom("readouts").show(ui, |ui| {
+            // Whatever they are of, nothing above them moves.
+            ui.set_min_height(READOUTS);
+            let context = self.desk.context();
+            if !in_time || !panels::moment::ui(ui, &context) {
+                panels::readouts::ui(ui, &context);
+            }
+        });
     }
 
     /// The panel of lessons, where it is open.
@@ -244,10 +265,14 @@ impl Explorer {
             pins: self.desk.answers.pins.len(),
             checked: self.desk.answers.comparison.is_some() && self.desk.answers.picture_is_current(),
         };
+        // Tabs beside each other on a small screen keep their width.
+        let below = ui.ctx().content_rect().width() < lessons::BESIDE && screen.tabs.len() > 1;
+        let panel = match below {
+            true => Panel::bottom("lessons below").exact_size(lessons::HEIGHT),
+            false => Panel::right("lessons").exact_size(lessons::WIDTH),
+        };
         let lessons = &mut self.lessons;
-        Panel::right("lessons").exact_size(lessons::WIDTH).resizable(false).show(ui, |ui| {
-            lessons.ui(ui, &screen, commands);
-        });
+        panel.resizable(false).show(ui, |ui| lessons.ui(ui, &screen, commands));
     }
 
     /// Brings the tab to the front that answers a scene which was just opened, and runs its study where that is done

@@ -11,6 +11,8 @@ pub enum Purpose {
     Save,
     /// Read inputs of a contact in time.
     Inputs,
+    /// Read a table of load cases.
+    Cases,
     /// Write a file with this content.
     Write(Written, Arc<Vec<u8>>),
 }
@@ -45,7 +47,7 @@ pub struct Words {
 impl Purpose {
     /// Whether a file is read: then it must exist, and none is replaced.
     pub fn reads(&self) -> bool {
-        matches!(self, Self::Open | Self::Inputs)
+        matches!(self, Self::Open | Self::Inputs | Self::Cases)
     }
 
     /// How a path is asked for.
@@ -54,6 +56,7 @@ impl Purpose {
             Self::Open => ("Open a scene or a reduced model", "Open", "Scene or reduced model", &["ron", "rom"], ""),
             Self::Save => ("Save the scene", "Save", "Scene", &["ron"], "contact.ron"),
             Self::Inputs => ("Inputs from a table", "Read", "Table", &["csv"], ""),
+            Self::Cases => ("Load cases from a table", "Read", "Table", &["csv"], ""),
             Self::Write(Written::Model, _) => ("Save the reduced model", "Save", "Reduced model", &["rom"], "line.rom"),
             Self::Write(Written::Table, _) => ("Export the data as CSV", "Export", "Table", &["csv"], "profiles.csv"),
             Self::Write(Written::Svg, _) => ("Export the picture", "Export", "Picture", &["svg"], "contact.svg"),

@@ -1,7 +1,7 @@
 //! Reading and writing scenes as RON.
 
 use super::error::{SceneError, SceneFileError, VERSION};
-use super::{Scene, atomic_file};
+use super::{Scene, atomic_file, examples};
 use ron::Options;
 use ron::extensions::Extensions;
 use ron::ser::PrettyConfig;
@@ -61,11 +61,15 @@ impl Scene {
         Ok(text)
     }
 
-    /// Reads a scene file.
+    /// Reads a scene file, or one of the program's [`examples`].
     ///
     /// # Errors
     /// When the file cannot be read or is no valid scene; the message names the file.
     pub fn read(path: &Path) -> Result<Self, SceneFileError> {
+        let refused = |reason| SceneFileError::Scene { path: path.to_owned(), reason };
+        if let Some(text) = examples::text_of(path) {
+            return Self::from_ron(text).map_err(refused);
+        }
         let unreadable = |reason: String| SceneFileError::Read { path: path.to_owned(), reason };
         if path.is_dir() {
             return Err(unreadable("it is a folder".to_owned()));
@@ -78,7 +82,7 @@ impl Scene {
             return Err(unreadable(format!("it is larger than {MAX_BYTES} bytes, which no scene is")));
         }
         let text = String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8 text".to_owned()))?;
-        Self::from_ron(&text).map_err(|reason| SceneFileError::Scene { path: path.to_owned(), reason })
+        Self::from_ron(&text).map_err(refused)
     }
 
     /// Writes a scene file, as a whole or not at all.

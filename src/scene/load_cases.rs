@@ -9,6 +9,7 @@
 use super::At;
 use super::bench::Request;
 use super::check::MAX_POINTS;
+use super::examples;
 use super::experiment::Experiment;
 use super::grid;
 use super::named_lubricant::by_name;
@@ -143,9 +144,20 @@ impl CaseTable {
             Self::File(path) => cases(&text_of(&resolve(path))?, experiment),
         }
     }
+
+    /// The table in a file, as a text that can be edited.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn pasted(path: &Path) -> Result<Self, CasesError> {
+        text_of(path).map(Self::Text)
+    }
 }
 
 fn text_of(path: &Path) -> Result<String, CasesError> {
+    if let Some(text) = examples::text_of(path) {
+        return Ok(text.to_owned());
+    }
     let unreadable = |reason: String| CasesError::Read { path: path.to_owned(), reason };
     let file = std::fs::File::open(path).map_err(|error| unreadable(error.to_string()))?;
     let mut bytes = Vec::new();

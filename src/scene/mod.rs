@@ -17,6 +17,7 @@ pub mod check;
 mod contact_result;
 pub mod document;
 mod error;
+pub mod examples;
 mod expectation;
 mod experiment;
 mod grid;

@@ -82,6 +82,7 @@ fn studies_of_contacts_give_the_same_on_the_screen_and_headless() {
         ("grid_study", uniform, "GridStudy(dx: [0.08, 0.04, 0.02])".to_owned()),
         ("dimensions", uniform, "Dimensions(over: [(vary: M, values: Log(from: 20, to: 60, n: 4))], losses: [1e-2, 1e-3])".to_owned()),
         ("error_measures", "", format!("ErrorMeasures(range: Box({BOX}), points: 4, seed: 31, model: Embedded)")),
+        ("model_sizes", "grid: Model,", "ModelSizes(contacts: 4, seed: 5, modes: 3, rows_per_mode: [1.5])".to_owned()),
         ("distance_measure", graded, format!("DistanceMeasure(range: Box({BOX}), points: 8, seed: 5)")),
         ("formula_comparison", "lubricant: (viscosity: Barus, density: Incompressible), grid: Graded,", "FormulaComparison(formula: Moes, m: [20, 50], l: [5])".to_owned()),
     ];

@@ -52,7 +52,7 @@ fn a_small_training_is_watched_used_compared_and_saved() {
     assert_eq!(harness.state().model_title(), Some(embedded.as_str()), "nothing is replaced unasked");
     click(&mut harness, "Compare models");
     wait(&mut harness, "the comparison", |app| !app.training());
-    assert!(harness.query_by_label_contains("Compared with the model before").is_some());
+    assert!(harness.query_by_label_contains("Compared with the models before").is_some());
     assert!(harness.query_by_label("Online median").is_some());
     assert!(harness.query_by_label("Pre-computed 12").is_some(), "the chart stays");
     click(&mut harness, "Use this model");

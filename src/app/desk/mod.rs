@@ -12,7 +12,9 @@ use crate::app::controls::Entries;
 use crate::app::display::Display;
 use crate::app::document::{Document, Edit, History};
 use crate::app::figure::Figures;
+use crate::app::load_cases::LoadCasesWindow;
 use crate::app::model_source::Models;
+use crate::app::panels::headline::Headline;
 use crate::app::presentation::Presentation;
 use crate::app::tab::Tab;
 use crate::app::tabs::Views;
@@ -53,6 +55,10 @@ pub struct Desk {
     pub views: Views,
     /// Plots that leave as pictures.
     pub figures: Figures,
+    /// Tables of load cases.
+    pub load_cases: LoadCasesWindow,
+    /// What the scene asks that was opened from those of the program.
+    pub headline: Option<Headline>,
     /// A presentation under way: plots and sliders only.
     pub presentation: Option<Presentation>,
     /// The tab that answers the question of a scene that was just opened.
@@ -79,6 +85,8 @@ impl Desk {
             traction: TractionView::default(),
             views: Views::default(),
             figures: Figures::default(),
+            load_cases: LoadCasesWindow::default(),
+            headline: None,
             presentation: None,
             opened: None,
             fit_plots: true,
@@ -147,6 +155,7 @@ impl Desk {
     pub fn study(&self) -> Option<Standing> {
         let transient = &self.transient;
         let studied = self.views.accuracy.standing().or(self.views.results.standing());
+        let studied = studied.or(self.views.basis.standing());
         let in_time = transient.standing().or(transient.number.work.standing());
         studied.or(in_time).or(self.traction.full.standing()).or(self.training.standing())
     }
@@ -156,6 +165,7 @@ impl Desk {
         self.answers.receive();
         self.views.accuracy.receive();
         self.views.results.receive();
+        self.views.basis.receive();
         self.transient.receive(&self.answers.store);
         self.traction.receive();
         self.training.receive();
@@ -167,6 +177,7 @@ impl Desk {
         self.training.stop();
         self.views.accuracy.stop();
         self.views.results.stop();
+        self.views.basis.stop();
         self.transient.stop();
         self.traction.stop_markers();
     }
@@ -183,6 +194,7 @@ impl Desk {
         self.history.restart(&document);
         self.document = document;
         self.own_lubricant = false;
+        self.headline = None;
         self.views.results.forget();
         self.entries.clear();
     }

@@ -38,8 +38,12 @@ static LESSONS: LazyLock<Vec<Lesson>> = LazyLock::new(|| TEXTS.iter().flat_map(|
 
 /// Most lessons of one's own.
 const MOST_OWN: usize = 100;
-/// Width of the panel \[points\].
+/// Width of the panel beside the tabs \[points\].
 pub const WIDTH: f32 = 300.0;
+/// Its height below the tabs \[points\].
+pub const HEIGHT: f32 = 190.0;
+/// Windows of this width have room for it beside tabs that lie beside each other \[points\].
+pub const BESIDE: f32 = 1600.0;
 
 /// The list of lessons, and the one that is under way.
 #[derive(Default)]
@@ -148,13 +152,20 @@ impl Lessons {
 
     fn lesson_ui(&mut self, ui: &mut Ui, screen: &OnScreen, commands: &mut Commands) {
         let mut leave = false;
+        let wide = ui.available_width() > 2.0 * WIDTH;
+        let title = self.now.as_ref().map_or_else(String::new, |now| now.lesson.title.clone());
         ui.horizontal(|ui| {
             leave = ui.button("All lessons").clicked();
+            if wide {
+                ui.heading(&title);
+            }
             self.close_ui(ui);
         });
+        if !wide {
+            ui.heading(&title);
+        }
         let Self { now, cache, .. } = self;
         let Some(Standing { lesson, step, done }) = now else { return };
-        ui.heading(&lesson.title);
         let count = lesson.steps.len();
         let Some(present) = lesson.steps.get(*step) else { return };
         *done |= present.goals.iter().all(|goal| goal.holds(screen));

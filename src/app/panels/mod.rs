@@ -1,6 +1,7 @@
 //! The panels around the tabs.
 
 pub mod bodies;
+pub mod headline;
 pub mod help;
 pub mod lubricant;
 pub mod menu;

@@ -35,7 +35,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &
 }
 
 /// Line or point.
-fn kind_ui(ui: &mut Ui, present: ContactKind, commands: &mut Commands) {
+pub(super) fn kind_ui(ui: &mut Ui, present: ContactKind, commands: &mut Commands) {
     let mut wanted = present;
     ui.horizontal(|ui| {
         for (kind, name, tip) in KINDS {

@@ -1,24 +1,42 @@
-//! The one bar of a presentation: the sliders in use, and the way back.
+//! The bar of a presentation: the regime in large words, what a lecture needs at hand, the sliders in use, and the way
+//! back.
 
-use super::sliders;
+use super::{operating_point, sliders};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{Entries, named};
-use egui::{Align, Button, Frame, Layout, Margin, Ui};
+use crate::app::tabs::regime_chart::Regime;
+use egui::{Align, Button, Frame, Label, Layout, Margin, RichText, Ui};
 
-/// Room for the button.
-const END_WIDTH: f32 = 56.0;
+/// Size of the name of the regime.
+const LARGE: f32 = 20.0;
 
 /// The bar.
 pub fn ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
     Frame::new().inner_margin(Margin::symmetric(6, 5)).show(ui, |ui| {
-        sliders::in_use(ui, context, entries, commands, END_WIDTH, |ui, commands| {
+        ui.horizontal(|ui| {
+            operating_point::kind_ui(ui, context.document.point.kind, commands);
+            let regime = Regime::of(context.document.point.kind, context.document.point.moes());
+            ui.label(RichText::new(regime.title()).size(LARGE).strong()).on_hover_text(regime.meaning());
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let button = ui.add(Button::new("Esc").small()).on_hover_text("Ends the presentation (Esc or F11)");
                 if named(ui, button, "End the presentation").clicked() {
                     commands.push(Command::Presentation);
                 }
+                let pins = context.answers.pins.len();
+                let buttons = [
+                    ("Undo", true, "Take the last change back", Command::Undo),
+                    ("Unpin", pins > 0, "Remove all pinned curves", Command::Unpin),
+                    ("Pin", true, "Keep this curve for comparison", Command::Pin),
+                ];
+                for (name, enabled, tip, command) in buttons {
+                    if ui.add_enabled(enabled, Button::new(name)).on_hover_text(tip).clicked() {
+                        commands.push(command);
+                    }
+                }
+                ui.add(Label::new(RichText::new("Drag a slider; Esc ends").weak()).truncate());
             });
         });
+        sliders::in_use(ui, context, entries, commands);
     });
 }

@@ -96,6 +96,14 @@ fn appearance_ui(ui: &mut Ui, display: &Display, commands: &mut Commands) {
         }
     });
     ui.horizontal(|ui| {
+        row_name(ui, name_and_symbol(ui, "Presentation", "", ""), "What F11 shows over the full screen");
+        let mut light = display.light_presentation;
+        let tip = "Whatever the colours of the window: a projector shows no black";
+        if ui.checkbox(&mut light, "Light, for a projector").on_hover_text(tip).changed() {
+            commands.push(Command::LightPresentation);
+        }
+    });
+    ui.horizontal(|ui| {
         row_name(ui, name_and_symbol(ui, "Text", "", ""), "Size of everything in the window");
         for command in [Command::SmallerText, Command::NormalText, Command::LargerText] {
             if ui.button(command.name()).clicked() {

@@ -105,15 +105,8 @@ pub fn column(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, command
     take(commands, wanted);
 }
 
-/// Those that change the picture, side by side, and at the end of their row something else that needs `room`.
-pub fn in_use(
-    ui: &mut Ui,
-    context: &Context<'_>,
-    entries: &mut Entries,
-    commands: &mut Commands,
-    room: f32,
-    rest: impl FnOnce(&mut Ui, &mut Commands),
-) {
+/// Those that change the picture, side by side.
+pub fn in_use(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
     let document = context.document;
     let slides = thins(document) || document.point.sliding.slide_to_roll_ratio != 0.0;
     let used = |row: &Row| match row.quantity {
@@ -122,7 +115,7 @@ pub fn in_use(
         _ => true,
     };
     let rows: Vec<Row> = rows(context).into_iter().filter(used).collect();
-    let each = (ui.available_width() - room) / rows.len() as f32;
+    let each = ui.available_width() / rows.len() as f32;
     let named = each >= ROOM_FOR_NAME;
     let name = if named { NAME_WIDTH } else { SYMBOL_WIDTH };
     let width = (each - name - ENTRY_WIDTH - GAPS).max(40.0);
@@ -132,7 +125,6 @@ pub fn in_use(
             wanted = row.ui(ui, entries, width, named).or(wanted);
             ui.add_space(8.0);
         }
-        rest(ui, commands);
     });
     take(commands, wanted);
     for field in FIELDS {

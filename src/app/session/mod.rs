@@ -58,7 +58,15 @@ impl Default for Written {
     fn default() -> Self {
         let (shown, place) = (Shown::default(), Place::default());
         let (document, saved) = (String::new(), String::new());
-        Self { document, saved, path: None, recent: Vec::new(), display: shown, place, tree: Layout::default().tree() }
+        Self {
+            document,
+            saved,
+            path: None,
+            recent: Vec::new(),
+            display: shown,
+            place,
+            tree: Layout::default().tree(Place::default().size.0),
+        }
     }
 }
 
@@ -242,7 +250,7 @@ impl Session {
             recent,
             shown: if sound("how things were shown", display.is_sound()) { display } else { Shown::default() },
             place: if sound("the place of the window", place.is_sound()) { place } else { Place::default() },
-            tree: tree.unwrap_or_else(|| Layout::default().tree()),
+            tree: tree.unwrap_or_else(|| Layout::default().tree(Place::default().size.0)),
         };
         (session, lost)
     }

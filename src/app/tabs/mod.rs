@@ -15,12 +15,13 @@ mod in_time;
 mod key;
 pub mod profiles;
 mod raster;
-mod regime_chart;
+pub mod regime_chart;
 pub mod regimes;
 pub mod results;
 mod space_time;
 pub mod tpwl;
 pub mod traction;
+mod trail;
 mod training;
 mod transient;
 

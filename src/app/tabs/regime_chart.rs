@@ -55,6 +55,26 @@ impl Regime {
         }
     }
 
+    /// Its name in a line.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::RigidIsoviscous => "Rigid, isoviscous",
+            Self::ElasticIsoviscous => "Elastic, isoviscous",
+            Self::RigidPiezoviscous => "Rigid, piezoviscous",
+            Self::ElasticPiezoviscous => "Elastic, piezoviscous",
+        }
+    }
+
+    /// What happens in it.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::RigidIsoviscous => "The bodies keep their shape, the oil its viscosity",
+            Self::ElasticIsoviscous => "The bodies flatten, the oil keeps its viscosity",
+            Self::RigidPiezoviscous => "The bodies keep their shape, pressure stiffens the oil",
+            Self::ElasticPiezoviscous => "The bodies flatten, pressure stiffens the oil",
+        }
+    }
+
     const ALL: [Self; 4] =
         [Self::RigidIsoviscous, Self::ElasticIsoviscous, Self::RigidPiezoviscous, Self::ElasticPiezoviscous];
 }
@@ -230,11 +250,11 @@ fn contour(kind: ContactKind, film: f64) -> Vec<PlotPoint> {
         .collect()
 }
 
-/// Places for the regimes' names, clear of the contacts that matter most.
+/// Places for the regimes' names, of those left of M = 1 their beginning, clear of the contacts that matter most.
 fn names(kind: ContactKind) -> Vec<(Regime, PlotPoint)> {
     let places = match kind {
-        ContactKind::Line => [(0.62, 0.6), (30.0, 0.5), (0.95, 14.0), (480.0, 22.0)],
-        ContactKind::Point => [(1.0, 2.5), (60.0, 0.45), (5.5, 22.0), (800.0, 13.5)],
+        ContactKind::Line => [(0.43, 0.6), (30.0, 0.5), (0.5, 15.0), (480.0, 22.0)],
+        ContactKind::Point => [(0.6, 2.5), (60.0, 0.45), (5.5, 22.0), (800.0, 13.5)],
     };
     Regime::ALL.into_iter().zip(places).map(|(regime, (m, l))| (regime, point(m, l))).collect()
 }

@@ -3,17 +3,18 @@
 
 use super::grip::Grip;
 use super::regime_chart::{ChartLine, ChartLines, Kind, L_AXIS, M_AXIS, Regime, point, shading};
+use super::trail::Trail;
 use super::{axes, formulas};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
-use crate::app::controls::message_ui;
+use crate::app::controls::{message_ui, spoken};
 use crate::app::document::Edit;
 use crate::app::figure::Texture;
 use crate::app::numbers;
 use crate::app::theme::{Palette, faded, rich};
 use crate::solver::physics::contact::{ContactKind, Moes};
 use crate::solver::reduced::ReducedModel;
-use egui::{Align2, RichText, Ui, WidgetText};
+use egui::{Align2, RichText, ScrollArea, Ui, WidgetText};
 use egui_plot::{Line, LineStyle, MarkerShape, PlotImage, PlotPoint, PlotPoints, PlotUi, Points, Text};
 use std::sync::Arc;
 
@@ -35,12 +36,22 @@ impl PartialEq for Owner {
 pub struct Regimes {
     texture: Option<(ContactKind, bool, Texture)>,
     lines: Option<(Owner, ChartLines)>,
+    trail: Trail,
 }
 
 /// Under this name a drag is refused.
 const FIELD: &str = "regimes";
+/// Height of the table of formulas below the chart.
+const FORMULAS: f32 = 212.0;
+/// Size of the name of the regime.
+const LARGE: f32 = 22.0;
 
 impl Regimes {
+    /// Takes note of where the contact is now, whether or not the chart can be seen.
+    pub fn follow(&mut self, kind: ContactKind, moes: Moes) {
+        self.trail.follow(kind, at(moes));
+    }
+
     /// The tab.
     pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         if context.presenting {
@@ -58,9 +69,10 @@ impl Regimes {
                 ui.vertical(|ui| formulas::ui(ui, context));
             });
         } else {
-            let height = (ui.available_height() - 190.0).max(220.0);
-            self.chart(ui, context, commands, height);
-            formulas::ui(ui, context);
+            let room = ui.available_height();
+            self.chart(ui, context, commands, (room - FORMULAS).max(0.7 * room));
+            let table = ScrollArea::vertical().id_salt("formulas").auto_shrink(false);
+            table.show(ui, |ui| formulas::ui(ui, context));
         }
     }
 
@@ -79,6 +91,13 @@ impl Regimes {
             self.lines = Some((owner, lines));
         }
         let mut toolbar_export = false;
+        let top = ui.cursor().top();
+        let regime = Regime::of(kind, context.document.point.moes());
+        ui.horizontal_wrapped(|ui| {
+            let name = ui.label(RichText::new(regime.title()).size(LARGE).strong());
+            spoken(ui, name, &format!("Regime: {}", regime.title()));
+            ui.label(regime.meaning());
+        });
         ui.horizontal_wrapped(|ui| {
             let hint = match kind {
                 ContactKind::Line => {
@@ -89,7 +108,12 @@ impl Regimes {
             // In its place, so that the chart stays where the hand is.
             match context.entries.message(FIELD) {
                 Some(refusal) => message_ui(ui, refusal),
+                None if context.presenting => {}
                 None => _ = ui.label(rich(hint, 12.5, palette.quiet)),
+            }
+            let clear = ui.add_enabled(self.trail.points().len() > 1, egui::Button::new("Clear the trail"));
+            if clear.on_hover_text("Forget where the contact has been").clicked() {
+                self.trail.clear();
             }
             toolbar_export = !context.presenting
                 && ui.button("Export CSV…").on_hover_text("Contours, boundaries and snapshots").clicked();
@@ -106,7 +130,8 @@ impl Regimes {
             .map(|p| at(p.picture.key.point.moes()))
             .map(|p| [p.x, p.y])
             .collect();
-        let chart_height = (height - 34.0).max(160.0);
+        let chart_height = (height - (ui.cursor().top() - top) - ui.spacing().item_spacing.y).max(160.0);
+        let trail = &self.trail;
         let Some((_, lines)) = &self.lines else { return };
         let texture = self.texture.as_ref().map(|t| t.2.shown(&ctx));
         let response = axes::show(
@@ -145,9 +170,12 @@ impl Regimes {
                     draw(plot, line, k, &palette);
                 }
                 for (regime, place) in &lines.names {
-                    let text =
-                        RichText::new(regime.name()).size(12.0).color(palette.ink_on_regimes(palette.quiet)).italics();
-                    plot.text(Text::new("", *place, text).id(("regime", regime.name())).allow_hover(false));
+                    let ink = palette.ink_on_regimes(palette.quiet);
+                    let text = RichText::new(regime.name()).size(12.0).color(ink).italics();
+                    let name = Text::new("", *place, text).id(("regime", regime.name())).allow_hover(false);
+                    // At the edge it begins there, so that a narrow chart cuts nothing off.
+                    let anchor = if place.x < 0.0 { Align2::LEFT_CENTER } else { Align2::CENTER_CENTER };
+                    plot.text(name.anchor(anchor));
                 }
                 plot.points(
                     Points::new("Pinned", pins)
@@ -156,6 +184,7 @@ impl Regimes {
                         .filled(false)
                         .shape(MarkerShape::Circle),
                 );
+                trail.draw(plot, palette.accent);
                 let current = [at(here).x, at(here).y];
                 let ring = Points::new("", vec![current]).id("ring").color(palette.accent).radius(9.0).filled(false);
                 plot.points(ring.shape(MarkerShape::Circle).allow_hover(false));

@@ -1,33 +1,44 @@
-//! Two models over the range of a training: the random test of each with the same seed, one after the other, so that
-//! neither disturbs the other's times.
+//! Models over the range of a training: the random test of each with the same seed, one after the other, so that none
+//! disturbs the other's times.
 
 use crate::app::document::Key;
+use crate::app::export;
 use crate::app::in_use::{InUse, question};
 use crate::engine::Store;
 use crate::engine::job::{Background, Standing};
-use crate::scene::study::random_test::RandomTest;
+use crate::scene::study::random_test::{RandomTest, Tested, errors, tests};
 use crate::scene::{Findings, Grid, Method, Scene, Study, StudyRow, View};
 use crate::solver::reduced::{ReducedModel, Window};
 use crate::solver::training::{TrainingSpec, random_points};
 use egui::Context;
 use std::sync::Arc;
 
-/// Random points at which two models are compared.
+/// Random points at which models are compared.
 pub const POINTS: usize = 200;
 /// Seed of those points: the same ones for every pair.
 const SEED: u64 = 31;
 
 /// What a model is worth.
 pub struct ModelScore {
+    /// What it is called beside the others.
+    pub name: &'static str,
     /// The model.
     pub model: Arc<ReducedModel>,
     found: Findings,
+    tests: Vec<Tested>,
 }
 
 impl ModelScore {
     /// A value that its random test has found.
     pub fn value(&self, name: &str) -> f64 {
         self.found.value(name, None).unwrap_or(f64::NAN)
+    }
+
+    /// Errors of H_c, ascending.
+    pub fn errors(&self) -> Vec<f64> {
+        let mut all: Vec<f64> = self.tests.iter().filter_map(|tested| errors(tested)[0]).collect();
+        all.sort_by(f64::total_cmp);
+        all
     }
 
     /// A size of its largest window.
@@ -41,7 +52,7 @@ pub struct Comparison {
     /// What each model is worth that has been tested, in their order.
     pub scores: Vec<ModelScore>,
     question: Scene,
-    models: [Arc<ReducedModel>; 2],
+    models: Vec<(&'static str, Arc<ReducedModel>)>,
     rows: Vec<StudyRow>,
     work: Background<StudyRow>,
     ctx: Context,
@@ -49,24 +60,24 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Begins to compare two models over the range of a training.
+    /// Begins to compare models by their names over the range of a training.
     ///
     /// # Errors
     /// A sentence when the range holds no contact.
     pub fn start(
         ctx: &Context,
         store: &Store,
-        models: [Arc<ReducedModel>; 2],
+        models: Vec<(&'static str, Arc<ReducedModel>)>,
         spec: &TrainingSpec,
     ) -> Result<Self, String> {
         let points = random_points(&spec.range, spec.contact(), 1, SEED);
         let point = *points.first().ok_or("the range holds no points to compare at")?;
         let range = spec.range;
-        let test = RandomTest { range, tests: POINTS, seed: SEED, method: Method::EMBEDDED, compare: POINTS };
+        let test = RandomTest { range, tests: POINTS, seed: SEED, method: Method::EMBEDDED, compare: POINTS, worst: 0 };
         let key = Key { point, lubricant: spec.lubricant };
         let mut comparison = Self {
             scores: Vec::new(),
-            question: question("Comparing two models", &key, Grid::Model, Study::RandomTest(test)),
+            question: question("Comparing models", &key, Grid::Model, Study::RandomTest(test)),
             models,
             rows: Vec::new(),
             work: Background::default(),
@@ -77,7 +88,29 @@ impl Comparison {
         Ok(comparison)
     }
 
-    /// Whether both have been tested.
+    /// Every contact with each model's errors of H_c and H_min, as a table.
+    pub fn csv(&self) -> String {
+        let mut header = vec!["M".to_owned(), "L".to_owned()];
+        for score in &self.scores {
+            header.extend(["H_c_error", "H_min_error"].map(|what| format!("{}.{what}", score.name)));
+        }
+        let titles: Vec<&str> = header.iter().map(String::as_str).collect();
+        let comment = |score: &ModelScore| format!("{}: {}", score.name, score.model.title);
+        let comments: Vec<String> = self.scores.iter().map(comment).collect();
+        let count = self.scores.iter().map(|score| score.tests.len()).min().unwrap_or(0);
+        let row = |k: usize| {
+            let moes = self.scores.first().and_then(|score| score.tests.get(k)).map(|tested| tested.0.point.moes());
+            let mut row = vec![moes.map(|moes| moes.m), moes.map(|moes| moes.l)];
+            for score in &self.scores {
+                let [h_c, h_min, _] = score.tests.get(k).map_or([None; 3], errors);
+                row.extend([h_c, h_min]);
+            }
+            row
+        };
+        export::csv(&comments, &titles, (0..count).map(row))
+    }
+
+    /// Whether all have been tested.
     pub fn done(&self) -> bool {
         self.scores.len() == self.models.len()
     }
@@ -93,7 +126,7 @@ impl Comparison {
     }
 
     fn test_next(&mut self) {
-        if let Some(model) = self.models.get(self.scores.len()) {
+        if let Some((_, model)) = self.models.get(self.scores.len()) {
             let in_use = InUse::new(model, &View::default());
             self.work.run(in_use.ask(&self.ctx, &self.store, self.question.clone()));
         }
@@ -107,9 +140,11 @@ impl Comparison {
         // Two rows for each point: one that was stopped has fewer.
         let all = self.rows.len() == 2 * POINTS;
         if self.work.job().is_none() && self.work.message.is_none() && all {
-            let found = self.question.study.findings(&self.question.experiment(), &std::mem::take(&mut self.rows));
-            let model = Arc::clone(&self.models[self.scores.len()]);
-            self.scores.push(ModelScore { model, found });
+            let rows = std::mem::take(&mut self.rows);
+            let found = self.question.study.findings(&self.question.experiment(), &rows);
+            let own = rows.iter().filter_map(|row| if let StudyRow::RandomTest(row) = row { Some(row) } else { None });
+            let (name, model) = self.models[self.scores.len()].clone();
+            self.scores.push(ModelScore { name, model, found, tests: tests(own) });
             self.test_next();
         }
         self.work.message.take()

@@ -12,6 +12,7 @@ use super::answers::Answers;
 use super::document::Document;
 use crate::engine::job::{Background, Standing};
 use crate::engine::training_file;
+use crate::solver::physics::lubricant::ShearLaw;
 use crate::solver::reduced::ReducedModel;
 use crate::solver::training::{Plan, TrainingSpec, TrainingState, WindowState};
 use chart::Chart;
@@ -198,10 +199,21 @@ impl Training {
 
     fn compare(&mut self, ctx: &Context, answers: &Answers) {
         let (Some(made), Some(spec)) = (&self.made, &self.spec) else { return };
-        let in_use = answers.models.of(made.model.contact(), &spec.lubricant);
-        let in_use = in_use.filter(|model| !Arc::ptr_eq(model, &made.model));
-        let Some(former) = in_use.or(self.former.as_ref()) else { return };
-        let models = [Arc::clone(former), Arc::clone(&made.model)];
+        let kind = made.model.contact();
+        let embedded = answers.store.embedded(kind, spec.lubricant.shear != ShearLaw::Newtonian).ok();
+        let in_use = answers.models.of(kind, &spec.lubricant).cloned();
+        let known = [("in the program", embedded), ("in use", in_use), ("before", self.former.clone())];
+        let mut models: Vec<(&'static str, Arc<ReducedModel>)> = Vec::new();
+        for (name, model) in known.into_iter().chain([("new", Some(Arc::clone(&made.model)))]) {
+            let Some(model) = model else { continue };
+            let other = name != "new" && Arc::ptr_eq(&model, &made.model);
+            if !other && !models.iter().any(|(_, known)| Arc::ptr_eq(known, &model)) {
+                models.push((name, model));
+            }
+        }
+        if models.len() < 2 {
+            return;
+        }
         match Comparison::start(ctx, &answers.store, models, spec) {
             Ok(comparison) => self.comparison = Some(comparison),
             Err(why) => self.notices.push(Notice::Wrong(why)),

@@ -7,6 +7,7 @@ pub mod input;
 pub mod linearised;
 pub mod method;
 mod player;
+pub mod projection;
 pub mod reach;
 mod run;
 mod setup;
@@ -25,6 +26,7 @@ use crate::solver::reduced::tpwl::Weighting;
 use egui::Context;
 use follow::Following;
 use linearised::{Linearised, NumberStudy, OtherRule};
+use projection::FieldErrors;
 use std::sync::Arc;
 
 /// What can be asked of contacts in time.
@@ -110,6 +112,7 @@ impl TransientView {
         for k in 0..self.runs.len() {
             if self.runs[k].difference.is_none() && self.runs[k].ended {
                 self.runs[k].difference = self.difference(k);
+                self.runs[k].field_errors = self.field_errors(k);
             }
         }
         let reached = self.runs.iter().map(Run::reached).fold(0.0, f64::max);
@@ -231,6 +234,11 @@ impl TransientView {
                 earlier.iter().find(|other| other.by == MarchedBy::Full && other.frame() == run.frame())
             }
         }
+    }
+
+    fn field_errors(&self, k: usize) -> Option<FieldErrors> {
+        let (run, reference) = (self.runs.get(k)?, self.reference_of(k).filter(|reference| reference.ended)?);
+        Some(FieldErrors::of(run, reference, run.reduced.as_ref()?))
     }
 
     fn difference(&self, k: usize) -> Option<f64> {

@@ -1,11 +1,13 @@
 //! One method in one frame: what has come of it, and what it cost.
 
 use super::method;
+use super::projection::FieldErrors;
 use crate::engine::median;
 use crate::scene::study::transient::{Kind, March, MarchedBy, Model, Row};
 use crate::solver::full::GridCost;
 use crate::solver::full::transient::{Frame, State, Trajectory};
 use crate::solver::reduced::tpwl::{TpwlModel, TpwlRecord};
+use crate::solver::reduced::transient::TrajectoryModel;
 use std::sync::Arc;
 
 /// Times are those of moments: rounding must not show the one before.
@@ -31,6 +33,10 @@ pub struct Run {
     pub grid_cost: Option<(f64, GridCost)>,
     /// The linearised model that it is by, where it is.
     pub linearised: Option<Arc<TpwlModel>>,
+    /// The reduced model that it is by, where it is.
+    pub reduced: Option<Arc<TrajectoryModel>>,
+    /// How far its pressure lies from the full one, and how near its basis could come; once both have ended.
+    pub field_errors: Option<FieldErrors>,
     /// Whether it is by a model that was made for a former set-up.
     pub replayed: bool,
 }
@@ -67,6 +73,10 @@ impl Run {
             Kind::Linearised { model, .. } => Some(Arc::clone(model)),
             Kind::Reduced(_) => None,
         });
+        let reduced = model.and_then(|model| match &model.kind {
+            Kind::Reduced(model) => Some(Arc::clone(model)),
+            Kind::Linearised { .. } => None,
+        });
         Self {
             by,
             trajectory,
@@ -77,6 +87,8 @@ impl Run {
             record: None,
             grid_cost: None,
             linearised,
+            reduced,
+            field_errors: None,
             replayed: false,
         }
     }

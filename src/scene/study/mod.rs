@@ -33,6 +33,7 @@ pub mod error_split;
 pub mod formula_comparison;
 pub mod grid_study;
 pub mod load_cases;
+pub mod model_sizes;
 mod path;
 pub mod plan_comparison;
 pub mod point;
@@ -160,6 +161,8 @@ studies! {
     /// How many modes the full solutions at all combinations of one to three varied quantities need at losses of
     /// information: Table 3.7.
     Dimensions(dimensions::Dimensions),
+    /// Error and time of a reduced model against its numbers of modes and of sampled rows.
+    ModelSizes(model_sizes::ModelSizes),
     /// Training of a reduced model.
     Training(TrainingSpec),
     /// Error measures (3.10), (3.14), (3.15) of a reduced model at random points (3.17), ordered by the true error:

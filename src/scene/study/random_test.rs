@@ -30,6 +30,14 @@ pub struct RandomTest {
     /// Full solutions on the model's own grid are compared at this many of the points.
     #[serde(default)]
     pub compare: usize,
+    /// Full solutions at this many more, before those: where the method failed, then where its bound is largest. They
+    /// show where to look, and count in no statistics of errors.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub worst: usize,
+}
+
+fn is_none(count: &usize) -> bool {
+    *count == 0
 }
 
 /// What comes of a random test.
@@ -159,6 +167,7 @@ impl Question for RandomTest {
     fn check(&self, _experiment: &Experiment) -> Checked {
         count("study.tests", self.tests, 1, MAX_TESTS)?;
         count("study.compare", self.compare, 0, self.tests.min(MAX_COMPARED))?;
+        count("study.worst", self.worst, 0, self.tests.min(MAX_COMPARED))?;
         check::test_range(&self.range)
     }
 
@@ -173,6 +182,7 @@ impl Question for RandomTest {
         if !matches!(self.range, Range::Sliding(_)) {
             points.iter_mut().for_each(|point| point.sliding = experiment.sliding);
         }
+        let mut doubts = Vec::with_capacity(points.len());
         for (i, point) in points.iter().enumerate() {
             if i.is_multiple_of(REPORT_EVERY) {
                 setting.step("random tests", i, points.len())?;
@@ -184,21 +194,30 @@ impl Question for RandomTest {
                 traction: answer.traction().unwrap_or(f64::NAN),
                 grid_cost: solution.grid_cost,
             });
+            let estimate = answer.reduced.as_ref().and_then(|facts| facts.error);
+            doubts.push(if film.is_some() { estimate.map_or(0.0, |error| error.h_c.bound) } else { f64::INFINITY });
             tell(Row::Test(Test {
                 point: *point,
                 film,
                 newton_iterations: answer.newton_iterations,
                 wall_s: answer.wall_s,
                 untrained: answer.reduced.as_ref().is_some_and(|facts| !facts.trained),
-                estimate: answer.reduced.as_ref().and_then(|facts| facts.error),
+                estimate,
             }));
         }
         let Some(source) = self.method.model() else { return Ok(()) };
         let model = setting.bench.model_for(source, experiment.contact, &experiment.lubricant, observer)?;
         let grid = |point: &OperatingPoint| model.window_at(point.moes()).grid.clone();
-        let compared = &points[..self.compare.min(points.len())];
-        let truth = |i: usize, full: Option<&Solution>| tell(Row::Truth(i, full.map(Film::of_full)));
-        full_solutions_told(grid, compared, experiment.lubricant, observer, truth)?;
+        let first = self.compare.min(points.len());
+        let mut worst: Vec<usize> = (0..points.len()).collect();
+        worst.sort_by(|a, b| doubts[*b].total_cmp(&doubts[*a]));
+        worst.truncate(self.worst);
+        let rest = (0..first).filter(|i| !worst.contains(i)).collect();
+        for chosen in [worst, rest] {
+            let compared: Vec<OperatingPoint> = chosen.iter().map(|i| points[*i]).collect();
+            let truth = |i: usize, full: Option<&Solution>| tell(Row::Truth(chosen[i], full.map(Film::of_full)));
+            full_solutions_told(grid, &compared, experiment.lubricant, observer, truth)?;
+        }
         Ok(())
     }
 
@@ -232,14 +251,14 @@ impl Question for RandomTest {
         }
         let mut errors: [Vec<f64>; 3] = Default::default();
         let mut bounds: [Vec<f64>; 3] = Default::default();
-        for tested in &tests {
+        for tested in tests.iter().take(self.compare) {
             for (k, (error, bound)) in self::errors(tested).into_iter().zip(tested.0.bounds()).enumerate() {
                 errors[k].extend(error);
                 bounds[k].extend(error.zip(bound).map(|(error, bound)| bound / error));
             }
         }
         found.push("compared", of, errors[0].len() as f64);
-        let full_failures = tests.iter().filter(|(_, truth)| *truth == Some(None)).count();
+        let full_failures = tests.iter().take(self.compare).filter(|(_, truth)| *truth == Some(None)).count();
         found.push("full_failures", of, full_failures as f64);
         for (((name, _), errors), bounds) in COMPARED.iter().zip(&errors).zip(&bounds) {
             if errors.is_empty() {

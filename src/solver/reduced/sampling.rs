@@ -120,8 +120,20 @@ fn interpolation_error(modes: &Mat<f64>, rows: &[usize], mode: usize) -> Vec<f64
 
 /// Q-DEIM on the Jacobian snapshots: as many rows as POD modes Φ, found by QR with column pivoting of Φᵀ (Drmač &
 /// Gugercin 2016).
-pub fn q_deim(test: &TestSpace, snapshots: &RowSnapshots, count: usize) -> Option<SampledRows> {
-    let phi = leading_modes(&snapshots.jacobian, count)?;
+///
+/// One result for each of the counts; `None` where the linear algebra gives up.
+pub fn q_deim(test: &TestSpace, snapshots: &RowSnapshots, counts: &[usize]) -> Vec<Option<SampledRows>> {
+    let most = counts.iter().copied().max().unwrap_or(0);
+    let modes = leading_modes(&snapshots.jacobian, most);
+    let of = |count: usize| {
+        let modes = modes.as_ref()?;
+        Some(q_deim_of(test, modes.get(.., ..count.min(modes.ncols()))))
+    };
+    counts.iter().map(|count| of(*count)).collect()
+}
+
+/// The rows of one basis Φ.
+fn q_deim_of(test: &TestSpace, phi: MatRef<'_, f64>) -> SampledRows {
     let count = phi.ncols();
     let unknowns = phi.nrows();
     let qr = ColPivQr::new(phi.transpose());
@@ -136,7 +148,7 @@ pub fn q_deim(test: &TestSpace, snapshots: &RowSnapshots, count: usize) -> Optio
     // G′ = projectedᵀ Φ_I⁻¹, so Φ_Iᵀ G′ᵀ = projected.
     let solution = PartialPivLu::new(sampled.transpose()).solve(&projected);
     let reconstruction = Mat::from_fn(modes, count, |k, r| solution[(r, k)] * test.weights[rows[r]].sqrt());
-    Some(SampledRows { rows, reconstruction })
+    SampledRows { rows, reconstruction }
 }
 
 /// Whether a matrix has only finite entries.
@@ -166,7 +178,7 @@ mod tests {
     #[test]
     fn q_deim_reconstructs_what_the_snapshots_span_exactly() {
         let (test, snapshots) = example();
-        let sampled = q_deim(&test, &snapshots, 6).unwrap();
+        let sampled = q_deim(&test, &snapshots, &[6]).pop().flatten().unwrap();
         assert_eq!(sampled.rows.len(), 6);
         let all = all_rows(&test);
         for column in &snapshots.jacobian {

@@ -37,6 +37,7 @@ pub use indicator::Indicator;
 pub use one_thread::on_one_thread;
 pub use plan::random_points;
 pub use range::{QuantityBox, Range, SlidingRange};
+pub use rows::with_rows;
 pub use state::{Solved, TrainingState, WindowState, train_resumable};
 pub use trajectories::{TrajectoryTraining, train_trajectories};
 

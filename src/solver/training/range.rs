@@ -2,6 +2,7 @@
 
 use crate::solver::limits::{Refused, interval, number};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, Sliding, si_from_moes};
+use crate::solver::reduced::Domain;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -38,6 +39,19 @@ pub enum Range {
         /// Largest p_H \[Pa\].
         max_hertz_pressure: f64,
     },
+}
+
+impl From<&Domain> for Range {
+    /// The intervals that a model declares; what it knows of sliding is left out.
+    fn from(domain: &Domain) -> Self {
+        Self::Moes {
+            m: domain.m,
+            l: domain.l,
+            alpha: domain.alpha_per_pa,
+            max_hertz_pressure: domain.max_hertz_pressure_pa,
+            viscosity: domain.viscosity_pa_s,
+        }
+    }
 }
 
 /// Intervals of R, u_m, w and α at fixed E′ and η₀, as Table 3.1 gives them.

@@ -1,6 +1,7 @@
 //! Row sampling of a window: the all-rows reduced model runs at random parameters, for a cubature at the trainings too,
 //! and what its iterates show decides which rows stay.
 
+use super::build::alone;
 use super::one_thread::{in_parallel, on_one_thread};
 use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::physics::contact::OperatingPoint;
@@ -68,8 +69,51 @@ pub(super) fn sample_rows(
     rng: &mut Rng,
     observer: &dyn TrainingObserver,
 ) -> Result<Option<SampledRows>, TrainingError> {
-    let Some(window) = exact.windows.first() else { return Ok(None) };
-    let points = spec.within(reach).random_points(ROW_SNAPSHOT_SOLVES, rng);
+    let per_mode = [spec.rows_per_mode];
+    let mut sampled = sample(spec, exact, reach, (ROW_SNAPSHOT_SOLVES, &per_mode), rng, observer)?;
+    Ok(sampled.pop().flatten())
+}
+
+/// Models that differ from one in the rows of one of its windows, which are sampled anew, so many per mode each; `None`
+/// where the linear algebra gives up. `spec` is the training that the model was made by.
+///
+/// # Errors
+/// When the observer cancels.
+pub fn with_rows(
+    spec: &TrainingSpec,
+    model: &ReducedModel,
+    window: usize,
+    rows_per_mode: &[f64],
+    observer: &dyn TrainingObserver,
+) -> Result<Vec<Option<ReducedModel>>, TrainingError> {
+    let Some(own) = model.windows.get(window) else { return Ok(Vec::new()) };
+    let mut exact = own.clone();
+    exact.set_rows(Sampling::All, all_rows(&TestSpace::new(&own.pressure, &own.grid)));
+    let exact = Arc::new(alone(spec, &exact));
+    let mut rng = Rng::with_seed(spec.seed);
+    let sampled = sample(spec, &exact, own.m, (ROW_SNAPSHOT_SOLVES, rows_per_mode), &mut rng, observer)?;
+    let with = |rows: SampledRows| {
+        let mut other = model.clone();
+        if let Some(place) = other.windows.get_mut(window) {
+            place.set_rows(spec.sampling, rows);
+        }
+        other.title = format!("{}, rows sampled anew", model.title);
+        other
+    };
+    Ok(sampled.into_iter().map(|rows| rows.map(with)).collect())
+}
+
+/// Rows for each number of them per mode, by what so many reduced solves show.
+fn sample(
+    spec: &TrainingSpec,
+    exact: &Arc<ReducedModel>,
+    reach: (f64, f64),
+    (solves, rows_per_mode): (usize, &[f64]),
+    rng: &mut Rng,
+    observer: &dyn TrainingObserver,
+) -> Result<Vec<Option<SampledRows>>, TrainingError> {
+    let Some(window) = exact.windows.first() else { return Ok(Vec::new()) };
+    let points = spec.within(reach).random_points(solves, rng);
     let mut tasks: Vec<Task<'_>> = points.into_iter().map(Task::At).collect();
     if spec.sampling == Sampling::Cubature {
         tasks.extend((0..window.snapshots.len()).filter_map(|k| Task::beside(window, k)));
@@ -86,21 +130,18 @@ pub(super) fn sample_rows(
         _ => Evidence::Snapshots(snapshots(spec, online, &test, task)),
     })?;
     observer.progress(Progress { stage: "Row sampling".to_owned(), done: 0, total: 1 });
-    let (sampling, rows_per_mode) = (spec.sampling, spec.rows_per_mode);
-    on_one_thread(observer, move || {
-        let sampled = choose(&test, sampling, rows_per_mode, collected, none);
-        sampled.filter(|s| is_finite(s.reconstruction.as_ref()))
-    })
+    let (sampling, rows_per_mode) = (spec.sampling, rows_per_mode.to_vec());
+    on_one_thread(observer, move || choose(&test, sampling, &rows_per_mode, collected, none))
 }
 
-/// The rows that all evidence together speaks for.
+/// The rows that all evidence together speaks for, for each number of them per mode.
 fn choose(
     test: &TestSpace,
     sampling: Sampling,
-    rows_per_mode: f64,
+    rows_per_mode: &[f64],
     collected: Vec<Evidence>,
     mut equations: GoalEquations,
-) -> Option<SampledRows> {
+) -> Vec<Option<SampledRows>> {
     let mut rows = RowSnapshots::default();
     for part in collected {
         match part {
@@ -111,13 +152,16 @@ fn choose(
             Evidence::Goals(part) => equations.merge(&part),
         }
     }
-    let count = ((test.modes.ncols() as f64 * rows_per_mode).round() as usize).min(test.weights.len());
-    match sampling {
-        Sampling::QDeim => q_deim(test, &rows, count),
-        Sampling::Greedy => greedy(test, &rows, count),
-        Sampling::Cubature => cubature(test, &equations, count),
-        Sampling::All => Some(all_rows(test)),
-    }
+    let count = |per_mode: &f64| ((test.modes.ncols() as f64 * per_mode).round() as usize).min(test.weights.len());
+    let counts: Vec<usize> = rows_per_mode.iter().map(count).collect();
+    let chosen = match sampling {
+        Sampling::QDeim => q_deim(test, &rows, &counts),
+        Sampling::Greedy => counts.iter().map(|count| greedy(test, &rows, *count)).collect(),
+        Sampling::Cubature => counts.iter().map(|count| cubature(test, &equations, *count)).collect(),
+        Sampling::All => counts.iter().map(|_| Some(all_rows(test))).collect(),
+    };
+    let finite = |chosen: &SampledRows| is_finite(chosen.reconstruction.as_ref());
+    chosen.into_iter().map(|chosen| chosen.filter(finite)).collect()
 }
 
 /// Residual and Jacobian snapshots of one solve, scaled by √w and by the largest of them. Empty when it diverges: that

@@ -8,7 +8,7 @@ impl Pending {
     /// What the answer is called that lets it happen.
     fn consent(&self) -> &'static str {
         match self {
-            Self::New | Self::OpenDialog | Self::Open(_) => "Discard changes",
+            Self::New | Self::OpenDialog | Self::Open(_) | Self::OpenScene(_) => "Discard changes",
             Self::Quit => "Quit all the same",
             Self::Train => "Start all the same",
             Self::DiscardTraining | Self::ThrowModelAway => "Throw it away",
@@ -29,7 +29,9 @@ impl Desk {
         };
         match pending {
             Pending::Open(path) if is_model(path) => Vec::new(),
-            Pending::New | Pending::OpenDialog | Pending::Open(_) => edits().into_iter().chain(study()).collect(),
+            Pending::New | Pending::OpenDialog | Pending::Open(_) | Pending::OpenScene(_) => {
+                edits().into_iter().chain(study()).collect()
+            }
             Pending::Quit => edits().into_iter().chain(study()).chain(self.training.unkept()).collect(),
             Pending::Train => self.training.replaced(),
             Pending::DiscardTraining => {
@@ -43,8 +45,9 @@ impl Desk {
     pub(super) fn losses_ui(&mut self, ctx: &Context) {
         let Some(pending) = self.files.pending.clone() else { return };
         let losses = self.losses(&pending);
-        let edits =
-            self.dirty() && matches!(pending, Pending::New | Pending::OpenDialog | Pending::Open(_) | Pending::Quit);
+        let replaces =
+            |pending: &Pending| !matches!(pending, Pending::Train | Pending::DiscardTraining | Pending::ThrowModelAway);
+        let edits = self.dirty() && replaces(&pending);
         let (mut save, mut discard, mut cancel) = (false, false, false);
         let response = Modal::new(Id::unique("unsaved changes")).show(ctx, |ui| {
             ui.set_width(380.0);

@@ -6,6 +6,7 @@ mod path_window;
 
 use super::Desk;
 use crate::app::document::Document;
+use crate::app::panels::headline::Headline;
 use crate::app::purpose::Purpose;
 use crate::app::tab::Tab;
 use crate::app::training::TrainingCommand;
@@ -13,6 +14,7 @@ use crate::scene::{Scene, Study};
 use egui::{Context, Ui, ViewportCommand};
 use path_window::PathWindow;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Recent files kept.
 const MOST_RECENT: usize = 8;
@@ -25,6 +27,8 @@ pub enum Pending {
     OpenDialog,
     /// A certain scene.
     Open(PathBuf),
+    /// A scene that lies nowhere yet.
+    OpenScene(Arc<Scene>),
     /// The end.
     Quit,
     /// Another training.
@@ -127,6 +131,11 @@ impl Desk {
                     self.files.notice = Some(Err(message));
                 }
             }
+            Pending::OpenScene(scene) => {
+                if let Err(message) = self.open_untitled(&scene) {
+                    self.files.notice = Some(Err(message));
+                }
+            }
             Pending::Quit => {
                 self.files.quit = true;
                 ctx.send_viewport_cmd(ViewportCommand::Close);
@@ -156,6 +165,21 @@ impl Desk {
         self.remember(path);
         self.files.notice = Some(Ok(format!("Opened {}", path.display())));
         self.opened = self.document.scene.as_ref().map(|scene| answering(&scene.study));
+        Ok(())
+    }
+
+    /// Opens a scene that has no file, with its question above the tabs.
+    ///
+    /// # Errors
+    /// A sentence when the explorer cannot solve it; what is on the screen stays.
+    fn open_untitled(&mut self, scene: &Scene) -> Result<(), String> {
+        let document = Document::of_scene(scene.clone())?;
+        self.replace_document(document);
+        self.files.saved = self.document.clone();
+        self.files.path = None;
+        self.files.notice = None;
+        self.headline = Some(Headline::of(scene));
+        self.opened = Some(answering(&scene.study));
         Ok(())
     }
 

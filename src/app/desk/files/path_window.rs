@@ -155,6 +155,7 @@ impl Desk {
                 .document
                 .read_inputs(&path)
                 .map(|()| self.files.notice = Some(Ok(format!("Read {}", path.display())))),
+            Purpose::Cases => self.load_cases.read(&path),
             Purpose::Write(what, bytes) => {
                 let done = if what == Written::Model { "Saved the model" } else { "Exported" };
                 atomic_file::replace(&path, &bytes).map_err(|e| e.to_string()).map(|()| {

@@ -179,8 +179,13 @@ pub fn summary(results: &Results) -> String {
         1 => "1 failure".to_owned(),
         n => format!("{n} failures"),
     };
-    let compared = results.tests.iter().filter(|(_, truth)| truth.is_some()).count();
-    format!("{made} of {wanted} tests, {failures}, {compared} compared")
+    let of_truth = |tests: &[Tested]| tests.iter().filter(|(_, truth)| truth.is_some()).count();
+    let (as_they_came, beyond) = results.tests.split_at(results.wanted.compared.min(made));
+    let worst = match of_truth(beyond) {
+        0 => String::new(),
+        count => format!(", {count} more that look worst"),
+    };
+    format!("{made} of {wanted} tests, {failures}, {} compared{worst}", of_truth(as_they_came))
 }
 
 fn chart(ui: &mut Ui, map: &Map, results: &Results, here: Moes, height: f32, stale: bool) -> Option<OperatingPoint> {

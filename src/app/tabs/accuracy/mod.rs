@@ -145,7 +145,8 @@ fn tests_toolbar(ui: &mut Ui, store: &Store, tests: &mut RandomTests, in_use: &I
         let wanted = &mut tests.wanted;
         let tip = "Reduced solves at random contacts (3.17) of the range the model was trained for";
         count(ui, "Random tests", tip, &mut wanted.tests, TESTS);
-        let tip = "How many of them are compared with full solutions on the model’s own grid";
+        let tip = "How many of them are compared with full solutions on the model’s own grid; up to 20 that look worst come \
+                   first, beside them";
         count(ui, "Compared in full", tip, &mut wanted.compared, 0..=MOST_COMPARED);
         let tip = "The same seed gives the same contacts";
         ui.label("Seed").on_hover_text(tip);

@@ -13,6 +13,9 @@ pub const TESTS: std::ops::RangeInclusive<usize> = 200..=10_000;
 /// Most comparisons with full solutions.
 pub const MOST_COMPARED: usize = 2_000;
 
+/// Tests that look worst and are solved in full first, at most.
+const MOST_WORST: usize = 20;
+
 /// How many tests are wanted, and which.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wanted {
@@ -71,9 +74,9 @@ impl Results {
         self.tests.iter().filter(|(test, _)| test.film.is_none()).count()
     }
 
-    /// Bound and true error of H_c, where both are known.
+    /// Bound and true error of H_c, where both are known of tests that were compared as they came.
     pub fn pairs(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
-        self.tests.iter().filter_map(|tested| Some((bound_of(tested)?, error_of(tested)?)))
+        self.tests.iter().take(self.wanted.compared).filter_map(|tested| Some((bound_of(tested)?, error_of(tested)?)))
     }
 }
 
@@ -112,7 +115,8 @@ impl RandomTests {
         let Wanted { tests, compared, seed } = wanted;
         self.results = Some(Results { in_use: in_use.clone(), wanted, unasked, tests: Vec::new(), revision: 0 });
         let (range, compare) = (in_use.trained_range(), compared.min(tests));
-        let study = Study::RandomTest(RandomTest { range, tests, seed, method: in_use.method(), compare });
+        let worst = compare.min(MOST_WORST);
+        let study = Study::RandomTest(RandomTest { range, tests, seed, method: in_use.method(), compare, worst });
         self.work.start(in_use.question("Random tests", study).map(|question| in_use.ask(ctx, store, question)));
     }
 

@@ -4,6 +4,7 @@
 mod losses;
 mod modes;
 mod plane;
+mod sizes;
 
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
@@ -12,8 +13,9 @@ use crate::app::drawn::{self, Owner};
 use crate::app::export;
 use crate::app::in_use::InUse;
 use crate::app::numbers;
-use crate::app::tabs::badge;
+use crate::app::tabs::{badge, profiles};
 use crate::app::theme::Palette;
+use crate::engine::job::Standing;
 use crate::scene::View;
 use crate::solver::reduced::{PodBasis, ReducedModel, Window};
 use egui::{Color32, Ui};
@@ -57,13 +59,52 @@ impl Field {
     }
 }
 
+/// What stands below the losses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+enum Below {
+    /// Shapes of the modes and sampled rows.
+    #[default]
+    Modes,
+    /// Error and time against their numbers.
+    Sizes,
+    /// The pressure of the contact, and what the reduced one differs by.
+    Difference,
+}
+
+impl Below {
+    const ALL: [(Self, &str); 3] = [
+        (Self::Modes, "Modes and rows"),
+        (Self::Sizes, "Error and time"),
+        (Self::Difference, "Profile and difference"),
+    ];
+}
+
 /// State of the tab, with the curves of one window.
 #[derive(Default)]
 pub struct Basis {
+    below: Below,
+    sizes: sizes::Sizes,
     field: Field,
     first_mode: usize,
     dragging: Option<Field>,
     curves: Option<Curves>,
+}
+
+impl Basis {
+    /// Takes in what its study has found.
+    pub fn receive(&mut self) {
+        self.sizes.receive();
+    }
+
+    /// How far its study is.
+    pub fn standing(&self) -> Option<Standing> {
+        self.sizes.standing()
+    }
+
+    /// Stops its study.
+    pub fn stop(&self) {
+        self.sizes.stop();
+    }
 }
 
 struct Curves {
@@ -128,7 +169,7 @@ pub fn ui(ui: &mut Ui, own: &mut Basis, context: &Context<'_>, commands: &mut Co
     }
     toolbar(ui, context, commands, &model, (at, window));
     let height = ui.available_height();
-    let upper = 0.52 * height;
+    let upper = 0.48 * height;
     if ui.available_width() > 640.0 {
         let half = 0.5 * ui.available_width() - 6.0;
         ui.horizontal(|ui| {
@@ -144,7 +185,16 @@ pub fn ui(ui: &mut Ui, own: &mut Basis, context: &Context<'_>, commands: &mut Co
     } else {
         loss_plot(ui, own, context, commands, window, upper);
     }
-    modes::ui(ui, own, context.fit, window, (ui.available_height() - 4.0).max(120.0));
+    ui.horizontal_wrapped(|ui| {
+        for (below, name) in Below::ALL {
+            ui.selectable_value(&mut own.below, below, name);
+        }
+    });
+    match own.below {
+        Below::Modes => modes::ui(ui, own, context.fit, window, (ui.available_height() - 4.0).max(120.0)),
+        Below::Sizes => sizes::ui(ui, &mut own.sizes, context, commands, (&model, at, window)),
+        Below::Difference => profiles::with_difference(ui, context),
+    }
 }
 
 fn toolbar(

@@ -66,7 +66,12 @@ impl Along {
             let options = [
                 (Against::Together, "Together", "Central film, central pressure and the inputs, relative to the start"),
                 (Against::Film, "Film", "Central film in its own scale"),
-                (Against::Pressure, "Pressure", "Central pressure in its own scale"),
+                (
+                    Against::Pressure,
+                    "Pressure",
+                    "Central pressure in its own scale; below it how far the whole pressure is off, and, dotted, the \
+                     least that any pressure of the reduced basis could be: the projection of the full one",
+                ),
             ];
             for (option, name, tip) in options {
                 ui.selectable_value(&mut self.against, option, name).on_hover_text(tip);
@@ -84,6 +89,35 @@ impl Along {
             Against::Pressure => ("pressure", Quantity::CentralPressure, palette.pressure, "Pressure {P_c}"),
         };
         LinkedPlot { name, quantity, color }.show(ui, view, height, (below, title), false)
+    }
+
+    /// How far runs lie from what they are compared with, against time: their central film, or the whole pressure where
+    /// that is looked at and a reduced run is there; returns the time that was clicked at.
+    pub fn deviation(&self, ui: &mut Ui, view: &TransientView, height: f32) -> Option<f64> {
+        let known = |run: &Run| run.field_errors.as_ref().is_some_and(|errors| !errors.least.is_empty());
+        if self.against != Against::Pressure || !view.runs.iter().any(known) {
+            return deviation(ui, view, height);
+        }
+        let palette = Palette::of(ui);
+        let percent = |points: &[(f64, f64)]| -> Vec<PlotPoint> {
+            points.iter().map(|(time, off)| PlotPoint::new(*time, (100.0 * off).max(LEAST_OFF).log10())).collect()
+        };
+        let plot = linked(ui, view, "pressure error", height, ("{T}", "|Δ{P}|/|{P}| / %"))
+            .y_grid_spacer(move |input| axes::few_decade_marks(input, rows(height)))
+            .y_axis_formatter(|mark, _| axes::decade_label(mark));
+        let shown = axes::show(plot, ui, "Pressure error and its least", |plot| {
+            for (k, run) in drawn(view) {
+                let Some(errors) = &run.field_errors else { continue };
+                let (color, width, line_style) = style(view, k, palette.pressure, &palette);
+                let own = Line::new(run.name(), PlotPoints::Owned(percent(&errors.own))).id((k, "own"));
+                plot.line(own.color(color).width(width).style(line_style).allow_band(false));
+                let name = format!("{}: the least that its modes can miss", run.name());
+                let least = Line::new(name, PlotPoints::Owned(percent(&errors.least))).id((k, "least"));
+                plot.line(least.color(palette.reference).width(1.6).style(LineStyle::dotted_dense()).allow_band(false));
+            }
+            now(plot, view, &palette)
+        });
+        shown.inner
     }
 }
 

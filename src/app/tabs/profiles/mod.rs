@@ -111,6 +111,32 @@ impl Profiles {
     }
 }
 
+/// The pressure and, as soon as there is a full solution, what the reduced one differs from it by, side by side.
+pub fn with_difference(ui: &mut Ui, context: &Context<'_>) {
+    let answers = context.answers;
+    let Some(picture) = &answers.picture else {
+        ui.weak("The first picture is being computed");
+        return;
+    };
+    let stale = drawn::is_grey(ui.ctx(), "profiles", Owner::Contact(picture.key), context);
+    let scene =
+        Scene { picture, full: None, pins: &[], stale, full_stale: false, fit: context.fit, cuts: context.cuts };
+    let (height, half) = ((ui.available_height() - 4.0).max(90.0), 0.5 * ui.available_width() - 6.0);
+    ui.horizontal_top(|ui| {
+        ui.vertical(|ui| {
+            ui.set_width(half);
+            pressure_plot(ui, &scene, Direction::Along, height);
+        });
+        ui.vertical(|ui| {
+            ui.set_width(half);
+            match &answers.comparison {
+                Some(comparison) => difference_plot(ui, comparison, (context.fit, stale), height),
+                None => _ = ui.weak("The difference appears when the sliders rest and the full solution is there"),
+            }
+        });
+    });
+}
+
 fn toolbar(ui: &mut Ui, choices: &mut Choices, context: &Context<'_>, commands: &mut Commands) {
     let answers = context.answers;
     if context.presenting {

@@ -15,7 +15,7 @@ use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
 use crate::engine::Workbench;
 use crate::engine::job::{Standing, Wake};
-use crate::scene::{Method, Scene, Table, Verdict};
+use crate::scene::{Method, Scene, Study, Table, Verdict};
 use egui::{ComboBox, Grid, RichText, ScrollArea, Ui};
 use run::{Look, Run};
 
@@ -52,7 +52,12 @@ impl Default for ResultsView {
 impl ResultsView {
     /// Runs the study of a scene on a bench.
     pub fn start(&mut self, scene: Scene, bench: Workbench, wake: Wake) {
-        *self = Self { run: Some(Run::start(scene, bench, wake)), ..Self::default() };
+        let shown = match scene.study {
+            // Their lines are what was asked for.
+            Study::LoadCases(_) => ResultsChoice::Table("load_cases".to_owned()),
+            _ => ResultsChoice::Charts,
+        };
+        *self = Self { run: Some(Run::start(scene, bench, wake)), shown, ..Self::default() };
     }
 
     /// Forgets what was run: another scene is on the screen.

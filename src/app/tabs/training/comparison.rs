@@ -1,20 +1,33 @@
-//! The model that was made beside the one before it.
+//! The model that was made beside those that were there before it.
 
-use crate::app::context::Context;
-use crate::app::controls::warning_ui;
+use crate::app::command::Command;
+use crate::app::context::{Commands, Context};
+use crate::app::controls::{sentence, warning_ui};
 use crate::app::numbers;
-use crate::app::theme::rich;
+use crate::app::tabs::axes;
+use crate::app::tabs::key::{self, Entry, Sample};
+use crate::app::theme::{Palette, rich};
 use crate::app::training::comparison::{ModelScore, POINTS};
 use egui::{Grid, Ui};
+use egui_plot::{Line, PlotPoints};
 
 /// A row: its name, what it is, and what one model has there.
 type Row = (&'static str, &'static str, fn(&ModelScore) -> String);
 
-/// The table, when there is one.
-pub fn ui(ui: &mut Ui, context: &Context<'_>) {
+/// Height of the errors' distributions.
+const HEIGHT: f32 = 200.0;
+
+/// The table and the distributions of errors, when they are there.
+pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let Some(comparison) = context.training.comparison.as_ref().filter(|comparison| comparison.done()) else { return };
     ui.add_space(4.0);
-    ui.strong("Compared with the model before");
+    ui.horizontal(|ui| {
+        ui.strong("Compared with the models before");
+        let tip = "The errors of each model at every contact";
+        if ui.button("Export comparison…").on_hover_text(tip).clicked() {
+            commands.push(Command::csv(comparison.csv()));
+        }
+    });
     ui.weak(format!(
         "{POINTS} random points of the trained range; errors against full solutions on each model’s own grid"
     ))
@@ -42,12 +55,15 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
         ("Error of {H_min}, 95 %", errors, |s| numbers::error_percent(s.value("H_min_error_p95"))),
         ("Error of {H_min}, largest", errors, |s| numbers::error_percent(s.value("H_min_error_max"))),
     ];
-    Grid::new("model comparison").num_columns(3).min_row_height(16.0).striped(true).spacing([18.0, 3.0]).show(
-        ui,
-        |ui| {
+    Grid::new("model comparison")
+        .num_columns(1 + comparison.scores.len())
+        .min_row_height(16.0)
+        .striped(true)
+        .spacing([18.0, 3.0])
+        .show(ui, |ui| {
             ui.weak("");
-            for (name, score) in ["Before", "New"].into_iter().zip(&comparison.scores) {
-                ui.strong(name).on_hover_text(&score.model.title);
+            for score in &comparison.scores {
+                ui.strong(sentence(score.name).trim_end_matches('.')).on_hover_text(&score.model.title);
             }
             ui.end_row();
             for (name, tip, value) in rows {
@@ -57,6 +73,31 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
                 }
                 ui.end_row();
             }
-        },
-    );
+        });
+    distributions(ui, &comparison.scores);
+}
+
+/// The share of contacts whose error is no larger, for each model.
+fn distributions(ui: &mut Ui, scores: &[ModelScore]) {
+    let palette = Palette::of(ui);
+    let hues = [palette.reference, palette.film, palette.pressure, palette.deformation];
+    let hue = |k: usize| hues[k % hues.len()];
+    let entries = scores.iter().enumerate().map(|(k, score)| Entry::new(score.name, hue(k), Sample::Line(2.0)));
+    let name = "Distribution of errors";
+    key::over(ui, name, HEIGHT, entries, |ui, height| {
+        let plot = axes::plot(ui, "errors of models", height, "Relative error of {H_c}", "Contacts with no more / %")
+            .x_grid_spacer(axes::decade_marks)
+            .x_axis_formatter(|mark, _| axes::decade_label(mark))
+            .include_y(0.0)
+            .include_y(100.0);
+        axes::show(plot, ui, name, |plot| {
+            for (k, score) in scores.iter().enumerate() {
+                let errors = score.errors();
+                let share = 100.0 / errors.len().max(1) as f64;
+                let points = errors.iter().enumerate().filter(|(_, error)| **error > 0.0);
+                let points: PlotPoints<'_> = points.map(|(n, error)| [error.log10(), share * (n + 1) as f64]).collect();
+                plot.line(Line::new(score.name, points).color(hue(k)).width(2.0));
+            }
+        });
+    });
 }

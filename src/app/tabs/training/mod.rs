@@ -47,7 +47,7 @@ fn results(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let (top, height) = (ui.cursor().top(), ui.available_height());
     buttons(ui, context, commands);
     status(ui, context);
-    comparison::ui(ui, context);
+    comparison::ui(ui, context, commands);
     charts::key(ui, context);
     let searches = context.training.spec.as_ref().is_some_and(|spec| spec.plan.searches());
     let rest = (height - (ui.cursor().top() - top) - 12.0).max(300.0);

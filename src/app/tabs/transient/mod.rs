@@ -133,7 +133,7 @@ impl Transient {
             both.inner
         };
         let series = self.along.ui(ui, view, middle, several);
-        let deviation = if several { series::deviation(ui, view, lower) } else { None };
+        let deviation = if several { self.along.deviation(ui, view, lower) } else { None };
         map.or(series).or(deviation)
     }
 }

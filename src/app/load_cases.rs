@@ -1,0 +1,171 @@
+//! The window of load cases: a table is pasted or opened, its lines are read at once, and all of them are solved as a
+//! study of the Results tab.
+
+use super::command::Command;
+use super::context::Commands;
+use super::controls::{message_ui, warning_ui};
+use super::document::Document;
+use super::purpose::Purpose;
+use super::theme::Palette;
+use crate::scene::study::load_cases::LoadCases;
+use crate::scene::{At, CaseTable, CasesError, LoadCase, Method, Scene, Study};
+use egui::{Button, Checkbox, Context, FontId, ScrollArea, TextEdit, Ui, Window, vec2};
+use std::path::Path;
+use std::sync::Arc;
+
+/// A table to begin with.
+const EXAMPLE: &str = include_str!("../../scenes/load_cases/rollers_and_balls.csv");
+/// Refused lines that are named in the window; the results name all of them.
+const NAMED: usize = 50;
+
+/// The window, open or closed, with its table.
+pub struct LoadCasesWindow {
+    open: bool,
+    text: String,
+    full: bool,
+    reduced: bool,
+    read: Option<Reading>,
+}
+
+/// A table as it was read for a document.
+struct Reading {
+    text: String,
+    document: Document,
+    cases: Result<Vec<LoadCase>, CasesError>,
+}
+
+impl Default for LoadCasesWindow {
+    fn default() -> Self {
+        Self { open: false, text: String::new(), full: true, reduced: false, read: None }
+    }
+}
+
+impl LoadCasesWindow {
+    /// Whether it is open: then Escape closes it.
+    pub fn is_open(&self) -> bool {
+        self.open
+    }
+
+    /// Opens it.
+    pub fn open(&mut self) {
+        self.open = true;
+    }
+
+    /// Closes it; the table stays.
+    pub fn close(&mut self) {
+        self.open = false;
+    }
+
+    /// Takes in the table of a file.
+    ///
+    /// # Errors
+    /// A sentence when it cannot be read.
+    pub fn read(&mut self, path: &Path) -> Result<(), String> {
+        if let CaseTable::Text(text) = CaseTable::pasted(path).map_err(|error| error.to_string())? {
+            self.text = text;
+        }
+        Ok(())
+    }
+
+    /// Shows it where it is open.
+    pub fn ui(&mut self, ctx: &Context, document: &Document, commands: &mut Commands) {
+        let mut open = self.open;
+        let room = ctx.content_rect().size();
+        let window = Window::new("Load cases").open(&mut open).collapsible(false);
+        let size = vec2(0.6 * room.x, 0.65 * room.y);
+        window.default_size(size).max_size(0.9 * room).default_pos(room.to_pos2() * 0.15).show(ctx, |ui| {
+            self.table_ui(ui, commands);
+            self.reading_ui(ui, document);
+            self.solve_ui(ui, document, commands);
+        });
+        self.open &= open;
+    }
+
+    fn table_ui(&mut self, ui: &mut Ui, commands: &mut Commands) {
+        ui.label(
+            "A line of titles, then a contact a line: open a CSV file, or paste what was copied from a spreadsheet. Units \
+             stand in titles or cells. What a line leaves out is that of the contact on the left.",
+        );
+        ui.horizontal(|ui| {
+            if ui.button("Open CSV…").clicked() {
+                commands.push(Command::Ask(Purpose::Cases));
+            }
+            if ui.button("Ten bearings, gears and rigs").on_hover_text("A table to begin with").clicked() {
+                EXAMPLE.clone_into(&mut self.text);
+            }
+            if ui.add_enabled(!self.text.is_empty(), Button::new("Clear")).clicked() {
+                self.text.clear();
+            }
+        });
+        let height = (ui.available_height() - 150.0).max(90.0);
+        ScrollArea::both().id_salt("table of load cases").max_height(height).auto_shrink(false).show(ui, |ui| {
+            let hint = "name;  radius [mm]; speed; load [N/mm]; oil;        temperature; srr\nshaft; 12;          3 m/s; \
+                        300;         ISO VG 68; 60 °C;       5 %";
+            let field = TextEdit::multiline(&mut self.text).code_editor().hint_text(hint).desired_rows(8);
+            let field = ui.add(field.desired_width(f32::INFINITY).font(FontId::monospace(12.0)));
+            super::controls::named(ui, field, "Table of load cases");
+        });
+    }
+
+    /// What is wrong with the table, line by line.
+    fn reading_ui(&mut self, ui: &mut Ui, document: &Document) {
+        if self.text.trim().is_empty() {
+            self.read = None;
+            return;
+        }
+        let kept = self.read.take().filter(|kept| kept.text == self.text && kept.document == *document);
+        let read = self.read.insert(kept.unwrap_or_else(|| {
+            let experiment = scene(document, String::new(), Vec::new()).experiment();
+            let cases = CaseTable::Text(self.text.clone()).cases(&experiment, &|path| path.to_owned());
+            Reading { text: self.text.clone(), document: document.clone(), cases }
+        }));
+        match &read.cases {
+            Err(refused) => message_ui(ui, &refused.to_string()),
+            Ok(cases) => {
+                let bad: Vec<_> = cases.iter().filter_map(|case| Some((case, case.request.as_ref().err()?))).collect();
+                let color = if bad.is_empty() { Palette::of(ui).verified } else { Palette::of(ui).warning };
+                let good = cases.len() - bad.len();
+                ui.colored_label(color, format!("{good} contacts can be solved, {} lines are refused", bad.len()));
+                ScrollArea::vertical().id_salt("refused lines").max_height(72.0).auto_shrink([false, true]).show(
+                    ui,
+                    |ui| {
+                        for (LoadCase { line, name, .. }, why) in bad.into_iter().take(NAMED) {
+                            let name = if name.is_empty() { String::new() } else { format!(" ({name})") };
+                            warning_ui(ui, &format!("Line {line}{name}: {why}"));
+                        }
+                    },
+                );
+            }
+        }
+    }
+
+    fn solve_ui(&mut self, ui: &mut Ui, document: &Document, commands: &mut Commands) {
+        let cases = self.read.as_ref().and_then(|read| read.cases.as_ref().ok());
+        let good = cases.map_or(0, |cases| cases.iter().filter(|case| case.request.is_ok()).count());
+        ui.horizontal(|ui| {
+            ui.add(Checkbox::new(&mut self.full, "Full")).on_hover_text("Full solutions, as `solve` gives them");
+            let tip = "By the reduced model in the program; where it was not trained the result says so";
+            ui.add(Checkbox::new(&mut self.reduced, "Reduced")).on_hover_text(tip);
+            let ready = good > 0 && (self.full || self.reduced);
+            if ui.add_enabled(ready, Button::new("Solve all")).clicked() {
+                let methods = [(self.full, Method::Full), (self.reduced, Method::EMBEDDED)];
+                let methods = methods.into_iter().filter_map(|(wanted, method)| wanted.then_some(method)).collect();
+                commands.push(Command::OpenScene(Arc::new(scene(document, self.text.clone(), methods))));
+                self.open = false;
+            }
+            ui.weak("The table fills in Results, and leaves from there as CSV");
+        });
+    }
+}
+
+/// The scene that solves a table; what its lines leave out is the document's contact.
+fn scene(document: &Document, text: String, methods: Vec<Method>) -> Scene {
+    Scene {
+        title: "Load cases".to_owned(),
+        source: String::new(),
+        at: At::from(document.point),
+        study: Study::LoadCases(LoadCases { cases: CaseTable::Text(text), methods }),
+        expect: Vec::new(),
+        ..document.to_scene()
+    }
+}

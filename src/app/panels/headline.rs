@@ -1,0 +1,42 @@
+//! The title and the question of a scene that was opened from those of the program, above the tab that answers it.
+
+use crate::app::command::Command;
+use crate::app::context::Commands;
+use crate::app::controls::named;
+use crate::app::examples::question;
+use crate::scene::Scene;
+use egui::{Align, Label, Layout, RichText, Ui};
+
+/// What a scene is called and what it asks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Headline {
+    title: String,
+    question: String,
+    source: String,
+}
+
+impl Headline {
+    /// Of a scene.
+    pub fn of(scene: &Scene) -> Self {
+        Self { title: scene.title.clone(), question: question(scene), source: scene.source.clone() }
+    }
+
+    /// One line.
+    pub fn ui(&self, ui: &mut Ui, commands: &mut Commands) {
+        ui.horizontal(|ui| {
+            ui.label(RichText::new(&self.title).strong()).on_hover_text(&self.source);
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let button = ui.button("Close");
+                if named(ui, button, "Close the headline").clicked() {
+                    commands.push(Command::CloseHeadline);
+                }
+                if ui.button("Examples…").clicked() {
+                    commands.push(Command::Examples);
+                }
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                    ui.add(Label::new(RichText::new(&self.question).weak()).truncate());
+                });
+            });
+        });
+    }
+}

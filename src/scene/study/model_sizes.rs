@@ -1,0 +1,266 @@
+//! What a reduced model's error and time depend on: its pressure modes, and the rows that it looks at.
+
+use super::Study;
+use super::question::{
+    Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+};
+use crate::scene::Scene;
+use crate::scene::check::{MAX_COMPARED, count, number};
+use crate::scene::method::ModelSource;
+use crate::scene::parallel::full_solutions;
+use crate::scene::statistics::{median, percentile};
+use crate::solver::full::Solution;
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Window};
+use crate::solver::training::{Plan, Range, TrainingObserver, TrainingSpec, random_points, with_rows};
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Error and time of a reduced model with fewer modes, and with other numbers of sampled rows, at random contacts of the
+/// window that serves the scene's contact.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ModelSizes {
+    /// The reduced model. One that knows sliding must say how it was trained.
+    #[serde(default)]
+    pub model: ModelSource,
+    /// Random contacts (3.17) of the window, all compared with full solutions on its grid.
+    pub contacts: usize,
+    /// Seed of the contacts and of the rows.
+    pub seed: u64,
+    /// How many numbers of modes, from a few to all.
+    pub modes: usize,
+    /// Numbers of sampled rows per mode, all modes kept.
+    pub rows_per_mode: Vec<f64>,
+}
+
+/// Fewest modes that are tried.
+const FEWEST_MODES: usize = 6;
+/// Each contact is solved so many times, the quickest counts: other work on the machine only ever adds.
+const REPEATED: usize = 3;
+
+/// What was varied.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Varied {
+    /// The pressure modes, with the model's own rows.
+    Modes,
+    /// The sampled rows, with all modes.
+    Rows,
+}
+
+impl Varied {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Modes => "modes",
+            Self::Rows => "rows",
+        }
+    }
+}
+
+/// One size.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// What was varied.
+    pub varied: Varied,
+    /// Pressure modes.
+    pub modes: usize,
+    /// Sampled rows.
+    pub rows: usize,
+    /// Contacts that it does not solve.
+    pub failures: usize,
+    /// Relative errors of H_c at the others.
+    pub errors: Vec<f64>,
+    /// Seconds of single solves.
+    pub seconds: Vec<f64>,
+    /// The model with these rows, where rows were varied.
+    pub model: Option<Arc<ReducedModel>>,
+}
+
+impl Row {
+    /// The number that was varied.
+    pub fn size(&self) -> usize {
+        match self.varied {
+            Varied::Modes => self.modes,
+            Varied::Rows => self.rows,
+        }
+    }
+
+    /// Median and largest error of H_c, and median seconds of a solve.
+    pub fn summary(&self) -> [f64; 3] {
+        [median(&self.errors), percentile(&self.errors, 1.0), median(&self.seconds)]
+    }
+}
+
+/// What all sizes are measured at.
+struct Truth<'a> {
+    points: &'a [OperatingPoint],
+    full: Vec<Option<Solution>>,
+    lubricant: Lubricant,
+}
+
+impl Truth<'_> {
+    /// Solves everywhere, one after the other.
+    fn measure(
+        &self,
+        model: &Arc<ReducedModel>,
+        modes: Option<usize>,
+        observer: &dyn TrainingObserver,
+    ) -> Result<(usize, Vec<f64>, Vec<f64>), RunError> {
+        let mut online = Online::new(Arc::clone(model), ReducedOptions { pressure_modes: modes, ..Default::default() });
+        let (mut failures, mut errors, mut seconds) = (0, Vec::new(), Vec::new());
+        for (point, full) in self.points.iter().zip(&self.full) {
+            online.prepare(point.moes());
+            let mut quickest = f64::INFINITY;
+            let mut film = None;
+            for _ in 0..REPEATED {
+                if observer.cancelled() {
+                    return Err(RunError::Cancelled);
+                }
+                online.forget();
+                let clock = Instant::now();
+                let solved = online.solve(point, self.lubricant);
+                quickest = quickest.min(clock.elapsed().as_secs_f64());
+                match solved {
+                    Ok(solved) => film = Some(online.reconstruct(&solved)?.scalars.h_c),
+                    Err(error) if error.without_solution().is_some() => break,
+                    Err(refused) => return Err(refused.into()),
+                }
+            }
+            let Some(h_c) = film else {
+                failures += 1;
+                continue;
+            };
+            seconds.push(quickest);
+            errors.extend(full.as_ref().map(|full| (h_c / full.scalars.h_c - 1.0).abs()));
+        }
+        Ok((failures, errors, seconds))
+    }
+}
+
+/// Numbers from the least to the most, in about equal ratios.
+fn ladder(least: usize, most: usize, steps: usize) -> Vec<usize> {
+    let least = least.min(most);
+    let ratio = (most as f64 / least as f64).max(1.0);
+    let at = |k: usize| (least as f64 * ratio.powf(k as f64 / (steps - 1) as f64)).round() as usize;
+    let mut all: Vec<usize> = (0..steps).map(at).collect();
+    all.dedup();
+    all
+}
+
+/// The training that a model was made by: what it says itself, else what can be told of one of its windows.
+fn training(model: &ReducedModel, window: &Window) -> Result<TrainingSpec, RunError> {
+    match Scene::from_ron(&model.scene).map(|scene| scene.study) {
+        Ok(Study::Training(spec)) => Ok(spec),
+        _ if model.domain.sliding.is_none() => {
+            let (range, plan) = (Range::from(&model.domain), Plan::FarthestPoint { snapshots: window.snapshots.len() });
+            Ok(TrainingSpec {
+                lubricant: model.domain.lubricant,
+                sampling: window.sampling,
+                penalty: window.penalty,
+                ..TrainingSpec::new(range, window.m, window.grid.spec(), plan)
+            })
+        }
+        _ => Err(RunError::Study("the reduced model does not say under what sliding it was trained".to_owned())),
+    }
+}
+
+impl Question for ModelSizes {
+    type Row = Row;
+
+    fn check(&self, _experiment: &Experiment) -> Checked {
+        count("study.contacts", self.contacts, 1, MAX_COMPARED)?;
+        count("study.modes", self.modes, 2, 64)?;
+        count("study.rows_per_mode (how many)", self.rows_per_mode.len(), 0, 32)?;
+        self.rows_per_mode.iter().try_for_each(|&rows| number("study.rows_per_mode", rows, 1.0, 20.0))
+    }
+
+    fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
+        let Setting { experiment, observer, .. } = *setting;
+        let model = setting.bench.model_for(&self.model, experiment.contact, &experiment.lubricant, observer)?;
+        let k = model.window_for(experiment.request()?.point.moes());
+        let window = &model.windows[k];
+        let spec = training(&model, window)?;
+        // Of the whole range, as many as it takes to fill the window.
+        let all = random_points(&spec.range, experiment.contact, 100 * self.contacts, self.seed);
+        let inside = all.into_iter().filter(|point| model.window_for(point.moes()) == k);
+        let points: Vec<OperatingPoint> = inside.take(self.contacts).collect();
+        let lubricant = experiment.lubricant;
+        let full = full_solutions(|_| window.grid.clone(), &points, lubricant, observer)?;
+        let truth = Truth { points: &points, full, lubricant };
+        let own = (window.pressure.modes.ncols(), window.sampled_rows.len());
+        let sizes = ladder(FEWEST_MODES, own.0, self.modes);
+        let total = sizes.len() + self.rows_per_mode.len();
+        for (i, modes) in sizes.into_iter().enumerate() {
+            setting.step("numbers of modes", i, total)?;
+            let (failures, errors, seconds) = truth.measure(&model, Some(modes), observer)?;
+            tell(Row { varied: Varied::Modes, modes, rows: own.1, failures, errors, seconds, model: None });
+        }
+        setting.step("rows to sample", total - self.rows_per_mode.len(), total)?;
+        let sampled = with_rows(&spec, &model, k, &self.rows_per_mode, observer)?;
+        for sampled in sampled.into_iter().flatten() {
+            let sampled = Arc::new(sampled);
+            let rows = sampled.windows[k].sampled_rows.len();
+            let (failures, errors, seconds) = truth.measure(&sampled, None, observer)?;
+            tell(Row { varied: Varied::Rows, modes: own.0, rows, failures, errors, seconds, model: Some(sampled) });
+        }
+        Ok(())
+    }
+
+    /// Values, for every size: `modes[24].failures`, `modes[24].H_c_error_median`, `…_max` and `modes[24].median_s`, and
+    /// the same of `rows[…]`.
+    fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
+        for row in rows {
+            let name = |what: &str| format!("{}[{}].{what}", row.varied.name(), row.size());
+            let [middle, largest, seconds] = row.summary();
+            found.push(name("failures"), None, row.failures as f64);
+            found.push(name("H_c_error_median"), None, middle);
+            found.push(name("H_c_error_max"), None, largest);
+            found.push(name("median_s"), None, seconds);
+        }
+    }
+
+    fn tables(&self, rows: &[&Row]) -> Vec<Table> {
+        let columns = ["modes", "rows", "failures", "H_c_error_median", "H_c_error_max", "median_s"];
+        let of = |varied: Varied| {
+            let mut table = Table::new(varied.name(), &columns);
+            let row = |row: &&&Row| {
+                let [middle, largest, seconds] = row.summary();
+                vec![row.modes as f64, row.rows as f64, row.failures as f64, middle, largest, seconds]
+            };
+            table.rows.extend(rows.iter().filter(|row| row.varied == varied).map(|r| row(&r)));
+            table
+        };
+        [Varied::Modes, Varied::Rows].map(of).into()
+    }
+
+    fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
+        let of = |varied: Varied| rows.iter().filter(move |row| row.varied == varied);
+        let chart = |(varied, x): (Varied, &str)| {
+            let error = ChartAxis::log("Relative error of H_c");
+            let mut errors = Chart::new(format!("Error against {}", varied.name()), ChartAxis::linear(x), error);
+            let at = |row: &Row, k: usize| [row.size() as f64, row.summary()[k]];
+            errors.add("median", Marks::Line, of(varied).map(|row| at(row, 0)));
+            errors.add("largest", Marks::Dots, of(varied).map(|row| at(row, 1)));
+            let axis = ChartAxis::linear("Median time of a solve [ms]");
+            let mut times = Chart::new(format!("Time against {}", varied.name()), ChartAxis::linear(x), axis);
+            times.add("median", Marks::Line, of(varied).map(|row| [row.size() as f64, 1e3 * row.summary()[2]]));
+            [errors, times]
+        };
+        [(Varied::Modes, "Pressure modes"), (Varied::Rows, "Sampled rows")].into_iter().flat_map(chart).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ladder_goes_from_the_least_to_the_most_and_never_stands_still() {
+        assert_eq!(ladder(6, 86, 2), [6, 86]);
+        let all = ladder(6, 86, 9);
+        assert!(all.len() == 9 && all[0] == 6 && all[8] == 86 && all.windows(2).all(|pair| pair[0] < pair[1]));
+        assert_eq!(ladder(6, 4, 3), [4]);
+    }
+}
