@@ -1,7 +1,7 @@
 //! The point contact in the window: the switch, the map, its cuts, the grids, the interferogram.
 
 use crate::common::scratch::Scratch;
-use crate::driver::{Window, assert_cheap, choose, click, give_path, rest, rest_in_time, shows, undo, wait};
+use crate::driver::{Window, assert_cheap, choose, click, drag_line, give_path, rest, rest_in_time, shows, undo, wait};
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
@@ -92,25 +92,6 @@ fn the_map_shows_fields_and_fringes_and_its_cuts_feed_the_profiles() {
     assert!(harness.state().profile_peaks().unwrap().0 < along);
     assert!(map.width() > 300.0 && map.height() > 300.0);
     click(&mut harness, "Profiles");
-}
-
-/// Finds a line that can be moved sideways by walking along a row of the screen, and drags it to the right.
-fn drag_line(harness: &mut Window, (from, to): (f32, f32), y: f32, by: f32) {
-    // In steps shorter than the reach of the line.
-    let movable = (0..((to - from) / 3.0) as usize).map(|k| from + 3.0 * k as f32).find(|&x| {
-        harness.hover_at(egui::pos2(x, y));
-        harness.step();
-        harness.output().platform_output.cursor_icon == egui::CursorIcon::ResizeHorizontal
-    });
-    let x = movable.expect("the line shows under the pointer that it can be moved");
-    harness.drag_at(egui::pos2(x, y));
-    harness.step();
-    for k in 1..=10 {
-        harness.hover_at(egui::pos2(x + 0.1 * by * k as f32, y));
-        harness.step();
-    }
-    harness.drop_at(egui::pos2(x + by, y));
-    harness.run();
 }
 
 #[test]

@@ -165,6 +165,25 @@ pub fn assert_cheap(harness: &mut Window, frames: u16, most_ms: f64, mut change:
     assert!(frame_ms < slower * most_ms, "a frame takes {frame_ms} ms");
 }
 
+/// Finds a line that can be moved sideways by walking along a row of the screen, and drags it to the right.
+pub fn drag_line(harness: &mut Window, (from, to): (f32, f32), y: f32, by: f32) {
+    // In steps shorter than the reach of the line.
+    let movable = (0..((to - from) / 3.0) as usize).map(|k| from + 3.0 * k as f32).find(|&x| {
+        harness.hover_at(egui::pos2(x, y));
+        harness.step();
+        harness.output().platform_output.cursor_icon == egui::CursorIcon::ResizeHorizontal
+    });
+    let x = movable.expect("the line shows under the pointer that it can be moved");
+    harness.drag_at(egui::pos2(x, y));
+    harness.step();
+    for k in 1..=10 {
+        harness.hover_at(egui::pos2(x + 0.1 * by * k as f32, y));
+        harness.step();
+    }
+    harness.drop_at(egui::pos2(x + by, y));
+    harness.run();
+}
+
 /// How long nothing is drawn once everything has come to rest.
 pub fn rest(harness: &mut Window) -> Duration {
     harness.run();

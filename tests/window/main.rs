@@ -7,6 +7,7 @@ mod driver;
 
 mod accessible;
 mod accuracy_tab;
+mod basis_tab;
 mod contact_map;
 mod desktop;
 mod engineering;
