@@ -3,9 +3,10 @@
 use super::numbers;
 use super::theme::Palette;
 use crate::engine::job::Standing;
-use egui::text::LayoutJob;
+use egui::text::{LayoutJob, TextFormat};
 use egui::{
-    ComboBox, Context, Id, Key, ProgressBar, Response, RichText, Slider, SliderClamping, TextEdit, Ui, WidgetText, pos2,
+    Button, Color32, ComboBox, Context, Id, Key, ProgressBar, Response, RichText, Slider, SliderClamping, TextEdit,
+    TextStyle, Ui, WidgetText, pos2, vec2,
 };
 use std::collections::HashMap;
 use std::ops::RangeInclusive;
@@ -59,7 +60,12 @@ impl Entries {
             let names: Vec<&str> = names.into_iter().collect();
             let last = self.last.filter(|last| names.contains(last)).and_then(|last| self.message(last));
             if let Some(message) = last.or_else(|| names.iter().find_map(|name| self.message(name))) {
-                message_ui(ui, message);
+                // What has no room in two lines is read under the pointer.
+                let font_id = TextStyle::Small.resolve(ui.style());
+                let format = TextFormat { font_id, color: Palette::of(ui).wrong, ..TextFormat::default() };
+                let mut job = LayoutJob::single_section(sentence(message), format);
+                job.wrap.max_rows = 2;
+                ui.label(job);
             }
         });
     }
@@ -73,6 +79,15 @@ pub fn reserved(ui: &mut Ui, lines: u8, content: impl FnOnce(&mut Ui)) {
         ui.set_min_height(height);
         content(ui);
     });
+}
+
+/// One of two buttons that stand in each other's place, as wide as the wider one: what is beside them stays.
+pub fn either_button(ui: &mut Ui, names: [&str; 2], second: bool) -> Response {
+    let font = TextStyle::Button.resolve(ui.style());
+    let text = |name: &str| ui.painter().layout_no_wrap(name.to_owned(), font.clone(), Color32::PLACEHOLDER).size().x;
+    let width = names.map(text).into_iter().fold(0.0, f32::max) + 2.0 * ui.spacing().button_padding.x;
+    let [first, other] = names;
+    ui.add(Button::new(if second { other } else { first }).min_size(vec2(width, 0.0)))
 }
 
 /// A sentence about something that is wrong, beside what it is about.

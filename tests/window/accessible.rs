@@ -11,9 +11,9 @@ use ehl_explorer::app::Explorer;
 /// Rows whose middles lie closer than this are one row to the eye.
 const ROW: f32 = 8.0;
 
-fn open() -> Window {
+fn open(height: f32) -> Window {
     let explorer = Explorer::with_embedded_models().without_system_dialogs();
-    let mut harness = crate::driver::window(explorer, [1280.0, 1400.0]);
+    let mut harness = crate::driver::window(explorer, [1280.0, height]);
     wait(&mut harness, "the picture", |app| app.central_film().is_some());
     harness
 }
@@ -41,7 +41,7 @@ fn nameless(harness: &Window) -> Vec<String> {
 
 #[test]
 fn every_control_of_every_tab_has_a_name_and_its_value() {
-    let mut harness = open();
+    let mut harness = open(1400.0);
     let mut faults = Vec::new();
     for kind in ["Line contact", "Point contact"] {
         harness.query_all_by_label(kind).next().unwrap().click();
@@ -63,7 +63,8 @@ fn round(harness: &mut Window) -> Vec<(String, Rect)> {
         let focused = CONTROLS.into_iter().flat_map(|role| harness.query_all_by_role(role));
         let Some(node) = focused.into_iter().find(|node| node.accesskit_node().is_focused()) else { continue };
         let place = (node.accesskit_node().label().unwrap_or_default(), node.rect());
-        if places.first() == Some(&place) {
+        // Focus may rest where it is for a press, as something comes or goes.
+        if places.len() > 1 && places.first() == Some(&place) {
             break;
         }
         if places.last() != Some(&place) {
@@ -75,7 +76,7 @@ fn round(harness: &mut Window) -> Vec<(String, Rect)> {
 
 #[test]
 fn the_tab_key_follows_the_eye_down_the_panel_and_along_its_rows() {
-    let mut harness = open();
+    let mut harness = open(1400.0);
     harness.run_steps(3);
     let places = round(&mut harness);
     let edge = 330.0;
@@ -169,7 +170,7 @@ fn faint(harness: &Window, ground: Color32, checked: &mut usize) -> Vec<String> 
 
 #[test]
 fn every_text_of_every_tab_can_be_read_in_both_themes() {
-    let mut harness = open();
+    let mut harness = open(800.0);
     let (mut faults, mut checked) = (Vec::new(), 0);
     for theme in [Theme::Dark, Theme::Light] {
         harness.ctx.set_theme(theme);
@@ -186,6 +187,6 @@ fn every_text_of_every_tab_can_be_read_in_both_themes() {
         }
     }
     println!("{checked} texts");
-    assert!(checked > 4000, "{checked}");
+    assert!(checked > 3000, "{checked}");
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }

@@ -4,14 +4,17 @@ use crate::app::controls::named;
 use crate::app::figure;
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
-use egui::{Ui, Vec2b};
-use egui_plot::{GridInput, GridMark, Plot, PlotPoint, PlotResponse, PlotUi};
+use egui::{Rangef, Ui, Vec2, Vec2b, vec2};
+use egui_plot::{AxisHints, GridInput, GridMark, Plot, PlotPoint, PlotResponse, PlotUi};
 
 /// Size of axis titles.
 pub const TITLE_SIZE: f32 = 12.5;
 
 /// Width that a number below an axis wants; closer ones are not shown.
 const LABEL_ROOM: f32 = 80.0;
+
+/// Room from which on a number is shown at all.
+const NUMBER_ROOM: Vec2 = vec2(60.0, 20.0);
 
 /// Points of a curve beyond which only the extremes of neighbouring ones are drawn.
 const MOST_POINTS: usize = 3000;
@@ -20,7 +23,11 @@ const MOST_POINTS: usize = 3000;
 pub fn plot<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> Plot<'a> {
     let color = ui.visuals().text_color();
     let columns = f64::from(ui.available_width() / LABEL_ROOM).clamp(2.0, 9.0);
+    // A number that is shown is shown in full: one that has too little room is left out, not faint.
+    let spaced = |axis: AxisHints<'a>, room: f32| vec![axis.label_spacing(Rangef::new(room, room + 0.1))];
     let mut plot = Plot::new(id)
+        .custom_x_axes(spaced(AxisHints::new_x(), NUMBER_ROOM.x))
+        .custom_y_axes(spaced(AxisHints::new_y(), NUMBER_ROOM.y))
         .height(height)
         .grid_color(Palette::of(ui).grid)
         .allow_scroll(false)

@@ -10,7 +10,7 @@ mod truth;
 mod worst;
 
 use crate::app::context::{Commands, Context};
-use crate::app::controls::{message_ui, named, standing_ui, warning_ui};
+use crate::app::controls::{either_button, message_ui, named, standing_ui, warning_ui};
 use crate::app::in_use::InUse;
 use crate::app::theme::{Palette, rich};
 use crate::engine::Store;
@@ -128,13 +128,13 @@ fn count(ui: &mut Ui, name: &str, tip: &str, value: &mut usize, range: std::ops:
 
 /// Run, or Stop while it runs. Returns whether a run is wanted.
 fn run_or_stop(ui: &mut Ui, run: &str, tip: &str, work: &Background<StudyRow>) -> bool {
-    if work.job().is_none() {
-        return ui.button(run).on_hover_text(tip).clicked();
-    }
-    if ui.button("Stop").on_hover_text("What has been found so far stays (Esc)").clicked() {
+    let runs = work.job().is_some();
+    let tip = if runs { "What has been found so far stays (Esc)" } else { tip };
+    let clicked = either_button(ui, [run, "Stop"], runs).on_hover_text(tip).clicked();
+    if clicked && runs {
         work.stop();
     }
-    false
+    clicked && !runs
 }
 
 /// The row over both views of the random tests. Returns whether the table is wanted as a file.

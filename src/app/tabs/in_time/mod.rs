@@ -7,7 +7,7 @@ pub mod series;
 
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
-use crate::app::controls::{named, sentence, standing_ui};
+use crate::app::controls::{either_button, named, sentence, standing_ui};
 use crate::app::document::Edit;
 use crate::app::drawn::{self, Owner};
 use crate::app::form::{Form, LastField};
@@ -79,17 +79,15 @@ pub fn grey_where_stale(ui: &mut Ui, context: &Context<'_>, name: &'static str) 
 /// The runs, started or stopped.
 pub fn run_button(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let view = context.transient;
-    if view.runs_by_hand() {
-        if ui.button("Stop").on_hover_text("What has been computed so far stays (Esc)").clicked() {
-            commands.push(Command::InTime(InTimeCommand::Stop));
-        }
-    } else if ui
-        .button("Run in time")
-        .on_hover_text("Takes the contact of the sliders through time, frame after frame, then by each model")
-        .clicked()
-    {
-        let setup = Box::new(Setup::of(context.document, context.file));
-        commands.push(Command::InTime(InTimeCommand::Run(setup)));
+    let runs = view.runs_by_hand();
+    let tip = if runs {
+        "What has been computed so far stays (Esc)"
+    } else {
+        "Takes the contact of the sliders through time, frame after frame, then by each model"
+    };
+    if either_button(ui, ["Run in time", "Stop"], runs).on_hover_text(tip).clicked() {
+        let setup = || Box::new(Setup::of(context.document, context.file));
+        commands.push(Command::InTime(if runs { InTimeCommand::Stop } else { InTimeCommand::Run(setup()) }));
     }
 }
 
@@ -163,10 +161,15 @@ pub fn over_the_time_bar(
     pictures: impl FnOnce(&mut Ui, &mut Commands),
 ) {
     ui.vertical(|ui| {
+        // Wide rows of the pictures do not widen the bar.
+        let width = ui.available_width();
         let height = (ui.available_height() - TIME_BAR).max(TIME_BAR);
         let area = ScrollArea::vertical().id_salt(name).auto_shrink(false).max_height(height);
         area.show(ui, |ui| pictures(ui, commands));
-        player(ui, context.transient, commands);
+        ui.scope(|ui| {
+            ui.set_max_width(width);
+            player(ui, context.transient, commands);
+        });
     });
 }
 

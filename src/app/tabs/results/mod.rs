@@ -8,7 +8,7 @@ mod table;
 
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
-use crate::app::controls::{message_ui, named, standing_ui, warning_ui};
+use crate::app::controls::{either_button, message_ui, named, standing_ui, warning_ui};
 use crate::app::document::Document;
 use crate::app::drawn::{self, Owner};
 use crate::app::numbers;
@@ -158,15 +158,14 @@ impl ResultsView {
     fn toolbar(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         ui.horizontal_wrapped(|ui| {
             let standing = self.standing();
-            match &standing {
-                Some(_) if ui.button("Stop").on_hover_text("What has been found so far stays (Esc)").clicked() => {
+            let runs = standing.is_some();
+            let tip = if runs { "What has been found so far stays (Esc)" } else { RUN_TIP };
+            if either_button(ui, ["Run the study", "Stop"], runs).on_hover_text(tip).clicked() {
+                if runs {
                     self.stop();
-                }
-                Some(_) => {}
-                None if ui.button("Run the study").on_hover_text(RUN_TIP).clicked() => {
+                } else {
                     commands.push(Command::RunStudy);
                 }
-                None => {}
             }
             if self.run.is_none() {
                 let tip = "The table of this contact, with all digits";

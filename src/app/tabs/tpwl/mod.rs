@@ -12,7 +12,7 @@ mod weights;
 use super::in_time::{self, methods};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
-use crate::app::controls::choice;
+use crate::app::controls::{choice, either_button};
 use crate::app::document::Edit;
 use crate::app::drawn;
 use crate::app::form::LastField;
@@ -103,6 +103,12 @@ impl<'a> ShownModel<'a> {
     fn was_run(&self, weighting: usize) -> bool {
         self.runs.iter().any(|(own, _)| *own == WEIGHTINGS[weighting])
     }
+
+    /// Whether it is run in this set-up, sooner or later: what has a place for it keeps that.
+    fn is_run(&self, weighting: usize) -> bool {
+        let linearised = self.view.setup.as_ref().and_then(|setup| setup.study.linearised.as_ref());
+        linearised.is_some_and(|linearised| linearised.weightings.contains(&WEIGHTINGS[weighting]))
+    }
 }
 
 impl Tpwl {
@@ -187,14 +193,16 @@ impl Tpwl {
             let ready = there && view.standing().is_none();
             let tip = "Error of H_c against the number of operating points: both rules on a ladder of tolerances, by both \
                        weightings, along these inputs";
-            if view.number.work.standing().is_some() {
-                if ui.button("Stop the study").on_hover_text("What has been found so far stays (Esc)").clicked() {
+            let runs = view.number.work.standing().is_some();
+            let tip = if runs { "What has been found so far stays (Esc)" } else { tip };
+            let names = ["Number against error", "Stop the study"];
+            let button = ui.add_enabled_ui(runs || ready, |ui| either_button(ui, names, runs)).inner;
+            if button.on_hover_text(tip).on_disabled_hover_text(tip).clicked() {
+                if runs {
                     commands.push(Command::InTime(InTimeCommand::StopNumber));
+                } else if view.reference_of_linearised().is_some() {
+                    commands.push(Command::InTime(InTimeCommand::StudyNumber));
                 }
-            } else if enabled(ui, ready, "Number against error", tip).clicked()
-                && view.reference_of_linearised().is_some()
-            {
-                commands.push(Command::InTime(InTimeCommand::StudyNumber));
             }
             let mut table = |ui: &mut Ui, name: &str, tip: &str, text: fn(&ShownModel<'_>) -> String| {
                 if enabled(ui, there, name, tip).clicked()
@@ -207,11 +215,9 @@ impl Tpwl {
             table(ui, "Export points…", tip, export::points);
             let tip = "Every step’s operating points and weights, and how far it lies from them";
             table(ui, "Export weights…", tip, export::weights);
-            if !view.number.rows.is_empty() {
-                let tip = "Rule, tolerance, number of points, weights and error of every model tried";
-                if ui.button("Export numbers…").on_hover_text(tip).clicked() {
-                    commands.push(Command::csv(export::numbers(view)));
-                }
+            let tip = "Rule, tolerance, number of points, weights and error of every model tried";
+            if enabled(ui, !view.number.rows.is_empty(), "Export numbers…", tip).clicked() {
+                commands.push(Command::csv(export::numbers(view)));
             }
             let tip = "Any of these plots, or the whole tab, as SVG or PNG with axes and parameters";
             if enabled(ui, there, "Export plot…", tip).clicked() {

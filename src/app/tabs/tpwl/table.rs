@@ -60,7 +60,7 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, sorting: &mut Sorting, height: f3
     sorting.sort(&mut rows);
     let several = shown.linearised.trainings.len() > 1;
     let mut columns = vec![(Column::Point, "Point"), (Column::Time, "{T}")];
-    for (k, &weighting) in WEIGHTINGS.iter().enumerate().filter(|(k, _)| shown.was_run(*k)) {
+    for (k, &weighting) in WEIGHTINGS.iter().enumerate().filter(|(k, _)| shown.is_run(*k)) {
         columns
             .push((Column::Weight(k), if weighting == Weighting::DualTaylor { "Dual Taylor" } else { "Exponential" }));
     }
@@ -102,7 +102,7 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, sorting: &mut Sorting, height: f3
                     wanted = shown.linearised.moment_of(now.point, &shown.runs);
                 }
                 ui.label(numbers::significant(*time));
-                for k in (0..WEIGHTINGS.len()).filter(|&k| shown.was_run(k)) {
+                for k in (0..WEIGHTINGS.len()).filter(|&k| shown.is_run(k)) {
                     let weight = now.weights[k];
                     if weight > 0.0 {
                         ui.label(numbers::digits(weight, 3));

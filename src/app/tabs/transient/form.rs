@@ -8,6 +8,7 @@ use crate::app::form::{Form, LastField, choose};
 use crate::app::purpose::Purpose;
 use crate::app::tabs::axes;
 use crate::app::tabs::in_time::{edit, methods};
+use crate::app::tabs::key::{self, Entry, Sample};
 use crate::app::theme::Palette;
 use crate::app::transient::input::Input;
 use crate::app::transient::method::{frame_meaning, frame_name};
@@ -194,6 +195,8 @@ fn preview(ui: &mut Ui, inputs: &Inputs, duration: f64) {
     ];
     let plot = axes::plot(ui, "transient inputs", 96.0, "", "")
         .y_axis_min_width(36.0)
+        // The bar that scrolls the form lies over its edge.
+        .width(ui.available_width() - 14.0)
         .x_grid_spacer(|input| axes::round_marks(input, 4.0))
         .y_grid_spacer(|input| axes::round_marks(input, 2.0))
         .allow_zoom(false)
@@ -202,7 +205,7 @@ fn preview(ui: &mut Ui, inputs: &Inputs, duration: f64) {
         .include_y(1.05)
         .auto_bounds(egui::Vec2b::TRUE)
         .set_margin_fraction(egui::vec2(0.0, 0.1));
-    let mut key = Vec::new();
+    let mut named = Vec::new();
     axes::show(plot, ui, "Inputs against time", |plot| {
         for (input, (name, color, style)) in Input::ALL.into_iter().zip(looks) {
             let signal = input.of(inputs);
@@ -211,18 +214,14 @@ fn preview(ui: &mut Ui, inputs: &Inputs, duration: f64) {
                 .map(|time| [time, signal.at(time)])
                 .collect();
             if *signal != Signal::Constant {
-                key.push((name, color));
+                named.push(Entry::new(name, color, Sample::of_line(style, 1.6)));
             }
             let width = if *signal == Signal::Constant { 0.8 } else { 1.6 };
             plot.line(Line::new(name, points).color(color).width(width).style(style).allow_band(false));
         }
     });
-    if key.len() > 1 {
-        ui.horizontal(|ui| {
-            for (name, color) in key {
-                ui.label(egui::RichText::new(name).small().color(color));
-            }
-        });
+    if named.len() > 1 {
+        key::ui(ui, named);
     }
 }
 
