@@ -240,7 +240,7 @@ impl Document {
         let own = named.viscosity_pa_s.unwrap_or(self.point.viscosity_pa_s);
         let sliding = Sliding { newtonian_plateau_ratio: None, ..self.point.sliding };
         let point = OperatingPoint { sliding, viscosity_pa_s: own, ..self.point };
-        self.set_contact(point, named.laws)?;
+        self.set_contact(point, Lubricant { cavitation: self.lubricant.cavitation, ..named.laws })?;
         if named.viscosity_pa_s.is_some() {
             self.view.held.set(Quantity::Viscosity, false);
             self.view.held.set(Quantity::Alpha, false);
@@ -292,11 +292,11 @@ impl Document {
     /// A sentence that names what the explorer cannot solve.
     pub fn of_scene(scene: Scene) -> Result<Self, String> {
         let point = OperatingPoint { sliding: scene.sliding(), ..scene.point().map_err(|e| e.to_string())? };
-        Problem::new(&point, scene.lubricant).map_err(|e| e.to_string())?;
+        Problem::new(&point, scene.laws()).map_err(|e| e.to_string())?;
         Ok(Self {
             title: scene.title.clone(),
             point,
-            lubricant: scene.lubricant,
+            lubricant: scene.laws(),
             grid: scene.grid,
             view: scene.view.unwrap_or_default(),
             training: match &scene.study {
@@ -316,7 +316,7 @@ impl Document {
         let moes = self.point.moes();
         let mut scene = self.scene.clone().unwrap_or_else(|| Scene::at_moes(moes.m, moes.l));
         scene.title.clone_from(&self.title);
-        scene.lubricant = self.lubricant;
+        scene.set_laws(self.lubricant);
         let Sliding { slide_to_roll_ratio, newtonian_plateau_ratio } = self.point.sliding;
         (scene.srr, scene.npr) = (slide_to_roll_ratio, newtonian_plateau_ratio);
         let in_time = matches!(scene.study, Study::Transient(_));

@@ -63,8 +63,8 @@ impl Models {
     }
 
     fn place(&self, kind: ContactKind, lubricant: &Lubricant) -> Option<usize> {
-        let wanted = lubricant.of_the_film();
-        let same = |model: &Arc<ReducedModel>| model.domain.lubricant.of_the_film() == wanted;
+        let wanted = lubricant.of_the_liquid();
+        let same = |model: &Arc<ReducedModel>| model.domain.lubricant.of_the_liquid() == wanted;
         self.models.iter().position(|model| model.contact() == kind && same(model))
     }
 }

@@ -7,7 +7,7 @@ use crate::scene::{At, Grid, Method, ModelSource};
 use crate::solver::discrete::grid::{GridError, GridSpec, PointGridSpec};
 use crate::solver::limits::Number;
 use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint, reduced_modulus};
-use crate::solver::physics::lubricant::{DensityLaw, Lubricant, ShearLaw, Sliding, ViscosityLaw};
+use crate::solver::physics::lubricant::{Cavitation, DensityLaw, Lubricant, ShearLaw, Sliding, ViscosityLaw};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -40,11 +40,13 @@ pub enum GridName {
     Model,
 }
 
-/// Cavitation models.
+/// How a film ruptures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum CavitationName {
     /// The penalty term of (2.36).
     Penalty,
+    /// No pressure below zero, by a multiplier (appendix D).
+    Complementarity,
 }
 
 /// An operating point and how it is solved. SI units throughout.
@@ -124,7 +126,7 @@ pub struct PointOptions {
     /// (default: -2); of a graded grid in its reference coordinate
     #[arg(long, value_name = "X0,X1[,Y0]", allow_hyphen_values = true, value_parser = domain)]
     pub domain: Option<Domain>,
-    /// Cavitation model
+    /// How the film of a full solution ruptures
     #[arg(long, value_enum, value_name = "MODEL", default_value = "penalty")]
     pub cavitation: CavitationName,
 }
@@ -246,6 +248,10 @@ impl PointOptions {
         }
         lubricant.density = self.density.unwrap_or(lubricant.density);
         lubricant.viscosity = self.pressure_viscosity.unwrap_or(lubricant.viscosity);
+        lubricant.cavitation = match self.cavitation {
+            CavitationName::Penalty => Cavitation::Penalty,
+            CavitationName::Complementarity => Cavitation::Complementarity,
+        };
         let method = self.method()?;
         let sliding = Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: self.npr };
         let point = OperatingPoint { sliding, ..self.point(&lubricant)? };

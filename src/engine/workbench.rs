@@ -7,12 +7,20 @@ use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::full::point::resolution_warning;
 use crate::solver::full::{Problem, Solution, SolveError, Start};
 use crate::solver::physics::contact::{ContactKind, Moes, PLAUSIBLE_HERTZ_PRESSURE_PA};
-use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
+use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw};
 use crate::solver::reduced::{Online, ReducedError, ReducedModel, Trust, Window};
 use crate::solver::training::{TrainingObserver, TrainingSpec};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
+
+/// What an answer says whose rupture front cycled.
+const CAUTIOUS: &str = "the rupture front went to and fro between two sets of nodes; from then on it was moved node by \
+    node";
+
+/// What a reduced answer says where complementarity is asked for.
+const PENALISED: &str = "the reduced model ruptures the film by the penalty that it was trained with, not by complementarity; that moves H_c \
+    by some 1e-7";
 
 /// The store as one job uses it: with the folder that its paths refer to, and reduced solvers that remember only what
 /// this job has solved.
@@ -72,6 +80,9 @@ impl Workbench {
                 report.residual_norm
             ));
         }
+        if report.cautious_front {
+            warnings.push(CAUTIOUS.to_owned());
+        }
         warnings.extend(solution.grid_warning());
         warnings.extend(resolution_warning(&solution).filter(|_| solution.converged()));
         let (nx, ny) = (solution.x.len(), solution.y.len());
@@ -120,6 +131,9 @@ impl Workbench {
         let mut warnings = Vec::new();
         if let Trust::Outside(reason) = &trust {
             warnings.push(reason.clone());
+        }
+        if request.lubricant.cavitation != Cavitation::Penalty {
+            warnings.push(PENALISED.to_owned());
         }
         let mut facts = ReducedFacts {
             size: window.size(),

@@ -6,7 +6,7 @@ use super::method::{Method, ModelSource};
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::physics::lubricant::{Cavitation, Lubricant};
 use crate::solver::reduced::{ErrorEstimate, ModelSize, ReducedModel};
 use crate::solver::training::{TrainingObserver, TrainingSpec};
 use std::path::{Path, PathBuf};
@@ -145,6 +145,11 @@ impl Answer {
     /// The solution, if it may be shown as a result.
     pub fn result(&self) -> Option<&Solution> {
         self.solution.as_ref().filter(|_| self.converged)
+    }
+
+    /// How the film ruptures in it; reduced models have the penalty they were trained with.
+    pub fn cavitation(&self) -> Cavitation {
+        if self.reduced.is_some() { Cavitation::Penalty } else { self.request.lubricant.cavitation }
     }
 
     /// Traction coefficient (3.41) over the whole domain, at the request's slide-to-roll ratio; a reduced model's by

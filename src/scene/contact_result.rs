@@ -4,6 +4,7 @@ use super::bench::{Answer, ReducedFacts};
 use super::table::Table;
 use crate::solver::full::{GridCost, Scalars, Shear, Solution};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::lubricant::Cavitation;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 /// One contact's result. Written as JSON it is the object of `solve --json`; what does not apply is absent.
@@ -27,10 +28,14 @@ pub struct ContactResult {
     pub grid_cost: Option<GridCost>,
     /// A sentence where that is more than a few percent.
     pub grid_warning: Option<String>,
+    /// How the film ruptures.
+    pub cavitation: Cavitation,
     /// Dimensionless scalars of the solution.
     pub scalars: Option<Scalars>,
     /// Traction coefficient (3.41).
     pub traction: Option<f64>,
+    /// ½∫h dp: N/m of a line contact, N of a point contact, where there are fields.
+    pub rolling_resistance: Option<f64>,
     /// ‖f‖₂ of the scaled rows, each weighted by the square root of its cell: the L2 norm over the domain.
     pub residual_norm: Option<f64>,
     /// Newton steps.
@@ -60,7 +65,7 @@ pub enum Value {
 type Get = fn(&ContactResult) -> Option<Value>;
 
 /// Every value by its name, with a dot where it lies in a group, in the order of the JSON object.
-const VALUES: [(&str, Get); 44] = [
+const VALUES: [(&str, Get); 47] = [
     ("contact", |r| text(r.point.kind.name())),
     ("method", |r| text(r.method)),
     ("converged", |r| Some(Value::Truth(r.converged))),
@@ -75,6 +80,7 @@ const VALUES: [(&str, Get); 44] = [
     ("moes.L", |r| number(r.point.moes().l)),
     ("hertz.a_m", |r| number(r.point.hertz().half_width_m)),
     ("hertz.p_h_pa", |r| number(r.point.hertz().pressure_pa)),
+    ("cavitation", |r| text(r.cavitation.name())),
     ("grid.kind", |r| text(r.grid)),
     ("grid.nx", |r| Some(Value::Count(r.nodes.0))),
     ("grid.ny", |r| Some(Value::Count(r.nodes.1))),
@@ -92,6 +98,8 @@ const VALUES: [(&str, Get); 44] = [
     ("h_c_m", |r| number(r.scalars?.h_c * r.point.film_scale_m())),
     ("h_min_m", |r| number(r.scalars?.h_min * r.point.film_scale_m())),
     ("traction", |r| number(r.traction?)),
+    ("rolling_resistance", |r| number(r.rolling_resistance?)),
+    ("rolling_resistance_fit", |r| number(r.rolling_resistance.and(r.point.rolling_resistance_fit())?)),
     ("load_residual", |r| number(r.scalars?.load_residual)),
     ("residual_norm", |r| number(r.residual_norm?)),
     ("newton_iterations", |r| Some(Value::Count(r.newton_iterations))),
@@ -167,7 +175,9 @@ impl From<&Answer> for ContactResult {
             grid_cost: answer.result().and_then(|solution| solution.grid_cost),
             grid_warning: answer.result().and_then(Solution::grid_warning),
             scalars: answer.result().map(|solution| solution.scalars),
+            cavitation: answer.cavitation(),
             traction: answer.traction(),
+            rolling_resistance: answer.result().map(Solution::rolling_resistance),
             residual_norm: answer.solution.as_ref().map(|solution| solution.report.residual_norm),
             newton_iterations: answer.newton_iterations,
             linear_iterations: answer.linear_iterations,
@@ -237,14 +247,20 @@ impl Serialize for ContactResult {
     }
 }
 
-/// The fields of a solution at its nodes: X, Y, P, H and their SI twins.
+/// The fields of a solution at its nodes: X, Y, P, H and their SI twins, and λ where it has one.
 pub fn profile_table(name: impl Into<String>, solution: &Solution) -> Table {
-    let mut table = Table::new(name, &["X", "Y", "P", "H", "x_m", "y_m", "p_pa", "h_m"]);
+    let mut columns = vec!["X", "Y", "P", "H", "x_m", "y_m", "p_pa", "h_m"];
+    if !solution.multiplier.is_empty() {
+        columns.push("lambda");
+    }
+    let mut table = Table::new(name, &columns);
     let hertz = solution.problem.point.hertz();
     let (a, film_scale) = (hertz.half_width_m, solution.problem.point.film_scale_m());
-    table.rows.extend(
-        solution.nodes().map(|(x, y, p, h)| vec![x, y, p, h, x * a, y * a, p * hertz.pressure_pa, h * film_scale]),
-    );
+    let row = |(x, y, p, h)| vec![x, y, p, h, x * a, y * a, p * hertz.pressure_pa, h * film_scale];
+    table.rows.extend(solution.nodes().map(row));
+    for (row, multiplier) in table.rows.iter_mut().zip(solution.multipliers()) {
+        row.push(multiplier);
+    }
     table
 }
 

@@ -60,7 +60,7 @@ pub use view::{Held, LoadFollower, LubricantFollower, View};
 pub use crate::solver::training::QuantityBox;
 
 use crate::solver::physics::contact::{ContactError, ContactKind, OperatingPoint};
-use crate::solver::physics::lubricant::{Lubricant, Sliding};
+use crate::solver::physics::lubricant::{Cavitation, Lubricant, Sliding};
 use serde::{Deserialize, Serialize};
 
 /// How far the α of a scene may lie from the one that a viscosity law determines and still count as the same, rounded.
@@ -88,6 +88,9 @@ pub struct Scene {
     /// Laws of the lubricant; its constants are part of [`Scene::at`].
     #[serde(default)]
     pub lubricant: Lubricant,
+    /// How the film ruptures in full solutions.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub cavitation: Cavitation,
     /// The operating point. Studies that bring their own points (trajectory, random test, training) do not use it.
     #[serde(default)]
     pub at: At,
@@ -126,6 +129,7 @@ impl Scene {
             source: String::new(),
             contact: ContactKind::Line,
             lubricant: Lubricant::default(),
+            cavitation: Cavitation::default(),
             at: At::moes(m, l),
             srr: 0.0,
             npr: None,
@@ -165,13 +169,24 @@ impl Scene {
     pub fn experiment(&self) -> Experiment {
         Experiment {
             contact: self.contact,
-            lubricant: self.lubricant,
+            lubricant: self.laws(),
             at: self.at,
             sliding: self.sliding(),
             grid: self.grid,
             grid_model: self.study.grid_model(),
             expected: self.expect.iter().map(|expectation| expectation.name.clone()).collect(),
         }
+    }
+
+    /// The laws of the lubricant, with the way its film ruptures.
+    pub fn laws(&self) -> Lubricant {
+        Lubricant { cavitation: self.cavitation, ..self.lubricant }
+    }
+
+    /// Takes over laws, with the way the film ruptures.
+    pub fn set_laws(&mut self, laws: Lubricant) {
+        self.cavitation = laws.cavitation;
+        self.lubricant = Lubricant { cavitation: Cavitation::default(), ..laws };
     }
 
     /// The sliding and the plateau ratio.

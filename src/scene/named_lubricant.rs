@@ -2,7 +2,7 @@
 
 use crate::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use crate::solver::physics::lubricant::{
-    DensityLaw, Doolittle, LimitingStress, Lubricant, ShearLaw, Tait, ViscosityLaw,
+    Cavitation, DensityLaw, Doolittle, LimitingStress, Lubricant, ShearLaw, Tait, ViscosityLaw,
 };
 
 /// A lubricant with its name and one line about it.
@@ -42,6 +42,7 @@ const NEWTONIAN: Lubricant = Lubricant {
     viscosity: ViscosityLaw::Roelands,
     shear: ShearLaw::Newtonian,
     limiting_stress: None,
+    cavitation: Cavitation::Penalty,
 };
 
 const SQUALANE_VOLUME: Tait = Tait { k_0: 1.007837e9, k_0_prime: 11.29 };
@@ -53,6 +54,7 @@ pub const SQUALANE_PIP: Lubricant = Lubricant {
     viscosity: ViscosityLaw::Doolittle(Doolittle { b: 4.2, r_0: 0.658, volume: SQUALANE_VOLUME }),
     shear: ShearLaw::Carreau { critical_stress: 1e4, beta: 2.198, n: 0.8, npr: 0.2227 },
     limiting_stress: None,
+    cavitation: Cavitation::Penalty,
 };
 
 /// The dissertation's oil with customary constants of friction: an Eyring stress of 5 MPa and a limit of 5 % of the
@@ -116,6 +118,7 @@ pub static NAMED: [NamedLubricant; 6] = [
             viscosity: ViscosityLaw::Doolittle(Doolittle { b: 4.422, r_0: 0.6694, volume: PAO_650_VOLUME }),
             shear: ShearLaw::Carreau { critical_stress: 3.1e4, beta: 2.0, n: 0.74, npr: 0.0 },
             limiting_stress: None,
+            cavitation: Cavitation::Penalty,
         },
         viscosity_pa_s: Some(1.42),
         studied: Some(StudiedContact {
@@ -147,9 +150,10 @@ impl NamedLubricant {
 /// limits the traction.
 pub fn of_laws(laws: &Lubricant) -> Option<&'static NamedLubricant> {
     let film = |named: &&NamedLubricant| {
-        named.laws.limiting_stress.is_none() && named.laws.of_the_film() == laws.of_the_film()
+        named.laws.limiting_stress.is_none() && named.laws.of_the_liquid() == laws.of_the_liquid()
     };
-    NAMED.iter().find(|named| named.laws == *laws).or_else(|| NAMED.iter().find(film))
+    let same = |named: &&NamedLubricant| Lubricant { cavitation: laws.cavitation, ..named.laws } == *laws;
+    NAMED.iter().find(same).or_else(|| NAMED.iter().find(film))
 }
 
 /// The lubricant of a name.

@@ -42,14 +42,42 @@ fn assert_refused(arguments: &[&str], words: &str) {
 }
 
 #[test]
+fn complementarity_is_asked_for_by_its_name_and_its_multiplier_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let profiles = folder.path().join("profiles.csv");
+    let asked = ["solve", "--json", "--moes-m", "20", "--moes-l", "5", "--cavitation", "complementarity"];
+    let to = ["--profiles", profiles.to_str().unwrap()];
+    let object = json(&program(&[&asked[..], &to].concat()));
+    assert_eq!(object["cavitation"], "complementarity");
+    let usual = json(&program(&asked[..6]));
+    assert_eq!(usual["cavitation"], "penalty");
+    let [held, penalised] = [&object, &usual].map(|o| o["H_c"].as_f64().unwrap());
+    assert!(held != penalised && (held / penalised - 1.0).abs() < 1e-6);
+    let text = std::fs::read_to_string(profiles).unwrap();
+    let mut lines = text.lines();
+    assert!(lines.next().unwrap().ends_with(",lambda"));
+    let mut ruptured = 0;
+    for line in lines {
+        let values: Vec<f64> = line.split(',').map(|value| value.parse().unwrap()).collect();
+        let (pressure, multiplier) = (values[2], values[8]);
+        assert!(pressure >= 0.0 && multiplier >= 0.0 && pressure * multiplier == 0.0);
+        ruptured += usize::from(multiplier > 0.0);
+    }
+    assert!(ruptured > 50);
+    let reduced = json(&program(&[&asked[..], &["--method", "reduced"]].concat()));
+    assert_eq!(reduced["cavitation"], "penalty");
+    assert!(reduced["warning"].as_str().unwrap().contains("complementarity"));
+}
+
+#[test]
 fn solve_json_has_the_fields_of_the_contract_and_no_others() {
     let output = program(&[&["solve", "--json"], &TABLE_2_1[..]].concat());
     assert_eq!(output.status.code(), Some(0));
     assert!(output.stderr.is_empty());
     let object = json(&output);
     let mut names: Vec<&str> = object.as_object().unwrap().keys().map(String::as_str).collect();
-    let wanted = "contact method converged si moes hertz grid H_c H_min X_H_min P_c P_max X_P_max H_0 h_c_m h_min_m traction \
-        load_residual residual_norm newton_iterations linear_iterations wall_s";
+    let wanted = "contact method converged si moes hertz cavitation grid H_c H_min X_H_min P_c P_max X_P_max H_0 h_c_m h_min_m \
+        traction rolling_resistance rolling_resistance_fit load_residual residual_norm newton_iterations linear_iterations wall_s";
     let mut wanted: Vec<&str> = wanted.split_whitespace().collect();
     names.sort_unstable();
     wanted.sort_unstable();

@@ -5,6 +5,7 @@
 mod common;
 
 mod cancel;
+mod complementarity;
 mod embedded_model;
 mod embedded_point_model;
 mod embedded_point_shear_model;

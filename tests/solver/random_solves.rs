@@ -104,12 +104,12 @@ fn reference(spec: GridSpec, kind: ContactKind, moes: Moes) -> Option<GridSpec> 
 
 fn one(rng: &mut Rng, kind: ContactKind, m: (f64, f64), tally: &mut Tally) {
     let m = between(rng, m.0, m.1);
-    let at = |l: f64| si_from_moes(&MoesRequest::new(kind, m, l)).unwrap();
-    let unit = at(1.0);
+    let at = |l: f64| si_from_moes(&MoesRequest::new(kind, m, l)).ok();
+    let Some(unit) = at(1.0) else { return tally.add("refused") };
     // α p_H is proportional to L.
     let moes =
         Moes { m, l: between(rng, 0.1, (STIFFEST / (unit.alpha_per_pa * unit.hertz().pressure_pa)).clamp(0.2, 1e3)) };
-    let point = at(moes.l);
+    let Some(point) = at(moes.l) else { return tally.add("refused") };
     let Some(spec) = drawn(rng, kind, moes) else { return tally.add("refused") };
     let Some(answer) = solved(spec, &point) else { return tally.add("refused or not converged") };
     let truth = reference(spec, kind, moes).and_then(|spec| solved(spec, &point));

@@ -8,7 +8,7 @@ use crate::app::numbers;
 use crate::app::theme::name_and_symbol;
 use crate::scene::named_lubricant::{self, NAMED, NamedLubricant};
 use crate::solver::physics::lubricant::{
-    DensityLaw, Doolittle, LimitingStress, Lubricant, ShearLaw, Tait, ViscosityLaw,
+    Cavitation, DensityLaw, Doolittle, LimitingStress, Lubricant, ShearLaw, Tait, ViscosityLaw,
 };
 use egui::{Checkbox, Grid, Ui};
 
@@ -27,6 +27,9 @@ const LIMITING: LimitingStress = LimitingStress { ambient: 5e6, slope: 0.05, eyr
 
 const LIMITING_TIP: &str = "The film carries at most τ_L = τ_L0 + Λ p (Bair & Winer 1979): beyond it the lubricant slips or yields. \
     It limits the traction; pressure and film are computed without it";
+
+const RUPTURE_TIP: &str = "How the film ruptures in full solutions, where the gap opens behind the contact. Reduced models keep the \
+    penalty they were trained with; the films differ by less than a millionth";
 
 /// Under this name a lubricant as a whole is refused.
 pub const GROUP: &str = "lubricant";
@@ -58,6 +61,7 @@ pub fn ui(ui: &mut Ui, document: &Document, own_laws: &mut bool, entries: &mut E
     }
     oil::ui(ui, document, entries, commands);
     limiting_stress(ui, laws, entries, commands);
+    rupture(ui, laws, commands);
     let constants = CONSTANTS.iter().chain(&LIMITS).map(|constant| constant.name);
     entries.reserved_ui(ui, constants.chain([GROUP]));
 }
@@ -267,6 +271,23 @@ fn limiting_stress(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, command
     let field = constants_ui(ui, entries, &LIMITS, &mut wanted);
     if wanted != before {
         commands.edit(Edit::Laws(Box::new(wanted)), field);
+    }
+}
+
+/// How the film ruptures in full solutions.
+fn rupture(ui: &mut Ui, laws: &Lubricant, commands: &mut Commands) {
+    let mut wanted = laws.cavitation;
+    Grid::new("rupture").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
+        let options = [Cavitation::Penalty, Cavitation::Complementarity];
+        choice(ui, "Rupture", RUPTURE_TIP, &mut wanted, &options, |law| match law {
+            Cavitation::Penalty => ("Penalty", "Pressures below zero are pushed back, Λ = −γ min(P, 0) (2.36)"),
+            Cavitation::Complementarity => {
+                ("Complementarity", "P ≥ 0 and λ ≥ 0 with P λ = 0 (appendix D): no pressure below zero, half the steps")
+            }
+        });
+    });
+    if wanted != laws.cavitation {
+        commands.edit(Edit::Laws(Box::new(Lubricant { cavitation: wanted, ..*laws })), GROUP);
     }
 }
 

@@ -22,6 +22,9 @@ pub trait Grid {
     /// Number of unknown pressures.
     fn unknowns(&self) -> usize;
 
+    /// Number of unknowns beside each other at one abscissa; unknowns run over X and, fastest, over these.
+    fn column_unknowns(&self) -> usize;
+
     /// Node index of an unknown.
     fn node(&self, unknown: usize) -> usize;
 
@@ -86,6 +89,10 @@ impl Grid for LineGrid {
         self.x.len() - INLET - FIRST_UNKNOWN
     }
 
+    fn column_unknowns(&self) -> usize {
+        1
+    }
+
     fn node(&self, unknown: usize) -> usize {
         unknown + FIRST_UNKNOWN
     }
@@ -113,6 +120,10 @@ impl Grid for PointGrid {
 
     fn unknowns(&self) -> usize {
         PointGrid::unknowns(self)
+    }
+
+    fn column_unknowns(&self) -> usize {
+        PointGrid::column_unknowns(self)
     }
 
     fn node(&self, unknown: usize) -> usize {

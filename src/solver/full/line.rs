@@ -26,11 +26,13 @@ pub struct Backtracking {
     /// Backtracking on the residual ends at this fraction of the step; 1 takes Newton's own steps, which is right
     /// beside a solution: there the penalty makes the residual jump though the step is good.
     pub shortest_step: f64,
+    /// The finest and the coarsest accuracy of a linear solve, relative to its right-hand side.
+    pub forcing: (f64, f64),
 }
 
 impl Default for Backtracking {
     fn default() -> Self {
-        Self { kernel_band: 6, levelled_kernel: false, shortest_step: 1.0 / 64.0 }
+        Self { kernel_band: 6, levelled_kernel: false, shortest_step: 1.0 / 64.0, forcing: (1e-5, 0.05) }
     }
 }
 
@@ -47,15 +49,17 @@ impl StepControl for Backtracking {
     }
 }
 
-/// The residual before the former step, and the accuracy of its linear solve.
+/// Largest change of P in one step where the ruptured set follows.
+const LARGEST_STEP: f64 = 0.6;
+
+/// The residual before the former step.
 pub struct Residuals {
     previous: f64,
-    forcing: f64,
 }
 
 impl Default for Residuals {
     fn default() -> Self {
-        Self { previous: f64::NAN, forcing: 0.05 }
+        Self { previous: f64::NAN }
     }
 }
 
@@ -90,13 +94,14 @@ impl NewtonSpace for LineSpace {
         Mesh { spec: self.grid.reference.spec, scale: self.grid.scale }
     }
 
-    fn forcing(_: &Backtracking, memory: &mut Residuals, residual: f64) -> f64 {
-        if memory.previous.is_finite() {
-            // Eisenstat & Walker's second choice: no more linear accuracy than the nonlinear problem can use.
-            memory.forcing = (0.9 * (residual / memory.previous).powi(2)).clamp(1e-5, 0.05);
+    fn forcing(control: &Backtracking, memory: &mut Residuals, residual: f64) -> f64 {
+        let Backtracking { forcing: (finest, coarsest), .. } = *control;
+        let Residuals { previous } = std::mem::replace(memory, Residuals { previous: residual });
+        if !previous.is_finite() {
+            return coarsest;
         }
-        memory.previous = residual;
-        memory.forcing
+        // Eisenstat & Walker's second choice: no more linear accuracy than the nonlinear problem can use.
+        (0.9 * (residual / previous).powi(2)).clamp(finest, coarsest)
     }
 
     fn step(
@@ -137,6 +142,10 @@ impl System<LineSpace> {
             if *h > 0.0 && change < -0.9 * h {
                 longest = longest.min(-0.9 * h / change);
             }
+        }
+        if self.active.holds() {
+            let largest = self.step.iter().fold(0.0f64, |largest, s| largest.max(s.abs()));
+            longest = longest.min(LARGEST_STEP / largest);
         }
         let size = (dot(&self.step, &self.step) + dh_0 * dh_0).sqrt();
         let (start_h_0, mut factor, mut taken) = (self.h_0, longest, 0.0);

@@ -1,6 +1,7 @@
 //! The full-order system: unknowns (P, H₀), deformation condensed, solved by Newton's method with a preconditioned
 //! Krylov solver.
 
+mod active_set;
 mod band;
 mod cut;
 pub mod dense;
@@ -8,6 +9,7 @@ mod gmres;
 mod line;
 mod newton_space;
 pub mod point;
+mod rolling;
 mod solution;
 mod solver;
 mod system;

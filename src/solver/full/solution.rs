@@ -160,6 +160,9 @@ pub struct Report {
     pub steps: Vec<f64>,
     /// Residual 2-norm of the solution.
     pub residual_norm: f64,
+    /// Whether a rupture front was seen to cycle between two sets of nodes, and was moved node by node from then on.
+    #[serde(default)]
+    pub cautious_front: bool,
 }
 
 impl Report {
@@ -173,6 +176,7 @@ impl Report {
             residuals: Vec::new(),
             steps: Vec::new(),
             residual_norm: f64::NAN,
+            cautious_front: false,
         }
     }
 
@@ -250,6 +254,8 @@ pub struct Solution {
     pub pressure: Vec<f64>,
     /// H at the nodes.
     pub film: Vec<f64>,
+    /// λ at the nodes, zero where the film is whole; empty where a penalty ruptures it.
+    pub multiplier: Vec<f64>,
     /// Scalars.
     pub scalars: Scalars,
     /// How it was obtained.
@@ -299,6 +305,18 @@ impl Solution {
         let ny = self.y.len();
         (self.first() * ny..self.x.len() * ny)
             .map(move |k| (self.x[k / ny], self.y[k % ny], self.pressure[k], self.film[k]))
+    }
+
+    /// λ at the nodes of [`nodes`](Self::nodes); none where a penalty ruptures the film.
+    pub fn multipliers(&self) -> impl Iterator<Item = f64> + '_ {
+        self.multiplier.iter().skip(self.first() * self.y.len()).copied()
+    }
+
+    /// X and λ along the axis where the film is ruptured; none where a penalty ruptures it.
+    pub fn axis_multiplier(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let ny = self.y.len();
+        let axis = self.multiplier.iter().skip(ny - 1).step_by(ny);
+        self.x.iter().zip(axis).filter(|(_, multiplier)| **multiplier > 0.0).map(|(x, multiplier)| (*x, *multiplier))
     }
 
     /// Position and height of the pressure spike on the axis: the last local maximum in 0.2 < X < 1.2 that stands out,

@@ -179,7 +179,7 @@ impl<S: NewtonSpace> Solver<S> {
     /// The present state as a solution.
     fn solution(&mut self, problem: Problem, report: Report) -> Solution {
         let scale = S::scale_of(&self.reference, problem.moes);
-        let System { space, pressure, film, h_0, .. } =
+        let System { space, pressure, film, h_0, active, .. } =
             &*self.system.get_or_insert_with(|| System::new(S::on(&self.reference, scale)));
         let (x, y) = space.grid().abscissae();
         Solution {
@@ -189,6 +189,7 @@ impl<S: NewtonSpace> Solver<S> {
             y: y.to_vec(),
             pressure: pressure.clone(),
             film: film.clone(),
+            multiplier: active.field(space.grid()),
             scalars: scalars_of(space.grid(), &problem, pressure, film, *h_0),
             report,
             grid_cost: None,

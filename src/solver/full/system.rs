@@ -4,6 +4,7 @@
 //! is applied. How far a step is taken, and what preconditions the linear solves, is the space's own, see
 //! [`NewtonSpace`].
 
+use super::active_set::ActiveSet;
 use super::gmres::{Gmres, LinearOutcome};
 use super::newton_space::{NewtonSpace, Preconditioner, Taken};
 use super::solution::{Problem, Report, Termination};
@@ -14,6 +15,7 @@ use crate::solver::discrete::reynolds::generalized::FilmTreatment;
 use crate::solver::discrete::reynolds::{CENTER, Row};
 use crate::solver::discrete::space::Grid;
 use crate::solver::observer::{NewtonStep, Observer};
+use crate::solver::physics::lubricant::Cavitation;
 
 /// Settings of a full solve; those of the step control beside those of every space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,6 +53,10 @@ pub struct System<S: NewtonSpace> {
     treatment: FilmTreatment,
     /// The rows of the unknowns as they were evaluated last.
     pub rows: Vec<Row>,
+    /// Where the film has ruptured, where no penalty holds it.
+    pub active: ActiveSet,
+    /// Widths along X of the unknowns' cells, one per abscissa that has unknowns.
+    pub(super) widths: Vec<f64>,
     scaling: Vec<f64>,
     pub(super) step: Vec<f64>,
     pub(super) step_deformation: Vec<f64>,
@@ -68,6 +74,10 @@ impl<S: NewtonSpace> System<S> {
         let (n, u) = (space.grid().weights().len(), space.grid().unknowns());
         let mut gap = vec![0.0; n];
         space.write_gap(&mut gap);
+        let (grid, (x, y)) = (space.grid(), space.grid().abscissae());
+        let own = |k: usize| grid.node(k) / y.len();
+        let columns = (0..u).step_by(grid.column_unknowns()).map(own);
+        let widths = columns.map(|own| 0.5 * (x[own + 1] - x[own - 1])).collect();
         Self {
             space,
             pressure: vec![0.0; n],
@@ -79,6 +89,8 @@ impl<S: NewtonSpace> System<S> {
             thinning: None,
             treatment: FilmTreatment::default(),
             rows: vec![Row::default(); u],
+            active: ActiveSet::default(),
+            widths,
             scaling: vec![1.0; u],
             step: vec![0.0; n],
             step_deformation: vec![0.0; n],
@@ -130,7 +142,7 @@ impl<S: NewtonSpace> System<S> {
 
     /// Evaluates all rows at the current state with their derivatives. Returns the residual norm.
     pub fn evaluate(&mut self, problem: &Problem, penalty: f64) -> f64 {
-        let Self { space, nodes, pressure, film, rows, .. } = self;
+        let Self { space, nodes, pressure, film, .. } = self;
         let laws = problem.laws();
         let order = if S::PARALLEL { Order::Parallel } else { Order::Alone };
         let thinning = laws.shear.map(|_| self.thinning.get_or_insert_with(|| Thinning::new(space)));
@@ -141,13 +153,24 @@ impl<S: NewtonSpace> System<S> {
             (Some(gradient), _) => gradient.at_node(pressure, k),
         };
         nodes.evaluate(laws, (pressure, film), at, self.treatment, order);
+        self.evaluate_rows(penalty)
+    }
+
+    /// Evaluates all rows by the nodes of the last evaluation. Returns the residual norm.
+    pub(super) fn evaluate_rows(&mut self, penalty: f64) -> f64 {
+        let Self { space, nodes, rows, active, thinning, .. } = self;
         let nodes = &*nodes;
+        let penalty = if active.holds() { 0.0 } else { penalty };
         space.each_row(rows, |k, _, row| {
             let (stencil, geometry) = space.row(k);
             *row = nodes.row(&geometry, penalty, stencil);
         });
-        if let Some(thinning) = thinning {
+        let mut thinning = thinning.as_mut().filter(|_| nodes.thins());
+        if let Some(thinning) = &mut thinning {
             thinning.differentiate(space, nodes);
+        }
+        if active.holds() {
+            active.hold(rows, thinning);
         }
         let (grid, weights) = (space.grid(), space.grid().weights());
         let square = |(k, row): (usize, &Row)| weights[grid.node(k)] * row.value * row.value;
@@ -169,6 +192,8 @@ impl<S: NewtonSpace> System<S> {
     ) {
         self.treatment = options.film;
         self.nodes.forget();
+        self.begin_rupture(problem.lubricant.cavitation);
+        let exact_load = S::CLIPS || self.active.holds();
         let mut residual = self.evaluate(problem, options.penalty);
         let mut memory = S::Memory::default();
         report.termination = Termination::IterationLimit;
@@ -179,7 +204,7 @@ impl<S: NewtonSpace> System<S> {
             }
             report.residuals.push(residual);
             let forcing = S::forcing(&options.control, &mut memory, residual);
-            let load = if S::CLIPS { problem.load - dot(self.space.grid().weights(), &self.pressure) } else { 0.0 };
+            let load = if exact_load { problem.load - dot(self.space.grid().weights(), &self.pressure) } else { 0.0 };
             let linear = self.solve_linear(options, forcing, load, observer);
             report.linear_iterations += linear.iterations;
             if observer.cancelled() {
@@ -189,6 +214,8 @@ impl<S: NewtonSpace> System<S> {
             report.newton_iterations += 1;
             let before = residual;
             let Taken { size, shift, residual: after } = S::step(self, problem, options, &mut memory, before);
+            let evaluate = |system: &mut Self| system.evaluate(problem, options.penalty);
+            let (still, after) = self.renew_rupture(options.penalty, after, evaluate);
             residual = after;
             report.steps.push(size);
             observer.newton_step(&NewtonStep { iteration: report.newton_iterations, residual: before, step: size });
@@ -197,13 +224,74 @@ impl<S: NewtonSpace> System<S> {
                 break;
             }
             let solved = linear.relative_residual < 0.5;
-            if size < options.tolerance && shift.abs() < 0.1 * options.tolerance && solved {
+            if size < options.tolerance && shift.abs() < 0.1 * options.tolerance && solved && still {
                 let separated = self.film.iter().all(|&h| h > 0.0);
                 report.termination = if separated { Termination::Converged } else { Termination::Diverged };
                 break;
             }
         }
         report.residual_norm = residual;
+        report.cautious_front |= self.active.cautious;
+    }
+
+    /// Begins with the set that the pressures show: all of the outlet's half that carries none. Pressures below zero
+    /// become zero.
+    pub(super) fn begin_rupture(&mut self, cavitation: Cavitation) {
+        let Self { space, pressure, active, rows, .. } = self;
+        if cavitation == Cavitation::Penalty {
+            active.begin(std::iter::empty());
+            return;
+        }
+        let grid = space.grid();
+        let (x, y) = grid.abscissae();
+        active.begin((0..rows.len()).map(|k| {
+            let node = grid.node(k);
+            pressure[node] < 0.0 || pressure[node] == 0.0 && x[node / y.len()] > 0.0
+        }));
+        self.rise_to_zero();
+    }
+
+    /// Lifts pressures below zero to zero; `false` where there are none.
+    fn rise_to_zero(&mut self) -> bool {
+        let mut cut = false;
+        for p in &mut self.pressure {
+            if *p < 0.0 {
+                *p = 0.0;
+                cut = true;
+            }
+        }
+        if cut {
+            self.deform();
+            self.set_h_0(self.h_0);
+        }
+        cut
+    }
+
+    /// Lets the ruptured set follow a Newton step: nodes whose pressure fell below zero join it, others leave by
+    /// [`ActiveSet::release`]. Returns whether the set is as before, and the residual norm, which was `residual`.
+    pub(super) fn renew_rupture(
+        &mut self,
+        penalty: f64,
+        residual: f64,
+        evaluate: impl Fn(&mut Self) -> f64,
+    ) -> (bool, f64) {
+        if !self.active.holds() {
+            return (true, residual);
+        }
+        let mut residual = residual;
+        self.active.remember();
+        let Self { space, pressure, active, .. } = &mut *self;
+        for (k, ruptured) in active.ruptured.iter_mut().enumerate() {
+            *ruptured |= pressure[space.grid().node(k)] < 0.0;
+        }
+        if self.rise_to_zero() {
+            residual = evaluate(self);
+        }
+        let lines = self.space.grid().column_unknowns();
+        if self.active.release(&self.widths, lines) {
+            residual = self.evaluate_rows(penalty);
+        }
+        (self.active.is_still(), residual)
     }
 
     /// Solves the linearised system for `update` = (ΔP, ΔH₀), ΔP to carry `load`. Returns how the linear solver ended.

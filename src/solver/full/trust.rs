@@ -130,6 +130,7 @@ impl<S: NewtonSpace> System<S> {
         options: &super::SolveOptions<S::Control>,
     ) -> GridCost {
         self.nodes.forget();
+        self.begin_rupture(problem.lubricant.cavitation);
         self.evaluate(problem, options.penalty);
         let missing = self.missing_pressure(problem);
         let load = self.missing_load(&missing);

@@ -240,7 +240,7 @@ impl ReducedModel {
 impl Domain {
     /// Whether a problem lies inside; boundaries count as inside to rounding.
     pub fn trust(&self, problem: &Problem) -> Trust {
-        if problem.lubricant.of_the_film() != self.lubricant.of_the_film() {
+        if problem.lubricant.of_the_liquid() != self.lubricant.of_the_liquid() {
             return Trust::Outside("the model was trained with other lubricant laws".to_owned());
         }
         let point = &problem.point;

@@ -315,6 +315,16 @@ fn cavitated(plot: &mut PlotUi<'_>, picture: &Picture, palette: &Palette) {
     }
 }
 
+/// λ of the full solution behind the contact, where complementarity ruptures the film.
+fn multiplier(plot: &mut PlotUi<'_>, scene: &Scene<'_>, palette: &Palette) {
+    let full = scene.full.filter(|_| !scene.full_stale).unwrap_or(scene.picture);
+    let points: Vec<[f64; 2]> = full.solution.axis_multiplier().map(|(x, value)| [x, value]).collect();
+    let Some(&[x, value]) = points.get(points.len() / 4) else { return };
+    plot.line(Line::new("λ", points).color(palette.reference).width(1.4).style(LineStyle::dotted_dense()));
+    let label = Text::new("", PlotPoint::new(x, value), rich("λ  ", 13.0, palette.ink(palette.reference)));
+    plot.text(label.anchor(Align2::RIGHT_BOTTOM).id("multiplier label").allow_hover(false));
+}
+
 fn curve<'a>(name: String, points: &'a [PlotPoint], color: Color32, width: f32) -> Line<'a> {
     Line::new(name, PlotPoints::Borrowed(points)).color(color).width(width).allow_band(false)
 }
@@ -363,6 +373,9 @@ fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f
                 Line::new("Hertz", hertz).color(palette.reference).width(THIN_WIDTH).style(LineStyle::dashed_dense()),
             );
             let live = scene.curves(plot, &palette, palette.pressure, move |picture| direction.pressure(picture));
+            if on_axis {
+                multiplier(plot, scene, &palette);
+            }
             if let Some(spike) = picture.spike.filter(|s| on_axis && (s.0 < scalars.x_p_max - 1e-9 || s.0 > 0.5)) {
                 mark(plot, spike, "spike", live, Align2::LEFT_BOTTOM);
             }

@@ -67,7 +67,7 @@ mod tests {
     fn march(name: &str, by: By, steps: usize, step_s: f64) -> March {
         let scene = Scene::from_ron(SCENE).unwrap();
         let Study::Transient(study) = &scene.study else { panic!() };
-        let transient = study.own_march(scene.point().unwrap(), scene.lubricant, Frame::Fixed);
+        let transient = study.own_march(scene.point().unwrap(), scene.laws(), Frame::Fixed);
         let scales =
             Frame::Fixed.conditions(&transient.problem().unwrap(), 0.0, transient.inputs.at(0.0)).unwrap().scales;
         let moment = |k: usize| Moment {

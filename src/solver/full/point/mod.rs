@@ -123,12 +123,13 @@ impl NewtonSpace for PlaneSpace {
         _: f64,
     ) -> Taken {
         let LimitedSteps { largest_step, film_loss, .. } = options.control;
+        let penalised = !system.active.holds();
         let System { space, update, step, step_deformation, scratch, pressure, film, deformation, .. } = system;
         let shift = update[space.grid.unknowns()];
         space.spread(update, step);
         let size = step.iter().fold(0.0f64, |largest, s| if s.is_nan() { *s } else { largest.max(s.abs()) });
         space.grid().deform(step, step_deformation, scratch);
-        let mut factor = (largest_step / size).min(memory.share(size));
+        let mut factor = (largest_step / size).min(if penalised { memory.share(size) } else { 1.0 });
         for (h, d) in film.iter().zip(&*step_deformation) {
             let change = d + shift;
             if change < -film_loss * h {
@@ -138,7 +139,7 @@ impl NewtonSpace for PlaneSpace {
         let mut cut = false;
         for (p, s) in pressure.iter_mut().zip(&*step) {
             *p += factor * s;
-            if *p < LOWEST_PRESSURE {
+            if penalised && *p < LOWEST_PRESSURE {
                 *p = LOWEST_PRESSURE;
                 cut = true;
             }

@@ -63,6 +63,8 @@ pub struct State {
     pub pressure: Vec<f64>,
     /// H.
     pub film: Vec<f64>,
+    /// λ, zero where the film is whole; empty where a penalty ruptures it.
+    pub multiplier: Vec<f64>,
     /// H₀ with the kernel of (2.27).
     pub h_0: f64,
 }

@@ -6,6 +6,7 @@
 mod film_formulas;
 mod moes;
 mod quantity;
+mod rolling;
 
 pub use film_formulas::{FilmAsymptotes, FilmFormula, FilmPrediction, moes_film};
 pub use moes::{DEFAULT_VISCOSITY_PA_S, MoesRequest, si_from_moes};

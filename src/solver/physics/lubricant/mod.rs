@@ -5,6 +5,7 @@
 //! analytic laws; below [`CAVITATION_FLOOR_PA`] the laws are held constant so that no Newton iterate can leave their
 //! domain.
 
+mod cavitation;
 mod elementary;
 mod free_volume;
 mod pressure_coefficient;
@@ -12,6 +13,7 @@ mod shear_thinning;
 mod words;
 
 pub use super::contact::Sliding;
+pub use cavitation::Cavitation;
 pub use free_volume::{Doolittle, Tait};
 pub use pressure_coefficient::GAUSS_6;
 pub use shear_thinning::{Fluidity, LimitingStress, ScaledShear, ShearLaw};
@@ -70,6 +72,9 @@ pub struct Lubricant {
     /// The stress that limits traction, where one is known.
     #[serde(default)]
     pub limiting_stress: Option<LimitingStress>,
+    /// How its film ruptures. Scenes say it in a field of their own, and models answer for what they were trained with.
+    #[serde(skip)]
+    pub cavitation: Cavitation,
 }
 
 /// Why a lubricant cannot be used at an operating point: a sentence.
@@ -175,6 +180,12 @@ impl Lubricant {
     /// The laws that pressure and film answer to: all but the limiting stress, which cuts traction only.
     pub fn of_the_film(self) -> Self {
         Self { limiting_stress: None, ..self }
+    }
+
+    /// The laws of the liquid that make its film: all but the limiting stress and the way it ruptures, which moves H_c by
+    /// a few parts in ten million.
+    pub fn of_the_liquid(self) -> Self {
+        Self { limiting_stress: None, cavitation: Cavitation::Penalty, ..self }
     }
 
     /// The pressure–viscosity coefficient that follows from the viscosity law itself, α* \[1/Pa\]; `None` where it is a

@@ -51,6 +51,7 @@ mod tests {
             viscosity: ViscosityLaw::Doolittle(Doolittle { b: 4.0, r_0: 0.65, volume }),
             shear: ShearLaw::Carreau { critical_stress: 1e4, beta: 2.2, n: 0.8, npr: 0.25 },
             limiting_stress: Some(LimitingStress { ambient: 5e6, slope: 0.05, eyring: None }),
+            ..Lubricant::default()
         };
         assert_eq!(
             lubricant.describe(),

@@ -28,6 +28,7 @@ impl Online {
             y,
             pressure,
             film,
+            multiplier: Vec::new(),
             report: Report {
                 termination: Termination::Converged,
                 newton_iterations: solution.iterations,
@@ -36,6 +37,7 @@ impl Online {
                 residuals: Vec::new(),
                 steps: Vec::new(),
                 residual_norm: solution.residual_estimate,
+                cautious_front: false,
             },
             grid_cost: None,
         })

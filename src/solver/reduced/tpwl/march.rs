@@ -232,6 +232,13 @@ impl Marching for TpwlMarch<'_> {
         let (mut pressure, mut film) = (vec![0.0; length], vec![0.0; length]);
         let state = &self.former[0].state;
         self.model.space.fields(state, at.input, &mut pressure, &mut film);
-        State { time: at.time, scales: at.scales, pressure, film, h_0: state[self.model.space.modes()] }
+        State {
+            time: at.time,
+            scales: at.scales,
+            pressure,
+            film,
+            multiplier: Vec::new(),
+            h_0: state[self.model.space.modes()],
+        }
     }
 }
