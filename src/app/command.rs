@@ -6,6 +6,7 @@ use super::document::Edit;
 use super::in_use::InUse;
 use super::layouts::Layout;
 use super::purpose::{Purpose, Written};
+use super::sheets::Form;
 use super::tab::Tab;
 use super::traction::{Served, Sweep};
 use super::training::TrainingCommand;
@@ -30,10 +31,12 @@ pub enum Command {
     Save,
     /// Save under a name to be given.
     SaveAs,
-    /// Export a plot as a picture.
-    ExportPlot,
+    /// Export a plot as a figure.
+    ExportFigures,
     /// Export the profiles as a table.
     ExportProfiles,
+    /// Write a results sheet of the contact.
+    ExportSheet(Form),
     /// Close the program.
     Quit,
     /// Take the last edit back.
@@ -66,6 +69,12 @@ pub enum Command {
     Lessons,
     /// Say in every tab what is seen and why, or no more.
     ShowWhy,
+    /// Plots and exports in SI units, or no more.
+    SiUnits,
+    /// Let the axes of the tabs in front stand still, or no more.
+    LockAxes,
+    /// Let the axes of a tab stand still, or no more.
+    LockAxesOf(Tab),
     /// Light theme.
     LightTheme,
     /// Dark theme.
@@ -122,8 +131,8 @@ pub enum Command {
     OpenScene(Arc<Scene>),
     /// Ask where something is to be written, or what is to be read.
     Ask(Purpose),
-    /// Export a plot that is on the screen as a drawing.
-    Draw(&'static str),
+    /// Export a plot of a tab as a figure.
+    ExportFigure(Tab),
     /// Run the study of the open scene.
     RunStudy,
     /// Put the question above the tabs away.
@@ -183,7 +192,7 @@ pub static MENUS: &[Item] = {
         item("File", 0, C::LoadCases, "Load cases…", "table csv paste bearings gears batch", None),
         item("File", 1, C::Save, "Save", "", Some((CTRL, Key::S))),
         item("File", 1, C::SaveAs, "Save as…", "", Some((CTRL_SHIFT, Key::S))),
-        item("File", 2, C::ExportPlot, "Export plot…", "picture figure image svg png", Some((CTRL, Key::E))),
+        item("File", 2, C::ExportFigures, "Export figure…", "picture plot image svg png", Some((CTRL, Key::E))),
         item("File", 2, C::ExportProfiles, "Export profiles as CSV…", "table data", None),
         item("File", 3, C::Quit, "Quit", "", Some((CTRL, Key::Q))),
         item("Edit", 0, C::Undo, "Undo", "", Some((CTRL, Key::Z))),
@@ -214,6 +223,15 @@ pub static MENUS: &[Item] = {
         item("View", 4, C::LargerText, "Larger text", "zoom font size scale", Some((CTRL, Key::Plus))),
         item("View", 4, C::SmallerText, "Smaller text", "zoom font size scale", Some((CTRL, Key::Minus))),
         item("View", 4, C::NormalText, "Normal text", "zoom font size scale", Some((CTRL, Key::Num0))),
+        item(
+            "View",
+            5,
+            C::SiUnits,
+            "SI units",
+            "dimensionless micrometre gigapascal millimetre",
+            Some((PLAIN, Key::F7)),
+        ),
+        item("View", 5, C::LockAxes, "Lock axes", "still zoom scale hold", Some((PLAIN, Key::F8))),
         item("View", 5, C::FitPlots, "Fit plots to data", "zoom reset axes", Some((PLAIN, Key::F2))),
         item("View", 5, C::ResetLayout, "Reset layout", "tabs panels windows", None),
         item("Run", 0, C::Verify, "Verify now", "full solve check", Some((PLAIN, Key::F5))),

@@ -3,10 +3,11 @@
 use super::numbers;
 use super::theme::Palette;
 use crate::engine::job::Standing;
+use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextFormat};
 use egui::{
-    Button, Color32, ComboBox, Context, Id, Key, ProgressBar, Response, RichText, Slider, SliderClamping, TextEdit,
-    TextStyle, Ui, WidgetText, pos2, vec2,
+    Button, Color32, ComboBox, Context, Id, Key, ProgressBar, Rect, Response, RichText, Sense, Slider, SliderClamping,
+    Stroke, TextEdit, TextStyle, Ui, WidgetInfo, WidgetText, pos2, vec2,
 };
 use std::collections::HashMap;
 use std::ops::RangeInclusive;
@@ -118,6 +119,20 @@ pub fn standing_ui(ui: &mut Ui, standing: Option<Standing>, name: &str) {
         ui.weak(numbers::standing(&standing)).on_hover_text(&stage);
     };
     if briefly { content(ui) } else { ui.horizontal(content).inner }
+}
+
+/// A small lock at the left of its room, closed or open.
+pub fn lock_ui(ui: &mut Ui, room: [f32; 2], closed: bool) -> Response {
+    let (slot, response) = ui.allocate_exact_size(room.into(), Sense::click());
+    let rect = Rect::from_center_size(slot.left_center() + vec2(9.0, 0.0), vec2(14.0, 14.0));
+    let visuals = ui.style().interact(&response);
+    let color = if closed { visuals.text_color() } else { ui.visuals().weak_text_color() };
+    let body = Rect::from_min_max(rect.min + vec2(2.5, 6.5), rect.max - vec2(2.5, 1.5));
+    let shackle = body.center_top() + vec2(if closed { 0.0 } else { 4.0 }, 0.0);
+    ui.painter().circle_stroke(shackle, 3.0, Stroke::new(1.3, color));
+    ui.painter().rect_filled(body, 1.0, color);
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, closed, "lock"));
+    response
 }
 
 /// What a tab shows and why it is so, for teaching; where it is wanted.

@@ -2,6 +2,7 @@
 
 use super::answers::picture::Cuts;
 use super::numbers;
+use super::units::Units;
 use serde::{Deserialize, Serialize};
 
 /// Relative errors of a film from which on the badge uses another word.
@@ -62,6 +63,8 @@ pub struct Display {
     pub why: bool,
     /// Whether a presentation is light whatever the theme: a projector shows no black.
     pub light_presentation: bool,
+    /// The units of plots and exports.
+    pub units: Units,
 }
 
 impl Display {
@@ -72,7 +75,15 @@ impl Display {
 impl Default for Display {
     fn default() -> Self {
         let (cuts, thresholds) = (Cuts::default(), Thresholds::default());
-        Self { cuts, theme: egui::ThemePreference::System, zoom: 1.0, thresholds, why: false, light_presentation: true }
+        Self {
+            cuts,
+            theme: egui::ThemePreference::System,
+            zoom: 1.0,
+            thresholds,
+            why: false,
+            light_presentation: true,
+            units: Units::default(),
+        }
     }
 }
 

@@ -35,12 +35,14 @@ impl Explorer {
             Command::LoadCases => desk.load_cases.open(),
             Command::Save => desk.save(ctx),
             Command::SaveAs => desk.ask_path(ctx, Purpose::Save),
-            Command::ExportPlot => desk.figures.ask(),
+            Command::ExportFigures => desk.figures.ask(None, desk.display.units),
+            Command::ExportFigure(tab) => desk.figures.ask(Some(tab), desk.display.units),
             Command::ExportProfiles => {
                 if let Some(text) = export::profiles(&desk.answers, desk.display.cuts) {
                     self.execute(ctx, Command::csv(text));
                 }
             }
+            Command::ExportSheet(form) => desk.sheets.begin(ctx, (&desk.document, &desk.answers), form),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
             Command::Undo => {
                 desk.history.undo(&mut desk.document);
@@ -71,6 +73,13 @@ impl Explorer {
             Command::Lessons => self.lessons.toggle(),
             Command::ShowWhy => desk.display.why = !desk.display.why,
             Command::FitPlots => desk.fit_plots = true,
+            Command::SiUnits => desk.display.units = desk.display.units.other(),
+            Command::LockAxes => {
+                let front: Vec<Tab> = self.tabs_in_front().collect();
+                let locked = !front.iter().all(|tab| self.desk.locked.contains(tab));
+                front.into_iter().for_each(|tab| self.desk.lock(tab, locked));
+            }
+            Command::LockAxesOf(tab) => desk.lock(tab, !desk.locked.contains(&tab)),
             Command::LightTheme => self.set_theme(ctx, ThemePreference::Light),
             Command::DarkTheme => self.set_theme(ctx, ThemePreference::Dark),
             Command::SystemTheme => self.set_theme(ctx, ThemePreference::System),
@@ -145,7 +154,6 @@ impl Explorer {
             Command::OpenPath(path) => desk.request(ctx, Pending::Open(path)),
             Command::OpenScene(scene) => desk.request(ctx, Pending::OpenScene(scene)),
             Command::Ask(purpose) => desk.ask_path(ctx, purpose),
-            Command::Draw(name) => desk.figures.draw(name),
             Command::RunStudy => {
                 desk.run_study(wake(ctx));
                 self.show(Tab::Results);

@@ -25,16 +25,17 @@ mod model_source;
 mod numbers;
 mod palette;
 mod panels;
-mod png;
 mod presentation;
 mod purpose;
 mod session;
+mod sheets;
 mod tab;
 mod tabs;
 mod theme;
 mod traction;
 mod training;
 mod transient;
+mod units;
 
 use crate::engine::Store;
 use crate::scene::Table;
@@ -111,6 +112,8 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
 
 /// A presentation on a screen that is no higher has no read-outs \[points\].
 const LOW: f32 = 500.0;
+/// Width of all tabs below which their titles stand close.
+const NARROW: f32 = 900.0;
 /// Least height of the read-outs.
 const READOUTS: f32 = 24.0;
 
@@ -194,7 +197,7 @@ impl Explorer {
         }
         self.scale(&ctx);
         self.palette.begin(&ctx);
-        figure::begin(&ctx);
+        self.desk.figures.begin(ui);
         drawn::begin(&ctx);
         self.desk.receive();
         let asked = self.desk.files.asks() || self.desk.figures.asks() || self.palette.is_open();
@@ -220,7 +223,8 @@ impl Explorer {
             Panel::top("headline").show(ui, |ui| headline.ui(ui, &mut commands));
         }
         CentralPanel::no_frame().show(ui, |ui| {
-            self.tree.ui(&mut Tabs { desk: &mut self.desk, commands: &mut commands }, ui);
+            let narrow = ui.available_width() < NARROW;
+            self.tree.ui(&mut Tabs { desk: &mut self.desk, commands: &mut commands, narrow }, ui);
         });
         self.drawn = drawn::all(&ctx);
         self.desk.files_ui(ui);

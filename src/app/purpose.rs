@@ -28,6 +28,12 @@ pub enum Written {
     Svg,
     /// An image.
     Png,
+    /// Notes.
+    Markdown,
+    /// A page.
+    Html,
+    /// Arrays.
+    Arrays,
 }
 
 /// How a path is asked for.
@@ -59,6 +65,9 @@ impl Purpose {
             Self::Cases => ("Load cases from a table", "Read", "Table", &["csv"], ""),
             Self::Write(Written::Model, _) => ("Save the reduced model", "Save", "Reduced model", &["rom"], "line.rom"),
             Self::Write(Written::Table, _) => ("Export the data as CSV", "Export", "Table", &["csv"], "profiles.csv"),
+            Self::Write(Written::Markdown, _) => ("Export the sheet", "Export", "Notes", &["md"], "contact.md"),
+            Self::Write(Written::Html, _) => ("Export the sheet", "Export", "Page", &["html", "htm"], "contact.html"),
+            Self::Write(Written::Arrays, _) => ("Export arrays", "Export", "Arrays for numpy", &["npz"], "model.npz"),
             Self::Write(Written::Svg, _) => ("Export the picture", "Export", "Picture", &["svg"], "contact.svg"),
             Self::Write(Written::Png, _) => ("Export the picture", "Export", "Picture", &["png"], "contact.png"),
         };

@@ -2,16 +2,21 @@
 
 use super::failure::Failure;
 use super::{Verdict, output};
-use crate::engine::{EngineError, model_file};
+use crate::engine::arrays::npz;
+use crate::engine::{EngineError, model_arrays, model_file};
+use crate::scene::atomic_file;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::reduced::ReducedModel;
 use std::fmt::Write;
 use std::path::Path;
 
 /// Runs the command.
-pub fn run(path: &Path) -> Result<Verdict, Failure> {
+pub fn run(path: &Path, arrays: Option<&Path>) -> Result<Verdict, Failure> {
     let model =
         model_file::read(path).map_err(|reason| EngineError::Model { path: path.to_owned(), reason: reason.into() })?;
+    if let Some(file) = arrays {
+        atomic_file::replace(file, &npz(&model_arrays::of_model(&model)))?;
+    }
     output::print(&describe(&model))?;
     Ok(Verdict::Done)
 }

@@ -66,6 +66,9 @@ struct InfoArgs {
     /// The reduced model
     #[arg(value_name = "FILE.rom")]
     file: PathBuf,
+    /// Write its bases, sampled rows and snapshots as arrays that numpy reads
+    #[arg(long, value_name = "FILE.npz")]
+    arrays: Option<PathBuf>,
 }
 
 /// The program: parses the command line, runs the command, returns its exit code.
@@ -87,7 +90,7 @@ pub fn main() -> ExitCode {
         Some(Command::Run(args)) => run::run(&args),
         Some(Command::Train(args)) => train::run(&args),
         Some(Command::Bench(args)) => bench::run(&args),
-        Some(Command::Info(args)) => info::run(&args.file),
+        Some(Command::Info(args)) => info::run(&args.file, args.arrays.as_deref()),
         None => explore(cli.scene),
     })
 }

@@ -6,10 +6,12 @@
 
 #![warn(clippy::indexing_slicing)]
 
+pub mod arrays;
 pub mod bench;
 mod checked_file;
 mod grid_accuracy;
 pub mod job;
+pub mod model_arrays;
 pub mod model_file;
 pub mod results;
 mod store;

@@ -2,8 +2,9 @@
 //! them, and what wrote it. As Markdown, HTML with figures, and CSV.
 
 use super::chart::{Chart, ChartAxis, Marks};
-use super::chart_svg::{Page, escaped};
+use super::chart_page::Page;
 use super::contact_result::ContactResult;
+use super::drawing::escaped;
 use super::table::{quoted, significant};
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::{ContactKind, FilmFormula};

@@ -2,7 +2,7 @@
 //! they are old.
 
 use crate::common::scratch::Scratch;
-use crate::driver::{Table, Window, choose, click, give_path, set, shows, undo, wait_until};
+use crate::driver::{Table, Window, choose, click, export, set, shows, undo, wait_until};
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
 use ehl_explorer::app::Explorer;
@@ -43,12 +43,9 @@ fn run_tests(harness: &mut Window, tests: f64, compared: f64) {
 }
 
 /// Writes the table of the view through the path field and reads it back.
-fn exported(harness: &mut Window, name: &str) -> Vec<String> {
+fn exported(harness: &mut Window, item: &str, name: &str) -> Vec<String> {
     let folder = Scratch::new("accuracy");
-    let path = folder.join(name);
-    click(harness, "Export CSV…");
-    give_path(harness, &path, "Export");
-    let text = std::fs::read_to_string(&path).unwrap();
+    let text = export(harness, "Accuracy", item, &folder.join(name));
     text.lines().map(str::to_owned).collect()
 }
 
@@ -85,7 +82,7 @@ fn the_parts_appear_when_the_sliders_rest_and_follow_them() {
     for part in ["Basis", "Projection", "Sampling", "Reduced against full", "Reduced against the limit"] {
         assert!(shows(&harness, &format!("{part}, H_c: ")), "{part}");
     }
-    let table = exported(&mut harness, "split.csv");
+    let table = exported(&mut harness, "Parts of the error as CSV…", "split.csv");
     assert_eq!(table[3], "row,H_c,H_min,P");
     let parts: Vec<f64> = table[4..].iter().map(|line| line.split(',').nth(1).unwrap().parse().unwrap()).collect();
     assert!(
@@ -118,7 +115,7 @@ fn the_failure_map_counts_and_its_worst_case_is_a_click_away() {
     wait(&mut harness, "its picture", |h| h.state().central_film().is_some());
     undo(&mut harness);
     assert_eq!(harness.state().moes(), before);
-    let table = exported(&mut harness, "map.csv");
+    let table = exported(&mut harness, "Random tests as CSV…", "map.csv");
     assert_eq!(table.len(), 4 + 200);
     assert!(table[3].starts_with("M,L,R_m"));
     let domain = model_file::embedded().unwrap().domain.clone();
@@ -190,7 +187,7 @@ fn the_trajectory_is_followed_in_both_ranges() {
     click(&mut harness, "Follow the trajectory");
     wait(&mut harness, "the trajectory", |h| !h.state().studying());
     assert!(shows(&harness, "11 of 11 contacts through Table 3.1’s box, 0 failures"));
-    let table = exported(&mut harness, "along.csv");
+    let table = exported(&mut harness, "Trajectory as CSV…", "along.csv");
     assert_eq!(table.len(), 3 + 11);
     let range = "radius: (2e-3, 4e-3), speed: (1.0, 10.0), load: (1e5, 5e5), alpha: (5e-9, 20e-9), modulus: 231e9, \
         viscosity: 0.01";

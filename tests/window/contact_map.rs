@@ -1,7 +1,10 @@
 //! The point contact in the window: the switch, the map, its cuts, the grids, the interferogram.
 
 use crate::common::scratch::Scratch;
-use crate::driver::{Window, assert_cheap, choose, click, drag_line, give_path, rest, rest_in_time, shows, undo, wait};
+use crate::driver::{
+    Window, assert_cheap, caption, choose, click, drag_line, export, export_plot, give_path, rest, rest_in_time, shows,
+    undo, wait,
+};
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
@@ -163,20 +166,22 @@ fn the_map_leaves_as_table_and_picture() {
     let mut harness = quick_point();
     click(&mut harness, "Contact map");
     let folder = Scratch::new("map");
-    for (button, name) in [("Data as CSV…", "map.csv"), ("Figure as SVG…", "map.svg"), ("Image as PNG…", "map.png")]
-    {
-        click(&mut harness, "Export map");
-        click(&mut harness, button);
-        harness.run_steps(4);
-        give_path(&mut harness, &folder.join(name), "Export");
-    }
-    let table = std::fs::read_to_string(folder.join("map.csv")).unwrap();
+    let table = export(&mut harness, "Contact map", "Map as CSV…", &folder.join("map.csv"));
     assert_eq!(table.lines().nth(2), Some("X,Y,P,H,x_m,y_m,p_pa,h_m"));
     assert_eq!(table.lines().count(), 3 + 151 * 81);
-    let drawing = std::fs::read_to_string(folder.join("map.svg")).unwrap();
+    let drawing = export_plot(&mut harness, "Contact map", "Map of the contact", &folder.join("map.svg"));
     assert!(drawing.starts_with("<svg") && drawing.contains("polyline") && drawing.trim_end().ends_with("</svg>"));
-    assert!(drawing.contains("href=\"data:image/png;base64,") && drawing.contains("151×41 nodes"), "field and grid");
-    assert!(drawing.contains(">nm<") || drawing.contains("nm</text>"), "the scale stands beside it");
+    assert!(
+        drawing.contains("href=\"data:image/png;base64,") && caption(&drawing).contains("151×41 nodes"),
+        "field and grid"
+    );
+    assert!(
+        drawing.contains("class=\"scale title\"") && drawing.contains("class=\"scale\""),
+        "the scale stands beside it"
+    );
+    click(&mut harness, "Export from Contact map");
+    click(&mut harness, "Bare map as PNG…");
+    give_path(&mut harness, &folder.join("map.png"), "Export");
     let picture = std::fs::read(folder.join("map.png")).unwrap();
     assert_eq!(&picture[1..4], b"PNG");
 }

@@ -156,7 +156,8 @@ fn a_presentation_shows_plots_and_the_sliders_in_use_large_and_ends_with_escape(
     assert_eq!(full_screen(&harness), Some(true));
     harness.run_steps(4);
     assert!(harness.ctx.zoom_factor() > 1.2 * before, "{}", harness.ctx.zoom_factor());
-    for gone in ["File", "Radius R", "Slide-to-roll ratio SRR", "Newtonian plateau ratio NPR", "Export CSV…", "Ready"]
+    for gone in
+        ["File", "Radius R", "Slide-to-roll ratio SRR", "Newtonian plateau ratio NPR", "Export from Profiles", "Ready"]
     {
         assert!(harness.query_by_label(gone).is_none(), "{gone}");
     }
@@ -200,7 +201,10 @@ fn a_presentation_keeps_maps_and_series_usable() {
     click(&mut harness, "Contact map");
     let map = harness.get_by_label("Map of the contact").rect();
     assert!(map.width() > 400.0 && map.height() > 250.0, "{map:?}");
-    assert!(harness.query_by_label("Interferogram").is_some() && harness.query_by_label("Export map").is_none());
+    assert!(
+        harness.query_by_label("Interferogram").is_some()
+            && harness.query_by_label("Export from Contact map").is_none()
+    );
     for name in ["Load number M", "Newtonian plateau ratio NPR", "NPR value", "End the presentation"] {
         let place = harness.get_by_label(name).rect();
         assert!(place.left() >= 0.0 && place.right() <= 760.0 && place.bottom() <= 475.0, "{name}: {place:?}");

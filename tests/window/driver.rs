@@ -108,25 +108,38 @@ pub fn give_path(harness: &mut Window, path: &Path, action: &str) {
     click(harness, action);
 }
 
-/// Writes what a button exports to a path, and reads it.
-pub fn export(harness: &mut Window, button: &str, path: &Path) -> String {
-    click(harness, button);
+/// Writes what an item of the Export menu of a tab gives to a path, and reads it.
+pub fn export(harness: &mut Window, tab: &str, item: &str, path: &Path) -> String {
+    click(harness, &format!("Export from {tab}"));
+    click(harness, item);
     give_path(harness, path, "Export");
     std::fs::read_to_string(path).unwrap()
 }
 
-/// Writes what an option of "Export plot…" draws to a path, and reads it.
-pub fn export_plot(harness: &mut Window, option: &str, path: &Path) -> String {
-    click(harness, "Export plot…");
-    click(harness, option);
-    harness.run_steps(6);
+/// Draws a plot of a tab as SVG to a path, and reads it.
+pub fn export_plot(harness: &mut Window, tab: &str, plot: &str, path: &Path) -> String {
+    click(harness, &format!("Export from {tab}"));
+    click(harness, "Figure…");
+    harness.get_by_role_and_label(Role::ComboBox, "Plot").click();
+    harness.run_steps(3);
+    harness.get_by_role_and_label(Role::Button, plot).click();
+    harness.run_steps(3);
+    click(harness, "SVG…");
     give_path(harness, path, "Export");
     std::fs::read_to_string(path).unwrap()
 }
 
-/// Solid curves of a drawing; dashes are lines of their own.
+/// The caption of a drawing, without the ends of its lines.
+pub fn caption(drawing: &str) -> String {
+    let lines = drawing.lines().filter(|line| line.contains("class=\"caption\""));
+    let words = |line: &str| line.split_once('>').map(|(_, rest)| rest.trim_end_matches("</text>").to_owned());
+    lines.filter_map(words).collect::<Vec<_>>().join(" ")
+}
+
+/// Solid curves of a drawing.
 pub fn solid_curves(drawing: &str) -> usize {
-    drawing.lines().filter(|line| line.starts_with("<polyline") && line.matches(',').count() > 30).count()
+    let curve = |line: &&str| line.starts_with("<polyline") && line.matches(',').count() > 30;
+    drawing.lines().filter(curve).filter(|line| !line.contains("stroke-dasharray")).count()
 }
 
 /// Takes the contact through time, to the end of all runs, unless that has happened by itself.

@@ -2,7 +2,7 @@
 
 use crate::common::processor_time::{of_this_thread, on_one_thread};
 use crate::common::scratch::Scratch;
-use crate::driver::{Window, assert_cheap, click, give_path, press, rest, shows, undo, wait, write};
+use crate::driver::{Window, assert_cheap, click, export, give_path, press, rest, shows, undo, wait, write};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
@@ -135,9 +135,7 @@ fn pinning_comparing_and_exporting_survive() {
     click(&mut harness, "Remove pin 1");
     let folder = Scratch::new("export");
     let path = folder.join("profiles.csv");
-    click(&mut harness, "Export CSV…");
-    give_path(&mut harness, &path, "Export");
-    let text = std::fs::read_to_string(&path).unwrap();
+    let text = export(&mut harness, "Profiles", "Profiles as CSV…", &path);
     let head: Vec<&str> = text.lines().take(4).collect();
     assert!(head[2].starts_with("# pin2: M ") && head[2].contains("; L "), "{head:?}");
     assert_eq!(head[3], "X,P,H,x_m,p_pa,h_m,pin2.X,pin2.P,pin2.H,pin2.x_m,pin2.p_pa,pin2.h_m");

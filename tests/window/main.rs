@@ -13,6 +13,7 @@ mod desktop;
 mod engineering;
 mod examples;
 mod explorer;
+mod figures;
 mod lessons;
 mod presets;
 mod results_tab;

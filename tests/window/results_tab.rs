@@ -143,7 +143,7 @@ fn a_contact_without_a_study_shows_what_it_amounts_to() {
     set(&mut harness, Role::Slider, "Load number M", 90.0);
     assert!(!shows(&harness, "Full solution"), "a former one is not beside it");
     wait_until(PATIENCE, &mut harness, "the check", checked);
-    let table = export(&mut harness, "Export CSV…", &folder.join("contact.csv"));
+    let table = export(&mut harness, "Results", "Table as CSV…", &folder.join("contact.csv"));
     let line = table.lines().find(|line| line.starts_with("H_c,")).unwrap().to_owned();
     let [reduced, full] = [1, 2].map(|k| line.split(',').nth(k).unwrap().parse::<f64>().unwrap());
     assert_eq!(Some(reduced), harness.state().central_film());

@@ -68,7 +68,7 @@ fn a_linearised_model_is_run_looked_into_and_exported() {
 
     // In the middle of the run: weights of both kinds add up to one, the nearest point carries most.
     set(&mut harness, Role::Slider, "Time T", 0.2);
-    let table = Table::of(&export(&mut harness, "Export points…", &folder.join("points.csv")));
+    let table = Table::of(&export(&mut harness, "TPWL", "Points as CSV…", &folder.join("points.csv")));
     assert_eq!(table.rows.len(), points);
     for name in ["weight_dual_taylor", "weight_dissertation"] {
         let sum: f64 = table.column(name).iter().sum();
@@ -81,7 +81,7 @@ fn a_linearised_model_is_run_looked_into_and_exported() {
     // H_c of a point is that of the training at its moment: all lie in the range of a breathing film.
     assert!(table.column("H_c").iter().all(|h| (0.08..0.12).contains(h)));
 
-    let weights = Table::of(&export(&mut harness, "Export weights…", &folder.join("weights.csv")));
+    let weights = Table::of(&export(&mut harness, "TPWL", "Weights as CSV…", &folder.join("weights.csv")));
     let at = |weighting: f64, time: f64| -> f64 {
         let (kinds, instants, shares) = (weights.column("weighting"), weights.column("T"), weights.column("weight"));
         (0..shares.len())
@@ -142,7 +142,7 @@ fn more_points_err_less_and_the_study_can_be_stopped() {
     run_in_time(&mut harness);
     wait(&mut harness, "the study, which begins by itself", |app| app.studying_points());
     wait_within(Duration::from_secs(900), &mut harness, "the study", |app| !app.studying_points());
-    let text = export(&mut harness, "Export numbers…", &folder.join("numbers.csv"));
+    let text = export(&mut harness, "TPWL", "Numbers as CSV…", &folder.join("numbers.csv"));
     let table = Table::of(&text);
     let (rules, kinds) = (table.column("rule"), table.column("weighting"));
     let (points, errors) = (table.column("points"), table.column("H_c_difference_l2"));
@@ -271,10 +271,11 @@ fn the_same_scene_runs_headless_and_is_refused_without_the_fixed_frame() {
 fn any_plot_leaves_as_a_drawing_with_its_name_axes_and_contact() {
     let (mut harness, folder) = open("drawing", &scene(SINE, BOTH), [1280.0, 900.0]);
     run_in_time(&mut harness);
-    let drawing = export_plot(&mut harness, "Operating points in the plane as SVG…", &folder.join("plane.svg"));
+    let drawing = export_plot(&mut harness, "TPWL", "Operating points in the plane", &folder.join("plane.svg"));
     assert!(drawing.starts_with("<svg ") && drawing.ends_with("</svg>\n"));
     assert!(drawing.contains(">Operating points in the plane</text>"));
-    assert!(drawing.contains("w 200000 N/m") && drawing.contains("E' 231.0 GPa"), "the contact");
+    let caption = crate::driver::caption(&drawing);
+    assert!(caption.contains("w 200000 N/m") && caption.contains("E' 231.0 GPa"), "the contact: {caption}");
     assert!(drawing.contains("Pressure mode 1") && drawing.contains("Pressure mode 2"), "titles of the axes");
     let points = harness.state().operating_points().unwrap();
     assert!(drawing.matches("<circle ").count() >= points, "one dot for each operating point");
@@ -282,8 +283,12 @@ fn any_plot_leaves_as_a_drawing_with_its_name_axes_and_contact() {
     // The same mechanism serves every tab: a film profile by the key.
     click(&mut harness, "Profiles");
     press(&mut harness, Modifiers::COMMAND, Key::E);
-    click(&mut harness, "Film profile as SVG…");
-    harness.run_steps(6);
+    harness.run_steps(3);
+    harness.get_by_role_and_label(Role::ComboBox, "Plot").click();
+    harness.run_steps(3);
+    harness.get_by_role_and_label(Role::Button, "Film profile").click();
+    harness.run_steps(3);
+    click(&mut harness, "SVG…");
     give_path(&mut harness, &folder.join("film.svg"), "Export");
     let drawing = std::fs::read_to_string(folder.join("film.svg")).unwrap();
     assert!(drawing.contains("<polyline ") && drawing.contains("font-style=\"italic\""));

@@ -2,7 +2,8 @@
 
 use crate::common::scratch::Scratch;
 use crate::driver::{
-    Table, Window, choose, click, export, export_plot, give_path, press, set, shows, solid_curves, undo, wait, write,
+    Table, Window, caption, choose, click, export, export_plot, give_path, press, set, shows, solid_curves, undo, wait,
+    write,
 };
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
@@ -102,7 +103,7 @@ fn a_newtonian_lubricant_keeps_npr_still_and_slides_without_another_film() {
     wait(&mut harness, "the curve", |app| app.traction_contacts().0 == Some(41));
     assert!(shows(&harness, "unphysical") && shows(&harness, "it is drawn grey"));
     let folder = Scratch::new("traction");
-    let table = Table::of(&export(&mut harness, "Export CSV…", &folder.join("unlimited.csv")));
+    let table = Table::of(&export(&mut harness, "Traction", "Curve as CSV…", &folder.join("unlimited.csv")));
     assert!(table.column("unphysical").iter().skip(1).all(|mark| *mark == 1.0), "marked in the table too");
     let unlimited = harness.state().traction().unwrap();
     click(&mut harness, "Limiting shear stress");
@@ -184,7 +185,7 @@ fn the_curve_follows_the_sliders_full_solutions_lie_on_it_and_a_press_goes_there
     wait(&mut harness, "the full solutions", |app| app.traction_contacts().1 == 11 && !app.solving_along());
     assert!(shows(&harness, "full solutions differ by"));
     let folder = Scratch::new("traction");
-    let table = export(&mut harness, "Export CSV…", &folder.join("traction.csv"));
+    let table = export(&mut harness, "Traction", "Curve as CSV…", &folder.join("traction.csv"));
     let table = Table::of(&table);
     // Half of the contacts lie where traction rises, and a Newtonian lubricant's would be ever larger.
     assert_eq!(table.column("SRR").iter().take(41).filter(|srr| **srr <= 0.05 + 1e-9).count(), 21);
@@ -202,10 +203,11 @@ fn the_curve_follows_the_sliders_full_solutions_lie_on_it_and_a_press_goes_there
     let headless = Table::of(&outcome.tables[0].to_csv()).column("reduced.traction");
     let curve: Vec<f64> = rows.iter().filter(|row| row[0] == 0.0).map(|row| row[6]).collect();
     assert!(curve.iter().zip(&headless).all(|(a, b)| a.to_bits() == b.abs().to_bits()), "{curve:?} and {headless:?}");
-    let figure = export_plot(&mut harness, "Traction and film as SVG…", &folder.join("traction.svg"));
-    // Traction and central film are solid, and each full solution has a ring for its traction and both films.
-    assert_eq!((solid_curves(&figure), figure.matches("r=\"4.00\" fill=\"none\"").count()), (2, 33));
-    assert!(figure.contains("first contact is described above"));
+    let figure = export_plot(&mut harness, "Traction", "All plots of Traction", &folder.join("traction.svg"));
+    // Traction and central film are solid, and each full solution has a ring for its traction and both films, with one
+    // in the legend of each plot.
+    assert_eq!((solid_curves(&figure), figure.matches("r=\"1.9\" fill=\"none\"").count()), (2, 33 + 2));
+    assert!(caption(&figure).contains("first contact is described above"));
     // A press in a plot goes there.
     let place = harness.get_by_label("Film along the quantity").rect().center();
     harness.hover_at(place);
@@ -265,13 +267,13 @@ fn a_fluid_that_the_model_was_not_trained_with_has_a_curve_that_says_so() {
     wait(&mut harness, "the full solutions", |app| app.traction_contacts().1 == 11 && !app.solving_along());
     assert!(shows(&harness, "full solutions differ by"));
     let folder = Scratch::new("traction");
-    let table = export(&mut harness, "Export CSV…", &folder.join("sketch.csv"));
+    let table = export(&mut harness, "Traction", "Curve as CSV…", &folder.join("sketch.csv"));
     assert!(table.contains("no bound on its errors is known"));
     let rows = Table::of(&table).rows;
     assert_full_beside_reduced(&rows, |traction| 1e-2 * traction);
-    let figure = export_plot(&mut harness, "Traction and film as SVG…", &folder.join("sketch.svg"));
+    let figure = export_plot(&mut harness, "Traction", "All plots of Traction", &folder.join("sketch.svg"));
     assert_eq!(solid_curves(&figure), 0, "no line is firm");
-    assert!(figure.contains("was not trained for this curve"));
+    assert!(caption(&figure).contains("was not trained for this curve"));
     // Pictures are full solutions all the same.
     wait(&mut harness, "the full solver", |app| app.badge() == "Outside the reduced model" && !app.busy());
     // Its own fluid brings firm lines back; its plateau ratio is one of the range.
@@ -294,7 +296,7 @@ fn a_sketch_goes_along_with_ones_own_constants_and_with_other_newtonian_fluids()
     choose(&mut harness, "Against", "plateau ratio");
     wait(&mut harness, "the curve against NPR", |app| app.traction_contacts().0 == Some(41));
     let folder = Scratch::new("traction");
-    let table = export(&mut harness, "Export CSV…", &folder.join("plateau.csv"));
+    let table = export(&mut harness, "Traction", "Curve as CSV…", &folder.join("plateau.csv"));
     let rows = Table::of(&table).rows;
     assert!((rows[0][2] - 0.1).abs() < 1e-9 && (rows[40][2] - 1.0).abs() < 1e-9, "{:?}", rows[0]);
     choose(&mut harness, "Against", "slide-to-roll ratio");

@@ -50,7 +50,7 @@ fn frames_are_run_compared_scrubbed_played_and_exported() {
     assert!(shows(&harness, "Moving nodes (ALE)") && shows(&harness, "Film at this moment"));
     assert!((time(&harness) - 2.0).abs() < 1e-12, "it has followed the run to its end");
 
-    let series = Table::of(&export(&mut harness, "Export series…", &folder.join("series.csv")));
+    let series = Table::of(&export(&mut harness, "Transient", "Series as CSV…", &folder.join("series.csv")));
     let (column, rows) = (|name: &str| series.at(name), &series.rows);
     let (film, moving) = (column("full.fixed.H_c"), column("full.ale.H_c"));
     assert_eq!(rows.len(), 41);
@@ -69,12 +69,12 @@ fn frames_are_run_compared_scrubbed_played_and_exported() {
 
     // A quarter of the period: the profiles are those of that moment.
     set(&mut harness, Role::Slider, "Time T", 0.5);
-    let profiles = Table::of(&export(&mut harness, "Export profiles…", &folder.join("profiles.csv")));
+    let profiles = Table::of(&export(&mut harness, "Transient", "Profiles as CSV…", &folder.join("profiles.csv")));
     let (x, h) = (profiles.at("full.ale.X"), profiles.at("full.ale.H"));
     let centre = profiles.rows.iter().min_by(|a, b| a[x].abs().total_cmp(&b[x].abs())).unwrap();
     assert!((centre[h] / rows[10][moving] - 1.0).abs() < 1e-6, "in the scales of the reference contact");
 
-    let figure = export_plot(&mut harness, "Series and profiles as SVG…", &folder.join("figure.svg"));
+    let figure = export_plot(&mut harness, "Transient", "All plots of Transient", &folder.join("figure.svg"));
     // Of the solid run film and pressure against time, and both profiles.
     assert_eq!(solid_curves(&figure), 4);
     assert!(figure.contains("Moving nodes (ALE)") && figure.ends_with("</svg>\n"));
@@ -121,7 +121,7 @@ fn a_step_that_cannot_be_taken_is_named_and_what_was_computed_stays() {
     assert!(shows(&harness, "could not take the step") || shows(&harness, "stopped at T ="), "it is said");
     assert!(shows(&harness, "what was computed before is kept"));
     assert!((10..=41).contains(&harness.state().transient_moments()));
-    let series = Table::of(&export(&mut harness, "Export series…", &folder.join("series.csv")));
+    let series = Table::of(&export(&mut harness, "Transient", "Series as CSV…", &folder.join("series.csv")));
     assert_eq!(series.rows.len(), harness.state().transient_moments());
 }
 
@@ -186,7 +186,7 @@ fn a_fresh_window_runs_by_itself_replays_at_once_and_checks_at_rest() {
     rest_in_time(&mut harness);
     assert_eq!(harness.state().in_time(), (true, 3, 0));
     let folder = Scratch::new("fresh");
-    let series = Table::of(&export(&mut harness, "Export series…", &folder.join("series.csv")));
+    let series = Table::of(&export(&mut harness, "Transient", "Series as CSV…", &folder.join("series.csv")));
     assert!((series.column("full.fixed.w_over_ref")[20] - 1.2).abs() < 1e-9, "they are of the new amplitude");
 
     // The moment stays where it was put, read-outs follow it, and the map goes to another.
@@ -203,11 +203,11 @@ fn a_fresh_window_runs_by_itself_replays_at_once_and_checks_at_rest() {
     harness.drop_at(map.center());
     harness.run_steps(2);
     assert!((time(&harness) - 4.0).abs() < 0.5, "half way up is half of the duration: {}", time(&harness));
-    let map = Table::of(&export(&mut harness, "Export map…", &folder.join("map.csv")));
+    let map = Table::of(&export(&mut harness, "Transient", "Map as CSV…", &folder.join("map.csv")));
     assert_eq!(map.header, ["T", "X", "P", "H"]);
     assert!(map.rows.len() > 161 * 200 && map.column("H").iter().all(|h| *h > 0.0));
     click(&mut harness, "Pressure over time");
-    let drawing = export_plot(&mut harness, "Pressure over space and time as SVG…", &folder.join("map.svg"));
+    let drawing = export_plot(&mut harness, "Transient", "Pressure over space and time", &folder.join("map.svg"));
     assert!(drawing.contains("href=\"data:image/png;base64,") && drawing.contains("Harmonic"));
 }
 
@@ -237,10 +237,10 @@ fn what_has_not_come_to_a_moment_is_not_drawn_there() {
     click(&mut harness, "Stop");
     rest_in_time(&mut harness);
     assert!((time(&harness) - 100.0).abs() < 1e-9 && shows(&harness, "Moving nodes (ALE) was cancelled"));
-    let header = Table::of(&export(&mut harness, "Export profiles…", &folder.join("end.csv"))).header;
+    let header = Table::of(&export(&mut harness, "Transient", "Profiles as CSV…", &folder.join("end.csv"))).header;
     assert!(header.iter().all(|name| name.starts_with("full.fixed.")), "{header:?}");
     set(&mut harness, Role::Slider, "Time T", 0.5);
-    let header = Table::of(&export(&mut harness, "Export profiles…", &folder.join("early.csv"))).header;
+    let header = Table::of(&export(&mut harness, "Transient", "Profiles as CSV…", &folder.join("early.csv"))).header;
     assert!(header.iter().any(|name| name.starts_with("full.ale.")), "{header:?}");
 }
 
@@ -253,7 +253,7 @@ fn a_reduced_model_is_trained_on_the_spot_and_runs_beside_the_full_system() {
     click(&mut harness, "Set-up");
     assert!(shows(&harness, "Reduced model") && shows(&harness, "Deviation between runs"));
     assert_eq!(harness.state().transient_moments(), 2 * 41);
-    let series = Table::of(&export(&mut harness, "Export series…", &folder.join("series.csv")));
+    let series = Table::of(&export(&mut harness, "Transient", "Series as CSV…", &folder.join("series.csv")));
     let (column, rows) = (|name: &str| series.at(name), &series.rows);
     let (full, reduced) = (column("full.fixed.H_c"), column("rnsa.fixed.H_c"));
     let worst = rows.iter().map(|row| (row[reduced] / row[full] - 1.0).abs()).fold(0.0, f64::max);

@@ -1,8 +1,8 @@
-//! What a plot is of, in the line of parameters above its picture.
+//! What a plot is of, in the caption of its figure.
 
 use super::Desk;
-use crate::app::figure::Subject;
 use crate::app::numbers;
+use crate::app::tab::Tab;
 use crate::app::tabs::contact_map;
 use crate::app::{traction, transient};
 use crate::scene::named_lubricant;
@@ -10,14 +10,17 @@ use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::ShearLaw;
 
 impl Desk {
-    /// The parameters of what a plot is of.
-    pub(super) fn caption(&self, subject: Subject) -> String {
-        let lines = match subject {
-            Subject::Sliders => None,
-            Subject::Map => contact_map::particulars(&self.answers, &self.views.map.view)
+    /// The parameters of what the plots of a tab are of.
+    pub(super) fn caption(&self, tab: Tab) -> String {
+        let line = self.document.point.kind == ContactKind::Line;
+        let lines = match tab {
+            Tab::ContactMap if !line => contact_map::particulars(&self.answers, &self.views.map.view)
                 .map(|more| vec![self.contact_line(), more]),
-            Subject::Sweep => traction::export::parameters(&self.traction),
-            Subject::InTime => self.transient.setup.as_ref().map(|setup| transient::export::describe(setup)),
+            Tab::Traction => traction::export::parameters(&self.traction),
+            Tab::ContactMap | Tab::Transient => {
+                self.transient.setup.as_ref().map(|setup| transient::export::describe(setup))
+            }
+            _ => None,
         };
         lines.map_or_else(|| self.contact_line(), |lines| lines.join("; "))
     }

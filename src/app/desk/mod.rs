@@ -16,6 +16,7 @@ use crate::app::load_cases::LoadCasesWindow;
 use crate::app::model_source::Models;
 use crate::app::panels::headline::Headline;
 use crate::app::presentation::Presentation;
+use crate::app::sheets::Sheets;
 use crate::app::tab::Tab;
 use crate::app::tabs::Views;
 use crate::app::traction::TractionView;
@@ -53,18 +54,22 @@ pub struct Desk {
     pub traction: TractionView,
     /// What each tab keeps of its own.
     pub views: Views,
-    /// Plots that leave as pictures.
+    /// Plots that leave as figures.
     pub figures: Figures,
     /// Tables of load cases.
     pub load_cases: LoadCasesWindow,
     /// What the scene asks that was opened from those of the program.
     pub headline: Option<Headline>,
+    /// The results sheet that is being made.
+    pub sheets: Sheets,
     /// A presentation under way: plots and sliders only.
     pub presentation: Option<Presentation>,
     /// The tab that answers the question of a scene that was just opened.
     pub opened: Option<Tab>,
     /// Plots are to be fitted to their data in this frame.
     pub fit_plots: bool,
+    /// Tabs whose axes stand still.
+    pub locked: Vec<Tab>,
 }
 
 impl Desk {
@@ -87,9 +92,11 @@ impl Desk {
             figures: Figures::default(),
             load_cases: LoadCasesWindow::default(),
             headline: None,
+            sheets: Sheets::default(),
             presentation: None,
             opened: None,
             fit_plots: true,
+            locked: Vec::new(),
         }
     }
 
@@ -124,16 +131,25 @@ impl Desk {
         self.entries.answer(field, result);
     }
 
-    /// The question which plot is to be exported, and the picture once it is made. Called when everything else is
-    /// drawn.
+    /// The window of figures, where one is wanted, and a sheet that is ready. Called when everything else is drawn.
     pub fn figures_ui(&mut self, ctx: &egui::Context) {
         let mut figures = std::mem::take(&mut self.figures);
-        let made = figures.ui(ctx, |subject| self.caption(subject));
+        let made = figures.ui(ctx, self.display.theme, |tab| self.caption(tab));
         self.figures = figures;
-        match made {
-            Some(Ok(picture)) => self.ask_path(ctx, picture),
-            Some(Err(why)) => self.files.notice = Some(Err(why)),
+        match made.map(Ok).or_else(|| self.sheets.receive()) {
+            Some(Ok(file)) => self.ask_path(ctx, file),
+            Some(Err(why)) => self.files.notice = Some(Err(format!("No sheet: {why}"))),
             None => {}
+        }
+    }
+
+    /// Lets the axes of a tab stand still, or no more.
+    pub fn lock(&mut self, tab: Tab, locked: bool) {
+        self.locked.retain(|other| *other != tab);
+        if locked {
+            self.locked.push(tab);
+        } else {
+            self.fit_plots = true;
         }
     }
 
@@ -157,7 +173,7 @@ impl Desk {
         let studied = self.views.accuracy.standing().or(self.views.results.standing());
         let studied = studied.or(self.views.basis.standing());
         let in_time = transient.standing().or(transient.number.work.standing());
-        studied.or(in_time).or(self.traction.full.standing()).or(self.training.standing())
+        studied.or(in_time).or(self.sheets.standing()).or(self.traction.full.standing()).or(self.training.standing())
     }
 
     /// Takes in what finished work brings. Called first in every frame.
@@ -180,6 +196,7 @@ impl Desk {
         self.views.basis.stop();
         self.transient.stop();
         self.traction.stop_markers();
+        self.sheets.stop();
     }
 
     /// Runs the study of the scene on the screen.

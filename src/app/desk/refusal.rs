@@ -6,6 +6,7 @@ use crate::app::answers::jobs::JobKind;
 use crate::app::answers::picture::Origin;
 use crate::app::command::Command;
 use crate::app::traction::sweep;
+use crate::app::units::Units;
 use crate::solver::physics::contact::ContactKind;
 use egui::ThemePreference;
 
@@ -20,6 +21,8 @@ impl Desk {
             Command::Overlay => Some(profiles.overlay),
             Command::Difference => Some(profiles.difference),
             Command::ShowWhy => Some(self.display.why),
+            Command::SiUnits => Some(self.display.units == Units::Si),
+            Command::LockAxes => Some(!self.locked.is_empty()),
             Command::Presentation => Some(self.presentation.is_some()),
             Command::LightTheme => Some(theme == ThemePreference::Light),
             Command::DarkTheme => Some(theme == ThemePreference::Dark),

@@ -3,15 +3,14 @@
 use super::sliders;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{
-    Entries, NAME_WIDTH, choice, explained, heading, named, reserved, row_name, typed_field, warning_ui,
+    Entries, NAME_WIDTH, choice, explained, heading, lock_ui, named, reserved, row_name, typed_field, warning_ui,
 };
 use crate::app::document::{Document, Edit};
 use crate::app::numbers;
 use crate::app::theme::name_and_symbol;
 use crate::solver::physics::contact::{ContactKind, PLAUSIBLE_HERTZ_PRESSURE_PA, Quantity};
 use crate::solver::physics::engineering::{self, Dimension};
-use egui::accesskit::Role;
-use egui::{Grid, Rect, Response, RichText, Sense, Stroke, Ui, WidgetInfo, vec2};
+use egui::{Grid, RichText, Ui};
 
 const KINDS: [(ContactKind, &str, &str); 2] = [
     (ContactKind::Line, "Line contact", "A long roller on a raceway: load per unit length, the same at every Y"),
@@ -120,7 +119,7 @@ fn held_ui(ui: &mut Ui, document: &Document, (quantity, field): (Quantity, &'sta
         _ => (format!("Hold {field}"), "It gives way. Click to hold it; another quantity follows then"),
     };
     let response = if held || follows.is_empty() {
-        lock_ui(ui, held)
+        lock_ui(ui, HELD, held)
     } else {
         // As wide whatever it says, so that nothing beside it moves.
         ui.add_sized(HELD, egui::Button::new(RichText::new(follows).small().weak()).frame(false))
@@ -132,20 +131,6 @@ fn held_ui(ui: &mut Ui, document: &Document, (quantity, field): (Quantity, &'sta
 
 /// Room for a lock, or for what a quantity follows.
 const HELD: [f32; 2] = [62.0, 22.0];
-
-/// A small lock, closed or open.
-fn lock_ui(ui: &mut Ui, closed: bool) -> Response {
-    let (slot, response) = ui.allocate_exact_size(HELD.into(), Sense::click());
-    let rect = Rect::from_center_size(slot.left_center() + vec2(9.0, 0.0), vec2(14.0, 14.0));
-    let visuals = ui.style().interact(&response);
-    let color = if closed { visuals.text_color() } else { ui.visuals().weak_text_color() };
-    let body = Rect::from_min_max(rect.min + vec2(2.5, 6.5), rect.max - vec2(2.5, 1.5));
-    let shackle = body.center_top() + vec2(if closed { 0.0 } else { 4.0 }, 0.0);
-    ui.painter().circle_stroke(shackle, 3.0, Stroke::new(1.3, color));
-    ui.painter().rect_filled(body, 1.0, color);
-    response.widget_info(|| WidgetInfo::selected(Role::Button, true, closed, "lock"));
-    response
-}
 
 /// The value in SI units of a typed text with or without unit, inside what is accepted.
 fn read(text: &str, quantity: Quantity, kind: ContactKind) -> Result<f64, String> {

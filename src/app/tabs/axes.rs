@@ -1,11 +1,11 @@
 //! What all plots have in common: quiet grid, round ticks, logarithmic axes as transformed data.
 
-use crate::app::controls::named;
-use crate::app::figure;
+use super::plot_frame::PlotFrame;
+use crate::app::figure::Canvas;
 use crate::app::numbers;
-use crate::app::theme::{Palette, rich};
+use crate::app::theme::Palette;
 use egui::{Rangef, Ui, Vec2, Vec2b, vec2};
-use egui_plot::{AxisHints, GridInput, GridMark, Plot, PlotPoint, PlotResponse, PlotUi};
+use egui_plot::{AxisHints, GridInput, GridMark, Plot, PlotPoint, PlotResponse};
 
 /// Size of axis titles.
 pub const TITLE_SIZE: f32 = 12.5;
@@ -20,55 +20,42 @@ const NUMBER_ROOM: Vec2 = vec2(60.0, 20.0);
 const MOST_POINTS: usize = 3000;
 
 /// A plot in the explorer's manner with axis titles that may hold symbols (see [`rich`]); an empty title is left out.
-pub fn plot<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> Plot<'a> {
-    let color = ui.visuals().text_color();
+pub fn plot<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> PlotFrame<'a> {
     let columns = f64::from(ui.available_width() / LABEL_ROOM).clamp(2.0, 9.0);
     // A number that is shown is shown in full: one that has too little room is left out, not faint.
     let spaced = |axis: AxisHints<'a>, room: f32| vec![axis.label_spacing(Rangef::new(room, room + 0.1))];
-    let mut plot = Plot::new(id)
+    let plot = Plot::new(id)
         .custom_x_axes(spaced(AxisHints::new_x(), NUMBER_ROOM.x))
         .custom_y_axes(spaced(AxisHints::new_y(), NUMBER_ROOM.y))
         .height(height)
         .grid_color(Palette::of(ui).grid)
         .allow_scroll(false)
-        .y_axis_min_width(62.0)
-        .x_grid_spacer(move |input| round_marks(input, columns))
-        .y_grid_spacer(|input| round_marks(input, 6.0))
-        .x_axis_formatter(|mark, _| tick(mark.value))
-        .y_axis_formatter(|mark, _| tick(mark.value))
-        .y_axis_label(rich(y_title, TITLE_SIZE, color));
-    if !x_title.is_empty() {
-        plot = plot.x_axis_label(rich(x_title, TITLE_SIZE, color));
-    }
-    plot
+        .y_axis_min_width(62.0);
+    PlotFrame::new(ui, plot, [x_title, y_title], [columns, 6.0])
 }
 
 /// Shows a plot under the name by which screen readers know it, and by which it can be exported as a picture.
 pub fn show<'a, R>(
-    plot: Plot<'a>,
+    plot: PlotFrame<'a>,
     ui: &mut Ui,
     name: &str,
-    content: impl FnOnce(&mut PlotUi<'a>) -> R + 'a,
+    content: impl FnOnce(&mut Canvas<'_, 'a>) -> R + 'a,
 ) -> PlotResponse<R> {
-    // The plot's own response is what lies within its axes; the scope's is the whole.
-    let whole = ui.scope(|ui| plot.show(ui, content));
-    figure::offer(ui, name, whole.response.rect);
-    let mut shown = whole.inner;
-    shown.response = named(ui, shown.response, name);
-    shown
+    plot.show(ui, name, content)
 }
 
 /// Fits a plot to its data where `wanted` and when it is seen first; zooming and panning ends it, a double click brings
-/// it back.
-pub fn fit(plot: &mut PlotUi<'_>, wanted: bool) {
+/// it back. Axes that stand still are fitted where it is wanted only.
+pub fn fit(plot: &mut Canvas<'_, '_>, wanted: bool) {
     let id = plot.response().id.with("seen");
     let seen = plot.ctx().data_mut(|d| std::mem::replace(d.get_temp_mut_or_default::<bool>(id), true));
-    if wanted || !seen {
+    if wanted || !(seen || plot.locked) {
         plot.set_auto_bounds(Vec2b::TRUE);
     }
 }
 
-fn tick(value: f64) -> String {
+/// A number of an axis.
+pub fn tick(value: f64) -> String {
     let rounded = (value * 1e12).round() / 1e12;
     let text = match rounded.abs() {
         0.0 => return "0".to_owned(),
@@ -91,12 +78,7 @@ pub fn round_marks(input: GridInput, target: f64) -> Vec<GridMark> {
     (first..=last).map(|k| GridMark { value: k as f64 * step, step_size: step }).collect()
 }
 
-/// Marks of an axis that shows log10 of its values: decades, thinned where there are many.
-pub fn decade_marks(input: GridInput) -> Vec<GridMark> {
-    few_decade_marks(input, 8.0)
-}
-
-/// The same with about `most` marks at most, for short axes.
+/// Marks of an axis that shows log10 of its values: decades, about `most` of them at most.
 pub fn few_decade_marks(input: GridInput, most: f64) -> Vec<GridMark> {
     let (low, high) = input.bounds;
     if !(low.is_finite() && high.is_finite() && high > low && high - low < 400.0) {

@@ -1,7 +1,9 @@
 //! The colour bar beside a map, with its values and their SI twins.
 
+use crate::app::figure;
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
+use crate::app::units::Units;
 use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, Ui, pos2, vec2};
 
 /// Width of the bar with its numbers.
@@ -55,6 +57,13 @@ pub fn ui(
         let twin = pos2(bar.right() + 42.0, y);
         painter.text(twin, Align2::LEFT_CENTER, si(value), small.clone(), palette.quiet);
     }
+}
+
+/// What the colours mean, for the figure of the map that was drawn last: a title, and in SI units another one with what
+/// a value is multiplied with.
+pub fn on_paper(ui: &Ui, title: &str, (factor, in_si): (f64, &str), (colors, (low, high)): (&[Color32], (f64, f64))) {
+    let (title, factor) = if Units::of(ui.ctx()) == Units::Si { (in_si, factor) } else { (title, 1.0) };
+    figure::scale(ui.ctx(), title, (factor * low, factor * high), colors);
 }
 
 /// As many colours of a table as the bar has strips.

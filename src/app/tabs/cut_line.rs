@@ -4,9 +4,10 @@ use super::grip::Grip;
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::named;
+use crate::app::figure::Canvas;
 use crate::app::theme::rich;
 use egui::{Color32, CursorIcon, DragValue, Response, Ui};
-use egui_plot::{LineStyle, PlotPoint, PlotTransform, PlotUi, VLine};
+use egui_plot::{LineStyle, PlotPoint, PlotTransform, VLine};
 
 /// How near (in screen points) the pointer must be to take the line along.
 const GRAB: f32 = 6.0;
@@ -29,7 +30,7 @@ impl CutLine {
     }
 
     /// Draws it.
-    pub fn draw(&self, plot: &mut PlotUi<'_>, color: Color32) {
+    pub fn draw(&self, plot: &mut Canvas<'_, '_>, color: Color32) {
         let line = VLine::new("", self.at).id("cut line").color(color).width(1.2);
         plot.vline(line.style(LineStyle::dashed_dense()).allow_hover(false));
     }

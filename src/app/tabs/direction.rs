@@ -62,6 +62,12 @@ impl Direction {
         }
     }
 
+    /// The same in SI units, for a title that is not empty.
+    pub fn si_title(self, title: &str) -> String {
+        let at = title.split_once(" at ").map_or_else(String::new, |(_, at)| format!(" at {at}"));
+        format!("{{{}}} / mm{at}", self.name().to_lowercase())
+    }
+
     /// Where on the other axis the profile lies.
     pub fn elsewhere(self, cuts: Cuts) -> f64 {
         self.either(cuts.y, cuts.x)

@@ -1,10 +1,34 @@
 //! Published film formulas beside the current contact.
 
 use crate::app::context::Context;
+use crate::app::export::describe_contact;
 use crate::app::numbers;
 use crate::app::theme::symbol;
+use crate::engine::Table;
 use crate::solver::physics::contact::FilmFormula;
 use egui::{Grid, RichText, Ui};
+
+/// The comparison for other programs.
+pub fn csv(context: &Context<'_>) -> String {
+    let picture = context.answers.current_picture();
+    let point = &context.document.point;
+    let mut table = Table::new("formulas", &["film_m", "own_film_m", "deviation", "in_range"]);
+    for formula in FilmFormula::of(point.kind) {
+        let prediction = formula.predict(point);
+        let minimum = formula.predicts_minimum();
+        let own = picture.map_or(f64::NAN, |p| if minimum { p.minimum_film_m() } else { p.central_film_m() });
+        let which = if minimum { "h_min" } else { "h_c" };
+        table.labels.push(format!("{which} by {}", formula.name()));
+        table.rows.push(vec![
+            prediction.film_m,
+            own,
+            prediction.film_m / own - 1.0,
+            f64::from(u8::from(prediction.in_range)),
+        ]);
+        table.remarks.push(formula.source().to_owned());
+    }
+    format!("# {}\n{}", describe_contact(point, &context.document.lubricant), table.to_csv())
+}
 
 /// The table under its title.
 pub fn ui(ui: &mut Ui, context: &Context<'_>) {

@@ -2,16 +2,18 @@
 //! the curve itself.
 
 use super::axes::TITLE_SIZE;
-use crate::app::figure;
+use crate::app::figure::Canvas;
 use crate::app::theme::{Palette, rich};
 use egui::{Align2, Color32, Pos2, Sense, Shape, Stroke, Ui, vec2};
-use egui_plot::{LineStyle, PlotPoint, PlotUi, Text};
+use egui_plot::{LineStyle, PlotPoint, Text};
 use std::hash::Hash;
 
 /// Length of a piece of a line.
 const PIECE: f32 = 26.0;
 /// Room between entries.
 const APART: f32 = 16.0;
+/// Room between a piece and its name.
+const BESIDE: f32 = 5.0;
 /// Room of a mark.
 const MARK: f32 = 12.0;
 
@@ -48,9 +50,14 @@ impl Sample {
         matches!(self, Self::Line(_) | Self::Dashed(_) | Self::Dotted(_))
     }
 
+    /// How wide a piece of it is.
+    fn width(self) -> f32 {
+        if self.is_line() { PIECE } else { MARK }
+    }
+
     /// Draws a piece of it.
     pub fn ui(self, ui: &mut Ui, color: Color32) {
-        let width = if self.is_line() { PIECE } else { MARK };
+        let width = self.width();
         let (rect, _) = ui.allocate_exact_size(vec2(width, 12.0), Sense::hover());
         let (ends, at) = ([rect.left_center(), rect.right_center()], rect.center());
         let polygon = |corners: Vec<Pos2>| Shape::convex_polygon(corners, color, Stroke::NONE);
@@ -97,34 +104,38 @@ pub fn ui(ui: &mut Ui, entries: impl IntoIterator<Item = Entry>) {
 pub fn entries_ui(ui: &mut Ui, entries: impl IntoIterator<Item = Entry>, size: f32) {
     for Entry { name, color, sample } in entries {
         // A name stands beside its piece, whatever is wrapped.
+        let words = rich(&name, size, ui.visuals().text_color());
+        let wide = sample.width() + BESIDE + ui.painter().layout_job(words.clone()).size().x;
+        let begun = ui.cursor().left() > ui.max_rect().left() + 1.0;
+        if begun && ui.layout().main_wrap() && ui.available_size_before_wrap().x < wide {
+            ui.end_row();
+        }
         ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = 5.0;
+            ui.spacing_mut().item_spacing.x = BESIDE;
             sample.ui(ui, color);
-            ui.label(rich(&name, size, ui.visuals().text_color()));
+            ui.label(words);
         });
     }
 }
 
-/// A plot under its key, both as high as given; the key leaves with the plot where it is exported under its name.
+/// A plot under its key, both as high as given.
 pub fn over<R>(
     ui: &mut Ui,
-    name: &str,
     height: f32,
     entries: impl IntoIterator<Item = Entry>,
     plot: impl FnOnce(&mut Ui, f32) -> R,
 ) -> R {
-    let whole = ui.vertical(|ui| {
+    ui.vertical(|ui| {
         let top = ui.cursor().top();
         self::ui(ui, entries);
         let rest = height - (ui.cursor().top() - top);
         plot(ui, rest)
-    });
-    figure::offer(ui, name, whole.response.rect);
-    whole.inner
+    })
+    .inner
 }
 
 /// A name at a place of a plot, in a shade of its curve that can be read.
-pub fn name(plot: &mut PlotUi<'_>, id: impl Hash, at: PlotPoint, name: &str, color: Color32, anchor: Align2) {
+pub fn name(plot: &mut Canvas<'_, '_>, id: impl Hash, at: PlotPoint, name: &str, color: Color32, anchor: Align2) {
     let ink = Palette::of_screen(plot.ctx()).ink(color);
     let text = Text::new("", at, rich(&format!("  {name}  "), TITLE_SIZE, ink)).anchor(anchor);
     plot.text(text.id(("name of a curve", id)).allow_hover(false));

@@ -13,12 +13,14 @@ mod formulas;
 mod grip;
 mod in_time;
 mod key;
+mod plot_frame;
 pub mod profiles;
 mod raster;
 pub mod regime_chart;
 pub mod regimes;
 pub mod results;
 mod space_time;
+mod take_away;
 pub mod tpwl;
 pub mod traction;
 mod trail;
@@ -27,12 +29,14 @@ mod transient;
 
 use super::command::Command;
 use super::context::Commands;
-use super::controls::why;
+use super::controls::{lock_ui, named, why};
 use super::desk::Desk;
 use super::figure;
 use super::tab::Tab;
+use super::units::{Manner, Units};
 use egui::Ui;
 use egui_tiles::{Behavior, TileId, Tiles, UiResponse};
+use take_away::Offer;
 
 /// What each tab keeps of its own.
 #[derive(Default)]
@@ -78,12 +82,31 @@ fn tab_ui(ui: &mut Ui, tab: Tab, desk: &mut Desk, commands: &mut Commands) {
     desk.views = views;
 }
 
+/// What can be taken away from a tab.
+fn offers(tab: Tab, desk: &Desk) -> Vec<Offer<'_>> {
+    let (views, context) = (&desk.views, desk.context());
+    match tab {
+        Tab::Profiles => profiles::offers(&context),
+        Tab::ContactMap => views.map.offers(&context),
+        Tab::Regimes => views.regimes.offers(&context),
+        Tab::Basis => basis::offers(&context),
+        Tab::Traction => traction::offers(&context),
+        Tab::Results => views.results.offers(&context),
+        Tab::Accuracy => accuracy::offers(&views.accuracy, &context),
+        Tab::Training => Vec::new(),
+        Tab::Transient => transient::offers(&context),
+        Tab::Tpwl => views.tpwl.offers(&context),
+    }
+}
+
 /// Draws the tabs.
 pub struct Tabs<'a> {
     /// What they show.
     pub desk: &'a mut Desk,
     /// What they ask for.
     pub commands: &'a mut Commands,
+    /// Whether their titles stand close.
+    pub narrow: bool,
 }
 
 impl Behavior<Tab> for Tabs<'_> {
@@ -91,15 +114,38 @@ impl Behavior<Tab> for Tabs<'_> {
         egui::Frame::new().fill(ui.visuals().panel_fill).inner_margin(egui::Margin::symmetric(10, 8)).show(ui, |ui| {
             ui.set_min_size(ui.available_size());
             why(ui, self.desk.display.why && self.desk.presentation.is_none(), tab.why());
-            figure::offer(ui, &format!("The whole tab {}", tab.title()), ui.max_rect());
+            figure::enter(ui.ctx(), Some(*tab));
+            let units = self.desk.figures.units().unwrap_or(self.desk.display.units);
+            Manner { units, locked: self.desk.locked.contains(tab) }.set(ui.ctx());
             tab_ui(ui, *tab, self.desk, self.commands);
+            figure::enter(ui.ctx(), None);
         });
         UiResponse::None
     }
 
-    /// The note for teaching, at the same place of every tab.
-    fn top_bar_right_ui(&mut self, _: &Tiles<Tab>, ui: &mut Ui, _: TileId, _: &egui_tiles::Tabs, _: &mut f32) {
+    /// What is at the same place of every tab: what can be taken away, and the note for teaching.
+    fn top_bar_right_ui(&mut self, tiles: &Tiles<Tab>, ui: &mut Ui, _: TileId, tabs: &egui_tiles::Tabs, _: &mut f32) {
         ui.add_space(6.0);
+        // Tabs want the room.
+        ui.spacing_mut().item_spacing.x = 2.0;
+        ui.spacing_mut().button_padding.x = 4.0;
+        let front = tabs.active.and_then(|tile| tiles.get_pane(&tile)).copied();
+        if let Some(tab) = front.filter(|_| self.desk.presentation.is_none()) {
+            take_away::menu(ui, tab, || offers(tab, self.desk), self.commands);
+        }
+        // A narrow bar leaves its room to the tabs: both are in the menu View as well.
+        if let Some(tab) = front.filter(|_| self.desk.presentation.is_none() && !self.narrow) {
+            let si = self.desk.display.units == Units::Si;
+            let tip = "Axes and exports in SI units, or dimensionless (F7)";
+            if ui.selectable_label(si, "SI").on_hover_text(tip).clicked() {
+                self.commands.push(Command::SiUnits);
+            }
+            let (locked, tip) = (self.desk.locked.contains(&tab), "The axes of this tab stand still (F8)");
+            let lock = lock_ui(ui, [20.0, 22.0], locked);
+            if named(ui, lock, &format!("Lock the axes of {}", tab.title())).on_hover_text(tip).clicked() {
+                self.commands.push(Command::LockAxesOf(tab));
+            }
+        }
         let tip = "What is seen in a tab and why it is so, in three sentences";
         let shown = self.desk.display.why;
         if ui.selectable_label(shown, "Why").on_hover_text(tip).clicked() {
@@ -116,7 +162,7 @@ impl Behavior<Tab> for Tabs<'_> {
     }
 
     fn tab_title_spacing(&self, _visuals: &egui::Visuals) -> f32 {
-        6.0
+        if self.narrow { 3.0 } else { 6.0 }
     }
 
     fn tab_bar_color(&self, visuals: &egui::Visuals) -> egui::Color32 {

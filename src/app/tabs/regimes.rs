@@ -5,17 +5,17 @@ use super::grip::Grip;
 use super::regime_chart::{ChartLine, ChartLines, Kind, L_AXIS, M_AXIS, Regime, point, shading};
 use super::trail::Trail;
 use super::{axes, formulas};
-use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{message_ui, spoken};
 use crate::app::document::Edit;
-use crate::app::figure::Texture;
+use crate::app::figure::{Canvas, Texture};
 use crate::app::numbers;
+use crate::app::tabs::take_away::Offer;
 use crate::app::theme::{Palette, faded, rich};
 use crate::solver::physics::contact::{ContactKind, Moes};
 use crate::solver::reduced::ReducedModel;
 use egui::{Align2, RichText, ScrollArea, Ui, WidgetText};
-use egui_plot::{Line, LineStyle, MarkerShape, PlotImage, PlotPoint, PlotPoints, PlotUi, Points, Text};
+use egui_plot::{Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points, Text};
 use std::sync::Arc;
 
 /// How near (in screen points) the pointer must be to take the contact along.
@@ -90,7 +90,6 @@ impl Regimes {
             let lines = ChartLines::new(kind, owner.1.as_deref());
             self.lines = Some((owner, lines));
         }
-        let mut toolbar_export = false;
         let top = ui.cursor().top();
         let regime = Regime::of(kind, context.document.point.moes());
         ui.horizontal_wrapped(|ui| {
@@ -115,8 +114,6 @@ impl Regimes {
             if clear.on_hover_text("Forget where the contact has been").clicked() {
                 self.trail.clear();
             }
-            toolbar_export = !context.presenting
-                && ui.button("Export CSV…").on_hover_text("Contours, boundaries and snapshots").clicked();
         });
         let here = context.document.point.moes();
         let grip = Grip::new("regimes", "contact");
@@ -139,10 +136,8 @@ impl Regimes {
                 .default_x_bounds(M_AXIS.0.log10(), M_AXIS.1.log10())
                 .default_y_bounds(L_AXIS.0.log10(), L_AXIS.1.log10())
                 .allow_drag(!grabbed)
-                .x_grid_spacer(axes::log_marks)
-                .y_grid_spacer(axes::log_marks)
-                .x_axis_formatter(|mark, _| axes::log_label(mark))
-                .y_axis_formatter(|mark, _| axes::log_label(mark))
+                .log_x()
+                .log_y()
                 .y_axis_min_width(34.0)
                 .label_formatter(|hover| {
                     let at = match hover {
@@ -207,9 +202,16 @@ impl Regimes {
             let l = 10f64.powf(value.y.clamp(L_AXIS.0.log10(), L_AXIS.1.log10()));
             commands.edit(Edit::Moes(Moes { m, l }), FIELD);
         }
-        if toolbar_export {
-            commands.extend(self.lines.as_ref().map(|(_, lines)| Command::csv(lines.csv())));
-        }
+    }
+
+    /// What can be taken away from it.
+    pub fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
+        let lines = self.lines.as_ref().map(|(_, lines)| lines);
+        let tip = "Each published formula with its film, its range, its source and how far this contact is from it";
+        vec![
+            Offer::table("Chart as CSV…", "Contours, boundaries and snapshots", lines, |lines| lines.csv()),
+            Offer::table("Formulas as CSV…", tip, Some(*context), formulas::csv),
+        ]
     }
 }
 
@@ -218,7 +220,7 @@ fn at(moes: Moes) -> PlotPoint {
 }
 
 /// A line of the chart with its name, which stands clear of it.
-fn draw<'a>(plot: &mut PlotUi<'a>, line: &'a ChartLine, place: usize, palette: &Palette) {
+fn draw<'a>(plot: &mut Canvas<'_, 'a>, line: &'a ChartLine, place: usize, palette: &Palette) {
     let points = &line.points;
     let film = || line.value.map_or_else(String::new, |value| value.to_string());
     let (name, color, width, style) = match line.kind {
@@ -266,9 +268,7 @@ fn draw<'a>(plot: &mut PlotUi<'a>, line: &'a ChartLine, place: usize, palette: &
     }
 }
 
-fn image(plot: &mut PlotUi<'_>, texture: egui::TextureId) {
+fn image(plot: &mut Canvas<'_, '_>, texture: egui::TextureId) {
     let (x, y) = ((M_AXIS.0.log10(), M_AXIS.1.log10()), (L_AXIS.0.log10(), L_AXIS.1.log10()));
-    let center = PlotPoint::new(0.5 * (x.0 + x.1), 0.5 * (y.0 + y.1));
-    let size = egui::vec2((x.1 - x.0) as f32, (y.1 - y.0) as f32);
-    plot.image(PlotImage::new("", texture, center, size).id("shading").allow_hover(false));
+    plot.field("shading", texture, x, y, egui::Color32::WHITE);
 }

@@ -2,19 +2,20 @@
 //! pointer.
 
 use crate::app::color_map;
-use crate::app::command::Command;
-use crate::app::context::{Commands, Context};
+use crate::app::context::Context;
 use crate::app::export;
-use crate::app::figure::{self, Subject, Texture};
+use crate::app::figure::Texture;
 use crate::app::numbers;
+use crate::app::tabs::take_away::Offer;
 use crate::app::tabs::{axes, color_bar};
 use crate::app::theme::faded;
 use crate::app::transient::export::describe;
 use crate::app::transient::{Run, Setup, TransientView};
+use crate::app::units::Scales;
 use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::Frame;
-use egui::{Button, Color32, ColorImage, Ui, Vec2, vec2};
-use egui_plot::{HLine, HoverPosition, Line, LineStyle, PlotImage, PlotPoint, PlotPoints};
+use egui::{Color32, ColorImage, Ui, Vec2};
+use egui_plot::{HLine, HoverPosition, Line, LineStyle, PlotPoint, PlotPoints};
 use std::sync::Arc;
 
 /// X range that is shown.
@@ -189,19 +190,22 @@ fn shown(view: &TransientView) -> Option<&Run> {
     view.runs.iter().find(|run| run.reached() >= reached && run.trajectory.states.len() > 1)
 }
 
+/// The map as a table.
+pub fn offer<'a>(context: &Context<'a>) -> Offer<'a> {
+    let view = context.transient;
+    let tip = "T, X, P and H of all nodes that are shown, at every moment that was kept";
+    Offer::table("Map as CSV…", tip, view.setup.as_ref().zip(shown(view)), |(setup, run)| csv(setup, run))
+}
+
 impl SpaceTime {
     /// The view, as high as given; returns the moment under a press or a drag.
-    pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands, height: f32) -> Option<f64> {
+    pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, height: f32) -> Option<f64> {
         let view = context.transient;
         let there = view.setup.as_ref().zip(shown(view));
         ui.horizontal_wrapped(|ui| {
             for field in Field::ALL {
                 let (name, tip) = field.button();
                 ui.selectable_value(&mut self.field, field, name).on_hover_text(tip);
-            }
-            let tip = "T, X, P and H of all nodes that are shown, at every moment that was kept";
-            if ui.add_enabled(there.is_some(), Button::new("Export map…")).on_hover_text(tip).clicked() {
-                commands.extend(there.map(|(setup, run)| Command::csv(csv(setup, run))));
             }
             if let Some((_, run)) = there {
                 ui.weak(run.name());
@@ -217,15 +221,20 @@ impl SpaceTime {
                 ui.set_width(width);
                 self.plot(ui, view, (setup, run), height)
             });
+            let colors = color_bar::strips(&color_map::table(self.field == Field::Film));
+            let field = self.field;
+            let scales = Scales::of(&setup.point);
+            let (name, in_si) = match field {
+                Field::Film => ("Film {H}", (scales.film_um, "Film {h} / µm")),
+                Field::Pressure => ("Pressure {P}", (scales.pressure_gpa, "Pressure {p} / GPa")),
+            };
+            color_bar::on_paper(ui, name, in_si, (&colors, self.samples.range));
             if scale {
-                let colors = color_bar::strips(&color_map::table(self.field == Field::Film));
-                let field = self.field;
                 let si = |value| field.si(setup, value);
                 color_bar::ui(ui, field.symbol(), (&colors, self.samples.range), height, si);
             }
             clicked.inner
         });
-        figure::offer_of(ui, self.field.name(), whole.response.rect, Subject::InTime);
         whole.inner
     }
 
@@ -260,6 +269,8 @@ impl SpaceTime {
             ))
         };
         let plot = axes::plot(ui, &format!("space and time {}", view.generation), height, "{X}", "{T}")
+            .si_x(Scales::of(&setup.point).length_mm, "{x} / mm")
+            .si_y(1e6 * setup.time_scale_s(), "{t} / µs")
             .y_axis_min_width(40.0)
             .allow_drag(false)
             .allow_zoom(false)
@@ -272,9 +283,7 @@ impl SpaceTime {
             run.trajectory.moments.iter().map(|m| PlotPoint::new(edge(m), m.time)).collect()
         };
         let drawn = axes::show(plot, ui, self.field.name(), |plot| {
-            let center = PlotPoint::new(0.5 * (X_RANGE.0 + X_RANGE.1), 0.5 * end);
-            let size = vec2((X_RANGE.1 - X_RANGE.0) as f32, end as f32);
-            plot.image(PlotImage::new("", texture, center, size).id("field").allow_hover(false));
+            plot.field("field", texture, X_RANGE, (0.0, end), Color32::WHITE);
             for (name, sign) in [("inlet", -1.0), ("outlet", 1.0)] {
                 let edge = Line::new("", PlotPoints::Owned(axes::thinned(edges(sign)))).id(name);
                 let edge = edge.color(faded(Color32::WHITE, 0.75)).width(1.0).style(LineStyle::dashed_dense());

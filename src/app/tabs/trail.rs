@@ -1,9 +1,10 @@
 //! Where the contact has been on the chart of regimes: the older the fainter.
 
+use crate::app::figure::Canvas;
 use crate::app::theme::faded;
 use crate::solver::physics::contact::ContactKind;
 use egui::Color32;
-use egui_plot::{Line, PlotPoint, PlotPoints, PlotUi};
+use egui_plot::{Line, PlotPoint, PlotPoints};
 
 /// Places kept.
 const MOST: usize = 480;
@@ -45,7 +46,7 @@ impl Trail {
     }
 
     /// Draws it.
-    pub fn draw<'a>(&'a self, plot: &mut PlotUi<'a>, color: Color32) {
+    pub fn draw<'a>(&'a self, plot: &mut Canvas<'_, 'a>, color: Color32) {
         let each = self.points.len().div_ceil(SHADES).max(1);
         let parts = self.points.len().div_ceil(each);
         for k in 0..parts {

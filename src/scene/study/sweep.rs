@@ -68,7 +68,7 @@ impl Question for Sweep {
 
     fn charts(&self, rows: &[&PathRow]) -> Vec<Chart> {
         let Some(last) = self.over.last() else { return Vec::new() };
-        let x = ChartAxis { label: last.vary.label().to_owned(), log: matches!(last.values, Steps::Log { .. }) };
+        let x = ChartAxis::new(last.vary.label(), matches!(last.values, Steps::Log { .. }));
         path::charts(&x, &self.varied(), &self.methods, rows)
     }
 }

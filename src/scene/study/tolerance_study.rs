@@ -189,7 +189,7 @@ impl Question for ToleranceStudy {
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
         let rungs = only!(rows, Row::Rung);
         let chart = |title: &str, log: bool, shown: &[&str]| {
-            let y = ChartAxis { label: title.to_owned(), log };
+            let y = ChartAxis::new(title, log);
             let mut chart = Chart::new(title, ChartAxis::log("Tolerance"), y);
             for (name, get) in COLUMNS.iter().filter(|(name, _)| shown.contains(name)) {
                 chart.add(*name, Marks::Line, rungs.iter().map(|rung| [rung.tolerance, get(rung)]));

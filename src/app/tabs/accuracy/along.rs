@@ -1,14 +1,15 @@
 //! The reduced model along the test trajectory (3.21), and its error against full solutions.
 
 use super::{AccuracyView, CONTACT_COLUMNS, contact_cells, count, run_or_stop, stale_note};
-use crate::app::command::Command;
-use crate::app::context::{Commands, Context};
+use crate::app::context::Context;
 use crate::app::controls::{message_ui, standing_ui};
 use crate::app::drawn::{self, Owner};
 use crate::app::export;
+use crate::app::figure::Canvas;
 use crate::app::in_use::InUse;
 use crate::app::tabs::axes;
 use crate::app::tabs::key::{self, Entry, Sample};
+use crate::app::tabs::plot_frame::PlotFrame;
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, rich};
 use crate::engine::Store;
 use crate::engine::job::Background;
@@ -17,7 +18,7 @@ use crate::scene::study::trajectory::Trajectory;
 use crate::scene::{ContactResult, Method, QuantityBox, Study, StudyRow};
 use crate::solver::physics::contact::ContactKind;
 use egui::{Color32, ComboBox, Id, Ui, Vec2b};
-use egui_plot::{Line, LineStyle, PlotUi, VLine};
+use egui_plot::{Line, LineStyle, VLine};
 
 /// Where the trajectory runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -47,7 +48,7 @@ struct Wanted {
 }
 
 /// One contact of the trajectory by the reduced model and in full.
-struct Step(PathRow);
+pub struct Step(PathRow);
 
 impl Step {
     fn c(&self) -> f64 {
@@ -79,12 +80,14 @@ impl Step {
     }
 }
 
-struct Followed {
+/// What was found along a trajectory.
+pub struct Followed {
     in_use: InUse,
     wanted: Wanted,
     /// Whether nobody asked for it.
     unasked: bool,
-    steps: Vec<Step>,
+    /// Its contacts so far.
+    pub steps: Vec<Step>,
     /// Whether more may come.
     open: bool,
 }
@@ -94,7 +97,8 @@ pub struct Along {
     wanted: Wanted,
     /// What runs, and why the last run ended early.
     pub work: Background<StudyRow>,
-    results: Option<Followed>,
+    /// What was found so far.
+    pub results: Option<Followed>,
 }
 
 impl Default for Along {
@@ -150,12 +154,11 @@ impl Along {
 }
 
 /// The view.
-pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: &mut Commands, in_use: &InUse) {
+pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, in_use: &InUse) {
     let ctx = ui.ctx().clone();
     let along = &mut own.along;
     along.show(&ctx, &context.answers.store, in_use);
     let kind = in_use.model.contact();
-    let mut export_now = false;
     ui.horizontal_wrapped(|ui| {
         let through = ui.label("Through").on_hover_text("The range in which the parameters swing by (3.21)");
         let choice =
@@ -169,9 +172,6 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
         if run_or_stop(ui, "Follow the trajectory", "Reduced and full solutions along it", &along.work) {
             along.begin(&ctx, &context.answers.store, in_use, (along.wanted, false));
         }
-        let there = along.results.as_ref().is_some_and(|r| !r.steps.is_empty());
-        let button = ui.add_enabled(there, egui::Button::new("Export CSV…"));
-        export_now = button.on_hover_text("Every contact with both films, bound and true error").clicked();
         standing_ui(ui, along.work.standing(), "Progress of the trajectory");
     });
     if let Some(message) = &along.work.message {
@@ -190,10 +190,6 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
     super::bound_note(ui, results.steps.iter().map(Step::bound));
     film_plot(ui, results, stale, 0.4 * ui.available_height());
     error_plot(ui, results, stale, (ui.available_height() - 4.0).max(110.0));
-    if export_now {
-        let text = csv(results);
-        commands.push(Command::csv(text));
-    }
 }
 
 fn summary(results: &Followed) -> String {
@@ -242,14 +238,14 @@ fn pieces(points: impl Iterator<Item = (f64, Option<f64>)>, apart: f64) -> Vec<V
     pieces
 }
 
-fn draw(plot: &mut PlotUi<'_>, name: &str, pieces: Vec<Vec<[f64; 2]>>, look: (Color32, f32, LineStyle)) {
+fn draw(plot: &mut Canvas<'_, '_>, name: &str, pieces: Vec<Vec<[f64; 2]>>, look: (Color32, f32, LineStyle)) {
     for (k, piece) in pieces.into_iter().enumerate() {
         let line = Line::new(name, piece).color(look.0).width(look.1).style(look.2);
         plot.line(line.id((name, k)));
     }
 }
 
-fn linked<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> egui_plot::Plot<'a> {
+fn linked<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> PlotFrame<'a> {
     axes::plot(ui, id, height, x_title, y_title)
         .link_axis(Id::unique("trajectory"), Vec2b::new(true, false))
         .link_cursor(Id::unique("trajectory"), Vec2b::new(true, false))
@@ -268,8 +264,8 @@ fn film_plot(ui: &mut Ui, results: &Followed, stale: bool, height: f32) {
         Entry::new("reduced model", color, Sample::Line(LIVE_WIDTH)),
         Entry::new("full solution", full, Sample::Line(FULL_WIDTH)),
     ];
-    key::over(ui, FILM, height.max(110.0), entries, |ui, height| {
-        let plot = linked(ui, "trajectory film", height, "", "Film {H_c}").include_y(0.0);
+    key::over(ui, height.max(110.0), entries, |ui, height| {
+        let plot = linked(ui, "trajectory film", height, "", "Film {H_c}").paper_x("{c}").include_y(0.0);
         axes::show(plot, ui, FILM, |plot| {
             draw(plot, "Reduced model", results.pieces(Step::reduced), (color, LIVE_WIDTH, LineStyle::Solid));
             draw(plot, "Full solution", results.pieces(Step::full), (full, FULL_WIDTH, LineStyle::Solid));
@@ -291,10 +287,8 @@ fn error_plot(ui: &mut Ui, results: &Followed, stale: bool, height: f32) {
     if failed().next().is_some() {
         entries.push(Entry::new("failed", wrong, Sample::Line(1.0)));
     }
-    key::over(ui, ERROR, height, entries, |ui, height| {
-        let plot = linked(ui, "trajectory error", height, "{c}", "Relative error of {H_c}")
-            .y_grid_spacer(axes::decade_marks)
-            .y_axis_formatter(|mark, _| axes::decade_label(mark));
+    key::over(ui, height, entries, |ui, height| {
+        let plot = linked(ui, "trajectory error", height, "{c}", "Relative error of {H_c}").decades_y(8.0);
         axes::show(plot, ui, ERROR, |plot| {
             let truth = results.pieces(|s| log(s.error()));
             draw(plot, "True error", truth, (film, 1.8, LineStyle::Solid));
@@ -307,7 +301,8 @@ fn error_plot(ui: &mut Ui, results: &Followed, stale: bool, height: f32) {
     });
 }
 
-fn csv(results: &Followed) -> String {
+/// Every contact as a row.
+pub fn csv(results: &Followed) -> String {
     let comments = [
         results.in_use.describe(),
         format!(

@@ -4,7 +4,6 @@
 use super::random_tests::{Results, bound_of, error_of};
 use super::worst::Worst;
 use super::{AccuracyView, CONTACT_COLUMNS, contact_cells, tests_toolbar, worst};
-use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::document::Edit;
 use crate::app::drawn::{self, Owner};
@@ -108,7 +107,7 @@ const FIELD: &str = "failure map";
 
 /// The view.
 pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: &mut Commands, in_use: &InUse) {
-    let export_now = tests_toolbar(ui, &context.answers.store, &mut own.tests, in_use);
+    tests_toolbar(ui, &context.answers.store, &mut own.tests, in_use);
     context.entries.message_ui(ui, FIELD);
     let Some(results) = &own.tests.results else {
         super::nothing_yet(
@@ -152,13 +151,9 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
         wanted = chart(ui, map, results, here, height, stale);
         wanted = wanted.or(worst::ui(ui, &map.worst, results));
     }
-    let text = export_now.then(|| csv(results));
     let lubricant = results.in_use.model.domain.lubricant;
     if let Some(point) = wanted {
         commands.edit(Edit::Contact(point, Box::new(lubricant)), FIELD);
-    }
-    if let Some(text) = text {
-        commands.push(Command::csv(text));
     }
 }
 
@@ -203,10 +198,9 @@ fn chart(ui: &mut Ui, map: &Map, results: &Results, here: Moes, height: f32, sta
     if !drawn.failures.is_empty() {
         entries.push(Entry::new("failed", grey(palette.wrong), Sample::Cross(4.0)));
     }
-    let response = key::over(ui, MAP, height, entries, |ui, height| {
+    let response = key::over(ui, height, entries, |ui, height| {
         let plot = axes::plot(ui, "failure map", height, "Load number {M}", "Lubricant number {L}")
-            .x_grid_spacer(axes::log_marks)
-            .x_axis_formatter(|mark, _| axes::log_label(mark))
+            .log_x()
             .y_axis_min_width(34.0)
             .set_margin_fraction(egui::vec2(0.03, 0.05))
             .label_formatter(|hover| match hover {

@@ -12,6 +12,7 @@ mod worst;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{either_button, message_ui, named, standing_ui, warning_ui};
 use crate::app::in_use::InUse;
+use crate::app::tabs::take_away::Offer;
 use crate::app::theme::{Palette, rich};
 use crate::engine::Store;
 use crate::engine::job::{Background, Standing};
@@ -91,6 +92,24 @@ impl AccuracyView {
     }
 }
 
+/// What can be taken away from it.
+pub fn offers<'a>(own: &'a AccuracyView, context: &Context<'a>) -> Vec<Offer<'a>> {
+    let split = own.split.found.as_ref();
+    let tests = own.tests.results.as_ref().filter(|results| !results.tests.is_empty());
+    let along = own.along.results.as_ref().filter(|results| !results.steps.is_empty());
+    let report = context.answers.last_report.as_ref();
+    let tested = "Every test with its contact, films, bound and true errors";
+    let followed = "Every contact with both films, bound and true error";
+    let steps = "Residual and step of every Newton step";
+    let parts = "All parts for H_c, H_min and the pressure";
+    vec![
+        Offer::table("Parts of the error as CSV…", parts, split, |(asked, split)| split::csv(asked, split)),
+        Offer::table("Random tests as CSV…", tested, tests, |results| failure_map::csv(results)),
+        Offer::table("Trajectory as CSV…", followed, along, |results| along::csv(results)),
+        Offer::table("Newton residuals as CSV…", steps, report, |(key, report)| residuals::csv(key, report)),
+    ]
+}
+
 /// The tab.
 pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: &mut Commands) {
     own.shown = true;
@@ -101,7 +120,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
     });
     ui.separator();
     if own.view == View::Residuals {
-        residuals::ui(ui, context, commands);
+        residuals::ui(ui, context);
         return;
     }
     let Some(in_use) = context.answers.in_use(context.document) else {
@@ -111,10 +130,10 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
         return;
     };
     match own.view {
-        View::Split => split::ui(ui, own, context, commands, &in_use),
+        View::Split => split::ui(ui, own, context, &in_use),
         View::FailureMap => failure_map::ui(ui, own, context, commands, &in_use),
-        View::Truth => truth::ui(ui, own, context, commands, &in_use),
-        View::Along => along::ui(ui, own, context, commands, &in_use),
+        View::Truth => truth::ui(ui, own, context, &in_use),
+        View::Along => along::ui(ui, own, context, &in_use),
         View::Residuals => {}
     }
 }
@@ -137,10 +156,9 @@ fn run_or_stop(ui: &mut Ui, run: &str, tip: &str, work: &Background<StudyRow>) -
     clicked && !runs
 }
 
-/// The row over both views of the random tests. Returns whether the table is wanted as a file.
-fn tests_toolbar(ui: &mut Ui, store: &Store, tests: &mut RandomTests, in_use: &InUse) -> bool {
+/// The row over both views of the random tests.
+fn tests_toolbar(ui: &mut Ui, store: &Store, tests: &mut RandomTests, in_use: &InUse) {
     tests.show(&ui.ctx().clone(), store, in_use);
-    let mut export = false;
     ui.horizontal_wrapped(|ui| {
         let wanted = &mut tests.wanted;
         let tip = "Reduced solves at random contacts (3.17) of the range the model was trained for";
@@ -155,9 +173,6 @@ fn tests_toolbar(ui: &mut Ui, store: &Store, tests: &mut RandomTests, in_use: &I
         if run_or_stop(ui, "Run tests", "Tests the model as it is truncated now", &tests.work) {
             tests.start(&ui.ctx().clone(), store, in_use);
         }
-        let there = tests.results.as_ref().is_some_and(|r| !r.tests.is_empty());
-        let button = ui.add_enabled(there, egui::Button::new("Export CSV…"));
-        export = button.on_hover_text("Every test with its contact, films, bound and true errors").clicked();
         standing_ui(ui, tests.work.standing(), "Progress of the random tests");
     });
     if let Some(message) = &tests.work.message {
@@ -166,7 +181,6 @@ fn tests_toolbar(ui: &mut Ui, store: &Store, tests: &mut RandomTests, in_use: &I
     if let Some(results) = tests.results.as_ref().filter(|r| r.in_use != *in_use) {
         stale_note(ui, &results.in_use);
     }
-    export
 }
 
 /// Says that what is shown was made with another model or truncation.

@@ -1,14 +1,15 @@
 //! How the last full solve converged.
 
 use crate::app::answers::jobs::Running;
-use crate::app::command::Command;
-use crate::app::context::{Commands, Context};
+use crate::app::context::Context;
+use crate::app::document::Key;
 use crate::app::drawn::{self, Owner};
 use crate::app::export;
 use crate::app::numbers;
 use crate::app::tabs::axes;
 use crate::app::tabs::key::{self, Entry, Sample};
 use crate::app::theme::{Palette, rich};
+use crate::solver::full::Report;
 use egui::{Grid, Ui};
 use egui_plot::{Line, LineStyle, MarkerShape, Points};
 
@@ -20,7 +21,7 @@ const WIDTH: f32 = 1.6;
 const PLOT: &str = "Newton residuals of the last solve";
 
 /// The view: the solve that runs, else the last one that ended.
-pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     let news = |job: &&Running| job.since.elapsed().as_secs_f64() > NEWS_S && !job.steps.is_empty();
     if let Some(job) = context.answers.jobs.running().iter().find(news) {
         running_ui(ui, job, context);
@@ -32,14 +33,12 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     };
     let moes = key.point.moes();
     let current = !drawn::is_grey(ui.ctx(), "residuals", Owner::Contact(*key), context);
-    let mut export_now = false;
     ui.horizontal_wrapped(|ui| {
         ui.strong("Last full solve");
         ui.label(format!("{}: {}", numbers::moes(moes), report.termination.describe()));
         if !current {
             ui.weak("(of other parameters than the sliders’)");
         }
-        export_now = ui.button("Export CSV…").on_hover_text("Residual and step of every Newton step").clicked();
     });
     Grid::new("solve").num_columns(4).spacing([14.0, 3.0]).show(ui, |ui| {
         let cells = [
@@ -62,13 +61,15 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         ui.label(rich(&text, 13.5, ui.visuals().text_color()));
     }
     residual_plot(ui, &report.residuals, &report.steps, current);
-    if export_now {
-        let rows = report.residuals.iter().zip(&report.steps).enumerate();
-        let rows = rows.map(|(k, (r, s))| vec![Some(k as f64 + 1.0), Some(*r), Some(*s)]);
-        let comment = format!("M {:e}; L {:e}; {}", moes.m, moes.l, report.termination.describe());
-        let text = export::csv(&[comment], &["newton_step", "residual", "relative_step"], rows);
-        commands.push(Command::csv(text));
-    }
+}
+
+/// Every Newton step as a row.
+pub fn csv(key: &Key, report: &Report) -> String {
+    let moes = key.point.moes();
+    let rows = report.residuals.iter().zip(&report.steps).enumerate();
+    let rows = rows.map(|(k, (r, s))| vec![Some(k as f64 + 1.0), Some(*r), Some(*s)]);
+    let comment = format!("M {:e}; L {:e}; {}", moes.m, moes.l, report.termination.describe());
+    export::csv(&[comment], &["newton_step", "residual", "relative_step"], rows)
 }
 
 /// A solve at work: its parameters and its residuals so far.
@@ -102,10 +103,9 @@ fn residual_plot(ui: &mut Ui, residuals: &[f64], steps: &[f64], current: bool) {
     ];
     let entries = series.map(|(name, _, color, style)| Entry::new(name, color, Sample::of_line(style, WIDTH)));
     let height = (ui.available_height() - 4.0).max(120.0);
-    key::over(ui, PLOT, height, entries, |ui, height| {
+    key::over(ui, height, entries, |ui, height| {
         let plot = axes::plot(ui, "residuals", height, "Newton step", "Residual, relative step")
-            .y_grid_spacer(axes::decade_marks)
-            .y_axis_formatter(|mark, _| axes::decade_label(mark))
+            .decades_y(8.0)
             .auto_bounds(egui::Vec2b::TRUE);
         axes::show(plot, ui, PLOT, |plot| {
             for (name, values, color, style) in series {

@@ -2,8 +2,7 @@
 
 use super::{AccuracyView, run_or_stop, stale_note};
 use crate::app::answers::REST_S;
-use crate::app::command::Command;
-use crate::app::context::{Commands, Context};
+use crate::app::context::Context;
 use crate::app::controls::{message_ui, sentence, spoken, warning_ui};
 use crate::app::document::Key;
 use crate::app::drawn::{self, Owner};
@@ -19,7 +18,7 @@ use crate::scene::{Contacts, Grid as SceneGrid, Study, StudyRow};
 use crate::solver::full::Problem;
 use crate::solver::reduced::{ErrorSplit, Parts, Trust};
 use egui::{Align2, Grid, Ui, Vec2b};
-use egui_plot::{Bar, BarChart, GridMark, PlotPoint, Text};
+use egui_plot::{Bar, BarChart, PlotPoint, Text};
 use std::sync::Arc;
 
 /// Decades that the bars show at most: what is smaller than the rest by more does not matter.
@@ -56,7 +55,7 @@ const ROWS: [(&str, &str); 6] = [
 
 /// What a split is of.
 #[derive(Clone, PartialEq)]
-struct SplitOf {
+pub struct SplitOf {
     key: Key,
     in_use: InUse,
 }
@@ -70,7 +69,8 @@ pub struct Split {
     asked: Option<SplitOf>,
     /// Whether nobody asked for it.
     unasked: bool,
-    found: Option<(SplitOf, Arc<ErrorSplit>)>,
+    /// The last answer, and of what it is.
+    pub found: Option<(SplitOf, Arc<ErrorSplit>)>,
 }
 
 impl Split {
@@ -114,19 +114,15 @@ impl Split {
 }
 
 /// The view.
-pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: &mut Commands, in_use: &InUse) {
+pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, in_use: &InUse) {
     let ctx = ui.ctx().clone();
     let now = SplitOf { key: context.document.key(), in_use: in_use.clone() };
     start_when_rested(ui, own, context, &now);
-    let mut export_now = false;
     ui.horizontal_wrapped(|ui| {
         let tip = "Solves this contact reduced, reduced with all rows, in full, and in full on the next finer grid";
         if run_or_stop(ui, "Split the error", tip, &own.split.work) {
             own.split.start(&ctx, &context.answers.store, now.clone(), false);
         }
-        let there = own.split.found.is_some();
-        let button = ui.add_enabled(there, egui::Button::new("Export CSV…"));
-        export_now = button.on_hover_text("All parts for H_c, H_min and the pressure").clicked();
         if let Some((asked, _)) = &own.split.found {
             ui.label(numbers::moes(asked.key.point.moes()));
         }
@@ -150,10 +146,6 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
     }
     bars(ui, split, current);
     table(ui, split, current);
-    if export_now {
-        let text = csv(asked, split);
-        commands.push(Command::csv(text));
-    }
 }
 
 /// Starts by itself once per contact and model, when the sliders rest where the model was trained.
@@ -244,10 +236,8 @@ fn bar_plot(ui: &mut Ui, (symbol, name): (&str, &str), values: &[f64; 6], drawin
             .allow_double_click_reset(false)
             .show_x(false)
             .show_y(false)
-            .x_grid_spacer(move |input| axes::few_decade_marks(input, marks))
-            .x_axis_formatter(|mark, _| axes::decade_label(mark))
-            .y_grid_spacer(|_| (0..ROWS.len()).map(|k| GridMark { value: -(k as f64), step_size: 1.0 }).collect())
-            .y_axis_formatter(move |mark, _| if rows { row_name(mark.value) } else { String::new() })
+            .decades_x(marks)
+            .names_y((0..ROWS.len()).map(|k| -(k as f64)).map(|place| (place, row_name(place))).collect(), rows)
             .y_axis_min_width(if rows { NAMES - 8.0 } else { 6.0 })
             .label_formatter(|_| None),
         ui,
@@ -321,7 +311,8 @@ fn table(ui: &mut Ui, split: &ErrorSplit, current: bool) {
     });
 }
 
-fn csv(asked: &SplitOf, split: &ErrorSplit) -> String {
+/// Every part as a row.
+pub fn csv(asked: &SplitOf, split: &ErrorSplit) -> String {
     let moes = asked.key.point.moes();
     let rows: Vec<&str> = ROWS.iter().map(|row| row.0).collect();
     let comments = [

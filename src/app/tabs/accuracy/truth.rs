@@ -1,10 +1,9 @@
 //! What the calibrated bound is worth: bound against true error of H_c wherever both are known.
 
-use super::failure_map::{By, csv, is_former, stamp, summary};
+use super::failure_map::{By, is_former, stamp, summary};
 use super::random_tests::{Results, bound_of};
 use super::{AccuracyView, tests_toolbar};
-use crate::app::command::Command;
-use crate::app::context::{Commands, Context};
+use crate::app::context::Context;
 use crate::app::controls::spoken;
 use crate::app::in_use::InUse;
 use crate::app::numbers;
@@ -83,8 +82,8 @@ impl Scatter {
 }
 
 /// The view.
-pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: &mut Commands, in_use: &InUse) {
-    let export_now = tests_toolbar(ui, &context.answers.store, &mut own.tests, in_use);
+pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, in_use: &InUse) {
+    tests_toolbar(ui, &context.answers.store, &mut own.tests, in_use);
     let Some(results) = &own.tests.results else {
         super::nothing_yet(ui, "Run tests with some of them compared in full to see what the bound is worth");
         return;
@@ -102,10 +101,6 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
             scatter(ui, shown, stale);
         }
         None => super::nothing_yet(ui, "No test has been compared with a full solution yet"),
-    }
-    if export_now {
-        let text = csv(results);
-        commands.push(Command::csv(text));
     }
 }
 
@@ -155,12 +150,10 @@ fn scatter(ui: &mut Ui, shown: &Scatter, stale: bool) {
         Entry::new(*name, *color, sample)
     });
     let entries = entries.chain([Entry::new("bound = truth", palette.reference, Sample::Dashed(1.2))]);
-    key::over(ui, PLOT, height, entries, |ui, height| {
+    key::over(ui, height, entries, |ui, height| {
         let plot = axes::plot(ui, "truth", height, "True relative error of {H_c}", "Bound on the error of {H_c}")
-            .x_grid_spacer(axes::decade_marks)
-            .x_axis_formatter(|mark, _| axes::decade_label(mark))
-            .y_grid_spacer(axes::decade_marks)
-            .y_axis_formatter(|mark, _| axes::decade_label(mark))
+            .decades_x(8.0)
+            .decades_y(8.0)
             .auto_bounds(Vec2b::TRUE)
             .label_formatter(|hover| match hover {
                 egui_plot::HoverPosition::NearDataPoint { position, .. } => Some(format!(

@@ -3,28 +3,27 @@
 use super::{Basis, Field, TRUNCATION};
 use crate::app::context::{Commands, Context};
 use crate::app::document::Edit;
+use crate::app::figure::Canvas;
 use crate::app::numbers;
+use crate::app::tabs::plot_frame::PlotFrame;
 use crate::app::tabs::{axes, key};
 use crate::app::theme::Palette;
 use crate::solver::reduced::Window;
 use egui::{Align2, Color32, RichText, Ui};
-use egui_plot::{HLine, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points, Text, VLine};
+use egui_plot::{HLine, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points, Text, VLine};
 
 /// How near (in screen points) the pointer must be to take a tolerance along.
 const GRAB: f32 = 9.0;
 /// Smallest tolerance that can be dragged to, log10.
 const LEAST_LOG_LOSS: f64 = -14.0;
 
-fn log_plot<'a>(ui: &Ui, id: &str, height: f32, title: &str) -> Plot<'a> {
-    axes::plot(ui, id, height, "Modes {k}", title)
-        .y_grid_spacer(axes::decade_marks)
-        .y_axis_formatter(|mark, _| axes::decade_label(mark))
-        .label_formatter(|at| match at {
-            egui_plot::HoverPosition::NearDataPoint { plot_name, position, .. } => {
-                Some(format!("{plot_name}\nk = {:.0}\n{}", position.x, numbers::digits(10f64.powf(position.y), 3)))
-            }
-            egui_plot::HoverPosition::Elsewhere { .. } => None,
-        })
+fn log_plot<'a>(ui: &Ui, id: &str, height: f32, title: &str) -> PlotFrame<'a> {
+    axes::plot(ui, id, height, "Modes {k}", title).decades_y(8.0).label_formatter(|at| match at {
+        egui_plot::HoverPosition::NearDataPoint { plot_name, position, .. } => {
+            Some(format!("{plot_name}\nk = {:.0}\n{}", position.x, numbers::digits(10f64.powf(position.y), 3)))
+        }
+        egui_plot::HoverPosition::Elsewhere { .. } => None,
+    })
 }
 
 /// Loss of information against the number of modes, with the tolerances.
@@ -114,7 +113,7 @@ pub fn loss_plot(
 }
 
 /// The name of a falling curve beside it, on the side where the other one is not.
-fn name(plot: &mut PlotUi<'_>, field: Field, points: &[PlotPoint], color: Color32) {
+fn name(plot: &mut Canvas<'_, '_>, field: Field, points: &[PlotPoint], color: Color32) {
     let anchor = match field {
         Field::Pressure => Align2::LEFT_BOTTOM,
         Field::Deformation => Align2::RIGHT_TOP,

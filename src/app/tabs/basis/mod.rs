@@ -6,16 +6,17 @@ mod modes;
 mod plane;
 mod sizes;
 
-use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::document::Edit;
 use crate::app::drawn::{self, Owner};
 use crate::app::export;
 use crate::app::in_use::InUse;
 use crate::app::numbers;
+use crate::app::tabs::take_away::Offer;
 use crate::app::tabs::{badge, profiles};
 use crate::app::theme::Palette;
 use crate::engine::job::Standing;
+use crate::engine::model_arrays;
 use crate::scene::View;
 use crate::solver::reduced::{PodBasis, ReducedModel, Window};
 use egui::{Color32, Ui};
@@ -221,10 +222,19 @@ fn toolbar(
         if ui.add_enabled(truncated, egui::Button::new("Keep all modes")).clicked() {
             commands.edit(Edit::View(View { pressure_loss: None, deformation_loss: None, ..view }), TRUNCATION);
         }
-        if ui.button("Export CSV…").on_hover_text("Singular values and loss of information").clicked() {
-            commands.push(Command::csv(csv(window)));
-        }
     });
+}
+
+/// What can be taken away from it.
+pub fn offers<'a>(context: &Context<'a>) -> Vec<Offer<'a>> {
+    let model = context.answers.model(context.document);
+    let window = model.and_then(|model| model.windows.get(model.window_for(context.document.point.moes())));
+    let tip = "Singular values and loss of information";
+    let whole = "Bases, singular values, sampled rows and snapshots of every window, in one archive that numpy reads";
+    vec![
+        Offer::table("Singular values as CSV…", tip, window, |window| csv(window)),
+        Offer::arrays("Model as npz…", whole, model, |model| model_arrays::of_model(model)),
+    ]
 }
 
 fn csv(window: &Window) -> String {

@@ -44,11 +44,13 @@ pub fn ui(ui: &mut Ui, view: &mut Basis, fit: bool, window: &Window, height: f32
         ui.add(drag).labelled_by(label.id);
         view.first_mode = number.clamp(1, most + 1) - 1;
         let rows = window.sampled_rows.len();
-        ui.weak(match (of_points, rows == window.grid.unknowns()) {
+        let said = match (of_points, rows == window.grid.unknowns()) {
             (_, true) => format!("all {rows} rows are used"),
             (true, false) => format!("{rows} of {} rows are sampled, the marks in the plane", window.grid.unknowns()),
             (false, false) => format!("{rows} sampled rows as marks along ξ"),
-        });
+        };
+        // Beside another tab there is little room.
+        ui.add(egui::Label::new(egui::RichText::new(said).weak()).truncate());
     });
     let (field, first) = (view.field, view.first_mode);
     let Some(curves) = &mut view.curves else { return };
@@ -102,7 +104,7 @@ fn shapes(
     });
     let marks = rows.map(|(_, color)| Entry::new("sampled rows", color, Sample::Up(MARK)));
     let entries: Vec<Entry> = modes.chain(marks).collect();
-    key::over(ui, SHAPES, height, entries, |ui, height| {
+    key::over(ui, height, entries, |ui, height| {
         let plot = axes::plot(ui, id, height, x_title, "Mode, scaled to 1").default_x_bounds(-2.2, 1.6);
         axes::show(plot, ui, SHAPES, |plot| {
             axes::fit(plot, fit);

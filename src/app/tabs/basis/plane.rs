@@ -9,7 +9,7 @@ use crate::app::theme::Palette;
 use crate::solver::discrete::grid::PointGrid;
 use crate::solver::reduced::PodBasis;
 use egui::{Color32, Ui};
-use egui_plot::{Line, LineStyle, MarkerShape, PlotImage, PlotPoint, PlotPoints, Points};
+use egui_plot::{Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points};
 
 /// Colours between the two signs.
 const SHADES: usize = 257;
@@ -47,7 +47,7 @@ impl ModeMap {
             Entry::new("sampled rows", palette.accent, Sample::Dot(2.0)),
             Entry::new("dry contact (Hertz)", palette.reference, Sample::Dashed(1.0)),
         ];
-        let shown = key::over(ui, PLOT, height, entries, |ui, height| {
+        let shown = key::over(ui, height, entries, |ui, height| {
             let plot = axes::plot(ui, "mode in the plane", height, "{X} = {x}/{a}", "{Y} = {y}/{a}")
                 .data_aspect(1.0)
                 .default_x_bounds(RANGE.0, RANGE.1)
@@ -57,10 +57,8 @@ impl ModeMap {
                 if let (Some(texture), [from, .., to], [edge, ..]) =
                     (&self.texture, grid.x.as_slice(), grid.y.as_slice())
                 {
-                    let center = PlotPoint::new(0.5 * (from + to), 0.0);
-                    let size = egui::vec2((to - from) as f32, (-2.0 * edge) as f32);
                     let texture = texture.shown(plot.ctx());
-                    plot.image(PlotImage::new("", texture, center, size).id("mode").allow_hover(false));
+                    plot.field("mode", texture, (*from, *to), (*edge, -edge), Color32::WHITE);
                 }
                 let circle = |t: f64| (t.cos(), t.sin());
                 let hertz = PlotPoints::from_parametric_callback(circle, 0.0..=std::f64::consts::TAU, 181);

@@ -200,7 +200,7 @@ fn plot(ui: &mut Ui, own: &Sizes, column: &Column, errors: bool, height: f32, fi
             HoverPosition::Elsewhere { .. } => None,
         });
     if errors {
-        drawn = drawn.y_grid_spacer(axes::decade_marks).y_axis_formatter(|mark, _| axes::decade_label(mark));
+        drawn = drawn.decades_y(8.0);
     } else {
         drawn = drawn.include_y(0.0);
     }

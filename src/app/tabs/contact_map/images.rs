@@ -4,11 +4,11 @@ use super::contours::Field;
 use super::{MapView, Shown};
 use crate::app::answers::picture::Picture;
 use crate::app::color_map;
-use crate::app::figure::Texture;
+use crate::app::figure::{Texture, pixels};
 use crate::app::numbers;
-use crate::app::png;
 use crate::app::tabs::color_bar::UNITS;
 use crate::app::tabs::raster::Raster;
+use crate::scene::drawing::encode;
 use crate::solver::full::Solution;
 use egui::{Color32, ColorImage, Context, TextureId};
 use egui_plot::PlotPoint;
@@ -64,7 +64,7 @@ impl Images {
 
     /// The image as a PNG file; empty where there is none.
     pub fn png(&self) -> Vec<u8> {
-        self.texture.as_ref().map_or_else(Vec::new, |texture| png::encode(texture.image()))
+        self.texture.as_ref().map_or_else(Vec::new, |texture| encode(&pixels(texture.image()), None))
     }
 }
 

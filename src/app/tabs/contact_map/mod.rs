@@ -16,20 +16,20 @@ use crate::app::context::{Commands, Context};
 use crate::app::controls::{described, sentence};
 use crate::app::document::Edit;
 use crate::app::drawn::{self, Owner};
-use crate::app::figure::{self, Subject};
+use crate::app::figure::Canvas;
 use crate::app::numbers;
 use crate::app::purpose::{Purpose, Written};
 use crate::app::tabs::cut_line::{self, snapped};
 use crate::app::tabs::grip::Grip;
+use crate::app::tabs::take_away::Offer;
 use crate::app::tabs::{axes, badge, color_bar, in_time, space_time};
 use crate::app::theme::{Palette, faded};
 use crate::app::transient::InTimeCommand;
+use crate::app::units::Scales;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::optics::Interferometer;
 use egui::{Align, Color32, CursorIcon, Layout, Response, RichText, Ui, vec2};
-use egui_plot::{
-    HLine, HoverPosition, Line, LineStyle, PlotImage, PlotPoint, PlotPoints, PlotTransform, PlotUi, Text, VLine,
-};
+use egui_plot::{HLine, HoverPosition, Line, LineStyle, PlotPoint, PlotPoints, PlotTransform, Text, VLine};
 use serde::{Deserialize, Serialize};
 
 /// X range at first.
@@ -136,7 +136,6 @@ impl ContactMap {
             scale::ui(ui, drawing.images, picture, &drawing.view, height);
             drawn.inner
         });
-        figure::offer_of(ui, NAME, whole.response.rect, Subject::Map);
         let (response, transform) = whole.inner;
         drag_cuts(ui, context.cuts, &response, &transform, commands);
     }
@@ -162,7 +161,7 @@ impl ContactMap {
             ui.set_min_size(size);
             in_time::grey_where_stale(ui, context, "film over time");
             // A little less than its room, so that rounding moves nothing either.
-            self.over_time.ui(ui, context, commands, size.y - 4.0)
+            self.over_time.ui(ui, context, size.y - 4.0)
         });
         let wanted = shown.inner;
         commands.extend(wanted.map(|time| Command::InTime(InTimeCommand::GoTo(time))));
@@ -182,29 +181,21 @@ impl ContactMap {
                 .on_hover_text("Lines of equal value")
                 .on_disabled_hover_text("Fringes are lines of equal film already");
             cut_line::cuts_ui(ui, context, commands);
-            ui.menu_button("Export map", |ui| self.export_menu(ui, context, commands));
         });
     }
 
-    /// The three forms in which the map leaves.
-    fn export_menu(&self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-        let Some(picture) = context.answers.picture.as_ref().filter(|picture| picture.has_plane()) else { return };
-        let item = |ui: &mut Ui, name: &str, tip: &str| {
-            let clicked = ui.button(name).on_hover_text(tip).clicked();
-            if clicked {
-                ui.close();
-            }
-            clicked
-        };
-        if item(ui, "Data as CSV…", "X, Y, P, H of all nodes of both halves, with their SI twins") {
-            commands.push(Command::csv(export::csv(picture)));
+    /// What can be taken away from it.
+    pub fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
+        if context.document.point.kind == ContactKind::Line {
+            return vec![space_time::offer(context)];
         }
-        if item(ui, "Figure as SVG…", "The map with its axes, contours, scale and parameters") {
-            commands.push(Command::Draw(NAME));
-        }
-        if item(ui, "Image as PNG…", "The map alone, pixel by pixel") {
-            commands.push(Command::Ask(Purpose::Write(Written::Png, self.images.png().into())));
-        }
+        let picture = context.answers.picture.as_ref().filter(|picture| picture.has_plane());
+        let tip = "X, Y, P, H of all nodes of both halves, with their SI twins";
+        let image = || Command::Ask(Purpose::Write(Written::Png, self.images.png().into()));
+        vec![
+            Offer::table("Map as CSV…", tip, picture, |picture| export::csv(picture)),
+            Offer::new("Bare map as PNG…", "The map alone, pixel by pixel", picture.map(|_| image)),
+        ]
     }
 }
 
@@ -251,8 +242,11 @@ impl Drawing<'_> {
         let palette = Palette::of(ui);
         let held = grips().iter().any(|grip| grip.is_held(ui));
         let Self { picture, images, view, cuts, fit, stale } = *self;
+        let length_mm = Scales::of(&picture.key.point).length_mm;
         let shown = axes::show(
             axes::plot(ui, "contact map", height, "{X} = {x}/{a}", "{Y} = {y}/{a}")
+                .si_x(length_mm, "{x} / mm")
+                .si_y(length_mm, "{y} / mm")
                 .data_aspect(1.0)
                 .default_x_bounds(X_RANGE.0, X_RANGE.1)
                 .default_y_bounds(Y_RANGE.0, Y_RANGE.1)
@@ -269,6 +263,8 @@ impl Drawing<'_> {
                 let hertz = Line::new("", hertz).id("hertz").color(faded(Color32::WHITE, 0.75)).width(1.0);
                 plot.line(hertz.style(LineStyle::dashed_dense()).allow_hover(false));
                 let color = if view.shown == Shown::Interferogram { Color32::WHITE } else { palette.accent };
+                // For the hand: they are no part of a figure.
+                let plot: &mut egui_plot::PlotUi<'_> = plot;
                 plot.vline(VLine::new("", cuts.x).id("cut x").color(color).width(1.6).allow_hover(false));
                 plot.hline(HLine::new("", cuts.y).id("cut y").color(color).width(1.6).allow_hover(false));
             },
@@ -279,7 +275,7 @@ impl Drawing<'_> {
 }
 
 /// Lines that show on every colour of the map.
-fn contour_lines<'a>(plot: &mut PlotUi<'a>, images: &'a Images) {
+fn contour_lines<'a>(plot: &mut Canvas<'_, 'a>, images: &'a Images) {
     let color = Color32::from_white_alpha(170);
     for (k, (name, line)) in images.contours().iter().enumerate() {
         let line = Line::new("", PlotPoints::Borrowed(line)).id(("contour", k)).color(color).width(1.0);
@@ -291,11 +287,9 @@ fn contour_lines<'a>(plot: &mut PlotUi<'a>, images: &'a Images) {
     }
 }
 
-fn image(plot: &mut PlotUi<'_>, images: &Images, stale: bool) {
+fn image(plot: &mut Canvas<'_, '_>, images: &Images, stale: bool) {
     let Some((texture, (from, to, edge))) = images.texture(plot.ctx()) else { return };
-    let center = PlotPoint::new(0.5 * (from + to), 0.0);
-    let size = egui::vec2((to - from) as f32, (-2.0 * edge) as f32);
-    plot.image(PlotImage::new("", texture, center, size).tint(drawn::tint(stale)).id("field").allow_hover(false));
+    plot.field("field", texture, (from, to), (edge, -edge), drawn::tint(stale));
 }
 
 fn hover(picture: &Picture, view: &MapView, at: &HoverPosition<'_>) -> Option<String> {

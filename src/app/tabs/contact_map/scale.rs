@@ -5,15 +5,18 @@ use super::{MapView, Shown};
 use crate::app::answers::picture::Picture;
 use crate::app::tabs::color_bar::{self, STRIPS, in_gigapascals, in_nanometres};
 use crate::app::tabs::raster;
+use crate::app::units::Scales;
 use egui::{Color32, Ui};
 
 /// The bar.
 pub fn ui(ui: &mut Ui, images: &Images, picture: &Picture, view: &MapView, height: f32) {
-    let title = match view.shown {
-        Shown::Pressure => "{P}",
-        _ => "{H}",
+    let scales = Scales::of(&picture.key.point);
+    let (title, name, in_si) = match view.shown {
+        Shown::Pressure => ("{P}", "Pressure {P}", (scales.pressure_gpa, "Pressure {p} / GPa")),
+        _ => ("{H}", "Film {H}", (scales.film_um, "Film {h} / µm")),
     };
     let colors = colors(picture, view, images.range());
+    color_bar::on_paper(ui, name, in_si, (&colors, images.range()));
     color_bar::ui(ui, title, (&colors, images.range()), height, |value| si(picture, view, value));
 }
 

@@ -1,14 +1,17 @@
 //! Central pressure and film against time, and how far runs lie apart.
 
+use crate::app::figure::Canvas;
 use crate::app::tabs::axes;
+use crate::app::tabs::plot_frame::PlotFrame;
 use crate::app::theme::{Palette, THIN_WIDTH, faded};
 use crate::app::transient::input::Input;
 use crate::app::transient::{Run, TransientView};
+use crate::app::units::Scales;
 use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::{Frame, Interpolation, Moment, Quantity};
 use crate::solver::reduced::tpwl::Weighting;
 use egui::{Color32, Id, Ui, Vec2b};
-use egui_plot::{HLine, Line, LineStyle, Plot, PlotPoint, PlotPoints, PlotUi, VLine};
+use egui_plot::{HLine, Line, LineStyle, PlotPoint, PlotPoints, VLine};
 
 /// The line of a run: the frame by dashes; a linearised model broad and pale, the reduced model thick, the full one
 /// thin over them, the first of full ones alone thick.
@@ -102,9 +105,7 @@ impl Along {
         let percent = |points: &[(f64, f64)]| -> Vec<PlotPoint> {
             points.iter().map(|(time, off)| PlotPoint::new(*time, (100.0 * off).max(LEAST_OFF).log10())).collect()
         };
-        let plot = linked(ui, view, "pressure error", height, ("{T}", "|Δ{P}|/|{P}| / %"))
-            .y_grid_spacer(move |input| axes::few_decade_marks(input, rows(height)))
-            .y_axis_formatter(|mark, _| axes::decade_label(mark));
+        let plot = linked(ui, view, "pressure error", height, ("{T}", "|Δ{P}|/|{P}| / %")).decades_y(rows(height));
         let shown = axes::show(plot, ui, "Pressure error and its least", |plot| {
             for (k, run) in drawn(view) {
                 let Some(errors) = &run.field_errors else { continue };
@@ -162,7 +163,9 @@ fn together(ui: &mut Ui, view: &TransientView, height: f32, below: &str) -> Opti
                 let mut points = values(run, quantity);
                 points.iter_mut().for_each(|point| point.y = 100.0 * (point.y / start - 1.0));
                 let (color, width, line_style) = style(view, k, color, &palette);
-                let line = Line::new(run.name(), PlotPoints::Owned(axes::thinned(points))).id((k, quantity as u8));
+                let of = if quantity == Quantity::CentralFilm { "film" } else { "pressure" };
+                let name = format!("{of}, {}", run.name());
+                let line = Line::new(name, PlotPoints::Owned(axes::thinned(points))).id((k, quantity as u8));
                 plot.line(line.color(color).width(width).style(line_style).allow_band(false));
             }
         }
@@ -175,15 +178,17 @@ fn together(ui: &mut Ui, view: &TransientView, height: f32, below: &str) -> Opti
 const TOGETHER: &str = "Film, pressure and inputs against time";
 
 /// A plot over the duration whose axis of time is that of its neighbours.
-fn linked<'a>(ui: &Ui, view: &TransientView, name: &str, height: f32, titles: (&str, &str)) -> Plot<'a> {
+fn linked<'a>(ui: &Ui, view: &TransientView, name: &str, height: f32, titles: (&str, &str)) -> PlotFrame<'a> {
     let duration = view.setup.as_ref().map_or(0.0, |setup| setup.study.duration);
     let group = Id::unique(("transient", view.generation));
     let columns = marks(ui.available_width());
     axes::plot(ui, &format!("transient {name} {}", view.generation), height, titles.0, titles.1)
-        .x_grid_spacer(move |input| axes::round_marks(input, columns))
-        .y_grid_spacer(move |input| axes::round_marks(input, rows(height)))
+        .marks_x(columns)
+        .marks_y(rows(height))
         .link_axis(group, Vec2b::new(true, false))
         .link_cursor(group, Vec2b::new(true, false))
+        .paper_x("{T}")
+        .si_x(view.setup.as_ref().map_or(0.0, |setup| 1e6 * setup.time_scale_s()), "{t} / µs")
         .include_x(0.0)
         .include_x(duration)
         .set_margin_fraction(egui::vec2(0.0, 0.08))
@@ -191,7 +196,7 @@ fn linked<'a>(ui: &Ui, view: &TransientView, name: &str, height: f32, titles: (&
 }
 
 /// The moment that is looked at as a line; returns the time that was clicked at.
-fn now(plot: &mut PlotUi<'_>, view: &TransientView, palette: &Palette) -> Option<f64> {
+fn now(plot: &mut Canvas<'_, '_>, view: &TransientView, palette: &Palette) -> Option<f64> {
     let now = VLine::new("", view.player.time()).id("now").color(palette.accent).width(1.0);
     plot.vline(now.allow_hover(false));
     plot.response().clicked().then(|| plot.pointer_coordinate()).flatten().map(|at| at.x)
@@ -217,10 +222,14 @@ impl LinkedPlot {
         let palette = Palette::of(ui);
         let first = view.runs.first()?;
         let mut plot = linked(ui, view, self.name, height, titles);
+        if let Some(scales) = view.setup.as_ref().map(|setup| Scales::of(&setup.point)).filter(|_| !deviation) {
+            plot = match self.quantity {
+                Quantity::CentralPressure => plot.si_y(scales.pressure_gpa, "Pressure {p_c} / GPa"),
+                _ => plot.si_y(scales.film_um, "Film {h_c} / µm"),
+            };
+        }
         if deviation {
-            plot = plot
-                .y_grid_spacer(move |input| axes::few_decade_marks(input, rows(height)))
-                .y_axis_formatter(|mark, _| axes::decade_label(mark));
+            plot = plot.decades_y(rows(height));
         }
         let name = match self.name {
             "pressure" => "Central pressure against time",

@@ -10,7 +10,7 @@ use crate::app::tabs::direction::Direction;
 use crate::app::theme::Palette;
 use crate::solver::full::Solution;
 use egui::{ColorImage, Context, Id, Sense, Ui, Vec2b, vec2};
-use egui_plot::{HoverPosition, PlotImage, PlotPoint};
+use egui_plot::{HoverPosition, PlotPoint};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -141,15 +141,17 @@ fn quantity(value: f64, shown: FilmShear) -> String {
 }
 
 /// The view: its scale, and the film between its surfaces on the profiles' axis.
-pub fn ui(ui: &mut Ui, image: &FilmShearImage, shown: FilmShear, stale: bool, height: f32) {
+pub fn ui(ui: &mut Ui, (image, length_mm): (&FilmShearImage, f64), shown: FilmShear, stale: bool, height: f32) {
     let Some(texture) = image.texture.as_ref().map(|texture| texture.shown(ui.ctx())) else { return };
     scale_ui(ui, image, shown);
     let (from, to) = Direction::Along.range();
     axes::show(
         axes::plot(ui, "film shear", (height - 26.0).max(70.0), "", "Height {Z} = {z}/{h}")
+            .paper_x("{X} = {x}/{a}")
+            .si_x(length_mm, "{x} / mm")
             .link_axis(Id::unique(Direction::Along.id("profiles")), Vec2b::new(true, false))
             .link_cursor(Id::unique(Direction::Along.id("profiles")), Vec2b::new(true, false))
-            .y_grid_spacer(|input| axes::round_marks(input, 2.0))
+            .marks_y(2.0)
             .default_x_bounds(from, to)
             .default_y_bounds(0.0, 1.0)
             .show_y(false)
@@ -162,10 +164,7 @@ pub fn ui(ui: &mut Ui, image: &FilmShearImage, shown: FilmShear, stale: bool, he
         ui,
         "Shear across the film",
         |plot| {
-            let (center, size) = (PlotPoint::new(0.5 * (from + to), 0.5), vec2((to - from) as f32, 1.0));
-            plot.image(
-                PlotImage::new("", texture, center, size).tint(drawn::tint(stale)).id("shear field").allow_hover(false),
-            );
+            plot.field("shear field", texture, (from, to), (0.0, 1.0), drawn::tint(stale));
         },
     );
 }

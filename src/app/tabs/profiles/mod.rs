@@ -10,14 +10,18 @@ use crate::app::context::{Commands, Context};
 use crate::app::controls::named;
 use crate::app::drawn::{self, Owner};
 use crate::app::export;
+use crate::app::figure::Canvas;
 use crate::app::numbers;
 use crate::app::tabs::cut_line::{self, CutLine};
 use crate::app::tabs::direction::Direction;
 use crate::app::tabs::key::{self, Entry, Sample};
+use crate::app::tabs::plot_frame::PlotFrame;
+use crate::app::tabs::take_away::Offer;
 use crate::app::tabs::{axes, badge};
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, rich};
+use crate::app::units::{Scales, Units};
 use egui::{Align2, Checkbox, Color32, ComboBox, Id, Ui, Vec2b};
-use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points, Span, Text};
+use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points, Span, Text};
 use film_shear::{FilmShear, FilmShearImage};
 use serde::{Deserialize, Serialize};
 
@@ -77,6 +81,7 @@ impl Profiles {
         };
         key_ui(ui, &scene);
         let unit = (ui.available_height() - 6.0) / parts;
+        let length_mm = Scales::of(&picture.key.point).length_mm;
         let mut moved = None;
         let mut stack = |ui: &mut Ui, direction: Direction| {
             let by_pressure = pressure_plot(ui, &scene, direction, unit);
@@ -98,10 +103,10 @@ impl Profiles {
             });
         }
         if let Some(comparison) = comparison {
-            difference_plot(ui, comparison, (context.fit, stale), 0.6 * unit);
+            difference_plot(ui, (comparison, length_mm), (context.fit, stale), 0.6 * unit);
         }
         if shear != FilmShear::Off {
-            film_shear::ui(ui, &self.image, shear, stale, 0.6 * unit);
+            film_shear::ui(ui, (&self.image, length_mm), shear, stale, 0.6 * unit);
         }
         if let Some((direction, to)) = moved {
             let mut cuts = context.cuts;
@@ -130,7 +135,10 @@ pub fn with_difference(ui: &mut Ui, context: &Context<'_>) {
         ui.vertical(|ui| {
             ui.set_width(half);
             match &answers.comparison {
-                Some(comparison) => difference_plot(ui, comparison, (context.fit, stale), height),
+                Some(comparison) => {
+                    let length_mm = Scales::of(&context.document.point).length_mm;
+                    difference_plot(ui, (comparison, length_mm), (context.fit, stale), height);
+                }
                 None => _ = ui.weak("The difference appears when the sliders rest and the full solution is there"),
             }
         });
@@ -167,21 +175,24 @@ fn toolbar(ui: &mut Ui, choices: &mut Choices, context: &Context<'_>, commands: 
         if ui.button(Command::Verify.name()).on_hover_text("Solve this contact in full now (F5)").clicked() {
             commands.push(Command::Verify);
         }
-        if ui
-            .button("Export CSV…")
-            .on_hover_text("Live, full and pinned profiles with their SI twins, all of the domain")
-            .clicked()
-        {
-            commands.push(Command::ExportProfiles);
-        }
-        if let Some(picture) = answers.picture.as_ref().filter(|picture| picture.has_plane()) {
-            let across = ui.button("Export across…").on_hover_text("The live profile across as CSV, with its SI twins");
-            if across.clicked() {
-                commands.push(Command::csv(export::profile_across(picture, context.cuts.x)));
-            }
+        if answers.picture.as_ref().is_some_and(|picture| picture.has_plane()) {
             cut_line::cuts_ui(ui, context, commands);
         }
     });
+}
+
+/// What can be taken away from it.
+pub fn offers<'a>(context: &Context<'a>) -> Vec<Offer<'a>> {
+    let (answers, cuts) = (context.answers, context.cuts);
+    let picture = answers.picture.as_ref();
+    let tip = "Live, full and pinned profiles with their SI twins, all of the domain";
+    let mut offers = vec![Offer::new("Profiles as CSV…", tip, picture.map(|_| || Command::ExportProfiles))];
+    if let Some(picture) = picture.filter(|picture| picture.has_plane()) {
+        let tip = "The live profile across, with its SI twins";
+        let across = move |picture: &&Picture| export::profile_across(picture, cuts.x);
+        offers.push(Offer::table("Profile across as CSV…", tip, Some(picture), across));
+    }
+    offers
 }
 
 fn pins_ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
@@ -234,17 +245,33 @@ impl<'a> Scene<'a> {
     /// Pinned, live and full curves of one quantity; returns the colour of the live one.
     fn curves(
         &self,
-        plot: &mut PlotUi<'a>,
+        plot: &mut Canvas<'_, 'a>,
         palette: &Palette,
         color: Color32,
         of: impl Fn(&'a Picture) -> &'a [PlotPoint],
+        unit: fn(Scales) -> f64,
     ) -> Color32 {
+        // In SI units a curve of another contact keeps its own scales on the axes of this one.
+        let own = Scales::of(&self.picture.key.point);
+        let units = Units::of(plot.ctx());
+        let fitted = |picture: &'a Picture| {
+            let other = Scales::of(&picture.key.point);
+            match units {
+                Units::Si if other != own => {
+                    let (x, y) = (other.length_mm / own.length_mm, unit(other) / unit(own));
+                    let points = of(picture).iter().map(|point| PlotPoint::new(x * point.x, y * point.y));
+                    PlotPoints::Owned(points.collect())
+                }
+                _ => PlotPoints::Borrowed(of(picture)),
+            }
+        };
         for (k, pin) in self.pins.iter().enumerate() {
-            let (points, hue) = (of(&pin.picture), palette.pin(pin.number));
-            plot.line(curve(pin_name(pin), points, hue, THIN_WIDTH));
+            let (points, hue) = (fitted(&pin.picture), palette.pin(pin.number));
             // Its number, where numbers of others are not.
             let x = PIN_LABELS.0 + PIN_LABELS.1 * k as f64;
-            if let Some(y) = value_at(points, x) {
+            let height = value_at(points.points(), x);
+            plot.line(curve(pin_name(pin), points, hue, THIN_WIDTH));
+            if let Some(y) = height {
                 let text =
                     Text::new("", PlotPoint::new(x, y), rich(&format!("{}", pin.number), 11.5, palette.ink(hue)));
                 plot.text(text.anchor(Align2::RIGHT_BOTTOM).id(("pin", pin.number)).allow_hover(false));
@@ -252,10 +279,10 @@ impl<'a> Scene<'a> {
         }
         let live = if self.stale { palette.reference } else { color };
         let name = if self.picture.origin == Origin::Full { "Full solution" } else { "Reduced model" };
-        plot.line(curve(name.to_owned(), of(self.picture), live, LIVE_WIDTH).id("live"));
+        plot.line(curve(name.to_owned(), fitted(self.picture), live, LIVE_WIDTH).id("live"));
         if let Some(full) = self.full {
             let over = if self.full_stale { palette.reference } else { palette.over(color) };
-            plot.line(curve(full_name(self), of(full), over, FULL_WIDTH).id("full"));
+            plot.line(curve(full_name(self), fitted(full), over, FULL_WIDTH).id("full"));
         }
         live
     }
@@ -276,12 +303,19 @@ fn key_ui(ui: &mut Ui, scene: &Scene<'_>) {
 }
 
 /// A plot of the stack: shared X axis and cursor.
-fn stacked<'a>(ui: &Ui, direction: Direction, id: &str, height: f32, x_title: &str, y_title: &str) -> Plot<'a> {
+fn stacked<'a>(
+    ui: &Ui,
+    (direction, length_mm): (Direction, f64),
+    (id, height): (&str, f32),
+    (x_title, y_title): (&str, &str),
+) -> PlotFrame<'a> {
     let group = Id::unique(direction.id("profiles"));
     // As many marks as have room for their numbers.
     let marks = f64::from((ui.available_width() / 90.0).clamp(3.0, 9.0));
     axes::plot(ui, &direction.id(id), height, x_title, y_title)
-        .x_grid_spacer(move |input| axes::round_marks(input, marks))
+        .marks_x(marks)
+        .paper_x(format!("{{{0}}} = {{{1}}}/{{a}}", direction.name(), direction.name().to_lowercase()))
+        .si_x(length_mm, &direction.si_title(x_title))
         .link_axis(group, Vec2b::new(true, false))
         .link_cursor(group, Vec2b::new(true, false))
         .set_margin_fraction(egui::vec2(0.0, 0.0))
@@ -309,14 +343,14 @@ fn hover(picture: &Picture, direction: Direction) -> impl Fn(&HoverPosition<'_>)
     }
 }
 
-fn cavitated(plot: &mut PlotUi<'_>, picture: &Picture, palette: &Palette) {
+fn cavitated(plot: &mut Canvas<'_, '_>, picture: &Picture, palette: &Palette) {
     if let (Some(from), Some(end)) = (picture.rupture, picture.pressure.last()) {
         plot.span(Span::new("", from..=end.x.max(from)).fill(palette.cavitated).border_width(0.0));
     }
 }
 
 /// λ of the full solution behind the contact, where complementarity ruptures the film.
-fn multiplier(plot: &mut PlotUi<'_>, scene: &Scene<'_>, palette: &Palette) {
+fn multiplier(plot: &mut Canvas<'_, '_>, scene: &Scene<'_>, palette: &Palette) {
     let full = scene.full.filter(|_| !scene.full_stale).unwrap_or(scene.picture);
     let points: Vec<[f64; 2]> = full.solution.axis_multiplier().map(|(x, value)| [x, value]).collect();
     let Some(&[x, value]) = points.get(points.len() / 4) else { return };
@@ -325,12 +359,12 @@ fn multiplier(plot: &mut PlotUi<'_>, scene: &Scene<'_>, palette: &Palette) {
     plot.text(label.anchor(Align2::RIGHT_BOTTOM).id("multiplier label").allow_hover(false));
 }
 
-fn curve<'a>(name: String, points: &'a [PlotPoint], color: Color32, width: f32) -> Line<'a> {
-    Line::new(name, PlotPoints::Borrowed(points)).color(color).width(width).allow_band(false)
+fn curve(name: String, points: PlotPoints<'_>, color: Color32, width: f32) -> Line<'_> {
+    Line::new(name, points).color(color).width(width).allow_band(false)
 }
 
 /// A dot with its name; the name stands clear of the curve by a leading space or line.
-fn mark(plot: &mut PlotUi<'_>, at: (f64, f64), name: &'static str, color: Color32, anchor: Align2) {
+fn mark(plot: &mut Canvas<'_, '_>, at: (f64, f64), name: &'static str, color: Color32, anchor: Align2) {
     let dot = Points::new("", vec![[at.0, at.1]]).id(name).shape(MarkerShape::Circle).radius(3.5).color(color);
     plot.points(dot.allow_hover(false));
     let text = match anchor {
@@ -347,7 +381,7 @@ fn mark(plot: &mut PlotUi<'_>, at: (f64, f64), name: &'static str, color: Color3
 fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) -> Option<f64> {
     let palette = Palette::of(ui);
     let picture = scene.picture;
-    let scalars = picture.solution.scalars;
+    let (scalars, scales) = (picture.solution.scalars, Scales::of(&picture.key.point));
     let top = scene.pins.iter().map(|p| p.picture.solution.scalars.p_max).fold(scalars.p_max.max(1.0), f64::max);
     let (from, to) = direction.range();
     let elsewhere = direction.elsewhere(scene.cuts);
@@ -355,7 +389,9 @@ fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f
     let y_title = if direction == Direction::Along { "Pressure {P} = {p}/{p_H}" } else { "" };
     let cut = scene.cut_line(direction, "pressure");
     let shown = axes::show(
-        stacked(ui, direction, "pressure", height, "", y_title)
+        stacked(ui, (direction, scales.length_mm), ("pressure", height), ("", y_title))
+            .paper_y("Pressure {P} = {p}/{p_H}")
+            .si_y(scales.pressure_gpa, "Pressure {p} / GPa")
             .allow_drag(cut.as_ref().is_none_or(|cut| !cut.is_held(ui)))
             .default_x_bounds(from, to)
             .default_y_bounds(-0.04 * top, numbers::round_up(1.12 * top))
@@ -372,7 +408,13 @@ fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f
             plot.line(
                 Line::new("Hertz", hertz).color(palette.reference).width(THIN_WIDTH).style(LineStyle::dashed_dense()),
             );
-            let live = scene.curves(plot, &palette, palette.pressure, move |picture| direction.pressure(picture));
+            let live = scene.curves(
+                plot,
+                &palette,
+                palette.pressure,
+                move |picture| direction.pressure(picture),
+                |of| of.pressure_gpa,
+            );
             if on_axis {
                 multiplier(plot, scene, &palette);
             }
@@ -398,7 +440,7 @@ fn full_name(scene: &Scene<'_>) -> String {
 fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) -> Option<f64> {
     let palette = Palette::of(ui);
     let picture = scene.picture;
-    let scalars = picture.solution.scalars;
+    let (scalars, scales) = (picture.solution.scalars, Scales::of(&picture.key.point));
     let top = scene.pins.iter().map(|p| p.picture.solution.scalars.h_c).fold(scalars.h_c, f64::max);
     let (from, to) = direction.range();
     let elsewhere = direction.elsewhere(scene.cuts);
@@ -406,7 +448,9 @@ fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) 
     let y_title = if direction == Direction::Along { "Film {H} = {h}{R}/{a}²" } else { "" };
     let cut = scene.cut_line(direction, "film");
     let shown = axes::show(
-        stacked(ui, direction, "film", height, &x_title, y_title)
+        stacked(ui, (direction, scales.length_mm), ("film", height), (&x_title, y_title))
+            .paper_y("Film {H} = {h}{R}/{a}²")
+            .si_y(scales.film_um, "Film {h} / µm")
             .allow_drag(cut.as_ref().is_none_or(|cut| !cut.is_held(ui)))
             .default_x_bounds(from, to)
             .default_y_bounds(0.0, numbers::round_up(4.0 * top))
@@ -418,7 +462,8 @@ fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) 
             if direction == Direction::Along && elsewhere == 0.0 {
                 cavitated(plot, picture, &palette);
             }
-            let live = scene.curves(plot, &palette, palette.film, move |picture| direction.film(picture));
+            let live =
+                scene.curves(plot, &palette, palette.film, move |picture| direction.film(picture), |of| of.film_um);
             if elsewhere == 0.0 {
                 mark(plot, (0.0, scalars.h_c), "{H_c}", live, Align2::LEFT_BOTTOM);
             }
@@ -439,10 +484,15 @@ fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) 
     cut?.moved(ui, &shown.response, &shown.transform)
 }
 
-fn difference_plot(ui: &mut Ui, comparison: &Comparison, (wanted, stale): (bool, bool), height: f32) {
+fn difference_plot(
+    ui: &mut Ui,
+    (comparison, length_mm): (&Comparison, f64),
+    (wanted, stale): (bool, bool),
+    height: f32,
+) {
     let palette = Palette::of(ui);
     let (from, to) = Direction::Along.range();
-    let plot = stacked(ui, Direction::Along, "difference", height, "", "Reduced − full");
+    let plot = stacked(ui, (Direction::Along, length_mm), ("difference", height), ("", "Reduced − full"));
     axes::show(
         plot.default_x_bounds(from, to).set_margin_fraction(egui::vec2(0.0, 0.08)),
         ui,
@@ -455,7 +505,7 @@ fn difference_plot(ui: &mut Ui, comparison: &Comparison, (wanted, stale): (bool,
                 ("ΔH/H_c", "Δ{H}/{H_c}", &comparison.film, palette.film, Align2::LEFT_TOP),
             ];
             for (name, label, points, hue, anchor) in lines {
-                plot.line(curve(name.to_owned(), points, color(hue), 1.4));
+                plot.line(curve(name.to_owned(), PlotPoints::Borrowed(points), color(hue), 1.4));
                 // At its largest, where it stands clear of the other.
                 if let Some(at) = points.iter().max_by(|a, b| a.y.abs().total_cmp(&b.y.abs())) {
                     let text = Text::new("", *at, rich(&format!("  {label}"), 12.5, palette.ink(color(hue))));

@@ -17,13 +17,13 @@ pub fn ui(ui: &mut Ui, id: &str, chart: &Chart, height: f32, fresh: bool) {
     let entries = chart.series.iter().enumerate().take(NAMED).map(|(k, series)| {
         let sample = match series.marks {
             Marks::Line => Sample::Line(2.0),
-            Marks::Dots => Sample::Dot(2.8),
+            Marks::Dots | Marks::Rings => Sample::Dot(2.8),
             Marks::Crosses => Sample::Cross(4.0),
         };
         Entry::new(plain(&series.name), color(&palette, series.marks, k), sample)
     });
     let entries: Vec<Entry> = entries.collect();
-    key::over(ui, &chart.title, height, entries, |ui, height| plot(ui, id, chart, height, fresh));
+    key::over(ui, height, entries, |ui, height| plot(ui, id, chart, height, fresh));
 }
 
 fn plot(ui: &mut Ui, id: &str, chart: &Chart, height: f32, fresh: bool) {
@@ -39,10 +39,10 @@ fn plot(ui: &mut Ui, id: &str, chart: &Chart, height: f32, fresh: bool) {
             egui_plot::HoverPosition::Elsewhere { .. } => None,
         });
     if x_log {
-        plot = plot.x_grid_spacer(axes::decade_marks).x_axis_formatter(|mark, _| axes::decade_label(mark));
+        plot = plot.decades_x(8.0);
     }
     if y_log {
-        plot = plot.y_grid_spacer(axes::decade_marks).y_axis_formatter(|mark, _| axes::decade_label(mark));
+        plot = plot.decades_y(8.0);
     }
     if fresh {
         plot = plot.reset();
@@ -56,6 +56,9 @@ fn plot(ui: &mut Ui, id: &str, chart: &Chart, height: f32, fresh: bool) {
             match series.marks {
                 Marks::Line => plot.line(Line::new(&series.name, points).color(color).width(2.0)),
                 Marks::Dots => plot.points(Points::new(&series.name, points).color(color).radius(2.4)),
+                Marks::Rings => {
+                    plot.points(Points::new(&series.name, points).color(color).radius(2.4).filled(false));
+                }
                 Marks::Crosses => {
                     plot.points(Points::new(&series.name, points).color(color).radius(4.5).shape(MarkerShape::Cross));
                 }

@@ -12,6 +12,7 @@ use crate::app::controls::{either_button, message_ui, named, standing_ui, warnin
 use crate::app::document::Document;
 use crate::app::drawn::{self, Owner};
 use crate::app::numbers;
+use crate::app::tabs::take_away::Offer;
 use crate::app::theme::{Palette, rich};
 use crate::engine::Workbench;
 use crate::engine::job::{Standing, Wake};
@@ -112,7 +113,7 @@ impl ResultsView {
                 ui.weak(&scene.source);
             }
         });
-        self.toolbar(ui, context, commands);
+        self.toolbar(ui, commands);
         let Some(run) = &self.run else {
             ui.separator();
             contact::ui(ui, context);
@@ -155,7 +156,28 @@ impl ResultsView {
         }
     }
 
-    fn toolbar(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+    /// What can be taken away from it.
+    pub fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
+        if self.run.is_none() {
+            let text = contact::csv(context);
+            return vec![Offer::table(
+                "Table as CSV…",
+                "The table of this contact, with all digits",
+                text,
+                String::clone,
+            )];
+        }
+        let look = self.run.as_ref().and_then(|run| run.look.as_ref());
+        let table = match &self.shown {
+            ResultsChoice::Table(name) => look.and_then(|look| look.table(name)),
+            ResultsChoice::Charts => look.and_then(|look| look.outcome.tables.first()),
+        };
+        vec![Offer::table("Table as CSV…", "The table that is chosen, or the first one", table, |table| {
+            table.to_csv()
+        })]
+    }
+
+    fn toolbar(&mut self, ui: &mut Ui, commands: &mut Commands) {
         ui.horizontal_wrapped(|ui| {
             let standing = self.standing();
             let runs = standing.is_some();
@@ -168,10 +190,6 @@ impl ResultsView {
                 }
             }
             if self.run.is_none() {
-                let tip = "The table of this contact, with all digits";
-                if ui.button("Export CSV…").on_hover_text(tip).clicked() {
-                    commands.extend(contact::csv(context).map(Command::csv));
-                }
                 ui.weak("This contact");
                 return;
             }
@@ -190,14 +208,6 @@ impl ResultsView {
                 }
             });
             named(ui, combo.response, "Shown of the results");
-            let table = match &chosen {
-                ResultsChoice::Table(name) => look.and_then(|look| look.table(name)),
-                ResultsChoice::Charts => tables.first(),
-            };
-            let button = ui.add_enabled(table.is_some(), egui::Button::new("Export CSV…"));
-            if button.on_hover_text("The table that is chosen, or the first one").clicked() {
-                commands.extend(table.map(|table| Command::csv(table.to_csv())));
-            }
             self.shown = chosen;
             standing_ui(ui, standing, "Progress of the study");
         });

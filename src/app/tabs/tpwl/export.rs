@@ -2,9 +2,12 @@
 
 use super::ShownModel;
 use crate::app::export;
+use crate::app::transient::TransientView;
 use crate::app::transient::export::describe;
+use crate::app::transient::linearised::{Linearised, NumberRow};
 use crate::app::transient::method::{RULES, WEIGHTINGS, rule_name, word};
-use crate::app::transient::{TransientView, linearised::NumberRow};
+use crate::engine::arrays::Array;
+use crate::engine::model_arrays;
 use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::Quantity;
 
@@ -92,6 +95,30 @@ pub fn weights(shown: &ShownModel<'_>) -> String {
         })
     });
     export::csv(&lines, &header, rows)
+}
+
+/// The model as arrays, with `weights_1` of the dual Taylor form and `weights_2` of (4.29): for every step (`times_1`,
+/// `times_2`) what each operating point counts.
+pub fn arrays(view: &TransientView, linearised: &Linearised) -> Vec<Array> {
+    let model = &linearised.model;
+    let mut arrays = model_arrays::of_linearised(model);
+    for (weighting, run) in view.runs_of(linearised) {
+        let number = WEIGHTINGS.iter().position(|other| *other == weighting).map_or(0, |k| k + 1);
+        let Some(record) = &run.record else { continue };
+        let row = |k: usize| {
+            let mut row = vec![0.0; model.points.len()];
+            for weight in record.weights(k) {
+                if let Some(entry) = row.get_mut(weight.point) {
+                    *entry = weight.weight;
+                }
+            }
+            row
+        };
+        let rows: Vec<Vec<f64>> = (0..record.steps().len()).map(row).collect();
+        arrays.push(Array::list(format!("times_{number}"), record.steps().iter().map(|step| step.time).collect()));
+        arrays.push(Array::rows(format!("weights_{number}"), &rows));
+    }
+    arrays
 }
 
 /// The study of numbers.

@@ -17,6 +17,7 @@ use crate::app::document::Edit;
 use crate::app::drawn;
 use crate::app::form::LastField;
 use crate::app::numbers;
+use crate::app::tabs::take_away::Offer;
 use crate::app::theme::Palette;
 use crate::app::transient::linearised::{Linearised, PointNow};
 use crate::app::transient::method::{WEIGHTINGS, weighting_name};
@@ -24,7 +25,7 @@ use crate::app::transient::{InTimeCommand, Run, TransientView};
 use crate::scene::LinearisedTransient;
 use crate::solver::full::transient::Quantity;
 use crate::solver::reduced::tpwl::Weighting;
-use egui::{Button, Color32, Grid, Pos2, Response, ScrollArea, Ui};
+use egui::{Color32, Grid, Pos2, Response, ScrollArea, Ui};
 use egui_plot::{PlotPoint, PlotTransform};
 use table::Sorting;
 
@@ -79,11 +80,11 @@ struct ShownModel<'a> {
 }
 
 impl<'a> ShownModel<'a> {
-    fn new(ui: &Ui, tab: &'a Tpwl, context: &Context<'a>, linearised: &'a Linearised) -> Self {
+    fn new(palette: Palette, tab: &'a Tpwl, context: &Context<'a>, linearised: &'a Linearised) -> Self {
         let view = context.transient;
         let runs: Vec<_> = view.runs_of(linearised).collect();
         let points = linearised.points_at(&runs, view.player.time());
-        Self { view, tab, linearised, runs, points, palette: Palette::of(ui), fit: context.fit }
+        Self { view, tab, linearised, runs, points, palette, fit: context.fit }
     }
 
     /// The operating points of the trajectory that is drawn.
@@ -112,6 +113,34 @@ impl<'a> ShownModel<'a> {
 }
 
 impl Tpwl {
+    /// What can be taken away from it.
+    pub fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
+        let context = *context;
+        let view = context.transient;
+        let there = view.linearised.as_ref();
+        type Text = fn(&ShownModel<'_>) -> String;
+        let table = |name, tip, text: Text| {
+            let shown = move |linearised: &&'a Linearised| {
+                // Colours are for the screen only.
+                let palette = Palette::for_visuals(&egui::Visuals::light());
+                text(&ShownModel::new(palette, self, &context, linearised))
+            };
+            Offer::table(name, tip, there, shown)
+        };
+        let points = "All operating points with inputs, state norms, weights and distances at this moment";
+        let weights = "Every step’s operating points and weights, and how far it lies from them";
+        let whole = "Basis, operating points, linearised systems and the weights of every step, in one archive that numpy \
+                     reads";
+        let numbers = "Rule, tolerance, number of points, weights and error of every model tried";
+        let studied = (!view.number.rows.is_empty()).then_some(view);
+        vec![
+            table("Points as CSV…", points, export::points),
+            table("Weights as CSV…", weights, export::weights),
+            Offer::table("Numbers as CSV…", numbers, studied, |view| export::numbers(view)),
+            Offer::arrays("Model as npz…", whole, there, move |linearised| export::arrays(view, linearised)),
+        ]
+    }
+
     /// The tab.
     pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         if let Some(why) = context.document.no_transient() {
@@ -177,7 +206,7 @@ impl Tpwl {
             if context.transient.is_current() && context.transient.runs_of(linearised).next().is_none() {
                 drawn::fade(ui, in_time::is_coming(context));
             }
-            pictures::all(ui, &ShownModel::new(ui, self, context, linearised), &mut sorting, rest)
+            pictures::all(ui, &ShownModel::new(Palette::of(ui), self, context, linearised), &mut sorting, rest)
         });
         self.sorting = sorting;
         commands.extend(pictures.inner.map(|time| Command::InTime(InTimeCommand::GoTo(time))));
@@ -203,25 +232,6 @@ impl Tpwl {
                 } else if view.reference_of_linearised().is_some() {
                     commands.push(Command::InTime(InTimeCommand::StudyNumber));
                 }
-            }
-            let mut table = |ui: &mut Ui, name: &str, tip: &str, text: fn(&ShownModel<'_>) -> String| {
-                if enabled(ui, there, name, tip).clicked()
-                    && let Some(linearised) = &view.linearised
-                {
-                    commands.push(Command::csv(text(&ShownModel::new(ui, self, context, linearised))));
-                }
-            };
-            let tip = "All operating points with inputs, state norms, weights and distances at this moment";
-            table(ui, "Export points…", tip, export::points);
-            let tip = "Every step’s operating points and weights, and how far it lies from them";
-            table(ui, "Export weights…", tip, export::weights);
-            let tip = "Rule, tolerance, number of points, weights and error of every model tried";
-            if enabled(ui, !view.number.rows.is_empty(), "Export numbers…", tip).clicked() {
-                commands.push(Command::csv(export::numbers(view)));
-            }
-            let tip = "Any of these plots, or the whole tab, as SVG or PNG with axes and parameters";
-            if enabled(ui, there, "Export plot…", tip).clicked() {
-                commands.push(Command::ExportPlot);
             }
         });
     }
@@ -298,10 +308,6 @@ fn nothing_yet(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     } else if !in_time::is_coming(context) {
         ui.weak("Run it in time: the full system first, whose trajectory is then linearised and followed.");
     }
-}
-
-fn enabled(ui: &mut Ui, on: bool, name: &str, tip: &str) -> Response {
-    ui.add_enabled(on, Button::new(name)).on_hover_text(tip).on_disabled_hover_text(tip)
 }
 
 /// The point whose place on the screen is nearest to the pointer, if it is near.

@@ -64,10 +64,8 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) {
     let reference = shown.palette.reference;
     let id = format!("tpwl number {}", shown.view.generation);
     let plot = axes::plot(ui, &id, height - 22.0, "Operating points", "Error of {H_c}")
-        .x_grid_spacer(axes::log_marks)
-        .x_axis_formatter(|mark, _| axes::log_label(mark))
-        .y_grid_spacer(axes::decade_marks)
-        .y_axis_formatter(|mark, _| axes::decade_label(mark))
+        .log_x()
+        .decades_y(8.0)
         .set_margin_fraction(egui::vec2(0.05, 0.1))
         .auto_bounds(egui::Vec2b::TRUE);
     axes::show(plot, ui, "Error against the number of operating points", move |plot| {

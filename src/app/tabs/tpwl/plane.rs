@@ -50,8 +50,8 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
         }
     });
     let plot = axes::plot(ui, &id, height - 22.0, &axis_title(across, modes), &axis_title(up, modes))
-        .x_grid_spacer(|input| axes::round_marks(input, 3.0))
-        .y_grid_spacer(|input| axes::round_marks(input, 5.0))
+        .marks_x(3.0)
+        .marks_y(5.0)
         .set_margin_fraction(egui::vec2(0.06, 0.06))
         .auto_bounds(Vec2b::TRUE);
     let fit = shown.fit;

@@ -5,14 +5,16 @@ use super::{ShownModel, near, point_under};
 use crate::app::numbers;
 use crate::app::tabs::axes;
 use crate::app::tabs::in_time::series;
+use crate::app::tabs::plot_frame::PlotFrame;
 use crate::app::theme::{THIN_WIDTH, faded};
 use crate::app::transient::Run;
 use crate::app::transient::linearised::PointNow;
 use crate::app::transient::method::rule_name;
+use crate::app::units::Scales;
 use crate::solver::full::transient::Quantity;
 use crate::solver::reduced::tpwl::Selection;
 use egui::{Color32, Id, Ui, Vec2b};
-use egui_plot::{Line, MarkerShape, Plot, PlotPoint, PlotPoints, Points, VLine};
+use egui_plot::{Line, MarkerShape, PlotPoint, PlotPoints, Points, VLine};
 
 /// The colour of what is drawn, and its symbol.
 fn look(shown: &ShownModel<'_>) -> (Color32, &'static str) {
@@ -22,13 +24,23 @@ fn look(shown: &ShownModel<'_>) -> (Color32, &'static str) {
     }
 }
 
-fn plot<'a>(ui: &Ui, shown: &ShownModel<'_>, id: &str, titles: (&str, &str), height: f32) -> Plot<'a> {
+fn plot<'a>(ui: &Ui, shown: &ShownModel<'_>, id: &str, titles: (&str, &str), height: f32) -> PlotFrame<'a> {
     let columns = series::marks(ui.available_width());
     let group = Id::unique(("tpwl trajectory", shown.view.generation, shown.tab.trajectory));
     let (generation, quantity, trajectory) = (shown.view.generation, shown.tab.quantity, shown.tab.trajectory);
-    axes::plot(ui, &format!("{id} {generation} {quantity:?} {trajectory}"), height, titles.0, titles.1)
-        .x_grid_spacer(move |input| axes::round_marks(input, columns))
-        .y_grid_spacer(|input| axes::round_marks(input, 3.0))
+    let plot = axes::plot(ui, &format!("{id} {generation} {quantity:?} {trajectory}"), height, titles.0, titles.1);
+    let plot = match &shown.view.setup {
+        Some(setup) => {
+            let (scales, plot) = (Scales::of(&setup.point), plot.si_x(1e6 * setup.time_scale_s(), "{t} / µs"));
+            match quantity {
+                Quantity::CentralPressure => plot.si_y(scales.pressure_gpa, "{p_c} / GPa"),
+                _ => plot.si_y(scales.film_um, "{h_c} / µm"),
+            }
+        }
+        None => plot,
+    };
+    plot.marks_x(columns)
+        .marks_y(3.0)
         .link_axis(group, Vec2b::new(true, false))
         .link_cursor(group, Vec2b::new(true, false))
         .set_margin_fraction(egui::vec2(0.02, 0.12))

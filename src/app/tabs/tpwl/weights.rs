@@ -41,7 +41,7 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
     let (quiet, fit) = (shown.palette.quiet, shown.fit);
     let id = format!("tpwl weights {}", shown.view.generation);
     let plot = axes::plot(ui, &id, height - 22.0, "Operating point", "Weight")
-        .y_grid_spacer(|input| axes::round_marks(input, 4.0))
+        .marks_y(4.0)
         .default_x_bounds(0.0, end)
         .default_y_bounds(0.0, TOP);
     let drawn = axes::show(plot, ui, "Weights of the operating points", move |plot| {

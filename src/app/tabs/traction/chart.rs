@@ -3,14 +3,15 @@
 use super::ShownSweep;
 use crate::app::context::Context;
 use crate::app::document::Key;
-use crate::app::figure::{self, Subject};
+use crate::app::figure::Canvas;
 use crate::app::numbers;
 use crate::app::tabs::axes;
+use crate::app::tabs::plot_frame::PlotFrame;
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, faded, rich};
 use crate::app::traction::{Against, Choices, Curve, Markers, Sample, SlideView, Sweep};
 use crate::solver::full::{PLAUSIBLE_TRACTION, TractionDoubt};
 use egui::{Align2, Color32, CursorIcon, Id, PointerButton, Ui, Vec2b};
-use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotUi, Points, Text, VLine};
+use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, PlotPoint, Points, Text, VLine};
 
 /// Heights below which plots cannot be read.
 const LEAST_HEIGHT: f32 = 110.0;
@@ -161,7 +162,9 @@ pub fn ui(ui: &mut Ui, choices: &Choices, context: &Context<'_>, sweep: &Sweep, 
     let axes = Axes::new(choices, sweep);
     let unit = ((ui.available_height() - 6.0) / 2.0).max(LEAST_HEIGHT);
     let here = context.answers.current_picture();
+    let below = axes.against.axis(sweep.base.point.kind);
     let traction = LinkedPlot {
+        below,
         name: "Traction along the quantity",
         id: "traction",
         titles: ("", "Traction coefficient µ"),
@@ -169,21 +172,18 @@ pub fn ui(ui: &mut Ui, choices: &Choices, context: &Context<'_>, sweep: &Sweep, 
         here: here.map(|picture| (picture.traction.abs(), picture.unphysical.is_some())),
     };
     let film = LinkedPlot {
+        below,
         name: "Film along the quantity",
         id: "film",
-        titles: (axes.against.axis(sweep.base.point.kind), "Film in µm"),
+        titles: (below, "Film in µm"),
         curves: &[
             Drawn { name: "central film", of: CENTRAL, color: palette.film, width: LIVE_WIDTH },
             Drawn { name: "smallest film", of: SMALLEST, color: palette.film, width: 1.6 },
         ],
         here: here.map(|picture| (picture.central_film_m() / MICRO, false)),
     };
-    let both = ui.vertical(|ui| {
-        let pressed = traction.show(ui, context, &axes, shown, unit);
-        film.show(ui, context, &axes, shown, unit).or(pressed)
-    });
-    figure::offer_of(ui, "Traction and film", both.response.rect, Subject::Sweep);
-    both.inner.map(|place| axes.value(place))
+    let pressed = traction.show(ui, context, &axes, shown, unit);
+    film.show(ui, context, &axes, shown, unit).or(pressed).map(|place| axes.value(place))
 }
 
 /// A curve of a plot.
@@ -199,6 +199,8 @@ struct LinkedPlot<'a> {
     name: &'static str,
     id: &'static str,
     titles: (&'a str, &'a str),
+    /// What runs to the right, also where the other plot's title says it.
+    below: &'a str,
     curves: &'a [Drawn],
     /// The value of the contact on the screen, and whether it is no physics.
     here: Option<(f64, bool)>,
@@ -268,7 +270,7 @@ impl LinkedPlot<'_> {
     /// One curve, grey and thin where it is no physics, with its name at its end.
     fn curve(
         &self,
-        plot: &mut PlotUi<'_>,
+        plot: &mut Canvas<'_, '_>,
         axes: &Axes<'_>,
         shown: &ShownSweep<'_>,
         (k, curve): (usize, &Drawn),
@@ -309,12 +311,13 @@ impl LinkedPlot<'_> {
         }
     }
 
-    fn plot<'p>(&self, ui: &Ui, axes: &Axes<'_>, height: f32, marks: f64, up: (f64, f64)) -> Plot<'p> {
+    fn plot<'p>(&self, ui: &Ui, axes: &Axes<'_>, height: f32, marks: f64, up: (f64, f64)) -> PlotFrame<'p> {
         let group = Id::unique("traction sweep");
         let (along, logarithmic) = axes.logarithmic;
         let margin = 0.02 * (axes.ends.1 - axes.ends.0);
         let unit = if axes.against == Against::SlideToRoll { "\u{2009}%" } else { "" };
         let plot = axes::plot(ui, self.id, height, self.titles.0, self.titles.1)
+            .paper_x(self.below)
             .link_axis(group, Vec2b::new(true, false))
             .link_cursor(group, Vec2b::new(true, false))
             .allow_drag(false)
@@ -331,22 +334,14 @@ impl LinkedPlot<'_> {
                     |v: f64, logarithmic: bool| numbers::significant(if logarithmic { 10f64.powf(v) } else { v });
                 Some(format!("{name}\n{} at {}{unit}", value(position.y, logarithmic), value(position.x, along)))
             });
-        let plot = if along {
-            plot.x_grid_spacer(axes::log_marks).x_axis_formatter(|mark, _| axes::log_label(mark))
-        } else {
-            plot.x_grid_spacer(move |input| axes::round_marks(input, marks))
-        };
-        if logarithmic {
-            plot.y_grid_spacer(axes::log_marks).y_axis_formatter(|mark, _| axes::log_label(mark))
-        } else {
-            plot
-        }
+        let plot = if along { plot.log_x() } else { plot.marks_x(marks) };
+        if logarithmic { plot.log_y() } else { plot }
     }
 }
 
 /// What a lubricant that keeps its viscosity under every stress would carry: it sets no axis, and is labelled where it
 /// leaves the picture.
-fn newtonian(plot: &mut PlotUi<'_>, axes: &Axes<'_>, samples: &[Sample], color: Color32, up: (f64, f64)) {
+fn newtonian(plot: &mut Canvas<'_, '_>, axes: &Axes<'_>, samples: &[Sample], color: Color32, up: (f64, f64)) {
     let points = axes.points(samples, NEWTONIAN);
     if points.is_empty() {
         return;
@@ -365,7 +360,7 @@ fn newtonian(plot: &mut PlotUi<'_>, axes: &Axes<'_>, samples: &[Sample], color: 
     }
 }
 
-fn rings(plot: &mut PlotUi<'_>, points: Points2, color: Color32, k: usize) {
+fn rings(plot: &mut Canvas<'_, '_>, points: Points2, color: Color32, k: usize) {
     let rings = Points::new("full solution", points).color(color).radius(4.0).filled(false);
     plot.points(rings.shape(MarkerShape::Circle).id(("rings", k)));
 }

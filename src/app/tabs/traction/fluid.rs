@@ -4,10 +4,11 @@
 use crate::app::context::Context;
 use crate::app::numbers;
 use crate::app::tabs::axes;
+use crate::app::tabs::plot_frame::PlotFrame;
 use crate::app::theme::{LIVE_WIDTH, Palette, THIN_WIDTH, rich};
 use crate::solver::full::{Problem, Solution};
 use egui::{Align2, Ui};
-use egui_plot::{HoverPosition, Line, LineStyle, Plot, PlotPoint, Span, Text, VLine};
+use egui_plot::{HoverPosition, Line, LineStyle, PlotPoint, Span, Text, VLine};
 use std::sync::Arc;
 
 /// Points of a curve.
@@ -74,10 +75,9 @@ fn largest_stress(solution: &Solution) -> f64 {
     solution.shear_field(&[0.0, 1.0]).iter().map(|shear| shear.stress_pa.abs()).fold(0.0, f64::max)
 }
 
-fn logarithmic<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> Plot<'a> {
+fn logarithmic<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> PlotFrame<'a> {
     axes::plot(ui, id, height.max(120.0), x_title, y_title)
-        .y_grid_spacer(|input| axes::few_decade_marks(input, 7.0))
-        .y_axis_formatter(|mark, _| axes::decade_label(mark))
+        .decades_y(7.0)
         .auto_bounds(egui::Vec2b::TRUE)
         .set_margin_fraction(egui::vec2(0.0, 0.06))
         .show_y(false)
@@ -94,7 +94,7 @@ fn pressure_plot(ui: &mut Ui, met: &Met, height: f32, fit: bool) {
     let marks = f64::from((ui.available_width() / 90.0).clamp(3.0, 8.0));
     axes::show(
         logarithmic(ui, "viscosity and pressure", height, "Pressure {p} in GPa", "Viscosity at rest µ in Pa·s")
-            .x_grid_spacer(move |input| axes::round_marks(input, marks))
+            .marks_x(marks)
             .label_formatter(|at| {
                 Some(format!(
                     "p = {} GPa\nµ = {} Pa·s",
@@ -147,8 +147,7 @@ fn flow_plot(ui: &mut Ui, met: &Met, height: f32, fit: bool) {
     let limit = problem.lubricant.limiting_stress;
     axes::show(
         logarithmic(ui, "flow curve", height, "Shear stress τ in Pa", "Viscosity η in Pa·s")
-            .x_grid_spacer(|input| axes::few_decade_marks(input, 6.0))
-            .x_axis_formatter(|mark, _| axes::decade_label(mark))
+            .decades_x(6.0)
             .label_formatter(|at| {
                 let [stress, viscosity] = place(at).map(|log| numbers::significant(10f64.powf(log)));
                 Some(format!("τ = {stress} Pa\nη = {viscosity} Pa·s"))

@@ -11,8 +11,11 @@ use crate::app::context::{Commands, Context};
 use crate::app::controls::{message_ui, sentence, standing_ui, warning_ui, why};
 use crate::app::drawn::{self, Owner};
 use crate::app::numbers;
+use crate::app::tabs::take_away::Offer;
 use crate::app::theme::{Palette, rich};
-use crate::app::traction::{Against, Choices, Curve, Markers, Sample, Served, SlideView, Sweep, Varied, export, sweep};
+use crate::app::traction::{
+    Against, Choices, Curve, Markers, Sample, Served, SlideView, Sweep, TractionView, Varied, export, sweep,
+};
 use crate::solver::full::{PLAUSIBLE_TRACTION, Solution, TractionDoubt};
 use egui::{Align, Button, Checkbox, ComboBox, Layout, ScrollArea, TextStyle, Ui, vec2};
 use std::sync::Arc;
@@ -165,7 +168,6 @@ fn toolbar(ui: &mut Ui, choices: &mut Choices, context: &Context<'_>, commands: 
                 commands.push(Command::SolveAlong);
             }
         }
-        exports(ui, context, commands);
     });
 }
 
@@ -187,19 +189,14 @@ fn against_ui(ui: &mut Ui, choices: &mut Choices, commands: &mut Commands) {
     }
 }
 
-fn exports(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-    let there = context.traction.curve.as_ref().is_some_and(|curve| !curve.samples.is_empty())
-        || context.traction.markers.as_ref().is_some_and(|markers| !markers.samples.is_empty());
+/// What can be taken away from it.
+pub fn offers<'a>(context: &Context<'a>) -> Vec<Offer<'a>> {
+    let view = context.traction;
+    let there = view.curve.as_ref().is_some_and(|curve| !curve.samples.is_empty())
+        || view.markers.as_ref().is_some_and(|markers| !markers.samples.is_empty());
     let tip = "The curve and the full solutions, every contact with its traction and films";
-    if ui.add_enabled(there, Button::new("Export CSV…")).on_hover_text(tip).clicked()
-        && let Some(text) = export::csv(context.traction)
-    {
-        commands.push(Command::csv(text));
-    }
-    let tip = "Traction, film or both, as SVG or PNG with axes and parameters";
-    if ui.add_enabled(there, Button::new("Export plot…")).on_hover_text(tip).clicked() {
-        commands.push(Command::ExportPlot);
-    }
+    let text = |view: &&TractionView| export::csv(view).unwrap_or_default();
+    vec![Offer::table("Curve as CSV…", tip, there.then_some(view), text)]
 }
 
 /// Size of the button that begins full solutions, and of the one that stops them.

@@ -21,7 +21,7 @@ fn whole(marks: Vec<GridMark>) -> Vec<GridMark> {
 fn legible(input: GridInput, height: f32) -> Vec<GridMark> {
     let (low, high) = input.bounds;
     let stride = (34.0 * (high - low) / f64::from((height - 50.0).max(34.0))).ceil().max(1.0);
-    let kept = axes::decade_marks(input).into_iter().filter(|mark| mark.value % stride == 0.0);
+    let kept = axes::few_decade_marks(input, 8.0).into_iter().filter(|mark| mark.value % stride == 0.0);
     kept.map(|mark| GridMark { step_size: stride, ..mark }).collect()
 }
 
@@ -69,8 +69,7 @@ pub fn plane(ui: &mut Ui, context: &Context<'_>, height: f32) {
     };
     axes::show(
         axes::plot(ui, "training plane", height, "Load number {M}", "Lubricant number {L}")
-            .x_grid_spacer(axes::log_marks)
-            .x_axis_formatter(|mark, _| axes::log_label(mark))
+            .log_x()
             .y_axis_min_width(AXIS_WIDTH)
             .auto_bounds(egui::Vec2b::TRUE)
             .label_formatter(|hover| {
@@ -135,8 +134,7 @@ pub fn indicator(ui: &mut Ui, context: &Context<'_>, height: f32) {
         axes::plot(ui, "training indicator", height, "Full solutions", "Indicator")
             .x_grid_spacer(|input| whole(axes::round_marks(input, 6.0)))
             .y_axis_min_width(AXIS_WIDTH)
-            .y_grid_spacer(move |input| legible(input, height))
-            .y_axis_formatter(|mark, _| axes::decade_label(mark))
+            .decades_y_at(move |input| legible(input, height))
             .auto_bounds(egui::Vec2b::TRUE),
         ui,
         "Indicator against full solutions",

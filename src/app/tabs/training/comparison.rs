@@ -84,10 +84,9 @@ fn distributions(ui: &mut Ui, scores: &[ModelScore]) {
     let hue = |k: usize| hues[k % hues.len()];
     let entries = scores.iter().enumerate().map(|(k, score)| Entry::new(score.name, hue(k), Sample::Line(2.0)));
     let name = "Distribution of errors";
-    key::over(ui, name, HEIGHT, entries, |ui, height| {
+    key::over(ui, HEIGHT, entries, |ui, height| {
         let plot = axes::plot(ui, "errors of models", height, "Relative error of {H_c}", "Contacts with no more / %")
-            .x_grid_spacer(axes::decade_marks)
-            .x_axis_formatter(|mark, _| axes::decade_label(mark))
+            .decades_x(8.0)
             .include_y(0.0)
             .include_y(100.0);
         axes::show(plot, ui, name, |plot| {

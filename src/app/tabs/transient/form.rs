@@ -194,11 +194,13 @@ fn preview(ui: &mut Ui, inputs: &Inputs, duration: f64) {
         ("Radius", palette.warning, LineStyle::dotted_dense()),
     ];
     let plot = axes::plot(ui, "transient inputs", 96.0, "", "")
+        .paper_x("{T}")
+        .paper_y("Input over its reference")
         .y_axis_min_width(36.0)
         // The bar that scrolls the form lies over its edge.
         .width(ui.available_width() - 14.0)
-        .x_grid_spacer(|input| axes::round_marks(input, 4.0))
-        .y_grid_spacer(|input| axes::round_marks(input, 2.0))
+        .marks_x(4.0)
+        .marks_y(2.0)
         .allow_zoom(false)
         .allow_drag(false)
         .include_y(0.95)

@@ -6,13 +6,13 @@ mod form;
 mod profiles;
 
 use super::in_time::{self, series};
-use super::space_time::SpaceTime;
+use super::space_time::{self, SpaceTime};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
-use crate::app::figure::{self, Subject};
 use crate::app::form::LastField;
-use crate::app::transient::{InTimeCommand, export};
-use egui::{Button, ScrollArea, Ui};
+use crate::app::tabs::take_away::Offer;
+use crate::app::transient::{InTimeCommand, TransientView, export};
+use egui::{ScrollArea, Ui};
 
 /// Width of the form.
 const FORM_WIDTH: f32 = 300.0;
@@ -30,6 +30,22 @@ pub struct Transient {
     last: LastField,
     along: series::Along,
     map: SpaceTime,
+}
+
+/// What can be taken away from it.
+pub fn offers<'a>(context: &Context<'a>) -> Vec<Offer<'a>> {
+    let view = context.transient;
+    let there = view.runs.iter().any(|run| !run.trajectory.moments.is_empty()).then_some(view);
+    type Text = fn(&TransientView) -> Option<String>;
+    let table = |name, tip, text: Text| {
+        Offer::table(name, tip, there, move |view: &&TransientView| text(view).unwrap_or_default())
+    };
+    let tip = "All moments of every run with their SI twins, each run in columns of its own";
+    vec![
+        table("Series as CSV…", tip, export::series),
+        table("Profiles as CSV…", "Pressure and film of every run at the moment that is shown", export::profiles),
+        space_time::offer(context),
+    ]
 }
 
 impl Transient {
@@ -71,46 +87,31 @@ impl Transient {
             return;
         }
         let rest = height - (ui.cursor().top() - top);
-        let all = ui.vertical(|ui| {
+        let wanted = ui.vertical(|ui| {
             in_time::grey_where_stale(ui, context, "contact in time");
             let room = rest - cost::height(view);
-            let wanted = self.plots(ui, context, commands, room);
+            let wanted = self.plots(ui, context, room);
             ui.allocate_ui([ui.available_width(), cost::height(view)].into(), |ui| {
                 ui.set_min_height(cost::height(view));
                 cost::ui(ui, view);
             });
             wanted
         });
-        figure::offer_of(ui, "Series and profiles", all.response.rect, Subject::InTime);
-        commands.extend(all.inner.map(|time| Command::InTime(InTimeCommand::GoTo(time))));
+        commands.extend(wanted.inner.map(|time| Command::InTime(InTimeCommand::GoTo(time))));
     }
 
     fn buttons(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-        let view = context.transient;
         ui.horizontal_wrapped(|ui| {
             ui.toggle_value(&mut self.form, "Set-up")
                 .on_hover_text("Shows what drives the contact, or leaves the room to plots");
             in_time::run_button(ui, context, commands);
-            let there = view.runs.iter().any(|run| !run.trajectory.moments.is_empty());
-            let tip = "All moments of every run with their SI twins, each run in columns of its own";
-            if ui.add_enabled(there, Button::new("Export series…")).on_hover_text(tip).clicked() {
-                commands.extend(export::series(view).map(Command::csv));
-            }
-            let tip = "Pressure and film of every run at the moment that is shown";
-            if ui.add_enabled(there, Button::new("Export profiles…")).on_hover_text(tip).clicked() {
-                commands.extend(export::profiles(view).map(Command::csv));
-            }
-            let tip = "Any of these plots, or the whole tab, as SVG or PNG with axes and parameters";
-            if ui.add_enabled(there, Button::new("Export plot…")).on_hover_text(tip).clicked() {
-                commands.push(Command::ExportPlot);
-            }
         });
     }
 }
 
 impl Transient {
     /// The contact over space and time beside its profiles, and the series below; returns the time that was clicked at.
-    fn plots(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands, height: f32) -> Option<f64> {
+    fn plots(&mut self, ui: &mut Ui, context: &Context<'_>, height: f32) -> Option<f64> {
         let view = context.transient;
         let several = view.setup.as_ref().is_some_and(|setup| setup.runs() > 1);
         let parts = if several { [0.5, 0.28, 0.22] } else { [0.58, 0.42, 0.0] };
@@ -118,14 +119,14 @@ impl Transient {
         let upper = upper.max(2.0 * LEAST_HEIGHT);
         let width = ui.available_width();
         let map = if width < SIDE_BY_SIDE {
-            let map = self.map.ui(ui, context, commands, upper);
+            let map = self.map.ui(ui, context, upper);
             profiles::ui(ui, view, context.fit, 0.5 * upper);
             map
         } else {
             let both = ui.horizontal_top(|ui| {
                 let map = ui.vertical(|ui| {
                     ui.set_width(0.5 * width);
-                    self.map.ui(ui, context, commands, upper)
+                    self.map.ui(ui, context, upper)
                 });
                 ui.vertical(|ui| profiles::ui(ui, view, context.fit, 0.5 * upper));
                 map.inner

@@ -1,13 +1,16 @@
 //! Pressure and film of every run at the moment that is looked at.
 
+use crate::app::figure::Canvas;
 use crate::app::numbers;
 use crate::app::tabs::axes;
 use crate::app::tabs::in_time::series::{drawn, marks, rows, style};
+use crate::app::tabs::plot_frame::PlotFrame;
 use crate::app::theme::{Palette, THIN_WIDTH};
 use crate::app::transient::{Run, TransientView};
+use crate::app::units::Scales;
 use crate::solver::full::transient::{Moment, Quantity};
 use egui::{Color32, Id, Ui, Vec2b};
-use egui_plot::{Line, LineStyle, PlotPoint, PlotPoints, PlotUi};
+use egui_plot::{Line, LineStyle, PlotPoint, PlotPoints};
 
 /// X range at first, as in the Profiles tab.
 const X_RANGE: (f64, f64) = (-2.2, 1.6);
@@ -26,8 +29,9 @@ pub fn ui(ui: &mut Ui, view: &TransientView, fit: bool, height: f32) {
         // The axis stays still while the profiles play.
         let id = format!("transient {name} {generation} {top}");
         axes::plot(ui, &id, height, titles.0, titles.1)
-            .x_grid_spacer(move |input| axes::round_marks(input, columns))
-            .y_grid_spacer(move |input| axes::round_marks(input, rows(height)))
+            .paper_x("{X}")
+            .marks_x(columns)
+            .marks_y(rows(height))
             .y_axis_min_width(54.0)
             .link_axis(Id::unique(("transient profiles", generation)), Vec2b::new(true, false))
             .link_cursor(Id::unique(("transient profiles", generation)), Vec2b::new(true, false))
@@ -35,8 +39,11 @@ pub fn ui(ui: &mut Ui, view: &TransientView, fit: bool, height: f32) {
             .default_x_bounds(X_RANGE.0, X_RANGE.1)
             .default_y_bounds(0.0, top)
     };
+    let scales = view.setup.as_ref().map(|setup| Scales::of(&setup.point));
     let pressure = stacked("profile of pressure", ("", "Pressure {P}"), most(Quantity::MaximumPressure));
+    let pressure = in_si(pressure, scales, |of| of.pressure_gpa, "Pressure {p} / GPa");
     let film = stacked("profile of film", ("{X}", "Film {H}"), 3.0 * most(Quantity::CentralFilm));
+    let film = in_si(film, scales, |of| of.film_um, "Film {h} / µm");
     axes::show(pressure, ui, "Pressure at this moment", |plot| {
         axes::fit(plot, fit);
         if let Some(moment) = view.runs.first().and_then(|run| moment_at(run, time)) {
@@ -50,13 +57,20 @@ pub fn ui(ui: &mut Ui, view: &TransientView, fit: bool, height: f32) {
     });
 }
 
+fn in_si<'a>(plot: PlotFrame<'a>, scales: Option<Scales>, unit: fn(Scales) -> f64, title: &str) -> PlotFrame<'a> {
+    match scales {
+        Some(scales) => plot.si_x(scales.length_mm, "{x} / mm").si_y(unit(scales), title),
+        None => plot,
+    }
+}
+
 fn moment_at(run: &Run, time: f64) -> Option<&Moment> {
     let state = run.state_at(time)?;
     run.trajectory.moments.iter().find(|moment| moment.time == state.time)
 }
 
 /// The dry contact of the moment, in the scales of the reference contact (4.1).
-fn hertz(plot: &mut PlotUi<'_>, moment: &Moment, palette: &Palette) {
+fn hertz(plot: &mut Canvas<'_, '_>, moment: &Moment, palette: &Palette) {
     let input = moment.input;
     let (half_width, top) = ((input.load * input.radius).sqrt(), (input.load / input.radius).sqrt());
     let shape = move |x: f64| top * (1.0 - (x / half_width).powi(2)).max(0.0).sqrt();
@@ -66,7 +80,7 @@ fn hertz(plot: &mut PlotUi<'_>, moment: &Moment, palette: &Palette) {
 }
 
 fn curves(
-    plot: &mut PlotUi<'_>,
+    plot: &mut Canvas<'_, '_>,
     view: &TransientView,
     time: f64,
     (color, palette): (Color32, &Palette),

@@ -1,0 +1,361 @@
+//! The window in which a figure gets its size, its theme, its words, and leaves.
+
+use super::with_sitting;
+use crate::app::controls::{message_ui, named};
+use crate::app::purpose::{Purpose, Written};
+use crate::app::tab::Tab;
+use crate::app::units::Units;
+use crate::scene::drawing::{DPI, Drawing, Pixels};
+use crate::scene::{Chart, Page, drawn};
+use egui::{
+    Color32, ColorImage, ComboBox, Context, DragValue, Id, Modal, TextEdit, TextureHandle, TextureOptions, Theme,
+    ThemePreference, Ui, vec2,
+};
+
+/// Widths of a column and of a page of journals \[mm\].
+const WIDTHS: [f64; 2] = [85.0, 170.0];
+/// Sizes that a figure can have \[mm\].
+const SIZES: (f64, f64) = (30.0, 500.0);
+/// Room for the preview on the screen.
+const PREVIEW: egui::Vec2 = vec2(430.0, 360.0);
+/// Room for what is set.
+const SETTINGS: f32 = 300.0;
+
+/// What stays from one figure to the next.
+#[derive(Clone, Debug, PartialEq)]
+struct Settings {
+    width_mm: f64,
+    height_mm: f64,
+    dpi: f64,
+    dark: bool,
+    units: Units,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        let Page { width_mm, height_mm, dark, .. } = Page::default();
+        Self { width_mm, height_mm, dpi: 300.0, dark, units: Units::default() }
+    }
+}
+
+/// Which of the plots leaves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Choice {
+    One(usize),
+    /// All of a tab, one below the other.
+    All(Tab),
+}
+
+/// The window.
+struct Dialog {
+    charts: Vec<(Tab, Chart)>,
+    choice: Choice,
+    title: String,
+    caption: String,
+    preview: Option<(Vec<Chart>, Page, Result<TextureHandle, String>)>,
+}
+
+/// Figures that are wanted.
+#[derive(Default)]
+pub struct Figures {
+    /// Plots are to be noted in the next frame: those of one tab, or all.
+    wanted: Option<Option<Tab>>,
+    /// They are noted in this one.
+    noting: bool,
+    settings: Settings,
+    dialog: Option<Dialog>,
+}
+
+/// What became of a figure.
+enum Leaves {
+    Svg,
+    Png,
+    Data,
+    Copy,
+}
+
+impl Figures {
+    /// Opens the window with the plots of one tab, or of all that are seen, in these units.
+    pub fn ask(&mut self, tab: Option<Tab>, units: Units) {
+        self.settings.units = units;
+        self.wanted = Some(tab);
+        self.dialog = None;
+    }
+
+    /// Whether the window is open, or about to be.
+    pub fn asks(&self) -> bool {
+        self.dialog.is_some() || self.wanted.is_some()
+    }
+
+    /// The units of plots in this frame, where a figure decides.
+    pub fn units(&self) -> Option<Units> {
+        self.noting.then_some(self.settings.units)
+    }
+
+    /// Begins a frame: one that is noted is drawn in the theme of the figure.
+    pub fn begin(&mut self, ui: &mut Ui) {
+        self.noting = self.wanted.is_some();
+        let ctx = ui.ctx().clone();
+        with_sitting(&ctx, |sitting| {
+            sitting.on = self.noting;
+            sitting.charts.clear();
+        });
+        if self.noting {
+            let theme = if self.settings.dark { Theme::Dark } else { Theme::Light };
+            ctx.set_theme(theme);
+            ui.set_style(ctx.style_of(theme));
+        }
+    }
+
+    /// Ends a frame: what was noted comes into the window, and nobody sees that frame. Then the window itself; returns
+    /// what is to be written. `caption` is said of the plots of a tab, `theme` is that of the screen.
+    pub fn ui(&mut self, ctx: &Context, theme: ThemePreference, caption: impl Fn(Tab) -> String) -> Option<Purpose> {
+        if std::mem::take(&mut self.noting) {
+            let of = self.wanted.take().flatten();
+            let charts = with_sitting(ctx, |sitting| {
+                sitting.on = false;
+                std::mem::take(&mut sitting.charts)
+            });
+            ctx.set_theme(theme);
+            self.noted(charts.into_iter().filter(|(tab, _)| of.is_none_or(|of| of == *tab)).collect(), &caption);
+            ctx.request_discard("a figure was drawn");
+            ctx.request_repaint();
+            return None;
+        }
+        let mut dialog = self.dialog.take()?;
+        let before = (self.settings.dark, self.settings.units);
+        let mut leaves = None;
+        let response = Modal::new(Id::unique("export a figure")).show(ctx, |ui| {
+            ui.heading("Export a figure");
+            if dialog.charts.is_empty() {
+                ui.label("No plot is on the screen.");
+                return ui.button("Cancel").clicked();
+            }
+            let close = ui.horizontal_top(|ui| {
+                let close = ui.vertical(|ui| {
+                    ui.set_width(SETTINGS);
+                    dialog.settings(ui, &mut self.settings, &caption);
+                    ui.add_space(6.0);
+                    buttons(ui, &dialog, &mut leaves)
+                });
+                dialog.preview(ui, &self.settings);
+                close.inner
+            });
+            close.inner
+        });
+        let purpose = leaves.and_then(|leaves| dialog.leave(ctx, &self.settings, leaves));
+        if !response.inner && !response.should_close() && purpose.is_none() {
+            if (self.settings.dark, self.settings.units) != before {
+                self.wanted = Some(None);
+                ctx.request_repaint();
+            }
+            self.dialog = Some(dialog);
+        }
+        purpose
+    }
+
+    /// Takes in what plots have drawn; what was chosen and written before stays.
+    fn noted(&mut self, charts: Vec<(Tab, Chart)>, caption: &impl Fn(Tab) -> String) {
+        let known = self.dialog.take().filter(|_| !charts.is_empty());
+        self.dialog = Some(match known {
+            Some(dialog) => {
+                let found = |k: usize| {
+                    let (tab, chart) = dialog.charts.get(k)?;
+                    charts.iter().position(|(other, same)| other == tab && same.title == chart.title)
+                };
+                let choice = match dialog.choice {
+                    Choice::One(k) => Choice::One(found(k).unwrap_or(0)),
+                    Choice::All(tab) => Choice::All(tab),
+                };
+                Dialog { charts, choice, ..dialog }
+            }
+            None => {
+                let first = charts.first();
+                let title = first.map_or_else(String::new, |(_, chart)| chart.title.clone());
+                let caption = first.map_or_else(String::new, |(tab, _)| caption(*tab));
+                Dialog { charts, choice: Choice::One(0), title, caption, preview: None }
+            }
+        });
+    }
+}
+
+fn buttons(ui: &mut Ui, dialog: &Dialog, leaves: &mut Option<Leaves>) -> bool {
+    ui.horizontal_wrapped(|ui| {
+        if ui.button("SVG…").on_hover_text("A drawing, sharp at any size").clicked() {
+            *leaves = Some(Leaves::Svg);
+        }
+        if ui.button("PNG…").on_hover_text("An image with the resolution above").clicked() {
+            *leaves = Some(Leaves::Png);
+        }
+        if ui.button("Copy").on_hover_text("The same image onto the clipboard").clicked() {
+            *leaves = Some(Leaves::Copy);
+        }
+        let one = matches!(dialog.choice, Choice::One(_));
+        let tip = "The numbers of its lines and marks as a table";
+        if ui.add_enabled(one, egui::Button::new("Data as CSV…")).on_hover_text(tip).clicked() {
+            *leaves = Some(Leaves::Data);
+        }
+        ui.button("Cancel").clicked()
+    })
+    .inner
+}
+
+impl Dialog {
+    /// What leaves: the chosen plot with its title, or all of a tab with their own.
+    fn chosen(&self) -> Vec<Chart> {
+        match self.choice {
+            Choice::One(k) => {
+                let chart = self.charts.get(k).map(|(_, chart)| Chart { title: self.title.clone(), ..chart.clone() });
+                chart.into_iter().collect()
+            }
+            Choice::All(wanted) => {
+                self.charts.iter().filter(|(tab, _)| *tab == wanted).map(|(_, chart)| chart.clone()).collect()
+            }
+        }
+    }
+
+    fn page(&self, settings: &Settings) -> Page {
+        let Settings { width_mm, height_mm, dark, .. } = *settings;
+        Page { width_mm, height_mm, dark, caption: self.caption.clone() }
+    }
+
+    fn drawing(&self, settings: &Settings) -> Drawing {
+        drawn(&self.chosen(), &self.page(settings))
+    }
+
+    fn name(&self, choice: Choice) -> String {
+        match choice {
+            Choice::One(k) => self.charts.get(k).map_or_else(String::new, |(_, chart)| chart.title.clone()),
+            Choice::All(tab) => format!("All plots of {}", tab.title()),
+        }
+    }
+
+    fn settings(&mut self, ui: &mut Ui, settings: &mut Settings, caption: &impl Fn(Tab) -> String) {
+        let mut tabs: Vec<Tab> = self.charts.iter().map(|(tab, _)| *tab).collect();
+        tabs.dedup();
+        let several = |tab: &Tab| self.charts.iter().filter(|(other, _)| other == tab).count() > 1;
+        let choices: Vec<Choice> =
+            (0..self.charts.len()).map(Choice::One).chain(tabs.into_iter().filter(several).map(Choice::All)).collect();
+        let before = self.choice;
+        let label = ui.label("Plot");
+        let mut choice = before;
+        ComboBox::from_id_salt("plot of the figure")
+            .width(SETTINGS - 12.0)
+            .selected_text(self.name(before))
+            .show_ui(ui, |ui| {
+                for other in choices {
+                    ui.selectable_value(&mut choice, other, self.name(other));
+                }
+            })
+            .response
+            .labelled_by(label.id);
+        if choice != before {
+            let tab = |choice: Choice| match choice {
+                Choice::One(k) => self.charts.get(k).map(|(tab, _)| *tab),
+                Choice::All(tab) => Some(tab),
+            };
+            if tab(choice) != tab(before) {
+                self.caption = tab(choice).map_or_else(String::new, caption);
+            }
+            self.choice = choice;
+            self.title = self.name(choice);
+        }
+        egui::Grid::new("settings of the figure").num_columns(2).show(ui, |ui| {
+            ui.label("Width");
+            ui.horizontal(|ui| {
+                size(ui, &mut settings.width_mm, "Width in mm");
+                for width in WIDTHS {
+                    ui.selectable_value(&mut settings.width_mm, width, format!("{width}"));
+                }
+            });
+            ui.end_row();
+            ui.label("Height");
+            size(ui, &mut settings.height_mm, "Height in mm");
+            ui.end_row();
+            ui.label("Resolution");
+            let dpi = DragValue::new(&mut settings.dpi).range(DPI.0..=DPI.1).suffix(" dpi");
+            let dpi = ui.add(dpi).on_hover_text("Of a PNG; a drawing has none");
+            named(ui, dpi, "Resolution in dpi");
+            ui.end_row();
+            ui.label("Theme");
+            ui.horizontal(|ui| {
+                ui.selectable_value(&mut settings.dark, false, "Light").on_hover_text("For paper");
+                ui.selectable_value(&mut settings.dark, true, "Dark").on_hover_text("For a dark slide");
+            });
+            ui.end_row();
+            ui.label("Units");
+            ui.horizontal(|ui| {
+                ui.selectable_value(&mut settings.units, Units::Dimensionless, "Dimensionless");
+                ui.selectable_value(&mut settings.units, Units::Si, "SI");
+            });
+            ui.end_row();
+        });
+        let label = ui.label("Title");
+        let one = matches!(self.choice, Choice::One(_));
+        ui.add_enabled(one, TextEdit::singleline(&mut self.title).desired_width(f32::INFINITY)).labelled_by(label.id);
+        let label = ui.label("Caption");
+        ui.add(TextEdit::multiline(&mut self.caption).desired_rows(4).desired_width(f32::INFINITY))
+            .labelled_by(label.id);
+    }
+
+    /// The figure as it will be, as large as there is room.
+    fn preview(&mut self, ui: &mut Ui, settings: &Settings) {
+        let (chosen, page) = (self.chosen(), self.page(settings));
+        let fits = self.preview.as_ref().is_some_and(|(of, on, _)| *of == chosen && *on == page);
+        if !fits {
+            let drawing = self.drawing(settings);
+            let [wide, high] = drawing.size();
+            let scale = (f64::from(PREVIEW.x) / wide).min(f64::from(PREVIEW.y) / high);
+            let dpi = 72.0 * scale * f64::from(ui.ctx().pixels_per_point());
+            let texture = drawing.to_pixels(dpi).map(|pixels| {
+                ui.ctx().load_texture("preview of a figure", color_image(&pixels), TextureOptions::LINEAR)
+            });
+            self.preview = Some((chosen, page, texture.map_err(|why| why.to_string())));
+        }
+        let (rect, response) = ui.allocate_exact_size(PREVIEW, egui::Sense::hover());
+        named(ui, response, "Preview of the figure");
+        match &self.preview {
+            Some((_, _, Ok(texture))) => {
+                let size = texture.size_vec2() / ui.ctx().pixels_per_point();
+                let place = egui::Rect::from_center_size(rect.center(), size);
+                let whole = egui::Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+                ui.painter().image(texture.id(), place, whole, Color32::WHITE);
+            }
+            Some((_, _, Err(why))) => message_ui(ui, why),
+            None => {}
+        }
+    }
+
+    fn leave(&self, ctx: &Context, settings: &Settings, leaves: Leaves) -> Option<Purpose> {
+        let drawing = self.drawing(settings);
+        match leaves {
+            Leaves::Svg => Some(Purpose::Write(Written::Svg, drawing.to_svg().into_bytes().into())),
+            Leaves::Png => {
+                let file = drawing.to_png(settings.dpi).ok()?;
+                Some(Purpose::Write(Written::Png, file.into()))
+            }
+            Leaves::Data => {
+                let chart = self.chosen().into_iter().next()?;
+                let text = format!("# {}\n# {}\n{}", chart.title, self.caption, chart.to_table().to_csv());
+                Some(Purpose::Write(Written::Table, text.into_bytes().into()))
+            }
+            Leaves::Copy => {
+                ctx.copy_image(color_image(&drawing.to_pixels(settings.dpi).ok()?));
+                None
+            }
+        }
+    }
+}
+
+fn size(ui: &mut Ui, mm: &mut f64, name: &str) {
+    let response = ui.add(DragValue::new(mm).range(SIZES.0..=SIZES.1).max_decimals(1).suffix(" mm"));
+    named(ui, response, name);
+}
+
+fn color_image(pixels: &Pixels) -> ColorImage {
+    let color = |rgb: &[u8]| match rgb {
+        [r, g, b] => Color32::from_rgb(*r, *g, *b),
+        _ => Color32::TRANSPARENT,
+    };
+    ColorImage::new([pixels.width, pixels.height()], pixels.rgb.chunks_exact(3).map(color).collect())
+}

@@ -1,0 +1,157 @@
+//! Arrays for other programs: one archive (`.npz`) that `numpy.load` reads, of files (`.npy`, version 1.0) of numbers of
+//! eight bytes, neither compressed nor aligned.
+
+/// An array with a name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Array {
+    /// Its name, in letters, digits and `_`.
+    pub name: String,
+    /// How long it is along each of its axes, the last one running fastest.
+    pub shape: Vec<usize>,
+    /// Its numbers.
+    pub values: Vec<f64>,
+}
+
+impl Array {
+    /// A list of numbers.
+    pub fn list(name: impl Into<String>, values: Vec<f64>) -> Self {
+        Self { name: name.into(), shape: vec![values.len()], values }
+    }
+
+    /// Rows of equal length; an empty table has no columns.
+    pub fn rows<R: AsRef<[f64]>>(name: impl Into<String>, rows: &[R]) -> Self {
+        let columns = rows.first().map_or(0, |row| row.as_ref().len());
+        let values = rows.iter().flat_map(|row| row.as_ref()).copied().collect();
+        Self { name: name.into(), shape: vec![rows.len(), columns], values }
+    }
+
+    /// The array as a file of its own.
+    fn to_npy(&self) -> Vec<u8> {
+        let shape: String = self.shape.iter().map(|length| format!("{length}, ")).collect();
+        let mut header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}), }}", shape.trim_end());
+        // Magic, version, length and header together fill whole lines of 64 bytes, the last of them a line break.
+        let blanks = 64 - (10 + header.len() + 1) % 64;
+        header.push_str(&" ".repeat(blanks % 64));
+        header.push('\n');
+        let mut file = b"\x93NUMPY\x01\x00".to_vec();
+        file.extend((header.len() as u16).to_le_bytes());
+        file.extend(header.as_bytes());
+        file.extend(self.values.iter().flat_map(|value| value.to_le_bytes()));
+        file
+    }
+}
+
+/// The archive of some arrays. Names must differ.
+pub fn npz(arrays: &[Array]) -> Vec<u8> {
+    let mut file = Vec::new();
+    let mut directory = Vec::new();
+    for array in arrays {
+        let (name, content) = (format!("{}.npy", array.name), array.to_npy());
+        let (at, size) = (file.len() as u32, content.len() as u32);
+        // What an entry and its line in the directory have in common: version 2.0, no flags, stored, the first of
+        // January 1980, checksum, both sizes, length of the name, nothing more.
+        let mut common = Vec::new();
+        [20u16, 0, 0, 0, 0x21].iter().for_each(|word| common.extend(word.to_le_bytes()));
+        [crc32fast::hash(&content), size, size].iter().for_each(|word| common.extend(word.to_le_bytes()));
+        [name.len() as u16, 0].iter().for_each(|word| common.extend(word.to_le_bytes()));
+        file.extend(b"PK\x03\x04");
+        file.extend(&common);
+        file.extend(name.as_bytes());
+        file.extend(&content);
+        directory.extend(b"PK\x01\x02");
+        directory.extend(20u16.to_le_bytes());
+        directory.extend(&common);
+        // No remark, the first volume, no attributes, where the entry begins.
+        directory.extend([0; 10]);
+        directory.extend(at.to_le_bytes());
+        directory.extend(name.as_bytes());
+    }
+    let (begin, size, count) = (file.len() as u32, directory.len() as u32, arrays.len() as u16);
+    file.extend(directory);
+    file.extend(b"PK\x05\x06");
+    file.extend([0; 4]);
+    file.extend([count, count].iter().flat_map(|count| count.to_le_bytes()));
+    file.extend(size.to_le_bytes());
+    file.extend(begin.to_le_bytes());
+    file.extend([0; 2]);
+    file
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::process::Command;
+
+    fn arrays() -> [Array; 3] {
+        [
+            Array::rows("modes", &[[1.5, -2.0, 0.1], [f64::MIN_POSITIVE, f64::NAN, 4.0]]),
+            Array::list("singular_values", (0..40).map(f64::from).collect()),
+            Array::rows::<Vec<f64>>("nothing", &[]),
+        ]
+    }
+
+    /// Entries by the directory at the end: names and contents.
+    fn entries(file: &[u8]) -> Vec<(String, Vec<u8>)> {
+        let word = |at: usize| usize::from(u16::from_le_bytes(file[at..at + 2].try_into().unwrap()));
+        let long = |at: usize| u32::from_le_bytes(file[at..at + 4].try_into().unwrap()) as usize;
+        let end = file.len() - 22;
+        assert_eq!(&file[end..end + 4], b"PK\x05\x06");
+        let mut at = long(end + 16);
+        let mut found = Vec::new();
+        for _ in 0..word(end + 10) {
+            assert_eq!(&file[at..at + 4], b"PK\x01\x02");
+            let (crc, size, name, entry) = (long(at + 16), long(at + 24), word(at + 28), long(at + 42));
+            let title = String::from_utf8(file[at + 46..at + 46 + name].to_vec()).unwrap();
+            assert_eq!(&file[entry..entry + 4], b"PK\x03\x04");
+            let begin = entry + 30 + word(entry + 26) + word(entry + 28);
+            let content = file[begin..begin + size].to_vec();
+            assert_eq!(crc32fast::hash(&content) as usize, crc, "{title}");
+            found.push((title, content));
+            at += 46 + name;
+        }
+        assert_eq!(at, end);
+        found
+    }
+
+    #[test]
+    fn an_archive_holds_every_array_to_the_last_bit() {
+        let found = entries(&npz(&arrays()));
+        assert_eq!(found.len(), 3);
+        for (array, (name, content)) in arrays().iter().zip(found) {
+            assert_eq!(name, format!("{}.npy", array.name));
+            assert_eq!(&content[..8], b"\x93NUMPY\x01\x00");
+            let length = usize::from(u16::from_le_bytes([content[8], content[9]]));
+            assert_eq!((10 + length) % 64, 0);
+            let header = std::str::from_utf8(&content[10..10 + length]).unwrap();
+            let shape: Vec<String> = array.shape.iter().map(|length| format!("{length},")).collect();
+            assert!(header.contains(&format!("'shape': ({})", shape.join(" "))) && header.ends_with('\n'), "{header}");
+            let values = content[10 + length..].chunks(8).map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap()));
+            let same = |(a, b): (f64, &f64)| a.to_bits() == b.to_bits();
+            assert_eq!(values.len(), array.values.len());
+            assert!(values.zip(&array.values).all(same), "{name}");
+        }
+    }
+
+    #[test]
+    fn other_programs_read_it() {
+        let path = std::env::temp_dir().join(format!("ehl-arrays-{}.npz", std::process::id()));
+        std::fs::write(&path, npz(&arrays())).unwrap();
+        // Python's own reader of archives judges sizes and checksums; numpy, where it is there, the arrays as well.
+        let program = "\
+import sys, zipfile, ast\n\
+with zipfile.ZipFile(sys.argv[1]) as archive:\n    \
+    assert archive.testzip() is None\n    \
+    head = archive.read('modes.npy')\n    \
+    assert ast.literal_eval(head[10:128].decode().strip())['shape'] == (2, 3)\n\
+try:\n    import numpy\nexcept ImportError:\n    sys.exit(0)\n\
+arrays = numpy.load(sys.argv[1])\n\
+assert arrays['modes'].shape == (2, 3) and arrays['modes'][0, 1] == -2.0\n\
+assert (arrays['singular_values'] == numpy.arange(40.0)).all() and arrays['nothing'].size == 0\n";
+        let run = Command::new("python3").args(["-c", program]).arg(&path).output();
+        std::fs::remove_file(&path).unwrap();
+        // Without Python there is nobody to ask.
+        if let Ok(run) = run {
+            assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+        }
+    }
+}

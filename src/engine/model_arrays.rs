@@ -1,0 +1,132 @@
+//! What reduced models are made of, as arrays for other programs.
+
+use super::arrays::Array;
+use crate::solver::reduced::tpwl::TpwlModel;
+use crate::solver::reduced::{PodBasis, ReducedModel};
+use faer::Mat;
+
+/// A matrix by rows.
+fn matrix(name: String, of: &Mat<f64>) -> Array {
+    let values = of.row_iter().flat_map(|row| row.iter().copied().collect::<Vec<f64>>()).collect();
+    Array { name, shape: vec![of.nrows(), of.ncols()], values }
+}
+
+fn basis(prefix: &str, of: &PodBasis) -> [Array; 2] {
+    [
+        matrix(format!("{prefix}_modes"), &of.modes),
+        Array::list(format!("{prefix}_singular_values"), of.singular_values.clone()),
+    ]
+}
+
+/// Every window of a model, its names beginning with `window_1_` and so on: `m` (from, to), `xi` and `y` of the nodes
+/// (X over the reference half width, Y), quadrature `weights`, `pressure_modes` and `deformation_modes` (nodes × modes)
+/// with their `_singular_values`, `sampled_nodes` (from 0), `reconstruction` (modes × rows), and of the snapshots
+/// `snapshots` (M, L, R, u_m, w, E′, η₀, α, SRR, H₀, H_c) with `snapshot_coefficients`.
+pub fn of_model(model: &ReducedModel) -> Vec<Array> {
+    let mut arrays = Vec::new();
+    for (k, window) in model.windows.iter().enumerate() {
+        let name = |what: &str| format!("window_{}_{what}", k + 1);
+        let grid = &window.grid;
+        let places: Vec<(f64, f64)> = (0..grid.weights().len()).map(|node| grid.place(node)).collect();
+        let sampled = window.sampled_rows.iter().map(|row| grid.node(*row) as f64).collect();
+        arrays.extend([
+            Array::list(name("m"), vec![window.m.0, window.m.1]),
+            Array::list(name("xi"), places.iter().map(|place| place.0).collect()),
+            Array::list(name("y"), places.iter().map(|place| place.1).collect()),
+            Array::list(name("weights"), grid.weights().to_vec()),
+        ]);
+        arrays.extend(basis(&name("pressure"), &window.pressure));
+        arrays.extend(basis(&name("deformation"), &window.deformation));
+        arrays.push(Array::list(name("sampled_nodes"), sampled));
+        arrays.push(matrix(name("reconstruction"), &window.reconstruction));
+        let snapshots: Vec<Vec<f64>> = window
+            .snapshots
+            .iter()
+            .map(|snapshot| {
+                let (point, moes) = (&snapshot.point, snapshot.point.moes());
+                let sliding = point.sliding.slide_to_roll_ratio;
+                let own = [sliding, snapshot.h_0, snapshot.h_c];
+                [moes.m, moes.l].into_iter().chain(point.quantities()).chain(own).collect()
+            })
+            .collect();
+        arrays.push(Array::rows(name("snapshots"), &snapshots));
+        let coefficients: Vec<&[f64]> = window.snapshots.iter().map(|s| s.coefficients.as_slice()).collect();
+        arrays.push(Array::rows(name("snapshot_coefficients"), &coefficients));
+    }
+    arrays
+}
+
+/// A linearised model: `x` and quadrature `weights` of the nodes, `pressure_modes` and `deformation_modes` (nodes ×
+/// modes), `singular_values`, and of the operating points `points` (trajectory from 1, reference load, T, R, u, w over
+/// their references, spacing), `states` (p̃, H₀), and the linearised systems (4.27), points × state × columns:
+/// `storage_by_state`, `storage_by_input`, `flux_by_state`, `flux_by_input`, with `storage` and `flux` at the points.
+pub fn of_linearised(model: &TpwlModel) -> Vec<Array> {
+    let (space, points) = (&model.space, &model.points);
+    let states: Vec<&[f64]> = points.iter().map(|point| point.moment.state.as_slice()).collect();
+    let rows: Vec<Vec<f64>> = points
+        .iter()
+        .map(|point| {
+            let input = point.moment.input;
+            let load = model.sets.get(point.set).map_or(f64::NAN, |set| set.problem.point.load);
+            let place = [(point.trajectory + 1) as f64, load, point.moment.time];
+            place.into_iter().chain([input.radius, input.speed, input.load, point.spacing]).collect()
+        })
+        .collect();
+    let mut arrays = vec![
+        Array::list("x", space.grid.x.clone()),
+        Array::list("weights", space.grid.weights.clone()),
+        matrix("pressure_modes".to_owned(), &space.pressure),
+        matrix("deformation_modes".to_owned(), &space.deformation),
+        Array::list("singular_values", model.singular_values.clone()),
+        Array::rows("points", &rows),
+        Array::rows("states", &states),
+    ];
+    for (name, of) in [("storage", 0), ("flux", 1)] {
+        let systems = || points.iter().map(|point| if of == 0 { &point.system.storage } else { &point.system.flux });
+        let values: Vec<&[f64]> = systems().map(|system| system.value.as_slice()).collect();
+        arrays.push(Array::rows(name, &values));
+        arrays.push(stacked(format!("{name}_by_state"), systems().map(|system| &system.by_state)));
+        arrays.push(stacked(format!("{name}_by_input"), systems().map(|system| &system.by_input)));
+    }
+    arrays
+}
+
+/// Matrices of one size, one after the other.
+fn stacked<'a>(name: String, matrices: impl Iterator<Item = &'a Mat<f64>>) -> Array {
+    let mut stack = Array { name, shape: vec![0, 0, 0], values: Vec::new() };
+    for (k, of) in matrices.enumerate() {
+        let Array { shape, values, .. } = matrix(String::new(), of);
+        stack.shape = std::iter::once(k + 1).chain(shape).collect();
+        stack.values.extend(values);
+    }
+    stack
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::model_file;
+
+    #[test]
+    fn a_basis_leaves_whole_and_orthonormal() {
+        let model = model_file::embedded().unwrap();
+        let arrays = of_model(&model);
+        let of = |name: &str| arrays.iter().find(|array| array.name == name).unwrap();
+        let (modes, weights) = (of("window_1_pressure_modes"), of("window_1_weights"));
+        let [nodes, columns] = modes.shape[..] else { panic!("{:?}", modes.shape) };
+        assert_eq!(nodes, weights.values.len());
+        let product = |a: usize, b: usize| -> f64 {
+            let at = |i: usize, k: usize| modes.values[i * columns + k];
+            (0..nodes).map(|i| weights.values[i] * at(i, a) * at(i, b)).sum()
+        };
+        assert!((product(0, 0) - 1.0).abs() < 1e-9 && product(0, 1).abs() < 1e-9, "orthonormal under the weights");
+        let snapshots = of("window_1_snapshots");
+        assert_eq!(snapshots.shape, [model.windows[0].snapshots.len(), 11]);
+        assert_eq!(of("window_1_snapshot_coefficients").shape[0], snapshots.shape[0]);
+        assert_eq!(of("window_1_sampled_nodes").values.len(), model.windows[0].sampled_rows.len());
+        let mut names: Vec<&str> = arrays.iter().map(|array| array.name.as_str()).collect();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), arrays.len(), "no name twice");
+    }
+}

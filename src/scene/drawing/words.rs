@@ -1,0 +1,138 @@
+//! Words with symbols, and how much room they take.
+
+use skrifa::instance::{LocationRef, Size};
+use skrifa::{FontRef, MetadataProvider as _};
+
+/// Size of a subscript over that of its symbol.
+pub(super) const SUBSCRIPT: f64 = 0.72;
+/// How far a subscript stands below, over the size of its symbol.
+pub(super) const LOWERED: f64 = 0.22;
+/// Width of a letter over its size, about; a little more than most have.
+const LETTER_WIDTH: f64 = 0.56;
+
+/// A piece of words in one look.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Piece {
+    pub text: String,
+    pub italic: bool,
+    pub subscript: bool,
+}
+
+/// A line of words in which symbols are slanted and subscripts stand below.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Words(Vec<Piece>);
+
+impl Words {
+    /// Words as they are.
+    pub fn plain(text: impl Into<String>) -> Self {
+        Self(vec![Piece { text: text.into(), italic: false, subscript: false }])
+    }
+
+    /// Words with symbols in braces: `Pressure {P} = {p}/{p_H}`.
+    pub fn marked(text: &str) -> Self {
+        let mut words = Self::default();
+        let mut rest = text;
+        while let Some((before, after)) = rest.split_once('{') {
+            words.push(before, false, false);
+            let (inside, behind) = after.split_once('}').unwrap_or((after, ""));
+            let (base, subscript) = inside.split_once('_').unwrap_or((inside, ""));
+            words.push(base, base.starts_with(|c: char| c.is_ascii_alphabetic()), false);
+            words.push(subscript, false, true);
+            rest = behind;
+        }
+        words.push(rest, false, false);
+        words
+    }
+
+    /// Adds a piece of one look.
+    pub fn push(&mut self, text: &str, italic: bool, subscript: bool) {
+        if !text.is_empty() {
+            self.0.push(Piece { text: text.to_owned(), italic, subscript });
+        }
+    }
+
+    pub(super) fn pieces(&self) -> &[Piece] {
+        &self.0
+    }
+
+    /// Without looks; a subscript stands behind a `_`.
+    pub fn text(&self) -> String {
+        let piece = |piece: &Piece| if piece.subscript { format!("_{}", piece.text) } else { piece.text.clone() };
+        self.0.iter().map(piece).collect()
+    }
+
+    /// How long they are with letters of a size, both in the same unit.
+    pub fn length(&self, size: f64) -> f64 {
+        self.0.iter().map(|piece| piece.length(size)).sum()
+    }
+}
+
+impl Piece {
+    /// The size of its letters where those of others have `size`.
+    pub fn size(&self, size: f64) -> f64 {
+        if self.subscript { SUBSCRIPT * size } else { size }
+    }
+
+    /// How long it is.
+    pub fn length(&self, size: f64) -> f64 {
+        let size = self.size(size);
+        let Some(font) = font() else { return self.text.chars().count() as f64 * LETTER_WIDTH * size };
+        let (letters, widths) = (font.charmap(), font.glyph_metrics(Size::new(size as f32), LocationRef::default()));
+        let width = |letter: char| letters.map(letter).and_then(|glyph| widths.advance_width(glyph));
+        self.text.chars().map(|letter| width(letter).map_or(LETTER_WIDTH * size, f64::from)).sum()
+    }
+}
+
+/// The letters that the program ships.
+pub(super) fn font() -> Option<FontRef<'static>> {
+    FontRef::new(epaint_default_fonts::UBUNTU_LIGHT).ok()
+}
+
+/// Text in lines of at most a width, with letters of a size, both in the same unit; broken between words.
+pub fn wrapped(text: &str, size: f64, width: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        let longer = lines.last().map(|line| format!("{line} {word}"));
+        match (lines.last_mut(), longer) {
+            (Some(line), Some(longer)) if Words::plain(&longer).length(size) <= width => *line = longer,
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_broken_between_words_and_lose_none() {
+        let text = "M 40.00, L 10.00, R 3.000 mm, w 200000 N/m";
+        let lines = wrapped(text, 8.0, 70.0);
+        assert!(lines.len() > 2 && lines.iter().all(|line| Words::plain(line).length(8.0) <= 70.0), "{lines:?}");
+        assert_eq!(lines.join(" "), text);
+    }
+
+    #[test]
+    fn symbols_are_slanted_and_subscripts_are_small() {
+        let words = Words::marked("Pressure {P} = {p}/{p_H}");
+        assert_eq!(words.text(), "Pressure P = p/p_H");
+        let looks: Vec<(bool, bool)> = words.pieces().iter().map(|piece| (piece.italic, piece.subscript)).collect();
+        assert_eq!(
+            looks,
+            [
+                (false, false),
+                (true, false),
+                (false, false),
+                (true, false),
+                (false, false),
+                (true, false),
+                (false, true)
+            ]
+        );
+        assert!(Words::marked("{σ}").pieces().iter().all(|piece| !piece.italic));
+        // As long as their letters: a wide one takes more room than a narrow one, a larger one more than a small one.
+        let [wide, narrow] = ["MMM", "iii"].map(|text| Words::plain(text).length(8.0));
+        assert!(wide > 2.0 * narrow && (Words::plain("MMM").length(16.0) / wide - 2.0).abs() < 1e-3);
+    }
+}
