@@ -19,7 +19,7 @@ const NUMBER_ROOM: Vec2 = vec2(60.0, 20.0);
 /// Points of a curve beyond which only the extremes of neighbouring ones are drawn.
 const MOST_POINTS: usize = 3000;
 
-/// A plot in the explorer's manner with axis titles that may hold symbols (see [`rich`]); an empty title is left out.
+/// A plot in the explorer's manner with axis titles that may hold symbols (see `rich`); an empty title is left out.
 pub fn plot<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> PlotFrame<'a> {
     let columns = f64::from(ui.available_width() / LABEL_ROOM).clamp(2.0, 9.0);
     // A number that is shown is shown in full: one that has too little room is left out, not faint.
