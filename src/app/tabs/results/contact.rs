@@ -33,6 +33,7 @@ fn quantities(picture: &Picture) -> Vec<Quantity> {
     let film = |h: f64| numbers::length(h * point.film_scale_m());
     let place = |x: f64| numbers::length(x * hertz.half_width_m);
     let pressure = |p: f64| numbers::pressure(p * hertz.pressure_pa);
+    let rolling = picture.solution.rolling_resistance();
     let one = |name, symbol, tip, value, si| Quantity { name, symbol, tip, value, si };
     vec![
         one("Central film {H_c}", "H_c", "Film at X = 0, and Y = 0; H = hR/a² (2.22)", s.h_c, film(s.h_c)),
@@ -43,9 +44,19 @@ fn quantities(picture: &Picture) -> Vec<Quantity> {
         one("at {X}", "X_P_max", "Where the pressure is largest", s.x_p_max, place(s.x_p_max)),
         one("Displacement {H_0}", "H_0", "Of both bodies, with the kernel of (2.27) or (2.25)", s.h_0, String::new()),
         one("Traction coefficient {µ}", "traction", TRACTION, picture.traction, friction(picture)),
+        one(
+            "Rolling resistance",
+            "rolling_resistance_over_load",
+            ROLLING,
+            rolling / point.load,
+            force(rolling, point.kind),
+        ),
         one("Load left over", "load_residual", "Of the load, relative to it", s.load_residual, String::new()),
     ]
 }
+
+/// What rolling resistance is.
+const ROLLING: &str = "½∫h dp of each body, over the load: what rolling costs even where nothing slides";
 
 /// What traction is.
 const TRACTION: &str = "Shear stress at mid-film over the whole domain, over the load (3.41); none in pure rolling";
@@ -53,10 +64,14 @@ const TRACTION: &str = "Shear stress at mid-film over the whole domain, over the
 /// The friction force.
 fn friction(picture: &Picture) -> String {
     let force = picture.traction * picture.key.point.load;
-    match (picture.unphysical, picture.key.point.kind) {
-        (Some(doubt), _) => doubt.mark().to_owned(),
-        (None, ContactKind::Line) => numbers::quantity(1e-3 * force, "N/mm"),
-        (None, ContactKind::Point) => numbers::quantity(force, "N"),
+    picture.unphysical.map_or_else(|| self::force(force, picture.key.point.kind), |doubt| doubt.mark().to_owned())
+}
+
+/// A force, or one per length of a line contact.
+fn force(newtons: f64, kind: ContactKind) -> String {
+    match kind {
+        ContactKind::Line => numbers::quantity(1e-3 * newtons, "N/mm"),
+        ContactKind::Point => numbers::quantity(newtons, "N"),
     }
 }
 
