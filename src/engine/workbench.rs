@@ -19,8 +19,8 @@ const CAUTIOUS: &str = "the rupture front went to and fro between two sets of no
     node";
 
 /// What a reduced answer says where complementarity is asked for.
-const PENALISED: &str = "the reduced model ruptures the film by the penalty that it was trained with, not by complementarity; that moves H_c \
-    by some 1e-7";
+const PENALISED: &str = "the reduced model ruptures the film by the penalty that it was trained with, not by \
+    complementarity; that moves H_c by some 1e-7";
 
 /// The store as one job uses it: with the folder that its paths refer to, and reduced solvers that remember only what
 /// this job has solved.

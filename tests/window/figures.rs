@@ -3,7 +3,7 @@
 
 use crate::common::scratch::Scratch;
 use crate::driver::{
-    Table, Window, click, export, export_plot, give_path, press, set, shows, wait, wait_until, window, write,
+    TABS, Table, Window, click, export, export_plot, give_path, press, set, shows, wait, wait_until, window, write,
 };
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
@@ -13,20 +13,6 @@ use ehl_explorer::engine::{Workbench, run_scene};
 use ehl_explorer::scene::{Grid, Scene};
 use std::path::Path;
 use std::time::Duration;
-
-/// The tabs.
-const TABS: [&str; 10] = [
-    "Profiles",
-    "Contact map",
-    "Regimes",
-    "Traction",
-    "Reduced basis",
-    "Accuracy",
-    "Training",
-    "Transient",
-    "TPWL",
-    "Results",
-];
 
 fn open() -> Window {
     let explorer = Explorer::new(Some(ehl_explorer::engine::model_file::embedded().unwrap()));

@@ -56,7 +56,7 @@ pub struct System<S: NewtonSpace> {
     /// Where the film has ruptured, where no penalty holds it.
     pub active: ActiveSet,
     /// Widths along X of the unknowns' cells, one per abscissa that has unknowns.
-    pub(super) widths: Vec<f64>,
+    widths: Vec<f64>,
     scaling: Vec<f64>,
     pub(super) step: Vec<f64>,
     pub(super) step_deformation: Vec<f64>,
@@ -157,7 +157,7 @@ impl<S: NewtonSpace> System<S> {
     }
 
     /// Evaluates all rows by the nodes of the last evaluation. Returns the residual norm.
-    pub(super) fn evaluate_rows(&mut self, penalty: f64) -> f64 {
+    fn evaluate_rows(&mut self, penalty: f64) -> f64 {
         let Self { space, nodes, rows, active, thinning, .. } = self;
         let nodes = &*nodes;
         let penalty = if active.holds() { 0.0 } else { penalty };
@@ -214,8 +214,7 @@ impl<S: NewtonSpace> System<S> {
             report.newton_iterations += 1;
             let before = residual;
             let Taken { size, shift, residual: after } = S::step(self, problem, options, &mut memory, before);
-            let evaluate = |system: &mut Self| system.evaluate(problem, options.penalty);
-            let (still, after) = self.renew_rupture(options.penalty, after, evaluate);
+            let (still, after) = self.renew_rupture(problem, options.penalty, after);
             residual = after;
             report.steps.push(size);
             observer.newton_step(&NewtonStep { iteration: report.newton_iterations, residual: before, step: size });
@@ -269,12 +268,7 @@ impl<S: NewtonSpace> System<S> {
 
     /// Lets the ruptured set follow a Newton step: nodes whose pressure fell below zero join it, others leave by
     /// [`ActiveSet::release`]. Returns whether the set is as before, and the residual norm, which was `residual`.
-    pub(super) fn renew_rupture(
-        &mut self,
-        penalty: f64,
-        residual: f64,
-        evaluate: impl Fn(&mut Self) -> f64,
-    ) -> (bool, f64) {
+    fn renew_rupture(&mut self, problem: &Problem, penalty: f64, residual: f64) -> (bool, f64) {
         if !self.active.holds() {
             return (true, residual);
         }
@@ -285,7 +279,7 @@ impl<S: NewtonSpace> System<S> {
             *ruptured |= pressure[space.grid().node(k)] < 0.0;
         }
         if self.rise_to_zero() {
-            residual = evaluate(self);
+            residual = self.evaluate(problem, penalty);
         }
         let lines = self.space.grid().column_unknowns();
         if self.active.release(&self.widths, lines) {
