@@ -6,6 +6,7 @@ use crate::engine::arrays::npz;
 use crate::engine::{EngineError, model_arrays, model_file};
 use crate::scene::atomic_file;
 use crate::solver::discrete::grid::GridSpec;
+use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::ReducedModel;
 use std::fmt::Write;
 use std::path::Path;
@@ -57,13 +58,16 @@ pub fn describe(model: &ReducedModel) -> String {
         };
         let _ = writeln!(
             text,
-            "  window M {}…{}: {grid}; {} snapshots, {} ({:?}), γ̄ {:e}",
+            "  window M {}…{}: {grid}; {} snapshots, {} ({:?}), {}",
             window.m.0,
             window.m.1,
             window.snapshots.len(),
             window.size(),
             window.sampling,
-            window.penalty
+            match window.cavitation {
+                Cavitation::Penalty => format!("γ̄ {:e}", window.penalty),
+                other => other.name().to_owned(),
+            }
         );
     }
     for line in &model.log {

@@ -49,6 +49,15 @@ pub enum CavitationName {
     Complementarity,
 }
 
+impl From<CavitationName> for Cavitation {
+    fn from(name: CavitationName) -> Self {
+        match name {
+            CavitationName::Penalty => Self::Penalty,
+            CavitationName::Complementarity => Self::Complementarity,
+        }
+    }
+}
+
 /// An operating point and how it is solved. SI units throughout.
 #[derive(Clone, Debug, Args)]
 pub struct PointOptions {
@@ -248,10 +257,7 @@ impl PointOptions {
         }
         lubricant.density = self.density.unwrap_or(lubricant.density);
         lubricant.viscosity = self.pressure_viscosity.unwrap_or(lubricant.viscosity);
-        lubricant.cavitation = match self.cavitation {
-            CavitationName::Penalty => Cavitation::Penalty,
-            CavitationName::Complementarity => Cavitation::Complementarity,
-        };
+        lubricant.cavitation = self.cavitation.into();
         let method = self.method()?;
         let sliding = Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: self.npr };
         let point = OperatingPoint { sliding, ..self.point(&lubricant)? };

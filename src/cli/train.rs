@@ -2,11 +2,13 @@
 //! written, so that the same command goes on where a killed one stopped.
 
 use super::failure::Failure;
+use super::options::CavitationName;
 use super::output::{self, ProgressLine};
 use super::{Verdict, info};
 use crate::engine::training_file::{self, TrainingKeeper};
 use crate::engine::{EngineError, model_file};
-use crate::scene::{Scene, Study};
+use crate::scene::Scene;
+use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::training::{Observer, Progress, TrainingObserver, TrainingState, train_resumable};
 use clap::Args;
 use std::path::PathBuf;
@@ -20,11 +22,16 @@ pub struct TrainArgs {
     /// Write the model here
     #[arg(long, value_name = "FILE.rom")]
     out: PathBuf,
+    /// How films rupture, in place of what the scene says
+    #[arg(long, value_enum)]
+    cavitation: Option<CavitationName>,
 }
 
 /// Runs the command.
 pub fn run(args: &TrainArgs) -> Result<Verdict, Failure> {
-    let Study::Training(spec) = Scene::read(&args.scene)?.study else {
+    let mut scene = Scene::read(&args.scene)?;
+    scene.cavitation = args.cavitation.map_or(scene.cavitation, Cavitation::from);
+    let Some(spec) = scene.training() else {
         return Err(EngineError::NoTraining { path: args.scene.clone() }.into());
     };
     let kept = training_file::beside(&args.out);

@@ -18,8 +18,10 @@ pub(super) struct Format {
     pub magic: &'static [u8; 8],
     /// The version that is written.
     pub version: u32,
-    /// The oldest version that is read. In those before the one that is written only the payload is under the hash.
+    /// The oldest version that is read.
     pub oldest: u32,
+    /// The version from which the header is under the hash, and not the payload alone.
+    pub whole_hash: u32,
     /// Largest payload that is read \[bytes\].
     pub max_payload: u64,
 }
@@ -80,7 +82,7 @@ impl Format {
         let cut = Flaw::Truncated { found: bytes.len() as u64, wanted: announced + HEADER as u64 };
         let payload = usize::try_from(announced).ok().and_then(|length| rest.get(..length)).ok_or(cut)?;
         let own = match version(bytes) {
-            found if found < self.version => xxh3_64(payload),
+            found if found < self.whole_hash => xxh3_64(payload),
             _ => hash(bytes.get(..BEFORE_HASH).unwrap_or_default(), payload),
         };
         if rest.len() == payload.len() && u64_at(bytes, BEFORE_HASH) == Some(own) {

@@ -9,9 +9,12 @@ use crate::solver::reduced::ReducedModel;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-const VERSION: u32 = 7;
+const VERSION: u32 = 8;
+/// Before it no model said how its films rupture: by the penalty.
+const OLDEST: u32 = 6;
 /// Real models have a few MB.
-const FORMAT: Format = Format { magic: b"EHLROM\r\n", version: VERSION, oldest: VERSION - 1, max_payload: 512 << 20 };
+const FORMAT: Format =
+    Format { magic: b"EHLROM\r\n", version: VERSION, oldest: OLDEST, whole_hash: 7, max_payload: 512 << 20 };
 
 /// The models that are part of the program: of a kind of contact, for a lubricant that thins under shear or not. Each is trained by a scene.
 static EMBEDDED: [((ContactKind, bool), &[u8]); 4] = [
@@ -180,6 +183,10 @@ pub fn from_bytes(bytes: &[u8]) -> Result<ReducedModel, ModelFileError> {
 mod tests {
     use super::*;
     use crate::engine::checked_file::HEADER;
+    use crate::solver::physics::lubricant::Cavitation;
+    use crate::solver::reduced::Sampling;
+    use crate::solver::training::small::line;
+    use crate::solver::training::train;
 
     #[test]
     fn the_embedded_models_are_intact_small_and_survive_a_round_trip() {
@@ -209,7 +216,7 @@ mod tests {
             from_bytes(&bytes)
         };
         assert!(matches!(of_version(99), Err(ModelFileError::Newer { found: 99 })));
-        assert!(matches!(of_version(VERSION as u8 - 2), Err(ModelFileError::Older { found }) if found == VERSION - 2));
+        assert!(matches!(of_version(OLDEST as u8 - 1), Err(ModelFileError::Older { found }) if found == OLDEST - 1));
     }
 
     #[test]
@@ -224,9 +231,9 @@ mod tests {
         let longer = [&bytes[..], &[0]].concat();
         assert!(matches!(from_bytes(&longer), Err(ModelFileError::Damaged { .. })));
         let mut former = FORMAT.seal(b"payload");
-        former[8] = VERSION as u8 - 1;
+        former[8] = OLDEST as u8;
         former[20..HEADER].copy_from_slice(&xxhash_rust::xxh3::xxh3_64(b"payload").to_le_bytes());
-        assert!(matches!(FORMAT.open(&former), Ok(b"payload")), "the version before is still read");
+        assert!(matches!(FORMAT.open(&former), Ok(b"payload")), "the oldest version is still read");
     }
 
     #[test]
@@ -262,6 +269,26 @@ mod tests {
         loud.log.push("a\u{7}b".to_owned());
         let quiet = from_bytes(&to_bytes(&loud).unwrap()).unwrap();
         assert!(quiet.title == format!("{}[2J", model.title) && quiet.log.last().unwrap() == "ab");
+    }
+
+    #[test]
+    fn the_law_of_rupture_survives_a_round_trip_and_must_fit_the_windows() {
+        let spec = line(Sampling::QDeim, 24).under(Cavitation::Complementarity);
+        let model = train(&spec, &()).unwrap();
+        let read = from_bytes(&to_bytes(&model).unwrap()).unwrap();
+        let (own, other) = (&read.windows[0], &model.windows[0]);
+        assert_eq!((read.domain, own.cavitation), (model.domain.clone(), Cavitation::Complementarity));
+        assert!(own.snapshots.iter().map(|s| &s.fronts).eq(other.snapshots.iter().map(|s| &s.fronts)));
+        let lies: [&dyn Fn(&mut ReducedModel); 2] =
+            [&|m| m.windows[0].snapshots[3].fronts[0] = 10_000, &|m| m.windows[0].snapshots[3].fronts.clear()];
+        for lie in lies {
+            let mut wrong = model.clone();
+            lie(&mut wrong);
+            let refused = from_bytes(&to_bytes(&wrong).unwrap()).err();
+            assert!(matches!(refused, Some(ModelFileError::Damaged { what: "rupture" })), "{refused:?}");
+        }
+        // What an older program wrote says nothing of it.
+        assert_eq!(embedded().unwrap().domain.lubricant.cavitation, Cavitation::Penalty);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use super::model_file::ModelFileError;
 use super::stored_matrix::{StoredBasis, StoredMatrix};
 use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec};
 use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::lubricant::{ShearLaw, Sliding};
+use crate::solver::physics::lubricant::{Cavitation, ShearLaw, Sliding};
 use crate::solver::reduced::{
     Calibration, Domain, ReducedModel, SampledRows, Sampling, SlidingDomain, Snapshot, TractionRule, Window,
 };
@@ -29,6 +29,14 @@ struct StoredModel {
     windows: Vec<StoredWindow>,
     scene: String,
     log: Vec<String>,
+}
+
+/// What follows a model whose films do not rupture by the penalty; older files end without it.
+#[derive(Serialize, Deserialize)]
+struct StoredRupture {
+    cavitation: Cavitation,
+    /// Of every window and each of its snapshots the first ruptured column of each line along X.
+    fronts: Vec<Vec<Vec<usize>>>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -178,7 +186,41 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
         scene: model.scene.clone(),
         log: model.log.clone(),
     };
-    postcard::to_allocvec(&stored).ok()
+    let payload = postcard::to_allocvec(&stored).ok()?;
+    let cavitation = model.domain.lubricant.cavitation;
+    if cavitation == Cavitation::Penalty {
+        return Some(payload);
+    }
+    let of_window = |window: &Window| window.snapshots.iter().map(|snapshot| snapshot.fronts.clone()).collect();
+    postcard::to_extend(&StoredRupture { cavitation, fronts: model.windows.iter().map(of_window).collect() }, payload)
+        .ok()
+}
+
+/// Gives the windows of a model their law of rupture; `None` where it does not fit them.
+fn rupture(model: &mut ReducedModel, rest: &[u8]) -> Option<()> {
+    if rest.is_empty() {
+        return Some(());
+    }
+    let (StoredRupture { cavitation, fronts }, rest) = postcard::take_from_bytes(rest).ok()?;
+    let ruptures = cavitation == Cavitation::Complementarity && model.domain.sliding.is_none();
+    if !(ruptures && rest.is_empty() && fronts.len() == model.windows.len()) {
+        return None;
+    }
+    model.domain.lubricant.cavitation = cavitation;
+    for (window, fronts) in model.windows.iter_mut().zip(fronts) {
+        if fronts.len() != window.snapshots.len() {
+            return None;
+        }
+        window.cavitation = cavitation;
+        let (lines, columns) = (window.grid.lines(), window.grid.nodes().0);
+        for (snapshot, fronts) in window.snapshots.iter_mut().zip(fronts) {
+            if fronts.len() != lines || fronts.iter().any(|front| *front > columns) {
+                return None;
+            }
+            snapshot.fronts = fronts;
+        }
+    }
+    Some(())
 }
 
 /// The model of a payload.
@@ -186,8 +228,8 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
 /// # Errors
 /// When its parts do not fit each other.
 pub(super) fn decode(payload: &[u8]) -> Result<ReducedModel, ModelFileError> {
-    let stored: StoredModel =
-        postcard::from_bytes(payload).map_err(|_| ModelFileError::Damaged { what: "its content cannot be decoded" })?;
+    let (stored, rest): (StoredModel, &[u8]) = postcard::take_from_bytes(payload)
+        .map_err(|_| ModelFileError::Damaged { what: "its content cannot be decoded" })?;
     let StoredModel { mut title, domain, windows, scene, mut log } = stored;
     if !sound_domain(&domain) {
         return Err(ModelFileError::Damaged { what: "its domain" });
@@ -209,7 +251,8 @@ pub(super) fn decode(payload: &[u8]) -> Result<ReducedModel, ModelFileError> {
     if windows.iter().any(|window| window.grid.kind() != kind) {
         return Err(ModelFileError::Damaged { what: "windows of different contacts" });
     }
-    let model = ReducedModel { title, domain, windows, scene, log };
+    let mut model = ReducedModel { title, domain, windows, scene, log };
+    rupture(&mut model, rest).ok_or(ModelFileError::Damaged { what: "rupture" })?;
     prove(&model)?;
     Ok(model)
 }

@@ -1,13 +1,14 @@
 //! Unfinished trainings on disk (`.training`), so that a crash or a cancel loses no finished full solution.
 //!
-//! The header is that of `checked_file`, the payload the program's version and a [`TrainingState`] in postcard's
-//! encoding: another version's solutions, sums and rules of choice may differ, so that a training that is gone on with
+//! The header is that of `checked_file`, the payload the program's version, a [`TrainingState`] and how its films rupture in
+//! postcard's encoding: another version's solutions, sums and rules of choice may differ, so that a training that is gone on with
 //! by another one would be neither's. Writing waits for the disk, so it is done by a thread of its own, at most once a
 //! second; the training itself pays for a copy only.
 
 use super::EngineError;
 use super::checked_file::{Flaw, Format, Unreadable};
 use crate::scene::atomic_file::{self, WriteError};
+use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::training::{TrainingSpec, TrainingState, Windows};
 use std::collections::HashSet;
 use std::ffi::OsString;
@@ -19,9 +20,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-const VERSION: u32 = 6;
+const VERSION: u32 = 7;
 /// 5000 full solutions in each of some windows, on the finest grids that are used.
-const FORMAT: Format = Format { magic: b"EHLTRN\r\n", version: VERSION, oldest: VERSION, max_payload: 2 << 30 };
+const FORMAT: Format =
+    Format { magic: b"EHLTRN\r\n", version: VERSION, oldest: VERSION, whole_hash: VERSION, max_payload: 2 << 30 };
 /// The program's own version.
 const PROGRAM: &str = env!("CARGO_PKG_VERSION");
 
@@ -118,7 +120,8 @@ pub fn read(path: &Path) -> Result<TrainingState, TrainingFileError> {
             "it was begun by version {program} of the program, and this is version {PROGRAM}, whose solutions and choices may differ"
         )));
     }
-    let state: TrainingState = postcard::from_bytes(payload).map_err(undecoded)?;
+    let (mut state, cavitation): (TrainingState, Cavitation) = postcard::from_bytes(payload).map_err(undecoded)?;
+    state.spec = state.spec.under(cavitation);
     if is_sound(&state) { Ok(state) } else { Err(refused("its content contradicts itself".to_owned())) }
 }
 
@@ -167,7 +170,8 @@ pub fn write(state: &TrainingState, path: &Path) -> Result<(), TrainingFileError
 }
 
 fn write_as(program: &str, state: &TrainingState, path: &Path) -> Result<(), TrainingFileError> {
-    let encoded = postcard::to_allocvec(&(program, state))
+    // The laws of a lubricant are written without the way its film ruptures.
+    let encoded = postcard::to_allocvec(&(program, state, state.spec.lubricant.cavitation))
         .map_err(|_| TrainingFileError::Refused { path: path.to_owned(), what: "it cannot be encoded".to_owned() })?;
     Ok(atomic_file::replace(path, &FORMAT.seal(&encoded))?)
 }
@@ -350,6 +354,12 @@ mod tests {
         assert!(unfinished(&path, &state.spec).unwrap().is_none());
         write(&state, &path).unwrap();
         assert_eq!(unfinished(&path, &state.spec).unwrap().as_ref(), Some(&state));
+        let mut ruptured = state.clone();
+        ruptured.spec = ruptured.spec.under(Cavitation::Complementarity);
+        write(&ruptured, &path).unwrap();
+        assert_eq!(read(&path).unwrap(), ruptured);
+        write(&state, &path).unwrap();
+        assert!(unfinished(&path, &state.spec.clone().under(Cavitation::Complementarity)).is_err(), "another law");
         let other = TrainingSpec { seed: 2, ..state.spec.clone() };
         let sentence = unfinished(&path, &other).unwrap_err().to_string();
         assert!(sentence.contains("another training, “kept”") && sentence.contains("1 full"), "{sentence}");

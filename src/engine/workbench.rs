@@ -2,7 +2,7 @@
 
 use super::store::Store;
 use super::{Answer, EngineError, ReducedFacts, Request};
-use crate::scene::{Bench, Grid, Method, ModelSource, Scene, Study};
+use crate::scene::{Bench, Grid, Method, ModelSource, Scene};
 use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::full::point::resolution_warning;
 use crate::solver::full::{Problem, Solution, SolveError, Start};
@@ -18,9 +18,15 @@ use std::time::Instant;
 const CAUTIOUS: &str = "the rupture front went to and fro between two sets of nodes; from then on it was moved node by \
     node";
 
-/// What a reduced answer says where complementarity is asked for.
-const PENALISED: &str = "the reduced model ruptures the film by the penalty that it was trained with, not by \
-    complementarity; that moves H_c by some 1e-7";
+/// What a reduced answer says where films are asked to rupture otherwise than those that it was trained with.
+fn other_rupture(own: Cavitation, asked: Cavitation) -> String {
+    let article = if own == Cavitation::Penalty { "the " } else { "" };
+    let (own, asked) = (own.name(), asked.name());
+    format!(
+        "the reduced model ruptures the film by {article}{own} that it was trained with, not by {asked}; that moves H_c \
+         by some 1e-7"
+    )
+}
 
 /// The store as one job uses it: with the folder that its paths refer to, and reduced solvers that remember only what
 /// this job has solved.
@@ -132,12 +138,14 @@ impl Workbench {
         if let Trust::Outside(reason) = &trust {
             warnings.push(reason.clone());
         }
-        if request.lubricant.cavitation != Cavitation::Penalty {
-            warnings.push(PENALISED.to_owned());
+        let (own, asked) = (model.domain.lubricant.cavitation, request.lubricant.cavitation);
+        if own != asked {
+            warnings.push(other_rupture(own, asked));
         }
         let mut facts = ReducedFacts {
             size: window.size(),
             trained: trust == Trust::Trained,
+            cavitation: own,
             residual_estimate: None,
             error: None,
             traction: None,
@@ -253,10 +261,7 @@ impl Bench for Workbench {
 
     fn training(&self, scene: &Path) -> Result<TrainingSpec, EngineError> {
         let path = self.base.join(scene);
-        match Scene::read(&path)?.study {
-            Study::Training(spec) => Ok(spec),
-            _ => Err(EngineError::NoTraining { path }),
-        }
+        Scene::read(&path)?.training().ok_or(EngineError::NoTraining { path })
     }
 
     fn trained(&self, spec: &TrainingSpec, observer: &dyn TrainingObserver) -> Result<Arc<ReducedModel>, EngineError> {

@@ -133,6 +133,8 @@ pub struct ReducedFacts {
     pub size: ModelSize,
     /// Whether the model was trained for the point.
     pub trained: bool,
+    /// How its films rupture.
+    pub cavitation: Cavitation,
     /// e_f^I, (3.15); none without convergence.
     pub residual_estimate: Option<f64>,
     /// Calibrated errors, where the model has them.
@@ -147,9 +149,9 @@ impl Answer {
         self.solution.as_ref().filter(|_| self.converged)
     }
 
-    /// How the film ruptures in it; reduced models have the penalty they were trained with.
+    /// How the film ruptures in it; reduced models have the law that they were trained with.
     pub fn cavitation(&self) -> Cavitation {
-        if self.reduced.is_some() { Cavitation::Penalty } else { self.request.lubricant.cavitation }
+        self.reduced.as_ref().map_or(self.request.lubricant.cavitation, |facts| facts.cavitation)
     }
 
     /// Traction coefficient (3.41) over the whole domain, at the request's slide-to-roll ratio; a reduced model's by

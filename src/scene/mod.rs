@@ -62,6 +62,7 @@ pub use crate::solver::training::QuantityBox;
 
 use crate::solver::physics::contact::{ContactError, ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Cavitation, Lubricant, Sliding};
+use crate::solver::training::TrainingSpec;
 use serde::{Deserialize, Serialize};
 
 /// How far the α of a scene may lie from the one that a viscosity law determines and still count as the same, rounded.
@@ -89,7 +90,7 @@ pub struct Scene {
     /// Laws of the lubricant; its constants are part of [`Scene::at`].
     #[serde(default)]
     pub lubricant: Lubricant,
-    /// How the film ruptures in full solutions.
+    /// How the film ruptures in full solutions, and in models that are trained from them.
     #[serde(default, skip_serializing_if = "is_default")]
     pub cavitation: Cavitation,
     /// The operating point. Studies that bring their own points (trajectory, random test, training) do not use it.
@@ -176,6 +177,14 @@ impl Scene {
             grid: self.grid,
             grid_model: self.study.grid_model(),
             expected: self.expect.iter().map(|expectation| expectation.name.clone()).collect(),
+        }
+    }
+
+    /// The training that it describes, of films that rupture as the scene says; none where it asks something else.
+    pub fn training(&self) -> Option<TrainingSpec> {
+        match &self.study {
+            Study::Training(spec) => Some(spec.clone().under(self.cavitation)),
+            _ => None,
         }
     }
 

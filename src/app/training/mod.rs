@@ -158,6 +158,8 @@ impl Training {
     /// Starts the training that the document shows, unless its specification is refused.
     pub fn start(&mut self, ctx: &Context, document: &Document) {
         let Some(spec) = document.training_spec().cloned() else { return };
+        // Its films rupture as those of the contact do.
+        let spec = spec.under(document.lubricant.cavitation);
         match spec.check() {
             Ok(()) => self.run(ctx, TrainingState::new(spec)),
             Err(error) => self.notices = vec![Notice::Wrong(error.to_string())],

@@ -1,6 +1,5 @@
 //! What a reduced model's error and time depend on: its pressure modes, and the rows that it looks at.
 
-use super::Study;
 use super::question::{
     Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
@@ -151,9 +150,9 @@ fn ladder(least: usize, most: usize, steps: usize) -> Vec<usize> {
 
 /// The training that a model was made by: what it says itself, else what can be told of one of its windows.
 fn training(model: &ReducedModel, window: &Window) -> Result<TrainingSpec, RunError> {
-    match Scene::from_ron(&model.scene).map(|scene| scene.study) {
-        Ok(Study::Training(spec)) => Ok(spec),
-        _ if model.domain.sliding.is_none() => {
+    match Scene::from_ron(&model.scene).ok().and_then(|scene| scene.training()) {
+        Some(spec) => Ok(spec),
+        None if model.domain.sliding.is_none() => {
             let (range, plan) = (Range::from(&model.domain), Plan::FarthestPoint { snapshots: window.snapshots.len() });
             Ok(TrainingSpec {
                 lubricant: model.domain.lubricant,
@@ -162,7 +161,7 @@ fn training(model: &ReducedModel, window: &Window) -> Result<TrainingSpec, RunEr
                 ..TrainingSpec::new(range, window.m, window.grid.spec(), plan)
             })
         }
-        _ => Err(RunError::Study("the reduced model does not say under what sliding it was trained".to_owned())),
+        None => Err(RunError::Study("the reduced model does not say under what sliding it was trained".to_owned())),
     }
 }
 

@@ -41,12 +41,14 @@ impl Question for TrainingSpec {
             );
             return Err(refuse("study.windows", problem));
         }
-        TrainingSpec::check(self).map_err(|refused| refused.within("study"))
+        let spec = self.clone().under(experiment.lubricant.cavitation);
+        TrainingSpec::check(&spec).map_err(|refused| refused.within("study"))
     }
 
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
         let clock = Instant::now();
-        let model = setting.bench.trained(self, setting.observer)?;
+        let spec = self.clone().under(setting.experiment.lubricant.cavitation);
+        let model = setting.bench.trained(&spec, setting.observer)?;
         tell(Row { model, wall_s: clock.elapsed().as_secs_f64() });
         Ok(())
     }

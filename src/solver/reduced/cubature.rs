@@ -294,11 +294,10 @@ const LEAST_ROWS_PER_MODE: f64 = 1.2;
 /// Sampled rows with G = V_Iᵀ diag(w ω). `None` when the equations are satisfied by too few rows to carry the modes:
 /// collect more of them.
 pub fn cubature(test: &TestSpace, equations: &GoalEquations, target: usize) -> Option<SampledRows> {
-    let (rows, relative) = equations.solve(target)?;
     let modes = test.modes.ncols();
-    if (rows.len() as f64) < LEAST_ROWS_PER_MODE * modes as f64 {
-        return None;
-    }
+    let carries = |(rows, _): &(Vec<usize>, Vec<f64>)| rows.len() as f64 >= LEAST_ROWS_PER_MODE * modes as f64;
+    // Pruning lets neighbours go together where their columns hardly differ; the closer fit keeps one of them.
+    let (rows, relative) = equations.solve(target).filter(carries).or_else(|| equations.fit(target).filter(carries))?;
     let reconstruction =
         Mat::from_fn(modes, rows.len(), |k, r| relative[r] * test.weights[rows[r]] * test.modes[(rows[r], k)]);
     Some(SampledRows { rows, reconstruction })

@@ -106,7 +106,9 @@ impl ErrorMeasures {
         let squared: Vec<f64> = (0..self.grid.unknowns())
             .map(|unknown| {
                 let (stencil, geometry) = self.grid.row(unknown);
-                let value = nodes.row(&geometry.scaled(scale), self.penalty, stencil).value;
+                // Behind a rupture boundary λ balances the row.
+                let multiplier = fields.multiplier.get(self.grid.node(unknown)).copied().unwrap_or(0.0);
+                let value = nodes.row(&geometry.scaled(scale), self.penalty, stencil).value + multiplier;
                 self.weight(scale * weights[self.grid.node(unknown)]) * value * value
             })
             .collect();

@@ -31,6 +31,7 @@
 
 use super::model::{ReducedModel, Window};
 use super::online::{Online, ReducedError, ReducedOptions, ReducedSolution};
+use super::operators::fronts;
 use super::sampling::{Sampling, TestSpace, all_rows};
 use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN, GridError, dot};
 use crate::solver::full::point::{Accuracy, second_grid};
@@ -239,7 +240,9 @@ fn best_approximation(window: &Window, full: &Solution, reduced: &ReducedSolutio
     for (c, l) in coefficients.iter_mut().zip(&load) {
         *c += step * l;
     }
-    ReducedSolution { coefficients, h_0: full.scalars.h_0, ..reduced.clone() }
+    let ruptured = !reduced.fronts.is_empty();
+    let fronts = if ruptured { fronts(&window.grid, |node| full.pressure[node]) } else { Vec::new() };
+    ReducedSolution { coefficients, fronts, h_0: full.scalars.h_0, ..reduced.clone() }
 }
 
 /// Parts of one scalar, given for full, best approximation, all rows, sampled rows.

@@ -33,7 +33,7 @@ pub use model::{
     Domain, ModelSize, ReducedModel, SlidingDomain, Snapshot, Trust, Window, deformation_weights, distance, separation,
 };
 pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution, Starts};
-pub(crate) use operators::Iterate;
+pub(crate) use operators::{Iterate, fronts};
 pub use pod::PodBasis;
 pub(crate) use row_sizes::mean_diagonals;
 pub use sampling::{RowSnapshots, SampledRows, Sampling, TestSpace, all_rows, greedy, is_finite, q_deim};

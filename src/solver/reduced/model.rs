@@ -8,7 +8,7 @@ use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN};
 use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::full::Problem;
 use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint};
-use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::physics::lubricant::{Cavitation, Lubricant};
 use faer::Mat;
 use serde::{Deserialize, Serialize};
 
@@ -62,6 +62,10 @@ pub struct Snapshot {
     pub h_0: f64,
     /// Its central film H_c, from the full solution.
     pub h_c: f64,
+    /// Under complementarity the first ruptured column of each line along X, in node arrays; empty under a penalty.
+    /// Files keep them in a place of their own.
+    #[serde(skip)]
+    pub fronts: Vec<usize>,
 }
 
 /// One local model: a window of M with its own grid, bases and sampled rows.
@@ -74,6 +78,8 @@ pub struct Window {
     /// Penalty factor γ̄ of (2.36) in the reduced equations. Sampled rows of a point contact want it softer than the
     /// full system.
     pub penalty: f64,
+    /// How its films rupture: of complementarity it has the solutions, the boundary that moves, and no penalty.
+    pub cavitation: Cavitation,
     /// Pressure basis.
     pub pressure: PodBasis,
     /// Deformation basis (of K P in the reference coordinate ξ).
@@ -173,6 +179,7 @@ impl Window {
             m,
             grid,
             penalty: PENALTY,
+            cavitation: Cavitation::Penalty,
             pressure,
             deformation,
             flexed,

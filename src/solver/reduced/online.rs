@@ -32,6 +32,8 @@ pub struct ReducedSolution {
     pub window: usize,
     /// Coefficients in the pressure basis.
     pub coefficients: Vec<f64>,
+    /// Under complementarity the first ruptured column of each line along X, in node arrays; empty under a penalty.
+    pub fronts: Vec<usize>,
     /// H₀.
     pub h_0: f64,
     /// Central film H_c.
@@ -197,8 +199,9 @@ impl Online {
 
     /// Remembers a solution as the next start and returns it.
     fn keep(&mut self, problem: &Problem, window: usize, found: Found) -> ReducedSolution {
-        let Found { coefficients, h_0, h_c, iterations, residual, traction } = found;
-        self.former.remember(Known { window, point: problem.point, coefficients: coefficients.clone(), h_c });
+        let Found { coefficients, h_0, h_c, iterations, residual, traction, fronts } = found;
+        let (point, known) = (problem.point, coefficients.clone());
+        self.former.remember(Known { window, point, coefficients: known, h_c, fronts: fronts.clone() });
         let trust = self.model.trust(problem);
         let calibration = self.model.windows.get(window).and_then(|w| w.calibration.as_ref());
         let mut error = calibration
@@ -213,6 +216,7 @@ impl Online {
             lubricant: problem.lubricant,
             window,
             coefficients,
+            fronts,
             h_0,
             h_c,
             traction,

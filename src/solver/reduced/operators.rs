@@ -1,16 +1,21 @@
 //! The reduced operators of one window for a chosen truncation. Nothing in them is of large scale.
 
+mod front;
 mod newton;
 
+pub(crate) use front::{cut_off, fronts};
 pub(crate) use newton::{Case, Iterate, OnlineOutcome, RowObserver, Stop};
 
+use self::front::{Changed, Front};
 use super::dense::{self, SmallSystem};
 use super::model::{Window, deformation_weights};
+use crate::solver::discrete::grid::dot;
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::generalized::NodeState;
 use crate::solver::discrete::reynolds::{CENTER, RowGeometry, STENCIL};
 use crate::solver::full::{Problem, mid_film_stress};
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::lubricant::Cavitation;
 use faer::{Mat, MatRef};
 
 /// What Newton's iteration needs of a window, and its work space.
@@ -39,6 +44,8 @@ pub(crate) struct Operators {
     /// E_δ of (3.13) with δ̃ condensed: what V_δ cannot represent of K V_p, as a quadratic form; empty for the exact
     /// operator.
     deformation_error: Option<Mat<f64>>,
+    /// Where the film ruptures; none where a penalty holds the pressures.
+    front: Option<Front>,
     scratch: Scratch,
 }
 
@@ -103,7 +110,10 @@ impl Operators {
         let rows = &window.sampled_rows;
         let (stencils, geometry): (Vec<_>, Vec<_>) = rows.iter().map(|&row| reference.row(row)).unzip();
         let rule = window.traction.iter().flat_map(|rule| &rule.nodes);
-        let mut support: Vec<usize> = stencils.iter().flatten().chain(further).chain(rule).copied().collect();
+        let ruptures = window.cavitation == Cavitation::Complementarity;
+        let passed = if ruptures { front::support(window) } else { Vec::new() };
+        let mut support: Vec<usize> =
+            stencils.iter().flatten().chain(further).chain(rule).chain(&passed).copied().collect();
         support.sort_unstable();
         support.dedup();
         let stencil = stencils.iter().map(|nodes| nodes.map(|node| support.partition_point(|&s| s < node))).collect();
@@ -133,7 +143,9 @@ impl Operators {
         let traction = window.traction.iter().flat_map(|rule| rule.nodes.iter().zip(&rule.weights));
         let traction = traction.map(|(&node, &weight)| (support.partition_point(|&s| s < node), weight)).collect();
         let weights = reference.weights();
-        let load_row = (0..modes).map(|k| weights.iter().enumerate().map(|(i, w)| w * basis[(i, k)]).sum()).collect();
+        let load_row: Vec<f64> =
+            (0..modes).map(|k| weights.iter().enumerate().map(|(i, w)| w * basis[(i, k)]).sum()).collect();
+        let front = ruptures.then(|| Front::new(window, &support, &state_rows, &load_row));
         let place = |node: &usize| {
             let (xi, y) = reference.place(*node);
             Place { xi, across: 0.5 * y * y }
@@ -152,6 +164,7 @@ impl Operators {
             traction,
             projected,
             deformation_error,
+            front,
             scratch: Scratch {
                 fields: vec![0.0; (2 + axes) * s],
                 step_fields: vec![0.0; (2 + axes) * s],
@@ -200,6 +213,41 @@ impl Operators {
             Some(projected) => projected.as_ref(),
             None => window.flexed.get(.., ..self.modes),
         }
+    }
+
+    /// Puts the rupture boundary at these columns, one per line along X, before an iteration begins; nothing where a
+    /// penalty holds the pressures.
+    pub fn rupture_at(&mut self, fronts: &[usize]) {
+        let Self { front, state_rows, load_row, scratch, .. } = self;
+        if let Some(front) = front {
+            let count = 2 * self.support.len();
+            front.begin(fronts, Changed { state_rows, load_row, fields: &mut scratch.fields[..count] });
+        }
+    }
+
+    /// The first ruptured column of each line along X; none where a penalty holds the pressures.
+    pub fn fronts(&self) -> Vec<usize> {
+        self.front.iter().flat_map(Front::fronts).collect()
+    }
+
+    /// The film at X = 0 (and Y = 0) over what H₀ gives it, by these nodes and weights of an interpolation there:
+    /// per unit of each coefficient, with the rupture boundary where it is.
+    pub fn lift(&mut self, window: &Window, zero: &[(usize, f64)], scale: f64) -> Vec<f64> {
+        let deformation = self.deformation(window);
+        let at_zero = |k: usize| scale * zero.iter().map(|(node, w)| w * deformation[(*node, k)]).sum::<f64>();
+        let whole: Vec<f64> = (0..self.modes).map(at_zero).collect();
+        match &mut self.front {
+            Some(front) => {
+                front.aim(&window.grid, zero, scale, &whole);
+                front.lift.clone()
+            }
+            None => whole,
+        }
+    }
+
+    /// What the last iteration made of it: the boundary may have moved.
+    pub fn lifted(&self, whole: &[f64], coefficients: &[f64]) -> f64 {
+        dot(self.front.as_ref().map_or(whole, |front| &front.lift), coefficients)
     }
 
     /// Scales coefficients so that they carry the load on a grid of scale s.

@@ -20,6 +20,8 @@ const FEATURES: [usize; 2] = [4, 6];
 pub(super) struct Guess {
     pub coefficients: Vec<f64>,
     pub h_c: f64,
+    /// The first ruptured column of each line along X; empty under a penalty.
+    pub fronts: Vec<usize>,
 }
 
 /// How near by (3.20) the previous solution must be to be preferred to an interpolation.
@@ -37,6 +39,7 @@ pub(super) struct Known {
     pub point: OperatingPoint,
     pub coefficients: Vec<f64>,
     pub h_c: f64,
+    pub fronts: Vec<usize>,
 }
 
 /// The last two converged solutions, the latest first.
@@ -57,6 +60,7 @@ impl Former {
         self.known[0].as_ref().filter(near).map(|known| Guess {
             coefficients: known.coefficients.clone(),
             h_c: known.h_c * film_number(point) / film_number(&known.point),
+            fronts: known.fronts.clone(),
         })
     }
 
@@ -83,6 +87,7 @@ impl Former {
         Some(Guess {
             coefficients: both.map(|(new, old)| ahead(*new, *old)).collect(),
             h_c: ahead(film(latest), film(before)).exp() * film_number(point),
+            fronts: latest.fronts.clone(),
         })
     }
 }
@@ -124,12 +129,12 @@ pub(super) fn nearest(window: &Window, point: &OperatingPoint) -> Option<Guess> 
 /// A training solution, its film carried over to a point by the formula.
 pub(super) fn carried(snapshot: &Snapshot, point: &OperatingPoint) -> Guess {
     let h_c = snapshot.h_c * film_number(point) / film_number(&snapshot.point);
-    Guess { coefficients: snapshot.coefficients.clone(), h_c }
+    Guess { coefficients: snapshot.coefficients.clone(), h_c, fronts: snapshot.fronts.clone() }
 }
 
 /// The nearest training solution by (3.20) with its own film.
 pub(super) fn unchanged(window: &Window, point: &OperatingPoint) -> Option<Guess> {
-    window.nearest(point).map(|(snapshot, _)| Guess { coefficients: snapshot.coefficients.clone(), h_c: snapshot.h_c })
+    window.nearest(point).map(|(snapshot, _)| Guess { h_c: snapshot.h_c, ..carried(snapshot, point) })
 }
 
 /// Interpolation between the nearest training solutions: weights that reproduce functions linear in (ln M, L, ln α),
@@ -183,12 +188,17 @@ pub(super) fn interpolated(window: &Window, point: &OperatingPoint, thinning: bo
     let modes = window.pressure.modes.ncols();
     let mut coefficients = vec![0.0; modes];
     let mut log_film = 0.0;
+    let mut fronts = vec![0.5; window.snapshots.first().map_or(0, |snapshot| snapshot.fronts.len())];
     for (&(i, _), w) in around.iter().zip(&weights) {
         let snapshot = &window.snapshots[i];
+        for (front, own) in fronts.iter_mut().zip(&snapshot.fronts) {
+            *front += w * *own as f64;
+        }
         for (c, s) in coefficients.iter_mut().zip(&snapshot.coefficients) {
             *c += w * s;
         }
         log_film += w * (snapshot.h_c / film_number(&snapshot.point)).ln();
     }
-    Some(Guess { coefficients, h_c: log_film.exp() * film_number(point) })
+    let fronts = fronts.into_iter().map(|front| front as usize).collect();
+    Some(Guess { coefficients, h_c: log_film.exp() * film_number(point), fronts })
 }

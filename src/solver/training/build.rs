@@ -8,8 +8,10 @@ use super::{Progress, QuantityBox, Range, SlidingRange, TrainingError, TrainingO
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::{ContactSolver, Start};
 use crate::solver::physics::contact::{DEFAULT_VISCOSITY_PA_S, MoesRequest, OperatingPoint};
+use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{
-    Domain, PodBasis, ReducedModel, Sampling, SlidingDomain, Snapshot, TestSpace, Window, all_rows, deformation_weights,
+    Domain, PodBasis, ReducedModel, Sampling, SlidingDomain, Snapshot, TestSpace, Window, all_rows,
+    deformation_weights, fronts,
 };
 use faer::Mat;
 use fastrand::Rng;
@@ -168,13 +170,19 @@ impl<'a> WindowTraining<'a> {
         let failed = || TrainingError::Decomposition { from, to };
         let (losses, positive) = ([spec.pressure_loss, spec.deformation_loss], spec.positive_modes);
         let (grid, solutions) = (grid.clone(), solutions.to_vec());
+        let cavitation = spec.lubricant.cavitation;
         let mut model = on_one_thread(*observer, move || {
-            let (pressure, deformation, snapshots) = bases(losses, positive, &grid, &solutions)?;
+            let (pressure, deformation, mut snapshots) = bases(losses, positive, &grid, &solutions)?;
+            if cavitation == Cavitation::Complementarity {
+                for (snapshot, solution) in snapshots.iter_mut().zip(&solutions) {
+                    snapshot.fronts = fronts(&grid, |node| solution.pressure[node]);
+                }
+            }
             let rows = all_rows(&TestSpace::new(&pressure, &grid));
             Some(Window::new((from, to), grid, pressure, deformation, snapshots, Sampling::All, rows))
         })?
         .ok_or_else(failed)?;
-        model.penalty = spec.penalty;
+        (model.penalty, model.cavitation) = (spec.penalty, cavitation);
         if most_modes.is_some_and(|most| model.pressure.modes.ncols() > most) {
             return Ok(None);
         }
@@ -216,6 +224,7 @@ fn bases(
             coefficients: pressure.coefficients(weights, |i| p[i]),
             h_0: s.h_0,
             h_c: s.h_c,
+            fronts: Vec::new(),
         })
         .collect();
     Some((pressure, deformation, snapshots))

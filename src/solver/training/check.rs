@@ -2,7 +2,7 @@
 
 use super::{Plan, Range, SlidingRange, TrainingSpec, WindowSpec, Windows};
 use crate::solver::limits::{Refused, count, interval, number, plain};
-use crate::solver::physics::lubricant::ShearLaw;
+use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw};
 use crate::solver::reduced::LEAST_EVIDENCE;
 
 /// Most points of a plan, or judged in one go.
@@ -75,6 +75,15 @@ fn search(start: usize, tolerances: &[f64], limit: usize) -> Result<(), Refused>
 /// lubricant's own.
 fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
     spec.lubricant.check().map_err(|problem| Refused::new("lubricant", format!("is refused: {problem}")))?;
+    let Lubricant { cavitation, shear, .. } = &spec.lubricant;
+    match cavitation {
+        Cavitation::Complementarity if *shear != ShearLaw::Newtonian => {
+            let limit =
+                "is complementarity, but reduced models of lubricants that thin under shear rupture by the penalty";
+            return Err(Refused::new("cavitation", limit));
+        }
+        Cavitation::Penalty | Cavitation::Complementarity => {}
+    }
     match (&spec.range, spec.lubricant.shear == ShearLaw::Newtonian) {
         (Range::Sliding(_), true) => {
             Err(Refused::new("range", "names SRR and NPR, but the lubricant has no shear constants"))

@@ -19,6 +19,8 @@ mod range;
 mod resume_tests;
 mod rows;
 #[cfg(test)]
+mod rupture_tests;
+#[cfg(test)]
 pub(crate) mod small;
 mod split;
 mod state;
@@ -46,7 +48,7 @@ use super::discrete::grid::GridSpec;
 use super::discrete::reynolds::PENALTY;
 use super::limits::Refused;
 use super::physics::contact::ContactKind;
-use super::physics::lubricant::Lubricant;
+use super::physics::lubricant::{Cavitation, Lubricant};
 use super::reduced::{Domain, Sampling};
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::AtomicBool;
@@ -176,6 +178,11 @@ impl TrainingSpec {
             evidence: EVIDENCE,
             seed: 1,
         }
+    }
+
+    /// The same of films that rupture so.
+    pub fn under(self, cavitation: Cavitation) -> Self {
+        Self { lubricant: Lubricant { cavitation, ..self.lubricant }, ..self }
     }
 
     /// Refuses what no training can be made of, before anything is solved.

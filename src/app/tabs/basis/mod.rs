@@ -218,6 +218,7 @@ fn toolbar(
             options.pressure_modes.unwrap_or(window.pressure.modes.ncols()),
             window.pressure.modes.ncols()
         ));
+        ui.weak(format!("Films rupture by {}", model.domain.lubricant.cavitation.name()));
         let truncated = view.pressure_loss.is_some() || view.deformation_loss.is_some();
         if ui.add_enabled(truncated, egui::Button::new("Keep all modes")).clicked() {
             commands.edit(Edit::View(View { pressure_loss: None, deformation_loss: None, ..view }), TRUNCATION);

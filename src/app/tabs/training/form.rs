@@ -34,6 +34,8 @@ pub fn ui(ui: &mut Ui, tab: &mut TrainingTab, context: &Context<'_>, commands: &
         plan_ui(ui, &mut form, &mut spec);
         reduction_ui(ui, &mut form, &mut spec);
     });
+    let law = context.document.lubricant.cavitation.name();
+    ui.weak(format!("Films rupture by {law}, as chosen beside the lubricant."));
     if spec.range != before.range {
         presets::fit_windows(&mut spec);
     }

@@ -136,6 +136,30 @@ impl ContactGrid {
         }
     }
 
+    /// Lines of unknowns along X, side by side.
+    pub fn lines(&self) -> usize {
+        match self {
+            Self::Line(_) => 1,
+            Self::Point(grid) => grid.column_unknowns(),
+        }
+    }
+
+    /// The line of a node of an unknown, and its column along X in node arrays.
+    pub fn line_and_column(&self, node: usize) -> (usize, usize) {
+        match self {
+            Self::Line(_) => (0, node),
+            Self::Point(grid) => (node % grid.ny() - 1, node / grid.ny()),
+        }
+    }
+
+    /// One entry of K in ξ: deformation of a node by unit pressure at another.
+    pub fn kernel_entry(&self, node: usize, other: usize) -> f64 {
+        match self {
+            Self::Line(grid) => grid.flexibility.entry(node, other),
+            Self::Point(grid) => grid.flexibility.entry(node, other),
+        }
+    }
+
     /// Quadrature weights of node arrays in ξ and Y; zero where P vanishes.
     pub fn weights(&self) -> &[f64] {
         match self {

@@ -16,6 +16,7 @@ pub(super) struct Found {
     pub iterations: usize,
     pub residual: f64,
     pub traction: Option<f64>,
+    pub fronts: Vec<usize>,
 }
 
 /// Newton from a guess, within `limit` steps and the options' own limit.
@@ -31,22 +32,22 @@ pub(super) fn attempt(
     let scale = window.grid.scale(problem.moes);
     let zero = window.grid.at_zero(scale);
     let mut coefficients = start.coefficients[..operators.modes].to_vec();
+    operators.rupture_at(&start.fronts);
     operators.carry_load(problem, scale, &mut coefficients);
     // H(0) = H₀ − ½ ln s + s δ(0).
-    let deformation = operators.deformation(window);
-    let at_zero = |k: usize| scale * zero.iter().map(|(node, w)| w * deformation[(*node, k)]).sum::<f64>();
-    let lift: Vec<f64> = (0..operators.modes).map(at_zero).collect();
+    let lift = operators.lift(window, &zero, scale);
     let offset = -0.5 * scale.ln();
     let mut h_0 = start.h_c - (dot(&lift, &coefficients) + offset);
     let watch = observer.as_mut().map(|o| &mut **o as RowObserver<'_>);
     let case = Case { problem, scale, curvature: 1.0, penalty: options.penalty.unwrap_or(window.penalty), lift: &lift };
     let stop = Stop { tolerance: options.tolerance, max_newton: options.max_newton.min(limit) };
     let outcome = operators.newton(&case, &mut coefficients, &mut h_0, stop, watch);
-    let h_c = h_0 + (dot(&lift, &coefficients) + offset);
+    let h_c = h_0 + (operators.lifted(&lift, &coefficients) + offset);
     if outcome.converged && h_c > 0.0 {
         let OnlineOutcome { iterations, residual, .. } = outcome;
         let traction = operators.traction(problem, scale);
-        Ok(Found { coefficients, h_0, h_c, iterations, residual, traction })
+        let fronts = operators.fronts();
+        Ok(Found { coefficients, h_0, h_c, iterations, residual, traction, fronts })
     } else {
         Err(ReducedError::NotConverged { iterations: outcome.iterations, step: outcome.step })
     }
@@ -69,7 +70,8 @@ pub(super) fn walk(
         Problem::new(&point, target.lubricant).ok()
     };
     let (mut t, mut stride) = (0.0, 0.25);
-    let mut guess = Guess { coefficients: snapshot.coefficients.clone(), h_c: snapshot.h_c };
+    let (coefficients, fronts) = (snapshot.coefficients.clone(), snapshot.fronts.clone());
+    let mut guess = Guess { coefficients, h_c: snapshot.h_c, fronts };
     let mut from_point = snapshot.point;
     let mut iterations = 0;
     while stride > 0.01 {
@@ -84,7 +86,7 @@ pub(super) fn walk(
                     return Some(Found { iterations, ..found });
                 }
                 (t, stride) = (next, 1.5 * stride);
-                guess = Guess { coefficients: found.coefficients, h_c: found.h_c };
+                guess = Guess { coefficients: found.coefficients, h_c: found.h_c, fronts: found.fronts };
                 from_point = problem.point;
             }
             Err(_) => stride *= 0.4,

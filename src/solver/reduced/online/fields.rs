@@ -2,9 +2,11 @@
 
 use super::{Online, ReducedError, ReducedSolution, operators_of};
 use crate::solver::discrete::grid::ContactGrid;
+use crate::solver::discrete::nodes::Nodes;
 use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, Termination, scalars_of};
+use crate::solver::reduced::operators::cut_off;
 use faer::linalg::matmul::matmul;
-use faer::{Accum, ColMut, ColRef, Par};
+use faer::{Accum, ColMut, ColRef, Mat, Par};
 
 impl Online {
     /// Fields and scalars of a reduced solution, on the window's grid; `report.newton_iterations` holds the online
@@ -15,6 +17,7 @@ impl Online {
     pub fn reconstruct(&self, solution: &ReducedSolution) -> Result<Solution, ReducedError> {
         let fields = self.fields(solution)?;
         let scalars = fields.scalars(solution.h_0);
+        let multiplier = fields.multiplier(&solution.fronts);
         let Fields { problem, grid, scale, pressure, film } = fields;
         let (x, y) = match &grid {
             ContactGrid::Line(grid) => (grid.scaled(scale).x, vec![0.0]),
@@ -28,7 +31,7 @@ impl Online {
             y,
             pressure,
             film,
-            multiplier: Vec::new(),
+            multiplier,
             report: Report {
                 termination: Termination::Converged,
                 newton_iterations: solution.iterations,
@@ -81,8 +84,17 @@ impl Online {
             );
             out
         };
-        let pressure = multiply(window.pressure.modes.get(.., ..modes));
+        let mut pressure = multiply(window.pressure.modes.get(.., ..modes));
         let mut film = multiply(operators.deformation(window));
+        if !solution.fronts.is_empty() {
+            let whole = pressure.clone();
+            cut_off(&window.grid, &solution.fronts, &mut pressure);
+            let missing = Mat::from_fn(whole.len(), 1, |i, _| whole[i] - pressure[i]);
+            let bent = window.grid.flex(&missing);
+            film.iter_mut().zip(bent.col(0).iter()).for_each(|(film, bent)| *film -= bent);
+            // What modes leave before B.
+            pressure.iter_mut().for_each(|p| *p = p.max(0.0));
+        }
         let offset = solution.h_0 - 0.5 * scale.ln();
         for (node, h) in film.iter_mut().enumerate() {
             let (xi, y) = window.grid.place(node);
@@ -103,6 +115,24 @@ struct Fields {
 }
 
 impl Fields {
+    /// λ behind the rupture boundary, node array; empty where there is none.
+    fn multiplier(&self, fronts: &[usize]) -> Vec<f64> {
+        let Self { problem, grid, scale, pressure, film } = self;
+        if fronts.is_empty() {
+            return Vec::new();
+        }
+        let mut multiplier = vec![0.0; pressure.len()];
+        let nodes = Nodes::of(problem.laws(), &grid.gradient(), pressure, film);
+        for unknown in 0..grid.unknowns() {
+            let (line, column) = grid.line_and_column(grid.node(unknown));
+            if column >= fronts[line] {
+                let (stencil, geometry) = grid.row(unknown);
+                multiplier[grid.node(unknown)] = -nodes.row(&geometry.scaled(*scale), 0.0, stencil).value;
+            }
+        }
+        multiplier
+    }
+
     fn scalars(&self, h_0: f64) -> Scalars {
         let Self { problem, grid, scale, pressure, film } = self;
         match grid {

@@ -2,7 +2,7 @@
 //! iteration.
 
 use super::Operators;
-use crate::solver::discrete::grid::dot;
+use super::front::Changed;
 use crate::solver::discrete::nodes::{Laws, Order};
 use crate::solver::discrete::reynolds::STENCIL;
 use crate::solver::discrete::reynolds::generalized::FilmTreatment;
@@ -95,8 +95,8 @@ impl Operators {
                     jacobian: s.jacobian.as_ref(),
                     step: &s.system.rhs,
                     coefficients,
-                    lift: case.lift,
-                    h_c: *h_0 - 0.5 * case.scale.ln() + dot(case.lift, coefficients),
+                    lift: self.front.as_ref().map_or(case.lift, |front| &front.lift),
+                    h_c: *h_0 - 0.5 * case.scale.ln() + self.lifted(case.lift, coefficients),
                 });
             }
             let omega = self.damping(case.scale);
@@ -113,7 +113,8 @@ impl Operators {
             if !outcome.step.is_finite() {
                 return outcome;
             }
-            if omega == 1.0 && outcome.step < stop.tolerance {
+            let still = self.follow(case.scale, omega, coefficients);
+            if omega == 1.0 && outcome.step < stop.tolerance && still {
                 outcome.converged = true;
                 break;
             }
@@ -124,9 +125,19 @@ impl Operators {
         outcome
     }
 
+    /// Lets the rupture boundary follow a step; whether it is still.
+    fn follow(&mut self, scale: f64, omega: f64, coefficients: &[f64]) -> bool {
+        let Self { front, state_rows, load_row, scratch: s, modes, .. } = self;
+        let Some(front) = front else { return true };
+        let (count, shift) = (2 * self.support.len(), s.system.rhs[*modes]);
+        let changed = Changed { state_rows, load_row, fields: &mut s.fields[..count] };
+        front.follow(&s.nodes, (scale, omega), (&s.step_fields[..count], shift), coefficients, changed)
+    }
+
     /// Evaluates the sampled rows at the fields; returns e_f^I.
     fn evaluate(&mut self, case: &Case<'_>, coefficients: &[f64], h_0: f64, derivatives: bool) -> f64 {
         let Case { problem, scale, curvature, penalty, .. } = *case;
+        let penalty = if self.front.is_some() { 0.0 } else { penalty };
         let s = &mut self.scratch;
         let count = self.support.len();
         let (pressure, rest) = s.fields.split_at(count);
@@ -149,6 +160,12 @@ impl Operators {
         let (d, g) = d.split_at(count * self.modes);
         let mut sum = 0.0;
         for (r, (stencil, geometry)) in self.stencil.iter().zip(&self.geometry).enumerate() {
+            if self.front.as_ref().is_some_and(|front| front.is_ruptured(r)) {
+                // λ balances it, whatever it is.
+                (s.values[r], s.film_column[r]) = (0.0, 0.0);
+                s.jacobian_rows[r * self.modes..(r + 1) * self.modes].fill(0.0);
+                continue;
+            }
             let geometry = geometry.scaled(scale);
             let out = s.nodes.row(&geometry, penalty, *stencil);
             s.values[r] = out.value;

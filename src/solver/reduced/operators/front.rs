@@ -1,0 +1,334 @@
+//! The rupture boundary B of reduced contacts under complementarity, (D.14)–(D.22): behind it P = 0 and no row is asked
+//! for, before it λ = 0.
+//!
+//! A state is the sum of the modes, cut off at B. V, K V and the load's row change by single nodes when B moves, (D.21)
+//! and (D.22), so nothing is of large scale. B moves up along a line where one of the nodes before it has a negative
+//! pressure, (D.17), else down where λ is negative at its first ruptured node. (D.18) as printed has the opposite sign:
+//! B would go back and forth.
+
+use crate::solver::discrete::grid::ContactGrid;
+use crate::solver::discrete::nodes::Nodes;
+use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
+use crate::solver::reduced::model::Window;
+use faer::linalg::matmul::matmul;
+use faer::{Accum, MatMut, MatRef, Par};
+
+/// Nodes before B at which pressures are looked at: k of (D.17).
+const BEFORE: usize = 5;
+/// The pressure that counts as negative in (D.17): smaller ones are what the basis leaves.
+const NEGATIVE: f64 = -1e-4;
+/// Nodes that B may move beyond where it was in any of the trainings.
+const MARGIN: usize = 4;
+/// So many turns between up and down leave B of a line where it is: its place is known to one node.
+const TURNS: u8 = 4;
+/// Places of B at which operators are kept: a solve begins from the nearest of them.
+const KEPT: usize = 8;
+/// Nodes that pass B in one product.
+const CHUNK: usize = 16;
+
+/// The boundary, with what it changes.
+pub(super) struct Front {
+    lines: Vec<Line>,
+    /// The nodes that it may pass, line after line.
+    nodes: Vec<Passed>,
+    /// V at these nodes, row-major nodes × modes.
+    modes: Vec<f64>,
+    /// Deformation of the support by unit pressure at each of these nodes, row-major nodes × support.
+    bends: Vec<f64>,
+    kept: Vec<Kept>,
+    /// Line and column of each sampled row.
+    rows: Vec<(usize, usize)>,
+    /// What the film at X = 0 (and Y = 0) gains per unit of each coefficient.
+    pub lift: Vec<f64>,
+    /// Work space: nodes that pass, and whether they carry pressure again.
+    passing: Vec<(usize, bool)>,
+    chunk: [Vec<f64>; 2],
+}
+
+/// A line of unknowns along X with its part of B.
+struct Line {
+    /// The first column that B may have, its place among the nodes, and how many it may pass.
+    column: usize,
+    first: usize,
+    count: usize,
+    /// How many of them carry pressure: the next one is B.
+    front: usize,
+    /// Which way B moved last, and how often it turned.
+    down: Option<bool>,
+    turns: u8,
+}
+
+/// A node that B may pass.
+struct Passed {
+    /// Its place in the support.
+    place: usize,
+    node: usize,
+    /// Its weight in the load.
+    weight: f64,
+    /// Its row, of places in the support.
+    stencil: [usize; STENCIL],
+    geometry: RowGeometry,
+    /// Deformation at X = 0 (and Y = 0) by unit pressure here, in ξ.
+    zero: f64,
+}
+
+/// Operators at one place of B.
+struct Kept {
+    fronts: Vec<usize>,
+    deformation: Vec<f64>,
+    load_row: Vec<f64>,
+}
+
+/// What the boundary changes of the operators.
+pub(super) struct Changed<'a> {
+    /// V at the support, then K V, row-major.
+    pub state_rows: &'a mut [f64],
+    pub load_row: &'a mut [f64],
+    /// P at the support, then K P.
+    pub fields: &'a mut [f64],
+}
+
+/// Of each line along X the first column of a node array behind which no pressure is positive.
+pub(crate) fn fronts(grid: &ContactGrid, pressure: impl Fn(usize) -> f64) -> Vec<usize> {
+    let mut fronts = vec![0; grid.lines()];
+    for node in (0..grid.unknowns()).map(|k| grid.node(k)) {
+        let (line, column) = grid.line_and_column(node);
+        if fronts[line] == 0 || pressure(node) > 0.0 {
+            fronts[line] = column + 1;
+        }
+    }
+    fronts
+}
+
+/// Sets pressures behind B to zero.
+pub(crate) fn cut_off(grid: &ContactGrid, fronts: &[usize], pressure: &mut [f64]) {
+    for node in (0..grid.unknowns()).map(|k| grid.node(k)) {
+        let (line, column) = grid.line_and_column(node);
+        if column >= fronts[line] {
+            pressure[node] = 0.0;
+        }
+    }
+}
+
+/// The nodes that B may pass, line after line, as ranges of columns.
+fn passed(window: &Window) -> Vec<(usize, usize)> {
+    let grid = &window.grid;
+    let last = (0..grid.unknowns()).map(|k| grid.line_and_column(grid.node(k)).1).max().unwrap_or(0);
+    let first = grid.line_and_column(grid.node(0)).1;
+    let of_line = |line: usize| {
+        let own = || window.snapshots.iter().filter_map(move |snapshot| snapshot.fronts.get(line).copied());
+        let lowest = own().min().unwrap_or(last).saturating_sub(BEFORE + MARGIN).max(first);
+        let highest = (own().max().unwrap_or(last) + 1).min(last);
+        (lowest, highest.max(lowest))
+    };
+    (0..grid.lines()).map(of_line).collect()
+}
+
+/// Nodes of the support that the boundary asks for.
+pub(super) fn support(window: &Window) -> Vec<usize> {
+    let mut nodes = Vec::new();
+    each_passed(window, |_, unknown| nodes.extend(window.grid.row(unknown).0));
+    nodes
+}
+
+/// Tells line and unknown of every node that B may pass, line after line.
+fn each_passed(window: &Window, mut tell: impl FnMut(usize, usize)) {
+    let (grid, lines) = (&window.grid, window.grid.lines());
+    let first = grid.line_and_column(grid.node(0)).1;
+    for (line, (lowest, highest)) in passed(window).into_iter().enumerate() {
+        (lowest..=highest).for_each(|column| tell(line, (column - first) * lines + line));
+    }
+}
+
+impl Front {
+    /// The boundary of a window, for operators over a support with so many modes.
+    pub fn new(window: &Window, support: &[usize], state_rows: &[f64], load_row: &[f64]) -> Self {
+        let (grid, weights, modes) = (&window.grid, window.grid.weights(), load_row.len());
+        let place = |node: usize| support.partition_point(|&s| s < node);
+        let mut nodes: Vec<Passed> = Vec::new();
+        let mut owners = Vec::new();
+        each_passed(window, |line, unknown| {
+            let (node, (stencil, geometry)) = (grid.node(unknown), grid.row(unknown));
+            owners.push(line);
+            let stencil = stencil.map(place);
+            nodes.push(Passed { place: place(node), node, weight: weights[node], stencil, geometry, zero: 0.0 });
+        });
+        let line = |(line, (column, highest)): (usize, (usize, usize))| {
+            let first = owners.partition_point(|&owner| owner < line);
+            // The last one is never passed: its row says whether B must move on to where no training has been.
+            let count = highest - column;
+            Line { column, first, count, front: count, down: None, turns: 0 }
+        };
+        let lines: Vec<Line> = passed(window).into_iter().enumerate().map(line).collect();
+        let rows = window.sampled_rows.iter().map(|&row| grid.line_and_column(grid.node(row))).collect();
+        let bends = nodes.iter().flat_map(|passed| support.iter().map(|&node| grid.kernel_entry(node, passed.node)));
+        let bends = bends.collect();
+        let basis = nodes.iter().flat_map(|p| state_rows[p.place * modes..][..modes].iter().copied()).collect();
+        let s = support.len();
+        let deformation = state_rows[s * modes..2 * s * modes].to_vec();
+        let whole: Vec<usize> = lines.iter().map(|line| line.column + line.count).collect();
+        let kept = vec![Kept { fronts: whole, deformation, load_row: load_row.to_vec() }];
+        let chunk = [vec![0.0; CHUNK * s], vec![0.0; CHUNK * modes]];
+        let passing = Vec::with_capacity(nodes.len());
+        let mut front = Self { lines, nodes, modes: basis, bends, kept, rows, lift: vec![0.0; modes], passing, chunk };
+        front.keep(window, state_rows, load_row);
+        front
+    }
+
+    /// Keeps operators at places of B that are far from each other.
+    fn keep(&mut self, window: &Window, state_rows: &[f64], load_row: &[f64]) {
+        let far = |a: &[usize], b: &[usize]| a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).sum::<usize>();
+        let (mut state_rows, mut load_row) = (state_rows.to_vec(), load_row.to_vec());
+        let mut fields = vec![0.0; 2 * self.bends.len() / self.nodes.len().max(1)];
+        while self.kept.len() < KEPT {
+            let to_kept = |fronts: &[usize]| self.kept.iter().map(|kept| far(&kept.fronts, fronts)).min().unwrap_or(0);
+            let farthest = window.snapshots.iter().map(|snapshot| &snapshot.fronts).max_by_key(|f| to_kept(f));
+            let Some(fronts) = farthest.filter(|fronts| to_kept(fronts) > self.lines.len()) else { return };
+            let fronts = fronts.clone();
+            let changed = Changed { state_rows: &mut state_rows, load_row: &mut load_row, fields: &mut fields };
+            self.begin(&fronts, changed);
+            let s = fields.len() / 2;
+            let deformation = state_rows[s * load_row.len()..2 * s * load_row.len()].to_vec();
+            self.kept.push(Kept { fronts: self.fronts().collect(), deformation, load_row: load_row.clone() });
+        }
+    }
+
+    /// The first ruptured column of each line.
+    pub fn fronts(&self) -> impl Iterator<Item = usize> + '_ {
+        self.lines.iter().map(|line| line.column + line.front)
+    }
+
+    /// Whether a sampled row lies behind B.
+    pub fn is_ruptured(&self, row: usize) -> bool {
+        let (line, column) = self.rows[row];
+        let line = &self.lines[line];
+        column >= line.column + line.front
+    }
+
+    /// Puts B somewhere before an iteration begins.
+    pub fn begin(&mut self, fronts: &[usize], changed: Changed<'_>) {
+        let far = |kept: &Kept| kept.fronts.iter().zip(fronts).map(|(a, b)| a.abs_diff(*b)).sum::<usize>();
+        let Some(nearest) = (0..self.kept.len()).min_by_key(|&k| far(&self.kept[k])) else { return };
+        let Self { lines, nodes, modes: basis, kept, passing, .. } = self;
+        let modes = changed.load_row.len();
+        changed.load_row.copy_from_slice(&kept[nearest].load_row);
+        let from = changed.fields.len() / 2 * modes;
+        changed.state_rows[from..2 * from].copy_from_slice(&kept[nearest].deformation);
+        passing.clear();
+        for ((line, fronts), kept) in lines.iter_mut().zip(fronts).zip(&kept[nearest].fronts) {
+            let at = |column: usize| column.saturating_sub(line.column).clamp(1, line.count);
+            let (to, was) = (at(*fronts), at(*kept));
+            (line.front, line.down, line.turns) = (to, None, 0);
+            passing.extend((to..was).map(|k| (line.first + k, false)));
+            passing.extend((was..to).map(|k| (line.first + k, true)));
+            // V of all nodes is that of the new place.
+            for k in line.first..line.first + line.count + 1 {
+                let own = &mut changed.state_rows[nodes[k].place * modes..][..modes];
+                if k < line.first + to { own.copy_from_slice(&basis[k * modes..][..modes]) } else { own.fill(0.0) }
+            }
+        }
+        self.bend(changed.state_rows, changed.load_row);
+    }
+
+    /// What the film at X = 0 (and Y = 0) gains, given by nodes and weights of an interpolation there and by what whole
+    /// modes give it.
+    pub fn aim(&mut self, grid: &ContactGrid, zero: &[(usize, f64)], scale: f64, whole: &[f64]) {
+        self.lift.copy_from_slice(whole);
+        let modes = whole.len();
+        for passed in &mut self.nodes {
+            let weights = zero.iter().filter(|(_, weight)| *weight != 0.0);
+            passed.zero = scale * weights.map(|(at, weight)| weight * grid.kernel_entry(*at, passed.node)).sum::<f64>();
+        }
+        for line in &self.lines {
+            for k in line.first + line.front..line.first + line.count {
+                let zero = self.nodes[k].zero;
+                let own = &self.modes[k * modes..][..modes];
+                self.lift.iter_mut().zip(own).for_each(|(lift, v)| *lift -= zero * v);
+            }
+        }
+    }
+
+    /// Carries the nodes that pass over to K V and the load's row.
+    fn bend(&mut self, state_rows: &mut [f64], load_row: &mut [f64]) {
+        let Self { nodes, modes: basis, bends, passing, chunk, .. } = self;
+        let (modes, s) = (load_row.len(), bends.len() / nodes.len().max(1));
+        let deformation = &mut state_rows[s * modes..2 * s * modes];
+        for part in passing.chunks(CHUNK) {
+            for (slot, &(k, carries)) in part.iter().enumerate() {
+                let (sign, own) = (if carries { 1.0 } else { -1.0 }, &basis[k * modes..][..modes]);
+                let weight = sign * nodes[k].weight;
+                load_row.iter_mut().zip(own).for_each(|(load, v)| *load += weight * v);
+                chunk[0][slot * s..][..s].copy_from_slice(&bends[k * s..][..s]);
+                chunk[1][slot * modes..][..modes].iter_mut().zip(own).for_each(|(out, v)| *out = sign * v);
+            }
+            let bent = MatRef::from_row_major_slice(&chunk[0][..part.len() * s], part.len(), s);
+            let own = MatRef::from_row_major_slice(&chunk[1][..part.len() * modes], part.len(), modes);
+            let out = MatMut::from_row_major_slice_mut(&mut *deformation, s, modes);
+            matmul(out, Accum::Add, bent.transpose(), own, 1.0, Par::Seq);
+        }
+    }
+
+    /// Lets B follow a step: `nodes` are those before it, `step` what it added to the fields, by the factor `omega`, and
+    /// `shift` to H₀; `changed` has the fields behind it. Whether B is still.
+    pub fn follow(
+        &mut self,
+        nodes: &Nodes,
+        (scale, omega): (f64, f64),
+        (step, shift): (&[f64], f64),
+        coefficients: &[f64],
+        changed: Changed<'_>,
+    ) -> bool {
+        let Changed { state_rows, load_row, fields } = changed;
+        let s = fields.len() / 2;
+        self.passing.clear();
+        for line in &mut self.lines {
+            if line.turns >= TURNS {
+                continue;
+            }
+            let at = |k: usize| &self.nodes[line.first + k];
+            let before = line.front.saturating_sub(BEFORE)..line.front;
+            let up = line.front > 1 && before.into_iter().any(|k| fields[at(k).place] < NEGATIVE);
+            let boundary = at(line.front);
+            let row = nodes.row(&boundary.geometry.scaled(scale), 0.0, boundary.stencil);
+            let change = boundary
+                .stencil
+                .iter()
+                .zip(row.d_p)
+                .zip(row.d_h)
+                .map(|((&node, a), b)| a * step[node] + b * (scale * step[s + node] + shift));
+            // (D.16): λ at B after the step.
+            let multiplier = -(row.value + omega * change.sum::<f64>());
+            let down = !up && multiplier < 0.0 && line.front < line.count;
+            if !(up || down) {
+                continue;
+            }
+            line.turns += u8::from(line.down.is_some_and(|was| was != down));
+            line.down = Some(down);
+            if down {
+                self.passing.push((line.first + line.front, true));
+                line.front += 1;
+            } else {
+                line.front -= 1;
+                self.passing.push((line.first + line.front, false));
+            }
+        }
+        if self.passing.is_empty() {
+            return true;
+        }
+        self.bend(state_rows, load_row);
+        let modes = load_row.len();
+        let (pressure, deformation) = fields.split_at_mut(s);
+        for &(k, carries) in &self.passing {
+            let (passed, own) = (&self.nodes[k], &self.modes[k * modes..][..modes]);
+            let value: f64 = own.iter().zip(coefficients).map(|(v, c)| v * c).sum();
+            let sign = if carries { 1.0 } else { -1.0 };
+            pressure[passed.place] = if carries { value } else { 0.0 };
+            let bends = &self.bends[k * s..][..s];
+            deformation.iter_mut().zip(bends).for_each(|(out, bend)| *out += sign * value * bend);
+            self.lift.iter_mut().zip(own).for_each(|(lift, v)| *lift += sign * passed.zero * v);
+            let row = &mut state_rows[passed.place * modes..][..modes];
+            if carries { row.copy_from_slice(own) } else { row.fill(0.0) }
+        }
+        false
+    }
+}

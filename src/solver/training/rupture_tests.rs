@@ -1,0 +1,101 @@
+//! Models of films that rupture by complementarity: near full solutions of the same law, with the boundary where it is.
+
+use super::small::{line, line_grid, point};
+use super::*;
+use crate::solver::discrete::grid::GridSpec;
+use crate::solver::full::{ContactSolver, Start};
+use crate::solver::physics::lubricant::{Cavitation, ShearLaw};
+use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Sampling, fronts};
+use std::sync::Arc;
+
+fn ruptured(spec: TrainingSpec) -> TrainingSpec {
+    spec.under(Cavitation::Complementarity)
+}
+
+fn on(grid: GridSpec, spec: TrainingSpec) -> TrainingSpec {
+    TrainingSpec { windows: Windows::Given(vec![WindowSpec { m: (1.0, 500.0), grid }]), ..spec }
+}
+
+/// Largest relative error of H_c at fresh points, and how far the boundary lies from the full solutions'.
+fn errors(spec: &TrainingSpec, model: &Arc<ReducedModel>) -> (f64, usize) {
+    let grid = &model.windows[0].grid;
+    let mut online = Online::new(Arc::clone(model), ReducedOptions::default());
+    let mut full = ContactSolver::on(grid);
+    let (mut worst, mut off) = (0.0, 0);
+    for point in random_points(&spec.range, spec.contact(), 16, 77) {
+        online.forget();
+        let solved = online.solve(&point, spec.lubricant).unwrap();
+        let fields = online.reconstruct(&solved).unwrap();
+        let truth = full.solve(&point, spec.lubricant, Start::Cold, &()).unwrap();
+        assert!(truth.converged());
+        worst = f64::max(worst, (solved.h_c / truth.scalars.h_c - 1.0).abs());
+        assert!((fields.scalars.h_c / solved.h_c - 1.0).abs() < 1e-8, "the film of the fields is that of the solve");
+        let true_fronts = fronts(grid, |node| truth.pressure[node]);
+        off = true_fronts.iter().zip(&solved.fronts).map(|(a, b)| a.abs_diff(*b)).fold(off, usize::max);
+        assert_eq!(true_fronts.len(), solved.fronts.len());
+        assert!(fields.pressure.iter().all(|p| *p >= 0.0));
+        assert!(fields.pressure.iter().zip(&fields.multiplier).all(|(p, multiplier)| p * multiplier == 0.0));
+        let highest = |field: &[f64]| field.iter().copied().fold(0.0, f64::max);
+        assert!((highest(&fields.multiplier) / highest(&truth.multiplier) - 1.0).abs() < 0.1);
+    }
+    (worst, off)
+}
+
+#[test]
+fn line_models_are_near_full_complementarity_with_the_boundary_within_a_node() {
+    let uniform = GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) };
+    for (grid, sampling) in [
+        (line_grid(240), Sampling::All),
+        (line_grid(240), Sampling::QDeim),
+        (uniform, Sampling::QDeim),
+        (uniform, Sampling::Cubature),
+    ] {
+        let spec = ruptured(on(grid, line(sampling, 50)));
+        let model = Arc::new(train(&spec, &()).unwrap());
+        assert_eq!(model.domain.lubricant.cavitation, Cavitation::Complementarity);
+        let (worst, off) = errors(&spec, &model);
+        assert!(worst < 2e-3 && off <= 1, "{grid:?}, {sampling:?}: H_c {worst:.1e}, {off} nodes");
+    }
+}
+
+#[test]
+fn a_boundary_that_begins_elsewhere_is_found_and_the_order_of_solves_does_not_matter() {
+    let spec = ruptured(line(Sampling::QDeim, 50));
+    let model = train(&spec, &()).unwrap();
+    let points = random_points(&spec.range, ContactKind::Line, 6, 3);
+    let mut moved = model.clone();
+    for snapshot in &mut moved.windows[0].snapshots {
+        snapshot.fronts[0] -= 3;
+    }
+    let (mut own, mut other) = (
+        Online::new(Arc::new(model), ReducedOptions::default()),
+        Online::new(Arc::new(moved), ReducedOptions::default()),
+    );
+    let solve = |online: &mut Online, k: usize| {
+        online.forget();
+        online.solve(&points[k], spec.lubricant).unwrap()
+    };
+    let first: Vec<_> = (0..points.len()).map(|k| solve(&mut own, k)).collect();
+    for (k, solved) in first.iter().enumerate().rev() {
+        assert_eq!(solve(&mut own, k), *solved);
+        let found = solve(&mut other, k);
+        assert!(found.fronts[0].abs_diff(solved.fronts[0]) <= 1 && (found.h_c / solved.h_c - 1.0).abs() < 1e-4);
+    }
+}
+
+#[test]
+fn point_models_are_near_full_complementarity() {
+    let spec = ruptured(point(Sampling::Cubature, 24));
+    let model = Arc::new(train(&spec, &()).unwrap());
+    let (worst, off) = errors(&spec, &model);
+    assert!(worst < 6e-3 && off <= 2, "H_c {worst:.1e}, {off} nodes");
+}
+
+#[test]
+fn lubricants_that_thin_under_shear_are_refused() {
+    let shear = ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 };
+    let spec = line(Sampling::QDeim, 8);
+    let spec = ruptured(TrainingSpec { lubricant: Lubricant { shear, ..spec.lubricant }, ..spec });
+    let sentence = spec.check().unwrap_err().to_string();
+    assert!(sentence.contains("`cavitation` is complementarity") && sentence.contains("penalty"), "{sentence}");
+}
