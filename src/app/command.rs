@@ -149,6 +149,8 @@ pub enum Command {
     StopAlong,
     /// What becomes of contacts in time.
     InTime(InTimeCommand),
+    /// Compare all reduced models that can be.
+    CompareModels,
     /// What becomes of trainings and of what they made.
     Training(TrainingCommand),
 }

@@ -14,6 +14,7 @@ use super::session::Place;
 use super::tab::Tab;
 use super::traction;
 use super::transient::Setup;
+use super::units::Units;
 use egui::{Context, ThemePreference, ViewportCommand};
 use egui_tiles::Tile;
 
@@ -69,8 +70,17 @@ impl Explorer {
                 *difference = !*difference;
                 self.show(Tab::Profiles);
             }
-            Command::Arrange(layout) => self.tree = layout.tree(ctx.content_rect().width()),
-            Command::Lessons => self.lessons.toggle(),
+            Command::Arrange(layout) => {
+                self.tree = layout.tree(ctx.content_rect().width());
+                if layout == Layout::Engineer {
+                    self.desk.display.units = Units::Si;
+                }
+                self.hold_axes();
+            }
+            Command::Lessons => {
+                self.lessons.toggle();
+                self.hold_axes();
+            }
             Command::ShowWhy => desk.display.why = !desk.display.why,
             Command::FitPlots => desk.fit_plots = true,
             Command::SiUnits => desk.display.units = desk.display.units.other(),
@@ -140,6 +150,7 @@ impl Explorer {
             Command::Keyboard => self.help.manual.open_at("keyboard.md"),
             Command::About => self.help.about = true,
             Command::InTime(command) => desk.transient.execute(ctx, &desk.answers.store, command),
+            Command::CompareModels => desk.training.compare(ctx, &desk.answers, &desk.document),
             Command::Training(command) => desk.training.execute(ctx, &mut desk.answers, command),
             Command::Edit(edit, field) => desk.edit(edit, field),
             Command::Refuse(field, why) => desk.entries.answer(field, Err(why.to_owned())),
@@ -172,15 +183,27 @@ impl Explorer {
     fn present(&mut self, ctx: &Context) {
         match self.desk.presentation.take() {
             Some(presentation) => {
-                presentation.end(ctx);
+                self.desk.locked = presentation.end(ctx);
+                self.desk.fit_plots = true;
                 ctx.set_theme(self.desk.display.theme);
             }
             None => {
-                self.desk.presentation = Some(Presentation::begin(ctx));
+                self.desk.presentation = Some(Presentation::begin(ctx, &self.desk.locked));
+                self.hold_axes();
                 if self.desk.display.light_presentation {
                     ctx.set_theme(ThemePreference::Light);
                 }
             }
+        }
+    }
+
+    /// Lets the axes of the tabs in front stand still where a lecture is given: a presentation of tabs beside each other,
+    /// or of a lesson. What changes is then seen to change.
+    fn hold_axes(&mut self) {
+        let front: Vec<Tab> = self.tabs_in_front().collect();
+        if self.desk.presentation.is_some() && (front.len() > 1 || self.lessons.is_open()) {
+            front.into_iter().for_each(|tab| self.desk.lock(tab, true));
+            self.desk.fit_plots = true;
         }
     }
 
@@ -197,7 +220,9 @@ impl Explorer {
     /// Sets the size of everything: as it was chosen, and larger in a presentation.
     pub(super) fn scale(&self, ctx: &Context) {
         let (present, chosen) = (ctx.zoom_factor(), self.desk.display.zoom);
-        let larger = self.desk.presentation.map_or(1.0, |_| enlargement(ctx.content_rect().size() * present / chosen));
+        let window = ctx.content_rect().size() * present / chosen;
+        let presents = self.desk.presentation.is_some();
+        let larger = if presents { enlargement(window, self.tabs_in_front().count()) } else { 1.0 };
         let wanted = chosen * larger;
         if (wanted - present).abs() > 1e-3 {
             ctx.set_zoom_factor(wanted);

@@ -14,7 +14,7 @@ pub enum Layout {
     Explore,
     /// Profiles beside the chart of regimes.
     Teach,
-    /// Profiles beside traction and results.
+    /// Profiles beside traction and results, on axes with SI units.
     Engineer,
     /// The basis beside its errors.
     ModelReduction,

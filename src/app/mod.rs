@@ -298,7 +298,8 @@ impl Explorer {
         }
         desk.answers.settle(ctx, &desk.document);
         desk.transient.settle(ctx, &desk.answers.store);
-        desk.fit_plots = false;
+        // A contact that is being solved is waited for.
+        desk.fit_plots &= desk.answers.jobs.busy(JobKind::Live) && !desk.answers.picture_is_current();
     }
 
     /// Hands what has changed in this frame to the keeper of the session.
@@ -318,7 +319,10 @@ impl Explorer {
         let (mut entries, mut own_laws) = (std::mem::take(&mut desk.entries), desk.own_lubricant);
         let context = desk.context();
         if context.presenting {
-            Panel::bottom("presentation").show(ui, |ui| panels::presentation::ui(ui, &context, &mut entries, commands));
+            let locked = !desk.locked.is_empty();
+            Panel::bottom("presentation").show(ui, |ui| {
+                panels::presentation::ui(ui, &context, locked, &mut entries, commands);
+            });
         } else {
             Panel::top("menu").show(ui, |ui| panels::menu::ui(ui, desk, commands));
             Panel::bottom("jobs").show(ui, |ui| panels::strip::ui(ui, desk, frame_s, commands));

@@ -75,10 +75,16 @@ pub fn duration(second: f64) -> String {
 pub fn standing(standing: &Standing) -> String {
     let amount = if standing.total > 0 { format!("{} of {}", standing.done, standing.total) } else { String::new() };
     match standing.left_s {
-        Some(left) if standing.total > 0 && left >= 1.0 => format!("{amount}, {} s left", left.round()),
+        Some(left) if standing.total > 0 && left >= 1.0 => format!("{amount}, {} left", remaining(left)),
         Some(_) if standing.total > 0 => format!("{amount}, less than a second left"),
+        _ if standing.total > 0 => format!("{amount}, {} so far", duration(standing.since_s)),
         _ => duration(standing.since_s),
     }
+}
+
+/// A time to wait, no more exact than it is known.
+pub fn remaining(seconds: f64) -> String {
+    if seconds < 90.0 { format!("{seconds:.0}{THIN}s") } else { format!("{:.0}{THIN}min", seconds / 60.0) }
 }
 
 /// A relative deviation with its sign, in percent.

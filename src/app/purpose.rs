@@ -1,5 +1,7 @@
 //! What a path is asked for.
 
+use crate::scene::Sheet;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// What a path is asked for.
@@ -13,8 +15,12 @@ pub enum Purpose {
     Inputs,
     /// Read a table of load cases.
     Cases,
+    /// Read a reduced model that others are compared with.
+    Beside,
     /// Write a file with this content.
     Write(Written, Arc<Vec<u8>>),
+    /// Write a sheet as notes with figures beside them.
+    Notes(Arc<Sheet>),
 }
 
 /// What is written beside scenes.
@@ -28,8 +34,6 @@ pub enum Written {
     Svg,
     /// An image.
     Png,
-    /// Notes.
-    Markdown,
     /// A page.
     Html,
     /// Arrays.
@@ -53,7 +57,13 @@ pub struct Words {
 impl Purpose {
     /// Whether a file is read: then it must exist, and none is replaced.
     pub fn reads(&self) -> bool {
-        matches!(self, Self::Open | Self::Inputs | Self::Cases)
+        matches!(self, Self::Open | Self::Inputs | Self::Cases | Self::Beside)
+    }
+
+    /// What is written besides a file of a name.
+    pub fn beside(&self, path: &Path) -> Vec<PathBuf> {
+        let Self::Notes(sheet) = self else { return Vec::new() };
+        sheet.notes(path).into_iter().skip(1).map(|(path, _)| path).collect()
     }
 
     /// How a path is asked for.
@@ -63,9 +73,10 @@ impl Purpose {
             Self::Save => ("Save the scene", "Save", "Scene", &["ron"], "contact.ron"),
             Self::Inputs => ("Inputs from a table", "Read", "Table", &["csv"], ""),
             Self::Cases => ("Load cases from a table", "Read", "Table", &["csv"], ""),
+            Self::Beside => ("Add a reduced model to the comparison", "Add", "Reduced model", &["rom"], ""),
             Self::Write(Written::Model, _) => ("Save the reduced model", "Save", "Reduced model", &["rom"], "line.rom"),
             Self::Write(Written::Table, _) => ("Export the data as CSV", "Export", "Table", &["csv"], "profiles.csv"),
-            Self::Write(Written::Markdown, _) => ("Export the sheet", "Export", "Notes", &["md"], "contact.md"),
+            Self::Notes(_) => ("Export the sheet", "Export", "Notes", &["md"], "contact.md"),
             Self::Write(Written::Html, _) => ("Export the sheet", "Export", "Page", &["html", "htm"], "contact.html"),
             Self::Write(Written::Arrays, _) => ("Export arrays", "Export", "Arrays for numpy", &["npz"], "model.npz"),
             Self::Write(Written::Svg, _) => ("Export the picture", "Export", "Picture", &["svg"], "contact.svg"),

@@ -10,11 +10,12 @@ use crate::engine::{EngineError, Workbench};
 use crate::scene::{ContactResult, Method, ModelSource, Request, Sheet, Solved, answer_or_full};
 use crate::solver::reduced::Trust;
 use egui::Context;
+use std::sync::Arc;
 
 /// How a sheet is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// For people and for notes.
+    /// For people and for notes, with figures beside it.
     Markdown,
     /// With its figures in it.
     Html,
@@ -41,9 +42,9 @@ impl Form {
         }
     }
 
-    fn write(self, sheet: &Sheet) -> Purpose {
+    fn write(self, sheet: Sheet) -> Purpose {
         let (written, text) = match self {
-            Self::Markdown => (Written::Markdown, sheet.to_markdown()),
+            Self::Markdown => return Purpose::Notes(Arc::new(sheet)),
             Self::Html => (Written::Html, sheet.to_html()),
             Self::Csv => (Written::Table, sheet.to_csv()),
         };
@@ -81,7 +82,7 @@ impl Sheets {
                     .zip(&answers)
                     .map(|(result, answer)| Solved { result, solution: answer.result() })
                     .collect();
-                Ok(form.write(&Sheet::new(&title, &solved, bodies.as_ref())))
+                Ok(form.write(Sheet::new(&title, &solved, bodies.as_ref())))
             };
             match solve() {
                 Ok(purpose) => reporter.send(purpose),

@@ -70,6 +70,12 @@ impl Tab {
         }
     }
 
+    /// Whether it has axes that can be read in ratios and in SI units; those of the others show numbers of the contact,
+    /// relative errors, or what is in SI units always.
+    pub fn has_units(self) -> bool {
+        matches!(self, Self::Profiles | Self::ContactMap | Self::Basis | Self::Transient | Self::Tpwl)
+    }
+
     /// What is seen in it and why it is so, in three sentences.
     pub fn why(self) -> &'static str {
         match self {

@@ -55,8 +55,8 @@ pub struct SolveArgs {
     /// Write the shear across the film in the plane Y = 0 as CSV: X, Z = z/h, stress in Pa, rate in 1/s
     #[arg(long, value_name = "FILE.csv")]
     film_shear: Option<PathBuf>,
-    /// Write a results sheet: inputs, results, how they were checked, formulas beside; by the ending Markdown (md), a page
-    /// with figures (html) or a table (csv)
+    /// Write a results sheet: inputs, results, how they were checked, formulas beside; by the ending Markdown with
+    /// figures beside it (md), a page with figures (html) or a table (csv)
     #[arg(long, value_name = "FILE.md")]
     sheet: Option<PathBuf>,
     /// Estimate what a point contact's grid costs H_c and H_min, by a second solve on another grid
@@ -76,7 +76,7 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
         ));
     }
     if let Some(path) = &args.sheet
-        && Sheet::new("", &[], None).for_file(path).is_none()
+        && Sheet::new("", &[], None).files(path).is_empty()
     {
         let sentence = format!("--sheet {} has no ending that is known; accepted are md, html, csv", path.display());
         return Err(Failure::Request(sentence));
@@ -103,8 +103,7 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
         let solved = Solved { result: &report.result, solution: answer.result() };
         let kind = request.point.kind.name();
         let title = format!("{}{} contact", kind.get(..1).unwrap_or("").to_uppercase(), kind.get(1..).unwrap_or(""));
-        let text = Sheet::new(&title, &[solved], None).for_file(path).unwrap_or_default();
-        atomic_file::replace(path, text.as_bytes())?;
+        atomic_file::replace_all(&Sheet::new(&title, &[solved], None).files(path))?;
     }
     if args.json {
         output::print_json(&report)?;

@@ -30,6 +30,14 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     write(path, bytes).map_err(|reason| WriteError { path: path.to_owned(), reason })
 }
 
+/// Writes files that belong together, the first one last: it refers to the others.
+///
+/// # Errors
+/// When one of them cannot be written.
+pub fn replace_all(files: &[(PathBuf, String)]) -> Result<(), WriteError> {
+    files.iter().rev().try_for_each(|(path, text)| replace(path, text.as_bytes()))
+}
+
 fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     // A link is followed, and a device or pipe is written to instead of being replaced.
     let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());

@@ -28,6 +28,7 @@ pub mod named_lubricant;
 mod outcome;
 mod parallel;
 mod random_points;
+pub mod regimes;
 mod run;
 pub mod sampled;
 mod scene_check;

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Solves without telling the observer, every so many.
+/// Reduced solves of which the observer is told once.
 const REPORT_EVERY: usize = 32;
 /// Points a reduced solver is made for at a time; its operators cost as much as a few solves.
 const CHUNK: usize = 128;
@@ -21,13 +21,15 @@ struct Count<'a> {
     stage: &'static str,
     done: AtomicUsize,
     total: usize,
+    /// Solves of which the observer is told once.
+    every: usize,
     observer: &'a dyn Observer,
 }
 
 impl Count<'_> {
     fn one_more(&self) -> Result<(), RunError> {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
-        if done % REPORT_EVERY == 1 {
+        if (done - 1).is_multiple_of(self.every) {
             self.observer.progress(Progress { stage: self.stage.to_owned(), done, total: self.total });
         }
         if self.observer.cancelled() { Err(RunError::Cancelled) } else { Ok(()) }
@@ -53,8 +55,9 @@ pub(super) fn full_solutions_told(
     observer: &dyn Observer,
     tell: impl Fn(usize, Option<&Solution>) + Sync,
 ) -> Result<Vec<Option<Solution>>, RunError> {
-    let count =
-        Count { stage: "full solutions to compare with", done: AtomicUsize::new(0), total: points.len(), observer };
+    // A full solution may take seconds: each is news.
+    let (stage, total) = ("full solutions to compare with", points.len());
+    let count = Count { stage, done: AtomicUsize::new(0), total, every: 1, observer };
     points
         .par_iter()
         .enumerate()
@@ -85,7 +88,8 @@ pub(super) fn reduced_solutions(
     fields: impl Fn(usize) -> bool + Sync,
     observer: &dyn Observer,
 ) -> Result<Vec<Option<Reduced>>, RunError> {
-    let count = Count { stage: "reduced solutions", done: AtomicUsize::new(0), total: points.len(), observer };
+    let (stage, total) = ("reduced solutions", points.len());
+    let count = Count { stage, done: AtomicUsize::new(0), total, every: REPORT_EVERY, observer };
     let parts: Vec<Vec<Option<Reduced>>> = points
         .par_chunks(CHUNK)
         .enumerate()

@@ -5,12 +5,14 @@ use super::chart::{Chart, ChartAxis, Marks};
 use super::chart_page::Page;
 use super::contact_result::ContactResult;
 use super::drawing::escaped;
+use super::regimes::{self, Regime};
 use super::table::{quoted, significant};
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::{ContactKind, FilmFormula};
 use crate::solver::physics::engineering::{Bodies, film_regime, largest_shear};
+use std::ffi::OsStr;
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Digits of the sheet's numbers for people; its CSV has all.
 const DIGITS: i32 = 5;
@@ -31,7 +33,7 @@ pub struct Sheet {
     pub title: String,
     /// What it says, part by part.
     pub parts: Vec<Part>,
-    /// Pressure and film.
+    /// Pressure and film, and where the contact stands among the regimes.
     pub figures: Vec<Chart>,
 }
 
@@ -108,18 +110,25 @@ impl Sheet {
         Self { title: title.to_owned(), parts, figures }
     }
 
-    /// As the ending of a file's name says: md, html or csv; none for others.
-    pub fn for_file(&self, path: &Path) -> Option<String> {
-        match path.extension()?.to_str()? {
-            "md" => Some(self.to_markdown()),
-            "html" | "htm" => Some(self.to_html()),
-            "csv" => Some(self.to_csv()),
-            _ => None,
-        }
+    /// Its files with their texts as the ending of a name says: md with figures beside it, html or csv; none for others.
+    pub fn files(&self, path: &Path) -> Vec<(PathBuf, String)> {
+        let text = match path.extension().and_then(OsStr::to_str) {
+            Some("md") => return self.notes(path),
+            Some("html" | "htm") => self.to_html(),
+            Some("csv") => self.to_csv(),
+            _ => return Vec::new(),
+        };
+        vec![(path.to_owned(), text)]
     }
 
-    /// As Markdown: a table for each part.
-    pub fn to_markdown(&self) -> String {
+    /// As Markdown in a file of a name, with the figures that it shows in files beside it.
+    pub fn notes(&self, path: &Path) -> Vec<(PathBuf, String)> {
+        let figures = self.figures.iter().map(|figure| (beside(path, figure), figure.to_svg(&Page::default())));
+        std::iter::once((path.to_owned(), self.to_markdown(path))).chain(figures).collect()
+    }
+
+    /// A table for each part, and links to the figures beside it.
+    fn to_markdown(&self, path: &Path) -> String {
         let cell = |text: &str| text.replace('|', "\\|").replace('\n', " ");
         let mut text = format!("# {}\n", self.title);
         for part in &self.parts {
@@ -129,6 +138,12 @@ impl Sheet {
                 let (name, value, remark) = (cell(&line.name), cell(&line.value.shown()), cell(&line.remark));
                 let _ = writeln!(text, "| {name} | {value} | {} | {remark} |", line.unit);
             }
+        }
+        for figure in &self.figures {
+            let file = beside(path, figure);
+            // A link knows no blanks and no brackets.
+            let name = file.file_name().unwrap_or_default().to_string_lossy();
+            let _ = write!(text, "\n![{}](<{name}>)\n", figure.title);
         }
         text
     }
@@ -179,6 +194,12 @@ impl Sheet {
     }
 }
 
+/// The file of a figure beside a sheet: `contact_pressure.svg` beside `contact.md`.
+fn beside(path: &Path, figure: &Chart) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{stem}_{}.svg", figure.title.to_lowercase()))
+}
+
 impl Value {
     fn shown(&self) -> String {
         match self {
@@ -215,6 +236,8 @@ fn inputs(solved: &Solved<'_>) -> Part {
     }
     part.number("Load number M", point.moes().m, "");
     part.number("Lubricant number L", point.moes().l, "");
+    let regime = Regime::of(point.kind, point.moes());
+    part.words("Regime", format!("{}: {}", regime.title().to_lowercase(), regime.meaning()));
     part
 }
 
@@ -321,7 +344,7 @@ fn formulas(result: &ContactResult) -> Option<Part> {
     (!part.lines.is_empty()).then_some(part)
 }
 
-/// Pressure and film in the plane Y = 0, in SI units.
+/// Pressure and film in the plane Y = 0, in SI units, and the chart of regimes.
 fn pictures(solved: &[Solved<'_>]) -> Vec<Chart> {
     let x = || ChartAxis::linear("x [mm]");
     let mut pressure = Chart::new("Pressure", x(), ChartAxis::linear("p [GPa]"));
@@ -337,7 +360,8 @@ fn pictures(solved: &[Solved<'_>]) -> Vec<Chart> {
         let close = near().filter(|(_, _, h)| *h <= most);
         film.add(result.method, Marks::Line, close.map(|(x, _, h)| [x * mm, h * scale * 1e6]));
     }
-    vec![pressure, film]
+    let regime = solved.first().map(|first| regimes::chart(first.result.point.kind, first.result.point.moes()));
+    [pressure, film].into_iter().chain(regime).collect()
 }
 
 fn program() -> Part {

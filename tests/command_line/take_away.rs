@@ -118,6 +118,14 @@ fn a_sheet_says_what_solve_says_in_three_formats() {
         assert_eq!(line.split(',').nth(2).unwrap().parse::<f64>().unwrap(), value.as_f64().unwrap(), "{name}");
     }
     let (markdown, _) = sheet("sheet.md");
+    for (name, title) in
+        [("sheet_pressure.svg", "Pressure"), ("sheet_film.svg", "Film"), ("sheet_regime.svg", "Regime")]
+    {
+        assert!(markdown.contains(&format!("![{title}](<{name}>)")), "{name}");
+        let figure = std::fs::read_to_string(folder.join(name)).unwrap();
+        assert!(figure.starts_with("<svg ") && figure.trim_end().ends_with("</svg>"), "{name}");
+    }
+    assert!(markdown.contains("| Regime | elastic, piezoviscous: "));
     assert!(markdown.contains("| Central film h_c | ") && markdown.contains("## Published film formulas"));
     let (page, _) = sheet("sheet.html");
     assert!(page.contains("<svg ") && page.contains("Dowson–Toyoda") && page.trim_end().ends_with("</html>"));

@@ -35,10 +35,14 @@ fn error_and_time_against_modes_and_rows_come_by_themselves_and_are_dragged() {
     drag_line(&mut harness, (plot.left(), plot.right()), plot.center().y, -120.0);
     let fewer = modes(&harness).unwrap();
     assert!(fewer < all, "{fewer} of {all} modes");
+    let grey = |harness: &Window, name: &str| harness.state().drawn().find(|drawn| drawn.0 == name).unwrap().2;
+    assert!(!grey(&harness, "sizes by modes"), "any number of modes is there");
+    assert!(grey(&harness, "sizes by rows"), "rows were tried with all modes");
     let title = harness.state().model_title().unwrap().to_owned();
     let plot = harness.get_by_label("Error against rows").rect();
     drag_line(&mut harness, (plot.left(), plot.right()), plot.center().y, -120.0);
     assert_ne!(harness.state().model_title().unwrap(), title, "another model serves");
+    assert!(grey(&harness, "sizes by modes"), "modes were tried with other rows");
     click(&mut harness, "The model’s own rows");
     assert_eq!(harness.state().model_title().unwrap(), title);
     click(&mut harness, "Profile and difference");

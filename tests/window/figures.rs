@@ -7,12 +7,12 @@ use crate::driver::{
 };
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
 use ehl_explorer::engine::{Workbench, run_scene};
 use ehl_explorer::scene::{Grid, Scene};
 use std::path::Path;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 fn open() -> Window {
     let explorer = Explorer::new(Some(ehl_explorer::engine::model_file::embedded().unwrap()));
@@ -36,7 +36,8 @@ fn attribute<'a>(line: &'a str, name: &str) -> &'a str {
 /// Places of the numbers of an axis on paper and their values.
 fn ticks(svg: &str, class: &str) -> Vec<(f64, f64)> {
     let of_class = svg.lines().filter(|line| line.contains(&format!("class=\"{class}\"")));
-    let value = |line: &str| line.split_once('>').unwrap().1.split_once('<').unwrap().0.parse().unwrap();
+    let words = |line: &str| line.split_once('>').unwrap().1.split_once('<').unwrap().0.replace('−', "-");
+    let value = |line: &str| words(line).parse().unwrap();
     of_class.map(|line| (attribute(line, class).parse().unwrap(), value(line))).collect()
 }
 
@@ -72,6 +73,12 @@ fn every_tab_has_its_export_at_the_same_place() {
         click(&mut harness, tab);
         let names = [format!("Export from {tab}"), format!("Lock the axes of {tab}"), "SI".to_owned()];
         places.push(names.map(|name| harness.get_by_label(&name).rect()));
+        let switches = ["Profiles", "Contact map", "Reduced basis", "Transient", "TPWL"].contains(&tab);
+        assert_eq!(
+            !harness.get_by_label("SI").accesskit_node().is_disabled(),
+            switches,
+            "{tab}: it has units or has none"
+        );
         let bar = harness.get_by_label(tab).rect();
         assert!(places.iter().flatten().all(|rect| rect.y_range().intersects(bar.y_range())), "{tab}: not in the bar");
     }
@@ -90,7 +97,8 @@ fn a_figure_is_drawn_for_paper_with_the_numbers_of_the_table() {
             set(harness, Role::SpinButton, "Resolution in dpi", 300.0);
             write(harness, "Title", "Pressure of a roller");
             harness.get_by_role_and_label(Role::Button, button).click();
-            harness.run_steps(3);
+            let asks = |harness: &Window| harness.query_by_label("Path of the file").is_some();
+            wait_until(Duration::from_secs(60), harness, "the file", asks);
             give_path(harness, path, "Export");
             std::fs::read(path).unwrap()
         };
@@ -185,14 +193,17 @@ fn a_figure_of_all_plots_has_one_caption_and_the_clipboard_takes_it() {
     }
     figure(&mut harness, "Reduced basis");
     harness.get_by_role_and_label(Role::Button, "Copy").click();
-    harness.step();
-    let copied = harness
-        .output()
-        .platform_output
-        .commands
-        .iter()
-        .any(|command| matches!(command, egui::OutputCommand::CopyImage(image) if image.size[0] > 500));
-    assert!(copied, "an image on the clipboard");
+    let copied = |command: &egui::OutputCommand| match command {
+        egui::OutputCommand::CopyImage(image) => image.size[0] > 500,
+        _ => false,
+    };
+    let copied = |harness: &Window| harness.output().platform_output.commands.iter().any(copied);
+    let begin = Instant::now();
+    while !copied(&harness) {
+        assert!(begin.elapsed() < Duration::from_secs(60), "an image on the clipboard");
+        std::thread::sleep(Duration::from_millis(5));
+        harness.step();
+    }
     harness.run_steps(2);
     click(&mut harness, "Cancel");
     assert!(!shows(&harness, "Export a figure"));
@@ -222,7 +233,21 @@ fn a_sheet_leaves_with_the_numbers_of_a_headless_solve() {
         assert!(sheet.contains(part), "{part}");
     }
     let page = std::fs::read_to_string(folder.join("sheet.html")).unwrap();
-    assert_eq!(page.matches("<svg ").count(), 2, "pressure and film");
+    assert_eq!(page.matches("<svg ").count(), 3, "pressure, film and the chart of regimes");
+    // As notes its figures lie beside it; none is replaced unasked.
+    std::fs::write(folder.join("notes_film.svg"), "mine").unwrap();
+    click(&mut harness, "Export from Profiles");
+    click(&mut harness, "Results sheet as Markdown…");
+    let asks = |harness: &Window| harness.query_by_label("Path of the file").is_some();
+    wait_until(Duration::from_secs(60), &mut harness, "the notes", asks);
+    give_path(&mut harness, &folder.join("notes.md"), "Export");
+    assert!(shows(&harness, "notes_film.svg exists") && !folder.join("notes.md").exists());
+    click(&mut harness, "Replace the file");
+    let notes = std::fs::read_to_string(folder.join("notes.md")).unwrap();
+    for name in ["notes_pressure.svg", "notes_film.svg", "notes_regime.svg"] {
+        assert!(notes.contains(&format!("(<{name}>)")), "{name}");
+        assert!(std::fs::read_to_string(folder.join(name)).unwrap().starts_with("<svg "), "{name}");
+    }
 }
 
 #[test]

@@ -43,6 +43,16 @@ fn overlaps(harness: &Window, area: Rect) -> Vec<String> {
     found
 }
 
+/// Whether a switch is on.
+fn pressed(harness: &Window, name: &str) -> bool {
+    harness.get_by_label(name).accesskit_node().toggled() == Some(egui::accesskit::Toggled::True)
+}
+
+/// Whether the axes of the profiles stand still.
+fn locked(harness: &Window) -> bool {
+    pressed(harness, "Lock the axes of Profiles")
+}
+
 /// Each layout with what is to be seen at once in it, on small screens and on wide ones beside that.
 const LAYOUTS: [(&str, &[&str], &[&str]); 4] = [
     ("Layout: Explore", &["Pressure profile", "Film profile"], &["Chart of M and L"]),
@@ -66,6 +76,13 @@ fn preset(harness: &mut Window, size: [f32; 2], layout: &str, seen: &[&str], bes
         assert!(!is_plot || place.width() > 120.0 && place.height() > 60.0, "{layout} at {size:?}: {name} {place:?}");
     }
     // Panels scroll: what stands above and below of theirs is left out.
+    for name in seen.iter().filter_map(|plot| plot.split_once(" profile")).map(|_| "Lock the axes of Profiles") {
+        let place = harness.get_by_label(name).rect();
+        assert!(
+            place.left() > 330.0 && place.right() < width && place.bottom() < 64.0,
+            "{layout} at {size:?}: {place:?}"
+        );
+    }
     let area = Rect::from_min_max([330.0, 56.0].into(), [width, height - 56.0].into());
     let found = overlaps(harness, area);
     assert!(found.is_empty(), "{layout} at {size:?}:\n{}", found.join("\n"));
@@ -130,6 +147,7 @@ fn the_lecture_from_m_2_to_500_names_the_regime_and_hides_nothing_that_is_needed
         set(&mut harness, Role::Slider, "Lubricant number L", 5.0);
         let mut chart = None;
         let mut regimes = Vec::new();
+        assert!(locked(&harness) && pressed(&harness, "Lock axes"), "in a lecture axes stand still unasked");
         for m in [2.0, 5.0, 20.0, 100.0, 500.0] {
             set(&mut harness, Role::Slider, "Load number M", m);
             wait(&mut harness, "the picture", |app| !app.busy() && app.central_film().is_some());
@@ -137,7 +155,9 @@ fn the_lecture_from_m_2_to_500_names_the_regime_and_hides_nothing_that_is_needed
             let screen = Rect::from_min_max([0.0, 0.0].into(), [size[0] / zoom, size[1] / zoom].into());
             let place = harness.get_by_label("Chart of M and L").rect();
             assert_eq!(*chart.get_or_insert(place), place, "the axes stand still");
-            for name in ["Pressure profile", "Film profile", "Load number M", "Pin", "Undo", "End the presentation"] {
+            let switches = ["Lock axes", "Lock the axes of Profiles"];
+            let needed = ["Pressure profile", "Film profile", "Load number M", "Pin", "Undo", "End the presentation"];
+            for name in needed.into_iter().chain(switches) {
                 let place = harness.get_by_label(name).rect();
                 assert!(screen.contains_rect(place), "{name} at {place:?} of {screen:?}, M = {m}");
             }
@@ -155,10 +175,14 @@ fn the_lecture_from_m_2_to_500_names_the_regime_and_hides_nothing_that_is_needed
             assert!(!large.is_empty(), "the regime is named in large words at M = {m}");
             regimes.push(large[0].clone());
         }
+        click(&mut harness, "Lock axes");
+        assert!(!locked(&harness), "unless that is not wanted");
+        click(&mut harness, "Lock axes");
         regimes.dedup();
         assert!(regimes.len() > 1, "{regimes:?}");
         press(&mut harness, Modifiers::NONE, Key::Escape);
         harness.run_steps(3);
         assert_eq!(harness.ctx.theme(), Theme::Dark, "the theme is as it was");
+        assert!(!locked(&harness), "and the axes follow the contact again");
     }
 }

@@ -52,7 +52,7 @@ fn a_small_training_is_watched_used_compared_and_saved() {
     assert_eq!(harness.state().model_title(), Some(embedded.as_str()), "nothing is replaced unasked");
     click(&mut harness, "Compare models");
     wait(&mut harness, "the comparison", |app| !app.training());
-    assert!(harness.query_by_label_contains("Compared with the models before").is_some());
+    assert!(harness.query_by_label_contains("Models compared").is_some());
     assert!(harness.query_by_label("Online median").is_some());
     assert!(harness.query_by_label("Pre-computed 12").is_some(), "the chart stays");
     click(&mut harness, "Use this model");
@@ -66,6 +66,15 @@ fn a_small_training_is_watched_used_compared_and_saved() {
     assert_eq!(model_file::read(&path).unwrap().title, "Small box");
     assert!(!folder.join("unfinished.training").exists());
     assert!(!folder.join("trained.rom").exists(), "what is saved need not be kept");
+    // Beside the others in a comparison it does not come into use.
+    click(&mut harness, "Add a model…");
+    give_path(&mut harness, &path, "Add");
+    assert!(harness.query_by_label("small").is_some() && harness.state().model_title() == Some(embedded.as_str()));
+    click(&mut harness, "Compare models");
+    wait(&mut harness, "the comparison of three", |app| !app.training());
+    assert!(harness.query_by_label("Small").is_some(), "a column of the table");
+    click(&mut harness, "Leave out small");
+    assert!(harness.query_by_label("Leave out small").is_none());
     harness.state_mut().open_scene(&path).unwrap();
     wait(&mut harness, "the model from the file", |app| app.model_title() == Some("Small box"));
 }

@@ -28,11 +28,11 @@ impl Desk {
     /// The contact of the sliders in a line.
     fn contact_line(&self) -> String {
         let (point, lubricant) = (&self.document.point, &self.document.lubricant);
-        let unit = match point.kind {
-            ContactKind::Line => "N/m",
-            ContactKind::Point => "N",
-        };
         let significant = numbers::significant;
+        let load = match point.kind {
+            ContactKind::Line => format!("{} N/mm", significant(1e-3 * point.load)),
+            ContactKind::Point => format!("{} N", significant(point.load)),
+        };
         let laws = named_lubricant::of_laws(lubricant)
             .map_or_else(|| lubricant.of_the_film().describe(), |named| named.title.to_owned());
         let limit = lubricant.limiting_stress.map_or_else(String::new, |limit| {
@@ -44,11 +44,10 @@ impl Desk {
             (srr, _) => format!(", SRR {}, NPR {}", significant(srr), significant(self.document.plateau_ratio())),
         };
         format!(
-            "{}, R {}, u_m {} m/s, w {} {unit}, E' {} GPa, η₀ {} Pa·s, α {} 1/GPa, {laws}{limit}{slides}",
+            "{}, R {}, speed {} m/s, load {load}, E' {} GPa, η₀ {} Pa·s, α {} 1/GPa, {laws}{limit}{slides}",
             numbers::moes(point.moes()),
             numbers::length(point.radius_m),
             significant(point.speed_m_per_s),
-            significant(point.load),
             significant(1e-9 * point.modulus_pa),
             significant(point.viscosity_pa_s),
             significant(1e9 * point.alpha_per_pa)

@@ -30,6 +30,9 @@ use files::Files;
 use std::path::Path;
 use std::sync::Arc;
 
+/// Seconds that a curve may take that follows a slider before anybody is told.
+const FOLLOWS_S: f64 = 0.5;
+
 /// What the window works with.
 pub struct Desk {
     /// What is edited.
@@ -167,13 +170,24 @@ impl Desk {
         self.answers.model(&self.document)
     }
 
-    /// How far the work is that runs beside the picture; the first where there is more.
-    pub fn study(&self) -> Option<Standing> {
-        let transient = &self.transient;
-        let studied = self.views.accuracy.standing().or(self.views.results.standing());
-        let studied = studied.or(self.views.basis.standing());
-        let in_time = transient.standing().or(transient.number.work.standing());
-        studied.or(in_time).or(self.sheets.standing()).or(self.traction.full.standing()).or(self.training.standing())
+    /// How far all work is that runs beside the picture.
+    pub fn works(&self) -> Vec<Standing> {
+        let (views, transient) = (&self.views, &self.transient);
+        let asked = [
+            views.results.standing(),
+            views.basis.standing(),
+            transient.standing(),
+            transient.number.work.standing(),
+            self.sheets.standing(),
+            self.figures.standing(),
+            self.traction.full.standing(),
+            self.training.standing(),
+        ];
+        // What follows a dragged slider comes and goes: it is news when it lasts.
+        let following = [self.traction.following(), transient.replaying()];
+        let lasts = |standing: &Standing| standing.since_s > FOLLOWS_S;
+        let following = following.into_iter().flatten().filter(lasts);
+        views.accuracy.standings().chain(asked.into_iter().flatten()).chain(following).collect()
     }
 
     /// Takes in what finished work brings. Called first in every frame.
@@ -197,6 +211,7 @@ impl Desk {
         self.transient.stop();
         self.traction.stop_markers();
         self.sheets.stop();
+        self.figures.stop();
     }
 
     /// Runs the study of the scene on the screen.

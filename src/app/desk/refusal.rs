@@ -62,7 +62,7 @@ impl Desk {
                 Some(_) => (true, "A training or comparison runs already"),
                 None => (self.training.left_behind, "First resume or discard the training that was left unfinished"),
             },
-            Command::Cancel => (self.study().is_none() && self.answers.jobs.running().is_empty(), "Nothing runs"),
+            Command::Cancel => (self.works().is_empty() && self.answers.jobs.running().is_empty(), "Nothing runs"),
             _ => return None,
         };
         refused.then_some(why)

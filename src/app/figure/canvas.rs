@@ -286,20 +286,22 @@ impl<'p, 'a> Canvas<'p, 'a> {
 
     /// A line at a height.
     pub fn hline(&mut self, line: HLine) {
-        if let Some(recording) = &mut self.recording {
-            let pen = pen(&recording.shapes(self.plot, &line));
-            recording.rules.extend(pen.map(|pen| Rule::Across(line.bounds().min()[1], pen)));
-        }
+        self.rule(&line, |pen| Rule::Across(line.bounds().min()[1], pen));
         self.plot.hline(line);
     }
 
     /// An upright line.
     pub fn vline(&mut self, line: VLine) {
-        if let Some(recording) = &mut self.recording {
-            let pen = pen(&recording.shapes(self.plot, &line));
-            recording.rules.extend(pen.map(|pen| Rule::Up(line.bounds().min()[0], pen)));
-        }
+        self.rule(&line, |pen| Rule::Up(line.bounds().min()[0], pen));
         self.plot.vline(line);
+    }
+
+    /// Notes a line all across.
+    fn rule(&mut self, line: &impl PlotItem, rule: impl FnOnce(Pen) -> Rule) {
+        if let Some(recording) = &mut self.recording {
+            let pen = pen(&recording.shapes(self.plot, line));
+            recording.rules.extend(pen.map(rule));
+        }
     }
 
     /// A filled strip.

@@ -1,16 +1,19 @@
 //! The window in which a figure gets its size, its theme, its words, and leaves.
 
 use super::with_sitting;
-use crate::app::controls::{message_ui, named};
+use crate::app::answers::jobs::wake;
+use crate::app::controls::{message_ui, named, standing_ui};
 use crate::app::purpose::{Purpose, Written};
 use crate::app::tab::Tab;
 use crate::app::units::Units;
+use crate::engine::job::{Background, Job, Standing};
 use crate::scene::drawing::{DPI, Drawing, Pixels};
 use crate::scene::{Chart, Page, drawn};
 use egui::{
     Color32, ColorImage, ComboBox, Context, DragValue, Id, Modal, TextEdit, TextureHandle, TextureOptions, Theme,
     ThemePreference, Ui, vec2,
 };
+use serde::{Deserialize, Serialize};
 
 /// Widths of a column and of a page of journals \[mm\].
 const WIDTHS: [f64; 2] = [85.0, 170.0];
@@ -19,19 +22,33 @@ const SIZES: (f64, f64) = (30.0, 500.0);
 /// Room for the preview on the screen.
 const PREVIEW: egui::Vec2 = vec2(430.0, 360.0);
 /// Room for what is set.
-const SETTINGS: f32 = 300.0;
+const SETTINGS: f32 = 340.0;
 
-/// What stays from one figure to the next.
-#[derive(Clone, Debug, PartialEq)]
-struct Settings {
-    width_mm: f64,
-    height_mm: f64,
-    dpi: f64,
-    dark: bool,
-    units: Units,
+/// What stays from one figure to the next; kept with the session.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct FigureSettings {
+    /// Width \[mm\].
+    pub width_mm: f64,
+    /// Height \[mm\].
+    pub height_mm: f64,
+    /// Resolution of an image.
+    pub dpi: f64,
+    /// Light letters on a dark ground.
+    pub dark: bool,
+    /// Units of its axes.
+    pub units: Units,
 }
 
-impl Default for Settings {
+impl FigureSettings {
+    /// Whether sizes and resolution are such as can be entered.
+    pub fn is_sound(&self) -> bool {
+        let within = |value: f64, (least, most): (f64, f64)| least <= value && value <= most;
+        within(self.width_mm, SIZES) && within(self.height_mm, SIZES) && within(self.dpi, DPI)
+    }
+}
+
+impl Default for FigureSettings {
     fn default() -> Self {
         let Page { width_mm, height_mm, dark, .. } = Page::default();
         Self { width_mm, height_mm, dpi: 300.0, dark, units: Units::default() }
@@ -62,11 +79,21 @@ pub struct Figures {
     wanted: Option<Option<Tab>>,
     /// They are noted in this one.
     noting: bool,
-    settings: Settings,
+    /// Size, resolution, theme and units.
+    pub settings: FigureSettings,
     dialog: Option<Dialog>,
+    /// The image that is being made.
+    work: Background<Image>,
+}
+
+/// An image of a figure.
+enum Image {
+    File(Vec<u8>),
+    Clipboard(ColorImage),
 }
 
 /// What became of a figure.
+#[derive(Clone, Copy)]
 enum Leaves {
     Svg,
     Png,
@@ -80,6 +107,16 @@ impl Figures {
         self.settings.units = units;
         self.wanted = Some(tab);
         self.dialog = None;
+    }
+
+    /// How far the image is.
+    pub fn standing(&self) -> Option<Standing> {
+        self.work.standing()
+    }
+
+    /// Makes it no more.
+    pub fn stop(&mut self) {
+        self.work = Background::default();
     }
 
     /// Whether the window is open, or about to be.
@@ -122,7 +159,11 @@ impl Figures {
             ctx.request_repaint();
             return None;
         }
+        let made = self.received(ctx);
         let mut dialog = self.dialog.take()?;
+        if made.is_some() {
+            return made;
+        }
         let before = (self.settings.dark, self.settings.units);
         let mut leaves = None;
         let response = Modal::new(Id::unique("export a figure")).show(ctx, |ui| {
@@ -136,14 +177,28 @@ impl Figures {
                     ui.set_width(SETTINGS);
                     dialog.settings(ui, &mut self.settings, &caption);
                     ui.add_space(6.0);
-                    buttons(ui, &dialog, &mut leaves)
+                    let close = buttons(ui, &dialog, &mut leaves);
+                    standing_ui(ui, self.work.standing(), "Progress of the image");
+                    if let Some(why) = &self.work.message {
+                        message_ui(ui, why);
+                    }
+                    close
                 });
                 dialog.preview(ui, &self.settings);
                 close.inner
             });
             close.inner
         });
-        let purpose = leaves.and_then(|leaves| dialog.leave(ctx, &self.settings, leaves));
+        let purpose = leaves.and_then(|leaves| match leaves {
+            Leaves::Svg | Leaves::Data => dialog.text(&self.settings, leaves),
+            Leaves::Png | Leaves::Copy => {
+                self.work.run(image(ctx, dialog.drawing(&self.settings), self.settings.dpi, leaves));
+                None
+            }
+        });
+        if response.inner || response.should_close() {
+            self.stop();
+        }
         if !response.inner && !response.should_close() && purpose.is_none() {
             if (self.settings.dark, self.settings.units) != before {
                 self.wanted = Some(None);
@@ -152,6 +207,19 @@ impl Figures {
             self.dialog = Some(dialog);
         }
         purpose
+    }
+
+    /// Takes in the image that was made: a file to be written, or what comes onto the clipboard.
+    fn received(&mut self, ctx: &Context) -> Option<Purpose> {
+        let mut made = None;
+        self.work.receive(|image| made = Some(image));
+        match made? {
+            Image::File(file) => Some(Purpose::Write(Written::Png, file.into())),
+            Image::Clipboard(image) => {
+                ctx.copy_image(image);
+                None
+            }
+        }
     }
 
     /// Takes in what plots have drawn; what was chosen and written before stays.
@@ -214,12 +282,12 @@ impl Dialog {
         }
     }
 
-    fn page(&self, settings: &Settings) -> Page {
-        let Settings { width_mm, height_mm, dark, .. } = *settings;
+    fn page(&self, settings: &FigureSettings) -> Page {
+        let FigureSettings { width_mm, height_mm, dark, .. } = *settings;
         Page { width_mm, height_mm, dark, caption: self.caption.clone() }
     }
 
-    fn drawing(&self, settings: &Settings) -> Drawing {
+    fn drawing(&self, settings: &FigureSettings) -> Drawing {
         drawn(&self.chosen(), &self.page(settings))
     }
 
@@ -230,7 +298,7 @@ impl Dialog {
         }
     }
 
-    fn settings(&mut self, ui: &mut Ui, settings: &mut Settings, caption: &impl Fn(Tab) -> String) {
+    fn settings(&mut self, ui: &mut Ui, settings: &mut FigureSettings, caption: &impl Fn(Tab) -> String) {
         let mut tabs: Vec<Tab> = self.charts.iter().map(|(tab, _)| *tab).collect();
         tabs.dedup();
         let several = |tab: &Tab| self.charts.iter().filter(|(other, _)| other == tab).count() > 1;
@@ -299,7 +367,7 @@ impl Dialog {
     }
 
     /// The figure as it will be, as large as there is room.
-    fn preview(&mut self, ui: &mut Ui, settings: &Settings) {
+    fn preview(&mut self, ui: &mut Ui, settings: &FigureSettings) {
         let (chosen, page) = (self.chosen(), self.page(settings));
         let fits = self.preview.as_ref().is_some_and(|(of, on, _)| *of == chosen && *on == page);
         if !fits {
@@ -326,25 +394,30 @@ impl Dialog {
         }
     }
 
-    fn leave(&self, ctx: &Context, settings: &Settings, leaves: Leaves) -> Option<Purpose> {
-        let drawing = self.drawing(settings);
-        match leaves {
-            Leaves::Svg => Some(Purpose::Write(Written::Svg, drawing.to_svg().into_bytes().into())),
-            Leaves::Png => {
-                let file = drawing.to_png(settings.dpi).ok()?;
-                Some(Purpose::Write(Written::Png, file.into()))
-            }
-            Leaves::Data => {
-                let chart = self.chosen().into_iter().next()?;
-                let text = format!("# {}\n# {}\n{}", chart.title, self.caption, chart.to_table().to_csv());
-                Some(Purpose::Write(Written::Table, text.into_bytes().into()))
-            }
-            Leaves::Copy => {
-                ctx.copy_image(color_image(&drawing.to_pixels(settings.dpi).ok()?));
-                None
-            }
+    /// What is written without drawing pixels.
+    fn text(&self, settings: &FigureSettings, leaves: Leaves) -> Option<Purpose> {
+        if matches!(leaves, Leaves::Svg) {
+            return Some(Purpose::Write(Written::Svg, self.drawing(settings).to_svg().into_bytes().into()));
         }
+        let chart = self.chosen().into_iter().next()?;
+        let text = format!("# {}\n# {}\n{}", chart.title, self.caption, chart.to_table().to_csv());
+        Some(Purpose::Write(Written::Table, text.into_bytes().into()))
     }
+}
+
+/// Begins to make the image of a drawing, beside the window: a large one takes seconds.
+fn image(ctx: &Context, drawing: Drawing, dpi: f64, leaves: Leaves) -> Job<Image> {
+    const STAGE: &str = "Drawing the figure";
+    Job::start(STAGE, wake(ctx), move |reporter| {
+        reporter.stage(STAGE, 0, 2);
+        let drawn = || reporter.stage(STAGE, 1, 2);
+        let image = match leaves {
+            Leaves::Copy => drawing.to_pixels(dpi).map(|pixels| Image::Clipboard(color_image(&pixels))),
+            _ => drawing.to_png(dpi, drawn).map(Image::File),
+        };
+        reporter.send(image.map_err(|why| why.to_string())?);
+        Ok(())
+    })
 }
 
 fn size(ui: &mut Ui, mm: &mut f64, name: &str) {

@@ -6,7 +6,7 @@ mod dialog;
 mod texture;
 
 pub use canvas::{Axis, Canvas, Recording};
-pub use dialog::Figures;
+pub use dialog::{FigureSettings, Figures};
 pub use texture::Texture;
 
 use super::tab::Tab;

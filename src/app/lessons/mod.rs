@@ -138,6 +138,8 @@ impl Lessons {
     fn begin(&mut self, lesson: Lesson, commands: &mut Commands) {
         commands.push(Command::Go(Tab::Profiles));
         commands.edit(Edit::Contact(lesson.point, Box::new(lesson.lubricant.laws)), "lesson");
+        // Axes that stand still do so about its contact.
+        commands.push(Command::FitPlots);
         self.now = Some(Standing { lesson, step: 0, done: false });
     }
 

@@ -5,14 +5,14 @@ use super::{operating_point, sliders};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{Entries, named};
-use crate::app::tabs::regime_chart::Regime;
+use crate::scene::regimes::Regime;
 use egui::{Align, Button, Frame, Label, Layout, Margin, RichText, Ui};
 
 /// Size of the name of the regime.
 const LARGE: f32 = 20.0;
 
 /// The bar.
-pub fn ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
+pub fn ui(ui: &mut Ui, context: &Context<'_>, locked: bool, entries: &mut Entries, commands: &mut Commands) {
     Frame::new().inner_margin(Margin::symmetric(6, 5)).show(ui, |ui| {
         ui.horizontal(|ui| {
             operating_point::kind_ui(ui, context.document.point.kind, commands);
@@ -33,6 +33,10 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &
                     if ui.add_enabled(enabled, Button::new(name)).on_hover_text(tip).clicked() {
                         commands.push(command);
                     }
+                }
+                let lock = ui.selectable_label(locked, Command::LockAxes.name());
+                if lock.on_hover_text("What changes is seen to change (F8); F2 fits the axes once").clicked() {
+                    commands.push(Command::LockAxes);
                 }
                 ui.add(Label::new(RichText::new("Drag a slider; Esc ends").weak()).truncate());
             });

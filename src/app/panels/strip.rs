@@ -1,8 +1,9 @@
 //! The jobs strip: what runs, how far it is, Cancel; and what a solve costs.
 
+use crate::app::answers::jobs::Running;
 use crate::app::command::Command;
 use crate::app::context::Commands;
-use crate::app::controls::named;
+use crate::app::controls::{named, sentence};
 use crate::app::desk::Desk;
 use crate::app::numbers;
 use crate::app::theme::Palette;
@@ -14,31 +15,28 @@ const NEWS_S: f64 = 0.12;
 /// The strip at the bottom.
 pub fn ui(ui: &mut Ui, desk: &Desk, frame_s: f64, commands: &mut Commands) {
     ui.horizontal(|ui| {
-        let slow = desk.answers.jobs.running().iter().find(|j| j.since.elapsed().as_secs_f64() > NEWS_S);
-        let study = desk.study().filter(|standing| standing.since_s > NEWS_S);
+        let usual = desk.answers.full_times.median_s();
+        let solves = desk.answers.jobs.running().iter().map(|job| (job.since.elapsed().as_secs_f64(), job));
+        let solves = solves.filter(|(since_s, _)| *since_s > NEWS_S).map(|(_, job)| solve(job, usual));
+        let works = desk.works().into_iter().filter(|standing| standing.since_s > NEWS_S);
+        let all: Vec<[String; 2]> =
+            solves.chain(works.map(|work| [sentence(&work.stage), numbers::standing(&work)])).collect();
         // At a place of its own, whatever stands beside it.
-        let runs = slow.is_some() || study.is_some();
-        let cancel = ui.add_enabled(runs, Button::new("Cancel").small()).on_disabled_hover_text("Nothing runs");
+        let cancel = ui.add_enabled(!all.is_empty(), Button::new("Cancel").small());
+        let cancel = cancel.on_hover_text("Stops everything that runs (Esc)").on_disabled_hover_text("Nothing runs");
         if named(ui, cancel, "Cancel what runs").clicked() {
             commands.push(Command::Cancel);
         }
-        match (slow, study) {
-            (Some(job), _) => {
-                ui.label(job.kind.name());
-                let mut step = job.steps.last().map_or_else(String::new, |s| {
-                    format!("Newton step {}, residual {}", s.iteration, numbers::digits(s.residual, 2))
-                });
-                if job.krylov > 0 {
-                    step = format!("{step}, Krylov iteration {}", job.krylov);
+        match &all[..] {
+            [[name, standing], more @ ..] => {
+                ui.label(name.trim_end_matches('.'));
+                ui.weak(standing);
+                if !more.is_empty() {
+                    let more: Vec<String> = more.iter().map(|[name, standing]| format!("{name} {standing}")).collect();
+                    ui.weak(format!("and {} more", more.len())).on_hover_text(more.join("\n"));
                 }
-                ui.weak(step.trim_start_matches(", "));
-                ui.weak(numbers::duration(job.since.elapsed().as_secs_f64()));
             }
-            (None, Some(standing)) => {
-                ui.label(&standing.stage);
-                ui.weak(numbers::standing(&standing));
-            }
-            (None, None) => {
+            [] => {
                 let idle = ui.weak("Ready");
                 if let Some(failure) = desk.answers.failure.as_ref().or(desk.answers.verify_failure.as_ref()) {
                     let color = Palette::of(ui).wrong;
@@ -63,4 +61,18 @@ pub fn ui(ui: &mut Ui, desk: &Desk, frame_s: f64, commands: &mut Commands) {
             ui.weak("Median time per solve");
         });
     });
+}
+
+/// What a full solve is for, how far it is, and how long it takes if it takes as long as the last ones did.
+fn solve(job: &Running, usual_s: Option<f64>) -> [String; 2] {
+    let since_s = job.since.elapsed().as_secs_f64();
+    let step = job
+        .steps
+        .last()
+        .map(|step| format!("Newton step {}, residual {}", step.iteration, numbers::digits(step.residual, 2)));
+    let inner = (job.krylov > 0).then(|| format!("Krylov iteration {}", job.krylov));
+    let left_s = usual_s.map(|usual_s| usual_s - since_s).filter(|left_s| *left_s >= 1.0);
+    let time = left_s
+        .map_or_else(|| numbers::duration(since_s), |left_s| format!("about {} left", numbers::remaining(left_s)));
+    [job.kind.name().to_owned(), step.into_iter().chain(inner).chain([time]).collect::<Vec<_>>().join(", ")]
 }

@@ -7,7 +7,9 @@ mod layout;
 use super::Explorer;
 use super::display::Display;
 use super::document::Document;
+use super::figure::FigureSettings;
 use super::layouts::Layout;
+use super::presentation::Presentation;
 use super::tab::Tab;
 use super::tabs::contact_map::{MapView, optics};
 use super::tabs::profiles;
@@ -140,7 +142,7 @@ impl Place {
 }
 
 /// How everything is shown.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 struct Shown {
     #[serde(flatten)]
@@ -149,6 +151,9 @@ struct Shown {
     profiles: profiles::Choices,
     traction: traction::Choices,
     map: MapView,
+    figures: FigureSettings,
+    /// Tabs whose axes stand still.
+    locked: Vec<Tab>,
 }
 
 impl Shown {
@@ -159,11 +164,14 @@ impl Shown {
             profiles: views.profiles.choices,
             traction: views.traction.choices,
             map: views.map.view,
+            figures: desk.figures.settings,
+            locked: desk.presentation.as_ref().map_or(&desk.locked, Presentation::locked_before).clone(),
         }
     }
 
     fn restore(self, Explorer { desk, .. }: &mut Explorer) {
         desk.display = self.display;
+        (desk.figures.settings, desk.locked) = (self.figures, self.locked);
         let views = &mut desk.views;
         (views.profiles.choices, views.traction.choices, views.map.view) = (self.profiles, self.traction, self.map);
     }
@@ -175,6 +183,8 @@ impl Shown {
             && cuts.x.is_finite()
             && cuts.y.is_finite()
             && optics::are_sound(&self.map.rig)
+            && self.figures.is_sound()
+            && Tab::ALL.iter().all(|tab| self.locked.iter().filter(|locked| *locked == tab).count() <= 1)
     }
 }
 
@@ -215,7 +225,7 @@ impl Session {
             saved: self.saved.to_ron()?,
             path: self.path.clone(),
             recent: self.recent.clone(),
-            display: self.shown,
+            display: self.shown.clone(),
             place: self.place,
             tree: self.tree.clone(),
         };
@@ -372,6 +382,8 @@ mod tests {
         document.set_quantity(Quantity::NewtonianPlateauRatio, 0.4).unwrap();
         document.view.pressure_loss = Some(1e-6);
         explorer.desk.views.traction.choices.against = Against::Stribeck;
+        explorer.desk.figures.settings = FigureSettings { dpi: 600.0, dark: true, ..FigureSettings::default() };
+        explorer.desk.lock(Tab::Transient, true);
         explorer.place = Place { corner: Some((3.0, 4.0)), size: (1000.0, 700.0), maximized: true, sliders: 400.0 };
         let (former, place) = (explorer.desk.document.clone(), explorer.place);
         let (shown, tree) = (Shown::of(&explorer), explorer.tree.clone());
@@ -428,6 +440,7 @@ mod tests {
         let (folder, start) = in_folder("damaged");
         let mut explorer = start(true);
         explorer.desk.document.set_moes(Moes { m: 55.0, l: 8.0 }).unwrap();
+        explorer.desk.figures.settings = FigureSettings { width_mm: 170.0, ..FigureSettings::default() };
         let changed = explorer.desk.document.point;
         close(explorer);
         let (path, bad) = (folder.join(FILE), folder.join("session.ron.bad"));
@@ -446,6 +459,10 @@ mod tests {
             ("how things were shown", zoom("inf")),
             ("how things were shown", zoom("NaN")),
             ("how things were shown", zoom("1e9")),
+            ("how things were shown", first("width_mm: 170.0", "width_mm: 1e9")),
+            ("how things were shown", first("height_mm: 65.0", "height_mm: NaN")),
+            ("how things were shown", first("dpi: 300.0", "dpi: 1e5")),
+            ("how things were shown", first("\"locked\": [", "\"locked\": [Regimes, Regimes, ")),
             ("the place of the window", width("NaN")),
             ("the place of the window", size("1e30")),
         ];
@@ -457,6 +474,7 @@ mod tests {
             assert!(sentence.contains(what) && sentence.contains("session.ron.bad"), "{what}: {sentence}");
             assert_eq!(std::fs::read_to_string(&bad).unwrap(), text);
             assert!(explorer.desk.display.zoom == 1.0 && explorer.place == Place::default());
+            assert!(explorer.desk.locked.is_empty());
             assert_eq!(explorer.desk.document.point == changed, !matches!(what, "its text" | "the document"), "{what}");
         }
         std::fs::write(&path, [0xff, 0xfe, 0x00]).unwrap();

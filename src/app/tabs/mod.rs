@@ -99,6 +99,17 @@ fn offers(tab: Tab, desk: &Desk) -> Vec<Offer<'_>> {
     }
 }
 
+/// The switch between ratios and SI units; a tab on which it would change nothing says so.
+fn units_ui(ui: &mut Ui, tab: Tab, units: Units, commands: &mut Commands) {
+    let switch = egui::Button::selectable(units == Units::Si && tab.has_units(), "SI");
+    let switch = ui.add_enabled(tab.has_units(), switch);
+    let tip = "Axes and exports in SI units, or dimensionless (F7)";
+    let none = "Errors, ratios and counts have no unit, and what has one is in SI units on this tab always";
+    if switch.on_hover_text(tip).on_disabled_hover_text(none).clicked() {
+        commands.push(Command::SiUnits);
+    }
+}
+
 /// Draws the tabs.
 pub struct Tabs<'a> {
     /// What they show.
@@ -123,33 +134,29 @@ impl Behavior<Tab> for Tabs<'_> {
         UiResponse::None
     }
 
-    /// What is at the same place of every tab: what can be taken away, and the note for teaching.
+    /// What is at the same place of every tab: what can be taken away, the manner of its plots, the note for teaching.
     fn top_bar_right_ui(&mut self, tiles: &Tiles<Tab>, ui: &mut Ui, _: TileId, tabs: &egui_tiles::Tabs, _: &mut f32) {
         ui.add_space(6.0);
         // Tabs want the room.
         ui.spacing_mut().item_spacing.x = 2.0;
         ui.spacing_mut().button_padding.x = 4.0;
-        let front = tabs.active.and_then(|tile| tiles.get_pane(&tile)).copied();
-        if let Some(tab) = front.filter(|_| self.desk.presentation.is_none()) {
+        let Some(tab) = tabs.active.and_then(|tile| tiles.get_pane(&tile)).copied() else { return };
+        let presenting = self.desk.presentation.is_some();
+        if !presenting {
             take_away::menu(ui, tab, || offers(tab, self.desk), self.commands);
         }
-        // A narrow bar leaves its room to the tabs: both are in the menu View as well.
-        if let Some(tab) = front.filter(|_| self.desk.presentation.is_none() && !self.narrow) {
-            let si = self.desk.display.units == Units::Si;
-            let tip = "Axes and exports in SI units, or dimensionless (F7)";
-            if ui.selectable_label(si, "SI").on_hover_text(tip).clicked() {
-                self.commands.push(Command::SiUnits);
-            }
-            let (locked, tip) = (self.desk.locked.contains(&tab), "The axes of this tab stand still (F8)");
-            let lock = lock_ui(ui, [20.0, 22.0], locked);
-            if named(ui, lock, &format!("Lock the axes of {}", tab.title())).on_hover_text(tip).clicked() {
-                self.commands.push(Command::LockAxesOf(tab));
-            }
+        units_ui(ui, tab, self.desk.display.units, self.commands);
+        let (locked, tip) = (self.desk.locked.contains(&tab), "The axes of this tab stand still (F8)");
+        let lock = lock_ui(ui, [20.0, 22.0], locked);
+        if named(ui, lock, &format!("Lock the axes of {}", tab.title())).on_hover_text(tip).clicked() {
+            self.commands.push(Command::LockAxesOf(tab));
         }
-        let tip = "What is seen in a tab and why it is so, in three sentences";
-        let shown = self.desk.display.why;
-        if ui.selectable_label(shown, "Why").on_hover_text(tip).clicked() {
-            self.commands.push(Command::ShowWhy);
+        // A narrow bar leaves its room to the tabs: the note is in the menu View as well.
+        if !presenting && !self.narrow {
+            let tip = "What is seen in a tab and why it is so, in three sentences";
+            if ui.selectable_label(self.desk.display.why, "Why").on_hover_text(tip).clicked() {
+                self.commands.push(Command::ShowWhy);
+            }
         }
     }
 

@@ -1,83 +1,18 @@
-//! Everything in the M–L chart that does not move: regimes, boundaries, contours, limits. Made once.
+//! Everything in the M–L chart that does not move: boundaries of regimes, contours, limits. Made once.
 
 use crate::app::export;
 use crate::app::theme::Palette;
 use crate::scene::QuantityBox;
+use crate::scene::regimes::{L_AXIS, M_AXIS, Regime, SAMPLES, boundaries, names, spread};
 use crate::solver::physics::contact::{
-    ContactKind, FilmAsymptotes, Moes, MoesRequest, PLAUSIBLE_HERTZ_PRESSURE_PA, moes_film, si_from_moes,
+    ContactKind, Moes, MoesRequest, PLAUSIBLE_HERTZ_PRESSURE_PA, moes_film, si_from_moes,
 };
 use crate::solver::reduced::{Domain, ReducedModel};
 use egui::ColorImage;
 use egui_plot::PlotPoint;
 
-/// M at the ends of the chart.
-pub const M_AXIS: (f64, f64) = (0.4, 1500.0);
-/// L at the ends of the chart.
-pub const L_AXIS: (f64, f64) = (0.2, 32.0);
 /// Film numbers of the contours.
 const CONTOURS: [f64; 9] = [0.7, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0];
-
-/// An asymptotic regime.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Regime {
-    /// Rigid bodies, constant viscosity.
-    RigidIsoviscous,
-    /// Elastic bodies, constant viscosity.
-    ElasticIsoviscous,
-    /// Rigid bodies, viscosity rising with pressure.
-    RigidPiezoviscous,
-    /// Elastic bodies, viscosity rising with pressure.
-    ElasticPiezoviscous,
-}
-
-impl Regime {
-    /// The regime whose asymptote Moes' formula follows at M and L: iso parts add up (the larger rules), piezo parts
-    /// add up inversely (the smaller rules), and the larger of both sides wins.
-    pub fn of(kind: ContactKind, moes: Moes) -> Self {
-        let a = FilmAsymptotes::of(kind, moes);
-        let iso = a.rigid_isoviscous.max(a.elastic_isoviscous);
-        if iso > a.rigid_piezoviscous.min(a.elastic_piezoviscous) {
-            if a.rigid_isoviscous > a.elastic_isoviscous { Self::RigidIsoviscous } else { Self::ElasticIsoviscous }
-        } else if a.rigid_piezoviscous < a.elastic_piezoviscous {
-            Self::RigidPiezoviscous
-        } else {
-            Self::ElasticPiezoviscous
-        }
-    }
-
-    /// For people.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::RigidIsoviscous => "rigid,\nisoviscous",
-            Self::ElasticIsoviscous => "elastic,\nisoviscous",
-            Self::RigidPiezoviscous => "rigid,\npiezoviscous",
-            Self::ElasticPiezoviscous => "elastic,\npiezoviscous",
-        }
-    }
-
-    /// Its name in a line.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::RigidIsoviscous => "Rigid, isoviscous",
-            Self::ElasticIsoviscous => "Elastic, isoviscous",
-            Self::RigidPiezoviscous => "Rigid, piezoviscous",
-            Self::ElasticPiezoviscous => "Elastic, piezoviscous",
-        }
-    }
-
-    /// What happens in it.
-    pub fn meaning(self) -> &'static str {
-        match self {
-            Self::RigidIsoviscous => "The bodies keep their shape, the oil its viscosity",
-            Self::ElasticIsoviscous => "The bodies flatten, the oil keeps its viscosity",
-            Self::RigidPiezoviscous => "The bodies keep their shape, pressure stiffens the oil",
-            Self::ElasticPiezoviscous => "The bodies flatten, pressure stiffens the oil",
-        }
-    }
-
-    const ALL: [Self; 4] =
-        [Self::RigidIsoviscous, Self::ElasticIsoviscous, Self::RigidPiezoviscous, Self::ElasticPiezoviscous];
-}
 
 /// What a line of the chart is. The table of the chart knows them by their places here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -116,13 +51,6 @@ pub struct ChartLines {
     pub names: Vec<(Regime, PlotPoint)>,
 }
 
-/// Points along each line.
-const SAMPLES: usize = 240;
-
-fn spread((low, high): (f64, f64), k: usize, of: usize) -> f64 {
-    (low.ln() + (high.ln() - low.ln()) * k as f64 / (of - 1) as f64).exp()
-}
-
 /// A place of the chart.
 pub fn point(m: f64, l: f64) -> PlotPoint {
     PlotPoint::new(m.log10(), l.log10())
@@ -139,8 +67,8 @@ impl ChartLines {
                 add(Kind::Contour, Some(film), points);
             }
         }
-        for (k, points) in boundaries(kind).into_iter().enumerate() {
-            add(Kind::Boundary, Some(k as f64), points);
+        for (k, ends) in boundaries(kind).into_iter().enumerate() {
+            add(Kind::Boundary, Some(k as f64), ends.map(|[m, l]| point(m, l)).to_vec());
         }
         add(Kind::PressureLimit, None, pressure_limit(kind));
         if let Some(model) = model {
@@ -153,7 +81,7 @@ impl ChartLines {
             add(Kind::Table, None, outline(&QuantityBox::TABLE_3_4, kind));
             add(Kind::Trajectory, None, trajectory(&QuantityBox::TABLE_3_4, kind));
         }
-        Self { lines, names: names(kind) }
+        Self { lines, names: names(kind).map(|(regime, [m, l])| (regime, point(m, l))).to_vec() }
     }
 
     /// The lines as a table.
@@ -177,67 +105,6 @@ fn up_to((mut low, mut high): (f64, f64), holds: impl Fn(f64) -> bool) -> f64 {
     low
 }
 
-/// Regime boundaries: along each row and column of a fine lattice, the places where the regime changes, sharpened by
-/// bisection.
-fn boundaries(kind: ContactKind) -> Vec<Vec<PlotPoint>> {
-    let mut found: Vec<((Regime, Regime), Vec<PlotPoint>)> = Vec::new();
-    let mut add = |a: Regime, b: Regime, p: PlotPoint| {
-        let pair = if Regime::ALL.iter().position(|r| *r == a) < Regime::ALL.iter().position(|r| *r == b) {
-            (a, b)
-        } else {
-            (b, a)
-        };
-        match found.iter_mut().find(|f| f.0 == pair) {
-            Some((_, points)) => points.push(p),
-            None => found.push((pair, vec![p])),
-        }
-    };
-    for along_m in [false, true] {
-        for k in 0..SAMPLES {
-            let place = |t: f64| {
-                let moving = |(low, high): (f64, f64)| (low.ln() + (high / low).ln() * t).exp();
-                if along_m {
-                    Moes { m: moving(M_AXIS), l: spread(L_AXIS, k, SAMPLES) }
-                } else {
-                    Moes { m: spread(M_AXIS, k, SAMPLES), l: moving(L_AXIS) }
-                }
-            };
-            for step in 0..SAMPLES - 1 {
-                let (mut low, mut high) =
-                    (step as f64 / (SAMPLES - 1) as f64, (step + 1) as f64 / (SAMPLES - 1) as f64);
-                let (a, b) = (Regime::of(kind, place(low)), Regime::of(kind, place(high)));
-                if a == b {
-                    continue;
-                }
-                for _ in 0..24 {
-                    let middle = 0.5 * (low + high);
-                    if Regime::of(kind, place(middle)) == a { low = middle } else { high = middle }
-                }
-                let at = place(0.5 * (low + high));
-                add(a, Regime::of(kind, place(high)), point(at.m, at.l));
-            }
-        }
-    }
-    found
-        .into_iter()
-        .map(|(_, mut points)| {
-            // Every boundary is a straight line in these axes: order along its longer extent.
-            let span = |f: &dyn Fn(&PlotPoint) -> f64| {
-                points.iter().map(f).fold(f64::MIN, f64::max) - points.iter().map(f).fold(f64::MAX, f64::min)
-            };
-            if span(&|p| p.x) > span(&|p| p.y) {
-                points.sort_by(|a, b| a.x.total_cmp(&b.x));
-            } else {
-                points.sort_by(|a, b| a.y.total_cmp(&b.y));
-            }
-            match (points.first(), points.last()) {
-                (Some(first), Some(last)) => vec![*first, *last],
-                _ => Vec::new(),
-            }
-        })
-        .collect()
-}
-
 /// The film number is monotonic in L: bisection in ln L for every M.
 fn contour(kind: ContactKind, film: f64) -> Vec<PlotPoint> {
     (0..SAMPLES)
@@ -248,15 +115,6 @@ fn contour(kind: ContactKind, film: f64) -> Vec<PlotPoint> {
             within.then(|| point(m, up_to(L_AXIS, |l| value(l) < film)))
         })
         .collect()
-}
-
-/// Places for the regimes' names, of those left of M = 1 their beginning, clear of the contacts that matter most.
-fn names(kind: ContactKind) -> Vec<(Regime, PlotPoint)> {
-    let places = match kind {
-        ContactKind::Line => [(0.43, 0.6), (30.0, 0.5), (0.5, 15.0), (480.0, 22.0)],
-        ContactKind::Point => [(0.6, 2.5), (60.0, 0.45), (5.5, 22.0), (800.0, 13.5)],
-    };
-    Regime::ALL.into_iter().zip(places).map(|(regime, (m, l))| (regime, point(m, l))).collect()
 }
 
 fn hertz_pressure(kind: ContactKind, m: f64, l: f64) -> f64 {
@@ -334,21 +192,6 @@ pub fn shading(kind: ContactKind, palette: &Palette) -> ColorImage {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_corners_belong_to_the_regimes_of_the_literature() {
-        let of = |kind, m, l| Regime::of(kind, Moes { m, l });
-        let line = ContactKind::Line;
-        assert_eq!(of(line, 0.6, 0.3), Regime::RigidIsoviscous);
-        assert_eq!(of(line, 1000.0, 0.3), Regime::ElasticIsoviscous);
-        assert_eq!(of(line, 1.0, 25.0), Regime::RigidPiezoviscous);
-        assert_eq!(of(line, 200.0, 15.0), Regime::ElasticPiezoviscous);
-        for kind in [ContactKind::Line, ContactKind::Point] {
-            for (regime, place) in names(kind) {
-                assert_eq!(of(kind, 10f64.powf(place.x), 10f64.powf(place.y)), regime, "{kind:?}");
-            }
-        }
-    }
 
     #[test]
     fn chart_lines_are_finite_and_present() {

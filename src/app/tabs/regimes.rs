@@ -2,7 +2,7 @@
 //! contact, which can be dragged. Beside it the published film formulas.
 
 use super::grip::Grip;
-use super::regime_chart::{ChartLine, ChartLines, Kind, L_AXIS, M_AXIS, Regime, point, shading};
+use super::regime_chart::{ChartLine, ChartLines, Kind, point, shading};
 use super::trail::Trail;
 use super::{axes, formulas};
 use crate::app::context::{Commands, Context};
@@ -12,6 +12,7 @@ use crate::app::figure::{Canvas, Texture};
 use crate::app::numbers;
 use crate::app::tabs::take_away::Offer;
 use crate::app::theme::{Palette, faded, rich};
+use crate::scene::regimes::{L_AXIS, M_AXIS, Regime};
 use crate::solver::physics::contact::{ContactKind, Moes};
 use crate::solver::reduced::ReducedModel;
 use egui::{Align2, RichText, ScrollArea, Ui, WidgetText};
@@ -43,6 +44,8 @@ pub struct Regimes {
 const FIELD: &str = "regimes";
 /// Height of the table of formulas below the chart.
 const FORMULAS: f32 = 212.0;
+/// Width of the hint with the button beside it.
+const HINT: f32 = 560.0;
 /// Size of the name of the regime.
 const LARGE: f32 = 22.0;
 
@@ -97,7 +100,10 @@ impl Regimes {
             spoken(ui, name, &format!("Regime: {}", regime.title()));
             ui.label(regime.meaning());
         });
-        ui.horizontal_wrapped(|ui| {
+        // A hint of more than one line has the button below it.
+        let beside = ui.available_width() > HINT;
+        let row = if beside { egui::Layout::left_to_right(egui::Align::Center) } else { *ui.layout() };
+        ui.allocate_ui_with_layout([ui.available_width(), 0.0].into(), row, |ui| {
             let hint = match kind {
                 ContactKind::Line => {
                     "Drag the contact across the chart. Contours are Moes’ film number ({h}/{R})/√(2{U})"

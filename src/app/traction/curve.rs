@@ -2,7 +2,7 @@
 
 use super::{CURVE, Sample, Served, Sweep};
 use crate::engine::Store;
-use crate::engine::job::{Ending, Job};
+use crate::engine::job::{Ending, Job, Standing};
 use crate::scene::{Grid, StudyRow};
 use egui::Context;
 use std::time::Duration;
@@ -67,6 +67,11 @@ impl LiveCurve {
         let (samples, companions, left_out) = (Vec::new(), Vec::new(), Ok(0));
         let curve = Curve { sweep, served, samples, companions, left_out, wall_s: 0.0 };
         self.running = Some(Running { curve, contacts: 0, job, ending: None, companion });
+    }
+
+    /// How far it is.
+    pub fn standing(&self) -> Option<Standing> {
+        self.running.as_ref().map(|running| running.job.standing())
     }
 
     /// A curve that has been finished since the last call.

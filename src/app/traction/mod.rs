@@ -13,7 +13,7 @@ use super::answers::Answers;
 use super::answers::jobs::wake;
 use super::document::{Document, Edit};
 use super::numbers;
-use crate::engine::job::Background;
+use crate::engine::job::{Background, Standing};
 use crate::engine::{Store, Workbench};
 use crate::scene::{Grid, Method, StudyRow};
 use crate::solver::physics::contact::Quantity;
@@ -156,6 +156,11 @@ impl TractionView {
     pub fn fills_another(&self, sweep: &Sweep) -> bool {
         let another = |markers: &Markers| markers.by_themselves && markers.sweep != *sweep;
         self.full.job().is_some_and(|job| !job.stopping()) && self.markers.as_ref().is_some_and(another)
+    }
+
+    /// How far the curve is that follows the sliders.
+    pub fn following(&self) -> Option<Standing> {
+        self.live.standing()
     }
 
     /// Stops the full solutions; those that are there stay.

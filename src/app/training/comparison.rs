@@ -21,7 +21,7 @@ const SEED: u64 = 31;
 /// What a model is worth.
 pub struct ModelScore {
     /// What it is called beside the others.
-    pub name: &'static str,
+    pub name: String,
     /// The model.
     pub model: Arc<ReducedModel>,
     found: Findings,
@@ -52,7 +52,7 @@ pub struct Comparison {
     /// What each model is worth that has been tested, in their order.
     pub scores: Vec<ModelScore>,
     question: Scene,
-    models: Vec<(&'static str, Arc<ReducedModel>)>,
+    models: Vec<(String, Arc<ReducedModel>)>,
     rows: Vec<StudyRow>,
     work: Background<StudyRow>,
     ctx: Context,
@@ -67,7 +67,7 @@ impl Comparison {
     pub fn start(
         ctx: &Context,
         store: &Store,
-        models: Vec<(&'static str, Arc<ReducedModel>)>,
+        models: Vec<(String, Arc<ReducedModel>)>,
         spec: &TrainingSpec,
     ) -> Result<Self, String> {
         let points = random_points(&spec.range, spec.contact(), 1, SEED);

@@ -11,7 +11,7 @@ pub use worker::{Made, Running};
 use super::answers::Answers;
 use super::document::Document;
 use crate::engine::job::{Background, Standing};
-use crate::engine::training_file;
+use crate::engine::{Store, training_file};
 use crate::solver::physics::lubricant::ShearLaw;
 use crate::solver::reduced::ReducedModel;
 use crate::solver::training::{Plan, TrainingSpec, TrainingState, WindowState};
@@ -53,8 +53,8 @@ pub enum TrainingCommand {
     UseMade,
     /// Put the model in use that was before.
     UseFormer,
-    /// Compare the model that was made with the one in use, or with the one it replaced.
-    Compare,
+    /// Leave a model of a file, by its place, out of the comparison.
+    LeaveOut(usize),
 }
 
 /// What the window knows about trainings.
@@ -74,7 +74,9 @@ pub struct Training {
     pub made: Option<Made>,
     /// The model that was in use before it.
     pub former: Option<Arc<ReducedModel>>,
-    /// Both side by side.
+    /// Models of files that others are compared with, by the names of these.
+    pub beside: Vec<(String, Arc<ReducedModel>)>,
+    /// All of them side by side.
     pub comparison: Option<Comparison>,
     /// How the last job ended.
     pub notices: Vec<Notice>,
@@ -190,7 +192,11 @@ impl Training {
                 (Some(made), None) => answers.drop_model(&made.model),
                 (None, former) => self.former = former,
             },
-            TrainingCommand::Compare => self.compare(ctx, answers),
+            TrainingCommand::LeaveOut(place) => {
+                if place < self.beside.len() {
+                    self.beside.remove(place);
+                }
+            }
         }
     }
 
@@ -199,23 +205,48 @@ impl Training {
         self.made.as_ref().is_some_and(|made| answers.models.contains(&made.model))
     }
 
-    fn compare(&mut self, ctx: &Context, answers: &Answers) {
-        let (Some(made), Some(spec)) = (&self.made, &self.spec) else { return };
-        let kind = made.model.contact();
+    /// Takes in the model of a file for comparisons; it does not come into use.
+    ///
+    /// # Errors
+    /// A sentence when it cannot be read.
+    pub fn add_beside(&mut self, store: &Store, path: &Path) -> Result<(), String> {
+        let model = store.model_of_file(path).map_err(|error| error.to_string())?;
+        let name = path.file_stem().map_or_else(|| model.title.clone(), |stem| stem.to_string_lossy().into_owned());
+        self.beside.retain(|(_, known)| !Arc::ptr_eq(known, &model));
+        self.beside.push((name, model));
+        Ok(())
+    }
+
+    /// What a comparison is about: the training that the model was made by, or the one that the tab shows.
+    fn compared_spec<'a>(&'a self, document: &'a Document) -> Option<&'a TrainingSpec> {
+        self.made.as_ref().and(self.spec.as_deref()).or_else(|| document.training_spec())
+    }
+
+    /// The models that can be compared, by what they are called: the program's, the one in use, the one before, those of
+    /// files, and the one that was made.
+    pub fn comparable(&self, answers: &Answers, document: &Document) -> Vec<(String, Arc<ReducedModel>)> {
+        let Some(spec) = self.compared_spec(document) else { return Vec::new() };
+        let kind = spec.contact();
         let embedded = answers.store.embedded(kind, spec.lubricant.shear != ShearLaw::Newtonian).ok();
         let in_use = answers.models.of(kind, &spec.lubricant).cloned();
         let known = [("in the program", embedded), ("in use", in_use), ("before", self.former.clone())];
-        let mut models: Vec<(&'static str, Arc<ReducedModel>)> = Vec::new();
-        for (name, model) in known.into_iter().chain([("new", Some(Arc::clone(&made.model)))]) {
-            let Some(model) = model else { continue };
-            let other = name != "new" && Arc::ptr_eq(&model, &made.model);
-            if !other && !models.iter().any(|(_, known)| Arc::ptr_eq(known, &model)) {
+        let known = known.into_iter().filter_map(|(name, model)| Some((name.to_owned(), model?)));
+        let made = self.made.iter().map(|made| ("new".to_owned(), Arc::clone(&made.model)));
+        let mut models: Vec<(String, Arc<ReducedModel>)> = Vec::new();
+        // The new one keeps its name, though it may be in use.
+        let is_made = |model: &Arc<ReducedModel>| self.made.iter().any(|made| Arc::ptr_eq(&made.model, model));
+        for (name, model) in known.chain(self.beside.iter().cloned()).filter(|(_, model)| !is_made(model)).chain(made) {
+            if model.contact() == kind && !models.iter().any(|(_, known)| Arc::ptr_eq(known, &model)) {
                 models.push((name, model));
             }
         }
-        if models.len() < 2 {
-            return;
-        }
+        models
+    }
+
+    /// Begins to compare all models that can be.
+    pub fn compare(&mut self, ctx: &Context, answers: &Answers, document: &Document) {
+        let models = self.comparable(answers, document);
+        let Some(spec) = self.compared_spec(document).filter(|_| models.len() > 1) else { return };
         match Comparison::start(ctx, &answers.store, models, spec) {
             Ok(comparison) => self.comparison = Some(comparison),
             Err(why) => self.notices.push(Notice::Wrong(why)),

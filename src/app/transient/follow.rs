@@ -33,7 +33,7 @@ pub struct Following {
     by_hand: bool,
     /// The models that were made last, and of what.
     kept: Option<Kept>,
-    replay: Background<StudyRow>,
+    pub(super) replay: Background<StudyRow>,
     /// Whether the models that were replayed are those that the question under way would make.
     last: bool,
     /// What is replayed.

@@ -225,6 +225,11 @@ impl TransientView {
         self.work.standing().or_else(|| self.looking.standing())
     }
 
+    /// How far models are that are replayed.
+    pub fn replaying(&self) -> Option<Standing> {
+        self.following.replay.standing()
+    }
+
     /// What a run is compared with: a model with the full system in its frame, a full one with the first; `None` for the first itself.
     pub fn reference_of(&self, k: usize) -> Option<&Run> {
         let (run, earlier) = (self.runs.get(k)?, self.runs.get(..k)?);

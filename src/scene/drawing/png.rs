@@ -55,16 +55,18 @@ fn written(pixels: &Pixels, dpi: Option<f64>) -> Result<Vec<u8>, EncodingError> 
 }
 
 impl Drawing {
-    /// The drawing as a file with a resolution \[dpi\].
+    /// The drawing as a file with a resolution \[dpi\]; `drawn` hears that its pixels are there and the file follows.
     ///
     /// # Errors
     ///
     /// With a resolution beyond [`DPI`], or where there would be too many pixels.
-    pub fn to_png(&self, dpi: f64) -> Result<Vec<u8>, PngError> {
+    pub fn to_png(&self, dpi: f64, drawn: impl FnOnce()) -> Result<Vec<u8>, PngError> {
         if !(DPI.0..=DPI.1).contains(&dpi) {
             return Err(PngError::Dpi(dpi));
         }
-        Ok(encode(&self.to_pixels(dpi)?, Some(dpi)))
+        let pixels = self.to_pixels(dpi)?;
+        drawn();
+        Ok(encode(&pixels, Some(dpi)))
     }
 
     /// The same as pixels, with any resolution.
@@ -290,14 +292,14 @@ mod tests {
                 Mark::Words(words),
             ],
         };
-        let (width, height, pixels, per_metre) = read(&drawing.to_png(144.0).unwrap());
+        let (width, height, pixels, per_metre) = read(&drawing.to_png(144.0, || ()).unwrap());
         assert_eq!((width, height, per_metre), (144, 144, Some(5669)));
         let at = |x: usize, y: usize| <[u8; 3]>::try_from(&pixels[3 * (144 * y + x)..][..3]).unwrap();
         assert_eq!([at(70, 20), at(70, 60), at(100, 100)], [[255, 0, 0], [255; 3], [0, 128, 0]]);
         let blue = pixels.chunks(3).filter(|pixel| pixel[2] > pixel[0].saturating_add(100)).count();
         assert!((50..1500).contains(&blue), "{blue} pixels of letters");
-        assert_eq!(drawing.to_png(f64::NAN).map_err(|e| e.to_string().len() > 20), Err(true));
+        assert_eq!(drawing.to_png(f64::NAN, || ()).map_err(|e| e.to_string().len() > 20), Err(true));
         let large = Drawing { size_mm: [400.0, 400.0], ..drawing };
-        assert!(matches!(large.to_png(1200.0), Err(PngError::Large(..))));
+        assert!(matches!(large.to_png(1200.0, || ()), Err(PngError::Large(..))));
     }
 }

@@ -198,7 +198,8 @@ impl Question for ModelSizes {
         }
         setting.step("rows to sample", total - self.rows_per_mode.len(), total)?;
         let sampled = with_rows(&spec, &model, k, &self.rows_per_mode, observer)?;
-        for sampled in sampled.into_iter().flatten() {
+        for (i, sampled) in sampled.into_iter().flatten().enumerate() {
+            setting.step("numbers of rows", total - self.rows_per_mode.len() + i, total)?;
             let sampled = Arc::new(sampled);
             let rows = sampled.windows[k].sampled_rows.len();
             let (failures, errors, seconds) = truth.measure(&sampled, None, observer)?;

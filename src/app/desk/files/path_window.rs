@@ -143,8 +143,15 @@ impl Desk {
             return;
         }
         let known = self.files.path.as_deref() == Some(path.as_path()) && window.purpose == Purpose::Save;
-        if !window.purpose.reads() && path.exists() && !known && window.overwrite.as_deref() != Some(&path) {
-            window.message = Some("a file of this name exists; press again to replace it".to_owned());
+        let there = || window.purpose.beside(&path).into_iter().find(|path| path.exists());
+        let there = if path.exists() { Some(path.clone()) } else { there() };
+        if let Some(there) = there.filter(|_| !window.purpose.reads() && !known)
+            && window.overwrite.as_deref() != Some(&path)
+        {
+            window.message = Some(match there == path {
+                true => "a file of this name exists; press again to replace it".to_owned(),
+                false => format!("{} exists; press again to replace it", there.display()),
+            });
             window.overwrite = Some(path);
             return;
         }
@@ -156,6 +163,12 @@ impl Desk {
                 .read_inputs(&path)
                 .map(|()| self.files.notice = Some(Ok(format!("Read {}", path.display())))),
             Purpose::Cases => self.load_cases.read(&path),
+            Purpose::Beside => self.training.add_beside(&self.answers.store, &path),
+            Purpose::Notes(sheet) => {
+                atomic_file::replace_all(&sheet.notes(&path)).map_err(|error| error.to_string()).map(|()| {
+                    self.files.notice = Some(Ok(format!("Exported {} with its figures beside it", path.display())))
+                })
+            }
             Purpose::Write(what, bytes) => {
                 let done = if what == Written::Model { "Saved the model" } else { "Exported" };
                 atomic_file::replace(&path, &bytes).map_err(|e| e.to_string()).map(|()| {

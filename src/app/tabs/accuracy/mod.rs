@@ -79,7 +79,12 @@ impl AccuracyView {
 
     /// How far the study is that runs; the first where there are several.
     pub fn standing(&self) -> Option<Standing> {
-        self.works().into_iter().find_map(Background::standing)
+        self.standings().next()
+    }
+
+    /// How far all of them are.
+    pub fn standings(&self) -> impl Iterator<Item = Standing> {
+        self.works().into_iter().filter_map(Background::standing)
     }
 
     /// Stops every study; what they have found stays.

@@ -71,9 +71,11 @@ pub fn loss_plot(
                 let width = if dragging == Some(*field) { 2.6 } else { 1.4 };
                 let line = HLine::new("", *level).id(("tolerance", field.name()));
                 plot.hline(line.color(color).width(width).style(LineStyle::dashed_dense()).allow_hover(false));
-                let place = PlotPoint::new(1.0, *level);
+                // At the right end, where curves have fallen below it.
+                let end = curves.loss.iter().filter_map(|points| points.last()).map(|last| last.x).fold(1.0, f64::max);
+                let place = PlotPoint::new(end, *level);
                 let text = RichText::new(format!("tolerance {}", numbers::digits(10f64.powf(*level), 1))).size(11.0);
-                let label = Text::new("", place, text.color(palette.ink(color))).anchor(Align2::LEFT_TOP);
+                let label = Text::new("", place, text.color(palette.ink(color))).anchor(Align2::RIGHT_BOTTOM);
                 plot.text(label.id(("tolerance label", field.name())).allow_hover(false));
             }
             if let Some(kept) = options.pressure_modes {

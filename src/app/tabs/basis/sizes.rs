@@ -5,6 +5,7 @@ use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{message_ui, standing_ui};
 use crate::app::document::{Edit, Key};
+use crate::app::drawn::{self, Owner};
 use crate::app::export;
 use crate::app::in_use::{InUse, question};
 use crate::app::numbers;
@@ -109,6 +110,8 @@ struct Column {
     varied: Varied,
     axis: &'static str,
     present: usize,
+    /// Whether its curves were measured with other settings than those in use.
+    grey: bool,
 }
 
 /// The curves.
@@ -122,7 +125,11 @@ pub fn ui(
     own.follow(ui, context, model, at);
     let modes = context.answers.options(context.document).pressure_modes.unwrap_or(window.pressure.modes.ncols());
     ui.horizontal_wrapped(|ui| {
-        ui.label("Median (line) and largest (dots) of random contacts of this window. Drag the upright lines");
+        let label =
+            ui.label("Median (line) and largest (dots) of random contacts of this window. Drag the upright lines");
+        let tip = "Numbers of modes are tried with the model’s own rows, numbers of rows with all modes, both with the \
+                   exact deformation. Grey: that is not what is in use now";
+        label.on_hover_text(tip);
         if ui.add_enabled(!own.rows.is_empty(), egui::Button::new("Export sizes…")).clicked() {
             commands.push(Command::csv(csv(own)));
         }
@@ -137,9 +144,17 @@ pub fn ui(
     if let Some(message) = &own.work.message {
         message_ui(ui, message);
     }
+    // What curves belong to: any number of modes of the model as it was made, any of its rows with all modes.
+    let any_modes = View { pressure_loss: context.document.view.pressure_loss, ..View::default() };
+    let made = own.of.as_ref().map_or(model, |(base, _)| base);
+    let grey = |name: &'static str, of: InUse| drawn::is_grey(ui.ctx(), name, Owner::Model(of), context);
+    let grey = [
+        grey("sizes by modes", InUse::new(made, &any_modes)),
+        grey("sizes by rows", InUse::new(model, &View::default())),
+    ];
     let columns = [
-        Column { varied: Varied::Modes, axis: "Pressure modes {k}", present: modes },
-        Column { varied: Varied::Rows, axis: "Sampled rows", present: window.sampled_rows.len() },
+        Column { varied: Varied::Modes, axis: "Pressure modes {k}", present: modes, grey: grey[0] },
+        Column { varied: Varied::Rows, axis: "Sampled rows", present: window.sampled_rows.len(), grey: grey[1] },
     ];
     let height = (0.5 * ui.available_height() - 4.0).max(80.0);
     let width = 0.5 * ui.available_width() - 6.0;
@@ -175,7 +190,7 @@ pub fn ui(
 /// Errors or times of a column; returns where the hand takes the present number.
 fn plot(ui: &mut Ui, own: &Sizes, column: &Column, errors: bool, height: f32, fit: bool) -> Option<f64> {
     let palette = Palette::of(ui);
-    let Column { varied, axis, present } = *column;
+    let Column { varied, axis, present, grey } = *column;
     let (y_title, what) = if errors { ("Error of {H_c}", "Error") } else { ("Time [ms]", "Time") };
     let against = if varied == Varied::Modes { "modes" } else { "rows" };
     let name = format!("{what} against {against}");
@@ -186,7 +201,11 @@ fn plot(ui: &mut Ui, own: &Sizes, column: &Column, errors: bool, height: f32, fi
         points.filter(|[_, y]| y.is_finite()).collect()
     };
     let (middle, largest) = if errors { (of(0), of(1)) } else { (of(2), Vec::new()) };
-    let color = if errors { palette.pressure } else { palette.accent };
+    let color = match errors {
+        _ if grey => palette.reference,
+        true => palette.pressure,
+        false => palette.accent,
+    };
     let grip = Grip::new("sizes", &name);
     let mut drawn = axes::plot(ui, &name, height, if errors { "" } else { axis }, y_title)
         .allow_drag(!grip.is_held(ui))

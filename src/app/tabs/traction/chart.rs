@@ -307,7 +307,9 @@ impl LinkedPlot<'_> {
             let name =
                 if sketch { format!("{}, not trained for it  ", curve.name) } else { format!("{}  ", curve.name) };
             let text = Text::new("", PlotPoint::new(x, y), rich(&name, axes::TITLE_SIZE, palette.ink(color)));
-            plot.text(text.anchor(Align2::RIGHT_BOTTOM).id((self.id, k, "name")).allow_hover(false));
+            // The lower curve has its name below it.
+            let anchor = if k == 0 { Align2::RIGHT_BOTTOM } else { Align2::RIGHT_TOP };
+            plot.text(text.anchor(anchor).id((self.id, k, "name")).allow_hover(false));
         }
     }
 

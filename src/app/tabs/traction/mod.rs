@@ -32,11 +32,14 @@ impl Traction {
     /// The tab.
     pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         let choices = &mut self.choices;
-        ui.horizontal_wrapped(|ui| {
-            ui.selectable_value(&mut choices.shows_fluid, false, "Traction and film");
-            ui.selectable_value(&mut choices.shows_fluid, true, "Laws of the fluid");
-        });
-        ui.separator();
+        // An audience looks at the curves.
+        if !context.presenting {
+            ui.horizontal_wrapped(|ui| {
+                ui.selectable_value(&mut choices.shows_fluid, false, "Traction and film");
+                ui.selectable_value(&mut choices.shows_fluid, true, "Laws of the fluid");
+            });
+            ui.separator();
+        }
         why(ui, context.why && choices.shows_fluid, WHY_FLUID);
         if choices.shows_fluid {
             fluid::ui(ui, &mut self.stress_met, context);
@@ -56,7 +59,9 @@ impl Traction {
         }
         fill(ui, context, &sweep, &served, commands);
         toolbar(ui, choices, context, commands, true);
-        status(ui, context, (&sweep, choices), &served);
+        if !context.presenting {
+            status(ui, context, (&sweep, choices), &served);
+        }
         let shown = ShownSweep::of(ui, context, &sweep, &served);
         if shown.curve.is_none() && shown.markers.is_none() {
             let waits = match served {

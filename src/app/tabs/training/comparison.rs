@@ -22,7 +22,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let Some(comparison) = context.training.comparison.as_ref().filter(|comparison| comparison.done()) else { return };
     ui.add_space(4.0);
     ui.horizontal(|ui| {
-        ui.strong("Compared with the models before");
+        ui.strong("Models compared");
         let tip = "The errors of each model at every contact";
         if ui.button("Export comparison…").on_hover_text(tip).clicked() {
             commands.push(Command::csv(comparison.csv()));
@@ -63,7 +63,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         .show(ui, |ui| {
             ui.weak("");
             for score in &comparison.scores {
-                ui.strong(sentence(score.name).trim_end_matches('.')).on_hover_text(&score.model.title);
+                ui.strong(sentence(&score.name).trim_end_matches('.')).on_hover_text(&score.model.title);
             }
             ui.end_row();
             for (name, tip, value) in rows {
@@ -80,9 +80,11 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
 /// The share of contacts whose error is no larger, for each model.
 fn distributions(ui: &mut Ui, scores: &[ModelScore]) {
     let palette = Palette::of(ui);
-    let hues = [palette.reference, palette.film, palette.pressure, palette.deformation];
+    let hues =
+        [palette.reference, palette.film, palette.pressure, palette.deformation, palette.accent, palette.warning];
     let hue = |k: usize| hues[k % hues.len()];
-    let entries = scores.iter().enumerate().map(|(k, score)| Entry::new(score.name, hue(k), Sample::Line(2.0)));
+    let entries =
+        scores.iter().enumerate().map(|(k, score)| Entry::new(score.name.as_str(), hue(k), Sample::Line(2.0)));
     let name = "Distribution of errors";
     key::over(ui, HEIGHT, entries, |ui, height| {
         let plot = axes::plot(ui, "errors of models", height, "Relative error of {H_c}", "Contacts with no more / %")
@@ -95,7 +97,7 @@ fn distributions(ui: &mut Ui, scores: &[ModelScore]) {
                 let share = 100.0 / errors.len().max(1) as f64;
                 let points = errors.iter().enumerate().filter(|(_, error)| **error > 0.0);
                 let points: PlotPoints<'_> = points.map(|(n, error)| [error.log10(), share * (n + 1) as f64]).collect();
-                plot.line(Line::new(score.name, points).color(hue(k)).width(2.0));
+                plot.line(Line::new(score.name.as_str(), points).color(hue(k)).width(2.0));
             }
         });
     });

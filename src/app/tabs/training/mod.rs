@@ -10,9 +10,9 @@ use crate::app::controls::{message_ui, named, sentence, warning_ui};
 use crate::app::form::LastField;
 use crate::app::numbers;
 use crate::app::purpose::{Purpose, Written};
-use crate::app::training::{Notice, Running, TrainingCommand};
+use crate::app::training::{Made, Notice, Running, TrainingCommand};
 use crate::engine::job::Standing;
-use egui::{Button, ProgressBar, ScrollArea, Ui};
+use egui::{Button, Label, ProgressBar, ScrollArea, Ui};
 
 /// Width of the form.
 const FORM_WIDTH: f32 = 316.0;
@@ -63,10 +63,7 @@ fn buttons(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let training = context.training;
     let runs = training.standing().is_some();
     let mut button = |ui: &mut Ui, on: bool, name: &str, tip: &str, command: Command| {
-        let button = ui.add_enabled(on, Button::new(name)).on_hover_text(tip).on_disabled_hover_text(tip);
-        if button.clicked() {
-            commands.push(command);
-        }
+        button(ui, commands, on, (name, tip), command);
     };
     ui.horizontal_wrapped(|ui| {
         if runs {
@@ -88,7 +85,27 @@ fn buttons(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
             button(ui, !runs, "Discard…", "Forgets the unfinished training", Command::DiscardTraining);
         }
     });
-    let Some(made) = &training.made else { return };
+    if let Some(made) = &training.made {
+        made_ui(ui, context, made, commands);
+    }
+    compare_ui(ui, context, commands);
+}
+
+/// A button that asks for something.
+fn button(ui: &mut Ui, commands: &mut Commands, on: bool, (name, tip): (&str, &str), command: Command) {
+    let button = ui.add_enabled(on, Button::new(name)).on_hover_text(tip).on_disabled_hover_text(tip);
+    if button.clicked() {
+        commands.push(command);
+    }
+}
+
+/// What can be done with the model that was made.
+fn made_ui(ui: &mut Ui, context: &Context<'_>, made: &Made, commands: &mut Commands) {
+    use TrainingCommand as C;
+    let training = context.training;
+    let mut button = |ui: &mut Ui, on: bool, name: &str, tip: &str, command: Command| {
+        button(ui, commands, on, (name, tip), command);
+    };
     ui.horizontal_wrapped(|ui| {
         let used = training.uses_made(context.answers);
         let tip = "The picture, the badge and all tabs use it from now on";
@@ -101,9 +118,32 @@ fn buttons(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         button(ui, true, "Save model…", "Writes it as a .rom file", save);
         let tip = "Forgets this model; until then the session’s folder keeps it";
         button(ui, !made.saved, "Throw away…", tip, Command::ThrowModelAway);
-        let other = context.answers.model(context.document).is_some();
-        let tip = "Size, time and errors of both at the same random points, against full solutions";
-        button(ui, other && !runs, "Compare models", tip, Command::Training(C::Compare));
+    });
+}
+
+/// Which models stand beside each other.
+fn compare_ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+    let training = context.training;
+    ui.horizontal_wrapped(|ui| {
+        let several = training.comparable(context.answers, context.document).len() > 1;
+        let ready = several && training.standing().is_none();
+        let tip = match several {
+            true => "Size, time and errors of all of them at the same random points, against full solutions",
+            false => "Another model of this kind of contact is needed: train one, or add that of a file",
+        };
+        button(ui, commands, ready, ("Compare models", tip), Command::CompareModels);
+        let tip = "Reads the model of a .rom file for the comparison alone: the picture stays with the one in use";
+        button(ui, commands, true, ("Add a model…", tip), Command::Ask(Purpose::Beside));
+        for (k, (name, model)) in training.beside.iter().enumerate() {
+            let serves = context.document.training_spec().is_some_and(|spec| spec.contact() == model.contact());
+            ui.add_enabled(serves, Label::new(name))
+                .on_hover_text(&model.title)
+                .on_disabled_hover_text("It is for the other kind of contact, and left out");
+            let cross = ui.small_button("×").on_hover_text("Leaves it out of the comparison");
+            if named(ui, cross, &format!("Leave out {name}")).clicked() {
+                commands.push(Command::Training(TrainingCommand::LeaveOut(k)));
+            }
+        }
     });
 }
 
@@ -164,16 +204,10 @@ fn standing_ui(ui: &mut Ui, standing: Standing, running: Option<&Running>) {
     let left = match running.time_left() {
         Some(seconds) if seconds >= 1.0 && !stopping => {
             let word = if running.fewer { "at most" } else { "about" };
-            format!("; {word} {} left", remaining(seconds))
+            format!("; {word} {} left", numbers::remaining(seconds))
         }
         _ => String::new(),
     };
     let of = if running.fewer { "at most " } else { "" };
     ui.weak(format!("{solved} full solutions of {of}{}{left}", running.most));
-}
-
-/// A time to wait, no more exact than it is known.
-fn remaining(seconds: f64) -> String {
-    let thin = numbers::THIN;
-    if seconds < 90.0 { format!("{seconds:.0}{thin}s") } else { format!("{:.0}{thin}min", seconds / 60.0) }
 }

@@ -1,0 +1,191 @@
+//! What the plots of profiles have in common: live, full and pinned curves, their names and marks.
+
+use crate::app::answers::Pin;
+use crate::app::answers::picture::{Cuts, Origin, Picture, value_at};
+use crate::app::figure::Canvas;
+use crate::app::numbers;
+use crate::app::tabs::axes;
+use crate::app::tabs::cut_line::CutLine;
+use crate::app::tabs::direction::Direction;
+use crate::app::tabs::key::{self, Entry, Sample};
+use crate::app::tabs::plot_frame::PlotFrame;
+use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, rich};
+use crate::app::units::{Scales, Units};
+use egui::{Align2, Color32, Id, Ui, Vec2b};
+use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points, Span, Text};
+
+/// Where the first pinned curve bears its number, and how much further every other one.
+const PIN_LABELS: (f64, f64) = (-0.92, 0.1);
+
+fn pin_name(pin: &Pin) -> String {
+    format!("Pin {}: {}", pin.number, numbers::moes(pin.picture.key.point.moes()))
+}
+
+/// What the plots of the tab show.
+pub struct Scene<'a> {
+    /// The live picture.
+    pub picture: &'a Picture,
+    /// The full solution over it.
+    pub full: Option<&'a Picture>,
+    /// Pinned curves.
+    pub pins: &'a [Pin],
+    /// Whether the live picture belongs to a former contact.
+    pub stale: bool,
+    /// The same of the full solution.
+    pub full_stale: bool,
+    /// Whether plots are to be fitted to their data.
+    pub fit: bool,
+    /// Where a point contact is cut.
+    pub cuts: Cuts,
+}
+
+impl<'a> Scene<'a> {
+    /// Where the other profile cuts a point contact, in the plot of one quantity.
+    pub fn cut_line(&self, direction: Direction, plot: &str) -> Option<CutLine> {
+        self.picture.has_plane().then(|| CutLine::new(&direction.id(plot), direction.other(self.cuts)))
+    }
+
+    /// Pinned, live and full curves of one quantity; returns the colour of the live one.
+    pub fn curves(
+        &self,
+        plot: &mut Canvas<'_, 'a>,
+        palette: &Palette,
+        color: Color32,
+        of: impl Fn(&'a Picture) -> &'a [PlotPoint],
+        unit: fn(Scales) -> f64,
+    ) -> Color32 {
+        // In SI units a curve of another contact keeps its own scales on the axes of this one.
+        let own = Scales::of(&self.picture.key.point);
+        let units = Units::of(plot.ctx());
+        let fitted = |picture: &'a Picture| {
+            let other = Scales::of(&picture.key.point);
+            match units {
+                Units::Si if other != own => {
+                    let (x, y) = (other.length_mm / own.length_mm, unit(other) / unit(own));
+                    let points = of(picture).iter().map(|point| PlotPoint::new(x * point.x, y * point.y));
+                    PlotPoints::Owned(points.collect())
+                }
+                _ => PlotPoints::Borrowed(of(picture)),
+            }
+        };
+        for (k, pin) in self.pins.iter().enumerate() {
+            let (points, hue) = (fitted(&pin.picture), palette.pin(pin.number));
+            // Its number, where numbers of others are not.
+            let x = PIN_LABELS.0 + PIN_LABELS.1 * k as f64;
+            let height = value_at(points.points(), x);
+            plot.line(curve(pin_name(pin), points, hue, THIN_WIDTH));
+            if let Some(y) = height {
+                let text =
+                    Text::new("", PlotPoint::new(x, y), rich(&format!("{}", pin.number), 11.5, palette.ink(hue)));
+                plot.text(text.anchor(Align2::RIGHT_BOTTOM).id(("pin", pin.number)).allow_hover(false));
+            }
+        }
+        let live = if self.stale { palette.reference } else { color };
+        let name = if self.picture.origin == Origin::Full { "Full solution" } else { "Reduced model" };
+        plot.line(curve(name.to_owned(), fitted(self.picture), live, LIVE_WIDTH).id("live"));
+        if let Some(full) = self.full {
+            let over = if self.full_stale { palette.reference } else { palette.over(color) };
+            plot.line(curve(full_name(self), fitted(full), over, FULL_WIDTH).id("full"));
+        }
+        live
+    }
+}
+
+/// What the lines mean, above them: there it covers nothing.
+pub fn key_ui(ui: &mut Ui, scene: &Scene<'_>) {
+    let palette = Palette::of(ui);
+    let live = if scene.stale { palette.reference } else { palette.pressure };
+    let name = if scene.picture.origin == Origin::Full { "full solution" } else { "reduced model" };
+    let mut entries = vec![Entry::new(name, live, Sample::Line(LIVE_WIDTH))];
+    if scene.full.is_some() {
+        let color = if scene.full_stale { palette.reference } else { palette.over(palette.pressure) };
+        entries.push(Entry::new(full_name(scene), color, Sample::Line(FULL_WIDTH)));
+    }
+    entries.push(Entry::new("dry contact (Hertz)", palette.reference, Sample::Dashed(THIN_WIDTH)));
+    key::ui(ui, entries);
+}
+
+/// A plot of the stack: shared X axis and cursor.
+pub fn stacked<'a>(
+    ui: &Ui,
+    (direction, length_mm): (Direction, f64),
+    (id, height): (&str, f32),
+    (x_title, y_title): (&str, &str),
+) -> PlotFrame<'a> {
+    let group = Id::unique(direction.id("profiles"));
+    // As many marks as have room for their numbers.
+    let marks = f64::from((ui.available_width() / 90.0).clamp(3.0, 9.0));
+    axes::plot(ui, &direction.id(id), height, x_title, y_title)
+        .marks_x(marks)
+        .paper_x(format!("{{{0}}} = {{{1}}}/{{a}}", direction.name(), direction.name().to_lowercase()))
+        .si_x(length_mm, &direction.si_title(x_title))
+        .link_axis(group, Vec2b::new(true, false))
+        .link_cursor(group, Vec2b::new(true, false))
+        .set_margin_fraction(egui::vec2(0.0, 0.0))
+        .show_y(false)
+}
+
+/// What is said at the pointer.
+pub fn hover(picture: &Picture, direction: Direction) -> impl Fn(&HoverPosition<'_>) -> Option<String> + '_ {
+    move |at| {
+        let x = match at {
+            HoverPosition::NearDataPoint { position, .. } | HoverPosition::Elsewhere { position } => position.x,
+        };
+        let (p, h) = (value_at(direction.pressure(picture), x)?, value_at(direction.film(picture), x)?);
+        let point = &picture.key.point;
+        let hertz = point.hertz();
+        Some(format!(
+            "{} = {}   ({})\nP = {}   ({})\nH = {}   ({})",
+            direction.name(),
+            numbers::digits(x, 4),
+            numbers::length(x * hertz.half_width_m),
+            numbers::significant(p),
+            numbers::pressure(p * hertz.pressure_pa),
+            numbers::significant(h),
+            numbers::length(h * point.film_scale_m())
+        ))
+    }
+}
+
+/// Where the film has ruptured.
+pub fn cavitated(plot: &mut Canvas<'_, '_>, picture: &Picture, palette: &Palette) {
+    if let (Some(from), Some(end)) = (picture.rupture, picture.pressure.last()) {
+        plot.span(Span::new("", from..=end.x.max(from)).fill(palette.cavitated).border_width(0.0));
+    }
+}
+
+/// λ of the full solution behind the contact, where complementarity ruptures the film.
+pub fn multiplier(plot: &mut Canvas<'_, '_>, scene: &Scene<'_>, palette: &Palette) {
+    let full = scene.full.filter(|_| !scene.full_stale).unwrap_or(scene.picture);
+    let points: Vec<[f64; 2]> = full.solution.axis_multiplier().map(|(x, value)| [x, value]).collect();
+    let Some(&[x, value]) = points.get(points.len() / 4) else { return };
+    plot.line(Line::new("λ", points).color(palette.reference).width(1.4).style(LineStyle::dotted_dense()));
+    let label = Text::new("", PlotPoint::new(x, value), rich("λ  ", 13.0, palette.ink(palette.reference)));
+    plot.text(label.anchor(Align2::RIGHT_BOTTOM).id("multiplier label").allow_hover(false));
+}
+
+/// A curve without a band about it.
+pub fn curve(name: String, points: PlotPoints<'_>, color: Color32, width: f32) -> Line<'_> {
+    Line::new(name, points).color(color).width(width).allow_band(false)
+}
+
+/// A dot with its name; the name stands clear of the curve by a leading space or line.
+pub fn mark(plot: &mut Canvas<'_, '_>, at: (f64, f64), name: &'static str, color: Color32, anchor: Align2) {
+    let dot = Points::new("", vec![[at.0, at.1]]).id(name).shape(MarkerShape::Circle).radius(3.5).color(color);
+    plot.points(dot.allow_hover(false));
+    let text = match anchor {
+        Align2::CENTER_TOP => format!("\n{name}"),
+        Align2::RIGHT_BOTTOM => format!("{name}  "),
+        _ => format!("  {name}"),
+    };
+    let ink = Palette::of_screen(plot.ctx()).ink(color);
+    let label = Text::new("", PlotPoint::new(at.0, at.1), rich(&text, 13.0, ink));
+    plot.text(label.anchor(anchor).id((name, "label")).allow_hover(false));
+}
+
+fn full_name(scene: &Scene<'_>) -> String {
+    match scene.full {
+        Some(full) if scene.full_stale => format!("Full, of {}", numbers::moes(full.key.point.moes())),
+        _ => "full solution".to_owned(),
+    }
+}

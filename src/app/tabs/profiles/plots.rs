@@ -1,0 +1,144 @@
+//! The plots: pressure, film, and what reduced and full differ by.
+
+use super::curves::{Scene, cavitated, curve, hover, mark, multiplier, stacked};
+use crate::app::answers::picture::Comparison;
+use crate::app::numbers;
+use crate::app::tabs::axes;
+use crate::app::tabs::direction::Direction;
+use crate::app::theme::{Palette, THIN_WIDTH, rich};
+use crate::app::units::Scales;
+use egui::{Align2, Ui};
+use egui_plot::{Line, LineStyle, PlotPoint, PlotPoints, Text};
+
+/// The pressure; returns where the hand takes the line of the other cut.
+pub fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) -> Option<f64> {
+    let palette = Palette::of(ui);
+    let picture = scene.picture;
+    let (scalars, scales) = (picture.solution.scalars, Scales::of(&picture.key.point));
+    let top = scene.pins.iter().map(|p| p.picture.solution.scalars.p_max).fold(scalars.p_max.max(1.0), f64::max);
+    let (from, to) = direction.range();
+    let elsewhere = direction.elsewhere(scene.cuts);
+    let (on_axis, height_here) = (elsewhere == 0.0 && direction == Direction::Along, 1.0 - elsewhere * elsewhere);
+    let y_title = if direction == Direction::Along { "Pressure {P} = {p}/{p_H}" } else { "" };
+    let cut = scene.cut_line(direction, "pressure");
+    let shown = axes::show(
+        stacked(ui, (direction, scales.length_mm), ("pressure", height), ("", y_title))
+            .paper_y("Pressure {P} = {p}/{p_H}")
+            .si_y(scales.pressure_gpa, "Pressure {p} / GPa")
+            .allow_drag(cut.as_ref().is_none_or(|cut| !cut.is_held(ui)))
+            .default_x_bounds(from, to)
+            .default_y_bounds(-0.04 * top, numbers::round_up(1.12 * top))
+            .label_formatter(hover(picture, direction)),
+        ui,
+        &direction.profile_name("Pressure"),
+        |plot| {
+            axes::fit(plot, scene.fit);
+            if on_axis {
+                cavitated(plot, picture, &palette);
+            }
+            let hertz: PlotPoints<'_> =
+                PlotPoints::from_explicit_callback(move |x| (height_here - x * x).max(0.0).sqrt(), -1.0..=1.0, 201);
+            plot.line(
+                Line::new("Hertz", hertz).color(palette.reference).width(THIN_WIDTH).style(LineStyle::dashed_dense()),
+            );
+            let live = scene.curves(
+                plot,
+                &palette,
+                palette.pressure,
+                move |picture| direction.pressure(picture),
+                |of| of.pressure_gpa,
+            );
+            if on_axis {
+                multiplier(plot, scene, &palette);
+            }
+            if let Some(spike) = picture.spike.filter(|s| on_axis && (s.0 < scalars.x_p_max - 1e-9 || s.0 > 0.5)) {
+                mark(plot, spike, "spike", live, Align2::LEFT_BOTTOM);
+            }
+            if let Some(cut) = &cut {
+                cut.draw(plot, palette.accent);
+            }
+        },
+    );
+    cut?.moved(ui, &shown.response, &shown.transform)
+}
+
+/// The film; returns where the hand takes the line of the other cut.
+pub fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) -> Option<f64> {
+    let palette = Palette::of(ui);
+    let picture = scene.picture;
+    let (scalars, scales) = (picture.solution.scalars, Scales::of(&picture.key.point));
+    let top = scene.pins.iter().map(|p| p.picture.solution.scalars.h_c).fold(scalars.h_c, f64::max);
+    let (from, to) = direction.range();
+    let elsewhere = direction.elsewhere(scene.cuts);
+    let x_title = direction.x_title(picture, scene.cuts);
+    let y_title = if direction == Direction::Along { "Film {H} = {h}{R}/{a}²" } else { "" };
+    let cut = scene.cut_line(direction, "film");
+    let shown = axes::show(
+        stacked(ui, (direction, scales.length_mm), ("film", height), (&x_title, y_title))
+            .paper_y("Film {H} = {h}{R}/{a}²")
+            .si_y(scales.film_um, "Film {h} / µm")
+            .allow_drag(cut.as_ref().is_none_or(|cut| !cut.is_held(ui)))
+            .default_x_bounds(from, to)
+            .default_y_bounds(0.0, numbers::round_up(4.0 * top))
+            .label_formatter(hover(picture, direction)),
+        ui,
+        &direction.profile_name("Film"),
+        |plot| {
+            axes::fit(plot, scene.fit);
+            if direction == Direction::Along && elsewhere == 0.0 {
+                cavitated(plot, picture, &palette);
+            }
+            let live =
+                scene.curves(plot, &palette, palette.film, move |picture| direction.film(picture), |of| of.film_um);
+            if elsewhere == 0.0 {
+                mark(plot, (0.0, scalars.h_c), "{H_c}", live, Align2::LEFT_BOTTOM);
+            }
+            if let Some(cut) = &cut {
+                cut.draw(plot, palette.accent);
+            }
+            let Some(at) = direction.minimum(picture, scene.cuts) else { return };
+            // Below the curve, or below its outlet, unless the axis would cut the name off.
+            let point = plot.transform().position_from_point(&PlotPoint::new(0.0, scalars.h_min));
+            let anchor = match plot.response().rect.bottom() - point.y {
+                room if room > 34.0 => Align2::CENTER_TOP,
+                room if room > 20.0 => Align2::LEFT_TOP,
+                _ => Align2::RIGHT_BOTTOM,
+            };
+            mark(plot, (at, scalars.h_min), "{H_min}", live, anchor);
+        },
+    );
+    cut?.moved(ui, &shown.response, &shown.transform)
+}
+
+/// What the reduced solution differs from the full one by.
+pub fn difference_plot(
+    ui: &mut Ui,
+    (comparison, length_mm): (&Comparison, f64),
+    (wanted, stale): (bool, bool),
+    height: f32,
+) {
+    let palette = Palette::of(ui);
+    let (from, to) = Direction::Along.range();
+    let plot = stacked(ui, (Direction::Along, length_mm), ("difference", height), ("", "Reduced − full"));
+    axes::show(
+        plot.default_x_bounds(from, to).set_margin_fraction(egui::vec2(0.0, 0.08)),
+        ui,
+        "Difference of the profiles",
+        |plot| {
+            axes::fit(plot, wanted);
+            let color = |color| if stale { palette.reference } else { color };
+            let lines = [
+                ("ΔP", "Δ{P}", &comparison.pressure, palette.pressure, Align2::LEFT_BOTTOM),
+                ("ΔH/H_c", "Δ{H}/{H_c}", &comparison.film, palette.film, Align2::LEFT_TOP),
+            ];
+            for (name, label, points, hue, anchor) in lines {
+                plot.line(curve(name.to_owned(), PlotPoints::Borrowed(points), color(hue), 1.4));
+                // At its largest, where it stands clear of the other.
+                if let Some(at) = points.iter().max_by(|a, b| a.y.abs().total_cmp(&b.y.abs())) {
+                    let text = Text::new("", *at, rich(&format!("  {label}"), 12.5, palette.ink(color(hue))));
+                    plot.text(text.anchor(anchor).id((name, "label")).allow_hover(false));
+                }
+            }
+        },
+    );
+}

@@ -1,0 +1,185 @@
+//! Which asymptote of Moes' film formula rules where: the regimes on the chart of M and L.
+
+use super::chart::{Chart, ChartAxis, Marks, Note, Series};
+use super::drawing::{Beside, Pen, Words};
+use crate::solver::physics::contact::{ContactKind, FilmAsymptotes, Moes};
+
+/// M at the ends of the chart.
+pub const M_AXIS: (f64, f64) = (0.4, 1500.0);
+/// L at the ends of the chart.
+pub const L_AXIS: (f64, f64) = (0.2, 32.0);
+/// An asymptotic regime.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Regime {
+    /// Rigid bodies, constant viscosity.
+    RigidIsoviscous,
+    /// Elastic bodies, constant viscosity.
+    ElasticIsoviscous,
+    /// Rigid bodies, viscosity rising with pressure.
+    RigidPiezoviscous,
+    /// Elastic bodies, viscosity rising with pressure.
+    ElasticPiezoviscous,
+}
+
+impl Regime {
+    /// The regime whose asymptote Moes' formula follows at M and L: iso parts add up (the larger rules), piezo parts
+    /// add up inversely (the smaller rules), and the larger of both sides wins.
+    pub fn of(kind: ContactKind, moes: Moes) -> Self {
+        let a = FilmAsymptotes::of(kind, moes);
+        let iso = a.rigid_isoviscous.max(a.elastic_isoviscous);
+        if iso > a.rigid_piezoviscous.min(a.elastic_piezoviscous) {
+            if a.rigid_isoviscous > a.elastic_isoviscous { Self::RigidIsoviscous } else { Self::ElasticIsoviscous }
+        } else if a.rigid_piezoviscous < a.elastic_piezoviscous {
+            Self::RigidPiezoviscous
+        } else {
+            Self::ElasticPiezoviscous
+        }
+    }
+
+    /// For people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::RigidIsoviscous => "rigid,\nisoviscous",
+            Self::ElasticIsoviscous => "elastic,\nisoviscous",
+            Self::RigidPiezoviscous => "rigid,\npiezoviscous",
+            Self::ElasticPiezoviscous => "elastic,\npiezoviscous",
+        }
+    }
+
+    /// Its name in a line.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::RigidIsoviscous => "Rigid, isoviscous",
+            Self::ElasticIsoviscous => "Elastic, isoviscous",
+            Self::RigidPiezoviscous => "Rigid, piezoviscous",
+            Self::ElasticPiezoviscous => "Elastic, piezoviscous",
+        }
+    }
+
+    /// What happens in it.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::RigidIsoviscous => "The bodies keep their shape, the oil its viscosity",
+            Self::ElasticIsoviscous => "The bodies flatten, the oil keeps its viscosity",
+            Self::RigidPiezoviscous => "The bodies keep their shape, pressure stiffens the oil",
+            Self::ElasticPiezoviscous => "The bodies flatten, pressure stiffens the oil",
+        }
+    }
+}
+
+/// Points along each line.
+pub const SAMPLES: usize = 240;
+
+/// The k-th of so many values in equal ratios.
+pub fn spread((low, high): (f64, f64), k: usize, of: usize) -> f64 {
+    (low.ln() + (high.ln() - low.ln()) * k as f64 / (of - 1) as f64).exp()
+}
+
+/// Boundaries between regimes by their ends in (M, L); each is straight on logarithmic axes. Along each row and column of a
+/// fine lattice lie the places where the regime changes, sharpened by bisection.
+pub fn boundaries(kind: ContactKind) -> Vec<[[f64; 2]; 2]> {
+    let mut found: Vec<([Regime; 2], Vec<Moes>)> = Vec::new();
+    let mut add = |a: Regime, b: Regime, place: Moes| {
+        let pair = if (a as usize) < b as usize { [a, b] } else { [b, a] };
+        match found.iter_mut().find(|(known, _)| *known == pair) {
+            Some((_, places)) => places.push(place),
+            None => found.push((pair, vec![place])),
+        }
+    };
+    for along_m in [false, true] {
+        for k in 0..SAMPLES {
+            let place = |t: f64| {
+                let moving = |(low, high): (f64, f64)| (low.ln() + (high / low).ln() * t).exp();
+                if along_m {
+                    Moes { m: moving(M_AXIS), l: spread(L_AXIS, k, SAMPLES) }
+                } else {
+                    Moes { m: spread(M_AXIS, k, SAMPLES), l: moving(L_AXIS) }
+                }
+            };
+            for step in 0..SAMPLES - 1 {
+                let (mut low, mut high) =
+                    (step as f64 / (SAMPLES - 1) as f64, (step + 1) as f64 / (SAMPLES - 1) as f64);
+                let (a, b) = (Regime::of(kind, place(low)), Regime::of(kind, place(high)));
+                if a == b {
+                    continue;
+                }
+                for _ in 0..24 {
+                    let middle = 0.5 * (low + high);
+                    if Regime::of(kind, place(middle)) == a { low = middle } else { high = middle }
+                }
+                add(a, Regime::of(kind, place(high)), place(0.5 * (low + high)));
+            }
+        }
+    }
+    let ends = |(_, mut places): (_, Vec<Moes>)| {
+        // In the order of its longer extent.
+        let ratio = |of: fn(&Moes) -> f64| {
+            places.iter().map(of).fold(0.0, f64::max) / places.iter().map(of).fold(f64::INFINITY, f64::min)
+        };
+        let along: fn(&Moes) -> f64 = if ratio(|p| p.m) > ratio(|p| p.l) { |p| p.m } else { |p| p.l };
+        places.sort_by(|a, b| along(a).total_cmp(&along(b)));
+        Some([places.first()?, places.last()?].map(|place| [place.m, place.l]))
+    };
+    found.into_iter().filter_map(ends).collect()
+}
+
+/// Places (M, L) for the regimes' names, of those left of M = 1 their beginning, clear of the contacts that matter most.
+pub fn names(kind: ContactKind) -> [(Regime, [f64; 2]); 4] {
+    let [a, b, c, d] = match kind {
+        ContactKind::Line => [[0.43, 0.6], [30.0, 0.5], [0.5, 15.0], [480.0, 22.0]],
+        ContactKind::Point => [[0.6, 2.5], [60.0, 0.45], [5.5, 22.0], [800.0, 13.5]],
+    };
+    use Regime::{ElasticIsoviscous, ElasticPiezoviscous, RigidIsoviscous, RigidPiezoviscous};
+    [(RigidIsoviscous, a), (ElasticIsoviscous, b), (RigidPiezoviscous, c), (ElasticPiezoviscous, d)]
+}
+
+/// The chart for paper, with a contact in it.
+pub fn chart(kind: ContactKind, moes: Moes) -> Chart {
+    let mut chart = Chart::new("Regime", ChartAxis::log("Load number M"), ChartAxis::log("Lubricant number L"));
+    // A contact beyond the usual axes is on them as well.
+    let around = |(from, to): (f64, f64), value: f64| Some((from.min(0.7 * value), to.max(1.4 * value)));
+    (chart.x.ends, chart.y.ends) = (around(M_AXIS, moes.m), around(L_AXIS, moes.l));
+    let pen = Pen { color: [0x88; 3], opacity: 1.0, width: 0.8, dashes: Vec::new() };
+    for ends in boundaries(kind) {
+        let (name, points) = (String::new(), ends.to_vec());
+        chart.series.push(Series { name, marks: Marks::Line, points, pen: Some(pen.clone()) });
+    }
+    chart.add("this contact", Marks::Rings, [[moes.m, moes.l]]);
+    for (regime, at) in names(kind) {
+        let beside = if at[0] < 1.0 { Beside::Right } else { Beside::Middle };
+        let words = Words::plain(regime.name().replace('\n', " "));
+        chart.notes.push(Note { at, words, beside, above: 0, color: None });
+    }
+    chart
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_corners_belong_to_the_regimes_of_the_literature() {
+        let of = |kind, m, l| Regime::of(kind, Moes { m, l });
+        let line = ContactKind::Line;
+        assert_eq!(of(line, 0.6, 0.3), Regime::RigidIsoviscous);
+        assert_eq!(of(line, 1000.0, 0.3), Regime::ElasticIsoviscous);
+        assert_eq!(of(line, 1.0, 25.0), Regime::RigidPiezoviscous);
+        assert_eq!(of(line, 200.0, 15.0), Regime::ElasticPiezoviscous);
+        for kind in [ContactKind::Line, ContactKind::Point] {
+            for (regime, place) in names(kind) {
+                assert_eq!(of(kind, place[0], place[1]), regime, "{kind:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_contact_stands_on_the_chart_wherever_it_is() {
+        for (kind, m, l) in [(ContactKind::Line, 40.0, 10.0), (ContactKind::Point, 1e4, 0.01)] {
+            let chart = chart(kind, Moes { m, l });
+            let ([x, y], here) = ([chart.x.ends, chart.y.ends].map(Option::unwrap), chart.series.last().unwrap());
+            assert_eq!(here.points, [[m, l]]);
+            assert!(x.0 < m && m < x.1 && y.0 < l && l < y.1, "{x:?} {y:?}");
+            assert!(chart.series.len() > 4 && chart.notes.len() == 4);
+        }
+    }
+}
