@@ -10,11 +10,11 @@ use ehl_explorer::solver::full::transient::{
 };
 use ehl_explorer::solver::observer::Observer;
 use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
-use ehl_explorer::solver::physics::lubricant::Lubricant;
+use ehl_explorer::solver::physics::lubricant::{Cavitation, Lubricant};
 use ehl_explorer::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
 use ehl_explorer::solver::reduced::transient::ReducedMarch;
-use ehl_explorer::solver::reduced::{Online, ReducedModel, ReducedOptions};
-use ehl_explorer::solver::training::{TrajectoryTraining, train_trajectories};
+use ehl_explorer::solver::reduced::{Online, ReducedModel, ReducedOptions, Scheme};
+use ehl_explorer::solver::training::{Plan, Range, TrainingSpec, TrajectoryTraining, train, train_trajectories};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::sync::{Arc, Mutex};
@@ -74,9 +74,27 @@ fn more_online_iterations_do_not_allocate_more() {
     };
     let sliding = Sliding { slide_to_roll_ratio: 0.5, newtonian_plateau_ratio: Some(0.3) };
     let thinning = OperatingPoint { sliding, ..si_from_moes(&request).unwrap() };
+    let ruptured = Lubricant { cavitation: Cavitation::Complementarity, ..Lubricant::default() };
+    let trained = |scheme| {
+        let range = Range::Moes {
+            m: (35.0, 45.0),
+            l: (9.0, 11.0),
+            alpha: (5e-9, 20e-9),
+            max_hertz_pressure: 3.2e9,
+            viscosity: 0.01,
+        };
+        let (coarse, plan) =
+            (GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) }, Plan::FarthestPoint { snapshots: 16 });
+        let spec = TrainingSpec::new(range, (10.0, 100.0), coarse, plan);
+        let spec = TrainingSpec { scheme, evidence: 0, pressure_loss: 1e-4, lubricant: ruptured, ..spec };
+        Arc::new(train(&spec, &()).unwrap())
+    };
     for (model, point, lubricant) in [
         (embedded().unwrap(), newtonian, Lubricant::default()),
         (embedded_shear_of(ContactKind::Line).unwrap(), thinning, SQUALANE_PIP),
+        (trained(Scheme::Galerkin), newtonian, ruptured),
+        (trained(Scheme::LeastSquares { weighted: true }), newtonian, ruptured),
+        (trained(Scheme::Gnat { weighted: true }), newtonian, ruptured),
     ] {
         let [few, many] = [3, 11].map(|max_newton| allocations_of_a_solve(&model, &point, lubricant, max_newton));
         assert_eq!(few, many, "allocations of the same attempts with 3 and with 11 iterations each");

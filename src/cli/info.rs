@@ -7,7 +7,7 @@ use crate::engine::{EngineError, model_arrays, model_file};
 use crate::scene::atomic_file;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::physics::lubricant::Cavitation;
-use crate::solver::reduced::ReducedModel;
+use crate::solver::reduced::{ReducedModel, Scheme};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -56,9 +56,13 @@ pub fn describe(model: &ReducedModel) -> String {
                 format!("{nx}×{ny} nodes, X {from}…{to}, Y {edge}…0")
             }
         };
+        let scheme = match window.scheme {
+            Scheme::Galerkin => String::new(),
+            other => format!(", {}", other.name()),
+        };
         let _ = writeln!(
             text,
-            "  window M {}…{}: {grid}; {} snapshots, {} ({:?}), {}",
+            "  window M {}…{}: {grid}; {} snapshots, {} ({:?}{scheme}), {}",
             window.m.0,
             window.m.1,
             window.snapshots.len(),

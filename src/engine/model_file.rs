@@ -184,9 +184,9 @@ mod tests {
     use super::*;
     use crate::engine::checked_file::HEADER;
     use crate::solver::physics::lubricant::Cavitation;
-    use crate::solver::reduced::Sampling;
+    use crate::solver::reduced::{Sampling, Scheme};
     use crate::solver::training::small::line;
-    use crate::solver::training::train;
+    use crate::solver::training::{TrainingSpec, train};
 
     #[test]
     fn the_embedded_models_are_intact_small_and_survive_a_round_trip() {
@@ -272,7 +272,7 @@ mod tests {
     }
 
     #[test]
-    fn the_law_of_rupture_survives_a_round_trip_and_must_fit_the_windows() {
+    fn the_law_of_rupture_and_the_scheme_survive_a_round_trip_and_must_fit_the_windows() {
         let spec = line(Sampling::QDeim, 24).under(Cavitation::Complementarity);
         let model = train(&spec, &()).unwrap();
         let read = from_bytes(&to_bytes(&model).unwrap()).unwrap();
@@ -287,6 +287,15 @@ mod tests {
             let refused = from_bytes(&to_bytes(&wrong).unwrap()).err();
             assert!(matches!(refused, Some(ModelFileError::Damaged { what: "rupture" })), "{refused:?}");
         }
+        let scheme = Scheme::Gnat { weighted: true };
+        let model = train(&TrainingSpec { scheme, ..line(Sampling::QDeim, 24) }, &()).unwrap();
+        let own = &from_bytes(&to_bytes(&model).unwrap()).unwrap().windows[0];
+        assert_eq!(own.scheme, scheme);
+        assert!(own.residual_reconstruction == model.windows[0].residual_reconstruction);
+        let mut wrong = model;
+        wrong.windows[0].residual_reconstruction = None;
+        let refused = from_bytes(&to_bytes(&wrong).unwrap()).err();
+        assert!(matches!(refused, Some(ModelFileError::Damaged { what: "scheme" })), "{refused:?}");
         // What an older program wrote says nothing of it.
         assert_eq!(embedded().unwrap().domain.lubricant.cavitation, Cavitation::Penalty);
     }

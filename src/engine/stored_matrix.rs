@@ -86,6 +86,11 @@ impl StoredMatrix {
         Self { rows, columns, values: Values::Steps(steps) }
     }
 
+    /// Rows that it says it has.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
     /// The matrix, if it has `rows` rows and is sound.
     pub fn into_mat(self, rows: usize) -> Option<Mat<f64>> {
         let columns = self.columns;

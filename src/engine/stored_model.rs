@@ -9,8 +9,9 @@ use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::{Cavitation, ShearLaw, Sliding};
 use crate::solver::reduced::{
-    Calibration, Domain, ReducedModel, SampledRows, Sampling, SlidingDomain, Snapshot, TractionRule, Window,
+    Calibration, Domain, ReducedModel, SampledRows, Sampling, Scheme, SlidingDomain, Snapshot, TractionRule, Window,
 };
+use faer::Mat;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -31,12 +32,15 @@ struct StoredModel {
     log: Vec<String>,
 }
 
-/// What follows a model whose films do not rupture by the penalty; older files end without it.
-#[derive(Serialize, Deserialize)]
-struct StoredRupture {
+/// What follows a model whose films do not rupture by the penalty or whose steps are not Galerkin's; older files end
+/// without it.
+#[derive(Default, Serialize, Deserialize)]
+struct StoredFurther {
     cavitation: Cavitation,
-    /// Of every window and each of its snapshots the first ruptured column of each line along X.
+    /// Of every window and each of its snapshots the first ruptured column of each line along X; empty under a penalty.
     fronts: Vec<Vec<Vec<usize>>>,
+    /// Of every window its scheme, and what GNAT makes of the residual.
+    schemes: Vec<(Scheme, Option<StoredMatrix>)>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -113,7 +117,12 @@ pub(super) fn prove(model: &ReducedModel) -> Result<(), ModelFileError> {
 }
 
 impl StoredWindow {
-    fn into_window(self, grid: ContactGrid, sliding: bool) -> Result<Window, ModelFileError> {
+    fn into_window(
+        self,
+        grid: ContactGrid,
+        sliding: bool,
+        (scheme, residual): (Scheme, Option<StoredMatrix>),
+    ) -> Result<Window, ModelFileError> {
         let nodes = grid.len();
         let damaged = |what| Err(ModelFileError::Damaged { what });
         let (Some(pressure), Some(deformation)) = (self.pressure.into_basis(nodes), self.deformation.into_basis(nodes))
@@ -124,7 +133,20 @@ impl StoredWindow {
         if modes == 0 || deformation.modes.ncols() == 0 {
             return damaged("bases");
         }
-        let Some(reconstruction) = self.reconstruction.into_mat(modes) else { return damaged("sampled rows") };
+        let (gnat, stored) = (matches!(scheme, Scheme::Gnat { .. }), self.reconstruction.rows());
+        let equations = match scheme {
+            Scheme::Galerkin => modes,
+            Scheme::LeastSquares { .. } => 1,
+            Scheme::Gnat { .. } => stored.max(modes).min(grid.unknowns()),
+        };
+        let Some(reconstruction) = self.reconstruction.into_mat(equations) else { return damaged("sampled rows") };
+        let residual = residual.map(|residual| residual.into_mat(equations));
+        let fits = |own: &Option<Mat<f64>>| own.as_ref().is_some_and(|own| own.ncols() == reconstruction.ncols());
+        let enough = scheme == Scheme::Galerkin || reconstruction.ncols() > modes;
+        if !enough || gnat != residual.is_some() || !residual.iter().all(fits) {
+            return damaged("scheme");
+        }
+        let residual = residual.flatten();
         let rows_fit = self.sampled_rows.is_sorted_by(|a, b| a < b)
             && self.sampled_rows.last().is_some_and(|&r| r < grid.unknowns())
             && reconstruction.ncols() == self.sampled_rows.len();
@@ -152,7 +174,7 @@ impl StoredWindow {
         if !self.calibration.as_ref().is_none_or(|known| known.sound() && known.sliding() == sliding) {
             return damaged("calibration");
         }
-        let rows = SampledRows { rows: self.sampled_rows, reconstruction };
+        let rows = SampledRows { rows: self.sampled_rows, reconstruction, scheme, residual };
         let mut window = Window::new(self.m, grid, pressure, deformation, self.snapshots, self.sampling, rows);
         (window.penalty, window.traction, window.calibration) = (self.penalty, self.traction, self.calibration);
         Ok(window)
@@ -187,23 +209,38 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
         log: model.log.clone(),
     };
     let payload = postcard::to_allocvec(&stored).ok()?;
-    let cavitation = model.domain.lubricant.cavitation;
-    if cavitation == Cavitation::Penalty {
+    let (windows, cavitation) = (&model.windows, model.domain.lubricant.cavitation);
+    if cavitation == Cavitation::Penalty && windows.iter().all(|window| window.scheme == Scheme::Galerkin) {
         return Some(payload);
     }
     let of_window = |window: &Window| window.snapshots.iter().map(|snapshot| snapshot.fronts.clone()).collect();
-    postcard::to_extend(&StoredRupture { cavitation, fronts: model.windows.iter().map(of_window).collect() }, payload)
-        .ok()
+    let fronts = if cavitation == Cavitation::Penalty { Vec::new() } else { windows.iter().map(of_window).collect() };
+    let scheme = |window: &Window| (window.scheme, window.residual_reconstruction.as_ref().map(StoredMatrix::exact));
+    let schemes = windows.iter().map(scheme).collect();
+    postcard::to_extend(&StoredFurther { cavitation, fronts, schemes }, payload).ok()
+}
+
+/// What follows the model in a payload; `None` where it cannot be understood.
+fn further(rest: &[u8], windows: usize) -> Option<StoredFurther> {
+    let mut further = StoredFurther::default();
+    if !rest.is_empty() {
+        let (known, rest) = postcard::take_from_bytes::<StoredFurther>(rest).ok()?;
+        if !rest.is_empty() || known.schemes.len() != windows {
+            return None;
+        }
+        further = known;
+    }
+    further.schemes.resize_with(windows, Default::default);
+    Some(further)
 }
 
 /// Gives the windows of a model their law of rupture; `None` where it does not fit them.
-fn rupture(model: &mut ReducedModel, rest: &[u8]) -> Option<()> {
-    if rest.is_empty() {
-        return Some(());
+fn rupture(model: &mut ReducedModel, cavitation: Cavitation, fronts: Vec<Vec<Vec<usize>>>) -> Option<()> {
+    if cavitation == Cavitation::Penalty {
+        return fronts.is_empty().then_some(());
     }
-    let (StoredRupture { cavitation, fronts }, rest) = postcard::take_from_bytes(rest).ok()?;
     let ruptures = cavitation == Cavitation::Complementarity && model.domain.sliding.is_none();
-    if !(ruptures && rest.is_empty() && fronts.len() == model.windows.len()) {
+    if !(ruptures && fronts.len() == model.windows.len()) {
         return None;
     }
     model.domain.lubricant.cavitation = cavitation;
@@ -234,6 +271,7 @@ pub(super) fn decode(payload: &[u8]) -> Result<ReducedModel, ModelFileError> {
     if !sound_domain(&domain) {
         return Err(ModelFileError::Damaged { what: "its domain" });
     }
+    let further = further(rest, windows.len()).ok_or(ModelFileError::Damaged { what: "rupture and schemes" })?;
     let ascending = windows.is_sorted_by(|a, b| a.m.0 <= b.m.0);
     if !(ascending && windows.iter().all(|window| sound_interval(window.m, f64::MAX))) {
         return Err(ModelFileError::Damaged { what: "ranges of its windows" });
@@ -243,8 +281,9 @@ pub(super) fn decode(payload: &[u8]) -> Result<ReducedModel, ModelFileError> {
     log.iter_mut().chain([&mut title]).for_each(|text| text.retain(|letter| !letter.is_control()));
     let grids = grids(&windows)?;
     let sliding = domain.sliding.is_some();
+    let parts = windows.into_par_iter().zip(grids).zip(further.schemes);
     let windows: Vec<Window> =
-        windows.into_par_iter().zip(grids).map(|(w, grid)| w.into_window(grid, sliding)).collect::<Result<_, _>>()?;
+        parts.map(|((w, grid), scheme)| w.into_window(grid, sliding, scheme)).collect::<Result<_, _>>()?;
     let Some(kind) = windows.first().map(|window| window.grid.kind()) else {
         return Err(ModelFileError::Damaged { what: "no windows" });
     };
@@ -252,7 +291,7 @@ pub(super) fn decode(payload: &[u8]) -> Result<ReducedModel, ModelFileError> {
         return Err(ModelFileError::Damaged { what: "windows of different contacts" });
     }
     let mut model = ReducedModel { title, domain, windows, scene, log };
-    rupture(&mut model, rest).ok_or(ModelFileError::Damaged { what: "rupture" })?;
+    rupture(&mut model, further.cavitation, further.fronts).ok_or(ModelFileError::Damaged { what: "rupture" })?;
     prove(&model)?;
     Ok(model)
 }

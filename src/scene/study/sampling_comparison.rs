@@ -6,12 +6,15 @@ use super::question::{
 use crate::scene::check::{self, MAX_COMPARED, MAX_TESTS, count, number};
 use crate::scene::parallel::{film_errors, full_solutions, reduced_solutions};
 use crate::scene::random_points::all_random_points;
-use crate::scene::statistics::median;
-use crate::solver::reduced::{ReducedOptions, Sampling};
+use crate::scene::statistics::{median, percentile};
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::{Cavitation, Lubricant};
+use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Sampling, Scheme};
 use crate::solver::training::{QuantityBox, Range, TrainingSpec, TrainingState, Windows, train_resumable};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Instant;
 
 /// Ways of sampling rows, on the same full solutions and basis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -43,6 +46,12 @@ pub struct ComparedSampling {
     pub rows_per_mode: f64,
     /// Penalty factor γ̄ of the reduced equations.
     pub penalty: f64,
+    /// By what the online step is found.
+    #[serde(default)]
+    pub scheme: Scheme,
+    /// How its films rupture, where that is not as in the full solutions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cavitation: Option<Cavitation>,
 }
 
 /// What comes of it.
@@ -78,15 +87,40 @@ pub struct Way {
     pub newton: Vec<f64>,
     /// Relative errors of H_c and of H_min.
     pub errors: [Vec<f64>; 2],
+    /// Seconds of single solves, of some of the tests.
+    pub seconds: Vec<f64>,
 }
 
-const COLUMNS: [Column<Way>; 6] = [
+/// Solves that are timed.
+const TIMED: usize = 40;
+
+/// Seconds of single solves, one after the other.
+fn one_by_one(
+    model: &Arc<ReducedModel>,
+    options: ReducedOptions,
+    points: &[OperatingPoint],
+    lubricant: Lubricant,
+) -> Vec<f64> {
+    let mut online = Online::new(Arc::clone(model), options);
+    let timed = |point: &OperatingPoint| {
+        online.prepare(point.moes());
+        online.forget();
+        let clock = Instant::now();
+        let _ = online.solve(point, lubricant);
+        clock.elapsed().as_secs_f64()
+    };
+    points.iter().take(TIMED).map(timed).collect()
+}
+
+const COLUMNS: [Column<Way>; 8] = [
     ("rows", |way| way.rows as f64),
     ("penalty", |way| way.penalty),
     ("tests", |way| way.tests as f64),
     ("failures", |way| way.failures as f64),
     ("failures_compared", |way| way.failures_compared as f64),
     ("newton_median", |way| median(&way.newton)),
+    ("newton_p95", |way| percentile(&way.newton, 0.95)),
+    ("median_s", |way| median(&way.seconds)),
 ];
 
 impl Question for SamplingComparison {
@@ -112,6 +146,7 @@ impl Question for SamplingComparison {
             return Err(RunError::Study(sentence.to_owned()));
         }
         let points = all_random_points(&Range::Box(self.range), experiment.contact, self.tests, self.seed)?;
+        let own_law = training.lubricant.cavitation;
         // Errors are measured here, against full solutions.
         let mut state = TrainingState::new(TrainingSpec { evidence: 0, ..training });
         let trained = train_resumable(&mut state, observer)?;
@@ -120,10 +155,12 @@ impl Question for SamplingComparison {
         let truth = full_solutions(|_| window.grid.clone(), &points[..self.compare], experiment.lubricant, observer)?;
         for way in &self.samplings {
             (state.spec.sampling, state.spec.rows_per_mode) = (way.sampling, way.rows_per_mode);
-            state.spec.penalty = way.penalty;
+            (state.spec.penalty, state.spec.scheme) = (way.penalty, way.scheme);
+            state.spec.lubricant.cavitation = way.cavitation.unwrap_or(own_law);
             let model = Arc::new(state.model(observer)?);
             let (options, fields) = (ReducedOptions::default(), |i: usize| i < self.compare);
             let tested = reduced_solutions(&model, options, &points, experiment.lubricant, fields, observer)?;
+            let seconds = one_by_one(&model, options, &points, experiment.lubricant);
             let failures = |tested: &[Option<_>]| tested.iter().filter(|solved| solved.is_none()).count();
             tell(Row::Way(Way {
                 name: way.name.clone(),
@@ -134,6 +171,7 @@ impl Question for SamplingComparison {
                 failures_compared: failures(&tested[..self.compare]),
                 newton: tested.iter().flatten().map(|reduced| reduced.solved.iterations as f64).collect(),
                 errors: film_errors(&tested, &truth),
+                seconds,
             }));
         }
         Ok(())
@@ -149,7 +187,7 @@ impl Question for SamplingComparison {
                     found.push("basis_p", None, *modes as f64);
                 }
                 Row::Way(way) => {
-                    for name in ["rows", "failures", "newton_median"] {
+                    for name in ["rows", "failures", "newton_median", "newton_p95", "median_s"] {
                         let value = COLUMNS.iter().find(|(column, _)| *column == name).map(|(_, get)| get(way));
                         found.push(format!("{}.{name}", way.name), None, value.unwrap_or(f64::NAN));
                     }

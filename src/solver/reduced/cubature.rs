@@ -300,7 +300,7 @@ pub fn cubature(test: &TestSpace, equations: &GoalEquations, target: usize) -> O
     let (rows, relative) = equations.solve(target).filter(carries).or_else(|| equations.fit(target).filter(carries))?;
     let reconstruction =
         Mat::from_fn(modes, rows.len(), |k, r| relative[r] * test.weights[rows[r]] * test.modes[(rows[r], k)]);
-    Some(SampledRows { rows, reconstruction })
+    Some(SampledRows::tested(rows, reconstruction))
 }
 
 #[cfg(test)]

@@ -13,6 +13,7 @@ mod error_measures;
 mod error_split;
 #[cfg(test)]
 mod error_split_tests;
+mod minimisation;
 mod model;
 mod online;
 mod operators;
@@ -29,6 +30,8 @@ pub use calibration::{Calibration, ErrorEstimate, Estimated, Evidence, Features,
 pub use cubature::{GoalEquations, cubature};
 pub use error_measures::{ErrorMeasures, Norm, Residuals};
 pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
+pub use minimisation::Scheme;
+pub(crate) use minimisation::minimised_rows;
 pub use model::{
     Domain, ModelSize, ReducedModel, SlidingDomain, Snapshot, Trust, Window, deformation_weights, distance, separation,
 };

@@ -1,6 +1,7 @@
 //! What a reduced model is made of.
 
 use super::calibration::Calibration;
+use super::minimisation::Scheme;
 use super::pod::PodBasis;
 use super::sampling::{SampledRows, Sampling};
 use super::traction::TractionRule;
@@ -90,8 +91,13 @@ pub struct Window {
     pub sampling: Sampling,
     /// Sampled rows as indices of unknowns, ascending.
     pub sampled_rows: Vec<usize>,
-    /// G with Vᵀ W f ≈ G f_I, modes × rows.
+    /// By what the online step is found.
+    pub scheme: Scheme,
+    /// What is made of the sampled rows' values: of Galerkin's scheme G with Vᵀ W f ≈ G f_I, modes × rows; of least
+    /// squares a factor each, 1 × rows; of GNAT what the Jacobian's basis says of them, equations × rows.
     pub reconstruction: Mat<f64>,
+    /// What GNAT makes of the residual's values, of the size of the former.
+    pub residual_reconstruction: Option<Mat<f64>>,
     /// Training solutions.
     pub snapshots: Vec<Snapshot>,
     /// Traction from few of the nodes that these rows depend on; none where the model does not know sliding.
@@ -174,7 +180,7 @@ impl Window {
         rows: SampledRows,
     ) -> Self {
         let flexed = grid.flex(&pressure.modes);
-        let SampledRows { rows: sampled_rows, reconstruction } = rows;
+        let SampledRows { rows: sampled_rows, reconstruction, scheme, residual } = rows;
         Self {
             m,
             grid,
@@ -185,7 +191,9 @@ impl Window {
             flexed,
             sampling,
             sampled_rows,
+            scheme,
             reconstruction,
+            residual_reconstruction: residual,
             snapshots,
             traction: None,
             calibration: None,
@@ -212,7 +220,8 @@ impl Window {
     pub fn set_rows(&mut self, sampling: Sampling, rows: SampledRows) {
         self.sampling = sampling;
         self.sampled_rows = rows.rows;
-        self.reconstruction = rows.reconstruction;
+        (self.scheme, self.reconstruction, self.residual_reconstruction) =
+            (rows.scheme, rows.reconstruction, rows.residual);
         (self.traction, self.calibration) = (None, None);
     }
 

@@ -1,13 +1,16 @@
 //! The reduced operators of one window for a chosen truncation. Nothing in them is of large scale.
 
 mod front;
+mod least_squares;
 mod newton;
 
 pub(crate) use front::{cut_off, fronts};
 pub(crate) use newton::{Case, Iterate, OnlineOutcome, RowObserver, Stop};
 
 use self::front::{Changed, Front};
+use self::least_squares::LeastSquares;
 use super::dense::{self, SmallSystem};
+use super::minimisation::Scheme;
 use super::model::{Window, deformation_weights};
 use crate::solver::discrete::grid::dot;
 use crate::solver::discrete::nodes::Nodes;
@@ -32,8 +35,9 @@ pub(crate) struct Operators {
     state_rows: Vec<f64>,
     /// Axes along which the rows need gradients: none of a Newtonian model.
     axes: usize,
-    /// G, row-major modes × rows.
+    /// What is made of the rows' values, see the window's.
     reconstruction: Mat<f64>,
+    residual_reconstruction: Option<Mat<f64>>,
     /// wᵀ V_p.
     load_row: Vec<f64>,
     /// Places in the support, and weights, of the rule for the traction; empty without one.
@@ -69,6 +73,8 @@ struct Scratch {
     film_column: Vec<f64>,
     /// The reduced Jacobian, load row included, and the step.
     system: SmallSystem,
+    /// The equations whose squares are least, of a scheme of residual minimisation.
+    minimised: Option<LeastSquares>,
     /// What observers see of the former before it is factorised.
     jacobian: Mat<f64>,
     product: Vec<f64>,
@@ -159,7 +165,11 @@ impl Operators {
             row_weights: rows.iter().map(|&row| weights[reference.node(row)]).collect(),
             state_rows,
             axes,
-            reconstruction: window.reconstruction.get(..modes, ..).to_owned(),
+            reconstruction: match window.scheme {
+                Scheme::Galerkin => window.reconstruction.get(..modes, ..).to_owned(),
+                Scheme::LeastSquares { .. } | Scheme::Gnat { .. } => window.reconstruction.clone(),
+            },
+            residual_reconstruction: window.residual_reconstruction.clone(),
             load_row,
             traction,
             projected,
@@ -174,6 +184,11 @@ impl Operators {
                 jacobian_rows: vec![0.0; n * modes],
                 film_column: vec![0.0; n],
                 system: SmallSystem::new(size),
+                minimised: match window.scheme {
+                    Scheme::Galerkin => None,
+                    Scheme::LeastSquares { .. } => Some(LeastSquares::new(n + 1, size)),
+                    Scheme::Gnat { .. } => Some(LeastSquares::new(window.reconstruction.nrows() + 1, size)),
+                },
                 jacobian: Mat::zeros(size, size),
                 product: vec![0.0; n],
             },

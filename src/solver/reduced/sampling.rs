@@ -3,6 +3,7 @@
 //! Every method returns rows I and a matrix G (modes × rows) with Vᵀ W f ≈ G f_I, so that the online phase does not
 //! know which one was used.
 
+use super::minimisation::Scheme;
 use super::pod::PodBasis;
 use crate::solver::discrete::grid::ContactGrid;
 use faer::linalg::solvers::{ColPivQr, PartialPivLu, Solve, Svd};
@@ -28,8 +29,12 @@ pub enum Sampling {
 pub struct SampledRows {
     /// Row indices.
     pub rows: Vec<usize>,
-    /// G, modes × rows.
+    /// What is made of their values, see [`super::Window::reconstruction`].
     pub reconstruction: Mat<f64>,
+    /// By what the step is found.
+    pub scheme: Scheme,
+    /// What GNAT makes of the residual's values.
+    pub residual: Option<Mat<f64>>,
 }
 
 /// Residual and Jacobian snapshots (2.108), (2.109) over the unknowns, one per column, rows scaled by √w.
@@ -64,7 +69,14 @@ impl TestSpace {
     fn rows(&self, rows: Vec<usize>) -> SampledRows {
         let reconstruction =
             Mat::from_fn(self.modes.ncols(), rows.len(), |k, r| self.weights[rows[r]] * self.modes[(rows[r], k)]);
-        SampledRows { rows, reconstruction }
+        SampledRows::tested(rows, reconstruction)
+    }
+}
+
+impl SampledRows {
+    /// Rows whose combinations G f_I vanish, Galerkin's.
+    pub fn tested(rows: Vec<usize>, reconstruction: Mat<f64>) -> Self {
+        Self { rows, reconstruction, scheme: Scheme::Galerkin, residual: None }
     }
 }
 
@@ -74,7 +86,7 @@ pub fn all_rows(test: &TestSpace) -> SampledRows {
 }
 
 /// Leading left singular vectors of snapshots.
-fn leading_modes(snapshots: &[Vec<f64>], count: usize) -> Option<Mat<f64>> {
+pub(super) fn leading_modes(snapshots: &[Vec<f64>], count: usize) -> Option<Mat<f64>> {
     let n = snapshots.first()?.len();
     let matrix = Mat::from_fn(n, snapshots.len(), |i, j| snapshots[j][i]);
     let svd = Svd::new_thin(matrix.as_ref()).ok()?;
@@ -84,6 +96,18 @@ fn leading_modes(snapshots: &[Vec<f64>], count: usize) -> Option<Mat<f64>> {
 
 /// The dissertation's greedy selection, Fig. 2.9, on the POD bases of residual and Jacobian snapshots.
 pub fn greedy(test: &TestSpace, snapshots: &RowSnapshots, count: usize) -> Option<SampledRows> {
+    Some(test.rows(greedy_rows(snapshots, count)?))
+}
+
+/// Rows by pivoted QR of the Jacobian's snapshots, or by the greedy.
+pub(super) fn gappy_rows(sampling: Sampling, snapshots: &RowSnapshots, count: usize) -> Option<Vec<usize>> {
+    if sampling == Sampling::Greedy {
+        return greedy_rows(snapshots, count);
+    }
+    Some(pivots(leading_modes(&snapshots.jacobian, count)?.as_ref()))
+}
+
+fn greedy_rows(snapshots: &RowSnapshots, count: usize) -> Option<Vec<usize>> {
     let residual = leading_modes(&snapshots.residual, count)?;
     let jacobian = leading_modes(&snapshots.jacobian, count)?;
     let count = count.min(residual.ncols()).min(jacobian.ncols());
@@ -98,7 +122,16 @@ pub fn greedy(test: &TestSpace, snapshots: &RowSnapshots, count: usize) -> Optio
         rows.push(next);
     }
     rows.sort_unstable();
-    Some(test.rows(rows))
+    Some(rows)
+}
+
+/// As many rows as modes, by QR with column pivoting, ascending.
+fn pivots(phi: MatRef<'_, f64>) -> Vec<usize> {
+    let qr = ColPivQr::new(phi.transpose());
+    let (forward, _) = qr.P().arrays();
+    let mut rows: Vec<usize> = forward[..phi.ncols()].to_vec();
+    rows.sort_unstable();
+    rows
 }
 
 /// What of column `mode` its interpolation through the former columns at the chosen rows leaves.
@@ -136,10 +169,7 @@ pub fn q_deim(test: &TestSpace, snapshots: &RowSnapshots, counts: &[usize]) -> V
 fn q_deim_of(test: &TestSpace, phi: MatRef<'_, f64>) -> SampledRows {
     let count = phi.ncols();
     let unknowns = phi.nrows();
-    let qr = ColPivQr::new(phi.transpose());
-    let (forward, _) = qr.P().arrays();
-    let mut rows: Vec<usize> = forward[..count].to_vec();
-    rows.sort_unstable();
+    let rows = pivots(phi);
     // The snapshots are scaled by √w: so are the test functions, and G undoes it on the sampled values.
     let modes = test.modes.ncols();
     let scaled = Mat::from_fn(unknowns, modes, |i, k| test.weights[i].sqrt() * test.modes[(i, k)]);
@@ -148,7 +178,7 @@ fn q_deim_of(test: &TestSpace, phi: MatRef<'_, f64>) -> SampledRows {
     // G′ = projectedᵀ Φ_I⁻¹, so Φ_Iᵀ G′ᵀ = projected.
     let solution = PartialPivLu::new(sampled.transpose()).solve(&projected);
     let reconstruction = Mat::from_fn(modes, count, |k, r| solution[(r, k)] * test.weights[rows[r]].sqrt());
-    SampledRows { rows, reconstruction }
+    SampledRows::tested(rows, reconstruction)
 }
 
 /// Whether a matrix has only finite entries.

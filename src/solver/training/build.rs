@@ -10,8 +10,8 @@ use crate::solver::full::{ContactSolver, Start};
 use crate::solver::physics::contact::{DEFAULT_VISCOSITY_PA_S, MoesRequest, OperatingPoint};
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{
-    Domain, PodBasis, ReducedModel, Sampling, SlidingDomain, Snapshot, TestSpace, Window, all_rows,
-    deformation_weights, fronts,
+    Domain, PodBasis, ReducedModel, RowSnapshots, Sampling, Scheme, SlidingDomain, Snapshot, TestSpace, Window,
+    all_rows, deformation_weights, fronts, minimised_rows,
 };
 use faer::Mat;
 use fastrand::Rng;
@@ -192,6 +192,13 @@ impl<'a> WindowTraining<'a> {
     /// A window with its rows sampled as the specification says.
     pub fn sample(&self, mut window: Window, rng: &mut Rng) -> Result<Window, TrainingError> {
         let Self { spec, reach, observer, .. } = self;
+        if spec.sampling == Sampling::All && spec.scheme != Scheme::Galerkin {
+            let test = TestSpace::new(&window.pressure, &window.grid);
+            let (of, count) = ((spec.scheme, spec.sampling), test.weights.len());
+            let (from, to) = window.m;
+            let rows = minimised_rows(&test, of, &RowSnapshots::default(), count);
+            window.set_rows(spec.sampling, rows.ok_or(TrainingError::Decomposition { from, to })?);
+        }
         if spec.sampling != Sampling::All {
             let (from, to) = window.m;
             let sampled = sample_rows(spec, &Arc::new(alone(spec, &window)), *reach, rng, *observer)?;

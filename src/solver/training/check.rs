@@ -3,12 +3,15 @@
 use super::{Plan, Range, SlidingRange, TrainingSpec, WindowSpec, Windows};
 use crate::solver::limits::{Refused, count, interval, number, plain};
 use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw};
-use crate::solver::reduced::LEAST_EVIDENCE;
+use crate::solver::reduced::{LEAST_EVIDENCE, Sampling, Scheme};
 
 /// Most points of a plan, or judged in one go.
 const MOST_POINTS: usize = 100_000;
 /// Most full solutions of a window.
 const MOST_SNAPSHOTS: usize = 5000;
+
+/// Fewest rows per mode of residual minimisation.
+const FEWEST_MINIMISED: f64 = 1.1;
 
 /// Refuses what no training can be made of, naming the field.
 pub(super) fn check(spec: &TrainingSpec) -> Result<(), Refused> {
@@ -19,6 +22,7 @@ pub(super) fn check(spec: &TrainingSpec) -> Result<(), Refused> {
     number("pressure_loss", spec.pressure_loss, 1e-15, 0.5)?;
     number("deformation_loss", spec.deformation_loss, 1e-15, 0.5)?;
     number("rows_per_mode", spec.rows_per_mode, 1.0, 20.0)?;
+    scheme(spec)?;
     number("penalty", spec.penalty, 1e2, 1e9)?;
     if spec.evidence > 0 && !(LEAST_EVIDENCE..=MOST_POINTS).contains(&spec.evidence) {
         return Err(Refused::new(
@@ -30,6 +34,30 @@ pub(super) fn check(spec: &TrainingSpec) -> Result<(), Refused> {
         ));
     }
     plan(spec).map_err(|refused| refused.within("plan"))
+}
+
+/// Residual minimisation has no use for weights that make tested rows right; GNAT's bases are those of sampled rows.
+fn scheme(spec: &TrainingSpec) -> Result<(), Refused> {
+    match (spec.scheme, spec.sampling) {
+        (Scheme::LeastSquares { .. } | Scheme::Gnat { .. }, Sampling::Cubature) => Err(Refused::new(
+            "scheme",
+            "minimises the residual, but the cubature's weights belong to rows tested by V; choose Greedy or QDeim",
+        )),
+        (Scheme::Gnat { .. }, Sampling::All) => Err(Refused::new(
+            "scheme",
+            "is Gnat, which samples rows; choose Greedy or QDeim, or LeastSquares of all rows",
+        )),
+        (Scheme::LeastSquares { .. } | Scheme::Gnat { .. }, _) if spec.rows_per_mode < FEWEST_MINIMISED => {
+            Err(Refused::new(
+                "rows_per_mode",
+                format!(
+                    "is {}, but residual minimisation needs more equations than unknowns: {FEWEST_MINIMISED} at least",
+                    spec.rows_per_mode
+                ),
+            ))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn plan(spec: &TrainingSpec) -> Result<(), Refused> {

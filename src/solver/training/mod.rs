@@ -49,7 +49,7 @@ use super::discrete::reynolds::PENALTY;
 use super::limits::Refused;
 use super::physics::contact::ContactKind;
 use super::physics::lubricant::{Cavitation, Lubricant};
-use super::reduced::{Domain, Sampling};
+use super::reduced::{Domain, Sampling, Scheme};
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::AtomicBool;
 
@@ -135,6 +135,9 @@ pub struct TrainingSpec {
     /// How rows are sampled.
     #[serde(default)]
     pub sampling: Sampling,
+    /// By what the online step is found: rows tested by V, or residual minimisation.
+    #[serde(default)]
+    pub scheme: Scheme,
     /// Sampled rows per pressure mode.
     pub rows_per_mode: f64,
     /// Penalty factor γ̄ of (2.36) in the reduced equations; the full solutions keep their own.
@@ -172,6 +175,7 @@ impl TrainingSpec {
             pressure_loss: 1e-6,
             deformation_loss: 1e-6,
             sampling: Sampling::default(),
+            scheme: Scheme::default(),
             rows_per_mode: 2.0,
             penalty: PENALTY,
             positive_modes: false,

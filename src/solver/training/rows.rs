@@ -6,8 +6,8 @@ use super::one_thread::{in_parallel, on_one_thread};
 use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{
-    GoalEquations, Iterate, Online, ReducedModel, ReducedOptions, RowSnapshots, SampledRows, Sampling, Snapshot,
-    TestSpace, Window, all_rows, cubature, dense, greedy, is_finite, q_deim, separation,
+    GoalEquations, Iterate, Online, ReducedModel, ReducedOptions, RowSnapshots, SampledRows, Sampling, Scheme,
+    Snapshot, TestSpace, Window, all_rows, cubature, dense, greedy, is_finite, minimised_rows, q_deim, separation,
 };
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
@@ -131,13 +131,14 @@ fn sample(
     })?;
     observer.progress(Progress { stage: "Row sampling".to_owned(), done: 0, total: 1 });
     let (sampling, rows_per_mode) = (spec.sampling, rows_per_mode.to_vec());
-    on_one_thread(observer, move || choose(&test, sampling, &rows_per_mode, collected, none))
+    let scheme = spec.scheme;
+    on_one_thread(observer, move || choose(&test, (scheme, sampling), &rows_per_mode, collected, none))
 }
 
 /// The rows that all evidence together speaks for, for each number of them per mode.
 fn choose(
     test: &TestSpace,
-    sampling: Sampling,
+    (scheme, sampling): (Scheme, Sampling),
     rows_per_mode: &[f64],
     collected: Vec<Evidence>,
     mut equations: GoalEquations,
@@ -155,6 +156,9 @@ fn choose(
     let count = |per_mode: &f64| ((test.modes.ncols() as f64 * per_mode).round() as usize).min(test.weights.len());
     let counts: Vec<usize> = rows_per_mode.iter().map(count).collect();
     let chosen = match sampling {
+        _ if scheme != Scheme::Galerkin => {
+            counts.iter().map(|count| minimised_rows(test, (scheme, sampling), &rows, *count)).collect()
+        }
         Sampling::QDeim => q_deim(test, &rows, &counts),
         Sampling::Greedy => counts.iter().map(|count| greedy(test, &rows, *count)).collect(),
         Sampling::Cubature => counts.iter().map(|count| cubature(test, &equations, *count)).collect(),
@@ -167,7 +171,8 @@ fn choose(
 /// Residual and Jacobian snapshots of one solve, scaled by √w and by the largest of them. Empty when it diverges: that
 /// teaches nothing about the rows a good iteration meets.
 fn snapshots(spec: &TrainingSpec, online: &mut Online, test: &TestSpace, task: &Task<'_>) -> RowSnapshots {
-    let scaled = |v: &[f64]| -> Vec<f64> { v.iter().zip(&test.weights).map(|(v, w)| v * w.sqrt()).collect() };
+    let factors = spec.scheme.factors(test);
+    let scaled = |v: &[f64]| -> Vec<f64> { v.iter().zip(&factors).map(|(v, factor)| v * factor).collect() };
     let mut rows = RowSnapshots::default();
     let mut keep = |iterate: &Iterate<'_>| {
         rows.residual.push(scaled(iterate.residual));

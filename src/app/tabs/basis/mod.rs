@@ -18,7 +18,7 @@ use crate::app::theme::Palette;
 use crate::engine::job::Standing;
 use crate::engine::model_arrays;
 use crate::scene::View;
-use crate::solver::reduced::{PodBasis, ReducedModel, Window};
+use crate::solver::reduced::{PodBasis, ReducedModel, Scheme, Window};
 use egui::{Color32, Ui};
 use egui_plot::PlotPoint;
 use losses::{loss_plot, singular_plot};
@@ -219,6 +219,9 @@ fn toolbar(
             window.pressure.modes.ncols()
         ));
         ui.weak(format!("Films rupture by {}", model.domain.lubricant.cavitation.name()));
+        if window.scheme != Scheme::Galerkin {
+            ui.weak(format!("Steps by {}", window.scheme.name()));
+        }
         let truncated = view.pressure_loss.is_some() || view.deformation_loss.is_some();
         if ui.add_enabled(truncated, egui::Button::new("Keep all modes")).clicked() {
             commands.edit(Edit::View(View { pressure_loss: None, deformation_loss: None, ..view }), TRUNCATION);

@@ -10,7 +10,7 @@ use crate::app::training::presets;
 use crate::scene::QuantityBox;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::physics::contact::ContactKind;
-use crate::solver::reduced::Sampling;
+use crate::solver::reduced::{Sampling, Scheme};
 use crate::solver::training::{Indicator, Plan, Range, SlidingRange, TrainingSpec, Windows};
 use egui::{TextEdit, Ui};
 
@@ -327,6 +327,37 @@ fn ladder_ui(ui: &mut Ui, form: &mut Form<'_>, tolerances: &mut Vec<f64>) {
     form.message(ui, "Tolerances");
 }
 
+/// By what the online step is found.
+fn scheme_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
+    let before = spec.scheme;
+    let options = [
+        Scheme::Galerkin,
+        Scheme::LeastSquares { weighted: true },
+        Scheme::LeastSquares { weighted: false },
+        Scheme::Gnat { weighted: true },
+        Scheme::Gnat { weighted: false },
+    ];
+    let tip = "By what each step of the reduced iteration is found";
+    choose(ui, "Scheme", tip, &mut spec.scheme, &options, |scheme| match scheme {
+        Scheme::Galerkin => ("Galerkin", "The rows tested by the pressure modes vanish"),
+        Scheme::LeastSquares { weighted: true } => {
+            ("Least squares, weighted", "The rows' squares are least, each weighted by the first mode (D.10)–(D.13)")
+        }
+        Scheme::LeastSquares { weighted: false } => (
+            "Least squares",
+            "The rows' squares are least (2.68): the far inlet counts most, and by the penalty it fails",
+        ),
+        Scheme::Gnat { weighted: true } => {
+            ("GNAT, weighted", "The squares of what two bases make of the rows (2.80), weighted by the first mode")
+        }
+        Scheme::Gnat { weighted: false } => ("GNAT", "The squares of what two bases make of the sampled rows (2.80)"),
+    });
+    if spec.scheme != before {
+        form.changed = Some("Scheme");
+    }
+    form.message(ui, "Scheme");
+}
+
 fn reduction_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
     heading(ui, "Reduction");
     let tip = "Share of the singular values that may be neglected";
@@ -344,6 +375,7 @@ fn reduction_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
         form.changed = Some("Rows by");
     }
     form.message(ui, "Rows by");
+    scheme_ui(ui, form, spec);
     form.row(ui, "Rows per mode", PLAIN, &mut spec.rows_per_mode, "Sampled rows per pressure mode");
     let tip = "Penalty factor of (2.36) in the reduced equations; few rows of a point contact want it softer than the full system's";
     form.row(ui, "Penalty {γ}", PLAIN, &mut spec.penalty, tip);

@@ -160,6 +160,24 @@ impl ContactGrid {
         }
     }
 
+    /// Deformations of nodes by unit pressure at each of others, one after the other, in ξ.
+    pub fn kernel_columns(&self, nodes: &[usize], others: &[usize]) -> Vec<f64> {
+        let entries = others.iter().flat_map(|&other| nodes.iter().map(move |&node| (node, other)));
+        match self {
+            Self::Line(grid) => entries.map(|(node, other)| grid.flexibility.entry(node, other)).collect(),
+            Self::Point(grid) => {
+                // Equal distances along X are equal entries.
+                let ny = grid.ny();
+                let blocks: Vec<Vec<f64>> =
+                    (0..grid.nx()).into_par_iter().map(|d| grid.flexibility.column_block(d)).collect();
+                let entry = |(node, other): (usize, usize)| {
+                    blocks[(node / ny).abs_diff(other / ny)][(other % ny - 1) * ny + node % ny]
+                };
+                entries.map(entry).collect()
+            }
+        }
+    }
+
     /// Quadrature weights of node arrays in ξ and Y; zero where P vanishes.
     pub fn weights(&self) -> &[f64] {
         match self {

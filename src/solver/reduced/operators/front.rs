@@ -1,17 +1,18 @@
 //! The rupture boundary B of reduced contacts under complementarity, (D.14)–(D.22): behind it P = 0 and no row is asked
 //! for, before it λ = 0.
 //!
-//! A state is the sum of the modes, cut off at B. V, K V and the load's row change by single nodes when B moves, (D.21)
-//! and (D.22), so nothing is of large scale. B moves up along a line where one of the nodes before it has a negative
+//! A state is the sum of the modes, cut off at B. V, the load's row and P, K P change by single nodes when B moves, (D.21)
+//! and (D.22), so nothing is of large scale. K V of the Jacobian stays that of a place of B nearby: what the few nodes
+//! between bend is in the fields, and its derivative is too small to slow Newton's method. B moves up along a line where one of the nodes before it has a negative
 //! pressure, (D.17), else down where λ is negative at its first ruptured node. (D.18) as printed has the opposite sign:
 //! B would go back and forth.
 
-use crate::solver::discrete::grid::ContactGrid;
+use crate::solver::discrete::grid::{ContactGrid, dot};
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
-use crate::solver::reduced::model::Window;
+use crate::solver::reduced::model::{Snapshot, Window};
 use faer::linalg::matmul::matmul;
-use faer::{Accum, MatMut, MatRef, Par};
+use faer::{Accum, Mat, MatMut, Par};
 
 /// Nodes before B at which pressures are looked at: k of (D.17).
 const BEFORE: usize = 5;
@@ -21,10 +22,9 @@ const NEGATIVE: f64 = -1e-4;
 const MARGIN: usize = 4;
 /// So many turns between up and down leave B of a line where it is: its place is known to one node.
 const TURNS: u8 = 4;
-/// Places of B at which operators are kept: a solve begins from the nearest of them.
+/// Places of B at which K V is kept: a solve takes the nearest of them. As many as these, and as take this many bytes.
 const KEPT: usize = 8;
-/// Nodes that pass B in one product.
-const CHUNK: usize = 16;
+const KEPT_BYTES: usize = 16 << 20;
 
 /// The boundary, with what it changes.
 pub(super) struct Front {
@@ -36,13 +36,16 @@ pub(super) struct Front {
     /// Deformation of the support by unit pressure at each of these nodes, row-major nodes × support.
     bends: Vec<f64>,
     kept: Vec<Kept>,
+    /// wᵀ V without a boundary.
+    whole_load: Vec<f64>,
     /// Line and column of each sampled row.
     rows: Vec<(usize, usize)>,
     /// What the film at X = 0 (and Y = 0) gains per unit of each coefficient.
     pub lift: Vec<f64>,
+    /// The scale it was found for: the nodes at X = 0 follow from it.
+    aimed: Option<f64>,
     /// Work space: nodes that pass, and whether they carry pressure again.
     passing: Vec<(usize, bool)>,
-    chunk: [Vec<f64>; 2],
 }
 
 /// A line of unknowns along X with its part of B.
@@ -53,6 +56,8 @@ struct Line {
     count: usize,
     /// How many of them carry pressure: the next one is B.
     front: usize,
+    /// How many do in K V.
+    kept: usize,
     /// Which way B moved last, and how often it turned.
     down: Option<bool>,
     turns: u8,
@@ -72,11 +77,11 @@ struct Passed {
     zero: f64,
 }
 
-/// Operators at one place of B.
+/// K V at one place of B.
 struct Kept {
+    /// Of each line how many nodes carry pressure.
     fronts: Vec<usize>,
     deformation: Vec<f64>,
-    load_row: Vec<f64>,
 }
 
 /// What the boundary changes of the operators.
@@ -145,8 +150,7 @@ impl Front {
     pub fn new(window: &Window, support: &[usize], state_rows: &[f64], load_row: &[f64]) -> Self {
         let (grid, weights, modes) = (&window.grid, window.grid.weights(), load_row.len());
         let place = |node: usize| support.partition_point(|&s| s < node);
-        let mut nodes: Vec<Passed> = Vec::new();
-        let mut owners = Vec::new();
+        let (mut nodes, mut owners): (Vec<Passed>, Vec<usize>) = (Vec::new(), Vec::new());
         each_passed(window, |line, unknown| {
             let (node, (stencil, geometry)) = (grid.node(unknown), grid.row(unknown));
             owners.push(line);
@@ -157,39 +161,55 @@ impl Front {
             let first = owners.partition_point(|&owner| owner < line);
             // The last one is never passed: its row says whether B must move on to where no training has been.
             let count = highest - column;
-            Line { column, first, count, front: count, down: None, turns: 0 }
+            Line { column, first, count, front: count, kept: count, down: None, turns: 0 }
         };
         let lines: Vec<Line> = passed(window).into_iter().enumerate().map(line).collect();
-        let rows = window.sampled_rows.iter().map(|&row| grid.line_and_column(grid.node(row))).collect();
-        let bends = nodes.iter().flat_map(|passed| support.iter().map(|&node| grid.kernel_entry(node, passed.node)));
-        let bends = bends.collect();
-        let basis = nodes.iter().flat_map(|p| state_rows[p.place * modes..][..modes].iter().copied()).collect();
-        let s = support.len();
-        let deformation = state_rows[s * modes..2 * s * modes].to_vec();
-        let whole: Vec<usize> = lines.iter().map(|line| line.column + line.count).collect();
-        let kept = vec![Kept { fronts: whole, deformation, load_row: load_row.to_vec() }];
-        let chunk = [vec![0.0; CHUNK * s], vec![0.0; CHUNK * modes]];
-        let passing = Vec::with_capacity(nodes.len());
-        let mut front = Self { lines, nodes, modes: basis, bends, kept, rows, lift: vec![0.0; modes], passing, chunk };
-        front.keep(window, state_rows, load_row);
+        let passed: Vec<usize> = nodes.iter().map(|passed| passed.node).collect();
+        let mut front = Self {
+            rows: window.sampled_rows.iter().map(|&row| grid.line_and_column(grid.node(row))).collect(),
+            bends: grid.kernel_columns(support, &passed),
+            modes: nodes.iter().flat_map(|p| state_rows[p.place * modes..][..modes].iter().copied()).collect(),
+            kept: Vec::new(),
+            lift: vec![0.0; modes],
+            aimed: None,
+            whole_load: load_row.to_vec(),
+            passing: Vec::with_capacity(nodes.len()),
+            lines,
+            nodes,
+        };
+        front.keep(window, &state_rows[support.len() * modes..2 * support.len() * modes]);
         front
     }
 
-    /// Keeps operators at places of B that are far from each other.
-    fn keep(&mut self, window: &Window, state_rows: &[f64], load_row: &[f64]) {
-        let far = |a: &[usize], b: &[usize]| a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).sum::<usize>();
-        let (mut state_rows, mut load_row) = (state_rows.to_vec(), load_row.to_vec());
-        let mut fields = vec![0.0; 2 * self.bends.len() / self.nodes.len().max(1)];
-        while self.kept.len() < KEPT {
-            let to_kept = |fronts: &[usize]| self.kept.iter().map(|kept| far(&kept.fronts, fronts)).min().unwrap_or(0);
-            let farthest = window.snapshots.iter().map(|snapshot| &snapshot.fronts).max_by_key(|f| to_kept(f));
-            let Some(fronts) = farthest.filter(|fronts| to_kept(fronts) > self.lines.len()) else { return };
-            let fronts = fronts.clone();
-            let changed = Changed { state_rows: &mut state_rows, load_row: &mut load_row, fields: &mut fields };
-            self.begin(&fronts, changed);
-            let s = fields.len() / 2;
-            let deformation = state_rows[s * load_row.len()..2 * s * load_row.len()].to_vec();
-            self.kept.push(Kept { fronts: self.fronts().collect(), deformation, load_row: load_row.clone() });
+    /// Keeps K V, given whole, at places of B that are far from each other.
+    fn keep(&mut self, window: &Window, whole: &[f64]) {
+        let modes = self.lift.len();
+        let s = whole.len() / modes;
+        let most = (KEPT_BYTES / (8 * whole.len())).clamp(1, KEPT);
+        let fronts = |snapshot: &Snapshot| -> Vec<usize> {
+            self.lines.iter().zip(&snapshot.fronts).map(|(line, front)| line.place_of(*front)).collect()
+        };
+        let known: Vec<Vec<usize>> = window.snapshots.iter().map(fronts).collect();
+        let from_all = |own: &Vec<usize>| known.iter().map(|other| apart(own, other)).sum::<usize>();
+        let Some(middle) = known.iter().min_by_key(|own| from_all(own)) else { return };
+        let mut chosen = vec![middle.clone()];
+        while chosen.len() < most {
+            let near = |own: &Vec<usize>| chosen.iter().map(|other| apart(own, other)).min().unwrap_or(0);
+            let Some(next) = known.iter().max_by_key(|own| near(own)).filter(|own| near(own) > self.lines.len()) else {
+                break;
+            };
+            chosen.push(next.clone());
+        }
+        for fronts in chosen {
+            let cut =
+                self.lines.iter().zip(&fronts).flat_map(|(line, front)| line.first + front..line.first + line.count);
+            let cut: Vec<usize> = cut.collect();
+            let bent = Mat::from_fn(cut.len(), s, |k, place| self.bends[cut[k] * s + place]);
+            let own = Mat::from_fn(cut.len(), modes, |k, mode| self.modes[cut[k] * modes + mode]);
+            let mut deformation = whole.to_vec();
+            let out = MatMut::from_row_major_slice_mut(&mut deformation, s, modes);
+            matmul(out, Accum::Add, bent.transpose(), own.as_ref(), -1.0, Par::Seq);
+            self.kept.push(Kept { fronts, deformation });
         }
     }
 
@@ -207,27 +227,43 @@ impl Front {
 
     /// Puts B somewhere before an iteration begins.
     pub fn begin(&mut self, fronts: &[usize], changed: Changed<'_>) {
-        let far = |kept: &Kept| kept.fronts.iter().zip(fronts).map(|(a, b)| a.abs_diff(*b)).sum::<usize>();
-        let Some(nearest) = (0..self.kept.len()).min_by_key(|&k| far(&self.kept[k])) else { return };
-        let Self { lines, nodes, modes: basis, kept, passing, .. } = self;
-        let modes = changed.load_row.len();
-        changed.load_row.copy_from_slice(&kept[nearest].load_row);
-        let from = changed.fields.len() / 2 * modes;
-        changed.state_rows[from..2 * from].copy_from_slice(&kept[nearest].deformation);
-        passing.clear();
-        for ((line, fronts), kept) in lines.iter_mut().zip(fronts).zip(&kept[nearest].fronts) {
-            let at = |column: usize| column.saturating_sub(line.column).clamp(1, line.count);
-            let (to, was) = (at(*fronts), at(*kept));
-            (line.front, line.down, line.turns) = (to, None, 0);
-            passing.extend((to..was).map(|k| (line.first + k, false)));
-            passing.extend((was..to).map(|k| (line.first + k, true)));
-            // V of all nodes is that of the new place.
-            for k in line.first..line.first + line.count + 1 {
-                let own = &mut changed.state_rows[nodes[k].place * modes..][..modes];
-                if k < line.first + to { own.copy_from_slice(&basis[k * modes..][..modes]) } else { own.fill(0.0) }
+        let Self { lines, nodes, modes: basis, kept, whole_load, .. } = self;
+        for (line, front) in lines.iter_mut().zip(fronts) {
+            (line.front, line.down, line.turns) = (line.place_of(*front), None, 0);
+        }
+        let far =
+            |kept: &Kept| lines.iter().zip(&kept.fronts).map(|(line, own)| line.front.abs_diff(*own)).sum::<usize>();
+        let Some(nearest) = kept.iter().min_by_key(|kept| far(kept)) else { return };
+        let modes = whole_load.len();
+        let from = nearest.deformation.len();
+        changed.state_rows[from..2 * from].copy_from_slice(&nearest.deformation);
+        changed.load_row.copy_from_slice(whole_load);
+        for (line, kept) in lines.iter_mut().zip(&nearest.fronts) {
+            line.kept = *kept;
+            for k in line.first..line.first + line.count {
+                let row = &mut changed.state_rows[nodes[k].place * modes..][..modes];
+                let own = &basis[k * modes..][..modes];
+                if k < line.first + line.front {
+                    row.copy_from_slice(own);
+                } else {
+                    row.fill(0.0);
+                    changed.load_row.iter_mut().zip(own).for_each(|(load, v)| *load -= nodes[k].weight * v);
+                }
             }
         }
-        self.bend(changed.state_rows, changed.load_row);
+    }
+
+    /// Adds to K P, of coefficients, what nodes between B and its place in K V bend.
+    pub fn correct(&self, coefficients: &[f64], deformation: &mut [f64]) {
+        let (modes, s) = (self.lift.len(), deformation.len());
+        for line in &self.lines {
+            let sign = if line.front > line.kept { 1.0 } else { -1.0 };
+            for k in line.first + line.front.min(line.kept)..line.first + line.front.max(line.kept) {
+                let value = sign * dot(&self.modes[k * modes..][..modes], coefficients);
+                let bends = &self.bends[k * s..][..s];
+                deformation.iter_mut().zip(bends).for_each(|(out, bend)| *out += value * bend);
+            }
+        }
     }
 
     /// What the film at X = 0 (and Y = 0) gains, given by nodes and weights of an interpolation there and by what whole
@@ -235,9 +271,12 @@ impl Front {
     pub fn aim(&mut self, grid: &ContactGrid, zero: &[(usize, f64)], scale: f64, whole: &[f64]) {
         self.lift.copy_from_slice(whole);
         let modes = whole.len();
-        for passed in &mut self.nodes {
-            let weights = zero.iter().filter(|(_, weight)| *weight != 0.0);
-            passed.zero = scale * weights.map(|(at, weight)| weight * grid.kernel_entry(*at, passed.node)).sum::<f64>();
+        if self.aimed != Some(scale) {
+            self.aimed = Some(scale);
+            let weights = || zero.iter().filter(|(_, weight)| *weight != 0.0);
+            for own in &mut self.nodes {
+                own.zero = scale * weights().map(|(at, weight)| weight * grid.kernel_entry(*at, own.node)).sum::<f64>();
+            }
         }
         for line in &self.lines {
             for k in line.first + line.front..line.first + line.count {
@@ -245,26 +284,6 @@ impl Front {
                 let own = &self.modes[k * modes..][..modes];
                 self.lift.iter_mut().zip(own).for_each(|(lift, v)| *lift -= zero * v);
             }
-        }
-    }
-
-    /// Carries the nodes that pass over to K V and the load's row.
-    fn bend(&mut self, state_rows: &mut [f64], load_row: &mut [f64]) {
-        let Self { nodes, modes: basis, bends, passing, chunk, .. } = self;
-        let (modes, s) = (load_row.len(), bends.len() / nodes.len().max(1));
-        let deformation = &mut state_rows[s * modes..2 * s * modes];
-        for part in passing.chunks(CHUNK) {
-            for (slot, &(k, carries)) in part.iter().enumerate() {
-                let (sign, own) = (if carries { 1.0 } else { -1.0 }, &basis[k * modes..][..modes]);
-                let weight = sign * nodes[k].weight;
-                load_row.iter_mut().zip(own).for_each(|(load, v)| *load += weight * v);
-                chunk[0][slot * s..][..s].copy_from_slice(&bends[k * s..][..s]);
-                chunk[1][slot * modes..][..modes].iter_mut().zip(own).for_each(|(out, v)| *out = sign * v);
-            }
-            let bent = MatRef::from_row_major_slice(&chunk[0][..part.len() * s], part.len(), s);
-            let own = MatRef::from_row_major_slice(&chunk[1][..part.len() * modes], part.len(), modes);
-            let out = MatMut::from_row_major_slice_mut(&mut *deformation, s, modes);
-            matmul(out, Accum::Add, bent.transpose(), own, 1.0, Par::Seq);
         }
     }
 
@@ -315,20 +334,33 @@ impl Front {
         if self.passing.is_empty() {
             return true;
         }
-        self.bend(state_rows, load_row);
         let modes = load_row.len();
         let (pressure, deformation) = fields.split_at_mut(s);
         for &(k, carries) in &self.passing {
             let (passed, own) = (&self.nodes[k], &self.modes[k * modes..][..modes]);
-            let value: f64 = own.iter().zip(coefficients).map(|(v, c)| v * c).sum();
-            let sign = if carries { 1.0 } else { -1.0 };
+            let (value, sign) = (dot(own, coefficients), if carries { 1.0 } else { -1.0 });
             pressure[passed.place] = if carries { value } else { 0.0 };
             let bends = &self.bends[k * s..][..s];
             deformation.iter_mut().zip(bends).for_each(|(out, bend)| *out += sign * value * bend);
-            self.lift.iter_mut().zip(own).for_each(|(lift, v)| *lift += sign * passed.zero * v);
+            for ((lift, load), v) in self.lift.iter_mut().zip(&mut *load_row).zip(own) {
+                *lift += sign * passed.zero * v;
+                *load += sign * passed.weight * v;
+            }
             let row = &mut state_rows[passed.place * modes..][..modes];
             if carries { row.copy_from_slice(own) } else { row.fill(0.0) }
         }
         false
     }
+}
+
+impl Line {
+    /// How many of the nodes that B may pass carry pressure where it has this column.
+    fn place_of(&self, front: usize) -> usize {
+        front.saturating_sub(self.column).clamp(1, self.count.max(1))
+    }
+}
+
+/// How far two places of B are from each other.
+fn apart(a: &[usize], b: &[usize]) -> usize {
+    a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).sum()
 }

@@ -3,6 +3,7 @@
 
 use super::Operators;
 use super::front::Changed;
+use super::least_squares::LeastSquares;
 use crate::solver::discrete::nodes::{Laws, Order};
 use crate::solver::discrete::reynolds::STENCIL;
 use crate::solver::discrete::reynolds::generalized::FilmTreatment;
@@ -78,6 +79,9 @@ impl Operators {
     ) -> OnlineOutcome {
         let mut outcome = OnlineOutcome { converged: false, iterations: 0, step: f64::NAN, residual: f64::NAN };
         product(&self.state_rows, self.modes, coefficients, &mut self.scratch.fields);
+        if let Some(front) = &self.front {
+            front.correct(coefficients, &mut self.scratch.fields[self.support.len()..2 * self.support.len()]);
+        }
         // The films of another contact are no start.
         self.scratch.nodes.forget();
         for iteration in 1..=stop.max_newton {
@@ -213,6 +217,9 @@ impl Operators {
     /// Solves the reduced linear system; the step is left in `scratch.system.rhs`. False when it is singular.
     /// `keep` keeps a copy of the reduced Jacobian for an observer.
     fn linear_step(&mut self, problem: &Problem, scale: f64, coefficients: &[f64], keep: bool) -> bool {
+        if self.scratch.minimised.is_some() {
+            return self.least_squares_step(problem, scale, coefficients);
+        }
         let modes = self.modes;
         let s = &mut self.scratch;
         let rows = s.values.len();
@@ -237,10 +244,53 @@ impl Operators {
         s.system.rhs.iter().all(|v| v.is_finite())
     }
 
+    /// The step that makes the sum of squares least, of the rows or of what two bases make of them, and of the load's
+    /// row, (2.80)–(2.82), (D.11)–(D.13). False when the columns are dependent.
+    fn least_squares_step(&mut self, problem: &Problem, scale: f64, coefficients: &[f64]) -> bool {
+        let modes = self.modes;
+        let s = &mut self.scratch;
+        let Some(LeastSquares { matrix, rhs, .. }) = &mut s.minimised else { return false };
+        let (rows, equations) = (s.values.len(), matrix.nrows() - 1);
+        let jacobian = MatRef::from_row_major_slice(&s.jacobian_rows, rows, modes);
+        let own = self.reconstruction.as_ref();
+        match &self.residual_reconstruction {
+            None => {
+                for (r, factor) in own.row(0).iter().enumerate() {
+                    for k in 0..modes {
+                        matrix[(r, k)] = factor * jacobian[(r, k)];
+                    }
+                    (matrix[(r, modes)], rhs[r]) = (factor * s.film_column[r], -factor * s.values[r]);
+                }
+            }
+            Some(of_residual) => {
+                matmul(matrix.get_mut(..equations, ..modes), Accum::Replace, own, jacobian, 1.0, Par::Seq);
+                let (films, values) = (ColRef::from_slice(&s.film_column), ColRef::from_slice(&s.values));
+                matmul(matrix.get_mut(..equations, modes..), Accum::Replace, own, films.as_mat(), 1.0, Par::Seq);
+                let right = ColMut::from_slice_mut(&mut rhs[..equations]);
+                matmul(right.as_mat_mut(), Accum::Replace, of_residual.as_ref(), values.as_mat(), -1.0, Par::Seq);
+            }
+        }
+        let mut carried = 0.0;
+        for (k, (l, c)) in self.load_row.iter().zip(coefficients).enumerate() {
+            matrix[(equations, k)] = scale * l;
+            carried += scale * l * c;
+        }
+        (matrix[(equations, modes)], rhs[equations]) = (0.0, problem.load - carried);
+        if let Some(minimised) = &mut s.minimised {
+            minimised.solve();
+            s.system.rhs.copy_from_slice(&minimised.rhs[..=modes]);
+        }
+        s.system.rhs.iter().all(|v| v.is_finite())
+    }
+
     /// ω = min(1, 0.3/max|ΔP|), and no sampled film loses more than 70 %.
     fn damping(&mut self, scale: f64) -> f64 {
         let s = &mut self.scratch;
-        product(&self.state_rows, self.modes, &s.system.rhs[..self.modes], &mut s.step_fields);
+        let (step, count) = (&s.system.rhs[..self.modes], self.support.len());
+        product(&self.state_rows, self.modes, step, &mut s.step_fields);
+        if let Some(front) = &self.front {
+            front.correct(step, &mut s.step_fields[count..2 * count]);
+        }
         let (pressure, deformation) = s.step_fields.split_at(self.support.len());
         let largest = pressure.iter().fold(0.0f64, |a, b| a.max(b.abs()));
         let mut omega = if largest > 0.3 { 0.3 / largest } else { 1.0 };
