@@ -3,9 +3,10 @@
 //!
 //! A state is the sum of the modes, cut off at B. V, the load's row and P, K P change by single nodes when B moves, (D.21)
 //! and (D.22), so nothing is of large scale. K V of the Jacobian stays that of a place of B nearby: what the few nodes
-//! between bend is in the fields, and its derivative is too small to slow Newton's method. B moves up along a line where one of the nodes before it has a negative
-//! pressure, (D.17), else down where λ is negative at its first ruptured node. (D.18) as printed has the opposite sign:
-//! B would go back and forth.
+//! between bend is in the fields, and its derivative is too small to slow Newton's method.
+//!
+//! B moves up along a line where one of the nodes before it has a negative pressure, (D.17), else down where λ is
+//! negative at its first ruptured node. (D.18) as printed has the opposite sign: B would go back and forth.
 
 use crate::solver::discrete::grid::{ContactGrid, dot};
 use crate::solver::discrete::nodes::Nodes;
