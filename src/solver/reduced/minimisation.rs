@@ -1,8 +1,8 @@
 //! Residual minimisation: which combinations of the sampled rows are to be small, where they are not tested by V.
 //!
-//! LSPG takes the rows themselves, (2.68)–(2.72), all of them or, collocated, the sampled ones, (D.27). GNAT takes what the
-//! sampled rows say of all of them by two bases, (2.80)–(2.82). D of (D.10) weights rows by the first pressure mode: they
-//! differ by eight orders between the far inlet and the contact, and behind the rupture there is none.
+//! LSPG takes the rows themselves, (2.68)–(2.72), all of them or, collocated, the sampled ones, (D.27). GNAT takes what
+//! the sampled rows say of all of them by two bases, (2.80)–(2.82). D of (D.10) weights rows by the first pressure mode:
+//! they differ by eight orders between the far inlet and the contact, and behind the rupture there is none.
 
 use super::sampling::{RowSnapshots, SampledRows, Sampling, TestSpace, gappy_rows, leading_modes};
 use faer::linalg::solvers::{PartialPivLu, Solve};

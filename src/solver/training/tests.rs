@@ -46,14 +46,14 @@ fn every_sampling_reproduces_the_training_solutions() {
 }
 
 #[test]
-fn residual_minimisation_reproduces_the_training_solutions_where_its_rows_are_weighted() {
+fn residual_minimisation_reproduces_the_training_solutions() {
     let (least, gnat) = (Scheme::LeastSquares { weighted: true }, Scheme::Gnat { weighted: true });
     for (scheme, sampling, cavitation) in [
         (least, Sampling::All, Cavitation::Complementarity),
         (least, Sampling::QDeim, Cavitation::Complementarity),
         (gnat, Sampling::QDeim, Cavitation::Complementarity),
         (gnat, Sampling::Greedy, Cavitation::Penalty),
-        (Scheme::LeastSquares { weighted: false }, Sampling::All, Cavitation::Penalty),
+        (Scheme::LeastSquares { weighted: false }, Sampling::All, Cavitation::Complementarity),
     ] {
         let spec = TrainingSpec { scheme, ..small(sampling).under(cavitation) };
         let model = Arc::new(train(&spec, &()).unwrap());
@@ -62,14 +62,8 @@ fn residual_minimisation_reproduces_the_training_solutions_where_its_rows_are_we
             online.forget();
             online.solve(&snapshot.point, spec.lubricant).map_or(1.0, |solved| (solved.h_c / snapshot.h_c - 1.0).abs())
         };
-        let snapshots = &model.windows[0].snapshots;
-        let bad = snapshots.iter().map(error).filter(|error| *error > 5e-3).count();
-        if scheme == (Scheme::LeastSquares { weighted: false }) {
-            // Rows of the far inlet are eight orders larger than those that make the film.
-            assert!(4 * bad > snapshots.len(), "{bad} bad ones where nothing is weighted");
-        } else {
-            assert_eq!(bad, 0, "{scheme:?}, {sampling:?}, {cavitation:?}");
-        }
+        let worst = model.windows[0].snapshots.iter().map(error).fold(0.0, f64::max);
+        assert!(worst < 5e-3, "{scheme:?}, {sampling:?}, {cavitation:?}: {worst:.1e}");
     }
 }
 

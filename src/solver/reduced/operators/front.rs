@@ -1,9 +1,9 @@
 //! The rupture boundary B of reduced contacts under complementarity, (D.14)–(D.22): behind it P = 0 and no row is asked
 //! for, before it λ = 0.
 //!
-//! A state is the sum of the modes, cut off at B. V, the load's row and P, K P change by single nodes when B moves, (D.21)
-//! and (D.22), so nothing is of large scale. K V of the Jacobian stays that of a place of B nearby: what the few nodes
-//! between bend is in the fields, and its derivative is too small to slow Newton's method.
+//! A state is the sum of the modes, cut off at B. V, the load's row, P and K P change by single nodes when B moves,
+//! (D.21) and (D.22), so nothing is of large scale. K V of the Jacobian stays that of a place of B nearby: what the few
+//! nodes between bend is in the fields, and its derivative is too small to slow Newton's method.
 //!
 //! B moves up along a line where one of the nodes before it has a negative pressure, (D.17), else down where λ is
 //! negative at its first ruptured node. (D.18) as printed has the opposite sign: B would go back and forth.
@@ -288,8 +288,8 @@ impl Front {
         }
     }
 
-    /// Lets B follow a step: `nodes` are those before it, `step` what it added to the fields, by the factor `omega`, and
-    /// `shift` to H₀; `changed` has the fields behind it. Whether B is still.
+    /// Lets B follow a step: `nodes` are those before it, `step` what it added to the fields, by the factor `omega`,
+    /// and `shift` to H₀; `changed` has the fields behind it. Whether B is still.
     pub fn follow(
         &mut self,
         nodes: &Nodes,

@@ -1,5 +1,5 @@
-//! The online step of residual minimisation, (2.69): the least squares of more equations than unknowns, by QR. Nothing is
-//! allocated in an iteration.
+//! The online step of residual minimisation, (2.69): the least squares of more equations than unknowns, by QR. Nothing
+//! is allocated in an iteration.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::qr::no_pivoting::factor::{qr_in_place, qr_in_place_scratch, recommended_block_size};
