@@ -176,6 +176,20 @@ mod tests {
     }
 
     #[test]
+    fn what_runs_says_how_much_is_done_and_how_long_the_rest_takes() {
+        let of = |done, total, left_s| Standing { stage: String::new(), done, total, left_s, since_s: 3.0 };
+        for (is, text) in [
+            (of(3, 12, Some(27.4)), "3 of 12, 27\u{2009}s left"),
+            (of(3, 12, Some(600.0)), "3 of 12, 10\u{2009}min left"),
+            (of(11, 12, Some(0.3)), "11 of 12, less than a second left"),
+            (of(0, 12, None), "0 of 12, 3.00\u{2009}s so far"),
+            (of(0, 0, None), "3.00\u{2009}s"),
+        ] {
+            assert_eq!(standing(&is), text);
+        }
+    }
+
+    #[test]
     fn errors_are_said_in_digits_that_mean_something() {
         for (relative, text) in [
             (-7.31e-6, "0.0007 %"),

@@ -123,11 +123,12 @@ pub fn boundaries(kind: ContactKind) -> Vec<[[f64; 2]; 2]> {
     found.into_iter().filter_map(ends).collect()
 }
 
-/// Places (M, L) for the regimes' names, of those left of M = 1 their beginning, clear of the contacts that matter most.
+/// Places (M, L) for the regimes' names, clear of the contacts that matter most: of those left of M = 1 their beginning,
+/// of those right of M = 1000 their end.
 pub fn names(kind: ContactKind) -> [(Regime, [f64; 2]); 4] {
     let [a, b, c, d] = match kind {
-        ContactKind::Line => [[0.43, 0.6], [30.0, 0.5], [0.5, 15.0], [480.0, 22.0]],
-        ContactKind::Point => [[0.6, 2.5], [60.0, 0.45], [5.5, 22.0], [800.0, 13.5]],
+        ContactKind::Line => [[0.43, 0.6], [30.0, 0.5], [0.5, 15.0], [1100.0, 22.0]],
+        ContactKind::Point => [[0.6, 2.5], [60.0, 0.45], [5.5, 22.0], [1100.0, 13.5]],
     };
     use Regime::{ElasticIsoviscous, ElasticPiezoviscous, RigidIsoviscous, RigidPiezoviscous};
     [(RigidIsoviscous, a), (ElasticIsoviscous, b), (RigidPiezoviscous, c), (ElasticPiezoviscous, d)]
@@ -144,9 +145,16 @@ pub fn chart(kind: ContactKind, moes: Moes) -> Chart {
         let (name, points) = (String::new(), ends.to_vec());
         chart.series.push(Series { name, marks: Marks::Line, points, pen: Some(pen.clone()) });
     }
-    chart.add("this contact", Marks::Rings, [[moes.m, moes.l]]);
+    let (name, points) = ("this contact".to_owned(), vec![[moes.m, moes.l]]);
+    let pen = Pen { color: [0xD5, 0x5E, 0x00], opacity: 1.0, width: 1.6, dashes: Vec::new() };
+    chart.series.push(Series { name, marks: Marks::Dots, points, pen: Some(pen) });
     for (regime, at) in names(kind) {
-        let beside = if at[0] < 1.0 { Beside::Right } else { Beside::Middle };
+        let [m, _] = at;
+        let beside = match m {
+            ..1.0 => Beside::Right,
+            1000.0.. => Beside::Left,
+            _ => Beside::Middle,
+        };
         let words = Words::plain(regime.name().replace('\n', " "));
         chart.notes.push(Note { at, words, beside, above: 0, color: None });
     }

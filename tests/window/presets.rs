@@ -134,6 +134,32 @@ fn a_lesson_below_tabs_that_lie_beside_each_other_leaves_them_their_width() {
 }
 
 #[test]
+fn a_lesson_in_a_presentation_keeps_the_axes_still_until_it_ends() {
+    let mut harness = window(Explorer::with_embedded_models().without_system_dialogs(), [1280.0, 800.0]);
+    click(&mut harness, "Help");
+    click(&mut harness, "Lessons");
+    assert!(!locked(&harness), "in a window they follow the contact");
+    press(&mut harness, Modifiers::NONE, Key::F11);
+    assert!(locked(&harness));
+    press(&mut harness, Modifiers::NONE, Key::F11);
+    assert!(!locked(&harness));
+    // One tab alone, without a lesson, is no lecture.
+    click(&mut harness, "Close the lessons");
+    press(&mut harness, Modifiers::NONE, Key::F11);
+    assert!(!locked(&harness));
+}
+
+#[test]
+fn an_engineer_has_si_units() {
+    let mut harness = window(Explorer::with_embedded_models().without_system_dialogs(), [1280.0, 800.0]);
+    click(&mut harness, "View");
+    click(&mut harness, "Layout: Engineer");
+    let switches = harness.query_all_by_label("SI").map(|node| node.accesskit_node().toggled());
+    let on: Vec<_> = switches.collect();
+    assert!(on.contains(&Some(egui::accesskit::Toggled::True)), "{on:?}");
+}
+
+#[test]
 fn the_lecture_from_m_2_to_500_names_the_regime_and_hides_nothing_that_is_needed() {
     for size in [[1024.0, 768.0], [1920.0, 1080.0]] {
         let mut harness = window(Explorer::with_embedded_models().without_system_dialogs(), size);

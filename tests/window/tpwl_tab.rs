@@ -275,7 +275,8 @@ fn any_plot_leaves_as_a_drawing_with_its_name_axes_and_contact() {
     assert!(drawing.starts_with("<svg ") && drawing.ends_with("</svg>\n"));
     assert!(drawing.contains(">Operating points in the plane</text>"));
     let caption = crate::driver::caption(&drawing);
-    assert!(caption.contains("w 200000 N/m") && caption.contains("E' 231.0 GPa"), "the contact: {caption}");
+    assert!(caption.contains("load 200.0 N/mm") && caption.contains("E' 231.0 GPa"), "the contact: {caption}");
+    assert!(caption.contains("load harmonic, amplitude"), "what varies: {caption}");
     assert!(drawing.contains("Pressure mode 1") && drawing.contains("Pressure mode 2"), "titles of the axes");
     let points = harness.state().operating_points().unwrap();
     assert!(drawing.matches("<circle ").count() >= points, "one dot for each operating point");

@@ -22,7 +22,7 @@ const SIZES: (f64, f64) = (30.0, 500.0);
 /// Room for the preview on the screen.
 const PREVIEW: egui::Vec2 = vec2(430.0, 360.0);
 /// Room for what is set.
-const SETTINGS: f32 = 340.0;
+const SETTINGS: f32 = 356.0;
 
 /// What stays from one figure to the next; kept with the session.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -174,8 +174,12 @@ impl Regimes {
                     let ink = palette.ink_on_regimes(palette.quiet);
                     let text = RichText::new(regime.name()).size(12.0).color(ink).italics();
                     let name = Text::new("", *place, text).id(("regime", regime.name())).allow_hover(false);
-                    // At the edge it begins there, so that a narrow chart cuts nothing off.
-                    let anchor = if place.x < 0.0 { Align2::LEFT_CENTER } else { Align2::CENTER_CENTER };
+                    // At an edge it begins or ends there, so that a narrow chart cuts nothing off.
+                    let anchor = match place.x {
+                        ..0.0 => Align2::LEFT_CENTER,
+                        3.0.. => Align2::RIGHT_CENTER,
+                        _ => Align2::CENTER_CENTER,
+                    };
                     plot.text(name.anchor(anchor));
                 }
                 plot.points(

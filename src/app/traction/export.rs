@@ -6,20 +6,21 @@ use crate::app::export as tables;
 
 /// What a sweep belongs to, as lines over a table.
 pub fn describe(sweep: &Sweep) -> Vec<String> {
-    let mut lines = vec![described(sweep)];
-    lines.push(
-        "traction is that of an isothermal film over the whole domain, (3.41); the first contact is described above"
-            .to_owned(),
-    );
-    lines.extend(sweep.unphysical());
-    lines
+    std::iter::once(described(sweep)).chain(notes(sweep)).collect()
 }
 
-/// The same of the curve that is drawn, or else of the full solutions.
-pub fn parameters(view: &TractionView) -> Option<Vec<String>> {
+/// What is to be said of it below its first contact.
+fn notes(sweep: &Sweep) -> impl Iterator<Item = String> {
+    let traction =
+        "traction is that of an isothermal film over the whole domain, (3.41); the first contact is described above";
+    std::iter::once(traction.to_owned()).chain(sweep.unphysical())
+}
+
+/// The first contact of the curve that is drawn, or else of the full solutions, and what is to be said below it.
+pub fn parameters(view: &TractionView) -> Option<(&Key, Vec<String>)> {
     match (&view.curve, &view.markers) {
-        (Some(curve), _) => Some(describe(&curve.sweep).into_iter().chain(untrained(&curve.served)).collect()),
-        (None, markers) => markers.as_ref().map(|markers| describe(&markers.sweep)),
+        (Some(curve), _) => Some((&curve.sweep.base, notes(&curve.sweep).chain(untrained(&curve.served)).collect())),
+        (None, markers) => markers.as_ref().map(|markers| (&markers.sweep.base, notes(&markers.sweep).collect())),
     }
 }
 

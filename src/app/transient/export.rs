@@ -1,7 +1,7 @@
 //! Contacts in time for other programs: the series of all runs, and their profiles at the moment that is looked at.
 
 use super::{Run, Setup, TransientView, method};
-use crate::app::export;
+use crate::app::{export, numbers};
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::transient::{Inputs, Signal};
 
@@ -78,6 +78,36 @@ fn table(setup: &Setup, more: &[String], columns: &[&str], blocks: Vec<Block>) -
             .collect::<Vec<_>>()
     };
     export::csv(&comments, &header, (0..length).map(row))
+}
+
+/// What varies with time, in words.
+pub fn inputs(setup: &Setup) -> String {
+    let percent = |share: f64| numbers::quantity(100.0 * share, "%");
+    let number = |value: f64| numbers::digits(value, 3);
+    let words = |signal: &Signal| match signal {
+        Signal::Constant => None,
+        Signal::Harmonic { amplitude, period } => {
+            Some(format!("harmonic, amplitude {}, period {}", percent(*amplitude), number(*period)))
+        }
+        Signal::TwoScale { amplitudes: (a, b), periods: (long, short) } => Some(format!(
+            "two harmonics, amplitudes {} and {}, periods {} and {}",
+            percent(*a),
+            percent(*b),
+            number(*long),
+            number(*short)
+        )),
+        Signal::TriangleToSquare { amplitude, period, s } => Some(format!(
+            "between a triangle and a square wave (s {}), amplitude {}, period {}",
+            number(*s),
+            percent(*amplitude),
+            number(*period)
+        )),
+        Signal::Sampled { times, .. } => Some(format!("by {} given values", times.len())),
+    };
+    let Inputs { radius, speed, load } = &setup.study.inputs;
+    let varied = [("load", load), ("speed", speed), ("radius", radius)];
+    let varied = varied.into_iter().filter_map(|(name, signal)| Some(format!("{name} {}", words(signal)?)));
+    varied.chain([format!("T up to {}", number(setup.study.duration))]).collect::<Vec<_>>().join("; ")
 }
 
 /// The set-up as lines over a table.

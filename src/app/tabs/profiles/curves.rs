@@ -175,6 +175,7 @@ pub fn mark(plot: &mut Canvas<'_, '_>, at: (f64, f64), name: &'static str, color
     plot.points(dot.allow_hover(false));
     let text = match anchor {
         Align2::CENTER_TOP => format!("\n{name}"),
+        Align2::CENTER_BOTTOM => format!("{name}\n"),
         Align2::RIGHT_BOTTOM => format!("{name}  "),
         _ => format!("  {name}"),
     };

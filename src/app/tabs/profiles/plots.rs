@@ -10,6 +10,9 @@ use crate::app::units::Scales;
 use egui::{Align2, Ui};
 use egui_plot::{Line, LineStyle, PlotPoint, PlotPoints, Text};
 
+/// Room beside the spike that its name wants.
+const SPIKE_ROOM: f32 = 48.0;
+
 /// The pressure; returns where the hand takes the line of the other cut.
 pub fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) -> Option<f64> {
     let palette = Palette::of(ui);
@@ -52,7 +55,10 @@ pub fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, heigh
                 multiplier(plot, scene, &palette);
             }
             if let Some(spike) = picture.spike.filter(|s| on_axis && (s.0 < scalars.x_p_max - 1e-9 || s.0 > 0.5)) {
-                mark(plot, spike, "spike", live, Align2::LEFT_BOTTOM);
+                // Beside it, or above it where the plot ends.
+                let place = plot.transform().position_from_point(&PlotPoint::new(spike.0, spike.1));
+                let room = plot.response().rect.right() - place.x > SPIKE_ROOM;
+                mark(plot, spike, "spike", live, if room { Align2::LEFT_BOTTOM } else { Align2::CENTER_BOTTOM });
             }
             if let Some(cut) = &cut {
                 cut.draw(plot, palette.accent);

@@ -7,7 +7,7 @@ use crate::scene::outcome::Findings;
 use crate::scene::statistics::{median, percentile};
 use crate::scene::table::{Column, Table};
 use crate::solver::full::GridCost;
-use crate::solver::full::transient::{Moment, Quantity, Trajectory};
+use crate::solver::full::transient::{Frame, Moment, Quantity, Trajectory};
 use crate::solver::reduced::tpwl::{TpwlRecord, TpwlStep, Weighting};
 
 /// A march that has ended.
@@ -39,6 +39,18 @@ pub enum MarchedBy {
     Reduced,
     /// A superposition of linearised systems (TPWL), by one of its weightings.
     Linearised(Weighting),
+}
+
+impl MarchedBy {
+    /// What is being done, in a frame, for those who wait.
+    pub(super) fn stage(self, frame: Frame) -> String {
+        let by = match self {
+            Self::Full => "full system",
+            Self::Reduced => "reduced model",
+            Self::Linearised(_) => "linearised model",
+        };
+        format!("{by}, {}", frame.name())
+    }
 }
 
 /// By what a march was made, and which one it is held against.

@@ -244,7 +244,7 @@ impl Runner<'_, '_> {
         }
         let name = drive.result(frame.name());
         let mut model = FullMarch::new(Arc::clone(&self.grid), &transient)?;
-        let stage = format!("{name}, full");
+        let stage = MarchedBy::Full.stage(frame);
         let told = self.told(&name, MarchedBy::Full);
         let mut timed = timed_march(&mut model, &transient, stage, self.setting.observer, told)?;
         let balance = study.mass_between.and_then(|places| timed.trajectory.mass_balance(places));

@@ -225,8 +225,9 @@ impl Runner<'_, '_> {
     ) -> Result<(), RunError> {
         let transient = Transient { keep: Keep::Scalars, ..transient.clone() };
         let by = |method| By::Model { model: model.name.clone(), method, full: full.to_owned() };
-        let march = |name: &str, by, marching: &mut dyn Marching| {
-            timed_march(marching, &transient, name.to_owned(), self.setting.observer, self.told(name, by))
+        let march = |name: &str, method: MarchedBy, marching: &mut dyn Marching| {
+            let stage = method.stage(transient.frame);
+            timed_march(marching, &transient, stage, self.setting.observer, self.told(name, method))
         };
         match &model.kind {
             Kind::Reduced(reduced) => {
