@@ -157,6 +157,7 @@ fn training(model: &ReducedModel, window: &Window) -> Result<TrainingSpec, RunEr
             Ok(TrainingSpec {
                 lubricant: model.domain.lubricant,
                 sampling: window.sampling,
+                scheme: window.scheme,
                 penalty: window.penalty,
                 ..TrainingSpec::new(range, window.m, window.grid.spec(), plan)
             })
