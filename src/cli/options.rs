@@ -47,6 +47,8 @@ pub enum CavitationName {
     Penalty,
     /// No pressure below zero, by a multiplier (appendix D).
     Complementarity,
+    /// No liquid lost behind the contact: the gap is filled in part (Elrod and Adams).
+    MassConserving,
 }
 
 impl From<CavitationName> for Cavitation {
@@ -54,6 +56,7 @@ impl From<CavitationName> for Cavitation {
         match name {
             CavitationName::Penalty => Self::Penalty,
             CavitationName::Complementarity => Self::Complementarity,
+            CavitationName::MassConserving => Self::MassConserving { supply_film_m: None },
         }
     }
 }
@@ -138,6 +141,10 @@ pub struct PointOptions {
     /// How the film of a full solution ruptures
     #[arg(long, value_enum, value_name = "MODEL", default_value = "penalty")]
     pub cavitation: CavitationName,
+    /// Thickness of the film that the surfaces bring to the inlet [m], with `--cavitation mass-conserving` (default: a
+    /// flooded inlet)
+    #[arg(long, value_name = "METRES", allow_negative_numbers = true)]
+    pub supply_film: Option<f64>,
 }
 
 /// Ends of the computational domain.
@@ -257,7 +264,16 @@ impl PointOptions {
         }
         lubricant.density = self.density.unwrap_or(lubricant.density);
         lubricant.viscosity = self.pressure_viscosity.unwrap_or(lubricant.viscosity);
-        lubricant.cavitation = self.cavitation.into();
+        lubricant.cavitation = match self.cavitation.into() {
+            Cavitation::MassConserving { .. } => Cavitation::MassConserving { supply_film_m: self.supply_film },
+            other => other,
+        };
+        if self.supply_film.is_some() && self.cavitation != CavitationName::MassConserving {
+            return refuse(
+                "--supply-film needs --cavitation mass-conserving: no other rupture knows a gap that is filled in part"
+                    .to_owned(),
+            );
+        }
         let method = self.method()?;
         let sliding = Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: self.npr };
         let point = OperatingPoint { sliding, ..self.point(&lubricant)? };

@@ -139,7 +139,7 @@ impl Workbench {
             warnings.push(reason.clone());
         }
         let (own, asked) = (model.domain.lubricant.cavitation, request.lubricant.cavitation);
-        if own != asked {
+        if own != asked && problem.supply.is_none() {
             warnings.push(other_rupture(own, asked));
         }
         let mut facts = ReducedFacts {

@@ -30,6 +30,8 @@ pub struct ContactResult {
     pub grid_warning: Option<String>,
     /// How the film ruptures.
     pub cavitation: Cavitation,
+    /// Where a supplied film fills the gap, X on the axis; none where it is flooded.
+    pub meniscus: Option<f64>,
     /// Dimensionless scalars of the solution.
     pub scalars: Option<Scalars>,
     /// Traction coefficient (3.41).
@@ -65,7 +67,7 @@ pub enum Value {
 type Get = fn(&ContactResult) -> Option<Value>;
 
 /// Every value by its name, with a dot where it lies in a group, in the order of the JSON object.
-const VALUES: [(&str, Get); 47] = [
+const VALUES: [(&str, Get); 49] = [
     ("contact", |r| text(r.point.kind.name())),
     ("method", |r| text(r.method)),
     ("converged", |r| Some(Value::Truth(r.converged))),
@@ -81,6 +83,7 @@ const VALUES: [(&str, Get); 47] = [
     ("hertz.a_m", |r| number(r.point.hertz().half_width_m)),
     ("hertz.p_h_pa", |r| number(r.point.hertz().pressure_pa)),
     ("cavitation", |r| text(r.cavitation.name())),
+    ("supply_film_m", |r| number(r.cavitation.supply_film_m()?)),
     ("grid.kind", |r| text(r.grid)),
     ("grid.nx", |r| Some(Value::Count(r.nodes.0))),
     ("grid.ny", |r| Some(Value::Count(r.nodes.1))),
@@ -94,6 +97,7 @@ const VALUES: [(&str, Get); 47] = [
     ("P_c", |r| number(r.scalars?.p_c)),
     ("P_max", |r| number(r.scalars?.p_max)),
     ("X_P_max", |r| number(r.scalars?.x_p_max)),
+    ("X_meniscus", |r| number(r.meniscus?)),
     ("H_0", |r| number(r.scalars?.h_0)),
     ("h_c_m", |r| number(r.scalars?.h_c * r.point.film_scale_m())),
     ("h_min_m", |r| number(r.scalars?.h_min * r.point.film_scale_m())),
@@ -176,6 +180,7 @@ impl From<&Answer> for ContactResult {
             grid_warning: answer.result().and_then(Solution::grid_warning),
             scalars: answer.result().map(|solution| solution.scalars),
             cavitation: answer.cavitation(),
+            meniscus: answer.result().and_then(Solution::meniscus),
             traction: answer.traction(),
             rolling_resistance: answer.result().map(Solution::rolling_resistance),
             residual_norm: answer.solution.as_ref().map(|solution| solution.report.residual_norm),
@@ -247,19 +252,22 @@ impl Serialize for ContactResult {
     }
 }
 
-/// The fields of a solution at its nodes: X, Y, P, H and their SI twins, and λ where it has one.
+/// The fields of a solution at its nodes: X, Y, P, H and their SI twins, and λ or θ where it has one.
 pub fn profile_table(name: impl Into<String>, solution: &Solution) -> Table {
     let mut columns = vec!["X", "Y", "P", "H", "x_m", "y_m", "p_pa", "h_m"];
     if !solution.multiplier.is_empty() {
         columns.push("lambda");
+    }
+    if !solution.fraction.is_empty() {
+        columns.push("theta");
     }
     let mut table = Table::new(name, &columns);
     let hertz = solution.problem.point.hertz();
     let (a, film_scale) = (hertz.half_width_m, solution.problem.point.film_scale_m());
     let row = |(x, y, p, h)| vec![x, y, p, h, x * a, y * a, p * hertz.pressure_pa, h * film_scale];
     table.rows.extend(solution.nodes().map(row));
-    for (row, multiplier) in table.rows.iter_mut().zip(solution.multipliers()) {
-        row.push(multiplier);
+    for (row, value) in table.rows.iter_mut().zip(solution.multipliers().chain(solution.fractions())) {
+        row.push(value);
     }
     table
 }

@@ -12,6 +12,7 @@ mod embedded_point_shear_model;
 mod embedded_shear_model;
 mod iterations;
 mod line_reference;
+mod mass_conserving;
 mod point_reference;
 mod random_solves;
 mod rebuilt;

@@ -87,6 +87,8 @@ pub struct Picture {
     pub unphysical: Option<TractionDoubt>,
     /// Where the film ruptures.
     pub rupture: Option<f64>,
+    /// Where a supplied film fills the gap.
+    pub meniscus: Option<f64>,
     /// The pressure spike.
     pub spike: Option<(f64, f64)>,
     /// A sentence where the grid ends too early or is too coarse, or does not resolve the side lobes.
@@ -113,6 +115,7 @@ impl Picture {
             traction,
             unphysical: solution.problem.doubts_traction(traction, &solution.scalars),
             rupture: solution.rupture(),
+            meniscus: solution.meniscus(),
             spike: solution.spike(),
             costly_grid: grid_warning.is_some(),
             unresolved: both(grid_warning, resolution_warning(&solution)),

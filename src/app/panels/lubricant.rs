@@ -29,7 +29,12 @@ const LIMITING_TIP: &str = "The film carries at most τ_L = τ_L0 + Λ p (Bair &
     It limits the traction; pressure and film are computed without it";
 
 const RUPTURE_TIP: &str = "How the film ruptures in full solutions, where the gap opens behind the contact. Reduced models keep the \
-    penalty they were trained with; the films differ by less than a millionth";
+    penalty they were trained with; flooded films differ by less than a millionth";
+
+const SUPPLY_TIP: &str = "Thickness of the film that the surfaces bring to the inlet; without one the inlet is flooded. What is \
+    thinner than the contact draws starves it";
+/// A supplied film to begin with: as thick as usual ones in the contact.
+const SUPPLY_M: f64 = 200e-9;
 
 /// Under this name a lubricant as a whole is refused.
 pub const GROUP: &str = "lubricant";
@@ -61,8 +66,8 @@ pub fn ui(ui: &mut Ui, document: &Document, own_laws: &mut bool, entries: &mut E
     }
     oil::ui(ui, document, entries, commands);
     limiting_stress(ui, laws, entries, commands);
-    rupture(ui, laws, commands);
-    let constants = CONSTANTS.iter().chain(&LIMITS).map(|constant| constant.name);
+    rupture(ui, laws, entries, commands);
+    let constants = CONSTANTS.iter().chain(&LIMITS).chain(&SUPPLY).map(|constant| constant.name);
     entries.reserved_ui(ui, constants.chain([GROUP]));
 }
 
@@ -115,6 +120,7 @@ const fn constant(
 const GPA: (&str, f64) = ("GPa", 1e9);
 const MPA: (&str, f64) = ("MPa", 1e6);
 const NUMBER: (&str, f64) = ("", 1.0);
+const NANOMETRES: (&str, f64) = ("nm", 1e-9);
 
 const BULK_TIP: &str = "Tait’s initial bulk modulus K₀ (3.37)";
 const RATE_TIP: &str = "Rate of change of the bulk modulus with pressure, K’₀ (3.37)";
@@ -161,6 +167,12 @@ const LIMITS: [Constant; 3] = [
         l.limiting_stress.as_mut()?.eyring.as_mut()
     }),
 ];
+
+const SUPPLY: [Constant; 1] =
+    [constant("Supplied film", ("Film", "h", "in"), NANOMETRES, SUPPLY_TIP, |l| match &mut l.cavitation {
+        Cavitation::MassConserving { supply_film_m } => supply_film_m.as_mut(),
+        Cavitation::Penalty | Cavitation::Complementarity => None,
+    })];
 
 fn critical_stress(laws: &mut Lubricant) -> Option<&mut f64> {
     match &mut laws.shear {
@@ -275,19 +287,33 @@ fn limiting_stress(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, command
 }
 
 /// How the film ruptures in full solutions.
-fn rupture(ui: &mut Ui, laws: &Lubricant, commands: &mut Commands) {
+fn rupture(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, commands: &mut Commands) {
+    let supplied = Cavitation::MassConserving { supply_film_m: laws.cavitation.supply_film_m() };
     let mut wanted = laws.cavitation;
     Grid::new("rupture").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
-        let options = [Cavitation::Penalty, Cavitation::Complementarity];
+        let options = [Cavitation::Penalty, Cavitation::Complementarity, supplied];
         choice(ui, "Rupture", RUPTURE_TIP, &mut wanted, &options, |law| match law {
             Cavitation::Penalty => ("Penalty", "Pressures below zero are pushed back, Λ = −γ min(P, 0) (2.36)"),
             Cavitation::Complementarity => {
                 ("Complementarity", "P ≥ 0 and λ ≥ 0 with P λ = 0 (appendix D): no pressure below zero, half the steps")
             }
+            Cavitation::MassConserving { .. } => (
+                "Mass-conserving",
+                "P ≥ 0, and where P = 0 the gap is filled to a fraction θ (Elrod & Adams 1974): no oil is lost",
+            ),
         });
     });
-    if wanted != laws.cavitation {
-        commands.edit(Edit::Laws(Box::new(Lubricant { cavitation: wanted, ..*laws })), GROUP);
+    let mut wanted = Lubricant { cavitation: wanted, ..*laws };
+    let mut field = GROUP;
+    if let Cavitation::MassConserving { supply_film_m } = &mut wanted.cavitation {
+        let mut starves = supply_film_m.is_some();
+        if ui.add(Checkbox::new(&mut starves, "Supplied film")).on_hover_text(SUPPLY_TIP).changed() {
+            *supply_film_m = starves.then_some(SUPPLY_M);
+        }
+        field = constants_ui(ui, entries, &SUPPLY, &mut wanted);
+    }
+    if wanted != *laws {
+        commands.edit(Edit::Laws(Box::new(wanted)), field);
     }
 }
 

@@ -127,6 +127,22 @@ impl Nodes {
         }
     }
 
+    /// Makes a node one that is filled to a fraction θ: its unknown is θ, at P = 0.
+    pub fn fill(&mut self, node: usize, fraction: f64) {
+        let Node { pressure, flow, flow_p, flow_h, mobility_p, .. } = &mut self.nodes[node];
+        (*pressure, *mobility_p) = (0.0, 0.0);
+        (*flow, *flow_p, *flow_h) = (fraction * *flow, *flow, fraction * *flow_h);
+        if let Some(thinning) = self.thinning.get_mut(node) {
+            thinning.flow_gradient = thinning.flow_gradient.map(|slope| fraction * slope);
+        }
+    }
+
+    /// Makes a node one that carries a given flow whatever its film is.
+    pub fn supply(&mut self, node: usize, flow: f64) {
+        let node = &mut self.nodes[node];
+        (node.flow, node.flow_p, node.flow_h) = (flow, 0.0, 0.0);
+    }
+
     /// A row at these nodes.
     #[inline]
     pub fn row(&self, geometry: &RowGeometry, penalty: f64, stencil: [usize; STENCIL]) -> Row {

@@ -15,12 +15,23 @@ pub struct ActiveSet {
     pub ruptured: Vec<bool>,
     /// λ, per unknown; zero where the film is whole.
     pub multiplier: Vec<f64>,
+    /// θ, per unknown, where the film ruptures so that mass is conserved, empty elsewhere; 1 where the film is whole.
+    pub fraction: Vec<f64>,
+    /// The flow ρ̄θH that the surfaces bring to the inlet; none where it is flooded.
+    pub supply: Option<f64>,
+    /// The set as a node array, where there are fractions.
+    pub(super) at_node: Vec<bool>,
+    /// How many nodes at once left the set against the flow in the last step, per line.
+    pub(super) strides: Vec<usize>,
     /// The sets before the last step, and before the one before.
     former: [Vec<bool>; 2],
     /// How often in a row the set was again what it was two steps before.
     returns: usize,
     /// Whether the set was seen to cycle: from then on one node leaves it at a time along each line.
     pub cautious: bool,
+    steps: usize,
+    /// How often each node left the set since the front was seen to cycle.
+    pub(super) returns_of: Vec<u8>,
     /// Work space: who leaves.
     leaving: Vec<usize>,
 }
@@ -57,9 +68,9 @@ impl ActiveSet {
         }
     }
 
-    /// λ as a node array, empty where there is no set.
+    /// λ as a node array, empty where there is none.
     pub(super) fn field(&self, grid: &impl Grid) -> Vec<f64> {
-        if !self.holds() {
+        if !self.holds() || self.fills() {
             return Vec::new();
         }
         let mut field = vec![0.0; grid.weights().len()];
@@ -69,18 +80,32 @@ impl ActiveSet {
         field
     }
 
+    /// The set as a node array.
+    pub(super) fn nodes(&self, grid: &impl Grid) -> Vec<bool> {
+        let mut nodes = vec![false; grid.weights().len()];
+        for (k, _) in self.ruptured.iter().enumerate().filter(|(_, ruptured)| **ruptured) {
+            nodes[grid.node(k)] = true;
+        }
+        nodes
+    }
+
     /// Begins with a set; with none where a penalty holds the pressures.
     pub(super) fn begin(&mut self, ruptured: impl Iterator<Item = bool>) {
         self.ruptured.clear();
         self.ruptured.extend(ruptured);
         self.multiplier.clear();
         self.multiplier.resize(self.ruptured.len(), 0.0);
+        self.fraction.clear();
+        self.supply = None;
+        self.strides.clear();
+        self.returns_of.clear();
         self.former.iter_mut().for_each(Vec::clear);
-        (self.returns, self.cautious) = (0, false);
+        (self.returns, self.cautious, self.steps) = (0, false, 0);
     }
 
     /// Keeps the set as it is before a step.
     pub(super) fn remember(&mut self) {
+        self.steps += 1;
         self.former.swap(0, 1);
         self.former[0].clone_from(&self.ruptured);
     }
@@ -89,7 +114,7 @@ impl ActiveSet {
     pub(super) fn is_still(&mut self) -> bool {
         let still = self.ruptured == self.former[0];
         self.returns = if !still && self.ruptured == self.former[1] { self.returns + 1 } else { 0 };
-        self.cautious |= self.returns >= CYCLE;
+        self.cautious |= self.returns >= CYCLE || self.fills() && self.steps > 25;
         still
     }
 

@@ -3,14 +3,13 @@
 
 mod preconditioner;
 
-use super::newton_space::{NewtonSpace, StepControl, Taken};
+use super::newton_space::{NewtonSpace, ScaledRows, StepControl, Taken};
 use super::solution::{Mesh, Problem, SolveError};
 use super::system::{SolveOptions, System};
-use super::thinning::Thinning;
 use crate::solver::discrete::grid::{GridSpec, ReferenceGrid, dot};
+use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::discrete::reynolds::generalized::FilmTreatment;
-use crate::solver::discrete::reynolds::{PENALTY, Row};
-use crate::solver::discrete::space::{LineSpace, Space};
+use crate::solver::discrete::space::LineSpace;
 use crate::solver::physics::contact::{ContactKind, Moes};
 pub use preconditioner::BandMatrix;
 use std::sync::Arc;
@@ -119,12 +118,10 @@ impl NewtonSpace for LineSpace {
         &self,
         matrix: &mut BandMatrix,
         control: &Backtracking,
-        rows: &[Row],
-        thinning: Option<&Thinning>,
-        scaling: &[f64],
+        rows: &ScaledRows<'_>,
         _: impl Fn() -> bool,
     ) -> bool {
-        matrix.build(self, control, rows, thinning, scaling);
+        matrix.build(self, control, rows);
         true
     }
 }
@@ -134,8 +131,7 @@ impl System<LineSpace> {
     /// % per step at most. Returns ‖Δz‖/‖z‖ of the undamped step and the new residual.
     fn backtrack(&mut self, problem: &Problem, options: &SolveOptions<Backtracking>, before: f64) -> (f64, f64) {
         let dh_0 = self.update[self.rows.len()];
-        self.space.spread(&self.update, &mut self.step);
-        self.space.grid().deform(&self.step, &mut self.step_deformation, &mut self.scratch);
+        self.spread_update();
         let mut longest: f64 = 1.0;
         for (h, d) in self.film.iter().zip(&self.step_deformation) {
             let change = d + dh_0;
@@ -147,8 +143,11 @@ impl System<LineSpace> {
             let largest = self.step.iter().fold(0.0f64, |largest, s| largest.max(s.abs()));
             longest = longest.min(LARGEST_STEP / largest);
         }
-        let size = (dot(&self.step, &self.step) + dh_0 * dh_0).sqrt();
+        let fractions = self.active.square_of_fractions(&self.update);
+        let size = (dot(&self.step, &self.step) + fractions + dh_0 * dh_0).sqrt();
         let (start_h_0, mut factor, mut taken) = (self.h_0, longest, 0.0);
+        // The rows of fractions are all but linear: whatever they are off by, the next full step mends.
+        let of_film = self.of_film(before);
         let shortest = longest * options.control.shortest_step;
         loop {
             let delta = factor - taken;
@@ -158,17 +157,25 @@ impl System<LineSpace> {
             for (d, s) in self.deformation.iter_mut().zip(&self.step_deformation) {
                 *d += delta * s;
             }
+            self.active.add_fractions(delta, &self.update);
             taken = factor;
             self.set_h_0(start_h_0 + factor * dh_0);
             let residual = self.evaluate(problem, options.penalty);
             let norm = (dot(&self.pressure, &self.pressure) + self.h_0 * self.h_0).sqrt();
             let relative = factor * size / norm;
-            if residual < before * (1.0 - 1e-4 * factor) || factor <= shortest || relative < 1e-7 {
+            let share = 1.0 - 1e-4 * factor;
+            let better = residual < before * share || self.of_film(residual) < of_film * share;
+            if better || factor <= shortest || relative < 1e-7 {
                 // A full, fresh deformation now and then would change nothing: the increments are exact to rounding.
                 return (size / norm, residual);
             }
             factor *= 0.5;
         }
+    }
+
+    /// The part of a residual norm that is not of the rows of fractions.
+    fn of_film(&self, residual: f64) -> f64 {
+        (residual * residual - self.of_fractions * self.of_fractions).max(0.0).sqrt()
     }
 
     /// Takes a step whose entry i (the last is ΔH₀) is `update(i)`, damped as Newton's; returns ‖Δz‖/‖z‖ (undamped) and

@@ -5,6 +5,7 @@ mod active_set;
 mod band;
 mod cut;
 pub mod dense;
+mod film_fraction;
 mod gmres;
 mod line;
 mod newton_space;

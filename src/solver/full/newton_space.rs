@@ -31,6 +31,18 @@ pub struct Taken {
     pub residual: f64,
 }
 
+/// The rows that a matrix is assembled for.
+pub struct ScaledRows<'a> {
+    /// Values and derivatives.
+    pub rows: &'a [Row],
+    /// What shear-thinning adds to the derivatives.
+    pub thinning: Option<&'a Thinning>,
+    /// What each row is multiplied with.
+    pub scaling: &'a [f64],
+    /// Which unknowns are fractions, which deform nothing and carry no load; empty where none are.
+    pub fractions: &'a [bool],
+}
+
 /// A factorised matrix.
 pub trait Factors: Default {
     /// b ← A⁻¹ b.
@@ -96,9 +108,7 @@ pub trait NewtonSpace: Space + Sized {
         &self,
         matrix: &mut Self::Matrix,
         control: &Self::Control,
-        rows: &[Row],
-        thinning: Option<&Thinning>,
-        scaling: &[f64],
+        rows: &ScaledRows<'_>,
         go_on: impl Fn() -> bool,
     ) -> bool;
 }
@@ -118,10 +128,12 @@ pub struct Preconditioner<M> {
 
 impl<M: Factors> Preconditioner<M> {
     /// Borders the matrix, assembled for these rows, by the film's and the load's.
-    pub fn border<S: Space>(&mut self, space: &S, rows: &[Row], scaling: &[f64]) {
-        if self.weights.is_empty() {
-            let (grid, weights) = (space.grid(), space.grid().weights());
-            self.weights = (0..rows.len()).map(|k| weights[grid.node(k)]).collect();
+    pub fn border<S: Space>(&mut self, space: &S, &ScaledRows { rows, scaling, fractions, .. }: &ScaledRows<'_>) {
+        let (grid, weights) = (space.grid(), space.grid().weights());
+        self.weights.clear();
+        self.weights.extend((0..rows.len()).map(|k| weights[grid.node(k)]));
+        for (weight, _) in self.weights.iter_mut().zip(fractions).filter(|(_, fraction)| **fraction) {
+            *weight = 0.0;
         }
         self.column.clear();
         self.column.extend(rows.iter().zip(scaling).map(|(row, s)| s * row.d_h[..S::NODES].iter().sum::<f64>()));

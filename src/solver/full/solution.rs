@@ -48,6 +48,8 @@ pub struct Problem {
     pub inverse_lambda: f64,
     /// ∫P: π/2 for a line, (2.28), 2π/3 for a point contact, (2.29).
     pub load: f64,
+    /// Flow that the surfaces bring to the inlet, the supplied film in units of a²/R; none where it is flooded.
+    pub supply: Option<f64>,
 }
 
 impl Problem {
@@ -84,6 +86,7 @@ impl Problem {
             shear,
             moes: point.moes(),
             inverse_lambda: 1.0 / point.lambda_bar(),
+            supply: lubricant.cavitation.supply_film_m().map(|film| film / point.film_scale_m()),
             load: match point.kind {
                 ContactKind::Line => 0.5 * PI,
                 ContactKind::Point => 2.0 / 3.0 * PI,
@@ -256,6 +259,8 @@ pub struct Solution {
     pub film: Vec<f64>,
     /// λ at the nodes, zero where the film is whole; empty where a penalty ruptures it.
     pub multiplier: Vec<f64>,
+    /// θ at the nodes, the share of the gap that is filled; empty where rupture does not conserve mass.
+    pub fraction: Vec<f64>,
     /// Scalars.
     pub scalars: Scalars,
     /// How it was obtained.
@@ -337,6 +342,27 @@ impl Solution {
         axis.get(last + 1).map(|&(x, _)| x)
     }
 
+    /// Where a film that the surfaces bring fills the gap on the axis: first node in front of the contact that is full;
+    /// none where the film is full from the first node on.
+    pub fn meniscus(&self) -> Option<f64> {
+        let ny = self.y.len();
+        let full = |i: &usize| self.fraction.get(i * ny + ny - 1).is_none_or(|fraction| *fraction >= 1.0);
+        let first = (self.first() + 1..self.x.len()).find(full)?;
+        (first > self.first() + 1).then(|| self.x[first])
+    }
+
+    /// X and θ along the axis; none where rupture does not conserve mass.
+    pub fn axis_fraction(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let ny = self.y.len();
+        let axis = self.fraction.iter().skip(ny - 1).step_by(ny).copied();
+        self.x.iter().copied().zip(axis).skip(self.first())
+    }
+
+    /// θ at the nodes of [`nodes`](Self::nodes); none where rupture does not conserve mass.
+    pub fn fractions(&self) -> impl Iterator<Item = f64> + '_ {
+        self.fraction.iter().skip(self.first() * self.y.len()).copied()
+    }
+
     /// Newtonian traction over the whole domain, (3.41), positive for SRR > 0, as the mean shear stress on the surfaces
     /// over the load.
     pub fn traction(&self) -> Traction {
@@ -352,10 +378,11 @@ impl Solution {
         Traction { per_srr: self.force_per_load(stress) }
     }
 
-    /// ∫ of a stress \[Pa\] given at the nodes over the whole domain, both halves of a point contact's, by the
+    /// ∫ of a stress \[Pa\] given at the nodes over the whole domain, as far as it is filled, both halves of a point contact's, by the
     /// trapezoidal rule, over the load.
     pub(super) fn force_per_load(&self, stress: impl Fn(usize) -> f64) -> f64 {
         let ny = self.y.len();
+        let stress = |k: usize| self.fraction.get(k).copied().unwrap_or(1.0) * stress(k);
         // Across the contact: over both halves, where there is anything across.
         let at = |i: usize| {
             let across = |j: usize| (stress(i * ny + j - 1) + stress(i * ny + j)) * (self.y[j] - self.y[j - 1]);

@@ -11,7 +11,7 @@ use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{
     ContactKind, FilmFormula, Moes, MoesRequest, OperatingPoint, moes_film, si_from_moes,
 };
-use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::physics::lubricant::{Cavitation, Lubricant};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -25,11 +25,21 @@ pub enum Start<'a> {
     From(&'a Solution),
 }
 
+/// Rises of pressure by which the meniscus of a starved inlet is guessed, one start each.
+const MENISCI: [f64; 3] = [1.0, 0.7, 0.85];
+
+/// Newton steps of one such start: those that have not converged by then cycle.
+const STARVED_NEWTON: usize = 40;
+
+/// A supplied film, in units of the contact's film formula, that starves it plainly.
+const THIN: f64 = 0.3;
+
 /// What one attempt begins with.
 #[derive(Clone, Copy)]
 enum Beginning<'a> {
-    /// Hertzian pressure and a film, in units of the contact's film formula.
-    Cold(f64),
+    /// Hertzian pressure, a film in units of the contact's film formula, and the rise of pressure to the meniscus in
+    /// units of that by which it is guessed, where the inlet may starve.
+    Cold(f64, f64),
     /// A solution of the same kind of contact.
     Warm(&'a Solution),
 }
@@ -105,7 +115,10 @@ impl<S: NewtonSpace> Solver<S> {
             _ => None,
         };
         let mut report = Report::empty();
-        let cold = S::COLD_FILMS.into_iter().map(Beginning::Cold);
+        let starves = problem.supply.is_some();
+        let cold = S::COLD_FILMS.into_iter().map(|film| Beginning::Cold(film, 1.0)).take(if starves { 0 } else { 3 });
+        let menisci = MENISCI.into_iter().map(|rise| Beginning::Cold(S::COLD_FILMS[0], rise));
+        let cold = cold.chain(menisci.take(if starves { MENISCI.len() } else { 0 }));
         for beginning in former.into_iter().map(Beginning::Warm).chain(cold) {
             if report.ended() {
                 break;
@@ -128,6 +141,7 @@ impl<S: NewtonSpace> Solver<S> {
         let mut system = self.system_at(fields.mesh.scale);
         system.set_pressure(&fields.problem, &fields.pressure);
         system.set_central_film(fields.scalars.h_c);
+        system.fraction.clone_from(&fields.fraction);
         let mut report = Report::empty();
         system.newton(&fields.problem, options, &(), &mut report);
         self.system = Some(system);
@@ -146,7 +160,7 @@ impl<S: NewtonSpace> Solver<S> {
         expect_kind(S::KIND, point)?;
         let problem = Problem::new(point, lubricant)?;
         let mut system = System::new(S::on(&self.reference, S::scale_of(&self.reference, problem.moes)));
-        cold_state(&mut system, &problem, S::COLD_FILMS[0]);
+        cold_state(&mut system, &problem, S::COLD_FILMS[0], 1.0);
         Ok((system, problem))
     }
 
@@ -164,12 +178,26 @@ impl<S: NewtonSpace> Solver<S> {
         report.attempts += 1;
         let mut system = self.system_at(S::scale_of(&self.reference, problem.moes));
         match beginning {
-            Beginning::Cold(film) => cold_state(&mut system, problem, film),
+            Beginning::Cold(film, rise) => cold_state(&mut system, problem, film, rise),
             Beginning::Warm(former) => warm_state(&mut system, problem, former),
         }
         let most = most_newton(system.rows.len());
-        let left = most.saturating_sub(report.newton_iterations).min(self.options.max_newton);
-        system.newton(problem, &SolveOptions { max_newton: left, ..self.options }, observer, report);
+        let left = |report: &Report| most.saturating_sub(report.newton_iterations).min(self.options.max_newton);
+        let conserving = matches!(problem.lubricant.cavitation, Cavitation::MassConserving { .. });
+        if conserving && !system.is_starved() {
+            // Near a flooded film, for which complementarity is the surer way.
+            let lubricant = Lubricant { cavitation: Cavitation::Complementarity, ..problem.lubricant };
+            let flooded = Problem { lubricant, supply: None, ..*problem };
+            let options = SolveOptions { max_newton: left(report), ..self.options };
+            system.newton(&flooded, &options, observer, report);
+            if report.termination != Termination::Converged {
+                self.system = Some(system);
+                return;
+            }
+        }
+        let left = if problem.supply.is_some() { left(report).min(STARVED_NEWTON) } else { left(report) };
+        let options = SolveOptions { max_newton: left, ..self.options };
+        system.newton(problem, &options, observer, report);
         if report.termination == Termination::IterationLimit && report.newton_iterations >= most {
             report.termination = Termination::Effort;
         }
@@ -179,7 +207,7 @@ impl<S: NewtonSpace> Solver<S> {
     /// The present state as a solution.
     fn solution(&mut self, problem: Problem, report: Report) -> Solution {
         let scale = S::scale_of(&self.reference, problem.moes);
-        let System { space, pressure, film, h_0, active, .. } =
+        let System { space, pressure, film, h_0, active, fraction, .. } =
             &*self.system.get_or_insert_with(|| System::new(S::on(&self.reference, scale)));
         let (x, y) = space.grid().abscissae();
         Solution {
@@ -190,17 +218,23 @@ impl<S: NewtonSpace> Solver<S> {
             pressure: pressure.clone(),
             film: film.clone(),
             multiplier: active.field(space.grid()),
+            fraction: fraction.clone(),
             scalars: scalars_of(space.grid(), &problem, pressure, film, *h_0),
             report,
             grid_cost: None,
         }
     }
 
-    /// Walks from an easier contact to the wanted one in steps that shrink on failure.
+    /// Walks from an easier contact to the wanted one in steps that shrink on failure; where the inlet may starve, from
+    /// the same one with a thin supply.
     fn continuation(&mut self, problem: &Problem, observer: &dyn Observer, report: &mut Report) {
         let target = problem.moes;
         let easy = Moes { m: target.m.clamp(S::EASY_M.0, S::EASY_M.1), l: target.l.clamp(S::EASY_L.0, S::EASY_L.1) };
-        let point_at = |t: f64| {
+        let thin = problem.supply.map(|supply| supply.min(THIN * formula_film(problem)));
+        let problem_at = |t: f64| {
+            if let (Some(thin), Some(supply)) = (thin, problem.supply) {
+                return Some(Problem { supply: Some(thin * (supply / thin).powf(t)), ..*problem });
+            }
             let m = (easy.m.ln() * (1.0 - t) + target.m.ln() * t).exp();
             let l = easy.l * (1.0 - t) + target.l * t;
             let request = MoesRequest {
@@ -213,8 +247,8 @@ impl<S: NewtonSpace> Solver<S> {
             let point = si_from_moes(&request).ok()?;
             Problem::under_sliding(&point, problem.lubricant, problem.point.sliding).ok()
         };
-        let Some(first) = point_at(0.0) else { return };
-        self.attempt(&first, Beginning::Cold(S::COLD_FILMS[0]), observer, report);
+        let Some(first) = problem_at(0.0) else { return };
+        self.attempt(&first, Beginning::Cold(S::COLD_FILMS[0], 1.0), observer, report);
         if report.termination != Termination::Converged {
             return;
         }
@@ -222,7 +256,7 @@ impl<S: NewtonSpace> Solver<S> {
         let mut last = self.solution(first, Report::empty());
         while t < 1.0 && stride > 1e-3 {
             let next = (t + stride).min(1.0);
-            let wanted = if next >= 1.0 { Some(*problem) } else { point_at(next) };
+            let wanted = if next >= 1.0 { Some(*problem) } else { problem_at(next) };
             let Some(wanted) = wanted else { return };
             self.attempt(&wanted, Beginning::Warm(&last), observer, report);
             match report.termination {
@@ -254,12 +288,14 @@ fn formula_film(problem: &Problem) -> f64 {
 }
 
 /// Hertzian pressure and a central film of `film` × the formula.
-fn cold_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, film: f64) {
+fn cold_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, film: f64, rise: f64) {
     let (x, y) = system.space.grid().abscissae();
     let hertz = x.iter().flat_map(|x| y.iter().map(move |y| (1.0 - (x * x + y * y)).max(0.0).sqrt()));
     let hertz: Vec<f64> = hertz.collect();
     system.set_pressure(problem, &hertz);
-    system.set_central_film(film * formula_film(problem));
+    let film = film * formula_film(problem);
+    system.set_central_film(problem.supply.map_or(film, |supply| film.min(supply)));
+    system.guess_meniscus(problem, rise);
 }
 
 /// A former solution on this grid: pressure as it is, whatever the scale of its registration, or interpolated; central
@@ -270,7 +306,7 @@ fn warm_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, former:
         system.set_pressure(problem, &former.pressure);
     } else {
         let (x, y) = system.space.grid().abscissae();
-        let pressure = interpolated(former, x.iter().copied(), y);
+        let pressure = interpolated(former, &former.pressure, x.iter().copied(), y);
         system.set_pressure(problem, &pressure);
     }
     let ratio = formula_film(problem) / formula_film(&former.problem);
@@ -285,10 +321,15 @@ fn warm_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, former:
     if lowest < floor {
         system.set_h_0(system.h_0 + floor - lowest);
     }
+    if same_grid && !former.fraction.is_empty() {
+        system.fraction.clone_from(&former.fraction);
+    } else {
+        system.guess_meniscus(problem, 1.0);
+    }
 }
 
-/// Pressure of a solution at other abscissae and ordinates, (bi)linearly, zero outside.
-pub(super) fn interpolated(former: &Solution, x: impl Iterator<Item = f64>, y: &[f64]) -> Vec<f64> {
+/// A node array of a solution at other abscissae and ordinates, (bi)linearly, zero outside.
+pub(super) fn interpolated(former: &Solution, values: &[f64], x: impl Iterator<Item = f64>, y: &[f64]) -> Vec<f64> {
     let ny = former.y.len();
     let across: Vec<Option<(usize, f64)>> = y.iter().map(|&y| cell(&former.y, y)).collect();
     let mut out = Vec::new();
@@ -296,7 +337,7 @@ pub(super) fn interpolated(former: &Solution, x: impl Iterator<Item = f64>, y: &
         let along = cell(&former.x, x);
         out.extend(across.iter().map(|&across| {
             let Some((i, s)) = along else { return 0.0 };
-            let p = |i: usize, j: usize| former.pressure[i * ny + j];
+            let p = |i: usize, j: usize| values[i * ny + j];
             match across {
                 Some((j, t)) => {
                     let [west, east] = [i - 1, i].map(|i| (1.0 - t) * p(i, j - 1) + t * p(i, j));

@@ -5,8 +5,9 @@
 //! [`NewtonSpace`].
 
 use super::active_set::ActiveSet;
+use super::film_fraction;
 use super::gmres::{Gmres, LinearOutcome};
-use super::newton_space::{NewtonSpace, Preconditioner, Taken};
+use super::newton_space::{NewtonSpace, Preconditioner, ScaledRows, Taken};
 use super::solution::{Problem, Report, Termination};
 use super::thinning::Thinning;
 use crate::solver::discrete::grid::dot;
@@ -55,8 +56,12 @@ pub struct System<S: NewtonSpace> {
     pub rows: Vec<Row>,
     /// Where the film has ruptured, where no penalty holds it.
     pub active: ActiveSet,
+    /// θ to begin with, node array; empty where it is not known.
+    pub fraction: Vec<f64>,
     /// Widths along X of the unknowns' cells, one per abscissa that has unknowns.
     widths: Vec<f64>,
+    /// The part of the residual norm that the rows of fractions have.
+    pub(super) of_fractions: f64,
     scaling: Vec<f64>,
     pub(super) step: Vec<f64>,
     pub(super) step_deformation: Vec<f64>,
@@ -90,7 +95,9 @@ impl<S: NewtonSpace> System<S> {
             treatment: FilmTreatment::default(),
             rows: vec![Row::default(); u],
             active: ActiveSet::default(),
+            fraction: Vec::new(),
             widths,
+            of_fractions: 0.0,
             scaling: vec![1.0; u],
             step: vec![0.0; n],
             step_deformation: vec![0.0; n],
@@ -153,6 +160,9 @@ impl<S: NewtonSpace> System<S> {
             (Some(gradient), _) => gradient.at_node(pressure, k),
         };
         nodes.evaluate(laws, (pressure, film), at, self.treatment, order);
+        if self.active.fills() {
+            self.active.fill(self.space.grid(), &mut self.nodes);
+        }
         self.evaluate_rows(penalty)
     }
 
@@ -161,20 +171,30 @@ impl<S: NewtonSpace> System<S> {
         let Self { space, nodes, rows, active, thinning, .. } = self;
         let nodes = &*nodes;
         let penalty = if active.holds() { 0.0 } else { penalty };
+        let fills = active.fills();
         space.each_row(rows, |k, _, row| {
             let (stencil, geometry) = space.row(k);
             *row = nodes.row(&geometry, penalty, stencil);
+            if fills {
+                active.by_fraction(row, &geometry, nodes, stencil);
+            }
         });
         let mut thinning = thinning.as_mut().filter(|_| nodes.thins());
         if let Some(thinning) = &mut thinning {
             thinning.differentiate(space, nodes);
         }
-        if active.holds() {
+        if active.holds() && !fills {
             active.hold(rows, thinning);
         }
         let (grid, weights) = (space.grid(), space.grid().weights());
         let square = |(k, row): (usize, &Row)| weights[grid.node(k)] * row.value * row.value;
-        rows.iter().enumerate().map(square).sum::<f64>().sqrt()
+        let all = rows.iter().enumerate().map(square).sum::<f64>().sqrt();
+        self.of_fractions = 0.0;
+        if fills {
+            let ruptured = rows.iter().enumerate().filter(|(k, _)| active.ruptured[*k]);
+            self.of_fractions = ruptured.map(square).sum::<f64>().sqrt();
+        }
+        all
     }
 
     /// ρ̄H of the state evaluated last, node array.
@@ -192,7 +212,7 @@ impl<S: NewtonSpace> System<S> {
     ) {
         self.treatment = options.film;
         self.nodes.forget();
-        self.begin_rupture(problem.lubricant.cavitation);
+        self.begin_rupture(problem);
         let exact_load = S::CLIPS || self.active.holds();
         let mut residual = self.evaluate(problem, options.penalty);
         let mut memory = S::Memory::default();
@@ -231,22 +251,50 @@ impl<S: NewtonSpace> System<S> {
         }
         report.residual_norm = residual;
         report.cautious_front |= self.active.cautious;
+        self.fraction = self.active.fraction_field(self.space.grid());
+    }
+
+    /// Guesses how far the supplied film fills the inlet, see [`film_fraction::guess`].
+    pub(super) fn guess_meniscus(&mut self, problem: &Problem, share: f64) {
+        let alpha = problem.point.alpha_per_pa * problem.point.hertz().pressure_pa;
+        let rise = share * (1.0 - (-alpha).exp()) / alpha * problem.inverse_lambda;
+        let (grid, fields) = (self.space.grid(), (self.pressure.as_slice(), self.film.as_slice()));
+        self.fraction = problem.supply.map_or_else(Vec::new, |supply| film_fraction::guess(grid, fields, supply, rise));
+    }
+
+    /// Whether the inlet is known or guessed to be filled in part only.
+    pub(super) fn is_starved(&self) -> bool {
+        let (x, y) = self.space.grid().abscissae();
+        let inlet = self.fraction.iter().take(x.partition_point(|x| *x < 0.0) * y.len());
+        inlet.into_iter().any(|fraction| *fraction < 1.0)
     }
 
     /// Begins with the set that the pressures show: all of the outlet's half that carries none. Pressures below zero
     /// become zero.
-    pub(super) fn begin_rupture(&mut self, cavitation: Cavitation) {
-        let Self { space, pressure, active, rows, .. } = self;
-        if cavitation == Cavitation::Penalty {
-            active.begin(std::iter::empty());
-            return;
-        }
+    pub(super) fn begin_rupture(&mut self, problem: &Problem) {
+        let Self { space, pressure, active, fraction, rows, .. } = self;
         let grid = space.grid();
         let (x, y) = grid.abscissae();
-        active.begin((0..rows.len()).map(|k| {
-            let node = grid.node(k);
-            pressure[node] < 0.0 || pressure[node] == 0.0 && x[node / y.len()] > 0.0
-        }));
+        let outlet = |node: usize| pressure[node] < 0.0 || pressure[node] == 0.0 && x[node / y.len()] > 0.0;
+        let nodes = (0..rows.len()).map(|k| grid.node(k));
+        match problem.lubricant.cavitation {
+            Cavitation::Penalty => {
+                active.begin(std::iter::empty());
+                return;
+            }
+            Cavitation::Complementarity => active.begin(nodes.map(outlet)),
+            Cavitation::MassConserving { .. } => {
+                let supply = problem.supply;
+                active.begin_filled(
+                    supply,
+                    nodes.map(|node| {
+                        let fraction = fraction.get(node).copied().unwrap_or(1.0);
+                        let starved = pressure[node] == 0.0 && fraction < 1.0;
+                        (starved || outlet(node)).then_some(fraction)
+                    }),
+                );
+            }
+        }
         self.rise_to_zero();
     }
 
@@ -278,14 +326,30 @@ impl<S: NewtonSpace> System<S> {
         for (k, ruptured) in active.ruptured.iter_mut().enumerate() {
             *ruptured |= pressure[space.grid().node(k)] < 0.0;
         }
-        if self.rise_to_zero() {
+        let (lines, rose) = (self.space.grid().column_unknowns(), self.rise_to_zero());
+        if self.active.fills() {
+            if self.active.release_filled(lines) || rose {
+                residual = self.evaluate(problem, penalty);
+            }
+            return (self.active.is_still(), residual);
+        }
+        if rose {
             residual = self.evaluate(problem, penalty);
         }
-        let lines = self.space.grid().column_unknowns();
         if self.active.release(&self.widths, lines) {
             residual = self.evaluate_rows(penalty);
         }
         (self.active.is_still(), residual)
+    }
+
+    /// Spreads `update` into `step`, with its deformation; fractions are no part of it.
+    pub(super) fn spread_update(&mut self) {
+        let Self { space, update, step, step_deformation, scratch, active, .. } = self;
+        space.spread(update, step);
+        if active.fills() {
+            active.without_fractions(step);
+        }
+        space.grid().deform(step, step_deformation, scratch);
     }
 
     /// Solves the linearised system for `update` = (ΔP, ΔH₀), ΔP to carry `load`. Returns how the linear solver ended.
@@ -296,8 +360,8 @@ impl<S: NewtonSpace> System<S> {
         load: f64,
         observer: &dyn Observer,
     ) -> LinearOutcome {
-        let Self { space, krylov, scratch, step, step_deformation, rows, scaling, preconditioner, rhs, update, .. } =
-            self;
+        let Self { space, krylov, scratch, step, step_deformation, rows, scaling, preconditioner, rhs, .. } = self;
+        let (update, active) = (&mut self.update, &self.active);
         let (space, u) = (&*space, rows.len());
         let diagonal = space.own_deformation();
         for (s, row) in scaling.iter_mut().zip(&*rows) {
@@ -307,10 +371,11 @@ impl<S: NewtonSpace> System<S> {
         let mut thinning = self.thinning.as_mut().filter(|_| self.nodes.thins());
         let Preconditioner { matrix, .. } = preconditioner;
         let go_on = || !observer.cancelled();
-        if !space.assemble(matrix, &options.control, rows, thinning.as_deref(), scaling, go_on) {
+        let scaled = ScaledRows { rows, thinning: thinning.as_deref(), scaling, fractions: active.fractions() };
+        if !space.assemble(matrix, &options.control, &scaled, go_on) {
             return LinearOutcome { iterations: 0, relative_residual: f64::NAN };
         }
-        preconditioner.border(space, rows, scaling);
+        preconditioner.border(space, &scaled);
         for ((r, row), s) in rhs.iter_mut().zip(rows).zip(scaling) {
             *r = -row.value * s;
         }
@@ -322,7 +387,17 @@ impl<S: NewtonSpace> System<S> {
             (tolerance, options.max_krylov),
             |v, out| {
                 space.spread(v, step);
+                if active.fills() {
+                    active.without_fractions(step);
+                }
                 space.grid().deform(step, step_deformation, scratch);
+                let carried = dot(weights, step);
+                if let Some(thinning) = &mut thinning {
+                    thinning.turn::<S>(step);
+                }
+                if active.fills() {
+                    active.with_fractions(space.grid(), v, step);
+                }
                 let (field, film, shift) = (&*step, &*step_deformation, v[u]);
                 space.each_row(&mut out[..u], |k, stencil, out| {
                     let Row { d_p, d_h, .. } = &rows[k];
@@ -332,10 +407,10 @@ impl<S: NewtonSpace> System<S> {
                     }
                     *out = sum * scaling[k];
                 });
-                if let Some(thinning) = &mut thinning {
-                    thinning.add_product(space, field, scaling, &mut out[..u]);
+                if let Some(thinning) = &thinning {
+                    thinning.add_product(space, scaling, &mut out[..u]);
                 }
-                out[u] = dot(weights, field);
+                out[u] = carried;
             },
             |v| preconditioner.apply(v),
             |iterations| {

@@ -33,7 +33,8 @@ pub(super) fn assert_derivatives<S: NewtonSpace>(
     let rows = system.rows.clone();
     let mut exact = vec![0.0; rows.len()];
     if let Some(thinning) = system.thinning.as_mut().filter(|_| problem.shear.is_some()) {
-        thinning.add_product(&system.space, direction, &vec![1.0; rows.len()], &mut exact);
+        thinning.turn::<S>(direction);
+        thinning.add_product(&system.space, &vec![1.0; rows.len()], &mut exact);
     }
     let (pressure, film) = (system.pressure.clone(), system.film.clone());
     let mut residual_at = |t: f64| -> Vec<f64> {

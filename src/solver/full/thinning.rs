@@ -38,9 +38,13 @@ impl Thinning {
         }
     }
 
-    /// Adds their product with the node array v, rows scaled.
-    pub fn add_product<S: Space>(&mut self, space: &S, v: &[f64], scaling: &[f64], out: &mut [f64]) {
+    /// Turns to a node array v of pressures.
+    pub fn turn<S: Space>(&mut self, v: &[f64]) {
         self.gradient.field(v, &mut self.direction, S::PARALLEL);
+    }
+
+    /// Adds their product with the node array turned to, rows scaled.
+    pub fn add_product<S: Space>(&self, space: &S, scaling: &[f64], out: &mut [f64]) {
         let (direction, [along, across]) = (&self.direction, &self.slopes);
         space.each_row(out, |k, stencil, out| {
             let mut sum = 0.0;

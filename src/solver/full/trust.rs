@@ -116,6 +116,7 @@ impl<S: NewtonSpace> Solver<S> {
         let mut system = self.system_at(solution.mesh.scale);
         system.set_pressure(&solution.problem, &solution.pressure);
         system.set_h_0(solution.scalars.h_0);
+        system.fraction.clone_from(&solution.fraction);
         let cost = system.grid_cost(&solution.problem, &self.options);
         self.system = Some(system);
         cost
@@ -130,7 +131,7 @@ impl<S: NewtonSpace> System<S> {
         options: &super::SolveOptions<S::Control>,
     ) -> GridCost {
         self.nodes.forget();
-        self.begin_rupture(problem.lubricant.cavitation);
+        self.begin_rupture(problem);
         self.evaluate(problem, options.penalty);
         let missing = self.missing_pressure(problem);
         let load = self.missing_load(&missing);
@@ -140,10 +141,11 @@ impl<S: NewtonSpace> System<S> {
             row.value = [WEST, EAST, SOUTH, NORTH].iter().map(|&at| row.d_p[at] * missing[stencil[at]]).sum();
         }
         let truncation = self.central_response(options, -load);
+        let ruptured = self.active.nodes(self.space.grid());
         for k in 0..self.rows.len() {
             let coarse = self.space.wide_row(k).filter(|(stencil, _)| {
                 // The film ruptures where it likes: there a row is no difference quotient.
-                stencil.iter().all(|&node| self.nodes[node].pressure >= 0.0)
+                stencil.iter().all(|&node| self.nodes[node].pressure >= 0.0 && !ruptured[node])
             });
             self.rows[k].value = coarse
                 .map_or(0.0, |(stencil, geometry)| -self.nodes.row(&geometry, options.penalty, stencil).value / 3.0);
@@ -157,8 +159,7 @@ impl<S: NewtonSpace> System<S> {
         let options = super::SolveOptions { max_krylov: LINEAR.1, ..*options };
         self.solve_linear(&options, LINEAR.0, load, &());
         let shift = self.update[self.rows.len()];
-        self.space.spread(&self.update, &mut self.step);
-        self.space.grid().deform(&self.step, &mut self.step_deformation, &mut self.scratch);
+        self.spread_update();
         let grid = self.space.grid();
         (grid.central(&self.step_deformation) + shift) / grid.central(&self.film)
     }
@@ -173,7 +174,8 @@ impl<S: NewtonSpace> System<S> {
         };
         let at = |node: usize| {
             let (x, film) = (x[node / y.len()], self.film[node]);
-            if weights[node] > 0.0 || x >= 0.0 {
+            // Nor where the surfaces bring less than fills the gap.
+            if weights[node] > 0.0 || x >= 0.0 || problem.supply.is_some_and(|supply| supply < film) {
                 return 0.0;
             }
             -x / (share * problem.inverse_lambda * film * film)

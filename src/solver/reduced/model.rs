@@ -259,6 +259,9 @@ impl Domain {
         if problem.lubricant.of_the_liquid() != self.lubricant.of_the_liquid() {
             return Trust::Outside("the model was trained with other lubricant laws".to_owned());
         }
+        if problem.supply.is_some() {
+            return Trust::Outside("the model was trained with a flooded inlet, not with a supplied film".to_owned());
+        }
         let point = &problem.point;
         if (point.viscosity_pa_s / self.viscosity_pa_s - 1.0).abs() > 1e-6 {
             return Trust::Outside(format!(

@@ -146,6 +146,9 @@ fn given(spec: &TrainingSpec, windows: &[WindowSpec]) -> Result<(), Refused> {
     let refuse = |problem: String| Err(Refused::new("windows", problem));
     count("windows (how many)", windows.len(), 1, 64)?;
     windows.iter().try_for_each(|window| interval("windows.m", window.m, 1e-3, 1e6))?;
+    for window in windows {
+        window.grid.check().map_err(|problem| Refused::new("windows.grid", format!("makes no sense: {problem}")))?;
+    }
     if windows.iter().any(|w| w.grid.kind() != spec.contact()) {
         return refuse("must be of one kind of contact: all grids Plane, or none".to_owned());
     }

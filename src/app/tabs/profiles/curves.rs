@@ -152,16 +152,28 @@ pub fn cavitated(plot: &mut Canvas<'_, '_>, picture: &Picture, palette: &Palette
     if let (Some(from), Some(end)) = (picture.rupture, picture.pressure.last()) {
         plot.span(Span::new("", from..=end.x.max(from)).fill(palette.cavitated).border_width(0.0));
     }
+    if let (Some(end), Some(from)) = (picture.meniscus, picture.pressure.first()) {
+        plot.span(Span::new("", from.x.min(end)..=end).fill(palette.cavitated).border_width(0.0));
+    }
 }
 
-/// λ of the full solution behind the contact, where complementarity ruptures the film.
-pub fn multiplier(plot: &mut Canvas<'_, '_>, scene: &Scene<'_>, palette: &Palette) {
+/// What the full solution has in the ruptured film beside P: λ of complementarity, or θ where mass is conserved.
+fn rupture(plot: &mut Canvas<'_, '_>, scene: &Scene<'_>, palette: &Palette) {
     let full = scene.full.filter(|_| !scene.full_stale).unwrap_or(scene.picture);
-    let points: Vec<[f64; 2]> = full.solution.axis_multiplier().map(|(x, value)| [x, value]).collect();
-    let Some(&[x, value]) = points.get(points.len() / 4) else { return };
-    plot.line(Line::new("λ", points).color(palette.reference).width(1.4).style(LineStyle::dotted_dense()));
-    let label = Text::new("", PlotPoint::new(x, value), rich("λ  ", 13.0, palette.ink(palette.reference)));
-    plot.text(label.anchor(Align2::RIGHT_BOTTOM).id("multiplier label").allow_hover(false));
+    let mut draw = |name: &str, points: Vec<[f64; 2]>, at: usize| {
+        let Some(&[x, value]) = points.get(at) else { return };
+        plot.line(Line::new(name, points).color(palette.reference).width(1.4).style(LineStyle::dotted_dense()));
+        let text = rich(&format!("{name}  "), 13.0, palette.ink(palette.reference));
+        let label = Text::new("", PlotPoint::new(x, value), text);
+        plot.text(label.anchor(Align2::RIGHT_BOTTOM).id((name, "label")).allow_hover(false));
+    };
+    let multiplier: Vec<[f64; 2]> = full.solution.axis_multiplier().map(Into::into).collect();
+    let quarter = multiplier.len() / 4;
+    draw("λ", multiplier, quarter);
+    let fraction: Vec<[f64; 2]> = full.solution.axis_fraction().map(Into::into).collect();
+    // Beside the fall behind the contact.
+    let fallen = fraction.iter().rposition(|[_, value]| *value > 0.5).unwrap_or(0);
+    draw("θ", fraction, fallen);
 }
 
 /// A curve without a band about it.

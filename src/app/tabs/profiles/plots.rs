@@ -52,7 +52,7 @@ pub fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, heigh
                 |of| of.pressure_gpa,
             );
             if on_axis {
-                multiplier(plot, scene, &palette);
+                rupture(plot, scene, &palette);
             }
             if let Some(spike) = picture.spike.filter(|s| on_axis && (s.0 < scalars.x_p_max - 1e-9 || s.0 > 0.5)) {
                 // Beside it, or above it where the plot ends.

@@ -55,6 +55,23 @@ impl GridSpec {
     /// # Errors
     /// When the domain cuts the contact, the number of nodes is out of range, or it is a grid of point contacts.
     pub fn line(&self) -> Result<Arc<ReferenceGrid>, GridError> {
+        let xi = self.line_nodes()?;
+        Ok(Arc::new(ReferenceGrid::of_nodes(*self, xi)?))
+    }
+
+    /// Refuses a grid that makes no sense, without building it.
+    ///
+    /// # Errors
+    /// As [`GridSpec::build`].
+    pub fn check(&self) -> Result<(), GridError> {
+        match self {
+            Self::Uniform { .. } | Self::Graded { .. } => self.line_nodes().map(|_| ()),
+            Self::Plane(spec) => spec.check().map(|_| ()),
+        }
+    }
+
+    /// The abscissae ξ of a line contact's grid.
+    fn line_nodes(&self) -> Result<Vec<f64>, GridError> {
         let holds_the_contact = |(from, to): (f64, f64)| {
             if (-LONGEST_INLET..=-1.5).contains(&from) && (1.2..=LONGEST_OUTLET).contains(&to) {
                 return Ok(());
@@ -65,7 +82,7 @@ impl GridSpec {
                  outlet between 1.2 and {LONGEST_OUTLET}"
             )))
         };
-        let xi = match *self {
+        Ok(match *self {
             Self::Uniform { dx, domain } => {
                 holds_the_contact(domain)?;
                 let (from, to) = domain;
@@ -88,8 +105,7 @@ impl GridSpec {
                 let sentence = "a line contact has no Y; its grid is uniform or graded along X";
                 return Err(GridError::Refused(sentence.to_owned()));
             }
-        };
-        Ok(Arc::new(ReferenceGrid::of_nodes(*self, xi)?))
+        })
     }
 }
 

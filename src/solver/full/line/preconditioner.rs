@@ -2,10 +2,10 @@
 
 use super::Backtracking;
 use crate::solver::discrete::grid::LineGrid;
-use crate::solver::discrete::reynolds::{CENTER, Row};
+use crate::solver::discrete::reynolds::CENTER;
 use crate::solver::discrete::space::{LineSpace, Space};
 use crate::solver::full::band::BandLu;
-use crate::solver::full::newton_space::Factors;
+use crate::solver::full::newton_space::{Factors, ScaledRows};
 use crate::solver::full::thinning::Thinning;
 
 /// A band matrix, factorised, and the kernel it is made with.
@@ -24,14 +24,13 @@ impl Factors for BandMatrix {
 }
 
 impl BandMatrix {
-    /// Assembles and factorises A + C G + trunc(B K), rows scaled; C G is what shear-thinning adds.
+    /// Assembles and factorises A + C G + trunc(B K), rows scaled; C G is what shear-thinning adds. Where the unknowns
+    /// are `fractions`, K has no columns.
     pub fn build(
         &mut self,
         space: &LineSpace,
         control: &Backtracking,
-        rows: &[Row],
-        thinning: Option<&Thinning>,
-        scaling: &[f64],
+        &ScaledRows { rows, thinning, scaling, fractions }: &ScaledRows<'_>,
     ) {
         let (u, band) = (rows.len(), control.kernel_band);
         let width = 2 * band + 1;
@@ -53,6 +52,15 @@ impl BandMatrix {
                 for (r, kernel) in row.iter_mut().zip(kernel) {
                     *r += weight * kernel;
                 }
+            }
+            if !fractions.is_empty() {
+                let columns = fractions[k.saturating_sub(band)..].iter();
+                for (r, fraction) in row[band - band.min(k)..width].iter_mut().zip(columns) {
+                    *r = if *fraction { 0.0 } else { *r };
+                }
+            }
+            for (e, &node) in stencil[..LineSpace::NODES].iter().enumerate() {
+                let m = node - k;
                 if (m + band).checked_sub(CENTER).is_some_and(|c| c < width) {
                     row[m + band - CENTER] += s * own.d_p[e];
                 }

@@ -10,14 +10,13 @@ mod tests;
 
 pub use accuracy::{Accuracy, Estimate, resolution_warning, second_grid, side_lobe_curvature};
 
-use super::newton_space::{NewtonSpace, StepControl, Taken};
+use super::newton_space::{NewtonSpace, ScaledRows, StepControl, Taken};
 use super::solution::{Mesh, Problem, SolveError};
 use super::system::{SolveOptions, System};
-use super::thinning::Thinning;
 use crate::solver::discrete::grid::{GridSpec, PointGrid, PointGridSpec};
+use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::discrete::reynolds::generalized::FilmTreatment;
-use crate::solver::discrete::reynolds::{PENALTY, Row};
-use crate::solver::discrete::space::{PlaneSpace, Space};
+use crate::solver::discrete::space::PlaneSpace;
 use crate::solver::physics::contact::{ContactKind, Moes};
 pub use preconditioner::PlaneMatrix;
 use std::sync::Arc;
@@ -124,11 +123,10 @@ impl NewtonSpace for PlaneSpace {
     ) -> Taken {
         let LimitedSteps { largest_step, film_loss, .. } = options.control;
         let penalised = !system.active.holds();
-        let System { space, update, step, step_deformation, scratch, pressure, film, deformation, .. } = system;
+        system.spread_update();
+        let System { space, update, step, step_deformation, pressure, film, deformation, active, .. } = system;
         let shift = update[space.grid.unknowns()];
-        space.spread(update, step);
         let size = step.iter().fold(0.0f64, |largest, s| if s.is_nan() { *s } else { largest.max(s.abs()) });
-        space.grid().deform(step, step_deformation, scratch);
         let mut factor = (largest_step / size).min(if penalised { memory.share(size) } else { 1.0 });
         for (h, d) in film.iter().zip(&*step_deformation) {
             let change = d + shift;
@@ -136,6 +134,7 @@ impl NewtonSpace for PlaneSpace {
                 factor = factor.min(-film_loss * h / change);
             }
         }
+        active.add_fractions(factor, update);
         let mut cut = false;
         for (p, s) in pressure.iter_mut().zip(&*step) {
             *p += factor * s;
@@ -159,11 +158,9 @@ impl NewtonSpace for PlaneSpace {
         &self,
         matrix: &mut PlaneMatrix,
         _: &LimitedSteps,
-        rows: &[Row],
-        _: Option<&Thinning>,
-        scaling: &[f64],
+        rows: &ScaledRows<'_>,
         go_on: impl Fn() -> bool,
     ) -> bool {
-        matrix.build(&self.grid, rows, scaling, go_on)
+        matrix.build(&self.grid, rows, go_on)
     }
 }

@@ -3,8 +3,8 @@
 
 use super::block_tridiagonal::BlockTridiagonal;
 use crate::solver::discrete::grid::PointGrid;
-use crate::solver::discrete::reynolds::{CENTER, EAST, NORTH, Row, SOUTH, STENCIL, WEST, WEST2};
-use crate::solver::full::newton_space::Factors;
+use crate::solver::discrete::reynolds::{CENTER, EAST, NORTH, SOUTH, STENCIL, WEST, WEST2};
+use crate::solver::full::newton_space::{Factors, ScaledRows};
 use rayon::prelude::*;
 
 /// Columns of the product B K that are kept on either side: with one, contacts of low load and thick oil fail; three
@@ -29,7 +29,13 @@ impl Factors for PlaneMatrix {
 
 impl PlaneMatrix {
     /// Assembles and factorises for the given Jacobian rows and their scaling; `false` when `go_on` ended it half way.
-    pub fn build(&mut self, grid: &PointGrid, rows: &[Row], scaling: &[f64], go_on: impl Fn() -> bool) -> bool {
+    /// Where the unknowns are `fractions`, K has no columns.
+    pub fn build(
+        &mut self,
+        grid: &PointGrid,
+        &ScaledRows { rows, scaling, fractions, .. }: &ScaledRows<'_>,
+        go_on: impl Fn() -> bool,
+    ) -> bool {
         let (m, ny) = (grid.column_unknowns(), grid.ny());
         let columns = grid.nx() - 2;
         if self.kernel.is_empty() {
@@ -64,7 +70,8 @@ impl PlaneMatrix {
                     let from = t % REACH * m * size + part * m;
                     let kernels = [(t + 2).abs_diff(c), (t + 1).abs_diff(c), t.abs_diff(c), t.abs_diff(c + 1)]
                         .map(|distance| kernel[distance].as_slice());
-                    for cell in 0..m {
+                    let deforms = |cell: &usize| !fractions.get(t * m + cell).is_some_and(|fraction| *fraction);
+                    for cell in (0..m).filter(deforms) {
                         let entries = &mut block[from + cell * size..from + cell * size + m];
                         combine(entries, weights, kernels, cell * (ny + 1));
                     }

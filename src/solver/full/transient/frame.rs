@@ -94,7 +94,9 @@ impl Frame {
                 let fluid = reference.lubricant.scaled(&point)?;
                 // λ̄ = 12 η₀R²/(p_H a² t_ref) of (4.9), over that of (2.23).
                 let growth = input.radius * input.radius / (scales.pressure * scales.half_width.powi(2));
-                (Problem { fluid, inverse_lambda: reference.inverse_lambda / growth, ..*reference }, 1.0)
+                let inverse_lambda = reference.inverse_lambda / growth;
+                let supply = reference.supply.map(|supply| supply / scales.film);
+                (Problem { fluid, inverse_lambda, supply, ..*reference }, 1.0)
             }
         };
         Ok(Conditions { time, input, scales, problem, curvature, speed: input.speed / scales.half_width })

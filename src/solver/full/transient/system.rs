@@ -24,6 +24,8 @@ pub struct FullMarch {
     frame: Frame,
     history: History,
     start: Vec<f64>,
+    /// θ of the nearer of the former states; empty where there is none.
+    fraction: Vec<f64>,
 }
 
 /// Stop of a step's Newton iteration on ‖Δz‖/‖z‖. It converges quadratically, so the error left is far below that.
@@ -62,6 +64,7 @@ impl FullMarch {
             frame: transient.frame,
             history: History::default(),
             start: vec![0.0; length],
+            fraction: Vec::new(),
         })
     }
 
@@ -93,11 +96,13 @@ impl FullMarch {
         self.system.set_curvature(at.curvature);
         self.system.set_pressure(&at.problem, &self.start);
         self.system.set_h_0(h_0);
+        self.system.fraction.clone_from(&self.fraction);
     }
 
     /// Makes the present state the nearer of the former ones.
     fn remember(&mut self) {
         let system = &self.system;
+        self.fraction.clone_from(&system.fraction);
         self.history.remember(&system.pressure, system.h_0, system.flow());
         if let Frame::Remeshed(interpolation) = self.frame {
             self.history.remember_between(interpolation, &system.space.grid.x, system.flow());
@@ -130,7 +135,12 @@ impl Marching for FullMarch {
         // The same contact in the frame's scales and on its grid.
         let size = (at.input.load * at.input.radius).sqrt() / at.scales.half_width;
         let LineSpace { grid, rows, upstream, .. } = &mut self.system.space;
-        self.start = interpolated(&solution, grid.x.iter().map(|x| x / size), &[0.0]);
+        let here = || grid.x.iter().map(|x| x / size);
+        self.start = interpolated(&solution, &solution.pressure, here(), &[0.0]);
+        self.fraction.clear();
+        if !solution.fraction.is_empty() {
+            self.fraction = interpolated(&solution, &solution.fraction, here(), &[0.0]);
+        }
         for (row, geometry) in rows.iter_mut().zip(&grid.rows) {
             *row = geometry.in_time(at.speed, 0.0, 0.0);
         }
@@ -150,7 +160,7 @@ impl Marching for FullMarch {
         self.set_state(&step.now, h_0);
         let mut control = Backtracking { levelled_kernel: true, ..Backtracking::default() };
         let mut tolerance = STEP_TOLERANCE;
-        if self.reference.lubricant.cavitation == Cavitation::Complementarity {
+        if self.reference.lubricant.cavitation != Cavitation::Penalty {
             (tolerance, control.forcing) = (HELD_TOLERANCE, HELD_FORCING);
         }
         let farther = SolveOptions { tolerance, control, ..SolveOptions::default() };
@@ -195,6 +205,7 @@ impl Marching for FullMarch {
             pressure: self.system.pressure.clone(),
             film: self.system.film.clone(),
             multiplier: self.system.active.field(&self.system.space.grid),
+            fraction: self.system.fraction.clone(),
             h_0: self.system.h_0,
         }
     }

@@ -65,6 +65,8 @@ pub struct State {
     pub film: Vec<f64>,
     /// λ, zero where the film is whole; empty where a penalty ruptures it.
     pub multiplier: Vec<f64>,
+    /// θ, the share of the gap that is filled; empty where rupture does not conserve mass.
+    pub fraction: Vec<f64>,
     /// H₀ with the kernel of (2.27).
     pub h_0: f64,
 }

@@ -169,6 +169,7 @@ impl Lubricant {
             doolittle.check()?;
         }
         self.shear.check()?;
+        self.cavitation.check()?;
         if self.shear != ShearLaw::Newtonian && self.limiting_stress.is_some_and(|limit| limit.eyring.is_some()) {
             let twice = "the film thins under shear by its own law, so its traction takes no Eyring stress beside; leave one of \
                 both out";

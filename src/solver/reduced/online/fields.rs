@@ -32,6 +32,7 @@ impl Online {
             pressure,
             film,
             multiplier,
+            fraction: Vec::new(),
             report: Report {
                 termination: Termination::Converged,
                 newton_iterations: solution.iterations,

@@ -238,6 +238,7 @@ impl Marching for TpwlMarch<'_> {
             pressure,
             film,
             multiplier: Vec::new(),
+            fraction: Vec::new(),
             h_0: state[self.model.space.modes()],
         }
     }

@@ -222,6 +222,7 @@ impl Marching for ReducedMarch<'_> {
     fn state(&self, at: &Conditions) -> State {
         let [mut pressure, mut film] = [vec![0.0; self.grid.len()], vec![0.0; self.grid.len()]];
         set_fields(self.model, &self.grid, at, (&self.coefficients, self.h_0), [&mut pressure, &mut film]);
-        State { time: at.time, scales: at.scales, pressure, film, multiplier: Vec::new(), h_0: self.h_0 }
+        let (multiplier, fraction) = (Vec::new(), Vec::new());
+        State { time: at.time, scales: at.scales, pressure, film, multiplier, fraction, h_0: self.h_0 }
     }
 }
