@@ -38,5 +38,9 @@ pub fn question(scene: &Scene) -> String {
         }
         Study::LoadCases(_) => "What are film and friction of each contact of a table?".to_owned(),
         Study::FormulaComparison(_) => "How far is a published film formula from full solutions?".to_owned(),
+        Study::MeasuredFilm(_) => "How close is the film to those that others measured and computed?".to_owned(),
+        Study::Starvation(_) => "How thin is the film of a contact that is supplied with little oil?".to_owned(),
+        Study::Transition(_) => "How does a rigid, barely loaded contact become the dry contact?".to_owned(),
+        Study::FlowCurve(_) => "How does the oil thin under shear?".to_owned(),
     }
 }

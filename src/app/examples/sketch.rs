@@ -147,6 +147,27 @@ pub(super) fn marks(scene: &Scene) -> Vec<Mark> {
             let law = |x: f32| 0.15 + 0.7 * x.sqrt();
             vec![Dashes(Quiet, curve(law)), Dots(Film, dots(8, |x| law(x) - 0.07 + 0.05 * x))]
         }
+        Study::MeasuredFilm(_) => {
+            let film = |x: f32| 0.25 + 2.0 * (x - 0.45).powi(4) + if x > 0.8 { -0.1 } else { 0.0 };
+            vec![Line(Film, curve(film)), Dots(Quiet, dots(9, |x| film(x) + 0.03))]
+        }
+        Study::Starvation(_) => {
+            let law = |x: f32| 0.85 * 1.6 * x / (1.0 + (1.6 * x).powi(3)).powf(1.0 / 3.0);
+            vec![Line(Quiet, curve(law)), Dots(Film, dots(8, law))]
+        }
+        Study::Transition(_) => {
+            let bell = |width: f32, height: f32| move |x: f32| height * (-((x - 0.5) / width).powi(2)).exp();
+            let hertz = |x: f32| 0.85 * (1.0 - ((x - 0.5) / 0.25).powi(2)).max(0.0).sqrt();
+            vec![
+                Line(Pressure, curve(bell(0.25, 0.5))),
+                Line(Pressure, curve(bell(0.18, 0.7))),
+                Dashes(Quiet, curve(hertz)),
+            ]
+        }
+        Study::FlowCurve(_) => {
+            let thinned = |x: f32| 0.2 + 0.65 / (1.0 + (10.0 * (x - 0.5)).exp());
+            vec![Line(Friction, curve(thinned)), Dashes(Quiet, curve(|_| 0.85))]
+        }
     }
 }
 

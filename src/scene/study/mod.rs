@@ -30,9 +30,11 @@ pub mod dimensions;
 pub mod distance_measure;
 pub mod error_measures;
 pub mod error_split;
+pub mod flow_curve;
 pub mod formula_comparison;
 pub mod grid_study;
 pub mod load_cases;
+pub mod measured_film;
 pub mod model_sizes;
 mod path;
 pub mod plan_comparison;
@@ -40,11 +42,13 @@ pub mod point;
 mod question;
 pub mod random_test;
 pub mod sampling_comparison;
+pub mod starvation;
 pub mod sweep;
 pub mod tolerance_study;
 pub mod training;
 pub mod trajectory;
 pub mod transient;
+pub mod transition;
 
 pub use error_measures::OnlineScheme;
 pub use error_split::Contacts;
@@ -182,6 +186,14 @@ studies! {
     LoadCases(load_cases::LoadCases),
     /// Full solutions against a published film formula at all pairs of M and L in the default realisation.
     FormulaComparison(formula_comparison::FormulaComparison),
+    /// The contact's film along Y = 0 against films that others measured or computed.
+    MeasuredFilm(measured_film::MeasuredFilm),
+    /// The contact under supplied films of several thicknesses.
+    Starvation(starvation::Starvation),
+    /// Pressure and film as the load number grows, from rigid bodies to the dry contact: Fig. 2.2.
+    Transition(transition::Transition),
+    /// The lubricant's viscosity against shear stress: Fig. 3.10.
+    FlowCurve(flow_curve::FlowCurve),
 }
 
 impl Study {

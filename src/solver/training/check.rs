@@ -110,6 +110,10 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
                 "is complementarity, but reduced models of lubricants that thin under shear rupture by the penalty";
             return Err(Refused::new("cavitation", limit));
         }
+        Cavitation::MassConserving { .. } => {
+            let limit = "is mass-conserving, but reduced models rupture by the penalty or by complementarity";
+            return Err(Refused::new("cavitation", limit));
+        }
         Cavitation::Penalty | Cavitation::Complementarity => {}
     }
     match (&spec.range, spec.lubricant.shear == ShearLaw::Newtonian) {

@@ -1,0 +1,104 @@
+//! Pressure and film of one contact as its load number grows, from rigid bodies to the dry contact: Fig. 2.2.
+
+use super::question::{
+    Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+};
+use crate::scene::At;
+use crate::scene::check::{count, number};
+use crate::scene::method::Method;
+use crate::solver::full::Solution;
+use crate::solver::physics::contact::OperatingPoint;
+use serde::{Deserialize, Serialize};
+
+/// Pressure and film along the entrainment axis at several load numbers, in the default realisation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Transition {
+    /// The load numbers.
+    pub m: Vec<f64>,
+    /// The lubricant number.
+    pub l: f64,
+}
+
+/// One contact.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Its load number.
+    pub m: f64,
+    /// X, P and H; none where the solve failed.
+    pub profile: Vec<(f64, f64, f64)>,
+    /// Deformation at X = 0 less that at X = −1, over the gap of ½ between them: 0 of a rigid body, 1 of one that is
+    /// flat.
+    pub flattening: f64,
+}
+
+/// Where profiles are drawn.
+const SHOWN: (f64, f64) = (-3.0, 2.0);
+
+impl Question for Transition {
+    type Row = Row;
+
+    fn check(&self, _experiment: &Experiment) -> Checked {
+        count("study.m (how many)", self.m.len(), 1, 20)?;
+        self.m.iter().try_for_each(|&m| number("study.m", m, 0.05, 1e4))?;
+        number("study.l", self.l, 1e-3, 1e3)
+    }
+
+    fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
+        for (i, &m) in self.m.iter().enumerate() {
+            setting.step("load numbers", i, self.m.len())?;
+            let experiment = setting.experiment;
+            let point = At::moes(m, self.l).point(experiment.contact)?;
+            let request = experiment.request_at(OperatingPoint { sliding: experiment.sliding, ..point });
+            let answer = setting.bench.answer(&request, &Method::Full, None, setting.observer)?;
+            let profile = |solution: &Solution| solution.profile().collect::<Vec<_>>();
+            let profile = answer.result().map(profile).unwrap_or_default();
+            tell(Row { m, flattening: flattening(&profile), profile });
+        }
+        Ok(())
+    }
+
+    /// Values: `failures`, and for each load number, from 0 on, `P_max_0` … and `flattening_0` ….
+    fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
+        let of = Some(&Method::Full);
+        let failures = rows.iter().filter(|row| row.profile.is_empty()).count();
+        found.converged &= failures == 0;
+        found.push("failures", of, failures as f64);
+        for (k, row) in rows.iter().enumerate() {
+            let largest = row.profile.iter().map(|(_, p, _)| *p).fold(f64::NAN, f64::max);
+            found.push(format!("P_max_{k}"), of, largest);
+            found.push(format!("flattening_{k}"), of, row.flattening);
+        }
+    }
+
+    fn tables(&self, rows: &[&Row]) -> Vec<Table> {
+        let mut table = Table::new("transition", &["M", "X", "P", "H"]);
+        for row in rows {
+            table.rows.extend(row.profile.iter().map(|&(x, p, h)| vec![row.m, x, p, h]));
+        }
+        vec![table]
+    }
+
+    fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
+        let x = || ChartAxis::linear("X = x/a");
+        let mut pressures = Chart::new("Pressure", x(), ChartAxis::linear("P = p/p_H"));
+        let mut films = Chart::new("Film", x(), ChartAxis::log("H = h R/a²"));
+        let hertz = (-100..=100).map(|k| 0.01 * f64::from(k)).map(|x| [x, (1.0 - x * x).max(0.0).sqrt()]);
+        pressures.add("dry contact", Marks::Line, hertz);
+        for row in rows {
+            let shown = || row.profile.iter().filter(|(x, ..)| (SHOWN.0..=SHOWN.1).contains(x));
+            pressures.add(format!("M {}", row.m), Marks::Line, shown().map(|&(x, p, _)| [x, p]));
+            films.add(format!("M {}", row.m), Marks::Line, shown().map(|&(x, _, h)| [x, h]));
+        }
+        vec![pressures, films]
+    }
+}
+
+/// How much of the gap of the undeformed bodies between X = −1 and X = 0 the deformation takes away.
+fn flattening(profile: &[(f64, f64, f64)]) -> f64 {
+    let at = |wanted: f64| {
+        let near = profile.iter().min_by(|a, b| (a.0 - wanted).abs().total_cmp(&(b.0 - wanted).abs()));
+        near.map_or(f64::NAN, |&(x, _, h)| h - 0.5 * x * x)
+    };
+    2.0 * (at(0.0) - at(-1.0))
+}
