@@ -141,8 +141,8 @@ pub struct PointOptions {
     /// How the film of a full solution ruptures
     #[arg(long, value_enum, value_name = "MODEL", default_value = "penalty")]
     pub cavitation: CavitationName,
-    /// Thickness of the film that the surfaces bring to the inlet [m], with `--cavitation mass-conserving` (default: a
-    /// flooded inlet)
+    /// Thickness of the film that the surfaces bring to the inlet in metres, with `--cavitation mass-conserving`
+    /// (default: a flooded inlet)
     #[arg(long, value_name = "METRES", allow_negative_numbers = true)]
     pub supply_film: Option<f64>,
 }

@@ -70,6 +70,36 @@ fn complementarity_is_asked_for_by_its_name_and_its_multiplier_is_written() {
 }
 
 #[test]
+fn a_supplied_film_starves_the_contact_and_its_fraction_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let profiles = folder.path().join("profiles.csv");
+    let asked = ["solve", "--json", "--moes-m", "40", "--moes-l", "10", "--cavitation", "mass-conserving"];
+    let flooded = json(&program(&asked));
+    assert_eq!(flooded["cavitation"], "mass-conserving");
+    assert!(flooded.get("X_meniscus").is_none() && flooded.get("supply_film_m").is_none());
+    let drawn = flooded["h_c_m"].as_f64().unwrap();
+    let supply = format!("{:e}", 0.5 * drawn);
+    let to = ["--supply-film", &supply, "--profiles", profiles.to_str().unwrap()];
+    let starved = json(&program(&[&asked[..], &to].concat()));
+    let (film, meniscus) = (starved["h_c_m"].as_f64().unwrap(), starved["X_meniscus"].as_f64().unwrap());
+    // The oil is compressed by a fifth where the film is told.
+    assert!(film < 0.5 * drawn && film > 0.35 * drawn && (-1.5..-1.0).contains(&meniscus), "{film} {meniscus}");
+    let text = std::fs::read_to_string(&profiles).unwrap();
+    let mut lines = text.lines();
+    assert!(lines.next().unwrap().ends_with(",theta"));
+    for line in lines {
+        let values: Vec<f64> = line.split(',').map(|value| value.parse().unwrap()).collect();
+        let (pressure, fraction) = (values[2], values[8]);
+        assert!(pressure >= 0.0 && (0.0..=1.0).contains(&fraction) && pressure * (1.0 - fraction) == 0.0);
+    }
+    let reduced = json(&program(&[&asked[..], &to[..2], &["--method", "reduced"]].concat()));
+    assert!(reduced["warning"].as_str().unwrap().contains("flooded inlet"), "{}", reduced["warning"]);
+    let usual = ["solve", "--moes-m", "40", "--moes-l", "10"];
+    assert_refused(&[&usual[..], &to[..2]].concat(), "mass-conserving");
+    assert_refused(&[&asked[..], &["--supply-film", "-1e-9"]].concat(), "above zero");
+}
+
+#[test]
 fn solve_json_has_the_fields_of_the_contract_and_no_others() {
     let output = program(&[&["solve", "--json"], &TABLE_2_1[..]].concat());
     assert_eq!(output.status.code(), Some(0));

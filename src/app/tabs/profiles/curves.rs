@@ -158,7 +158,7 @@ pub fn cavitated(plot: &mut Canvas<'_, '_>, picture: &Picture, palette: &Palette
 }
 
 /// What the full solution has in the ruptured film beside P: λ of complementarity, or θ where mass is conserved.
-fn rupture(plot: &mut Canvas<'_, '_>, scene: &Scene<'_>, palette: &Palette) {
+pub fn rupture(plot: &mut Canvas<'_, '_>, scene: &Scene<'_>, palette: &Palette) {
     let full = scene.full.filter(|_| !scene.full_stale).unwrap_or(scene.picture);
     let mut draw = |name: &str, points: Vec<[f64; 2]>, at: usize| {
         let Some(&[x, value]) = points.get(at) else { return };

@@ -1,6 +1,6 @@
 //! The plots: pressure, film, and what reduced and full differ by.
 
-use super::curves::{Scene, cavitated, curve, hover, mark, multiplier, stacked};
+use super::curves::{Scene, cavitated, curve, hover, mark, rupture, stacked};
 use crate::app::answers::picture::Comparison;
 use crate::app::numbers;
 use crate::app::tabs::axes;
