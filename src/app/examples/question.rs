@@ -41,6 +41,7 @@ pub fn question(scene: &Scene) -> String {
         Study::MeasuredFilm(_) => "How close is the film to those that others measured and computed?".to_owned(),
         Study::Starvation(_) => "How thin is the film of a contact that is supplied with little oil?".to_owned(),
         Study::Transition(_) => "How does a rigid, barely loaded contact become the dry contact?".to_owned(),
+        Study::InformationLoss(_) => "How many modes do the pressures in time need, in which frame?".to_owned(),
         Study::FlowCurve(_) => "How does the oil thin under shear?".to_owned(),
     }
 }

@@ -33,6 +33,7 @@ pub mod error_split;
 pub mod flow_curve;
 pub mod formula_comparison;
 pub mod grid_study;
+pub mod information_loss;
 pub mod load_cases;
 pub mod measured_film;
 pub mod model_sizes;
@@ -194,6 +195,8 @@ studies! {
     Transition(transition::Transition),
     /// The lubricant's viscosity against shear stress: Fig. 3.10.
     FlowCurve(flow_curve::FlowCurve),
+    /// Loss of information against modes of a contact in time, in each frame: Fig. 4.5.
+    InformationLoss(information_loss::InformationLoss),
 }
 
 impl Study {

@@ -85,6 +85,33 @@ impl Question for Point {
             pressure.add(row.method.name(), Marks::Line, solution.profile().map(|(x, p, _)| [x, p]));
             film.add(row.method.name(), Marks::Line, solution.profile().map(|(x, _, h)| [x, h]));
         }
-        vec![pressure, film]
+        let sets = rows.iter().filter_map(|row| sets(row.solution.as_ref()?));
+        [pressure, film].into_iter().chain(sets).collect()
     }
+}
+
+/// Nodes before a front that the reduced method of appendix D watches.
+const WATCHED: usize = 5;
+
+/// Where the film of a point contact has ruptured, the front's first node on each line along X, and the nodes before
+/// it: Fig. D.2. None by a penalty, which knows no set.
+fn sets(solution: &Solution) -> Option<Chart> {
+    let (x, y) = (&solution.x, &solution.y);
+    if solution.multiplier.is_empty() || y.len() < 2 {
+        return None;
+    }
+    let mut chart = Chart::new("Ruptured nodes", ChartAxis::linear("X = x/a"), ChartAxis::linear("Y = y/a"));
+    chart.equal = true;
+    let (mut ruptured, mut front, mut before) = (Vec::new(), Vec::new(), Vec::new());
+    for (j, &across) in y.iter().enumerate().skip(1) {
+        let held = |i: &usize| solution.pressure[i * y.len() + j] == 0.0 && x[*i] > 0.0;
+        let Some(first) = (1..x.len() - 1).find(held) else { continue };
+        front.push([x[first], across]);
+        ruptured.extend((first + 1..x.len() - 1).map(|i| [x[i], across]));
+        before.extend((first.saturating_sub(WATCHED)..first).map(|i| [x[i], across]));
+    }
+    chart.add("A: ruptured", Marks::Dots, ruptured);
+    chart.add("B: its first nodes", Marks::Dots, front);
+    chart.add("Q: the five before", Marks::Dots, before);
+    Some(chart)
 }
