@@ -143,7 +143,7 @@ pub struct PointOptions {
     pub cavitation: CavitationName,
     /// Thickness of the film that the surfaces bring to the inlet in metres, with `--cavitation mass-conserving`
     /// (default: a flooded inlet)
-    #[arg(long, value_name = "METRES", allow_negative_numbers = true)]
+    #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
     pub supply_film: Option<f64>,
 }
 
