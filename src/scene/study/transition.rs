@@ -84,12 +84,12 @@ impl Question for Transition {
         let mut pressures = Chart::new("Pressure", x(), ChartAxis::linear("P = p/p_H"));
         let mut films = Chart::new("Film", x(), ChartAxis::log("H = h R/a²"));
         let hertz = (-100..=100).map(|k| 0.01 * f64::from(k)).map(|x| [x, (1.0 - x * x).max(0.0).sqrt()]);
-        pressures.add("dry contact", Marks::Line, hertz);
         for row in rows {
             let shown = || row.profile.iter().filter(|(x, ..)| (SHOWN.0..=SHOWN.1).contains(x));
             pressures.add(format!("M {}", row.m), Marks::Line, shown().map(|&(x, p, _)| [x, p]));
             films.add(format!("M {}", row.m), Marks::Line, shown().map(|&(x, _, h)| [x, h]));
         }
+        pressures.add("dry contact", Marks::Line, hertz);
         vec![pressures, films]
     }
 }

@@ -173,14 +173,23 @@ impl ActiveSet {
         released
     }
 
-    /// θ as a node array, empty where there is none.
-    pub(super) fn fraction_field(&self, grid: &impl Grid) -> Vec<f64> {
+    /// θ as a node array, empty where there is none: at the ends of the domain what is brought there, and what leaves.
+    pub(super) fn fraction_field(&self, grid: &impl Grid, film: &[f64]) -> Vec<f64> {
         if !self.fills() {
             return Vec::new();
         }
         let mut field = vec![1.0; grid.weights().len()];
         for (k, fraction) in self.fraction.iter().enumerate() {
             field[grid.node(k)] = *fraction;
+        }
+        let column = grid.abscissae().1.len();
+        for line in 0..grid.column_unknowns() {
+            let last = self.fraction.len() - grid.column_unknowns() + line;
+            field[grid.node(last) + column] = self.fraction[last];
+            let inlet = grid.node(line) - column;
+            for node in [Some(inlet), inlet.checked_sub(column)].into_iter().flatten() {
+                field[node] = self.supply.map_or(1.0, |supply| (supply / film[node]).min(1.0));
+            }
         }
         field
     }

@@ -251,7 +251,7 @@ impl<S: NewtonSpace> System<S> {
         }
         report.residual_norm = residual;
         report.cautious_front |= self.active.cautious;
-        self.fraction = self.active.fraction_field(self.space.grid());
+        self.fraction = self.active.fraction_field(self.space.grid(), &self.film);
     }
 
     /// Guesses how far the supplied film fills the inlet, see [`film_fraction::guess`].

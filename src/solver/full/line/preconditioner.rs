@@ -49,18 +49,17 @@ impl BandMatrix {
                 let from = node * stored + (4 - m);
                 let kernel = &self.kernel[from..from + width];
                 let weight = s * own.d_h[e];
-                for (r, kernel) in row.iter_mut().zip(kernel) {
-                    *r += weight * kernel;
+                if fractions.is_empty() {
+                    for (r, kernel) in row.iter_mut().zip(kernel) {
+                        *r += weight * kernel;
+                    }
+                } else {
+                    let columns = fractions[k.saturating_sub(band)..].iter();
+                    let entries = row.iter_mut().zip(kernel).skip(band - band.min(k)).zip(columns);
+                    for ((r, kernel), _) in entries.filter(|(_, fraction)| !**fraction) {
+                        *r += weight * kernel;
+                    }
                 }
-            }
-            if !fractions.is_empty() {
-                let columns = fractions[k.saturating_sub(band)..].iter();
-                for (r, fraction) in row[band - band.min(k)..width].iter_mut().zip(columns) {
-                    *r = if *fraction { 0.0 } else { *r };
-                }
-            }
-            for (e, &node) in stencil[..LineSpace::NODES].iter().enumerate() {
-                let m = node - k;
                 if (m + band).checked_sub(CENTER).is_some_and(|c| c < width) {
                     row[m + band - CENTER] += s * own.d_p[e];
                 }
