@@ -14,6 +14,7 @@ impl Scene {
         plain("title", &self.title)?;
         let lubricant = |problem: LubricantError| refuse("lubricant", format!("is refused: {problem}"));
         self.lubricant.check().map_err(lubricant)?;
+        self.cavitation.check().map_err(|problem| refuse("cavitation", format!("is refused: {problem}")))?;
         let point = self.point()?;
         self.lubricant.scaled(&point).map_err(lubricant)?;
         ScaledShear::new(self.lubricant.shear, self.sliding(), &point)
@@ -62,6 +63,7 @@ mod tests {
     use crate::scene::study::{error_split, grid_study, point, sweep, trajectory};
     use crate::scene::{At, Axis, Contacts, Grid, Method, QuantityBox, Steps, Study};
     use crate::solver::physics::contact::Quantity;
+    use crate::solver::physics::lubricant::Cavitation;
 
     #[test]
     fn numbers_that_make_no_sense_are_refused_by_name() {
@@ -71,6 +73,8 @@ mod tests {
         assert!(message(Scene { at: At::moes(f64::NAN, 10.0), ..good.clone() }).contains("Moes number M"));
         let bad_grid = Grid::Uniform { dx: f64::INFINITY, domain: (-4.0, 2.0) };
         assert!(message(Scene { grid: bad_grid, ..good.clone() }).contains("grid.dx"));
+        let cavitation = Cavitation::MassConserving { supply_film_m: Some(f64::NAN) };
+        assert!(message(Scene { cavitation, ..good.clone() }).contains("cavitation"));
         assert!(
             message(Scene { study: Study::Point(point::Point { methods: vec![] }), ..good.clone() })
                 .contains("methods")

@@ -17,6 +17,7 @@ mod figures;
 mod lessons;
 mod presets;
 mod results_tab;
+mod rupture;
 mod tpwl_tab;
 mod traction_tab;
 mod training_tab;

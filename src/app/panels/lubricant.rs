@@ -169,7 +169,7 @@ const LIMITS: [Constant; 3] = [
 ];
 
 const SUPPLY: [Constant; 1] =
-    [constant("Supplied film", ("Film", "h", "in"), NANOMETRES, SUPPLY_TIP, |l| match &mut l.cavitation {
+    [constant("Supplied film thickness", ("Film", "h", "in"), NANOMETRES, SUPPLY_TIP, |l| match &mut l.cavitation {
         Cavitation::MassConserving { supply_film_m } => supply_film_m.as_mut(),
         Cavitation::Penalty | Cavitation::Complementarity => None,
     })];
