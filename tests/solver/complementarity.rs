@@ -1,11 +1,12 @@
 //! Rupture as a complementarity condition: against an independent program, against the penalty, and its own conditions.
 
+use crate::contacts::{at, line_of, solved};
 use ehl_explorer::solver::discrete::grid::{GridSpec, PointGridSpec};
 use ehl_explorer::solver::full::transient::{
     Frame, Inputs, Interpolation, Keep, Quantity, Signal, State, Trajectory, Transient, solve,
 };
-use ehl_explorer::solver::full::{ContactSolver, FullSolver, Problem, Solution, Start};
-use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
+use ehl_explorer::solver::full::{ContactSolver, FullSolver, Problem, Start};
+use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint};
 use ehl_explorer::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw, Sliding};
 
 const PLANE: GridSpec = GridSpec::Plane(PointGridSpec::uniform(0.04, 0.1, (-4.0, 2.0, -2.0)));
@@ -16,16 +17,6 @@ fn complementary(laws: Lubricant) -> Lubricant {
 
 fn laws() -> Lubricant {
     complementary(Lubricant::default())
-}
-
-fn at(kind: ContactKind, m: f64, l: f64) -> OperatingPoint {
-    si_from_moes(&MoesRequest::new(kind, m, l)).unwrap()
-}
-
-fn solved(solver: &mut ContactSolver, point: &OperatingPoint, laws: Lubricant) -> Solution {
-    let solution = solver.solve(point, laws, Start::Cold, &()).unwrap();
-    assert!(solution.converged(), "{:?}: {:?}", point.moes(), solution.report);
-    solution
 }
 
 /// The median of some counts.
@@ -42,16 +33,7 @@ fn full_solutions_agree_with_an_independent_program_on_the_same_grid() {
     let mut solver = FullSolver::new(GridSpec::DISSERTATION).unwrap();
     for contact in contacts {
         let of = |name: &str| contact[name].as_f64().unwrap();
-        let point = OperatingPoint {
-            kind: ContactKind::Line,
-            radius_m: of("R"),
-            speed_m_per_s: of("um"),
-            load: of("w"),
-            modulus_pa: of("E"),
-            viscosity_pa_s: of("eta0"),
-            alpha_per_pa: of("alpha"),
-            sliding: Sliding::NONE,
-        };
+        let point = line_of(contact);
         let solution = solver.solve(&point, laws(), Start::Cold, &()).unwrap();
         assert!(solution.converged());
         let first = solution.rupture().unwrap();

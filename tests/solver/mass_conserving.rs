@@ -1,12 +1,13 @@
 //! Rupture that conserves mass: against an independent program, against complementarity, its own conditions, starvation
 //! of lines and points, and in time.
 
+use crate::contacts::{at, line_of, solved};
 use ehl_explorer::solver::discrete::grid::{GridSpec, PointGridSpec};
 use ehl_explorer::solver::full::transient::{
     Frame, Inputs, Keep, Quantity, Signal, State, Trajectory, Transient, solve,
 };
 use ehl_explorer::solver::full::{ContactSolver, Problem, Solution, SolveError, Start};
-use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
+use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint};
 use ehl_explorer::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw, Sliding};
 
 const PLANE: GridSpec = GridSpec::Plane(PointGridSpec::uniform(0.05, 0.1, (-4.0, 1.6, -2.5)));
@@ -17,16 +18,6 @@ fn laws(supply_film_m: Option<f64>) -> Lubricant {
 
 fn complementary() -> Lubricant {
     Lubricant { cavitation: Cavitation::Complementarity, ..Lubricant::default() }
-}
-
-fn at(kind: ContactKind, m: f64, l: f64) -> OperatingPoint {
-    si_from_moes(&MoesRequest::new(kind, m, l)).unwrap()
-}
-
-fn solved(solver: &mut ContactSolver, point: &OperatingPoint, laws: Lubricant) -> Solution {
-    let solution = solver.solve(point, laws, Start::Cold, &()).unwrap();
-    assert!(solution.converged(), "{:?}: {:?}", point.moes(), solution.report);
-    solution
 }
 
 /// The flow ρ̄θH at every node.
@@ -42,17 +33,7 @@ fn flooded_and_starved_lines_agree_with_an_independent_program_on_the_same_grid(
     assert_eq!(contacts.len(), 3);
     let mut solver = ContactSolver::on(&GridSpec::DISSERTATION.build().unwrap());
     for contact in contacts {
-        let of = |name: &str| contact[name].as_f64().unwrap();
-        let point = OperatingPoint {
-            kind: ContactKind::Line,
-            radius_m: of("R"),
-            speed_m_per_s: of("um"),
-            load: of("w"),
-            modulus_pa: of("E"),
-            viscosity_pa_s: of("eta0"),
-            alpha_per_pa: of("alpha"),
-            sliding: Sliding::NONE,
-        };
+        let point = line_of(contact);
         let flooded = solved(&mut solver, &point, laws(None));
         let wanted = contact["flooded"]["H_c"].as_f64().unwrap();
         assert!((flooded.scalars.h_c / wanted - 1.0).abs() < 1e-12);

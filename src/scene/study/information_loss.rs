@@ -5,11 +5,9 @@ use super::question::{
 };
 use crate::scene::check::{count, number, refuse};
 use crate::scene::method::Method;
-use crate::solver::full::transient::{Frame, Inputs, Keep, Transient, TransientObserver, solve};
-use crate::solver::observer::Observer;
+use crate::solver::full::transient::{Frame, Inputs, Keep, MarchProgress, Transient, solve};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::PodBasis;
-use crate::solver::training::TrainingObserver;
 use faer::Mat;
 use serde::{Deserialize, Serialize};
 
@@ -45,17 +43,6 @@ pub struct Row {
     /// Number of modes and loss of information.
     pub losses: Vec<[f64; 2]>,
 }
-
-/// Stops a march when its study is to stop.
-struct Watched<'a>(&'a dyn TrainingObserver);
-
-impl Observer for Watched<'_> {
-    fn cancelled(&self) -> bool {
-        self.0.cancelled()
-    }
-}
-
-impl TransientObserver for Watched<'_> {}
 
 impl Row {
     /// The loss with so many modes.
@@ -93,7 +80,9 @@ impl Question for InformationLoss {
                 keep: Keep::Every(self.every),
                 ..Transient::new(request.point, self.inputs.clone(), self.duration, self.time_step)
             };
-            let trajectory = solve(line.spec, &transient, &Watched(observer))?;
+            let stage = format!("frame {} of {}", i + 1, self.frames.len());
+            let progress = MarchProgress { observer, stage, duration: self.duration };
+            let trajectory = solve(line.spec, &transient, &progress)?;
             if observer.cancelled() {
                 return Err(RunError::Cancelled);
             }

@@ -3,6 +3,7 @@
 use super::question::{
     Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
+use crate::scene::bench::Request;
 use crate::scene::check::{count, number, refuse};
 use crate::scene::method::Method;
 use crate::solver::full::Solution;
@@ -67,7 +68,7 @@ impl Question for Starvation {
         let mut solved = |supply_film_m: Option<f64>, step: usize| {
             setting.step("supplies", step, self.ratios.len() + 1)?;
             let lubricant = Lubricant { cavitation: Cavitation::MassConserving { supply_film_m }, ..request.lubricant };
-            let request = crate::scene::bench::Request { lubricant, ..request.clone() };
+            let request = Request { lubricant, ..request.clone() };
             setting.bench.answer(&request, &Method::Full, None, setting.observer)
         };
         let flooded = solved(None, 0)?;

@@ -27,8 +27,10 @@ pub struct ActiveSet {
     former: [Vec<bool>; 2],
     /// How often in a row the set was again what it was two steps before.
     returns: usize,
-    /// Whether the set was seen to cycle: from then on one node leaves it at a time along each line.
+    /// Whether the set was seen to cycle: from then on one node leaves it at a time along each line, or, where it
+    /// carries fractions, each node a few times only.
     pub cautious: bool,
+    /// Newton steps since the set began.
     steps: usize,
     /// How often each node left the set since the front was seen to cycle.
     pub(super) returns_of: Vec<u8>,
@@ -38,6 +40,9 @@ pub struct ActiveSet {
 
 /// So many returns in a row are a cycle: single ones end by themselves.
 const CYCLE: usize = 3;
+
+/// A set with fractions that still moves after so many steps cycles too, through more sets than two.
+const LATE: usize = 25;
 
 impl ActiveSet {
     /// Whether pressures are held by a set at all.
@@ -73,11 +78,7 @@ impl ActiveSet {
         if !self.holds() || self.fills() {
             return Vec::new();
         }
-        let mut field = vec![0.0; grid.weights().len()];
-        for (k, multiplier) in self.multiplier.iter().enumerate() {
-            field[grid.node(k)] = *multiplier;
-        }
-        field
+        node_array(grid, &self.multiplier, 0.0)
     }
 
     /// The set as a node array.
@@ -114,7 +115,7 @@ impl ActiveSet {
     pub(super) fn is_still(&mut self) -> bool {
         let still = self.ruptured == self.former[0];
         self.returns = if !still && self.ruptured == self.former[1] { self.returns + 1 } else { 0 };
-        self.cautious |= self.returns >= CYCLE || self.fills() && self.steps > 25;
+        self.cautious |= self.returns >= CYCLE || self.fills() && self.steps > LATE;
         still
     }
 
@@ -150,6 +151,15 @@ impl ActiveSet {
         leaving.iter().for_each(|&k| ruptured[k] = false);
         !leaving.is_empty()
     }
+}
+
+/// Unknowns as a node array, with another value elsewhere.
+pub(super) fn node_array(grid: &impl Grid, unknowns: &[f64], elsewhere: f64) -> Vec<f64> {
+    let mut array = vec![elsewhere; grid.weights().len()];
+    for (k, value) in unknowns.iter().enumerate() {
+        array[grid.node(k)] = *value;
+    }
+    array
 }
 
 #[cfg(test)]

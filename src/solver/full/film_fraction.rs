@@ -4,7 +4,7 @@
 //! which θ ρ̄H is carried along. A node joins the set when its pressure falls below zero, and leaves it when θ rises
 //! above one. At the inlet the surfaces bring a film of their own, where it is thinner than the gap.
 
-use super::active_set::ActiveSet;
+use super::active_set::{ActiveSet, node_array};
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::{CENTER, Row, RowGeometry, STENCIL};
 use crate::solver::discrete::space::Grid;
@@ -39,6 +39,27 @@ pub fn guess(grid: &impl Grid, (pressure, film): (&[f64], &[f64]), supply: f64, 
     fraction
 }
 
+/// The nodes at both ends of a line along X, where P vanishes.
+struct Ends {
+    /// At the inlet.
+    inlet: usize,
+    /// Before it, where there is one.
+    ghost: Option<usize>,
+    /// At the outlet.
+    behind: usize,
+    /// The last unknown before that.
+    last: usize,
+}
+
+/// The ends of all lines along X that have unknowns.
+fn ends(grid: &impl Grid) -> impl Iterator<Item = Ends> {
+    let (column, lines) = (grid.abscissae().1.len(), grid.column_unknowns());
+    (0..lines).map(move |line| {
+        let (inlet, last) = (grid.node(line) - column, grid.unknowns() - lines + line);
+        Ends { inlet, ghost: inlet.checked_sub(column), behind: grid.node(last) + column, last }
+    })
+}
+
 impl ActiveSet {
     /// Whether the ruptured set carries fractions.
     pub fn fills(&self) -> bool {
@@ -69,22 +90,13 @@ impl ActiveSet {
                 self.at_node[node] = true;
             }
         }
-        let column = grid.abscissae().1.len();
-        for line in 0..grid.column_unknowns() {
+        for Ends { inlet, ghost, behind, last } in ends(grid) {
             // What the gap behind the domain carries, for a flow that comes from there.
-            let last = self.fraction.len() - grid.column_unknowns() + line;
-            let behind = grid.node(last) + column;
             nodes.supply(behind, self.fraction[last] * nodes[behind].flow);
-        }
-        let Some(supply) = self.supply else { return };
-        for line in 0..grid.column_unknowns() {
-            let inlet = grid.node(line) - column;
-            if supply < nodes[inlet].flow {
+            if let Some(supply) = self.supply.filter(|supply| *supply < nodes[inlet].flow) {
                 nodes.supply(inlet, supply);
                 // Nothing is extrapolated to the node before it.
-                if let Some(ghost) = inlet.checked_sub(column) {
-                    nodes.supply(ghost, supply);
-                }
+                ghost.into_iter().for_each(|ghost| nodes.supply(ghost, supply));
             }
         }
     }
@@ -178,16 +190,10 @@ impl ActiveSet {
         if !self.fills() {
             return Vec::new();
         }
-        let mut field = vec![1.0; grid.weights().len()];
-        for (k, fraction) in self.fraction.iter().enumerate() {
-            field[grid.node(k)] = *fraction;
-        }
-        let column = grid.abscissae().1.len();
-        for line in 0..grid.column_unknowns() {
-            let last = self.fraction.len() - grid.column_unknowns() + line;
-            field[grid.node(last) + column] = self.fraction[last];
-            let inlet = grid.node(line) - column;
-            for node in [Some(inlet), inlet.checked_sub(column)].into_iter().flatten() {
+        let mut field = node_array(grid, &self.fraction, 1.0);
+        for Ends { inlet, ghost, behind, last } in ends(grid) {
+            field[behind] = self.fraction[last];
+            for node in [Some(inlet), ghost].into_iter().flatten() {
                 field[node] = self.supply.map_or(1.0, |supply| (supply / film[node]).min(1.0));
             }
         }

@@ -115,10 +115,10 @@ impl<S: NewtonSpace> Solver<S> {
             _ => None,
         };
         let mut report = Report::empty();
-        let starves = problem.supply.is_some();
-        let cold = S::COLD_FILMS.into_iter().map(|film| Beginning::Cold(film, 1.0)).take(if starves { 0 } else { 3 });
-        let menisci = MENISCI.into_iter().map(|rise| Beginning::Cold(S::COLD_FILMS[0], rise));
-        let cold = cold.chain(menisci.take(if starves { MENISCI.len() } else { 0 }));
+        let cold = match problem.supply {
+            None => S::COLD_FILMS.map(|film| Beginning::Cold(film, 1.0)),
+            Some(_) => MENISCI.map(|rise| Beginning::Cold(S::COLD_FILMS[0], rise)),
+        };
         for beginning in former.into_iter().map(Beginning::Warm).chain(cold) {
             if report.ended() {
                 break;

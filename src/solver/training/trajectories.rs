@@ -7,7 +7,7 @@ use super::rows::add_goals;
 use super::{Observer, Progress, TrainingError};
 use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN, ReferenceGrid};
 use crate::solver::discrete::reynolds::PENALTY;
-use crate::solver::full::transient::{Frame, Keep, Moment, Trajectory, Transient, TransientObserver, march};
+use crate::solver::full::transient::{Frame, Keep, MarchProgress, Trajectory, Transient, march};
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel, TrajectoryStart};
 use crate::solver::reduced::{
     GoalEquations, Iterate, PodBasis, SampledRows, Sampling, TestSpace, Window, all_rows, cubature,
@@ -168,7 +168,7 @@ fn goal_equations(
             }));
             let transient = Transient { keep: Keep::Scalars, ..trajectory.transient.clone() };
             let stage = format!("Rows along training {} of {}", index + 1, trajectories.len());
-            march(&mut model, &transient, &MarchObserver { observer, stage, duration: transient.duration })?;
+            march(&mut model, &transient, &MarchProgress { observer, stage, duration: transient.duration })?;
             drop(model);
             if observer.cancelled() { Err(TrainingError::Cancelled) } else { Ok(equations) }
         })
@@ -176,24 +176,4 @@ fn goal_equations(
     let mut all = none;
     collected.iter().for_each(|equations| all.merge(equations));
     Ok(all)
-}
-
-/// Tells how far a march is.
-struct MarchObserver<'a> {
-    observer: &'a dyn Observer,
-    stage: String,
-    duration: f64,
-}
-
-impl Observer for MarchObserver<'_> {
-    fn cancelled(&self) -> bool {
-        self.observer.cancelled()
-    }
-}
-
-impl TransientObserver for MarchObserver<'_> {
-    fn moment(&self, moment: &Moment) {
-        let done = (1000.0 * moment.time / self.duration) as usize;
-        self.observer.progress(Progress { stage: self.stage.clone(), done, total: 1000 });
-    }
 }

@@ -9,7 +9,7 @@ use crate::solver::discrete::grid::LineGrid;
 use crate::solver::full::solution::expect_kind;
 use crate::solver::full::{Mesh, Problem, SolveError, Termination};
 use crate::solver::limits::Number;
-use crate::solver::observer::Observer;
+use crate::solver::observer::{Observer, Progress};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
 
@@ -74,6 +74,29 @@ pub trait TransientObserver: Observer {
 }
 
 impl TransientObserver for () {}
+
+/// Tells how far a march is, in thousandths of its duration, as a stage of a longer work.
+pub struct MarchProgress<'a> {
+    /// Who is told, and may stop it.
+    pub observer: &'a dyn Observer,
+    /// What the march is part of, for people.
+    pub stage: String,
+    /// Its duration.
+    pub duration: f64,
+}
+
+impl Observer for MarchProgress<'_> {
+    fn cancelled(&self) -> bool {
+        self.observer.cancelled()
+    }
+}
+
+impl TransientObserver for MarchProgress<'_> {
+    fn moment(&self, moment: &Moment) {
+        let done = (1000.0 * moment.time / self.duration) as usize;
+        self.observer.progress(Progress { stage: self.stage.clone(), done, total: 1000 });
+    }
+}
 
 /// One step: what the rows of any model need to know of it.
 #[derive(Clone, Copy, Debug)]

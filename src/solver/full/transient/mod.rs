@@ -22,7 +22,7 @@ mod trajectory;
 pub use difference::{BackwardDifference, extrapolated};
 pub use frame::{Conditions, Frame, Scales, point_at};
 pub use history::History;
-pub use march::{Keep, Marching, Step, Transient, TransientError, TransientObserver, march};
+pub use march::{Keep, MarchProgress, Marching, Step, Transient, TransientError, TransientObserver, march};
 pub use mass::MassBalance;
 pub use pace::TimeStep;
 pub use signal::{Input, InputError, Inputs, Signal};
