@@ -331,7 +331,7 @@ fn difference(solved: &[Solved<'_>]) -> Option<Part> {
 /// Published formulas and how far each is off.
 fn formulas(result: &ContactResult) -> Option<Part> {
     let mut part = Part::new("Published film formulas");
-    for formula in FilmFormula::of(result.point.kind) {
+    for &formula in FilmFormula::of(result.point.kind) {
         let predicted = formula.predict(&result.point);
         let (film, which) = if formula.predicts_minimum() { ("h_min_m", "h_min") } else { ("h_c_m", "h_c") };
         let off = result.value(film).map_or_else(String::new, |own| {

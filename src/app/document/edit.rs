@@ -37,7 +37,7 @@ pub enum Edit {
     /// What follows L.
     LubricantFollower(LubricantFollower),
     /// The truncation of the reduced model, and what else its view holds.
-    View(View),
+    View(Box<View>),
     /// The grid of a point contact's full solutions.
     Plane(PointGridSpec),
     /// The training it describes.
@@ -72,7 +72,7 @@ impl Document {
                 self.view.when_m_moves = self.followers().0;
                 self.view.when_l_moves = follower;
             }
-            Edit::View(view) => self.view = view,
+            Edit::View(view) => self.view = *view,
             Edit::Plane(spec) => self.set_plane(spec),
         }
         Ok(())

@@ -51,7 +51,7 @@ fn model_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, comman
         let mut view = document.view;
         choice(ui, "Deformation", tip, &mut view.projected_deformation, &[false, true], deformation_operator);
         if view != document.view {
-            commands.edit(Edit::View(view), "Deformation");
+            commands.edit(Edit::View(view.into()), "Deformation");
         }
         if view.projected_deformation {
             ui.label("Deformation modes");

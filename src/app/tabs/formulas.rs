@@ -13,7 +13,7 @@ pub fn csv(context: &Context<'_>) -> String {
     let picture = context.answers.current_picture();
     let point = &context.document.point;
     let mut table = Table::new("formulas", &["film_m", "own_film_m", "deviation", "in_range"]);
-    for formula in FilmFormula::of(point.kind) {
+    for &formula in FilmFormula::of(point.kind) {
         let prediction = formula.predict(point);
         let minimum = formula.predicts_minimum();
         let own = picture.map_or(f64::NAN, |p| if minimum { p.minimum_film_m() } else { p.central_film_m() });
@@ -47,7 +47,7 @@ pub fn table(ui: &mut Ui, context: &Context<'_>) {
         ui.weak("Film");
         ui.weak("Deviation").on_hover_text("Formula over this contact's film, minus one");
         ui.end_row();
-        for formula in FilmFormula::of(context.document.point.kind) {
+        for &formula in FilmFormula::of(context.document.point.kind) {
             let prediction = formula.predict(&context.document.point);
             let (name, own) = if formula.predicts_minimum() { ("min", minimum) } else { ("c", central) };
             let tip = if prediction.in_range {

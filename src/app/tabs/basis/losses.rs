@@ -110,7 +110,7 @@ pub fn loss_plot(
             Field::Pressure => view.pressure_loss = loss,
             Field::Deformation => view.deformation_loss = loss,
         }
-        commands.edit(Edit::View(view), TRUNCATION);
+        commands.edit(Edit::View(view.into()), TRUNCATION);
     }
 }
 

@@ -224,7 +224,7 @@ fn toolbar(
         }
         let truncated = view.pressure_loss.is_some() || view.deformation_loss.is_some();
         if ui.add_enabled(truncated, egui::Button::new("Keep all modes")).clicked() {
-            commands.edit(Edit::View(View { pressure_loss: None, deformation_loss: None, ..view }), TRUNCATION);
+            commands.edit(Edit::View(View { pressure_loss: None, deformation_loss: None, ..view }.into()), TRUNCATION);
         }
     });
 }

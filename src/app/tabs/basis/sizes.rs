@@ -174,7 +174,7 @@ pub fn ui(
                     let loss = (wanted < most).then(|| window.pressure.loss(wanted) * (1.0 + 1e-6));
                     let view = View { pressure_loss: loss, ..context.document.view };
                     if view != context.document.view {
-                        commands.edit(Edit::View(view), TRUNCATION);
+                        commands.edit(Edit::View(view.into()), TRUNCATION);
                     }
                 }
                 Varied::Rows => {

@@ -3,12 +3,14 @@
 //!
 //! This is the only place where SI quantities meet dimensionless ones; the rest of the solver is scale-free.
 
+mod film_asymptotes;
 mod film_formulas;
 mod moes;
 mod quantity;
 mod rolling;
 
-pub use film_formulas::{FilmAsymptotes, FilmFormula, FilmPrediction, moes_film};
+pub use film_asymptotes::{FilmAsymptotes, ellipse_film, moes_film};
+pub use film_formulas::{FilmFormula, FilmPrediction};
 pub use moes::{DEFAULT_VISCOSITY_PA_S, MoesRequest, si_from_moes};
 pub use quantity::Quantity;
 

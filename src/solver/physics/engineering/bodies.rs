@@ -2,6 +2,7 @@
 
 use crate::solver::physics::contact::{ContactError, reduced_modulus};
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// An elastic material.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +39,12 @@ pub enum BodyError {
         "these radii touch in no one spot: a concave surface must be flatter than the convex one in it, and two planes are none"
     )]
     Conforming,
+    /// The surfaces do not part across the rolling direction, where they have these radii \[m\], infinite for a plane.
+    #[error(
+        "across the rolling direction the radii of {} and {} leave no positive sum of curvatures: {}",
+        Across(*.0), Across(*.1), accepted_across(*.0, *.1)
+    )]
+    ConformingAcross(f64, f64),
     /// Elastic constants that no solid has.
     #[error(transparent)]
     Material(#[from] ContactError),
@@ -49,6 +56,37 @@ pub enum BodyError {
     Roughness(f64, f64),
 }
 
+/// A radius across the rolling direction in a sentence.
+struct Across(f64);
+
+impl fmt::Display for Across {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0.is_infinite() { f.write_str("a plane") } else { write!(f, "{} m", self.0) }
+    }
+}
+
+/// What would part two surfaces that do not.
+fn accepted_across(first: f64, second: f64) -> String {
+    let convex = first.max(second);
+    if convex.is_finite() && convex > 0.0 {
+        format!("a groove must be flatter than what runs in it, here beyond {} m", -convex)
+    } else {
+        "one of them must be convex, with a radius above 0, and a groove flatter than that".to_owned()
+    }
+}
+
+/// The radius of a body across the rolling direction.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
+pub enum Transverse {
+    /// The same as along it: a ball, or a plane.
+    #[default]
+    AsAlong,
+    /// None: a cylinder.
+    Plane,
+    /// A radius \[m\], negative for a groove.
+    Radius(f64),
+}
+
 /// One of the two bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -57,9 +95,12 @@ pub struct Body {
     pub modulus_pa: f64,
     /// Poisson's ratio ν.
     pub poisson: f64,
-    /// Radius \[m\], negative for a concave surface; none for a plane.
+    /// Radius along the rolling direction \[m\], negative for a concave surface; none for a plane.
     #[serde(default)]
     pub radius_m: Option<f64>,
+    /// Radius across the rolling direction, which only point contacts have.
+    #[serde(default)]
+    pub transverse: Transverse,
     /// Speed of its surface \[m/s\].
     pub speed_m_per_s: f64,
     /// Root-mean-square roughness Rq \[m\].
@@ -82,12 +123,33 @@ impl Body {
         Self { modulus_pa, poisson, ..self }
     }
 
-    fn curvature(&self) -> Result<f64, BodyError> {
-        let good = |radius: f64| {
-            if radius.is_finite() && radius != 0.0 { Ok(1.0 / radius) } else { Err(BodyError::Radius(radius)) }
-        };
-        self.radius_m.map_or(Ok(0.0), good)
+    /// Its radius across the rolling direction \[m\]; none for a plane.
+    pub fn transverse_radius_m(&self) -> Option<f64> {
+        match self.transverse {
+            Transverse::AsAlong => self.radius_m,
+            Transverse::Plane => None,
+            Transverse::Radius(radius) => Some(radius),
+        }
     }
+
+    /// The same body with a radius across the rolling direction \[m\]; none for a plane.
+    pub fn with_transverse_radius_m(self, radius_m: Option<f64>) -> Self {
+        let transverse = match radius_m {
+            radius if radius == self.radius_m => Transverse::AsAlong,
+            None => Transverse::Plane,
+            Some(radius) => Transverse::Radius(radius),
+        };
+        Self { transverse, ..self }
+    }
+}
+
+/// Sum of the curvatures of two surfaces by their radii \[m\] \[1/m\].
+fn curvatures(radii_m: [Option<f64>; 2]) -> Result<f64, BodyError> {
+    let curvature = |radius: f64| {
+        if radius.is_finite() && radius != 0.0 { Ok(1.0 / radius) } else { Err(BodyError::Radius(radius)) }
+    };
+    let [first, second] = radii_m.map(|radius| radius.map_or(Ok(0.0), curvature));
+    Ok(first? + second?)
 }
 
 impl Bodies {
@@ -97,19 +159,32 @@ impl Bodies {
         let [first, second] = surface_speeds(mean_m_per_s, slide_to_roll);
         let body = |radius_m, speed_m_per_s| {
             let Material { modulus_pa, poisson, .. } = STEEL;
-            Body { modulus_pa, poisson, radius_m, speed_m_per_s, roughness_m: 5e-8 }
+            Body { modulus_pa, poisson, radius_m, transverse: Transverse::AsAlong, speed_m_per_s, roughness_m: 5e-8 }
         };
         Self(body(Some(radius_m), first), body(None, second))
     }
 
-    /// Reduced radius R \[m\], 1/R = 1/R₁ + 1/R₂ (2.3).
+    /// Reduced radius R along the rolling direction \[m\], 1/R = 1/R₁ + 1/R₂ (2.3).
     ///
     /// # Errors
     /// A radius of zero, or a concave surface that is not flatter than the convex one in it.
     pub fn reduced_radius_m(&self) -> Result<f64, BodyError> {
-        let curvature = self.0.curvature()? + self.1.curvature()?;
-        let radius = 1.0 / curvature;
-        if curvature > 0.0 && radius.is_finite() { Ok(radius) } else { Err(BodyError::Conforming) }
+        let radius = 1.0 / curvatures([self.0.radius_m, self.1.radius_m])?;
+        if radius > 0.0 && radius.is_finite() { Ok(radius) } else { Err(BodyError::Conforming) }
+    }
+
+    /// Reduced radius R_y across the rolling direction \[m\], by the same rule.
+    ///
+    /// # Errors
+    /// A radius of zero, or a groove that is not flatter than what runs in it.
+    pub fn reduced_transverse_radius_m(&self) -> Result<f64, BodyError> {
+        let radii = [self.0.transverse_radius_m(), self.1.transverse_radius_m()];
+        let radius = 1.0 / curvatures(radii)?;
+        if radius > 0.0 && radius.is_finite() {
+            return Ok(radius);
+        }
+        let [first, second] = radii.map(|radius| radius.unwrap_or(f64::INFINITY));
+        Err(BodyError::ConformingAcross(first, second))
     }
 
     /// Reduced modulus E′ \[Pa\], 2/E′ = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂ (2.5).
@@ -184,6 +259,37 @@ mod tests {
         ] {
             let radius = bodies(radii, [1.0; 2]).reduced_radius_m().unwrap();
             assert!((radius - reduced).abs() < 1e-15, "{radii:?}: {radius}");
+        }
+    }
+
+    #[test]
+    fn a_ball_in_a_groove_is_an_ellipse_across_the_rolling_direction() {
+        // A ball of a 6206 bearing on its inner race: 9.525 mm in a groove of 4.953 mm (52 %).
+        let Bodies(ball, race) = bodies([4.7625e-3, 18.2e-3], [1.0; 2]);
+        let race = race.with_transverse_radius_m(Some(-4.953e-3));
+        let pair = Bodies(ball, race);
+        assert!((pair.reduced_radius_m().unwrap() - 3.7747e-3).abs() < 1e-6);
+        assert!((pair.reduced_transverse_radius_m().unwrap() - 123.83e-3).abs() < 1e-5);
+        // Without a radius of its own a body is as round across as along.
+        let round = bodies([0.01, -0.05], [1.0; 2]);
+        assert_eq!(round.reduced_radius_m(), round.reduced_transverse_radius_m());
+        assert_eq!(race.with_transverse_radius_m(race.radius_m).transverse, Transverse::AsAlong);
+        let across = |first, second| {
+            Bodies(ball.with_transverse_radius_m(first), race.with_transverse_radius_m(second))
+                .reduced_transverse_radius_m()
+                .unwrap_err()
+                .to_string()
+        };
+        for (first, second, said) in [
+            (Some(4.7625e-3), Some(-4.7625e-3), "beyond -0.0047625 m"),
+            (Some(4.7625e-3), Some(-4e-3), "radii of 0.0047625 m and -0.004 m leave no positive sum of curvatures"),
+            (None, None, "radii of a plane and a plane"),
+            (None, Some(-0.01), "one of them must be convex"),
+            (Some(0.0), None, "other than 0"),
+            (Some(f64::NAN), None, "other than 0"),
+        ] {
+            let sentence = across(first, second);
+            assert!(sentence.contains(said), "{sentence}");
         }
     }
 

@@ -7,7 +7,7 @@ mod oil;
 mod subsurface;
 mod units;
 
-pub use bodies::{Bodies, Body, BodyError, MATERIALS, Material, film_regime, surface_speeds};
+pub use bodies::{Bodies, Body, BodyError, MATERIALS, Material, Transverse, film_regime, surface_speeds};
 pub use oil::{Grade, ISO_VG, Oil, OilError, OilFamily, OilState};
 pub use subsurface::{LargestShear, largest_shear};
 pub use units::{Dimension, KELVIN, UnitError, parse};
