@@ -259,7 +259,7 @@ fn transient_rows(size: usize) -> Result<Vec<Timing>, EngineError> {
     let transient = Transient { keep: Keep::Scalars, ..transient };
     let [mut reduced, mut superposed] = ["line/transient/rnsa-step", "line/transient/tpwl-step"].map(Timing::new);
     for _ in 0..MARCHES {
-        reduced.add_steps(&mut ReducedMarch::new(&model)?, &transient)?;
+        reduced.add_steps(&mut ReducedMarch::new(&model, &transient)?, &transient)?;
         superposed.add_steps(&mut TpwlMarch::new(&linearised, &transient, Weighting::DualTaylor)?, &transient)?;
     }
     Ok(vec![full, reduced, superposed])

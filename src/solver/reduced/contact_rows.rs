@@ -12,6 +12,8 @@ use faer::{Accum, ColMut, ColRef, Mat, MatRef, Par};
 /// basis in a step; their values there, like those at X = 0, are those of double precision.
 pub(crate) struct ContactRows {
     modes: usize,
+    /// The first of the nodes.
+    first: usize,
     /// X of the nodes.
     x: Vec<f64>,
     /// V on them, then K V: (2 · nodes) × modes.
@@ -39,6 +41,7 @@ impl ContactRows {
         };
         Self {
             modes,
+            first: from,
             x: grid.x[from..to].to_vec(),
             coarse: Mat::from_fn(2 * nodes, modes, |row, k| at(row, k) as f32),
             rows: (0..2 * nodes).flat_map(|row| (0..modes).map(move |k| at(row, k))).collect(),
@@ -48,8 +51,8 @@ impl ContactRows {
         }
     }
 
-    /// Scalars of the state (p̃, H₀).
-    pub fn scalars(&mut self, at: &Conditions, coefficients: &[f64], h_0: f64) -> Scalars {
+    /// Scalars of the state (p̃, H₀); `bend` is what the film at a node has beside K V p̃.
+    pub fn scalars(&mut self, at: &Conditions, coefficients: &[f64], h_0: f64, bend: impl Fn(usize) -> f64) -> Scalars {
         self.coefficients.iter_mut().zip(coefficients).for_each(|(single, c)| *single = *c as f32);
         let values = ColMut::from_slice_mut(&mut self.values);
         let single = ColRef::from_slice(&self.coefficients);
@@ -69,7 +72,7 @@ impl ContactRows {
         }
         let (highest, thinnest) = (highest.0, thinnest.0);
         let row = |k: usize| dot(&self.rows[k * self.modes..(k + 1) * self.modes], coefficients);
-        let film = |k: usize| h_0 + shape(self.x[k]) + row(nodes + k);
+        let film = |k: usize| h_0 + shape(self.x[k]) + row(nodes + k) + bend(self.first + k);
         Scalars {
             h_c: self.centre.iter().map(|&(k, w)| w * film(k)).sum(),
             p_c: self.centre.iter().map(|&(k, w)| w * row(k)).sum(),
@@ -118,7 +121,8 @@ mod tests {
                 let p = fields(&pressure);
                 let shape = |x: f64| h_0 + 0.5 * at.curvature * x * x;
                 let h: Vec<f64> = fields(&bent).iter().zip(&grid.x).map(|(d, &x)| d + shape(x)).collect();
-                let (own, want) = (rows.scalars(&at, &coefficients, h_0), scalars_of(&grid, &at.problem, &p, &h, h_0));
+                let (own, want) =
+                    (rows.scalars(&at, &coefficients, h_0, |_| 0.0), scalars_of(&grid, &at.problem, &p, &h, h_0));
                 let values = |s: &Scalars| [s.h_c, s.p_c, s.h_min, s.p_max, s.x_h_min, s.x_p_max, s.h_0];
                 for (own, want) in values(&own).into_iter().zip(values(&want)) {
                     assert!((own - want).abs() < 1e-12, "{own} against {want} on {} nodes", grid.len());

@@ -4,7 +4,7 @@ mod front;
 mod least_squares;
 mod newton;
 
-pub(crate) use front::{cut_off, fronts};
+pub(crate) use front::{cut_off, fronts, passed_rows};
 pub(crate) use newton::{Case, Iterate, OnlineOutcome, RowObserver, Stop};
 
 use self::front::{Changed, Front};
@@ -56,6 +56,7 @@ pub(crate) struct Operators {
 /// Where a node lies.
 #[derive(Clone, Copy)]
 struct Place {
+    node: usize,
     xi: f64,
     /// Y²/2: what the undeformed gap has across.
     across: f64,
@@ -154,7 +155,7 @@ impl Operators {
         let front = ruptures.then(|| Front::new(window, &support, &state_rows, &load_row));
         let place = |node: &usize| {
             let (xi, y) = reference.place(*node);
-            Place { xi, across: 0.5 * y * y }
+            Place { node: *node, xi, across: 0.5 * y * y }
         };
         let (n, s) = (rows.len(), support.len());
         let size = modes + 1;
@@ -196,14 +197,30 @@ impl Operators {
         }
     }
 
-    /// Gives sampled row `r` other coefficients, and other nodes: places in the ascending support.
-    pub fn set_row(&mut self, r: usize, stencil: [usize; STENCIL], geometry: RowGeometry) {
-        (self.stencil[r], self.geometry[r]) = (stencil, geometry);
+    /// Lets the rupture boundary pass several nodes at once: in time it travels far in one step.
+    pub fn stride(&mut self) {
+        self.front.iter_mut().for_each(|front| front.strides = true);
     }
 
-    /// ρ̄H at the sampled rows' own nodes, of the state evaluated last.
+    /// The place of a node in the support.
+    pub fn place(&self, node: usize) -> usize {
+        self.support.partition_point(|place| place.node < node)
+    }
+
+    /// Gives row `r` of the sampled ones, and behind them of those that the rupture boundary may pass, other
+    /// coefficients and other nodes: places in the support.
+    pub fn set_row(&mut self, r: usize, stencil: [usize; STENCIL], geometry: RowGeometry) {
+        match (r.checked_sub(self.stencil.len()), &mut self.front) {
+            (Some(passed), Some(front)) => front.set_row(passed, stencil, geometry),
+            _ => (self.stencil[r], self.geometry[r]) = (stencil, geometry),
+        }
+    }
+
+    /// ρ̄H at the own nodes of the rows of [`Self::set_row`], of the state evaluated last.
     pub fn flow(&self) -> impl Iterator<Item = f64> + '_ {
-        self.stencil.iter().map(|stencil| self.scratch.nodes[stencil[CENTER]].flow)
+        let sampled = self.stencil.iter().map(|stencil| stencil[CENTER]);
+        let passed = self.front.iter().flat_map(Front::places);
+        sampled.chain(passed).map(|place| self.scratch.nodes[place].flow)
     }
 
     /// Traction coefficient (3.41) of the state evaluated last, by the window's rule; `None` where it has none, and
@@ -230,9 +247,9 @@ impl Operators {
         }
     }
 
-    /// Puts the rupture boundary at these columns, one per line along X, before an iteration begins; nothing where a
-    /// penalty holds the pressures.
-    pub fn rupture_at(&mut self, fronts: &[usize]) {
+    /// Puts the rupture boundary at these columns, one per line along X, before an iteration begins, or out of force, so
+    /// that the penalty holds all pressures; nothing where there is no boundary.
+    pub fn rupture_at(&mut self, fronts: Option<&[usize]>) {
         let Self { front, state_rows, load_row, scratch, .. } = self;
         if let Some(front) = front {
             let count = 2 * self.support.len();
@@ -241,8 +258,13 @@ impl Operators {
     }
 
     /// The first ruptured column of each line along X; none where a penalty holds the pressures.
-    pub fn fronts(&self) -> Vec<usize> {
-        self.front.iter().flat_map(Front::fronts).collect()
+    pub fn fronts(&self) -> impl Iterator<Item = usize> + '_ {
+        self.front.iter().flat_map(|front| front.fronts(&self.scratch.fields))
+    }
+
+    /// Nodes behind the rupture boundary, and the pressures of the modes there that it takes away.
+    pub fn cut<'a>(&'a self, coefficients: &'a [f64]) -> impl Iterator<Item = (usize, f64)> + 'a {
+        self.front.iter().flat_map(|front| front.cut(coefficients))
     }
 
     /// The film at X = 0 (and Y = 0) over what H₀ gives it, by these nodes and weights of an interpolation there:

@@ -8,10 +8,11 @@ use super::{Observer, Progress, TrainingError};
 use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN, ReferenceGrid};
 use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::full::transient::{Frame, Keep, MarchProgress, Trajectory, Transient, march};
+use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel, TrajectoryStart};
 use crate::solver::reduced::{
-    GoalEquations, Iterate, PodBasis, SampledRows, Sampling, TestSpace, Window, all_rows, cubature,
-    deformation_weights, is_finite, mean_diagonals,
+    GoalEquations, Iterate, PodBasis, SampledRows, Sampling, Snapshot, TestSpace, Window, all_rows, cubature,
+    deformation_weights, fronts, is_finite, mean_diagonals,
 };
 use faer::Mat;
 use fastrand::Rng;
@@ -39,6 +40,9 @@ impl Default for TrajectoryTraining {
 /// What trajectories must be to learn from them.
 const NONE: &str = "a training needs trajectories of one frame on one unregistered grid that kept their fields, each \
                     with at least its start";
+/// What their films must do.
+const RUPTURE: &str = "a training in time needs trajectories whose films all rupture by the penalty or all by \
+                       complementarity; full solutions in time know mass-conserving rupture too";
 /// What may help where trajectories teach nothing.
 const DEGENERATE: &str = "the trajectories could not be decomposed, or no rule of few rows carries their steps; try a \
                           larger loss of information or more rows per mode";
@@ -66,7 +70,14 @@ pub fn train_trajectories(
     if !trajectories.iter().all(of_one_kind) {
         return Err(TrainingError::Trajectories(NONE));
     }
-    let sizes = mean_diagonals(&grid.scaled(1.0), &trajectories.iter().collect::<Vec<_>>(), PENALTY);
+    let law = |t: &Trajectory| t.problem.lubricant.cavitation;
+    let cavitation = law(&trajectories[0]);
+    if !trajectories.iter().all(|t| law(t) == cavitation) || matches!(cavitation, Cavitation::MassConserving { .. }) {
+        return Err(TrainingError::Trajectories(RUPTURE));
+    }
+    // Behind a rupture boundary there are no rows.
+    let penalty = if cavitation == Cavitation::Penalty { PENALTY } else { 0.0 };
+    let sizes = mean_diagonals(&grid.scaled(1.0), &trajectories.iter().collect::<Vec<_>>(), penalty);
     let exact = bases(grid, trajectories, (&sizes, training), frame, observer)?;
     let test = test_space(&exact.window.pressure, &exact.window.grid, &sizes);
     let equations = goal_equations(&exact, &test, trajectories, training, observer)?;
@@ -125,18 +136,35 @@ fn bases(
     })?;
     let pressure = pressure.ok_or(TrainingError::Trajectories(DEGENERATE))?;
     let deformation = deformation.ok_or(TrainingError::Trajectories(DEGENERATE))?;
+    let cavitation = trajectories.first().map(|t| t.problem.lubricant.cavitation).unwrap_or_default();
+    let ruptures = cavitation == Cavitation::Complementarity;
     let starts = trajectories
         .iter()
         .filter_map(|t| {
             let state = t.states.first()?;
             let coefficients = pressure.coefficients(&grid.weights, |i| state.pressure[i]);
-            Some(TrajectoryStart { point: t.transient.point, coefficients, h_0: state.h_0 })
+            let fronts = if ruptures { fronts(&contact, |node| state.pressure[node]) } else { Vec::new() };
+            Some(TrajectoryStart { point: t.transient.point, coefficients, h_0: state.h_0, fronts })
         })
         .collect();
     let rows = all_rows(&test_space(&pressure, &contact, sizes));
-    let mut window = Window::new((0.0, f64::INFINITY), contact, pressure, deformation, Vec::new(), Sampling::All, rows);
-    window.penalty = PENALTY;
+    let boundaries = if ruptures { boundaries(trajectories, &contact, &pressure) } else { Vec::new() };
+    let mut window = Window::new((0.0, f64::INFINITY), contact, pressure, deformation, boundaries, Sampling::All, rows);
+    (window.penalty, window.cavitation) = (PENALTY, cavitation);
     Ok(TrajectoryModel { frame, window, starts })
+}
+
+/// A state for each place that the rupture boundary had in trajectories.
+fn boundaries(trajectories: &[Trajectory], grid: &ContactGrid, basis: &PodBasis) -> Vec<Snapshot> {
+    let mut seen: Vec<Snapshot> = Vec::new();
+    for (t, state) in trajectories.iter().flat_map(|t| t.states.iter().map(move |state| (t, state))) {
+        let fronts = fronts(grid, |node| state.pressure[node]);
+        if seen.iter().all(|other| other.fronts != fronts) {
+            let coefficients = basis.coefficients(grid.weights(), |i| state.pressure[i]);
+            seen.push(Snapshot { point: t.transient.point, coefficients, h_0: state.h_0, h_c: state.h_0, fronts });
+        }
+    }
+    seen
 }
 
 /// Marches the all-rows model along the trainings and collects what its iterates demand of a rule.
@@ -159,7 +187,7 @@ fn goal_equations(
             let mut equations = none.clone();
             let mut rng = Rng::with_seed(training.seed.wrapping_add(index as u64));
             let mut seen = 0;
-            let mut model = ReducedMarch::new(exact)?;
+            let mut model = ReducedMarch::new(exact, &trajectory.transient)?;
             model.observe(Box::new(|iterate: &Iterate<'_>| {
                 if seen % every == 0 {
                     add_goals(&mut equations, test, iterate, &mut rng);

@@ -232,7 +232,7 @@ impl Runner<'_, '_> {
         match &model.kind {
             Kind::Reduced(reduced) => {
                 let name = drive.result(&model.name);
-                let timed = march(&name, MarchedBy::Reduced, &mut ReducedMarch::new(reduced)?)?;
+                let timed = march(&name, MarchedBy::Reduced, &mut ReducedMarch::new(reduced, &transient)?)?;
                 (self.tell)(Row::Marched(Arc::new(March::new(&name, by("rnsa"), timed))));
             }
             Kind::Linearised { model: linearised, weightings, .. } => {

@@ -32,7 +32,7 @@ impl Interpolated {
         }
     }
 
-    /// Its values at `stretch` x for increasing x. Beyond the ends of its `nodes` the last piece continues.
+    /// Its values at `stretch` x, soonest for x that increase. Beyond the ends of its `nodes` the last piece continues.
     pub fn stretched(
         &self,
         nodes: &[f64],
@@ -44,6 +44,9 @@ impl Interpolated {
         let mut piece = 0;
         for (i, x) in x.enumerate() {
             let at = stretch * x;
+            while piece > 0 && nodes[piece] > at {
+                piece -= 1;
+            }
             while piece + 2 < nodes.len() && nodes[piece + 1] < at {
                 piece += 1;
             }

@@ -4,6 +4,7 @@ use super::{ReducedError, ReducedOptions};
 use crate::solver::discrete::grid::dot;
 use crate::solver::full::Problem;
 use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::model::{Snapshot, Window};
 use crate::solver::reduced::operators::{Case, OnlineOutcome, Operators, RowObserver, Stop};
 use crate::solver::reduced::start::{Guess, film_number};
@@ -32,21 +33,26 @@ pub(super) fn attempt(
     let scale = window.grid.scale(problem.moes);
     let zero = window.grid.at_zero(scale);
     let mut coefficients = start.coefficients[..operators.modes].to_vec();
-    operators.rupture_at(&start.fronts);
+    operators.rupture_at(Some(&start.fronts));
     operators.carry_load(problem, scale, &mut coefficients);
     // H(0) = H₀ − ½ ln s + s δ(0).
     let lift = operators.lift(window, &zero, scale);
     let offset = -0.5 * scale.ln();
     let mut h_0 = start.h_c - (dot(&lift, &coefficients) + offset);
     let watch = observer.as_mut().map(|o| &mut **o as RowObserver<'_>);
-    let case = Case { problem, scale, curvature: 1.0, penalty: options.penalty.unwrap_or(window.penalty), lift: &lift };
+    // The boundary alone ruptures the film.
+    let penalty = match window.cavitation {
+        Cavitation::Penalty => options.penalty.unwrap_or(window.penalty),
+        Cavitation::Complementarity | Cavitation::MassConserving { .. } => 0.0,
+    };
+    let case = Case { problem, scale, curvature: 1.0, penalty, lift: &lift };
     let stop = Stop { tolerance: options.tolerance, max_newton: options.max_newton.min(limit) };
     let outcome = operators.newton(&case, &mut coefficients, &mut h_0, stop, watch);
     let h_c = h_0 + (operators.lifted(&lift, &coefficients) + offset);
     if outcome.converged && h_c > 0.0 {
         let OnlineOutcome { iterations, residual, .. } = outcome;
         let traction = operators.traction(problem, scale);
-        let fronts = operators.fronts();
+        let fronts = operators.fronts().collect();
         Ok(Found { coefficients, h_0, h_c, iterations, residual, traction, fronts })
     } else {
         Err(ReducedError::NotConverged { iterations: outcome.iterations, step: outcome.step })

@@ -2,6 +2,7 @@
 
 use crate::solver::full::SolveError;
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::lubricant::Cavitation;
 
 /// Why a reduced solve gives no result.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -21,6 +22,17 @@ pub enum ReducedError {
         model: ContactKind,
         /// What it was given.
         given: ContactKind,
+    },
+    /// A model in time whose films rupture otherwise than was asked.
+    #[error(
+        "the reduced model in time was trained with films that rupture by {}, not by {}; train one with that law, or follow the full system",
+        model.name(), given.name()
+    )]
+    OtherRupture {
+        /// What the model knows.
+        model: Cavitation,
+        /// What was asked.
+        given: Cavitation,
     },
     /// The model holds no window.
     #[error("the reduced model holds no bases")]

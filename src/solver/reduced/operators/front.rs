@@ -11,6 +11,7 @@
 use crate::solver::discrete::grid::{ContactGrid, dot};
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
+use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::model::{Snapshot, Window};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, Par};
@@ -19,10 +20,15 @@ use faer::{Accum, Mat, MatMut, Par};
 const BEFORE: usize = 5;
 /// The pressure that counts as negative in (D.17): smaller ones are what the basis leaves.
 const NEGATIVE: f64 = -1e-4;
+/// The same in time, and what is none worth the name: there the bases are of fewer contacts, and pressures behind the
+/// contact that matter are smaller.
+const LITTLE: f64 = 1e-5;
 /// Nodes that B may move beyond where it was in any of the trainings.
 const MARGIN: usize = 4;
 /// So many turns between up and down leave B of a line where it is: its place is known to one node.
 const TURNS: u8 = 4;
+/// Nodes that B may pass at once where it strides, at first.
+const STRIDE: usize = 4;
 /// Places of B at which K V is kept: a solve takes the nearest of them. As many as these, and as take this many bytes.
 const KEPT: usize = 8;
 const KEPT_BYTES: usize = 16 << 20;
@@ -37,6 +43,12 @@ pub(super) struct Front {
     /// Deformation of the support by unit pressure at each of these nodes, row-major nodes × support.
     bends: Vec<f64>,
     kept: Vec<Kept>,
+    /// Whether B may pass several nodes at once, and looks for negative pressures among all that it may pass.
+    pub strides: bool,
+    /// Whether B is out of force: a penalty holds all pressures, as far as there are modes.
+    idle: bool,
+    /// Which of them is in the Jacobian.
+    loaded: Option<usize>,
     /// wᵀ V without a boundary.
     whole_load: Vec<f64>,
     /// Line and column of each sampled row.
@@ -62,6 +74,8 @@ struct Line {
     /// Which way B moved last, and how often it turned.
     down: Option<bool>,
     turns: u8,
+    /// How many nodes it may pass at once.
+    stride: usize,
 }
 
 /// A node that B may pass.
@@ -130,6 +144,15 @@ fn passed(window: &Window) -> Vec<(usize, usize)> {
     (0..grid.lines()).map(of_line).collect()
 }
 
+/// The rows, as unknowns, that the boundary may pass, line after line; none where a penalty holds the pressures.
+pub(crate) fn passed_rows(window: &Window) -> Vec<usize> {
+    let mut rows = Vec::new();
+    if window.cavitation == Cavitation::Complementarity {
+        each_passed(window, |_, unknown| rows.push(unknown));
+    }
+    rows
+}
+
 /// Nodes of the support that the boundary asks for.
 pub(super) fn support(window: &Window) -> Vec<usize> {
     let mut nodes = Vec::new();
@@ -162,7 +185,7 @@ impl Front {
             let first = owners.partition_point(|&owner| owner < line);
             // The last one is never passed: its row says whether B must move on to where no training has been.
             let count = highest - column;
-            Line { column, first, count, front: count, kept: count, down: None, turns: 0 }
+            Line { column, first, count, front: count, kept: count, down: None, turns: 0, stride: STRIDE }
         };
         let lines: Vec<Line> = passed(window).into_iter().enumerate().map(line).collect();
         let passed: Vec<usize> = nodes.iter().map(|passed| passed.node).collect();
@@ -171,6 +194,9 @@ impl Front {
             bends: grid.kernel_columns(support, &passed),
             modes: nodes.iter().flat_map(|p| state_rows[p.place * modes..][..modes].iter().copied()).collect(),
             kept: Vec::new(),
+            strides: false,
+            idle: false,
+            loaded: None,
             lift: vec![0.0; modes],
             aimed: None,
             whole_load: load_row.to_vec(),
@@ -214,30 +240,60 @@ impl Front {
         }
     }
 
-    /// The first ruptured column of each line.
-    pub fn fronts(&self) -> impl Iterator<Item = usize> + '_ {
-        self.lines.iter().map(|line| line.column + line.front)
+    /// The first ruptured column of each line; where B is out of force, the first one behind the pressures.
+    pub fn fronts<'a>(&'a self, pressure: &'a [f64]) -> impl Iterator<Item = usize> + 'a {
+        self.lines.iter().map(move |line| {
+            let carries = |k: &usize| !self.idle || pressure[self.nodes[line.first + k].place] > 0.0;
+            line.column + (0..line.front).rfind(carries).map_or(0, |k| k + 1)
+        })
+    }
+
+    /// Gives the row of node `k` that B may pass other coefficients and other nodes.
+    pub fn set_row(&mut self, k: usize, stencil: [usize; STENCIL], geometry: RowGeometry) {
+        (self.nodes[k].stencil, self.nodes[k].geometry) = (stencil, geometry);
+    }
+
+    /// Places in the support of the nodes that B may pass.
+    pub fn places(&self) -> impl Iterator<Item = usize> + '_ {
+        self.nodes.iter().map(|passed| passed.place)
+    }
+
+    /// Nodes behind B, and the pressures of the modes there.
+    pub fn cut<'a>(&'a self, coefficients: &'a [f64]) -> impl Iterator<Item = (usize, f64)> + 'a {
+        let modes = self.lift.len();
+        let behind = self.lines.iter().flat_map(|line| line.first + line.front..line.first + line.count);
+        behind.map(move |k| (self.nodes[k].node, dot(&self.modes[k * modes..][..modes], coefficients)))
     }
 
     /// Whether a sampled row lies behind B.
     pub fn is_ruptured(&self, row: usize) -> bool {
         let (line, column) = self.rows[row];
         let line = &self.lines[line];
-        column >= line.column + line.front
+        !self.idle && column >= line.column + line.front
     }
 
-    /// Puts B somewhere before an iteration begins.
-    pub fn begin(&mut self, fronts: &[usize], changed: Changed<'_>) {
-        let Self { lines, nodes, modes: basis, kept, whole_load, .. } = self;
-        for (line, front) in lines.iter_mut().zip(fronts) {
-            (line.front, line.down, line.turns) = (line.place_of(*front), None, 0);
+    /// Whether B ruptures the film, and no penalty does.
+    pub fn in_force(&self) -> bool {
+        !self.idle
+    }
+
+    /// Puts B somewhere before an iteration begins; without a place it is behind all modes, and out of force.
+    pub fn begin(&mut self, fronts: Option<&[usize]>, changed: Changed<'_>) {
+        self.idle = fronts.is_none();
+        let Self { lines, nodes, modes: basis, kept, whole_load, loaded, .. } = self;
+        for (number, line) in lines.iter_mut().enumerate() {
+            let place = fronts.map_or(Some(line.count), |fronts| fronts.get(number).map(|front| line.place_of(*front)));
+            (line.front, line.down, line.turns, line.stride) = (place.unwrap_or(line.front), None, 0, STRIDE);
         }
         let far =
             |kept: &Kept| lines.iter().zip(&kept.fronts).map(|(line, own)| line.front.abs_diff(*own)).sum::<usize>();
-        let Some(nearest) = kept.iter().min_by_key(|kept| far(kept)) else { return };
+        let Some((index, nearest)) = kept.iter().enumerate().min_by_key(|(_, kept)| far(kept)) else { return };
         let modes = whole_load.len();
-        let from = nearest.deformation.len();
-        changed.state_rows[from..2 * from].copy_from_slice(&nearest.deformation);
+        if *loaded != Some(index) {
+            let from = nearest.deformation.len();
+            changed.state_rows[from..2 * from].copy_from_slice(&nearest.deformation);
+            *loaded = Some(index);
+        }
         changed.load_row.copy_from_slice(whole_load);
         for (line, kept) in lines.iter_mut().zip(&nearest.fronts) {
             line.kept = *kept;
@@ -298,6 +354,9 @@ impl Front {
         coefficients: &[f64],
         changed: Changed<'_>,
     ) -> bool {
+        if self.idle {
+            return true;
+        }
         let Changed { state_rows, load_row, fields } = changed;
         let s = fields.len() / 2;
         self.passing.clear();
@@ -306,31 +365,50 @@ impl Front {
                 continue;
             }
             let at = |k: usize| &self.nodes[line.first + k];
-            let before = line.front.saturating_sub(BEFORE)..line.front;
-            let up = line.front > 1 && before.into_iter().any(|k| fields[at(k).place] < NEGATIVE);
-            let boundary = at(line.front);
-            let row = nodes.row(&boundary.geometry.scaled(scale), 0.0, boundary.stencil);
-            let change = boundary
-                .stencil
-                .iter()
-                .zip(row.d_p)
-                .zip(row.d_h)
-                .map(|((&node, a), b)| a * step[node] + b * (scale * step[s + node] + shift));
-            // (D.16): λ at B after the step.
-            let multiplier = -(row.value + omega * change.sum::<f64>());
-            let down = !up && multiplier < 0.0 && line.front < line.count;
-            if !(up || down) {
+            let (stride, first, end) = if self.strides {
+                // Behind the last pressure worth the name there may be no modes that B could see become negative.
+                let little = |k: &usize| fields[at(*k).place].abs() < LITTLE;
+                (line.stride, 1, line.front - (1..line.front).rev().take_while(little).count())
+            } else {
+                (1, line.front.saturating_sub(BEFORE), line.front)
+            };
+            let least = if self.strides { -LITTLE } else { NEGATIVE };
+            let negative = (first..end).find(|&k| fields[at(k).place] < least).filter(|_| line.front > 1);
+            // (D.16): λ after the step.
+            let multiplier = |k: usize| {
+                let boundary = at(k);
+                let row = nodes.row(&boundary.geometry.scaled(scale), 0.0, boundary.stencil);
+                let change = boundary
+                    .stencil
+                    .iter()
+                    .zip(row.d_p)
+                    .zip(row.d_h)
+                    .map(|((&node, a), b)| a * step[node] + b * (scale * step[s + node] + shift));
+                -(row.value + omega * change.sum::<f64>())
+            };
+            let front = match negative {
+                Some(first) => first.max(end.saturating_sub(stride)),
+                None => {
+                    // More flows in at these nodes than the gap takes: the liquid fills them.
+                    let mut inflow = 0.0;
+                    let filled = |&k: &usize| {
+                        inflow += at(k).weight * multiplier(k);
+                        inflow < 0.0
+                    };
+                    line.front + (line.front..line.count.min(line.front + stride)).take_while(filled).count()
+                }
+            };
+            if front == line.front {
                 continue;
             }
-            line.turns += u8::from(line.down.is_some_and(|was| was != down));
+            let down = front > line.front;
+            let turned = line.down.is_some_and(|was| was != down);
+            line.turns += u8::from(turned);
+            line.stride = if turned { (line.stride / 4).max(1) } else { 2 * line.stride };
             line.down = Some(down);
-            if down {
-                self.passing.push((line.first + line.front, true));
-                line.front += 1;
-            } else {
-                line.front -= 1;
-                self.passing.push((line.first + line.front, false));
-            }
+            let passing = line.front.min(front)..line.front.max(front);
+            self.passing.extend(passing.map(|k| (line.first + k, down)));
+            line.front = front;
         }
         if self.passing.is_empty() {
             return true;

@@ -2,11 +2,11 @@
 //! iteration.
 
 use super::Operators;
-use super::front::Changed;
+use super::front::{Changed, Front};
 use super::least_squares::LeastSquares;
 use crate::solver::discrete::nodes::{Laws, Order};
-use crate::solver::discrete::reynolds::STENCIL;
 use crate::solver::discrete::reynolds::generalized::FilmTreatment;
+use crate::solver::discrete::reynolds::{CENTER, STENCIL};
 use crate::solver::full::Problem;
 use crate::solver::reduced::dense::{SmallSystem, quadratic_form};
 use faer::linalg::matmul::matmul;
@@ -33,7 +33,7 @@ pub(crate) struct Case<'a> {
     pub scale: f64,
     /// 1/R̄ of (2.24); 1 where the radius does not vary.
     pub curvature: f64,
-    /// Penalty factor γ̄.
+    /// Penalty factor γ̄; beside a rupture boundary it holds only the pressures before the centre.
     pub penalty: f64,
     /// s K V_p at X = 0 (and Y = 0): what the film there gains per unit of each coefficient.
     pub lift: &'a [f64],
@@ -141,7 +141,6 @@ impl Operators {
     /// Evaluates the sampled rows at the fields; returns e_f^I.
     fn evaluate(&mut self, case: &Case<'_>, coefficients: &[f64], h_0: f64, derivatives: bool) -> f64 {
         let Case { problem, scale, curvature, penalty, .. } = *case;
-        let penalty = if self.front.is_some() { 0.0 } else { penalty };
         let s = &mut self.scratch;
         let count = self.support.len();
         let (pressure, rest) = s.fields.split_at(count);
@@ -171,7 +170,10 @@ impl Operators {
                 continue;
             }
             let geometry = geometry.scaled(scale);
-            let out = s.nodes.row(&geometry, penalty, *stencil);
+            // Before the centre there is no boundary: where the inlet ruptures, in time, a penalty holds it.
+            let ruptures = self.front.as_ref().is_some_and(Front::in_force);
+            let held = !ruptures || self.support[stencil[CENTER]].xi < 0.0;
+            let out = s.nodes.row(&geometry, if held { penalty } else { 0.0 }, *stencil);
             s.values[r] = out.value;
             sum += self.row_weights[r] * scale * out.value * out.value;
             if derivatives {

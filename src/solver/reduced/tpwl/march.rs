@@ -158,7 +158,7 @@ impl<'a> TpwlMarch<'a> {
     fn keep(&mut self, at: &Conditions) {
         self.record.push(self.step, &self.superposition.weights, &self.trial.state);
         let (coefficients, h_0) = self.trial.state.split_at(self.model.space.modes());
-        self.scalars = self.contact.scalars(at, coefficients, h_0[0]);
+        self.scalars = self.contact.scalars(at, coefficients, h_0[0], |_| 0.0);
     }
 }
 

@@ -9,7 +9,8 @@ use crate::solver::reduced::Window;
 pub struct TrajectoryModel {
     /// The frame it was trained in.
     pub frame: Frame,
-    /// Bases, sampled rows, grid. Its snapshots and its range of M are of no use here.
+    /// Bases, sampled rows, grid. Under complementarity its snapshots tell where the rupture boundary was in training,
+    /// elsewhere it has none; its range of M is of no use here.
     pub window: Window,
     /// Where its training trajectories began.
     pub starts: Vec<TrajectoryStart>,
@@ -24,4 +25,6 @@ pub struct TrajectoryStart {
     pub coefficients: Vec<f64>,
     /// Its H₀.
     pub h_0: f64,
+    /// Under complementarity its first ruptured column, in node arrays; empty under a penalty.
+    pub fronts: Vec<usize>,
 }

@@ -1,26 +1,28 @@
 //! The online phase in time: Newton on the sampled rows from the extrapolation of the two former steps.
 
 use super::model::TrajectoryModel;
+use crate::solver::discrete::elasticity::Scratch;
 use crate::solver::discrete::grid::{FIRST_UNKNOWN, LineGrid, ReferenceGrid, dot};
 use crate::solver::discrete::reynolds::line::Upstream;
 use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
-use crate::solver::full::transient::{Conditions, Effort, Frame, History, Marching, Moment, State, Step};
+use crate::solver::full::transient::{Conditions, Effort, Frame, History, Marching, Moment, State, Step, Transient};
 use crate::solver::full::{Scalars, Termination};
 use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::reduced::contact_rows::ContactRows;
-use crate::solver::reduced::operators::{Case, Iterate, Operators, RowObserver, Stop};
+use crate::solver::reduced::operators::{Case, Iterate, Operators, RowObserver, Stop, cut_off, passed_rows};
 use crate::solver::reduced::{ReducedError, distance};
 use faer::linalg::matmul::matmul;
-use faer::{Accum, ColMut, ColRef, Par};
+use faer::{Accum, ColMut, ColRef, Mat, Par};
 use std::sync::Arc;
 
 /// Stop of a step on ‖Δp̃‖/‖p̃‖.
 const TOLERANCE: f64 = 1e-6;
 /// Newton steps of a time step, and of the stationary start.
 const MOST_NEWTON: [usize; 2] = [15, 60];
-/// The penalty factor a failed step is tried with again, over the model's own.
-const SOFTER: f64 = 0.1;
+/// How a step is tried: whether a rupture boundary, where there is one, is in force, and the penalty factor over the
+/// model's own. A boundary that finds no place gives way to the penalty, that to a softer one.
+const ATTEMPTS: [(bool, f64); 3] = [(true, 1.0), (false, 1.0), (false, 0.1)];
 
 /// Sees every iterate of every step.
 pub(crate) type StepObserver<'a> = Box<dyn FnMut(&Iterate<'_>) + 'a>;
@@ -30,9 +32,10 @@ pub struct ReducedMarch<'a> {
     model: &'a TrajectoryModel,
     grid: LineGrid,
     operators: Operators,
-    /// Stencils of the sampled rows and their coefficients, for a flow from the inlet and from the outlet.
+    /// Stencils of the sampled rows, and of those that the rupture boundary may pass, and their coefficients, for a flow
+    /// from the inlet and from the outlet.
     sides: Vec<[Side; 2]>,
-    /// X of the sampled rows' own nodes.
+    /// X of these rows' own nodes.
     x: Vec<f64>,
     /// K V_p at X = 0.
     lift: Vec<f64>,
@@ -40,8 +43,14 @@ pub struct ReducedMarch<'a> {
     coefficients: Vec<f64>,
     start: Vec<f64>,
     h_0: f64,
+    /// Where the film ruptures in the present state, and where a step begins; empty under a penalty.
+    fronts: Vec<usize>,
+    front: Vec<usize>,
+    /// What of the modes' pressures the boundary takes away, by nodes.
+    cut: Vec<(usize, f64)>,
     /// P and H at all nodes, which only remeshing asks for.
     fields: [Vec<f64>; 2],
+    fft: Scratch,
     contact: ContactRows,
     /// Scalars of the present state.
     scalars: Scalars,
@@ -56,40 +65,47 @@ struct Side {
 }
 
 impl<'a> ReducedMarch<'a> {
-    /// The model on its grid.
+    /// The model on its grid, to march along `transient`.
     ///
     /// # Errors
-    /// When the model is of point contacts.
-    pub fn new(model: &'a TrajectoryModel) -> Result<Self, ReducedError> {
+    /// When the model is of point contacts, or of films that rupture otherwise.
+    pub fn new(model: &'a TrajectoryModel, transient: &Transient) -> Result<Self, ReducedError> {
+        let (own, given) = (model.window.cavitation, transient.lubricant.cavitation);
+        if own != given {
+            return Err(ReducedError::OtherRupture { model: own, given });
+        }
         let reference = line_grid(model)?;
         let grid = reference.scaled(1.0);
         let window = &model.window;
         let modes = window.pressure.modes.ncols();
         let (unknowns, last) = (grid.unknowns(), grid.len() - 1);
-        let further: Vec<usize> = window.sampled_rows.iter().map(|row| (row + 4).min(last)).collect();
-        let operators = Operators::with_support(window, modes, None, false, &further);
-        let mut support: Vec<usize> = window.sampled_rows.iter().flat_map(|&row| row..=(row + 4).min(last)).collect();
-        support.sort_unstable();
-        support.dedup();
-        let place = |node: usize| support.partition_point(|&s| s < node);
+        let rows: Vec<usize> = window.sampled_rows.iter().copied().chain(passed_rows(window)).collect();
+        let further: Vec<usize> = rows.iter().map(|row| (row + 4).min(last)).collect();
+        let mut operators = Operators::with_support(window, modes, None, false, &further);
+        operators.stride();
+        let place = |node: usize| operators.place(node);
         let side = |row: usize, velocity: f64| {
             let upstream = Upstream::of(velocity, row, unknowns);
             Side { stencil: upstream.stencil(row).map(place), geometry: upstream.geometry(&grid.x, row) }
         };
-        let sides: Vec<[Side; 2]> = window.sampled_rows.iter().map(|&row| [side(row, 1.0), side(row, -1.0)]).collect();
+        let sides: Vec<[Side; 2]> = rows.iter().map(|&row| [side(row, 1.0), side(row, -1.0)]).collect();
         let (first, weights) = grid.interpolation(0.0);
         let at_zero = |k: usize| weights.iter().enumerate().map(|(m, w)| w * window.flexed[(first + m, k)]).sum();
         Ok(Self {
             model,
-            operators,
-            x: window.sampled_rows.iter().map(|row| grid.x[row + FIRST_UNKNOWN]).collect(),
+            x: rows.iter().map(|row| grid.x[row + FIRST_UNKNOWN]).collect(),
             lift: (0..modes).map(at_zero).collect(),
             sides,
+            operators,
             history: History::default(),
             coefficients: vec![0.0; modes],
             start: vec![0.0; modes],
             h_0: 0.0,
+            fronts: Vec::new(),
+            front: Vec::new(),
+            cut: Vec::with_capacity(rows.len()),
             fields: [vec![0.0; grid.len()], vec![0.0; grid.len()]],
+            fft: Scratch::default(),
             contact: ContactRows::new(&grid, window.pressure.modes.as_ref(), window.flexed.as_ref()),
             scalars: Scalars::default(),
             grid,
@@ -118,7 +134,8 @@ impl<'a> ReducedMarch<'a> {
     fn newton(&mut self, at: &Conditions, max_newton: usize) -> Result<Effort, Termination> {
         let h_0 = self.h_0;
         let mut effort = Effort::default();
-        for softness in [1.0, SOFTER] {
+        let attempts = if self.front.is_empty() { &ATTEMPTS[1..] } else { &ATTEMPTS[..] };
+        for (held, softness) in attempts {
             let case = Case {
                 problem: &at.problem,
                 scale: 1.0,
@@ -127,6 +144,11 @@ impl<'a> ReducedMarch<'a> {
                 lift: &self.lift,
             };
             let stop = Stop { tolerance: TOLERANCE, max_newton };
+            self.operators.rupture_at(held.then_some(&self.front));
+            if self.observer.is_some() {
+                let window = &self.model.window;
+                self.operators.lift(window, &window.grid.at_zero(1.0), 1.0);
+            }
             self.coefficients.copy_from_slice(&self.start);
             self.h_0 = h_0;
             let observer = self.observer.as_mut().map(|observer| observer.as_mut() as RowObserver<'_>);
@@ -142,31 +164,42 @@ impl<'a> ReducedMarch<'a> {
     /// Makes the present state the nearer of the former ones.
     fn remember(&mut self, at: &Conditions) {
         self.history.remember(&self.coefficients, self.h_0, self.operators.flow());
+        self.fronts.clear();
+        self.fronts.extend(self.operators.fronts());
+        self.cut.clear();
+        self.cut.extend(self.operators.cut(&self.coefficients));
         if let Frame::Remeshed(interpolation) = self.model.frame {
-            let [pressure, film] = &mut self.fields;
-            set_fields(self.model, &self.grid, at, (&self.coefficients, self.h_0), [pressure, film]);
+            let mut fields = std::mem::take(&mut self.fields);
+            let mut fft = std::mem::take(&mut self.fft);
+            self.set_fields(at, &mut fields, &mut fft);
+            (self.fields, self.fft) = (fields, fft);
+            let [pressure, film] = &self.fields;
             let fluid = &at.problem.fluid;
-            let flow = pressure.iter().zip(&*film).map(|(&p, &h)| fluid.at(p).density * h);
+            let flow = pressure.iter().zip(film).map(|(&p, &h)| fluid.at(p).density * h);
             self.history.remember_between(interpolation, &self.grid.x, flow);
         }
-        self.scalars = self.contact.scalars(at, &self.coefficients, self.h_0);
+        let (cut, flexibility) = (&self.cut, &self.grid.reference.flexibility);
+        let bend = |node| -cut.iter().map(|&(other, value)| flexibility.entry(node, other) * value).sum::<f64>();
+        self.scalars = self.contact.scalars(at, &self.coefficients, self.h_0, bend);
     }
-}
 
-/// P and H of (p̃, H₀) at all nodes.
-fn set_fields(
-    model: &TrajectoryModel,
-    grid: &LineGrid,
-    at: &Conditions,
-    (coefficients, h_0): (&[f64], f64),
-    [pressure, film]: [&mut [f64]; 2],
-) {
-    for (out, basis) in [(pressure, &model.window.pressure.modes), (&mut *film, &model.window.flexed)] {
-        let (out, coefficients) = (ColMut::from_slice_mut(out), ColRef::from_slice(coefficients));
-        matmul(out.as_mat_mut(), Accum::Replace, basis, coefficients.as_mat(), 1.0, Par::Seq);
-    }
-    for (film, x) in film.iter_mut().zip(&grid.x) {
-        *film += h_0 + 0.5 * at.curvature * x * x;
+    /// P and H of the present state at all nodes.
+    fn set_fields(&self, at: &Conditions, [pressure, film]: &mut [Vec<f64>; 2], fft: &mut Scratch) {
+        let window = &self.model.window;
+        let product = |out: &mut [f64], basis: &Mat<f64>| {
+            let (out, coefficients) = (ColMut::from_slice_mut(out), ColRef::from_slice(&self.coefficients));
+            matmul(out.as_mat_mut(), Accum::Replace, basis, coefficients.as_mat(), 1.0, Par::Seq);
+        };
+        product(pressure, &window.pressure.modes);
+        if self.fronts.is_empty() {
+            product(film, &window.flexed);
+        } else {
+            cut_off(&window.grid, &self.fronts, pressure);
+            self.grid.deform(pressure, film, fft);
+        }
+        for (film, x) in film.iter_mut().zip(&self.grid.x) {
+            *film += self.h_0 + 0.5 * at.curvature * x * x;
+        }
     }
 }
 
@@ -186,6 +219,7 @@ impl Marching for ReducedMarch<'_> {
         let nearest = self.model.starts.iter().min_by(|a, b| far(&a.point).total_cmp(&far(&b.point)));
         let Some(nearest) = nearest else { return Err(Termination::Diverged) };
         self.start.clone_from(&nearest.coefficients);
+        self.front.clone_from(&nearest.fronts);
         self.h_0 = nearest.h_0;
         for (r, sides) in self.sides.iter().enumerate() {
             self.operators.set_row(r, sides[0].stencil, sides[0].geometry.in_time(at.speed, 0.0, 0.0));
@@ -202,6 +236,7 @@ impl Marching for ReducedMarch<'_> {
         }
         self.set_rows(step);
         self.h_0 = self.history.extrapolate(step.ratio, &mut self.start);
+        self.front.clone_from(&self.fronts);
         self.newton(&step.now, MOST_NEWTON[0])
     }
 
@@ -220,8 +255,9 @@ impl Marching for ReducedMarch<'_> {
     }
 
     fn state(&self, at: &Conditions) -> State {
-        let [mut pressure, mut film] = [vec![0.0; self.grid.len()], vec![0.0; self.grid.len()]];
-        set_fields(self.model, &self.grid, at, (&self.coefficients, self.h_0), [&mut pressure, &mut film]);
+        let mut fields = [vec![0.0; self.grid.len()], vec![0.0; self.grid.len()]];
+        self.set_fields(at, &mut fields, &mut Scratch::default());
+        let [pressure, film] = fields;
         let (multiplier, fraction) = (Vec::new(), Vec::new());
         State { time: at.time, scales: at.scales, pressure, film, multiplier, fraction, h_0: self.h_0 }
     }
