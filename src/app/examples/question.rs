@@ -42,6 +42,7 @@ pub fn question(scene: &Scene) -> String {
         Study::Starvation(_) => "How thin is the film of a contact that is supplied with little oil?".to_owned(),
         Study::Transition(_) => "How does a rigid, barely loaded contact become the dry contact?".to_owned(),
         Study::InformationLoss(_) => "How many modes do the pressures in time need, in which frame?".to_owned(),
+        Study::SchemesInTime(_) => "By which scheme should a reduced model take its steps in time?".to_owned(),
         Study::FlowCurve(_) => "How does the oil thin under shear?".to_owned(),
     }
 }

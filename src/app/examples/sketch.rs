@@ -164,6 +164,9 @@ pub(super) fn marks(scene: &Scene) -> Vec<Mark> {
                 Dashes(Quiet, curve(hertz)),
             ]
         }
+        Study::SchemesInTime(_) => {
+            vec![Line(Film, curve(falling(2.0))), Line(Pressure, curve(|x| 0.5 + 0.3 * (9.0 * x).sin()))]
+        }
         Study::InformationLoss(_) => vec![Line(Pressure, curve(falling(1.5))), Line(Film, curve(falling(4.0)))],
         Study::FlowCurve(_) => {
             let thinned = |x: f32| 0.2 + 0.65 / (1.0 + (10.0 * (x - 0.5)).exp());

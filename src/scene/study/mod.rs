@@ -43,6 +43,7 @@ pub mod point;
 mod question;
 pub mod random_test;
 pub mod sampling_comparison;
+pub mod schemes_in_time;
 pub mod starvation;
 pub mod sweep;
 pub mod tolerance_study;
@@ -197,6 +198,8 @@ studies! {
     FlowCurve(flow_curve::FlowCurve),
     /// Loss of information against modes of a contact in time, in each frame: Fig. 4.5.
     InformationLoss(information_loss::InformationLoss),
+    /// Galerkin's scheme, residual minimisation and ways of sampling rows for a contact in time.
+    SchemesInTime(schemes_in_time::SchemesInTime),
 }
 
 impl Study {

@@ -22,7 +22,7 @@ pub(super) fn check(spec: &TrainingSpec) -> Result<(), Refused> {
     number("pressure_loss", spec.pressure_loss, 1e-15, 0.5)?;
     number("deformation_loss", spec.deformation_loss, 1e-15, 0.5)?;
     number("rows_per_mode", spec.rows_per_mode, 1.0, 20.0)?;
-    scheme(spec)?;
+    scheme(spec.scheme, spec.sampling, spec.rows_per_mode)?;
     number("penalty", spec.penalty, 1e2, 1e9)?;
     if spec.evidence > 0 && !(LEAST_EVIDENCE..=MOST_POINTS).contains(&spec.evidence) {
         return Err(Refused::new(
@@ -37,8 +37,8 @@ pub(super) fn check(spec: &TrainingSpec) -> Result<(), Refused> {
 }
 
 /// Residual minimisation has no use for weights that make tested rows right; GNAT's bases are those of sampled rows.
-fn scheme(spec: &TrainingSpec) -> Result<(), Refused> {
-    match (spec.scheme, spec.sampling) {
+pub(super) fn scheme(scheme: Scheme, sampling: Sampling, rows_per_mode: f64) -> Result<(), Refused> {
+    match (scheme, sampling) {
         (Scheme::LeastSquares { .. } | Scheme::Gnat { .. }, Sampling::Cubature) => Err(Refused::new(
             "scheme",
             "minimises the residual, but the cubature's weights belong to rows tested by V; choose Greedy or QDeim",
@@ -47,12 +47,11 @@ fn scheme(spec: &TrainingSpec) -> Result<(), Refused> {
             "scheme",
             "is Gnat, which samples rows; choose Greedy or QDeim, or LeastSquares of all rows",
         )),
-        (Scheme::LeastSquares { .. } | Scheme::Gnat { .. }, _) if spec.rows_per_mode < FEWEST_MINIMISED => {
+        (Scheme::LeastSquares { .. } | Scheme::Gnat { .. }, _) if rows_per_mode < FEWEST_MINIMISED => {
             Err(Refused::new(
                 "rows_per_mode",
                 format!(
-                    "is {}, but residual minimisation needs more equations than unknowns: {FEWEST_MINIMISED} at least",
-                    spec.rows_per_mode
+                    "is {rows_per_mode}, but residual minimisation needs more equations than unknowns: {FEWEST_MINIMISED} at least"
                 ),
             ))
         }

@@ -30,6 +30,7 @@ mod traction;
 mod trajectories;
 #[cfg(test)]
 mod trajectories_tests;
+mod trajectory_rows;
 
 pub use crate::solver::observer::{Observer, Progress};
 pub use adaptive::{BadPoint, Search};

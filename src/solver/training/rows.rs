@@ -155,13 +155,27 @@ fn choose(
     }
     let count = |per_mode: &f64| ((test.modes.ncols() as f64 * per_mode).round() as usize).min(test.weights.len());
     let counts: Vec<usize> = rows_per_mode.iter().map(count).collect();
+    rows_by(test, (scheme, sampling), (&rows, &equations), (&counts, 0.0))
+}
+
+/// The rows that a scheme takes by what snapshots or, for a cubature, goal equations speak for: of each count, `None`
+/// where the linear algebra gives up. A cubature of less than a `share` of the count gives way to a closer fit.
+pub(super) fn rows_by(
+    test: &TestSpace,
+    (scheme, sampling): (Scheme, Sampling),
+    (rows, equations): (&RowSnapshots, &GoalEquations),
+    (counts, share): (&[usize], f64),
+) -> Vec<Option<SampledRows>> {
     let chosen = match sampling {
         _ if scheme != Scheme::Galerkin => {
-            counts.iter().map(|count| minimised_rows(test, (scheme, sampling), &rows, *count)).collect()
+            counts.iter().map(|count| minimised_rows(test, (scheme, sampling), rows, *count)).collect()
         }
-        Sampling::QDeim => q_deim(test, &rows, &counts),
-        Sampling::Greedy => counts.iter().map(|count| greedy(test, &rows, *count)).collect(),
-        Sampling::Cubature => counts.iter().map(|count| cubature(test, &equations, *count)).collect(),
+        Sampling::QDeim => q_deim(test, rows, counts),
+        Sampling::Greedy => counts.iter().map(|count| greedy(test, rows, *count)).collect(),
+        Sampling::Cubature => {
+            let few = |count: usize| (share * count as f64) as usize;
+            counts.iter().map(|&count| cubature(test, equations, count, few(count))).collect()
+        }
         Sampling::All => counts.iter().map(|_| Some(all_rows(test))).collect(),
     };
     let finite = |chosen: &SampledRows| is_finite(chosen.reconstruction.as_ref());

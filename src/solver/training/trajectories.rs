@@ -3,20 +3,17 @@
 //! its pressure.
 
 use super::one_thread::on_one_thread;
-use super::rows::add_goals;
-use super::{Observer, Progress, TrainingError};
+use super::trajectory_rows::sampled_rows;
+use super::{Observer, Progress, TrainingError, check};
 use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN, ReferenceGrid};
 use crate::solver::discrete::reynolds::PENALTY;
-use crate::solver::full::transient::{Frame, Keep, MarchProgress, Trajectory, Transient, march};
+use crate::solver::full::transient::{Frame, Trajectory};
 use crate::solver::physics::lubricant::Cavitation;
-use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel, TrajectoryStart};
+use crate::solver::reduced::transient::{TrajectoryModel, TrajectoryStart};
 use crate::solver::reduced::{
-    GoalEquations, Iterate, PodBasis, SampledRows, Sampling, Snapshot, TestSpace, Window, all_rows, cubature,
-    deformation_weights, fronts, is_finite, mean_diagonals,
+    PodBasis, Sampling, Scheme, Snapshot, TestSpace, Window, all_rows, deformation_weights, fronts, mean_diagonals,
 };
 use faer::Mat;
-use fastrand::Rng;
-use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Settings of such a training.
@@ -28,12 +25,16 @@ pub struct TrajectoryTraining {
     pub rows_per_mode: f64,
     /// Seed of the cubature's random functionals.
     pub seed: u64,
+    /// By what a step is found.
+    pub scheme: Scheme,
+    /// How rows are sampled; residual minimisation knows no cubature.
+    pub sampling: Sampling,
 }
 
 impl Default for TrajectoryTraining {
-    /// A loss of 1e-6 and two rows per mode.
+    /// A loss of 1e-6 and two rows per mode, Galerkin's scheme with a cubature.
     fn default() -> Self {
-        Self { loss: 1e-6, rows_per_mode: 2.0, seed: 1 }
+        Self { loss: 1e-6, rows_per_mode: 2.0, seed: 1, scheme: Scheme::Galerkin, sampling: Sampling::Cubature }
     }
 }
 
@@ -48,8 +49,6 @@ const DEGENERATE: &str = "the trajectories could not be decomposed, or no rule o
                           larger loss of information or more rows per mode";
 /// Most states that enter the bases: of longer trajectories every n-th one.
 const MOST_SNAPSHOTS: usize = 900;
-/// Iterates that the cubature has to satisfy.
-const ITERATES: usize = 600;
 
 /// Trains a model of one frame from full trajectories that kept their states.
 ///
@@ -75,28 +74,27 @@ pub fn train_trajectories(
     if !trajectories.iter().all(|t| law(t) == cavitation) || matches!(cavitation, Cavitation::MassConserving { .. }) {
         return Err(TrainingError::Trajectories(RUPTURE));
     }
+    check::scheme(training.scheme, training.sampling, training.rows_per_mode)?;
     // Behind a rupture boundary there are no rows.
     let penalty = if cavitation == Cavitation::Penalty { PENALTY } else { 0.0 };
     let sizes = mean_diagonals(&grid.scaled(1.0), &trajectories.iter().collect::<Vec<_>>(), penalty);
     let exact = bases(grid, trajectories, (&sizes, training), frame, observer)?;
-    let test = test_space(&exact.window.pressure, &exact.window.grid, &sizes);
-    let equations = goal_equations(&exact, &test, trajectories, training, observer)?;
-    observer.progress(Progress { stage: "Row sampling".to_owned(), done: 0, total: 1 });
-    let target = (test.modes.ncols() as f64 * training.rows_per_mode).round() as usize;
-    let sampled = on_one_thread(observer, move || cubature(&test, &equations, target))?;
-    let sampled = sampled.filter(|s: &SampledRows| is_finite(s.reconstruction.as_ref()));
+    let sampled = sampled_rows(&exact, &sizes, trajectories, training, observer)?;
     let mut model = exact;
-    model.window.set_rows(Sampling::Cubature, sampled.ok_or(TrainingError::Trajectories(DEGENERATE))?);
+    model.window.set_rows(training.sampling, sampled.ok_or(TrainingError::Trajectories(DEGENERATE))?);
     Ok(model)
 }
 
 /// What the rows are tested with: V, each row by its cell's size over the fourth root of its own size. With the
 /// emphasis of [`emphasis`] on the other side, rows and modes meet halfway: the far inlet and the nodes that the
 /// rupture passes, whose rows answer up to 10⁸ times as strongly as those under the contact, no longer decide over the
-/// film by the little that modes miss there.
-fn test_space(basis: &PodBasis, grid: &ContactGrid, sizes: &[f64]) -> TestSpace {
+/// film by the little that modes miss there. Residual minimisation weighs rows by D of (D.10) alone: with both it is a
+/// hundred times worse.
+pub(super) fn test_space(basis: &PodBasis, grid: &ContactGrid, sizes: &[f64], scheme: Scheme) -> TestSpace {
     let mut test = TestSpace::new(basis, grid);
-    test.weights.iter_mut().zip(sizes).for_each(|(weight, size)| *weight /= size.sqrt().sqrt());
+    if scheme == Scheme::Galerkin {
+        test.weights.iter_mut().zip(sizes).for_each(|(weight, size)| *weight /= size.sqrt().sqrt());
+    }
     test
 }
 
@@ -147,7 +145,7 @@ fn bases(
             Some(TrajectoryStart { point: t.transient.point, coefficients, h_0: state.h_0, fronts })
         })
         .collect();
-    let rows = all_rows(&test_space(&pressure, &contact, sizes));
+    let rows = all_rows(&test_space(&pressure, &contact, sizes, Scheme::Galerkin));
     let boundaries = if ruptures { boundaries(trajectories, &contact, &pressure) } else { Vec::new() };
     let mut window = Window::new((0.0, f64::INFINITY), contact, pressure, deformation, boundaries, Sampling::All, rows);
     (window.penalty, window.cavitation) = (PENALTY, cavitation);
@@ -165,43 +163,4 @@ fn boundaries(trajectories: &[Trajectory], grid: &ContactGrid, basis: &PodBasis)
         }
     }
     seen
-}
-
-/// Marches the all-rows model along the trainings and collects what its iterates demand of a rule.
-fn goal_equations(
-    exact: &TrajectoryModel,
-    test: &TestSpace,
-    trajectories: &[Trajectory],
-    training: &TrajectoryTraining,
-    observer: &dyn Observer,
-) -> Result<GoalEquations, TrainingError> {
-    // Rows are candidates by what happens there, not by what they count.
-    let none = GoalEquations::over(&TestSpace::new(&exact.window.pressure, &exact.window.grid));
-    // About three iterates in a step, of which every n-th is kept.
-    let steps: usize = trajectories.iter().map(|t| t.moments.len()).sum();
-    let every = (3 * steps).div_ceil(ITERATES).max(1);
-    let collected: Vec<GoalEquations> = trajectories
-        .par_iter()
-        .enumerate()
-        .map(|(index, trajectory)| {
-            let mut equations = none.clone();
-            let mut rng = Rng::with_seed(training.seed.wrapping_add(index as u64));
-            let mut seen = 0;
-            let mut model = ReducedMarch::new(exact, &trajectory.transient)?;
-            model.observe(Box::new(|iterate: &Iterate<'_>| {
-                if seen % every == 0 {
-                    add_goals(&mut equations, test, iterate, &mut rng);
-                }
-                seen += 1;
-            }));
-            let transient = Transient { keep: Keep::Scalars, ..trajectory.transient.clone() };
-            let stage = format!("Rows along training {} of {}", index + 1, trajectories.len());
-            march(&mut model, &transient, &MarchProgress { observer, stage, duration: transient.duration })?;
-            drop(model);
-            if observer.cancelled() { Err(TrainingError::Cancelled) } else { Ok(equations) }
-        })
-        .collect::<Result<_, TrainingError>>()?;
-    let mut all = none;
-    collected.iter().for_each(|equations| all.merge(equations));
-    Ok(all)
 }

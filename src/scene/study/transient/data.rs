@@ -7,7 +7,7 @@ use crate::scene::grid::Grid;
 use crate::scene::is_default;
 use crate::solver::full::transient::{Frame, Inputs, TimeStep, Transient};
 use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::lubricant::ShearLaw;
+use crate::solver::physics::lubricant::{Cavitation, ShearLaw};
 use crate::solver::reduced::tpwl::{Selection, Weighting};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -230,6 +230,11 @@ impl TransientStudy {
         }
         self.training_loads.iter().try_for_each(|&load| number("study.training_loads", load, 1e-6, 1e10))?;
         self.check_marches(experiment)?;
+        let models = self.reduced.is_some() || self.linearised.is_some();
+        if models && matches!(experiment.lubricant.cavitation, Cavitation::MassConserving { .. }) {
+            let limit = "is mass-conserving, but models in time rupture by the penalty or by complementarity";
+            return Err(refuse("cavitation", limit));
+        }
         if let Some(reduced) = &self.reduced {
             if !matches!(experiment.grid, Grid::Uniform { .. } | Grid::GradedNodes { registered: false, .. }) {
                 return Err(refuse(

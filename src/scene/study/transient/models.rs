@@ -175,7 +175,7 @@ impl Runner<'_, '_> {
     fn reduced(&self, reduced: &ReducedTransient, frame: Frame, trainings: &[Trajectory]) -> Result<Model, RunError> {
         let begun = Instant::now();
         let ReducedTransient { loss, rows_per_mode, seed } = *reduced;
-        let settings = TrajectoryTraining { loss, rows_per_mode, seed };
+        let settings = TrajectoryTraining { loss, rows_per_mode, seed, ..TrajectoryTraining::default() };
         let model = Arc::new(train_trajectories(&self.grid, trainings, &settings, self.setting.observer)?);
         let name = format!("{}.rnsa", frame.name());
         let model = Model { name, frame, kind: Kind::Reduced(model), wall_s: begun.elapsed().as_secs_f64() };

@@ -4,14 +4,17 @@ use super::linearisation::{Linearisation, PENALTY_SLOPE, SystemFunctions};
 use super::selection::{Selection, Selector, TrainedMoment, with_points};
 use super::space::{INPUTS, ReducedSpace, input_vector, same_but_load};
 use super::weights::square_distance;
-use crate::solver::full::transient::{Frame, Trajectory, TransientError};
+use crate::solver::discrete::reynolds::PENALTY;
+use crate::solver::full::transient::{Frame, State, Trajectory, TransientError};
 use crate::solver::full::{Mesh, Problem, SolveError};
 use crate::solver::limits::Number;
 use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::PodBasis;
 use crate::solver::reduced::row_sizes::row_weights;
 use faer::Mat;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// How a model is made of its training trajectories.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -110,6 +113,9 @@ pub struct TpwlModel {
 
 /// Most snapshots of all trajectories together the basis is made from; more would add work, not information.
 const MOST_SNAPSHOTS: usize = 600;
+/// Why films that are filled in part are not linearised.
+const FILLED: &str = "a trajectory-piecewise-linear model knows no film that is filled in part: its training must \
+                      rupture by the penalty or by complementarity";
 /// Relative change of the reference load in the difference quotient of the load slopes.
 const LOAD_DIFFERENCE: f64 = 1e-3;
 
@@ -331,6 +337,9 @@ fn check<'a>(trajectories: &[&'a Trajectory], training: TpwlTraining) -> Result<
     let Some(&first) = trajectories.first() else { return Err(TpwlError::NoTraining) };
     for (k, trajectory) in trajectories.iter().enumerate() {
         check_frame(trajectory.transient.frame)?;
+        if let Cavitation::MassConserving { .. } = trajectory.problem.lubricant.cavitation {
+            return Err(TpwlError::Refused(FILLED.to_owned()));
+        }
         if trajectory.states.len() < LEAST_STATES {
             return Err(TpwlError::Refused(format!(
                 "training trajectory {} keeps the fields of {} moments, but at least {LEAST_STATES} are needed",
@@ -363,13 +372,20 @@ pub fn check_frame(frame: Frame) -> Result<(), TpwlError> {
     )))
 }
 
+/// P with what the penalty would leave of it: −λ/γ̄ where a multiplier balances the rows. A linearised system knows no
+/// sets; so it holds the ruptured film by the penalty of its slope, whichever way the training ruptured.
+fn penalised(state: &State) -> Arc<[f64]> {
+    let multiplier = state.multiplier.iter().copied().chain(std::iter::repeat(0.0));
+    state.pressure.iter().zip(multiplier).map(|(pressure, multiplier)| pressure - multiplier / PENALTY).collect()
+}
+
 /// A trajectory in the reduced space.
 fn moments(space: &ReducedSpace, trajectory: &Trajectory) -> Vec<TrainedMoment> {
-    let moment = |state: &crate::solver::full::transient::State| TrainedMoment {
+    let moment = |state: &State| TrainedMoment {
         time: state.time,
         input: trajectory.transient.inputs.at(state.time),
         state: space.project(state),
-        pressure: state.pressure.as_slice().into(),
+        pressure: penalised(state),
     };
     trajectory.states.iter().map(moment).collect()
 }
