@@ -79,9 +79,12 @@ impl Document {
         Key { point: self.point, lubricant: self.lubricant }
     }
 
-    /// The grid that was chosen for a point contact; none for a line contact.
+    /// The grid that was chosen for a point contact; where none was, the graded one that does for it. None for a line
+    /// contact.
     pub fn chosen_plane(&self) -> Option<PointGridSpec> {
-        (self.point.kind == ContactKind::Point).then(|| self.plane())
+        let fitted = |graded: PointGridSpec| graded.for_contact(&self.point).unwrap_or(graded);
+        let own = self.plane();
+        (self.point.kind == ContactKind::Point).then(|| if own == PointGridSpec::EXPLORER { fitted(own) } else { own })
     }
 
     /// Moves to M and L; the chosen quantities follow, all others keep their value.

@@ -6,7 +6,7 @@ use crate::scene::named_lubricant::{NAMED, NamedLubricant, by_name};
 use crate::scene::{At, Grid, Method, ModelSource};
 use crate::solver::discrete::grid::{GridError, GridSpec, PointGridSpec};
 use crate::solver::limits::Number;
-use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint, reduced_modulus};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint, reduced_modulus};
 use crate::solver::physics::lubricant::{Cavitation, DensityLaw, Lubricant, ShearLaw, Sliding, ViscosityLaw};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -16,7 +16,7 @@ use std::path::PathBuf;
 pub enum ContactName {
     /// Line contact, loads in N/m.
     Line,
-    /// Circular point contact, loads in N.
+    /// Point contact, loads in N: a circle, or with --radius-y an ellipse.
     Point,
 }
 
@@ -76,6 +76,9 @@ pub struct PointOptions {
     /// Reduced radius R in m
     #[arg(long, allow_negative_numbers = true)]
     pub radius: Option<f64>,
+    /// Reduced radius R_y across the rolling direction in m, of a point contact (default: --radius)
+    #[arg(long, allow_negative_numbers = true)]
+    pub radius_y: Option<f64>,
     /// Mean entrainment speed u_m in m/s
     #[arg(long, allow_negative_numbers = true)]
     pub speed: Option<f64>,
@@ -204,10 +207,11 @@ fn refuse<T>(sentence: impl Into<String>) -> Result<T, Failure> {
 
 impl PointOptions {
     /// The numeric options that a sweep can vary, by their names without the leading dashes.
-    const VARIABLES: [(&str, Place); 16] = [
+    const VARIABLES: [(&str, Place); 17] = [
         ("moes-m", |options| &mut options.moes_m),
         ("moes-l", |options| &mut options.moes_l),
         ("radius", |options| &mut options.radius),
+        ("radius-y", |options| &mut options.radius_y),
         ("speed", |options| &mut options.speed),
         ("load", |options| &mut options.load),
         ("modulus", |options| &mut options.modulus),
@@ -277,7 +281,7 @@ impl PointOptions {
         let method = self.method()?;
         let sliding = Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: self.npr };
         let point = OperatingPoint { sliding, ..self.point(&lubricant)? };
-        let grid = self.grid(&method, point.moes())?;
+        let grid = self.grid(&method, &point)?;
         let grid_model = self.model_source();
         Ok((Request { point, lubricant, grid, grid_model }, method))
     }
@@ -309,7 +313,7 @@ impl PointOptions {
 
     fn point(&self, lubricant: &Lubricant) -> Result<OperatingPoint, Failure> {
         let modulus = self.modulus()?;
-        let (radius, speed, load) = (self.radius, self.speed, self.load);
+        let (radius, radius_y, speed, load) = (self.radius, self.radius_y, self.speed, self.load);
         let own_viscosity = self.lubricant.and_then(|named| named.viscosity_pa_s);
         let viscosity = self.viscosity.or(own_viscosity);
         let own_alpha = lubricant.own_coefficient();
@@ -320,7 +324,7 @@ impl PointOptions {
         }
         let alpha = own_alpha.or(self.alpha);
         let at = match (self.moes_m, self.moes_l) {
-            (Some(m), Some(l)) => At::Moes { m, l, radius, speed, load, modulus, viscosity, alpha },
+            (Some(m), Some(l)) => At::Moes { m, l, radius, radius_y, speed, load, modulus, viscosity, alpha },
             (None, None) => {
                 let required = [
                     ("--radius", radius),
@@ -334,7 +338,7 @@ impl PointOptions {
                 if let (Some(radius), Some(speed), Some(load), Some(modulus), Some(viscosity), Some(alpha)) =
                     (radius, speed, load, modulus, viscosity, alpha)
                 {
-                    At::Si { radius, speed, load, modulus, viscosity, alpha }
+                    At::Si { radius, radius_y, speed, load, modulus, viscosity, alpha }
                 } else {
                     let missing = missing.join(", ");
                     return refuse(format!(
@@ -355,7 +359,7 @@ impl PointOptions {
     }
 
     /// The grid of a full solution of a point contact.
-    fn plane(&self, moes: Moes) -> Result<Grid, Failure> {
+    fn plane(&self, point: &OperatingPoint) -> Result<Grid, Failure> {
         let default = match self.grid {
             None | Some(GridName::Uniform) => PointGridSpec::DISSERTATION,
             Some(GridName::Graded) => PointGridSpec::EXPLORER,
@@ -368,8 +372,8 @@ impl PointOptions {
         let own = self.dx.is_some() || self.dy.is_some() || self.domain.is_some();
         if !own {
             return match self.grid {
-                Some(GridName::Graded) => default.for_contact(moes).map(Grid::Plane),
-                _ => Grid::Usual.for_contact(ContactKind::Point, moes),
+                Some(GridName::Graded) => default.for_contact(point).map(Grid::Plane),
+                _ => Grid::Usual.for_contact(point),
             }
             .map_err(refused);
         }
@@ -382,9 +386,9 @@ impl PointOptions {
         Ok(Grid::Plane(spec))
     }
 
-    fn grid(&self, method: &Method, moes: Moes) -> Result<Grid, Failure> {
-        let point = self.kind() == ContactKind::Point;
-        if !point && (self.dy.is_some() || self.domain.is_some_and(|domain| domain.y.is_some())) {
+    fn grid(&self, method: &Method, point: &OperatingPoint) -> Result<Grid, Failure> {
+        let plane = self.kind() == ContactKind::Point;
+        if !plane && (self.dy.is_some() || self.domain.is_some_and(|domain| domain.y.is_some())) {
             return refuse("a line contact has no Y: leave out --dy and the third number of --domain");
         }
         if *method != Method::Full {
@@ -397,13 +401,13 @@ impl PointOptions {
             }
             return Ok(Grid::Model);
         }
-        if point {
-            return self.plane(moes);
+        if plane {
+            return self.plane(point);
         }
         let ends = self.domain.map(|domain| domain.x);
         let grid = match self.grid {
             None | Some(GridName::Uniform) if self.dx.is_none() && ends.is_none() => {
-                let grid = Grid::Usual.for_contact(ContactKind::Line, moes);
+                let grid = Grid::Usual.for_contact(point);
                 grid.map_err(|error| Failure::Request(error.to_string()))?
             }
             None | Some(GridName::Uniform) => {

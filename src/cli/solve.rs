@@ -156,6 +156,9 @@ fn describe(Report { result, accuracy }: &Report) -> String {
         line("warning", result.warnings.join("; "));
     }
     line("R", format!("{:.6e} m", point.radius_m));
+    if let Some(radius_y_m) = point.radius_y_m {
+        line("R_y", format!("{radius_y_m:.6e} m, R_y/R {:.6}", point.radius_ratio()));
+    }
     line("u_m", format!("{:.6e} m/s", point.speed_m_per_s));
     let unit = if point.kind == ContactKind::Line { "N/m" } else { "N" };
     line("w", format!("{:.6e} {unit}", point.load));
@@ -163,7 +166,11 @@ fn describe(Report { result, accuracy }: &Report) -> String {
     line("η₀", format!("{:.6e} Pa·s", point.viscosity_pa_s));
     line("α", format!("{:.6e} 1/Pa", point.alpha_per_pa));
     line("M, L", format!("{:.6}, {:.6}", moes.m, moes.l));
-    line("Hertz", format!("a {:.6e} m, p_H {:.6e} Pa", hertz.half_width_m, hertz.pressure_pa));
+    let across = match point.radius_y_m {
+        Some(_) => format!(" b {:.6e} m, κ {:.6},", hertz.half_length_m, point.ellipse().kappa),
+        None => String::new(),
+    };
+    line("Hertz", format!("a {:.6e} m,{across} p_H {:.6e} Pa", hertz.half_width_m, hertz.pressure_pa));
     let nodes = match result.nodes {
         (nx, 1) => nx.to_string(),
         (nx, ny) => format!("{nx}×{ny}"),

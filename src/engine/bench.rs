@@ -217,6 +217,7 @@ fn shear_problems(kind: ContactKind, count: usize) -> Result<Vec<Problem>, Engin
                 slide_to_roll_ratio: random.f64(),
                 newtonian_plateau_ratio: Some(0.2 + 0.8 * random.f64()),
             },
+            radius_y_m: None,
         };
         Ok(Problem::new(&point, lubricant)?)
     };

@@ -195,7 +195,7 @@ impl Bench for Workbench {
         observer: &dyn TrainingObserver,
     ) -> Result<Answer, EngineError> {
         let problem = Problem::new(&request.point, request.lubricant)?;
-        let grid = request.grid.for_contact(request.point.kind, problem.moes).map_err(SolveError::from)?;
+        let grid = request.grid.for_contact(&problem.point).map_err(SolveError::from)?;
         let request = &Request { grid, ..request.clone() };
         if observer.cancelled() {
             return Err(EngineError::Cancelled);
@@ -240,9 +240,9 @@ impl Bench for Workbench {
 
     fn grid(&mut self, request: &Request, observer: &dyn TrainingObserver) -> Result<ContactGrid, EngineError> {
         let (kind, moes) = (request.point.kind, request.point.moes());
-        let grid = request.grid.for_contact(kind, moes).map_err(SolveError::from)?;
+        let grid = request.grid.for_contact(&request.point).map_err(SolveError::from)?;
         let spec = match kind {
-            _ if grid == Grid::Graded => Some(GridSpec::explorer_for(kind, moes).map_err(SolveError::from)?),
+            _ if grid == Grid::Graded => Some(GridSpec::explorer_for(&request.point).map_err(SolveError::from)?),
             ContactKind::Line => grid.spec(),
             ContactKind::Point => grid.point_spec().map(GridSpec::Plane),
         };

@@ -12,6 +12,9 @@ pub enum At {
     Si {
         /// Reduced radius R \[m\].
         radius: f64,
+        /// Reduced radius R_y across \[m\] of an ellipse; the radius where it is left out.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        radius_y: Option<f64>,
         /// Mean entrainment speed u_m \[m/s\].
         speed: f64,
         /// Load \[N/m\] (line) or \[N\] (point).
@@ -33,6 +36,9 @@ pub enum At {
         /// Fixed radius \[m\].
         #[serde(default, skip_serializing_if = "Option::is_none")]
         radius: Option<f64>,
+        /// Radius across \[m\] of an ellipse; the radius where it is left out.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        radius_y: Option<f64>,
         /// Fixed speed \[m/s\].
         #[serde(default, skip_serializing_if = "Option::is_none")]
         speed: Option<f64>,
@@ -61,7 +67,17 @@ impl Default for At {
 impl At {
     /// Moes numbers in the default realisation.
     pub fn moes(m: f64, l: f64) -> Self {
-        Self::Moes { m, l, radius: None, speed: None, load: None, modulus: None, viscosity: None, alpha: None }
+        Self::Moes {
+            m,
+            l,
+            radius: None,
+            radius_y: None,
+            speed: None,
+            load: None,
+            modulus: None,
+            viscosity: None,
+            alpha: None,
+        }
     }
 
     /// The same with the α* of a lubricant whose viscosity law determines it; unchanged for all others.
@@ -81,7 +97,7 @@ impl At {
     /// When it is outside any sense, or more is fixed than M and L leave free.
     pub fn point(&self, kind: ContactKind) -> Result<OperatingPoint, ContactError> {
         match *self {
-            Self::Si { radius, speed, load, modulus, viscosity, alpha } => {
+            Self::Si { radius, radius_y, speed, load, modulus, viscosity, alpha } => {
                 let point = OperatingPoint {
                     kind,
                     radius_m: radius,
@@ -91,17 +107,19 @@ impl At {
                     viscosity_pa_s: viscosity,
                     alpha_per_pa: alpha,
                     sliding: Sliding::NONE,
+                    radius_y_m: radius_y,
                 };
                 point.check()?;
                 Ok(point)
             }
-            Self::Moes { m, l, radius, speed, load, modulus, viscosity, alpha } => {
+            Self::Moes { m, l, radius, radius_y, speed, load, modulus, viscosity, alpha } => {
                 check_given(kind, [radius, speed, load, modulus, viscosity, alpha])?;
                 let request = MoesRequest {
                     kind,
                     m,
                     l,
                     radius_m: radius,
+                    radius_y_m: radius_y,
                     speed_m_per_s: speed,
                     load,
                     modulus_pa: modulus,
@@ -121,7 +139,7 @@ fn check_given(kind: ContactKind, given: [Option<f64>; 6]) -> Result<(), Contact
         *quantity = given.unwrap_or(*quantity);
     }
     let [radius, speed, load, modulus, viscosity, alpha] = quantities;
-    match (At::Si { radius, speed, load, modulus, viscosity, alpha }).point(kind) {
+    match (At::Si { radius, radius_y: None, speed, load, modulus, viscosity, alpha }).point(kind) {
         // The mixture of given and known quantities need not make sense as a contact.
         Err(ContactError::OutOfRange { quantity, .. }) if quantity.starts_with("Moes") => Ok(()),
         result => result.map(|_| ()),
@@ -131,6 +149,6 @@ fn check_given(kind: ContactKind, given: [Option<f64>; 6]) -> Result<(), Contact
 impl From<OperatingPoint> for At {
     fn from(point: OperatingPoint) -> Self {
         let [radius, speed, load, modulus, viscosity, alpha] = point.quantities();
-        Self::Si { radius, speed, load, modulus, viscosity, alpha }
+        Self::Si { radius, radius_y: point.radius_y_m, speed, load, modulus, viscosity, alpha }
     }
 }

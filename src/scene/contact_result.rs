@@ -67,12 +67,13 @@ pub enum Value {
 type Get = fn(&ContactResult) -> Option<Value>;
 
 /// Every value by its name, with a dot where it lies in a group, in the order of the JSON object.
-const VALUES: [(&str, Get); 49] = [
+const VALUES: [(&str, Get); 52] = [
     ("contact", |r| text(r.point.kind.name())),
     ("method", |r| text(r.method)),
     ("converged", |r| Some(Value::Truth(r.converged))),
     ("warning", |r| (!r.warnings.is_empty()).then(|| Value::Text(r.warnings.join("; ")))),
     ("si.radius", |r| number(r.point.radius_m)),
+    ("si.radius_y", |r| number(r.point.radius_y_m.unwrap_or(r.point.radius_m)).filter(|_| is_point(r))),
     ("si.speed", |r| number(r.point.speed_m_per_s)),
     ("si.load", |r| number(r.point.load)),
     ("si.modulus", |r| number(r.point.modulus_pa)),
@@ -81,6 +82,8 @@ const VALUES: [(&str, Get); 49] = [
     ("moes.M", |r| number(r.point.moes().m)),
     ("moes.L", |r| number(r.point.moes().l)),
     ("hertz.a_m", |r| number(r.point.hertz().half_width_m)),
+    ("hertz.b_m", |r| number(r.point.hertz().half_length_m).filter(|_| is_point(r))),
+    ("hertz.kappa", |r| number(r.point.ellipse().kappa).filter(|_| is_point(r))),
     ("hertz.p_h_pa", |r| number(r.point.hertz().pressure_pa)),
     ("cavitation", |r| text(r.cavitation.name())),
     ("supply_film_m", |r| number(r.cavitation.supply_film_m()?)),
@@ -93,7 +96,7 @@ const VALUES: [(&str, Get); 49] = [
     ("H_c", |r| number(r.scalars?.h_c)),
     ("H_min", |r| number(r.scalars?.h_min)),
     ("X_H_min", |r| number(r.scalars?.x_h_min)),
-    ("Y_H_min", |r| number(r.scalars?.y_h_min).filter(|_| r.point.kind == ContactKind::Point)),
+    ("Y_H_min", |r| number(r.scalars?.y_h_min).filter(|_| is_point(r))),
     ("P_c", |r| number(r.scalars?.p_c)),
     ("P_max", |r| number(r.scalars?.p_max)),
     ("X_P_max", |r| number(r.scalars?.x_p_max)),
@@ -118,6 +121,10 @@ const VALUES: [(&str, Get); 49] = [
     ("reduced.h_min_error_bound", |r| number(r.reduced.as_ref()?.error?.h_min.bound)),
     ("reduced.traction_error_bound", |r| number(r.reduced.as_ref()?.error?.traction?.bound)),
 ];
+
+fn is_point(result: &ContactResult) -> bool {
+    result.point.kind == ContactKind::Point
+}
 
 fn number(value: f64) -> Option<Value> {
     value.is_finite().then_some(Value::Number(value))
@@ -263,8 +270,8 @@ pub fn profile_table(name: impl Into<String>, solution: &Solution) -> Table {
     }
     let mut table = Table::new(name, &columns);
     let hertz = solution.problem.point.hertz();
-    let (a, film_scale) = (hertz.half_width_m, solution.problem.point.film_scale_m());
-    let row = |(x, y, p, h)| vec![x, y, p, h, x * a, y * a, p * hertz.pressure_pa, h * film_scale];
+    let (a, b, film_scale) = (hertz.half_width_m, hertz.half_length_m, solution.problem.point.film_scale_m());
+    let row = |(x, y, p, h)| vec![x, y, p, h, x * a, y * b, p * hertz.pressure_pa, h * film_scale];
     table.rows.extend(solution.nodes().map(row));
     for (row, value) in table.rows.iter_mut().zip(solution.multipliers().chain(solution.fractions())) {
         row.push(value);

@@ -4,7 +4,7 @@ use super::check::{Checked, count, number, refuse};
 use crate::solver::discrete::grid::{
     GridError, GridSpec, LONGEST_INLET, LONGEST_OUTLET, MAX_GRADED_NODES, PointGridSpec,
 };
-use crate::solver::physics::contact::{ContactKind, Moes};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use serde::{Deserialize, Serialize};
 
 /// Grid of full solutions.
@@ -50,11 +50,11 @@ impl Grid {
     ///
     /// # Errors
     /// When none of the program's own does.
-    pub fn for_contact(self, kind: ContactKind, moes: Moes) -> Result<Self, GridError> {
-        match (self, kind) {
-            (Self::Usual, ContactKind::Point) => PointGridSpec::DISSERTATION.for_contact(moes).map(Self::Plane),
-            (Self::Usual, ContactKind::Line) if GridSpec::DISSERTATION.does(moes) => Ok(Self::DISSERTATION),
-            (Self::Usual, ContactKind::Line) => GridSpec::explorer_for(kind, moes).map(|_| Self::Graded),
+    pub fn for_contact(self, point: &OperatingPoint) -> Result<Self, GridError> {
+        match (self, point.kind) {
+            (Self::Usual, ContactKind::Point) => PointGridSpec::DISSERTATION.for_contact(point).map(Self::Plane),
+            (Self::Usual, ContactKind::Line) if GridSpec::DISSERTATION.does(point.moes()) => Ok(Self::DISSERTATION),
+            (Self::Usual, ContactKind::Line) => GridSpec::explorer_for(point).map(|_| Self::Graded),
             _ => Ok(self),
         }
     }

@@ -107,13 +107,14 @@ enum Column {
 }
 
 /// Titles of columns, in lower case and without spaces: the word first, then what people write instead.
-const TITLES: [(Column, &[&str]); 15] = [
+const TITLES: [(Column, &[&str]); 16] = [
     (Column::Name, &["name", "case", "id", "loadcase"]),
     (Column::Contact, &["contact", "kind"]),
     (Column::Lubricant, &["lubricant"]),
     (Column::Oil, &["oil", "isovg", "vg", "iso_vg"]),
     (Column::Temperature, &["temperature", "t"]),
     (Column::Number(Quantity::Radius), &["radius", "r", "r_x"]),
+    (Column::Number(Quantity::RadiusY), &["radius-y", "r_y", "ry"]),
     (Column::Number(Quantity::Speed), &["speed", "u_m", "um", "u"]),
     (Column::Number(Quantity::Load), &["load", "w", "f"]),
     (Column::Number(Quantity::Modulus), &["modulus", "e'", "e’", "e\u{2032}"]),
@@ -323,6 +324,7 @@ fn request(columns: &[(Column, String)], cells: &[&str], experiment: &Experiment
     for (place, quantity) in given.iter_mut().zip(Quantity::SI) {
         *place = cells.quantity(quantity, kind)?;
     }
+    let radius_y = cells.quantity(Quantity::RadiusY, kind)?;
     let [radius, speed, load, modulus, mut viscosity, mut alpha] = given;
     if let Some(oil) = oil(&cells)? {
         if viscosity.is_some() || named.is_some() {
@@ -343,8 +345,8 @@ fn request(columns: &[(Column, String)], cells: &[&str], experiment: &Experiment
     }
     let (m, l) = (cells.quantity(Quantity::M, kind)?, cells.quantity(Quantity::L, kind)?);
     let at = match (m, l) {
-        (Some(m), Some(l)) => At::Moes { m, l, radius, speed, load, modulus, viscosity, alpha },
-        (None, None) => si([radius, speed, load, modulus, viscosity, alpha], kind, experiment)?,
+        (Some(m), Some(l)) => At::Moes { m, l, radius, radius_y, speed, load, modulus, viscosity, alpha },
+        (None, None) => si([radius, speed, load, modulus, viscosity, alpha], radius_y, kind, experiment)?,
         _ => return Err("M and L belong together; give both".to_owned()),
     };
     let mut sliding = experiment.sliding;
@@ -357,7 +359,7 @@ fn request(columns: &[(Column, String)], cells: &[&str], experiment: &Experiment
     let point = OperatingPoint { sliding, ..point };
     Problem::new(&point, lubricant).map_err(|error| error.to_string())?;
     grid::check(&experiment.grid, kind).map_err(|error| error.to_string())?;
-    let grid = experiment.grid.for_contact(kind, point.moes()).map_err(|error| error.to_string())?;
+    let grid = experiment.grid.for_contact(&point).map_err(|error| error.to_string())?;
     Ok(Request { lubricant, grid, ..experiment.request_at(point) })
 }
 
@@ -377,9 +379,18 @@ fn oil(cells: &Cells<'_>) -> Result<Option<Oil>, String> {
 }
 
 /// The contact in SI units; what is not given is the scene's.
-fn si(given: [Option<f64>; 6], kind: ContactKind, experiment: &Experiment) -> Result<At, String> {
+fn si(
+    given: [Option<f64>; 6],
+    radius_y: Option<f64>,
+    kind: ContactKind,
+    experiment: &Experiment,
+) -> Result<At, String> {
+    let mut radius_y = radius_y;
     let own = match experiment.at {
-        At::Si { radius, speed, load, modulus, viscosity, alpha } => {
+        At::Si { radius, radius_y: own, speed, load, modulus, viscosity, alpha } => {
+            if kind == ContactKind::Point {
+                radius_y = radius_y.or(own);
+            }
             // A load per length is no load.
             let load = (kind == experiment.contact).then_some(load);
             [Some(radius), Some(speed), load, Some(modulus), Some(viscosity), Some(alpha)]
@@ -392,7 +403,7 @@ fn si(given: [Option<f64>; 6], kind: ContactKind, experiment: &Experiment) -> Re
         let missing: Vec<&str> = missing.map(|(quantity, _)| quantity.name()).collect();
         return Err(format!("the contact is incomplete: give {} too, or M and L", missing.join(", ")));
     };
-    Ok(At::Si { radius, speed, load, modulus, viscosity, alpha })
+    Ok(At::Si { radius, radius_y, speed, load, modulus, viscosity, alpha })
 }
 
 #[cfg(test)]

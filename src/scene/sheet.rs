@@ -249,8 +249,15 @@ fn results(solved: &Solved<'_>, bodies: Option<&Bodies>) -> Part {
     part.number("Central film h_c", value("h_c_m"), "m");
     part.number("Smallest film h_min", value("h_min_m"), "m");
     part.number("Hertzian pressure p_H", hertz.pressure_pa, "Pa");
-    let width = if point.kind == ContactKind::Line { "Half width a" } else { "Radius of the contact a" };
+    let width = match (point.kind, point.radius_y_m) {
+        (ContactKind::Line, _) => "Half width a",
+        (ContactKind::Point, None) => "Radius of the contact a",
+        (ContactKind::Point, Some(_)) => "Semi-axis of the contact along a",
+    };
     part.number(width, hertz.half_width_m, "m");
+    if point.radius_y_m.is_some() {
+        part.number("Semi-axis of the contact across b", hertz.half_length_m, "m");
+    }
     part.number("Largest pressure", value("P_max").map(|p| p * hertz.pressure_pa), "Pa");
     if point.sliding.slide_to_roll_ratio != 0.0 {
         let (force, power) = if point.kind == ContactKind::Line { ("N/m", "W/m") } else { ("N", "W") };
@@ -265,7 +272,7 @@ fn results(solved: &Solved<'_>, bodies: Option<&Bodies>) -> Part {
     {
         part.said("Film ratio λ", ratio, "", film_regime(ratio));
     }
-    let shear = largest_shear(point.kind, bodies.map_or(0.3, |bodies| bodies.0.poisson));
+    let shear = largest_shear(point, bodies.map_or(0.3, |bodies| bodies.0.poisson));
     let depth = shear.depth_over_half_width * hertz.half_width_m;
     part.said(
         "Largest shear under the surface",

@@ -20,18 +20,18 @@ const TABLE_2_1: [&str; 12] = [
     "22e-9",
 ];
 
-fn program(arguments: &[&str]) -> Output {
+pub fn program(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_ehl-explorer")).args(arguments).output().unwrap()
 }
 
-fn json(output: &Output) -> Value {
+pub fn json(output: &Output) -> Value {
     let text = String::from_utf8(output.stdout.clone()).unwrap();
     assert_eq!(text.lines().count(), 1, "{text}");
     serde_json::from_str(&text).unwrap()
 }
 
 /// Exit code 2, nothing on standard output, one sentence on standard error that holds `words`.
-fn assert_refused(arguments: &[&str], words: &str) {
+pub fn assert_refused(arguments: &[&str], words: &str) {
     let output = program(arguments);
     let error = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{arguments:?}: {error}");

@@ -5,5 +5,6 @@
 mod common;
 
 mod commands;
+mod ellipses;
 mod readme;
 mod take_away;

@@ -21,6 +21,7 @@ pub fn line_of(contact: &serde_json::Value) -> OperatingPoint {
         viscosity_pa_s: of("eta0"),
         alpha_per_pa: of("alpha"),
         sliding: Sliding::NONE,
+        radius_y_m: None,
     }
 }
 

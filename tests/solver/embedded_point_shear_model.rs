@@ -87,6 +87,7 @@ fn another_lubricant_is_solved_with_its_own_equations_and_said_to_be_another() {
         viscosity_pa_s: 1.42,
         alpha_per_pa: 1.9e-8,
         sliding: Sliding { slide_to_roll_ratio: 0.1, newtonian_plateau_ratio: None },
+        radius_y_m: None,
     };
     let mut online = online();
     let solved = online.solve(&point, pao.laws).unwrap();

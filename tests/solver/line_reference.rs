@@ -31,6 +31,7 @@ fn references() -> Vec<Reference> {
                 viscosity_pa_s: n[4],
                 alpha_per_pa: n[5],
                 sliding: Sliding::NONE,
+                radius_y_m: None,
             };
             Reference { name: name.to_owned(), point, h_c: n[6], h_min: n[7], h_0: n[8], p_c: n[9] }
         })

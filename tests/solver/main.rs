@@ -7,6 +7,7 @@ mod common;
 mod cancel;
 mod complementarity;
 mod contacts;
+mod elliptic;
 mod embedded_model;
 mod embedded_point_model;
 mod embedded_point_shear_model;

@@ -26,6 +26,7 @@ fn full_solutions_agree_with_independent_ones_on_301_by_41_nodes() {
             viscosity_pa_s: number("viscosity_pa_s"),
             alpha_per_pa: number("alpha_per_pa"),
             sliding: Sliding::NONE,
+            radius_y_m: None,
         };
         assert!((point.lambda_bar() / number("lambda_bar") - 1.0).abs() < 1e-12);
         let solution = solver.solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();

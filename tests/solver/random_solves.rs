@@ -9,7 +9,7 @@ use ehl_explorer::scene::{Grid, Method, ModelSource};
 use ehl_explorer::solver::discrete::grid::{GridSpec, MAX_GRADED_NODES, PointGridSpec};
 use ehl_explorer::solver::full::{ContactSolver, Solution, Start};
 use ehl_explorer::solver::observer::{NewtonStep, Observer};
-use ehl_explorer::solver::physics::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, si_from_moes};
+use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use ehl_explorer::solver::physics::lubricant::Lubricant;
 use fastrand::Rng;
 use std::collections::BTreeMap;
@@ -68,8 +68,8 @@ fn solved(spec: GridSpec, point: &OperatingPoint) -> Option<Solution> {
 }
 
 /// The program's own grid or one as somebody might give it.
-fn drawn(rng: &mut Rng, kind: ContactKind, moes: Moes) -> Option<GridSpec> {
-    let own = GridSpec::explorer_for(kind, moes).ok()?;
+fn drawn(rng: &mut Rng, point: &OperatingPoint) -> Option<GridSpec> {
+    let own = GridSpec::explorer_for(point).ok()?;
     let inlet = -between(rng, 1.6, 12.0);
     Some(match (own, rng.u8(0..4)) {
         (_, 0) => own,
@@ -90,8 +90,8 @@ fn drawn(rng: &mut Rng, kind: ContactKind, moes: Moes) -> Option<GridSpec> {
 
 /// The program's own grid for a line contact with half the spacing in twice the domain; for a point contact, whose grids
 /// are equidistant, half the spacing, and at least as fine and as large as the program's own grid.
-fn reference(spec: GridSpec, kind: ContactKind, moes: Moes) -> Option<GridSpec> {
-    Some(match (GridSpec::explorer_for(kind, moes).ok()?, spec) {
+fn reference(spec: GridSpec, point: &OperatingPoint) -> Option<GridSpec> {
+    Some(match (GridSpec::explorer_for(point).ok()?, spec) {
         (GridSpec::Graded { nodes, domain, registered }, _) => GridSpec::Graded {
             nodes: (22 * nodes / 10).min(MAX_GRADED_NODES),
             domain: (2.0 * domain.0, 2.0 * domain.1),
@@ -110,19 +110,18 @@ fn one(rng: &mut Rng, kind: ContactKind, m: (f64, f64), tally: &mut Tally) {
     let at = |l: f64| si_from_moes(&MoesRequest::new(kind, m, l)).ok();
     let Some(unit) = at(1.0) else { return tally.add("refused") };
     // α p_H is proportional to L.
-    let moes =
-        Moes { m, l: between(rng, 0.1, (STIFFEST / (unit.alpha_per_pa * unit.hertz().pressure_pa)).clamp(0.2, 1e3)) };
-    let Some(point) = at(moes.l) else { return tally.add("refused") };
-    let Some(spec) = drawn(rng, kind, moes) else { return tally.add("refused") };
+    let l = between(rng, 0.1, (STIFFEST / (unit.alpha_per_pa * unit.hertz().pressure_pa)).clamp(0.2, 1e3));
+    let Some(point) = at(l) else { return tally.add("refused") };
+    let Some(spec) = drawn(rng, &point) else { return tally.add("refused") };
     let Some(answer) = solved(spec, &point) else { return tally.add("refused or not converged") };
-    let truth = reference(spec, kind, moes).and_then(|spec| solved(spec, &point));
+    let truth = reference(spec, &point).and_then(|spec| solved(spec, &point));
     let truth = truth.filter(|truth| truth.grid_cost.is_some_and(|cost| cost.total() < NO_REFERENCE));
     let Some(truth) = truth else { return tally.add("without a reference") };
     let error = (answer.scalars.h_c / truth.scalars.h_c - 1.0).abs();
     let warning = answer.grid_warning();
     match (warning, error) {
         (None, error) if error > WRONG => {
-            let case = format!("M {m}, L {}, {spec:?}: H_c off by {error:.3}, {:?}", moes.l, answer.grid_cost);
+            let case = format!("M {m}, L {l}, {spec:?}: H_c off by {error:.3}, {:?}", answer.grid_cost);
             println!("{case}");
             tally.silent.push(case);
         }

@@ -25,6 +25,7 @@ fn contact(kind: ContactKind, fluid: &str, load: f64, speed_m_per_s: f64, srr: f
         viscosity_pa_s: lubricant.viscosity_pa_s.unwrap(),
         alpha_per_pa: 1e-8,
         sliding: Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: Some(npr) },
+        radius_y_m: None,
     };
     Problem::new(&point, lubricant.laws).unwrap()
 }

@@ -50,6 +50,7 @@ fn the_film_of_a_ball_on_a_disc_is_the_published_one() {
         viscosity_pa_s: 0.25,
         alpha_per_pa: 22e-9,
         sliding: Sliding::NONE,
+        radius_y_m: None,
     };
     let mut solver = PointSolver::new(PointGridSpec::DISSERTATION).unwrap();
     let solution = solver.solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();

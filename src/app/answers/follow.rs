@@ -137,7 +137,7 @@ impl Answers {
         let own = self.passed_over.is_none() || chosen.is_none();
         let plane = chosen.map(|plane| if kind == JobKind::Live { quick(plane) } else { plane });
         let model = self.model(document).filter(|_| own).map(Arc::as_ref);
-        let grid = GridChoice::of(model, plane, key.point.moes());
+        let grid = GridChoice::of(model, plane, &key.point);
         let start = match kind {
             // The truth must not depend on what it checks.
             JobKind::Verify => None,

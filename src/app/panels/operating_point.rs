@@ -163,7 +163,7 @@ fn hertz_ui(ui: &mut Ui, document: &Document) {
     };
     ui.add_space(4.0);
     Grid::new("hertz").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 3.0]).show(ui, |ui| {
-        let shear = engineering::largest_shear(point.kind, 0.3);
+        let shear = engineering::largest_shear(point, 0.3);
         let deepest = format!(
             "{} at {}",
             numbers::pressure(shear.over_hertz_pressure * hertz.pressure_pa),

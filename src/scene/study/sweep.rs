@@ -81,7 +81,12 @@ pub(super) fn contacts_of(experiment: &Experiment, over: &[Axis]) -> Result<Vec<
         for (axis, &value) in over.iter().zip(&values) {
             set(&mut at, &mut sliding, axis.vary, value)?;
         }
-        let point = at.with_alpha_of(&experiment.lubricant).point(experiment.contact)?;
+        let mut point = at.with_alpha_of(&experiment.lubricant).point(experiment.contact)?;
+        // Of a radius that may have followed from M and L.
+        for (axis, &value) in over.iter().zip(&values).filter(|(axis, _)| axis.vary == Quantity::RadiusRatio) {
+            point = axis.vary.at(&point, value);
+            point.check()?;
+        }
         contacts.push((values, OperatingPoint { sliding, ..point }));
     }
     Ok(contacts)
@@ -100,6 +105,8 @@ fn set(at: &mut At, sliding: &mut Sliding, quantity: Quantity, value: f64) -> Re
         (Quantity::L, At::Moes { l, .. }) => *l = value,
         (Quantity::Radius, At::Si { radius, .. }) => *radius = value,
         (Quantity::Radius, At::Moes { radius, .. }) => *radius = Some(value),
+        (Quantity::RadiusY, At::Si { radius_y, .. } | At::Moes { radius_y, .. }) => *radius_y = Some(value),
+        (Quantity::RadiusRatio, _) => {}
         (Quantity::Speed, At::Si { speed, .. }) => *speed = value,
         (Quantity::Speed, At::Moes { speed, .. }) => *speed = Some(value),
         (Quantity::Load, At::Si { load, .. }) => *load = value,

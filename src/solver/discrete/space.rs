@@ -19,6 +19,9 @@ pub trait Grid {
     /// Abscissae X and ordinates Y ≤ 0; a line has the one Y = 0.
     fn abscissae(&self) -> (&[f64], &[f64]);
 
+    /// The ordinates in units of a, as the abscissae are: κY.
+    fn across(&self) -> &[f64];
+
     /// Number of unknown pressures.
     fn unknowns(&self) -> usize;
 
@@ -85,6 +88,10 @@ impl Grid for LineGrid {
         (&self.x, &[0.0])
     }
 
+    fn across(&self) -> &[f64] {
+        &[0.0]
+    }
+
     fn unknowns(&self) -> usize {
         self.x.len() - INLET - FIRST_UNKNOWN
     }
@@ -116,6 +123,10 @@ impl Grid for PointGrid {
 
     fn abscissae(&self) -> (&[f64], &[f64]) {
         (&self.x, &self.y)
+    }
+
+    fn across(&self) -> &[f64] {
+        &self.across
     }
 
     fn unknowns(&self) -> usize {
@@ -233,7 +244,7 @@ impl Space for PlaneSpace {
     }
 
     fn wide_row(&self, unknown: usize) -> Option<([usize; STENCIL], RowGeometry)> {
-        let PointGrid { x, y, .. } = &*self.grid;
+        let PointGrid { x, across: y, .. } = &*self.grid;
         let (ny, node) = (y.len(), self.grid.node(unknown));
         let (i, j) = (node / ny, node % ny);
         if i < 4 || i + 2 >= x.len() || j < 2 {

@@ -10,7 +10,7 @@ use crate::solver::discrete::grid::{GridSpec, ReferenceGrid, dot};
 use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::discrete::reynolds::generalized::FilmTreatment;
 use crate::solver::discrete::space::LineSpace;
-use crate::solver::physics::contact::{ContactKind, Moes};
+use crate::solver::physics::contact::ContactKind;
 pub use preconditioner::BandMatrix;
 use std::sync::Arc;
 
@@ -68,6 +68,7 @@ impl NewtonSpace for LineSpace {
     type Matrix = BandMatrix;
     type Spec = GridSpec;
     type Reference = Arc<ReferenceGrid>;
+    type Form = f64;
 
     const KIND: ContactKind = ContactKind::Line;
     const WORST_RESIDUAL: f64 = 1e12;
@@ -81,12 +82,16 @@ impl NewtonSpace for LineSpace {
         Ok(spec.line()?)
     }
 
-    fn scale_of(reference: &Arc<ReferenceGrid>, moes: Moes) -> f64 {
-        reference.scale(moes)
+    fn form_of(reference: &Arc<ReferenceGrid>, problem: &Problem) -> f64 {
+        reference.scale(problem.moes)
     }
 
-    fn on(reference: &Arc<ReferenceGrid>, scale: f64) -> Self {
-        Self::new(reference.scaled(scale))
+    fn on(reference: &Arc<ReferenceGrid>, scale: f64) -> Result<Self, SolveError> {
+        Ok(Self::new(reference.scaled(scale)))
+    }
+
+    fn form(&self) -> f64 {
+        self.grid.scale
     }
 
     fn mesh(&self) -> Mesh {

@@ -7,7 +7,7 @@ use super::thinning::Thinning;
 use crate::solver::discrete::grid::dot;
 use crate::solver::discrete::reynolds::Row;
 use crate::solver::discrete::space::{Grid, Space};
-use crate::solver::physics::contact::{ContactKind, Moes};
+use crate::solver::physics::contact::ContactKind;
 
 /// Settings of a step control, with the settings of all else that go with it.
 pub trait StepControl: Copy + PartialEq + std::fmt::Debug {
@@ -61,6 +61,8 @@ pub trait NewtonSpace: Space + Sized {
     type Spec;
     /// What a solver keeps of its grid between contacts.
     type Reference;
+    /// What a contact makes of that: the scale of a line's registration, the ellipse of a point contact.
+    type Form: Copy + PartialEq;
 
     /// The kind of contact it is a space of.
     const KIND: ContactKind;
@@ -82,11 +84,17 @@ pub trait NewtonSpace: Space + Sized {
     /// When the specification is refused.
     fn build(spec: Self::Spec) -> Result<Self::Reference, SolveError>;
 
-    /// Scale of the grid for a contact.
-    fn scale_of(reference: &Self::Reference, moes: Moes) -> f64;
+    /// What a problem makes of the grid.
+    fn form_of(reference: &Self::Reference, problem: &Problem) -> Self::Form;
 
-    /// The space on a grid under a scale.
-    fn on(reference: &Self::Reference, scale: f64) -> Self;
+    /// The space on a grid in a form.
+    ///
+    /// # Errors
+    /// When the kernel of that form cannot be built.
+    fn on(reference: &Self::Reference, form: Self::Form) -> Result<Self, SolveError>;
+
+    /// The form it has.
+    fn form(&self) -> Self::Form;
 
     /// Its grid as solutions name it.
     fn mesh(&self) -> Mesh;

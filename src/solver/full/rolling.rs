@@ -23,7 +23,7 @@ impl Solution {
             // Both halves of the width.
             _ => {
                 (1..ny).map(|j| (along(j - 1) + along(j)) * (self.y[j] - self.y[j - 1])).sum::<f64>()
-                    * hertz.half_width_m
+                    * hertz.half_length_m
             }
         };
         0.5 * hertz.pressure_pa * point.film_scale_m() * whole

@@ -3,6 +3,7 @@
 use super::trust::GridCost;
 use crate::solver::discrete::grid::{GridError, GridSpec, PointGridSpec, dot};
 use crate::solver::discrete::nodes::Laws;
+use crate::solver::discrete::reynolds::generalized::PlaneGradient;
 use crate::solver::discrete::space::Grid;
 use crate::solver::physics::contact::{ContactError, ContactKind, Moes, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, LubricantError, ScaledFluid, ScaledShear, ShearLaw, Sliding};
@@ -283,9 +284,17 @@ impl Solution {
         self.report.termination == Termination::Converged
     }
 
-    /// Deformation Δ = H − H₀ − (X² + Y²)/2 at the nodes (a logarithmic kernel's own constant included).
+    /// Nodal gradients of its node arrays by X and, in the same unit a, across.
+    pub fn gradient(&self) -> PlaneGradient {
+        let kappa = self.problem.point.ellipse().kappa;
+        let across: Vec<f64> = self.y.iter().map(|y| kappa * y).collect();
+        PlaneGradient::new(&self.x, &across)
+    }
+
+    /// Deformation Δ = H − H₀ − (X² + g_y Y²)/2 at the nodes (a logarithmic kernel's own constant included).
     pub fn deformation(&self) -> Vec<f64> {
-        let gap = |x: &f64, y: &f64| 0.5 * (x * x + y * y);
+        let curvature = self.problem.point.ellipse().gap_curvature();
+        let gap = |x: &f64, y: &f64| 0.5 * (x * x + curvature * y * y);
         let parabola = self.x.iter().flat_map(|x| self.y.iter().map(move |y| gap(x, y)));
         self.film.iter().zip(parabola).map(|(h, gap)| h - self.scalars.h_0 - gap).collect()
     }

@@ -123,12 +123,12 @@ impl<S: NewtonSpace> Solver<S> {
             if report.ended() {
                 break;
             }
-            self.attempt(&problem, beginning, observer, &mut report);
+            self.attempt(&problem, beginning, observer, &mut report)?;
         }
         if !report.ended() {
-            self.continuation(&problem, observer, &mut report);
+            self.continuation(&problem, observer, &mut report)?;
         }
-        let mut solution = self.solution(problem, report);
+        let mut solution = self.solution(problem, report)?;
         let largest = problem.fluid.largest_pressure();
         if solution.converged() && solution.pressure.iter().any(|&p| p >= largest) {
             solution.report.termination = Termination::OccupiedVolume;
@@ -137,8 +137,11 @@ impl<S: NewtonSpace> Solver<S> {
     }
 
     /// Takes a few undamped Newton steps from fields on this grid, by which their error can be judged.
-    pub fn corrected(&mut self, fields: &Solution, options: &SolveOptions<S::Control>) -> Solution {
-        let mut system = self.system_at(fields.mesh.scale);
+    ///
+    /// # Errors
+    /// When the kernel of the contact's shape cannot be built.
+    pub fn corrected(&mut self, fields: &Solution, options: &SolveOptions<S::Control>) -> Result<Solution, SolveError> {
+        let mut system = self.system_for(&fields.problem)?;
         system.set_pressure(&fields.problem, &fields.pressure);
         system.set_central_film(fields.scalars.h_c);
         system.fraction.clone_from(&fields.fraction);
@@ -159,40 +162,58 @@ impl<S: NewtonSpace> Solver<S> {
     ) -> Result<(System<S>, Problem), SolveError> {
         expect_kind(S::KIND, point)?;
         let problem = Problem::new(point, lubricant)?;
-        let mut system = System::new(S::on(&self.reference, S::scale_of(&self.reference, problem.moes)));
+        let mut system = System::new(S::on(&self.reference, S::form_of(&self.reference, &problem))?);
         cold_state(&mut system, &problem, S::COLD_FILMS[0], 1.0);
         Ok((system, problem))
     }
 
-    /// The system on the grid under a scale: the kept one where it has that scale. Another scale has other
-    /// coefficients.
-    pub(super) fn system_at(&mut self, scale: f64) -> System<S> {
+    /// The system on the grid in the form that a problem makes of it: the kept one where it has that form. Another one
+    /// has other coefficients.
+    ///
+    /// # Errors
+    /// When the kernel of that form cannot be built.
+    pub(super) fn system_for(&mut self, problem: &Problem) -> Result<System<S>, SolveError> {
+        let form = S::form_of(&self.reference, problem);
         match self.system.take() {
-            Some(system) if system.space.mesh().scale == scale => system,
-            _ => System::new(S::on(&self.reference, scale)),
+            Some(system) if system.space.form() == form => Ok(system),
+            _ => Ok(System::new(S::on(&self.reference, form)?)),
         }
     }
 
     /// One run of Newton's method, which counts in the report.
-    fn attempt(&mut self, problem: &Problem, beginning: Beginning<'_>, observer: &dyn Observer, report: &mut Report) {
+    fn attempt(
+        &mut self,
+        problem: &Problem,
+        beginning: Beginning<'_>,
+        observer: &dyn Observer,
+        report: &mut Report,
+    ) -> Result<(), SolveError> {
         report.attempts += 1;
-        let mut system = self.system_at(S::scale_of(&self.reference, problem.moes));
+        let mut system = self.system_for(problem)?;
         match beginning {
             Beginning::Cold(film, rise) => cold_state(&mut system, problem, film, rise),
             Beginning::Warm(former) => warm_state(&mut system, problem, former),
         }
         let most = most_newton(system.rows.len());
         let left = |report: &Report| most.saturating_sub(report.newton_iterations).min(self.options.max_newton);
-        let conserving = matches!(problem.lubricant.cavitation, Cavitation::MassConserving { .. });
-        if conserving && !system.is_starved() {
+        let by_complementarity = match problem.lubricant.cavitation {
             // Near a flooded film, for which complementarity is the surer way.
+            Cavitation::MassConserving { .. } => !system.is_starved(),
+            // The front of a wide ellipse takes three times as many steps to where it belongs.
+            Cavitation::Penalty => problem.point.radius_ratio() != 1.0 && matches!(beginning, Beginning::Cold(..)),
+            Cavitation::Complementarity => false,
+        };
+        if by_complementarity {
             let lubricant = Lubricant { cavitation: Cavitation::Complementarity, ..problem.lubricant };
             let flooded = Problem { lubricant, supply: None, ..*problem };
             let options = SolveOptions { max_newton: left(report), ..self.options };
             system.newton(&flooded, &options, observer, report);
             if report.termination != Termination::Converged {
                 self.system = Some(system);
-                return;
+                return Ok(());
+            }
+            if problem.lubricant.cavitation == Cavitation::Penalty {
+                system.penalise_rupture(self.options.penalty);
             }
         }
         let left = if problem.supply.is_some() { left(report).min(STARVED_NEWTON) } else { left(report) };
@@ -202,15 +223,15 @@ impl<S: NewtonSpace> Solver<S> {
             report.termination = Termination::Effort;
         }
         self.system = Some(system);
+        Ok(())
     }
 
     /// The present state as a solution.
-    fn solution(&mut self, problem: Problem, report: Report) -> Solution {
-        let scale = S::scale_of(&self.reference, problem.moes);
-        let System { space, pressure, film, h_0, active, fraction, .. } =
-            &*self.system.get_or_insert_with(|| System::new(S::on(&self.reference, scale)));
+    fn solution(&mut self, problem: Problem, report: Report) -> Result<Solution, SolveError> {
+        let system = self.system_for(&problem)?;
+        let System { space, pressure, film, h_0, active, fraction, .. } = self.system.insert(system);
         let (x, y) = space.grid().abscissae();
-        Solution {
+        Ok(Solution {
             problem,
             mesh: space.mesh(),
             x: x.to_vec(),
@@ -222,12 +243,17 @@ impl<S: NewtonSpace> Solver<S> {
             scalars: scalars_of(space.grid(), &problem, pressure, film, *h_0),
             report,
             grid_cost: None,
-        }
+        })
     }
 
     /// Walks from an easier contact to the wanted one in steps that shrink on failure; where the inlet may starve, from
     /// the same one with a thin supply.
-    fn continuation(&mut self, problem: &Problem, observer: &dyn Observer, report: &mut Report) {
+    fn continuation(
+        &mut self,
+        problem: &Problem,
+        observer: &dyn Observer,
+        report: &mut Report,
+    ) -> Result<(), SolveError> {
         let target = problem.moes;
         let easy = Moes { m: target.m.clamp(S::EASY_M.0, S::EASY_M.1), l: target.l.clamp(S::EASY_L.0, S::EASY_L.1) };
         let thin = problem.supply.map(|supply| supply.min(THIN * formula_film(problem)));
@@ -239,6 +265,7 @@ impl<S: NewtonSpace> Solver<S> {
             let l = easy.l * (1.0 - t) + target.l * t;
             let request = MoesRequest {
                 radius_m: Some(problem.point.radius_m),
+                radius_y_m: problem.point.radius_y_m,
                 modulus_pa: Some(problem.point.modulus_pa),
                 viscosity_pa_s: Some(problem.point.viscosity_pa_s),
                 alpha_per_pa: Some(problem.point.alpha_per_pa),
@@ -247,23 +274,23 @@ impl<S: NewtonSpace> Solver<S> {
             let point = si_from_moes(&request).ok()?;
             Problem::under_sliding(&point, problem.lubricant, problem.point.sliding).ok()
         };
-        let Some(first) = problem_at(0.0) else { return };
-        self.attempt(&first, Beginning::Cold(S::COLD_FILMS[0], 1.0), observer, report);
+        let Some(first) = problem_at(0.0) else { return Ok(()) };
+        self.attempt(&first, Beginning::Cold(S::COLD_FILMS[0], 1.0), observer, report)?;
         if report.termination != Termination::Converged {
-            return;
+            return Ok(());
         }
         let (mut t, mut stride) = (0.0, 0.25f64);
-        let mut last = self.solution(first, Report::empty());
+        let mut last = self.solution(first, Report::empty())?;
         while t < 1.0 && stride > 1e-3 {
             let next = (t + stride).min(1.0);
             let wanted = if next >= 1.0 { Some(*problem) } else { problem_at(next) };
-            let Some(wanted) = wanted else { return };
-            self.attempt(&wanted, Beginning::Warm(&last), observer, report);
+            let Some(wanted) = wanted else { return Ok(()) };
+            self.attempt(&wanted, Beginning::Warm(&last), observer, report)?;
             match report.termination {
-                Termination::Cancelled | Termination::Effort => return,
+                Termination::Cancelled | Termination::Effort => return Ok(()),
                 Termination::Converged => {
                     t = next;
-                    last = self.solution(wanted, Report::empty());
+                    last = self.solution(wanted, Report::empty())?;
                     stride *= 1.5;
                 }
                 _ => stride *= 0.4,
@@ -272,17 +299,20 @@ impl<S: NewtonSpace> Solver<S> {
         if t < 1.0 && report.termination == Termination::Converged {
             report.termination = Termination::IterationLimit;
         }
+        Ok(())
     }
 }
 
-/// Central film in the solver's scaling, H = (h/R) (R/a)²: Moes' formula for a line, Hamrock and Dowson's for a point
-/// contact.
+/// Central film in the solver's scaling, H = (h/R) (R/a)²: Moes' formula for a line, Hamrock and Dowson's for a circle,
+/// Nijenbanning, Venner and Moes' for an ellipse, of which the former is far too thick where R_y < R_x.
 fn formula_film(problem: &Problem) -> f64 {
     match problem.point.kind {
         // (h/R)(2U)^(−1/2) with a²/R² = 8 w/(π E′ R) = 8 M (2U)^(1/2)/π.
         ContactKind::Line => moes_film(ContactKind::Line, problem.moes) * PI / (8.0 * problem.moes.m),
         ContactKind::Point => {
-            FilmFormula::HamrockDowsonCentral.predict(&problem.point).film_m / problem.point.film_scale_m()
+            let circle = problem.point.radius_ratio() == 1.0;
+            let formula = if circle { FilmFormula::HamrockDowsonCentral } else { FilmFormula::NijenbanningVennerMoes };
+            formula.predict(&problem.point).film_m / problem.point.film_scale_m()
         }
     }
 }
@@ -420,7 +450,10 @@ impl ContactSolver {
 
     /// Takes a few Newton steps from fields on its grid, by which their error can be judged: undamped where there is a
     /// line search, since by the residual it would hide the error: beside a solution the penalty makes it jump.
-    pub fn corrected(&mut self, fields: &Solution, steps: usize) -> Solution {
+    ///
+    /// # Errors
+    /// When the kernel of the contact's shape cannot be built.
+    pub fn corrected(&mut self, fields: &Solution, steps: usize) -> Result<Solution, SolveError> {
         match self {
             Self::Line(solver) => {
                 let defaults = SolveOptions::default();

@@ -298,6 +298,14 @@ impl<S: NewtonSpace> System<S> {
         self.rise_to_zero();
     }
 
+    /// Gives the ruptured nodes of complementarity the pressure at which a penalty is its multiplier, −λ/γ̄.
+    pub(super) fn penalise_rupture(&mut self, penalty: f64) {
+        let multiplier = self.active.field(self.space.grid());
+        for (p, multiplier) in self.pressure.iter_mut().zip(multiplier) {
+            *p -= multiplier / penalty;
+        }
+    }
+
     /// Lifts pressures below zero to zero; `false` where there are none.
     fn rise_to_zero(&mut self) -> bool {
         let mut cut = false;

@@ -20,7 +20,7 @@ impl Thinning {
     /// Of a space.
     pub fn new<S: Space>(space: &S) -> Self {
         let grid = space.grid();
-        let (x, y) = grid.abscissae();
+        let (x, y) = (grid.abscissae().0, grid.across());
         Self {
             gradient: PlaneGradient::new(x, y),
             slopes: [0, 1].map(|axis| vec![[0.0; STENCIL]; if axis < S::AXES { grid.unknowns() } else { 0 }]),

@@ -94,7 +94,7 @@ impl Solution {
     /// [`Solution::profile`], the heights of a node one after the other. A limiting stress, where the lubricant has one,
     /// cuts the stress; the rate is the one of the film without it.
     pub fn shear_field(&self, heights: &[f64]) -> Vec<Shear> {
-        let gradient = PlaneGradient::new(&self.x, &self.y);
+        let gradient = self.gradient();
         let axis = self.y.len() - 1;
         let shear = |film: &FilmStress, height: f64| {
             let stress = film.at(height);
@@ -123,7 +123,7 @@ impl Solution {
 
     /// τ_zx \[Pa\] at mid-film, cut to the limiting stress where the lubricant has one, at every node of the arrays.
     pub fn mid_film_stress(&self) -> Vec<f64> {
-        let gradient = PlaneGradient::new(&self.x, &self.y);
+        let gradient = self.gradient();
         let ny = self.y.len();
         let mut stress = vec![0.0; self.pressure.len()];
         stress.par_iter_mut().enumerate().with_min_len(256).for_each(|(k, stress)| {

@@ -5,8 +5,7 @@
 //!
 //! - The domain sets P = 0 where an endless inlet has a pressure. Beyond the ends of the domain the gap grows like R²/2
 //!   with the distance R, the oil is as thin as at ambient pressure, and the pressure of the full film there, that of
-//!   half Sommerfeld's tail, is λ̄|X|/(3H²) in a line and λ̄|X|/(5H²) in a point contact (P ∝ cos θ/R³). It enters the
-//!   rows beside the ends, and the load that the missing part would carry the load's equation.
+//!   half Sommerfeld's tail, is λ̄|X|/(3H²) in a line and λ̄|X|/((3 + 2R_x/R_y)H²) in a point contact. It enters the rows beside the ends, and the load that the missing part would carry the load's equation.
 //! - The rows of a scheme of second order, evaluated on every other node of the solution, miss three times what the
 //!   solution itself misses of the differential equation.
 
@@ -85,7 +84,7 @@ impl Solution {
         if cost.total().is_nan() {
             return Some(warning);
         }
-        let (reach, spacing) = that_would_do(self.problem.point.kind, self.problem.moes);
+        let (reach, spacing) = that_would_do(&self.problem.point);
         let mut parts = Vec::new();
         if cost.truncation.abs() > 0.3 * TOLERATED {
             let x = self.x[self.first()];
@@ -113,7 +112,9 @@ impl Solution {
 impl<S: NewtonSpace> Solver<S> {
     /// What the grid costs the central film of a converged solution on it.
     pub fn grid_cost(&mut self, solution: &Solution) -> GridCost {
-        let mut system = self.system_at(solution.mesh.scale);
+        let Ok(mut system) = self.system_for(&solution.problem) else {
+            return GridCost { truncation: f64::NAN, resolution: f64::NAN };
+        };
         system.set_pressure(&solution.problem, &solution.pressure);
         system.set_h_0(solution.scalars.h_0);
         system.fraction.clone_from(&solution.fraction);
@@ -170,7 +171,7 @@ impl<S: NewtonSpace> System<S> {
         let weights = self.space.grid().weights();
         let share = match S::KIND {
             ContactKind::Line => 3.0,
-            ContactKind::Point => 5.0,
+            ContactKind::Point => 3.0 + 2.0 / problem.point.radius_ratio(),
         };
         let at = |node: usize| {
             let (x, film) = (x[node / y.len()], self.film[node]);
@@ -233,7 +234,8 @@ mod tests {
             assert!((poor.scalars.h_c / truth - 1.0).abs() > 0.05);
             let warning = poor.grid_warning().unwrap();
             assert!(warning.starts_with("H_c is off by about") && warning.contains(word), "{warning}");
-            let own = GridSpec::explorer_for(ContactKind::Line, Moes { m, l }).unwrap();
+            let own =
+                GridSpec::explorer_for(&si_from_moes(&MoesRequest::new(ContactKind::Line, m, l)).unwrap()).unwrap();
             let good = judged(own, m, l);
             assert_eq!(good.grid_warning(), None, "M {m}, L {l}");
             assert!((good.scalars.h_c / truth - 1.0).abs() < 0.03, "M {m}, L {l}: {}", good.scalars.h_c);

@@ -14,7 +14,6 @@ use super::model::{Window, deformation_weights};
 use super::online::ReducedOptions;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::discrete::nodes::Nodes;
-use crate::solver::discrete::reynolds::generalized::PlaneGradient;
 use crate::solver::full::Solution;
 use faer::{ColRef, Mat};
 use serde::{Deserialize, Serialize};
@@ -101,7 +100,7 @@ impl ErrorMeasures {
     pub fn residuals(&self, coefficients: &[f64], fields: &Solution) -> Residuals {
         let problem = &fields.problem;
         let (scale, weights) = (fields.mesh.scale, self.grid.weights());
-        let gradient = PlaneGradient::new(&fields.x, &fields.y);
+        let gradient = fields.gradient();
         let nodes = Nodes::of(problem.laws(), &gradient, &fields.pressure, &fields.film);
         let squared: Vec<f64> = (0..self.grid.unknowns())
             .map(|unknown| {

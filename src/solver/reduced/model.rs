@@ -263,6 +263,9 @@ impl Domain {
             return Trust::Outside("the model was trained with a flooded inlet, not with a supplied film".to_owned());
         }
         let point = &problem.point;
+        if point.radius_ratio() != 1.0 {
+            return Trust::Outside("the model was trained for circular contacts, R_y = R".to_owned());
+        }
         if (point.viscosity_pa_s / self.viscosity_pa_s - 1.0).abs() > 1e-6 {
             return Trust::Outside(format!(
                 "the model was trained at an ambient viscosity of {} Pa·s, not {} Pa·s",

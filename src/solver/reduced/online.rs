@@ -140,6 +140,9 @@ impl Online {
         if problem.shear.is_some() && self.model.domain.sliding.is_none() {
             return Err(ReducedError::ShearThinning);
         }
+        if problem.point.radius_ratio() != 1.0 {
+            return Err(ReducedError::Ellipse(problem.point.radius_ratio()));
+        }
         // Its α and its plateau ratio are those that count.
         let point = &problem.point;
         let index = self.model.window_for(problem.moes);

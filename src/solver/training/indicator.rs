@@ -132,7 +132,7 @@ impl Corrector {
         let before = online.reconstruct(solved).ok()?;
         let sliding = online.model.domain.sliding.is_some();
         let full = self.full.get_or_insert_with(|| ContactSolver::on(&self.grid));
-        let after = if sliding { full_solution(full, &before)? } else { full.corrected(&before, CORRECTIONS) };
+        let after = if sliding { full_solution(full, &before)? } else { full.corrected(&before, CORRECTIONS).ok()? };
         let change = |from: f64, to: f64| (from / to - 1.0).abs();
         let (from, to) = (&before.scalars, &after.scalars);
         let (mut difference, mut size) = ((from.h_0 - to.h_0).powi(2), to.h_0.powi(2));

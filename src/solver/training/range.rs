@@ -118,6 +118,7 @@ impl QuantityBox {
             viscosity_pa_s: self.viscosity,
             alpha_per_pa: linear(self.alpha, alpha),
             sliding: Sliding::NONE,
+            radius_y_m: None,
         }
     }
 

@@ -203,7 +203,7 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
              {rows} of {} rows",
             trained.grid.unknowns()
         ));
-        let cost = |snapshot: &Snapshot| trained.grid.spec().expected_cost(snapshot.point.moes());
+        let cost = |snapshot: &Snapshot| trained.grid.spec().expected_cost(&snapshot.point);
         let worst = trained.snapshots.iter().map(cost).fold(0.0, f64::max);
         if worst > TOO_COSTLY {
             log.push(format!("this grid costs H_c up to some {:.0} %: take a longer or a finer one", 100.0 * worst));

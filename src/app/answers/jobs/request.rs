@@ -4,7 +4,7 @@ use crate::app::document::Key;
 use crate::engine::Store;
 use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec, PointGridSpec};
 use crate::solver::full::Solution;
-use crate::solver::physics::contact::{ContactKind, Moes};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::ReducedModel;
 use std::sync::Arc;
 
@@ -48,10 +48,10 @@ pub enum GridChoice {
 impl GridChoice {
     /// The grid of the window of a model that serves a contact; without a model the chosen one of a point contact, or
     /// the explorer's.
-    pub fn of(model: Option<&ReducedModel>, plane: Option<PointGridSpec>, moes: Moes) -> Self {
-        match (model.and_then(|model| model.windows.get(model.window_for(moes))), plane) {
+    pub fn of(model: Option<&ReducedModel>, plane: Option<PointGridSpec>, point: &OperatingPoint) -> Self {
+        match (model.and_then(|model| model.windows.get(model.window_for(point.moes()))), plane) {
             (Some(window), _) => Self::Existing(window.grid.clone()),
-            (None, None) => Self::Spec(GridSpec::explorer_for(ContactKind::Line, moes).unwrap_or(GridSpec::EXPLORER)),
+            (None, None) => Self::Spec(GridSpec::explorer_for(point).unwrap_or(GridSpec::EXPLORER)),
             (None, Some(plane)) => Self::Spec(GridSpec::Plane(plane)),
         }
     }

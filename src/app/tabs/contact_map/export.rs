@@ -16,8 +16,8 @@ pub fn csv(picture: &Picture) -> String {
         halves().map(move |(j, sign)| {
             let (x, y, k) = (solution.x[i], sign * solution.y[j], i * ny + j);
             let (p, h) = (solution.pressure[k], solution.film[k]);
-            let a = hertz.half_width_m;
-            [x, y, p, h, x * a, y * a, p * hertz.pressure_pa, h * scale].map(Some).to_vec()
+            let (a, b) = (hertz.half_width_m, hertz.half_length_m);
+            [x, y, p, h, x * a, y * b, p * hertz.pressure_pa, h * scale].map(Some).to_vec()
         })
     });
     let comments = [tables::describe(picture), picture.origin.describe()];

@@ -307,7 +307,7 @@ fn hover(picture: &Picture, view: &MapView, at: &HoverPosition<'_>) -> Option<St
         numbers::digits(position.x, 3),
         numbers::length(position.x * hertz.half_width_m),
         numbers::digits(position.y, 3),
-        numbers::length(position.y * hertz.half_width_m),
+        numbers::length(position.y * hertz.half_length_m),
         numbers::significant(p),
         numbers::pressure(p * hertz.pressure_pa),
         numbers::significant(h),

@@ -6,9 +6,9 @@
 //! second FFT over the mirrored domain would, halves the number of transforms, and leaves the spacing across free.
 
 use super::convolution::{Convolution, KernelError};
+use crate::solver::physics::contact::Ellipse;
 use rayon::prelude::*;
 use realfft::num_complex::Complex64;
-use std::f64::consts::PI;
 
 /// The kernel of a half domain: deformation of every node by the pressure of every cell and of its mirror image.
 #[derive(Clone)]
@@ -16,6 +16,8 @@ pub struct PointFlexibility {
     nx: usize,
     ny: usize,
     hx: f64,
+    /// c_K: what (2/π²) is for a circle.
+    factor: f64,
     /// Ordinates of the nodes.
     y: Vec<f64>,
     /// Upper edge of each node's cell; 0 on the axis.
@@ -48,11 +50,12 @@ pub struct PointScratch {
 /// Deformation at distance (x, y) from the centre of a rectangle of size `hx` × `hy` under unit pressure, (2.40):
 /// (2/π²) ∫∫ dX dY / r in closed form.
 pub fn rectangle_kernel(x: f64, y: f64, hx: f64, hy: f64) -> f64 {
-    strip(x, y + 0.5 * hy, hx) - strip(x, y - 0.5 * hy, hx)
+    let factor = Ellipse::CIRCLE.kernel_factor();
+    strip(x, y + 0.5 * hy, hx, factor) - strip(x, y - 0.5 * hy, hx, factor)
 }
 
-/// (2/π²) times the integral of 1/r over the strip of width `hx` around x and from 0 to v across; odd in v.
-fn strip(x: f64, v: f64, hx: f64) -> f64 {
+/// `factor` times the integral of 1/r over the strip of width `hx` around x and from 0 to v across; odd in v.
+fn strip(x: f64, v: f64, hx: f64, factor: f64) -> f64 {
     // u asinh(v/|u|) + v asinh(u/|v|) differs from the usual u ln(v + r) + v ln(u + r) by terms that cancel between the
     // corners.
     let corner = |u: f64| {
@@ -60,21 +63,22 @@ fn strip(x: f64, v: f64, hx: f64) -> f64 {
         let across = if v == 0.0 { 0.0 } else { v * (u / v.abs()).asinh() };
         along + across
     };
-    2.0 / (PI * PI) * (corner(x + 0.5 * hx) - corner(x - 0.5 * hx))
+    factor * (corner(x + 0.5 * hx) - corner(x - 0.5 * hx))
 }
 
 impl PointFlexibility {
     /// The kernel of `nx` nodes with spacing `hx` along X and nodes at the ordinates `y` across, whose cells end at
-    /// `edges` (upper edge of each; the first node carries no pressure). Pressures at both ends along X are taken as
-    /// zero.
+    /// `edges` (upper edge of each; the first node carries no pressure), all in units of a: K is `factor` ∬ 1/r. Pressures
+    /// at both ends along X are taken as zero.
     ///
     /// # Errors
     /// When it cannot be transformed.
-    pub fn new(hx: f64, nx: usize, y: &[f64], edges: &[f64]) -> Result<Self, KernelError> {
+    pub fn new(hx: f64, nx: usize, y: &[f64], edges: &[f64], factor: f64) -> Result<Self, KernelError> {
         let (ny, m) = (y.len(), y.len() - 1);
         let convolution = Convolution::new(2 * nx - 3);
         let (length, frequencies) = (convolution.len(), convolution.frequencies());
-        let mut kernel = Self { nx, ny, hx, y: y.to_vec(), edges: edges.to_vec(), spectrum: Vec::new(), convolution };
+        let (y, edges, spectrum) = (y.to_vec(), edges.to_vec(), Vec::new());
+        let mut kernel = Self { nx, ny, hx, factor, y, edges, spectrum, convolution };
         // Spectra of the kernels of one ordinate j against all cells, in parallel over j.
         let rows = (0..ny)
             .into_par_iter()
@@ -112,8 +116,8 @@ impl PointFlexibility {
     /// columns away. Cell c belongs to ordinate c + 1.
     fn row_entries(&self, d: usize, j: usize, mut put: impl FnMut(usize, f64)) {
         let (x, y) = (d as f64 * self.hx, self.y[j]);
-        let near = |edge: f64| strip(x, y - edge, self.hx);
-        let mirror = |edge: f64| strip(x, y + edge, self.hx);
+        let near = |edge: f64| strip(x, y - edge, self.hx, self.factor);
+        let mirror = |edge: f64| strip(x, y + edge, self.hx, self.factor);
         let (mut near_lower, mut mirror_lower) = (near(self.edges[0]), mirror(self.edges[0]));
         for (cell, &edge) in self.edges[1..].iter().enumerate() {
             let (near_upper, mirror_upper) = (near(edge), mirror(edge));
@@ -141,7 +145,7 @@ impl PointFlexibility {
         }
         let (x, y) = (i.abs_diff(k) as f64 * self.hx, self.y[j]);
         let (lower, upper) = (self.edges[l - 1], self.edges[l]);
-        let at = |v: f64| strip(x, v, self.hx);
+        let at = |v: f64| strip(x, v, self.hx, self.factor);
         (at(y - lower) - at(y - upper)) + (at(y + upper) - at(y + lower))
     }
 
@@ -210,6 +214,7 @@ impl PointFlexibility {
 mod tests {
     use super::*;
     use crate::solver::discrete::grid::PointGridSpec;
+    use std::f64::consts::PI;
 
     /// ∫∫ 1/r over a rectangle by a composite midpoint rule fine enough for 1e-5.
     fn quadrature(x: f64, y: f64, hx: f64, hy: f64) -> f64 {

@@ -243,10 +243,12 @@ impl ContactGrid {
         }
     }
 
-    /// Nodal gradients of node arrays by ξ and Y; node (i, j) has the index i·n_y + j.
+    /// Nodal gradients of node arrays by ξ and, in the same unit, across; node (i, j) has the index i·n_y + j.
     pub fn gradient(&self) -> PlaneGradient {
-        let (xi, y) = self.abscissae();
-        PlaneGradient::new(xi, y)
+        match self {
+            Self::Line(grid) => PlaneGradient::new(&grid.xi, &[0.0]),
+            Self::Point(grid) => PlaneGradient::new(&grid.x, &grid.across),
+        }
     }
 
     /// K applied to every column, in ξ.

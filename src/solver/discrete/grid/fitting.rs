@@ -4,15 +4,16 @@
 //! spacing must resolve the zone in which the film closes from twice to once its thickness, t = (1.06 H_c)^(2/3) before
 //! the Hertzian contact. What a grid costs H_c was fitted to what solutions say of themselves ([`GridCost`]): the
 //! second order term is (ΔX/t)² for lines and points alike, and an inlet at X₀ lacks the pressure and the load of half
-//! Sommerfeld's tail, λ̄/|X₀|³, and for a point contact that beyond the sides as well.
+//! Sommerfeld's tail, λ̄/|X₀|³, and for a point contact that beyond the sides as well. Of an ellipse the same tail,
+//! λ̄|X|/((3 + 2R_x/R_y)H²), is integrated along both ends.
 //!
 //! [`GridCost`]: crate::solver::full::GridCost
 
 use super::contact::GridSpec;
 use super::error::GridError;
-use super::line::{LONGEST_INLET, MAX_GRADED_NODES, explorer_cells, registration_scale};
+use super::line::{LONGEST_INLET, LONGEST_OUTLET, MAX_GRADED_NODES, explorer_cells, registration_scale};
 use super::point::PointGridSpec;
-use crate::solver::physics::contact::{ContactKind, Moes, moes_film};
+use crate::solver::physics::contact::{ContactKind, Ellipse, Moes, OperatingPoint, ellipse_film, moes_film};
 use std::f64::consts::PI;
 
 /// Relative error of H_c by the end of the inlet up to which a grid does.
@@ -25,6 +26,10 @@ const GRADED: f64 = 0.012;
 const EXPLORER_SPACING: f64 = 6e-4;
 /// A point contact's grid is at most this many times finer along X than the one it begins from.
 const FINEST: f64 = 8.0;
+/// What the ends of an ellipse's domain may cost as long as its spacing stays as it is; beyond, [`TRUNCATION`].
+const UNCOARSENED: f64 = 0.02;
+/// An ellipse's domain may have so many times more cells to reach farther.
+const MOST_CELLS: f64 = 5.0;
 
 /// No film of a contact beyond this load number reaches too far.
 const HEAVIEST: f64 = 1e3;
@@ -36,6 +41,8 @@ const STIFF: f64 = 50.0;
 struct Fit {
     kind: ContactKind,
     moes: Moes,
+    /// The shape, a circle for a line.
+    ellipse: Ellipse,
     /// λ̄ of (2.23).
     lambda: f64,
     /// α p_H.
@@ -49,7 +56,15 @@ struct Fit {
 }
 
 impl Fit {
-    fn new(kind: ContactKind, moes: Moes) -> Self {
+    fn of(point: &OperatingPoint) -> Self {
+        Self::new(point.kind, point.moes(), point.ellipse())
+    }
+
+    fn line(moes: Moes) -> Self {
+        Self::new(ContactKind::Line, moes, Ellipse::CIRCLE)
+    }
+
+    fn new(kind: ContactKind, moes: Moes, ellipse: Ellipse) -> Self {
         let Moes { m, l } = moes;
         let (lambda, alpha_hertz, film) = match kind {
             ContactKind::Line => {
@@ -57,19 +72,29 @@ impl Fit {
                 (3.0 * PI * PI / (8.0 * m * m), l * (m / (2.0 * PI)).sqrt(), scale)
             }
             // (h/R)(2U)^(−1/2), over a²/R² = (3M/2)^(2/3) (2U)^(1/2).
-            ContactKind::Point => (
+            ContactKind::Point if ellipse == Ellipse::CIRCLE => (
                 (128.0 * PI.powi(3) / (3.0 * m.powi(4))).cbrt(),
                 l * (1.5 * m / PI.powi(3)).cbrt(),
                 (1.5 * m).powf(-2.0 / 3.0),
             ),
+            // The same with a³/R³ = (3J_x/π) M (2U)^¾ and p_H = 3w/(2πκa²).
+            ContactKind::Point => {
+                let axis = (3.0 * ellipse.integral * m / PI).cbrt();
+                let lambda = 4.0 * PI * ellipse.kappa / (m * axis);
+                (lambda, l * 1.5 * m / (PI * ellipse.kappa * axis * axis), axis.powi(-2))
+            }
+        };
+        let film_number = |moes: Moes| match kind {
+            ContactKind::Line => moes_film(kind, moes),
+            ContactKind::Point => ellipse_film(ellipse.radius_ratio, moes),
         };
         // At pressures far beyond those of real contacts Moes' film is too thick: oil stiffens less than by Barus' law.
         let stiff = (STIFF / alpha_hertz).min(1.0).powf(0.25);
-        let zone = stiff * (1.06 * film * moes_film(kind, moes)).powf(2.0 / 3.0);
-        let thickness = |m: f64| moes_film(kind, Moes { m, l });
+        let zone = stiff * (1.06 * film * film_number(moes)).powf(2.0 / 3.0);
+        let thickness = |m: f64| film_number(Moes { m, l });
         let by_load = (thickness(0.95 * m) / thickness(1.05 * m)).ln() / f64::ln(1.05 / 0.95);
         let width = (2.0 * film * thickness(m)).sqrt();
-        Self { kind, moes, lambda, alpha_hertz, zone, width, by_load: by_load.max(0.0) }
+        Self { kind, moes, ellipse, lambda, alpha_hertz, zone, width, by_load: by_load.max(0.0) }
     }
 
     /// What an inlet at X = −`reach` costs.
@@ -78,8 +103,28 @@ impl Fit {
         match self.kind {
             ContactKind::Line => lambda * (4.0 / 3.0 * alpha_hertz / reach + 0.42) / (reach * reach),
             // The sides are half as far, always.
-            ContactKind::Point => lambda * (0.8 * alpha_hertz / reach.powi(3) + 1.2 * self.by_load / reach),
+            ContactKind::Point if self.ellipse == Ellipse::CIRCLE => {
+                lambda * (0.8 * alpha_hertz / reach.powi(3) + 1.2 * self.by_load / reach)
+            }
+            ContactKind::Point => self.ends(reach, 0.5 * reach).iter().sum(),
         }
+    }
+
+    /// What the inlet at X = −`reach` and the sides at Y = ±`side` of an ellipse's domain cost, each.
+    fn ends(&self, reach: f64, side: f64) -> [f64; 2] {
+        let curvature = self.ellipse.gap_curvature();
+        // P X² R⁴/|X|³ of the tail, and what of ∮P x·n along the ends is load, 2π/3 being the whole.
+        let tail = 4.0 * self.lambda / (3.0 + 2.0 / self.ellipse.radius_ratio);
+        let share = 1.5 / PI * self.by_load;
+        let (square, edge, root) = (reach * reach, curvature * side * side, curvature.sqrt());
+        let across = side / (square * (square + edge)) + (side * root / reach).atan() / (reach.powi(3) * root);
+        let beside = 2.0 * side * (1.0 / edge - 1.0 / (square + edge));
+        // The sides of a narrow ellipse are nearer to its middle than the inlet is.
+        let narrow = 0.6 * (1.0 - self.ellipse.kappa.powi(2)).max(0.0) / (1.0 + edge).powi(2);
+        [
+            tail * (self.alpha_hertz / reach.powi(3) + share * square * across),
+            tail * (self.alpha_hertz * narrow + share * beside),
+        ]
     }
 
     /// The inlet, as −X, from which on the end of the domain costs at most a share of H_c; at most about the longest.
@@ -104,7 +149,7 @@ impl Fit {
     /// A film that does not fit into `grid` however it is stretched.
     fn too_wide(&self, grid: PointGridSpec) -> GridError {
         let Moes { m, l } = self.moes;
-        let holds = |m: &f64| grid.stretched_for(Moes { m: *m, l }).is_some();
+        let holds = |m: &f64| grid.domain_for(&Self::new(self.kind, Moes { m: *m, l }, self.ellipse)).is_some();
         let lowest = std::iter::successors(Some(m), |m| Some(1.02 * m)).take_while(|m| *m < HEAVIEST).find(holds);
         let own = match self.reach(TRUNCATION) {
             reach if reach < LONGEST_INLET => {
@@ -132,15 +177,15 @@ impl Fit {
 
 /// Where a contact's inlet may end, as −X, and how wide its spacing may be in front of the contact, each at the cost of
 /// a hundredth of H_c.
-pub fn that_would_do(kind: ContactKind, moes: Moes) -> (f64, f64) {
-    let fit = Fit::new(kind, moes);
+pub fn that_would_do(point: &OperatingPoint) -> (f64, f64) {
+    let fit = Fit::of(point);
     (fit.reach(0.01), 0.1 * fit.zone)
 }
 
 impl GridSpec {
     /// Whether a uniform grid from X = `inlet` does for a contact.
     pub fn does(&self, moes: Moes) -> bool {
-        let fit = Fit::new(ContactKind::Line, moes);
+        let fit = Fit::line(moes);
         match *self {
             Self::Uniform { dx, domain } => fit.truncation(-domain.0) <= TRUNCATION && fit.resolution(dx) <= RESOLUTION,
             Self::Graded { .. } | Self::Plane(_) => false,
@@ -154,7 +199,7 @@ impl GridSpec {
     /// When no such grid resolves the film.
     fn line_for(moes: Moes) -> Result<Self, GridError> {
         let Self::Graded { nodes, domain, registered } = Self::EXPLORER else { return Ok(Self::EXPLORER) };
-        let fit = Fit::new(ContactKind::Line, moes);
+        let fit = Fit::line(moes);
         let reach = |times: f64| (times * -domain.0 - 1.0) * registration_scale(moes) + 1.0;
         let mut times = 1.0;
         while fit.truncation(reach(times)) > GRADED && times < 64.0 {
@@ -173,15 +218,14 @@ impl GridSpec {
 }
 
 impl PointGridSpec {
-    /// This grid for a contact: as it is wherever it does, else one that reaches farther with as many nodes, or is finer
-    /// along X.
+    /// This grid for a point contact: as it is wherever it does, else one that reaches farther, or is finer along X. A
+    /// circle's keeps its number of nodes in all but thick films, an ellipse's its spacing.
     ///
     /// # Errors
     /// When no such grid resolves the film.
-    pub fn for_contact(self, moes: Moes) -> Result<Self, GridError> {
-        let fit = Fit::new(ContactKind::Point, moes);
-        let (from, to, edge) = self.domain;
-        let (times, cells) = self.stretched_for(moes).ok_or_else(|| fit.too_wide(self))?;
+    pub fn for_contact(self, point: &OperatingPoint) -> Result<Self, GridError> {
+        let fit = Fit::of(point);
+        let Stretched { domain, times, cells } = self.domain_for(&fit).ok_or_else(|| fit.too_wide(self))?;
         let mut finer = 1.0;
         while fit.resolution(self.dx * times / finer) > RESOLUTION {
             if finer >= FINEST {
@@ -189,31 +233,69 @@ impl PointGridSpec {
             }
             finer *= 2.0;
         }
-        let domain = (from * times, to * times, edge * times);
-        let dx = self.dx * times / finer.max(cells);
-        Ok(Self { dx, dy: self.dy * times / cells, domain, ..self })
+        Ok(Self { dx: self.dx * times / f64::max(finer, cells), dy: self.dy * times / cells, domain, ..self })
     }
 
-    /// How many times farther its domain must reach for a contact, and how many times more nodes it then has in each
-    /// direction; none where that would take too many.
-    fn stretched_for(&self, moes: Moes) -> Option<(f64, f64)> {
-        let fit = Fit::new(ContactKind::Point, moes);
+    /// How far its domain must reach for a contact; none where that would take too many nodes.
+    fn domain_for(&self, fit: &Fit) -> Option<Stretched> {
+        let (from, to, edge) = self.domain;
         let (mut times, mut cells) = (1.0, 1.0);
-        while fit.truncation(-self.domain.0 * times) > TRUNCATION {
-            times *= 2.0;
-            cells = if fit.coarse(self.dx * times) > RESOLUTION { 2.0 } else { 1.0 };
-            if fit.coarse(self.dx * times / cells) > RESOLUTION {
+        if fit.ellipse == Ellipse::CIRCLE {
+            while fit.truncation(-from * times) > TRUNCATION {
+                times *= 2.0;
+                cells = if fit.coarse(self.dx * times) > RESOLUTION { 2.0 } else { 1.0 };
+                if fit.coarse(self.dx * times / cells) > RESOLUTION {
+                    return None;
+                }
+            }
+            return Some(Stretched { domain: (from * times, to * times, edge * times), times, cells });
+        }
+        let fine = self.ellipse_domain(fit, UNCOARSENED).filter(|stretched| stretched.times == 1.0);
+        fine.or_else(|| self.ellipse_domain(fit, TRUNCATION))
+    }
+
+    /// The same of an ellipse, whose ends may cost so much.
+    fn ellipse_domain(&self, fit: &Fit, most: f64) -> Option<Stretched> {
+        let (from, to, edge) = self.domain;
+        // Which end costs more depends on the shape, and so does which is moved.
+        let (mut reach, mut side, mut times) = (-from, -edge, 1.0f64);
+        loop {
+            let [inlet, sides] = fit.ends(reach, side);
+            if inlet + sides <= most {
+                break;
+            }
+            let end = if inlet >= sides { &mut reach } else { &mut side };
+            *end = (2.5 * *end).ceil() / 2.0;
+            if reach > LONGEST_INLET || side > LONGEST_OUTLET {
                 return None;
             }
         }
-        Some((times, cells))
+        let to = to.max((10.0 * (1.0 + fit.width)).ceil() / 10.0);
+        let more = (reach + to) * side / ((self.domain.1 - from) * -edge);
+        while more > MOST_CELLS * times * times {
+            // 1, 1.5, 2, 3, 4, 6 …
+            times *= if times.log2().fract() == 0.0 { 1.5 } else { 4.0 / 3.0 };
+            if fit.coarse(self.dx * times) > RESOLUTION {
+                return None;
+            }
+        }
+        Some(Stretched { domain: (-reach, to, -side), times, cells: 1.0 })
     }
+}
+
+/// A domain that reaches farther.
+struct Stretched {
+    domain: (f64, f64, f64),
+    /// How many times wider the spacing may then be.
+    times: f64,
+    /// How many times more nodes there are in each direction than such a spacing gives.
+    cells: f64,
 }
 
 impl GridSpec {
     /// The share of H_c that this grid is expected to cost a contact, by the ends of its domain and by its spacing.
-    pub fn expected_cost(&self, moes: Moes) -> f64 {
-        let fit = Fit::new(self.kind(), moes);
+    pub fn expected_cost(&self, point: &OperatingPoint) -> f64 {
+        let (fit, moes) = (Fit::of(point), point.moes());
         let (reach, spacing) = match *self {
             Self::Uniform { dx, domain } => (-domain.0, dx),
             Self::Graded { nodes, domain, registered } => {
@@ -230,10 +312,10 @@ impl GridSpec {
     ///
     /// # Errors
     /// When no grid of its kind resolves the film.
-    pub fn explorer_for(kind: ContactKind, moes: Moes) -> Result<Self, GridError> {
-        match kind {
-            ContactKind::Line => Self::line_for(moes),
-            ContactKind::Point => PointGridSpec::EXPLORER.for_contact(moes).map(Self::Plane),
+    pub fn explorer_for(point: &OperatingPoint) -> Result<Self, GridError> {
+        match point.kind {
+            ContactKind::Line => Self::line_for(point.moes()),
+            ContactKind::Point => PointGridSpec::EXPLORER.for_contact(point).map(Self::Plane),
         }
     }
 }
@@ -241,49 +323,89 @@ impl GridSpec {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::solver::physics::contact::{MoesRequest, Quantity, si_from_moes};
+
+    fn at(kind: ContactKind, m: f64, l: f64) -> OperatingPoint {
+        si_from_moes(&MoesRequest::new(kind, m, l)).unwrap()
+    }
 
     #[test]
     fn usual_contacts_keep_the_usual_grids_and_others_get_longer_or_finer_ones() {
         for (m, l) in [(2.0, 5.0), (40.0, 10.0), (500.0, 3.0)] {
-            assert_eq!(GridSpec::explorer_for(ContactKind::Line, Moes { m, l }), Ok(GridSpec::EXPLORER));
+            assert_eq!(GridSpec::explorer_for(&at(ContactKind::Line, m, l)), Ok(GridSpec::EXPLORER));
         }
         for (m, l) in [(12.8, 1.7), (200.0, 10.0)] {
             let spec = PointGridSpec::DISSERTATION;
-            assert_eq!(spec.for_contact(Moes { m, l }), Ok(spec));
+            assert_eq!(spec.for_contact(&at(ContactKind::Point, m, l)), Ok(spec));
         }
         for (m, l, does) in [(40.0, 10.0, true), (0.5, 10.0, false), (2000.0, 1.0, false)] {
             assert_eq!(GridSpec::DISSERTATION.does(Moes { m, l }), does);
         }
-        let Ok(GridSpec::Graded { domain, .. }) = GridSpec::explorer_for(ContactKind::Line, Moes { m: 0.1, l: 10.0 })
-        else {
+        let Ok(GridSpec::Graded { domain, .. }) = GridSpec::explorer_for(&at(ContactKind::Line, 0.1, 10.0)) else {
             panic!()
         };
         assert!(domain.0 <= -160.0 && domain.1 > 20.0);
-        let Ok(GridSpec::Graded { nodes, .. }) = GridSpec::explorer_for(ContactKind::Line, Moes { m: 3e3, l: 1.0 })
-        else {
+        let Ok(GridSpec::Graded { nodes, .. }) = GridSpec::explorer_for(&at(ContactKind::Line, 3e3, 1.0)) else {
             panic!()
         };
         assert!(nodes > 1000);
-        assert_eq!(PointGridSpec::DISSERTATION.for_contact(Moes { m: 860.0, l: 5.0 }).unwrap().dx, 0.01);
+        assert_eq!(PointGridSpec::DISSERTATION.for_contact(&at(ContactKind::Point, 860.0, 5.0)).unwrap().dx, 0.01);
     }
 
     #[test]
     fn a_point_contact_reaches_farther_at_low_loads_until_no_grid_holds_it() {
-        let wide = PointGridSpec::DISSERTATION.for_contact(Moes { m: 5.0, l: 5.0 }).unwrap();
+        let wide = PointGridSpec::DISSERTATION.for_contact(&at(ContactKind::Point, 5.0, 5.0)).unwrap();
         assert!(wide.domain.0 < -4.0 && wide.check().is_ok(), "{wide:?}");
-        let refused = PointGridSpec::DISSERTATION.for_contact(Moes { m: 1.1, l: 11.2 }).unwrap_err().to_string();
+        let refused =
+            PointGridSpec::DISSERTATION.for_contact(&at(ContactKind::Point, 1.1, 11.2)).unwrap_err().to_string();
         assert!(refused.contains("reaches too far"), "{refused}");
         let lowest: f64 = refused.split("from M = ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
-        let accepted = |m: f64| PointGridSpec::DISSERTATION.for_contact(Moes { m, l: 11.2 }).is_ok();
+        let accepted = |m: f64| PointGridSpec::DISSERTATION.for_contact(&at(ContactKind::Point, m, 11.2)).is_ok();
         assert!(accepted(lowest + 0.01) && !accepted(0.97 * lowest), "{refused}");
-        let far = PointGridSpec::DISSERTATION.for_contact(Moes { m: 0.3, l: 1.0 }).unwrap_err().to_string();
+        let far = PointGridSpec::DISSERTATION.for_contact(&at(ContactKind::Point, 0.3, 1.0)).unwrap_err().to_string();
         assert!(far.contains("no grid that ends before X = -2000 does"), "{far}");
+    }
+
+    #[test]
+    fn what_the_ends_of_an_ellipse_cost_is_what_they_cost_a_circle_at_equal_radii() {
+        for (m, l) in [(5.0, 5.0), (20.0, 2.0), (100.0, 10.0)] {
+            let fit = Fit::of(&at(ContactKind::Point, m, l));
+            for reach in [3.0, 4.0, 8.0] {
+                let [inlet, sides] = fit.ends(reach, 0.5 * reach);
+                let ratio = (inlet + sides) / fit.truncation(reach);
+                assert!((0.75..1.3).contains(&ratio), "M {m}, L {l}, X = −{reach}: {ratio}");
+            }
+            let near = Fit::of(&Quantity::RadiusRatio.at(&at(ContactKind::Point, m, l), 1.0 + 1e-9));
+            for (own, other) in [
+                (fit.lambda, near.lambda),
+                (fit.alpha_hertz, near.alpha_hertz),
+                (fit.zone, near.zone),
+                (fit.width, near.width),
+            ] {
+                assert!((own / other - 1.0).abs() < 1e-6, "{own} {other}");
+            }
+            let point = Quantity::RadiusRatio.at(&at(ContactKind::Point, m, l), 7.0);
+            let wide = Fit::of(&point);
+            assert!((wide.lambda / point.lambda_bar() - 1.0).abs() < 1e-12);
+            assert!((wide.alpha_hertz / point.alpha_hertz() - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn wide_and_light_ellipses_get_longer_inlets_and_narrow_ones_keep_theirs() {
+        let domain = |ratio: f64, m: f64| {
+            let point = Quantity::RadiusRatio.at(&at(ContactKind::Point, m, 6.0), ratio);
+            PointGridSpec::DISSERTATION.for_contact(&point).unwrap().domain
+        };
+        assert_eq!(domain(0.2, 100.0), (-4.0, 2.0, -2.0));
+        assert!((-10.0..-4.0).contains(&domain(20.0, 60.0).0), "{:?}", domain(20.0, 60.0));
+        assert!(domain(20.0, 30.0).0 < domain(20.0, 60.0).0);
     }
 
     #[test]
     fn a_film_too_thin_for_any_grid_is_refused() {
         for kind in [ContactKind::Line, ContactKind::Point] {
-            let message = GridSpec::explorer_for(kind, Moes { m: 1e5, l: 0.1 }).unwrap_err().to_string();
+            let message = GridSpec::explorer_for(&at(kind, 1e5, 0.1)).unwrap_err().to_string();
             assert!(message.contains("too thin"), "{message}");
         }
     }

@@ -1,4 +1,4 @@
-//! The computational domain of a circular point contact: by symmetry the half Y ≤ 0, with P = 0 at inlet, outlet and
+//! The computational domain of a point contact, a circle or an ellipse, in X = x/a and Y = y/b: by symmetry the half Y ≤ 0, with P = 0 at inlet, outlet and
 //! outer edge.
 //!
 //! Node arrays run over all nodes, Y fastest: node (i, j) has the index i·n_y + j, with j = 0 on the outer edge and j =
@@ -8,6 +8,7 @@ use super::{GridError, LONGEST_INLET, LONGEST_OUTLET, MAX_BYTES, cubic};
 use crate::solver::discrete::elasticity::{PointFlexibility, PointScratch};
 use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
 use crate::solver::limits::Number;
+use crate::solver::physics::contact::Ellipse;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -162,7 +163,7 @@ impl PointGridSpec {
         let (nx, ny) = self.check()?;
         let (from, to, _) = self.domain;
         let x: Vec<f64> = (0..nx).map(|i| from + (to - from) * i as f64 / (nx - 1) as f64).collect();
-        Ok(Arc::new(PointGrid::new(*self, x, self.ordinates(ny))?))
+        Ok(Arc::new(PointGrid::new(*self, x, self.ordinates(ny), Ellipse::CIRCLE)?))
     }
 }
 
@@ -171,10 +172,14 @@ impl PointGridSpec {
 pub struct PointGrid {
     /// What it was built from.
     pub spec: PointGridSpec,
+    /// The shape whose semi-axes are the units of X and Y.
+    pub ellipse: Ellipse,
     /// Abscissae X, equidistant.
     pub x: Vec<f64>,
     /// Ordinates Y from the outer edge to 0.
     pub y: Vec<f64>,
+    /// κY: the same in units of a, in which distances across count in rows and kernel.
+    pub across: Vec<f64>,
     /// Quadrature weights of node arrays: the cells of both halves, so that wᵀP is the integral (2.29). Zero where P
     /// vanishes.
     pub weights: Vec<f64>,
@@ -185,7 +190,7 @@ pub struct PointGrid {
 }
 
 impl PointGrid {
-    fn new(spec: PointGridSpec, x: Vec<f64>, y: Vec<f64>) -> Result<Self, GridError> {
+    fn new(spec: PointGridSpec, x: Vec<f64>, y: Vec<f64>, ellipse: Ellipse) -> Result<Self, GridError> {
         let (nx, ny) = (x.len(), y.len());
         let edges: Vec<f64> = (0..ny).map(|j| if j + 1 < ny { 0.5 * (y[j] + y[j + 1]) } else { 0.0 }).collect();
         let hx = (x[nx - 1] - x[0]) / (nx - 1) as f64;
@@ -201,8 +206,21 @@ impl PointGrid {
                 _ => RowGeometry::new([x[i - 2], x[i - 1], x[i], x[i + 1]]),
             })
             .collect();
-        let flexibility = PointFlexibility::new(hx, nx, &y, &edges)?;
-        Ok(Self { spec, x, y, weights, flexibility, columns })
+        let in_a = |values: &[f64]| values.iter().map(|y| ellipse.kappa * y).collect::<Vec<f64>>();
+        let across = in_a(&y);
+        let flexibility = PointFlexibility::new(hx, nx, &across, &in_a(&edges), ellipse.kernel_factor())?;
+        Ok(Self { spec, ellipse, x, y, across, weights, flexibility, columns })
+    }
+
+    /// The same nodes in the semi-axes of an ellipse, with its kernel; this grid itself where that is its own.
+    ///
+    /// # Errors
+    /// When the kernel cannot be transformed.
+    pub fn of_ellipse(self: &Arc<Self>, ellipse: Ellipse) -> Result<Arc<Self>, GridError> {
+        if ellipse == self.ellipse {
+            return Ok(Arc::clone(self));
+        }
+        Ok(Arc::new(Self::new(self.spec, self.x.clone(), self.y.clone(), ellipse)?))
     }
 
     /// Nodes along X, both ends counted.
@@ -248,8 +266,8 @@ impl PointGrid {
         let (column, j) = (unknown / m, unknown % m + 1);
         let node = (column + 1) * ny + j;
         let on_axis = j + 1 == ny;
-        let south = self.y[j] - self.y[j - 1];
-        let north = (!on_axis).then(|| self.y[j + 1] - self.y[j]);
+        let south = self.across[j] - self.across[j - 1];
+        let north = (!on_axis).then(|| self.across[j + 1] - self.across[j]);
         let west2 = if column == 0 { node - ny } else { node - 2 * ny };
         let stencil = [west2, node - ny, node, node + ny, node - 1, if on_axis { node - 1 } else { node + 1 }];
         (stencil, self.columns[column].across(south, north))
@@ -260,10 +278,10 @@ impl PointGrid {
         self.flexibility.apply(pressure, deformation, scratch);
     }
 
-    /// The gap of the undeformed bodies (X² + Y²)/2 at a node, (2.24).
+    /// The gap of the undeformed bodies (X² + g_y Y²)/2 at a node, (2.24).
     pub fn parabola(&self, node: usize) -> f64 {
         let (x, y) = (self.x[node / self.ny()], self.y[node % self.ny()]);
-        0.5 * (x * x + y * y)
+        0.5 * (x * x + self.ellipse.gap_curvature() * y * y)
     }
 
     /// Value of a node array on the axis at X by cubic interpolation.

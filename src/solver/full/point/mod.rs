@@ -17,7 +17,7 @@ use crate::solver::discrete::grid::{GridSpec, PointGrid, PointGridSpec};
 use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::discrete::reynolds::generalized::FilmTreatment;
 use crate::solver::discrete::space::PlaneSpace;
-use crate::solver::physics::contact::{ContactKind, Moes};
+use crate::solver::physics::contact::{ContactKind, Ellipse};
 pub use preconditioner::PlaneMatrix;
 use std::sync::Arc;
 
@@ -84,6 +84,7 @@ impl NewtonSpace for PlaneSpace {
     type Matrix = PlaneMatrix;
     type Spec = PointGridSpec;
     type Reference = Arc<PointGrid>;
+    type Form = Ellipse;
 
     const KIND: ContactKind = ContactKind::Point;
     const WORST_RESIDUAL: f64 = f64::INFINITY;
@@ -97,12 +98,16 @@ impl NewtonSpace for PlaneSpace {
         Ok(spec.build()?)
     }
 
-    fn scale_of(_: &Arc<PointGrid>, _: Moes) -> f64 {
-        1.0
+    fn form_of(_: &Arc<PointGrid>, problem: &Problem) -> Ellipse {
+        problem.point.ellipse()
     }
 
-    fn on(grid: &Arc<PointGrid>, _: f64) -> Self {
-        Self { grid: Arc::clone(grid) }
+    fn on(grid: &Arc<PointGrid>, ellipse: Ellipse) -> Result<Self, SolveError> {
+        Ok(Self { grid: grid.of_ellipse(ellipse)? })
+    }
+
+    fn form(&self) -> Ellipse {
+        self.grid.ellipse
     }
 
     fn mesh(&self) -> Mesh {

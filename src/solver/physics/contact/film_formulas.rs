@@ -114,7 +114,7 @@ impl FilmFormula {
     /// The formula's film over the radius, h/R, in U = η₀u_m/(E′R), G = αE′ and W = w/(E′R) of a line, w/(E′R²) of a
     /// point contact, with R along the rolling direction; meaningless for the other kind of contact.
     pub fn relative_film(self, point: &OperatingPoint) -> f64 {
-        self.film_of_ellipse(point, 1.0)
+        self.film_of_ellipse(point, point.radius_ratio())
     }
 
     /// The same of an ellipse with radii R_y/R = `radius_ratio` across and along the rolling direction. The constants
@@ -159,7 +159,7 @@ impl FilmFormula {
             Self::NijenbanningVennerMoes => true,
             _ => moes.m >= 10.0 && moes.l >= 5.0,
         };
-        let in_range = regime && self.holds_for(1.0);
+        let in_range = regime && self.holds_for(point.radius_ratio());
         FilmPrediction { film_m: self.relative_film(point) * point.radius_m, in_range }
     }
 }

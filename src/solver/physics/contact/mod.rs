@@ -3,12 +3,14 @@
 //!
 //! This is the only place where SI quantities meet dimensionless ones; the rest of the solver is scale-free.
 
+mod ellipse;
 mod film_asymptotes;
 mod film_formulas;
 mod moes;
 mod quantity;
 mod rolling;
 
+pub use ellipse::Ellipse;
 pub use film_asymptotes::{FilmAsymptotes, ellipse_film, moes_film};
 pub use film_formulas::{FilmFormula, FilmPrediction};
 pub use moes::{DEFAULT_VISCOSITY_PA_S, MoesRequest, si_from_moes};
@@ -27,7 +29,7 @@ pub enum ContactKind {
     /// Line contact: loads in N/m, unknowns along X only.
     #[default]
     Line,
-    /// Circular point contact: loads in N.
+    /// Point contact, a circle or an ellipse: loads in N.
     Point,
 }
 
@@ -57,6 +59,19 @@ pub enum ContactError {
         min: f64,
         /// Largest accepted value.
         max: f64,
+    },
+    /// A radius across was given for a line contact.
+    #[error("a line contact has no radius across (radius-y): leave it out, or take a point contact")]
+    LineAcross,
+    /// The bodies together are concave across.
+    #[error(
+        "radius-y is {} m, but the bodies must be convex together in both directions: R_y is what 1/R_y = 1/R_y1 + 1/R_y2 \
+         leaves of a body and a groove, whose own radius counts as negative and must be the larger one; a positive number \
+         is accepted", Number(*radius_y)
+    )]
+    Concave {
+        /// The radius given \[m\].
+        radius_y: f64,
     },
     /// More quantities were fixed than M and L leave free.
     #[error("M and L leave two quantities to follow, but {given} are all given; leave out at least one of them")]
@@ -118,13 +133,19 @@ pub struct OperatingPoint {
     pub alpha_per_pa: f64,
     /// Sliding and plateau ratio.
     pub sliding: Sliding,
+    /// Reduced radius R_y across the rolling direction \[m\] of a point contact; none where it is R, and of a line
+    /// contact. Model files keep it in a place of their own.
+    #[serde(skip)]
+    pub radius_y_m: Option<f64>,
 }
 
 /// Scales of the dry Hertzian contact, (2.21).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hertz {
-    /// Half width (line) or radius (point) a \[m\].
+    /// Half width (line) or semi-axis along the rolling direction (point) a \[m\].
     pub half_width_m: f64,
+    /// Semi-axis across b \[m\]; a of a circle, and of a line, which has none.
+    pub half_length_m: f64,
     /// Maximum pressure p_H \[Pa\].
     pub pressure_pa: f64,
 }
@@ -163,6 +184,7 @@ impl OperatingPoint {
         viscosity_pa_s: 0.004,
         alpha_per_pa: 22e-9,
         sliding: Sliding::NONE,
+        radius_y_m: None,
     };
 
     /// Table 4.2 of the dissertation: the line contact of its first transient cases.
@@ -182,7 +204,27 @@ impl OperatingPoint {
     /// The point of a kind with the six SI quantities in the order of [`OperatingPoint::quantities`].
     pub fn from_quantities(kind: ContactKind, quantities: [f64; 6], sliding: Sliding) -> Self {
         let [radius_m, speed_m_per_s, load, modulus_pa, viscosity_pa_s, alpha_per_pa] = quantities;
-        Self { kind, radius_m, speed_m_per_s, load, modulus_pa, viscosity_pa_s, alpha_per_pa, sliding }
+        Self {
+            kind,
+            radius_m,
+            speed_m_per_s,
+            load,
+            modulus_pa,
+            viscosity_pa_s,
+            alpha_per_pa,
+            sliding,
+            radius_y_m: None,
+        }
+    }
+
+    /// R_y/R_x: 1 for a circle and a line.
+    pub fn radius_ratio(&self) -> f64 {
+        self.radius_y_m.map_or(1.0, |radius_y| radius_y / self.radius_m)
+    }
+
+    /// The shape of the dry contact; a circle for a line.
+    pub fn ellipse(&self) -> Ellipse {
+        Ellipse::near(self.radius_ratio())
     }
 
     /// The six SI quantities in the order radius, speed, load, modulus, viscosity, alpha.
@@ -195,20 +237,39 @@ impl OperatingPoint {
         for (value, quantity) in self.quantities().into_iter().zip(Quantity::SI) {
             accept(quantity.name(), value, quantity.unit(), quantity.range())?;
         }
+        match (self.kind, self.radius_y_m) {
+            (_, None) => {}
+            (ContactKind::Line, Some(_)) => return Err(ContactError::LineAcross),
+            (ContactKind::Point, Some(radius_y)) if radius_y <= 0.0 => return Err(ContactError::Concave { radius_y }),
+            (ContactKind::Point, Some(radius_y)) => {
+                let quantity = Quantity::RadiusY;
+                accept(quantity.name(), radius_y, quantity.unit(), quantity.range())?;
+                Ellipse::of_ratio(self.radius_ratio())?;
+            }
+        }
         self.moes().check()
     }
 
-    /// Hertzian half width and pressure, (2.21).
+    /// Hertzian semi-axes and pressure, (2.21).
     pub fn hertz(&self) -> Hertz {
         let (w, r, e) = (self.load, self.radius_m, self.modulus_pa);
         match self.kind {
             ContactKind::Line => {
-                Hertz { half_width_m: (8.0 * w * r / (e * PI)).sqrt(), pressure_pa: (w * e / (2.0 * PI * r)).sqrt() }
+                let half_width_m = (8.0 * w * r / (e * PI)).sqrt();
+                let pressure_pa = (w * e / (2.0 * PI * r)).sqrt();
+                Hertz { half_width_m, half_length_m: half_width_m, pressure_pa }
             }
-            ContactKind::Point => Hertz {
-                half_width_m: (1.5 * w * r / e).cbrt(),
-                pressure_pa: (1.5 * w * e * e / (PI * PI * PI * r * r)).cbrt(),
-            },
+            ContactKind::Point if self.radius_y_m.is_none_or(|radius_y| radius_y == r) => {
+                let half_width_m = (1.5 * w * r / e).cbrt();
+                let pressure_pa = (1.5 * w * e * e / (PI * PI * PI * r * r)).cbrt();
+                Hertz { half_width_m, half_length_m: half_width_m, pressure_pa }
+            }
+            ContactKind::Point => {
+                let Ellipse { kappa, integral, .. } = self.ellipse();
+                let half_width_m = (3.0 * w * r * integral / (PI * e)).cbrt();
+                let half_length_m = kappa * half_width_m;
+                Hertz { half_width_m, half_length_m, pressure_pa: 1.5 * w / (PI * half_width_m * half_length_m) }
+            }
         }
     }
 
@@ -240,13 +301,13 @@ impl OperatingPoint {
         self.hertz().half_width_m.powi(2) / self.radius_m
     }
 
-    /// What turns the integral of a stress \[Pa\] over X, and Y, into a share of the load: a/w for a line, a²/w for a
+    /// What turns the integral of a stress \[Pa\] over X, and Y, into a share of the load: a/w for a line, ab/w for a
     /// point contact \[1/Pa\].
     pub fn area_per_load(&self) -> f64 {
-        let half_width = self.hertz().half_width_m;
+        let Hertz { half_width_m, half_length_m, .. } = self.hertz();
         match self.kind {
-            ContactKind::Line => half_width / self.load,
-            ContactKind::Point => half_width.powi(2) / self.load,
+            ContactKind::Line => half_width_m / self.load,
+            ContactKind::Point => half_width_m * half_length_m / self.load,
         }
     }
 

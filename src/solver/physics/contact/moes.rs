@@ -16,6 +16,8 @@ pub struct MoesRequest {
     pub l: f64,
     /// Fixed radius \[m\].
     pub radius_m: Option<f64>,
+    /// Radius across \[m\]; the radius itself where there is none.
+    pub radius_y_m: Option<f64>,
     /// Fixed speed \[m/s\].
     pub speed_m_per_s: Option<f64>,
     /// Fixed load \[N/m\] or \[N\].
@@ -118,6 +120,7 @@ pub fn si_from_moes(request: &MoesRequest) -> Result<OperatingPoint, ContactErro
         viscosity_pa_s: eta,
         alpha_per_pa: alpha,
         sliding: Sliding::NONE,
+        radius_y_m: request.radius_y_m,
     };
     point.check()?;
     Ok(point)

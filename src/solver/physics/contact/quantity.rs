@@ -1,6 +1,6 @@
 //! The quantities of a contact, each defined once: names, symbol, units, ranges, and how it moves an operating point.
 
-use super::{ContactKind, OperatingPoint};
+use super::{ContactKind, Ellipse, OperatingPoint};
 use serde::{Deserialize, Serialize};
 
 /// A quantity of a contact. The names of the variants are those of scenes.
@@ -12,6 +12,10 @@ pub enum Quantity {
     L,
     /// Reduced radius R \[m\].
     Radius,
+    /// Reduced radius across R_y \[m\], of a point contact.
+    RadiusY,
+    /// R_y/R, of a point contact.
+    RadiusRatio,
     /// Mean entrainment speed u_m \[m/s\].
     Speed,
     /// Load w: \[N/m\] for a line, \[N\] for a point contact.
@@ -41,6 +45,8 @@ impl Quantity {
             Self::M => ("M", "Load number M", ("M", ""), "", (0.05, 1e5)),
             Self::L => ("L", "Lubricant number L", ("L", ""), "", (1e-3, 1e3)),
             Self::Radius => ("radius", "Radius R [m]", ("R", ""), " m", (1e-6, 1e3)),
+            Self::RadiusY => ("radius-y", "Radius across R_y [m]", ("R", "y"), " m", (1e-7, 1e5)),
+            Self::RadiusRatio => ("radius-ratio", "Ratio of radii R_y/R", ("R_y/R", ""), "", Ellipse::RADIUS_RATIOS),
             Self::Speed => ("speed", "Entrainment speed u_m [m/s]", ("u", "m"), " m/s", (1e-9, 1e4)),
             Self::Load => ("load", "Load w [N/m or N]", ("w", ""), " N (or N/m)", (1e-6, 1e10)),
             Self::Modulus => ("modulus", "Reduced modulus E’ [Pa]", ("E'", ""), " Pa", (1e5, 1e14)),
@@ -73,6 +79,8 @@ impl Quantity {
             (Self::M, ContactKind::Point) => "Load number M = w/(E’R²) · (2η₀u_m/(E’R))^(−3/4) (3.22)",
             (Self::L, _) => "Lubricant number L = αE’ · (2η₀u_m/(E’R))^(1/4)",
             (Self::Radius, _) => "Reduced radius of curvature, 1/R = 1/R₁ + 1/R₂ (2.3)",
+            (Self::RadiusY, _) => "Reduced radius across the rolling direction, 1/R_y = 1/R_y1 + 1/R_y2",
+            (Self::RadiusRatio, _) => "Radius across over radius along: 1 is a circle, large ones are nearly lines",
             (Self::Speed, _) => "Mean entrainment speed, u_m = (u₁ + u₂)/2 (2.1)",
             (Self::Load, ContactKind::Line) => "Load per unit length of the line contact (2.9)",
             (Self::Load, ContactKind::Point) => "Load of the point contact (2.9)",
@@ -92,14 +100,16 @@ impl Quantity {
     /// The unit in which people read it, and SI units in that.
     pub fn reading_unit(self, kind: ContactKind) -> (&'static str, f64) {
         match (self, kind) {
-            (Self::Radius, _) => ("mm", 1e-3),
+            (Self::Radius | Self::RadiusY, _) => ("mm", 1e-3),
             (Self::Speed, _) => ("m/s", 1.0),
             (Self::Load, ContactKind::Line) => ("kN/m", 1e3),
             (Self::Load, ContactKind::Point) => ("N", 1.0),
             (Self::Modulus, _) => ("GPa", 1e9),
             (Self::Viscosity, _) => ("mPa·s", 1e-3),
             (Self::Alpha, _) => ("1/GPa", 1e-9),
-            (Self::M | Self::L | Self::SlideToRollRatio | Self::NewtonianPlateauRatio, _) => ("", 1.0),
+            (Self::M | Self::L | Self::RadiusRatio | Self::SlideToRollRatio | Self::NewtonianPlateauRatio, _) => {
+                ("", 1.0)
+            }
         }
     }
 
@@ -118,12 +128,16 @@ impl Quantity {
         }
     }
 
-    /// Its value of a contact; `None` for the plateau ratio where it is the lubricant's own.
+    /// Its value of a contact; `None` for the plateau ratio where it is the lubricant's own, and for what a line has not.
     pub fn of(self, point: &OperatingPoint) -> Option<f64> {
         Some(match self {
             Self::M => point.moes().m,
             Self::L => point.moes().l,
             Self::Radius => point.radius_m,
+            Self::RadiusY if point.kind == ContactKind::Line => return None,
+            Self::RadiusY => point.radius_y_m.unwrap_or(point.radius_m),
+            Self::RadiusRatio if point.kind == ContactKind::Line => return None,
+            Self::RadiusRatio => point.radius_ratio(),
             Self::Speed => point.speed_m_per_s,
             Self::Load => point.load,
             Self::Modulus => point.modulus_pa,
@@ -142,6 +156,8 @@ impl Quantity {
             Self::M => point.load *= value / point.moes().m,
             Self::L => point.alpha_per_pa *= value / point.moes().l,
             Self::Radius => point.radius_m = value,
+            Self::RadiusY => point.radius_y_m = Some(value),
+            Self::RadiusRatio => point.radius_y_m = Some(value * point.radius_m),
             Self::Speed => point.speed_m_per_s = value,
             Self::Load => point.load = value,
             Self::Modulus => point.modulus_pa = value,
@@ -160,10 +176,12 @@ mod tests {
 
     #[test]
     fn a_contact_that_was_moved_has_the_value_and_keeps_all_others() {
-        const ALL: [Quantity; 10] = [
+        const ALL: [Quantity; 12] = [
             Quantity::M,
             Quantity::L,
             Quantity::Radius,
+            Quantity::RadiusY,
+            Quantity::RadiusRatio,
             Quantity::Speed,
             Quantity::Load,
             Quantity::Modulus,
@@ -175,6 +193,10 @@ mod tests {
         for kind in [ContactKind::Line, ContactKind::Point] {
             let here = OperatingPoint { kind, ..OperatingPoint::TABLE_2_1 };
             for quantity in ALL {
+                if kind == ContactKind::Line && matches!(quantity, Quantity::RadiusY | Quantity::RadiusRatio) {
+                    assert_eq!(quantity.of(&here), None);
+                    continue;
+                }
                 let value = quantity.of(&here).filter(|value| *value != 0.0).map_or(0.3, |value| 1.1 * value);
                 let moved = quantity.at(&here, value);
                 assert!((quantity.of(&moved).unwrap() / value - 1.0).abs() < 1e-12, "{quantity:?}");

@@ -90,16 +90,21 @@ impl Dimension {
     /// What a quantity of a contact measures.
     pub fn of(quantity: Quantity, kind: ContactKind) -> Self {
         match (quantity, kind) {
-            (Quantity::Radius, _) => Self::Length,
+            (Quantity::Radius | Quantity::RadiusY, _) => Self::Length,
             (Quantity::Speed, _) => Self::Speed { radius_m: None },
             (Quantity::Load, ContactKind::Line) => Self::LineLoad,
             (Quantity::Load, ContactKind::Point) => Self::Force,
             (Quantity::Modulus, _) => Self::Pressure,
             (Quantity::Viscosity, _) => Self::Viscosity { density: None },
             (Quantity::Alpha, _) => Self::PressureCoefficient,
-            (Quantity::M | Quantity::L | Quantity::SlideToRollRatio | Quantity::NewtonianPlateauRatio, _) => {
-                Self::Ratio
-            }
+            (
+                Quantity::M
+                | Quantity::L
+                | Quantity::RadiusRatio
+                | Quantity::SlideToRollRatio
+                | Quantity::NewtonianPlateauRatio,
+                _,
+            ) => Self::Ratio,
         }
     }
 

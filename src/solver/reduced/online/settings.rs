@@ -47,6 +47,9 @@ pub enum ReducedError {
         /// Last relative step.
         step: f64,
     },
+    /// The contact is an ellipse, of which the model knows nothing.
+    #[error("the reduced model knows circular contacts only, R_y = R; use the full solver for R_y/R = {0}")]
+    Ellipse(f64),
     /// Newton's iteration ended where the model was not trained, in what no contact can be.
     #[error("the reduced solution is none, {0}; use the full solver here")]
     Implausible(String),
@@ -57,7 +60,7 @@ impl ReducedError {
     pub fn without_solution(&self) -> Option<usize> {
         match self {
             Self::NotConverged { iterations, .. } => Some(*iterations),
-            Self::Implausible(_) => Some(0),
+            Self::Implausible(_) | Self::Ellipse(_) => Some(0),
             _ => None,
         }
     }
