@@ -105,3 +105,44 @@ fn what_makes_no_sense_is_refused_by_name() {
     assert!(refusal("published: [(name: \"triangle.fixed.full\", steps: 9)]").contains("study.published.0.name"));
     assert!(scene(&format!("{SINE}, published: [(name: \"fixed.full\", steps: 9)]")).is_ok());
 }
+
+const SCHEMES: &str = "Scene(
+    version: 1, title: \"schemes\", source: \"test\", contact: Line, cavitation: Complementarity,
+    at: Si(radius: 0.002, speed: 5.0, load: 200000.0, modulus: 231e9, viscosity: 0.01, alpha: 1e-8),
+    grid: Uniform(dx: 0.02, domain: (-4.0, 2.0)),
+    study: SchemesInTime(
+        trainings: [(inputs: (load: Harmonic(amplitude: 0.1, period: 0.5)), duration: 0.5)],
+        tests: [(name: \"sine\", inputs: (load: Harmonic(amplitude: 0.1, period: 0.5)), duration: 0.5)],
+        time_step: 0.005, loss: 1e-5,
+        schemes: [
+            (name: \"galerkin\", sampling: Cubature, rows_per_mode: 2.0),
+            (name: \"gnat\", sampling: QDeim, rows_per_mode: 2.0, scheme: Gnat(weighted: true)),
+            (name: \"penalty\", sampling: Cubature, rows_per_mode: 2.0, cavitation: Some(Penalty)),
+        ],
+    ),
+)";
+
+#[test]
+fn schemes_in_time_are_held_against_the_full_march_of_their_law() {
+    let run = |text: &str| run_scene(&Scene::from_ron(text).unwrap(), &mut Workbench::new("."), &());
+    let outcome = run(SCHEMES).unwrap();
+    let value = |name: &str| outcome.found.value(name, None).unwrap_or_else(|| panic!("{name} is missing"));
+    for scheme in ["galerkin", "gnat", "penalty"] {
+        assert_eq!(value(&format!("{scheme}.failures")), 0.0);
+        assert!(value(&format!("{scheme}.sine.H_c.difference_l2")) < 1e-4, "{scheme}");
+        assert!(value(&format!("{scheme}.sine.rows")) < 299.0 && value(&format!("{scheme}.sine.reached")) == 0.5);
+    }
+    assert!(outcome.tables.iter().any(|table| table.name == "schemes_sine" && table.rows.len() == 3));
+
+    let refused = |from: &str, to: &str| {
+        let text = SCHEMES.replace(from, to);
+        let scene = Scene::from_ron(&text).map_err(|error| error.to_string());
+        scene.and_then(|_| run(&text).map_err(|error| error.to_string())).err().unwrap()
+    };
+    assert!(refused("\"gnat\"", "\"galerkin\"").contains("study.schemes.name"));
+    assert!(refused("Some(Penalty)", "Some(MassConserving())").contains("mass-conserving"));
+    assert!(
+        refused("sampling: QDeim, rows_per_mode: 2.0, scheme", "sampling: All, rows_per_mode: 2.0, scheme")
+            .contains("is Gnat")
+    );
+}

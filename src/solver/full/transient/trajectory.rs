@@ -63,7 +63,7 @@ pub struct State {
     pub pressure: Vec<f64>,
     /// H.
     pub film: Vec<f64>,
-    /// λ, zero where the film is whole; empty where a penalty ruptures it.
+    /// λ, zero where the film is whole; empty where a penalty ruptures it, and of reduced models.
     pub multiplier: Vec<f64>,
     /// θ, the share of the gap that is filled; empty where rupture does not conserve mass.
     pub fraction: Vec<f64>,
