@@ -9,10 +9,12 @@ mod engineering;
 mod held;
 mod history;
 mod key;
+mod shape;
 
 pub use edit::Edit;
 pub use history::History;
 pub use key::Key;
+pub use shape::Shape;
 
 use crate::scene::named_lubricant::{MINERAL_OIL, NamedLubricant};
 use crate::scene::study::point::Point;
@@ -122,10 +124,17 @@ impl Document {
         request.load = load.then_some(here.load);
         request.alpha_per_pa = alpha.then_some(here.alpha_per_pa);
         let point = si_from_moes(&request).map_err(|e| e.to_string())?;
+        // An ellipse keeps its shape, unless its radius across is held.
+        let across = match (here.radius_y_m, self.holds(Quantity::RadiusY)) {
+            (Some(radius_y), false) if point.radius_m != here.radius_m => {
+                Some(radius_y * point.radius_m / here.radius_m)
+            }
+            (radius_y, _) => radius_y,
+        };
         // To the last bit, rounding left aside.
         let held = Quantity::SI.into_iter().filter(|quantity| self.holds(*quantity));
         let point = held.fold(point, |point, q| q.of(&here).map_or(point, |value| q.at(&point, value)));
-        self.accept(OperatingPoint { sliding: here.sliding, ..point })
+        self.accept(OperatingPoint { sliding: here.sliding, radius_y_m: across, ..point })
     }
 
     /// What follows when M moves and when L moves: what was chosen, unless the lubricant determines α, which then
@@ -155,21 +164,6 @@ impl Document {
         self.point.sliding.newtonian_plateau_ratio.unwrap_or(self.lubricant.shear.plateau())
     }
 
-    /// Changes between line and point contact. M, L, R, u_m, E′, η₀ and α stay; the load, which is another quantity
-    /// then, follows M and is no longer held.
-    ///
-    /// # Errors
-    /// A sentence when the point would be refused; the document is unchanged then.
-    pub fn set_kind(&mut self, kind: ContactKind) -> Result<(), String> {
-        let here = self.point;
-        if here.kind == kind {
-            return Ok(());
-        }
-        let moes = here.moes();
-        let other = OperatingPoint { kind, ..here };
-        self.accept(Quantity::M.at(&other, moes.m))
-    }
-
     /// The grid of a point contact's full solutions; the explorer's own where the scene names none.
     pub fn plane(&self) -> PointGridSpec {
         self.grid.point_spec().unwrap_or(PointGridSpec::EXPLORER)
@@ -194,6 +188,9 @@ impl Document {
                 let sliding = Sliding { newtonian_plateau_ratio: None, ..self.point.sliding };
                 self.accept(OperatingPoint { sliding, ..self.point })
             }
+            Quantity::RadiusRatio if self.holds(Quantity::RadiusY) => {
+                Err("R_y is held, so that R_y/R cannot move; free it by its lock".to_owned())
+            }
             _ => self.accept(quantity.at(&self.point, value)),
         }
     }
@@ -207,6 +204,9 @@ impl Document {
         let former = self.point.kind;
         self.point = OperatingPoint { alpha_per_pa: problem.point.alpha_per_pa, ..point };
         self.lubricant = lubricant;
+        if point.radius_y_m.is_none() {
+            self.view.held.set(Quantity::RadiusY, false);
+        }
         if former != point.kind {
             // The load is another quantity now, and a grid is of one kind of contact.
             self.view.held.set(Quantity::Load, false);

@@ -36,8 +36,9 @@ pub fn describe_contact(point: &OperatingPoint, lubricant: &Lubricant) -> String
             format!("; SRR {srr:e}; NPR {plateau:e}")
         }
     };
+    let across = point.radius_y_m.map_or_else(String::new, |radius_y| format!("; R_y {radius_y:e} m"));
     format!(
-        "M {:e}; L {:e}; R {:e} m; u_m {:e} m/s; w {:e} {unit}; E' {:e} Pa; eta_0 {:e} Pa s; alpha {:e} 1/Pa; {}{sliding}",
+        "M {:e}; L {:e}; R {:e} m{across}; u_m {:e} m/s; w {:e} {unit}; E' {:e} Pa; eta_0 {:e} Pa s; alpha {:e} 1/Pa; {}{sliding}",
         moes.m,
         moes.l,
         point.radius_m,
@@ -50,10 +51,15 @@ pub fn describe_contact(point: &OperatingPoint, lubricant: &Lubricant) -> String
     )
 }
 
-/// One row of a picture's profile with its SI twins.
-fn profile_row(picture: &Picture, (x, p, film): (f64, f64, f64)) -> [Option<f64>; 6] {
+/// One row of a picture's profile along X with its SI twins.
+fn profile_row(picture: &Picture, node: (f64, f64, f64)) -> [Option<f64>; 6] {
+    row_in(picture, picture.key.point.hertz().half_width_m, node)
+}
+
+/// One row of a profile whose coordinate is in a length \[m\], with its SI twins.
+fn row_in(picture: &Picture, length_m: f64, (x, p, film): (f64, f64, f64)) -> [Option<f64>; 6] {
     let (hertz, film_scale) = (picture.key.point.hertz(), picture.key.point.film_scale_m());
-    [x, p, film, x * hertz.half_width_m, p * hertz.pressure_pa, film * film_scale].map(Some)
+    [x, p, film, x * length_m, p * hertz.pressure_pa, film * film_scale].map(Some)
 }
 
 /// Profiles with their SI twins, the full solution beside a reduced one where both belong together, and every pinned
@@ -104,7 +110,8 @@ pub fn profiles(answers: &Answers, cuts: Cuts) -> Option<String> {
 
 /// The profile across a point contact with its SI twins.
 pub fn profile_across(picture: &Picture, x: f64) -> String {
-    let rows = picture.solution.across(x).into_iter().map(|node| profile_row(picture, node).to_vec());
+    let half_length_m = picture.key.point.hertz().half_length_m;
+    let rows = picture.solution.across(x).into_iter().map(|node| row_in(picture, half_length_m, node).to_vec());
     let comments = [describe(picture), picture.origin.describe(), format!("profile across at X {x:e}")];
     csv(&comments, &["Y", "P", "H", "y_m", "p_pa", "h_m"], rows)
 }

@@ -521,13 +521,14 @@ impl Explorer {
     }
 
     /// The fields of the SI quantities, by the names that screen readers know them by.
-    pub fn fields() -> [(Quantity, &'static str); 6] {
+    pub fn fields() -> [(Quantity, &'static str); 7] {
         panels::operating_point::FIELDS
     }
 
     /// The quantities that were typed and stay.
     pub fn held(&self) -> impl Iterator<Item = Quantity> {
-        Quantity::SI.into_iter().filter(|quantity| self.desk.document.holds(*quantity))
+        let all = Quantity::SI.into_iter().chain([Quantity::RadiusY]);
+        all.filter(|quantity| self.desk.document.holds(*quantity))
     }
 
     /// Seconds that the last frame took to build.

@@ -1,7 +1,7 @@
 //! Numbers as people read them: four significant digits, a thin space before the unit, and typed numbers back again.
 
 use crate::engine::job::Standing;
-use crate::solver::physics::contact::Moes;
+use crate::solver::physics::contact::{Moes, OperatingPoint};
 
 /// Thin space between a number and its unit.
 pub const THIN: char = '\u{2009}';
@@ -114,6 +114,15 @@ pub fn small(value: f64) -> String {
 /// M and L of a contact.
 pub fn moes(Moes { m, l }: Moes) -> String {
     format!("M {}, L {}", significant(m), significant(l))
+}
+
+/// A contact by M and L, and of an ellipse by R_y/R.
+pub fn contact(point: &OperatingPoint) -> String {
+    let moes = moes(point.moes());
+    match point.radius_y_m {
+        Some(_) => format!("{moes}, R_y/R {}", significant(point.radius_ratio())),
+        None => moes,
+    }
 }
 
 /// A typed number: decimal point or comma, any minus sign, exponents.

@@ -57,8 +57,10 @@ impl Units {
 /// What dimensionless values of a contact are in the units of plots.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scales {
-    /// Of lengths along the contact \[mm\].
+    /// Of lengths along the contact, a \[mm\].
     pub length_mm: f64,
+    /// Of lengths across it, b \[mm\].
+    pub across_mm: f64,
     /// Of pressures \[GPa\].
     pub pressure_gpa: f64,
     /// Of films \[µm\].
@@ -71,6 +73,7 @@ impl Scales {
         let hertz = point.hertz();
         Self {
             length_mm: 1e3 * hertz.half_width_m,
+            across_mm: 1e3 * hertz.half_length_m,
             pressure_gpa: 1e-9 * hertz.pressure_pa,
             film_um: 1e6 * point.film_scale_m(),
         }

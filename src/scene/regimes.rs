@@ -2,7 +2,7 @@
 
 use super::chart::{Chart, ChartAxis, Marks, Note, Series};
 use super::drawing::{Beside, Pen, Words};
-use crate::solver::physics::contact::{ContactKind, FilmAsymptotes, Moes};
+use crate::solver::physics::contact::{FilmAsymptotes, FilmShape, Moes};
 
 /// M at the ends of the chart.
 pub const M_AXIS: (f64, f64) = (0.4, 1500.0);
@@ -24,8 +24,8 @@ pub enum Regime {
 impl Regime {
     /// The regime whose asymptote Moes' formula follows at M and L: iso parts add up (the larger rules), piezo parts
     /// add up inversely (the smaller rules), and the larger of both sides wins.
-    pub fn of(kind: ContactKind, moes: Moes) -> Self {
-        let a = FilmAsymptotes::of(kind, moes);
+    pub fn of(shape: FilmShape, moes: Moes) -> Self {
+        let a = FilmAsymptotes::of(shape, moes);
         let iso = a.rigid_isoviscous.max(a.elastic_isoviscous);
         if iso > a.rigid_piezoviscous.min(a.elastic_piezoviscous) {
             if a.rigid_isoviscous > a.elastic_isoviscous { Self::RigidIsoviscous } else { Self::ElasticIsoviscous }
@@ -77,7 +77,7 @@ pub fn spread((low, high): (f64, f64), k: usize, of: usize) -> f64 {
 
 /// Boundaries between regimes by their ends in (M, L); each is straight on logarithmic axes. Along each row and column of a
 /// fine lattice lie the places where the regime changes, sharpened by bisection.
-pub fn boundaries(kind: ContactKind) -> Vec<[[f64; 2]; 2]> {
+pub fn boundaries(shape: FilmShape) -> Vec<[[f64; 2]; 2]> {
     let mut found: Vec<([Regime; 2], Vec<Moes>)> = Vec::new();
     let mut add = |a: Regime, b: Regime, place: Moes| {
         let pair = if (a as usize) < b as usize { [a, b] } else { [b, a] };
@@ -99,15 +99,15 @@ pub fn boundaries(kind: ContactKind) -> Vec<[[f64; 2]; 2]> {
             for step in 0..SAMPLES - 1 {
                 let (mut low, mut high) =
                     (step as f64 / (SAMPLES - 1) as f64, (step + 1) as f64 / (SAMPLES - 1) as f64);
-                let (a, b) = (Regime::of(kind, place(low)), Regime::of(kind, place(high)));
+                let (a, b) = (Regime::of(shape, place(low)), Regime::of(shape, place(high)));
                 if a == b {
                     continue;
                 }
                 for _ in 0..24 {
                     let middle = 0.5 * (low + high);
-                    if Regime::of(kind, place(middle)) == a { low = middle } else { high = middle }
+                    if Regime::of(shape, place(middle)) == a { low = middle } else { high = middle }
                 }
-                add(a, Regime::of(kind, place(high)), place(0.5 * (low + high)));
+                add(a, Regime::of(shape, place(high)), place(0.5 * (low + high)));
             }
         }
     }
@@ -124,31 +124,42 @@ pub fn boundaries(kind: ContactKind) -> Vec<[[f64; 2]; 2]> {
 }
 
 /// Places (M, L) for the regimes' names, clear of the contacts that matter most: of those left of M = 1 their beginning,
-/// of those right of M = 1000 their end.
-pub fn names(kind: ContactKind) -> [(Regime, [f64; 2]); 4] {
-    let [a, b, c, d] = match kind {
-        ContactKind::Line => [[0.43, 0.6], [30.0, 0.5], [0.5, 15.0], [1100.0, 22.0]],
-        ContactKind::Point => [[0.6, 2.5], [60.0, 0.45], [5.5, 22.0], [1100.0, 13.5]],
+/// of those right of M = 1000 their end. Regimes of ellipses lie elsewhere; one that is on the chart with none of these
+/// places has no name there.
+pub fn names(shape: FilmShape) -> Vec<(Regime, [f64; 2])> {
+    let places: [&[[f64; 2]]; 4] = match shape {
+        FilmShape::Line => [&[[0.43, 0.6]], &[[30.0, 0.5]], &[[0.5, 15.0]], &[[1100.0, 22.0]]],
+        FilmShape::Ellipse(_) => [
+            &[[0.6, 2.5]],
+            &[[60.0, 0.45]],
+            &[[5.5, 22.0], [30.0, 25.0], [120.0, 28.0]],
+            &[[1100.0, 13.5], [1100.0, 5.0], [1100.0, 2.5]],
+        ],
     };
     use Regime::{ElasticIsoviscous, ElasticPiezoviscous, RigidIsoviscous, RigidPiezoviscous};
-    [(RigidIsoviscous, a), (ElasticIsoviscous, b), (RigidPiezoviscous, c), (ElasticPiezoviscous, d)]
+    let regimes = [RigidIsoviscous, ElasticIsoviscous, RigidPiezoviscous, ElasticPiezoviscous];
+    let first = |(regime, places): (Regime, &[[f64; 2]])| {
+        let place = places.iter().find(|[m, l]| Regime::of(shape, Moes { m: *m, l: *l }) == regime)?;
+        Some((regime, *place))
+    };
+    regimes.into_iter().zip(places).filter_map(first).collect()
 }
 
 /// The chart for paper, with a contact in it.
-pub fn chart(kind: ContactKind, moes: Moes) -> Chart {
+pub fn chart(shape: FilmShape, moes: Moes) -> Chart {
     let mut chart = Chart::new("Regime", ChartAxis::log("Load number M"), ChartAxis::log("Lubricant number L"));
     // A contact beyond the usual axes is on them as well.
     let around = |(from, to): (f64, f64), value: f64| Some((from.min(0.7 * value), to.max(1.4 * value)));
     (chart.x.ends, chart.y.ends) = (around(M_AXIS, moes.m), around(L_AXIS, moes.l));
     let pen = Pen { color: [0x88; 3], opacity: 1.0, width: 0.8, dashes: Vec::new() };
-    for ends in boundaries(kind) {
+    for ends in boundaries(shape) {
         let (name, points) = (String::new(), ends.to_vec());
         chart.series.push(Series { name, marks: Marks::Line, points, pen: Some(pen.clone()) });
     }
     let (name, points) = ("this contact".to_owned(), vec![[moes.m, moes.l]]);
     let pen = Pen { color: [0xD5, 0x5E, 0x00], opacity: 1.0, width: 1.6, dashes: Vec::new() };
     chart.series.push(Series { name, marks: Marks::Dots, points, pen: Some(pen) });
-    for (regime, at) in names(kind) {
+    for (regime, at) in names(shape) {
         let [m, _] = at;
         let beside = match m {
             ..1.0 => Beside::Right,
@@ -167,23 +178,25 @@ mod tests {
 
     #[test]
     fn the_corners_belong_to_the_regimes_of_the_literature() {
-        let of = |kind, m, l| Regime::of(kind, Moes { m, l });
-        let line = ContactKind::Line;
+        let of = |shape, m, l| Regime::of(shape, Moes { m, l });
+        let line = FilmShape::Line;
         assert_eq!(of(line, 0.6, 0.3), Regime::RigidIsoviscous);
         assert_eq!(of(line, 1000.0, 0.3), Regime::ElasticIsoviscous);
         assert_eq!(of(line, 1.0, 25.0), Regime::RigidPiezoviscous);
         assert_eq!(of(line, 200.0, 15.0), Regime::ElasticPiezoviscous);
-        for kind in [ContactKind::Line, ContactKind::Point] {
-            for (regime, place) in names(kind) {
-                assert_eq!(of(kind, place[0], place[1]), regime, "{kind:?}");
-            }
+        let ellipse = FilmShape::Ellipse;
+        for (shape, count) in [(line, 4), (FilmShape::CIRCLE, 4), (ellipse(0.5), 4), (ellipse(20.0), 4)] {
+            assert_eq!(names(shape).len(), count, "{shape:?}");
         }
+        // Wide ellipses stay rigid up to heavier loads.
+        assert_eq!(of(FilmShape::CIRCLE, 8.0, 0.3), Regime::ElasticIsoviscous);
+        assert_eq!(of(FilmShape::Ellipse(20.0), 8.0, 0.3), Regime::RigidIsoviscous);
     }
 
     #[test]
     fn a_contact_stands_on_the_chart_wherever_it_is() {
-        for (kind, m, l) in [(ContactKind::Line, 40.0, 10.0), (ContactKind::Point, 1e4, 0.01)] {
-            let chart = chart(kind, Moes { m, l });
+        for (shape, m, l) in [(FilmShape::Line, 40.0, 10.0), (FilmShape::CIRCLE, 1e4, 0.01)] {
+            let chart = chart(shape, Moes { m, l });
             let ([x, y], here) = ([chart.x.ends, chart.y.ends].map(Option::unwrap), chart.series.last().unwrap());
             assert_eq!(here.points, [[m, l]]);
             assert!(x.0 < m && m < x.1 && y.0 < l && l < y.1, "{x:?} {y:?}");

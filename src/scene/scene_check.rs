@@ -3,6 +3,7 @@
 use super::check::{Checked, number, refuse};
 use super::{Expectation, Scene, SceneError, View, Within, grid};
 use crate::solver::limits::plain;
+use crate::solver::physics::contact::Quantity;
 use crate::solver::physics::lubricant::{LubricantError, ScaledShear};
 
 impl Scene {
@@ -31,6 +32,8 @@ fn view(view: &View) -> Checked {
     for (field, loss) in [("pressure_loss", view.pressure_loss), ("deformation_loss", view.deformation_loss)] {
         loss.iter().try_for_each(|&loss| number(&format!("view.{field}"), loss, 1e-16, 0.99))?;
     }
+    let (low, high) = Quantity::RadiusY.range();
+    view.radius_y_m.iter().try_for_each(|&radius_y| number("view.radius_y_m", radius_y, low, high))?;
     if !view.when_m_moves.partners().contains(&view.when_l_moves) {
         let partners = view.when_m_moves.partners().iter().map(|p| format!("{p:?}")).collect::<Vec<_>>().join(", ");
         let problem =
@@ -62,7 +65,6 @@ mod tests {
     use super::*;
     use crate::scene::study::{error_split, grid_study, point, sweep, trajectory};
     use crate::scene::{At, Axis, Contacts, Grid, Method, QuantityBox, Steps, Study};
-    use crate::solver::physics::contact::Quantity;
     use crate::solver::physics::lubricant::Cavitation;
 
     #[test]

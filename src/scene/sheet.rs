@@ -8,7 +8,7 @@ use super::drawing::escaped;
 use super::regimes::{self, Regime};
 use super::table::{quoted, significant};
 use crate::solver::full::Solution;
-use crate::solver::physics::contact::{ContactKind, FilmFormula};
+use crate::solver::physics::contact::{ContactKind, FilmFormula, FilmShape};
 use crate::solver::physics::engineering::{Bodies, film_regime, largest_shear};
 use std::ffi::OsStr;
 use std::fmt::Write as _;
@@ -236,7 +236,7 @@ fn inputs(solved: &Solved<'_>) -> Part {
     }
     part.number("Load number M", point.moes().m, "");
     part.number("Lubricant number L", point.moes().l, "");
-    let regime = Regime::of(point.kind, point.moes());
+    let regime = Regime::of(FilmShape::of(point), point.moes());
     part.words("Regime", format!("{}: {}", regime.title().to_lowercase(), regime.meaning()));
     part
 }
@@ -367,7 +367,8 @@ fn pictures(solved: &[Solved<'_>]) -> Vec<Chart> {
         let close = near().filter(|(_, _, h)| *h <= most);
         film.add(result.method, Marks::Line, close.map(|(x, _, h)| [x * mm, h * scale * 1e6]));
     }
-    let regime = solved.first().map(|first| regimes::chart(first.result.point.kind, first.result.point.moes()));
+    let regime =
+        solved.first().map(|first| regimes::chart(FilmShape::of(&first.result.point), first.result.point.moes()));
     [pressure, film].into_iter().chain(regime).collect()
 }
 

@@ -25,6 +25,9 @@ pub struct View {
     /// The bodies that R, E′, u_m and SRR were entered as.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bodies: Option<Bodies>,
+    /// R_y \[m\] of the ellipse that a roller or a ball was chosen instead of.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radius_y_m: Option<f64>,
     /// Loss of information the pressure basis may neglect; `None` keeps every mode.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pressure_loss: Option<f64>,
@@ -39,17 +42,23 @@ pub struct View {
 /// A set of quantities in SI units, in files a list of their names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
 #[serde(from = "Vec<Quantity>", into = "Vec<Quantity>")]
-pub struct Held([bool; 6]);
+pub struct Held([bool; 7]);
 
 impl Held {
+    /// What can be held.
+    const ALL: [Quantity; 7] = {
+        let [radius, speed, load, modulus, viscosity, alpha] = Quantity::SI;
+        [radius, speed, load, modulus, viscosity, alpha, Quantity::RadiusY]
+    };
+
     /// Whether a quantity is in it.
     pub fn contains(self, quantity: Quantity) -> bool {
-        Quantity::SI.iter().zip(self.0).any(|(si, held)| held && *si == quantity)
+        Self::ALL.iter().zip(self.0).any(|(si, held)| held && *si == quantity)
     }
 
     /// Takes a quantity in, or out.
     pub fn set(&mut self, quantity: Quantity, held: bool) {
-        for (si, place) in Quantity::SI.iter().zip(&mut self.0) {
+        for (si, place) in Self::ALL.iter().zip(&mut self.0) {
             if *si == quantity {
                 *place = held;
             }
@@ -67,7 +76,7 @@ impl From<Vec<Quantity>> for Held {
 
 impl From<Held> for Vec<Quantity> {
     fn from(held: Held) -> Self {
-        Quantity::SI.into_iter().filter(|quantity| held.contains(*quantity)).collect()
+        Held::ALL.into_iter().filter(|quantity| held.contains(*quantity)).collect()
     }
 }
 
@@ -151,9 +160,10 @@ mod tests {
         let view = View {
             when_m_moves: LoadFollower::Radius,
             when_l_moves: LubricantFollower::Speed,
-            held: vec![Quantity::Radius, Quantity::Speed].into(),
+            held: vec![Quantity::Radius, Quantity::RadiusY].into(),
             oil: None,
             bodies: Some(Bodies::on_plane(0.01, 1.0, 0.1)),
+            radius_y_m: Some(0.02),
             pressure_loss: Some(1.25e-7),
             deformation_loss: Some(3e-9),
             projected_deformation: true,

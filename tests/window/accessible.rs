@@ -43,7 +43,7 @@ fn nameless(harness: &Window) -> Vec<String> {
 fn every_control_of_every_tab_has_a_name_and_its_value() {
     let mut harness = open(1400.0);
     let mut faults = Vec::new();
-    for kind in ["Line contact", "Point contact"] {
+    for kind in ["Roller", "Ball", "Ellipse"] {
         harness.query_all_by_label(kind).next().unwrap().click();
         harness.run_steps(3);
         for tab in TABS {
@@ -174,7 +174,7 @@ fn every_text_of_every_tab_can_be_read_in_both_themes() {
     let (mut faults, mut checked) = (Vec::new(), 0);
     for theme in [Theme::Dark, Theme::Light] {
         harness.ctx.set_theme(theme);
-        for kind in ["Line contact", "Point contact"] {
+        for kind in ["Roller", "Ball", "Ellipse"] {
             harness.query_all_by_label(kind).next().unwrap().click();
             harness.run_steps(3);
             for tab in TABS {

@@ -26,7 +26,7 @@ fn solved(harness: &mut Window, nodes: (usize, usize)) {
 /// A window on a point contact, solved on the quick grid.
 fn quick_point() -> Window {
     let mut harness = open();
-    click(&mut harness, "Point contact");
+    click(&mut harness, "Ball");
     choose(&mut harness, "Nodes", "Quick, 151×41");
     solved(&mut harness, (151, 41));
     harness
@@ -36,7 +36,7 @@ fn quick_point() -> Window {
 fn the_switch_keeps_m_and_l_and_undo_brings_the_line_back() {
     let mut harness = open();
     let before = harness.state().moes();
-    click(&mut harness, "Point contact");
+    click(&mut harness, "Ball");
     assert!(harness.state().is_point());
     let after = harness.state().moes();
     assert!((after.m / before.m - 1.0).abs() < 1e-9 && (after.l / before.l - 1.0).abs() < 1e-9);

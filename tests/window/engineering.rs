@@ -77,7 +77,7 @@ fn what_was_typed_stays_while_the_sliders_move_and_the_screen_names_what_follows
     assert!((harness.state().moes().m / 80.0 - 1.0).abs() < 1e-9);
     // Neither the kind of contact nor a lubricant touches them.
     let held = harness.state().point();
-    click(&mut harness, "Point contact");
+    click(&mut harness, "Ball");
     choose(&mut harness, "Fluid", "Barus oil");
     let point = harness.state().point();
     assert_eq!(

@@ -10,6 +10,7 @@ mod accuracy_tab;
 mod basis_tab;
 mod contact_map;
 mod desktop;
+mod ellipse;
 mod engineering;
 mod examples;
 mod explorer;

@@ -99,7 +99,7 @@ fn every_preset_has_room_on_small_and_large_screens_in_both_themes() {
         for theme in ["Light theme", "Dark theme"] {
             click(&mut harness, "View");
             click(&mut harness, theme);
-            for kind in ["Line contact", "Point contact"] {
+            for kind in ["Roller", "Ball", "Ellipse"] {
                 harness.query_all_by_label(kind).next().unwrap().click();
                 wait(&mut harness, "the picture", |app| !app.busy() && app.central_film().is_some());
                 for (layout, seen, beside) in LAYOUTS {
@@ -187,7 +187,7 @@ fn the_lecture_from_m_2_to_500_names_the_regime_and_hides_nothing_that_is_needed
                 let place = harness.get_by_label(name).rect();
                 assert!(screen.contains_rect(place), "{name} at {place:?} of {screen:?}, M = {m}");
             }
-            for name in ["Line contact", "Point contact"] {
+            for name in ["Roller", "Ball", "Ellipse"] {
                 assert!(harness.query_all_by_label(name).next().is_some(), "{name}");
             }
             // Tabs that have no room scroll behind what stands at their end.

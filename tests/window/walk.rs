@@ -11,9 +11,10 @@ use fastrand::Rng;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::time::Duration;
 
-const SLIDERS: [(&str, f64, f64); 4] = [
+const SLIDERS: [(&str, f64, f64); 5] = [
     ("Load number M", 3.0, 400.0),
     ("Lubricant number L", 2.0, 18.0),
+    ("Ratio of radii R_y/R", 0.1, 40.0),
     ("Slide-to-roll ratio SRR", 1e-3, 1.5),
     ("Newtonian plateau ratio NPR", 0.1, 1.0),
 ];
@@ -43,7 +44,7 @@ const IN_TIME: [(&str, f64, f64); 4] = [
     ("Time T", 0.1, 8.0),
 ];
 const FLUIDS: [&str; 4] = ["Mineral oil", "Roelands oil", "Squalane with PIP", "Barus oil, compressible"];
-const KINDS: [&str; 2] = ["Line contact", "Point contact"];
+const KINDS: [&str; 3] = ["Roller", "Ball", "Ellipse"];
 /// What a gesture may have changed of what is held.
 #[derive(PartialEq)]
 enum Touched {

@@ -155,6 +155,11 @@ impl Picture {
         self.solution.mesh.plane().is_some()
     }
 
+    /// κ = b/a: Y of its solution is in b, which is κ times the a that X is in.
+    pub fn kappa(&self) -> f64 {
+        self.key.point.ellipse().kappa
+    }
+
     /// Central film in m.
     pub fn central_film_m(&self) -> f64 {
         self.solution.scalars.h_c * self.key.point.film_scale_m()

@@ -53,8 +53,9 @@ fn contact(point: &OperatingPoint, lubricant: &Lubricant) -> String {
         (srr, ShearLaw::Newtonian) => format!(", SRR {}", significant(srr)),
         (srr, _) => format!(", SRR {}, NPR {}", significant(srr), significant(plateau)),
     };
+    let across = point.radius_y_m.map_or_else(String::new, |radius_y| format!(", R_y {}", numbers::length(radius_y)));
     format!(
-        "{}, R {}, speed {} m/s, load {load}, E' {} GPa, η₀ {} Pa·s, α {} 1/GPa, {laws}{limit}{slides}",
+        "{}, R {}{across}, speed {} m/s, load {load}, E' {} GPa, η₀ {} Pa·s, α {} 1/GPa, {laws}{limit}{slides}",
         numbers::moes(point.moes()),
         numbers::length(point.radius_m),
         significant(point.speed_m_per_s),

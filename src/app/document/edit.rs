@@ -1,10 +1,10 @@
 //! Every change of the document that can be asked for, and the one place where it is made.
 
-use super::Document;
+use super::{Document, Shape};
 use crate::scene::named_lubricant::NamedLubricant;
 use crate::scene::{LoadFollower, LubricantFollower, TransientStudy, View};
 use crate::solver::discrete::grid::PointGridSpec;
-use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint, Quantity};
+use crate::solver::physics::contact::{Moes, OperatingPoint, Quantity};
 use crate::solver::physics::engineering::{Bodies, Oil};
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::training::TrainingSpec;
@@ -24,8 +24,8 @@ pub enum Edit {
     Oil(Option<Oil>),
     /// The bodies that R, E′, u_m and SRR are of.
     Bodies(Bodies),
-    /// Line or point contact.
-    Kind(ContactKind),
+    /// Roller, ball or ellipse.
+    Shape(Shape),
     /// Laws and constants of the lubricant.
     Laws(Box<Lubricant>),
     /// A named lubricant.
@@ -60,7 +60,7 @@ impl Document {
             Edit::Oil(Some(oil)) => return self.set_oil(oil),
             Edit::Oil(None) => self.view.oil = None,
             Edit::Bodies(bodies) => return self.set_bodies(bodies),
-            Edit::Kind(kind) => return self.set_kind(kind),
+            Edit::Shape(shape) => return self.set_shape(shape),
             Edit::Laws(laws) => return self.set_lubricant(*laws),
             Edit::Named(named) => return self.pick_lubricant(named),
             Edit::Contact(point, lubricant) => return self.set_contact(point, *lubricant),

@@ -1,7 +1,7 @@
 //! The document in the words of engineers: an oil at a temperature, two bodies.
 
 use super::Document;
-use crate::solver::physics::contact::{OperatingPoint, Quantity};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity};
 use crate::solver::physics::engineering::{Bodies, BodyError, Oil};
 
 const OF_THE_OIL: [Quantity; 2] = [Quantity::Viscosity, Quantity::Alpha];
@@ -25,7 +25,8 @@ impl Document {
         Ok(())
     }
 
-    /// Takes R, E′, u_m and SRR from two bodies and holds the first three.
+    /// Takes R, E′, u_m and SRR from two bodies and holds the first three; of a point contact R_y as well, where the
+    /// bodies are not as round across as along.
     ///
     /// # Errors
     /// A sentence when the bodies make no contact; the document is unchanged then.
@@ -34,6 +35,9 @@ impl Document {
         self.accept(point)?;
         self.view.bodies = Some(bodies);
         OF_THE_BODIES.into_iter().for_each(|quantity| self.view.held.set(quantity, true));
+        if self.point.radius_y_m.is_some() {
+            self.view.held.set(Quantity::RadiusY, true);
+        }
         Ok(())
     }
 
@@ -57,7 +61,13 @@ impl Document {
         let (speed_m_per_s, srr) = bodies.entrainment().map_err(said)?;
         let radius_m = bodies.reduced_radius_m().map_err(said)?;
         let modulus_pa = bodies.reduced_modulus_pa().map_err(said)?;
-        let mut point = OperatingPoint { radius_m, modulus_pa, speed_m_per_s, ..self.point };
+        let radius_y_m = match self.point.kind {
+            ContactKind::Line => None,
+            // An ellipse stays one where its radii happen to be equal.
+            ContactKind::Point => Some(bodies.reduced_transverse_radius_m().map_err(said)?)
+                .filter(|radius_y| *radius_y != radius_m || self.point.radius_y_m.is_some()),
+        };
+        let mut point = OperatingPoint { radius_m, radius_y_m, modulus_pa, speed_m_per_s, ..self.point };
         point.sliding.slide_to_roll_ratio = srr;
         Ok(point)
     }
@@ -66,6 +76,7 @@ impl Document {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::document::Shape;
     use crate::solver::physics::contact::Moes;
     use crate::solver::physics::engineering::{Body, Grade, OilFamily};
 
@@ -93,6 +104,25 @@ mod tests {
         // A value that is typed over them is not theirs any more.
         document.type_quantity(Quantity::Alpha, 2e-8).unwrap();
         assert!(!document.oil_counts() && document.view.oil == Some(VG_68));
+    }
+
+    #[test]
+    fn a_ball_in_a_groove_becomes_an_ellipse_and_a_roller_has_no_groove() {
+        let mut document = Document::default();
+        document.set_shape(Shape::Ball).unwrap();
+        let Bodies(ball, race) = Bodies::on_plane(4.7625e-3, 3.0, 0.0);
+        let race = Body { radius_m: Some(18.2e-3), ..race };
+        let pair = |groove_m: f64| Bodies(ball, race.with_transverse_radius_m(Some(groove_m)));
+        document.set_bodies(pair(-4.953e-3)).unwrap();
+        assert!((document.point.radius_ratio() - 32.8).abs() < 0.1, "{}", document.point.radius_ratio());
+        assert!(document.bodies_count() && document.holds(Quantity::RadiusY));
+        let said = document.set_bodies(pair(-4.5e-3)).unwrap_err();
+        assert!(said.contains("across the rolling direction") && said.contains("beyond -0.0047625 m"), "{said}");
+        let said = document.set_bodies(pair(-4.8e-3)).unwrap_err();
+        assert!(said.contains("R_y/R_x"), "{said}");
+        document.set_shape(Shape::Roller).unwrap();
+        document.set_bodies(pair(-4.953e-3)).unwrap();
+        assert_eq!(document.point.radius_y_m, None);
     }
 
     #[test]

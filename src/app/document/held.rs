@@ -89,15 +89,15 @@ impl Document {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::physics::contact::ContactKind;
+    use crate::app::document::Shape;
 
     #[test]
     fn nothing_held_ever_moves_whatever_is_dragged() {
         let mut random = fastrand::Rng::with_seed(3);
         let mut refused = 0;
-        for kind in [ContactKind::Line, ContactKind::Point] {
+        for shape in Shape::ALL {
             let mut document = Document::default();
-            document.set_kind(kind).unwrap();
+            document.set_shape(shape).unwrap();
             for _ in 0..2000 {
                 let held: Vec<(Quantity, f64)> = Quantity::SI
                     .into_iter()

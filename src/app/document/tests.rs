@@ -71,14 +71,14 @@ fn a_training_is_edited_saved_and_refused_like_the_rest() {
     assert_eq!(Document::of_scene(fresh.to_scene()).unwrap().training, training);
     // A training of point contacts belongs to a point contact, and is not saved with a line.
     let mut point = Document::default();
-    point.set_kind(ContactKind::Point).unwrap();
+    point.set_shape(Shape::Ball).unwrap();
     let scene = Scene::from_ron(include_str!("../../../scenes/training/table_3_4_model.ron")).unwrap();
     let Study::Training(spec) = scene.study else { panic!() };
     point.set_training(spec.clone()).unwrap();
     let saved = point.to_scene();
     saved.check().unwrap();
     assert_eq!(Document::of_scene(saved).unwrap().training, Some(spec));
-    point.set_kind(ContactKind::Line).unwrap();
+    point.set_shape(Shape::Roller).unwrap();
     assert!(!point.saves_training() && point.to_scene().check().is_ok());
 }
 
@@ -98,7 +98,7 @@ fn a_contact_in_time_is_saved_with_its_grid_and_checked_like_the_rest() {
     let other = Scene::from_ron(include_str!("../../../scenes/line/table_2_1.ron")).unwrap();
     let kept = Document { transient: document.transient.clone(), ..Document::of_scene(other.clone()).unwrap() };
     assert_eq!(kept.to_scene().study, other.study);
-    document.set_kind(ContactKind::Point).unwrap();
+    document.set_shape(Shape::Ball).unwrap();
     assert!(document.to_scene().check().is_ok());
 }
 
@@ -125,7 +125,7 @@ fn every_contact_in_time_of_the_repository_opens_and_is_saved_as_it_was() {
 fn the_other_kind_of_contact_keeps_the_numbers_and_the_lubricant() {
     let mut document = Document::default();
     let line = document.point;
-    document.set_kind(ContactKind::Point).unwrap();
+    document.set_shape(Shape::Ball).unwrap();
     let (before, after) = (line.moes(), document.point.moes());
     assert!((after.m / before.m - 1.0).abs() < 1e-9 && (after.l / before.l - 1.0).abs() < 1e-9);
     let kept = |p: &OperatingPoint| [p.modulus_pa, p.viscosity_pa_s, p.alpha_per_pa];
@@ -134,7 +134,7 @@ fn the_other_kind_of_contact_keeps_the_numbers_and_the_lubricant() {
     document.set_plane(PointGridSpec::DISSERTATION);
     let again = Document::from_ron(&document.to_ron().unwrap()).unwrap();
     assert_eq!((again.point, again.plane()), (document.point, PointGridSpec::DISSERTATION));
-    document.set_kind(ContactKind::Line).unwrap();
+    document.set_shape(Shape::Roller).unwrap();
     let [back, there] = [document.point, line].map(|p| p.quantities());
     assert!(back.iter().zip(there).all(|(a, b)| (a / b - 1.0).abs() < 1e-9), "{back:?} {there:?}");
 }
@@ -144,7 +144,7 @@ fn a_scene_of_a_point_contact_opens_and_keeps_its_question_until_the_kind_change
     let scene = Scene::from_ron(include_str!("../../../scenes/point/table_2_3.ron")).unwrap();
     let mut document = Document::of_scene(scene.clone()).unwrap();
     assert_eq!((document.point.kind, document.to_scene()), (ContactKind::Point, scene));
-    document.set_kind(ContactKind::Line).unwrap();
+    document.set_shape(Shape::Roller).unwrap();
     let scene = document.to_scene();
     assert!(scene.expect.is_empty() && scene.check().is_ok());
     assert_eq!(Document::of_scene(scene).unwrap().point, document.point);

@@ -2,12 +2,11 @@
 
 use crate::app::command::{Command, MENUS};
 use crate::app::desk::Desk;
-use crate::app::document::Edit;
+use crate::app::document::{Edit, Shape};
 use crate::app::panels::lubricant::GROUP;
-use crate::app::panels::operating_point::KIND;
+use crate::app::panels::operating_point::SHAPE;
 use crate::app::tab::Tab;
 use crate::scene::named_lubricant::{NAMED, of_laws};
-use crate::solver::physics::contact::ContactKind;
 use egui::KeyboardShortcut;
 use std::path::Path;
 
@@ -50,10 +49,11 @@ pub fn all(desk: &Desk) -> Vec<Entry> {
         ..Entry::new(item.menu, item.name.to_owned(), item.synonyms, item.command.clone())
     });
     let mut entries: Vec<Entry> = tabs.into_iter().chain(commands).collect();
-    let kinds = [(ContactKind::Line, "Line contact", "roller"), (ContactKind::Point, "Point contact", "ball")];
-    entries.extend(kinds.map(|(kind, name, synonyms)| {
-        let entry = Entry::new("Contact", name.to_owned(), synonyms, Command::Edit(Edit::Kind(kind), KIND));
-        entry.refused_where(kind == desk.document.point.kind, "It is one")
+    let present = Shape::of(&desk.document.point);
+    entries.extend(Shape::ALL.map(|shape| {
+        let edit = Command::Edit(Edit::Shape(shape), SHAPE);
+        let entry = Entry::new("Contact", shape.name().to_owned(), shape.synonyms(), edit);
+        entry.refused_where(shape == present, "It is one")
     }));
     let present = of_laws(&desk.document.lubricant).filter(|_| !desk.own_lubricant);
     entries.extend(NAMED.iter().map(|named| {

@@ -66,8 +66,8 @@ mod tests {
         let entries = entry::all(&desk);
         let found = find(&entries, "contact");
         let at = |name: &str| found.iter().position(|entry| entry.name == name).unwrap();
-        assert!(at("Point contact") < at("Line contact"));
-        assert_eq!(found[at("Line contact")].refusal, Some("It is one"));
+        assert!(at("Ball") < at("Roller"));
+        assert_eq!(found[at("Roller")].refusal, Some("It is one"));
         let undo = find(&entries, "undo")[0];
         assert_eq!((undo.name.as_str(), undo.refusal), ("Undo", Some("Nothing has been changed")));
         // Without a picture nothing can be pinned, and nothing is.

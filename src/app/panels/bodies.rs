@@ -1,9 +1,10 @@
-//! The two bodies: materials, radii, surface speeds and roughness, which give R, E′, u_m, SRR and the film ratio.
+//! The two bodies: materials, radii, surface speeds and roughness, which give R, R_y, E′, u_m, SRR and the film ratio.
 
 use crate::app::context::Commands;
 use crate::app::controls::{Entries, named, row_name, typed_field, warning_ui};
 use crate::app::document::{Document, Edit};
 use crate::app::theme::name_and_symbol;
+use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::{self, Bodies, Body, Dimension, MATERIALS};
 use egui::{CollapsingHeader, ComboBox, Ui};
 
@@ -21,15 +22,25 @@ struct Field {
     set: fn(&mut Body, Option<f64>),
 }
 
-const ROWS: [Field; 3] = [
+const ROWS: [Field; 4] = [
     Field {
         names: ["Radius of body 1", "Radius of body 2"],
         row: "Radius",
         unit: ("mm", 1e-3),
-        tip: "Radius of curvature; negative for a concave surface, “plane” for none (2.3)",
+        tip: "Radius of curvature along the rolling direction; negative for a concave surface, “plane” for none (2.3)",
         dimension: |_| Dimension::Length,
         get: |body| body.radius_m,
         set: |body, radius| body.radius_m = radius,
+    },
+    Field {
+        names: ["Radius across of body 1", "Radius across of body 2"],
+        row: ACROSS,
+        unit: ("mm", 1e-3),
+        tip: "Radius of curvature across the rolling direction; negative for a groove, “plane” for none. \
+            Equal to that along it makes a body round, and keeps it so",
+        dimension: |_| Dimension::Length,
+        get: Body::transverse_radius_m,
+        set: |body, radius| *body = body.with_transverse_radius_m(radius),
     },
     Field {
         names: ["Speed of body 1", "Speed of body 2"],
@@ -51,22 +62,34 @@ const ROWS: [Field; 3] = [
     },
 ];
 
+/// The row that only point contacts have.
+const ACROSS: &str = "Across";
+
 /// The group, folded until it is wanted.
 pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
     CollapsingHeader::new("Two bodies").default_open(document.view.bodies.is_some()).show(ui, |ui| {
         let point = &document.point;
-        let present = || Bodies::on_plane(point.radius_m, point.speed_m_per_s, point.sliding.slide_to_roll_ratio);
+        let present = || {
+            let pair = Bodies::on_plane(point.radius_m, point.speed_m_per_s, point.sliding.slide_to_roll_ratio);
+            let Bodies(first, second) = pair;
+            // An ellipse on a plane is a body of both its radii.
+            match point.radius_y_m {
+                Some(_) => Bodies(first.with_transverse_radius_m(point.radius_y_m), second),
+                None => pair,
+            }
+        };
         let before = document.view.bodies.unwrap_or_else(present);
         let mut wanted = before;
         let mut field = materials_ui(ui, &mut wanted);
-        for row in &ROWS {
+        let line = point.kind == ContactKind::Line;
+        for row in ROWS.iter().filter(|row| !(line && row.row == ACROSS)) {
             field = row.ui(ui, &mut wanted, entries).or(field);
         }
         if let Some(field) = field.filter(|_| wanted != before) {
             commands.edit(Edit::Bodies(wanted), field);
         }
         if document.view.bodies.is_some() && !document.bodies_count() {
-            warning_ui(ui, "R, E’, u_m or SRR were changed since: they are no longer these bodies’");
+            warning_ui(ui, "R, R_y, E’, u_m or SRR were changed since: they are no longer these bodies’");
             if ui.button("Take the bodies’ values").clicked() {
                 commands.edit(Edit::Bodies(before), GROUP);
             }

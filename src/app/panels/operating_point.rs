@@ -5,45 +5,54 @@ use crate::app::context::{Commands, Context};
 use crate::app::controls::{
     Entries, NAME_WIDTH, choice, explained, heading, lock_ui, named, reserved, row_name, typed_field, warning_ui,
 };
-use crate::app::document::{Document, Edit};
+use crate::app::document::{Document, Edit, Shape};
 use crate::app::numbers;
 use crate::app::theme::name_and_symbol;
 use crate::solver::physics::contact::{ContactKind, PLAUSIBLE_HERTZ_PRESSURE_PA, Quantity};
 use crate::solver::physics::engineering::{self, Dimension};
 use egui::{Grid, RichText, Ui};
 
-const KINDS: [(ContactKind, &str, &str); 2] = [
-    (ContactKind::Line, "Line contact", "A long roller on a raceway: load per unit length, the same at every Y"),
+/// What there is to choose from, and what it is.
+const SHAPES: [(Shape, &str); 3] = [
     (
-        ContactKind::Point,
-        "Point contact",
-        "A ball on a raceway or a disc, circular: the film has its horseshoe and side lobes",
+        Shape::Roller,
+        "A line contact: a long roller on a raceway, with its load per unit length, the same at every Y. \
+        All stays but the load, which follows M",
+    ),
+    (
+        Shape::Ball,
+        "A circular point contact: a ball on a disc, the film with its horseshoe and side lobes. \
+        All stays but the load of a line, which follows M",
+    ),
+    (
+        Shape::Ellipse,
+        "A point contact with a radius across the rolling direction of its own: a ball in a groove, a crowned roller. \
+        R_y/R runs from 0.1 over 1, the circle, to 40, which is nearly a line",
     ),
 ];
-/// Under this name the switch between both is refused.
-pub const KIND: &str = "kind of contact";
+/// Under this name the choice between them is refused.
+pub const SHAPE: &str = "shape of the contact";
 
 /// The panel's first group.
 pub fn ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
     heading(ui, "Operating point");
-    kind_ui(ui, context.document.point.kind, commands);
+    shape_ui(ui, Shape::of(&context.document.point), commands);
     sliders::column(ui, context, entries, commands);
     followers_ui(ui, context.document, commands);
     si_ui(ui, context.document, entries, commands);
     hertz_ui(ui, context.document);
 }
 
-/// Line or point.
-pub(super) fn kind_ui(ui: &mut Ui, present: ContactKind, commands: &mut Commands) {
+/// Roller, ball or ellipse.
+pub(super) fn shape_ui(ui: &mut Ui, present: Shape, commands: &mut Commands) {
     let mut wanted = present;
     ui.horizontal(|ui| {
-        for (kind, name, tip) in KINDS {
-            let tip = format!("{tip}. All stays but the load, which follows M");
-            ui.selectable_value(&mut wanted, kind, name).on_hover_text(tip);
+        for (shape, tip) in SHAPES {
+            ui.selectable_value(&mut wanted, shape, shape.name()).on_hover_text(tip);
         }
     });
     if wanted != present {
-        commands.edit(Edit::Kind(wanted), KIND);
+        commands.edit(Edit::Shape(wanted), SHAPE);
     }
 }
 
@@ -73,8 +82,9 @@ fn followers_ui(ui: &mut Ui, document: &Document, commands: &mut Commands) {
 }
 
 /// The names of the fields of the SI quantities, by which screen readers know them.
-pub const FIELDS: [(Quantity, &str); 6] = [
+pub const FIELDS: [(Quantity, &str); 7] = [
     (Quantity::Radius, "Radius R"),
+    (Quantity::RadiusY, "Across R_y"),
     (Quantity::Speed, "Speed u_m"),
     (Quantity::Load, "Load w"),
     (Quantity::Modulus, "Modulus E'"),
@@ -104,10 +114,15 @@ fn si_ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut
                 commands.edit(Edit::Typed(quantity, value * scale), field);
             }
             ui.label(unit);
+            if quantity == Quantity::RadiusY && Shape::of(&document.point) == Shape::Ball {
+                ui.add_sized(HELD, egui::Label::new(RichText::new("as R").small().weak()))
+                    .on_hover_text("A ball is as round across as along; another value makes it an ellipse");
+                return;
+            }
             held_ui(ui, document, (quantity, field), commands);
         });
     }
-    entries.reserved_ui(ui, FIELDS.map(|(_, field)| field).into_iter().chain(sliders::FIELDS).chain([KIND]));
+    entries.reserved_ui(ui, FIELDS.map(|(_, field)| field).into_iter().chain(sliders::FIELDS).chain([SHAPE]));
 }
 
 /// The lock of a quantity that is held, or what it follows.
@@ -147,20 +162,34 @@ fn read(text: &str, quantity: Quantity, kind: ContactKind) -> Result<f64, String
 fn hertz_ui(ui: &mut Ui, document: &Document) {
     let point = &document.point;
     let hertz = point.hertz();
-    let (width_name, width_tip, pressure_tip, stiffening_tip) = match point.kind {
-        ContactKind::Line => (
+    let (width_name, width_tip, pressure_tip, stiffening_tip) = match Shape::of(point) {
+        Shape::Roller => (
             "Half width",
             "Hertzian half width, a² = 8wR/(πE’) (2.21)",
             "Largest pressure of the dry contact, p_H² = wE’/(2πR) (2.21)",
             "α p_H = L √(M/2π): the exponent of Barus’ law at the Hertzian pressure",
         ),
-        ContactKind::Point => (
+        Shape::Ball => (
             "Radius",
             "Radius of the Hertzian circle, a³ = 3wR/(2E’) (2.21)",
             "Largest pressure of the dry contact, p_H = 3w/(2πa²) (2.21)",
             "α p_H = L (3M/2π³)^⅓: the exponent of Barus’ law at the Hertzian pressure",
         ),
+        Shape::Ellipse => (
+            "Semi-axes",
+            "Semi-axes of the Hertzian ellipse along and across the rolling direction, and κ = b/a, which R_y/R alone decides",
+            "Largest pressure of the dry contact, p_H = 3w/(2πab)",
+            "α p_H: the exponent of Barus’ law at the Hertzian pressure",
+        ),
     };
+    let width = match Shape::of(point) {
+        Shape::Ellipse => {
+            let [a, b] = [hertz.half_width_m, hertz.half_length_m].map(numbers::length);
+            format!("{a}, {b}; κ {}", numbers::digits(point.ellipse().kappa, 3))
+        }
+        _ => numbers::length(hertz.half_width_m),
+    };
+    let axes = if Shape::of(point) == Shape::Ellipse { "a, b" } else { "a" };
     ui.add_space(4.0);
     Grid::new("hertz").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 3.0]).show(ui, |ui| {
         let shear = engineering::largest_shear(point, 0.3);
@@ -172,7 +201,7 @@ fn hertz_ui(ui: &mut Ui, document: &Document) {
         let shear_tip =
             "The largest shear stress under the dry contact and its depth, where rolling fatigue begins; ν = 0.3";
         let rows = [
-            ((width_name, "a", ""), numbers::length(hertz.half_width_m), width_tip),
+            ((width_name, axes, ""), width, width_tip),
             (("Hertz pressure", "p", "H"), numbers::pressure(hertz.pressure_pa), pressure_tip),
             (("Stiffening", "αp", "H"), numbers::significant(point.alpha_hertz()), stiffening_tip),
             (("Shear below", "τ", "max"), deepest, shear_tip),

@@ -5,7 +5,9 @@ use super::{operating_point, sliders};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{Entries, named};
+use crate::app::document::Shape;
 use crate::scene::regimes::Regime;
+use crate::solver::physics::contact::FilmShape;
 use egui::{Align, Button, Frame, Label, Layout, Margin, RichText, Ui};
 
 /// Size of the name of the regime.
@@ -15,8 +17,9 @@ const LARGE: f32 = 20.0;
 pub fn ui(ui: &mut Ui, context: &Context<'_>, locked: bool, entries: &mut Entries, commands: &mut Commands) {
     Frame::new().inner_margin(Margin::symmetric(6, 5)).show(ui, |ui| {
         ui.horizontal(|ui| {
-            operating_point::kind_ui(ui, context.document.point.kind, commands);
-            let regime = Regime::of(context.document.point.kind, context.document.point.moes());
+            let point = &context.document.point;
+            operating_point::shape_ui(ui, Shape::of(point), commands);
+            let regime = Regime::of(FilmShape::of(point), point.moes());
             ui.label(RichText::new(regime.title()).size(LARGE).strong()).on_hover_text(regime.meaning());
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let button = ui.add(Button::new("Esc").small()).on_hover_text("Ends the presentation (Esc or F11)");

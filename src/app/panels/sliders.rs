@@ -3,13 +3,13 @@
 
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{Entries, RangeSlider, described, explained, named, typed_field};
-use crate::app::document::{Document, Edit, HOME};
+use crate::app::document::{Document, Edit, HOME, Shape};
 use crate::app::numbers;
-use crate::app::theme::name_and_symbol;
+use crate::app::theme::{name_and_symbol, rich};
 use crate::solver::physics::contact::{ContactKind, Quantity};
 use crate::solver::physics::engineering::{self, Dimension};
 use crate::solver::physics::lubricant::ShearLaw;
-use egui::{Grid, Slider, Ui};
+use egui::{Grid, Slider, TextStyle, Ui};
 use std::ops::RangeInclusive;
 
 const M_TIP: &str = "Load number M = w/(E’R) · (2η₀u_m/(E’R))^(−1/2): how heavily the contact is loaded for its speed. \
@@ -27,8 +27,12 @@ const NPR_TIP: &str = "Newtonian plateau ratio NPR of (3.40): the share of its v
 const NPR_NEWTONIAN_TIP: &str = "The lubricant has no shear constants, so it is Newtonian, which is a Newtonian plateau ratio NPR of 1; \
     choose a lubricant that thins under shear below";
 
+const RATIO_TIP: &str = "R_y/R, the radius across over that along the rolling direction: 1 is a circle, large ratios are nearly a line, \
+    small ones an ellipse that is long along the rolling direction. R stays, R_y follows. Double click: the circle";
+
 /// Under these names entries are refused.
-pub const FIELDS: [&str; 8] = ["M", "L", "SRR", "NPR", "M value", "L value", "SRR value", "NPR value"];
+pub const FIELDS: [&str; 10] =
+    ["M", "L", "R_y/R", "SRR", "NPR", "M value", "L value", "R_y/R value", "SRR value", "NPR value"];
 /// Widths of a name, of a typed entry, and of what stands between.
 const NAME_WIDTH: f32 = 84.0;
 /// Width of its symbol alone, and the width from which on a slider has room for its whole name beside others.
@@ -58,9 +62,10 @@ fn thins(document: &Document) -> bool {
     document.lubricant.shear != ShearLaw::Newtonian
 }
 
-fn rows(Context { document, answers, .. }: &Context<'_>) -> [Row; 4] {
+fn rows(Context { document, answers, .. }: &Context<'_>) -> Vec<Row> {
     let (moes, kind) = (document.point.moes(), document.point.kind);
-    let domain = answers.model(document).map(|model| &model.domain);
+    // A model of circles has nothing to say of ellipses.
+    let domain = answers.model(document).filter(|_| document.point.radius_ratio() == 1.0).map(|model| &model.domain);
     let (trained, sliding) = (domain.map(|domain| (domain.m, domain.l)), domain.and_then(|domain| domain.sliding));
     let srr = document.point.sliding.slide_to_roll_ratio;
     let (npr, own_npr) = (document.plateau_ratio(), document.lubricant.shear.plateau());
@@ -70,7 +75,7 @@ fn rows(Context { document, answers, .. }: &Context<'_>) -> [Row; 4] {
         marked,
         home,
         tooltip,
-        logarithmic: matches!(quantity, Quantity::M | Quantity::L),
+        logarithmic: matches!(quantity, Quantity::M | Quantity::L | Quantity::RadiusRatio),
     };
     let m_tip = if kind == ContactKind::Line { M_TIP } else { M_POINT_TIP };
     let srr_tip = if thins(document) { SRR_TIP } else { SRR_NEWTONIAN_TIP };
@@ -80,12 +85,23 @@ fn rows(Context { document, answers, .. }: &Context<'_>) -> [Row; 4] {
     let slide = slider(Quantity::SlideToRollRatio, marked, 0.0, srr_tip);
     let marked = sliding.map(|sliding| sliding.npr);
     let plateau = slider(Quantity::NewtonianPlateauRatio, marked, own_npr, NPR_TIP);
-    [
+    // A ball is the ellipse in the middle: moving it makes one.
+    let ellipse = (kind == ContactKind::Point).then(|| Row {
+        quantity: Quantity::RadiusRatio,
+        entry: "R_y/R value",
+        slider: slider(Quantity::RadiusRatio, None, 1.0, RATIO_TIP),
+        value: document.point.radius_ratio(),
+    });
+    let mut rows = vec![
         Row { quantity: Quantity::M, entry: "M value", slider: m, value: moes.m },
         Row { quantity: Quantity::L, entry: "L value", slider: l, value: moes.l },
+    ];
+    rows.extend(ellipse);
+    rows.extend([
         Row { quantity: Quantity::SlideToRollRatio, entry: "SRR value", slider: slide, value: srr },
         Row { quantity: Quantity::NewtonianPlateauRatio, entry: "NPR value", slider: plateau, value: npr },
-    ]
+    ]);
+    rows
 }
 
 /// All four, one below the other.
@@ -112,6 +128,7 @@ pub fn in_use(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, command
     let used = |row: &Row| match row.quantity {
         Quantity::SlideToRollRatio => slides,
         Quantity::NewtonianPlateauRatio => thins(document),
+        Quantity::RadiusRatio => Shape::of(&document.point) == Shape::Ellipse,
         _ => true,
     };
     let rows: Vec<Row> = rows(context).into_iter().filter(used).collect();
@@ -137,9 +154,18 @@ impl Row {
     fn ui(&self, ui: &mut Ui, entries: &mut Entries, width: f32, named: bool) -> Option<Wanted> {
         let tip = self.slider.tooltip;
         let (sign, _) = self.quantity.symbol();
-        explained(ui, name_and_symbol(ui, if named { word(self.quantity) } else { "" }, sign, ""), tip);
+        let name = if named { word(self.quantity) } else { "" };
+        let name = match self.quantity {
+            Quantity::RadiusRatio => rich(
+                &format!("{name} {{R_y}}/{{R}}"),
+                TextStyle::Body.resolve(ui.style()).size,
+                ui.visuals().text_color(),
+            ),
+            _ => name_and_symbol(ui, name, sign, ""),
+        };
+        explained(ui, name, tip);
         let moved = self.slider.show(ui, self.value, width).map(|value| (sign, value));
-        let ratio = self.quantity == Quantity::SlideToRollRatio;
+        let ratio = matches!(self.quantity, Quantity::SlideToRollRatio | Quantity::RadiusRatio);
         let read = |text: &str| match ratio {
             true => engineering::parse(text, Dimension::Ratio, "").map_err(|error| error.to_string()),
             false => numbers::parse(text),
@@ -155,6 +181,7 @@ fn word(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::M => "Load",
         Quantity::L => "Lubricant",
+        Quantity::RadiusRatio => "Ellipse",
         Quantity::SlideToRollRatio => "Sliding",
         _ => "Plateau",
     }

@@ -166,7 +166,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
         ui.set_min_size(row);
         pill(ui, verdict.kind, [&verdict.title, &verdict.detail, &verdict.why], "Trust in the picture");
         if let Some(picture) = other {
-            let of = numbers::moes(picture.key.point.moes());
+            let of = numbers::contact(&picture.key.point);
             let color = Palette::of(ui).warning;
             let note = RichText::new(format!("Grey: the picture belongs to {of}")).small().color(color);
             ui.add(Label::new(note).truncate());

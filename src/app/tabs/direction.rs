@@ -2,6 +2,7 @@
 
 use crate::app::answers::picture::{Cuts, Picture};
 use crate::app::numbers;
+use crate::app::units::Scales;
 use egui_plot::PlotPoint;
 
 /// In which direction a profile runs.
@@ -31,6 +32,21 @@ impl Direction {
         self.either(&picture.film, &picture.across.film)
     }
 
+    /// The unit of lengths along it: a, or b of a point contact \[mm\].
+    pub fn length_mm(self, scales: Scales) -> f64 {
+        self.either(scales.length_mm, scales.across_mm)
+    }
+
+    /// What its coordinate is in units of: of a circle both semi-axes are a.
+    fn semi_axis(self, kappa: f64) -> &'static str {
+        if self == Self::Across && kappa != 1.0 { "b" } else { "a" }
+    }
+
+    /// Title of its axis without the place of the cut.
+    pub fn title(self, kappa: f64) -> String {
+        format!("{{{0}}} = {{{1}}}/{{{2}}}", self.name(), self.name().to_lowercase(), self.semi_axis(kappa))
+    }
+
     /// Name of the coordinate.
     pub fn name(self) -> &'static str {
         self.either("X", "Y")
@@ -55,10 +71,10 @@ impl Direction {
     pub fn x_title(self, picture: &Picture, cuts: Cuts) -> String {
         match self {
             Self::Along if picture.has_plane() => {
-                format!("{{X}} = {{x}}/{{a}} at {{Y}} = {}", numbers::digits(cuts.y, 3))
+                format!("{} at {{Y}} = {}", self.title(1.0), numbers::digits(cuts.y, 3))
             }
-            Self::Along => "{X} = {x}/{a}".to_owned(),
-            Self::Across => format!("{{Y}} = {{y}}/{{a}} at {{X}} = {}", numbers::digits(cuts.x, 3)),
+            Self::Along => self.title(1.0),
+            Self::Across => format!("{} at {{X}} = {}", self.title(picture.kappa()), numbers::digits(cuts.x, 3)),
         }
     }
 

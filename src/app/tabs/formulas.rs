@@ -1,6 +1,7 @@
 //! Published film formulas beside the current contact.
 
 use crate::app::context::Context;
+use crate::app::controls::warning_ui;
 use crate::app::export::describe_contact;
 use crate::app::numbers;
 use crate::app::theme::symbol;
@@ -73,4 +74,7 @@ pub fn table(ui: &mut Ui, context: &Context<'_>) {
     });
     ui.add_space(4.0);
     ui.weak(RichText::new("Grey: outside the range a formula was fitted to. Sources appear on hover.").small());
+    if context.document.point.radius_ratio() < 1.0 {
+        warning_ui(ui, "Hamrock–Dowson is 15–75 % high where R_y is smaller than R: it was fitted to ellipses across");
+    }
 }

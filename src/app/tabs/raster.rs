@@ -4,8 +4,9 @@
 use crate::solver::physics::optics::{Interferometer, RGB_WAVELENGTHS_M};
 use egui::{Color32, ColorImage};
 
-/// Pixels per Hertzian radius.
+/// Pixels per Hertzian radius, and the fewest per semi-axis of an ellipse.
 const RESOLUTION: f64 = 100.0;
+const FEWEST: f64 = 50.0;
 
 /// Values at the pixels of the half Y ≤ 0, row by row from the outer edge to the axis.
 pub struct Raster {
@@ -30,14 +31,18 @@ fn places(nodes: &[f64], count: usize) -> Vec<(usize, f32)> {
 }
 
 impl Raster {
-    /// Samples a node array of a point contact bilinearly, times a scale. Node (i, j) at (X_i, Y_j) has the index
-    /// i·n_y + j.
-    pub fn new((x, y): (&[f64], &[f64]), field: &[f64], scale: f64) -> Self {
-        let pixels = |nodes: &[f64]| match nodes {
-            [first, .., last] => ((last - first) * RESOLUTION).round().clamp(2.0, 4096.0) as usize,
+    /// Samples a node array of a point contact bilinearly, times a scale, so that pixels are square: `kappa` is b/a, with
+    /// X in a and Y in b. Node (i, j) at (X_i, Y_j) has the index i·n_y + j.
+    pub fn new((x, y): (&[f64], &[f64]), kappa: f64, field: &[f64], scale: f64) -> Self {
+        // As many in all as of a circle, so that long ellipses do not fill the memory.
+        let per_shorter = (RESOLUTION / kappa.max(kappa.recip()).sqrt()).max(FEWEST);
+        let (per_a, per_b) =
+            if kappa >= 1.0 { (per_shorter, per_shorter * kappa) } else { (per_shorter / kappa, per_shorter) };
+        let pixels = |nodes: &[f64], per: f64| match nodes {
+            [first, .., last] => ((last - first) * per).round().clamp(2.0, 4096.0) as usize,
             _ => 0,
         };
-        let (width, rows) = (pixels(x), pixels(y));
+        let (width, rows) = (pixels(x, per_a), pixels(y, per_b));
         let (columns, ordinates) = (places(x, width), places(y, rows));
         let ny = y.len();
         let mut values = Vec::with_capacity(width * rows);
@@ -133,7 +138,7 @@ mod tests {
         let spec = PointGridSpec::uniform(0.1, 0.1, (-3.0, 1.8, -1.4));
         let point = si_from_moes(&MoesRequest::new(ContactKind::Point, 30.0, 5.0)).unwrap();
         let s = PointSolver::new(spec).unwrap().solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
-        let raster = Raster::new((&s.x, &s.y), &s.pressure, 1.0);
+        let raster = Raster::new((&s.x, &s.y), 1.0, &s.pressure, 1.0);
         let top = s.scalars.p_max;
         let image = raster.colored(&color_map::table(false), (0.0, top));
         assert_eq!(image.size, [raster.width, 2 * raster.rows]);

@@ -5,14 +5,14 @@ use crate::app::theme::Palette;
 use crate::scene::QuantityBox;
 use crate::scene::regimes::{L_AXIS, M_AXIS, Regime, SAMPLES, boundaries, names, spread};
 use crate::solver::physics::contact::{
-    ContactKind, Moes, MoesRequest, PLAUSIBLE_HERTZ_PRESSURE_PA, moes_film, si_from_moes,
+    ContactKind, FilmShape, Moes, MoesRequest, OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA, si_from_moes,
 };
 use crate::solver::reduced::{Domain, ReducedModel};
 use egui::ColorImage;
 use egui_plot::PlotPoint;
 
 /// Film numbers of the contours.
-const CONTOURS: [f64; 9] = [0.7, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0];
+const CONTOURS: [f64; 11] = [0.35, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0];
 
 /// What a line of the chart is. The table of the chart knows them by their places here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,31 +57,40 @@ pub fn point(m: f64, l: f64) -> PlotPoint {
 }
 
 impl ChartLines {
-    /// All lines for a kind of contact, and of its model where there is one.
-    pub fn new(kind: ContactKind, model: Option<&ReducedModel>) -> Self {
+    /// All lines for a shape, and of its model where there is one.
+    pub fn new(shape: FilmShape, model: Option<&ReducedModel>) -> Self {
+        let kind = match shape {
+            FilmShape::Line => ContactKind::Line,
+            FilmShape::Ellipse(_) => ContactKind::Point,
+        };
         let mut lines = Vec::new();
         let mut add = |kind, value, points| lines.push(ChartLine { kind, value, points });
         for film in CONTOURS {
-            let points = contour(kind, film);
+            let points = contour(shape, film);
             if points.len() > 1 {
                 add(Kind::Contour, Some(film), points);
             }
         }
-        for (k, ends) in boundaries(kind).into_iter().enumerate() {
+        for (k, ends) in boundaries(shape).into_iter().enumerate() {
             add(Kind::Boundary, Some(k as f64), ends.map(|[m, l]| point(m, l)).to_vec());
         }
-        add(Kind::PressureLimit, None, pressure_limit(kind));
+        // Wide ellipses reach it beyond the chart.
+        let limit = pressure_limit(shape);
+        if limit.len() > 1 {
+            add(Kind::PressureLimit, None, limit);
+        }
         if let Some(model) = model {
             let snapshots =
                 model.windows.iter().flat_map(|window| &window.snapshots).map(|snapshot| snapshot.point.moes());
-            add(Kind::Trained, None, trained(kind, &model.domain));
+            add(Kind::Trained, None, trained(shape, &model.domain));
             add(Kind::Snapshots, None, snapshots.map(|moes| point(moes.m, moes.l)).collect());
         }
-        if kind == ContactKind::Point {
+        // The dissertation's balls.
+        if shape == FilmShape::CIRCLE {
             add(Kind::Table, None, outline(&QuantityBox::TABLE_3_4, kind));
             add(Kind::Trajectory, None, trajectory(&QuantityBox::TABLE_3_4, kind));
         }
-        Self { lines, names: names(kind).map(|(regime, [m, l])| (regime, point(m, l))).to_vec() }
+        Self { lines, names: names(shape).into_iter().map(|(regime, [m, l])| (regime, point(m, l))).collect() }
     }
 
     /// The lines as a table.
@@ -106,28 +115,39 @@ fn up_to((mut low, mut high): (f64, f64), holds: impl Fn(f64) -> bool) -> f64 {
 }
 
 /// The film number is monotonic in L: bisection in ln L for every M.
-fn contour(kind: ContactKind, film: f64) -> Vec<PlotPoint> {
+fn contour(shape: FilmShape, film: f64) -> Vec<PlotPoint> {
     (0..SAMPLES)
         .filter_map(|k| {
             let m = spread(M_AXIS, k, SAMPLES);
-            let value = |l: f64| moes_film(kind, Moes { m, l });
+            let value = |l: f64| shape.film(Moes { m, l });
             let within = value(L_AXIS.0) <= film && film <= value(L_AXIS.1);
             within.then(|| point(m, up_to(L_AXIS, |l| value(l) < film)))
         })
         .collect()
 }
 
-fn hertz_pressure(kind: ContactKind, m: f64, l: f64) -> f64 {
-    si_from_moes(&MoesRequest::new(kind, m, l)).map_or(f64::INFINITY, |p| p.hertz().pressure_pa)
+/// p_H of the default realisation at M and L \[Pa\]. That of an ellipse is a share of the circle's.
+fn hertz_pressure(shape: FilmShape) -> impl Fn(f64, f64) -> f64 {
+    let pressure = |point: OperatingPoint| point.hertz().pressure_pa;
+    let (kind, share) = match shape {
+        FilmShape::Line => (ContactKind::Line, 1.0),
+        FilmShape::Ellipse(ratio) => {
+            let circle = OperatingPoint { kind: ContactKind::Point, ..OperatingPoint::TABLE_2_1 };
+            let ellipse = OperatingPoint { radius_y_m: Some(ratio * circle.radius_m), ..circle };
+            (ContactKind::Point, pressure(ellipse) / pressure(circle))
+        }
+    };
+    move |m, l| share * si_from_moes(&MoesRequest::new(kind, m, l)).map_or(f64::INFINITY, pressure)
 }
 
 /// L at which the default realisation reaches p_H = 3.2 GPa, for every M that does within the chart. p_H rises with L.
-fn pressure_limit(kind: ContactKind) -> Vec<PlotPoint> {
+fn pressure_limit(shape: FilmShape) -> Vec<PlotPoint> {
     const LIMIT: f64 = PLAUSIBLE_HERTZ_PRESSURE_PA;
+    let hertz = hertz_pressure(shape);
     (0..SAMPLES)
         .filter_map(|k| {
             let m = spread(M_AXIS, k, SAMPLES);
-            let pressure = |l: f64| hertz_pressure(kind, m, l);
+            let pressure = |l: f64| hertz(m, l);
             let within = pressure(L_AXIS.0) <= LIMIT && LIMIT <= pressure(L_AXIS.1);
             within.then(|| point(m, up_to(L_AXIS, |l| pressure(l) < LIMIT)))
         })
@@ -135,9 +155,10 @@ fn pressure_limit(kind: ContactKind) -> Vec<PlotPoint> {
 }
 
 /// The box of M and L, its upper right corner cut by the pressure limit.
-fn trained(kind: ContactKind, domain: &Domain) -> Vec<PlotPoint> {
+fn trained(shape: FilmShape, domain: &Domain) -> Vec<PlotPoint> {
     let (m, l) = (domain.m, domain.l);
-    let below = |m: f64, l: f64| hertz_pressure(kind, m, l) <= domain.max_hertz_pressure_pa;
+    let hertz = hertz_pressure(shape);
+    let below = |m: f64, l: f64| hertz(m, l) <= domain.max_hertz_pressure_pa;
     let top = |m: f64| if below(m, l.1) { l.1 } else { up_to(l, |l| below(m, l)) };
     let mut outline = vec![point(m.0, l.0)];
     outline.extend((0..SAMPLES).map(|k| spread(m, k, SAMPLES)).map(|m| point(m, top(m))));
@@ -177,13 +198,13 @@ fn trajectory(range: &QuantityBox, kind: ContactKind) -> Vec<PlotPoint> {
 }
 
 /// The regimes as a picture, blended softly where they meet.
-pub fn shading(kind: ContactKind, palette: &Palette) -> ColorImage {
+pub fn shading(shape: FilmShape, palette: &Palette) -> ColorImage {
     let (width, height) = (280, 180);
     let mut pixels = Vec::with_capacity(width * height);
     for j in 0..height {
         for i in 0..width {
             let moes = Moes { m: spread(M_AXIS, i, width), l: spread(L_AXIS, height - 1 - j, height) };
-            pixels.push(palette.regimes[Regime::of(kind, moes) as usize]);
+            pixels.push(palette.regimes[Regime::of(shape, moes) as usize]);
         }
     }
     ColorImage::new([width, height], pixels)
@@ -195,21 +216,23 @@ mod tests {
 
     #[test]
     fn chart_lines_are_finite_and_present() {
-        for kind in [ContactKind::Line, ContactKind::Point] {
-            let lines = ChartLines::new(kind, None);
+        for shape in [FilmShape::Line, FilmShape::CIRCLE, FilmShape::Ellipse(0.1), FilmShape::Ellipse(40.0)] {
+            let lines = ChartLines::new(shape, None);
             let of = |kind: Kind| lines.lines.iter().filter(move |line| line.kind == kind);
-            assert!(of(Kind::Boundary).count() >= 4 && of(Kind::Contour).count() >= 6, "{kind:?}");
-            assert!(of(Kind::PressureLimit).all(|line| line.points.len() > 10), "{kind:?}");
-            assert_eq!(lines.names.len(), 4);
+            // Ellipses that are long along the rolling direction know two regimes only.
+            let (regimes, boundaries) = if shape == FilmShape::Ellipse(0.1) { (2, 1) } else { (4, 4) };
+            assert!(of(Kind::Boundary).count() >= boundaries && of(Kind::Contour).count() >= 6, "{shape:?}");
+            assert!(of(Kind::PressureLimit).all(|line| line.points.len() > 10), "{shape:?}");
+            assert_eq!(lines.names.len(), regimes, "{shape:?}");
             let all = lines.lines.iter().flat_map(|line| &line.points);
             assert!(all.clone().count() > 500 && all.into_iter().all(|p| p.x.is_finite() && p.y.is_finite()));
-            assert_eq!(of(Kind::Table).count() == 0, kind == ContactKind::Line);
+            assert_eq!(of(Kind::Table).count() == 0, shape != FilmShape::CIRCLE);
         }
     }
 
     #[test]
     fn the_box_of_table_3_4_has_the_numbers_the_dissertation_states_and_holds_its_trajectory() {
-        let lines = ChartLines::new(ContactKind::Point, None).lines;
+        let lines = ChartLines::new(FilmShape::CIRCLE, None).lines;
         let of = |kind: Kind| &lines.iter().find(|line| line.kind == kind).unwrap().points;
         let table = of(Kind::Table);
         let ends = |of: fn(&PlotPoint) -> f64| {

@@ -13,7 +13,7 @@ use crate::app::numbers;
 use crate::app::tabs::take_away::Offer;
 use crate::app::theme::{Palette, faded, rich};
 use crate::scene::regimes::{L_AXIS, M_AXIS, Regime};
-use crate::solver::physics::contact::{ContactKind, Moes};
+use crate::solver::physics::contact::{ContactKind, FilmShape, Moes};
 use crate::solver::reduced::ReducedModel;
 use egui::{Align2, RichText, ScrollArea, Ui, WidgetText};
 use egui_plot::{Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points, Text};
@@ -22,9 +22,9 @@ use std::sync::Arc;
 /// How near (in screen points) the pointer must be to take the contact along.
 const GRAB_RADIUS: f32 = 18.0;
 
-/// What lines were made for: a kind of contact, and its reduced model where there is one.
+/// What lines were made for: a shape, and its reduced model where there is one.
 #[derive(Clone)]
-struct Owner(ContactKind, Option<Arc<ReducedModel>>);
+struct Owner(FilmShape, Option<Arc<ReducedModel>>);
 
 impl PartialEq for Owner {
     fn eq(&self, other: &Self) -> bool {
@@ -35,7 +35,7 @@ impl PartialEq for Owner {
 /// What the chart keeps between frames: its shading as a picture and all lines, made once.
 #[derive(Default)]
 pub struct Regimes {
-    texture: Option<(ContactKind, bool, Texture)>,
+    texture: Option<(FilmShape, bool, Texture)>,
     lines: Option<(Owner, ChartLines)>,
     trail: Trail,
 }
@@ -84,17 +84,26 @@ impl Regimes {
         let palette = Palette::of(ui);
         let dark = ui.visuals().dark_mode;
         let kind = context.document.point.kind;
-        if self.texture.as_ref().is_none_or(|t| (t.0, t.1) != (kind, dark)) {
-            let texture = Texture::new(&ctx, "regimes", shading(kind, &palette));
-            self.texture = Some((kind, dark, texture));
+        let present = FilmShape::of(&context.document.point);
+        // While the hand moves the shape, the chart of the former one stays: it takes longer than a frame.
+        let held = ui.input(|input| input.pointer.any_down());
+        let former = self.lines.as_ref().map(|(Owner(shape, _), _)| *shape);
+        let both_ellipses = matches!((former, present), (Some(FilmShape::Ellipse(_)), FilmShape::Ellipse(_)));
+        let shape = former.filter(|_| held && both_ellipses).unwrap_or(present);
+        if self.texture.as_ref().is_none_or(|t| (t.0, t.1) != (shape, dark)) {
+            let texture = Texture::new(&ctx, "regimes", shading(shape, &palette));
+            self.texture = Some((shape, dark, texture));
         }
-        let owner = Owner(kind, context.answers.model(context.document).cloned());
+        // A model of circles was trained by none of the ellipses on this chart.
+        let of_these = !matches!(shape, FilmShape::Ellipse(ratio) if ratio != 1.0);
+        let model = context.answers.model(context.document).filter(|_| of_these);
+        let owner = Owner(shape, model.cloned());
         if self.lines.as_ref().is_none_or(|lines| lines.0 != owner) {
-            let lines = ChartLines::new(kind, owner.1.as_deref());
+            let lines = ChartLines::new(shape, owner.1.as_deref());
             self.lines = Some((owner, lines));
         }
         let top = ui.cursor().top();
-        let regime = Regime::of(kind, context.document.point.moes());
+        let regime = Regime::of(present, context.document.point.moes());
         ui.horizontal_wrapped(|ui| {
             let name = ui.label(RichText::new(regime.title()).size(LARGE).strong());
             spoken(ui, name, &format!("Regime: {}", regime.title()));
@@ -155,7 +164,7 @@ impl Regimes {
                         "M {}   L {}\n{}",
                         numbers::significant(moes.m),
                         numbers::significant(moes.l),
-                        Regime::of(kind, moes).name().replace('\n', " ")
+                        Regime::of(shape, moes).name().replace('\n', " ")
                     ))
                 }),
             ui,

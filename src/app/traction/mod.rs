@@ -216,5 +216,6 @@ pub fn edit_along(document: &Document, choices: &Choices, place: f64) -> Edit {
         }
         Varied::Plateau => Edit::Quantity(Quantity::NewtonianPlateauRatio, value.clamp(0.0, 1.0)),
         Varied::Speed => Edit::Quantity(Quantity::Speed, value),
+        Varied::RadiusRatio => Edit::Quantity(Quantity::RadiusRatio, value),
     }
 }

@@ -22,13 +22,13 @@ pub struct Served {
 }
 
 /// The sweep through the contact of the sliders, and the reduced model that draws it or why none does. `None` where the
-/// fluid does not answer to the quantity.
+/// fluid does not answer to the quantity, or a line does not have it.
 pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Option<(Sweep, Result<Served, String>)> {
     let varied = choices.against.varied();
     let key = document.key();
     let mut point = key.point;
     point.sliding.slide_to_roll_ratio = point.sliding.slide_to_roll_ratio.abs();
-    if varied == Varied::Plateau && key.lubricant.shear == ShearLaw::Newtonian {
+    if varied == Varied::Plateau && key.lubricant.shear == ShearLaw::Newtonian || !choices.against.is_of(point.kind) {
         return None;
     }
     let (ends, served) = match answers.in_use(document) {
@@ -41,7 +41,10 @@ pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Optio
                 }
                 Err(why) => (ends, Err(why)),
             },
-            None => (varied.everywhere(&point), Err("the reduced model was trained for no such speed".to_owned())),
+            None => {
+                let what = if varied == Varied::RadiusRatio { "circles only" } else { "no such speed" };
+                (varied.everywhere(&point), Err(format!("the reduced model was trained for {what}")))
+            }
         },
     };
     // However sliding is shown, the contacts are the same.

@@ -18,6 +18,8 @@ const PERCENT: f64 = 100.0;
 /// Ends of SRR and NPR where no model sets them.
 const SRR: (f64, f64) = (0.0, 2.0);
 const NPR: (f64, f64) = (0.0, 1.0);
+/// Ends of R_y/R: from contacts that are long along the rolling direction to those that are nearly lines.
+const RADIUS_RATIO: (f64, f64) = (0.2, 20.0);
 
 /// The quantity that a sweep varies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,9 +30,11 @@ pub enum Varied {
     Plateau,
     /// u_m \[m/s\] at constant load.
     Speed,
+    /// R_y/R of a point contact at constant load.
+    RadiusRatio,
 }
 
-/// What the curves are drawn against; the last three are one quantity in three units.
+/// What the curves are drawn against; speed, Stribeck's number and M are one quantity in three units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Against {
     /// SRR.
@@ -44,6 +48,8 @@ pub enum Against {
     Stribeck,
     /// M.
     LoadNumber,
+    /// R_y/R.
+    RadiusRatio,
 }
 
 /// The contacts between two values of a quantity.
@@ -84,6 +90,7 @@ impl Varied {
             Self::SlideToRoll => sliding.slide_to_roll_ratio.abs(),
             Self::Plateau => sliding.newtonian_plateau_ratio.unwrap_or(key.lubricant.shear.plateau()),
             Self::Speed => key.point.speed_m_per_s,
+            Self::RadiusRatio => key.point.radius_ratio(),
         }
     }
 
@@ -94,6 +101,7 @@ impl Varied {
             Self::SlideToRoll => point.sliding.slide_to_roll_ratio = value,
             Self::Plateau => point.sliding.newtonian_plateau_ratio = Some(value),
             Self::Speed => point.speed_m_per_s = value,
+            Self::RadiusRatio => point.radius_y_m = Some(value * point.radius_m),
         }
         point
     }
@@ -103,6 +111,7 @@ impl Varied {
         match self {
             Self::SlideToRoll => Some(domain.sliding.map_or(SRR, |sliding| sliding.srr)),
             Self::Plateau => domain.sliding.map(|sliding| sliding.npr),
+            Self::RadiusRatio => None,
             Self::Speed => {
                 let (e, r) = (point.modulus_pa, point.radius_m);
                 // Both Moes numbers hold the speed in 2 η₀ u/(E′ R) only: (3.19), (3.22).
@@ -122,7 +131,7 @@ impl Varied {
     pub(super) fn around(self, key: &Key, (from, to): (f64, f64)) -> (f64, f64) {
         match self {
             Self::SlideToRoll | Self::Plateau => (from.min(self.of(key)), to.max(self.of(key))),
-            Self::Speed => (from, to),
+            Self::Speed | Self::RadiusRatio => (from, to),
         }
     }
 
@@ -131,6 +140,7 @@ impl Varied {
         match self {
             Self::SlideToRoll => SRR,
             Self::Plateau => NPR,
+            Self::RadiusRatio => RADIUS_RATIO,
             Self::Speed => {
                 let decade = point.speed_m_per_s.log10().round();
                 (10f64.powf(decade - 1.0), 10f64.powf(decade + 1.0))
@@ -141,7 +151,13 @@ impl Varied {
 
 impl Against {
     /// All of them.
-    pub const ALL: [Self; 5] = [Self::SlideToRoll, Self::Plateau, Self::Speed, Self::Stribeck, Self::LoadNumber];
+    pub const ALL: [Self; 6] =
+        [Self::SlideToRoll, Self::Plateau, Self::Speed, Self::Stribeck, Self::LoadNumber, Self::RadiusRatio];
+
+    /// Whether a kind of contact has it.
+    pub fn is_of(self, kind: ContactKind) -> bool {
+        self != Self::RadiusRatio || kind == ContactKind::Point
+    }
 
     /// The quantity behind it.
     pub fn varied(self) -> Varied {
@@ -149,6 +165,7 @@ impl Against {
             Self::SlideToRoll => Varied::SlideToRoll,
             Self::Plateau => Varied::Plateau,
             Self::Speed | Self::Stribeck | Self::LoadNumber => Varied::Speed,
+            Self::RadiusRatio => Varied::RadiusRatio,
         }
     }
 
@@ -160,6 +177,7 @@ impl Against {
             Self::Speed => "speed",
             Self::Stribeck => "Stribeck number",
             Self::LoadNumber => "load number",
+            Self::RadiusRatio => "ratio of radii",
         }
     }
 
@@ -171,6 +189,7 @@ impl Against {
             Self::Speed => "Mean entrainment speed u_m at constant load",
             Self::Stribeck => "η₀ u_m/w at constant load, as Stribeck drew friction",
             Self::LoadNumber => "M, (3.19) or (3.22), by the speed at constant load",
+            Self::RadiusRatio => "R_y/R at constant load: from ellipses along the rolling direction to nearly lines",
         }
     }
 
@@ -183,6 +202,7 @@ impl Against {
             (Self::Stribeck, ContactKind::Line) => "Stribeck number η₀{u_m}/{w}",
             (Self::Stribeck, ContactKind::Point) => "Stribeck number η₀{u_m}/{w} in 1/m",
             (Self::LoadNumber, _) => "Load number {M}",
+            (Self::RadiusRatio, _) => "Ratio of radii {R_y}/{R}",
         }
     }
 
@@ -191,7 +211,7 @@ impl Against {
         let point = &key.point;
         match self {
             Self::SlideToRoll => PERCENT * self.varied().of(key),
-            Self::Plateau | Self::Speed => self.varied().of(key),
+            Self::Plateau | Self::Speed | Self::RadiusRatio => self.varied().of(key),
             Self::Stribeck => point.viscosity_pa_s * point.speed_m_per_s / point.load,
             Self::LoadNumber => point.moes().m,
         }
@@ -201,7 +221,7 @@ impl Against {
     pub fn value(self, point: &OperatingPoint, place: f64) -> f64 {
         match self {
             Self::SlideToRoll => place / PERCENT,
-            Self::Plateau | Self::Speed => place,
+            Self::Plateau | Self::Speed | Self::RadiusRatio => place,
             Self::Stribeck => place * point.load / point.viscosity_pa_s,
             Self::LoadNumber => {
                 let exponent = if point.kind == ContactKind::Line { 0.5f64 } else { 0.75 };
@@ -226,6 +246,7 @@ impl Sweep {
             Varied::SlideToRoll => Quantity::SlideToRollRatio,
             Varied::Plateau => Quantity::NewtonianPlateauRatio,
             Varied::Speed => Quantity::Speed,
+            Varied::RadiusRatio => Quantity::RadiusRatio,
         };
         let over = vec![Axis { vary, values }];
         let study = scene::Sweep { over, methods: vec![method], cold: false, compare_on_model_grid: false };
@@ -370,7 +391,7 @@ mod tests {
     fn a_place_on_an_axis_leads_back_to_its_contact() {
         for kind in [ContactKind::Line, ContactKind::Point] {
             let key = key(kind);
-            for against in Against::ALL {
+            for against in Against::ALL.into_iter().filter(|against| against.is_of(kind)) {
                 let moved = Key { point: against.varied().at(&key.point, 0.47), ..key };
                 let value = against.value(&key.point, against.of(&moved));
                 assert!((value / 0.47 - 1.0).abs() < 1e-12, "{against:?}: {value}");

@@ -263,8 +263,8 @@ impl Domain {
             return Trust::Outside("the model was trained with a flooded inlet, not with a supplied film".to_owned());
         }
         let point = &problem.point;
-        if point.radius_ratio() != 1.0 {
-            return Trust::Outside("the model was trained for circular contacts, R_y = R".to_owned());
+        if let Some(why) = no_circle(point) {
+            return Trust::Outside(why);
         }
         if (point.viscosity_pa_s / self.viscosity_pa_s - 1.0).abs() > 1e-6 {
             return Trust::Outside(format!(
@@ -281,10 +281,11 @@ impl Domain {
         [m, l, alpha, p_h].iter().find_map(Bounded::outside).map_or(Trust::Trained, Trust::Outside)
     }
 
-    /// A sentence where M, L or p_H lie outside, with any fluid: pressures and films of such shapes were never trained.
-    /// Of another fluid inside, the bases still know the shapes, and the reduced equations are its own.
+    /// A sentence where M, L or p_H lie outside, or the contact is an ellipse, with any fluid: pressures and films of
+    /// such shapes were never trained. Of another fluid inside, the bases still know the shapes, and the reduced
+    /// equations are its own.
     pub fn strange_shape(&self, problem: &Problem) -> Option<String> {
-        self.shapes(problem).iter().find_map(Bounded::outside)
+        no_circle(&problem.point).or_else(|| self.shapes(problem).iter().find_map(Bounded::outside))
     }
 
     /// What the shapes of pressure and film depend on most.
@@ -296,6 +297,11 @@ impl Domain {
             Bounded { name: "p_H", value: p_h, range: (0.0, highest), scale: 1e-9, unit: " GPa" },
         ]
     }
+}
+
+/// A sentence where a contact is an ellipse.
+fn no_circle(point: &OperatingPoint) -> Option<String> {
+    (point.radius_ratio() != 1.0).then(|| "the model was trained for circular contacts, R_y = R".to_owned())
 }
 
 /// A quantity with the range it was trained in.

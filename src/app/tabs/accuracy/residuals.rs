@@ -77,7 +77,7 @@ fn running_ui(ui: &mut Ui, job: &Running, context: &Context<'_>) {
     let current = !drawn::is_grey(ui.ctx(), "residuals", Owner::Contact(job.key), context);
     ui.horizontal_wrapped(|ui| {
         ui.strong(job.kind.name());
-        ui.label(format!("{}: at work", numbers::moes(job.key.point.moes())));
+        ui.label(format!("{}: at work", numbers::contact(&job.key.point)));
         if let Some(step) = job.steps.last() {
             ui.weak(format!("Newton step {}, residual {}", step.iteration, numbers::digits(step.residual, 3)));
         }

@@ -124,7 +124,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, in_use: &I
             own.split.start(&ctx, &context.answers.store, now.clone(), false);
         }
         if let Some((asked, _)) = &own.split.found {
-            ui.label(numbers::moes(asked.key.point.moes()));
+            ui.label(numbers::contact(&asked.key.point));
         }
     });
     if let (Some(message), true) = (&own.split.work.message, own.split.asked.as_ref() == Some(&now)) {
@@ -142,7 +142,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, in_use: &I
     if asked.in_use != now.in_use {
         stale_note(ui, &asked.in_use);
     } else if !current {
-        warning_ui(ui, &format!("The parts belong to {}, not to the sliders", numbers::moes(asked.key.point.moes())));
+        warning_ui(ui, &format!("The parts belong to {}, not to the sliders", numbers::contact(&asked.key.point)));
     }
     bars(ui, split, current);
     table(ui, split, current);

@@ -38,7 +38,7 @@ impl ModeMap {
         let palette = Palette::of(ui);
         let ground = ui.visuals().extreme_bg_color;
         if self.made_of != Some((field, mode, ground)) {
-            let raster = Raster::new((&grid.x, &grid.y), &scaled(basis, mode), 1.0);
+            let raster = Raster::new((&grid.x, &grid.y), grid.ellipse.kappa, &scaled(basis, mode), 1.0);
             let image = raster.colored(&shades(palette.reference, ground, field.color(&palette)), (-1.0, 1.0));
             Texture::put(&mut self.texture, ui.ctx(), "mode", image);
             self.made_of = Some((field, mode, ground));

@@ -37,17 +37,18 @@ impl Images {
             return;
         }
         self.range = range(solution, view.shown);
+        let kappa = picture.kappa();
         self.domain = match (solution.x.as_slice(), solution.y.as_slice()) {
-            ([from, .., to], [edge, ..]) => (*from, *to, *edge),
+            ([from, .., to], [edge, ..]) => (*from, *to, kappa * edge),
             _ => (0.0, 0.0, 0.0),
         };
         Texture::put(&mut self.texture, ctx, "contact map", draw(picture, view, self.range));
         let lines = view.contours && view.shown != Shown::Interferogram;
-        self.contours = if lines { contours(solution, view.shown, self.range) } else { Vec::new() };
+        self.contours = if lines { contours(solution, kappa, view.shown, self.range) } else { Vec::new() };
         self.made_of = Some((Arc::clone(solution), *view));
     }
 
-    /// The texture and the domain it covers: inlet, outlet, outer edge.
+    /// The texture and the domain it covers in units of a: inlet, outlet, outer edge.
     pub fn texture(&self, ctx: &Context) -> Option<(TextureId, (f64, f64, f64))> {
         self.texture.as_ref().map(|texture| (texture.shown(ctx), self.domain))
     }
@@ -89,19 +90,22 @@ pub fn table(shown: Shown) -> Vec<Color32> {
 
 fn draw(picture: &Picture, view: &MapView, range: (f64, f64)) -> ColorImage {
     let solution = &*picture.solution;
-    let nodes = (solution.x.as_slice(), solution.y.as_slice());
+    let raster = |field, scale| {
+        let nodes = (solution.x.as_slice(), solution.y.as_slice());
+        Raster::new(nodes, picture.kappa(), field, scale)
+    };
     match view.shown {
-        Shown::Film => Raster::new(nodes, &solution.film, 1.0).colored(&table(view.shown), range),
-        Shown::Pressure => Raster::new(nodes, &solution.pressure, 1.0).colored(&table(view.shown), range),
+        Shown::Film => raster(&solution.film, 1.0).colored(&table(view.shown), range),
+        Shown::Pressure => raster(&solution.pressure, 1.0).colored(&table(view.shown), range),
         Shown::Interferogram => {
-            let films = Raster::new(nodes, &solution.film, picture.key.point.film_scale_m());
+            let films = raster(&solution.film, picture.key.point.film_scale_m());
             films.interferogram(&view.rig, view.three_colors)
         }
     }
 }
 
-/// Contours at round levels, each with its mirror image.
-fn contours(solution: &Solution, shown: Shown, (low, high): (f64, f64)) -> Vec<Contour> {
+/// Contours at round levels in units of a, each with its mirror image.
+fn contours(solution: &Solution, kappa: f64, shown: Shown, (low, high): (f64, f64)) -> Vec<Contour> {
     let values = if shown == Shown::Pressure { &solution.pressure } else { &solution.film };
     let field = Field { x: &solution.x, y: &solution.y, values };
     let step = numbers::round_up((high - low) / LINES);
@@ -115,8 +119,8 @@ fn contours(solution: &Solution, shown: Shown, (low, high): (f64, f64)) -> Vec<C
         let longest = lines.iter().map(Vec::len).max().unwrap_or(0);
         let mut unnamed = true;
         for line in lines {
-            for sign in [1.0, -1.0] {
-                let points: Vec<PlotPoint> = line.iter().map(|p| PlotPoint::new(p[0], sign * p[1])).collect();
+            for up in [kappa, -kappa] {
+                let points: Vec<PlotPoint> = line.iter().map(|p| PlotPoint::new(p[0], up * p[1])).collect();
                 let name = (unnamed && line.len() == longest && longest > 12)
                     .then(|| {
                         points.get((place * points.len() as f64) as usize).map(|at| (*at, numbers::digits(level, 2)))

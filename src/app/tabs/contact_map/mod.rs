@@ -14,7 +14,7 @@ use crate::app::answers::picture::{Cuts, Picture};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{described, sentence};
-use crate::app::document::Edit;
+use crate::app::document::{Edit, Shape};
 use crate::app::drawn::{self, Owner};
 use crate::app::figure::Canvas;
 use crate::app::numbers;
@@ -28,14 +28,16 @@ use crate::app::transient::InTimeCommand;
 use crate::app::units::Scales;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::optics::Interferometer;
-use egui::{Align, Color32, CursorIcon, Layout, Response, RichText, Ui, vec2};
-use egui_plot::{HLine, HoverPosition, Line, LineStyle, PlotPoint, PlotPoints, PlotTransform, Text, VLine};
+use egui::{Align, Color32, CursorIcon, Layout, Response, RichText, Ui, Vec2, vec2};
+use egui_plot::{HLine, HoverPosition, Line, LineStyle, PlotBounds, PlotPoint, PlotPoints, PlotTransform, Text, VLine};
 use serde::{Deserialize, Serialize};
 
 /// X range at first.
 const X_RANGE: (f64, f64) = (-2.0, 1.6);
-/// Y range at first.
-const Y_RANGE: (f64, f64) = (-1.45, 1.45);
+/// Y range at first, in units of b, to both sides.
+const Y_RANGE: f64 = 1.45;
+/// Room that the numbers and titles of both axes take.
+const AXES: Vec2 = vec2(66.0, 44.0);
 /// How near (in screen points) the pointer must be to take a cut along.
 const GRAB: f32 = 7.0;
 
@@ -102,6 +104,8 @@ pub struct ContactMap {
     /// What is shown.
     pub view: MapView,
     images: Images,
+    /// κ of the ellipse that the axes were laid about.
+    framed: Option<f64>,
     /// A line contact over time.
     over_time: space_time::SpaceTime,
 }
@@ -124,8 +128,16 @@ impl ContactMap {
         };
         let stale = drawn::is_grey(ui.ctx(), "map", Owner::Contact(picture.key), context);
         self.images.follow(ui.ctx(), picture, &self.view);
-        let drawing =
-            Drawing { picture, images: &self.images, view: self.view, cuts: context.cuts, fit: context.fit, stale };
+        let framed = self.framed.replace(picture.kappa()).unwrap_or(1.0) == picture.kappa();
+        let drawing = Drawing {
+            picture,
+            images: &self.images,
+            view: self.view,
+            cuts: context.cuts,
+            fit: context.fit,
+            framed,
+            stale,
+        };
         let height = ui.available_height();
         let whole = ui.horizontal_top(|ui| {
             let width = (ui.available_width() - color_bar::WIDTH - 8.0).max(200.0);
@@ -137,7 +149,7 @@ impl ContactMap {
             drawn.inner
         });
         let (response, transform) = whole.inner;
-        drag_cuts(ui, context.cuts, &response, &transform, commands);
+        drag_cuts(ui, (context.cuts, picture.kappa()), &response, &transform, commands);
     }
 
     /// What a line contact has instead: a ball in its place with one click, and its film over time.
@@ -145,7 +157,7 @@ impl ContactMap {
         ui.horizontal_wrapped(|ui| {
             let tip = "A point contact with the same quantities, whose film differs over the plane";
             if ui.button("Show a ball instead").on_hover_text(tip).clicked() {
-                commands.edit(Edit::Kind(ContactKind::Point), "contact");
+                commands.edit(Edit::Shape(Shape::Ball), "contact");
             }
             ui.weak("A line contact is the same at every Y: what it has is its film over time.");
         });
@@ -204,8 +216,14 @@ fn grips() -> [Grip; 2] {
     ["cut x", "cut y"].map(|cut| Grip::new("map", cut))
 }
 
-fn drag_cuts(ui: &Ui, mut cuts: Cuts, response: &Response, transform: &PlotTransform, commands: &mut Commands) {
-    let spot = transform.position_from_point(&PlotPoint::new(cuts.x, cuts.y));
+fn drag_cuts(
+    ui: &Ui,
+    (mut cuts, kappa): (Cuts, f64),
+    response: &Response,
+    transform: &PlotTransform,
+    commands: &mut Commands,
+) {
+    let spot = transform.position_from_point(&PlotPoint::new(cuts.x, kappa * cuts.y));
     let near = |p: egui::Pos2| [(p.x - spot.x).abs() < GRAB, (p.y - spot.y).abs() < GRAB];
     let hovered = response.hover_pos().map_or([false; 2], near);
     let held = grips().map(|grip| grip.is_held(ui));
@@ -221,7 +239,7 @@ fn drag_cuts(ui: &Ui, mut cuts: Cuts, response: &Response, transform: &PlotTrans
         if along_x {
             cuts.x = snapped(to.x);
         } else {
-            cuts.y = snapped(to.y);
+            cuts.y = snapped(to.y / kappa);
         }
         commands.push(Command::Cut(cuts));
     }
@@ -234,6 +252,8 @@ struct Drawing<'a> {
     view: MapView,
     cuts: Cuts,
     fit: bool,
+    /// Whether the axes have room for the ellipse already.
+    framed: bool,
     stale: bool,
 }
 
@@ -241,37 +261,54 @@ impl Drawing<'_> {
     fn ui(&self, ui: &mut Ui, height: f32) -> (Response, PlotTransform) {
         let palette = Palette::of(ui);
         let held = grips().iter().any(|grip| grip.is_held(ui));
-        let Self { picture, images, view, cuts, fit, stale } = *self;
+        let Self { picture, images, view, cuts, fit, framed, stale } = *self;
         let length_mm = Scales::of(&picture.key.point).length_mm;
+        // Drawn in units of a both ways, so that an ellipse has its true shape.
+        let kappa = picture.kappa();
+        let (from, to) = frame(kappa, vec2(ui.available_width(), height) - AXES);
+        let y_title = if kappa == 1.0 { "{Y} = {y}/{a}" } else { "{y}/{a}" };
         let shown = axes::show(
-            axes::plot(ui, "contact map", height, "{X} = {x}/{a}", "{Y} = {y}/{a}")
+            axes::plot(ui, "contact map", height, "{X} = {x}/{a}", y_title)
                 .si_x(length_mm, "{x} / mm")
                 .si_y(length_mm, "{y} / mm")
                 .data_aspect(1.0)
-                .default_x_bounds(X_RANGE.0, X_RANGE.1)
-                .default_y_bounds(Y_RANGE.0, Y_RANGE.1)
+                .default_x_bounds(from[0], to[0])
+                .default_y_bounds(from[1], to[1])
                 .allow_drag(!held)
                 .label_formatter(|at| hover(picture, &view, at)),
             ui,
             NAME,
             |plot| {
                 axes::fit(plot, fit);
+                if !(framed || plot.locked) {
+                    let (from, to) = frame(kappa, plot.response().rect.size());
+                    plot.set_plot_bounds(PlotBounds::from_min_max(from, to));
+                }
                 image(plot, images, stale);
                 contour_lines(plot, images);
-                let circle = |t: f64| (t.cos(), t.sin());
-                let hertz = PlotPoints::from_parametric_callback(circle, 0.0..=std::f64::consts::TAU, 181);
+                let ellipse = move |t: f64| (t.cos(), kappa * t.sin());
+                let hertz = PlotPoints::from_parametric_callback(ellipse, 0.0..=std::f64::consts::TAU, 181);
                 let hertz = Line::new("", hertz).id("hertz").color(faded(Color32::WHITE, 0.75)).width(1.0);
                 plot.line(hertz.style(LineStyle::dashed_dense()).allow_hover(false));
                 let color = if view.shown == Shown::Interferogram { Color32::WHITE } else { palette.accent };
                 // For the hand: they are no part of a figure.
                 let plot: &mut egui_plot::PlotUi<'_> = plot;
                 plot.vline(VLine::new("", cuts.x).id("cut x").color(color).width(1.6).allow_hover(false));
-                plot.hline(HLine::new("", cuts.y).id("cut y").color(color).width(1.6).allow_hover(false));
+                plot.hline(HLine::new("", kappa * cuts.y).id("cut y").color(color).width(1.6).allow_hover(false));
             },
         );
         let response = shown.response;
         (described(ui, response, &spoken(picture, &view)), shown.transform)
     }
+}
+
+/// Axes about the whole of an ellipse in some room on the screen; about a circle those of always.
+fn frame(kappa: f64, room: Vec2) -> ([f64; 2], [f64; 2]) {
+    let (middle, half) = (0.5 * (X_RANGE.0 + X_RANGE.1), 0.5 * (X_RANGE.1 - X_RANGE.0));
+    let up = kappa * Y_RANGE;
+    let wide = up * f64::from(room.x.max(1.0) / room.y.max(1.0));
+    let across = if kappa == 1.0 { half } else { half.max(wide) };
+    ([middle - across, -up], [middle + across, up])
 }
 
 /// Lines that show on every colour of the map.
@@ -294,7 +331,8 @@ fn image(plot: &mut Canvas<'_, '_>, images: &Images, stale: bool) {
 
 fn hover(picture: &Picture, view: &MapView, at: &HoverPosition<'_>) -> Option<String> {
     let (HoverPosition::NearDataPoint { position, .. } | HoverPosition::Elsewhere { position }) = at;
-    let (p, h) = picture.solution.at(position.x, position.y)?;
+    let y = position.y / picture.kappa();
+    let (p, h) = picture.solution.at(position.x, y)?;
     let (hertz, scale) = (picture.key.point.hertz(), picture.key.point.film_scale_m());
     let order = match view.shown {
         Shown::Interferogram if !view.three_colors => {
@@ -306,8 +344,8 @@ fn hover(picture: &Picture, view: &MapView, at: &HoverPosition<'_>) -> Option<St
         "X = {}   ({})\nY = {}   ({})\nP = {}   ({})\nH = {}   ({}){order}",
         numbers::digits(position.x, 3),
         numbers::length(position.x * hertz.half_width_m),
-        numbers::digits(position.y, 3),
-        numbers::length(position.y * hertz.half_length_m),
+        numbers::digits(y, 3),
+        numbers::length(y * hertz.half_length_m),
         numbers::significant(p),
         numbers::pressure(p * hertz.pressure_pa),
         numbers::significant(h),
@@ -321,7 +359,7 @@ fn spoken(picture: &Picture, view: &MapView) -> String {
     format!(
         "{} of {}: central film {}, smallest {} at X {}, Y ±{}",
         view.shown.name(),
-        numbers::moes(picture.key.point.moes()),
+        numbers::contact(&picture.key.point),
         numbers::length(s.h_c * scale),
         numbers::length(s.h_min * scale),
         numbers::digits(s.x_h_min, 3),

@@ -8,7 +8,7 @@ pub mod series;
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{either_button, named, sentence, standing_ui};
-use crate::app::document::Edit;
+use crate::app::document::{Edit, Shape};
 use crate::app::drawn::{self, Owner};
 use crate::app::form::{Form, LastField};
 use crate::app::numbers;
@@ -56,7 +56,7 @@ pub fn elsewhere(ui: &mut Ui, context: &Context<'_>, why: &str, commands: &mut C
     if context.document.point.kind == ContactKind::Point
         && ui.button("Show a roller instead").on_hover_text(tip).clicked()
     {
-        commands.edit(Edit::Kind(ContactKind::Line), "contact");
+        commands.edit(Edit::Shape(Shape::Roller), "contact");
     }
 }
 

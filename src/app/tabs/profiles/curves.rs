@@ -18,7 +18,7 @@ use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, PlotPoint, PlotPoin
 const PIN_LABELS: (f64, f64) = (-0.92, 0.1);
 
 fn pin_name(pin: &Pin) -> String {
-    format!("Pin {}: {}", pin.number, numbers::moes(pin.picture.key.point.moes()))
+    format!("Pin {}: {}", pin.number, numbers::contact(&pin.picture.key.point))
 }
 
 /// What the plots of the tab show.
@@ -49,8 +49,8 @@ impl<'a> Scene<'a> {
     pub fn curves(
         &self,
         plot: &mut Canvas<'_, 'a>,
-        palette: &Palette,
-        color: Color32,
+        (palette, color): (&Palette, Color32),
+        direction: Direction,
         of: impl Fn(&'a Picture) -> &'a [PlotPoint],
         unit: fn(Scales) -> f64,
     ) -> Color32 {
@@ -61,7 +61,7 @@ impl<'a> Scene<'a> {
             let other = Scales::of(&picture.key.point);
             match units {
                 Units::Si if other != own => {
-                    let (x, y) = (other.length_mm / own.length_mm, unit(other) / unit(own));
+                    let (x, y) = (direction.length_mm(other) / direction.length_mm(own), unit(other) / unit(own));
                     let points = of(picture).iter().map(|point| PlotPoint::new(x * point.x, y * point.y));
                     PlotPoints::Owned(points.collect())
                 }
@@ -108,7 +108,7 @@ pub fn key_ui(ui: &mut Ui, scene: &Scene<'_>) {
 /// A plot of the stack: shared X axis and cursor.
 pub fn stacked<'a>(
     ui: &Ui,
-    (direction, length_mm): (Direction, f64),
+    (direction, length_mm, kappa): (Direction, f64, f64),
     (id, height): (&str, f32),
     (x_title, y_title): (&str, &str),
 ) -> PlotFrame<'a> {
@@ -117,7 +117,7 @@ pub fn stacked<'a>(
     let marks = f64::from((ui.available_width() / 90.0).clamp(3.0, 9.0));
     axes::plot(ui, &direction.id(id), height, x_title, y_title)
         .marks_x(marks)
-        .paper_x(format!("{{{0}}} = {{{1}}}/{{a}}", direction.name(), direction.name().to_lowercase()))
+        .paper_x(direction.title(kappa))
         .si_x(length_mm, &direction.si_title(x_title))
         .link_axis(group, Vec2b::new(true, false))
         .link_cursor(group, Vec2b::new(true, false))
@@ -138,7 +138,7 @@ pub fn hover(picture: &Picture, direction: Direction) -> impl Fn(&HoverPosition<
             "{} = {}   ({})\nP = {}   ({})\nH = {}   ({})",
             direction.name(),
             numbers::digits(x, 4),
-            numbers::length(x * hertz.half_width_m),
+            numbers::length(x * direction.length_mm(Scales::of(point)) * 1e-3),
             numbers::significant(p),
             numbers::pressure(p * hertz.pressure_pa),
             numbers::significant(h),
@@ -198,7 +198,7 @@ pub fn mark(plot: &mut Canvas<'_, '_>, at: (f64, f64), name: &'static str, color
 
 fn full_name(scene: &Scene<'_>) -> String {
     match scene.full {
-        Some(full) if scene.full_stale => format!("Full, of {}", numbers::moes(full.key.point.moes())),
+        Some(full) if scene.full_stale => format!("Full, of {}", numbers::contact(&full.key.point)),
         _ => "full solution".to_owned(),
     }
 }

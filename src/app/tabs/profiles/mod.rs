@@ -199,9 +199,13 @@ fn pins_ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         for (k, pin) in pins.iter().enumerate() {
             let palette = Palette::of(ui);
             let color = palette.ink(palette.pin(pin.number));
-            let moes = pin.picture.key.point.moes();
+            let point = &pin.picture.key.point;
+            let moes = point.moes();
+            let ratio = point.radius_y_m.map_or_else(String::new, |_| {
+                format!(", {{R_y}}/{{R}} {}", numbers::significant(point.radius_ratio()))
+            });
             let text = format!(
-                "Pin {}: {{M}} {}, {{L}} {}, {{H_c}} {}",
+                "Pin {}: {{M}} {}, {{L}} {}{ratio}, {{H_c}} {}",
                 pin.number,
                 numbers::significant(moes.m),
                 numbers::significant(moes.l),

@@ -25,7 +25,7 @@ pub fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, heigh
     let y_title = if direction == Direction::Along { "Pressure {P} = {p}/{p_H}" } else { "" };
     let cut = scene.cut_line(direction, "pressure");
     let shown = axes::show(
-        stacked(ui, (direction, scales.length_mm), ("pressure", height), ("", y_title))
+        stacked(ui, (direction, direction.length_mm(scales), picture.kappa()), ("pressure", height), ("", y_title))
             .paper_y("Pressure {P} = {p}/{p_H}")
             .si_y(scales.pressure_gpa, "Pressure {p} / GPa")
             .allow_drag(cut.as_ref().is_none_or(|cut| !cut.is_held(ui)))
@@ -46,8 +46,8 @@ pub fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, heigh
             );
             let live = scene.curves(
                 plot,
-                &palette,
-                palette.pressure,
+                (&palette, palette.pressure),
+                direction,
                 move |picture| direction.pressure(picture),
                 |of| of.pressure_gpa,
             );
@@ -80,7 +80,7 @@ pub fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f
     let y_title = if direction == Direction::Along { "Film {H} = {h}{R}/{a}²" } else { "" };
     let cut = scene.cut_line(direction, "film");
     let shown = axes::show(
-        stacked(ui, (direction, scales.length_mm), ("film", height), (&x_title, y_title))
+        stacked(ui, (direction, direction.length_mm(scales), picture.kappa()), ("film", height), (&x_title, y_title))
             .paper_y("Film {H} = {h}{R}/{a}²")
             .si_y(scales.film_um, "Film {h} / µm")
             .allow_drag(cut.as_ref().is_none_or(|cut| !cut.is_held(ui)))
@@ -95,7 +95,7 @@ pub fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f
                 cavitated(plot, picture, &palette);
             }
             let live =
-                scene.curves(plot, &palette, palette.film, move |picture| direction.film(picture), |of| of.film_um);
+                scene.curves(plot, (&palette, palette.film), direction, move |of| direction.film(of), |of| of.film_um);
             if elsewhere == 0.0 {
                 mark(plot, (0.0, scalars.h_c), "{H_c}", live, Align2::LEFT_BOTTOM);
             }
@@ -125,7 +125,7 @@ pub fn difference_plot(
 ) {
     let palette = Palette::of(ui);
     let (from, to) = Direction::Along.range();
-    let plot = stacked(ui, (Direction::Along, length_mm), ("difference", height), ("", "Reduced − full"));
+    let plot = stacked(ui, (Direction::Along, length_mm, 1.0), ("difference", height), ("", "Reduced − full"));
     axes::show(
         plot.default_x_bounds(from, to).set_margin_fraction(egui::vec2(0.0, 0.08)),
         ui,

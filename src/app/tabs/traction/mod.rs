@@ -17,6 +17,7 @@ use crate::app::traction::{
     Against, Choices, Curve, Markers, Sample, Served, SlideView, Sweep, TractionView, Varied, export, sweep,
 };
 use crate::solver::full::{PLAUSIBLE_TRACTION, Solution, TractionDoubt};
+use crate::solver::physics::contact::ContactKind;
 use egui::{Align, Button, Checkbox, ComboBox, Layout, ScrollArea, TextStyle, Ui, vec2};
 use std::sync::Arc;
 
@@ -47,9 +48,12 @@ impl Traction {
         }
         let Some((sweep, served)) = sweep(context.document, context.answers, choices) else {
             toolbar(ui, choices, context, commands, false);
-            ui.centered_and_justified(|ui| {
-                ui.weak("The lubricant has no shear constants: it is Newtonian, and there is no plateau ratio to vary")
-            });
+            let why = if choices.against == Against::RadiusRatio {
+                "A roller has no radius across the rolling direction; choose Ball or Ellipse"
+            } else {
+                "The lubricant has no shear constants: it is Newtonian, and there is no plateau ratio to vary"
+            };
+            ui.centered_and_justified(|ui| ui.weak(why));
             return;
         };
         if let Ok(served) = &served
@@ -147,7 +151,7 @@ const WHY_FLUID: &str = "Pressure in the contact lets the viscosity rise by many
 
 fn toolbar(ui: &mut Ui, choices: &mut Choices, context: &Context<'_>, commands: &mut Commands, sweeps: bool) {
     ui.horizontal_wrapped(|ui| {
-        against_ui(ui, choices, commands);
+        against_ui(ui, choices, context.document.point.kind, commands);
         let (along, up) = &mut choices.logarithmic;
         let before = choices.slide;
         if choices.against == Against::SlideToRoll {
@@ -176,19 +180,19 @@ fn toolbar(ui: &mut Ui, choices: &mut Choices, context: &Context<'_>, commands: 
     });
 }
 
-fn against_ui(ui: &mut Ui, choices: &mut Choices, commands: &mut Commands) {
+fn against_ui(ui: &mut Ui, choices: &mut Choices, kind: ContactKind, commands: &mut Commands) {
     let label = ui.label("Against").on_hover_text("What traction and film are drawn against");
     let before = choices.against;
     let chosen = &mut choices.against;
     let response =
         ComboBox::from_id_salt("traction against").selected_text(before.name()).width(150.0).show_ui(ui, |ui| {
-            for option in Against::ALL {
+            for option in Against::ALL.into_iter().filter(|option| option.is_of(kind)) {
                 ui.selectable_value(chosen, option, option.name()).on_hover_text(option.tip());
             }
         });
     response.response.labelled_by(label.id).on_hover_text(before.tip());
     if *chosen != before {
-        // Speeds span decades, ratios do not.
+        // Speeds and radii span decades, ratios of speeds do not.
         choices.logarithmic.0 = !matches!(choices.against, Against::SlideToRoll | Against::Plateau);
         commands.push(Command::FitPlots);
     }
@@ -269,7 +273,7 @@ fn said(ui: &mut Ui, context: &Context<'_>, (sweep, choices): (&Sweep, &Choices)
     if let Some(markers) =
         view.markers.as_ref().filter(|markers| markers.sweep != *sweep && !markers.samples.is_empty())
     {
-        let of = numbers::moes(markers.sweep.base.point.moes());
+        let of = numbers::contact(&markers.sweep.base.point);
         ui.weak(sentence(&format!("the grey rings are full solutions of another sweep, beginning at {of}")));
     }
 }

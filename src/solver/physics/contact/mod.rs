@@ -11,7 +11,7 @@ mod quantity;
 mod rolling;
 
 pub use ellipse::Ellipse;
-pub use film_asymptotes::{FilmAsymptotes, ellipse_film, moes_film};
+pub use film_asymptotes::{FilmAsymptotes, FilmShape, ellipse_film, moes_film};
 pub use film_formulas::{FilmFormula, FilmPrediction};
 pub use moes::{DEFAULT_VISCOSITY_PA_S, MoesRequest, si_from_moes};
 pub use quantity::Quantity;
