@@ -5,7 +5,7 @@ use super::document::Key;
 use crate::engine::job::Job;
 use crate::engine::{Store, Workbench};
 use crate::scene::{At, Grid, Method, ModelSource, Scene, Study, StudyRow, View};
-use crate::solver::physics::contact::{Moes, OperatingPoint, Sliding};
+use crate::solver::physics::contact::{OperatingPoint, Sliding};
 use crate::solver::reduced::{ReducedModel, ReducedOptions};
 use crate::solver::training::{Range, random_points};
 use std::sync::Arc;
@@ -42,8 +42,8 @@ impl InUse {
     }
 
     /// The online settings where a contact is solved.
-    pub fn options_at(&self, moes: Moes) -> ReducedOptions {
-        let window = self.model.windows.get(self.model.window_for(moes));
+    pub fn options_at(&self, point: &OperatingPoint) -> ReducedOptions {
+        let window = self.model.windows.get(self.model.window_for(point));
         window.map_or_else(ReducedOptions::default, |window| self.method().options(window))
     }
 

@@ -7,7 +7,7 @@ use crate::engine::{EngineError, model_arrays, model_file};
 use crate::scene::atomic_file;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::physics::lubricant::Cavitation;
-use crate::solver::reduced::{ReducedModel, Scheme};
+use crate::solver::reduced::{CIRCLES, ReducedModel, Scheme};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -42,6 +42,9 @@ pub fn describe(model: &ReducedModel) -> String {
         let modulus = sliding.modulus_pa / 1e9;
         let _ = writeln!(text, "  SRR {srr}…{most}, NPR {npr}…{full}, E′ {modulus:.3} GPa, {:?}", d.lubricant.shear);
     }
+    if d.radius_ratio != CIRCLES {
+        let _ = writeln!(text, "  R_y/R {}…{}", d.radius_ratio.0, d.radius_ratio.1);
+    }
     for window in &model.windows {
         let grid = match window.grid.spec() {
             GridSpec::Uniform { dx, domain } => {
@@ -56,13 +59,17 @@ pub fn describe(model: &ReducedModel) -> String {
                 format!("{nx}×{ny} nodes, X {from}…{to}, Y {edge}…0")
             }
         };
+        let shapes = window
+            .shapes
+            .as_ref()
+            .map_or_else(String::new, |shapes| format!(", R_y/R {}…{}", shapes.radius_ratio.0, shapes.radius_ratio.1));
         let scheme = match window.scheme {
             Scheme::Galerkin => String::new(),
             other => format!(", {}", other.name()),
         };
         let _ = writeln!(
             text,
-            "  window M {}…{}: {grid}; {} snapshots, {} ({:?}{scheme}), {}",
+            "  window M {}…{}{shapes}: {grid}; {} snapshots, {} ({:?}{scheme}), {}",
             window.m.0,
             window.m.1,
             window.snapshots.len(),

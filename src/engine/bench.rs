@@ -276,7 +276,7 @@ fn reduced_row(
 ) -> Result<Timing, EngineError> {
     if let Some(first) = points.first() {
         // Operators belong to the model, not to its solves.
-        online.prepare(first.moes());
+        online.prepare(first);
     }
     timed(name, budget, 0, points, |point| {
         Ok(match online.solve(point, lubricant) {
@@ -294,7 +294,7 @@ fn curve_row(
     budget: Duration,
 ) -> Result<Timing, EngineError> {
     let values: Vec<f64> = (0..CURVE_POINTS).map(|k| k as f64 / (CURVE_POINTS - 1) as f64).collect();
-    points.iter().for_each(|point| online.prepare(point.moes()));
+    points.iter().for_each(|point| online.prepare(point));
     timed(name, budget, 0, points, |point| {
         let curve = traction_curve(online, point, lubricant, Quantity::SlideToRollRatio, &values);
         let converged = curve.filter(|place| place.solution.as_ref().is_ok_and(|solved| solved.traction.is_some()));

@@ -9,7 +9,7 @@ use crate::solver::reduced::ReducedModel;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-const VERSION: u32 = 8;
+const VERSION: u32 = 9;
 /// Before it no model said how its films rupture: by the penalty.
 const OLDEST: u32 = 6;
 /// Real models have a few MB.
@@ -185,7 +185,7 @@ mod tests {
     use crate::engine::checked_file::HEADER;
     use crate::solver::physics::lubricant::Cavitation;
     use crate::solver::reduced::{Sampling, Scheme};
-    use crate::solver::training::small::line;
+    use crate::solver::training::small::{ellipses, line};
     use crate::solver::training::{TrainingSpec, train};
 
     #[test]
@@ -298,6 +298,28 @@ mod tests {
         assert!(matches!(refused, Some(ModelFileError::Damaged { what: "scheme" })), "{refused:?}");
         // What an older program wrote says nothing of it.
         assert_eq!(embedded().unwrap().domain.lubricant.cavitation, Cavitation::Penalty);
+    }
+
+    #[test]
+    fn shapes_survive_a_round_trip_and_must_fit_the_windows() {
+        let model = train(&ellipses(Sampling::Cubature, 24), &()).unwrap();
+        let read = from_bytes(&to_bytes(&model).unwrap()).unwrap();
+        assert_eq!(read.domain, model.domain);
+        for (own, other) in read.windows.iter().zip(&model.windows) {
+            let [one, two] = [own, other].map(|window| window.shapes.as_ref().map(|shapes| shapes.radius_ratio));
+            assert!(one == two && one.is_some());
+            assert!(own.snapshots.iter().map(|s| s.point).eq(other.snapshots.iter().map(|s| s.point)));
+        }
+        let lies: [&dyn Fn(&mut ReducedModel); 3] =
+            [&|m| m.domain.radius_ratio = (0.5, f64::NAN), &|m| m.domain.radius_ratio = (4.0, 0.5), &|m| {
+                m.windows[0].snapshots[3].point.radius_y_m = Some(-1.0)
+            }];
+        for lie in lies {
+            let mut wrong = model.clone();
+            lie(&mut wrong);
+            let refused = from_bytes(&to_bytes(&wrong).unwrap()).err();
+            assert!(matches!(refused, Some(ModelFileError::Damaged { what: "shapes" })), "{refused:?}");
+        }
     }
 
     #[test]

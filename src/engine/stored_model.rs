@@ -6,10 +6,11 @@
 use super::model_file::ModelFileError;
 use super::stored_matrix::{StoredBasis, StoredMatrix};
 use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec};
-use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::contact::{ContactKind, Ellipse};
 use crate::solver::physics::lubricant::{Cavitation, ShearLaw, Sliding};
 use crate::solver::reduced::{
-    Calibration, Domain, ReducedModel, SampledRows, Sampling, Scheme, SlidingDomain, Snapshot, TractionRule, Window,
+    Beside, Calibration, Domain, ReducedModel, SampledRows, Sampling, Scheme, Shapes, SlidingDomain, Snapshot,
+    TractionRule, Window,
 };
 use faer::Mat;
 use rayon::prelude::*;
@@ -43,6 +44,15 @@ struct StoredFurther {
     schemes: Vec<(Scheme, Option<StoredMatrix>)>,
 }
 
+/// What follows that in a model of ellipses; others end without it.
+#[derive(Serialize, Deserialize)]
+struct StoredShapes {
+    /// R_y/R of the model.
+    radius_ratio: (f64, f64),
+    /// R_y/R of every window, and R_y \[m\] of each of its snapshots.
+    windows: Vec<((f64, f64), Vec<f64>)>,
+}
+
 #[derive(Serialize, Deserialize)]
 struct StoredWindow {
     m: (f64, f64),
@@ -66,7 +76,7 @@ fn sound_interval((low, high): (f64, f64), most: f64) -> bool {
 /// Whether a domain can be that of a model: one that knows sliding is of a lubricant that thins under shear, and only
 /// such a one.
 fn sound_domain(domain: &Domain) -> bool {
-    let Domain { m, l, alpha_per_pa, max_hertz_pressure_pa, viscosity_pa_s, lubricant, sliding } = domain;
+    let Domain { m, l, alpha_per_pa, max_hertz_pressure_pa, viscosity_pa_s, lubricant, sliding, .. } = domain;
     let positive = |value: f64| value > 0.0 && value.is_finite();
     let thins = lubricant.shear != ShearLaw::Newtonian;
     let sliding_is_sound = |sliding: &SlidingDomain| {
@@ -171,7 +181,11 @@ impl StoredWindow {
         if !self.traction.as_ref().is_none_or(|rule| sliding && rule.sound(&grid)) {
             return damaged("traction");
         }
-        if !self.calibration.as_ref().is_none_or(|known| known.sound() && known.sliding() == sliding) {
+        if !self
+            .calibration
+            .as_ref()
+            .is_none_or(|known| known.sound() && (known.beside() == Some(Beside::Sliding)) == sliding)
+        {
             return damaged("calibration");
         }
         let rows = SampledRows { rows: self.sampled_rows, reconstruction, scheme, residual };
@@ -210,28 +224,70 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
     };
     let payload = postcard::to_allocvec(&stored).ok()?;
     let (windows, cavitation) = (&model.windows, model.domain.lubricant.cavitation);
-    if cavitation == Cavitation::Penalty && windows.iter().all(|window| window.scheme == Scheme::Galerkin) {
+    let usual = cavitation == Cavitation::Penalty && windows.iter().all(|window| window.scheme == Scheme::Galerkin);
+    let shapes = stored_shapes(model);
+    if usual && shapes.is_none() {
         return Some(payload);
     }
     let of_window = |window: &Window| window.snapshots.iter().map(|snapshot| snapshot.fronts.clone()).collect();
     let fronts = if cavitation == Cavitation::Penalty { Vec::new() } else { windows.iter().map(of_window).collect() };
     let scheme = |window: &Window| (window.scheme, window.residual_reconstruction.as_ref().map(StoredMatrix::exact));
     let schemes = windows.iter().map(scheme).collect();
-    postcard::to_extend(&StoredFurther { cavitation, fronts, schemes }, payload).ok()
+    let payload = postcard::to_extend(&StoredFurther { cavitation, fronts, schemes }, payload).ok()?;
+    match shapes {
+        Some(shapes) => postcard::to_extend(&shapes, payload).ok(),
+        None => Some(payload),
+    }
+}
+
+/// What only a model of ellipses has.
+fn stored_shapes(model: &ReducedModel) -> Option<StoredShapes> {
+    let of_window = |window: &Window| {
+        let radii = window.snapshots.iter().map(|s| s.point.radius_y_m.unwrap_or(s.point.radius_m));
+        Some((window.shapes.as_ref()?.radius_ratio, radii.collect()))
+    };
+    let windows: Option<Vec<_>> = model.windows.iter().map(of_window).collect();
+    Some(StoredShapes { radius_ratio: model.domain.radius_ratio, windows: windows.filter(|all| !all.is_empty())? })
+}
+
+/// Gives the windows of a model their shapes; `None` where these do not fit them.
+fn shape(model: &mut ReducedModel, StoredShapes { radius_ratio, windows }: StoredShapes) -> Option<()> {
+    let sound =
+        |(low, high): (f64, f64)| Ellipse::of_ratio(low).is_ok() && Ellipse::of_ratio(high).is_ok() && low < high;
+    if windows.len() != model.windows.len() || !sound(radius_ratio) || model.domain.sliding.is_some() {
+        return None;
+    }
+    model.domain.radius_ratio = radius_ratio;
+    for (window, (ratios, radii)) in model.windows.iter_mut().zip(windows) {
+        let ContactGrid::Point(grid) = &window.grid else { return None };
+        if !sound(ratios) || radii.len() != window.snapshots.len() || window.cavitation != Cavitation::Penalty {
+            return None;
+        }
+        window.shapes = Some(Shapes::new(grid, &window.pressure.modes, ratios).ok()?);
+        for (snapshot, radius_y) in window.snapshots.iter_mut().zip(radii) {
+            snapshot.point.radius_y_m = Some(radius_y);
+            snapshot.point.check().ok()?;
+        }
+    }
+    Some(())
 }
 
 /// What follows the model in a payload; `None` where it cannot be understood.
-fn further(rest: &[u8], windows: usize) -> Option<StoredFurther> {
-    let mut further = StoredFurther::default();
+fn further(rest: &[u8], windows: usize) -> Option<(StoredFurther, Option<StoredShapes>)> {
+    let (mut further, mut shapes) = (StoredFurther::default(), None);
     if !rest.is_empty() {
         let (known, rest) = postcard::take_from_bytes::<StoredFurther>(rest).ok()?;
-        if !rest.is_empty() || known.schemes.len() != windows {
+        if known.schemes.len() != windows {
             return None;
         }
         further = known;
+        if !rest.is_empty() {
+            let (known, rest) = postcard::take_from_bytes::<StoredShapes>(rest).ok()?;
+            shapes = rest.is_empty().then_some(Some(known))?;
+        }
     }
     further.schemes.resize_with(windows, Default::default);
-    Some(further)
+    Some((further, shapes))
 }
 
 /// Gives the windows of a model their law of rupture; `None` where it does not fit them.
@@ -271,8 +327,10 @@ pub(super) fn decode(payload: &[u8]) -> Result<ReducedModel, ModelFileError> {
     if !sound_domain(&domain) {
         return Err(ModelFileError::Damaged { what: "its domain" });
     }
-    let further = further(rest, windows.len()).ok_or(ModelFileError::Damaged { what: "rupture and schemes" })?;
-    let ascending = windows.is_sorted_by(|a, b| a.m.0 <= b.m.0);
+    let damaged = |what| ModelFileError::Damaged { what };
+    let (further, shapes) = further(rest, windows.len()).ok_or(damaged("rupture and schemes"))?;
+    // Those of ellipses ascend for each shape.
+    let ascending = shapes.is_some() || windows.is_sorted_by(|a, b| a.m.0 <= b.m.0);
     if !(ascending && windows.iter().all(|window| sound_interval(window.m, f64::MAX))) {
         return Err(ModelFileError::Damaged { what: "ranges of its windows" });
     }
@@ -291,7 +349,10 @@ pub(super) fn decode(payload: &[u8]) -> Result<ReducedModel, ModelFileError> {
         return Err(ModelFileError::Damaged { what: "windows of different contacts" });
     }
     let mut model = ReducedModel { title, domain, windows, scene, log };
-    rupture(&mut model, further.cavitation, further.fronts).ok_or(ModelFileError::Damaged { what: "rupture" })?;
+    rupture(&mut model, further.cavitation, further.fronts).ok_or(damaged("rupture"))?;
+    if let Some(shapes) = shapes {
+        shape(&mut model, shapes).ok_or(damaged("shapes"))?;
+    }
     prove(&model)?;
     Ok(model)
 }

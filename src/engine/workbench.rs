@@ -6,7 +6,7 @@ use crate::scene::{Bench, Grid, Method, ModelSource, Scene};
 use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::full::point::resolution_warning;
 use crate::solver::full::{Problem, Solution, SolveError, Start};
-use crate::solver::physics::contact::{ContactKind, Moes, PLAUSIBLE_HERTZ_PRESSURE_PA};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
 use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw};
 use crate::solver::reduced::{Online, ReducedError, ReducedModel, Trust, Window};
 use crate::solver::training::{TrainingObserver, TrainingSpec};
@@ -121,17 +121,17 @@ impl Workbench {
         observer: &dyn TrainingObserver,
     ) -> Result<Answer, EngineError> {
         let model = self.model_for(source, problem.point.kind, &request.lubricant, observer)?;
-        let options = method.options(window_of(&model, problem.moes)?);
+        let options = method.options(window_of(&model, &problem.point)?);
         let same = |online: &Online| Arc::ptr_eq(&online.model, &model) && *online.options() == options;
         let known = self.online.iter().position(same).map(|place| self.online.swap_remove(place));
         let online = known.unwrap_or_else(|| self.store.online(&model, options));
         let online = self.online.push_mut(online);
         // Operators belong to the model: wall_s is the solve alone.
-        online.prepare(problem.moes);
+        online.prepare(&problem.point);
         let clock = Instant::now();
         let solved = online.solve(&problem.point, request.lubricant);
         let wall_s = clock.elapsed().as_secs_f64();
-        let window = window_of(&model, problem.moes)?;
+        let window = window_of(&model, &problem.point)?;
         let (nodes, nodes_across) = window.grid.nodes();
         let trust = model.trust(problem);
         let mut warnings = Vec::new();
@@ -239,7 +239,7 @@ impl Bench for Workbench {
     }
 
     fn grid(&mut self, request: &Request, observer: &dyn TrainingObserver) -> Result<ContactGrid, EngineError> {
-        let (kind, moes) = (request.point.kind, request.point.moes());
+        let kind = request.point.kind;
         let grid = request.grid.for_contact(&request.point).map_err(SolveError::from)?;
         let spec = match kind {
             _ if grid == Grid::Graded => Some(GridSpec::explorer_for(&request.point).map_err(SolveError::from)?),
@@ -253,7 +253,7 @@ impl Bench for Workbench {
             }
             None => {
                 let model = self.model_for(&request.grid_model, kind, &request.lubricant, observer)?;
-                let grid = &window_of(&model, moes)?.grid;
+                let grid = &window_of(&model, &request.point)?.grid;
                 if grid.kind() == kind { Ok(grid.clone()) } else { Err(other_contact(&model, kind)) }
             }
         }
@@ -300,9 +300,9 @@ impl Workbench {
 }
 
 /// The window of a model that serves a contact.
-fn window_of(model: &ReducedModel, moes: Moes) -> Result<&Window, EngineError> {
+fn window_of<'a>(model: &'a ReducedModel, point: &OperatingPoint) -> Result<&'a Window, EngineError> {
     let none = || EngineError::Study(format!("the reduced model `{}` holds no window", model.title));
-    model.windows.get(model.window_for(moes)).ok_or_else(none)
+    model.windows.get(model.window_for(point)).ok_or_else(none)
 }
 
 /// A model asked about the other kind of contact.

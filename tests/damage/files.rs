@@ -84,7 +84,7 @@ fn training() -> TrainingState {
     let spec = TrainingSpec::new(range, (10.0, 20.0), grid, plan);
     let point = OperatingPoint::TABLE_2_1;
     let window = WindowState {
-        window: WindowSpec { m: (10.0, 20.0), grid },
+        window: WindowSpec::new((10.0, 20.0), grid),
         seed: 1,
         inherited: 0,
         solved: vec![Solved { place: 0, point, pressure: vec![0.5; 633], h_0: -0.1, h_c: 0.04 }],

@@ -104,7 +104,7 @@ impl Answers {
         }
         let Some(online) = &mut self.online else { return false };
         // Operators belong to the model and its truncation: the time shown is the solve's alone.
-        online.prepare(key.point.moes());
+        online.prepare(&key.point);
         let begin = Instant::now();
         let solved = online.solve(&key.point, key.lubricant);
         let wall_s = begin.elapsed().as_secs_f64();

@@ -112,12 +112,11 @@ pub struct Answers {
 impl Ask {
     /// What a document asks for of the models there are.
     pub fn of(document: &Document, models: &Models) -> Self {
-        let moes = document.point.moes();
         let in_use = in_use(document, models);
         Self {
             key: document.key(),
             plane: document.chosen_plane(),
-            options: in_use.map_or_else(ReducedOptions::default, |model| model.options_at(moes)),
+            options: in_use.map_or_else(ReducedOptions::default, |model| model.options_at(&document.point)),
         }
     }
 }

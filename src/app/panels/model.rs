@@ -23,7 +23,6 @@ fn deformation_operator(projected: bool) -> (&'static str, &'static str) {
 }
 
 fn model_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, commands: &mut Commands) {
-    let moes = document.point.moes();
     let Some(model) = answers.model(document) else {
         ui.weak(match (document.point.kind, document.lubricant.shear) {
             (ContactKind::Line, ShearLaw::Newtonian) => {
@@ -36,7 +35,7 @@ fn model_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, comman
         });
         return;
     };
-    let Some(window) = model.windows.get(model.window_for(moes)) else { return };
+    let Some(window) = model.windows.get(model.window_for(&document.point)) else { return };
     let options = answers.options(document);
     let (all, all_deformation) = (window.pressure.modes.ncols(), window.deformation.modes.ncols());
     ui.label(&model.title).on_hover_text(model.log.join("\n"));

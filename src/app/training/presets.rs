@@ -84,7 +84,7 @@ mod tests {
     #[test]
     fn windows_follow_the_range() {
         let grid = GridSpec::EXPLORER;
-        let windows = [(2.0, 9.0), (9.0, 40.0), (40.0, 500.0)].map(|m| WindowSpec { m, grid });
+        let windows = [(2.0, 9.0), (9.0, 40.0), (40.0, 500.0)].map(|m| WindowSpec::new(m, grid));
         let mut spec = TrainingSpec { windows: Windows::Given(windows.into()), ..slider_range().unwrap().clone() };
         let mut fitted = |range| {
             let Range::Moes { m, .. } = &mut spec.range else { panic!() };

@@ -118,7 +118,7 @@ impl Question for ErrorMeasureStudy {
         let measures: Vec<ErrorMeasures> =
             model.windows.iter().map(|window| ErrorMeasures::new(window, &options, self.norm)).collect();
         let reduced = reduced_solutions(&model, options, &points, experiment.lubricant, |_| true, observer)?;
-        let grid = |point: &OperatingPoint| model.window_at(point.moes()).grid.clone();
+        let grid = |point: &OperatingPoint| model.window_at(point).grid.clone();
         let full = full_solutions(grid, &points, experiment.lubricant, observer)?;
         for ((point, reduced), full) in points.iter().zip(&reduced).zip(&full) {
             let fields = reduced.as_ref().and_then(|reduced| Some((&reduced.solved, reduced.fields.as_ref()?)));

@@ -112,7 +112,7 @@ impl Question for ErrorSplitStudy {
         let mut splitters: Vec<Option<ErrorSplitter>> = model.windows.iter().map(|_| None).collect();
         for (i, (c, point)) in points.iter().enumerate() {
             setting.step("error splits", i, points.len())?;
-            let k = model.window_for(point.moes());
+            let k = model.window_for(point);
             let (Some(place), Some(window)) = (splitters.get_mut(k), model.windows.get(k)) else {
                 return Err(RunError::Study("the reduced model holds no bases".to_owned()));
             };

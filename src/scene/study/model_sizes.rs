@@ -110,7 +110,7 @@ impl Truth<'_> {
         let mut online = Online::new(Arc::clone(model), ReducedOptions { pressure_modes: modes, ..Default::default() });
         let (mut failures, mut errors, mut seconds) = (0, Vec::new(), Vec::new());
         for (point, full) in self.points.iter().zip(&self.full) {
-            online.prepare(point.moes());
+            online.prepare(point);
             let mut quickest = f64::INFINITY;
             let mut film = None;
             for _ in 0..REPEATED {
@@ -179,12 +179,12 @@ impl Question for ModelSizes {
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
         let Setting { experiment, observer, .. } = *setting;
         let model = setting.bench.model_for(&self.model, experiment.contact, &experiment.lubricant, observer)?;
-        let k = model.window_for(experiment.request()?.point.moes());
+        let k = model.window_for(&experiment.request()?.point);
         let window = &model.windows[k];
         let spec = training(&model, window)?;
         // Of the whole range, as many as it takes to fill the window.
         let all = random_points(&spec.range, experiment.contact, 100 * self.contacts, self.seed);
-        let inside = all.into_iter().filter(|point| model.window_for(point.moes()) == k);
+        let inside = all.into_iter().filter(|point| model.window_for(point) == k);
         let points: Vec<OperatingPoint> = inside.take(self.contacts).collect();
         let lubricant = experiment.lubricant;
         let full = full_solutions(|_| window.grid.clone(), &points, lubricant, observer)?;

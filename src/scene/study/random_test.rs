@@ -207,7 +207,7 @@ impl Question for RandomTest {
         }
         let Some(source) = self.method.model() else { return Ok(()) };
         let model = setting.bench.model_for(source, experiment.contact, &experiment.lubricant, observer)?;
-        let grid = |point: &OperatingPoint| model.window_at(point.moes()).grid.clone();
+        let grid = |point: &OperatingPoint| model.window_at(point).grid.clone();
         let first = self.compare.min(points.len());
         let mut worst: Vec<usize> = (0..points.len()).collect();
         worst.sort_by(|a, b| doubts[*b].total_cmp(&doubts[*a]));

@@ -103,7 +103,7 @@ fn one_by_one(
 ) -> Vec<f64> {
     let mut online = Online::new(Arc::clone(model), options);
     let timed = |point: &OperatingPoint| {
-        online.prepare(point.moes());
+        online.prepare(point);
         online.forget();
         let clock = Instant::now();
         let _ = online.solve(point, lubricant);

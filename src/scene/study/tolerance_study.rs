@@ -142,7 +142,7 @@ impl Question for ToleranceStudy {
             let measures = ErrorMeasures::new(window, &options, Norm::Euclidean);
             let mut online = Online::new(Arc::clone(&model), options);
             if let Some(first) = along.first() {
-                online.prepare(first.moes());
+                online.prepare(first);
             }
             for (point, full) in along.iter().zip(&truth) {
                 online.forget();

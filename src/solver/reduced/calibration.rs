@@ -17,9 +17,9 @@ mod quantity;
 #[cfg(test)]
 mod tests;
 
-pub use features::{Evidence, Features, Measured};
+pub use features::{Beside, Evidence, Features, Measured};
 
-use features::{FEATURES, SIGNS, SLIDING_FEATURES};
+use features::SIGNS;
 use neighbours::Neighbours;
 use quantity::{Quantity, quadratic};
 use serde::{Deserialize, Serialize};
@@ -68,7 +68,8 @@ pub struct Calibration {
 impl Calibration {
     /// Learns from evidence of one kind; `None` when there is too little, or it is degenerate.
     pub fn fit(evidence: &[Evidence]) -> Option<Self> {
-        let sliding = evidence.first()?.features.count == SLIDING_FEATURES;
+        let count = evidence.first()?.features.count;
+        let sliding = count == Beside::Sliding.features();
         let sound = |e: &&Evidence| e.features.finite() && e.errors.values(false).all(f64::is_finite);
         let usable: Vec<&Evidence> = evidence.iter().filter(sound).collect();
         if usable.len() < LEAST_EVIDENCE {
@@ -78,7 +79,7 @@ impl Calibration {
             let values = usable.iter().map(|e| e.features.values[k]);
             (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max))
         };
-        let ranges = (0..if sliding { SLIDING_FEATURES } else { FEATURES }).map(range).collect();
+        let ranges = (0..count).map(range).collect();
         let mut out = Self { ranges, places: Vec::new(), quantities: Vec::new() };
         let scaled: Vec<Vec<f64>> = usable.iter().map(|e| out.scaled(&e.features).0).collect();
         out.places = scaled.iter().flat_map(|scaled| place(scaled)).collect();
@@ -115,18 +116,19 @@ impl Calibration {
         self.places.len() / (self.ranges.len() - SIGNS.len()).max(1)
     }
 
-    /// Whether it belongs to a model that knows sliding.
-    pub fn sliding(&self) -> bool {
-        self.ranges.len() == SLIDING_FEATURES
+    /// What the contacts of its model have beside M, L and α; none of no such number of features.
+    pub fn beside(&self) -> Option<Beside> {
+        let all = [Beside::Nothing, Beside::Shape, Beside::Sliding];
+        all.into_iter().find(|beside| beside.features() == self.ranges.len())
     }
 
     /// Whether every number in it makes sense, as when it was read from a file.
     pub fn sound(&self) -> bool {
         let features = self.ranges.len();
-        let quantities = match features {
-            FEATURES => 3,
-            SLIDING_FEATURES => 4,
-            _ => return false,
+        let quantities = match self.beside() {
+            Some(Beside::Nothing | Beside::Shape) => 3,
+            Some(Beside::Sliding) => 4,
+            None => return false,
         };
         let (evidence, terms) = (self.evidence(), 1 + features + features * (features + 1) / 2);
         self.places.len() == evidence * (features - SIGNS.len())

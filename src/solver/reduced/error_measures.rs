@@ -100,14 +100,15 @@ impl ErrorMeasures {
     pub fn residuals(&self, coefficients: &[f64], fields: &Solution) -> Residuals {
         let problem = &fields.problem;
         let (scale, weights) = (fields.mesh.scale, self.grid.weights());
-        let gradient = fields.gradient();
+        let (gradient, kappa) = (fields.gradient(), problem.point.ellipse().kappa);
         let nodes = Nodes::of(problem.laws(), &gradient, &fields.pressure, &fields.film);
         let squared: Vec<f64> = (0..self.grid.unknowns())
             .map(|unknown| {
                 let (stencil, geometry) = self.grid.row(unknown);
                 // Behind a rupture boundary λ balances the row.
                 let multiplier = fields.multiplier.get(self.grid.node(unknown)).copied().unwrap_or(0.0);
-                let value = nodes.row(&geometry.scaled(scale), self.penalty, stencil).value + multiplier;
+                let value =
+                    nodes.row(&geometry.scaled(scale).across_by(kappa), self.penalty, stencil).value + multiplier;
                 self.weight(scale * weights[self.grid.node(unknown)]) * value * value
             })
             .collect();
@@ -160,7 +161,7 @@ mod tests {
 
     fn spec(sampling: Sampling, registered: bool) -> TrainingSpec {
         let grid = GridSpec::Graded { nodes: 200, domain: (-6.0, 1.9), registered };
-        let windows = Windows::Given(vec![WindowSpec { m: (1.0, 500.0), grid }]);
+        let windows = Windows::Given(vec![WindowSpec::new((1.0, 500.0), grid)]);
         TrainingSpec { windows, pressure_loss: 1e-5, deformation_loss: 1e-4, ..line(sampling, 24) }
     }
 

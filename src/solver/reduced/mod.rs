@@ -20,25 +20,28 @@ mod operators;
 mod pod;
 mod row_sizes;
 mod sampling;
+mod shapes;
 mod start;
 pub mod tpwl;
 mod traction;
 mod traction_curve;
 pub mod transient;
 
-pub use calibration::{Calibration, ErrorEstimate, Estimated, Evidence, Features, LEAST_EVIDENCE, Measured};
+pub use calibration::{Beside, Calibration, ErrorEstimate, Estimated, Evidence, Features, LEAST_EVIDENCE, Measured};
 pub use cubature::{GoalEquations, cubature};
 pub use error_measures::{ErrorMeasures, Norm, Residuals};
 pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
 pub use minimisation::Scheme;
 pub(crate) use minimisation::minimised_rows;
 pub use model::{
-    Domain, ModelSize, ReducedModel, SlidingDomain, Snapshot, Trust, Window, deformation_weights, distance, separation,
+    CIRCLES, Domain, ModelSize, ReducedModel, SHAPE_WEIGHT, SlidingDomain, Snapshot, Trust, Window,
+    deformation_weights, distance, separation,
 };
 pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution, Starts};
 pub(crate) use operators::{Iterate, fronts};
 pub use pod::PodBasis;
 pub(crate) use row_sizes::mean_diagonals;
 pub use sampling::{RowSnapshots, SampledRows, Sampling, TestSpace, all_rows, greedy, is_finite, q_deim};
+pub use shapes::Shapes;
 pub use traction::TractionRule;
 pub use traction_curve::{CurvePoint, traction_curve};

@@ -4,6 +4,7 @@ use super::calibration::Calibration;
 use super::minimisation::Scheme;
 use super::pod::PodBasis;
 use super::sampling::{SampledRows, Sampling};
+use super::shapes::Shapes;
 use super::traction::TractionRule;
 use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN};
 use crate::solver::discrete::reynolds::PENALTY;
@@ -30,7 +31,17 @@ pub struct Domain {
     pub lubricant: Lubricant,
     /// What else a shear-thinning lubricant was trained for.
     pub sliding: Option<SlidingDomain>,
+    /// R_y/R; (1, 1) of a model that knows circles or lines. Files keep it in a place of its own.
+    #[serde(skip, default = "circles")]
+    pub radius_ratio: (f64, f64),
 }
+
+fn circles() -> (f64, f64) {
+    CIRCLES
+}
+
+/// R_y/R of models that know circles or lines only.
+pub const CIRCLES: (f64, f64) = (1.0, 1.0);
 
 /// What a shear-thinning model is trained for beside M, L, α and p_H.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -55,7 +66,8 @@ pub enum Trust {
 /// A training solution as the model keeps it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
-    /// The operating point.
+    /// The operating point. Files keep the radius across in a place of its own.
+    #[serde(with = "without_shape")]
     pub point: OperatingPoint,
     /// Its coefficients in the pressure basis.
     pub coefficients: Vec<f64>,
@@ -67,6 +79,22 @@ pub struct Snapshot {
     /// Files keep them in a place of their own.
     #[serde(skip)]
     pub fronts: Vec<usize>,
+}
+
+/// An operating point as model files have it, without a radius across.
+mod without_shape {
+    use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+    use crate::solver::physics::lubricant::Sliding;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(point: &OperatingPoint, serializer: S) -> Result<S::Ok, S::Error> {
+        (point.kind, point.quantities(), point.sliding).serialize(serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<OperatingPoint, D::Error> {
+        let (kind, quantities, sliding) = <(ContactKind, [f64; 6], Sliding)>::deserialize(deserializer)?;
+        Ok(OperatingPoint::from_quantities(kind, quantities, sliding))
+    }
 }
 
 /// One local model: a window of M with its own grid, bases and sampled rows.
@@ -85,8 +113,10 @@ pub struct Window {
     pub pressure: PodBasis,
     /// Deformation basis (of K P in the reference coordinate ξ).
     pub deformation: PodBasis,
-    /// K V_p in ξ over the node array: the exact deformation operator.
+    /// K V_p in ξ over the node array: the exact deformation operator, of a circle.
     pub flexed: Mat<f64>,
+    /// The same of ellipses, where the window knows them.
+    pub shapes: Option<Shapes>,
     /// How rows were sampled.
     pub sampling: Sampling,
     /// Sampled rows as indices of unknowns, ascending.
@@ -144,9 +174,17 @@ pub fn distance(a: Moes, b: Moes) -> f64 {
     (a.m - b.m).powi(2) / (a.m * a.m + b.m * b.m) + 0.001 * (a.l - b.l).powi(2)
 }
 
-/// (3.20) with what SRR and NPR add to it.
+/// Weight of (ln of the ratio of two R_y/R)² beside (3.20).
+pub const SHAPE_WEIGHT: f64 = 0.15;
+
+/// (3.20) with what SRR and NPR add to it, and the shape.
 pub fn separation(a: &OperatingPoint, b: &OperatingPoint) -> f64 {
-    distance(a.moes(), b.moes()) + a.sliding.distance(b.sliding)
+    let shape = if a.radius_y_m == b.radius_y_m && a.radius_m == b.radius_m {
+        0.0
+    } else {
+        SHAPE_WEIGHT * (a.radius_ratio() / b.radius_ratio()).ln().powi(2)
+    };
+    distance(a.moes(), b.moes()) + a.sliding.distance(b.sliding) + shape
 }
 
 /// Weights under which deformations are decomposed: the cell sizes, with the neighbour's at the nodes that carry no
@@ -189,6 +227,7 @@ impl Window {
             pressure,
             deformation,
             flexed,
+            shapes: None,
             sampling,
             sampled_rows,
             scheme,
@@ -208,6 +247,11 @@ impl Window {
         far.then(|| {
             format!("its residual of {residual:.1e} is far beyond those of the training, {largest:.1e} at most")
         })
+    }
+
+    /// R_y/R that it serves: all of a window that knows one shape.
+    pub fn served_ratios(&self) -> (f64, f64) {
+        self.shapes.as_ref().map_or((0.0, f64::INFINITY), |shapes| shapes.radius_ratio)
     }
 
     /// How large it is with all its modes.
@@ -232,14 +276,22 @@ impl Window {
 }
 
 impl ReducedModel {
-    /// Index of the window that serves a contact.
-    pub fn window_for(&self, moes: Moes) -> usize {
-        self.windows.iter().position(|w| moes.m <= w.m.1).unwrap_or(self.windows.len().saturating_sub(1))
+    /// Index of the window that serves a contact: by its shape, then by M.
+    pub fn window_for(&self, point: &OperatingPoint) -> usize {
+        let (ratio, m) = (point.radius_ratio(), point.moes().m);
+        let aside = |window: &Window| {
+            let (low, high) = window.shapes.as_ref().map_or(CIRCLES, |shapes| shapes.radius_ratio);
+            (low / ratio).max(ratio / high).max(1.0)
+        };
+        let nearest = self.windows.iter().map(aside).fold(f64::INFINITY, f64::min);
+        let beside = |w: &&Window| aside(w) <= nearest;
+        let own = self.windows.iter().position(|w| beside(&w) && m <= w.m.1);
+        own.or_else(|| self.windows.iter().rposition(|w| beside(&w))).unwrap_or(0)
     }
 
     /// The window that serves a contact.
-    pub fn window_at(&self, moes: Moes) -> &Window {
-        &self.windows[self.window_for(moes)]
+    pub fn window_at(&self, point: &OperatingPoint) -> &Window {
+        &self.windows[self.window_for(point)]
     }
 
     /// The kind of contact it is a model of.
@@ -263,7 +315,7 @@ impl Domain {
             return Trust::Outside("the model was trained with a flooded inlet, not with a supplied film".to_owned());
         }
         let point = &problem.point;
-        if let Some(why) = no_circle(point) {
+        if let Some(why) = self.no_circle(point) {
             return Trust::Outside(why);
         }
         if (point.viscosity_pa_s / self.viscosity_pa_s - 1.0).abs() > 1e-6 {
@@ -275,33 +327,36 @@ impl Domain {
         if let Some(outside) = self.sliding.and_then(|sliding| sliding.outside(point)) {
             return Trust::Outside(outside);
         }
-        let [m, l, p_h] = self.shapes(problem);
+        let [m, l, ratio, p_h] = self.shapes(problem);
         let alpha =
             Bounded { name: "α", value: point.alpha_per_pa, range: self.alpha_per_pa, scale: 1e9, unit: "/GPa" };
-        [m, l, alpha, p_h].iter().find_map(Bounded::outside).map_or(Trust::Trained, Trust::Outside)
+        [m, l, ratio, alpha, p_h].iter().find_map(Bounded::outside).map_or(Trust::Trained, Trust::Outside)
     }
 
     /// A sentence where M, L or p_H lie outside, or the contact is an ellipse, with any fluid: pressures and films of
     /// such shapes were never trained. Of another fluid inside, the bases still know the shapes, and the reduced
     /// equations are its own.
     pub fn strange_shape(&self, problem: &Problem) -> Option<String> {
-        no_circle(&problem.point).or_else(|| self.shapes(problem).iter().find_map(Bounded::outside))
+        self.no_circle(&problem.point).or_else(|| self.shapes(problem).iter().find_map(Bounded::outside))
+    }
+
+    /// A sentence where a contact is an ellipse, and the model knows circles only.
+    fn no_circle(&self, point: &OperatingPoint) -> Option<String> {
+        let ellipse = self.radius_ratio == CIRCLES && point.radius_ratio() != 1.0;
+        ellipse.then(|| "the model was trained for circular contacts only".to_owned())
     }
 
     /// What the shapes of pressure and film depend on most.
-    fn shapes(&self, problem: &Problem) -> [Bounded; 3] {
+    fn shapes(&self, problem: &Problem) -> [Bounded; 4] {
+        let ratio = problem.point.radius_ratio();
         let (p_h, highest) = (problem.point.hertz().pressure_pa, self.max_hertz_pressure_pa);
         [
             Bounded { name: "M", value: problem.moes.m, range: self.m, scale: 1.0, unit: "" },
             Bounded { name: "L", value: problem.moes.l, range: self.l, scale: 1.0, unit: "" },
+            Bounded { name: "the ratio of radii", value: ratio, range: self.radius_ratio, scale: 1.0, unit: "" },
             Bounded { name: "p_H", value: p_h, range: (0.0, highest), scale: 1e-9, unit: " GPa" },
         ]
     }
-}
-
-/// A sentence where a contact is an ellipse.
-fn no_circle(point: &OperatingPoint) -> Option<String> {
-    (point.radius_ratio() != 1.0).then(|| "the model was trained for circular contacts, R_y = R".to_owned())
 }
 
 /// A quantity with the range it was trained in.
@@ -369,6 +424,7 @@ mod tests {
             viscosity_pa_s: 0.01,
             lubricant: Lubricant::default(),
             sliding: None,
+            radius_ratio: CIRCLES,
         };
         let trust = |m, l| {
             let point = si_from_moes(&MoesRequest::new(ContactKind::Line, m, l)).unwrap();

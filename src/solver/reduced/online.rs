@@ -7,12 +7,12 @@ mod settings;
 
 pub use settings::{ReducedError, ReducedOptions, Starts};
 
-use super::calibration::{ErrorEstimate, Features};
+use super::calibration::{Beside, ErrorEstimate, Features};
 use super::model::{ReducedModel, Snapshot, Trust, Window};
 use super::operators::{Operators, RowObserver};
 use super::start::{self, Former, Known};
 use crate::solver::full::Problem;
-use crate::solver::physics::contact::{Moes, OperatingPoint};
+use crate::solver::physics::contact::{Ellipse, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
 use attempt::{Found, attempt, walk};
 use std::cell::OnceCell;
@@ -75,8 +75,8 @@ impl Online {
     }
 
     /// Makes the operators of the window that serves a contact, so that the next solve there does not have to.
-    pub fn prepare(&mut self, moes: Moes) {
-        let index = self.model.window_for(moes);
+    pub fn prepare(&mut self, point: &OperatingPoint) {
+        let index = self.model.window_for(point);
         if let (Some(window), Some(cell)) = (self.model.windows.get(index), self.windows.get(index)) {
             cell.get_or_init(|| operators_of(&self.model, window, &self.options));
         }
@@ -140,16 +140,17 @@ impl Online {
         if problem.shear.is_some() && self.model.domain.sliding.is_none() {
             return Err(ReducedError::ShearThinning);
         }
-        if problem.point.radius_ratio() != 1.0 {
-            return Err(ReducedError::Ellipse(problem.point.radius_ratio()));
-        }
         // Its α and its plateau ratio are those that count.
         let point = &problem.point;
-        let index = self.model.window_for(problem.moes);
+        let index = self.model.window_for(point);
         let model = Arc::clone(&self.model);
         let (Some(window), Some(cell)) = (model.windows.get(index), self.windows.get_mut(index)) else {
             return Err(ReducedError::Empty);
         };
+        let (ellipse, known) = (point.ellipse(), model.domain.radius_ratio);
+        if window.shapes.as_ref().map_or(ellipse != Ellipse::CIRCLE, |shapes| !shapes.hold_for(&ellipse)) {
+            return Err(ReducedError::Ellipse { given: ellipse.radius_ratio, known });
+        }
         cell.get_or_init(|| operators_of(&self.model, window, &self.options));
         let Some(operators) = cell.get_mut() else { return Err(ReducedError::Empty) };
         if self.options.starts == Starts::Nearest {
@@ -190,10 +191,10 @@ impl Online {
         observer: RowObserver<'_>,
     ) -> Result<ReducedSolution, ReducedError> {
         let problem = Problem::new(point, lubricant)?;
-        let index = self.model.window_for(problem.moes);
+        let index = self.model.window_for(&problem.point);
         let model = Arc::clone(&self.model);
         let window = model.windows.get(index).ok_or(ReducedError::Empty)?;
-        self.prepare(problem.moes);
+        self.prepare(&problem.point);
         let operators = self.windows.get_mut(index).and_then(OnceCell::get_mut).ok_or(ReducedError::Empty)?;
         let guess = start::carried(snapshot, point);
         let found = attempt(window, operators, &problem, &guess, usize::MAX, &self.options, &mut Some(observer))?;
@@ -207,9 +208,10 @@ impl Online {
         self.former.remember(Known { window, point, coefficients: known, h_c, fronts: fronts.clone() });
         let trust = self.model.trust(problem);
         let calibration = self.model.windows.get(window).and_then(|w| w.calibration.as_ref());
-        let mut error = calibration
-            .filter(|_| trust == Trust::Trained && self.options == ReducedOptions::default())
-            .map(|c| c.estimate(&Features::new(&problem.point, residual, &coefficients, c.sliding())));
+        let mut error =
+            calibration.filter(|_| trust == Trust::Trained && self.options == ReducedOptions::default()).map(|c| {
+                c.estimate(&Features::new(&problem.point, residual, &coefficients, Beside::of(&self.model.domain)))
+            });
         if let Some(estimate) = error.as_mut().filter(|estimate| estimate.traction.is_some()) {
             // Of a traction that is no physics nothing is promised.
             estimate.traction = estimate.traction.filter(|_| problem.traction_warning().is_none());

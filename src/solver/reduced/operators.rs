@@ -3,12 +3,14 @@
 mod front;
 mod least_squares;
 mod newton;
+mod shaped;
 
 pub(crate) use front::{cut_off, fronts, passed_rows};
 pub(crate) use newton::{Case, Iterate, OnlineOutcome, RowObserver, Stop};
 
 use self::front::{Changed, Front};
 use self::least_squares::LeastSquares;
+use self::shaped::Shaped;
 use super::dense::{self, SmallSystem};
 use super::minimisation::Scheme;
 use super::model::{Window, deformation_weights};
@@ -50,6 +52,8 @@ pub(crate) struct Operators {
     deformation_error: Option<Mat<f64>>,
     /// Where the film ruptures; none where a penalty holds the pressures.
     front: Option<Front>,
+    /// What follows the shape of an ellipse; none of a window that knows circles or lines.
+    shaped: Option<Shaped>,
     scratch: Scratch,
 }
 
@@ -157,6 +161,11 @@ impl Operators {
             let (xi, y) = reference.place(*node);
             Place { node: *node, xi, across: 0.5 * y * y }
         };
+        let places: Vec<Place> = support.iter().map(place).collect();
+        let shaped = window.shapes.as_ref().map(|shapes| {
+            let across = state_rows.get(3 * support.len() * modes..).unwrap_or_default();
+            Shaped::new(shapes, (&support, modes), (&geometry, &places, across))
+        });
         let (n, s) = (rows.len(), support.len());
         let size = modes + 1;
         Self {
@@ -176,6 +185,7 @@ impl Operators {
             projected,
             deformation_error,
             front,
+            shaped,
             scratch: Scratch {
                 fields: vec![0.0; (2 + axes) * s],
                 step_fields: vec![0.0; (2 + axes) * s],
@@ -193,7 +203,7 @@ impl Operators {
                 jacobian: Mat::zeros(size, size),
                 product: vec![0.0; n],
             },
-            support: support.iter().map(place).collect(),
+            support: places,
         }
     }
 
@@ -247,6 +257,13 @@ impl Operators {
         }
     }
 
+    /// Turns to the shape of a contact; nothing where the window knows one only.
+    pub fn take_shape(&mut self, window: &Window, problem: &Problem) {
+        let Self { shaped, state_rows, geometry, support, modes, .. } = self;
+        let (Some(shaped), Some(shapes)) = (shaped, &window.shapes) else { return };
+        shaped.turn_to(shapes, &problem.point.ellipse(), (state_rows, *modes), geometry, support);
+    }
+
     /// Puts the rupture boundary at these columns, one per line along X, before an iteration begins, or out of force, so
     /// that the penalty holds all pressures; nothing where there is no boundary.
     pub fn rupture_at(&mut self, fronts: Option<&[usize]>) {
@@ -272,7 +289,10 @@ impl Operators {
     pub fn lift(&mut self, window: &Window, zero: &[(usize, f64)], scale: f64) -> Vec<f64> {
         let deformation = self.deformation(window);
         let at_zero = |k: usize| scale * zero.iter().map(|(node, w)| w * deformation[(*node, k)]).sum::<f64>();
-        let whole: Vec<f64> = (0..self.modes).map(at_zero).collect();
+        let whole: Vec<f64> = match (&self.shaped, &window.shapes) {
+            (Some(shaped), Some(shapes)) => (0..self.modes).map(|k| shaped.at(shapes, zero, k)).collect(),
+            _ => (0..self.modes).map(at_zero).collect(),
+        };
         match &mut self.front {
             Some(front) => {
                 front.aim(&window.grid, zero, scale, &whole);

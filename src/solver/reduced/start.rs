@@ -3,17 +3,17 @@
 //! The interpolation carries film and spike along; the nearest snapshot alone is the dissertation's choice.
 
 use super::dense;
-use super::model::{Snapshot, Window, separation};
+use super::model::{SHAPE_WEIGHT, Snapshot, Window, separation};
 use crate::solver::physics::contact::{ContactKind, FilmFormula, OperatingPoint, moes_film};
 use faer::Mat;
 
-/// Snapshots that take part in the interpolation of Newtonian contacts, and in that of shear-thinning ones, which have
-/// two parameters more.
-const NEIGHBOURS: [usize; 2] = [6, 10];
+/// Snapshots that take part in the interpolation of Newtonian contacts, in that of shear-thinning ones, which have two
+/// parameters more, and in that of ellipses, which have one.
+const NEIGHBOURS: [usize; 3] = [6, 10, 8];
 /// Weight of (ln α ratio)² beside (3.20).
 const ALPHA_WEIGHT: f64 = 0.02;
 /// Functions that it reproduces there.
-const FEATURES: [usize; 2] = [4, 6];
+const FEATURES: [usize; 3] = [4, 6, 5];
 
 /// A start: coefficients of the pressure, and the film at X = 0 (and Y = 0).
 #[derive(Clone)]
@@ -93,31 +93,36 @@ impl Former {
 }
 
 /// Where a contact lies, in lengths that add up to [`separation`] for contacts close together, and ln α.
-fn coordinates(point: &OperatingPoint) -> [f64; 5] {
+fn coordinates(point: &OperatingPoint) -> [f64; 6] {
     let (moes, sliding) = (point.moes(), point.sliding);
     let plateau = sliding.newtonian_plateau_ratio.unwrap_or(1.0);
-    let squares = [0.5, 0.001, ALPHA_WEIGHT, 0.03, 0.3];
-    let values = [moes.m.ln(), moes.l, point.alpha_per_pa.ln(), sliding.slide_to_roll_ratio.abs(), plateau];
+    let squares = [0.5, 0.001, ALPHA_WEIGHT, 0.03, 0.3, SHAPE_WEIGHT];
+    let (log_alpha, log_ratio) = (point.alpha_per_pa.ln(), point.radius_ratio().ln());
+    let values = [moes.m.ln(), moes.l, log_alpha, sliding.slide_to_roll_ratio.abs(), plateau, log_ratio];
     std::array::from_fn(|k| f64::sqrt(squares[k]) * values[k])
 }
 
-fn difference(a: [f64; 5], b: [f64; 5]) -> [f64; 5] {
+fn difference(a: [f64; 6], b: [f64; 6]) -> [f64; 6] {
     std::array::from_fn(|k| a[k] - b[k])
 }
 
-fn square(v: [f64; 5]) -> f64 {
+fn square(v: [f64; 6]) -> f64 {
     v.iter().map(|v| v * v).sum()
 }
 
 /// The film of a formula in the solver's scaling up to a constant, what films are compared by: Moes' for line, Hamrock
-/// and Dowson's for point contacts.
+/// and Dowson's for circular contacts, Chittenden's for ellipses.
 pub(super) fn film_number(point: &OperatingPoint) -> f64 {
     match point.kind {
         ContactKind::Line => {
             let moes = point.moes();
             moes_film(ContactKind::Line, moes) / moes.m
         }
-        ContactKind::Point => FilmFormula::HamrockDowsonCentral.predict(point).film_m / point.film_scale_m(),
+        ContactKind::Point => {
+            let circle = point.radius_ratio() == 1.0;
+            let formula = if circle { FilmFormula::HamrockDowsonCentral } else { FilmFormula::ChittendenCentral };
+            formula.predict(point).film_m / point.film_scale_m()
+        }
     }
 }
 
@@ -138,9 +143,13 @@ pub(super) fn unchanged(window: &Window, point: &OperatingPoint) -> Option<Guess
 }
 
 /// Interpolation between the nearest training solutions: weights that reproduce functions linear in (ln M, L, ln α),
-/// and of shear-thinning contacts in |SRR| and NPR, and strongly prefer near ones.
+/// of shear-thinning contacts in |SRR| and NPR, of ellipses in ln(R_y/R), and strongly prefer near ones.
 pub(super) fn interpolated(window: &Window, point: &OperatingPoint, thinning: bool) -> Option<Guess> {
-    let (neighbours, count) = (NEIGHBOURS[usize::from(thinning)], FEATURES[usize::from(thinning)]);
+    let kind = match window.shapes {
+        Some(_) => 2,
+        None => usize::from(thinning),
+    };
+    let (neighbours, count) = (NEIGHBOURS[kind], FEATURES[kind]);
     let moes = point.moes();
     let log_alpha = point.alpha_per_pa.ln();
     let mut around: Vec<(usize, f64)> = window
@@ -165,7 +174,11 @@ pub(super) fn interpolated(window: &Window, point: &OperatingPoint, thinning: bo
             let s = &window.snapshots[i].point;
             let m = s.moes();
             let (dl, d_alpha) = (0.2 * (m.l - moes.l), s.alpha_per_pa.ln() - log_alpha);
-            [1.0, (m.m / moes.m).ln(), dl, d_alpha, srr(s) - srr(point), plateau(s) - plateau(point)]
+            let [first, second] = match window.shapes {
+                Some(_) => [(s.radius_ratio() / point.radius_ratio()).ln(), 0.0],
+                None => [srr(s) - srr(point), plateau(s) - plateau(point)],
+            };
+            [1.0, (m.m / moes.m).ln(), dl, d_alpha, first, second]
         })
         .collect();
     // min Σ w² d²  subject to  Σ w φ = (1, 0, 0, 0); a small ridge covers ranges in which a feature does not vary.

@@ -3,15 +3,15 @@
 use super::one_thread::on_one_thread;
 use super::plan::{Within, grid_points};
 use super::rows::sample_rows;
-use super::state::{FEWEST, Part, Solved, TrainingState, train_resumable};
+use super::state::{FEWEST, OVERLAP, Part, Solved, TrainingState, train_resumable};
 use super::{Progress, QuantityBox, Range, SlidingRange, TrainingError, TrainingObserver, TrainingSpec, WindowSpec};
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::{ContactSolver, Start};
 use crate::solver::physics::contact::{DEFAULT_VISCOSITY_PA_S, MoesRequest, OperatingPoint};
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{
-    Domain, PodBasis, ReducedModel, RowSnapshots, Sampling, Scheme, SlidingDomain, Snapshot, TestSpace, Window,
-    all_rows, deformation_weights, fronts, minimised_rows,
+    CIRCLES, Domain, PodBasis, ReducedModel, RowSnapshots, Sampling, Scheme, Shapes, SlidingDomain, Snapshot,
+    TestSpace, Window, all_rows, deformation_weights, fronts, minimised_rows,
 };
 use faer::Mat;
 use fastrand::Rng;
@@ -38,7 +38,7 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
             let l = (l.0 * own / alpha, l.1 * own / alpha);
             (m, l, (own, own), range.highest_pressure(spec.contact()), viscosity)
         }
-        Range::Realisation { m, l, max_hertz_pressure } => {
+        Range::Realisation { m, l, max_hertz_pressure } | Range::Ellipses { m, l, max_hertz_pressure, .. } => {
             let end = |l| MoesRequest::new(spec.contact(), m.0, l).default_alpha();
             (m, l, (end(l.0), end(l.1)), max_hertz_pressure, DEFAULT_VISCOSITY_PA_S)
         }
@@ -55,7 +55,12 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
         Range::Sliding(SlidingRange { srr, npr, modulus, .. }) => Some(SlidingDomain { srr, npr, modulus_pa: modulus }),
         _ => None,
     };
-    Domain { m, l, alpha_per_pa, max_hertz_pressure_pa, viscosity_pa_s, lubricant: spec.lubricant, sliding }
+    let radius_ratio = match spec.range {
+        Range::Ellipses { radius_ratio, .. } => radius_ratio,
+        _ => CIRCLES,
+    };
+    let lubricant = spec.lubricant;
+    Domain { m, l, alpha_per_pa, max_hertz_pressure_pa, viscosity_pa_s, lubricant, sliding, radius_ratio }
 }
 
 /// A window in training: everything it is made with.
@@ -88,7 +93,8 @@ impl<'a> WindowTraining<'a> {
 
     /// The contacts that it is trained from.
     pub fn within(&self) -> Within {
-        self.spec.within(self.reach)
+        let (low, high) = self.window.radius_ratio.unwrap_or((0.0, f64::INFINITY));
+        Within { radius_ratio: (low / OVERLAP, high * OVERLAP), ..self.spec.within(self.reach) }
     }
 
     pub fn too_few(&self, count: usize) -> TrainingError {
@@ -171,6 +177,7 @@ impl<'a> WindowTraining<'a> {
         let (losses, positive) = ([spec.pressure_loss, spec.deformation_loss], spec.positive_modes);
         let (grid, solutions) = (grid.clone(), solutions.to_vec());
         let cavitation = spec.lubricant.cavitation;
+        let ratio = window.radius_ratio.unwrap_or(spec.domain().radius_ratio);
         let mut model = on_one_thread(*observer, move || {
             let (pressure, deformation, mut snapshots) = bases(losses, positive, &grid, &solutions)?;
             if cavitation == Cavitation::Complementarity {
@@ -178,8 +185,13 @@ impl<'a> WindowTraining<'a> {
                     snapshot.fronts = fronts(&grid, |node| solution.pressure[node]);
                 }
             }
+            let shapes = match (&grid, ratio == CIRCLES) {
+                (ContactGrid::Point(plane), false) => Some(Shapes::new(plane, &pressure.modes, ratio).ok()?),
+                _ => None,
+            };
             let rows = all_rows(&TestSpace::new(&pressure, &grid));
-            Some(Window::new((from, to), grid, pressure, deformation, snapshots, Sampling::All, rows))
+            let window = Window::new((from, to), grid, pressure, deformation, snapshots, Sampling::All, rows);
+            Some(Window { shapes, ..window })
         })?
         .ok_or_else(failed)?;
         (model.penalty, model.cavitation) = (spec.penalty, cavitation);

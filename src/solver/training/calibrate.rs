@@ -6,8 +6,9 @@
 
 use super::indicator::Corrector;
 use super::one_thread::{in_parallel, on_one_thread};
+use super::plan::Within;
 use super::{TrainingError, TrainingObserver, TrainingSpec};
-use crate::solver::reduced::{Calibration, Evidence, Features, Online, ReducedModel, ReducedOptions, Window};
+use crate::solver::reduced::{Beside, Calibration, Evidence, Features, Online, ReducedModel, ReducedOptions, Window};
 use fastrand::Rng;
 use std::sync::Arc;
 
@@ -22,28 +23,28 @@ pub const EVIDENCE: usize = 1000;
 pub(super) fn calibrate(
     spec: &TrainingSpec,
     model: &Arc<ReducedModel>,
-    k: usize,
-    last: bool,
+    (k, ends): (usize, (bool, bool)),
     observer: &dyn TrainingObserver,
 ) -> Result<Option<Calibration>, TrainingError> {
     let Some(window) = model.windows.first() else { return Ok(None) };
     let seed = spec.seed ^ 0x9E37_79B9_7F4A_7C15_u64.wrapping_mul(k as u64 + 1);
-    let points = spec.within(served(k, last, window)).random_points(spec.evidence, &mut Rng::with_seed(seed));
-    let sliding = model.domain.sliding.is_some();
+    let served = Within { radius_ratio: window.served_ratios(), ..spec.within(served(ends, window)) };
+    let points = served.random_points(spec.evidence, &mut Rng::with_seed(seed));
+    let beside = Beside::of(&model.domain);
     let stage = format!("Measuring errors, M {}…{}", window.m.0, window.m.1);
     let solvers = || (Online::new(Arc::clone(model), ReducedOptions::default()), Corrector::of(window));
     let measured = in_parallel(observer, &stage, &points, solvers, |(online, corrector), _, point| {
         online.forget();
         let solved = online.solve(point, spec.lubricant).ok()?;
         let errors = corrector.errors(online, &solved)?;
-        Some(Evidence { features: Features::of(&solved, sliding), errors })
+        Some(Evidence { features: Features::of(&solved, beside), errors })
     })?;
     let evidence: Vec<Evidence> = measured.into_iter().flatten().collect();
     on_one_thread(observer, move || Calibration::fit(&evidence))
 }
 
-/// The range of M in which window `k` serves: the first and the last one also serve what lies beyond.
-fn served(k: usize, last: bool, window: &Window) -> (f64, f64) {
+/// The range of M in which a window serves: the first and the last one also serve what lies beyond.
+fn served((first, last): (bool, bool), window: &Window) -> (f64, f64) {
     let (low, high) = window.m;
-    (if k == 0 { 0.0 } else { low }, if last { f64::INFINITY } else { high })
+    (if first { 0.0 } else { low }, if last { f64::INFINITY } else { high })
 }

@@ -2,6 +2,7 @@
 
 use super::{Plan, Range, SlidingRange, TrainingSpec, WindowSpec, Windows};
 use crate::solver::limits::{Refused, count, interval, number, plain};
+use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw};
 use crate::solver::reduced::{LEAST_EVIDENCE, Sampling, Scheme};
 
@@ -115,6 +116,14 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
         }
         Cavitation::Penalty | Cavitation::Complementarity => {}
     }
+    if matches!(spec.range, Range::Ellipses { .. }) {
+        if spec.contact() != ContactKind::Point {
+            return Err(Refused::new("range", "is of ellipses, but the windows' grids are of line contacts"));
+        }
+        if *cavitation != Cavitation::Penalty {
+            return Err(Refused::new("cavitation", "must be the penalty for a reduced model of ellipses"));
+        }
+    }
     match (&spec.range, spec.lubricant.shear == ShearLaw::Newtonian) {
         (Range::Sliding(_), true) => {
             Err(Refused::new("range", "names SRR and NPR, but the lubricant has no shear constants"))
@@ -155,8 +164,26 @@ fn given(spec: &TrainingSpec, windows: &[WindowSpec]) -> Result<(), Refused> {
     if windows.iter().any(|w| w.grid.kind() != spec.contact()) {
         return refuse("must be of one kind of contact: all grids Plane, or none".to_owned());
     }
-    if windows.iter().any(|w| w.m.0 >= w.m.1) || windows.windows(2).any(|pair| pair[0].m.1 > pair[1].m.0) {
+    let descend = |pair: &[WindowSpec]| pair[0].radius_ratio == pair[1].radius_ratio && pair[0].m.1 > pair[1].m.0;
+    if windows.iter().any(|w| w.m.0 >= w.m.1) || windows.windows(2).any(descend) {
         return refuse("must be non-empty intervals of M in ascending order".to_owned());
+    }
+    let shapes = spec.domain().radius_ratio;
+    let apart = |pair: &[WindowSpec]| match (pair[0].radius_ratio, pair[1].radius_ratio) {
+        (None, None) => false,
+        (Some(one), Some(other)) => one != other && one.1 > other.0,
+        _ => true,
+    };
+    for (low, high) in windows.iter().filter_map(|window| window.radius_ratio) {
+        if !(shapes.0 <= low && low < high && high <= shapes.1) {
+            return refuse(format!(
+                "have radius_ratio {low}…{high}, but must have non-empty intervals within the range's, {}…{}",
+                shapes.0, shapes.1
+            ));
+        }
+    }
+    if windows.windows(2).any(apart) {
+        return refuse("must have their intervals of radius_ratio in ascending order, or none of them any".to_owned());
     }
     let (low, high) = spec.domain().m;
     match windows.iter().find(|w| w.m.1 < low || w.m.0 > high) {

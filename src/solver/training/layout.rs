@@ -49,7 +49,7 @@ pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver)
     }
     let mut tried = |inlet: f64, registered: bool, points: &[OperatingPoint]| {
         let grid = GridSpec::explorer_from(inlet, registered);
-        try_grid(state, WindowSpec { m: whole, grid }, points, observer)
+        try_grid(state, WindowSpec::new(whole, grid), points, observer)
     };
     let few = &points[..INLET_POINTS.min(points.len())];
     let long = tried(LONG_INLET, true, few)?;
@@ -89,7 +89,7 @@ pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver)
         _ if registered => with.1,
         _ => without.1,
     };
-    let window = WindowSpec { m: whole, grid: GridSpec::explorer_from(inlet, registered) };
+    let window = WindowSpec::new(whole, GridSpec::explorer_from(inlet, registered));
     state.trials.clear();
     state.windows = vec![WindowState::new(window, spec.seed, inherited)];
     Ok(())

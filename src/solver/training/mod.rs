@@ -8,6 +8,8 @@ mod build;
 mod calibrate;
 mod check;
 pub mod distance;
+#[cfg(test)]
+mod ellipse_tests;
 mod indicator;
 mod layout;
 mod one_thread;
@@ -172,7 +174,7 @@ impl TrainingSpec {
             range,
             lubricant: Lubricant::default(),
             plan,
-            windows: Windows::Given(vec![WindowSpec { m, grid }]),
+            windows: Windows::Given(vec![WindowSpec::new(m, grid)]),
             pressure_loss: 1e-6,
             deformation_loss: 1e-6,
             sampling: Sampling::default(),
@@ -208,7 +210,7 @@ impl TrainingSpec {
 
     /// Its contacts with M in an interval.
     fn within(&self, m: (f64, f64)) -> Within {
-        Within { range: self.range, kind: self.contact(), m }
+        Within { m, ..Within::all(self.range, self.contact()) }
     }
 
     /// What the model will declare to be trained for.
@@ -239,6 +241,16 @@ pub struct WindowSpec {
     pub m: (f64, f64),
     /// Its grid.
     pub grid: GridSpec,
+    /// Range of R_y/R it serves, of a model of ellipses; all of the model's where it is left out.
+    #[serde(default)]
+    pub radius_ratio: Option<(f64, f64)>,
+}
+
+impl WindowSpec {
+    /// A window of circles or lines.
+    pub fn new(m: (f64, f64), grid: GridSpec) -> Self {
+        Self { m, grid, radius_ratio: None }
+    }
 }
 
 /// Watches a training.

@@ -2,7 +2,7 @@
 
 use super::{QuantityBox, Range};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-use crate::solver::reduced::distance;
+use crate::solver::reduced::{SHAPE_WEIGHT, distance};
 use fastrand::Rng;
 use std::f64::consts::PI;
 
@@ -34,6 +34,7 @@ pub(super) struct Within {
     pub range: Range,
     pub kind: ContactKind,
     pub m: (f64, f64),
+    pub radius_ratio: (f64, f64),
 }
 
 /// Random points of a range by (3.17), which pushes towards its boundary: the same ones for the same seed, whoever
@@ -45,11 +46,14 @@ pub fn random_points(range: &Range, kind: ContactKind, count: usize, seed: u64) 
 impl Within {
     /// With any M.
     pub fn all(range: Range, kind: ContactKind) -> Self {
-        Self { range, kind, m: (0.0, f64::INFINITY) }
+        Self { range, kind, m: (0.0, f64::INFINITY), radius_ratio: (0.0, f64::INFINITY) }
     }
 
     fn at(&self, unit: [f64; 4]) -> Option<OperatingPoint> {
-        self.range.at(self.kind, unit).filter(|point| (self.m.0..=self.m.1).contains(&point.moes().m))
+        let inside = |value: f64, (low, high): (f64, f64)| (low..=high).contains(&value);
+        let wanted =
+            |point: &OperatingPoint| inside(point.moes().m, self.m) && inside(point.radius_ratio(), self.radius_ratio);
+        self.range.at(self.kind, unit).filter(wanted)
     }
 
     /// Up to `count` points at the coordinates that `draw` gives; fewer where hardly any is admissible.
@@ -73,14 +77,16 @@ impl Within {
         // The corners of the range are its extremes, and a random pool never quite reaches them.
         let corners = (0..16u8).filter_map(|c| self.at(std::array::from_fn(|k| f64::from(c >> k & 1))));
         pool.extend(corners);
-        let coordinates: Vec<_> = pool.iter().map(|p| (p.moes(), p.alpha_per_pa.ln(), p.sliding)).collect();
+        let place = |p: &OperatingPoint| (p.moes(), p.alpha_per_pa.ln(), p.sliding, p.radius_ratio().ln());
+        let coordinates: Vec<_> = pool.iter().map(place).collect();
         let alpha_weight = if matches!(self.range, Range::Box(_)) { 0.005 } else { ALPHA_WEIGHT };
         let mut nearest = vec![f64::INFINITY; pool.len()];
         let approach = |nearest: &mut [f64], point: &OperatingPoint| {
-            let (moes, log_alpha) = (point.moes(), point.alpha_per_pa.ln());
-            for (best, (other, other_alpha, sliding)) in nearest.iter_mut().zip(&coordinates) {
+            let (moes, log_alpha, sliding, log_ratio) = place(point);
+            for (best, (other, other_alpha, other_sliding, other_ratio)) in nearest.iter_mut().zip(&coordinates) {
                 let d = distance(moes, *other) + alpha_weight * (log_alpha - other_alpha).powi(2);
-                *best = best.min(d + point.sliding.distance(*sliding));
+                let shape = SHAPE_WEIGHT * (log_ratio - other_ratio).powi(2);
+                *best = best.min(d + sliding.distance(*other_sliding) + shape);
             }
         };
         let farthest = |nearest: &[f64]| {

@@ -39,7 +39,7 @@ fn a_point_model_solves_fresh_points_with_all_rows_and_with_few() {
 
 #[test]
 fn grids_of_both_kinds_and_senseless_penalties_are_refused() {
-    let given = |m, grid| WindowSpec { m, grid };
+    let given = |m, grid| WindowSpec::new(m, grid);
     let mixed = vec![given((1.0, 50.0), GridSpec::Plane(POINT_GRID)), given((50.0, 2000.0), GridSpec::EXPLORER)];
     let mixed = TrainingSpec { windows: Windows::Given(mixed), ..point(Sampling::All, 8) };
     assert!(mixed.check().unwrap_err().to_string().contains("one kind of contact"));

@@ -2,7 +2,7 @@
 
 use crate::solver::limits::{Refused, interval, number};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, Sliding, si_from_moes};
-use crate::solver::reduced::Domain;
+use crate::solver::reduced::{CIRCLES, Domain};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -30,6 +30,18 @@ pub enum Range {
     },
     /// All contacts of a shear-thinning lubricant with M, L, SRR and NPR in intervals.
     Sliding(SlidingRange),
+    /// All point contacts with M, L and R_y/R in these intervals and p_H up to a limit, in the default realisation; by ln
+    /// M, L and ln(R_y/R).
+    Ellipses {
+        /// Load number.
+        m: (f64, f64),
+        /// Lubricant number.
+        l: (f64, f64),
+        /// R_y/R.
+        radius_ratio: (f64, f64),
+        /// Largest p_H \[Pa\].
+        max_hertz_pressure: f64,
+    },
     /// All contacts with M and L in these intervals and p_H up to a limit, in the default realisation; by ln M and L.
     Realisation {
         /// Load number.
@@ -44,6 +56,10 @@ pub enum Range {
 impl From<&Domain> for Range {
     /// The intervals that a model declares; what it knows of sliding is left out.
     fn from(domain: &Domain) -> Self {
+        if domain.radius_ratio != CIRCLES {
+            let Domain { m, l, radius_ratio, max_hertz_pressure_pa: max_hertz_pressure, .. } = *domain;
+            return Self::Ellipses { m, l, radius_ratio, max_hertz_pressure };
+        }
         Self::Moes {
             m: domain.m,
             l: domain.l,
@@ -223,6 +239,12 @@ impl Range {
                 single(Quantity::Viscosity, viscosity)
             }
             Self::Sliding(range) => range.check(),
+            Self::Ellipses { m, l, radius_ratio, max_hertz_pressure } => {
+                between(Quantity::M, m)?;
+                between(Quantity::L, l)?;
+                between(Quantity::RadiusRatio, radius_ratio)?;
+                hertz_pressure(max_hertz_pressure)
+            }
         }
     }
 
@@ -243,6 +265,11 @@ impl Range {
                 up_to(max_hertz_pressure, (m, l), unit, request)
             }
             Self::Sliding(range) => range.at(kind, unit),
+            Self::Ellipses { m, l, radius_ratio, max_hertz_pressure } => {
+                let circle = up_to(f64::INFINITY, (m, l), unit, MoesRequest::new(kind, m.0, l.0))?;
+                let point = Quantity::RadiusRatio.at(&circle, logarithmic(radius_ratio, unit[2]));
+                (point.check().is_ok() && point.hertz().pressure_pa <= max_hertz_pressure).then_some(point)
+            }
         }
     }
 }

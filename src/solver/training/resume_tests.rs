@@ -18,7 +18,7 @@ fn small(plan: Plan) -> TrainingSpec {
         ..QuantityBox::TABLE_3_1
     });
     TrainingSpec {
-        windows: Windows::Given(vec![WindowSpec { m: (5.0, 25.0), grid }, WindowSpec { m: (25.0, 200.0), grid }]),
+        windows: Windows::Given(vec![WindowSpec::new((5.0, 25.0), grid), WindowSpec::new((25.0, 200.0), grid)]),
         pressure_loss: 1e-7,
         evidence: 0,
         seed: 3,
@@ -159,7 +159,7 @@ fn a_range_in_which_full_solves_fail_names_the_point_and_keeps_what_it_has() {
     let mut spec = small(Plan::FarthestPoint { snapshots: 60 });
     spec.range = moes((20.0, 50_000.0), (0.05, 2.5), 1e12);
     let grid = GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) };
-    spec.windows = Windows::Given(vec![WindowSpec { m: (20.0, 50_000.0), grid }]);
+    spec.windows = Windows::Given(vec![WindowSpec::new((20.0, 50_000.0), grid)]);
     let mut state = TrainingState::new(spec);
     let error = train_resumable(&mut state, &()).unwrap_err();
     let TrainingError::NotConverged { m, .. } = error else { panic!("{error}") };
@@ -175,7 +175,7 @@ fn a_range_that_holds_no_contact_is_refused_with_a_sentence() {
     let nowhere = moes((400.0, 500.0), (19.0, 20.0), 1e6);
     let one_point = moes_with((20.0, 20.0), (19.0, 19.0), (5e-9, 5e-9), 1e10);
     let plan = Plan::FarthestPoint { snapshots: 8 };
-    let given = |m| Windows::Given(vec![WindowSpec { m, grid: GridSpec::EXPLORER }]);
+    let given = |m| Windows::Given(vec![WindowSpec::new(m, GridSpec::EXPLORER)]);
     for (range, windows, holds) in [
         (nowhere, given((400.0, 500.0)), "holds 0"),
         (nowhere, Windows::Automatic { modes: 90 }, "holds 0"),

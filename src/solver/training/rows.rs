@@ -3,6 +3,7 @@
 
 use super::build::alone;
 use super::one_thread::{in_parallel, on_one_thread};
+use super::plan::Within;
 use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{
@@ -113,7 +114,8 @@ fn sample(
     observer: &dyn TrainingObserver,
 ) -> Result<Vec<Option<SampledRows>>, TrainingError> {
     let Some(window) = exact.windows.first() else { return Ok(Vec::new()) };
-    let points = spec.within(reach).random_points(solves, rng);
+    let served = Within { radius_ratio: window.served_ratios(), ..spec.within(reach) };
+    let points = served.random_points(solves, rng);
     let mut tasks: Vec<Task<'_>> = points.into_iter().map(Task::At).collect();
     if spec.sampling == Sampling::Cubature {
         tasks.extend((0..window.snapshots.len()).filter_map(|k| Task::beside(window, k)));

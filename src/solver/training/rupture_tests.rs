@@ -13,7 +13,7 @@ fn ruptured(spec: TrainingSpec) -> TrainingSpec {
 }
 
 fn on(grid: GridSpec, spec: TrainingSpec) -> TrainingSpec {
-    TrainingSpec { windows: Windows::Given(vec![WindowSpec { m: (1.0, 500.0), grid }]), ..spec }
+    TrainingSpec { windows: Windows::Given(vec![WindowSpec::new((1.0, 500.0), grid)]), ..spec }
 }
 
 /// Largest relative error of H_c at fresh points, and how far the boundary lies from the full solutions'.

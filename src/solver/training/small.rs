@@ -1,6 +1,6 @@
 //! Small trainings, which tests make of many things.
 
-use super::{Plan, QuantityBox, Range, TrainingSpec};
+use super::{Plan, QuantityBox, Range, TrainingSpec, WindowSpec, Windows};
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 use crate::solver::reduced::Sampling;
 
@@ -45,6 +45,24 @@ pub(crate) fn point(sampling: Sampling, snapshots: usize) -> TrainingSpec {
         evidence: 0,
         seed: 2,
         ..TrainingSpec::new(Range::Box(corner), (1.0, 2000.0), grid, plan)
+    }
+}
+
+/// Ellipses of two windows.
+pub(crate) fn ellipses(sampling: Sampling, snapshots: usize) -> TrainingSpec {
+    let range = Range::Ellipses { m: (15.0, 60.0), l: (4.0, 8.0), radius_ratio: (0.5, 4.0), max_hertz_pressure: 3.2e9 };
+    let window = |ratios| WindowSpec {
+        radius_ratio: Some(ratios),
+        ..WindowSpec::new((1.0, 500.0), GridSpec::Plane(POINT_GRID))
+    };
+    TrainingSpec {
+        windows: Windows::Given(vec![window((0.5, 1.4)), window((1.4, 4.0))]),
+        pressure_loss: 1e-4,
+        deformation_loss: 0.1,
+        positive_modes: true,
+        rows_per_mode: 4.0,
+        range,
+        ..TrainingSpec { plan: Plan::FarthestPoint { snapshots }, ..point(sampling, snapshots) }
     }
 }
 

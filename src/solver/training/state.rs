@@ -11,7 +11,7 @@ use super::traction::traction_rule;
 use super::{Plan, Range, TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows, layout};
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::reduced::{ReducedModel, Snapshot, Window};
+use crate::solver::reduced::{Beside, ReducedModel, Snapshot, Window};
 use fastrand::Rng;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -193,8 +193,8 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
             trained.traction = traction_rule(&spec, &alone, reach, state.windows[k].seed, observer)?;
         }
         if spec.evidence > 0 {
-            let last = k + 1 == state.windows.len();
-            trained.calibration = calibrate(&spec, &Arc::new(alone(&spec, &trained)), k, last, observer)?;
+            let ends = ends(&state.windows, k);
+            trained.calibration = calibrate(&spec, &Arc::new(alone(&spec, &trained)), (k, ends), observer)?;
         }
         let ((from, to), solutions, rows) = (trained.m, trained.snapshots.len(), trained.sampled_rows.len());
         let [pressure, deformation] = [&trained.pressure, &trained.deformation].map(|basis| basis.modes.ncols());
@@ -214,7 +214,8 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
         }
         log.push(match &trained.calibration {
             Some(c) => {
-                let by = if c.sliding() { "a full solution" } else { "three full Newton steps" };
+                let by =
+                    if c.beside() == Some(Beside::Sliding) { "a full solution" } else { "three full Newton steps" };
                 format!("errors measured at {} random points by {by} each", c.evidence())
             }
             None => "no error bound: errors were measured at too few points".to_owned(),
@@ -223,16 +224,26 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
     }
     log.splice(0..0, state.decisions.iter().cloned());
     let mut domain = domain(&spec);
-    if let (Some(first), Some(last)) = (windows.first(), windows.last()) {
-        domain.m = (domain.m.0.max(first.m.0), domain.m.1.min(last.m.1));
+    if !windows.is_empty() {
+        let lowest = windows.iter().map(|window| window.m.0).fold(f64::INFINITY, f64::min);
+        let highest = windows.iter().map(|window| window.m.1).fold(0.0, f64::max);
+        domain.m = (domain.m.0.max(lowest), domain.m.1.min(highest));
     }
     Ok(ReducedModel { title: spec.title, domain, windows, scene: String::new(), log })
 }
 
 /// The range of M from which a window is trained.
 fn reach(windows: &[WindowState], k: usize) -> (f64, f64) {
-    let (low, high) = windows[k].window.m;
-    (if k == 0 { 0.0 } else { low / OVERLAP }, if k + 1 == windows.len() { f64::INFINITY } else { high * OVERLAP })
+    let ((low, high), (first, last)) = (windows[k].window.m, ends(windows, k));
+    (if first { 0.0 } else { low / OVERLAP }, if last { f64::INFINITY } else { high * OVERLAP })
+}
+
+/// Whether a window has the lowest and the highest M of all of its shapes.
+fn ends(windows: &[WindowState], k: usize) -> (bool, bool) {
+    let own = &windows[k].window;
+    let beside = |other: &&WindowState| other.window.radius_ratio == own.radius_ratio;
+    let first = windows[..k].iter().filter(beside).count() == 0;
+    (first, windows[k + 1..].iter().filter(beside).count() == 0)
 }
 
 /// Trains window `k` to the end; `None` when it is to be split.

@@ -150,7 +150,7 @@ fn requests_that_make_no_sense_are_refused_with_a_sentence() {
         (TrainingSpec { plan: Plan::FarthestPoint { snapshots: 1 }, ..base.clone() }, "snapshots"),
         (
             TrainingSpec {
-                windows: Windows::Given(vec![WindowSpec { m: (1e3, 2e3), grid: GridSpec::EXPLORER }]),
+                windows: Windows::Given(vec![WindowSpec::new((1e3, 2e3), GridSpec::EXPLORER)]),
                 ..base.clone()
             },
             "window",

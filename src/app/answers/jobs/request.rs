@@ -49,7 +49,7 @@ impl GridChoice {
     /// The grid of the window of a model that serves a contact; without a model the chosen one of a point contact, or
     /// the explorer's.
     pub fn of(model: Option<&ReducedModel>, plane: Option<PointGridSpec>, point: &OperatingPoint) -> Self {
-        match (model.and_then(|model| model.windows.get(model.window_for(point.moes()))), plane) {
+        match (model.and_then(|model| model.windows.get(model.window_for(point))), plane) {
             (Some(window), _) => Self::Existing(window.grid.clone()),
             (None, None) => Self::Spec(GridSpec::explorer_for(point).unwrap_or(GridSpec::EXPLORER)),
             (None, Some(plane)) => Self::Spec(GridSpec::Plane(plane)),

@@ -159,7 +159,7 @@ pub fn ui(ui: &mut Ui, own: &mut Basis, context: &Context<'_>, commands: &mut Co
         });
         return;
     };
-    let at = model.window_for(context.document.point.moes());
+    let at = model.window_for(&context.document.point);
     let Some(window) = model.windows.get(at) else { return };
     if own.curves.as_ref().is_none_or(|c| c.window != at || !Arc::ptr_eq(&c.model, &model)) {
         own.curves = Some(Curves::new(&model, at, window));
@@ -232,7 +232,7 @@ fn toolbar(
 /// What can be taken away from it.
 pub fn offers<'a>(context: &Context<'a>) -> Vec<Offer<'a>> {
     let model = context.answers.model(context.document);
-    let window = model.and_then(|model| model.windows.get(model.window_for(context.document.point.moes())));
+    let window = model.and_then(|model| model.windows.get(model.window_for(&context.document.point)));
     let tip = "Singular values and loss of information";
     let whole = "Bases, singular values, sampled rows and snapshots of every window, in one archive that numpy reads";
     vec![

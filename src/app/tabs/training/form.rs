@@ -109,6 +109,12 @@ fn range_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
             form.interval(ui, "Lubricant {L}", PLAIN, l, "Moes’ lubricant number (3.19)");
             form.row(ui, "Highest {p_H}", GIGAPASCAL, max_hertz_pressure, "Contacts beyond it are left out");
         }
+        Range::Ellipses { m, l, radius_ratio, max_hertz_pressure } => {
+            form.interval(ui, "Load number {M}", PLAIN, m, "Moes’ load number (3.19)");
+            form.interval(ui, "Lubricant {L}", PLAIN, l, "Moes’ lubricant number (3.19)");
+            form.interval(ui, "Ratio of radii {R_y}/{R}", PLAIN, radius_ratio, "1 is a circle");
+            form.row(ui, "Highest {p_H}", GIGAPASCAL, max_hertz_pressure, "Contacts beyond it are left out");
+        }
         Range::Sliding(SlidingRange { m, l, srr, npr, max_hertz_pressure, .. }) => {
             let ratio = "Of a shear-thinning lubricant";
             form.interval(ui, "Load number {M}", PLAIN, m, "Moes’ load number (3.19)");
@@ -154,7 +160,7 @@ fn converted(spec: &TrainingSpec) -> Range {
             let table = QuantityBox::of_tables(spec.contact());
             Range::Box(QuantityBox { alpha: domain.alpha_per_pa, viscosity, ..table })
         }
-        Range::Realisation { .. } => Range::Box(QuantityBox {
+        Range::Realisation { .. } | Range::Ellipses { .. } => Range::Box(QuantityBox {
             alpha: domain.alpha_per_pa,
             viscosity: domain.viscosity_pa_s,
             ..QuantityBox::of_tables(spec.contact())

@@ -13,7 +13,7 @@ use super::contact::GridSpec;
 use super::error::GridError;
 use super::line::{LONGEST_INLET, LONGEST_OUTLET, MAX_GRADED_NODES, explorer_cells, registration_scale};
 use super::point::PointGridSpec;
-use crate::solver::physics::contact::{ContactKind, Ellipse, Moes, OperatingPoint, ellipse_film, moes_film};
+use crate::solver::physics::contact::{ContactKind, Ellipse, FilmShape, Moes, OperatingPoint};
 use std::f64::consts::PI;
 
 /// Relative error of H_c by the end of the inlet up to which a grid does.
@@ -84,14 +84,14 @@ impl Fit {
                 (lambda, l * 1.5 * m / (PI * ellipse.kappa * axis * axis), axis.powi(-2))
             }
         };
-        let film_number = |moes: Moes| match kind {
-            ContactKind::Line => moes_film(kind, moes),
-            ContactKind::Point => ellipse_film(ellipse.radius_ratio, moes),
+        let shape = match kind {
+            ContactKind::Line => FilmShape::Line,
+            ContactKind::Point => FilmShape::Ellipse(ellipse.radius_ratio),
         };
         // At pressures far beyond those of real contacts Moes' film is too thick: oil stiffens less than by Barus' law.
         let stiff = (STIFF / alpha_hertz).min(1.0).powf(0.25);
-        let zone = stiff * (1.06 * film * film_number(moes)).powf(2.0 / 3.0);
-        let thickness = |m: f64| film_number(Moes { m, l });
+        let zone = stiff * (1.06 * film * shape.film(moes)).powf(2.0 / 3.0);
+        let thickness = |m: f64| shape.film(Moes { m, l });
         let by_load = (thickness(0.95 * m) / thickness(1.05 * m)).ln() / f64::ln(1.05 / 0.95);
         let width = (2.0 * film * thickness(m)).sqrt();
         Self { kind, moes, ellipse, lambda, alpha_hertz, zone, width, by_load: by_load.max(0.0) }

@@ -129,6 +129,13 @@ impl RowGeometry {
         Self { south: 1.0 / (south * cell), north: north.map_or(0.0, |h| 1.0 / (h * cell)), ..self }
     }
 
+    /// The row of a circle's grid on that of an ellipse with κ = b/a: distances across are κ times as long.
+    #[inline]
+    pub fn across_by(&self, kappa: f64) -> Self {
+        let square = 1.0 / (kappa * kappa);
+        Self { south: self.south * square, north: self.north * square, ..*self }
+    }
+
     /// The same row in time: the flow passes the node at `speed` ≥ 0 instead of 1, and ∂(ρ̄H)/∂T is `storage` ρ̄H +
     /// `history`. The storage joins the upwind weight of the row's own node, so a row in time costs what a stationary
     /// one does.

@@ -35,6 +35,15 @@ impl Ellipse {
         Ok(Self::near(radius_ratio))
     }
 
+    /// The ellipse of κ = b/a; the circle where that is no positive number.
+    pub fn of_kappa(kappa: f64) -> Self {
+        let square = kappa * kappa;
+        let (Ok(along), Ok(across)) = (elliprd(0.0, square, 1.0), elliprd(0.0, 1.0, square)) else {
+            return Self::CIRCLE;
+        };
+        Self { radius_ratio: along / across, kappa, integral: 2.0 / 3.0 * along }
+    }
+
     /// The same without a check; the circle where the ratio is no positive number.
     pub(super) fn near(radius_ratio: f64) -> Self {
         if radius_ratio == 1.0 || !(radius_ratio > 0.0 && radius_ratio.is_finite()) {
@@ -109,6 +118,14 @@ mod tests {
         assert!((near.kappa - 1.0).abs() < 1e-9 && (near.integral / (0.5 * PI) - 1.0).abs() < 1e-9);
         assert!((near.kernel_factor() / Ellipse::CIRCLE.kernel_factor() - 1.0).abs() < 1e-9);
         assert_eq!(Ellipse::of_ratio(1.0).unwrap(), Ellipse::CIRCLE);
+        for ratio in [0.2, 3.0, 20.0] {
+            let ellipse = Ellipse::of_ratio(ratio).unwrap();
+            let other = Ellipse::of_kappa(ellipse.kappa);
+            assert!(
+                (other.radius_ratio / ratio - 1.0).abs() < 1e-13
+                    && (other.integral / ellipse.integral - 1.0).abs() < 1e-13
+            );
+        }
     }
 
     #[test]

@@ -134,8 +134,8 @@ pub struct OperatingPoint {
     /// Sliding and plateau ratio.
     pub sliding: Sliding,
     /// Reduced radius R_y across the rolling direction \[m\] of a point contact; none where it is R, and of a line
-    /// contact. Model files keep it in a place of their own.
-    #[serde(skip)]
+    /// contact.
+    #[serde(default)]
     pub radius_y_m: Option<f64>,
 }
 

@@ -2,9 +2,12 @@
 
 use crate::solver::physics::contact::{Moes, OperatingPoint};
 use crate::solver::reduced::ReducedSolution;
+use crate::solver::reduced::model::{CIRCLES, Domain};
 
 /// Features of a contact without sliding: ln M, L, ln α, ln e_f^I, and the logarithm of the last modes' share.
 pub(super) const FEATURES: usize = 5;
+/// Those of one in a model that knows ellipses: ln(R_y/R) as well.
+pub(super) const SHAPED_FEATURES: usize = FEATURES + 1;
 /// Those of one in a model that knows sliding: ln(|SRR| + 0.01) and NPR as well.
 pub(super) const SLIDING_FEATURES: usize = FEATURES + 2;
 /// The two features among them that are no place but a sign of the error.
@@ -46,8 +49,39 @@ impl Measured {
     }
 }
 
-/// What is cheap to know of a reduced solution: ln M, L, ln α, ln e_f^I, the last modes' share, and of a model that
-/// knows sliding ln(|SRR| + 0.01) and NPR.
+/// What the contacts of a model have beside M, L and α.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Beside {
+    /// Nothing.
+    Nothing,
+    /// R_y/R.
+    Shape,
+    /// SRR and NPR.
+    Sliding,
+}
+
+impl Beside {
+    /// Those of a model's domain.
+    pub fn of(domain: &Domain) -> Self {
+        match domain.sliding {
+            Some(_) => Self::Sliding,
+            None if domain.radius_ratio == CIRCLES => Self::Nothing,
+            None => Self::Shape,
+        }
+    }
+
+    /// The number of features.
+    pub(super) fn features(self) -> usize {
+        match self {
+            Self::Nothing => FEATURES,
+            Self::Shape => SHAPED_FEATURES,
+            Self::Sliding => SLIDING_FEATURES,
+        }
+    }
+}
+
+/// What is cheap to know of a reduced solution: ln M, L, ln α, ln e_f^I, the last modes' share, of a model that knows
+/// sliding ln(|SRR| + 0.01) and NPR, and of one that knows ellipses ln(R_y/R).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Features {
     pub(super) values: [f64; SLIDING_FEATURES],
@@ -55,16 +89,16 @@ pub struct Features {
 }
 
 impl Features {
-    /// The features of a reduced solution; `sliding` where its model knows sliding.
-    pub fn of(solution: &ReducedSolution, sliding: bool) -> Self {
-        Self::new(&solution.point, solution.residual_estimate, &solution.coefficients, sliding)
+    /// The features of a reduced solution in a model whose contacts have so much beside M, L and α.
+    pub fn of(solution: &ReducedSolution, beside: Beside) -> Self {
+        Self::new(&solution.point, solution.residual_estimate, &solution.coefficients, beside)
     }
 
     pub(in crate::solver::reduced) fn new(
         point: &OperatingPoint,
         residual: f64,
         coefficients: &[f64],
-        sliding: bool,
+        beside: Beside,
     ) -> Self {
         let Moes { m, l } = point.moes();
         let norm = |c: &[f64]| c.iter().map(|v| v * v).sum::<f64>().sqrt();
@@ -72,10 +106,11 @@ impl Features {
         let srr = (point.sliding.slide_to_roll_ratio.abs() + SLOW).ln();
         let npr = point.sliding.newtonian_plateau_ratio.unwrap_or(1.0);
         let (residual, last) = (residual.max(1e-300).ln(), last.max(1e-300).ln());
-        Self {
-            values: [m.ln(), l, point.alpha_per_pa.ln(), residual, last, srr, npr],
-            count: if sliding { SLIDING_FEATURES } else { FEATURES },
-        }
+        let [first, second] = match beside {
+            Beside::Shape => [point.radius_ratio().ln(), 0.0],
+            Beside::Nothing | Beside::Sliding => [srr, npr],
+        };
+        Self { values: [m.ln(), l, point.alpha_per_pa.ln(), residual, last, first, second], count: beside.features() }
     }
 
     pub(super) fn used(&self) -> &[f64] {

@@ -19,7 +19,7 @@ fn synthetic(count: usize, seed: u64) -> Vec<Evidence> {
             let error = residual - 2.0 + (6.0 * a).cos() * b + (0.3 + b) * n;
             let values = [place[0], place[1], place[2], residual, -12.0, 0.0, 0.0];
             Evidence {
-                features: Features { values, count: FEATURES },
+                features: Features { values, count: Beside::Nothing.features() },
                 errors: Measured {
                     h_c: error.exp(),
                     h_min: (error - 1.0).exp(),
@@ -97,7 +97,8 @@ fn sliding(count: usize, seed: u64) -> Vec<Evidence> {
     let mut cases = synthetic(count, seed);
     for case in &mut cases {
         let srr = if rng.f64() < 0.1 { 0.0 } else { rng.f64() };
-        (case.features.values[5], case.features.values[6], case.features.count) = (srr, rng.f64(), SLIDING_FEATURES);
+        (case.features.values[5], case.features.values[6], case.features.count) =
+            (srr, rng.f64(), Beside::Sliding.features());
         case.errors.traction = (srr > 0.0).then(|| case.errors.h_c * (2.0 - 3.0 * srr + rng.f64()).exp());
     }
     cases
@@ -106,7 +107,7 @@ fn sliding(count: usize, seed: u64) -> Vec<Evidence> {
 #[test]
 fn traction_has_a_bound_of_its_own_where_a_model_knows_sliding() {
     let calibration = Calibration::fit(&sliding(1000, 4)).unwrap();
-    assert!(calibration.sliding() && calibration.sound() && calibration.evidence() == 1000);
+    assert!(calibration.beside() == Some(Beside::Sliding) && calibration.sound() && calibration.evidence() == 1000);
     let fresh = sliding(4000, 5);
     let slides: Vec<&Evidence> = fresh.iter().filter(|case| case.errors.traction.is_some()).collect();
     let ratio = |case: &&Evidence| {

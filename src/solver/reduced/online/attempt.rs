@@ -3,7 +3,7 @@
 use super::{ReducedError, ReducedOptions};
 use crate::solver::discrete::grid::dot;
 use crate::solver::full::Problem;
-use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::contact::{OperatingPoint, Quantity};
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::model::{Snapshot, Window};
 use crate::solver::reduced::operators::{Case, OnlineOutcome, Operators, RowObserver, Stop};
@@ -33,6 +33,7 @@ pub(super) fn attempt(
     let scale = window.grid.scale(problem.moes);
     let zero = window.grid.at_zero(scale);
     let mut coefficients = start.coefficients[..operators.modes].to_vec();
+    operators.take_shape(window, problem);
     operators.rupture_at(Some(&start.fronts));
     operators.carry_load(problem, scale, &mut coefficients);
     // H(0) = H₀ − ½ ln s + s δ(0).
@@ -72,7 +73,11 @@ pub(super) fn walk(
     let at = |t: f64| {
         let q: [f64; 6] = std::array::from_fn(|i| from[i] * (to[i] / from[i]).powf(t));
         let sliding = snapshot.point.sliding.towards(target.point.sliding, t);
-        let point = OperatingPoint::from_quantities(target.point.kind, q, sliding);
+        let mut point = OperatingPoint::from_quantities(target.point.kind, q, sliding);
+        if window.shapes.is_some() {
+            let [here, there] = [&snapshot.point, &target.point].map(OperatingPoint::radius_ratio);
+            point = Quantity::RadiusRatio.at(&point, here * (there / here).powf(t));
+        }
         Problem::new(&point, target.lubricant).ok()
     };
     let (mut t, mut stride) = (0.0, 0.25);

@@ -86,7 +86,18 @@ impl Online {
             out
         };
         let mut pressure = multiply(window.pressure.modes.get(.., ..modes));
-        let mut film = multiply(operators.deformation(window));
+        let ellipse = problem.point.ellipse();
+        let mut film = match &window.shapes {
+            None => multiply(operators.deformation(window)),
+            Some(shapes) => {
+                let mut film = vec![0.0; pressure.len()];
+                for (weight, flexed) in shapes.weights(&ellipse).into_iter().zip(&shapes.flexed) {
+                    let part = multiply(flexed.get(.., ..modes));
+                    film.iter_mut().zip(part).for_each(|(film, part)| *film += weight * part);
+                }
+                film
+            }
+        };
         if !solution.fronts.is_empty() {
             let whole = pressure.clone();
             cut_off(&window.grid, &solution.fronts, &mut pressure);
@@ -96,11 +107,11 @@ impl Online {
             // What modes leave before B.
             pressure.iter_mut().for_each(|p| *p = p.max(0.0));
         }
-        let offset = solution.h_0 - 0.5 * scale.ln();
+        let (offset, curvature) = (solution.h_0 - 0.5 * scale.ln(), ellipse.gap_curvature());
         for (node, h) in film.iter_mut().enumerate() {
             let (xi, y) = window.grid.place(node);
             let x = -1.0 + (xi + 1.0) * scale;
-            *h = offset + 0.5 * (x * x + y * y) + scale * *h;
+            *h = offset + 0.5 * (x * x + curvature * y * y) + scale * *h;
         }
         Ok(Fields { problem, grid: window.grid.clone(), scale, pressure, film })
     }

@@ -3,6 +3,7 @@
 use crate::solver::full::SolveError;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Cavitation;
+use crate::solver::reduced::model::CIRCLES;
 
 /// Why a reduced solve gives no result.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -47,12 +48,24 @@ pub enum ReducedError {
         /// Last relative step.
         step: f64,
     },
-    /// The contact is an ellipse, of which the model knows nothing.
-    #[error("the reduced model knows circular contacts only, R_y = R; use the full solver for R_y/R = {0}")]
-    Ellipse(f64),
+    /// The contact is an ellipse of which the model knows nothing.
+    #[error("the reduced model knows {}; use the full solver for a ratio of radii of {given}", known_shapes(*known))]
+    Ellipse {
+        /// R_y/R of the contact.
+        given: f64,
+        /// R_y/R of the model.
+        known: (f64, f64),
+    },
     /// Newton's iteration ended where the model was not trained, in what no contact can be.
     #[error("the reduced solution is none, {0}; use the full solver here")]
     Implausible(String),
+}
+
+fn known_shapes(known: (f64, f64)) -> String {
+    if known == CIRCLES {
+        return "circular contacts only".to_owned();
+    }
+    format!("ellipses with a ratio of radii from {} to {} only", known.0, known.1)
 }
 
 impl ReducedError {
@@ -60,7 +73,7 @@ impl ReducedError {
     pub fn without_solution(&self) -> Option<usize> {
         match self {
             Self::NotConverged { iterations, .. } => Some(*iterations),
-            Self::Implausible(_) | Self::Ellipse(_) => Some(0),
+            Self::Implausible(_) | Self::Ellipse { .. } => Some(0),
             _ => None,
         }
     }

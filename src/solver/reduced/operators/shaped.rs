@@ -1,0 +1,82 @@
+//! What in the operators of a window follows the shape of an ellipse: the deformation of the modes at the support, the
+//! distances across in rows and gradients, and the undeformed gap.
+
+use super::Place;
+use crate::solver::discrete::reynolds::RowGeometry;
+use crate::solver::physics::contact::Ellipse;
+use crate::solver::reduced::shapes::Shapes;
+
+/// What there is for every shape, and the one that the operators have.
+pub(super) struct Shaped {
+    ellipse: Option<Ellipse>,
+    /// The weights by which its shape is made of the matrices.
+    weights: Vec<f64>,
+    /// K(κ) V on the support, row-major, one after the other.
+    flexed: Vec<Vec<f64>>,
+    /// The rows of a circle.
+    geometry: Vec<RowGeometry>,
+    /// Y²/2 of the support.
+    across: Vec<f64>,
+    /// Gradients of a circle across; empty of Newtonian models.
+    gradients: Vec<f64>,
+}
+
+impl Shaped {
+    /// On a support, by the rows, places and gradients across of a circle.
+    pub fn new(
+        shapes: &Shapes,
+        (support, modes): (&[usize], usize),
+        (geometry, places, gradients): (&[RowGeometry], &[Place], &[f64]),
+    ) -> Self {
+        let rows = |matrix: &faer::Mat<f64>| -> Vec<f64> {
+            support.iter().flat_map(|&node| (0..modes).map(move |k| matrix[(node, k)])).collect()
+        };
+        Self {
+            ellipse: None,
+            weights: vec![0.0; shapes.flexed.len()],
+            flexed: shapes.flexed.iter().map(rows).collect(),
+            geometry: geometry.to_vec(),
+            across: places.iter().map(|place| place.across).collect(),
+            gradients: gradients.to_vec(),
+        }
+    }
+
+    /// Gives the operators a shape, unless they have it.
+    pub fn turn_to(
+        &mut self,
+        shapes: &Shapes,
+        ellipse: &Ellipse,
+        (state_rows, modes): (&mut [f64], usize),
+        geometry: &mut [RowGeometry],
+        support: &mut [Place],
+    ) {
+        if self.ellipse.as_ref() == Some(ellipse) {
+            return;
+        }
+        self.ellipse = Some(*ellipse);
+        self.weights = shapes.weights(ellipse);
+        let size = support.len() * modes;
+        let (deformation, gradients) = state_rows[size..].split_at_mut(size);
+        deformation.fill(0.0);
+        for (weight, rows) in self.weights.iter().zip(&self.flexed) {
+            for (sum, value) in deformation.iter_mut().zip(rows) {
+                *sum += weight * value;
+            }
+        }
+        for (own, circle) in geometry.iter_mut().zip(&self.geometry) {
+            *own = circle.across_by(ellipse.kappa);
+        }
+        for (place, across) in support.iter_mut().zip(&self.across) {
+            place.across = ellipse.gap_curvature() * across;
+        }
+        for (own, circle) in gradients.iter_mut().skip(size).zip(&self.gradients) {
+            *own = circle / ellipse.kappa;
+        }
+    }
+
+    /// The deformation by mode k at nodes with weights, of the shape it has.
+    pub fn at(&self, shapes: &Shapes, nodes: &[(usize, f64)], k: usize) -> f64 {
+        let of = |matrix: &faer::Mat<f64>| nodes.iter().map(|(node, w)| w * matrix[(*node, k)]).sum::<f64>();
+        self.weights.iter().zip(&shapes.flexed).map(|(weight, matrix)| weight * of(matrix)).sum()
+    }
+}

@@ -1,0 +1,91 @@
+//! K V for every ellipse of a window: the deformation of modes as a function of κ = b/a, interpolated between few.
+//!
+//! Its entries are smooth functions of ln κ. Over Chebyshev nodes of a window's range six of them reach some 1e-6 of
+//! the largest deformation, and what a reduced model costs hardly feels them: the rows of the support are combined once
+//! per contact.
+
+use crate::solver::discrete::grid::{ContactGrid, GridError, PointGrid};
+use crate::solver::physics::contact::Ellipse;
+use faer::Mat;
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// Nodes in ln κ of a window whose radii differ tenfold at most, and of a wider one.
+const NODES: [usize; 2] = [6, 9];
+/// Beyond the range of a window, in shares of it, up to which its shapes are still used.
+const BEYOND: f64 = 0.1;
+
+/// K V of a window for a range of R_y/R.
+#[derive(Clone, Debug)]
+pub struct Shapes {
+    /// R_y/R that it is made for.
+    pub radius_ratio: (f64, f64),
+    /// Ends of ln κ.
+    ends: (f64, f64),
+    /// K(κ) V over the node array, one for each node in ln κ.
+    pub(super) flexed: Vec<Mat<f64>>,
+}
+
+/// Where Chebyshev's nodes of the second kind lie in −1…1.
+fn node(i: usize, count: usize) -> f64 {
+    -(PI * i as f64 / (count - 1) as f64).cos()
+}
+
+impl Shapes {
+    /// Of modes on the nodes of a grid.
+    ///
+    /// # Errors
+    /// When a kernel cannot be built, or a ratio is none of an ellipse.
+    pub fn new(grid: &Arc<PointGrid>, modes: &Mat<f64>, radius_ratio: (f64, f64)) -> Result<Self, GridError> {
+        let (low, high) = radius_ratio;
+        let log_kappa = |ratio: f64| match Ellipse::of_ratio(ratio) {
+            Ok(ellipse) => Ok(ellipse.kappa.ln()),
+            Err(error) => Err(GridError::Refused(error.to_string())),
+        };
+        let ends = (log_kappa(low)?, log_kappa(high)?);
+        let count = NODES[usize::from(high > 10.0 * low)];
+        let flexed = (0..count).map(|i| {
+            let at = 0.5 * (ends.0 + ends.1) + 0.5 * (ends.1 - ends.0) * node(i, count);
+            let grid = grid.of_ellipse(Ellipse::of_kappa(at.exp()))?;
+            Ok(ContactGrid::Point(grid).flex(modes))
+        });
+        Ok(Self { radius_ratio, ends, flexed: flexed.collect::<Result<_, GridError>>()? })
+    }
+
+    /// Whether it holds for an ellipse, a little beyond its range too.
+    pub fn hold_for(&self, ellipse: &Ellipse) -> bool {
+        self.place(ellipse).abs() <= 1.0 + 2.0 * BEYOND
+    }
+
+    /// ln κ in −1…1.
+    fn place(&self, ellipse: &Ellipse) -> f64 {
+        let (low, high) = self.ends;
+        if high > low { (2.0 * ellipse.kappa.ln() - low - high) / (high - low) } else { 0.0 }
+    }
+
+    /// K(κ) V of an ellipse.
+    #[cfg(test)]
+    pub(crate) fn flexed_at(&self, ellipse: &Ellipse) -> Mat<f64> {
+        let mut sum = Mat::zeros(self.flexed[0].nrows(), self.flexed[0].ncols());
+        for (weight, flexed) in self.weights(ellipse).into_iter().zip(&self.flexed) {
+            sum += faer::Scale(weight) * flexed;
+        }
+        sum
+    }
+
+    /// The weights of the nodes that interpolate at an ellipse: one per matrix.
+    pub(super) fn weights(&self, ellipse: &Ellipse) -> Vec<f64> {
+        let (count, at) = (self.flexed.len(), self.place(ellipse));
+        if let Some(exact) = (0..count).find(|&i| node(i, count) == at) {
+            return (0..count).map(|i| f64::from(u8::from(i == exact))).collect();
+        }
+        // Barycentric weights of these nodes: alternating, halves at the ends.
+        let weight = |i: usize| {
+            let half = if i == 0 || i + 1 == count { 0.5 } else { 1.0 };
+            let sign = if i.is_multiple_of(2) { half } else { -half };
+            sign / (at - node(i, count))
+        };
+        let sum: f64 = (0..count).map(weight).sum();
+        (0..count).map(|i| weight(i) / sum).collect()
+    }
+}
