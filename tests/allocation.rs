@@ -2,7 +2,7 @@
 #![cfg(test)]
 #![allow(unsafe_code, reason = "an allocator that counts")]
 
-use ehl_explorer::engine::model_file::{embedded, embedded_shear_of};
+use ehl_explorer::engine::Embedded;
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
 use ehl_explorer::solver::discrete::grid::GridSpec;
 use ehl_explorer::solver::full::transient::{
@@ -14,7 +14,9 @@ use ehl_explorer::solver::physics::lubricant::{Cavitation, Lubricant};
 use ehl_explorer::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
 use ehl_explorer::solver::reduced::transient::ReducedMarch;
 use ehl_explorer::solver::reduced::{Online, ReducedModel, ReducedOptions, Scheme};
-use ehl_explorer::solver::training::{Plan, Range, TrainingSpec, TrajectoryTraining, train, train_trajectories};
+use ehl_explorer::solver::training::{
+    OilRange, Plan, Range, TrainingSpec, TrajectoryTraining, Windows, train, train_trajectories,
+};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::sync::{Arc, Mutex};
@@ -89,9 +91,25 @@ fn more_online_iterations_do_not_allocate_more() {
         let spec = TrainingSpec { scheme, evidence: 0, pressure_loss: 1e-4, lubricant: ruptured, ..spec };
         Arc::new(train(&spec, &()).unwrap())
     };
+    let oils = {
+        let range = OilRange {
+            m: (35.0, 45.0),
+            l: (9.0, 11.0),
+            alpha: (12e-9, 24e-9),
+            viscosity: (0.01, 0.1),
+            exponent: (0.4, 0.8),
+            hertz_pressure: (0.4e9, 3.2e9),
+        };
+        let grid = GridSpec::Graded { nodes: 240, domain: (-6.0, 1.9), registered: true };
+        let spec = TrainingSpec::new(Range::Oils(range), range.m, grid, Plan::FarthestPoint { snapshots: 40 });
+        let windows = Windows::Anchored { count: 2, modes: 12, grid };
+        Arc::new(train(&TrainingSpec { windows, evidence: 0, lubricant: ruptured, ..spec }, &()).unwrap())
+    };
+    let oiled = OperatingPoint { viscosity_pa_s: 0.03, alpha_per_pa: 18e-9, ..newtonian };
     for (model, point, lubricant) in [
-        (embedded().unwrap(), newtonian, Lubricant::default()),
-        (embedded_shear_of(ContactKind::Line).unwrap(), thinning, SQUALANE_PIP),
+        (oils, oiled, ruptured),
+        (Embedded::Line.model().unwrap(), newtonian, Lubricant::default()),
+        (Embedded::ThinningLine.model().unwrap(), thinning, SQUALANE_PIP),
         (trained(Scheme::Galerkin), newtonian, ruptured),
         (trained(Scheme::LeastSquares { weighted: true }), newtonian, ruptured),
         (trained(Scheme::Gnat { weighted: true }), newtonian, ruptured),
@@ -123,7 +141,7 @@ fn online_steps_in_time_do_not_allocate() {
     let training = TpwlTraining { modes: 40, selection: Selection::Distance { tolerance: 0.02 } };
     let linearised = TpwlModel::train(&[&full], training).unwrap();
     let settings = TrajectoryTraining { loss: 1e-5, ..TrajectoryTraining::default() };
-    let sampled = train_trajectories(&coarse.line().unwrap(), &[full], &settings, &()).unwrap();
+    let sampled = Arc::new(train_trajectories(&coarse.line().unwrap(), &[full], &settings, &()).unwrap());
 
     let online = Transient { keep: Keep::Scalars, ..breathing };
     let steps_that_allocate = |model: &mut dyn Marching, online: &Transient| {
@@ -141,7 +159,7 @@ fn online_steps_in_time_do_not_allocate() {
     for frame in [Frame::Fixed, Frame::Remeshed(Interpolation::CubicSpline)] {
         let held = Transient { frame, lubricant: Lubricant { cavitation, ..online.lubricant }, ..online.clone() };
         let full = transient::solve(coarse, &Transient { keep: Keep::Every(1), ..held.clone() }, &()).unwrap();
-        let model = train_trajectories(&coarse.line().unwrap(), &[full], &settings, &()).unwrap();
+        let model = Arc::new(train_trajectories(&coarse.line().unwrap(), &[full], &settings, &()).unwrap());
         let mut march = ReducedMarch::new(&model, &held).unwrap();
         assert_eq!(steps_that_allocate(&mut march, &held), 0, "{frame:?}");
     }

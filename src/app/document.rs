@@ -24,7 +24,7 @@ use crate::solver::full::Problem;
 use crate::solver::physics::contact::{
     ContactKind, Moes, MoesRequest, OperatingPoint, Quantity, Sliding, si_from_moes,
 };
-use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
+use crate::solver::physics::lubricant::{Heat, Lubricant, ShearLaw};
 use crate::solver::training::TrainingSpec;
 
 /// The experiment on the screen. Its point is always a valid one: edits that are refused leave it as it was.
@@ -243,7 +243,8 @@ impl Document {
         let own = named.viscosity_pa_s.unwrap_or(self.point.viscosity_pa_s);
         let sliding = Sliding { newtonian_plateau_ratio: None, ..self.point.sliding };
         let point = OperatingPoint { sliding, viscosity_pa_s: own, ..self.point };
-        self.set_contact(point, Lubricant { cavitation: self.lubricant.cavitation, ..named.laws })?;
+        let heat = self.lubricant.heat.map(|heat| Heat { oil: named.heat, ..heat });
+        self.set_contact(point, Lubricant { cavitation: self.lubricant.cavitation, heat, ..named.laws })?;
         if named.viscosity_pa_s.is_some() {
             self.view.held.set(Quantity::Viscosity, false);
             self.view.held.set(Quantity::Alpha, false);
@@ -329,6 +330,11 @@ impl Document {
             scene.study = Study::Point(Point { methods: methods_of(self.point.kind) });
             scene.expect.clear();
             scene.source.clear();
+        }
+        if self.lubricant.heat.is_some() && scene.study.check_heat().is_err() {
+            // No embedded model knows heat, and few studies do.
+            scene.study = Study::Point(Point { methods: vec![Method::Full] });
+            scene.expect.clear();
         }
         scene.grid = self.grid;
         if let Some(spec) = self.training.as_ref().filter(|_| self.saves_training()) {

@@ -93,6 +93,7 @@ pub fn question(title: &str, key: &Key, grid: Grid, study: Study) -> Scene {
         title: title.to_owned(),
         contact: point.kind,
         lubricant: key.lubricant,
+        heat: key.lubricant.heat,
         at: At::from(*point),
         srr,
         npr,

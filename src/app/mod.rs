@@ -45,7 +45,7 @@ use crate::solver::reduced::ReducedModel;
 use answers::jobs::{JobKind, wake};
 use command::Command;
 use context::Commands;
-use desk::Desk;
+use desk::{Desk, Opened};
 use document::Document;
 use drawn::Drawn;
 use egui::{CentralPanel, Panel, ScrollArea, Ui};
@@ -282,10 +282,18 @@ impl Explorer {
     /// Brings the tab to the front that answers a scene which was just opened, and runs its study where that is done
     /// without asking.
     fn answer_opened(&mut self, ctx: &egui::Context) {
-        let Some(tab) = self.desk.opened.take() else { return };
-        self.show(tab);
-        if tab == Tab::Results {
-            self.desk.run_study(wake(ctx));
+        match self.desk.opened.take() {
+            None => {}
+            Some(Opened::Scene(tab)) => {
+                self.show(tab);
+                if tab == Tab::Results {
+                    self.desk.run_study(wake(ctx));
+                }
+            }
+            Some(Opened::Campaign(folder)) => {
+                self.show(Tab::Results);
+                self.desk.watch_campaign(folder, wake(ctx));
+            }
         }
     }
 

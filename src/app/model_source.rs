@@ -1,49 +1,66 @@
 //! Where the explorer's reduced models come from: one for each kind of contact and each fluid, or none.
 
-use crate::engine::Store;
-use crate::solver::physics::contact::ContactKind;
+use crate::engine::{Embedded, Store};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use crate::solver::reduced::ReducedModel;
 use rayon::prelude::*;
 use std::sync::Arc;
 
+/// The model that is read when it is first asked for.
+const LATE: Embedded = Embedded::Ellipse;
+
 /// The reduced models in use. Where there is none for a contact and its fluid, the full solver draws the pictures.
 #[derive(Clone, Default)]
 pub struct Models {
     models: Vec<Arc<ReducedModel>>,
+    /// One of the program that is read only when it is first asked for: its operators take seconds.
+    late: Option<Embedded>,
 }
 
 impl Models {
-    /// The models embedded in the program. Without them (a damaged build) the full solver draws the pictures.
+    /// The models embedded in the program, that of ellipses later. Without them (a damaged build) the full solver draws
+    /// the pictures.
     pub fn embedded(store: &Store) -> Self {
-        let all = [false, true].map(|thins| [ContactKind::Line, ContactKind::Point].map(|kind| (thins, kind)));
+        let (first, late) = (Embedded::ALL.into_iter().filter(|which| *which != LATE), Some(LATE));
         // Operators are computed as a model is read: all of them at once, for the window waits.
-        Self {
-            models: all
-                .as_flattened()
-                .par_iter()
-                .filter_map(|&(thins, kind)| store.embedded(kind, thins).ok())
-                .collect(),
-        }
+        let first: Vec<Embedded> = first.collect();
+        Self { models: first.par_iter().filter_map(|&which| store.embedded(which).ok()).collect(), late }
+    }
+
+    /// The model that has to be read before a contact can be served; only once.
+    pub fn late_for(&mut self, point: &OperatingPoint, lubricant: &Lubricant) -> Option<Embedded> {
+        self.late.take_if(|late| *late == Embedded::of(point, lubricant))
     }
 
     /// Only this model, or none.
     pub fn only(model: Option<Arc<ReducedModel>>) -> Self {
-        Self { models: model.into_iter().collect() }
+        Self { models: model.into_iter().collect(), late: None }
     }
 
-    /// The model that serves a kind of contact with a fluid: one of this very fluid, else one of another fluid that
-    /// thins under shear as little or as much; what it was trained for it says itself.
-    pub fn of(&self, kind: ContactKind, lubricant: &Lubricant) -> Option<&Arc<ReducedModel>> {
+    /// The model that serves a contact with a fluid: one of its shape and of this very fluid, else one of another fluid
+    /// that thins under shear as little or as much, else one of circles; what it was trained for it says itself.
+    pub fn of(&self, point: &OperatingPoint, lubricant: &Lubricant) -> Option<&Arc<ReducedModel>> {
+        let ellipse = point.radius_ratio() != 1.0;
+        let round = || self.shaped(point.kind, false, lubricant);
+        self.shaped(point.kind, ellipse, lubricant).or_else(|| ellipse.then(round).flatten())
+    }
+
+    /// The model of a kind of contact, elliptical or not, with a fluid; with heat one that knows heat, where there is one.
+    pub fn shaped(&self, kind: ContactKind, ellipse: bool, lubricant: &Lubricant) -> Option<&Arc<ReducedModel>> {
         let thins = |laws: &Lubricant| laws.shear != ShearLaw::Newtonian;
         let akin = |model: &&Arc<ReducedModel>| thins(&model.domain.lubricant) == thins(lubricant);
-        let own = self.place(kind, lubricant).and_then(|place| self.models.get(place));
-        own.or_else(|| self.models.iter().filter(|model| model.contact() == kind).find(akin))
+        let own = self.place(kind, ellipse, lubricant).and_then(|place| self.models.get(place));
+        let shaped = |model: &&Arc<ReducedModel>| model.contact() == kind && model.of_ellipses() == ellipse;
+        let warm = |model: &&Arc<ReducedModel>| model.domain.heat.is_some();
+        let alike = || self.models.iter().filter(shaped).filter(akin);
+        let wanted = lubricant.heat.is_some();
+        own.or_else(|| alike().find(|model| warm(model) && wanted)).or_else(|| alike().find(|model| !warm(model)))
     }
 
     /// Puts a model in place of the one of its kind of contact and fluid, which is returned.
     pub fn put(&mut self, model: Arc<ReducedModel>) -> Option<Arc<ReducedModel>> {
-        match self.place(model.contact(), &model.domain.lubricant) {
+        match self.place(model.contact(), model.of_ellipses(), &model.domain.lubricant) {
             Some(place) => Some(std::mem::replace(&mut self.models[place], model)),
             None => {
                 self.models.push(model);
@@ -62,10 +79,11 @@ impl Models {
         self.models.iter().any(|other| Arc::ptr_eq(other, model))
     }
 
-    fn place(&self, kind: ContactKind, lubricant: &Lubricant) -> Option<usize> {
+    fn place(&self, kind: ContactKind, ellipse: bool, lubricant: &Lubricant) -> Option<usize> {
         let wanted = lubricant.of_the_liquid();
         let same = |model: &Arc<ReducedModel>| model.domain.lubricant.of_the_liquid() == wanted;
-        self.models.iter().position(|model| model.contact() == kind && same(model))
+        let shaped = |model: &Arc<ReducedModel>| model.contact() == kind && model.of_ellipses() == ellipse;
+        self.models.iter().position(|model| shaped(model) && same(model))
     }
 }
 
@@ -73,12 +91,17 @@ impl Models {
 mod tests {
     use super::*;
     use crate::scene::named_lubricant::{SQUALANE_PIP, by_name};
+    use crate::solver::physics::contact::{MoesRequest, Quantity, si_from_moes};
     use crate::solver::physics::lubricant::{LimitingStress, ViscosityLaw};
+
+    fn line() -> OperatingPoint {
+        si_from_moes(&MoesRequest::new(ContactKind::Line, 40.0, 10.0)).unwrap()
+    }
 
     #[test]
     fn the_fluid_picks_the_model_and_another_fluid_gets_the_one_akin() {
         let models = Models::embedded(&Store::default());
-        let of = |lubricant: &Lubricant| models.of(ContactKind::Line, lubricant).unwrap();
+        let of = |lubricant: &Lubricant| models.of(&line(), lubricant).unwrap();
         let (newtonian, thinning) = (of(&Lubricant::default()), of(&SQUALANE_PIP));
         assert!(newtonian.domain.sliding.is_none() && thinning.domain.sliding.is_some());
         let barus = Lubricant { viscosity: ViscosityLaw::Barus, ..Lubricant::default() };
@@ -95,14 +118,32 @@ mod tests {
     #[test]
     fn a_model_takes_the_place_of_the_one_of_its_fluid_only() {
         let mut models = Models::embedded(&Store::default());
-        let own = Arc::clone(models.of(ContactKind::Line, &SQUALANE_PIP).unwrap());
+        let own = Arc::clone(models.of(&line(), &SQUALANE_PIP).unwrap());
         let mut other = ReducedModel::clone(&own);
         other.title = "another".to_owned();
         let other = Arc::new(other);
         let former = models.put(Arc::clone(&other)).unwrap();
         assert!(Arc::ptr_eq(&former, &own) && models.contains(&other) && !models.contains(&own));
-        assert!(models.of(ContactKind::Line, &Lubricant::default()).is_some());
+        assert!(models.of(&line(), &Lubricant::default()).is_some());
         models.remove(&other);
-        assert!(models.of(ContactKind::Line, &SQUALANE_PIP).is_none());
+        assert!(models.of(&line(), &SQUALANE_PIP).is_none());
+    }
+    #[test]
+    fn the_model_of_ellipses_is_read_once_and_only_when_there_is_one() {
+        let store = Store::default();
+        let mut models = Models::embedded(&store);
+        let circle = si_from_moes(&MoesRequest::new(ContactKind::Point, 50.0, 5.0)).unwrap();
+        let ellipse = Quantity::RadiusRatio.at(&circle, 2.0);
+        let oil = Lubricant::default();
+        assert_eq!(models.late_for(&circle, &oil), None);
+        let round = Arc::clone(models.of(&circle, &oil).unwrap());
+        assert!(Arc::ptr_eq(models.of(&ellipse, &oil).unwrap(), &round), "until it is there");
+        let which = models.late_for(&ellipse, &oil).unwrap();
+        assert_eq!(models.late_for(&ellipse, &oil), None, "once");
+        assert!(models.put(store.embedded(which).unwrap()).is_none());
+        assert!(
+            models.of(&ellipse, &oil).unwrap().of_ellipses() && Arc::ptr_eq(models.of(&circle, &oil).unwrap(), &round)
+        );
+        assert_eq!(Models::only(None).late_for(&ellipse, &oil), None);
     }
 }

@@ -69,7 +69,10 @@ impl Purpose {
     /// How a path is asked for.
     pub fn words(&self) -> Words {
         let (title, action, files, endings, name): (_, _, _, &[&str], _) = match self {
-            Self::Open => ("Open a scene or a reduced model", "Open", "Scene or reduced model", &["ron", "rom"], ""),
+            Self::Open => {
+                let files = "Scene, campaign or reduced model";
+                ("Open a scene, a campaign or a reduced model", "Open", files, &["ron", "rom"], "")
+            }
             Self::Save => ("Save the scene", "Save", "Scene", &["ron"], "contact.ron"),
             Self::Inputs => ("Inputs from a table", "Read", "Table", &["csv"], ""),
             Self::Cases => ("Load cases from a table", "Read", "Table", &["csv"], ""),

@@ -6,20 +6,29 @@
 #![warn(clippy::indexing_slicing)]
 
 mod bench;
+mod campaign;
 mod cases;
+mod export;
 mod failure;
+mod heat;
 mod info;
 mod options;
 mod output;
 mod run;
 mod run_all;
+mod shear;
 mod solve;
 mod sweep;
 mod train;
 
+pub use failure::Failure;
+pub use info::describe as describe_model;
+pub use options::{MethodName, PointOptions};
+pub use sweep::{Sweep, Swept, Varied};
+
+use crate::engine::campaign::Folder;
 use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand};
-use failure::Failure;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -38,7 +47,7 @@ pub enum Verdict {
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
-    /// Open the explorer on this scene (default: on the last session)
+    /// Open the explorer on this scene or campaign (default: on the last session)
     #[arg(value_name = "SCENE.ron")]
     scene: Option<PathBuf>,
 }
@@ -53,12 +62,18 @@ enum Command {
     Cases(cases::CasesArgs),
     /// Run scenes and hold them against their expectations; exit 1 if any falls short
     Run(run::RunArgs),
+    /// Cut a scene's work into shards for many processes and machines, and put together what comes of them
+    #[command(subcommand)]
+    Campaign(campaign::CampaignCommand),
     /// Train a reduced model as a scene describes
     Train(train::TrainArgs),
     /// Measure the speed table: full and reduced side by side
     Bench(bench::BenchArgs),
     /// Show what a reduced model holds
     Info(InfoArgs),
+    /// Write a reduced model as other programs take it
+    #[command(subcommand)]
+    Export(export::ExportCommand),
 }
 
 #[derive(Debug, Args)]
@@ -71,8 +86,12 @@ struct InfoArgs {
     arrays: Option<PathBuf>,
 }
 
+/// Opens the explorer on a scene, where there is one; it returns when its window is closed, with a sentence where none
+/// can be had.
+pub type Explorer = fn(Option<PathBuf>) -> Result<(), String>;
+
 /// The program: parses the command line, runs the command, returns its exit code.
-pub fn main() -> ExitCode {
+pub fn main(explorer: Explorer) -> ExitCode {
     if let Some(failure) = negative_infinity() {
         return finish(Err(failure));
     }
@@ -88,10 +107,12 @@ pub fn main() -> ExitCode {
         Some(Command::Sweep(args)) => sweep::run(&args),
         Some(Command::Cases(args)) => cases::run(&args),
         Some(Command::Run(args)) => run::run(&args),
+        Some(Command::Campaign(command)) => campaign::run(&command),
         Some(Command::Train(args)) => train::run(&args),
         Some(Command::Bench(args)) => bench::run(&args),
+        Some(Command::Export(command)) => export::run(&command),
         Some(Command::Info(args)) => info::run(&args.file, args.arrays.as_deref()),
-        None => explore(cli.scene),
+        None => explore(cli.scene, explorer),
     })
 }
 
@@ -107,16 +128,21 @@ fn finish(result: Result<Verdict, Failure>) -> ExitCode {
 }
 
 /// Opens the explorer; a scene is read here first, so that a wrong one is refused before a window opens.
-fn explore(scene: Option<PathBuf>) -> Result<Verdict, Failure> {
-    if let Some(path) = &scene {
+fn explore(scene: Option<PathBuf>, explorer: Explorer) -> Result<Verdict, Failure> {
+    if let Some(folder) = scene.as_deref().and_then(Folder::meant) {
+        Folder::open(&folder)?;
+    } else if let Some(path) = &scene {
         crate::scene::Scene::read(path).map_err(|error| {
             let looks_like_command = path.extension().is_none() && !path.exists();
-            let hint =
-                if looks_like_command { "; commands are solve, sweep, cases, run, train, bench and info" } else { "" };
+            let hint = if looks_like_command {
+                "; commands are solve, sweep, cases, run, campaign, train, bench, info and export"
+            } else {
+                ""
+            };
             Failure::Request(format!("{error}{hint}"))
         })?;
     }
-    crate::app::run(scene).map(|()| Verdict::Done).map_err(Failure::Request)
+    explorer(scene).map(|()| Verdict::Done).map_err(Failure::Request)
 }
 
 /// A number that looks like an option: it is refused by its own name.

@@ -1,6 +1,8 @@
 //! The options of an operating point and how it is solved, shared by `solve` and `sweep`.
 
 use super::failure::Failure;
+use super::heat::HeatOptions;
+use super::shear::ShearOptions;
 use crate::engine::Request;
 use crate::scene::named_lubricant::{NAMED, NamedLubricant, by_name};
 use crate::scene::{At, Grid, Method, ModelSource};
@@ -8,7 +10,7 @@ use crate::solver::discrete::grid::{GridError, GridSpec, PointGridSpec};
 use crate::solver::limits::Number;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint, reduced_modulus};
 use crate::solver::physics::lubricant::{Cavitation, DensityLaw, Lubricant, ShearLaw, Sliding, ViscosityLaw};
-use clap::{Args, ValueEnum};
+use clap::{Args, Parser, ValueEnum};
 use std::path::PathBuf;
 
 /// Line or point contact.
@@ -148,6 +150,12 @@ pub struct PointOptions {
     /// (default: a flooded inlet)
     #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
     pub supply_film: Option<f64>,
+    /// Shear thinning and a limiting stress.
+    #[command(flatten)]
+    pub shear: ShearOptions,
+    /// Heat.
+    #[command(flatten)]
+    pub heat: HeatOptions,
 }
 
 /// Ends of the computational domain.
@@ -205,7 +213,23 @@ fn refuse<T>(sentence: impl Into<String>) -> Result<T, Failure> {
     Err(Failure::Request(sentence.into()))
 }
 
+/// Options without a command before them.
+#[derive(Parser)]
+#[command(no_binary_name = true, disable_help_flag = true)]
+struct Words {
+    #[command(flatten)]
+    point: PointOptions,
+}
+
 impl PointOptions {
+    /// The contact that words describe as on the command line, as in `--moes-m=40`.
+    ///
+    /// # Errors
+    /// With the sentence of the command line.
+    pub fn from_words(words: impl IntoIterator<Item = String>) -> Result<Self, Failure> {
+        Words::try_parse_from(words).map(|words| words.point).map_err(|error| super::usage(&error))
+    }
+
     /// The numeric options that a sweep can vary, by their names without the leading dashes.
     const VARIABLES: [(&str, Place); 17] = [
         ("moes-m", |options| &mut options.moes_m),
@@ -254,7 +278,9 @@ impl PointOptions {
         if !(srr.is_finite() && srr.abs() <= 10.0) {
             return refuse(format!("--srr is {}, but must be a finite number between -10 and 10", Number(srr)));
         }
-        let mut lubricant = self.lubricant.map_or_else(Lubricant::default, |named| named.laws);
+        let named = self.lubricant.map_or_else(Lubricant::default, |named| named.laws);
+        let mut lubricant = self.shear.applied(named)?;
+        lubricant.heat = self.heat.heat(self.lubricant.map(|named| named.heat))?;
         if let Some(npr) = self.npr {
             if !(0.0..=1.0).contains(&npr) {
                 return refuse(format!("--npr is {}, but must lie between 0 and 1", Number(npr)));

@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::output::{self, ProgressLine};
 use crate::engine::table::Number;
 use crate::engine::{EngineError, SceneOutcome, Store, Workbench, run_scene};
-use crate::scene::atomic_file::{self, WriteError};
+use crate::scene::atomic_file::WriteError;
 use crate::scene::{Method, Scene};
 use clap::Args;
 use std::fmt::Write;
@@ -59,7 +59,7 @@ pub fn run(args: &RunArgs) -> Result<Verdict, Failure> {
             verdict = Verdict::FellShort;
         }
         if let Some(folder) = &args.out {
-            write(&outcome, folder, &stem(path, &args.scenes))?;
+            outcome.write(folder, &stem(path, &args.scenes))?;
         }
         tell(&outcome, args.json)?;
     }
@@ -98,18 +98,8 @@ pub(super) fn stem(path: &Path, all: &[PathBuf]) -> String {
     if before == 0 { own } else { format!("{own}_{}", before + 1) }
 }
 
-pub(super) fn write(outcome: &SceneOutcome, folder: &Path, stem: &str) -> Result<(), Failure> {
-    let mut text = serde_json::to_string_pretty(&outcome.to_json()).map_err(std::io::Error::from)?;
-    text.push('\n');
-    atomic_file::replace(&folder.join(format!("{stem}.json")), text.as_bytes())?;
-    for table in &outcome.tables {
-        atomic_file::replace(&folder.join(format!("{stem}.{}.csv", table.name)), table.to_csv().as_bytes())?;
-    }
-    Ok(())
-}
-
 /// The outcome for people.
-fn describe(outcome: &SceneOutcome) -> String {
+pub(super) fn describe(outcome: &SceneOutcome) -> String {
     let mut text = format!("{} ({:.2} s)\n", outcome.title, outcome.wall_s);
     let method = |method: &Option<Method>| method.as_ref().map_or("", Method::name);
     // Writing to a string cannot fail.

@@ -6,6 +6,7 @@ use super::{Verdict, output};
 use crate::engine::{ContactResult, GridAccuracy, Table, Workbench, film_shear_table, profile_table};
 use crate::scene::{Method, Sheet, Solved, answer_or_full, atomic_file};
 use crate::solver::full::Solution;
+use crate::solver::full::heat::Rises;
 use crate::solver::observer::{NewtonStep, Observer};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::training::TrainingObserver;
@@ -38,10 +39,11 @@ const SMALL: [(&str, &str); 5] = [
 ];
 
 /// Calibrated bounds on errors.
-const BOUNDS: [(&str, &str); 3] = [
+const BOUNDS: [(&str, &str); 4] = [
     ("H_c", "reduced.h_c_error_bound"),
     ("H_min", "reduced.h_min_error_bound"),
     ("traction", "reduced.traction_error_bound"),
+    ("rise", "reduced.mid_film_rise_error_bound"),
 ];
 
 /// Options of `solve`.
@@ -185,6 +187,18 @@ fn describe(Report { result, accuracy }: &Report) -> String {
         if let Some(value) = result.value(name) {
             line(title, format!("{value:.6e}"));
         }
+    }
+    if let Some(heat) = &result.heat {
+        let rises = |name: &str, at: &Rises| {
+            let [first, second] = at.surfaces_k;
+            (name.to_owned(), format!("mid-film {:.3} K, body 1 {first:.3} K, body 2 {second:.3} K", at.mid_film_k))
+        };
+        for (name, value) in [rises("rise at X = 0", &heat.central), rises("largest rise", &heat.largest)] {
+            line(&name, value);
+        }
+        let [first, second] = heat.into_bodies.map(|share| 100.0 * share);
+        line("heat", format!("{first:.1} % into body 1, {second:.1} % into body 2, the rest with the oil"));
+        line("energy balance", format!("{:.2e}", heat.energy_balance));
     }
     let linear = result.linear_iterations.map_or(String::new(), |n| format!(", {n} linear"));
     line("iterations", format!("{} Newton{linear}", result.newton_iterations));

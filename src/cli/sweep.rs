@@ -4,11 +4,12 @@ use super::Verdict;
 use super::failure::Failure;
 use super::options::PointOptions;
 use super::output::{self, ProgressLine};
-use crate::engine::{CONTACT_COLUMNS, ContactResult, RESULT_COLUMNS, Request, Table, Workbench};
+use crate::engine::{CONTACT_COLUMNS, ContactResult, Request, Table, Workbench, result_columns};
 use crate::scene::check::MAX_POINTS;
 use crate::scene::{Bench, Method, Steps, atomic_file};
 use crate::solver::full::Solution;
-use crate::solver::observer::{Observer, Progress};
+use crate::solver::observer::Progress;
+use crate::solver::training::TrainingObserver;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -29,11 +30,22 @@ pub struct SweepArgs {
     json: bool,
 }
 
-/// One varied option.
+/// One varied option and the values it takes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Varied {
-    name: String,
-    steps: Steps,
+    /// Its name without the leading dashes, as [`PointOptions::set`] knows it.
+    pub name: String,
+    /// Its values.
+    pub steps: Steps,
+}
+
+impl std::str::FromStr for Varied {
+    type Err = String;
+
+    /// Reads `NAME=FROM:TO:N[:log|:graded:HALF]`.
+    fn from_str(text: &str) -> Result<Self, String> {
+        varied(text)
+    }
 }
 
 fn varied(text: &str) -> Result<Varied, String> {
@@ -72,32 +84,10 @@ fn varied(text: &str) -> Result<Varied, String> {
 
 /// Runs the command: all requests are checked before the first is solved.
 pub fn run(args: &SweepArgs) -> Result<Verdict, Failure> {
-    let requests = requests(args)?;
-    let names: Vec<&str> = args.varied.iter().map(|v| v.name.as_str()).collect();
-    let columns = [&CONTACT_COLUMNS[..], &RESULT_COLUMNS].concat();
-    let mut table = Table::new("sweep", &[&names[..], &columns].concat());
-    let mut workbench = Workbench::new("");
-    let progress = ProgressLine::new(false);
-    let (mut former, mut failures, mut doubtful, mut worst) = (None, 0, 0, String::new());
-    let total = requests.len();
-    for (i, (values, request, method)) in requests.into_iter().enumerate() {
-        progress.progress(Progress { stage: "sweep".to_owned(), done: i, total });
-        let answer = workbench.answer(&request, &method, former.as_ref(), &())?;
-        let report = ContactResult::from(&answer);
-        if args.json {
-            output::print_json(&report)?;
-        }
-        table.rows.push(values.into_iter().chain(report.row(&columns)).collect());
-        if answer.converged {
-            if let Some(warning) = answer.solution.as_ref().and_then(Solution::grid_warning) {
-                doubtful += 1;
-                worst = warning;
-            }
-            former = answer.solution;
-        } else {
-            failures += 1;
-        }
-    }
+    let sweep = Sweep::new(&args.varied, &args.point)?;
+    let (progress, total) = (ProgressLine::new(false), sweep.points.len());
+    let tell = |result: &ContactResult| if args.json { output::print_json(result) } else { Ok(()) };
+    let Swept { table, failures, doubtful, worst } = sweep.solve(&mut Workbench::new(""), &progress, tell)?;
     progress.finish();
     match &args.csv {
         Some(path) => atomic_file::replace(path, table.to_csv().as_bytes())?,
@@ -114,21 +104,82 @@ pub fn run(args: &SweepArgs) -> Result<Verdict, Failure> {
     Ok(Verdict::Done)
 }
 
+/// Contacts along one or two varied options, checked and not yet solved.
+pub struct Sweep {
+    names: Vec<String>,
+    points: Vec<Point>,
+}
+
+/// The varied values of a contact, and the contact.
 type Point = (Vec<f64>, Request, Method);
 
-fn requests(args: &SweepArgs) -> Result<Vec<Point>, Failure> {
-    let product = args.varied.iter().try_fold(1usize, |product, v| product.checked_mul(v.steps.len()));
-    if product.is_none_or(|points| points > MAX_POINTS) {
-        return Err(Failure::Request(format!("the sweep has too many points; at most {MAX_POINTS} are accepted")));
-    }
-    let tuples = Steps::combinations(args.varied.iter().map(|axis| &axis.steps));
-    let point = |values: Vec<f64>| {
-        let mut options = args.point.clone();
-        for (axis, &value) in args.varied.iter().zip(&values) {
-            options.set(&axis.name, value)?;
+/// What a sweep gave.
+pub struct Swept {
+    /// A row for each contact: varied values, the contact, its result; NaN where it did not converge.
+    pub table: Table,
+    /// How many did not converge.
+    pub failures: usize,
+    /// For how many the grid does not do.
+    pub doubtful: usize,
+    /// What is to be said of the last of them.
+    pub worst: String,
+}
+
+impl Sweep {
+    /// The contacts that options describe when some of them are varied, the last one fastest.
+    ///
+    /// # Errors
+    /// When one of them is refused, or there are too many.
+    pub fn new(varied: &[Varied], options: &PointOptions) -> Result<Self, Failure> {
+        let product = varied.iter().try_fold(1usize, |product, v| product.checked_mul(v.steps.len()));
+        if product.is_none_or(|points| points > MAX_POINTS) {
+            return Err(Failure::Request(format!("the sweep has too many points; at most {MAX_POINTS} are accepted")));
         }
-        let (request, method) = options.request()?;
-        Ok((values, request, method))
-    };
-    tuples.into_iter().map(point).collect()
+        let point = |values: Vec<f64>| {
+            let mut options = options.clone();
+            for (axis, &value) in varied.iter().zip(&values) {
+                options.set(&axis.name, value)?;
+            }
+            let (request, method) = options.request()?;
+            Ok((values, request, method))
+        };
+        let tuples = Steps::combinations(varied.iter().map(|axis| &axis.steps));
+        let points = tuples.into_iter().map(point).collect::<Result<_, Failure>>()?;
+        Ok(Self { names: varied.iter().map(|v| v.name.clone()).collect(), points })
+    }
+
+    /// Solves them, each from its neighbour; `tell` is shown each result.
+    ///
+    /// # Errors
+    /// When one is refused, the observer cancels, or `tell` refuses to hear more.
+    pub fn solve(
+        self,
+        bench: &mut dyn Bench,
+        observer: &dyn TrainingObserver,
+        mut tell: impl FnMut(&ContactResult) -> Result<(), Failure>,
+    ) -> Result<Swept, Failure> {
+        let heat = self.points.iter().any(|(_, request, _)| request.lubricant.heat.is_some());
+        let columns = [&CONTACT_COLUMNS[..], &result_columns(heat)].concat();
+        let titles: Vec<&str> = self.names.iter().map(String::as_str).chain(columns.iter().copied()).collect();
+        let table = Table::new("sweep", &titles);
+        let mut swept = Swept { table, failures: 0, doubtful: 0, worst: String::new() };
+        let (mut former, total) = (None, self.points.len());
+        for (i, (values, request, method)) in self.points.into_iter().enumerate() {
+            observer.progress(Progress { stage: "sweep".to_owned(), done: i, total });
+            let answer = bench.answer(&request, &method, former.as_ref(), observer)?;
+            let result = ContactResult::from(&answer);
+            tell(&result)?;
+            swept.table.rows.push(values.into_iter().chain(result.row(&columns)).collect());
+            if answer.converged {
+                if let Some(warning) = answer.solution.as_ref().and_then(Solution::grid_warning) {
+                    swept.doubtful += 1;
+                    swept.worst = warning;
+                }
+                former = answer.solution;
+            } else {
+                swept.failures += 1;
+            }
+        }
+        Ok(swept)
+    }
 }

@@ -1,22 +1,24 @@
-//! `train`: a reduced model as a scene describes. What was solved is kept in `FILE.rom.training` until the model is
+//! `train`: a reduced model as a scene describes, of stationary contacts or in time. What was solved of the former is kept in `FILE.rom.training` until the model is
 //! written, so that the same command goes on where a killed one stopped.
 
 use super::failure::Failure;
 use super::options::CavitationName;
 use super::output::{self, ProgressLine};
 use super::{Verdict, info};
+use crate::engine::model_file::ModelFileError;
 use crate::engine::training_file::{self, TrainingKeeper};
-use crate::engine::{EngineError, model_file};
+use crate::engine::{EngineError, Workbench, model_file, trajectory_file};
 use crate::scene::Scene;
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::training::{Observer, Progress, TrainingObserver, TrainingState, train_resumable};
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Options of `train`.
 #[derive(Debug, Args)]
 pub struct TrainArgs {
-    /// The scene; its study must be a training
+    /// The scene; its study must be a training, or a contact in time with a reduced model of its own
     #[arg(value_name = "SCENE.ron")]
     scene: PathBuf,
     /// Write the model here
@@ -31,17 +33,15 @@ pub struct TrainArgs {
 pub fn run(args: &TrainArgs) -> Result<Verdict, Failure> {
     let mut scene = Scene::read(&args.scene)?;
     scene.cavitation = args.cavitation.map_or(scene.cavitation, Cavitation::from);
+    if scene.trains_in_time() {
+        check_out(&args.out)?;
+        return in_time(&scene, args);
+    }
     let Some(spec) = scene.training() else {
         return Err(EngineError::NoTraining { path: args.scene.clone() }.into());
     };
     let kept = training_file::beside(&args.out);
-    let folder = args.out.parent().filter(|folder| !folder.as_os_str().is_empty());
-    if args.out.is_dir() || folder.is_some_and(|folder| !folder.is_dir()) {
-        return Err(Failure::Request(format!(
-            "cannot write {}: --out must name a file in a folder that exists",
-            args.out.display()
-        )));
-    }
+    check_out(&args.out)?;
     // What would fail at the end fails here already.
     let keeper = TrainingKeeper::new(kept.clone()).map_err(EngineError::from)?;
     let mut state = match training_file::unfinished(&kept, &spec).map_err(EngineError::from)? {
@@ -66,22 +66,54 @@ pub fn run(args: &TrainArgs) -> Result<Verdict, Failure> {
             return Err(EngineError::from(error).into());
         }
     };
-    if let Err(reason) = model_file::write(&model, &args.out) {
-        keep(watch.keeper);
-        let refused = EngineError::Model { path: args.out.clone(), reason: reason.into() };
-        let name = args.out.file_name().unwrap_or_default().to_string_lossy();
-        let elsewhere = std::env::temp_dir().join(format!("{}-{name}", std::process::id()));
-        return match model_file::write(&model, &elsewhere) {
-            Ok(()) => {
-                output::complain(&format!("{refused}; the model is in {} instead", elsewhere.display()));
-                Ok(Verdict::FellShort)
-            }
-            Err(_) => Err(refused.into()),
-        };
+    match write(&args.out, |path| model_file::write(&model, path)) {
+        Ok(Verdict::Done) => {}
+        elsewhere => {
+            keep(watch.keeper);
+            return elsewhere;
+        }
     }
     watch.keeper.discard().map_err(EngineError::from)?;
     output::print(&info::describe(&model))?;
     Ok(Verdict::Done)
+}
+
+/// Refuses what cannot be the file of a model before anything is trained.
+fn check_out(out: &Path) -> Result<(), Failure> {
+    let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty());
+    if out.is_dir() || folder.is_some_and(|folder| !folder.is_dir()) {
+        let out = out.display();
+        let sentence = format!("cannot write {out}: --out must name a file in a folder that exists");
+        return Err(Failure::Request(sentence));
+    }
+    Ok(())
+}
+
+/// Writes a model; where that fails, into the folder for temporary files, and says so.
+fn write(out: &Path, write: impl Fn(&Path) -> Result<(), ModelFileError>) -> Result<Verdict, Failure> {
+    let Err(reason) = write(out) else { return Ok(Verdict::Done) };
+    let refused = EngineError::Model { path: out.to_owned(), reason: reason.into() };
+    let name = out.file_name().unwrap_or_default().to_string_lossy();
+    let elsewhere = std::env::temp_dir().join(format!("{}-{name}", std::process::id()));
+    match write(&elsewhere) {
+        Ok(()) => {
+            output::complain(&format!("{refused}; the model is in {} instead", elsewhere.display()));
+            Ok(Verdict::FellShort)
+        }
+        Err(_) => Err(refused.into()),
+    }
+}
+
+/// Trains a model in time: its few full marches take seconds to minutes, and nothing of them is kept beside the output.
+fn in_time(scene: &Scene, args: &TrainArgs) -> Result<Verdict, Failure> {
+    let folder = args.scene.parent().unwrap_or(Path::new(""));
+    let progress = ProgressLine::new(true);
+    let trained = scene.train_in_time(&mut Workbench::new(folder), &progress);
+    progress.finish();
+    let model = Arc::new(trained?);
+    let written = write(&args.out, |path| trajectory_file::write(&model, path))?;
+    output::print(&info::describe_in_time(&model))?;
+    Ok(written)
 }
 
 /// Shows how far the training is and keeps it on disk meanwhile.

@@ -1,6 +1,8 @@
 //! Arrays for other programs: one archive (`.npz`) that `numpy.load` reads, of files (`.npy`, version 1.0) of numbers of
 //! eight bytes, neither compressed nor aligned.
 
+use super::archive::zip;
+
 /// An array with a name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Array {
@@ -43,38 +45,7 @@ impl Array {
 
 /// The archive of some arrays. Names must differ.
 pub fn npz(arrays: &[Array]) -> Vec<u8> {
-    let mut file = Vec::new();
-    let mut directory = Vec::new();
-    for array in arrays {
-        let (name, content) = (format!("{}.npy", array.name), array.to_npy());
-        let (at, size) = (file.len() as u32, content.len() as u32);
-        // What an entry and its line in the directory have in common: version 2.0, no flags, stored, the first of
-        // January 1980, checksum, both sizes, length of the name, nothing more.
-        let mut common = Vec::new();
-        [20u16, 0, 0, 0, 0x21].iter().for_each(|word| common.extend(word.to_le_bytes()));
-        [crc32fast::hash(&content), size, size].iter().for_each(|word| common.extend(word.to_le_bytes()));
-        [name.len() as u16, 0].iter().for_each(|word| common.extend(word.to_le_bytes()));
-        file.extend(b"PK\x03\x04");
-        file.extend(&common);
-        file.extend(name.as_bytes());
-        file.extend(&content);
-        directory.extend(b"PK\x01\x02");
-        directory.extend(20u16.to_le_bytes());
-        directory.extend(&common);
-        // No remark, the first volume, no attributes, where the entry begins.
-        directory.extend([0; 10]);
-        directory.extend(at.to_le_bytes());
-        directory.extend(name.as_bytes());
-    }
-    let (begin, size, count) = (file.len() as u32, directory.len() as u32, arrays.len() as u16);
-    file.extend(directory);
-    file.extend(b"PK\x05\x06");
-    file.extend([0; 4]);
-    file.extend([count, count].iter().flat_map(|count| count.to_le_bytes()));
-    file.extend(size.to_le_bytes());
-    file.extend(begin.to_le_bytes());
-    file.extend([0; 2]);
-    file
+    zip(arrays.iter().map(|array| (format!("{}.npy", array.name), array.to_npy())))
 }
 
 #[cfg(test)]

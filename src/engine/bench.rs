@@ -3,7 +3,7 @@
 
 use super::model_file::ModelFileError;
 use super::store::Store;
-use super::{EngineError, median, percentile};
+use super::{Embedded, EngineError, median, percentile};
 use crate::scene::study::transient::{Timed, timed_march};
 use crate::scene::{QuantityBox, named_lubricant};
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
@@ -156,7 +156,7 @@ impl Bench {
 
     /// The embedded model of a row; a note where there is none.
     fn online(&mut self, row: &str, kind: ContactKind, thins: bool) -> Option<Online> {
-        let model = Store::default().embedded(kind, thins);
+        let model = Store::default().embedded(Embedded::of_kind(kind, thins));
         let missing = |reason: &ModelFileError| self.notes.push(format!("{row} is missing: {reason}"));
         model.inspect_err(missing).ok().map(|model| Online::new(model, ReducedOptions::default()))
     }
@@ -255,7 +255,7 @@ fn transient_rows(size: usize) -> Result<Vec<Timing>, EngineError> {
     let trajectory = full.add_steps(&mut FullMarch::new(Arc::clone(&grid), &transient)?, &transient)?;
     let settings = TrajectoryTraining { loss: 1e-5, ..TrajectoryTraining::default() };
     let linearised = TpwlModel::train(&[&trajectory], TPWL_TRAINING)?;
-    let model = train_trajectories(&grid, &[trajectory], &settings, &())?;
+    let model = Arc::new(train_trajectories(&grid, &[trajectory], &settings, &())?);
     // Models are used for what they cost least: nobody asks for fields at every step.
     let transient = Transient { keep: Keep::Scalars, ..transient };
     let [mut reduced, mut superposed] = ["line/transient/rnsa-step", "line/transient/tpwl-step"].map(Timing::new);

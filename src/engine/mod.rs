@@ -2,31 +2,43 @@
 //!
 //! * [`Workbench`] solves single contacts by any method and keeps grids, work space and models between solves: it is the bench of studies.
 //! * [`run_scene`] answers a scene's question.
-//! * [`mod@bench`] is the speed table, [`model_file`] the `.rom` format, [`training_file`] keeps unfinished trainings.
+//! * [`mod@bench`] is the speed table, [`model_file`] and [`trajectory_file`] the `.rom` format,
+//!   [`training_file`] keeps unfinished trainings.
+//! * [`campaign`] cuts a scene's work into shards for many processes and machines.
 
 #![warn(clippy::indexing_slicing)]
 
+mod archive;
 pub mod arrays;
 pub mod bench;
+pub mod campaign;
 mod checked_file;
+pub mod coupled;
+mod embedded;
 mod grid_accuracy;
 pub mod job;
 pub mod model_arrays;
 pub mod model_file;
 pub mod results;
+mod saved_model;
 mod store;
+mod stored_heat;
 mod stored_matrix;
 mod stored_model;
+mod stored_trajectories;
 pub mod training_file;
+pub mod trajectory_file;
 mod workbench;
 
+pub use embedded::Embedded;
 pub use grid_accuracy::GridAccuracy;
+pub use saved_model::SavedModel;
 pub use store::Store;
 pub use workbench::Workbench;
 
 pub use crate::scene::study::transient::TOO_STEEP;
 pub use crate::scene::{
-    Answer, CONTACT_COLUMNS, ContactResult, NamedValue, RESULT_COLUMNS, ReducedFacts, Request, RunError as EngineError,
-    SceneOutcome, Table, Verdict, film_shear_table, median, percentile, profile_table, rank_correlation, run_scene,
+    Answer, CONTACT_COLUMNS, ContactResult, NamedValue, ReducedFacts, Request, RunError as EngineError, SceneOutcome,
+    Table, Verdict, film_shear_table, median, percentile, profile_table, rank_correlation, result_columns, run_scene,
     table,
 };

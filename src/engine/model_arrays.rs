@@ -2,7 +2,8 @@
 
 use super::arrays::Array;
 use crate::solver::reduced::tpwl::TpwlModel;
-use crate::solver::reduced::{PodBasis, ReducedModel};
+use crate::solver::reduced::transient::{TrajectoryModel, TrajectoryStart};
+use crate::solver::reduced::{PodBasis, ReducedModel, Window};
 use faer::Mat;
 
 /// A matrix by rows.
@@ -18,6 +19,36 @@ fn basis(prefix: &str, of: &PodBasis) -> [Array; 2] {
     ]
 }
 
+/// Nodes, bases and sampled rows of a window, names beginning with `prefix`.
+fn of_window(prefix: &str, window: &Window) -> Vec<Array> {
+    let (name, grid) = (|what: &str| format!("{prefix}{what}"), &window.grid);
+    let places: Vec<(f64, f64)> = (0..grid.weights().len()).map(|node| grid.place(node)).collect();
+    let sampled = window.sampled_rows.iter().map(|row| grid.node(*row) as f64).collect();
+    let mut arrays = vec![
+        Array::list(name("xi"), places.iter().map(|place| place.0).collect()),
+        Array::list(name("y"), places.iter().map(|place| place.1).collect()),
+        Array::list(name("weights"), grid.weights().to_vec()),
+    ];
+    arrays.extend(basis(&name("pressure"), &window.pressure));
+    arrays.extend(basis(&name("deformation"), &window.deformation));
+    arrays.push(Array::list(name("sampled_nodes"), sampled));
+    arrays.push(matrix(name("reconstruction"), &window.reconstruction));
+    arrays
+}
+
+/// A model in time: nodes, bases and sampled rows as those of a window, without its name in front, and of the beginnings
+/// of its trainings `starts` (R, u_m, w, E', η₀, α, how long in T, H₀) with `start_coefficients`.
+pub fn of_trajectories(model: &TrajectoryModel) -> Vec<Array> {
+    let mut arrays = of_window("", &model.window);
+    let starts = model.starts.iter();
+    let row = |start: &TrajectoryStart| start.point.quantities().into_iter().chain([start.duration, start.h_0]);
+    let rows: Vec<Vec<f64>> = starts.clone().map(|start| row(start).collect()).collect();
+    arrays.push(Array::rows("starts", &rows));
+    let coefficients: Vec<&[f64]> = starts.map(|start| start.coefficients.as_slice()).collect();
+    arrays.push(Array::rows("start_coefficients", &coefficients));
+    arrays
+}
+
 /// Every window of a model, its names beginning with `window_1_` and so on: `m` (from, to), `xi` and `y` of the nodes
 /// (X over the reference half width, Y), quadrature `weights`, `pressure_modes` and `deformation_modes` (nodes × modes)
 /// with their `_singular_values`, `sampled_nodes` (from 0), `reconstruction` (modes × rows), and of the snapshots
@@ -26,19 +57,8 @@ pub fn of_model(model: &ReducedModel) -> Vec<Array> {
     let mut arrays = Vec::new();
     for (k, window) in model.windows.iter().enumerate() {
         let name = |what: &str| format!("window_{}_{what}", k + 1);
-        let grid = &window.grid;
-        let places: Vec<(f64, f64)> = (0..grid.weights().len()).map(|node| grid.place(node)).collect();
-        let sampled = window.sampled_rows.iter().map(|row| grid.node(*row) as f64).collect();
-        arrays.extend([
-            Array::list(name("m"), vec![window.m.0, window.m.1]),
-            Array::list(name("xi"), places.iter().map(|place| place.0).collect()),
-            Array::list(name("y"), places.iter().map(|place| place.1).collect()),
-            Array::list(name("weights"), grid.weights().to_vec()),
-        ]);
-        arrays.extend(basis(&name("pressure"), &window.pressure));
-        arrays.extend(basis(&name("deformation"), &window.deformation));
-        arrays.push(Array::list(name("sampled_nodes"), sampled));
-        arrays.push(matrix(name("reconstruction"), &window.reconstruction));
+        arrays.push(Array::list(name("m"), vec![window.m.0, window.m.1]));
+        arrays.extend(of_window(&format!("window_{}_", k + 1), window));
         let snapshots: Vec<Vec<f64>> = window
             .snapshots
             .iter()
@@ -105,11 +125,11 @@ fn stacked<'a>(name: String, matrices: impl Iterator<Item = &'a Mat<f64>>) -> Ar
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::model_file;
+    use crate::engine::Embedded;
 
     #[test]
     fn a_basis_leaves_whole_and_orthonormal() {
-        let model = model_file::embedded().unwrap();
+        let model = Embedded::Line.model().unwrap();
         let arrays = of_model(&model);
         let of = |name: &str| arrays.iter().find(|array| array.name == name).unwrap();
         let (modes, weights) = (of("window_1_pressure_modes"), of("window_1_weights"));

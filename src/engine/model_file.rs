@@ -1,32 +1,23 @@
-//! Reduced model files (`.rom`): the header of `checked_file`, then what `stored_model` makes of a model; and those in the program.
+//! Reduced model files (`.rom`): the header of `checked_file`, then what `stored_model` makes of a model. Models in time,
+//! whose versions count on from another number, are those of [`super::trajectory_file`].
 
 use super::checked_file::{Flaw, Format, Unreadable};
 use super::stored_model;
+use super::trajectory_file::in_time;
 use crate::scene::atomic_file::{self, WriteError};
 use crate::solver::discrete::grid::GridError;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::ReducedModel;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
-const VERSION: u32 = 9;
+const VERSION: u32 = 10;
 /// Before it no model said how its films rupture: by the penalty.
 const OLDEST: u32 = 6;
+/// What every reduced model file begins with.
+pub(super) const MAGIC: &[u8; 8] = b"EHLROM\r\n";
 /// Real models have a few MB.
+pub(super) const MAX_PAYLOAD: u64 = 512 << 20;
 const FORMAT: Format =
-    Format { magic: b"EHLROM\r\n", version: VERSION, oldest: OLDEST, whole_hash: 7, max_payload: 512 << 20 };
-
-/// The models that are part of the program: of a kind of contact, for a lubricant that thins under shear or not. Each is trained by a scene.
-static EMBEDDED: [((ContactKind, bool), &[u8]); 4] = [
-    // scenes/training/embedded_model.ron
-    ((ContactKind::Line, false), include_bytes!("../../assets/line.rom")),
-    // scenes/training/table_3_4_model.ron
-    ((ContactKind::Point, false), include_bytes!("../../assets/point.rom")),
-    // scenes/training/embedded_shear_model.ron
-    ((ContactKind::Line, true), include_bytes!("../../assets/line_shear.rom")),
-    // scenes/training/embedded_point_shear_model.ron
-    ((ContactKind::Point, true), include_bytes!("../../assets/point_shear.rom")),
-];
+    Format { magic: MAGIC, version: VERSION, oldest: OLDEST, whole_hash: 7, max_payload: MAX_PAYLOAD };
 
 /// Why a model file is refused. Nothing is lost by it.
 #[derive(Debug, thiserror::Error)]
@@ -52,6 +43,29 @@ pub enum ModelFileError {
     Newer {
         /// Its version.
         found: u32,
+    },
+    /// A model in time, where one of stationary contacts is wanted.
+    #[error(
+        "this is a reduced model in time; a scene takes contacts through time with it (study: Transient(…, reduced: \
+         (model: File(\"FILE.rom\")))), and `ehl-explorer export fmu` makes a unit of it"
+    )]
+    InTime,
+    /// A model of stationary contacts, where one in time is wanted.
+    #[error(
+        "this is a reduced model of stationary contacts, but one in time is wanted; `ehl-explorer train` makes one of a \
+         scene whose study is Transient(…, reduced: (…))"
+    )]
+    Stationary,
+    /// A model in time that was written by a newer program.
+    #[error(
+        "the file of a reduced model in time has version {found}, but this program reads version {read}; use a newer \
+         program or train it again"
+    )]
+    NewerInTime {
+        /// Its version.
+        found: u32,
+        /// The newest that is read.
+        read: u32,
     },
     /// Written by an older program.
     #[error("the model file has version {found}, but this program reads version {VERSION}; train it again")]
@@ -85,6 +99,9 @@ pub enum ModelFileError {
         /// Range of M of the window.
         m: (f64, f64),
     },
+    /// A model in time does not rest where its trainings began.
+    #[error("the model in time does not find the contacts that its trainings began with; train it again")]
+    UnprovenInTime,
     /// Its grid is refused.
     #[error("the model file's grid is refused: {0}")]
     Grid(#[from] GridError),
@@ -94,6 +111,7 @@ impl From<Flaw> for ModelFileError {
     fn from(flaw: Flaw) -> Self {
         match flaw {
             Flaw::Foreign => Self::Foreign,
+            Flaw::Newer { found } if in_time(found) => Self::InTime,
             Flaw::Newer { found } => Self::Newer { found },
             Flaw::Older { found } => Self::Older { found },
             Flaw::Truncated { found, wanted } => Self::Truncated { found, wanted },
@@ -101,43 +119,6 @@ impl From<Flaw> for ModelFileError {
             Flaw::Changed => Self::Damaged { what: "its content does not match its hash" },
         }
     }
-}
-
-/// The content of the model in the program for a kind of contact and a lubricant that thins under shear or not.
-fn embedded_bytes(contact: ContactKind, thins: bool) -> &'static [u8] {
-    EMBEDDED.iter().find(|(of, _)| *of == (contact, thins)).map_or(&[], |(_, bytes)| bytes)
-}
-
-/// The model in the program for a kind of contact and a lubricant that thins under shear or not.
-///
-/// # Errors
-/// When the program was built with a damaged asset.
-pub fn embedded_model(contact: ContactKind, thins: bool) -> Result<ReducedModel, ModelFileError> {
-    from_bytes(embedded_bytes(contact, thins))
-}
-
-/// The model of line contacts that is part of the program.
-///
-/// # Errors
-/// When the program was built with a damaged asset.
-pub fn embedded() -> Result<Arc<ReducedModel>, ModelFileError> {
-    embedded_of(ContactKind::Line)
-}
-
-/// The model of one kind of contact that is part of the program.
-///
-/// # Errors
-/// When the program was built with a damaged asset.
-pub fn embedded_of(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileError> {
-    embedded_model(contact, false).map(Arc::new)
-}
-
-/// The model of one kind of contact with a shear-thinning lubricant that is part of the program.
-///
-/// # Errors
-/// When the program was built with a damaged asset.
-pub fn embedded_shear_of(contact: ContactKind) -> Result<Arc<ReducedModel>, ModelFileError> {
-    embedded_model(contact, true).map(Arc::new)
 }
 
 /// Reads a model file. Its announced size is checked before anything is allocated.
@@ -182,17 +163,25 @@ pub fn from_bytes(bytes: &[u8]) -> Result<ReducedModel, ModelFileError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::Embedded;
     use crate::engine::checked_file::HEADER;
+    use crate::solver::discrete::grid::GridSpec;
+    use crate::solver::physics::contact::Moes;
     use crate::solver::physics::lubricant::Cavitation;
-    use crate::solver::reduced::{Sampling, Scheme};
-    use crate::solver::training::small::{ellipses, line};
-    use crate::solver::training::{TrainingSpec, train};
+    use crate::solver::reduced::{HeatDomain, Sampling, Scheme};
+    use crate::solver::training::small::{ellipses, heated, line, oils};
+    use crate::solver::training::{TrainingSpec, WindowSpec, Windows, train};
 
     #[test]
     fn the_embedded_models_are_intact_small_and_survive_a_round_trip() {
-        for (_, bytes) in EMBEDDED {
-            assert!(bytes.len() < 6_000_000, "{} bytes", bytes.len());
-            assert!(to_bytes(&from_bytes(bytes).unwrap()).unwrap()[HEADER..] == bytes[HEADER..]);
+        let sizes = Embedded::ALL.map(|which| which.bytes().len());
+        assert!(sizes.iter().sum::<usize>() < 25_000_000, "{sizes:?} bytes");
+        for bytes in Embedded::ALL.map(Embedded::bytes) {
+            let again = to_bytes(&from_bytes(bytes).unwrap()).unwrap();
+            // What former versions kept differently is kept a little shorter now, and stays so.
+            let former = bytes[8..12] != VERSION.to_le_bytes();
+            assert!(if former { again.len() < bytes.len() } else { again == bytes });
+            assert!(to_bytes(&from_bytes(&again).unwrap()).unwrap() == again);
         }
     }
 
@@ -200,7 +189,7 @@ mod tests {
     fn damage_is_named_and_never_panics() {
         assert!(matches!(from_bytes(b"PNG something else entirely"), Err(ModelFileError::Foreign)));
         assert!(matches!(from_bytes(&[]), Err(ModelFileError::Foreign)));
-        let line = embedded_bytes(ContactKind::Line, false);
+        let line = Embedded::Line.bytes();
         assert!(matches!(from_bytes(&line[..10]), Err(ModelFileError::Truncated { .. })));
         assert!(matches!(from_bytes(&line[..line.len() - 9]), Err(ModelFileError::Truncated { .. })));
         let mut flipped = line.to_vec();
@@ -211,7 +200,7 @@ mod tests {
         huge[12..20].copy_from_slice(&u64::MAX.to_le_bytes());
         assert!(matches!(from_bytes(&huge), Err(ModelFileError::TooLarge { .. })));
         let of_version = |version: u8| {
-            let mut bytes = embedded_bytes(ContactKind::Line, true).to_vec();
+            let mut bytes = Embedded::ThinningLine.bytes().to_vec();
             bytes[8] = version;
             from_bytes(&bytes)
         };
@@ -221,7 +210,7 @@ mod tests {
 
     #[test]
     fn everything_but_the_hash_itself_is_under_it_and_nothing_follows() {
-        let model = embedded_shear_of(ContactKind::Line).unwrap();
+        let model = Embedded::ThinningLine.model().unwrap();
         let bytes = to_bytes(&model).unwrap();
         for place in (8..HEADER).chain([HEADER + 7]) {
             let mut changed = bytes.clone();
@@ -238,9 +227,14 @@ mod tests {
 
     #[test]
     fn a_payload_that_lies_is_refused_even_with_a_right_hash() {
-        let model = embedded().unwrap();
+        let spec = line(Sampling::QDeim, 16);
+        let (low, high) = spec.domain().m;
+        let middle = (low * high).sqrt();
+        let window = |m| WindowSpec::new(m, GridSpec::Graded { nodes: 240, domain: (-8.0, 3.2), registered: true });
+        let windows = Windows::Given(vec![window((low, middle)), window((middle, high))]);
+        let model = train(&TrainingSpec { windows, ..spec }, &()).unwrap();
         let refused = |spoil: &dyn Fn(&mut ReducedModel)| {
-            let mut wrong = (*model).clone();
+            let mut wrong = model.clone();
             spoil(&mut wrong);
             from_bytes(&to_bytes(&wrong).unwrap()).err()
         };
@@ -249,7 +243,7 @@ mod tests {
             &|m| m.windows[1].snapshots[0].h_c = f64::NAN,
             &|m| m.windows[1].snapshots.truncate(3),
             &|m| m.windows[0].m = (7.0, 4.0),
-            &|m| m.windows.swap(0, 3),
+            &|m| m.windows.swap(0, 1),
             &|m| m.domain.l.0 = f64::NAN,
             &|m| m.domain.m = (500.0, 2.0),
             &|m| m.domain.max_hertz_pressure_pa = f64::INFINITY,
@@ -264,7 +258,7 @@ mod tests {
             m.windows[0].snapshots.iter_mut().for_each(|snapshot| snapshot.h_c *= 2.0);
         });
         assert!(matches!(other, Some(ModelFileError::Unproven { .. })), "{other:?}");
-        let mut loud = (*model).clone();
+        let mut loud = model.clone();
         loud.title.push_str("\u{1b}[2J");
         loud.log.push("a\u{7}b".to_owned());
         let quiet = from_bytes(&to_bytes(&loud).unwrap()).unwrap();
@@ -297,7 +291,7 @@ mod tests {
         let refused = from_bytes(&to_bytes(&wrong).unwrap()).err();
         assert!(matches!(refused, Some(ModelFileError::Damaged { what: "scheme" })), "{refused:?}");
         // What an older program wrote says nothing of it.
-        assert_eq!(embedded().unwrap().domain.lubricant.cavitation, Cavitation::Penalty);
+        assert_eq!(Embedded::Circle.model().unwrap().domain.lubricant.cavitation, Cavitation::Penalty);
     }
 
     #[test]
@@ -323,8 +317,59 @@ mod tests {
     }
 
     #[test]
+    fn heat_survives_a_round_trip_and_must_fit_the_windows() {
+        let model = train(&heated(Sampling::All, 16), &()).unwrap();
+        let read = from_bytes(&to_bytes(&model).unwrap()).unwrap();
+        assert_eq!(read.domain, model.domain);
+        assert!(read.domain.heat.is_some() && read.domain.lubricant.heat.is_some());
+        assert_eq!(read.windows[0].traction, model.windows[0].traction);
+        let of_heat = |m: &mut ReducedModel, spoil: fn(&mut HeatDomain)| m.domain.heat.iter_mut().for_each(spoil);
+        let lies: [&dyn Fn(&mut ReducedModel); 4] = [
+            &|m| of_heat(m, |heat| heat.srr = (0.5, 2.5)),
+            &|m| of_heat(m, |heat| heat.radius_m = f64::NAN),
+            &|m| m.domain.lubricant.heat.iter_mut().for_each(|heat| heat.inlet_temperature = -1.0),
+            &|m| m.domain.lubricant.heat.iter_mut().for_each(|heat| heat.oil.conductivity = f64::INFINITY),
+        ];
+        for lie in lies {
+            let mut wrong = model.clone();
+            lie(&mut wrong);
+            let refused = from_bytes(&to_bytes(&wrong).unwrap()).err();
+            assert!(matches!(refused, Some(ModelFileError::Damaged { what: "its domain" })), "{refused:?}");
+        }
+    }
+
+    #[test]
+    fn oils_and_anchors_survive_a_round_trip_and_must_fit_the_windows() {
+        let model = train(&oils(Sampling::QDeim, 40).under(Cavitation::Complementarity), &()).unwrap();
+        let read = from_bytes(&to_bytes(&model).unwrap()).unwrap();
+        assert_eq!(read.domain, model.domain);
+        assert!(read.windows.iter().map(|w| w.anchor).eq(model.windows.iter().map(|w| w.anchor)));
+        let shared = |w: &crate::solver::reduced::Window| w.deformation.modes == read.windows[0].deformation.modes;
+        assert!(read.windows.len() == 3 && read.windows.iter().all(shared));
+        let oil =
+            |m: &mut ReducedModel, value: (f64, f64)| m.domain.oils.iter_mut().for_each(|oils| oils.exponent = value);
+        let lies: [&dyn Fn(&mut ReducedModel); 4] =
+            [&|m| oil(m, (0.5, f64::NAN)), &|m| oil(m, (0.8, 0.4)), &|m| m.domain.max_hertz_pressure_pa = 1e3, &|m| {
+                m.windows[0].anchor = Some(Moes { m: -1.0, l: 2.0 })
+            }];
+        for lie in lies {
+            let mut wrong = model.clone();
+            lie(&mut wrong);
+            let refused = from_bytes(&to_bytes(&wrong).unwrap()).err();
+            assert!(matches!(refused, Some(ModelFileError::Damaged { what: "oils" })), "{refused:?}");
+        }
+    }
+
+    #[test]
+    fn a_version_of_another_kind_is_told() {
+        let mut bytes = Embedded::ThinningLine.bytes().to_vec();
+        bytes[10] = 1;
+        assert!(matches!(from_bytes(&bytes), Err(ModelFileError::InTime)));
+    }
+
+    #[test]
     fn an_unwritable_target_is_one_sentence() {
-        let model = embedded().unwrap();
+        let model = Embedded::Line.model().unwrap();
         let error = write(&model, Path::new("/nonexistent-folder/model.rom")).unwrap_err().to_string();
         assert!(error.contains("/nonexistent-folder/model.rom"), "{error}");
     }

@@ -1,11 +1,13 @@
 //! What is expensive and shared, in one place: grids with their kernels, full solvers, reduced models, and their
 //! operators.
 
-use super::EngineError;
 use super::model_file::{self, ModelFileError};
+use super::{Embedded, EngineError, trajectory_file};
+use crate::scene::Scene;
 use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec};
 use crate::solver::full::ContactSolver;
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::reduced::transient::TrajectoryModel;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions};
 use crate::solver::training::{TrainingObserver, TrainingSpec, train};
 use std::path::{Path, PathBuf};
@@ -31,18 +33,21 @@ struct Shelves {
     grids: Mutex<Vec<ContactGrid>>,
     full: Mutex<Vec<ContactSolver>>,
     models: Mutex<Vec<(Origin, Arc<ReducedModel>)>>,
+    in_time: Mutex<Vec<(Origin, Arc<TrajectoryModel>)>>,
     online: Mutex<Vec<Online>>,
 }
 
 /// What a reduced model was made from, by which it is known again.
 #[derive(Clone, PartialEq)]
 enum Origin {
-    /// It is part of the program; whether its lubricant thins under shear.
-    Embedded(ContactKind, bool),
+    /// It is part of the program.
+    Embedded(Embedded),
     /// A file as it was at a time, and its size.
     File(PathBuf, Option<SystemTime>, u64),
     /// Trained.
     Training(Box<TrainingSpec>),
+    /// Trained in time.
+    Scene(Box<Scene>),
 }
 
 impl Store {
@@ -82,12 +87,12 @@ impl Store {
         keep(&self.0.online, online, |_| true, KEPT_ONLINE);
     }
 
-    /// The reduced model in the program for a kind of contact, and for a lubricant that thins under shear or not.
+    /// A reduced model of the program.
     ///
     /// # Errors
     /// When the program was built with a damaged one.
-    pub fn embedded(&self, contact: ContactKind, thins: bool) -> Result<Arc<ReducedModel>, ModelFileError> {
-        self.model(Origin::Embedded(contact, thins), || model_file::embedded_model(contact, thins))
+    pub fn embedded(&self, which: Embedded) -> Result<Arc<ReducedModel>, ModelFileError> {
+        made_once(&self.0.models, Origin::Embedded(which), || which.model())
     }
 
     /// The reduced model of a file; read again where the file was changed.
@@ -95,10 +100,29 @@ impl Store {
     /// # Errors
     /// When it cannot be read.
     pub fn model_of_file(&self, path: &Path) -> Result<Arc<ReducedModel>, EngineError> {
-        let unreadable = |reason: ModelFileError| EngineError::Model { path: path.to_owned(), reason: reason.into() };
-        let (changed, size) =
-            std::fs::metadata(path).map_or((None, 0), |metadata| (metadata.modified().ok(), metadata.len()));
-        self.model(Origin::File(path.to_owned(), changed, size), || model_file::read(path)).map_err(unreadable)
+        let read = || model_file::read(path).map(Arc::new);
+        made_once(&self.0.models, Origin::of_file(path), read).map_err(|reason| unreadable(path, reason))
+    }
+
+    /// The reduced model in time of a file; read again where the file was changed.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn trajectory_model_of_file(&self, path: &Path) -> Result<Arc<TrajectoryModel>, EngineError> {
+        let read = || trajectory_file::read(path);
+        made_once(&self.0.in_time, Origin::of_file(path), read).map_err(|reason| unreadable(path, reason))
+    }
+
+    /// The reduced model in time that a scene gives; trained once.
+    ///
+    /// # Errors
+    /// When it gives none.
+    pub fn trained_in_time(
+        &self,
+        scene: &Scene,
+        train: impl FnOnce() -> Result<TrajectoryModel, EngineError>,
+    ) -> Result<Arc<TrajectoryModel>, EngineError> {
+        made_once(&self.0.in_time, Origin::Scene(Box::new(scene.clone())), || train().map(Arc::new))
     }
 
     /// The reduced model that a training gives; trained once.
@@ -110,23 +134,42 @@ impl Store {
         spec: &TrainingSpec,
         observer: &dyn TrainingObserver,
     ) -> Result<Arc<ReducedModel>, EngineError> {
-        Ok(self.model(Origin::Training(Box::new(spec.clone())), || train(spec, observer))?)
+        let origin = Origin::Training(Box::new(spec.clone()));
+        Ok(made_once(&self.0.models, origin, || train(spec, observer).map(Arc::new))?)
     }
+}
 
-    fn model<E>(&self, origin: Origin, make: impl FnOnce() -> Result<ReducedModel, E>) -> Result<Arc<ReducedModel>, E> {
-        let kept = || lock(&self.0.models).iter().find(|(kept, _)| *kept == origin).map(|(_, model)| Arc::clone(model));
-        if let Some(model) = kept() {
-            return Ok(model);
-        }
-        let made = Arc::new(make()?);
-        if let Some(first) = kept() {
-            // Another thread has made it meanwhile: everybody gets the first.
-            return Ok(first);
-        }
-        let passing = |(origin, _): &(Origin, _)| !matches!(origin, Origin::Embedded(..));
-        keep(&self.0.models, (origin, Arc::clone(&made)), passing, KEPT_MODELS);
-        Ok(made)
+impl Origin {
+    /// A file as it is now.
+    fn of_file(path: &Path) -> Self {
+        let (changed, size) =
+            std::fs::metadata(path).map_or((None, 0), |metadata| (metadata.modified().ok(), metadata.len()));
+        Self::File(path.to_owned(), changed, size)
     }
+}
+
+fn unreadable(path: &Path, reason: ModelFileError) -> EngineError {
+    EngineError::Model { path: path.to_owned(), reason: reason.into() }
+}
+
+/// The model of an origin from its shelf, made where it is not there.
+fn made_once<M, E>(
+    shelf: &Mutex<Vec<(Origin, Arc<M>)>>,
+    origin: Origin,
+    make: impl FnOnce() -> Result<Arc<M>, E>,
+) -> Result<Arc<M>, E> {
+    let kept = || lock(shelf).iter().find(|(kept, _)| *kept == origin).map(|(_, model)| Arc::clone(model));
+    if let Some(model) = kept() {
+        return Ok(model);
+    }
+    let made = make()?;
+    if let Some(first) = kept() {
+        // Another thread has made it meanwhile: everybody gets the first.
+        return Ok(first);
+    }
+    let passing = |(origin, _): &(Origin, _)| !matches!(origin, Origin::Embedded(..));
+    keep(shelf, (origin, Arc::clone(&made)), passing, KEPT_MODELS);
+    Ok(made)
 }
 
 fn lock<T>(shelf: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -203,8 +246,8 @@ mod tests {
     #[test]
     fn a_model_is_read_once_and_its_operators_are_handed_on() {
         let store = Store::default();
-        let model = store.embedded(ContactKind::Line, false).unwrap();
-        assert!(Arc::ptr_eq(&store.embedded(ContactKind::Line, false).unwrap(), &model));
+        let model = store.embedded(Embedded::Line).unwrap();
+        assert!(Arc::ptr_eq(&store.embedded(Embedded::Line).unwrap(), &model));
         let options = ReducedOptions::default();
         let online = store.online(&model, options);
         store.give_back(online);

@@ -2,12 +2,13 @@
 //!
 //! The modes of a basis are kept to an accuracy of the fields they make, relative to the fields' own size at each node:
 //! a mode that hardly appears in any solution needs few digits, and a node where pressures are small as many as any
-//! other, since the mobility of thick films multiplies what is lost there. Each value is the one that its neighbours
-//! let expect plus a multiple of a power of two; the multiples are small, and small integers take one or two bytes.
-//! Nodes where no mode has a value are left out.
+//! other, since the mobility of thick films multiplies what is lost there. Each value is a multiple of a power of two,
+//! and what is kept is by how many of them it misses the polynomial through the nodes before it: of fields that are
+//! smooth small integers, which take one or two bytes. Nodes where no mode has a value are left out.
 
 use crate::solver::reduced::PodBasis;
 use faer::Mat;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Modes are kept as if none were rarer than this, relative to the first one.
@@ -16,9 +17,12 @@ const RAREST: f64 = 1e-5;
 const SMALLEST: f64 = 1e-30;
 /// Exponents beyond these belong to no field.
 const EXPONENTS: std::ops::RangeInclusive<i16> = -400..=400;
+/// Highest orders of the polynomials that are continued along X and across.
+const MOST_ALONG: u8 = 5;
+const MOST_BESIDE: u8 = 2;
 
 /// A matrix on its way to or from a file.
-#[derive(Serialize, Deserialize)]
+#[derive(Clone, Default, Serialize, Deserialize)]
 pub(super) struct StoredMatrix {
     rows: usize,
     columns: usize,
@@ -26,15 +30,39 @@ pub(super) struct StoredMatrix {
 }
 
 /// New variants go to the end, so that older files stay readable.
-#[derive(Serialize, Deserialize)]
+#[derive(Clone, Serialize, Deserialize)]
 enum Values {
     Double(Vec<f64>),
     Single(Vec<f32>),
     Steps(Steps),
+    Curves(Curves),
 }
 
-/// Columns over a grid in steps of 2^(exponent of the row + exponent of the column).
-#[derive(Serialize, Deserialize)]
+impl Default for Values {
+    fn default() -> Self {
+        Self::Double(Vec::new())
+    }
+}
+
+/// Columns over a grid as multiples of 2^(exponent of the row + exponent of the column).
+#[derive(Clone, Serialize, Deserialize)]
+struct Curves {
+    /// Nodes across: rows i and i − across are neighbours along X.
+    across: usize,
+    /// Lengths of runs of rows without and with values, in turn.
+    runs: Vec<usize>,
+    /// Of the rows with values.
+    row_exponents: Vec<i16>,
+    column_exponents: Vec<i16>,
+    /// Of each column the orders along X and across of the polynomial that is continued.
+    orders: Vec<(u8, u8)>,
+    /// By how many multiples the rows with values miss it, column after column.
+    misses: Vec<i64>,
+}
+
+/// What former versions kept: values in steps of 2^(exponent of the row + exponent of the column) from the straight
+/// continuation of the values before them.
+#[derive(Clone, Serialize, Deserialize)]
 struct Steps {
     /// Nodes across: rows i and i − across are neighbours along X.
     across: usize,
@@ -48,7 +76,7 @@ struct Steps {
 }
 
 /// A basis on its way to or from a file.
-#[derive(Serialize, Deserialize)]
+#[derive(Clone, Serialize, Deserialize)]
 pub(super) struct StoredBasis {
     pub modes: StoredMatrix,
     singular_values: Vec<f64>,
@@ -61,29 +89,33 @@ impl StoredMatrix {
         Self { rows: matrix.nrows(), columns: matrix.ncols(), values: Values::Double(values) }
     }
 
+    /// To seven digits.
+    pub fn single(matrix: &Mat<f64>) -> Self {
+        let values = matrix.col_iter().flat_map(|column| column.iter().map(|value| *value as f32)).collect();
+        Self { rows: matrix.nrows(), columns: matrix.ncols(), values: Values::Single(values) }
+    }
+
     /// Columns over a grid with so many nodes across, kept to `accuracy` relative to the size Σ_k (scale_k V_ik)² of
     /// each row.
-    fn stepped(matrix: &Mat<f64>, across: usize, scales: &[f64], accuracy: f64) -> Self {
+    pub fn stepped(matrix: &Mat<f64>, across: usize, scales: &[f64], accuracy: f64) -> Self {
         let (rows, columns) = (matrix.nrows(), matrix.ncols());
         let size = |i: usize| scales.iter().enumerate().map(|(k, s)| (s * matrix[(i, k)]).powi(2)).sum::<f64>().sqrt();
         let sizes: Vec<f64> = (0..rows).map(size).collect();
         let largest = sizes.iter().copied().fold(0.0, f64::max);
         let used: Vec<bool> = sizes.iter().map(|size| *size > SMALLEST * largest).collect();
         let exponent = |step: f64| step.log2().floor() as i16;
-        let row_exponents =
+        let row_exponents: Vec<i16> =
             sizes.iter().zip(&used).filter(|(_, used)| **used).map(|(size, _)| exponent(*size)).collect();
-        let column_exponents = scales.iter().map(|scale| exponent(accuracy / scale)).collect();
-        let mut steps = Steps { across, runs: runs(&used), row_exponents, column_exponents, steps: Vec::new() };
-        for k in 0..columns {
-            let mut taken = Vec::with_capacity(steps.row_exponents.len());
-            steps.walk(k, &used, |i, predicted, step| {
-                let count = ((matrix[(i, k)] - predicted) / step).round() as i64;
-                taken.push(count);
-                Some(count)
-            });
-            steps.steps.extend(taken);
-        }
-        Self { rows, columns, values: Values::Steps(steps) }
+        let column_exponents: Vec<i16> = scales.iter().map(|scale| exponent(accuracy / scale)).collect();
+        let lattice = Lattice::new(&used, across, &row_exponents);
+        let kept = column_exponents.par_iter().enumerate().map(|(k, exponent)| {
+            let column: Vec<f64> = matrix.col(k).iter().copied().collect();
+            lattice.shortest(&column, *exponent)
+        });
+        let (orders, misses): (Vec<_>, Vec<_>) = kept.collect::<Vec<_>>().into_iter().unzip();
+        let (runs, misses) = (runs(&used), misses.concat());
+        let curves = Curves { across, runs, row_exponents, column_exponents, orders, misses };
+        Self { rows, columns, values: Values::Curves(curves) }
     }
 
     /// Rows that it says it has.
@@ -99,10 +131,122 @@ impl StoredMatrix {
             Values::Double(values) => values,
             Values::Single(values) => values.into_iter().map(f64::from).collect(),
             Values::Steps(steps) => steps.values(rows, columns)?,
+            Values::Curves(curves) => curves.values(rows, columns)?,
         };
         let sound = values.len() == count && values.iter().all(|v| v.is_finite());
         sound.then(|| Mat::from_fn(rows, columns, |i, j| values.get(j * rows + i).copied().unwrap_or_default()))
     }
+}
+
+impl Curves {
+    /// Column after column; `None` when its parts do not fit each other.
+    fn values(self, rows: usize, columns: usize) -> Option<Vec<f64>> {
+        let Self { across, runs, row_exponents, column_exponents, orders, misses } = self;
+        let used = flags(&runs, rows)?;
+        let per_column = used.iter().filter(|used| **used).count();
+        let known = |(along, beside): &(u8, u8)| *along <= MOST_ALONG && *beside <= MOST_BESIDE;
+        let fits = across > 0
+            && (row_exponents.len(), column_exponents.len(), orders.len()) == (per_column, columns, columns)
+            && sane(&row_exponents)
+            && sane(&column_exponents)
+            && orders.iter().all(known)
+            && per_column.checked_mul(columns) == Some(misses.len());
+        if !fits {
+            return None;
+        }
+        let lattice = Lattice::new(&used, across, &row_exponents);
+        let column = |k: usize| {
+            let own = misses.get(k * per_column..(k + 1) * per_column).unwrap_or_default();
+            let mut values = vec![0.0; rows];
+            lattice.walk(&mut values, *column_exponents.get(k)?, *orders.get(k)?, |place, _, expected| {
+                own.get(place).map_or(0, |miss| expected.saturating_add(*miss))
+            });
+            Some(values)
+        };
+        Some((0..columns).into_par_iter().map(column).collect::<Option<Vec<_>>>()?.concat())
+    }
+}
+
+/// Where the values of a column lie, and on which multiples.
+struct Lattice<'a> {
+    used: &'a [bool],
+    across: usize,
+    /// 2^exponent of the rows with values.
+    row_steps: Vec<f64>,
+}
+
+impl<'a> Lattice<'a> {
+    fn new(used: &'a [bool], across: usize, row_exponents: &[i16]) -> Self {
+        Self { used, across, row_steps: row_exponents.iter().map(|exponent| f64::from(*exponent).exp2()).collect() }
+    }
+
+    /// The orders whose continuation takes the fewest bytes to correct, and by how much it misses each row.
+    fn shortest(&self, column: &[f64], exponent: i16) -> ((u8, u8), Vec<i64>) {
+        let most_beside = if self.across > 1 { MOST_BESIDE } else { 0 };
+        let candidates = (1..=MOST_ALONG).flat_map(|along| (0..=most_beside).map(move |beside| (along, beside)));
+        let missed = candidates.map(|orders| {
+            let (mut misses, mut values) = (Vec::with_capacity(self.row_steps.len()), vec![0.0; column.len()]);
+            self.walk(&mut values, exponent, orders, |_, (row, step), expected| {
+                let count = (column.get(row).copied().unwrap_or_default() / step).round() as i64;
+                misses.push(count.saturating_sub(expected));
+                count
+            });
+            (orders, misses)
+        });
+        let bytes = |(_, misses): &(_, Vec<i64>)| misses.iter().map(|miss| encoded_bytes(*miss)).sum::<u32>();
+        missed.min_by_key(bytes).unwrap_or_default()
+    }
+
+    /// Goes through a column, whose values are found as it goes: `count` says which multiple the value of a row is,
+    /// given the place among those with values, the row with its step, and the multiple that is expected.
+    fn walk(
+        &self,
+        values: &mut [f64],
+        exponent: i16,
+        (along, beside): (u8, u8),
+        mut count: impl FnMut(usize, (usize, f64), i64) -> i64,
+    ) {
+        // v − (1 − S)^along (1 − S')^beside v, with S and S' the shifts by a node along X and across.
+        let mut terms = Vec::new();
+        for (i, a) in signed_binomials(along).into_iter().enumerate() {
+            for (j, b) in signed_binomials(beside).into_iter().enumerate().filter(|(j, _)| i + j > 0) {
+                terms.push((i * self.across, j, -a * b));
+            }
+        }
+        let rows = self.used.iter().enumerate().filter(|(_, used)| **used).map(|(row, _)| row);
+        let of_column = f64::from(exponent).exp2();
+        for (place, (row, own)) in rows.zip(&self.row_steps).enumerate() {
+            let step = own * of_column;
+            let in_line = row % self.across;
+            let reached = terms.iter().filter(|(back, aside, _)| *aside <= in_line && back + aside <= row);
+            let at = |back: usize| values.get(row - back).copied().unwrap_or_default();
+            let expected: f64 = reached.map(|(back, aside, factor)| factor * at(back + aside)).sum();
+            let count = count(place, (row, step), (expected / step).round() as i64);
+            if let Some(value) = values.get_mut(row) {
+                *value = step * count as f64;
+            }
+        }
+    }
+}
+
+/// The coefficients of (1 − s)^order.
+fn signed_binomials(order: u8) -> Vec<f64> {
+    let mut term = 1.0;
+    let rest = (1..=order).map(|k| {
+        term *= -f64::from(order - k + 1) / f64::from(k);
+        term
+    });
+    std::iter::once(1.0).chain(rest).collect()
+}
+
+/// Bytes that an integer takes in a file: seven bits each, the sign among them.
+fn encoded_bytes(value: i64) -> u32 {
+    let bits = i64::BITS - ((value << 1) ^ (value >> 63)).leading_zeros();
+    bits.div_ceil(7).max(1)
+}
+
+fn sane(exponents: &[i16]) -> bool {
+    exponents.iter().all(|exponent| EXPONENTS.contains(exponent))
 }
 
 impl Steps {
@@ -110,7 +254,6 @@ impl Steps {
     fn values(self, rows: usize, columns: usize) -> Option<Vec<f64>> {
         let used = flags(&self.runs, rows)?;
         let per_column = used.iter().filter(|used| **used).count();
-        let sane = |exponents: &[i16]| exponents.iter().all(|exponent| EXPONENTS.contains(exponent));
         let fits = self.across > 0
             && (self.row_exponents.len(), self.column_exponents.len()) == (per_column, columns)
             && sane(&self.row_exponents)
@@ -120,29 +263,18 @@ impl Steps {
             return None;
         }
         let mut counts = self.steps.iter();
-        let mut values = Vec::with_capacity(rows * columns);
-        for k in 0..columns {
-            values.extend(self.walk(k, &used, |_, _, _| counts.next().copied())?);
+        let mut all = Vec::with_capacity(rows * columns);
+        for of_column in &self.column_exponents {
+            let mut values = vec![0.0; rows];
+            let mut exponents = self.row_exponents.iter();
+            for (i, _) in used.iter().enumerate().filter(|(_, used)| **used) {
+                let step = f64::from(exponents.next()? + of_column).exp2();
+                let value = predicted(&values, i, self.across) + step * *counts.next()? as f64;
+                *values.get_mut(i)? = value;
+            }
+            all.append(&mut values);
         }
-        Some(values)
-    }
-
-    /// Goes through a column: `count` says how many steps the value of a row lies from its prediction, given both.
-    fn walk(
-        &self,
-        column: usize,
-        used: &[bool],
-        mut count: impl FnMut(usize, f64, f64) -> Option<i64>,
-    ) -> Option<Vec<f64>> {
-        let mut values = vec![0.0; used.len()];
-        let mut exponents = self.row_exponents.iter();
-        let of_column = self.column_exponents.get(column)?;
-        for (i, _) in used.iter().enumerate().filter(|(_, used)| **used) {
-            let step = f64::from(exponents.next()? + of_column).exp2();
-            let predicted = predicted(&values, i, self.across);
-            *values.get_mut(i)? = predicted + step * count(i, predicted, step)? as f64;
-        }
-        Some(values)
+        Some(all)
     }
 }
 
@@ -192,6 +324,11 @@ impl StoredBasis {
         Self { modes: StoredMatrix::stepped(&basis.modes, across, &scales, accuracy), singular_values: sigma.clone() }
     }
 
+    /// The same to the last digit.
+    pub fn exact(basis: &PodBasis) -> Self {
+        Self { modes: StoredMatrix::exact(&basis.modes), singular_values: basis.singular_values.clone() }
+    }
+
     /// Entries of the node arrays that its modes say they are.
     pub fn rows(&self) -> usize {
         self.modes.rows
@@ -200,6 +337,11 @@ impl StoredBasis {
     /// Modes that it says there are.
     pub fn columns(&self) -> usize {
         self.modes.columns
+    }
+
+    /// In place of a basis that is kept elsewhere: no modes over so many rows.
+    pub fn elsewhere(rows: usize) -> Self {
+        Self { modes: StoredMatrix { rows, ..StoredMatrix::default() }, singular_values: Vec::new() }
     }
 
     /// The basis, if it has `rows` rows and is sound.
@@ -261,24 +403,59 @@ mod tests {
         assert!(StoredMatrix::exact(&matrix).into_mat(3).unwrap() == matrix);
         assert!(stored(Values::Single(values[1..].to_vec())).into_mat(3).is_none());
         assert!(stored(Values::Double(vec![f64::NAN; 6])).into_mat(3).is_none());
+        // Two steps of a quarter, one beyond what both neighbours let expect, one of a half beyond the straight line.
+        let (across, runs, row_exponents) = (1, vec![0, 3], vec![0, 0, 1]);
+        let steps =
+            Steps { across, runs, row_exponents, column_exponents: vec![-2, -3], steps: vec![2, 1, 1, 0, 0, 4] };
+        let former = stored(Values::Steps(steps)).into_mat(3).unwrap();
+        assert_eq!(former, Mat::from_fn(3, 2, |i, j| [[0.5, 1.25, 2.5], [0.0, 0.0, 1.0]][j][i]));
+    }
+
+    #[test]
+    fn what_misses_are_counted_from_is_the_polynomial_through_the_nodes_before() {
+        // A cubic along X with a parabola across is met exactly from the fifth line on.
+        let (rows, across) = (40, 6);
+        let value = |i: usize, j: usize| (i * i * i) as f64 - 40.0 + (j * j) as f64 * (i + 1) as f64;
+        let column: Vec<f64> = (0..rows * across).map(|k| value(k / across, k % across)).collect();
+        let (used, exponents) = (vec![true; rows * across], vec![0; rows * across]);
+        let lattice = Lattice::new(&used, across, &exponents);
+        let (orders, misses) = lattice.shortest(&column, 0);
+        assert!(orders.0 >= 3, "{orders:?}");
+        let mut values = vec![0.0; rows * across];
+        let mut missed = Vec::new();
+        lattice.walk(&mut values, 0, (4, 2), |_, (row, _), expected| {
+            missed.push(column[row] as i64 - expected);
+            column[row] as i64
+        });
+        let within = |k: usize| k / across >= 4 && k % across >= 2;
+        assert!(missed.iter().enumerate().filter(|(k, _)| within(*k)).all(|(_, miss)| *miss == 0));
+        let bytes = |misses: &[i64]| misses.iter().map(|miss| encoded_bytes(*miss)).sum::<u32>();
+        assert!(bytes(&misses) <= bytes(&missed));
+        for (value, bytes) in [(0, 1), (63, 1), (-64, 1), (64, 2), (-65, 2), (8191, 2), (8192, 3), (i64::MIN, 10)] {
+            assert_eq!(postcard::to_allocvec(&value).unwrap().len() as u32, bytes);
+            assert_eq!(encoded_bytes(value), bytes);
+        }
     }
 
     #[test]
     fn parts_that_do_not_fit_each_other_are_refused() {
         let stored = || StoredBasis::new(&basis(), 5, 1e-6);
         assert!(stored().into_basis(149).is_none() && stored().into_basis(usize::MAX).is_none());
-        let spoiled = |spoil: &dyn Fn(&mut Steps)| {
+        let spoiled = |spoil: &dyn Fn(&mut Curves)| {
             let mut stored = stored();
-            if let Values::Steps(steps) = &mut stored.modes.values {
-                spoil(steps);
+            if let Values::Curves(curves) = &mut stored.modes.values {
+                spoil(curves);
             }
             stored.into_basis(150).is_none()
         };
-        assert!(spoiled(&|steps| steps.runs.push(usize::MAX)));
-        assert!(spoiled(&|steps| steps.runs[0] += 1));
-        assert!(spoiled(&|steps| steps.across = 0));
-        assert!(spoiled(&|steps| steps.row_exponents[0] = i16::MAX));
-        assert!(spoiled(&|steps| steps.column_exponents.truncate(1)));
-        assert!(spoiled(&|steps| steps.steps.truncate(1)));
+        assert!(!spoiled(&|_| {}));
+        assert!(spoiled(&|curves| curves.runs.push(usize::MAX)));
+        assert!(spoiled(&|curves| curves.runs[0] += 1));
+        assert!(spoiled(&|curves| curves.across = 0));
+        assert!(spoiled(&|curves| curves.row_exponents[0] = i16::MAX));
+        assert!(spoiled(&|curves| curves.column_exponents.truncate(1)));
+        assert!(spoiled(&|curves| curves.orders[2].0 = 200));
+        assert!(spoiled(&|curves| curves.orders.truncate(1)));
+        assert!(spoiled(&|curves| curves.misses.truncate(1)));
     }
 }

@@ -4,23 +4,28 @@
 //! ([`super::stored_matrix`]).
 
 use super::model_file::ModelFileError;
+use super::stored_heat::StoredHeat;
 use super::stored_matrix::{StoredBasis, StoredMatrix};
 use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec};
-use crate::solver::physics::contact::{ContactKind, Ellipse};
-use crate::solver::physics::lubricant::{Cavitation, ShearLaw, Sliding};
+use crate::solver::physics::contact::{ContactKind, Ellipse, Moes};
+use crate::solver::physics::lubricant::{Cavitation, LARGEST_HEATED_SRR, ShearLaw, Sliding};
 use crate::solver::reduced::{
-    Beside, Calibration, Domain, ReducedModel, SampledRows, Sampling, Scheme, Shapes, SlidingDomain, Snapshot,
-    TractionRule, Window,
+    Beside, CIRCLES, Calibration, Domain, HeatDomain, OilDomain, PodBasis, ReducedModel, SampledRows, Sampling, Scheme,
+    Shapes, SlidingDomain, Snapshot, TractionRule, Window,
 };
 use faer::Mat;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// Relative accuracy of pressures and deformations at every node to which the bases of a kind of contact are kept.
-fn accuracy(kind: ContactKind) -> f64 {
-    match kind {
-        ContactKind::Line => 1e-13,
-        ContactKind::Point => 2e-10,
+/// Relative accuracy of pressures and deformations at every node to which the bases of a window are kept.
+fn accuracy(window: &Window) -> f64 {
+    match (window.grid.kind(), &window.shapes) {
+        // These have dozens of windows; at 1e-8 they lost more than their modes miss, at 1e-11 nothing of it.
+        (ContactKind::Line, _) if window.anchor.is_some() => 1e-11,
+        (ContactKind::Line, _) => 1e-13,
+        (ContactKind::Point, None) => 2e-10,
+        // These have many windows, and K V is interpolated over the shapes.
+        (ContactKind::Point, Some(_)) => 2e-9,
     }
 }
 
@@ -53,12 +58,39 @@ struct StoredShapes {
     windows: Vec<((f64, f64), Vec<f64>)>,
 }
 
+/// What follows that, with a word for no ellipses, in a model of many oils; others end without it.
+#[derive(Serialize, Deserialize)]
+struct StoredOils {
+    oils: OilDomain,
+    windows: Vec<StoredAnchor>,
+}
+
+/// What follows that, with words for no ellipses and no oils, in a model of contacts with heat; others end without it.
+#[derive(Serialize, Deserialize)]
+struct StoredHeated {
+    heat: StoredHeat,
+    domain: HeatDomain,
+}
+
+/// A window around an anchor.
+#[derive(Serialize, Deserialize)]
+struct StoredAnchor {
+    /// M and L of the anchor.
+    moes: (f64, f64),
+    /// The coefficients of its snapshots, snapshots × modes; no more than starts are made of them.
+    coefficients: StoredMatrix,
+}
+
+/// Accuracy of the coefficients of snapshots from which a model of many oils starts, relative to each one's own size.
+const START_ACCURACY: f64 = 1e-5;
+
 #[derive(Serialize, Deserialize)]
 struct StoredWindow {
     m: (f64, f64),
     grid: GridSpec,
     penalty: f64,
     pressure: StoredBasis,
+    /// Of windows around anchors the first one has it for all.
     deformation: StoredBasis,
     sampling: Sampling,
     sampled_rows: Vec<usize>,
@@ -68,21 +100,67 @@ struct StoredWindow {
     calibration: Option<Calibration>,
 }
 
+/// Sampled rows on their way to or from a file, with the scheme that they serve.
+#[derive(Serialize, Deserialize)]
+pub(super) struct StoredRows {
+    pub rows: Vec<usize>,
+    pub reconstruction: StoredMatrix,
+    pub scheme: Scheme,
+    /// What GNAT makes of the residual.
+    pub residual: Option<StoredMatrix>,
+}
+
+impl StoredRows {
+    /// The rows of a model with so many modes on a grid.
+    ///
+    /// # Errors
+    /// When they do not fit it or each other.
+    pub fn into_rows(self, modes: usize, grid: &ContactGrid) -> Result<SampledRows, ModelFileError> {
+        let damaged = |what| Err(ModelFileError::Damaged { what });
+        let Self { rows, reconstruction, scheme, residual } = self;
+        let (gnat, stored) = (matches!(scheme, Scheme::Gnat { .. }), reconstruction.rows());
+        let equations = match scheme {
+            Scheme::Galerkin => modes,
+            Scheme::LeastSquares { .. } => 1,
+            Scheme::Gnat { .. } => stored.max(modes).min(grid.unknowns()),
+        };
+        let Some(reconstruction) = reconstruction.into_mat(equations) else { return damaged("sampled rows") };
+        let residual = residual.map(|residual| residual.into_mat(equations));
+        let fits = |own: &Option<Mat<f64>>| own.as_ref().is_some_and(|own| own.ncols() == reconstruction.ncols());
+        let enough = scheme == Scheme::Galerkin || reconstruction.ncols() > modes;
+        if !enough || gnat != residual.is_some() || !residual.iter().all(fits) {
+            return damaged("scheme");
+        }
+        let fit = rows.is_sorted_by(|a, b| a < b)
+            && rows.last().is_some_and(|&row| row < grid.unknowns())
+            && reconstruction.ncols() == rows.len();
+        if !fit {
+            return damaged("sampled rows");
+        }
+        Ok(SampledRows { rows, reconstruction, scheme, residual: residual.flatten() })
+    }
+}
+
 /// Whether two numbers are the ends of an interval within 0…`most`.
 fn sound_interval((low, high): (f64, f64), most: f64) -> bool {
     0.0 <= low && low <= high && high <= most
 }
 
 /// Whether a domain can be that of a model: one that knows sliding is of a lubricant that thins under shear, and only
-/// such a one.
-fn sound_domain(domain: &Domain) -> bool {
-    let Domain { m, l, alpha_per_pa, max_hertz_pressure_pa, viscosity_pa_s, lubricant, sliding, .. } = domain;
+/// such a one, unless it knows heat.
+pub(super) fn sound_domain(domain: &Domain) -> bool {
+    let Domain { m, l, alpha_per_pa, max_hertz_pressure_pa, viscosity_pa_s, lubricant, sliding, heat, .. } = domain;
     let positive = |value: f64| value > 0.0 && value.is_finite();
     let thins = lubricant.shear != ShearLaw::Newtonian;
     let sliding_is_sound = |sliding: &SlidingDomain| {
         sound_interval(sliding.srr, f64::MAX) && sound_interval(sliding.npr, 1.0) && positive(sliding.modulus_pa)
     };
-    thins == sliding.is_some()
+    let heat_is_sound = |heat: &HeatDomain| {
+        let kind = sliding.is_none() && lubricant.heat.is_some();
+        kind && sound_interval(heat.srr, LARGEST_HEATED_SRR) && positive(heat.radius_m) && positive(heat.modulus_pa)
+    };
+    (heat.is_some() || thins == sliding.is_some())
+        && heat.as_ref().is_none_or(heat_is_sound)
         && lubricant.check().is_ok()
         && [m, l, alpha_per_pa].into_iter().all(|interval| sound_interval(*interval, f64::MAX))
         && [*max_hertz_pressure_pa, *viscosity_pa_s].into_iter().all(positive)
@@ -90,7 +168,7 @@ fn sound_domain(domain: &Domain) -> bool {
 }
 
 /// Entries of node arrays on a grid, without building it.
-fn entries(grid: &GridSpec) -> Result<usize, GridError> {
+pub(super) fn entries(grid: &GridSpec) -> Result<usize, GridError> {
     Ok(match grid {
         GridSpec::Graded { nodes, .. } => nodes.saturating_add(1),
         GridSpec::Uniform { dx, domain: (from, to) } => (((to - from) / dx).round() as usize).saturating_add(2),
@@ -102,11 +180,12 @@ fn entries(grid: &GridSpec) -> Result<usize, GridError> {
 /// from snapshots, and every node of a grid has a byte at least.
 fn check_counts(windows: &[StoredWindow], bytes: usize) -> Result<(), ModelFileError> {
     let mut nodes = 0usize;
+    let all = windows.iter().map(|window| window.snapshots.len()).sum();
     for window in windows {
         let rows = entries(&window.grid)?;
         nodes = nodes.saturating_add(rows);
-        let fits = |basis: &StoredBasis| basis.rows() == rows && basis.columns() <= window.snapshots.len();
-        if !(fits(&window.pressure) && fits(&window.deformation)) {
+        let fits = |basis: &StoredBasis, most: usize| basis.rows() == rows && basis.columns() <= most;
+        if !(fits(&window.pressure, window.snapshots.len()) && fits(&window.deformation, all)) {
             return Err(ModelFileError::Damaged { what: "bases" });
         }
     }
@@ -118,9 +197,8 @@ fn check_counts(windows: &[StoredWindow], bytes: usize) -> Result<(), ModelFileE
 /// # Errors
 /// When a window does not give the H_c that it was trained from.
 pub(super) fn prove(model: &ReducedModel) -> Result<(), ModelFileError> {
-    let sliding = model.domain.sliding.is_some();
-    let proven = |window: &Window| window.reproduces_snapshots(model.domain.lubricant, sliding);
-    match model.windows.par_iter().find_first(|window| !proven(window)) {
+    let windows = model.windows.par_iter().enumerate();
+    match windows.filter(|(k, _)| !model.reproduces_snapshots(*k)).map(|(_, window)| window).find_first(|_| true) {
         Some(window) => Err(ModelFileError::Unproven { m: window.m }),
         None => Ok(()),
     }
@@ -130,7 +208,7 @@ impl StoredWindow {
     fn into_window(
         self,
         grid: ContactGrid,
-        sliding: bool,
+        domain: &Domain,
         (scheme, residual): (Scheme, Option<StoredMatrix>),
     ) -> Result<Window, ModelFileError> {
         let nodes = grid.len();
@@ -143,26 +221,8 @@ impl StoredWindow {
         if modes == 0 || deformation.modes.ncols() == 0 {
             return damaged("bases");
         }
-        let (gnat, stored) = (matches!(scheme, Scheme::Gnat { .. }), self.reconstruction.rows());
-        let equations = match scheme {
-            Scheme::Galerkin => modes,
-            Scheme::LeastSquares { .. } => 1,
-            Scheme::Gnat { .. } => stored.max(modes).min(grid.unknowns()),
-        };
-        let Some(reconstruction) = self.reconstruction.into_mat(equations) else { return damaged("sampled rows") };
-        let residual = residual.map(|residual| residual.into_mat(equations));
-        let fits = |own: &Option<Mat<f64>>| own.as_ref().is_some_and(|own| own.ncols() == reconstruction.ncols());
-        let enough = scheme == Scheme::Galerkin || reconstruction.ncols() > modes;
-        if !enough || gnat != residual.is_some() || !residual.iter().all(fits) {
-            return damaged("scheme");
-        }
-        let residual = residual.flatten();
-        let rows_fit = self.sampled_rows.is_sorted_by(|a, b| a < b)
-            && self.sampled_rows.last().is_some_and(|&r| r < grid.unknowns())
-            && reconstruction.ncols() == self.sampled_rows.len();
-        if !rows_fit {
-            return damaged("sampled rows");
-        }
+        let stored = StoredRows { rows: self.sampled_rows, reconstruction: self.reconstruction, scheme, residual };
+        let rows = stored.into_rows(modes, &grid)?;
         let snapshots_fit = self.snapshots.iter().all(|s| {
             let Sliding { slide_to_roll_ratio, newtonian_plateau_ratio } = s.point.sliding;
             s.point.check().is_ok()
@@ -178,17 +238,19 @@ impl StoredWindow {
         if self.snapshots.is_empty() || !snapshots_fit {
             return damaged("snapshots");
         }
-        if !self.traction.as_ref().is_none_or(|rule| sliding && rule.sound(&grid)) {
+        let (sliding, heat) = (domain.sliding.is_some(), domain.heat.is_some());
+        let slides = sliding || heat;
+        let of_kind =
+            |known: &Calibration| known.is_of(Beside::Sliding) == sliding && known.is_of(Beside::Heat) == heat;
+        if heat && (grid.kind() != ContactKind::Line || scheme != Scheme::Galerkin) {
+            return damaged("heat");
+        }
+        if !self.traction.as_ref().is_none_or(|rule| slides && rule.sound(&grid)) {
             return damaged("traction");
         }
-        if !self
-            .calibration
-            .as_ref()
-            .is_none_or(|known| known.sound() && (known.beside() == Some(Beside::Sliding)) == sliding)
-        {
+        if !self.calibration.as_ref().is_none_or(|known| known.sound() && of_kind(known)) {
             return damaged("calibration");
         }
-        let rows = SampledRows { rows: self.sampled_rows, reconstruction, scheme, residual };
         let mut window = Window::new(self.m, grid, pressure, deformation, self.snapshots, self.sampling, rows);
         (window.penalty, window.traction, window.calibration) = (self.penalty, self.traction, self.calibration);
         Ok(window)
@@ -197,24 +259,34 @@ impl StoredWindow {
 
 /// The payload of a model file; none where the model cannot be encoded.
 pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
-    let accuracy = accuracy(model.contact());
-    let basis = |basis, grid: &ContactGrid| StoredBasis::new(basis, grid.nodes().1, accuracy);
+    fn basis(basis: &PodBasis, window: &Window) -> StoredBasis {
+        StoredBasis::new(basis, window.grid.nodes().1, accuracy(window))
+    }
+    let first = model.windows.first();
+    let deformation = |k: usize, window: &Window| match first {
+        Some(first) if k > 0 && shares_deformation(window, first) => StoredBasis::elsewhere(window.grid.len()),
+        _ => basis(&window.deformation, window),
+    };
     let stored = StoredModel {
         title: model.title.clone(),
         domain: model.domain.clone(),
         windows: model
             .windows
             .iter()
-            .map(|w| StoredWindow {
+            .enumerate()
+            .map(|(k, w)| StoredWindow {
                 m: w.m,
                 grid: w.grid.spec(),
                 penalty: w.penalty,
-                pressure: basis(&w.pressure, &w.grid),
-                deformation: basis(&w.deformation, &w.grid),
+                pressure: basis(&w.pressure, w),
+                deformation: deformation(k, w),
                 sampling: w.sampling,
                 sampled_rows: w.sampled_rows.clone(),
-                reconstruction: StoredMatrix::exact(&w.reconstruction),
-                snapshots: w.snapshots.clone(),
+                reconstruction: match (w.anchor, &w.shapes) {
+                    (None, None) => StoredMatrix::exact(&w.reconstruction),
+                    _ => StoredMatrix::single(&w.reconstruction),
+                },
+                snapshots: w.snapshots.iter().map(|snapshot| without_coefficients(snapshot, w)).collect(),
                 traction: w.traction.clone(),
                 calibration: w.calibration.clone(),
             })
@@ -225,8 +297,8 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
     let payload = postcard::to_allocvec(&stored).ok()?;
     let (windows, cavitation) = (&model.windows, model.domain.lubricant.cavitation);
     let usual = cavitation == Cavitation::Penalty && windows.iter().all(|window| window.scheme == Scheme::Galerkin);
-    let shapes = stored_shapes(model);
-    if usual && shapes.is_none() {
+    let (shapes, oils, heated) = (stored_shapes(model), stored_oils(model), stored_heat(model));
+    if usual && shapes.is_none() && oils.is_none() && heated.is_none() {
         return Some(payload);
     }
     let of_window = |window: &Window| window.snapshots.iter().map(|snapshot| snapshot.fronts.clone()).collect();
@@ -234,10 +306,104 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
     let scheme = |window: &Window| (window.scheme, window.residual_reconstruction.as_ref().map(StoredMatrix::exact));
     let schemes = windows.iter().map(scheme).collect();
     let payload = postcard::to_extend(&StoredFurther { cavitation, fronts, schemes }, payload).ok()?;
-    match shapes {
-        Some(shapes) => postcard::to_extend(&shapes, payload).ok(),
-        None => Some(payload),
+    let circles = || StoredShapes { radius_ratio: CIRCLES, windows: Vec::new() };
+    match (shapes, oils, heated) {
+        (Some(shapes), ..) => postcard::to_extend(&shapes, payload).ok(),
+        (None, Some(oils), _) => postcard::to_extend(&oils, postcard::to_extend(&circles(), payload).ok()?).ok(),
+        (None, None, Some(heated)) => {
+            let payload = postcard::to_extend(&circles(), payload).ok()?;
+            postcard::to_extend(&heated, postcard::to_extend(&StoredOils::none(), payload).ok()?).ok()
+        }
+        (None, None, None) => Some(payload),
     }
+}
+
+/// Whether a window around an anchor has the very deformation basis of another one.
+fn shares_deformation(window: &Window, other: &Window) -> bool {
+    let same = || window.grid.spec() == other.grid.spec() && window.deformation.modes == other.deformation.modes;
+    window.anchor.is_some() && same()
+}
+
+impl StoredOils {
+    /// The word for no oils.
+    fn none() -> Self {
+        let none = (0.0, 0.0);
+        Self {
+            oils: OilDomain { viscosity_pa_s: none, exponent: none, lowest_hertz_pressure_pa: 0.0 },
+            windows: Vec::new(),
+        }
+    }
+}
+
+/// What only a model of contacts with heat has.
+fn stored_heat(model: &ReducedModel) -> Option<StoredHeated> {
+    Some(StoredHeated { heat: model.domain.lubricant.heat?.into(), domain: model.domain.heat? })
+}
+
+/// A snapshot as its window keeps it: coefficients of windows around anchors have a place of their own.
+fn without_coefficients(snapshot: &Snapshot, window: &Window) -> Snapshot {
+    if window.anchor.is_none() {
+        return snapshot.clone();
+    }
+    Snapshot { coefficients: Vec::new(), fronts: Vec::new(), ..*snapshot }
+}
+
+/// What only a model of many oils has.
+fn stored_oils(model: &ReducedModel) -> Option<StoredOils> {
+    let stored = |window: &Window| {
+        let Moes { m, l } = window.anchor?;
+        let (snapshots, modes) = (&window.snapshots, window.pressure.modes.ncols());
+        let of = |i: usize, k: usize| snapshots.get(i)?.coefficients.get(k).copied();
+        let coefficients = Mat::from_fn(snapshots.len(), modes, |i, k| of(i, k).unwrap_or_default());
+        let size = |k: usize| (coefficients.col(k).squared_norm_l2() / snapshots.len() as f64).sqrt();
+        let scales: Vec<f64> = (0..modes).map(|k| 1.0 / size(k).max(f64::MIN_POSITIVE)).collect();
+        let coefficients = StoredMatrix::stepped(&coefficients, 1, &scales, START_ACCURACY);
+        Some(StoredAnchor { moes: (m, l), coefficients })
+    };
+    Some(StoredOils { oils: model.domain.oils?, windows: model.windows.iter().map(stored).collect::<Option<_>>()? })
+}
+
+/// Gives the windows of a model around anchors the deformation basis that the first one has for all.
+fn give_deformation(windows: &mut [StoredWindow]) {
+    if let Some((first, others)) = windows.split_first_mut() {
+        let elsewhere = |window: &&mut StoredWindow| window.deformation.columns() == 0;
+        others.iter_mut().filter(elsewhere).for_each(|window| window.deformation = first.deformation.clone());
+    }
+}
+
+/// Gives the snapshots of a model's windows their coefficients; `None` where they do not fit.
+fn give_coefficients(windows: &mut [StoredWindow], oils: &mut StoredOils) -> Option<()> {
+    if windows.len() != oils.windows.len() {
+        return None;
+    }
+    for (window, stored) in windows.iter_mut().zip(&mut oils.windows) {
+        let coefficients = std::mem::take(&mut stored.coefficients).into_mat(window.snapshots.len())?;
+        for (i, snapshot) in window.snapshots.iter_mut().enumerate() {
+            snapshot.coefficients = coefficients.row(i).iter().copied().collect();
+        }
+    }
+    Some(())
+}
+
+/// Gives a model its oils and the anchors of its windows; `None` where these do not fit it.
+fn anchor(model: &mut ReducedModel, StoredOils { oils, windows }: StoredOils) -> Option<()> {
+    let anchors: Vec<(f64, f64)> = windows.iter().map(|window| window.moes).collect();
+    let OilDomain { viscosity_pa_s, exponent, lowest_hertz_pressure_pa: lowest } = oils;
+    let sound = [viscosity_pa_s, exponent, (lowest, model.domain.max_hertz_pressure_pa)]
+        .into_iter()
+        .all(|interval| sound_interval(interval, f64::MAX));
+    let placed = |&(m, l): &(f64, f64)| Moes { m, l }.check().is_ok();
+    let grid = model.windows.first()?.grid.spec();
+    let shared = model.windows.iter().all(|window| window.grid.spec() == grid);
+    let fits = anchors.len() == model.windows.len() && anchors.iter().all(placed) && shared;
+    if !(sound && fits) || model.domain.sliding.is_some() {
+        return None;
+    }
+    model.domain.oils = Some(oils);
+    for (window, (m, l)) in model.windows.iter_mut().zip(anchors) {
+        window.anchor = Some(Moes { m, l });
+    }
+    Some(())
 }
 
 /// What only a model of ellipses has.
@@ -258,7 +424,8 @@ fn shape(model: &mut ReducedModel, StoredShapes { radius_ratio, windows }: Store
         return None;
     }
     model.domain.radius_ratio = radius_ratio;
-    for (window, (ratios, radii)) in model.windows.iter_mut().zip(windows) {
+    let windows: Vec<_> = model.windows.iter_mut().zip(windows).collect();
+    windows.into_par_iter().try_for_each(|(window, (ratios, radii))| {
         let ContactGrid::Point(grid) = &window.grid else { return None };
         if !sound(ratios) || radii.len() != window.snapshots.len() || window.cavitation != Cavitation::Penalty {
             return None;
@@ -268,13 +435,22 @@ fn shape(model: &mut ReducedModel, StoredShapes { radius_ratio, windows }: Store
             snapshot.point.radius_y_m = Some(radius_y);
             snapshot.point.check().ok()?;
         }
-    }
-    Some(())
+        Some(())
+    })
+}
+
+/// What follows a model in a payload.
+#[derive(Default)]
+struct Further {
+    further: StoredFurther,
+    shapes: Option<StoredShapes>,
+    oils: Option<StoredOils>,
+    heated: Option<StoredHeated>,
 }
 
 /// What follows the model in a payload; `None` where it cannot be understood.
-fn further(rest: &[u8], windows: usize) -> Option<(StoredFurther, Option<StoredShapes>)> {
-    let (mut further, mut shapes) = (StoredFurther::default(), None);
+fn further(rest: &[u8], windows: usize) -> Option<Further> {
+    let Further { mut further, mut shapes, mut oils, mut heated } = Further::default();
     if !rest.is_empty() {
         let (known, rest) = postcard::take_from_bytes::<StoredFurther>(rest).ok()?;
         if known.schemes.len() != windows {
@@ -283,11 +459,23 @@ fn further(rest: &[u8], windows: usize) -> Option<(StoredFurther, Option<StoredS
         further = known;
         if !rest.is_empty() {
             let (known, rest) = postcard::take_from_bytes::<StoredShapes>(rest).ok()?;
-            shapes = rest.is_empty().then_some(Some(known))?;
+            if rest.is_empty() {
+                shapes = Some(known);
+            } else {
+                let (known_oils, rest) = postcard::take_from_bytes::<StoredOils>(rest).ok()?;
+                let of_circles = known.windows.is_empty() && known.radius_ratio == CIRCLES;
+                if rest.is_empty() {
+                    oils = of_circles.then_some(Some(known_oils))?;
+                } else {
+                    let (known, rest) = postcard::take_from_bytes::<StoredHeated>(rest).ok()?;
+                    let alone = rest.is_empty() && of_circles && known_oils.windows.is_empty();
+                    heated = alone.then_some(Some(known))?;
+                }
+            }
         }
     }
     further.schemes.resize_with(windows, Default::default);
-    Some((further, shapes))
+    Some(Further { further, shapes, oils, heated })
 }
 
 /// Gives the windows of a model their law of rupture; `None` where it does not fit them.
@@ -295,7 +483,7 @@ fn rupture(model: &mut ReducedModel, cavitation: Cavitation, fronts: Vec<Vec<Vec
     if cavitation == Cavitation::Penalty {
         return fronts.is_empty().then_some(());
     }
-    let ruptures = cavitation == Cavitation::Complementarity && model.domain.sliding.is_none();
+    let ruptures = cavitation == Cavitation::Complementarity && !model.slides();
     if !(ruptures && fronts.len() == model.windows.len()) {
         return None;
     }
@@ -323,25 +511,32 @@ fn rupture(model: &mut ReducedModel, cavitation: Cavitation, fronts: Vec<Vec<Vec
 pub(super) fn decode(payload: &[u8]) -> Result<ReducedModel, ModelFileError> {
     let (stored, rest): (StoredModel, &[u8]) = postcard::take_from_bytes(payload)
         .map_err(|_| ModelFileError::Damaged { what: "its content cannot be decoded" })?;
-    let StoredModel { mut title, domain, windows, scene, mut log } = stored;
+    let StoredModel { mut title, mut domain, mut windows, scene, mut log } = stored;
+    let damaged = |what| ModelFileError::Damaged { what };
+    let Further { further, shapes, mut oils, heated } =
+        further(rest, windows.len()).ok_or(damaged("rupture and schemes"))?;
+    if let Some(StoredHeated { heat, domain: of_heat }) = heated {
+        (domain.lubricant.heat, domain.heat) = (Some(heat.into()), Some(of_heat));
+    }
     if !sound_domain(&domain) {
         return Err(ModelFileError::Damaged { what: "its domain" });
     }
-    let damaged = |what| ModelFileError::Damaged { what };
-    let (further, shapes) = further(rest, windows.len()).ok_or(damaged("rupture and schemes"))?;
-    // Those of ellipses ascend for each shape.
-    let ascending = shapes.is_some() || windows.is_sorted_by(|a, b| a.m.0 <= b.m.0);
+    // Those of ellipses ascend for each shape, those around anchors with these.
+    let ascending = shapes.is_some() || oils.is_some() || windows.is_sorted_by(|a, b| a.m.0 <= b.m.0);
     if !(ascending && windows.iter().all(|window| sound_interval(window.m, f64::MAX))) {
         return Err(ModelFileError::Damaged { what: "ranges of its windows" });
     }
     check_counts(&windows, payload.len())?;
+    if let Some(oils) = &mut oils {
+        give_coefficients(&mut windows, oils).ok_or(damaged("oils"))?;
+        give_deformation(&mut windows);
+    }
     // They are shown on terminals.
     log.iter_mut().chain([&mut title]).for_each(|text| text.retain(|letter| !letter.is_control()));
     let grids = grids(&windows)?;
-    let sliding = domain.sliding.is_some();
     let parts = windows.into_par_iter().zip(grids).zip(further.schemes);
     let windows: Vec<Window> =
-        parts.map(|((w, grid), scheme)| w.into_window(grid, sliding, scheme)).collect::<Result<_, _>>()?;
+        parts.map(|((w, grid), scheme)| w.into_window(grid, &domain, scheme)).collect::<Result<_, _>>()?;
     let Some(kind) = windows.first().map(|window| window.grid.kind()) else {
         return Err(ModelFileError::Damaged { what: "no windows" });
     };
@@ -352,6 +547,9 @@ pub(super) fn decode(payload: &[u8]) -> Result<ReducedModel, ModelFileError> {
     rupture(&mut model, further.cavitation, further.fronts).ok_or(damaged("rupture"))?;
     if let Some(shapes) = shapes {
         shape(&mut model, shapes).ok_or(damaged("shapes"))?;
+    }
+    if let Some(oils) = oils {
+        anchor(&mut model, oils).ok_or(damaged("oils"))?;
     }
     prove(&model)?;
     Ok(model)

@@ -7,8 +7,9 @@
 
 use super::EngineError;
 use super::checked_file::{Flaw, Format, Unreadable};
+use super::stored_heat::StoredHeat;
 use crate::scene::atomic_file::{self, WriteError};
-use crate::solver::physics::lubricant::Cavitation;
+use crate::solver::physics::lubricant::{Cavitation, Heat, Lubricant};
 use crate::solver::training::{TrainingSpec, TrainingState, Windows};
 use std::collections::HashSet;
 use std::ffi::OsString;
@@ -20,7 +21,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-const VERSION: u32 = 8;
+const VERSION: u32 = 9;
 /// 5000 full solutions in each of some windows, on the finest grids that are used.
 const FORMAT: Format =
     Format { magic: b"EHLTRN\r\n", version: VERSION, oldest: VERSION, whole_hash: VERSION, max_payload: 2 << 30 };
@@ -120,8 +121,9 @@ pub fn read(path: &Path) -> Result<TrainingState, TrainingFileError> {
             "it was begun by version {program} of the program, and this is version {PROGRAM}, whose solutions and choices may differ"
         )));
     }
-    let (mut state, cavitation): (TrainingState, Cavitation) = postcard::from_bytes(payload).map_err(undecoded)?;
-    state.spec = state.spec.under(cavitation);
+    let (mut state, cavitation, heat): (TrainingState, Cavitation, Option<StoredHeat>) =
+        postcard::from_bytes(payload).map_err(undecoded)?;
+    state.spec = state.spec.under(cavitation).heated(heat.map(Heat::from));
     if is_sound(&state) { Ok(state) } else { Err(refused("its content contradicts itself".to_owned())) }
 }
 
@@ -129,7 +131,7 @@ pub fn read(path: &Path) -> Result<TrainingState, TrainingFileError> {
 fn is_sound(state: &TrainingState) -> bool {
     let windows_fit = match &state.spec.windows {
         Windows::Given(given) => state.windows.is_empty() || state.windows.iter().map(|w| &w.window).eq(given),
-        Windows::Automatic { .. } => true,
+        Windows::Automatic { .. } | Windows::Anchored { .. } => true,
     };
     windows_fit
         && !state.spec.title.chars().any(char::is_control)
@@ -170,8 +172,9 @@ pub fn write(state: &TrainingState, path: &Path) -> Result<(), TrainingFileError
 }
 
 fn write_as(program: &str, state: &TrainingState, path: &Path) -> Result<(), TrainingFileError> {
-    // The laws of a lubricant are written without the way its film ruptures.
-    let encoded = postcard::to_allocvec(&(program, state, state.spec.lubricant.cavitation))
+    // The laws of a lubricant are written without the way its film ruptures and without heat.
+    let Lubricant { cavitation, heat, .. } = state.spec.lubricant;
+    let encoded = postcard::to_allocvec(&(program, state, cavitation, heat.map(StoredHeat::from)))
         .map_err(|_| TrainingFileError::Refused { path: path.to_owned(), what: "it cannot be encoded".to_owned() })?;
     Ok(atomic_file::replace(path, &FORMAT.seal(&encoded))?)
 }

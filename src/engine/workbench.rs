@@ -1,13 +1,15 @@
 //! Solving single contacts by any method, with everything that can be kept between solves.
 
 use super::store::Store;
-use super::{Answer, EngineError, ReducedFacts, Request};
-use crate::scene::{Bench, Grid, Method, ModelSource, Scene};
+use super::{Answer, Embedded, EngineError, ReducedFacts, Request};
+use crate::scene::{Bench, Grid, Method, ModelSource, Scene, Study};
 use crate::solver::discrete::grid::{ContactGrid, GridSpec};
+use crate::solver::full::heat::Temperatures;
 use crate::solver::full::point::resolution_warning;
 use crate::solver::full::{Problem, Solution, SolveError, Start};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
-use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw};
+use crate::solver::physics::lubricant::{Cavitation, Lubricant};
+use crate::solver::reduced::transient::TrajectoryModel;
 use crate::solver::reduced::{Online, ReducedError, ReducedModel, Trust, Window};
 use crate::solver::training::{TrainingObserver, TrainingSpec};
 use std::path::{Path, PathBuf};
@@ -18,14 +20,16 @@ use std::time::Instant;
 const CAUTIOUS: &str = "the rupture front went to and fro between two sets of nodes; from then on it was moved node by \
     node";
 
-/// What a reduced answer says where films are asked to rupture otherwise than those that it was trained with.
-fn other_rupture(own: Cavitation, asked: Cavitation) -> String {
-    let article = if own == Cavitation::Penalty { "the " } else { "" };
-    let (own, asked) = (own.name(), asked.name());
-    format!(
-        "the reduced model ruptures the film by {article}{own} that it was trained with, not by {asked}; that moves H_c \
-         by some 1e-7"
-    )
+/// What is said where a model was trained by the penalty and another law is asked for. Complementarity is what both of the
+/// others amount to, as the penalty grows and where nothing starves: who was trained by it answers for them.
+fn by_the_penalty(own: Cavitation, asked: Cavitation) -> Option<String> {
+    (own == Cavitation::Penalty && asked != Cavitation::Penalty).then(|| {
+        format!(
+            "the reduced model ruptures the film by the penalty that it was trained with, not by {}; that moves H_c by \
+             some 1e-7",
+            asked.name()
+        )
+    })
 }
 
 /// The store as one job uses it: with the folder that its paths refer to, and reduced solvers that remember only what
@@ -36,6 +40,8 @@ pub struct Workbench {
     base: PathBuf,
     /// What stands in place of the embedded model of its kind of contact.
     in_use: Option<Arc<ReducedModel>>,
+    /// Whether it does so for every kind of contact.
+    for_all: bool,
     online: Vec<Online>,
 }
 
@@ -47,13 +53,19 @@ impl Workbench {
 
     /// A workbench on what others keep as well.
     pub fn on(store: &Store, base: impl Into<PathBuf>) -> Self {
-        Self { store: store.clone(), base: base.into(), in_use: None, online: Vec::new() }
+        Self { store: store.clone(), base: base.into(), in_use: None, for_all: false, online: Vec::new() }
     }
 
     /// The same with a model in place of the embedded one of its kind of contact.
     pub fn using(mut self, model: &Arc<ReducedModel>) -> Self {
         self.in_use = Some(Arc::clone(model));
         self
+    }
+
+    /// The same with a model in place of all embedded ones: what it is not of, it refuses.
+    pub fn with_model(mut self, model: &Arc<ReducedModel>) -> Self {
+        self.for_all = true;
+        self.using(model)
     }
 
     fn full(
@@ -90,6 +102,8 @@ impl Workbench {
             warnings.push(CAUTIOUS.to_owned());
         }
         warnings.extend(solution.grid_warning());
+        warnings.extend(problem.heat.as_ref().and_then(|heat| heat.warning(&problem.point)));
+        warnings.extend(solution.heat.iter().flat_map(|heat| heat.warnings()));
         warnings.extend(resolution_warning(&solution).filter(|_| solution.converged()));
         let (nx, ny) = (solution.x.len(), solution.y.len());
         let (nodes, dofs) = match problem.point.kind {
@@ -120,7 +134,7 @@ impl Workbench {
         (method, source): (&Method, &ModelSource),
         observer: &dyn TrainingObserver,
     ) -> Result<Answer, EngineError> {
-        let model = self.model_for(source, problem.point.kind, &request.lubricant, observer)?;
+        let model = self.model_for(source, &problem.point, &request.lubricant, observer)?;
         let options = method.options(window_of(&model, &problem.point)?);
         let same = |online: &Online| Arc::ptr_eq(&online.model, &model) && *online.options() == options;
         let known = self.online.iter().position(same).map(|place| self.online.swap_remove(place));
@@ -139,8 +153,8 @@ impl Workbench {
             warnings.push(reason.clone());
         }
         let (own, asked) = (model.domain.lubricant.cavitation, request.lubricant.cavitation);
-        if own != asked && problem.supply.is_none() {
-            warnings.push(other_rupture(own, asked));
+        if problem.supply.is_none() {
+            warnings.extend(by_the_penalty(own, asked));
         }
         let mut facts = ReducedFacts {
             size: window.size(),
@@ -159,6 +173,8 @@ impl Workbench {
                 // A Newtonian film does not feel the sliding, but its traction does.
                 let solution = online.reconstruct(&solved)?.of_problem(*problem);
                 warnings.extend(resolution_warning(&solution));
+                warnings.extend(problem.heat.as_ref().and_then(|heat| heat.warning(&problem.point)));
+                warnings.extend(solution.heat.as_deref().and_then(Temperatures::too_hot));
                 (Some(solution), solved.iterations)
             }
             Err(error) => match error.without_solution() {
@@ -219,22 +235,44 @@ impl Bench for Workbench {
     fn model_for(
         &mut self,
         source: &ModelSource,
-        contact: ContactKind,
+        point: &OperatingPoint,
         lubricant: &Lubricant,
         observer: &dyn TrainingObserver,
     ) -> Result<Arc<ReducedModel>, EngineError> {
-        let in_use =
-            self.in_use.as_ref().filter(|model| *source == ModelSource::Embedded && model.contact() == contact);
+        let serves = |model: &&Arc<ReducedModel>| self.for_all || model.is_of(point);
+        let in_use = self.in_use.as_ref().filter(|_| *source == ModelSource::Embedded).filter(serves);
         if let Some(model) = in_use {
             return Ok(Arc::clone(model));
         }
         match source {
             ModelSource::Embedded => self
                 .store
-                .embedded(contact, lubricant.shear != ShearLaw::Newtonian)
+                .embedded(Embedded::of(point, lubricant))
                 .map_err(|reason| EngineError::Embedded(reason.into())),
             ModelSource::File(path) => self.store.model_of_file(&self.base.join(path)),
             ModelSource::Trained(path) => self.store.trained(&self.training(path)?, observer),
+        }
+    }
+
+    fn trajectory_model(
+        &mut self,
+        source: &ModelSource,
+        observer: &dyn TrainingObserver,
+    ) -> Result<Arc<TrajectoryModel>, EngineError> {
+        match source {
+            ModelSource::Embedded => {
+                Err(EngineError::Study("no reduced model in time is part of the program; name a file".to_owned()))
+            }
+            ModelSource::File(path) => self.store.trajectory_model_of_file(&self.base.join(path)),
+            ModelSource::Trained(path) => {
+                let path = self.base.join(path);
+                let (scene, folder) = (Scene::read(&path)?, path.parent().unwrap_or(Path::new("")).to_owned());
+                if !scene.trains_in_time() {
+                    return Err(EngineError::NoTraining { path });
+                }
+                let mut bench = Self::on(&self.store, folder);
+                self.store.trained_in_time(&scene, || scene.train_in_time(&mut bench, observer))
+            }
         }
     }
 
@@ -252,7 +290,7 @@ impl Bench for Workbench {
                 Err(EngineError::Study("a point contact needs a Plane `grid`, Model, or none".to_owned()))
             }
             None => {
-                let model = self.model_for(&request.grid_model, kind, &request.lubricant, observer)?;
+                let model = self.model_for(&request.grid_model, &request.point, &request.lubricant, observer)?;
                 let grid = &window_of(&model, &request.point)?.grid;
                 if grid.kind() == kind { Ok(grid.clone()) } else { Err(other_contact(&model, kind)) }
             }
@@ -291,6 +329,11 @@ impl Workbench {
     /// # Errors
     /// When one cannot be read, or no training is where one should be.
     pub fn check_models(&self, scene: &Scene) -> Result<(), EngineError> {
+        if let Study::Transient(study) = &scene.study
+            && let Some(ModelSource::File(path)) = study.reduced.as_ref().and_then(|reduced| reduced.model.as_ref())
+        {
+            self.store.trajectory_model_of_file(&self.base.join(path))?;
+        }
         scene.study.methods().iter().filter_map(Method::model).try_for_each(|source| match source {
             ModelSource::Embedded => Ok(()),
             ModelSource::File(path) => self.store.model_of_file(&self.base.join(path)).map(drop),

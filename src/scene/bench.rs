@@ -5,10 +5,12 @@ use super::grid::Grid;
 use super::method::{Method, ModelSource};
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::Solution;
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::{Cavitation, Lubricant};
+use crate::solver::reduced::transient::TrajectoryModel;
 use crate::solver::reduced::{ErrorEstimate, ModelSize, ReducedModel};
 use crate::solver::training::{TrainingObserver, TrainingSpec};
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -33,10 +35,20 @@ pub trait Bench {
     fn model_for(
         &mut self,
         source: &ModelSource,
-        contact: ContactKind,
+        point: &OperatingPoint,
         lubricant: &Lubricant,
         observer: &dyn TrainingObserver,
     ) -> Result<Arc<ReducedModel>, RunError>;
+
+    /// The reduced model in time of a source: read, or trained, once.
+    ///
+    /// # Errors
+    /// When it cannot be read or trained, or is one of stationary contacts.
+    fn trajectory_model(
+        &mut self,
+        source: &ModelSource,
+        observer: &dyn TrainingObserver,
+    ) -> Result<Arc<TrajectoryModel>, RunError>;
 
     /// The grid on which a request is solved in full.
     ///
@@ -127,7 +139,7 @@ pub struct Answer {
 }
 
 /// What a reduced solve adds to its answer.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ReducedFacts {
     /// Modes that were used, and sampled rows.
     pub size: ModelSize,

@@ -1,13 +1,16 @@
 //! The result of one contact as people, tables, expectations and other programs see it.
 
 use super::bench::{Answer, ReducedFacts};
+use super::stored_result;
 use super::table::Table;
+use crate::solver::full::heat::{Rises, Temperatures};
 use crate::solver::full::{GridCost, Scalars, Shear, Solution};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Cavitation;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// One contact's result. Written as JSON it is the object of `solve --json`; what does not apply is absent.
+/// One contact's result. Written as JSON it is the object of `solve --json`; what does not apply is absent. Formats for
+/// programs alone keep every bit of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactResult {
     /// The operating point.
@@ -46,8 +49,32 @@ pub struct ContactResult {
     pub linear_iterations: Option<usize>,
     /// Seconds of the solve alone.
     pub wall_s: f64,
+    /// Temperatures, where heat was computed.
+    pub heat: Option<HeatFacts>,
     /// What only a reduced solve has.
     pub reduced: Option<ReducedFacts>,
+}
+
+/// What a solve with heat adds to its result.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct HeatFacts {
+    /// Rises at X = 0.
+    pub central: Rises,
+    /// The largest rises under pressure.
+    pub largest: Rises,
+    /// Heat that is made and goes nowhere, over what shear and compression make.
+    pub energy_balance: f64,
+    /// The share of the heat that the bodies take.
+    pub into_bodies: [f64; 2],
+}
+
+impl From<&Temperatures> for HeatFacts {
+    fn from(heat: &Temperatures) -> Self {
+        let Temperatures { central, largest, balance, .. } = *heat;
+        let made = balance.sheared + balance.compressed;
+        let into_bodies = balance.into_bodies.map(|into| into / made);
+        Self { central, largest, energy_balance: balance.residual(), into_bodies }
+    }
 }
 
 /// One named value of a result.
@@ -67,7 +94,7 @@ pub enum Value {
 type Get = fn(&ContactResult) -> Option<Value>;
 
 /// Every value by its name, with a dot where it lies in a group, in the order of the JSON object.
-const VALUES: [(&str, Get); 52] = [
+const VALUES: [(&str, Get); 61] = [
     ("contact", |r| text(r.point.kind.name())),
     ("method", |r| text(r.method)),
     ("converged", |r| Some(Value::Truth(r.converged))),
@@ -112,6 +139,14 @@ const VALUES: [(&str, Get); 52] = [
     ("newton_iterations", |r| Some(Value::Count(r.newton_iterations))),
     ("linear_iterations", |r| r.linear_iterations.map(Value::Count)),
     ("wall_s", |r| number(r.wall_s)),
+    ("heat.mid_film_rise_k", |r| number(r.heat?.central.mid_film_k)),
+    ("heat.surface_1_rise_k", |r| number(r.heat?.central.surfaces_k[0])),
+    ("heat.surface_2_rise_k", |r| number(r.heat?.central.surfaces_k[1])),
+    ("heat.mid_film_rise_max_k", |r| number(r.heat?.largest.mid_film_k)),
+    ("heat.surface_1_rise_max_k", |r| number(r.heat?.largest.surfaces_k[0])),
+    ("heat.surface_2_rise_max_k", |r| number(r.heat?.largest.surfaces_k[1])),
+    ("heat.into_bodies", |r| number(r.heat?.into_bodies.iter().sum())),
+    ("heat.energy_balance", |r| number(r.heat?.energy_balance)),
     ("reduced.basis_p", |r| Some(Value::Count(r.reduced.as_ref()?.size.pressure))),
     ("reduced.basis_delta", |r| Some(Value::Count(r.reduced.as_ref()?.size.deformation))),
     ("reduced.sampled_rows", |r| Some(Value::Count(r.reduced.as_ref()?.size.rows))),
@@ -120,6 +155,7 @@ const VALUES: [(&str, Get); 52] = [
     ("reduced.h_c_error_bound", |r| number(r.reduced.as_ref()?.error?.h_c.bound)),
     ("reduced.h_min_error_bound", |r| number(r.reduced.as_ref()?.error?.h_min.bound)),
     ("reduced.traction_error_bound", |r| number(r.reduced.as_ref()?.error?.traction?.bound)),
+    ("reduced.mid_film_rise_error_bound", |r| number(r.reduced.as_ref()?.error?.rise?.bound)),
 ];
 
 fn is_point(result: &ContactResult) -> bool {
@@ -173,6 +209,22 @@ pub const RESULT_COLUMNS: [&str; 21] = [
     "wall_s",
 ];
 
+/// What tables hold of a result with heat, after that.
+const HEAT_COLUMNS: [&str; 7] = [
+    "heat.mid_film_rise_k",
+    "heat.surface_1_rise_k",
+    "heat.surface_2_rise_k",
+    "heat.mid_film_rise_max_k",
+    "heat.surface_1_rise_max_k",
+    "heat.surface_2_rise_max_k",
+    "heat.energy_balance",
+];
+
+/// What tables hold of results with heat or without.
+pub fn result_columns(heat: bool) -> Vec<&'static str> {
+    [&RESULT_COLUMNS[..], if heat { &HEAT_COLUMNS } else { &[] }].concat()
+}
+
 impl From<&Answer> for ContactResult {
     fn from(answer: &Answer) -> Self {
         Self {
@@ -194,6 +246,7 @@ impl From<&Answer> for ContactResult {
             newton_iterations: answer.newton_iterations,
             linear_iterations: answer.linear_iterations,
             wall_s: answer.wall_s,
+            heat: answer.result().and_then(|solution| solution.heat.as_deref()).map(HeatFacts::from),
             reduced: answer.reduced.clone(),
         }
     }
@@ -246,6 +299,9 @@ impl Serialize for Group<'_> {
 
 impl Serialize for ContactResult {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        if !serializer.is_human_readable() {
+            return stored_result::Fields::serialize(self, serializer);
+        }
         let group = |name: &'static str| name.split_once('.').map(|(group, _)| group);
         let values: Vec<(&str, Value)> = VALUES.iter().filter_map(|(name, get)| Some((*name, get(self)?))).collect();
         let mut map = serializer.serialize_map(None)?;
@@ -259,7 +315,8 @@ impl Serialize for ContactResult {
     }
 }
 
-/// The fields of a solution at its nodes: X, Y, P, H and their SI twins, and λ or θ where it has one.
+/// The fields of a solution at its nodes: X, Y, P, H and their SI twins, λ or θ where it has one, and the rises of
+/// temperature at mid-film and of both surfaces where heat was computed.
 pub fn profile_table(name: impl Into<String>, solution: &Solution) -> Table {
     let mut columns = vec!["X", "Y", "P", "H", "x_m", "y_m", "p_pa", "h_m"];
     if !solution.multiplier.is_empty() {
@@ -268,6 +325,10 @@ pub fn profile_table(name: impl Into<String>, solution: &Solution) -> Table {
     if !solution.fraction.is_empty() {
         columns.push("theta");
     }
+    let heat = solution.heat.as_deref();
+    if heat.is_some() {
+        columns.extend(["mid_film_rise_k", "surface_1_rise_k", "surface_2_rise_k"]);
+    }
     let mut table = Table::new(name, &columns);
     let hertz = solution.problem.point.hertz();
     let (a, b, film_scale) = (hertz.half_width_m, hertz.half_length_m, solution.problem.point.film_scale_m());
@@ -275,6 +336,10 @@ pub fn profile_table(name: impl Into<String>, solution: &Solution) -> Table {
     table.rows.extend(solution.nodes().map(row));
     for (row, value) in table.rows.iter_mut().zip(solution.multipliers().chain(solution.fractions())) {
         row.push(value);
+    }
+    for (row, at) in table.rows.iter_mut().zip(heat.iter().flat_map(|heat| heat.rises())) {
+        row.push(at.mid_film_k);
+        row.extend(at.surfaces_k);
     }
     table
 }

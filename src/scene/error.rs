@@ -102,7 +102,7 @@ pub enum RunError {
     #[error("the scene is refused: {0}")]
     Scene(#[from] SceneError),
     /// A scene that should describe a training asks something else.
-    #[error("the scene {} describes no training; its study must be Training(…)", path.display())]
+    #[error("the scene {} describes no training; its study must be Training(…), or Transient(…) with a reduced model of its own", path.display())]
     NoTraining {
         /// The file.
         path: PathBuf,

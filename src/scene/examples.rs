@@ -6,7 +6,7 @@ use include_dir::{Dir, include_dir};
 use std::path::{Component, Path};
 use std::sync::LazyLock;
 
-/// Where paths to them begin: `examples:/training/embedded_model.ron`.
+/// Where paths to them begin: `examples:/training/slider_range_model.ron`.
 pub const ROOT: &str = "examples:";
 
 static FOLDER: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/scenes");

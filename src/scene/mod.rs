@@ -34,6 +34,7 @@ pub mod sampled;
 mod scene_check;
 mod sheet;
 mod statistics;
+mod stored_result;
 pub mod study;
 pub mod table;
 mod view;
@@ -43,7 +44,9 @@ pub use axis::{Axis, Steps};
 pub use bench::{Answer, Bench, ReducedFacts, Request, answer_or_full};
 pub use chart::{Band, Chart, ChartAxis, ColorScale, Map, Marks, Note, Series};
 pub use chart_page::{Page, drawn};
-pub use contact_result::{CONTACT_COLUMNS, ContactResult, RESULT_COLUMNS, film_shear_table, profile_table};
+pub use contact_result::{
+    CONTACT_COLUMNS, ContactResult, HeatFacts, RESULT_COLUMNS, film_shear_table, profile_table, result_columns,
+};
 pub use error::{Reason, RunError, SceneError, SceneFileError, VERSION};
 pub use expectation::{Expectation, Within};
 pub use experiment::Experiment;
@@ -62,7 +65,7 @@ pub use view::{Held, LoadFollower, LubricantFollower, View};
 pub use crate::solver::training::QuantityBox;
 
 use crate::solver::physics::contact::{ContactError, ContactKind, OperatingPoint};
-use crate::solver::physics::lubricant::{Cavitation, Lubricant, Sliding};
+use crate::solver::physics::lubricant::{Cavitation, Heat, Lubricant, Sliding};
 use crate::solver::training::TrainingSpec;
 use serde::{Deserialize, Serialize};
 
@@ -94,6 +97,9 @@ pub struct Scene {
     /// How the film ruptures in full solutions, and in models that are trained from them.
     #[serde(default, skip_serializing_if = "is_default")]
     pub cavitation: Cavitation,
+    /// Heat: thermal constants of the oil and of both bodies; without it everything has the inlet's temperature.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub heat: Option<Heat>,
     /// The operating point. Studies that bring their own points (trajectory, random test, training) do not use it.
     #[serde(default)]
     pub at: At,
@@ -133,6 +139,7 @@ impl Scene {
             contact: ContactKind::Line,
             lubricant: Lubricant::default(),
             cavitation: Cavitation::default(),
+            heat: None,
             at: At::moes(m, l),
             srr: 0.0,
             npr: None,
@@ -184,20 +191,20 @@ impl Scene {
     /// The training that it describes, of films that rupture as the scene says; none where it asks something else.
     pub fn training(&self) -> Option<TrainingSpec> {
         match &self.study {
-            Study::Training(spec) => Some(spec.clone().under(self.cavitation)),
+            Study::Training(spec) => Some(spec.clone().under(self.cavitation).heated(self.heat)),
             _ => None,
         }
     }
 
-    /// The laws of the lubricant, with the way its film ruptures.
+    /// The laws of the lubricant, with the way its film ruptures and heat.
     pub fn laws(&self) -> Lubricant {
-        Lubricant { cavitation: self.cavitation, ..self.lubricant }
+        Lubricant { cavitation: self.cavitation, heat: self.heat, ..self.lubricant }
     }
 
-    /// Takes over laws, with the way the film ruptures.
+    /// Takes over laws, with the way the film ruptures and heat.
     pub fn set_laws(&mut self, laws: Lubricant) {
-        self.cavitation = laws.cavitation;
-        self.lubricant = Lubricant { cavitation: Cavitation::default(), ..laws };
+        (self.cavitation, self.heat) = (laws.cavitation, laws.heat);
+        self.lubricant = Lubricant { cavitation: Cavitation::default(), heat: None, ..laws };
     }
 
     /// The sliding and the plateau ratio.

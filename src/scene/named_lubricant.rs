@@ -2,7 +2,7 @@
 
 use crate::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use crate::solver::physics::lubricant::{
-    Cavitation, DensityLaw, Doolittle, LimitingStress, Lubricant, ShearLaw, Tait, ViscosityLaw,
+    Cavitation, DensityLaw, Doolittle, FreeVolumeHeat, LimitingStress, Lubricant, OilHeat, ShearLaw, Tait, ViscosityLaw,
 };
 
 /// A lubricant with its name and one line about it.
@@ -16,6 +16,8 @@ pub struct NamedLubricant {
     pub laws: Lubricant,
     /// Its viscosity at ambient pressure η₀ \[Pa·s\], where the name says that much.
     pub viscosity_pa_s: Option<f64>,
+    /// Its thermal constants: customary ones, not those of its source.
+    pub heat: OilHeat,
     /// The contact in which its source studies it, where it has an ambient viscosity of its own.
     pub studied: Option<StudiedContact>,
     /// What it is, for people.
@@ -43,6 +45,14 @@ const NEWTONIAN: Lubricant = Lubricant {
     shear: ShearLaw::Newtonian,
     limiting_stress: None,
     cavitation: Cavitation::Penalty,
+    heat: None,
+};
+
+/// A synthetic hydrocarbon whose viscosity follows from its free volume.
+const HYDROCARBON: OilHeat = OilHeat {
+    density: 850.0,
+    free_volume: Some(FreeVolumeHeat { bulk_modulus_temperature: 6e-3, expansion: 8e-4, occupied_expansion: -5e-4 }),
+    ..OilHeat::MINERAL
 };
 
 const SQUALANE_VOLUME: Tait = Tait { k_0: 1.007837e9, k_0_prime: 11.29 };
@@ -55,6 +65,7 @@ pub const SQUALANE_PIP: Lubricant = Lubricant {
     shear: ShearLaw::Carreau { critical_stress: 1e4, beta: 2.198, n: 0.8, npr: 0.2227 },
     limiting_stress: None,
     cavitation: Cavitation::Penalty,
+    heat: None,
 };
 
 /// The dissertation's oil with customary constants of friction: an Eyring stress of 5 MPa and a limit of 5 % of the
@@ -69,6 +80,7 @@ pub static NAMED: [NamedLubricant; 6] = [
         title: "Mineral oil",
         laws: MINERAL_OIL,
         viscosity_pa_s: None,
+        heat: OilHeat::MINERAL,
         studied: None,
         about: "Newtonian film: Roelands, Dowson–Higginson; the traction bends and is limited",
     },
@@ -77,6 +89,7 @@ pub static NAMED: [NamedLubricant; 6] = [
         title: "Roelands oil",
         laws: NEWTONIAN,
         viscosity_pa_s: None,
+        heat: OilHeat::MINERAL,
         studied: None,
         about: "the dissertation's Newtonian oil: Roelands, Dowson–Higginson",
     },
@@ -85,6 +98,7 @@ pub static NAMED: [NamedLubricant; 6] = [
         title: "Barus oil",
         laws: Lubricant { density: DensityLaw::Incompressible, viscosity: ViscosityLaw::Barus, ..NEWTONIAN },
         viscosity_pa_s: None,
+        heat: OilHeat::MINERAL,
         studied: None,
         about: "the fluid of Moes' film formula: Barus, incompressible",
     },
@@ -93,6 +107,7 @@ pub static NAMED: [NamedLubricant; 6] = [
         title: "Barus oil, compressible",
         laws: Lubricant { viscosity: ViscosityLaw::Barus, ..NEWTONIAN },
         viscosity_pa_s: None,
+        heat: OilHeat::MINERAL,
         studied: None,
         about: "Barus, Dowson–Higginson",
     },
@@ -101,6 +116,7 @@ pub static NAMED: [NamedLubricant; 6] = [
         title: "Squalane with PIP",
         laws: SQUALANE_PIP,
         viscosity_pa_s: Some(0.0705),
+        heat: HYDROCARBON,
         studied: Some(StudiedContact {
             radius_m: 12.7e-3,
             modulus_pa: 123.878213951e9,
@@ -119,8 +135,10 @@ pub static NAMED: [NamedLubricant; 6] = [
             shear: ShearLaw::Carreau { critical_stress: 3.1e4, beta: 2.0, n: 0.74, npr: 0.0 },
             limiting_stress: None,
             cavitation: Cavitation::Penalty,
+            heat: None,
         },
         viscosity_pa_s: Some(1.42),
+        heat: HYDROCARBON,
         studied: Some(StudiedContact {
             radius_m: 12.7e-3,
             modulus_pa: 123.878213951e9,
@@ -149,10 +167,11 @@ impl NamedLubricant {
 /// The named lubricant with these laws; where none has all of them, the one whose film is the same, whatever stress
 /// limits the traction.
 pub fn of_laws(laws: &Lubricant) -> Option<&'static NamedLubricant> {
+    let laws = Lubricant { heat: None, ..*laws };
     let film = |named: &&NamedLubricant| {
         named.laws.limiting_stress.is_none() && named.laws.of_the_liquid() == laws.of_the_liquid()
     };
-    let same = |named: &&NamedLubricant| Lubricant { cavitation: laws.cavitation, ..named.laws } == *laws;
+    let same = |named: &&NamedLubricant| Lubricant { cavitation: laws.cavitation, ..named.laws } == laws;
     NAMED.iter().find(same).or_else(|| NAMED.iter().find(film))
 }
 

@@ -1,10 +1,12 @@
 //! What a scene gave: values by name and method, verdicts, tables.
 
+use super::atomic_file::{self, WriteError};
 use super::expectation::Expectation;
 use super::method::Method;
 use super::statistics::{median, percentile};
 use super::table::Table;
 use serde_json::{Value, json};
+use std::path::Path;
 
 /// A value with its name and the method it belongs to.
 #[derive(Clone, Debug, PartialEq)]
@@ -112,6 +114,21 @@ impl SceneOutcome {
     /// Whether every expectation holds, and every solve converged unless the scene says that some need not.
     pub fn passed(&self) -> bool {
         self.verdicts.iter().all(|verdict| verdict.holds) && (self.found.converged || self.failures_expected)
+    }
+
+    /// Writes it (JSON) and its tables (CSV) into a folder, under a name.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    pub fn write(&self, folder: &Path, name: &str) -> Result<(), WriteError> {
+        let path = folder.join(format!("{name}.json"));
+        let text = serde_json::to_string_pretty(&self.to_json());
+        let text = text.map_err(|error| WriteError { path: path.clone(), reason: error.into() })? + "\n";
+        atomic_file::replace(&path, text.as_bytes())?;
+        for table in &self.tables {
+            atomic_file::replace(&folder.join(format!("{name}.{}.csv", table.name)), table.to_csv().as_bytes())?;
+        }
+        Ok(())
     }
 
     /// The object of `run --json`.

@@ -3,7 +3,7 @@
 use super::check::{Checked, number, refuse};
 use super::{Expectation, Scene, SceneError, View, Within, grid};
 use crate::solver::limits::plain;
-use crate::solver::physics::contact::Quantity;
+use crate::solver::physics::contact::{OperatingPoint, Quantity};
 use crate::solver::physics::lubricant::{LubricantError, ScaledShear};
 
 impl Scene {
@@ -17,7 +17,14 @@ impl Scene {
         self.lubricant.check().map_err(lubricant)?;
         self.cavitation.check().map_err(|problem| refuse("cavitation", format!("is refused: {problem}")))?;
         let point = self.point()?;
-        self.lubricant.scaled(&point).map_err(lubricant)?;
+        let fluid = self.lubricant.scaled(&point).map_err(lubricant)?;
+        if self.heat.is_some() {
+            let refused = |problem: LubricantError| refuse("heat", format!("is refused: {problem}"));
+            self.laws().check().map_err(refused)?;
+            let sliding = OperatingPoint { sliding: self.sliding(), ..point };
+            self.laws().scaled_heat(&fluid, &sliding).map_err(refused)?;
+            self.study.check_heat()?;
+        }
         ScaledShear::new(self.lubricant.shear, self.sliding(), &point)
             .map_err(|problem| refuse("srr, npr", format!("are refused: {problem}")))?;
         grid::check(&self.grid, self.contact)?;
@@ -65,7 +72,7 @@ mod tests {
     use super::*;
     use crate::scene::study::{error_split, grid_study, point, sweep, trajectory};
     use crate::scene::{At, Axis, Contacts, Grid, Method, QuantityBox, Steps, Study};
-    use crate::solver::physics::lubricant::Cavitation;
+    use crate::solver::physics::lubricant::{Cavitation, Heat};
 
     #[test]
     fn numbers_that_make_no_sense_are_refused_by_name() {
@@ -81,6 +88,17 @@ mod tests {
             message(Scene { study: Study::Point(point::Point { methods: vec![] }), ..good.clone() })
                 .contains("methods")
         );
+        let heat = |scene: Scene| message(Scene { heat: Some(Heat::default()), ..scene });
+        assert!(heat(good.clone()).contains("no embedded model"));
+        let march = Study::GridStudy(grid_study::GridStudy { dx: vec![0.02, 0.01] });
+        assert!(heat(Scene { study: march, ..good.clone() }).contains("Point, Sweep, RandomTest and Training only"));
+        let full = Scene { study: Study::Point(point::Point { methods: vec![Method::Full] }), ..good.clone() };
+        assert!(heat(Scene { srr: 2.0, ..full.clone() }).contains("moving heat sources"));
+        let cold = Heat { inlet_temperature: 20.0, ..Heat::default() };
+        assert!(message(Scene { heat: Some(cold), ..full.clone() }).contains("inlet temperature"));
+        let warm = Scene { heat: Some(Heat::default()), ..full };
+        warm.check().unwrap();
+        assert_eq!(Scene::from_ron(&warm.to_ron().unwrap()).unwrap(), warm);
         let huge = Study::Sweep(sweep::Sweep {
             over: vec![Axis { vary: Quantity::M, values: Steps::Log { from: 1.0, to: 9.0, n: usize::MAX } }],
             methods: vec![Method::Full],

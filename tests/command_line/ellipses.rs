@@ -61,14 +61,19 @@ fn what_is_no_ellipse_is_refused_in_one_sentence() {
     }
 }
 
-/// The embedded model knows circles: it says so, and tells who does.
+/// The program's model of ellipses answers; one of circles says that it knows no others.
 #[test]
 fn a_reduced_model_does_not_pass_a_circle_off_as_an_ellipse() {
     let asked = [&POINT[..], &["--radius-y", "0.05", "--method", "reduced", "--json"]].concat();
     let object = json(&program(&asked));
-    assert_eq!((&object["method"], &object["converged"]), (&"full".into(), &true.into()));
-    let warning = object["warning"].as_str().unwrap();
+    assert_eq!((&object["method"], &object["converged"]), (&"reduced".into(), &true.into()));
+    let circles = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/point.rom");
+    let full = json(&program(&[&asked[..], &["--rom", circles]].concat()));
+    assert_eq!((&full["method"], &full["converged"]), (&"full".into(), &true.into()));
+    let warning = full["warning"].as_str().unwrap();
     assert!(warning.contains("circular contacts only") && warning.contains("full solver took over"), "{warning}");
+    let [reduced, full] = [&object, &full].map(|object| object["H_c"].as_f64().unwrap());
+    assert!((reduced / full - 1.0).abs() < 3e-2, "{reduced} {full}: each on its own grid");
 }
 
 #[test]

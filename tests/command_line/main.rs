@@ -4,7 +4,10 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod campaigns;
 mod commands;
 mod ellipses;
+mod heat;
+mod in_time;
 mod readme;
 mod take_away;

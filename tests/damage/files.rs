@@ -4,12 +4,15 @@ use crate::common::cases::cases;
 use crate::common::scene_files;
 use crate::common::scratch::Scratch;
 use crate::{alone, most_bytes, spoil};
-use ehl_explorer::engine::{model_file, training_file};
+use ehl_explorer::engine::{Embedded, model_file, training_file, trajectory_file};
 use ehl_explorer::scene::Scene;
 use ehl_explorer::solver::discrete::grid::GridSpec;
+use ehl_explorer::solver::full::transient::{self, Inputs, Keep, Signal, Transient};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint};
+use ehl_explorer::solver::physics::lubricant::{Cavitation, Lubricant};
 use ehl_explorer::solver::training::{
-    Plan, Range, Search, Solved, TrainingSpec, TrainingState, WindowSpec, WindowState,
+    Plan, Range, Search, Solved, TrainingSpec, TrainingState, TrajectoryTraining, WindowSpec, WindowState,
+    train_trajectories,
 };
 use fastrand::Rng;
 
@@ -57,7 +60,7 @@ fn damaged_models_are_refused_in_a_sentence_or_solve_their_own_snapshots() {
     let _alone = alone();
     let mut rng = Rng::with_seed(2);
     for (contact, cases) in [(ContactKind::Line, cases(150, 19_000)), (ContactKind::Point, cases(10, 1000))] {
-        let model = model_file::embedded_shear_of(contact).unwrap();
+        let model = Embedded::of_kind(contact, true).model().unwrap();
         let whole = model_file::to_bytes(&model).unwrap();
         drop(model);
         let mut read = 0;
@@ -73,6 +76,41 @@ fn damaged_models_are_refused_in_a_sentence_or_solve_their_own_snapshots() {
             check(case, most_bytes(|| refusal(&spoiled)));
         }
         println!("{read} of {cases} damaged models of {} contacts could be used", contact.name());
+    }
+}
+
+/// A model in time that was trained in a moment.
+fn model_in_time(cavitation: Cavitation) -> Vec<u8> {
+    let grid = GridSpec::Uniform { dx: 0.03, domain: (-3.0, 1.8) };
+    let load = Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 0.5 });
+    let own = Transient::new(OperatingPoint::TABLE_4_2, load, 0.2, 0.01);
+    let lubricant = Lubricant { cavitation, ..own.lubricant };
+    let trajectory = transient::solve(grid, &Transient { keep: Keep::Every(1), lubricant, ..own }, &()).unwrap();
+    let settings = TrajectoryTraining { loss: 1e-4, ..TrajectoryTraining::default() };
+    let model = train_trajectories(&grid.line().unwrap(), &[trajectory], &settings, &()).unwrap();
+    trajectory_file::to_bytes(&model).unwrap()
+}
+
+#[test]
+fn damaged_models_in_time_are_refused_in_a_sentence_or_rest_where_their_trainings_began() {
+    let _alone = alone();
+    let mut rng = Rng::with_seed(4);
+    for cavitation in [Cavitation::Penalty, Cavitation::Complementarity] {
+        let whole = model_in_time(cavitation);
+        assert!(trajectory_file::from_bytes(&whole).is_ok());
+        let (mut read, count) = (0, cases(400, 10_000));
+        for case in 0..count {
+            let spoiled = spoil::payload(&mut rng, &whole);
+            let mut refusal = || match trajectory_file::from_bytes(&spoiled) {
+                Ok(_) => {
+                    read += 1;
+                    None
+                }
+                Err(error) => Some(error.to_string()),
+            };
+            check(case, most_bytes(&mut refusal));
+        }
+        println!("{read} of {count} damaged models in time by {} could be used", cavitation.name());
     }
 }
 

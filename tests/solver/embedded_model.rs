@@ -1,7 +1,7 @@
 //! The embedded reduced model against full solutions on its own grid, across window edges, and as a dragged slider
 //! meets it.
 
-use ehl_explorer::engine::model_file::embedded;
+use ehl_explorer::engine::Embedded;
 use ehl_explorer::solver::full::{ContactSolver, Solution, Start};
 use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use ehl_explorer::solver::physics::lubricant::Lubricant;
@@ -13,7 +13,7 @@ fn at(m: f64, l: f64) -> OperatingPoint {
 }
 
 fn online() -> Online {
-    Online::new(embedded().unwrap(), ReducedOptions::default())
+    Online::new(Embedded::Line.model().unwrap(), ReducedOptions::default())
 }
 
 /// Greatest difference of two pressures, the second interpolated linearly at the nodes of the first.
@@ -30,26 +30,38 @@ fn pressure_difference(a: &Solution, b: &Solution) -> f64 {
 }
 
 #[test]
-fn film_and_pressure_do_not_jump_across_a_windows_edge() {
+fn film_and_pressure_do_not_jump_from_window_to_window() {
     let mut online = online();
     let model = Arc::clone(&online.model);
     let mut worst = (0.0f64, 0.0f64);
-    for edge in model.windows[..model.windows.len() - 1].iter().map(|w| w.m.1) {
-        for l in [1.0, 2.5, 5.0, 8.0, 12.0, 16.0, 20.0] {
-            let (below, above) = (at(edge * (1.0 - 1e-9), l), at(edge * (1.0 + 1e-9), l));
-            let below = online.solve(&below, Lubricant::default()).unwrap();
-            let above = online.solve(&above, Lubricant::default()).unwrap();
-            assert_ne!(below.window, above.window);
-            let (below, above) = (online.reconstruct(&below).unwrap(), online.reconstruct(&above).unwrap());
-            let jump = (below.scalars.h_c / above.scalars.h_c - 1.0).abs();
-            assert!(jump < 1e-3, "H_c jumps by {jump:.1e} at M = {edge}, L = {l}");
+    let mut borders = 0;
+    for l in [1.0, 2.5, 5.0, 8.0, 12.0, 16.0, 20.0] {
+        let window = |m: f64| model.window_for(&at(m, l));
+        let inside = |m: f64| at(m, l).hertz().pressure_pa < 3.2e9;
+        let steps = (0..=300).map(|k| 2.0 * 250f64.powf(f64::from(k) / 300.0)).filter(|m| inside(*m));
+        let steps: Vec<f64> = steps.collect();
+        for pair in steps.windows(2).filter(|pair| window(pair[0]) != window(pair[1])) {
+            let (mut low, mut high) = (pair[0], pair[1]);
+            while high / low > 1.0 + 1e-9 {
+                let middle = (low * high).sqrt();
+                if window(middle) == window(pair[0]) { low = middle } else { high = middle }
+            }
+            let [below, above] = [low, high].map(|m| {
+                let solved = online.solve(&at(m, l), Lubricant::default()).unwrap();
+                (solved.window, online.reconstruct(&solved).unwrap())
+            });
+            assert_ne!(below.0, above.0);
+            let jump = (below.1.scalars.h_c / above.1.scalars.h_c - 1.0).abs();
+            assert!(jump < 5e-4, "H_c jumps by {jump:.1e} at M = {low}, L = {l}");
             worst.0 = worst.0.max(jump);
-            let jump = pressure_difference(&below, &above);
-            assert!(jump < 0.01, "P jumps by {jump:.1e} at M = {edge}, L = {l}");
+            let jump = pressure_difference(&below.1, &above.1);
+            assert!(jump < 5e-3, "P jumps by {jump:.1e} at M = {low}, L = {l}");
             worst.1 = worst.1.max(jump);
+            borders += 1;
         }
     }
-    println!("greatest jumps across a window's edge: H_c {:.1e} (relative), P {:.1e}", worst.0, worst.1);
+    assert!(borders > 20, "{borders} borders");
+    println!("greatest jumps at {borders} borders: H_c {:.1e} (relative), P {:.1e}", worst.0, worst.1);
 }
 
 #[test]
@@ -66,10 +78,10 @@ fn corners_of_the_range_agree_with_full_solutions() {
         let full = solver.solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
         assert!(full.converged());
         let error = (picture.scalars.h_c / full.scalars.h_c - 1.0).abs();
-        // The film of M = 500 is 7e-4 thick: pressures must be right to 1e-5 there.
-        let bound = if m > 300.0 { 3e-3 } else { 5e-4 };
-        assert!(error < bound, "H_c differs by {error:.1e} at M = {m}, L = {l}");
-        assert!(picture.scalars.load_residual < 1e-12);
+        assert!(error < 5e-4, "H_c differs by {error:.1e} at M = {m}, L = {l}");
+        // The load is carried to rounding before what the modes leave below zero in the inlet is taken away.
+        assert!(picture.scalars.load_residual < 1e-6);
+        assert!(picture.pressure.iter().all(|p| *p >= 0.0));
         assert!((picture.scalars.h_0 - full.scalars.h_0).abs() < 1e-3);
     }
 }
@@ -93,10 +105,10 @@ fn dragging_gives_the_same_picture_as_jumping() {
 #[test]
 fn outside_its_range_the_model_still_solves_the_given_point_and_says_that_it_was_not_trained_there() {
     let mut online = online();
-    let point = OperatingPoint { viscosity_pa_s: 0.02, ..at(40.0, 10.0) };
+    let point = OperatingPoint { viscosity_pa_s: 0.001, ..at(40.0, 10.0) };
     let solved = online.solve(&point, Lubricant::default()).unwrap();
     let Trust::Outside(why) = &solved.trust else { panic!("must not claim to be trained") };
-    assert!(why.contains("viscosity"), "{why}");
+    assert!(why.contains("η₀ = 1 mPa·s lies outside the trained range 2…500 mPa·s"), "{why}");
     assert_eq!(solved.point, point);
     for (m, l) in [(80.0, 20.0), (150.0, 14.0)] {
         let solved = online.solve(&at(m, l), Lubricant::default()).unwrap();
@@ -106,7 +118,7 @@ fn outside_its_range_the_model_still_solves_the_given_point_and_says_that_it_was
 
 #[test]
 fn fewer_modes_need_no_training_and_lose_accuracy_gradually() {
-    let model = embedded().unwrap();
+    let model = Embedded::Line.model().unwrap();
     let point = at(20.0, 8.0);
     let film = |modes, deformation| {
         let options =
@@ -117,9 +129,9 @@ fn fewer_modes_need_no_training_and_lose_accuracy_gradually() {
     };
     let exact = film(None, None);
     let error = |modes, deformation| (film(modes, deformation) / exact - 1.0).abs();
-    assert!(error(Some(70), None) < 1e-3);
-    assert!(error(Some(45), None) < 5e-2);
-    assert!(error(Some(45), None) > error(Some(80), None));
+    assert!(error(Some(45), None) < 1e-3);
+    assert!(error(Some(25), None) < 5e-2);
+    assert!(error(Some(25), None) > error(Some(50), None));
     // The dissertation's V_δ V_δᵀ K V_p is the same solution when V_δ keeps enough.
     assert!(error(None, Some(60)) < 1e-3);
 }

@@ -1,6 +1,6 @@
 //! The embedded reduced model of point contacts against full solutions on its own grid.
 
-use ehl_explorer::engine::model_file::embedded_of;
+use ehl_explorer::engine::Embedded;
 use ehl_explorer::engine::{median, percentile};
 use ehl_explorer::solver::full::{ContactSolver, Start};
 use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
@@ -9,7 +9,7 @@ use ehl_explorer::solver::reduced::{Online, ReducedError, ReducedOptions, Trust}
 use ehl_explorer::solver::training::{QuantityBox, Range, random_points};
 
 fn online() -> Online {
-    Online::new(embedded_of(ContactKind::Point).unwrap(), ReducedOptions::default())
+    Online::new(Embedded::Circle.model().unwrap(), ReducedOptions::default())
 }
 
 fn points(count: usize, seed: u64) -> Vec<OperatingPoint> {

@@ -8,6 +8,7 @@ mod cancel;
 mod complementarity;
 mod contacts;
 mod elliptic;
+mod embedded_ellipse_model;
 mod embedded_model;
 mod embedded_point_model;
 mod embedded_point_shear_model;

@@ -20,6 +20,7 @@ fn small(scene: &str) -> TrainingSpec {
     }
     match &mut spec.range {
         Range::Moes { m, .. } => *m = (20.0, 60.0),
+        Range::Oils(range) => (range.m, range.l) = ((20.0, 60.0), (5.0, 10.0)),
         Range::Box(range) => {
             (range.radius, range.speed, range.load) = ((10e-3, 11e-3), (2.0, 3.0), (30.0, 45.0));
         }
@@ -27,6 +28,10 @@ fn small(scene: &str) -> TrainingSpec {
     }
     match &mut spec.windows {
         Windows::Automatic { modes } => *modes = 12,
+        Windows::Anchored { count, modes, grid } => {
+            (*count, *modes) = (2, 16);
+            *grid = GridSpec::Graded { nodes: 240, domain: (-8.0, 3.2), registered: true };
+        }
         Windows::Given(windows) => windows.iter_mut().for_each(|window| {
             window.grid = match window.grid {
                 GridSpec::Plane(_) => GridSpec::Plane(PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5))),
@@ -51,7 +56,12 @@ fn the_same_bytes_on_one_and_on_three_threads(scene: &str) {
 
 #[test]
 fn a_line_model_has_the_same_bytes_on_any_number_of_threads() {
-    the_same_bytes_on_one_and_on_three_threads("embedded_model");
+    the_same_bytes_on_one_and_on_three_threads("slider_range_model");
+}
+
+#[test]
+fn a_model_of_oils_has_the_same_bytes_on_any_number_of_threads() {
+    the_same_bytes_on_one_and_on_three_threads("line_oils");
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! The embedded models of shear-thinning contacts: what the tests of both have in common.
 
 use crate::common::scene_files;
-use ehl_explorer::engine::model_file::{embedded_of, embedded_shear_of, from_bytes, to_bytes};
+use ehl_explorer::engine::Embedded;
+use ehl_explorer::engine::model_file::{from_bytes, to_bytes};
 use ehl_explorer::scene::Study;
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
 use ehl_explorer::solver::full::{Problem, Solution};
@@ -25,7 +26,7 @@ pub fn points(kind: ContactKind, range: SlidingRange, count: usize, seed: u64) -
 
 /// The embedded model.
 pub fn online(kind: ContactKind) -> Online {
-    Online::new(embedded_shear_of(kind).unwrap(), ReducedOptions::default())
+    Online::new(Embedded::of_kind(kind, true).model().unwrap(), ReducedOptions::default())
 }
 
 /// Relative errors of H_c, H_min and a traction coefficient; that of the traction is zero where nothing slides.
@@ -65,14 +66,15 @@ pub fn assert_limits_are_said(online: &Online, base: OperatingPoint, further: &[
     for (point, word) in common.iter().chain(further) {
         assert!(matches!(trust(point), Trust::Outside(why) if why.contains(word)), "{word}");
     }
-    let mut newtonian = Online::new(embedded_of(base.kind).unwrap(), ReducedOptions::default());
+    let mut newtonian = Online::new(Embedded::of_kind(base.kind, false).model().unwrap(), ReducedOptions::default());
     let refused = newtonian.solve(&OperatingPoint { sliding: sliding(0.5, 0.3), ..base }, SQUALANE_PIP);
     assert_eq!(refused.unwrap_err(), ReducedError::ShearThinning);
 }
 
 /// Asserts that a file keeps all of the model.
 pub fn assert_file_keeps_everything(kind: ContactKind) {
-    let model = embedded_shear_of(kind).unwrap();
+    // As the present version keeps it: the file may be of a former one.
+    let model = from_bytes(&to_bytes(&Embedded::of_kind(kind, true).model().unwrap()).unwrap()).unwrap();
     let bytes = to_bytes(&model).unwrap();
     let again = from_bytes(&bytes).unwrap();
     assert_eq!(again.domain, model.domain);

@@ -12,7 +12,7 @@ use std::path::Path;
 use std::time::Duration;
 
 fn open() -> Window {
-    crate::driver::window(Explorer::new(None).without_system_dialogs(), [1280.0, 1200.0])
+    crate::driver::window(Explorer::new(None).without_system_dialogs(), [1280.0, 1500.0])
 }
 
 /// Waits for a full solution on so many nodes.

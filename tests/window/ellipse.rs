@@ -13,7 +13,7 @@ const RATIO: &str = "Ratio of radii R_y/R";
 
 /// A window on an ellipse, solved on the quick grid.
 fn ellipse() -> Window {
-    let mut harness = crate::driver::window(Explorer::new(None).without_system_dialogs(), [1280.0, 1200.0]);
+    let mut harness = crate::driver::window(Explorer::new(None).without_system_dialogs(), [1280.0, 1500.0]);
     click(&mut harness, "Ellipse");
     choose(&mut harness, "Nodes", "Quick, 151×41");
     solved(&mut harness);
@@ -143,4 +143,23 @@ fn traction_and_film_are_drawn_against_the_ratio_of_radii_of_a_point_contact() {
     wait(&mut harness, "full solutions", |app| app.traction_contacts().1 == 11 && !app.solving_along());
     click(&mut harness, "Roller");
     assert!(shows(&harness, "A roller has no radius across"));
+}
+
+#[test]
+fn the_reduced_model_of_ellipses_is_read_when_it_is_needed_and_the_slider_answers_at_once() {
+    let explorer = Explorer::with_embedded_models().without_system_dialogs();
+    let mut harness = crate::driver::window(explorer, [1280.0, 1200.0]);
+    click(&mut harness, "Ellipse");
+    // Full solutions stand in for it until it is there; no frame waits.
+    wait(&mut harness, "the model of ellipses", |app| {
+        let judged = ["Reduced model", "Verified", "Roughly right"].contains(&app.badge().as_str());
+        judged && !app.badge_detail().contains("full solution on")
+    });
+    for ratio in [0.6, 1.7, 6.0] {
+        set(&mut harness, Role::Slider, RATIO, ratio);
+        assert!(harness.state().central_film().is_some(), "the picture follows in the frame");
+    }
+    set(&mut harness, Role::Slider, RATIO, 20.0);
+    wait(&mut harness, "a full solution", |app| app.badge() == "Outside the reduced model");
+    assert!(harness.state().badge_detail().contains("ratio of radii"), "{}", harness.state().badge_detail());
 }

@@ -6,7 +6,7 @@ use crate::driver::{Window, assert_cheap, click, export, give_path, press, rest,
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
-use ehl_explorer::engine::model_file;
+use ehl_explorer::engine::{Embedded, model_file};
 use ehl_explorer::scene::{Scene, Study};
 use ehl_explorer::solver::reduced::ReducedModel;
 use ehl_explorer::solver::training::train;
@@ -234,7 +234,7 @@ fn far_outside_the_model_the_full_solver_takes_over_visibly() {
 #[test]
 fn a_reduced_solve_that_fails_hands_over_to_the_full_solver() {
     // One mode cannot carry the load: the reduced equations have no solution.
-    let text = "Scene(version: 1, title: \"t\", at: Moes(m: 400.0, l: 3.0), study: Point(methods: [Full]), \
+    let text = "Scene(version: 1, title: \"t\", at: Moes(m: 200.0, l: 3.0), study: Point(methods: [Full]), \
         view: (pressure_loss: 0.9))";
     let folder = Scratch::new("failing");
     let path = folder.write("failing.ron", text);
@@ -287,7 +287,7 @@ fn a_whole_drag_is_one_step_back() {
 }
 
 fn open_embedded() -> Window {
-    open_with(Some(model_file::embedded().unwrap()))
+    open_with(Some(Embedded::Line.model().unwrap()))
 }
 
 /// A training of the middle of the sliders: enough for every view of a model.

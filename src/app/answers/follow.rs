@@ -15,6 +15,9 @@ impl Answers {
     /// Answers a changed document: at once by the reduced model, else by the full solver in the worker. Called after
     /// the panels.
     pub fn refresh(&mut self, ctx: &Context, document: &Document) {
+        if let Some(which) = self.models.late_for(&document.point, &document.lubricant) {
+            self.read(ctx, which);
+        }
         let ask = Ask::of(document, &self.models);
         if self.asked == Some(ask) {
             return;
@@ -85,7 +88,9 @@ impl Answers {
 
     /// Why the reduced model is not even tried; `None` where it is.
     fn untried(&self, document: &Document) -> Option<PassedOver> {
+        let shapes = self.model(document).is_some_and(|model| model.is_of(&document.point));
         match self.trust(document) {
+            _ if self.reading.is_some() && !shapes => Some(PassedOver::Reading),
             None => Some(PassedOver::NoModel),
             Some(Trust::Outside(why)) => Some(PassedOver::Outside(why)),
             Some(Trust::Trained) => None,

@@ -15,6 +15,7 @@ use crate::app::document::{Document, Key};
 use crate::app::in_use::InUse;
 use crate::app::model_source::Models;
 use crate::engine::Store;
+use crate::engine::job::Job;
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::{Problem, Report};
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
@@ -53,6 +54,8 @@ pub struct Failure {
 pub enum PassedOver {
     /// There is no reduced model.
     NoModel,
+    /// It is being read.
+    Reading,
     /// It was not trained for this contact; a sentence says why.
     Outside(String),
     /// It did not converge; a sentence says how.
@@ -101,6 +104,8 @@ pub struct Answers {
     /// Why there is no estimate of what the grid costs, where one was asked for.
     pub no_estimate: Option<String>,
     grid_error: Option<GridError>,
+    /// A model of the program on its way.
+    reading: Option<Job<Arc<ReducedModel>>>,
     online: Option<Online>,
     asked: Option<Ask>,
     cuts: Cuts,
@@ -122,7 +127,7 @@ impl Ask {
 }
 
 fn in_use(document: &Document, models: &Models) -> Option<InUse> {
-    let model = models.of(document.point.kind, &document.lubricant)?;
+    let model = models.of(&document.point, &document.lubricant)?;
     Some(InUse::new(model, &document.view))
 }
 
@@ -145,6 +150,7 @@ impl Answers {
             full_times: Times::default(),
             no_estimate: None,
             grid_error: None,
+            reading: None,
             online: None,
             asked: None,
             cuts: Cuts::default(),
@@ -170,7 +176,7 @@ impl Answers {
 
     /// The reduced model that serves a document's contact.
     pub fn model(&self, document: &Document) -> Option<&Arc<ReducedModel>> {
-        self.models.of(document.point.kind, &document.lubricant)
+        self.models.of(&document.point, &document.lubricant)
     }
 
     /// The same with the document's truncation.

@@ -5,6 +5,8 @@ use super::jobs::{FullSolve, GridChoice, JobKind, Outcome, Running};
 use super::picture::{Comparison, Origin, Picture};
 use super::{Answers, Failure};
 use crate::app::document::Key;
+use crate::engine::Embedded;
+use crate::engine::job::{Job, Wake, on_spare_cores};
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::Report;
 use crate::solver::full::point::second_grid;
@@ -12,8 +14,37 @@ use egui::Context;
 use std::sync::Arc;
 
 impl Answers {
+    /// Begins to read a model of the program. Until it is there the full solver draws the pictures.
+    pub(super) fn read(&mut self, ctx: &Context, which: Embedded) {
+        let (store, ctx) = (self.store.clone(), ctx.clone());
+        let wake = Wake::new(move || ctx.request_repaint());
+        self.reading = Some(Job::start("Reading a reduced model", wake, move |reporter| {
+            reporter.send(on_spare_cores(|| store.embedded(which)).map_err(|error| error.to_string())?);
+            Ok(())
+        }));
+    }
+
+    /// Puts the model in use that has been read.
+    fn receive_model(&mut self) {
+        let mut read = None;
+        if self.reading.as_mut().is_none_or(|job| job.poll(|model| read = Some(model)).is_none()) {
+            return;
+        }
+        // Who has put one of his own in use meanwhile keeps it; where the build is damaged there is none.
+        self.reading = None;
+        match read {
+            Some(model)
+                if self.models.shaped(model.contact(), model.of_ellipses(), &model.domain.lubricant).is_none() =>
+            {
+                self.use_model(model);
+            }
+            _ => self.models_have_changed(),
+        }
+    }
+
     /// Answers finished jobs. Called first in every frame.
     pub fn receive(&mut self) {
+        self.receive_model();
         for (mut job, outcome) in self.jobs.poll() {
             // Another sliding does not make another film where it does not thin.
             if let Some(key) = self.key().filter(|key| job.key.has_film_of(key)) {

@@ -27,11 +27,19 @@ use crate::engine::{Store, Workbench};
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::reduced::ReducedModel;
 use files::Files;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Seconds that a curve may take that follows a slider before anybody is told.
 const FOLLOWS_S: f64 = 0.5;
+
+/// What was just opened.
+pub enum Opened {
+    /// A scene, and the tab that answers its question.
+    Scene(Tab),
+    /// A campaign, by its folder.
+    Campaign(PathBuf),
+}
 
 /// What the window works with.
 pub struct Desk {
@@ -67,8 +75,8 @@ pub struct Desk {
     pub sheets: Sheets,
     /// A presentation under way: plots and sliders only.
     pub presentation: Option<Presentation>,
-    /// The tab that answers the question of a scene that was just opened.
-    pub opened: Option<Tab>,
+    /// What was just opened and is to be answered.
+    pub opened: Option<Opened>,
     /// Plots are to be fitted to their data in this frame.
     pub fit_plots: bool,
     /// Tabs whose axes stand still.
@@ -219,6 +227,11 @@ impl Desk {
         let base = self.files.path.as_deref().and_then(Path::parent).unwrap_or(Path::new("")).to_owned();
         let bench = Workbench::on(&self.answers.store, base);
         self.views.results.start(self.document.to_scene(), bench, wake);
+    }
+
+    /// Watches a campaign of the scene on the screen.
+    pub fn watch_campaign(&mut self, folder: PathBuf, wake: Wake) {
+        self.views.results.watch(self.document.to_scene(), folder, wake);
     }
 
     /// Replaces the document, as New and Open do.

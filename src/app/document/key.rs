@@ -13,16 +13,18 @@ pub struct Key {
 }
 
 impl Key {
-    /// Whether pressure and film are the same: a limiting stress cuts traction only, and a film that does not thin
-    /// under shear does not feel the sliding.
+    /// Whether pressure and film are the same: without heat a limiting stress cuts traction only, and a film that does not
+    /// thin under shear does not feel the sliding.
     pub fn has_film_of(&self, other: &Self) -> bool {
         let film = |key: &Self| {
             let (mut point, law) = (key.point, key.lubricant.shear);
             let plateau = point.sliding.newtonian_plateau_ratio.unwrap_or(law.plateau());
-            if law == ShearLaw::Newtonian || plateau == 1.0 {
+            if (law == ShearLaw::Newtonian || plateau == 1.0) && key.lubricant.heat.is_none() {
                 point.sliding.slide_to_roll_ratio = 0.0;
             }
-            (point, key.lubricant.of_the_film())
+            // A limit cuts the heat that shear makes, and that the film feels.
+            let laws = if key.lubricant.heat.is_some() { key.lubricant } else { key.lubricant.of_the_film() };
+            (point, laws)
         };
         film(self) == film(other)
     }

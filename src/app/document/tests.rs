@@ -52,7 +52,7 @@ fn a_scene_keeps_what_the_explorer_does_not_edit() {
 
 #[test]
 fn a_training_is_edited_saved_and_refused_like_the_rest() {
-    let scene = Scene::from_ron(include_str!("../../../scenes/training/embedded_model.ron")).unwrap();
+    let scene = Scene::from_ron(include_str!("../../../scenes/training/slider_range_model.ron")).unwrap();
     let mut document = Document::of_scene(scene.clone()).unwrap();
     assert_eq!(document.to_scene(), scene);
     let mut spec = document.training.clone().unwrap();

@@ -40,7 +40,7 @@ pub struct OnScreen {
 }
 
 /// What a goal may say.
-const ACCEPTED: &str = "accepted are `M between 2 and 3` (likewise L, SRR, NPR), `contact point`, `tab Regimes`, \
+const ACCEPTED: &str = "accepted are `M between 2 and 3` (likewise L, R_y/R, SRR, NPR), `contact point`, `tab Regimes`, \
     `lubricant mineral-oil`, `pin 1`, `checked` and `read`";
 
 impl Goal {
@@ -102,6 +102,7 @@ fn quantity(name: &str) -> Option<Quantity> {
     match name {
         "M" => Some(Quantity::M),
         "L" => Some(Quantity::L),
+        "R_y/R" => Some(Quantity::RadiusRatio),
         "SRR" => Some(Quantity::SlideToRollRatio),
         "NPR" => Some(Quantity::NewtonianPlateauRatio),
         _ => None,

@@ -20,17 +20,18 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 /// The lessons of the program, each as it is written.
-const TEXTS: [&str; 10] = [
+const TEXTS: [&str; 11] = [
     include_str!("../../../assets/lessons/01_rigid_to_hertz.md"),
     include_str!("../../../assets/lessons/02_the_spike.md"),
     include_str!("../../../assets/lessons/03_four_regimes.md"),
     include_str!("../../../assets/lessons/04_when_formulas_fail.md"),
     include_str!("../../../assets/lessons/05_horseshoe.md"),
-    include_str!("../../../assets/lessons/06_stribeck_and_traction.md"),
-    include_str!("../../../assets/lessons/07_shear_thinning.md"),
-    include_str!("../../../assets/lessons/08_a_load_that_breathes.md"),
-    include_str!("../../../assets/lessons/09_what_a_basis_is.md"),
-    include_str!("../../../assets/lessons/10_when_to_trust.md"),
+    include_str!("../../../assets/lessons/06_from_ball_to_roller.md"),
+    include_str!("../../../assets/lessons/07_stribeck_and_traction.md"),
+    include_str!("../../../assets/lessons/08_shear_thinning.md"),
+    include_str!("../../../assets/lessons/09_a_load_that_breathes.md"),
+    include_str!("../../../assets/lessons/10_what_a_basis_is.md"),
+    include_str!("../../../assets/lessons/11_when_to_trust.md"),
 ];
 
 /// They are tested: none is refused.

@@ -1,6 +1,6 @@
 //! The lubricant: a named one, or laws and constants of one's own; the stress that limits its traction.
 
-use super::oil;
+use super::{heat, oil};
 use crate::app::context::Commands;
 use crate::app::controls::{Entries, NAME_WIDTH, choice, heading, row_name, sentence, typed_field};
 use crate::app::document::{Document, Edit};
@@ -67,7 +67,9 @@ pub fn ui(ui: &mut Ui, document: &Document, own_laws: &mut bool, entries: &mut E
     oil::ui(ui, document, entries, commands);
     limiting_stress(ui, laws, entries, commands);
     rupture(ui, laws, entries, commands);
-    let constants = CONSTANTS.iter().chain(&LIMITS).chain(&SUPPLY).map(|constant| constant.name);
+    heat::ui(ui, document, entries, commands);
+    let constants =
+        CONSTANTS.iter().chain(&LIMITS).chain(&SUPPLY).chain(&heat::CONSTANTS).map(|constant| constant.name);
     entries.reserved_ui(ui, constants.chain([GROUP]));
 }
 
@@ -96,7 +98,7 @@ fn picker(ui: &mut Ui, own_laws: &mut bool, commands: &mut Commands, known: Opti
 }
 
 /// A constant of the laws in use.
-struct Constant {
+pub(super) struct Constant {
     name: &'static str,
     /// Name and symbol in the row, the symbol's base and subscript.
     row: (&'static str, &'static str, &'static str),
@@ -107,7 +109,7 @@ struct Constant {
     of: fn(&mut Lubricant) -> Option<&mut f64>,
 }
 
-const fn constant(
+pub(super) const fn constant(
     name: &'static str,
     row: (&'static str, &'static str, &'static str),
     unit: (&'static str, f64),
@@ -248,7 +250,12 @@ fn own(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, commands: &mut Comm
 
 /// A row for each constant that the laws have; returns the name of the last one that was entered, else that of the
 /// whole group.
-fn constants_ui(ui: &mut Ui, entries: &mut Entries, constants: &[Constant], laws: &mut Lubricant) -> &'static str {
+pub(super) fn constants_ui(
+    ui: &mut Ui,
+    entries: &mut Entries,
+    constants: &[Constant],
+    laws: &mut Lubricant,
+) -> &'static str {
     let mut field = GROUP;
     for Constant { name, row: (row, base, subscript), unit: (unit, scale), tip, of } in constants {
         let Some(value) = of(laws) else { continue };

@@ -2,6 +2,7 @@
 
 pub mod bodies;
 pub mod headline;
+mod heat;
 pub mod help;
 pub mod lubricant;
 pub mod menu;

@@ -3,10 +3,14 @@
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{NAME_WIDTH, choice, heading, reserved, warning_ui};
 use crate::app::document::Edit;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::ShearLaw;
-use crate::solver::reduced::Trust;
-use egui::{Grid, Ui};
+use crate::solver::reduced::{ReducedModel, Trust};
+use egui::text::{LayoutJob, TextFormat};
+use egui::{Align, Grid, Layout, TextStyle, Ui, vec2};
+
+const NO_MODEL: &str = "No reduced model of this contact; the full solver draws the picture.";
+const NO_MODEL_THINS: &str =
+    "No reduced model of this contact with a lubricant that thins under shear; the full solver draws the picture.";
 
 /// The group Model.
 pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
@@ -22,29 +26,24 @@ fn deformation_operator(projected: bool) -> (&'static str, &'static str) {
     }
 }
 
+/// Every row has its place whether there is a model or not: one that is read on a thread arrives while a field of the
+/// same panel is edited.
 fn model_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, commands: &mut Commands) {
-    let Some(model) = answers.model(document) else {
-        ui.weak(match (document.point.kind, document.lubricant.shear) {
-            (ContactKind::Line, ShearLaw::Newtonian) => {
-                "No reduced model is loaded; the full solver draws the picture."
-            }
-            (ContactKind::Point, ShearLaw::Newtonian) => {
-                "There is no reduced model of point contacts; the full solver draws the picture."
-            }
-            _ => "There is no reduced model of lubricants that thin under shear; the full solver draws the picture.",
-        });
-        return;
-    };
-    let Some(window) = model.windows.get(model.window_for(&document.point)) else { return };
+    let model = answers.model(document);
+    let window = model.and_then(|model| model.windows.get(model.window_for(&document.point)));
+    title_ui(ui, model.map(|model| &**model), document.lubricant.shear);
     let options = answers.options(document);
-    let (all, all_deformation) = (window.pressure.modes.ncols(), window.deformation.modes.ncols());
-    ui.label(&model.title).on_hover_text(model.log.join("\n"));
+    let of = |kept: Option<usize>, all: Option<usize>| match all {
+        Some(all) => format!("{} of {all}", kept.unwrap_or(all)),
+        None => "–".to_owned(),
+    };
     Grid::new("model").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
         ui.label("Pressure modes").on_hover_text("Kept of all; drag the tolerance in the tab Reduced basis");
-        ui.label(format!("{} of {all}", options.pressure_modes.unwrap_or(all)));
+        ui.label(of(options.pressure_modes, window.map(|window| window.pressure.modes.ncols())));
         ui.end_row();
         ui.label("Sampled rows").on_hover_text("Rows of the Reynolds equation that the reduced model evaluates");
-        ui.label(format!("{} of {}", window.sampled_rows.len(), window.grid.unknowns()));
+        let rows = window.map(|window| window.sampled_rows.len());
+        ui.label(of(rows, window.map(|window| window.grid.unknowns())));
         ui.end_row();
         let tip = "How the reduced model deforms the bodies";
         let mut view = document.view;
@@ -54,7 +53,7 @@ fn model_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, comman
         }
         if view.projected_deformation {
             ui.label("Deformation modes");
-            ui.label(format!("{} of {all_deformation}", options.deformation_modes.unwrap_or(all_deformation)));
+            ui.label(of(options.deformation_modes, window.map(|window| window.deformation.modes.ncols())));
             ui.end_row();
         }
     });
@@ -62,5 +61,24 @@ fn model_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, comman
         if let Some(Trust::Outside(why)) = answers.trust(document) {
             warning_ui(ui, &format!("{why}; the full solver draws the picture"));
         }
+    });
+}
+
+/// Which model it is, or that there is none, in two lines; what has no room there is read under the pointer.
+fn title_ui(ui: &mut Ui, model: Option<&ReducedModel>, shear: ShearLaw) {
+    let (text, tip) = match (model, shear) {
+        (Some(model), _) => (model.title.as_str(), format!("{}\n{}", model.title, model.log.join("\n"))),
+        (None, ShearLaw::Newtonian) => (NO_MODEL, NO_MODEL.to_owned()),
+        (None, _) => (NO_MODEL_THINS, NO_MODEL_THINS.to_owned()),
+    };
+    let font_id = TextStyle::Body.resolve(ui.style());
+    let color = if model.is_some() { ui.visuals().text_color() } else { ui.visuals().weak_text_color() };
+    let two_lines = ui.painter().layout_no_wrap("M\nM".to_owned(), font_id.clone(), color);
+    let height = two_lines.size().y.ceil() + 1.0;
+    let mut job = LayoutJob::single_section(text.to_owned(), TextFormat { font_id, color, ..TextFormat::default() });
+    job.wrap.max_rows = 2;
+    ui.allocate_ui_with_layout(vec2(ui.available_width(), height), Layout::top_down(Align::LEFT), |ui| {
+        ui.set_min_height(height);
+        ui.label(job).on_hover_text(tip);
     });
 }

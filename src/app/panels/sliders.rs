@@ -9,6 +9,7 @@ use crate::app::theme::{name_and_symbol, rich};
 use crate::solver::physics::contact::{ContactKind, Quantity};
 use crate::solver::physics::engineering::{self, Dimension};
 use crate::solver::physics::lubricant::ShearLaw;
+use crate::solver::reduced::{CIRCLES, Domain};
 use egui::{Grid, Slider, TextStyle, Ui};
 use std::ops::RangeInclusive;
 
@@ -65,7 +66,7 @@ fn thins(document: &Document) -> bool {
 fn rows(Context { document, answers, .. }: &Context<'_>) -> Vec<Row> {
     let (moes, kind) = (document.point.moes(), document.point.kind);
     // A model of circles has nothing to say of ellipses.
-    let domain = answers.model(document).filter(|_| document.point.radius_ratio() == 1.0).map(|model| &model.domain);
+    let domain = answers.model(document).filter(|model| model.is_of(&document.point)).map(|model| &model.domain);
     let (trained, sliding) = (domain.map(|domain| (domain.m, domain.l)), domain.and_then(|domain| domain.sliding));
     let srr = document.point.sliding.slide_to_roll_ratio;
     let (npr, own_npr) = (document.plateau_ratio(), document.lubricant.shear.plateau());
@@ -81,15 +82,16 @@ fn rows(Context { document, answers, .. }: &Context<'_>) -> Vec<Row> {
     let srr_tip = if thins(document) { SRR_TIP } else { SRR_NEWTONIAN_TIP };
     let m = slider(Quantity::M, trained.map(|t| t.0), HOME.m, m_tip);
     let l = slider(Quantity::L, trained.map(|t| t.1), HOME.l, L_TIP);
-    let marked = sliding.map(|sliding| sliding.srr);
+    let marked = domain.and_then(Domain::srr);
     let slide = slider(Quantity::SlideToRollRatio, marked, 0.0, srr_tip);
     let marked = sliding.map(|sliding| sliding.npr);
     let plateau = slider(Quantity::NewtonianPlateauRatio, marked, own_npr, NPR_TIP);
+    let ratio = domain.filter(|domain| domain.radius_ratio != CIRCLES).map(|domain| domain.radius_ratio);
     // A ball is the ellipse in the middle: moving it makes one.
     let ellipse = (kind == ContactKind::Point).then(|| Row {
         quantity: Quantity::RadiusRatio,
         entry: "R_y/R value",
-        slider: slider(Quantity::RadiusRatio, None, 1.0, RATIO_TIP),
+        slider: slider(Quantity::RadiusRatio, ratio, 1.0, RATIO_TIP),
         value: document.point.radius_ratio(),
     });
     let mut rows = vec![

@@ -67,6 +67,12 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
             format!("{}. The full solver draws the picture instead", sentence(why).trim_end_matches('.')),
             Kind::Warning,
         ),
+        (_, Some(PassedOver::Reading)) => make(
+            "Reading the reduced model",
+            full.to_owned(),
+            "The reduced model of ellipses is being read; until it is there the full solver draws the picture".to_owned(),
+            Kind::Neutral,
+        ),
         (Origin::Full, _) if !answers.picture_is_current() => make(
             "Computing",
             full.to_owned(),

@@ -6,7 +6,9 @@ use crate::app::export::describe_contact;
 use crate::app::numbers;
 use crate::app::theme::symbol;
 use crate::engine::Table;
-use crate::solver::physics::contact::FilmFormula;
+use crate::solver::full::Problem;
+use crate::solver::physics::contact::{FilmFormula, OperatingPoint};
+use crate::solver::physics::lubricant::{HeatReduction, Lubricant};
 use egui::{Grid, RichText, Ui};
 
 /// The comparison for other programs.
@@ -27,6 +29,12 @@ pub fn csv(context: &Context<'_>) -> String {
             f64::from(u8::from(prediction.in_range)),
         ]);
         table.remarks.push(formula.source().to_owned());
+    }
+    for (by, _, film, in_range) in reduced(point, &context.document.lubricant) {
+        let own = picture.map_or(f64::NAN, |p| p.central_film_m());
+        table.labels.push(format!("h_c by Moes, thinned by {}", by.name()));
+        table.rows.push(vec![film, own, film / own - 1.0, f64::from(u8::from(in_range))]);
+        table.remarks.push(by.source().to_owned());
     }
     format!("# {}\n{}", describe_contact(point, &context.document.lubricant), table.to_csv())
 }
@@ -64,6 +72,7 @@ pub fn table(ui: &mut Ui, context: &Context<'_>) {
             ui.label(text(against)).on_hover_text(&tip);
             ui.end_row();
         }
+        reduced_rows(ui, context, central);
         for (name, subscript, own) in [("This contact", "c", central), ("This contact", "min", minimum)] {
             ui.strong(name);
             ui.label(symbol(ui, "h", subscript));
@@ -77,4 +86,31 @@ pub fn table(ui: &mut Ui, context: &Context<'_>) {
     if context.document.point.radius_ratio() < 1.0 {
         warning_ui(ui, "Hamrock–Dowson is 15–75 % high where R_y is smaller than R: it was fitted to ellipses across");
     }
+}
+
+/// With heat: Moes' film as published factors thin it.
+fn reduced_rows(ui: &mut Ui, context: &Context<'_>, central: Option<f64>) {
+    for (by, factor, film, in_range) in reduced(&context.document.point, &context.document.lubricant) {
+        let text = |t: String| if in_range { RichText::new(t) } else { RichText::new(t).weak() };
+        let outside = if in_range { "" } else { ". This contact lies outside its range of validity" };
+        let tip = format!("Moes’ film thinned by heat: {}{outside}", by.source());
+        ui.label(text(format!("× {} {}", numbers::digits(factor, 3), by.name()))).on_hover_text(&tip);
+        ui.label(symbol(ui, "h", "c"));
+        ui.label(text(numbers::length(film))).on_hover_text(&tip);
+        let against = central.map_or_else(|| "–".to_owned(), |h| numbers::percent(film / h - 1.0));
+        ui.label(text(against)).on_hover_text(&tip);
+        ui.end_row();
+    }
+}
+
+/// Factors, the films \[m\] they make of Moes', and whether the contact is in their range; none without heat.
+fn reduced(point: &OperatingPoint, lubricant: &Lubricant) -> Vec<(HeatReduction, f64, f64, bool)> {
+    let problem = lubricant.heat.and_then(|_| Problem::new(point, *lubricant).ok());
+    let Some(heat) = problem.as_ref().and_then(|problem| problem.heat.as_ref()) else { return Vec::new() };
+    let cold = FilmFormula::MoesLine.predict(point).film_m;
+    let row = |by: HeatReduction| {
+        let (factor, in_range) = by.factor(point, heat);
+        (by, factor, factor * cold, in_range)
+    };
+    HeatReduction::ALL.map(row).to_vec()
 }

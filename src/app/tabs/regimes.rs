@@ -95,8 +95,7 @@ impl Regimes {
             self.texture = Some((shape, dark, texture));
         }
         // A model of circles was trained by none of the ellipses on this chart.
-        let of_these = !matches!(shape, FilmShape::Ellipse(ratio) if ratio != 1.0);
-        let model = context.answers.model(context.document).filter(|_| of_these);
+        let model = context.answers.model(context.document).filter(|model| model.is_of(&context.document.point));
         let owner = Owner(shape, model.cloned());
         if self.lines.as_ref().is_none_or(|lines| lines.0 != owner) {
             let lines = ChartLines::new(shape, owner.1.as_deref());

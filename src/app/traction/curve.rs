@@ -21,13 +21,13 @@ pub struct Curve {
     pub samples: Vec<Sample>,
     /// How many of its contacts the reduced model did not converge at, or a sentence why there is no curve.
     pub left_out: Result<usize, String>,
-    /// Some contacts of its Newtonian companion.
+    /// Some contacts of its companion.
     companions: Vec<Sample>,
     /// Seconds it took.
     pub wall_s: f64,
 }
 
-/// A curve under way: contacts that have come, the work, and that of its Newtonian companion.
+/// A curve under way: contacts that have come, the work, and that of its companion.
 struct Running {
     curve: Curve,
     contacts: usize,
@@ -62,8 +62,7 @@ impl LiveCurve {
             served.by.ask(&ctx, &store, sweep.question(title, Grid::Graded, count, served.by.method()))
         };
         let job = ask("Traction curve", &sweep, CURVE);
-        let newtonian = sweep.newtonian();
-        let companion = newtonian.map(|newtonian| ask("Newtonian traction", &newtonian, sweep.companions(CURVE)));
+        let companion = sweep.accompanied().map(|(companion, by)| ask(companion.title(), &by, sweep.companions(CURVE)));
         let (samples, companions, left_out) = (Vec::new(), Vec::new(), Ok(0));
         let curve = Curve { sweep, served, samples, companions, left_out, wall_s: 0.0 };
         self.running = Some(Running { curve, contacts: 0, job, ending: None, companion });
@@ -95,7 +94,7 @@ impl LiveCurve {
         }
         let Running { mut curve, contacts, ending, .. } = self.running.take()?;
         self.start_next();
-        curve.sweep.note_newtonian(&mut curve.samples, &curve.companions);
+        curve.sweep.note_companions(&mut curve.samples, &curve.companions);
         match ending? {
             // It was given up.
             Ok(()) if contacts < CURVE => None,

@@ -1,6 +1,6 @@
 //! Traction and film along a quantity for other programs.
 
-use super::{Sample, Served, Sweep, TractionView};
+use super::{Companion, Sample, Served, Sweep, TractionView};
 use crate::app::document::Key;
 use crate::app::export as tables;
 
@@ -11,9 +11,11 @@ pub fn describe(sweep: &Sweep) -> Vec<String> {
 
 /// What is to be said of it below its first contact.
 fn notes(sweep: &Sweep) -> impl Iterator<Item = String> {
-    let traction =
-        "traction is that of an isothermal film over the whole domain, (3.41); the first contact is described above";
-    std::iter::once(traction.to_owned()).chain(sweep.unphysical())
+    let of = match sweep.base.lubricant.heat {
+        Some(_) => "a film with heat over the area under pressure",
+        None => "an isothermal film over the whole domain, (3.41)",
+    };
+    std::iter::once(format!("traction is that of {of}; the first contact is described above")).chain(sweep.unphysical())
 }
 
 /// The first contact of the curve that is drawn, or else of the full solutions, and what is to be said below it.
@@ -36,7 +38,10 @@ fn described(sweep: &Sweep) -> String {
 
 /// The curve and the full solutions, told apart by the column `full`; `None` where there is neither.
 pub fn csv(view: &TractionView) -> Option<String> {
-    const COLUMNS: [&str; 11] = [
+    let companion =
+        view.curve.iter().map(|curve| &curve.sweep).chain(view.markers.iter().map(|markers| &markers.sweep));
+    let companion = companion.filter_map(Sweep::companion).next().unwrap_or(Companion::Newtonian);
+    let columns = [
         "full",
         "SRR",
         "NPR",
@@ -46,7 +51,7 @@ pub fn csv(view: &TractionView) -> Option<String> {
         "traction",
         "h_c_m",
         "h_min_m",
-        "newtonian_traction",
+        companion.column(),
         "unphysical",
     ];
     let curve = view.curve.iter().map(|curve| (0.0, &curve.sweep, curve.samples.as_slice()));
@@ -64,7 +69,7 @@ pub fn csv(view: &TractionView) -> Option<String> {
     let rows = blocks
         .into_iter()
         .flat_map(|(full, sweep, samples)| samples.iter().map(move |sample| row(full, sweep, sample)));
-    Some(tables::csv(&comments, &COLUMNS, rows))
+    Some(tables::csv(&comments, &columns, rows))
 }
 
 fn row(full: f64, sweep: &Sweep, sample: &Sample) -> Vec<Option<f64>> {
@@ -74,5 +79,5 @@ fn row(full: f64, sweep: &Sweep, sample: &Sample) -> Vec<Option<f64>> {
     let srr = point.sliding.slide_to_roll_ratio;
     let unphysical = f64::from(u8::from(sample.unphysical.is_some()));
     let values = [full, srr, npr, point.speed_m_per_s, moes.m, moes.l, sample.traction, sample.h_c_m, sample.h_min_m];
-    values.map(Some).into_iter().chain([sample.newtonian, Some(unphysical)]).collect()
+    values.map(Some).into_iter().chain([sample.companion, Some(unphysical)]).collect()
 }

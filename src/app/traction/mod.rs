@@ -7,7 +7,7 @@ mod sweep;
 
 pub use curve::Curve;
 pub use served::{Served, sweep};
-pub use sweep::{Against, Sample, Sweep, Varied};
+pub use sweep::{Against, Companion, Sample, Sweep, Varied};
 
 use super::answers::Answers;
 use super::answers::jobs::wake;
@@ -34,7 +34,7 @@ pub struct Markers {
     pub sweep: Sweep,
     /// What has been solved so far.
     pub samples: Vec<Sample>,
-    /// Some contacts of its Newtonian companion.
+    /// Some contacts of its companion.
     companions: Vec<Sample>,
     /// How many are asked for.
     wanted: usize,
@@ -118,7 +118,7 @@ impl TractionView {
         self.beside.receive(|row| markers.companions.extend(Sample::of_row(&row, &markers.sweep)));
         // A companion that fails is left out.
         self.beside.message = None;
-        markers.sweep.note_newtonian(&mut markers.samples, &markers.companions);
+        markers.sweep.note_companions(&mut markers.samples, &markers.companions);
         let (failed, wanted) = (markers.failed, markers.wanted);
         if works && self.full.job().is_none() && failed > 0 {
             let why = || format!("{failed} of {wanted} full solutions did not converge and are left out");
@@ -198,8 +198,8 @@ impl TractionView {
         let wanted = if served.is_err() && plane.is_none() { FULL_CURVE } else { MARKERS };
         self.full.run(ask("Full solutions along the curve", &sweep, wanted));
         self.beside = Background::default();
-        if let Some(newtonian) = sweep.newtonian().filter(|_| served.is_err()) {
-            self.beside.run(ask("Newtonian traction", &newtonian, sweep.companions(wanted)));
+        if let Some((companion, by)) = sweep.accompanied().filter(|_| served.is_err()) {
+            self.beside.run(ask(companion.title(), &by, sweep.companions(wanted)));
         }
         let (samples, companions) = (Vec::new(), Vec::new());
         self.markers = Some(Markers { sweep, samples, companions, wanted, failed: 0, by_themselves });

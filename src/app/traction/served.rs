@@ -5,7 +5,7 @@ use crate::app::answers::Answers;
 use crate::app::document::{Document, Key};
 use crate::app::in_use::InUse;
 use crate::solver::full::Problem;
-use crate::solver::physics::lubricant::ShearLaw;
+use crate::solver::physics::lubricant::{LARGEST_HEATED_SRR, ShearLaw};
 use crate::solver::reduced::{Domain, Trust};
 
 /// What a logarithmic axis of NPR begins with at least.
@@ -47,6 +47,11 @@ pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Optio
             }
         },
     };
+    // With heat both bodies must move on.
+    let ends = match (varied, key.lubricant.heat) {
+        (Varied::SlideToRoll, Some(_)) => (ends.0, ends.1.min(LARGEST_HEATED_SRR)),
+        _ => ends,
+    };
     // However sliding is shown, the contacts are the same.
     let logarithmic = choices.logarithmic.0 && varied != Varied::SlideToRoll;
     let ends = match varied {
@@ -71,6 +76,10 @@ fn untrained(domain: &Domain, key: &Key, varied: Varied, ends: (f64, f64)) -> Re
             return Err(why);
         }
         if let Trust::Outside(why) = domain.trust(&problem) {
+            if problem.heat.is_some() {
+                // Full solutions are at hand, and with heat the oil and its bodies count as well.
+                return Err(why);
+            }
             untrained.get_or_insert(why);
         }
     }

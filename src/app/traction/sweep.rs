@@ -65,6 +65,15 @@ pub struct Sweep {
     pub logarithmic: bool,
 }
 
+/// What contacts are compared with, one by one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Companion {
+    /// The lubricant if it were Newtonian and carried every stress.
+    Newtonian,
+    /// The contact if no heat were made.
+    WithoutHeat,
+}
+
 /// One contact of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
@@ -76,10 +85,36 @@ pub struct Sample {
     pub h_min_m: f64,
     /// Size of the traction coefficient over the whole domain, (3.41).
     pub traction: f64,
-    /// What that would be if the lubricant were Newtonian and carried every stress, where it is known.
-    pub newtonian: Option<f64>,
+    /// That of the companion, where it is known.
+    pub companion: Option<f64>,
     /// Why its traction is no physics, where it is none.
     pub unphysical: Option<TractionDoubt>,
+}
+
+impl Companion {
+    /// The title of its question.
+    pub(super) fn title(self) -> &'static str {
+        match self {
+            Self::Newtonian => "Newtonian traction",
+            Self::WithoutHeat => "Traction without heat",
+        }
+    }
+
+    /// The name of its curve.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Newtonian => "if it were Newtonian",
+            Self::WithoutHeat => "without heat",
+        }
+    }
+
+    /// The name of its column.
+    pub(super) fn column(self) -> &'static str {
+        match self {
+            Self::Newtonian => "newtonian_traction",
+            Self::WithoutHeat => "isothermal_traction",
+        }
+    }
 }
 
 impl Varied {
@@ -109,7 +144,7 @@ impl Varied {
     /// The values for which a model was trained; speeds at the load, the radius and the fluid of a contact. `None` where there are none.
     pub(super) fn trained(self, domain: &Domain, point: &OperatingPoint) -> Option<(f64, f64)> {
         match self {
-            Self::SlideToRoll => Some(domain.sliding.map_or(SRR, |sliding| sliding.srr)),
+            Self::SlideToRoll => Some(domain.srr().unwrap_or(SRR)),
             Self::Plateau => domain.sliding.map(|sliding| sliding.npr),
             Self::RadiusRatio => None,
             Self::Speed => {
@@ -267,37 +302,52 @@ impl Sweep {
         Key { point, lubricant: self.base.lubricant }
     }
 
-    /// The same contacts of a lubricant that keeps its viscosity under every stress; `None` where it is one already, and
-    /// where it is this that varies.
-    pub(super) fn newtonian(&self) -> Option<Self> {
-        let Key { mut point, lubricant } = self.base;
-        let thins = lubricant.shear != ShearLaw::Newtonian;
-        if self.varied == Varied::Plateau || !thins && lubricant.limiting_stress.is_none() {
-            return None;
+    /// What its contacts are compared with: with heat those without; without heat those of a lubricant that keeps its
+    /// viscosity under every stress, unless it is one already or it is this that varies.
+    pub fn companion(&self) -> Option<Companion> {
+        let Lubricant { shear, limiting_stress, heat, .. } = self.base.lubricant;
+        let bends = shear != ShearLaw::Newtonian || limiting_stress.is_some();
+        match heat {
+            Some(_) => Some(Companion::WithoutHeat),
+            None => (bends && self.varied != Varied::Plateau).then_some(Companion::Newtonian),
         }
-        if thins {
+    }
+
+    /// The same contacts of its companion.
+    pub(super) fn accompanied(&self) -> Option<(Companion, Self)> {
+        let companion = self.companion()?;
+        let Key { mut point, lubricant } = self.base;
+        let lubricant = match companion {
+            Companion::WithoutHeat => Lubricant { heat: None, ..lubricant },
+            Companion::Newtonian => lubricant.of_the_film(),
+        };
+        if companion == Companion::Newtonian && lubricant.shear != ShearLaw::Newtonian {
             point.sliding.newtonian_plateau_ratio = Some(1.0);
         }
-        Some(Self { base: Key { point, lubricant: lubricant.of_the_film() }, ..self.clone() })
+        Some((companion, Self { base: Key { point, lubricant }, ..self.clone() }))
     }
 
-    /// Contacts of [`Self::newtonian`] beside so many of the sweep: without thinning the film does not feel the sliding,
-    /// so that its traction is proportional to it.
+    /// Whether the companion's traction is proportional to what varies: without thinning and heat the film does not feel
+    /// the sliding.
+    fn is_proportional(&self) -> bool {
+        self.varied == Varied::SlideToRoll && self.companion() == Some(Companion::Newtonian)
+    }
+
+    /// Contacts of the companion beside so many of the sweep.
     pub(super) fn companions(&self, count: usize) -> usize {
-        if self.varied == Varied::SlideToRoll { 2 } else { count }
+        if self.is_proportional() { 2 } else { count }
     }
 
-    /// Notes beside contacts of the sweep what those of [`Self::newtonian`] amount to.
-    pub(super) fn note_newtonian(&self, samples: &mut [Sample], companions: &[Sample]) {
+    /// Notes beside contacts of the sweep what those of the companion amount to.
+    pub(super) fn note_companions(&self, samples: &mut [Sample], companions: &[Sample]) {
         let lubricant = self.base.lubricant;
         let of = |sample: &Sample| self.varied.of(&Key { point: sample.point, lubricant });
         for sample in samples {
             let value = of(sample);
-            sample.newtonian = match self.varied {
-                Varied::SlideToRoll => {
-                    companions.last().filter(|last| of(last) > 0.0).map(|last| last.traction * value / of(last))
-                }
-                _ => companions.iter().find(|other| of(other) == value).map(|other| other.traction),
+            sample.companion = if self.is_proportional() {
+                companions.last().filter(|last| of(last) > 0.0).map(|last| last.traction * value / of(last))
+            } else {
+                companions.iter().find(|other| of(other) == value).map(|other| other.traction)
             };
         }
     }
@@ -325,7 +375,7 @@ impl Sample {
             h_c_m: scalars.h_c * scale,
             h_min_m: scalars.h_min * scale,
             traction,
-            newtonian: None,
+            companion: None,
             unphysical: problem.doubts_traction(traction, &scalars),
         })
     }
@@ -334,9 +384,10 @@ impl Sample {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::model_file;
+    use crate::engine::Embedded;
     use crate::scene::named_lubricant::{MINERAL_OIL, SQUALANE_PIP};
     use crate::solver::physics::contact::Sliding;
+    use crate::solver::physics::lubricant::Heat;
 
     /// Table 3.5's contact as a line or a point contact.
     fn key(kind: ContactKind) -> Key {
@@ -348,7 +399,7 @@ mod tests {
 
     #[test]
     fn trained_speeds_end_where_a_moes_number_does() {
-        let model = model_file::embedded_shear_of(ContactKind::Line).unwrap();
+        let model = Embedded::ThinningLine.model().unwrap();
         for kind in [ContactKind::Line, ContactKind::Point] {
             let point = key(kind).point;
             let here = point.moes();
@@ -375,16 +426,25 @@ mod tests {
         let values = study.over[0].values.values();
         assert_eq!(values.iter().filter(|srr| **srr <= 0.05 + 1e-9).count(), 21);
         // A limited oil has a Newtonian companion, whose traction is proportional to the sliding.
-        let newtonian = sweep.newtonian().unwrap();
-        assert_eq!(newtonian.base.lubricant.limiting_stress, None);
-        assert_eq!((newtonian.newtonian(), sweep.companions(41)), (None, 2));
+        let (companion, newtonian) = sweep.accompanied().unwrap();
+        assert_eq!((companion, newtonian.base.lubricant.limiting_stress), (Companion::Newtonian, None));
+        assert_eq!((newtonian.companion(), sweep.companions(41)), (None, 2));
         let sample = |srr: f64, traction| {
             let point = Varied::SlideToRoll.at(&base.point, srr);
-            Sample { point, h_c_m: 1.0, h_min_m: 1.0, traction, newtonian: None, unphysical: None }
+            Sample { point, h_c_m: 1.0, h_min_m: 1.0, traction, companion: None, unphysical: None }
         };
         let mut samples = [sample(0.0, 0.0), sample(0.1, 0.05)];
-        sweep.note_newtonian(&mut samples, &[sample(0.0, 0.0), sample(1.0, 8.0)]);
-        assert_eq!(samples.map(|sample| sample.newtonian), [Some(0.0), Some(0.8)]);
+        sweep.note_companions(&mut samples, &[sample(0.0, 0.0), sample(1.0, 8.0)]);
+        assert_eq!(samples.map(|sample| sample.companion), [Some(0.0), Some(0.8)]);
+        // With heat it is the same lubricant without, contact by contact.
+        let heat = Lubricant { heat: Some(Heat::default()), ..MINERAL_OIL };
+        let sweep = Sweep { base: Key { lubricant: heat, ..base }, ..sweep };
+        let (companion, cold) = sweep.accompanied().unwrap();
+        assert_eq!((companion, cold.base.lubricant), (Companion::WithoutHeat, MINERAL_OIL));
+        assert_eq!(sweep.companions(41), 41);
+        let mut samples = [sample(0.0, 0.0), sample(0.1, 0.05)];
+        sweep.note_companions(&mut samples, &[sample(0.0, 0.0), sample(0.1, 0.07)]);
+        assert_eq!(samples.map(|sample| sample.companion), [Some(0.0), Some(0.07)]);
     }
 
     #[test]

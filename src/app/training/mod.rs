@@ -11,10 +11,10 @@ pub use worker::{Made, Running};
 use super::answers::Answers;
 use super::document::Document;
 use crate::engine::job::{Background, Standing};
-use crate::engine::{Store, training_file};
+use crate::engine::{Embedded, Store, training_file};
 use crate::solver::physics::lubricant::ShearLaw;
 use crate::solver::reduced::ReducedModel;
-use crate::solver::training::{Plan, TrainingSpec, TrainingState, WindowState};
+use crate::solver::training::{Plan, Range, TrainingSpec, TrainingState, WindowState};
 use chart::Chart;
 use comparison::Comparison;
 use egui::Context;
@@ -160,8 +160,9 @@ impl Training {
     /// Starts the training that the document shows, unless its specification is refused.
     pub fn start(&mut self, ctx: &Context, document: &Document) {
         let Some(spec) = document.training_spec().cloned() else { return };
-        // Its films rupture as those of the contact do.
-        let spec = spec.under(document.lubricant.cavitation);
+        // Its films rupture as those of the contact do, and warm themselves where it is about heat.
+        let heat = document.lubricant.heat.filter(|_| matches!(spec.range, Range::Heated(_)));
+        let spec = spec.under(document.lubricant.cavitation).heated(heat);
         match spec.check() {
             Ok(()) => self.run(ctx, TrainingState::new(spec)),
             Err(error) => self.notices = vec![Notice::Wrong(error.to_string())],
@@ -227,8 +228,12 @@ impl Training {
     pub fn comparable(&self, answers: &Answers, document: &Document) -> Vec<(String, Arc<ReducedModel>)> {
         let Some(spec) = self.compared_spec(document) else { return Vec::new() };
         let kind = spec.contact();
-        let embedded = answers.store.embedded(kind, spec.lubricant.shear != ShearLaw::Newtonian).ok();
-        let in_use = answers.models.of(kind, &spec.lubricant).cloned();
+        let (ellipses, thins) =
+            (matches!(spec.range, Range::Ellipses { .. }), spec.lubricant.shear != ShearLaw::Newtonian);
+        // That of ellipses takes seconds to be read: it stands here once it is in use.
+        let round = (!ellipses).then(|| Embedded::of_kind(kind, thins));
+        let embedded = round.and_then(|which| answers.store.embedded(which).ok());
+        let in_use = answers.models.shaped(kind, ellipses, &spec.lubricant).cloned();
         let known = [("in the program", embedded), ("in use", in_use), ("before", self.former.clone())];
         let known = known.into_iter().filter_map(|(name, model)| Some((name.to_owned(), model?)));
         let made = self.made.iter().map(|made| ("new".to_owned(), Arc::clone(&made.model)));
@@ -236,7 +241,7 @@ impl Training {
         // The new one keeps its name, though it may be in use.
         let is_made = |model: &Arc<ReducedModel>| self.made.iter().any(|made| Arc::ptr_eq(&made.model, model));
         for (name, model) in known.chain(self.beside.iter().cloned()).filter(|(_, model)| !is_made(model)).chain(made) {
-            if model.contact() == kind && !models.iter().any(|(_, known)| Arc::ptr_eq(known, &model)) {
+            if spec.is_of(&model) && !models.iter().any(|(_, known)| Arc::ptr_eq(known, &model)) {
                 models.push((name, model));
             }
         }

@@ -32,7 +32,7 @@ fn table_3_1() -> Option<&'static TrainingSpec> {
 /// The embedded model's range: what the sliders reach.
 fn slider_range() -> Option<&'static TrainingSpec> {
     static SPEC: LazyLock<Option<TrainingSpec>> =
-        LazyLock::new(|| spec_of(include_str!("../../../scenes/training/embedded_model.ron")));
+        LazyLock::new(|| spec_of(include_str!("../../../scenes/training/slider_range_model.ron")));
     SPEC.as_ref()
 }
 

@@ -91,6 +91,7 @@ fn most_solutions(spec: &TrainingSpec) -> usize {
     };
     match &spec.windows {
         Windows::Given(windows) => per_window * windows.len(),
+        Windows::Anchored { count, .. } => per_window * count,
         // How many it will be is not known before; one is the least.
         Windows::Automatic { .. } => per_window,
     }

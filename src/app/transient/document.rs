@@ -30,6 +30,9 @@ impl Document {
 
     /// Why there are no contacts in time of this kind; `None` where there are.
     pub fn no_transient(&self) -> Option<&'static str> {
+        if self.lubricant.heat.is_some() {
+            return Some("This version follows contacts in time without heat only; switch heat off");
+        }
         match (self.point.kind, self.lubricant.shear) {
             (ContactKind::Point, _) => Some("This version follows only line contacts in time; choose a line contact"),
             (ContactKind::Line, ShearLaw::Newtonian) => None,
@@ -41,7 +44,7 @@ impl Document {
     /// under shear have none.
     pub fn saves_transient(&self) -> bool {
         let asked = self.scene.as_ref().is_none_or(|scene| matches!(scene.study, Study::Transient(_)));
-        asked && self.point.kind == ContactKind::Line && self.lubricant.shear == ShearLaw::Newtonian
+        asked && self.no_transient().is_none()
     }
 
     /// The grid of contacts in time: that of a scene of one, else one that answers quickly.

@@ -2,7 +2,7 @@
 
 use crate::app::document::{Document, Key};
 use crate::app::in_use::question;
-use crate::scene::{Grid, LinearisedTransient, Scene, Study, TransientStudy};
+use crate::scene::{Grid, LinearisedTransient, ModelSource, Scene, Study, TransientStudy};
 use crate::solver::full::transient::TimeStep;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
@@ -29,8 +29,13 @@ const QUICK: f64 = 5e5;
 impl Setup {
     /// What a document would have run; where its file lies, the table lies that it takes inputs from.
     pub fn of(document: &Document, file: Option<&Path>) -> Self {
-        let study = document.transient_study();
+        let mut study = document.transient_study();
         let folder = file.and_then(Path::parent).unwrap_or(Path::new(""));
+        if let Some(ModelSource::File(path) | ModelSource::Trained(path)) =
+            study.reduced.as_mut().and_then(|reduced| reduced.model.as_mut())
+        {
+            *path = folder.join(&*path);
+        }
         Self {
             point: document.point,
             lubricant: document.lubricant,
@@ -70,7 +75,7 @@ impl Setup {
             Grid::GradedNodes { nodes, .. } => nodes as f64,
             _ => 600.0,
         };
-        let modelled = self.study.reduced.is_some() || self.study.linearised.is_some();
+        let modelled = self.study.trains();
         let trained: f64 = self.study.trainings.iter().map(|drive| drive.duration).sum();
         let trained = if modelled { trained * self.study.training_loads.len().max(1) as f64 } else { 0.0 };
         (self.study.duration + trained) / step * nodes * self.study.frames.len() as f64 <= QUICK

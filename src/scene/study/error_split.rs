@@ -103,11 +103,12 @@ impl Question for ErrorSplitStudy {
         let Some(source) = self.method.model() else {
             return Err(RunError::Study("an error split needs a Reduced `method`".to_owned()));
         };
-        let model = setting.bench.model_for(source, experiment.contact, &experiment.lubricant, observer)?;
         let points = match &self.contacts {
             Contacts::Here => vec![(f64::NAN, experiment.request()?.point)],
             Contacts::Trajectory { range, points } => trajectory_points(range, experiment, *points)?,
         };
+        let Some((_, first)) = points.first() else { return Ok(()) };
+        let model = setting.bench.model_for(source, first, &experiment.lubricant, observer)?;
         // A truncation keeps another number of modes in each window.
         let mut splitters: Vec<Option<ErrorSplitter>> = model.windows.iter().map(|_| None).collect();
         for (i, (c, point)) in points.iter().enumerate() {

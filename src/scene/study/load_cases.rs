@@ -2,7 +2,7 @@
 
 use super::path::tag;
 use super::question::{
-    Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+    Chart, ChartAxis, Checked, Divisible, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
 use crate::scene::bench::{Request, answer_or_full};
 use crate::scene::check;
@@ -25,7 +25,7 @@ pub struct LoadCases {
 }
 
 /// One line of the table.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Its line in the table, from 1.
     pub line: usize,
@@ -54,6 +54,25 @@ impl Row {
 }
 
 impl LoadCases {
+    fn read(&self, setting: &Setting<'_>) -> Result<Vec<LoadCase>, RunError> {
+        Ok(self.cases.cases(setting.experiment, &|path| setting.bench.resolve(path))?)
+    }
+
+    fn solve_all(&self, cases: Vec<LoadCase>, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
+        let total = cases.len();
+        for (i, LoadCase { line, name, request }) in cases.into_iter().enumerate() {
+            setting.step("load cases", i, total)?;
+            // Each line's numbers are those of the same contact solved alone, whatever stands above it.
+            setting.bench.forget();
+            let results = match request {
+                Ok(request) => self.solve(setting, &request)?,
+                Err(why) => Err(why),
+            };
+            tell(Row { line, name, results });
+        }
+        Ok(())
+    }
+
     /// One contact by each method, or why it is refused.
     fn solve(
         &self,
@@ -69,6 +88,33 @@ impl LoadCases {
             }
         }
         Ok(Ok(results))
+    }
+}
+
+/// A piece is a line of the table.
+impl Divisible for LoadCases {
+    fn pieces(&self, setting: &mut Setting<'_>, round: usize, _: &[&Row]) -> Result<Vec<usize>, RunError> {
+        Ok(if round == 0 { (0..self.read(setting)?.len()).collect() } else { Vec::new() })
+    }
+
+    fn work(
+        &self,
+        setting: &mut Setting<'_>,
+        _: usize,
+        pieces: &[usize],
+        tell: &Tell<'_, Row>,
+    ) -> Result<(), RunError> {
+        let cases = self.read(setting)?;
+        let chosen = pieces.iter().filter_map(|piece| cases.get(*piece).cloned()).collect();
+        self.solve_all(chosen, setting, tell)
+    }
+
+    fn seconds(row: &mut Row) -> Vec<&mut f64> {
+        row.results.iter_mut().flatten().map(|result| &mut result.wall_s).collect()
+    }
+
+    fn methods_mut(&mut self) -> &mut [Method] {
+        &mut self.methods
     }
 }
 
@@ -92,23 +138,12 @@ impl Question for LoadCases {
     }
 
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
-        let cases = self.cases.cases(setting.experiment, &|path| setting.bench.resolve(path))?;
-        let total = cases.len();
-        for (i, LoadCase { line, name, request }) in cases.into_iter().enumerate() {
-            setting.step("load cases", i, total)?;
-            // Each line's numbers are those of the same contact solved alone, whatever stands above it.
-            setting.bench.forget();
-            let results = match request {
-                Ok(request) => self.solve(setting, &request)?,
-                Err(why) => Err(why),
-            };
-            tell(Row { line, name, results });
-        }
-        Ok(())
+        let cases = self.read(setting)?;
+        self.solve_all(cases, setting, tell)
     }
 
-    /// Values: `cases`, `refused`, of each method `failures`, and of each reduced one `H_c_error` against the first full
-    /// one.
+    /// Values: `cases`, `refused`, of each method `failures`, and of each reduced one `untrained`, the contacts that its
+    /// model was not trained for, and `H_c_error` against the first full one.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         let refused = || rows.iter().filter(|row| row.results.is_err());
         found.push("cases", None, rows.len() as f64);
@@ -127,7 +162,12 @@ impl Question for LoadCases {
             let failures = rows.iter().filter_map(|row| row.results().get(k)).filter(|r| !r.converged).count();
             found.converged &= failures == 0;
             found.push("failures", of, failures as f64);
-            let (Some(full), Some(_)) = (full, method.model()) else { continue };
+            if method.model().is_none() {
+                continue;
+            }
+            let untrained = rows.iter().filter_map(|row| row.results().get(k)).filter(|r| r.untrained()).count();
+            found.push("untrained", of, untrained as f64);
+            let Some(full) = full else { continue };
             let error = |row: &&Row| {
                 let h_c = |k: usize| row.results().get(k)?.value("H_c");
                 Some((h_c(k)? / h_c(full)? - 1.0).abs())

@@ -38,6 +38,7 @@ pub mod load_cases;
 pub mod measured_film;
 pub mod model_sizes;
 mod path;
+mod pieces;
 pub mod plan_comparison;
 pub mod point;
 mod question;
@@ -55,13 +56,14 @@ pub mod transition;
 pub use error_measures::OnlineScheme;
 pub use error_split::Contacts;
 pub use path::{OnModelGrid, PathRow};
+pub use pieces::PieceRow;
 pub use plan_comparison::ComparedPlan;
-pub use question::{Question, Setting, Tell};
+pub use question::{Divisible, Question, Setting, Tell};
 pub use sampling_comparison::ComparedSampling;
 
 use super::bench::Bench;
 use super::chart::Chart;
-use super::check::Checked;
+use super::check::{Checked, refuse};
 use super::error::RunError;
 use super::experiment::Experiment;
 use super::method::{Method, ModelSource};
@@ -203,6 +205,27 @@ studies! {
 }
 
 impl Study {
+    /// Refuses heat where a study or a method knows none.
+    ///
+    /// # Errors
+    /// Naming the field `heat`.
+    pub fn check_heat(&self) -> Checked {
+        if !matches!(self, Self::Point(_) | Self::Sweep(_) | Self::RandomTest(_) | Self::Training(_)) {
+            return Err(refuse(
+                "heat",
+                "is computed by the studies Point, Sweep, RandomTest and Training only; leave it out, or ask one of them",
+            ));
+        }
+        if self.methods().iter().any(|method| method.model() == Some(&ModelSource::Embedded)) {
+            return Err(refuse(
+                "heat",
+                "is known to no embedded model; leave it out, ask for the method Full alone, or for a model that is \
+                 trained with heat: `Reduced(model: Trained(…))` or `File(…)`",
+            ));
+        }
+        Ok(())
+    }
+
     /// The reduced model whose grid [`Grid::Model`](super::Grid::Model) means: the first one used, else the embedded
     /// one.
     pub fn grid_model(&self) -> ModelSource {

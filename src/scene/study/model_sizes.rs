@@ -178,8 +178,9 @@ impl Question for ModelSizes {
 
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
         let Setting { experiment, observer, .. } = *setting;
-        let model = setting.bench.model_for(&self.model, experiment.contact, &experiment.lubricant, observer)?;
-        let k = model.window_for(&experiment.request()?.point);
+        let point = experiment.request()?.point;
+        let model = setting.bench.model_for(&self.model, &point, &experiment.lubricant, observer)?;
+        let k = model.window_for(&point);
         let window = &model.windows[k];
         let spec = training(&model, window)?;
         // Of the whole range, as many as it takes to fill the window.

@@ -2,12 +2,13 @@
 
 use super::question::{Chart, ChartAxis, Experiment, Findings, Marks, RunError, Setting, Table, Tell};
 use crate::scene::bench::Request;
-use crate::scene::contact_result::{ContactResult, RESULT_COLUMNS};
+use crate::scene::contact_result::{ContactResult, result_columns};
 use crate::scene::grid::Grid;
 use crate::scene::method::Method;
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::{OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
 use crate::solver::training::QuantityBox;
+use serde::{Deserialize, Serialize};
 
 /// What a reduced method's errors against the first full one are stated of.
 const COMPARED: [&str; 3] = ["H_c", "H_min", "traction"];
@@ -16,7 +17,7 @@ const COMPARED: [&str; 3] = ["H_c", "H_min", "traction"];
 const LEAST_TRACTION: f64 = 0.005;
 
 /// One contact of a path by all methods.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PathRow {
     /// The varied values.
     pub values: Vec<f64>,
@@ -29,7 +30,7 @@ pub struct PathRow {
 }
 
 /// A full solution on a model's own grid.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum OnModelGrid {
     /// None was asked for.
     NotAsked,
@@ -37,11 +38,12 @@ pub enum OnModelGrid {
     Solved(Box<ContactResult>),
 }
 
-/// The contacts of a path, the name of its stage, whether full solves start cold, and whether full solutions on the
-/// model's grid are wanted.
+/// The contacts of a path, after how many of them it begins anew, the name of its stage, whether full solves start cold,
+/// and whether full solutions on the model's grid are wanted.
 pub(super) struct Path<'a> {
     pub name: &'static str,
     pub contacts: Vec<(Vec<f64>, OperatingPoint)>,
+    pub line: usize,
     pub methods: &'a [Method],
     pub cold: bool,
     pub on_model_grid: bool,
@@ -69,6 +71,17 @@ pub(super) fn places(count: usize) -> impl Iterator<Item = f64> {
     (0..count).map(move |i| 2.0 * i as f64 / (count - 1) as f64)
 }
 
+impl PathRow {
+    /// The seconds of its solves.
+    pub(super) fn seconds(&mut self) -> Vec<&mut f64> {
+        let on_model_grid = match &mut self.on_model_grid {
+            OnModelGrid::Solved(result) => Some(&mut result.wall_s),
+            OnModelGrid::NotAsked => None,
+        };
+        self.results.iter_mut().map(|result| &mut result.wall_s).chain(on_model_grid).collect()
+    }
+}
+
 impl Path<'_> {
     /// Solves all contacts by all methods.
     pub fn solve(&self, setting: &mut Setting<'_>, tell: &Tell<'_, PathRow>) -> Result<(), RunError> {
@@ -76,6 +89,12 @@ impl Path<'_> {
         let mut former_on_model_grid: Option<Solution> = None;
         for (i, (values, point)) in self.contacts.iter().enumerate() {
             setting.step(self.name, i, self.contacts.len())?;
+            if i.is_multiple_of(self.line) {
+                // What was solved before is no neighbour, and lines can be solved in any order.
+                former.fill(None);
+                former_on_model_grid = None;
+                setting.bench.forget();
+            }
             let request = setting.experiment.request_at(*point);
             let mut results = Vec::new();
             for (method, former) in self.methods.iter().zip(&mut former) {
@@ -176,12 +195,13 @@ fn error_of(name: &str, row: &PathRow, method: usize, full: Option<usize>) -> Op
 pub(super) fn table(name: &str, varied: &[&str], methods: &[Method], rows: &[&PathRow]) -> Table {
     let mut columns: Vec<String> = varied.iter().map(|&v| v.to_owned()).collect();
     columns.extend(["M", "L", "radius", "speed", "load", "alpha", "p_h_pa"].map(str::to_owned));
+    let of_result = result_columns(has_heat(rows));
     let tags = (0..methods.len()).map(|k| tag(methods, k));
-    columns.extend(tags.flat_map(|tag| RESULT_COLUMNS.iter().map(move |column| format!("{tag}.{column}"))));
+    columns.extend(tags.flat_map(|tag| of_result.iter().map(move |column| format!("{tag}.{column}"))));
     let row = |row: &&PathRow| {
         let (point, moes) = (&row.point, row.point.moes());
         let contact = [moes.m, moes.l, point.radius_m, point.speed_m_per_s, point.load, point.alpha_per_pa];
-        let results = row.results.iter().flat_map(|result| result.row(&RESULT_COLUMNS));
+        let results = row.results.iter().flat_map(|result| result.row(&of_result));
         let values = row.values.iter().copied().chain(contact).chain([point.hertz().pressure_pa]);
         values.chain(results).collect()
     };
@@ -221,8 +241,20 @@ pub(super) fn charts(x: &ChartAxis, varied: &[&str], methods: &[Method], rows: &
         ("H_min", "Smallest film H_min"),
         ("P_max", "Largest pressure P_max"),
         ("traction", "Traction coefficient"),
+        ("heat.mid_film_rise_k", "Rise of temperature at mid-film, X = 0 [K]"),
+        ("heat.surface_1_rise_k", "Rise of temperature of body 1, X = 0 [K]"),
+        ("heat.surface_2_rise_k", "Rise of temperature of body 2, X = 0 [K]"),
     ];
-    quantities.into_iter().filter(|(name, _)| slides || *name != "traction").map(chart).collect()
+    let warm = has_heat(rows);
+    let shown = |name: &str| match name {
+        "traction" => slides,
+        name => warm || !name.starts_with("heat."),
+    };
+    quantities.into_iter().filter(|(name, _)| shown(name)).map(chart).collect()
+}
+
+fn has_heat(rows: &[&PathRow]) -> bool {
+    rows.iter().flat_map(|row| &row.results).any(|result| result.heat.is_some())
 }
 
 /// The values of all varied quantities but the last.

@@ -174,7 +174,8 @@ impl PlanComparison {
         for plan in &self.plans {
             let Setting { experiment, observer, .. } = *setting;
             let source = ModelSource::Trained(plan.training.clone());
-            let model = setting.bench.model_for(&source, experiment.contact, &experiment.lubricant, observer)?;
+            let model =
+                setting.bench.model_for(&source, &experiment.request()?.point, &experiment.lubricant, observer)?;
             if model.windows.len() != 1 {
                 let (name, windows) = (&plan.name, model.windows.len());
                 return Err(RunError::Study(format!("plans are compared on one window, but `{name}` has {windows}")));

@@ -45,6 +45,35 @@ pub trait Question: Sync {
     fn charts(&self, rows: &[&Self::Row]) -> Vec<Chart>;
 }
 
+/// A question that falls into pieces which know nothing of each other, so that many machines can answer it together: the
+/// same rows come of them, to the last bit, as of one run.
+pub trait Divisible: Question {
+    /// The pieces of a round, each by a number of the study's own, in the order of their rows; none behind the last
+    /// round. What a round asks may follow from the rows of the rounds `before` it.
+    ///
+    /// # Errors
+    /// When something is refused.
+    fn pieces(&self, setting: &mut Setting<'_>, round: usize, before: &[&Self::Row]) -> Result<Vec<usize>, RunError>;
+
+    /// Works out some pieces of a round.
+    ///
+    /// # Errors
+    /// As [`Question::run`].
+    fn work(
+        &self,
+        setting: &mut Setting<'_>,
+        round: usize,
+        pieces: &[usize],
+        tell: &Tell<'_, Self::Row>,
+    ) -> Result<(), RunError>;
+
+    /// The seconds in a row: all that two runs of it differ by.
+    fn seconds(row: &mut Self::Row) -> Vec<&mut f64>;
+
+    /// The methods it uses, to be given other models.
+    fn methods_mut(&mut self) -> &mut [Method];
+}
+
 /// Where rows go.
 pub type Tell<'a, Row> = dyn Fn(Row) + Sync + 'a;
 

@@ -1,18 +1,20 @@
 //! Random points (3.17): failures, speed, and errors against full solutions.
 
 use super::question::{
-    Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+    Chart, ChartAxis, Checked, Divisible, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
 use crate::scene::check::{self, MAX_COMPARED, MAX_TESTS, count};
 use crate::scene::method::Method;
 use crate::scene::parallel::full_solutions_told;
 use crate::scene::random_points::all_random_points;
 use crate::scene::statistics::percentile;
-use crate::solver::full::{GridCost, Solution, grid_doubts};
+use crate::solver::full::heat::Rises;
+use crate::solver::full::{GridCost, Scalars, Solution, grid_doubts};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::ErrorEstimate;
 use crate::solver::training::Range;
 use serde::{Deserialize, Serialize};
+use std::sync::{Mutex, PoisonError};
 
 /// Random points (3.17): how often a method fails, how fast it is, and how far a reduced model lies from full
 /// solutions.
@@ -41,7 +43,8 @@ fn is_none(count: &usize) -> bool {
 }
 
 /// What comes of a random test.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[expect(clippy::large_enum_variant, reason = "most rows are tests")]
 pub enum Row {
     /// A test; they come in the order they were drawn in.
     Test(Test),
@@ -50,7 +53,7 @@ pub enum Row {
 }
 
 /// One test.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Test {
     /// Where.
     pub point: OperatingPoint,
@@ -67,7 +70,7 @@ pub struct Test {
 }
 
 /// What tests are judged by.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Film {
     /// Central film.
     pub h_c: f64,
@@ -75,13 +78,14 @@ pub struct Film {
     pub h_min: f64,
     /// Traction coefficient; not a number where it has no meaning.
     pub traction: f64,
+    /// Rises of temperature at X = 0; none without heat.
+    pub rises: Option<Rises>,
     /// What its grid costs H_c; none of a reduced one.
     pub grid_cost: Option<GridCost>,
 }
 
 /// What a film is compared by.
-const COMPARED: [Column<Film>; 3] =
-    [("H_c", |film| film.h_c), ("H_min", |film| film.h_min), ("traction", |film| film.traction)];
+const COMPARED: [&str; 4] = ["H_c", "H_min", "traction", "mid_film_rise"];
 
 /// Solves without telling the observer, every so many.
 const REPORT_EVERY: usize = 32;
@@ -89,7 +93,7 @@ const REPORT_EVERY: usize = 32;
 /// One column of the table, of a test and its truth.
 type Compared = (&'static str, fn(&Test, &Film) -> f64);
 
-const COLUMNS: [Compared; 15] = [
+const COLUMNS: [Compared; 17] = [
     ("M", |test, _| test.point.moes().m),
     ("L", |test, _| test.point.moes().l),
     ("alpha", |test, _| test.point.alpha_per_pa),
@@ -105,37 +109,164 @@ const COLUMNS: [Compared; 15] = [
     ("npr", |test, _| test.point.sliding.newtonian_plateau_ratio.unwrap_or(1.0)),
     ("traction", |test, _| test.film.unwrap_or(Film::NONE).traction),
     ("traction_full", |_, full| full.traction),
+    ("mid_film_rise_k", |test, _| test.film.unwrap_or(Film::NONE).mid_film_rise_k()),
+    ("mid_film_rise_k_full", |_, full| full.mid_film_rise_k()),
 ];
 
 impl Film {
-    const NONE: Self = Self { h_c: f64::NAN, h_min: f64::NAN, traction: f64::NAN, grid_cost: None };
+    const NONE: Self = Self { h_c: f64::NAN, h_min: f64::NAN, traction: f64::NAN, rises: None, grid_cost: None };
 
     fn of_full(full: &Solution) -> Self {
         // Without a meaning there is nothing to compare.
         let traction = if full.traction_warning().is_none() { full.traction_coefficient() } else { f64::NAN };
-        Self { h_c: full.scalars.h_c, h_min: full.scalars.h_min, traction, grid_cost: full.grid_cost }
+        let Solution { scalars: Scalars { h_c, h_min, .. }, grid_cost, .. } = *full;
+        Self { h_c, h_min, traction, rises: full.heat.as_ref().map(|heat| heat.central), grid_cost }
     }
 
-    /// Relative errors of H_c, H_min and traction against a full solution; none where they are not known.
-    pub fn errors(&self, full: &Self) -> [Option<f64>; 3] {
-        COMPARED.map(|(_, get)| Some((get(self) / get(full) - 1.0).abs()).filter(|error| error.is_finite()))
+    fn mid_film_rise_k(&self) -> f64 {
+        self.rises.map_or(f64::NAN, |rises| rises.mid_film_k)
+    }
+
+    /// Relative errors of H_c, H_min, traction and, of contacts with heat, the rise at mid-film against a full solution;
+    /// none where they are not known. Of a rise of less than a kelvin it is the error in kelvin.
+    pub fn errors(&self, full: &Self) -> [Option<f64>; 4] {
+        let [h_c, h_min, traction] = [(self.h_c, full.h_c), (self.h_min, full.h_min), (self.traction, full.traction)]
+            .map(|(own, full)| Some((own / full - 1.0).abs()).filter(|error| error.is_finite()));
+        let rise = self.rises.zip(full.rises).map(|(own, full)| own.difference(&full));
+        [h_c, h_min, traction, rise]
+    }
+}
+
+impl RandomTest {
+    /// The points, in the order they are drawn in.
+    fn points(&self, experiment: &Experiment) -> Result<Vec<OperatingPoint>, RunError> {
+        let mut points = all_random_points(&self.range, experiment.contact, self.tests, self.seed)?;
+        if !self.range.slides() {
+            points.iter_mut().for_each(|point| point.sliding = experiment.sliding);
+        }
+        Ok(points)
+    }
+
+    /// Tests some of the points.
+    fn test(
+        &self,
+        points: &[OperatingPoint],
+        chosen: &[usize],
+        setting: &mut Setting<'_>,
+        tell: &Tell<'_, Row>,
+    ) -> Result<(), RunError> {
+        let Setting { experiment, observer, .. } = *setting;
+        for (i, point) in chosen.iter().enumerate().filter_map(|(i, k)| Some((i, points.get(*k)?))) {
+            if i.is_multiple_of(REPORT_EVERY) {
+                setting.step("random tests", i, chosen.len())?;
+            }
+            // Its numbers are those of the same contact alone, whichever were tested before it.
+            setting.bench.forget();
+            let answer = setting.bench.answer(&experiment.request_at(*point), &self.method, None, observer)?;
+            tell(Row::Test(Test {
+                point: *point,
+                film: answer.result().map(|solution| Film {
+                    h_c: solution.scalars.h_c,
+                    h_min: solution.scalars.h_min,
+                    traction: answer.traction().unwrap_or(f64::NAN),
+                    rises: solution.heat.as_ref().map(|heat| heat.central),
+                    grid_cost: solution.grid_cost,
+                }),
+                newton_iterations: answer.newton_iterations,
+                wall_s: answer.wall_s,
+                untrained: answer.reduced.as_ref().is_some_and(|facts| !facts.trained),
+                estimate: answer.reduced.as_ref().and_then(|facts| facts.error),
+            }));
+        }
+        Ok(())
+    }
+
+    /// Which tests are compared with full solutions: the most doubtful ones, and then the others.
+    fn compared<'a>(&self, rows: impl IntoIterator<Item = &'a Row>) -> [Vec<usize>; 2] {
+        if self.method == Method::Full {
+            return Default::default();
+        }
+        let doubt = |(test, _): Tested| match test.film {
+            Some(_) => test.estimate.map_or(0.0, |error| error.h_c.bound),
+            None => f64::INFINITY,
+        };
+        let doubts: Vec<f64> = tests(rows).into_iter().map(doubt).collect();
+        let mut worst: Vec<usize> = (0..doubts.len()).collect();
+        worst.sort_by(|a, b| doubts[*b].total_cmp(&doubts[*a]));
+        worst.truncate(self.worst);
+        let rest = (0..self.compare.min(doubts.len())).filter(|i| !worst.contains(i)).collect();
+        [worst, rest]
+    }
+
+    /// Compares some of the tests with full solutions on the model's grid.
+    fn compare(
+        &self,
+        points: &[OperatingPoint],
+        chosen: &[usize],
+        setting: &mut Setting<'_>,
+        tell: &Tell<'_, Row>,
+    ) -> Result<(), RunError> {
+        let Setting { experiment, observer, .. } = *setting;
+        let (Some(source), Some(point)) = (self.method.model(), points.first()) else { return Ok(()) };
+        let model = setting.bench.model_for(source, point, &experiment.lubricant, observer)?;
+        let grid = |point: &OperatingPoint| model.window_at(point).grid.clone();
+        let compared: Vec<OperatingPoint> = chosen.iter().filter_map(|i| points.get(*i).copied()).collect();
+        let truth = |i: usize, full: Option<&Solution>| tell(Row::Truth(chosen[i], full.map(Film::of_full)));
+        full_solutions_told(grid, &compared, experiment.lubricant, observer, truth)?;
+        Ok(())
+    }
+}
+
+/// A piece is a test; in a second round, one of those that are compared with full solutions.
+impl Divisible for RandomTest {
+    fn pieces(&self, _: &mut Setting<'_>, round: usize, before: &[&Row]) -> Result<Vec<usize>, RunError> {
+        Ok(match round {
+            0 => (0..self.tests).collect(),
+            1 => self.compared(before.iter().copied()).concat(),
+            _ => Vec::new(),
+        })
+    }
+
+    fn work(
+        &self,
+        setting: &mut Setting<'_>,
+        round: usize,
+        pieces: &[usize],
+        tell: &Tell<'_, Row>,
+    ) -> Result<(), RunError> {
+        let points = self.points(setting.experiment)?;
+        match round {
+            0 => self.test(&points, pieces, setting, tell),
+            _ => self.compare(&points, pieces, setting, tell),
+        }
+    }
+
+    fn seconds(row: &mut Row) -> Vec<&mut f64> {
+        match row {
+            Row::Test(test) => vec![&mut test.wall_s],
+            Row::Truth(..) => Vec::new(),
+        }
+    }
+
+    fn methods_mut(&mut self) -> &mut [Method] {
+        std::slice::from_mut(&mut self.method)
     }
 }
 
 impl Test {
-    /// Calibrated bounds on the relative errors of H_c, H_min and traction.
-    pub fn bounds(&self) -> [Option<f64>; 3] {
-        let bounds = |e: ErrorEstimate| [Some(e.h_c), Some(e.h_min), e.traction].map(|e| e.map(|e| e.bound));
-        self.estimate.map_or([None; 3], bounds)
+    /// Calibrated bounds on the errors of H_c, H_min, traction and the rise at mid-film.
+    pub fn bounds(&self) -> [Option<f64>; 4] {
+        let bounds = |e: ErrorEstimate| [Some(e.h_c), Some(e.h_min), e.traction, e.rise].map(|e| e.map(|e| e.bound));
+        self.estimate.map_or([None; 4], bounds)
     }
 }
 
 /// A test with what is known of its truth: nothing yet, or a full solution that failed or not.
 pub type Tested = (Test, Option<Option<Film>>);
 
-/// Relative errors of H_c, H_min and traction, where a truth is known.
-pub fn errors((test, truth): &Tested) -> [Option<f64>; 3] {
-    test.film.zip(truth.flatten()).map_or([None; 3], |(film, full)| film.errors(&full))
+/// Errors of H_c, H_min, traction and the rise at mid-film, where a truth is known.
+pub fn errors((test, truth): &Tested) -> [Option<f64>; 4] {
+    test.film.zip(truth.flatten()).map_or([None; 4], |(film, full)| film.errors(&full))
 }
 
 /// Adds a row to the tests that came before it.
@@ -177,48 +308,16 @@ impl Question for RandomTest {
 
     /// Times are those of single solves, one after the other.
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
-        let Setting { experiment, observer, .. } = *setting;
-        let mut points = all_random_points(&self.range, experiment.contact, self.tests, self.seed)?;
-        if !matches!(self.range, Range::Sliding(_)) {
-            points.iter_mut().for_each(|point| point.sliding = experiment.sliding);
-        }
-        let mut doubts = Vec::with_capacity(points.len());
-        for (i, point) in points.iter().enumerate() {
-            if i.is_multiple_of(REPORT_EVERY) {
-                setting.step("random tests", i, points.len())?;
-            }
-            let answer = setting.bench.answer(&experiment.request_at(*point), &self.method, None, observer)?;
-            let film = answer.result().map(|solution| Film {
-                h_c: solution.scalars.h_c,
-                h_min: solution.scalars.h_min,
-                traction: answer.traction().unwrap_or(f64::NAN),
-                grid_cost: solution.grid_cost,
-            });
-            let estimate = answer.reduced.as_ref().and_then(|facts| facts.error);
-            doubts.push(if film.is_some() { estimate.map_or(0.0, |error| error.h_c.bound) } else { f64::INFINITY });
-            tell(Row::Test(Test {
-                point: *point,
-                film,
-                newton_iterations: answer.newton_iterations,
-                wall_s: answer.wall_s,
-                untrained: answer.reduced.as_ref().is_some_and(|facts| !facts.trained),
-                estimate,
-            }));
-        }
-        let Some(source) = self.method.model() else { return Ok(()) };
-        let model = setting.bench.model_for(source, experiment.contact, &experiment.lubricant, observer)?;
-        let grid = |point: &OperatingPoint| model.window_at(point).grid.clone();
-        let first = self.compare.min(points.len());
-        let mut worst: Vec<usize> = (0..points.len()).collect();
-        worst.sort_by(|a, b| doubts[*b].total_cmp(&doubts[*a]));
-        worst.truncate(self.worst);
-        let rest = (0..first).filter(|i| !worst.contains(i)).collect();
-        for chosen in [worst, rest] {
-            let compared: Vec<OperatingPoint> = chosen.iter().map(|i| points[*i]).collect();
-            let truth = |i: usize, full: Option<&Solution>| tell(Row::Truth(chosen[i], full.map(Film::of_full)));
-            full_solutions_told(grid, &compared, experiment.lubricant, observer, truth)?;
-        }
-        Ok(())
+        let points = self.points(setting.experiment)?;
+        let all: Vec<usize> = (0..points.len()).collect();
+        let rows = Mutex::new(Vec::with_capacity(points.len()));
+        self.test(&points, &all, setting, &|row| {
+            rows.lock().unwrap_or_else(PoisonError::into_inner).push(row);
+            tell(row);
+        })?;
+        let rows = rows.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let compared = self.compared(rows.iter());
+        compared.iter().try_for_each(|chosen| self.compare(&points, chosen, setting, tell))
     }
 
     /// Values of the method: `tests`, `failures`, `failure_percent`, Newton steps and seconds; of a reduced one
@@ -249,8 +348,8 @@ impl Question for RandomTest {
         if self.compare == 0 {
             return;
         }
-        let mut errors: [Vec<f64>; 3] = Default::default();
-        let mut bounds: [Vec<f64>; 3] = Default::default();
+        let mut errors: [Vec<f64>; 4] = Default::default();
+        let mut bounds: [Vec<f64>; 4] = Default::default();
         for tested in tests.iter().take(self.compare) {
             for (k, (error, bound)) in self::errors(tested).into_iter().zip(tested.0.bounds()).enumerate() {
                 errors[k].extend(error);
@@ -260,7 +359,7 @@ impl Question for RandomTest {
         found.push("compared", of, errors[0].len() as f64);
         let full_failures = tests.iter().take(self.compare).filter(|(_, truth)| *truth == Some(None)).count();
         found.push("full_failures", of, full_failures as f64);
-        for (((name, _), errors), bounds) in COMPARED.iter().zip(&errors).zip(&bounds) {
+        for ((name, errors), bounds) in COMPARED.iter().zip(&errors).zip(&bounds) {
             if errors.is_empty() {
                 continue;
             }
@@ -293,7 +392,7 @@ impl Question for RandomTest {
         map.add("converged", Marks::Dots, at(true));
         map.add("failed", Marks::Crosses, at(false));
         let axes = |name: &str| (ChartAxis::log("Load number M"), ChartAxis::log(format!("Relative error of {name}")));
-        let charts = COMPARED.iter().enumerate().map(|(k, (name, _))| {
+        let charts = COMPARED.iter().enumerate().map(|(k, name)| {
             let (x, y) = axes(name);
             let mut chart = Chart::new(format!("Errors of {name}"), x, y);
             let bounds = tests.iter().filter_map(|(test, _)| Some([test.point.moes().m, test.bounds()[k]?]));
@@ -314,18 +413,19 @@ mod tests_of_rows {
     fn a_truth_finds_its_test_whenever_it_comes() {
         let test = Test {
             point: OperatingPoint::TABLE_2_1,
-            film: Some(Film { h_c: 1.1, h_min: 0.9, traction: f64::NAN, grid_cost: None }),
+            film: Some(Film { h_c: 1.1, h_min: 0.9, traction: f64::NAN, rises: None, grid_cost: None }),
             newton_iterations: 3,
             wall_s: 0.0,
             untrained: false,
             estimate: None,
         };
-        let full = Film { h_c: 1.0, h_min: 1.0, traction: 0.05, grid_cost: None };
+        let full = Film { h_c: 1.0, h_min: 1.0, traction: 0.05, rises: None, grid_cost: None };
         let rows =
             [Row::Test(test), Row::Test(test), Row::Truth(1, Some(full)), Row::Truth(0, None), Row::Truth(7, None)];
         let seen = tests(&rows);
         assert_eq!((seen.len(), seen[0].1, seen[1].1), (2, Some(None), Some(Some(full))));
-        let [h_c, h_min, traction] = test.film.unwrap().errors(&full);
-        assert!((h_c.unwrap() - 0.1).abs() < 1e-12 && (h_min.unwrap() - 0.1).abs() < 1e-12 && traction.is_none());
+        let [h_c, h_min, traction, rise] = test.film.unwrap().errors(&full);
+        assert!((h_c.unwrap() - 0.1).abs() < 1e-12 && (h_min.unwrap() - 0.1).abs() < 1e-12);
+        assert!(traction.is_none() && rise.is_none());
     }
 }

@@ -194,7 +194,7 @@ impl Question for SchemesInTime {
             let Some(full) = known.iter().find(|full| full.lubricant == lubricant) else { continue };
             let ComparedScheme { scheme, sampling, rows_per_mode, .. } = *way;
             let training = TrajectoryTraining { loss: self.loss, rows_per_mode, seed: 1, scheme, sampling };
-            let model = train_trajectories(line, &full.trainings, &training, observer)?;
+            let model = Arc::new(train_trajectories(line, &full.trainings, &training, observer)?);
             let size = [model.window.pressure.modes.ncols(), model.window.sampled_rows.len()];
             for (drive, full) in self.tests.iter().zip(&full.tests) {
                 let transient = self.march(drive, (own.clone(), Keep::Scalars));

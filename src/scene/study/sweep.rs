@@ -1,7 +1,9 @@
 //! The contact along one to three varied quantities.
 
 use super::path::{self, Path, PathRow};
-use super::question::{Chart, ChartAxis, Checked, Experiment, Findings, Question, RunError, Setting, Table, Tell};
+use super::question::{
+    Chart, ChartAxis, Checked, Divisible, Experiment, Findings, Question, RunError, Setting, Table, Tell,
+};
 use crate::scene::at::At;
 use crate::scene::axis::{Axis, Steps};
 use crate::scene::check::{self, MAX_POINTS, count, number, refuse};
@@ -10,7 +12,8 @@ use crate::solver::physics::contact::{OperatingPoint, Quantity};
 use crate::solver::physics::lubricant::Sliding;
 use serde::{Deserialize, Serialize};
 
-/// The contact along one to three varied quantities, the last one fastest; each solve starts from its neighbour.
+/// The contact along one to three varied quantities, the last one fastest; each solve starts from its neighbour, and the
+/// first one of each line afresh.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sweep {
@@ -30,6 +33,23 @@ pub struct Sweep {
 impl Sweep {
     fn varied(&self) -> Vec<&'static str> {
         self.over.iter().map(|axis| axis.vary.name()).collect()
+    }
+
+    /// Contacts in a row that know of each other: each starts from the one before it, unless all are full and cold.
+    fn line(&self) -> usize {
+        let alone = self.cold && self.methods.iter().all(|method| *method == Method::Full);
+        if alone { 1 } else { self.over.last().map_or(1, |axis| axis.values.len()) }
+    }
+
+    fn solve(
+        &self,
+        contacts: Vec<(Vec<f64>, OperatingPoint)>,
+        setting: &mut Setting<'_>,
+        tell: &Tell<'_, PathRow>,
+    ) -> Result<(), RunError> {
+        let Self { methods, cold, compare_on_model_grid, .. } = self;
+        let (line, cold, on_model_grid) = (self.line(), *cold, *compare_on_model_grid);
+        Path { name: "sweep", contacts, line, methods, cold, on_model_grid }.solve(setting, tell)
     }
 }
 
@@ -53,9 +73,7 @@ impl Question for Sweep {
 
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, PathRow>) -> Result<(), RunError> {
         let contacts = contacts_of(setting.experiment, &self.over)?;
-        let Self { methods, cold, compare_on_model_grid, .. } = self;
-        Path { name: "sweep", contacts, methods, cold: *cold, on_model_grid: *compare_on_model_grid }
-            .solve(setting, tell)
+        self.solve(contacts, setting, tell)
     }
 
     fn findings(&self, experiment: &Experiment, rows: &[&PathRow], found: &mut Findings) {
@@ -70,6 +88,36 @@ impl Question for Sweep {
         let Some(last) = self.over.last() else { return Vec::new() };
         let x = ChartAxis::new(last.vary.label(), matches!(last.values, Steps::Log { .. }));
         path::charts(&x, &self.varied(), &self.methods, rows)
+    }
+}
+
+/// A piece is a line of neighbours: the values of the last quantity at one combination of the others, or one contact
+/// where all are full and cold.
+impl Divisible for Sweep {
+    fn pieces(&self, _: &mut Setting<'_>, round: usize, _: &[&PathRow]) -> Result<Vec<usize>, RunError> {
+        let contacts: usize = self.over.iter().map(|axis| axis.values.len()).product();
+        Ok(if round == 0 { (0..contacts / self.line()).collect() } else { Vec::new() })
+    }
+
+    fn work(
+        &self,
+        setting: &mut Setting<'_>,
+        _: usize,
+        pieces: &[usize],
+        tell: &Tell<'_, PathRow>,
+    ) -> Result<(), RunError> {
+        let contacts = contacts_of(setting.experiment, &self.over)?;
+        let lines: Vec<&[_]> = contacts.chunks(self.line()).collect();
+        let chosen = pieces.iter().filter_map(|piece| lines.get(*piece)).flat_map(|line| line.to_vec()).collect();
+        self.solve(chosen, setting, tell)
+    }
+
+    fn seconds(row: &mut PathRow) -> Vec<&mut f64> {
+        row.seconds()
+    }
+
+    fn methods_mut(&mut self) -> &mut [Method] {
+        &mut self.methods
     }
 }
 

@@ -4,6 +4,7 @@ use super::question::{
     Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
 use crate::scene::check::refuse;
+use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{ReducedModel, Window};
 use crate::solver::training::TrainingSpec;
 use std::sync::Arc;
@@ -29,6 +30,12 @@ const WINDOW: [Column<Window>; 7] = [
     ("sampled_rows", |window| window.sampled_rows.len() as f64),
 ];
 
+/// A training of films that rupture and warm themselves as a scene says.
+fn of_scene(spec: &TrainingSpec, experiment: &Experiment) -> TrainingSpec {
+    let Lubricant { cavitation, heat, .. } = experiment.lubricant;
+    spec.clone().under(cavitation).heated(heat)
+}
+
 impl Question for TrainingSpec {
     type Row = Row;
 
@@ -41,13 +48,13 @@ impl Question for TrainingSpec {
             );
             return Err(refuse("study.windows", problem));
         }
-        let spec = self.clone().under(experiment.lubricant.cavitation);
+        let spec = of_scene(self, experiment);
         TrainingSpec::check(&spec).map_err(|refused| refused.within("study"))
     }
 
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
         let clock = Instant::now();
-        let spec = self.clone().under(setting.experiment.lubricant.cavitation);
+        let spec = of_scene(self, setting.experiment);
         let model = setting.bench.trained(&spec, setting.observer)?;
         tell(Row { model, wall_s: clock.elapsed().as_secs_f64() });
         Ok(())

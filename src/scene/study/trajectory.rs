@@ -55,7 +55,8 @@ impl Question for Trajectory {
             let point = |c| Some((vec![c], range.at(contact, QuantityBox::trajectory_place(c))?));
             contacts.extend(places(self.points).filter_map(point));
         }
-        let path = Path { name: "trajectory", contacts, methods: &self.methods, cold: false, on_model_grid: false };
+        let (line, methods) = (contacts.len().max(1), &self.methods[..]);
+        let path = Path { name: "trajectory", contacts, line, methods, cold: false, on_model_grid: false };
         path.solve(setting, tell)
     }
 

@@ -1,6 +1,7 @@
 //! The nodes of a contact at one state, Newtonian or generalized: the one place where they are evaluated, for the full
 //! system, reduced and linearised models, error measures and balances alike.
 
+use super::heat::{WarmFilm, WarmLaws};
 use super::reynolds::film_integrals::KnownFilm;
 use super::reynolds::generalized::{FilmTreatment, NodeState, PlaneGradient, ShearNode, gradient_slopes};
 use super::reynolds::{Node, Row, RowGeometry, STENCIL, row};
@@ -124,6 +125,25 @@ impl Nodes {
                     }
                 }
             }
+        }
+    }
+
+    /// Evaluates all nodes of (P, H) at the temperatures of a film; `gradient` gives P_X of each.
+    pub fn evaluate_warm(
+        &mut self,
+        laws: &WarmLaws<'_>,
+        (pressure, film): (&[f64], &[f64]),
+        gradient: impl Fn(usize) -> f64,
+        warm: &mut WarmFilm,
+    ) {
+        self.thinning.resize(self.nodes.len(), ShearNode::default());
+        let temperatures = warm.theta.iter().zip(&mut warm.stress);
+        for (k, ((own, node), (theta, stress))) in
+            self.thinning.iter_mut().zip(&mut self.nodes).zip(temperatures).enumerate()
+        {
+            let state = NodeState { pressure: pressure[k], gradient: [gradient(k), 0.0], film: film[k] };
+            *own = laws.node(state, theta, stress);
+            *node = own.node;
         }
     }
 

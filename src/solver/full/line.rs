@@ -4,12 +4,14 @@
 mod preconditioner;
 
 use super::newton_space::{NewtonSpace, ScaledRows, StepControl, Taken};
-use super::solution::{Mesh, Problem, SolveError};
+use super::solution::{Mesh, Problem, Solution, SolveError};
+use super::solver::{Solver, Start};
 use super::system::{SolveOptions, System};
 use crate::solver::discrete::grid::{GridSpec, ReferenceGrid, dot};
 use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::discrete::reynolds::generalized::FilmTreatment;
 use crate::solver::discrete::space::LineSpace;
+use crate::solver::observer::Observer;
 use crate::solver::physics::contact::ContactKind;
 pub use preconditioner::BandMatrix;
 use std::sync::Arc;
@@ -25,13 +27,27 @@ pub struct Backtracking {
     /// Backtracking on the residual ends at this fraction of the step; 1 takes Newton's own steps, which is right
     /// beside a solution: there the penalty makes the residual jump though the step is good.
     pub shortest_step: f64,
+    /// Whether the residual behind a step is asked for; where that changes nothing it can be left out.
+    pub looks_back: bool,
+    /// Largest change of P in one step.
+    pub largest_step: f64,
+    /// Largest share of the film that one step takes away.
+    pub film_loss: f64,
     /// The finest and the coarsest accuracy of a linear solve, relative to its right-hand side.
     pub forcing: (f64, f64),
 }
 
 impl Default for Backtracking {
     fn default() -> Self {
-        Self { kernel_band: 6, levelled_kernel: false, shortest_step: 1.0 / 64.0, forcing: (1e-5, 0.05) }
+        Self {
+            kernel_band: 6,
+            levelled_kernel: false,
+            shortest_step: 1.0 / 64.0,
+            looks_back: true,
+            largest_step: f64::INFINITY,
+            film_loss: 0.9,
+            forcing: (1e-5, 0.05),
+        }
     }
 }
 
@@ -119,6 +135,15 @@ impl NewtonSpace for LineSpace {
         Taken { size, shift: 0.0, residual }
     }
 
+    fn solve_with_heat(
+        solver: &mut Solver<Self>,
+        problem: Problem,
+        start: Start<'_>,
+        observer: &dyn Observer,
+    ) -> Result<Solution, SolveError> {
+        super::heat::solve(solver, problem, start, observer)
+    }
+
     fn assemble(
         &self,
         matrix: &mut BandMatrix,
@@ -132,21 +157,23 @@ impl NewtonSpace for LineSpace {
 }
 
 impl System<LineSpace> {
-    /// Takes the Newton step with backtracking on the residual (to `shortest_step`, then accepts); the film may lose 90
-    /// % per step at most. Returns ‖Δz‖/‖z‖ of the undamped step and the new residual.
+    /// Takes the Newton step with backtracking on the residual (to `shortest_step`, then accepts); the film
+    /// may lose a share of `film_loss` per step at most. Returns ‖Δz‖/‖z‖ of the undamped step and the new residual.
     fn backtrack(&mut self, problem: &Problem, options: &SolveOptions<Backtracking>, before: f64) -> (f64, f64) {
         let dh_0 = self.update[self.rows.len()];
         self.spread_update();
+        let Backtracking { largest_step, film_loss, .. } = options.control;
         let mut longest: f64 = 1.0;
         for (h, d) in self.film.iter().zip(&self.step_deformation) {
             let change = d + dh_0;
-            if *h > 0.0 && change < -0.9 * h {
-                longest = longest.min(-0.9 * h / change);
+            if *h > 0.0 && change < -film_loss * h {
+                longest = longest.min(-film_loss * h / change);
             }
         }
-        if self.active.holds() {
+        let largest_step = if self.active.holds() { largest_step.min(LARGEST_STEP) } else { largest_step };
+        if largest_step.is_finite() {
             let largest = self.step.iter().fold(0.0f64, |largest, s| largest.max(s.abs()));
-            longest = longest.min(LARGEST_STEP / largest);
+            longest = longest.min(largest_step / largest);
         }
         let fractions = self.active.square_of_fractions(&self.update);
         let size = (dot(&self.step, &self.step) + fractions + dh_0 * dh_0).sqrt();
@@ -165,7 +192,7 @@ impl System<LineSpace> {
             self.active.add_fractions(delta, &self.update);
             taken = factor;
             self.set_h_0(start_h_0 + factor * dh_0);
-            let residual = self.evaluate(problem, options.penalty);
+            let residual = if options.control.looks_back { self.evaluate(problem, options.penalty) } else { before };
             let norm = (dot(&self.pressure, &self.pressure) + self.h_0 * self.h_0).sqrt();
             let relative = factor * size / norm;
             let share = 1.0 - 1e-4 * factor;

@@ -7,6 +7,7 @@ mod cut;
 pub mod dense;
 mod film_fraction;
 mod gmres;
+pub mod heat;
 mod line;
 mod newton_space;
 pub mod point;

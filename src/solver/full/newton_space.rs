@@ -1,12 +1,14 @@
 //! What a space brings to Newton's method: its step control and its preconditioner, because those really differ, and
 //! where it starts.
 
-use super::solution::{Mesh, Problem, SolveError};
+use super::solution::{Mesh, Problem, Solution, SolveError};
+use super::solver::{Solver, Start};
 use super::system::{SolveOptions, System};
 use super::thinning::Thinning;
 use crate::solver::discrete::grid::dot;
 use crate::solver::discrete::reynolds::Row;
 use crate::solver::discrete::space::{Grid, Space};
+use crate::solver::observer::Observer;
 use crate::solver::physics::contact::ContactKind;
 
 /// Settings of a step control, with the settings of all else that go with it.
@@ -110,6 +112,17 @@ pub trait NewtonSpace: Space + Sized {
         memory: &mut Self::Memory,
         before: f64,
     ) -> Taken;
+
+    /// Solves a problem with heat.
+    ///
+    /// # Errors
+    /// As [`Solver::solve_problem`].
+    fn solve_with_heat(
+        solver: &mut Solver<Self>,
+        problem: Problem,
+        start: Start<'_>,
+        observer: &dyn Observer,
+    ) -> Result<Solution, SolveError>;
 
     /// Assembles and factorises a matrix near the Jacobian of the scaled rows; `false` when `go_on` ended it half way.
     fn assemble(

@@ -1,14 +1,19 @@
 //! What is solved and what comes out: a problem and a solution are values that know what they belong to.
 
+use super::heat::Temperatures;
 use super::trust::GridCost;
 use crate::solver::discrete::grid::{GridError, GridSpec, PointGridSpec, dot};
+use crate::solver::discrete::heat::{Course, StressLaw, WarmLaws};
 use crate::solver::discrete::nodes::Laws;
-use crate::solver::discrete::reynolds::generalized::PlaneGradient;
+use crate::solver::discrete::reynolds::generalized::{NodeState, PlaneGradient};
 use crate::solver::discrete::space::Grid;
 use crate::solver::physics::contact::{ContactError, ContactKind, Moes, OperatingPoint};
-use crate::solver::physics::lubricant::{Lubricant, LubricantError, ScaledFluid, ScaledShear, ShearLaw, Sliding};
+use crate::solver::physics::lubricant::{
+    Lubricant, LubricantError, ScaledFluid, ScaledHeat, ScaledShear, ShearLaw, Sliding,
+};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// Why a solve cannot be started.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -43,6 +48,8 @@ pub struct Problem {
     pub fluid: ScaledFluid,
     /// The shear-thinning law with its constants; `None` where the fluid is Newtonian.
     pub shear: Option<ScaledShear>,
+    /// What heat adds; `None` where everything has the inlet's temperature.
+    pub heat: Option<ScaledHeat>,
     /// Moes numbers.
     pub moes: Moes,
     /// 1/λ̄ of (2.23).
@@ -85,6 +92,7 @@ impl Problem {
             lubricant,
             fluid,
             shear,
+            heat: lubricant.scaled_heat(&fluid, &point)?,
             moes: point.moes(),
             inverse_lambda: 1.0 / point.lambda_bar(),
             supply: lubricant.cavitation.supply_film_m().map(|film| film / point.film_scale_m()),
@@ -93,6 +101,23 @@ impl Problem {
                 ContactKind::Point => 2.0 / 3.0 * PI,
             },
         })
+    }
+
+    /// The same without heat.
+    pub fn isothermal(self) -> Self {
+        Self { lubricant: Lubricant { heat: None, ..self.lubricant }, heat: None, ..self }
+    }
+
+    /// What makes films with temperatures into nodes; none without heat.
+    pub fn warm_laws(&self) -> Option<WarmLaws<'_>> {
+        let heat = self.heat.as_ref()?;
+        Some(WarmLaws { heat, shear: self.shear.as_ref().map(|shear| StressLaw::new(shear, heat)) })
+    }
+
+    /// What a film with heat is marched through, given P, P_X and H at the stations; none without heat.
+    pub fn course<'a>(&'a self, states: &'a [NodeState]) -> Option<Course<'a>> {
+        let limit = self.lubricant.limiting_stress.map(|limit| (limit, self.fluid.hertz_pressure_pa()));
+        Some(Course { laws: self.warm_laws()?, limit, states })
     }
 
     /// What makes pressure, gradient and film into nodes.
@@ -184,6 +209,18 @@ impl Report {
         }
     }
 
+    /// Counts what another solve took; what came of it last counts.
+    pub(super) fn add(&mut self, other: &Self) {
+        self.termination = other.termination;
+        self.newton_iterations += other.newton_iterations;
+        self.linear_iterations += other.linear_iterations;
+        self.attempts += other.attempts;
+        self.residuals.extend_from_slice(&other.residuals);
+        self.steps.extend_from_slice(&other.steps);
+        self.residual_norm = other.residual_norm;
+        self.cautious_front |= other.cautious_front;
+    }
+
     /// Whether no further start needs to be tried.
     pub(super) fn ended(&self) -> bool {
         use Termination::{Cancelled, Converged, Effort};
@@ -270,6 +307,8 @@ pub struct Solution {
     ///
     /// [`ContactSolver::judged`]: super::ContactSolver::judged
     pub grid_cost: Option<GridCost>,
+    /// Its temperatures; none without heat.
+    pub heat: Option<Arc<Temperatures>>,
 }
 
 impl Solution {

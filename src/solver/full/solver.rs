@@ -110,6 +110,9 @@ impl<S: NewtonSpace> Solver<S> {
         observer: &dyn Observer,
     ) -> Result<Solution, SolveError> {
         expect_kind(S::KIND, &problem.point)?;
+        if problem.heat.is_some() {
+            return S::solve_with_heat(self, problem, start, observer);
+        }
         let former = match start {
             Start::From(former) if former.problem.point.kind == S::KIND => Some(former),
             _ => None,
@@ -227,7 +230,7 @@ impl<S: NewtonSpace> Solver<S> {
     }
 
     /// The present state as a solution.
-    fn solution(&mut self, problem: Problem, report: Report) -> Result<Solution, SolveError> {
+    pub(super) fn solution(&mut self, problem: Problem, report: Report) -> Result<Solution, SolveError> {
         let system = self.system_for(&problem)?;
         let System { space, pressure, film, h_0, active, fraction, .. } = self.system.insert(system);
         let (x, y) = space.grid().abscissae();
@@ -243,6 +246,7 @@ impl<S: NewtonSpace> Solver<S> {
             scalars: scalars_of(space.grid(), &problem, pressure, film, *h_0),
             report,
             grid_cost: None,
+            heat: None,
         })
     }
 
@@ -330,7 +334,7 @@ fn cold_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, film: f
 
 /// A former solution on this grid: pressure as it is, whatever the scale of its registration, or interpolated; central
 /// film scaled by the formula.
-fn warm_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, former: &Solution) {
+pub(super) fn warm_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, former: &Solution) {
     let same_grid = former.mesh.spec == system.space.mesh().spec;
     if same_grid {
         system.set_pressure(problem, &former.pressure);

@@ -11,6 +11,7 @@ use super::newton_space::{NewtonSpace, Preconditioner, ScaledRows, Taken};
 use super::solution::{Problem, Report, Termination};
 use super::thinning::Thinning;
 use crate::solver::discrete::grid::dot;
+use crate::solver::discrete::heat::WarmFilm;
 use crate::solver::discrete::nodes::{Nodes, Order};
 use crate::solver::discrete::reynolds::generalized::FilmTreatment;
 use crate::solver::discrete::reynolds::{CENTER, Row};
@@ -52,6 +53,8 @@ pub struct System<S: NewtonSpace> {
     /// What shear-thinning adds to the Jacobian; made when first needed.
     pub(super) thinning: Option<Thinning>,
     treatment: FilmTreatment,
+    /// The temperatures of a film that warms itself.
+    pub(super) warm: Option<WarmFilm>,
     /// The rows of the unknowns as they were evaluated last.
     pub rows: Vec<Row>,
     /// Where the film has ruptured, where no penalty holds it.
@@ -93,6 +96,7 @@ impl<S: NewtonSpace> System<S> {
             nodes: Nodes::new(n, false),
             thinning: None,
             treatment: FilmTreatment::default(),
+            warm: None,
             rows: vec![Row::default(); u],
             active: ActiveSet::default(),
             fraction: Vec::new(),
@@ -152,14 +156,19 @@ impl<S: NewtonSpace> System<S> {
         let Self { space, nodes, pressure, film, .. } = self;
         let laws = problem.laws();
         let order = if S::PARALLEL { Order::Parallel } else { Order::Alone };
-        let thinning = laws.shear.map(|_| self.thinning.get_or_insert_with(|| Thinning::new(space)));
+        let warm = self.warm.as_mut().zip(problem.warm_laws());
+        let thins = laws.shear.is_some() || warm.is_some();
+        let thinning = thins.then(|| self.thinning.get_or_insert_with(|| Thinning::new(space)));
         let gradient = thinning.as_ref().map(|thinning| &thinning.gradient);
         let at = |k: usize| match (gradient, S::AXES) {
             (None, _) => [0.0; 2],
             (Some(gradient), 1) => [gradient.along().at(pressure, k), 0.0],
             (Some(gradient), _) => gradient.at_node(pressure, k),
         };
-        nodes.evaluate(laws, (pressure, film), at, self.treatment, order);
+        match warm {
+            Some((warm, laws)) => nodes.evaluate_warm(&laws, (pressure, film), |k| at(k)[0], warm),
+            None => nodes.evaluate(laws, (pressure, film), at, self.treatment, order),
+        }
         if self.active.fills() {
             self.active.fill(self.space.grid(), &mut self.nodes);
         }

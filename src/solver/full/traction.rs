@@ -1,6 +1,7 @@
 //! Shear across the film, and the traction (3.41) it adds up to.
 
 use super::solution::{Problem, Scalars, Solution};
+use crate::solver::discrete::heat::interpolated_across;
 use crate::solver::discrete::reynolds::film_integrals::{PRODUCTION_RULE, film_integrals};
 use crate::solver::discrete::reynolds::generalized::{NodeState, PlaneGradient};
 use crate::solver::physics::lubricant::{LimitingStress, ScaledShear};
@@ -90,10 +91,36 @@ struct FilmStress {
 }
 
 impl Solution {
+    /// The same with heat: heights are those above body 1, and shear is positive where that is the faster one.
+    fn warm_shear_field(&self, heights: &[f64]) -> Option<Vec<Shear>> {
+        let (heat, laws) = (self.heat.as_ref()?, self.problem.warm_laws()?);
+        let gradient = self.gradient();
+        let scale = laws.heat.stress_scale_pa;
+        let mut field = Vec::new();
+        for (k, rise_k) in (self.first()..self.x.len()).zip(&heat.rise_k) {
+            let state = self.state(&gradient, k, 0);
+            for &height in heights {
+                let stress =
+                    heat.shear_stress[k] + laws.heat.gradient * state.film * state.gradient[0] * (height - 0.5);
+                let theta = interpolated_across(rise_k, height) / heat.inlet_k;
+                let fluidity = laws.fluidity(state.pressure, theta, stress);
+                let (felt, rate) = (-stress * scale, -stress * fluidity * scale / self.problem.point.viscosity_pa_s);
+                let limit = self.problem.lubricant.limiting_stress;
+                let pressure_pa = state.pressure * self.problem.point.hertz().pressure_pa;
+                let carried = limit.map_or(f64::INFINITY, |limit| limit.carried(felt.abs(), pressure_pa));
+                field.push(Shear { stress_pa: carried.min(felt.abs()).copysign(felt), rate_per_s: rate });
+            }
+        }
+        Some(field)
+    }
+
     /// Shear along the axis Y = 0 at heights z = Z h above the lower surface, 0 ≤ Z ≤ 1, in the order of
     /// [`Solution::profile`], the heights of a node one after the other. A limiting stress, where the lubricant has one,
     /// cuts the stress; the rate is the one of the film without it.
     pub fn shear_field(&self, heights: &[f64]) -> Vec<Shear> {
+        if let Some(field) = self.warm_shear_field(heights) {
+            return field;
+        }
         let gradient = self.gradient();
         let axis = self.y.len() - 1;
         let shear = |film: &FilmStress, height: f64| {
@@ -121,8 +148,12 @@ impl Solution {
         self.force_per_load(|k| stress[k])
     }
 
-    /// τ_zx \[Pa\] at mid-film, cut to the limiting stress where the lubricant has one, at every node of the arrays.
+    /// τ_zx \[Pa\] at mid-film, cut to the limiting stress where the lubricant has one, at every node of the arrays; with
+    /// heat only under pressure.
     pub fn mid_film_stress(&self) -> Vec<f64> {
+        if let Some(heat) = &self.heat {
+            return heat.mid_stress_pa.clone();
+        }
         let gradient = self.gradient();
         let ny = self.y.len();
         let mut stress = vec![0.0; self.pressure.len()];
@@ -153,14 +184,17 @@ impl Problem {
         if traction == 0.0 {
             return None;
         }
+        // With heat viscosity falls before a stress gets beyond any sense.
+        let isothermal = self.heat.is_none();
         let too_large = || (traction.abs() > PLAUSIBLE_TRACTION).then_some(TractionDoubt::Coefficient(traction));
-        self.doubts_every_traction().or_else(too_large).or_else(|| self.doubts_stress(scalars))
+        self.doubts_every_traction().or_else(too_large).or_else(|| self.doubts_stress(scalars).filter(|_| isothermal))
     }
 
     /// Why every traction is no physics: at great α* p_H without a limiting stress.
     pub fn doubts_every_traction(&self) -> Option<TractionDoubt> {
         let exponent = self.fluid.reciprocal_asymptotic_exponent();
-        (self.is_unlimited() && exponent > PLAUSIBLE_EXPONENT).then_some(TractionDoubt::Exponent(exponent))
+        (self.is_unlimited() && self.heat.is_none() && exponent > PLAUSIBLE_EXPONENT)
+            .then_some(TractionDoubt::Exponent(exponent))
     }
 
     /// The same as a sentence.

@@ -17,10 +17,11 @@ use crate::solver::discrete::grid::{INLET, that_would_do};
 use crate::solver::discrete::reynolds::{EAST, NORTH, SOUTH, WEST};
 use crate::solver::discrete::space::Grid;
 use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint};
+use serde::{Deserialize, Serialize};
 
 /// What the grid costs H_c: relative errors to first order, positive where the true film is thicker. Far beyond a tenth
 /// they are too small: the film by which they are judged is too thin itself.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct GridCost {
     /// Since the inlet ends too early, or the sides too near.
     pub truncation: f64,
@@ -118,7 +119,9 @@ impl<S: NewtonSpace> Solver<S> {
         system.set_pressure(&solution.problem, &solution.pressure);
         system.set_h_0(solution.scalars.h_0);
         system.fraction.clone_from(&solution.fraction);
+        system.warm = solution.heat.as_ref().map(|heat| heat.film(&solution.x));
         let cost = system.grid_cost(&solution.problem, &self.options);
+        system.warm = None;
         self.system = Some(system);
         cost
     }

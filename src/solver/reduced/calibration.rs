@@ -32,7 +32,7 @@ const FLOOR: f64 = 1e-8;
 pub const LEAST_EVIDENCE: usize = 100;
 
 /// An error that was not measured.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Estimated {
     /// Its likely size (median of similar cases).
     pub likely: f64,
@@ -41,7 +41,7 @@ pub struct Estimated {
 }
 
 /// Relative errors of a reduced solution against the full one on the same grid.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ErrorEstimate {
     /// Of the central film, |H̃_c/H_c − 1|.
     pub h_c: Estimated,
@@ -52,6 +52,9 @@ pub struct ErrorEstimate {
     /// Of the traction coefficient (3.41), of a model that knows sliding and where an isothermal traction has a
     /// meaning.
     pub traction: Option<Estimated>,
+    /// Of the rise of temperature at mid-film, X = 0, of a model that knows heat; where it rises by less than a kelvin,
+    /// in kelvin.
+    pub rise: Option<Estimated>,
 }
 
 /// What a window knows about its own errors.
@@ -61,16 +64,16 @@ pub struct Calibration {
     ranges: Vec<(f64, f64)>,
     /// Places of the evidence, each coordinate in −1…1, one after the other.
     places: Vec<f32>,
-    /// H_c, H_min, state and, of a model that knows sliding, traction.
+    /// H_c, H_min, state, of a model that knows sliding or heat traction, and of one that knows heat the rise.
     quantities: Vec<Quantity>,
 }
 
 impl Calibration {
     /// Learns from evidence of one kind; `None` when there is too little, or it is degenerate.
     pub fn fit(evidence: &[Evidence]) -> Option<Self> {
-        let count = evidence.first()?.features.count;
-        let sliding = count == Beside::Sliding.features();
-        let sound = |e: &&Evidence| e.features.finite() && e.errors.values(false).all(f64::is_finite);
+        let beside = evidence.first()?.features.beside;
+        let count = beside.features();
+        let sound = |e: &&Evidence| e.features.finite() && e.errors.values(Beside::Nothing).all(f64::is_finite);
         let usable: Vec<&Evidence> = evidence.iter().filter(sound).collect();
         if usable.len() < LEAST_EVIDENCE {
             return None;
@@ -85,8 +88,8 @@ impl Calibration {
         out.places = scaled.iter().flat_map(|scaled| place(scaled)).collect();
         let terms: Vec<Vec<f64>> = scaled.iter().map(|scaled| quadratic(scaled)).collect();
         let neighbours = out.left_out();
-        for q in 0..if sliding { 4 } else { 3 } {
-            let log = |e: &&Evidence| e.errors.values(sliding).nth(q).map_or(f64::NAN, |v| (v + FLOOR).ln());
+        for q in 0..beside.quantities() {
+            let log = |e: &&Evidence| e.errors.values(beside).nth(q).map_or(f64::NAN, |v| (v + FLOOR).ln());
             out.quantities.push(Quantity::fit(&terms, &usable.iter().map(log).collect::<Vec<f64>>(), &neighbours)?);
         }
         out.sound().then_some(out)
@@ -103,6 +106,7 @@ impl Calibration {
             h_min: of(&self.quantities[1]),
             state: of(&self.quantities[2]),
             traction: self.quantities.get(3).map(of),
+            rise: self.quantities.get(4).map(of),
         }
     }
 
@@ -116,26 +120,27 @@ impl Calibration {
         self.places.len() / (self.ranges.len() - SIGNS.len()).max(1)
     }
 
-    /// What the contacts of its model have beside M, L and α; none of no such number of features.
-    pub fn beside(&self) -> Option<Beside> {
-        let all = [Beside::Nothing, Beside::Shape, Beside::Sliding];
-        all.into_iter().find(|beside| beside.features() == self.ranges.len())
+    /// Whether it is of contacts that have so much beside M, L and α.
+    pub fn is_of(&self, beside: Beside) -> bool {
+        (self.ranges.len(), self.quantities.len()) == (beside.features(), beside.quantities())
+    }
+
+    /// Whether its errors are those against full solutions, not what a few full Newton steps change.
+    pub fn by_full_solutions(&self) -> bool {
+        self.quantities.len() > Beside::Nothing.quantities()
     }
 
     /// Whether every number in it makes sense, as when it was read from a file.
     pub fn sound(&self) -> bool {
         let features = self.ranges.len();
-        let quantities = match self.beside() {
-            Some(Beside::Nothing | Beside::Shape) => 3,
-            Some(Beside::Sliding) => 4,
-            None => return false,
-        };
+        if !Beside::ALL.into_iter().any(|beside| self.is_of(beside)) {
+            return false;
+        }
         let (evidence, terms) = (self.evidence(), 1 + features + features * (features + 1) / 2);
         self.places.len() == evidence * (features - SIGNS.len())
             && evidence >= LEAST_EVIDENCE
             && self.ranges.iter().all(|(low, high)| low.is_finite() && high.is_finite() && low <= high)
             && self.places.iter().all(|v| v.is_finite())
-            && self.quantities.len() == quantities
             && self.quantities.iter().all(|quantity| quantity.sound(terms, evidence))
     }
 

@@ -242,7 +242,7 @@ fn best_approximation(window: &Window, full: &Solution, reduced: &ReducedSolutio
     }
     let ruptured = !reduced.fronts.is_empty();
     let fronts = if ruptured { fronts(&window.grid, |node| full.pressure[node]) } else { Vec::new() };
-    ReducedSolution { coefficients, fronts, h_0: full.scalars.h_0, ..reduced.clone() }
+    ReducedSolution { coefficients, fronts, beside: Vec::new(), h_0: full.scalars.h_0, ..reduced.clone() }
 }
 
 /// Parts of one scalar, given for full, best approximation, all rows, sampled rows.

@@ -13,8 +13,10 @@ mod error_measures;
 mod error_split;
 #[cfg(test)]
 mod error_split_tests;
+mod kriging;
 mod minimisation;
 mod model;
+mod oils;
 mod online;
 mod operators;
 mod pod;
@@ -34,10 +36,12 @@ pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitErro
 pub use minimisation::Scheme;
 pub(crate) use minimisation::minimised_rows;
 pub use model::{
-    CIRCLES, Domain, ModelSize, ReducedModel, SHAPE_WEIGHT, SlidingDomain, Snapshot, Trust, Window,
-    deformation_weights, distance, separation,
+    CIRCLES, Domain, HeatDomain, ModelSize, OilDomain, ReducedModel, SHAPE_WEIGHT, SlidingDomain, Snapshot, Trust,
+    Window, deformation_weights, distance, separation,
 };
+pub(crate) use oils::{BLENDED, apart, from_anchor, oil_place};
 pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution, Starts};
+pub use operators::Warmth;
 pub(crate) use operators::{Iterate, fronts};
 pub use pod::PodBasis;
 pub(crate) use row_sizes::mean_diagonals;

@@ -2,6 +2,7 @@
 
 use super::calibration::Calibration;
 use super::minimisation::Scheme;
+use super::oils::{apart, oil_place};
 use super::pod::PodBasis;
 use super::sampling::{SampledRows, Sampling};
 use super::shapes::Shapes;
@@ -10,7 +11,7 @@ use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN};
 use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::full::Problem;
 use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint};
-use crate::solver::physics::lubricant::{Cavitation, Lubricant};
+use crate::solver::physics::lubricant::{Cavitation, Lubricant, roelands_exponent};
 use faer::Mat;
 use serde::{Deserialize, Serialize};
 
@@ -34,6 +35,36 @@ pub struct Domain {
     /// R_y/R; (1, 1) of a model that knows circles or lines. Files keep it in a place of its own.
     #[serde(skip, default = "circles")]
     pub radius_ratio: (f64, f64),
+    /// The oils of a model that knows many; none of one that knows the oils with its η₀ only. Files keep them in a place
+    /// of their own.
+    #[serde(skip)]
+    pub oils: Option<OilDomain>,
+    /// What a model of contacts with heat was trained for; its lubricant has the thermal constants. Files keep both in a
+    /// place of their own.
+    #[serde(skip)]
+    pub heat: Option<HeatDomain>,
+}
+
+/// What a model of contacts with heat is trained for beside M, L, α and p_H: with η₀, R and E′ these say load and speed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct HeatDomain {
+    /// |SRR|.
+    pub srr: (f64, f64),
+    /// R \[m\].
+    pub radius_m: f64,
+    /// E′ \[Pa\].
+    pub modulus_pa: f64,
+}
+
+/// What a model of many oils was trained for beside M, L, α and the largest p_H; its η₀ is one in the middle.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OilDomain {
+    /// η₀ \[Pa·s\].
+    pub viscosity_pa_s: (f64, f64),
+    /// Roelands' exponent z.
+    pub exponent: (f64, f64),
+    /// Smallest p_H \[Pa\].
+    pub lowest_hertz_pressure_pa: f64,
 }
 
 fn circles() -> (f64, f64) {
@@ -102,6 +133,9 @@ mod without_shape {
 pub struct Window {
     /// Range of M for which this window is used.
     pub m: (f64, f64),
+    /// Of a window that serves the contacts around a place in (ln M, ln L) that place; M then says no more than how far
+    /// these reach.
+    pub anchor: Option<Moes>,
     /// The grid of its solutions.
     pub grid: ContactGrid,
     /// Penalty factor γ̄ of (2.36) in the reduced equations. Sampled rows of a point contact want it softer than the
@@ -137,7 +171,7 @@ pub struct Window {
 }
 
 /// How large the model of a window is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ModelSize {
     /// Pressure modes.
     pub pressure: usize,
@@ -221,6 +255,7 @@ impl Window {
         let SampledRows { rows: sampled_rows, reconstruction, scheme, residual } = rows;
         Self {
             m,
+            anchor: None,
             grid,
             penalty: PENALTY,
             cavitation: Cavitation::Penalty,
@@ -269,16 +304,25 @@ impl Window {
         (self.traction, self.calibration) = (None, None);
     }
 
-    /// The nearest training solution by [`separation`].
+    /// The nearest training solution by [`separation`], or by what tells oils apart where it knows many.
     pub fn nearest(&self, point: &OperatingPoint) -> Option<(&Snapshot, f64)> {
+        if self.anchor.is_some() {
+            let place = oil_place(point);
+            let all = self.snapshots.iter().map(|snapshot| (snapshot, apart(place, oil_place(&snapshot.point))));
+            return all.min_by(|a, b| a.1.total_cmp(&b.1));
+        }
         self.snapshots.iter().map(|s| (s, separation(point, &s.point))).min_by(|a, b| a.1.total_cmp(&b.1))
     }
 }
 
 impl ReducedModel {
-    /// Index of the window that serves a contact: by its shape, then by M.
+    /// Index of the window that serves a contact: by the nearest anchor, or by its shape, then by M.
     pub fn window_for(&self, point: &OperatingPoint) -> usize {
-        let (ratio, m) = (point.radius_ratio(), point.moes().m);
+        let moes = point.moes();
+        if let Some(nearest) = self.nearest_anchor(moes) {
+            return nearest;
+        }
+        let (ratio, m) = (point.radius_ratio(), moes.m);
         let aside = |window: &Window| {
             let (low, high) = window.shapes.as_ref().map_or(CIRCLES, |shapes| shapes.radius_ratio);
             (low / ratio).max(ratio / high).max(1.0)
@@ -299,6 +343,21 @@ impl ReducedModel {
         self.windows.first().map_or_else(ContactKind::default, |window| window.grid.kind())
     }
 
+    /// Whether it is a model of ellipses.
+    pub fn of_ellipses(&self) -> bool {
+        self.domain.radius_ratio != CIRCLES
+    }
+
+    /// Whether its rows want gradients of the pressure: of a lubricant that thins under shear, and of films with heat.
+    pub(crate) fn slides(&self) -> bool {
+        self.domain.sliding.is_some() || self.domain.heat.is_some()
+    }
+
+    /// Whether it is a model of this kind of contact: of lines, of circles, or of ellipses.
+    pub fn is_of(&self, point: &OperatingPoint) -> bool {
+        self.contact() == point.kind && self.of_ellipses() == (point.radius_ratio() != 1.0)
+    }
+
     /// Whether the model was trained for a problem.
     pub fn trust(&self, problem: &Problem) -> Trust {
         self.domain.trust(problem)
@@ -306,10 +365,21 @@ impl ReducedModel {
 }
 
 impl Domain {
+    /// Whether errors are measured against converged full solutions, since a few Newton steps do not tell them
+    /// everywhere: where a lubricant thins under shear, with heat, and over the wide windows of many oils.
+    pub fn measured_in_full(&self) -> bool {
+        self.sliding.is_some() || self.heat.is_some() || self.oils.is_some()
+    }
+
+    /// |SRR| that was trained; none where films know no sliding.
+    pub fn srr(&self) -> Option<(f64, f64)> {
+        self.sliding.map(|sliding| sliding.srr).or(self.heat.map(|heat| heat.srr))
+    }
+
     /// Whether a problem lies inside; boundaries count as inside to rounding.
     pub fn trust(&self, problem: &Problem) -> Trust {
-        if problem.lubricant.of_the_liquid() != self.lubricant.of_the_liquid() {
-            return Trust::Outside("the model was trained with other lubricant laws".to_owned());
+        if let Some(other) = self.other_laws(problem) {
+            return Trust::Outside(other.to_owned());
         }
         if problem.supply.is_some() {
             return Trust::Outside("the model was trained with a flooded inlet, not with a supplied film".to_owned());
@@ -318,19 +388,43 @@ impl Domain {
         if let Some(why) = self.no_circle(point) {
             return Trust::Outside(why);
         }
-        if (point.viscosity_pa_s / self.viscosity_pa_s - 1.0).abs() > 1e-6 {
+        if let Some(oils) = &self.oils {
+            if let Some(outside) = oils.outside(point) {
+                return Trust::Outside(outside);
+            }
+        } else if (point.viscosity_pa_s / self.viscosity_pa_s - 1.0).abs() > 1e-6 {
             return Trust::Outside(format!(
                 "the model was trained at an ambient viscosity of {} Pa·s, not {} Pa·s",
                 self.viscosity_pa_s, point.viscosity_pa_s
             ));
         }
-        if let Some(outside) = self.sliding.and_then(|sliding| sliding.outside(point)) {
+        let sliding = self.sliding.and_then(|sliding| sliding.outside(point));
+        if let Some(outside) = sliding.or_else(|| self.heat.and_then(|heat| heat.outside(problem))) {
             return Trust::Outside(outside);
         }
         let [m, l, ratio, p_h] = self.shapes(problem);
         let alpha =
             Bounded { name: "α", value: point.alpha_per_pa, range: self.alpha_per_pa, scale: 1e9, unit: "/GPa" };
         [m, l, ratio, alpha, p_h].iter().find_map(Bounded::outside).map_or(Trust::Trained, Trust::Outside)
+    }
+
+    /// A sentence where a problem has other laws than those the model was trained with.
+    fn other_laws(&self, problem: &Problem) -> Option<&'static str> {
+        let (asked, own) = (problem.lubricant, self.lubricant);
+        match (asked.heat, own.heat) {
+            (Some(_), None) => return Some("the model was trained without heat"),
+            (None, Some(_)) => return Some("the model was trained with heat"),
+            _ => {}
+        }
+        let without_heat = |laws: Lubricant| Lubricant { heat: None, ..laws.of_the_liquid() };
+        if without_heat(asked) != without_heat(own) {
+            return Some("the model was trained with other lubricant laws");
+        }
+        // Under heat a limit cuts the heat that shear makes.
+        if asked.heat.is_some() && asked.limiting_stress != own.limiting_stress {
+            return Some("the model was trained with another limiting stress, which with heat changes the film");
+        }
+        (asked.heat != own.heat).then_some("the model was trained with other thermal constants of oil or bodies")
     }
 
     /// A sentence where M, L or p_H lie outside, or the contact is an ellipse, with any fluid: pressures and films of
@@ -350,11 +444,12 @@ impl Domain {
     fn shapes(&self, problem: &Problem) -> [Bounded; 4] {
         let ratio = problem.point.radius_ratio();
         let (p_h, highest) = (problem.point.hertz().pressure_pa, self.max_hertz_pressure_pa);
+        let lowest = self.oils.map_or(0.0, |oils| oils.lowest_hertz_pressure_pa);
         [
             Bounded { name: "M", value: problem.moes.m, range: self.m, scale: 1.0, unit: "" },
             Bounded { name: "L", value: problem.moes.l, range: self.l, scale: 1.0, unit: "" },
             Bounded { name: "the ratio of radii", value: ratio, range: self.radius_ratio, scale: 1.0, unit: "" },
-            Bounded { name: "p_H", value: p_h, range: (0.0, highest), scale: 1e-9, unit: " GPa" },
+            Bounded { name: "p_H", value: p_h, range: (lowest, highest), scale: 1e-9, unit: " GPa" },
         ]
     }
 }
@@ -385,12 +480,60 @@ impl Bounded {
     }
 }
 
+impl OilDomain {
+    /// A sentence that says in what an oil lies outside.
+    fn outside(&self, point: &OperatingPoint) -> Option<String> {
+        let viscosity =
+            Bounded {
+                name: "η₀", value: point.viscosity_pa_s, range: self.viscosity_pa_s, scale: 1e3, unit: " mPa·s"
+            };
+        let exponent = roelands_exponent(point);
+        let exponent = Bounded { name: "Roelands’ z", value: exponent, range: self.exponent, scale: 1.0, unit: "" };
+        [viscosity, exponent].iter().find_map(Bounded::outside)
+    }
+}
+
+/// A sentence where a contact has another reduced modulus \[Pa\].
+fn other_modulus(trained: f64, given: f64) -> Option<String> {
+    if (given / trained - 1.0).abs() <= 1e-3 {
+        return None;
+    }
+    let [own, given] = [trained, given].map(|modulus| digits(modulus * 1e-9));
+    Some(format!("the model was trained with a reduced modulus of {own} GPa, not {given} GPa"))
+}
+
+impl HeatDomain {
+    /// A sentence that says in what a contact lies outside.
+    fn outside(&self, problem: &Problem) -> Option<String> {
+        let point = &problem.point;
+        if let Some(other) = other_modulus(self.modulus_pa, point.modulus_pa) {
+            return Some(other);
+        }
+        if (point.radius_m / self.radius_m - 1.0).abs() > 1e-3 {
+            let [own, given] = [self.radius_m, point.radius_m].map(|radius| digits(radius * 1e3));
+            return Some(format!(
+                "the model was trained with a radius of {own} mm, not {given} mm; with heat that is another contact at \
+                 equal M and L"
+            ));
+        }
+        let plateau = problem.lubricant.shear.plateau();
+        let given = point.sliding.newtonian_plateau_ratio.unwrap_or(plateau);
+        if problem.shear.is_some() && given != plateau {
+            return Some(format!("the model was trained with an NPR of {plateau}, not {given}"));
+        }
+        // Which body is the faster one matters where they are of two materials.
+        let alike = problem.heat.is_none_or(|heat| heat.heat.bodies[0] == heat.heat.bodies[1]);
+        let srr = point.sliding.slide_to_roll_ratio;
+        let srr = if alike { srr.abs() } else { srr };
+        Bounded { name: "SRR", value: srr, range: self.srr, scale: 1.0, unit: "" }.outside()
+    }
+}
+
 impl SlidingDomain {
     /// A sentence that says in what a point lies outside.
     fn outside(&self, point: &OperatingPoint) -> Option<String> {
-        if (point.modulus_pa / self.modulus_pa - 1.0).abs() > 1e-3 {
-            let [own, given] = [self.modulus_pa, point.modulus_pa].map(|modulus| digits(modulus * 1e-9));
-            return Some(format!("the model was trained with a reduced modulus of {own} GPa, not {given} GPa"));
+        if let Some(other) = other_modulus(self.modulus_pa, point.modulus_pa) {
+            return Some(other);
         }
         let npr = point.sliding.newtonian_plateau_ratio.unwrap_or(1.0);
         let checks = [("SRR", point.sliding.slide_to_roll_ratio.abs(), self.srr), ("NPR", npr, self.npr)];
@@ -402,7 +545,10 @@ impl SlidingDomain {
 }
 
 /// Four significant digits without trailing zeros.
-fn digits(value: f64) -> String {
+pub(super) fn digits(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
     let decimals = (3 - value.abs().log10().floor() as i32).clamp(0, 12) as usize;
     let text = format!("{value:.decimals$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
@@ -425,6 +571,8 @@ mod tests {
             lubricant: Lubricant::default(),
             sliding: None,
             radius_ratio: CIRCLES,
+            oils: None,
+            heat: None,
         };
         let trust = |m, l| {
             let point = si_from_moes(&MoesRequest::new(ContactKind::Line, m, l)).unwrap();

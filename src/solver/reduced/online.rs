@@ -8,9 +8,10 @@ mod settings;
 pub use settings::{ReducedError, ReducedOptions, Starts};
 
 use super::calibration::{Beside, ErrorEstimate, Features};
+use super::kriging::Kriging;
 use super::model::{ReducedModel, Snapshot, Trust, Window};
-use super::operators::{Operators, RowObserver};
-use super::start::{self, Former, Known};
+use super::operators::{Operators, RowObserver, Warmth};
+use super::start::{self, Former, Guess, Known};
 use crate::solver::full::Problem;
 use crate::solver::physics::contact::{Ellipse, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
@@ -34,12 +35,17 @@ pub struct ReducedSolution {
     pub coefficients: Vec<f64>,
     /// Under complementarity the first ruptured column of each line along X, in node arrays; empty under a penalty.
     pub fronts: Vec<usize>,
+    /// Solutions of further windows around anchors, near whose borders it is blended with them, and the share of each;
+    /// the films and what follows from them are then those of the blend.
+    pub beside: Vec<(f64, ReducedSolution)>,
     /// H₀.
     pub h_0: f64,
     /// Central film H_c.
     pub h_c: f64,
     /// Traction coefficient (3.41) by the window's rule on few nodes; none of a model that does not know sliding.
     pub traction: Option<f64>,
+    /// Its temperatures; none without heat.
+    pub heat: Option<Warmth>,
     /// Newton steps.
     pub iterations: usize,
     /// e_f^I, (3.15), in the L2 norm over X restricted to the sampled rows.
@@ -58,6 +64,8 @@ pub struct Online {
     options: ReducedOptions,
     /// Operators of each window, made when it is first needed.
     windows: Vec<OnceCell<Operators>>,
+    /// The start in each window around an anchor, made likewise; none where its solutions are too few.
+    krigings: Vec<OnceCell<Option<Kriging>>>,
     /// The last converged solutions, where the next one starts while somebody drags or follows a curve.
     former: Former,
 }
@@ -66,7 +74,8 @@ impl Online {
     /// A solver for the model; operators are prepared per window when first needed.
     pub fn new(model: Arc<ReducedModel>, options: ReducedOptions) -> Self {
         let windows = model.windows.iter().map(|_| OnceCell::new()).collect();
-        Self { model, options, windows, former: Former::default() }
+        let krigings = model.windows.iter().map(|_| OnceCell::new()).collect();
+        Self { model, options, windows, krigings, former: Former::default() }
     }
 
     /// The settings in force.
@@ -104,7 +113,24 @@ impl Online {
         lubricant: Lubricant,
         observer: Option<RowObserver<'_>>,
     ) -> Result<ReducedSolution, ReducedError> {
-        let solved = self.iterated(point, lubricant, observer)?;
+        let index = self.model.window_for(point);
+        let (mut solved, blended) = match self.iterated(index, point, lubricant, observer) {
+            Ok(solved) => (solved, self.model.blended(point.moes())),
+            // The next window knows contacts of this one near their border; what it is wrong by here was not measured.
+            Err(why @ ReducedError::NotConverged { .. }) => {
+                let next = self.model.next_anchor(point.moes(), index).ok_or(why.clone())?;
+                let solved = self.iterated(next, point, lubricant, None).map_err(|_| why)?;
+                (ReducedSolution { error: None, ..solved }, Vec::new())
+            }
+            Err(why) => return Err(why),
+        };
+        for (share, further) in blended {
+            // Where the one beside has no solution, the own one serves alone.
+            if let Ok(other) = self.iterated(further, point, lubricant, None) {
+                solved.beside.push((share, other));
+            }
+        }
+        solved.blend();
         let doubt = if solved.trust == Trust::Trained { None } else { self.doubt(&solved)? };
         match doubt {
             None => Ok(solved),
@@ -128,6 +154,7 @@ impl Online {
     /// Newton's iteration from one start after the other.
     fn iterated(
         &mut self,
+        index: usize,
         point: &OperatingPoint,
         lubricant: Lubricant,
         mut observer: Option<RowObserver<'_>>,
@@ -137,13 +164,17 @@ impl Online {
             return Err(ReducedError::OtherContact { model, given: point.kind });
         }
         let problem = Problem::new(point, lubricant)?;
-        if problem.shear.is_some() && self.model.domain.sliding.is_none() {
+        if problem.heat.is_some() && self.model.domain.heat.is_none() {
+            return Err(ReducedError::Heat);
+        }
+        if problem.shear.is_some() && !self.model.slides() {
             return Err(ReducedError::ShearThinning);
         }
         // Its α and its plateau ratio are those that count.
         let point = &problem.point;
-        let index = self.model.window_for(point);
         let model = Arc::clone(&self.model);
+        let kriged = self.kriged(index, point);
+        let by_kriging = kriged.is_some();
         let (Some(window), Some(cell)) = (model.windows.get(index), self.windows.get_mut(index)) else {
             return Err(ReducedError::Empty);
         };
@@ -158,12 +189,13 @@ impl Online {
             let found = attempt(window, operators, &problem, &guess, usize::MAX, &self.options, &mut observer)?;
             return Ok(self.keep(&problem, index, found));
         }
-        let thinning = self.model.domain.sliding.is_some();
+        let thinning = self.model.slides();
         let mut last = ReducedError::Empty;
         let former = [self.former.continued(index, point), self.former.beside(index, point)];
+        let former = former.into_iter().filter(|_| !by_kriging);
         let interpolated = std::iter::once_with(|| start::interpolated(window, point, thinning));
         let nearest = std::iter::once_with(|| start::nearest(window, point));
-        for guess in former.into_iter().chain(interpolated).chain(nearest).flatten() {
+        for guess in std::iter::once(kriged).chain(former).chain(interpolated).chain(nearest).flatten() {
             match attempt(window, operators, &problem, &guess, FIRST_ATTEMPTS, &self.options, &mut observer) {
                 Ok(found) => return Ok(self.keep(&problem, index, found)),
                 Err(error) => last = error,
@@ -180,6 +212,13 @@ impl Online {
                 Err(last)
             }
         }
+    }
+
+    /// The start by kriging in a window around an anchor. It follows from the contact alone, so that nothing jumps with
+    /// what was solved before.
+    fn kriged(&self, index: usize, point: &OperatingPoint) -> Option<Guess> {
+        let window = self.model.windows.get(index).filter(|window| window.anchor.is_some())?;
+        self.krigings.get(index)?.get_or_init(|| Kriging::of(window)).as_ref()?.start(point)
     }
 
     /// Solves a contact from one snapshot of its window and from nowhere else, showing every iterate, for the training.
@@ -203,9 +242,10 @@ impl Online {
 
     /// Remembers a solution as the next start and returns it.
     fn keep(&mut self, problem: &Problem, window: usize, found: Found) -> ReducedSolution {
-        let Found { coefficients, h_0, h_c, iterations, residual, traction, fronts } = found;
+        let theta = found.theta().to_vec();
+        let Found { coefficients, h_0, h_c, iterations, residual, traction, fronts, heat } = found;
         let (point, known) = (problem.point, coefficients.clone());
-        self.former.remember(Known { window, point, coefficients: known, h_c, fronts: fronts.clone() });
+        self.former.remember(Known { window, point, coefficients: known, h_c, fronts: fronts.clone(), theta });
         let trust = self.model.trust(problem);
         let calibration = self.model.windows.get(window).and_then(|w| w.calibration.as_ref());
         let mut error =
@@ -222,9 +262,11 @@ impl Online {
             window,
             coefficients,
             fronts,
+            beside: Vec::new(),
             h_0,
             h_c,
             traction,
+            heat,
             iterations,
             residual_estimate: residual,
             error,
@@ -235,5 +277,8 @@ impl Online {
 
 fn operators_of(model: &ReducedModel, window: &Window, options: &ReducedOptions) -> Operators {
     let modes = options.pressure_modes.unwrap_or(usize::MAX);
+    if model.domain.heat.is_some() {
+        return Operators::with_heat(window, modes, options.deformation_modes);
+    }
     Operators::new(window, modes, options.deformation_modes, model.domain.sliding.is_some())
 }

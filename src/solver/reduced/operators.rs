@@ -1,14 +1,18 @@
 //! The reduced operators of one window for a chosen truncation. Nothing in them is of large scale.
 
 mod front;
+mod heat;
 mod least_squares;
 mod newton;
 mod shaped;
 
 pub(crate) use front::{cut_off, fronts, passed_rows};
+pub use heat::Warmth;
+pub(crate) use heat::station_nodes;
 pub(crate) use newton::{Case, Iterate, OnlineOutcome, RowObserver, Stop};
 
 use self::front::{Changed, Front};
+use self::heat::Heated;
 use self::least_squares::LeastSquares;
 use self::shaped::Shaped;
 use super::dense::{self, SmallSystem};
@@ -18,6 +22,7 @@ use crate::solver::discrete::grid::dot;
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::generalized::NodeState;
 use crate::solver::discrete::reynolds::{CENTER, RowGeometry, STENCIL};
+use crate::solver::full::heat::mid_stress_pa;
 use crate::solver::full::{Problem, mid_film_stress};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Cavitation;
@@ -54,6 +59,8 @@ pub(crate) struct Operators {
     front: Option<Front>,
     /// What follows the shape of an ellipse; none of a window that knows circles or lines.
     shaped: Option<Shaped>,
+    /// Temperatures; none of a model that knows no heat.
+    heated: Option<Box<Heated>>,
     scratch: Scratch,
 }
 
@@ -90,6 +97,14 @@ impl Operators {
     /// `thinning` for lubricants that thin under shear.
     pub fn new(window: &Window, modes: usize, deformation_modes: Option<usize>, thinning: bool) -> Self {
         Self::with_support(window, modes, deformation_modes, thinning, &[])
+    }
+
+    /// Operators of line contacts with heat.
+    pub fn with_heat(window: &Window, modes: usize, deformation_modes: Option<usize>) -> Self {
+        let further = heat::further_nodes(&window.grid);
+        let mut out = Self::with_support(window, modes, deformation_modes, true, &further);
+        out.heated = Some(Box::new(Heated::new(&window.grid, &out.support)));
+        out
     }
 
     /// The same with further nodes that its rows may come to depend on.
@@ -186,6 +201,7 @@ impl Operators {
             deformation_error,
             front,
             shaped,
+            heated: None,
             scratch: Scratch {
                 fields: vec![0.0; (2 + axes) * s],
                 step_fields: vec![0.0; (2 + axes) * s],
@@ -234,12 +250,21 @@ impl Operators {
     }
 
     /// Traction coefficient (3.41) of the state evaluated last, by the window's rule; `None` where it has none, and
-    /// under a limiting stress: the rule was fitted to stresses that nothing cuts.
+    /// under a limiting stress: the rule was fitted to stresses that nothing cuts. With heat it is that of the film with
+    /// the temperatures of the last turns, whose limit belongs to what the model was trained with.
     pub fn traction(&self, problem: &Problem, scale: f64) -> Option<f64> {
-        if self.traction.is_empty() || self.axes == 0 || problem.lubricant.limiting_stress.is_some() {
+        if self.traction.is_empty() || self.axes == 0 {
             return None;
         }
         let (s, count) = (&self.scratch, self.support.len());
+        if let Some((heated, heat)) = self.heated.as_ref().zip(problem.heat.as_ref()) {
+            let stress = heated.stress();
+            let of = |&(k, weight): &(usize, f64)| weight * mid_stress_pa(problem, heat, stress[k], s.fields[k]);
+            return Some(scale * self.traction.iter().map(of).sum::<f64>() * problem.point.area_per_load());
+        }
+        if problem.lubricant.limiting_stress.is_some() {
+            return None;
+        }
         let gradients = &s.fields[2 * count..];
         let stress = |&(k, weight): &(usize, f64)| {
             let gradient = [gradients[k] / scale, gradients.get(count + k).copied().unwrap_or(0.0)];

@@ -47,6 +47,14 @@ impl PodBasis {
         Some(Self { modes: modes.get(.., ..keep.min(modes.ncols())).to_owned(), ..plain })
     }
 
+    /// With no more than so many of its modes.
+    pub fn cut(mut self, most: usize) -> Self {
+        if most < self.modes.ncols() {
+            self.modes = self.modes.get(.., ..most.max(1)).to_owned();
+        }
+        self
+    }
+
     /// Vᵀ W v: the coefficients of a node array, given by its value at each node.
     pub fn coefficients(&self, weights: &[f64], value: impl Fn(usize) -> f64) -> Vec<f64> {
         let of = |mode: ColRef<'_, f64>| mode.iter().zip(weights).enumerate().map(|(i, (v, w))| w * v * value(i)).sum();

@@ -2,11 +2,12 @@
 //!
 //! Its entries are smooth functions of ln κ. Over Chebyshev nodes of a window's range six of them reach some 1e-6 of
 //! the largest deformation, and what a reduced model costs hardly feels them: the rows of the support are combined once
-//! per contact.
+//! per contact. Single precision does for them, 6e-8 of it, and halves what they take.
 
 use crate::solver::discrete::grid::{ContactGrid, GridError, PointGrid};
 use crate::solver::physics::contact::Ellipse;
 use faer::Mat;
+use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -23,7 +24,7 @@ pub struct Shapes {
     /// Ends of ln κ.
     ends: (f64, f64),
     /// K(κ) V over the node array, one for each node in ln κ.
-    pub(super) flexed: Vec<Mat<f64>>,
+    pub(super) flexed: Vec<Mat<f32>>,
 }
 
 /// Where Chebyshev's nodes of the second kind lie in −1…1.
@@ -44,10 +45,11 @@ impl Shapes {
         };
         let ends = (log_kappa(low)?, log_kappa(high)?);
         let count = NODES[usize::from(high > 10.0 * low)];
-        let flexed = (0..count).map(|i| {
+        let flexed = (0..count).into_par_iter().map(|i| {
             let at = 0.5 * (ends.0 + ends.1) + 0.5 * (ends.1 - ends.0) * node(i, count);
             let grid = grid.of_ellipse(Ellipse::of_kappa(at.exp()))?;
-            Ok(ContactGrid::Point(grid).flex(modes))
+            let flexed = ContactGrid::Point(grid).flex(modes);
+            Ok(Mat::from_fn(flexed.nrows(), flexed.ncols(), |node, k| flexed[(node, k)] as f32))
         });
         Ok(Self { radius_ratio, ends, flexed: flexed.collect::<Result<_, GridError>>()? })
     }
@@ -66,11 +68,26 @@ impl Shapes {
     /// K(κ) V of an ellipse.
     #[cfg(test)]
     pub(crate) fn flexed_at(&self, ellipse: &Ellipse) -> Mat<f64> {
-        let mut sum = Mat::zeros(self.flexed[0].nrows(), self.flexed[0].ncols());
-        for (weight, flexed) in self.weights(ellipse).into_iter().zip(&self.flexed) {
-            sum += faer::Scale(weight) * flexed;
+        let (nodes, modes) = self.flexed[0].shape();
+        let mut sum = Mat::zeros(nodes, modes);
+        for k in 0..modes {
+            let mut unit = vec![0.0; k + 1];
+            unit[k] = 1.0;
+            let mut column = vec![0.0; nodes];
+            self.add_deformation(ellipse, &unit, &mut column);
+            (0..nodes).for_each(|node| sum[(node, k)] = column[node]);
         }
         sum
+    }
+
+    /// Adds the deformation K(κ) V q by the first modes to a node array.
+    pub(super) fn add_deformation(&self, ellipse: &Ellipse, coefficients: &[f64], film: &mut [f64]) {
+        for (weight, flexed) in self.weights(ellipse).into_iter().zip(&self.flexed) {
+            for (q, column) in coefficients.iter().zip(flexed.col_iter()) {
+                let factor = weight * q;
+                film.iter_mut().zip(column.iter()).for_each(|(film, value)| *film += factor * f64::from(*value));
+            }
+        }
     }
 
     /// The weights of the nodes that interpolate at an ellipse: one per matrix.

@@ -4,6 +4,7 @@
 
 use super::dense;
 use super::model::{SHAPE_WEIGHT, Snapshot, Window, separation};
+use crate::solver::discrete::heat::Profile;
 use crate::solver::physics::contact::{ContactKind, FilmFormula, OperatingPoint, moes_film};
 use faer::Mat;
 
@@ -22,6 +23,8 @@ pub(super) struct Guess {
     pub h_c: f64,
     /// The first ruptured column of each line along X; empty under a penalty.
     pub fronts: Vec<usize>,
+    /// θ at the stations of a contact with heat; empty where it begins without.
+    pub theta: Vec<Profile>,
 }
 
 /// How near by (3.20) the previous solution must be to be preferred to an interpolation.
@@ -40,6 +43,7 @@ pub(super) struct Known {
     pub coefficients: Vec<f64>,
     pub h_c: f64,
     pub fronts: Vec<usize>,
+    pub theta: Vec<Profile>,
 }
 
 /// The last two converged solutions, the latest first.
@@ -61,6 +65,7 @@ impl Former {
             coefficients: known.coefficients.clone(),
             h_c: known.h_c * film_number(point) / film_number(&known.point),
             fronts: known.fronts.clone(),
+            theta: known.theta.clone(),
         })
     }
 
@@ -84,10 +89,12 @@ impl Former {
         let ahead = |new: f64, old: f64| new + t * (new - old);
         let film = |known: &Known| (known.h_c / film_number(&known.point)).ln();
         let both = latest.coefficients.iter().zip(&before.coefficients);
+        let profiles = latest.theta.iter().zip(&before.theta);
         Some(Guess {
             coefficients: both.map(|(new, old)| ahead(*new, *old)).collect(),
             h_c: ahead(film(latest), film(before)).exp() * film_number(point),
             fronts: latest.fronts.clone(),
+            theta: profiles.map(|(new, old)| std::array::from_fn(|j| ahead(new[j], old[j]))).collect(),
         })
     }
 }
@@ -134,7 +141,7 @@ pub(super) fn nearest(window: &Window, point: &OperatingPoint) -> Option<Guess> 
 /// A training solution, its film carried over to a point by the formula.
 pub(super) fn carried(snapshot: &Snapshot, point: &OperatingPoint) -> Guess {
     let h_c = snapshot.h_c * film_number(point) / film_number(&snapshot.point);
-    Guess { coefficients: snapshot.coefficients.clone(), h_c, fronts: snapshot.fronts.clone() }
+    Guess { coefficients: snapshot.coefficients.clone(), h_c, fronts: snapshot.fronts.clone(), theta: Vec::new() }
 }
 
 /// The nearest training solution by (3.20) with its own film.
@@ -213,5 +220,5 @@ pub(super) fn interpolated(window: &Window, point: &OperatingPoint, thinning: bo
         log_film += w * (snapshot.h_c / film_number(&snapshot.point)).ln();
     }
     let fronts = fronts.into_iter().map(|front| front as usize).collect();
-    Some(Guess { coefficients, h_c: log_film.exp() * film_number(point), fronts })
+    Some(Guess { coefficients, h_c: log_film.exp() * film_number(point), fronts, theta: Vec::new() })
 }

@@ -1,17 +1,21 @@
 //! From a specification to a model: snapshots, bases, row snapshots, sampled rows.
 
+use super::anchors::{Cell, anchor};
 use super::one_thread::on_one_thread;
 use super::plan::{Within, grid_points};
 use super::rows::sample_rows;
 use super::state::{FEWEST, OVERLAP, Part, Solved, TrainingState, train_resumable};
-use super::{Progress, QuantityBox, Range, SlidingRange, TrainingError, TrainingObserver, TrainingSpec, WindowSpec};
+use super::{
+    HeatedRange, OilRange, Progress, QuantityBox, Range, SlidingRange, TrainingError, TrainingObserver, TrainingSpec,
+    WindowSpec, Windows,
+};
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::{ContactSolver, Start};
 use crate::solver::physics::contact::{DEFAULT_VISCOSITY_PA_S, MoesRequest, OperatingPoint};
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{
-    CIRCLES, Domain, PodBasis, ReducedModel, RowSnapshots, Sampling, Scheme, Shapes, SlidingDomain, Snapshot,
-    TestSpace, Window, all_rows, deformation_weights, fronts, minimised_rows,
+    CIRCLES, Domain, HeatDomain, PodBasis, ReducedModel, RowSnapshots, Sampling, Scheme, Shapes, SlidingDomain,
+    Snapshot, TestSpace, Window, all_rows, deformation_weights, fronts, minimised_rows,
 };
 use faer::Mat;
 use fastrand::Rng;
@@ -38,6 +42,14 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
             let l = (l.0 * own / alpha, l.1 * own / alpha);
             (m, l, (own, own), range.highest_pressure(spec.contact()), viscosity)
         }
+        Range::Heated(HeatedRange { m, l, alpha, viscosity, max_hertz_pressure, .. }) => {
+            let own = spec.lubricant.own_coefficient().unwrap_or(alpha);
+            (m, (l.0 * own / alpha, l.1 * own / alpha), (own, own), max_hertz_pressure, viscosity)
+        }
+        Range::Oils(range) => {
+            let OilRange { m, l, alpha, hertz_pressure, .. } = range;
+            (m, l, alpha, hertz_pressure.1, range.middle_viscosity())
+        }
         Range::Realisation { m, l, max_hertz_pressure } | Range::Ellipses { m, l, max_hertz_pressure, .. } => {
             let end = |l| MoesRequest::new(spec.contact(), m.0, l).default_alpha();
             (m, l, (end(l.0), end(l.1)), max_hertz_pressure, DEFAULT_VISCOSITY_PA_S)
@@ -59,8 +71,18 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
         Range::Ellipses { radius_ratio, .. } => radius_ratio,
         _ => CIRCLES,
     };
+    let oils = match spec.range {
+        Range::Oils(range) => Some(range.declared()),
+        _ => None,
+    };
+    let heat = match spec.range {
+        Range::Heated(HeatedRange { srr, radius, modulus, .. }) => {
+            Some(HeatDomain { srr, radius_m: radius, modulus_pa: modulus })
+        }
+        _ => None,
+    };
     let lubricant = spec.lubricant;
-    Domain { m, l, alpha_per_pa, max_hertz_pressure_pa, viscosity_pa_s, lubricant, sliding, radius_ratio }
+    Domain { m, l, alpha_per_pa, max_hertz_pressure_pa, viscosity_pa_s, lubricant, sliding, radius_ratio, oils, heat }
 }
 
 /// A window in training: everything it is made with.
@@ -72,6 +94,12 @@ pub(super) struct WindowTraining<'a> {
     pub reach: (f64, f64),
     /// Pressure modes beyond which it is to be split instead of being assembled.
     pub most_modes: Option<usize>,
+    /// The cell of its anchor, where it has one.
+    pub cell: Option<Cell>,
+    /// The deformation basis that it shares with the other windows, where it does.
+    pub deformation: Option<PodBasis>,
+    /// Whether contacts without a full solution are left out and named.
+    pub named: bool,
     pub observer: &'a dyn TrainingObserver,
 }
 
@@ -88,13 +116,19 @@ impl<'a> WindowTraining<'a> {
     ) -> Result<Self, TrainingError> {
         let wanted = window.grid;
         let grid = on_one_thread(observer, move || wanted.build())?.map_err(crate::solver::full::SolveError::from)?;
-        Ok(Self { spec, window, grid, reach, most_modes, observer })
+        Ok(Self { spec, window, grid, reach, most_modes, cell: None, deformation: None, named: false, observer })
     }
 
     /// The contacts that it is trained from.
     pub fn within(&self) -> Within {
         let (low, high) = self.window.radius_ratio.unwrap_or((0.0, f64::INFINITY));
-        Within { radius_ratio: (low / OVERLAP, high * OVERLAP), ..self.spec.within(self.reach) }
+        let (radius_ratio, cell) = ((low / OVERLAP, high * OVERLAP), self.cell.clone());
+        let within = self.spec.within(self.reach);
+        let range = match within.range {
+            Range::Oils(range) => Range::Oils(range.beyond()),
+            other => other,
+        };
+        Within { radius_ratio, cell, range, ..within }
     }
 
     pub fn too_few(&self, count: usize) -> TrainingError {
@@ -113,18 +147,26 @@ impl<'a> WindowTraining<'a> {
             }
             let before = own.solved.len();
             let total = before + own.pending.len();
-            let results = self.solve_all(&own.pending[..own.pending.len().min(SOLVED_AT_ONCE)], before, total);
+            let asked = own.pending[..own.pending.len().min(SOLVED_AT_ONCE)].to_vec();
+            let results = match self.observer.solved_elsewhere(&asked) {
+                Some(results) => results,
+                None => self.solve_all(&asked, before, total),
+            };
             let mut finished = Vec::new();
             let mut first_error = None;
-            for result in results {
+            let mut unsolved = Vec::new();
+            for (result, asked) in results.into_iter().zip(asked) {
                 match result {
                     Ok(solved) => finished.push(solved),
+                    Err(TrainingError::NotConverged { .. }) if self.named => unsolved.push(asked),
                     Err(error) => first_error = first_error.or(Some(error)),
                 }
             }
             let count = finished.len();
             own.keep(finished);
+            own.give_up(unsolved.iter().map(|(place, _)| *place));
             state.solves += count;
+            state.decisions.extend(unsolved.iter().map(|(_, point)| without_solution(point)));
             self.observer.checkpoint(state);
             if let Some(error) = first_error {
                 return Err(error);
@@ -175,11 +217,15 @@ impl<'a> WindowTraining<'a> {
         let (from, to) = window.m;
         let failed = || TrainingError::Decomposition { from, to };
         let (losses, positive) = ([spec.pressure_loss, spec.deformation_loss], spec.positive_modes);
-        let (grid, solutions) = (grid.clone(), solutions.to_vec());
+        let most = match spec.windows {
+            Windows::Anchored { modes, .. } => modes,
+            Windows::Given(_) | Windows::Automatic { .. } => usize::MAX,
+        };
+        let (grid, solutions, shared) = (grid.clone(), solutions.to_vec(), self.deformation.clone());
         let cavitation = spec.lubricant.cavitation;
         let ratio = window.radius_ratio.unwrap_or(spec.domain().radius_ratio);
         let mut model = on_one_thread(*observer, move || {
-            let (pressure, deformation, mut snapshots) = bases(losses, positive, &grid, &solutions)?;
+            let (pressure, deformation, mut snapshots) = bases((losses, most), positive, &grid, &solutions, shared)?;
             if cavitation == Cavitation::Complementarity {
                 for (snapshot, solution) in snapshots.iter_mut().zip(&solutions) {
                     snapshot.fronts = fronts(&grid, |node| solution.pressure[node]);
@@ -194,7 +240,7 @@ impl<'a> WindowTraining<'a> {
             Some(Window { shapes, ..window })
         })?
         .ok_or_else(failed)?;
-        (model.penalty, model.cavitation) = (spec.penalty, cavitation);
+        (model.penalty, model.cavitation, model.anchor) = (spec.penalty, cavitation, anchor(window));
         if most_modes.is_some_and(|most| model.pressure.modes.ncols() > most) {
             return Ok(None);
         }
@@ -203,7 +249,7 @@ impl<'a> WindowTraining<'a> {
 
     /// A window with its rows sampled as the specification says.
     pub fn sample(&self, mut window: Window, rng: &mut Rng) -> Result<Window, TrainingError> {
-        let Self { spec, reach, observer, .. } = self;
+        let Self { spec, observer, .. } = self;
         if spec.sampling == Sampling::All && spec.scheme != Scheme::Galerkin {
             let test = TestSpace::new(&window.pressure, &window.grid);
             let (of, count) = ((spec.scheme, spec.sampling), test.weights.len());
@@ -213,28 +259,46 @@ impl<'a> WindowTraining<'a> {
         }
         if spec.sampling != Sampling::All {
             let (from, to) = window.m;
-            let sampled = sample_rows(spec, &Arc::new(alone(spec, &window)), *reach, rng, *observer)?;
+            let served = Within { radius_ratio: window.served_ratios(), ..self.within() };
+            let sampled = sample_rows(spec, &Arc::new(alone(spec, &window)), &served, rng, *observer)?;
             window.set_rows(spec.sampling, sampled.ok_or(TrainingError::Decomposition { from, to })?);
         }
         Ok(window)
     }
 }
 
+/// A sentence about a contact that is left out.
+fn without_solution(point: &OperatingPoint) -> String {
+    let (moes, oil) = (point.moes(), (point.viscosity_pa_s * 1e3, point.alpha_per_pa * 1e9));
+    format!(
+        "the full solver did not converge at M = {:.4}, L = {:.4}, p_H = {:.3} GPa, η₀ = {:.3} mPa·s, α = {:.3}/GPa: left out",
+        moes.m,
+        moes.l,
+        point.hertz().pressure_pa * 1e-9,
+        oil.0,
+        oil.1
+    )
+}
+
 /// POD of pressures, of max(P, 0) where modes are to be `positive`, and of deformations, each up to a loss of
-/// information, and the snapshots in the pressure basis.
+/// information and a number of modes, unless that of deformations is `shared`; and the snapshots in the pressure basis.
 fn bases(
-    [pressure_loss, deformation_loss]: [f64; 2],
+    ([pressure_loss, deformation_loss], most): ([f64; 2], usize),
     positive: bool,
     grid: &ContactGrid,
     solutions: &[Solved],
+    shared: Option<PodBasis>,
 ) -> Option<(PodBasis, PodBasis, Vec<Snapshot>)> {
     let (nodes, weights) = (grid.len(), grid.weights());
     let pressures = Mat::from_fn(nodes, solutions.len(), |i, j| {
         let pressure = solutions[j].pressure[i];
         if positive { pressure.max(0.0) } else { pressure }
     });
-    let pressure = PodBasis::new(pressures.as_ref(), weights, pressure_loss)?;
-    let deformation = PodBasis::new(grid.flex(&pressures).as_ref(), &deformation_weights(grid), deformation_loss)?;
+    let pressure = PodBasis::new(pressures.as_ref(), weights, pressure_loss)?.cut(most);
+    let deformation = match shared {
+        Some(shared) => shared,
+        None => PodBasis::new(grid.flex(&pressures).as_ref(), &deformation_weights(grid), deformation_loss)?,
+    };
     let snapshots = solutions
         .iter()
         .zip(pressures.col_iter())

@@ -1,9 +1,10 @@
 //! What a finished window finds out about its own errors.
 //!
 //! At random points (3.17) of the window's own range the reduced solution is carried on by three full Newton steps,
-//! under shear-thinning until they converge; what they change is its error. That is evidence for [`Calibration`], and
+//! under shear-thinning and of many oils until they converge; what they change is its error. That is evidence for [`Calibration`], and
 //! nothing else: no basis sees these points.
 
+use super::anchors::Cell;
 use super::indicator::Corrector;
 use super::one_thread::{in_parallel, on_one_thread};
 use super::plan::Within;
@@ -23,12 +24,13 @@ pub const EVIDENCE: usize = 1000;
 pub(super) fn calibrate(
     spec: &TrainingSpec,
     model: &Arc<ReducedModel>,
-    (k, ends): (usize, (bool, bool)),
+    (k, ends, cell): (usize, (bool, bool), Option<Cell>),
     observer: &dyn TrainingObserver,
 ) -> Result<Option<Calibration>, TrainingError> {
     let Some(window) = model.windows.first() else { return Ok(None) };
     let seed = spec.seed ^ 0x9E37_79B9_7F4A_7C15_u64.wrapping_mul(k as u64 + 1);
-    let served = Within { radius_ratio: window.served_ratios(), ..spec.within(served(ends, window)) };
+    let m = if cell.is_some() { (0.0, f64::INFINITY) } else { served(ends, window) };
+    let served = Within { radius_ratio: window.served_ratios(), cell, ..spec.within(m) };
     let points = served.random_points(spec.evidence, &mut Rng::with_seed(seed));
     let beside = Beside::of(&model.domain);
     let stage = format!("Measuring errors, M {}…{}", window.m.0, window.m.1);

@@ -1,15 +1,18 @@
 //! What a specification of a training may say.
 
-use super::{Plan, Range, SlidingRange, TrainingSpec, WindowSpec, Windows};
+use super::{HeatedRange, Plan, Range, SlidingRange, TrainingSpec, WindowSpec, Windows};
 use crate::solver::limits::{Refused, count, interval, number, plain};
 use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw};
+use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw, ViscosityLaw};
 use crate::solver::reduced::{LEAST_EVIDENCE, Sampling, Scheme};
 
 /// Most points of a plan, or judged in one go.
 const MOST_POINTS: usize = 100_000;
 /// Most full solutions of a window.
 const MOST_SNAPSHOTS: usize = 5000;
+
+/// Most windows around anchors.
+const MOST_ANCHORS: usize = 256;
 
 /// Fewest rows per mode of residual minimisation.
 const FEWEST_MINIMISED: f64 = 1.1;
@@ -124,7 +127,20 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
             return Err(Refused::new("cavitation", "must be the penalty for a reduced model of ellipses"));
         }
     }
+    if matches!(spec.range, Range::Oils(_)) {
+        if spec.lubricant.viscosity != ViscosityLaw::Roelands {
+            return Err(Refused::new(
+                "range",
+                "is of oils by Roelands’ exponent, but the viscosity follows another law",
+            ));
+        }
+        if !matches!(spec.windows, Windows::Anchored { .. }) {
+            return Err(Refused::new("windows", "must be anchored for a range of oils: `Anchored(…)`"));
+        }
+    }
+    heat(spec)?;
     match (&spec.range, spec.lubricant.shear == ShearLaw::Newtonian) {
+        (Range::Heated(_), _) => Ok(()),
         (Range::Sliding(_), true) => {
             Err(Refused::new("range", "names SRR and NPR, but the lubricant has no shear constants"))
         }
@@ -147,10 +163,52 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
     }
 }
 
+/// A range with heat belongs to films with heat, and only such a range does.
+fn heat(spec: &TrainingSpec) -> Result<(), Refused> {
+    let refuse = |field, problem: &str| Err(Refused::new(field, problem));
+    let Range::Heated(HeatedRange { alpha, .. }) = spec.range else {
+        return match spec.lubricant.heat {
+            Some(_) => refuse("range", "must name R and SRR for films with heat: `Heated(…)`; or leave heat out"),
+            None => Ok(()),
+        };
+    };
+    if spec.lubricant.heat.is_none() {
+        return refuse("range", "is of films with heat, but the scene has no field `heat`");
+    }
+    if spec.contact() != ContactKind::Line {
+        return refuse("range", "is of films with heat, which are computed in line contacts only");
+    }
+    if spec.lubricant.cavitation != Cavitation::Penalty {
+        return refuse("cavitation", "must be the penalty for a reduced model with heat");
+    }
+    if spec.scheme != Scheme::Galerkin {
+        return refuse("scheme", "must be Galerkin for a reduced model with heat");
+    }
+    match spec.lubricant.own_coefficient() {
+        Some(own) if (alpha / own - 1.0).abs() > 1e-3 => Err(Refused::new(
+            "range.alpha",
+            format!("is {alpha:.4e} 1/Pa, but the lubricant's viscosity law determines {own:.4e} 1/Pa; write that"),
+        )),
+        _ => Ok(()),
+    }
+}
+
 fn windows(spec: &TrainingSpec) -> Result<(), Refused> {
     match &spec.windows {
         Windows::Given(windows) => given(spec, windows),
         Windows::Automatic { modes } => count("windows.modes", *modes, 8, 1000),
+        Windows::Anchored { count: windows, modes, grid } => {
+            count("windows.count", *windows, 1, MOST_ANCHORS)?;
+            count("windows.modes", *modes, 8, 1000)?;
+            grid.check().map_err(|problem| Refused::new("windows.grid", format!("makes no sense: {problem}")))?;
+            if !matches!(spec.range, Range::Oils(_)) {
+                return Err(Refused::new("windows", "are anchored in M and L, which needs a range of oils: `Oils(…)`"));
+            }
+            if matches!(spec.plan, Plan::Grid { .. }) {
+                return Err(Refused::new("plan", "is a grid, but anchored windows share solutions at farthest points"));
+            }
+            Ok(())
+        }
     }
 }
 

@@ -143,7 +143,7 @@ fn projection_error(basis: &PodBasis, grid: &ReferenceGrid, pressure: &[f64]) ->
 }
 
 /// An interval widened to four significant digits, for people.
-fn outward((low, high): (f64, f64)) -> (f64, f64) {
+pub(super) fn outward((low, high): (f64, f64)) -> (f64, f64) {
     let digits = |v: f64| format!("{v:.3e}").parse().unwrap_or(v);
     // Half of the last digit is taken off or added before rounding; an end that has few digits stays what it is.
     let round = |v: f64, half: f64| {

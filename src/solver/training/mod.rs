@@ -4,14 +4,22 @@
 //! in order.
 
 mod adaptive;
+mod anchors;
 mod build;
 mod calibrate;
 mod check;
+#[cfg(test)]
+mod coupled_tests;
 pub mod distance;
 #[cfg(test)]
 mod ellipse_tests;
+#[cfg(test)]
+mod heat_tests;
 mod indicator;
 mod layout;
+mod oil_range;
+#[cfg(test)]
+mod oil_tests;
 mod one_thread;
 mod plan;
 #[cfg(test)]
@@ -39,9 +47,10 @@ pub use adaptive::{BadPoint, Search};
 pub use build::train;
 pub use calibrate::EVIDENCE;
 pub use indicator::Indicator;
+pub use oil_range::OilRange;
 pub use one_thread::on_one_thread;
 pub use plan::random_points;
-pub use range::{QuantityBox, Range, SlidingRange};
+pub use range::{HeatedRange, QuantityBox, Range, SlidingRange};
 pub use rows::with_rows;
 pub use state::{Solved, TrainingState, WindowState, train_resumable};
 pub use trajectories::{TrajectoryTraining, train_trajectories};
@@ -50,9 +59,9 @@ use self::plan::Within;
 use super::discrete::grid::GridSpec;
 use super::discrete::reynolds::PENALTY;
 use super::limits::Refused;
-use super::physics::contact::ContactKind;
-use super::physics::lubricant::{Cavitation, Lubricant};
-use super::reduced::{Domain, Sampling, Scheme};
+use super::physics::contact::{ContactKind, OperatingPoint};
+use super::physics::lubricant::{Cavitation, Heat, Lubricant};
+use super::reduced::{Domain, ReducedModel, Sampling, Scheme};
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::AtomicBool;
 
@@ -113,6 +122,16 @@ impl Plan {
     /// Whether it searches for bad approximations.
     pub fn searches(&self) -> bool {
         matches!(self, Self::Adaptive { .. } | Self::WorstOfPool { .. })
+    }
+
+    /// Full solutions per window by (3.16) before any search; none of a grid.
+    fn first_solutions(&self) -> Option<usize> {
+        match *self {
+            Self::FarthestPoint { snapshots: first }
+            | Self::Adaptive { start: first, .. }
+            | Self::WorstOfPool { start: first, .. } => Some(first),
+            Self::Grid { .. } => None,
+        }
     }
 }
 
@@ -192,6 +211,11 @@ impl TrainingSpec {
         Self { lubricant: Lubricant { cavitation, ..self.lubricant }, ..self }
     }
 
+    /// The same of films that warm themselves.
+    pub fn heated(self, heat: Option<Heat>) -> Self {
+        Self { lubricant: Lubricant { heat, ..self.lubricant }, ..self }
+    }
+
     /// Refuses what no training can be made of, before anything is solved.
     ///
     /// # Errors
@@ -200,11 +224,19 @@ impl TrainingSpec {
         check::check(self)
     }
 
+    /// Whether a model is of the contacts that it is about.
+    pub fn is_of(&self, model: &ReducedModel) -> bool {
+        model.contact() == self.contact()
+            && model.of_ellipses() == matches!(self.range, Range::Ellipses { .. })
+            && model.domain.heat.is_some() == matches!(self.range, Range::Heated(_))
+    }
+
     /// The kind of contact it is about: that of its grids; windows chosen by the training are of line contacts.
     pub fn contact(&self) -> ContactKind {
         match &self.windows {
             Windows::Given(windows) => windows.first().map_or_else(ContactKind::default, |window| window.grid.kind()),
             Windows::Automatic { .. } => ContactKind::Line,
+            Windows::Anchored { grid, .. } => grid.kind(),
         }
     }
 
@@ -231,6 +263,16 @@ pub enum Windows {
         /// Pressure modes beyond which a window is split: what a reduced solve costs grows with their cube.
         modes: usize,
     },
+    /// Cells around anchors in (ln M, ln L) on one grid, chosen by the training among its solutions. Numbers of full
+    /// solutions of the plan are per window, as everywhere.
+    Anchored {
+        /// How many.
+        count: usize,
+        /// Pressure modes at most, of each.
+        modes: usize,
+        /// The grid of all.
+        grid: GridSpec,
+    },
 }
 
 /// One window of a model.
@@ -244,12 +286,15 @@ pub struct WindowSpec {
     /// Range of R_y/R it serves, of a model of ellipses; all of the model's where it is left out.
     #[serde(default)]
     pub radius_ratio: Option<(f64, f64)>,
+    /// M and L of its anchor, where the training chose windows around anchors.
+    #[serde(default)]
+    pub anchor: Option<(f64, f64)>,
 }
 
 impl WindowSpec {
     /// A window of circles or lines.
     pub fn new(m: (f64, f64), grid: GridSpec) -> Self {
-        Self { m, grid, radius_ratio: None }
+        Self { m, grid, radius_ratio: None, anchor: None }
     }
 }
 
@@ -257,6 +302,12 @@ impl WindowSpec {
 pub trait TrainingObserver: Observer {
     /// Shown the state whenever full solutions were finished: what a crash must not lose can be written here.
     fn checkpoint(&self, _state: &TrainingState) {}
+
+    /// Full solutions that somebody else has computed, or is to compute: of each contact that is asked for, by its place
+    /// in the order, the solution, why there is none, or [`TrainingError::Awaited`]. None computes them here.
+    fn solved_elsewhere(&self, _asked: &[(usize, OperatingPoint)]) -> Option<Vec<Result<Solved, TrainingError>>> {
+        None
+    }
 }
 
 impl TrainingObserver for () {}
@@ -306,4 +357,7 @@ pub enum TrainingError {
     /// The observer asked to stop.
     #[error("the training was cancelled")]
     Cancelled,
+    /// Full solutions that somebody else computes are not there yet; the training goes on with them.
+    #[error("the training waits for full solutions")]
+    Awaited,
 }

@@ -1,8 +1,9 @@
 //! Sampling plans: which operating points of a range are solved in full, and which are tested.
 
+use super::anchors::Cell;
 use super::{QuantityBox, Range};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-use crate::solver::reduced::{SHAPE_WEIGHT, distance};
+use crate::solver::reduced::{BLENDED, SHAPE_WEIGHT, apart, distance, oil_place};
 use fastrand::Rng;
 use std::f64::consts::PI;
 
@@ -29,12 +30,14 @@ const MAX_DRAWS: usize = 10_000;
 pub(super) type Drawn = ([f64; 4], OperatingPoint);
 
 /// The contacts of a range, of one kind and with M in an interval.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Within {
     pub range: Range,
     pub kind: ContactKind,
     pub m: (f64, f64),
     pub radius_ratio: (f64, f64),
+    /// The cell of an anchor, with what is blended beyond it.
+    pub cell: Option<Cell>,
 }
 
 /// Random points of a range by (3.17), which pushes towards its boundary: the same ones for the same seed, whoever
@@ -46,13 +49,16 @@ pub fn random_points(range: &Range, kind: ContactKind, count: usize, seed: u64) 
 impl Within {
     /// With any M.
     pub fn all(range: Range, kind: ContactKind) -> Self {
-        Self { range, kind, m: (0.0, f64::INFINITY), radius_ratio: (0.0, f64::INFINITY) }
+        Self { range, kind, m: (0.0, f64::INFINITY), radius_ratio: (0.0, f64::INFINITY), cell: None }
     }
 
     fn at(&self, unit: [f64; 4]) -> Option<OperatingPoint> {
         let inside = |value: f64, (low, high): (f64, f64)| (low..=high).contains(&value);
-        let wanted =
-            |point: &OperatingPoint| inside(point.moes().m, self.m) && inside(point.radius_ratio(), self.radius_ratio);
+        let wanted = |point: &OperatingPoint| {
+            let moes = point.moes();
+            let served = self.cell.as_ref().is_none_or(|cell| cell.holds(moes, BLENDED));
+            inside(moes.m, self.m) && inside(point.radius_ratio(), self.radius_ratio) && served
+        };
         self.range.at(self.kind, unit).filter(wanted)
     }
 
@@ -78,10 +84,17 @@ impl Within {
         let corners = (0..16u8).filter_map(|c| self.at(std::array::from_fn(|k| f64::from(c >> k & 1))));
         pool.extend(corners);
         let place = |p: &OperatingPoint| (p.moes(), p.alpha_per_pa.ln(), p.sliding, p.radius_ratio().ln());
+        let oils = matches!(self.range, Range::Oils(_));
         let coordinates: Vec<_> = pool.iter().map(place).collect();
+        let oil_places: Vec<_> = pool.iter().filter(|_| oils).map(oil_place).collect();
         let alpha_weight = if matches!(self.range, Range::Box(_)) { 0.005 } else { ALPHA_WEIGHT };
         let mut nearest = vec![f64::INFINITY; pool.len()];
         let approach = |nearest: &mut [f64], point: &OperatingPoint| {
+            if oils {
+                let own = oil_place(point);
+                nearest.iter_mut().zip(&oil_places).for_each(|(best, other)| *best = best.min(apart(own, *other)));
+                return;
+            }
             let (moes, log_alpha, sliding, log_ratio) = place(point);
             for (best, (other, other_alpha, other_sliding, other_ratio)) in nearest.iter_mut().zip(&coordinates) {
                 let d = distance(moes, *other) + alpha_weight * (log_alpha - other_alpha).powi(2);

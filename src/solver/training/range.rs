@@ -1,7 +1,9 @@
 //! Where contacts lie: what a model is trained for, and where random ones are drawn.
 
+use super::oil_range::OilRange;
 use crate::solver::limits::{Refused, interval, number};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, Sliding, si_from_moes};
+use crate::solver::physics::lubricant::LARGEST_HEATED_SRR;
 use crate::solver::reduced::{CIRCLES, Domain};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -51,14 +53,40 @@ pub enum Range {
         /// Largest p_H \[Pa\].
         max_hertz_pressure: f64,
     },
+    /// All contacts of many oils.
+    Oils(OilRange),
+    /// All line contacts of one oil between bodies of one radius, with heat.
+    Heated(HeatedRange),
 }
 
 impl From<&Domain> for Range {
     /// The intervals that a model declares; what it knows of sliding is left out.
     fn from(domain: &Domain) -> Self {
+        if let Some(heat) = &domain.heat {
+            return Self::Heated(HeatedRange {
+                m: domain.m,
+                l: domain.l,
+                srr: heat.srr,
+                radius: heat.radius_m,
+                modulus: heat.modulus_pa,
+                viscosity: domain.viscosity_pa_s,
+                alpha: domain.alpha_per_pa.0,
+                max_hertz_pressure: domain.max_hertz_pressure_pa,
+            });
+        }
         if domain.radius_ratio != CIRCLES {
             let Domain { m, l, radius_ratio, max_hertz_pressure_pa: max_hertz_pressure, .. } = *domain;
             return Self::Ellipses { m, l, radius_ratio, max_hertz_pressure };
+        }
+        if let Some(oils) = &domain.oils {
+            return Self::Oils(OilRange {
+                m: domain.m,
+                l: domain.l,
+                alpha: domain.alpha_per_pa,
+                viscosity: oils.viscosity_pa_s,
+                exponent: oils.exponent,
+                hertz_pressure: (oils.lowest_hertz_pressure_pa, domain.max_hertz_pressure_pa),
+            });
         }
         Self::Moes {
             m: domain.m,
@@ -218,7 +246,66 @@ impl SlidingRange {
     }
 }
 
+/// All line contacts with M, L and SRR in these intervals and p_H up to a limit, with heat: R, E′, η₀ and α make M a load
+/// and L a speed, by which films warm.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HeatedRange {
+    /// Load number, by the load.
+    pub m: (f64, f64),
+    /// Lubricant number, by the speed.
+    pub l: (f64, f64),
+    /// Slide-to-roll ratio; films hardly tell which body is the faster one where both are of one material.
+    pub srr: (f64, f64),
+    /// R \[m\].
+    pub radius: f64,
+    /// E′ \[Pa\].
+    pub modulus: f64,
+    /// η₀ \[Pa·s\] at the inlet's temperature.
+    pub viscosity: f64,
+    /// α \[1/Pa\]: the lubricant's own, where its viscosity law determines it.
+    pub alpha: f64,
+    /// Largest p_H \[Pa\].
+    pub max_hertz_pressure: f64,
+}
+
+impl HeatedRange {
+    /// Refuses what is empty, inverted or beyond any sense.
+    ///
+    /// # Errors
+    /// Naming the interval.
+    pub fn check(&self) -> Result<(), Refused> {
+        between(Quantity::M, self.m)?;
+        between(Quantity::L, self.l)?;
+        interval("srr", self.srr, 0.0, LARGEST_HEATED_SRR)?;
+        single(Quantity::Radius, self.radius)?;
+        single(Quantity::Modulus, self.modulus)?;
+        single(Quantity::Viscosity, self.viscosity)?;
+        single(Quantity::Alpha, self.alpha)?;
+        hertz_pressure(self.max_hertz_pressure)
+    }
+
+    /// The line contact at coordinates in the unit cube, by ln M, L and SRR; `None` where the range excludes it.
+    pub fn at(&self, unit: [f64; 4]) -> Option<OperatingPoint> {
+        let request = MoesRequest {
+            radius_m: Some(self.radius),
+            modulus_pa: Some(self.modulus),
+            viscosity_pa_s: Some(self.viscosity),
+            alpha_per_pa: Some(self.alpha),
+            ..MoesRequest::new(ContactKind::Line, self.m.0, self.l.0)
+        };
+        let sliding = Sliding { slide_to_roll_ratio: linear(self.srr, unit[2]), newtonian_plateau_ratio: None };
+        let point = up_to(self.max_hertz_pressure, (self.m, self.l), unit, request)?;
+        Some(OperatingPoint { sliding, ..point })
+    }
+}
+
 impl Range {
+    /// Whether it says how fast its contacts slide.
+    pub fn slides(&self) -> bool {
+        matches!(self, Self::Sliding(_) | Self::Heated(_))
+    }
+
     /// Refuses what is empty, inverted or beyond any sense.
     ///
     /// # Errors
@@ -239,6 +326,8 @@ impl Range {
                 single(Quantity::Viscosity, viscosity)
             }
             Self::Sliding(range) => range.check(),
+            Self::Oils(range) => range.check(),
+            Self::Heated(range) => range.check(),
             Self::Ellipses { m, l, radius_ratio, max_hertz_pressure } => {
                 between(Quantity::M, m)?;
                 between(Quantity::L, l)?;
@@ -265,6 +354,8 @@ impl Range {
                 up_to(max_hertz_pressure, (m, l), unit, request)
             }
             Self::Sliding(range) => range.at(kind, unit),
+            Self::Oils(range) => range.at(kind, unit),
+            Self::Heated(range) => range.at(unit).filter(|_| kind == ContactKind::Line),
             Self::Ellipses { m, l, radius_ratio, max_hertz_pressure } => {
                 let circle = up_to(f64::INFINITY, (m, l), unit, MoesRequest::new(kind, m.0, l.0))?;
                 let point = Quantity::RadiusRatio.at(&circle, logarithmic(radius_ratio, unit[2]));
@@ -275,7 +366,7 @@ impl Range {
 }
 
 /// Refuses an interval of a quantity that reaches beyond its limits.
-fn between(quantity: Quantity, ends: (f64, f64)) -> Result<(), Refused> {
+pub(super) fn between(quantity: Quantity, ends: (f64, f64)) -> Result<(), Refused> {
     let (low, high) = quantity.range();
     interval(&quantity.name().to_lowercase(), ends, low, high)
 }
@@ -295,7 +386,7 @@ fn linear((low, high): (f64, f64), t: f64) -> f64 {
     low + (high - low) * t
 }
 
-fn logarithmic((low, high): (f64, f64), t: f64) -> f64 {
+pub(super) fn logarithmic((low, high): (f64, f64), t: f64) -> f64 {
     low * (high / low).powf(t)
 }
 

@@ -1,9 +1,9 @@
 //! Trainings as a whole: stopped and resumed, on any number of threads, with tolerances out of reach.
 
-use super::small::{moes, moes_with};
+use super::small::{moes, moes_with, oils};
 use super::*;
 use crate::solver::discrete::grid::GridSpec;
-use crate::solver::reduced::{ReducedModel, Window};
+use crate::solver::reduced::{ReducedModel, Sampling, Window};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -105,6 +105,17 @@ fn a_training_stopped_and_resumed_gives_the_same_model() {
     stopped_and_resumed_is_the_same(&spec, &[1, 7, 9, total - 1]);
     stopped_and_resumed_is_the_same(&small(pool(1e-3, 30)), &[1, 7, 11]);
     stopped_and_resumed_is_the_same(&small(Plan::FarthestPoint { snapshots: 20 }), &[1, 17, 30]);
+}
+
+#[test]
+fn windows_around_anchors_resume_in_their_pool_and_behind_it_and_a_stopped_pool_makes_a_model() {
+    let spec = oils(Sampling::QDeim, 40);
+    stopped_and_resumed_is_the_same(&spec, &[1, 50, 70]);
+    let stop = StopAt { solutions: 48, stopped: AtomicBool::new(false), written: Mutex::new(None) };
+    let mut state = TrainingState::new(spec);
+    assert_eq!(train_resumable(&mut state, &stop).unwrap_err(), TrainingError::Cancelled);
+    assert!(state.windows.is_empty() && !state.trials[0].pending.is_empty());
+    assert_eq!(state.model(&()).unwrap().windows.len(), 3);
 }
 
 /// The small box with automatic windows of few modes, which must be split.

@@ -1,6 +1,7 @@
 //! Row sampling of a window: the all-rows reduced model runs at random parameters, for a cubature at the trainings too,
 //! and what its iterates show decides which rows stay.
 
+use super::anchors::Cell;
 use super::build::alone;
 use super::one_thread::{in_parallel, on_one_thread};
 use super::plan::Within;
@@ -66,12 +67,12 @@ enum Evidence {
 pub(super) fn sample_rows(
     spec: &TrainingSpec,
     exact: &Arc<ReducedModel>,
-    reach: (f64, f64),
+    served: &Within,
     rng: &mut Rng,
     observer: &dyn TrainingObserver,
 ) -> Result<Option<SampledRows>, TrainingError> {
     let per_mode = [spec.rows_per_mode];
-    let mut sampled = sample(spec, exact, reach, (ROW_SNAPSHOT_SOLVES, &per_mode), rng, observer)?;
+    let mut sampled = sample(spec, exact, served, (ROW_SNAPSHOT_SOLVES, &per_mode), rng, observer)?;
     Ok(sampled.pop().flatten())
 }
 
@@ -92,7 +93,10 @@ pub fn with_rows(
     exact.set_rows(Sampling::All, all_rows(&TestSpace::new(&own.pressure, &own.grid)));
     let exact = Arc::new(alone(spec, &exact));
     let mut rng = Rng::with_seed(spec.seed);
-    let sampled = sample(spec, &exact, own.m, (ROW_SNAPSHOT_SOLVES, rows_per_mode), &mut rng, observer)?;
+    let (radius_ratio, cell) = (own.served_ratios(), Cell::of_model(model, window));
+    let m = if cell.is_some() { (0.0, f64::INFINITY) } else { own.m };
+    let served = Within { radius_ratio, cell, ..spec.within(m) };
+    let sampled = sample(spec, &exact, &served, (ROW_SNAPSHOT_SOLVES, rows_per_mode), &mut rng, observer)?;
     let with = |rows: SampledRows| {
         let mut other = model.clone();
         if let Some(place) = other.windows.get_mut(window) {
@@ -108,13 +112,12 @@ pub fn with_rows(
 fn sample(
     spec: &TrainingSpec,
     exact: &Arc<ReducedModel>,
-    reach: (f64, f64),
+    served: &Within,
     (solves, rows_per_mode): (usize, &[f64]),
     rng: &mut Rng,
     observer: &dyn TrainingObserver,
 ) -> Result<Vec<Option<SampledRows>>, TrainingError> {
     let Some(window) = exact.windows.first() else { return Ok(Vec::new()) };
-    let served = Within { radius_ratio: window.served_ratios(), ..spec.within(reach) };
     let points = served.random_points(solves, rng);
     let mut tasks: Vec<Task<'_>> = points.into_iter().map(Task::At).collect();
     if spec.sampling == Sampling::Cubature {

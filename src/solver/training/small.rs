@@ -1,7 +1,8 @@
 //! Small trainings, which tests make of many things.
 
-use super::{Plan, QuantityBox, Range, TrainingSpec, WindowSpec, Windows};
+use super::{HeatedRange, OilRange, Plan, QuantityBox, Range, TrainingSpec, WindowSpec, Windows};
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
+use crate::solver::physics::lubricant::{Heat, LimitingStress, Lubricant};
 use crate::solver::reduced::Sampling;
 
 /// A grid of point contacts on which a full solve takes milliseconds.
@@ -64,6 +65,42 @@ pub(crate) fn ellipses(sampling: Sampling, snapshots: usize) -> TrainingSpec {
         range,
         ..TrainingSpec { plan: Plan::FarthestPoint { snapshots }, ..point(sampling, snapshots) }
     }
+}
+
+/// Line contacts of oils, in three windows.
+pub(crate) fn oils(sampling: Sampling, snapshots: usize) -> TrainingSpec {
+    let range = OilRange {
+        m: (15.0, 60.0),
+        l: (5.0, 10.0),
+        alpha: (12e-9, 24e-9),
+        viscosity: (0.01, 0.1),
+        exponent: (0.4, 0.8),
+        hertz_pressure: (0.4e9, 1.6e9),
+    };
+    let plan = Plan::FarthestPoint { snapshots };
+    let windows = Windows::Anchored { count: 3, modes: 32, grid: line_grid(240) };
+    let spec = TrainingSpec::new(Range::Oils(range), range.m, line_grid(240), plan);
+    TrainingSpec { windows, pressure_loss: 1e-9, deformation_loss: 0.1, sampling, evidence: 0, seed: 5, ..spec }
+}
+
+/// Line contacts with heat of an oil whose stress is limited, between steel bodies.
+pub(crate) fn heated(sampling: Sampling, snapshots: usize) -> TrainingSpec {
+    let range = HeatedRange {
+        m: (15.0, 30.0),
+        l: (8.0, 11.0),
+        srr: (0.0, 0.6),
+        radius: 0.01,
+        modulus: 231e9,
+        viscosity: 0.02,
+        alpha: 1.8e-8,
+        max_hertz_pressure: 1.6e9,
+    };
+    let plan = Plan::FarthestPoint { snapshots };
+    let grid = GridSpec::Graded { nodes: 280, domain: (-10.0, 2.0), registered: true };
+    let limiting_stress = Some(LimitingStress { ambient: 5e6, slope: 0.05, eyring: Some(5e6) });
+    let lubricant = Lubricant { heat: Some(Heat::default()), limiting_stress, ..Lubricant::default() };
+    let spec = TrainingSpec::new(Range::Heated(range), range.m, grid, plan);
+    TrainingSpec { lubricant, positive_modes: true, penalty: 1e5, sampling, rows_per_mode: 3.0, evidence: 0, ..spec }
 }
 
 /// Contacts with these numbers up to a pressure, at an α of 5…20 1/GPa.

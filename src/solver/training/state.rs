@@ -1,6 +1,7 @@
 //! What a training has done so far: enough to stop after any full solution, go on later, and arrive at the same model.
 
 use super::adaptive::Search;
+use super::anchors::{self, Cell, anchor};
 use super::build::{WindowTraining, alone, domain};
 use super::calibrate::calibrate;
 use super::check::check;
@@ -8,10 +9,11 @@ use super::one_thread::on_one_thread;
 use super::plan::grid_points;
 use super::split::{may_split, split};
 use super::traction::traction_rule;
-use super::{Plan, Range, TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows, layout};
+use super::{Plan, TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows, layout};
+use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::reduced::{Beside, ReducedModel, Snapshot, Window};
+use crate::solver::reduced::{PodBasis, ReducedModel, Snapshot, Window};
 use fastrand::Rng;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -97,6 +99,13 @@ impl TrainingState {
         self.solves
     }
 
+    /// The contacts that are to be solved in full before anything else, each with its place in the order, and their
+    /// grid; none of a training that has not planned any.
+    pub fn awaited(&self) -> Option<(GridSpec, &[(usize, OperatingPoint)])> {
+        let part = self.trials.iter().chain(&self.windows).find(|part| !part.pending.is_empty())?;
+        Some((part.window.grid, &part.pending))
+    }
+
     /// The model of what there is, without another full solution: what a stopped training is worth. Its domain ends
     /// where the windows do that have solutions enough.
     ///
@@ -105,6 +114,11 @@ impl TrainingState {
     pub fn model(&self, observer: &dyn TrainingObserver) -> Result<ReducedModel, TrainingError> {
         check(&self.spec)?;
         let mut rest = self.clone();
+        if let (Windows::Anchored { .. }, [pool], []) = (&rest.spec.windows, &mut *rest.trials, &*rest.windows) {
+            pool.pending.clear();
+            pool.planned = true;
+            anchors::choose(&mut rest, observer)?;
+        }
         let usable = rest.windows.iter().take_while(|w| w.solved.len() >= FEWEST).count();
         if usable == 0 {
             let there = rest.windows.first().map_or(0, |window| window.solved.len());
@@ -144,6 +158,16 @@ impl WindowState {
         self.pending.extend(points.into_iter().enumerate().map(|(i, p)| (from + i, p)));
     }
 
+    /// Gives up contacts without a full solution; those decided on behind them move up.
+    pub(super) fn give_up(&mut self, places: impl IntoIterator<Item = usize>) {
+        let mut given_up: Vec<usize> = places.into_iter().collect();
+        given_up.sort_unstable();
+        self.pending.retain(|(place, _)| given_up.binary_search(place).is_err());
+        let moved = |place: &mut usize| *place -= given_up.partition_point(|given_up| given_up < place);
+        self.pending.iter_mut().for_each(|(place, _)| moved(place));
+        self.solved.iter_mut().for_each(|solved| moved(&mut solved.place));
+    }
+
     /// Keeps finished solutions in their order.
     pub(super) fn keep(&mut self, finished: Vec<Solved>) {
         self.pending.retain(|(place, _)| finished.iter().all(|s| s.place != *place));
@@ -169,6 +193,7 @@ pub fn train_resumable(
                 state.windows = begun.collect();
             }
             Windows::Automatic { .. } => layout::choose(state, observer)?,
+            Windows::Anchored { .. } => anchors::choose(state, observer)?,
         }
     }
     go(state, false, observer)
@@ -182,19 +207,21 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
     let spec = state.spec.clone();
     let mut windows = Vec::with_capacity(state.windows.len());
     let mut log = Vec::new();
+    let deformation = anchors::shared_deformation(&spec, &state.windows, observer)?;
     while windows.len() < state.windows.len() {
         let k = windows.len();
-        let Some(mut trained) = train_window(&spec, k, ended, state, observer)? else {
+        let Some(mut trained) = train_window(&spec, k, (ended, &deformation), state, observer)? else {
             split(state, k, observer)?;
             continue;
         };
-        if matches!(spec.range, Range::Sliding { .. }) {
+        if spec.range.slides() {
             let (alone, reach) = (Arc::new(alone(&spec, &trained)), reach(&state.windows, k));
             trained.traction = traction_rule(&spec, &alone, reach, state.windows[k].seed, observer)?;
         }
         if spec.evidence > 0 {
             let ends = ends(&state.windows, k);
-            trained.calibration = calibrate(&spec, &Arc::new(alone(&spec, &trained)), (k, ends), observer)?;
+            let cell = cell(&state.windows, k);
+            trained.calibration = calibrate(&spec, &Arc::new(alone(&spec, &trained)), (k, ends, cell), observer)?;
         }
         let ((from, to), solutions, rows) = (trained.m, trained.snapshots.len(), trained.sampled_rows.len());
         let [pressure, deformation] = [&trained.pressure, &trained.deformation].map(|basis| basis.modes.ncols());
@@ -214,8 +241,7 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
         }
         log.push(match &trained.calibration {
             Some(c) => {
-                let by =
-                    if c.beside() == Some(Beside::Sliding) { "a full solution" } else { "three full Newton steps" };
+                let by = if domain(&spec).measured_in_full() { "a full solution" } else { "three full Newton steps" };
                 format!("errors measured at {} random points by {by} each", c.evidence())
             }
             None => "no error bound: errors were measured at too few points".to_owned(),
@@ -224,7 +250,8 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
     }
     log.splice(0..0, state.decisions.iter().cloned());
     let mut domain = domain(&spec);
-    if !windows.is_empty() {
+    let anchored = matches!(spec.windows, Windows::Anchored { .. });
+    if !windows.is_empty() && !anchored {
         let lowest = windows.iter().map(|window| window.m.0).fold(f64::INFINITY, f64::min);
         let highest = windows.iter().map(|window| window.m.1).fold(0.0, f64::max);
         domain.m = (domain.m.0.max(lowest), domain.m.1.min(highest));
@@ -232,8 +259,16 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
     Ok(ReducedModel { title: spec.title, domain, windows, scene: String::new(), log })
 }
 
+/// The cell of a window around an anchor.
+fn cell(windows: &[WindowState], k: usize) -> Option<Cell> {
+    Cell::of(windows.iter().map(|state| anchor(&state.window)), k)
+}
+
 /// The range of M from which a window is trained.
 fn reach(windows: &[WindowState], k: usize) -> (f64, f64) {
+    if windows[k].window.anchor.is_some() {
+        return (0.0, f64::INFINITY);
+    }
     let ((low, high), (first, last)) = (windows[k].window.m, ends(windows, k));
     (if first { 0.0 } else { low / OVERLAP }, if last { f64::INFINITY } else { high * OVERLAP })
 }
@@ -250,7 +285,7 @@ fn ends(windows: &[WindowState], k: usize) -> (bool, bool) {
 fn train_window(
     spec: &TrainingSpec,
     k: usize,
-    ended: bool,
+    (ended, deformation): (bool, &Option<PodBasis>),
     state: &mut TrainingState,
     observer: &dyn TrainingObserver,
 ) -> Result<Option<Window>, TrainingError> {
@@ -259,9 +294,11 @@ fn train_window(
         _ => None,
     };
     let reach = reach(&state.windows, k);
+    let cell = cell(&state.windows, k);
     let own = &mut state.windows[k];
     let mut rng = Rng::with_seed(own.seed);
     let mut work = WindowTraining::new(spec, own.window, reach, most_modes, observer)?;
+    (work.named, work.cell, work.deformation) = (cell.is_some(), cell, deformation.clone());
     let known: Vec<OperatingPoint> = own.solved.iter().take(own.inherited).map(|s| s.point).collect();
     if own.solved.iter().any(|s| s.pressure.len() != work.grid.len()) {
         return Err(TrainingError::Specification("the stored full solutions belong to another grid".to_owned()));

@@ -7,9 +7,9 @@ use super::trajectory_rows::sampled_rows;
 use super::{Observer, Progress, TrainingError, check};
 use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN, ReferenceGrid};
 use crate::solver::discrete::reynolds::PENALTY;
-use crate::solver::full::transient::{Frame, Trajectory};
+use crate::solver::full::transient::{Frame, Trajectory, Transient};
 use crate::solver::physics::lubricant::Cavitation;
-use crate::solver::reduced::transient::{TrajectoryModel, TrajectoryStart};
+use crate::solver::reduced::transient::{TrajectoryDomain, TrajectoryModel, TrajectoryStart};
 use crate::solver::reduced::{
     PodBasis, Sampling, Scheme, Snapshot, TestSpace, Window, all_rows, deformation_weights, fronts, mean_diagonals,
 };
@@ -44,6 +44,9 @@ const NONE: &str = "a training needs trajectories of one frame on one unregister
 /// What their films must do.
 const RUPTURE: &str = "a training in time needs trajectories whose films all rupture by the penalty or all by \
                        complementarity; full solutions in time know mass-conserving rupture too";
+/// What of them must be the same.
+const LUBRICANT: &str =
+    "a training in time needs trajectories of one lubricant, with one viscosity at ambient pressure";
 /// What may help where trajectories teach nothing.
 const DEGENERATE: &str = "the trajectories could not be decomposed, or no rule of few rows carries their steps; try a \
                           larger loss of information or more rows per mode";
@@ -74,13 +77,17 @@ pub fn train_trajectories(
     if !trajectories.iter().all(|t| law(t) == cavitation) || matches!(cavitation, Cavitation::MassConserving { .. }) {
         return Err(TrainingError::Trajectories(RUPTURE));
     }
+    let oil = |t: &Trajectory| (t.problem.lubricant, t.problem.point.viscosity_pa_s);
+    if !trajectories.iter().all(|t| oil(t) == oil(&trajectories[0])) {
+        return Err(TrainingError::Trajectories(LUBRICANT));
+    }
     check::scheme(training.scheme, training.sampling, training.rows_per_mode)?;
     // Behind a rupture boundary there are no rows.
     let penalty = if cavitation == Cavitation::Penalty { PENALTY } else { 0.0 };
     let sizes = mean_diagonals(&grid.scaled(1.0), &trajectories.iter().collect::<Vec<_>>(), penalty);
-    let exact = bases(grid, trajectories, (&sizes, training), frame, observer)?;
+    let exact = Arc::new(bases(grid, trajectories, (&sizes, training), frame, observer)?);
     let sampled = sampled_rows(&exact, &sizes, trajectories, training, observer)?;
-    let mut model = exact;
+    let mut model = Arc::unwrap_or_clone(exact);
     model.window.set_rows(training.sampling, sampled.ok_or(TrainingError::Trajectories(DEGENERATE))?);
     Ok(model)
 }
@@ -142,14 +149,24 @@ fn bases(
             let state = t.states.first()?;
             let coefficients = pressure.coefficients(&grid.weights, |i| state.pressure[i]);
             let fronts = if ruptures { fronts(&contact, |node| state.pressure[node]) } else { Vec::new() };
-            Some(TrajectoryStart { point: t.transient.point, coefficients, h_0: state.h_0, fronts })
+            let Transient { point, inputs, .. } = &t.transient;
+            let duration = t.moments.last().map_or(0.0, |moment| moment.time);
+            Some(TrajectoryStart {
+                point: *point,
+                inputs: inputs.clone(),
+                duration,
+                coefficients,
+                h_0: state.h_0,
+                fronts,
+            })
         })
         .collect();
     let rows = all_rows(&test_space(&pressure, &contact, sizes, Scheme::Galerkin));
     let boundaries = if ruptures { boundaries(trajectories, &contact, &pressure) } else { Vec::new() };
     let mut window = Window::new((0.0, f64::INFINITY), contact, pressure, deformation, boundaries, Sampling::All, rows);
     (window.penalty, window.cavitation) = (PENALTY, cavitation);
-    Ok(TrajectoryModel { frame, window, starts })
+    let domain = TrajectoryDomain::of(trajectories).ok_or(TrainingError::Trajectories(NONE))?;
+    Ok(TrajectoryModel { title: String::new(), frame, window, starts, domain, scene: String::new(), log: Vec::new() })
 }
 
 /// A state for each place that the rupture boundary had in trajectories.

@@ -14,33 +14,33 @@ use std::sync::Arc;
 
 const ALL: (f64, f64) = (0.0, f64::INFINITY);
 
-fn grid() -> Arc<ReferenceGrid> {
+pub(super) fn grid() -> Arc<ReferenceGrid> {
     GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) }.line().unwrap()
 }
 
-fn transient(frame: Frame, load: Signal) -> Transient {
+pub(super) fn transient(frame: Frame, load: Signal) -> Transient {
     let marched = Transient::new(OperatingPoint::TABLE_4_2, Inputs::load(load), 1.0, 0.005);
     Transient { frame, keep: Keep::Every(1), ..marched }
 }
 
-fn under(cavitation: Cavitation, transient: Transient) -> Transient {
+pub(super) fn under(cavitation: Cavitation, transient: Transient) -> Transient {
     Transient { lubricant: Lubricant { cavitation, ..transient.lubricant }, ..transient }
 }
 
-fn full(transient: &Transient) -> Trajectory {
+pub(super) fn full(transient: &Transient) -> Trajectory {
     march(&mut FullMarch::new(grid(), transient).unwrap(), transient, &()).unwrap()
 }
 
-fn reduced(model: &TrajectoryModel, transient: &Transient) -> Trajectory {
+pub(super) fn reduced(model: &Arc<TrajectoryModel>, transient: &Transient) -> Trajectory {
     march(&mut ReducedMarch::new(model, transient).unwrap(), transient, &()).unwrap()
 }
 
-fn trained(cavitation: Cavitation, frame: Frame) -> (Vec<Trajectory>, TrajectoryModel) {
+pub(super) fn trained(cavitation: Cavitation, frame: Frame) -> (Vec<Trajectory>, Arc<TrajectoryModel>) {
     let loads = [0.5, 1.0 / 3.0].map(|period| Signal::Harmonic { amplitude: 0.1, period });
     let trainings: Vec<Trajectory> =
         loads.into_iter().map(|load| full(&under(cavitation, transient(frame, load)))).collect();
     let model = train_trajectories(&grid(), &trainings, &TrajectoryTraining::default(), &()).unwrap();
-    (trainings, model)
+    (trainings, Arc::new(model))
 }
 
 fn off(seen: &Trajectory, wanted: &Trajectory) -> f64 {
@@ -100,7 +100,7 @@ fn every_scheme_follows_an_unseen_load_under_complementarity() {
         (Scheme::Gnat { weighted: true }, Sampling::QDeim),
     ] {
         let settings = TrajectoryTraining { loss: 1e-5, scheme, sampling, ..TrajectoryTraining::default() };
-        let model = train_trajectories(&grid(), &trainings, &settings, &()).unwrap();
+        let model = Arc::new(train_trajectories(&grid(), &trainings, &settings, &()).unwrap());
         assert_eq!((model.window.scheme, model.window.sampling), (scheme, sampling));
         let seen = off(&reduced(&model, &unseen.transient), &unseen);
         assert!(seen < 1e-4, "{scheme:?}, {sampling:?}: {seen:e}");
@@ -132,7 +132,7 @@ fn films_that_rupture_otherwise_are_refused() {
     assert!(message(&[penalty.clone(), held.clone()]).contains("all rupture by the penalty or all by complementarity"));
     let conserving = short(Cavitation::MassConserving { supply_film_m: None });
     assert!(message(&[conserving]).contains("mass-conserving"));
-    let model = train_trajectories(&grid(), &[held], &settings, &()).unwrap();
+    let model = Arc::new(train_trajectories(&grid(), &[held], &settings, &()).unwrap());
     let refused = ReducedMarch::new(&model, &penalty.transient).err().unwrap().to_string();
     assert!(refused.contains("rupture by complementarity, not by penalty"), "{refused}");
 }
@@ -145,7 +145,7 @@ fn rows_and_modes_that_meet_halfway_reproduce_a_heavy_contact() {
     let load = Signal::Harmonic { amplitude: 0.1, period: 0.5 };
     let training = full(&Transient { point: heavy, ..transient(Frame::Fixed, load) });
     let settings = TrajectoryTraining { loss: 1e-5, ..TrajectoryTraining::default() };
-    let model = train_trajectories(&grid(), std::slice::from_ref(&training), &settings, &()).unwrap();
+    let model = Arc::new(train_trajectories(&grid(), std::slice::from_ref(&training), &settings, &()).unwrap());
     let seen = off(&reduced(&model, &training.transient), &training);
     assert!(seen < 8e-5, "{seen:e}");
 }

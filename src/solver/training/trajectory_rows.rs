@@ -11,6 +11,7 @@ use crate::solver::reduced::{
 };
 use fastrand::Rng;
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// Iterates that the rows have to satisfy.
 const ITERATES: usize = 600;
@@ -28,7 +29,7 @@ struct Evidence {
 /// The rows that a training asks for, of a model with all of them; `None` where the linear algebra gives up, or no rule
 /// of few rows carries the steps.
 pub(super) fn sampled_rows(
-    exact: &TrajectoryModel,
+    exact: &Arc<TrajectoryModel>,
     sizes: &[f64],
     trajectories: &[Trajectory],
     training: &TrajectoryTraining,
@@ -62,7 +63,7 @@ fn candidates(exact: &TrajectoryModel) -> GoalEquations {
 
 /// Marches the all-rows model along the trainings and collects what its iterates demand of a rule, or what they are.
 fn evidence(
-    exact: &TrajectoryModel,
+    exact: &Arc<TrajectoryModel>,
     test: &TestSpace,
     trajectories: &[Trajectory],
     training: &TrajectoryTraining,

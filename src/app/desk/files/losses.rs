@@ -25,7 +25,7 @@ impl Desk {
         };
         let study = || {
             let text = "The study of the scene runs: what it has found so far is not saved.";
-            self.views.results.standing().map(|_| text.to_owned())
+            self.views.results.would_lose().then(|| text.to_owned())
         };
         match pending {
             Pending::Open(path) if is_model(path) => Vec::new(),

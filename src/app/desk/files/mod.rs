@@ -4,12 +4,13 @@
 mod losses;
 mod path_window;
 
-use super::Desk;
+use super::{Desk, Opened};
 use crate::app::document::Document;
 use crate::app::panels::headline::Headline;
 use crate::app::purpose::Purpose;
 use crate::app::tab::Tab;
 use crate::app::training::TrainingCommand;
+use crate::engine::campaign::Folder;
 use crate::scene::{Scene, Study};
 use egui::{Context, Ui, ViewportCommand};
 use path_window::PathWindow;
@@ -146,7 +147,7 @@ impl Desk {
         }
     }
 
-    /// Opens a scene, or puts a reduced model (`.rom`) in use.
+    /// Opens a scene, watches a campaign (its folder, or `campaign.ron` in it), or puts a reduced model (`.rom`) in use.
     ///
     /// # Errors
     /// A sentence when it cannot be read; what is on the screen stays.
@@ -157,6 +158,13 @@ impl Desk {
             self.files.notice = Some(Ok(format!("Using the model {}", path.display())));
             return Ok(());
         }
+        if let Some(folder) = Folder::meant(path) {
+            let folder = Folder::open(&folder).map_err(|e| e.to_string())?;
+            self.open_path(&folder.scene_path())?;
+            self.files.notice = Some(Ok(format!("Watching the campaign {}", folder.path.display())));
+            self.opened = Some(Opened::Campaign(folder.path));
+            return Ok(());
+        }
         let scene = Scene::read(path).map_err(|e| e.to_string())?;
         let document = Document::of_scene(scene).map_err(|e| format!("{}: {e}", path.display()))?;
         self.replace_document(document);
@@ -164,7 +172,7 @@ impl Desk {
         self.files.path = Some(path.to_owned());
         self.remember(path);
         self.files.notice = Some(Ok(format!("Opened {}", path.display())));
-        self.opened = self.document.scene.as_ref().map(|scene| answering(&scene.study));
+        self.opened = self.document.scene.as_ref().map(|scene| Opened::Scene(answering(&scene.study)));
         Ok(())
     }
 
@@ -179,7 +187,7 @@ impl Desk {
         self.files.path = None;
         self.files.notice = None;
         self.headline = Some(Headline::of(scene));
-        self.opened = Some(answering(&scene.study));
+        self.opened = Some(Opened::Scene(answering(&scene.study)));
         Ok(())
     }
 

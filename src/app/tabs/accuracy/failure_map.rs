@@ -261,7 +261,7 @@ pub fn csv(results: &Results) -> String {
     let own = ["converged", "newton_steps", "H_c", "H_min", "H_c_error_bound", "H_c_error", "H_min_error"];
     let header: Vec<&str> = CONTACT_COLUMNS.into_iter().chain(own).collect();
     let rows = results.tests.iter().map(|tested| {
-        let (test, [h_c, h_min, _]) = (&tested.0, errors(tested));
+        let (test, [h_c, h_min, ..]) = (&tested.0, errors(tested));
         let mut row = contact_cells(&test.point).map(Some).to_vec();
         row.extend([
             Some(f64::from(u8::from(test.film.is_some()))),

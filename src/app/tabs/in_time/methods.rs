@@ -4,7 +4,7 @@
 use crate::app::controls::heading;
 use crate::app::form::{Form, choose};
 use crate::app::transient::method::{RULES, WEIGHTINGS, rule_name, weighting_name};
-use crate::scene::{Drive, LinearisedTransient, ReducedTransient, TransientStudy};
+use crate::scene::{Drive, LinearisedTransient, ModelSource, ReducedTransient, TransientStudy};
 use crate::solver::reduced::tpwl::Weighting;
 use egui::{Checkbox, Ui};
 
@@ -19,7 +19,15 @@ pub fn ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
         study.reduced = on.then(ReducedTransient::default);
         form.changed = Some("Methods");
     }
-    if let Some(reduced) = &mut study.reduced {
+    if let Some(model) = study.reduced.as_ref().and_then(|reduced| reduced.model.as_ref()) {
+        let tip = "Saved before, or trained by another scene; switch the reduced model off and on to train one here";
+        ui.weak(match model {
+            ModelSource::Embedded => "The model of the program".to_owned(),
+            ModelSource::File(path) => format!("The model {}", path.display()),
+            ModelSource::Trained(path) => format!("The model that {} trains", path.display()),
+        })
+        .on_hover_text(tip);
+    } else if let Some(reduced) = &mut study.reduced {
         let plain = ("", 1.0);
         form.row(ui, "Loss", plain, &mut reduced.loss, "Loss of information of the bases (2.90)");
         form.row(ui, "Rows per mode", plain, &mut reduced.rows_per_mode, "Sampled rows per pressure mode");
@@ -106,7 +114,7 @@ pub fn linearised_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStud
 
 /// What the models are trained on: the run itself, or other inputs that were kept for it.
 pub fn trainings_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
-    if study.reduced.is_none() && study.linearised.is_none() {
+    if !study.trains() {
         return;
     }
     let own = study.trains_on_itself();

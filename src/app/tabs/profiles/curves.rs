@@ -11,6 +11,7 @@ use crate::app::tabs::key::{self, Entry, Sample};
 use crate::app::tabs::plot_frame::PlotFrame;
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, rich};
 use crate::app::units::{Scales, Units};
+use crate::solver::physics::lubricant::Cavitation;
 use egui::{Align2, Color32, Id, Ui, Vec2b};
 use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points, Span, Text};
 
@@ -157,7 +158,8 @@ pub fn cavitated(plot: &mut Canvas<'_, '_>, picture: &Picture, palette: &Palette
     }
 }
 
-/// What the full solution has in the ruptured film beside P: λ of complementarity, or θ where mass is conserved.
+/// What the solution has in the ruptured film beside P: λ where complementarity is asked for, or θ where mass is
+/// conserved. A reduced model may rupture films by complementarity where the penalty is asked for.
 pub fn rupture(plot: &mut Canvas<'_, '_>, scene: &Scene<'_>, palette: &Palette) {
     let full = scene.full.filter(|_| !scene.full_stale).unwrap_or(scene.picture);
     let mut draw = |name: &str, points: Vec<[f64; 2]>, at: usize| {
@@ -167,7 +169,9 @@ pub fn rupture(plot: &mut Canvas<'_, '_>, scene: &Scene<'_>, palette: &Palette) 
         let label = Text::new("", PlotPoint::new(x, value), text);
         plot.text(label.anchor(Align2::RIGHT_BOTTOM).id((name, "label")).allow_hover(false));
     };
-    let multiplier: Vec<[f64; 2]> = full.solution.axis_multiplier().map(Into::into).collect();
+    let asked = scene.picture.key.lubricant.cavitation == Cavitation::Complementarity;
+    let multiplier = full.solution.axis_multiplier().filter(|_| asked).map(Into::into);
+    let multiplier: Vec<[f64; 2]> = multiplier.collect();
     let quarter = multiplier.len() / 4;
     draw("λ", multiplier, quarter);
     let fraction: Vec<[f64; 2]> = full.solution.axis_fraction().map(Into::into).collect();

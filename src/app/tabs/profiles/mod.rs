@@ -4,6 +4,7 @@
 mod curves;
 mod film_shear;
 mod plots;
+mod temperatures;
 
 use crate::app::answers::picture::{Origin, Picture};
 use crate::app::command::Command;
@@ -22,6 +23,7 @@ use egui::{Checkbox, ComboBox, Ui};
 use film_shear::{FilmShear, FilmShearImage};
 use plots::{difference_plot, film_plot, pressure_plot};
 use serde::{Deserialize, Serialize};
+use temperatures::TemperatureImage;
 
 /// What the tab shows beside the curves, and the image below them.
 #[derive(Default)]
@@ -29,10 +31,11 @@ pub struct Profiles {
     /// How they are shown.
     pub choices: Choices,
     image: FilmShearImage,
+    warm: TemperatureImage,
 }
 
 /// How profiles are shown; kept with the session.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Choices {
     /// Draw the full solution over the reduced one.
@@ -41,6 +44,14 @@ pub struct Choices {
     pub difference: bool,
     /// What is shown across the film.
     pub film_shear: FilmShear,
+    /// Draw temperatures beside them, of a contact with heat.
+    pub temperatures: bool,
+}
+
+impl Default for Choices {
+    fn default() -> Self {
+        Self { overlay: false, difference: false, film_shear: FilmShear::Off, temperatures: true }
+    }
 }
 
 impl Profiles {
@@ -74,7 +85,21 @@ impl Profiles {
             fit: context.fit,
             cuts: context.cuts,
         };
-        key_ui(ui, &scene);
+        // The room is there from the moment on at which heat is asked for.
+        let warm = self.choices.temperatures && context.document.lubricant.heat.is_some() && !picture.has_plane();
+        let gap = 8.0;
+        let half = 0.5 * (ui.available_width() - gap);
+        ui.horizontal_top(|ui| {
+            ui.spacing_mut().item_spacing.x = gap;
+            let width = if warm { half } else { ui.available_width() };
+            ui.scope(|ui| {
+                ui.set_width(width);
+                key_ui(ui, &scene);
+            });
+            if warm {
+                temperatures::key_ui(ui, stale);
+            }
+        });
         let unit = (ui.available_height() - 6.0) / parts;
         let length_mm = Scales::of(&picture.key.point).length_mm;
         let mut moved = None;
@@ -83,7 +108,24 @@ impl Profiles {
             let by_film = film_plot(ui, &scene, direction, unit);
             moved = by_pressure.or(by_film).map(|to| (direction, to)).or(moved);
         };
-        if !picture.has_plane() {
+        if warm {
+            self.warm.follow(ui.ctx(), &picture.solution);
+            let scales = Scales::of(&picture.key.point);
+            ui.horizontal_top(|ui| {
+                ui.spacing_mut().item_spacing.x = gap;
+                ui.vertical(|ui| {
+                    ui.set_width(half);
+                    stack(ui, Direction::Along);
+                });
+                ui.vertical(|ui| {
+                    ui.set_width(half);
+                    match &picture.solution.heat {
+                        Some(_) => temperatures::ui(ui, &self.warm, context, (scales, stale), unit),
+                        None => _ = ui.weak("The temperatures are being computed"),
+                    }
+                });
+            });
+        } else if !picture.has_plane() {
             stack(ui, Direction::Along);
         } else {
             ui.horizontal_top(|ui| {
@@ -167,6 +209,10 @@ fn toolbar(ui: &mut Ui, choices: &mut Choices, context: &Context<'_>, commands: 
             }
         });
         named(ui, choice.response, "Across the film").on_hover_text(tip);
+        if context.document.lubricant.heat.is_some() {
+            let tip = "Rises of temperature along the film and across it, of both bodies, and where the heat goes";
+            ui.checkbox(&mut choices.temperatures, "Temperatures").on_hover_text(tip);
+        }
         if ui.button(Command::Verify.name()).on_hover_text("Solve this contact in full now (F5)").clicked() {
             commands.push(Command::Verify);
         }

@@ -53,6 +53,38 @@ fn quantities(picture: &Picture) -> Vec<Quantity> {
         ),
         one("Load left over", "load_residual", "Of the load, relative to it", s.load_residual, String::new()),
     ]
+    .into_iter()
+    .chain(temperatures(picture))
+    .collect()
+}
+
+/// Rises of temperature and where the heat goes; none without heat.
+fn temperatures(picture: &Picture) -> Vec<Quantity> {
+    let Some(heat) = picture.solution.heat.as_deref() else { return Vec::new() };
+    let balance = &heat.balance;
+    let made = balance.sheared + balance.compressed;
+    let rise = |name, symbol, tip, value: f64| Quantity { name, symbol, tip, value, si: numbers::quantity(value, "K") };
+    let share = |name, symbol, tip, value: f64| Quantity { name, symbol, tip, value, si: numbers::percent(value) };
+    vec![
+        rise("Rise at mid-film", "mid_film_rise_k", "Above the inlet’s temperature, at X = 0", heat.central.mid_film_k),
+        rise("Rise of body 1", "surface_1_rise_k", "Of its surface, at X = 0", heat.central.surfaces_k[0]),
+        rise("Rise of body 2", "surface_2_rise_k", "Of its surface, at X = 0", heat.central.surfaces_k[1]),
+        rise("Largest rise", "mid_film_rise_max_k", "At mid-film under pressure", heat.largest.mid_film_k),
+        share(
+            "Heat into body 1",
+            "heat_into_body_1",
+            "Of what shear and compression make",
+            balance.into_bodies[0] / made,
+        ),
+        share(
+            "Heat into body 2",
+            "heat_into_body_2",
+            "Of what shear and compression make",
+            balance.into_bodies[1] / made,
+        ),
+        share("Heat with the oil", "heat_with_the_oil", "Carried out of the contact", balance.carried / made),
+        share("Heat left over", "energy_balance", "Made, and gone nowhere", balance.residual()),
+    ]
 }
 
 /// What rolling resistance is.

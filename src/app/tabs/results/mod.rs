@@ -17,8 +17,9 @@ use crate::app::theme::{Palette, rich};
 use crate::engine::Workbench;
 use crate::engine::job::{Standing, Wake};
 use crate::scene::{Method, Scene, Study, Table, Verdict};
-use egui::{ComboBox, Grid, RichText, ScrollArea, Ui};
-use run::{Look, Run};
+use egui::{ComboBox, Grid, Label, RichText, ScrollArea, Ui};
+use run::{Campaign, Look, Run};
+use std::path::PathBuf;
 
 /// Width of the verdicts beside the charts.
 const VERDICTS: f32 = 330.0;
@@ -61,6 +62,11 @@ impl ResultsView {
         *self = Self { run: Some(Run::start(scene, bench, wake)), shown, ..Self::default() };
     }
 
+    /// Watches a campaign of a scene: its charts and tables fill as its shards come.
+    pub fn watch(&mut self, scene: Scene, folder: PathBuf, wake: Wake) {
+        *self = Self { run: Some(Run::watch(scene, folder, wake)), ..Self::default() };
+    }
+
     /// Forgets what was run: another scene is on the screen.
     pub fn forget(&mut self) {
         *self = Self::default();
@@ -78,10 +84,15 @@ impl ResultsView {
         self.run.as_ref()?.standing()
     }
 
+    /// Whether a study runs here whose rows lie nowhere else.
+    pub fn would_lose(&self) -> bool {
+        self.run.as_ref().is_some_and(|run| run.campaign.is_none() && run.standing().is_some())
+    }
+
     /// Stops it; what it has found stays.
     pub fn stop(&self) {
         if let Some(run) = &self.run {
-            run.work.stop();
+            run.stop();
         }
     }
 
@@ -119,7 +130,10 @@ impl ResultsView {
             contact::ui(ui, context);
             return;
         };
-        if let Some(message) = &run.work.message {
+        if let Some(campaign) = &run.campaign {
+            campaign_ui(ui, campaign);
+        }
+        if let Some(message) = run.message() {
             message_ui(ui, message);
         }
         let changed = !drawn::asks_the_same(&run.scene, scene);
@@ -182,7 +196,9 @@ impl ResultsView {
             let standing = self.standing();
             let runs = standing.is_some();
             let tip = if runs { "What has been found so far stays (Esc)" } else { RUN_TIP };
-            if either_button(ui, ["Run the study", "Stop"], runs).on_hover_text(tip).clicked() {
+            let watches = self.run.as_ref().is_some_and(|run| run.campaign.is_some());
+            let stop = if watches { "Stop watching" } else { "Stop" };
+            if either_button(ui, ["Run the study", stop], runs).on_hover_text(tip).clicked() {
                 if runs {
                     self.stop();
                 } else {
@@ -213,6 +229,38 @@ impl ResultsView {
         });
     }
 }
+
+/// How far a campaign is, and why shards failed: two lines that are always there, so that nothing moves when one fails.
+fn campaign_ui(ui: &mut Ui, campaign: &Campaign) {
+    let palette = Palette::of(ui);
+    let folder = campaign.folder.display();
+    let (text, failed) = match &campaign.status {
+        None => (format!("Campaign: reading {folder}"), [].as_slice()),
+        Some(status) => {
+            let left = match status.left_s.filter(|_| !status.open.is_empty()) {
+                Some(left) => format!(", {} of one processor to go in it", numbers::duration(left)),
+                None => String::new(),
+            };
+            let merged = if status.merged { "; merged" } else { "" };
+            let (done, shards, round) = (status.done, status.shards, status.rounds);
+            let text = format!("Campaign: {done} of {shards} shards are there, round {round}{left}{merged}");
+            (text, status.failed.as_slice())
+        }
+    };
+    ui.add(Label::new(text).truncate()).on_hover_text(folder.to_string());
+    let named = |(shard, reason): &(usize, String)| format!("Shard {shard} failed: {reason}");
+    // A space keeps the line.
+    let first = failed.first().map_or(" ".to_owned(), named);
+    let more = if failed.len() > 1 { format!(" (and {} more)", failed.len() - 1) } else { String::new() };
+    let line = ui.add(Label::new(rich(&format!("{first}{more}"), 11.0, palette.warning)).truncate());
+    if !failed.is_empty() {
+        let all: Vec<String> = failed.iter().take(NAMED_FAILURES).map(named).collect();
+        line.on_hover_text(all.join("\n"));
+    }
+}
+
+/// Failed shards that are named under the pointer.
+const NAMED_FAILURES: usize = 12;
 
 fn shown_ui(ui: &mut Ui, look: &Look, shown: &ResultsChoice, fresh: bool) {
     match shown {

@@ -1,9 +1,13 @@
-//! A scene's study at work beside the window: its rows are kept, and looked at now and then.
+//! A scene's study at work beside the window, or a campaign that others work on: its rows are kept, and looked at now
+//! and then.
 
 use crate::engine::Workbench;
+use crate::engine::campaign::Status;
+use crate::engine::campaign::watch::{News, watch};
 use crate::engine::job::{Background, Job, Standing, Wake};
 use crate::scene::study::transient;
 use crate::scene::{Chart, Scene, SceneOutcome, StudyRow, Table};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 /// Shortest time between two looks at a study that runs.
@@ -48,17 +52,57 @@ impl Look {
     }
 }
 
+/// Rows, each with its place: all 0 of a study that runs here, the shard of a campaign's.
+#[derive(Default)]
+struct Rows {
+    places: Vec<usize>,
+    rows: Vec<StudyRow>,
+}
+
+impl Rows {
+    fn push(&mut self, place: usize, row: StudyRow) {
+        self.places.push(place);
+        self.rows.push(row);
+    }
+
+    fn append(&mut self, mut later: Self) {
+        self.places.append(&mut later.places);
+        self.rows.append(&mut later.rows);
+    }
+
+    /// Shards come in any order; rows that are looked at stand in theirs.
+    fn sort(&mut self) {
+        if !self.places.is_sorted() {
+            let rows = std::mem::take(&mut self.rows).into_iter();
+            let mut placed: Vec<_> = std::mem::take(&mut self.places).into_iter().zip(rows).collect();
+            placed.sort_by_key(|(place, _)| *place);
+            (self.places, self.rows) = placed.into_iter().unzip();
+        }
+    }
+}
+
+/// A campaign that is watched.
+pub struct Campaign {
+    /// Its folder.
+    pub folder: PathBuf,
+    /// How far it is, once that is known.
+    pub status: Option<Status>,
+    watching: Background<News>,
+}
+
 /// The study of a scene: its rows, and the last look at them.
 pub struct Run {
     /// The scene as it was when it was run.
     pub scene: Scene,
     /// The last look at its rows.
     pub look: Option<Look>,
-    /// What runs, and why it ended early.
-    pub work: Background<StudyRow>,
+    /// The campaign whose rows these are, where they are not computed here.
+    pub campaign: Option<Campaign>,
+    /// What runs here.
+    work: Background<StudyRow>,
     /// All rows; they are lent to a look while it is taken, and new ones wait here.
-    rows: Vec<StudyRow>,
-    looking: Background<(Vec<StudyRow>, Look)>,
+    rows: Rows,
+    looking: Background<(Rows, Look)>,
     wake: Wake,
     begun: Instant,
     next_look: Instant,
@@ -72,14 +116,28 @@ pub struct Run {
 impl Run {
     /// Starts the study of a scene.
     pub fn start(scene: Scene, bench: Workbench, wake: Wake) -> Self {
-        let mut work = Background::default();
-        work.run(scene.clone().ask(bench, wake.clone()));
+        let mut run = Self::waiting(scene, wake);
+        run.work.run(run.scene.clone().ask(bench, run.wake.clone()));
+        run
+    }
+
+    /// Watches a campaign of the scene.
+    pub fn watch(scene: Scene, folder: PathBuf, wake: Wake) -> Self {
+        let mut run = Self::waiting(scene, wake);
+        let mut watching = Background::default();
+        watching.run(watch(folder.clone(), run.wake.clone()));
+        run.campaign = Some(Campaign { folder, status: None, watching });
+        run
+    }
+
+    fn waiting(scene: Scene, wake: Wake) -> Self {
         let begun = Instant::now();
         Self {
             scene,
             look: None,
-            work,
-            rows: Vec::new(),
+            campaign: None,
+            work: Background::default(),
+            rows: Rows::default(),
             looking: Background::default(),
             wake,
             begun,
@@ -92,27 +150,57 @@ impl Run {
 
     /// How far it is, the last look included.
     pub fn standing(&self) -> Option<Standing> {
-        self.work.standing().or_else(|| self.looking.standing())
+        let watching = self.campaign.as_ref().and_then(|campaign| campaign.watching.standing());
+        self.work.standing().or(watching).or_else(|| self.looking.standing())
+    }
+
+    /// Why it ended early.
+    pub fn message(&self) -> Option<&String> {
+        let watching = self.campaign.as_ref().and_then(|campaign| campaign.watching.message.as_ref());
+        self.work.message.as_ref().or(watching)
+    }
+
+    /// Stops it; what it has found stays.
+    pub fn stop(&self) {
+        self.work.stop();
+        if let Some(campaign) = &self.campaign {
+            campaign.watching.stop();
+        }
+    }
+
+    /// Whether rows may still come.
+    fn goes_on(&self) -> bool {
+        self.work.job().is_some() || self.campaign.as_ref().is_some_and(|campaign| campaign.watching.job().is_some())
     }
 
     /// Takes in what came since the last frame.
     pub fn receive(&mut self) {
-        let Self { work, looking, rows, look, unseen, .. } = self;
+        let Self { campaign, work, looking, rows, look, unseen, .. } = self;
         self.stopped |= work.job().is_some_and(Job::stopping);
         work.receive(|row| {
             *unseen = true;
             // Fields are in no chart and no table.
             if !matches!(row, StudyRow::Transient(transient::Row::State { .. })) {
-                rows.push(row);
+                rows.push(0, row);
             }
         });
+        if let Some(Campaign { status, watching, .. }) = campaign {
+            self.stopped |= watching.job().is_some_and(Job::stopping);
+            watching.receive(|news| match news {
+                News::Rows(shard, found) => {
+                    *unseen = true;
+                    found.into_iter().for_each(|row| rows.push(shard, row));
+                }
+                News::Status(newer) => *status = Some(*newer),
+            });
+        }
         looking.receive(|(mut seen, newer)| {
-            seen.append(rows);
+            seen.append(std::mem::take(rows));
             (*rows, *look) = (seen, Some(newer));
         });
-        if work.job().is_none() && self.wall_s.is_none() {
+        if !self.goes_on() && self.wall_s.is_none() {
             self.wall_s = Some(self.begun.elapsed().as_secs_f64());
-            *unseen = true;
+            self.unseen = true;
         }
         let due = self.wall_s.is_some() || Instant::now() >= self.next_look;
         if self.unseen && due && self.looking.job().is_none() {
@@ -122,13 +210,14 @@ impl Run {
 
     fn take_a_look(&mut self) {
         self.unseen = false;
-        let (scene, rows, now) = (self.scene.clone(), std::mem::take(&mut self.rows), Instant::now());
-        let complete = self.wall_s.is_some() && !self.stopped && self.work.message.is_none();
+        let (scene, mut rows, now) = (self.scene.clone(), std::mem::take(&mut self.rows), Instant::now());
+        let complete = self.wall_s.is_some() && !self.stopped && self.message().is_none();
         let wall_s = self.wall_s.unwrap_or_else(|| self.begun.elapsed().as_secs_f64());
         let taken = self.look.as_ref().map_or(Duration::ZERO, |look| look.took);
         self.next_look = now + LOOK_EVERY.max(taken * LOOK_SHARE);
         self.looking.run(Job::start("Looking at the rows", self.wake.clone(), move |reporter| {
-            let look = Look::at(&scene, &rows, wall_s, complete);
+            rows.sort();
+            let look = Look::at(&scene, &rows.rows, wall_s, complete);
             reporter.send((rows, look));
             Ok(())
         }));

@@ -8,7 +8,7 @@ use crate::app::numbers;
 use crate::app::tabs::axes;
 use crate::app::tabs::plot_frame::PlotFrame;
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, faded, rich};
-use crate::app::traction::{Against, Choices, Curve, Markers, Sample, SlideView, Sweep};
+use crate::app::traction::{Against, Choices, Companion, Curve, Markers, Sample, SlideView, Sweep};
 use crate::solver::full::{PLAUSIBLE_TRACTION, TractionDoubt};
 use egui::{Align2, Color32, CursorIcon, Id, PointerButton, Ui, Vec2b};
 use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, PlotPoint, Points, Text, VLine};
@@ -18,7 +18,7 @@ const LEAST_HEIGHT: f32 = 110.0;
 /// Metres in the micrometres that films are drawn in.
 const MICRO: f64 = 1e-6;
 
-/// Strength of a curve by a model that was not trained for it, and of the Newtonian companion.
+/// Strength of a curve by a model that was not trained for it, and of the companion.
 const SKETCH: f32 = 0.7;
 const COMPANION: f32 = 0.55;
 /// Where the curve of a limited lubricant ends its companion is labelled, as a share of the height.
@@ -127,9 +127,9 @@ fn drawn(value: f64, logarithmic: bool) -> Option<f64> {
     if !logarithmic { Some(value) } else { (value > 0.0).then(|| value.log10()) }
 }
 
-/// Traction, that of the Newtonian companion, and both films in µm.
+/// Traction, that of the companion, and both films in µm.
 const TRACTION: Quantity = |sample| Some(sample.traction);
-const NEWTONIAN: Quantity = |sample| sample.newtonian;
+const OF_COMPANION: Quantity = |sample| sample.companion;
 const CENTRAL: Quantity = |sample| Some(sample.h_c_m / MICRO);
 const SMALLEST: Quantity = |sample| Some(sample.h_min_m / MICRO);
 
@@ -228,7 +228,7 @@ impl LinkedPlot<'_> {
             let samples = shown.samples();
             if self.id == "traction" {
                 let color = if shown.line_stale() { palette.reference } else { palette.traction };
-                newtonian(plot, axes, samples, faded(color, COMPANION), up);
+                companion(plot, axes, samples, faded(color, COMPANION), up);
             }
             for (k, curve) in self.curves.iter().enumerate() {
                 self.curve(plot, axes, shown, (k, curve), (&palette, up));
@@ -341,24 +341,23 @@ impl LinkedPlot<'_> {
     }
 }
 
-/// What a lubricant that keeps its viscosity under every stress would carry: it sets no axis, and is labelled where it
-/// leaves the picture.
-fn newtonian(plot: &mut Canvas<'_, '_>, axes: &Axes<'_>, samples: &[Sample], color: Color32, up: (f64, f64)) {
-    let points = axes.points(samples, NEWTONIAN);
-    if points.is_empty() {
-        return;
-    }
+/// What the companion would carry: it sets no axis, and is labelled where it leaves the picture, or at its end.
+fn companion(plot: &mut Canvas<'_, '_>, axes: &Axes<'_>, samples: &[Sample], color: Color32, up: (f64, f64)) {
+    let points = axes.points(samples, OF_COMPANION);
+    let Some(name) = axes.sweep.companion().map(Companion::name).filter(|_| !points.is_empty()) else { return };
     let level = up.0 + COMPANION_LABEL * (up.1 - up.0);
     let crossing = points.windows(2).find(|pair| pair[0][1] < level && pair[1][1] >= level).map(|pair| {
         let share = (level - pair[0][1]) / (pair[1][1] - pair[0][1]);
-        pair[0][0] + share * (pair[1][0] - pair[0][0])
+        ([pair[0][0] + share * (pair[1][0] - pair[0][0]), level], Align2::LEFT_CENTER)
     });
+    let end = || points.iter().rfind(|point| axes.shows(point[0])).map(|point| (*point, Align2::RIGHT_BOTTOM));
+    let label = crossing.or_else(end);
     let ink = Palette::of_screen(plot.ctx()).ink(color);
-    let line = Line::new("if it were Newtonian", near(points, up)).color(color).width(THIN_WIDTH);
-    plot.line(line.style(LineStyle::dashed_loose()).id("newtonian").allow_band(false));
-    if let Some(x) = crossing {
-        let text = Text::new("", PlotPoint::new(x, level), rich("  if it were Newtonian", axes::TITLE_SIZE, ink));
-        plot.text(text.anchor(Align2::LEFT_CENTER).id("newtonian name").allow_hover(false));
+    let line = Line::new(name, near(points, up)).color(color).width(THIN_WIDTH);
+    plot.line(line.style(LineStyle::dashed_loose()).id("companion").allow_band(false));
+    if let Some(([x, y], anchor)) = label {
+        let text = Text::new("", PlotPoint::new(x, y), rich(&format!("  {name}  "), axes::TITLE_SIZE, ink));
+        plot.text(text.anchor(anchor).id("companion name").allow_hover(false));
     }
 }
 

@@ -226,8 +226,12 @@ fn status(ui: &mut Ui, context: &Context<'_>, swept: (&Sweep, &Choices), served:
 
 fn said(ui: &mut Ui, context: &Context<'_>, (sweep, choices): (&Sweep, &Choices), served: &Result<Served, String>) {
     let view = context.traction;
-    ui.label(rich(&summary(context, sweep), 12.5, Palette::of(ui).quiet))
-        .on_hover_text("Of the traction coefficient over the whole domain of an isothermal film (3.41)");
+    ui.label(rich(&summary(context, sweep), 12.5, Palette::of(ui).quiet)).on_hover_text(
+        match sweep.base.lubricant.heat {
+            Some(_) => "Of the traction coefficient over the area under pressure, with heat",
+            None => "Of the traction coefficient over the whole domain of an isothermal film (3.41)",
+        },
+    );
     let place = choices.against.of(&context.document.key());
     if choices.against == Against::SlideToRoll && choices.slide == SlideView::Near && place > NEAR_SRR {
         let place = numbers::quantity(place, "%");

@@ -11,7 +11,7 @@ use crate::scene::QuantityBox;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::{Sampling, Scheme};
-use crate::solver::training::{Indicator, Plan, Range, SlidingRange, TrainingSpec, Windows};
+use crate::solver::training::{HeatedRange, Indicator, OilRange, Plan, Range, SlidingRange, TrainingSpec, Windows};
 use egui::{TextEdit, Ui};
 
 /// The form.
@@ -115,6 +115,20 @@ fn range_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
             form.interval(ui, "Ratio of radii {R_y}/{R}", PLAIN, radius_ratio, "1 is a circle");
             form.row(ui, "Highest {p_H}", GIGAPASCAL, max_hertz_pressure, "Contacts beyond it are left out");
         }
+        Range::Oils(OilRange { m, l, alpha, viscosity, exponent, hertz_pressure }) => {
+            form.interval(ui, "Load number {M}", PLAIN, m, "Moes’ load number (3.19)");
+            form.interval(ui, "Lubricant {L}", PLAIN, l, "Moes’ lubricant number (3.19)");
+            form.interval(ui, "Coefficient {α}", ALPHA, alpha, "Pressure–viscosity coefficient");
+            form.interval(ui, "Viscosity {η_0}", VISCOSITY, viscosity, "Viscosity at ambient pressure");
+            form.interval(ui, "Exponent {z}", PLAIN, exponent, "Roelands’ exponent (2.12), which α and η₀ make");
+            form.interval(ui, "Pressure {p_H}", GIGAPASCAL, hertz_pressure, "Hertzian pressure");
+        }
+        Range::Heated(HeatedRange { m, l, srr, max_hertz_pressure, .. }) => {
+            form.interval(ui, "Load number {M}", PLAIN, m, "Moes’ load number (3.19), by the load");
+            form.interval(ui, "Lubricant {L}", PLAIN, l, "Moes’ lubricant number (3.19), by the speed");
+            form.interval(ui, "Slide-to-roll ratio", PLAIN, srr, "Of contacts with heat");
+            form.row(ui, "Highest {p_H}", GIGAPASCAL, max_hertz_pressure, "Contacts beyond it are left out");
+        }
         Range::Sliding(SlidingRange { m, l, srr, npr, max_hertz_pressure, .. }) => {
             let ratio = "Of a shear-thinning lubricant";
             form.interval(ui, "Load number {M}", PLAIN, m, "Moes’ load number (3.19)");
@@ -134,6 +148,9 @@ fn described_windows(windows: &Windows) -> String {
     let given = match windows {
         Windows::Automatic { modes } => {
             return format!("Windows of M and grid: chosen by the training, at most {modes} modes each");
+        }
+        Windows::Anchored { count, modes, .. } => {
+            return format!("{count} windows around anchors in ln M and ln L, at most {modes} modes each");
         }
         Windows::Given(given) => given,
     };
@@ -160,11 +177,13 @@ fn converted(spec: &TrainingSpec) -> Range {
             let table = QuantityBox::of_tables(spec.contact());
             Range::Box(QuantityBox { alpha: domain.alpha_per_pa, viscosity, ..table })
         }
-        Range::Realisation { .. } | Range::Ellipses { .. } => Range::Box(QuantityBox {
-            alpha: domain.alpha_per_pa,
-            viscosity: domain.viscosity_pa_s,
-            ..QuantityBox::of_tables(spec.contact())
-        }),
+        Range::Realisation { .. } | Range::Ellipses { .. } | Range::Oils(_) | Range::Heated(_) => {
+            Range::Box(QuantityBox {
+                alpha: domain.alpha_per_pa,
+                viscosity: domain.viscosity_pa_s,
+                ..QuantityBox::of_tables(spec.contact())
+            })
+        }
     }
 }
 

@@ -135,10 +135,10 @@ fn compare_ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         let tip = "Reads the model of a .rom file for the comparison alone: the picture stays with the one in use";
         button(ui, commands, true, ("Add a model…", tip), Command::Ask(Purpose::Beside));
         for (k, (name, model)) in training.beside.iter().enumerate() {
-            let serves = context.document.training_spec().is_some_and(|spec| spec.contact() == model.contact());
+            let serves = context.document.training_spec().is_some_and(|spec| spec.is_of(model));
             ui.add_enabled(serves, Label::new(name))
                 .on_hover_text(&model.title)
-                .on_disabled_hover_text("It is for the other kind of contact, and left out");
+                .on_disabled_hover_text("It is for another kind of contact, and left out");
             let cross = ui.small_button("×").on_hover_text("Leaves it out of the comparison");
             if named(ui, cross, &format!("Leave out {name}")).clicked() {
                 commands.push(Command::Training(TrainingCommand::LeaveOut(k)));

@@ -94,6 +94,7 @@ mod tests {
             mass_defect: None,
             grid_cost: None,
             record: None,
+            outside: Vec::new(),
         }
     }
 

@@ -5,10 +5,12 @@ use crate::scene::check::{Checked, count, interval, number, refuse};
 use crate::scene::experiment::Experiment;
 use crate::scene::grid::Grid;
 use crate::scene::is_default;
+use crate::scene::method::ModelSource;
 use crate::solver::full::transient::{Frame, Inputs, TimeStep, Transient};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::{Cavitation, ShearLaw};
 use crate::solver::reduced::tpwl::{Selection, Weighting};
+use crate::solver::training::TrajectoryTraining;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -68,11 +70,15 @@ pub struct Drive {
     pub duration: f64,
 }
 
-/// A reduced model of a contact in time: trained on the spot, then marched along all inputs.
+/// A reduced model of a contact in time: trained on the spot or saved before, then marched along all inputs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReducedTransient {
+    /// One that was saved, or that another scene trains, in place of one that is trained on the spot.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub model: Option<ModelSource>,
     /// Loss of information of the bases, (2.90).
+    #[serde(default = "millionth", skip_serializing_if = "is_millionth")]
     pub loss: f64,
     /// Sampled rows per pressure mode.
     #[serde(default = "two", skip_serializing_if = "is_two")]
@@ -104,7 +110,7 @@ pub struct LinearisedTransient {
 impl Default for ReducedTransient {
     /// A loss of 1e-6, two rows per mode.
     fn default() -> Self {
-        Self { loss: 1e-6, rows_per_mode: two(), seed: one() }
+        Self { model: None, loss: millionth(), rows_per_mode: two(), seed: one() }
     }
 }
 
@@ -122,6 +128,14 @@ fn dual_taylor() -> Vec<Weighting> {
 
 fn is_dual_taylor(weightings: &Vec<Weighting>) -> bool {
     *weightings == dual_taylor()
+}
+
+fn millionth() -> f64 {
+    1e-6
+}
+
+fn is_millionth(loss: &f64) -> bool {
+    *loss == millionth()
 }
 
 fn two() -> f64 {
@@ -152,6 +166,38 @@ impl Drive {
     /// What a result of it is called: a frame's or a model's name, behind its own where it has one.
     pub fn result(&self, name: &str) -> String {
         if self.name.is_empty() { name.to_owned() } else { format!("{}.{name}", self.name) }
+    }
+}
+
+impl ReducedTransient {
+    /// What a study trains by it; none where it has a model already.
+    pub fn training(&self) -> Option<TrajectoryTraining> {
+        let Self { model, loss, rows_per_mode, seed } = self;
+        let own = TrajectoryTraining { loss: *loss, rows_per_mode: *rows_per_mode, seed: *seed, ..Default::default() };
+        model.is_none().then_some(own)
+    }
+
+    fn check(&self, grid: &Grid) -> Checked {
+        if let Some(model) = &self.model {
+            if *model == ModelSource::Embedded {
+                let problem = "is Embedded, but no model in time is part of the program; write File(\"FILE.rom\") or \
+                               Trained(\"SCENE.ron\")";
+                return Err(refuse("study.reduced.model", problem));
+            }
+            if *self != (Self { model: self.model.clone(), ..Self::default() }) {
+                let problem = "has nothing beside it: loss, rows_per_mode and seed belong to a training";
+                return Err(refuse("study.reduced.model", problem));
+            }
+            return Ok(());
+        }
+        if !matches!(grid, Grid::Uniform { .. } | Grid::GradedNodes { registered: false, .. }) {
+            return Err(refuse(
+                "grid",
+                "must be Uniform, or GradedNodes without registration, for a reduced model in time",
+            ));
+        }
+        number("study.reduced.loss", self.loss, 1e-12, 0.5)?;
+        number("study.reduced.rows_per_mode", self.rows_per_mode, 1.0, 20.0)
     }
 }
 
@@ -235,16 +281,7 @@ impl TransientStudy {
             let limit = "is mass-conserving, but models in time rupture by the penalty or by complementarity";
             return Err(refuse("cavitation", limit));
         }
-        if let Some(reduced) = &self.reduced {
-            if !matches!(experiment.grid, Grid::Uniform { .. } | Grid::GradedNodes { registered: false, .. }) {
-                return Err(refuse(
-                    "grid",
-                    "must be Uniform, or GradedNodes without registration, for a reduced model in time",
-                ));
-            }
-            number("study.reduced.loss", reduced.loss, 1e-12, 0.5)?;
-            number("study.reduced.rows_per_mode", reduced.rows_per_mode, 1.0, 20.0)?;
-        }
+        self.reduced.iter().try_for_each(|reduced| reduced.check(&experiment.grid))?;
         self.linearised.iter().try_for_each(|linearised| linearised.check(&self.frames))
     }
 

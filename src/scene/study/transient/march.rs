@@ -27,6 +27,8 @@ pub struct March {
     pub grid_cost: Option<(f64, GridCost)>,
     /// What each step of a linearised model drew on.
     pub record: Option<TpwlRecord>,
+    /// Sentences on what a reduced model was not trained for.
+    pub outside: Vec<String>,
 }
 
 /// How the steps of a march are solved.
@@ -107,6 +109,7 @@ impl March {
             mass_defect: None,
             grid_cost: None,
             record: None,
+            outside: Vec::new(),
         }
     }
 
@@ -174,6 +177,10 @@ impl March {
             found.converged = false;
             found.warnings.push(format!("{}: the march {}", self.name, self.trajectory.ended.describe()));
         }
+        if matches!(self.by, By::Model { method: "rnsa", .. }) {
+            found.push(format!("{}.trained", self.name), None, f64::from(u8::from(self.outside.is_empty())));
+            found.warnings.extend(self.outside.iter().map(|why| format!("{}: {why}", self.name)));
+        }
         if let Some(record) = &self.record {
             let mut reach: Vec<f64> = record.steps().iter().map(TpwlStep::reach).collect();
             reach.retain(|reach| reach.is_finite());
@@ -221,6 +228,11 @@ impl March {
 
     /// Its time series.
     pub(super) fn series(&self) -> Table {
-        Table::of(format!("transient_{}", self.name.replace('.', "_")), &SERIES, &self.trajectory.moments)
+        series(&self.name, &self.trajectory.moments)
     }
+}
+
+/// The time series of the march of a name.
+pub fn series(name: &str, moments: &[Moment]) -> Table {
+    Table::of(format!("transient_{}", name.replace('.', "_")), &SERIES, moments)
 }

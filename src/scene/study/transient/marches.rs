@@ -30,7 +30,7 @@ impl TransientStudy {
 
     /// The march along its own inputs; it keeps fields where models are to be trained by it.
     pub fn own_march(&self, point: OperatingPoint, lubricant: Lubricant, frame: Frame) -> Transient {
-        let trains = self.trains_on_itself() && (self.reduced.is_some() || self.linearised.is_some());
+        let trains = self.trains_on_itself() && self.trains();
         Transient {
             point,
             lubricant,
@@ -42,7 +42,12 @@ impl TransientStudy {
         }
     }
 
-    /// Whether models are trained by the march along its own inputs.
+    /// Whether models are trained.
+    pub fn trains(&self) -> bool {
+        self.linearised.is_some() || self.reduced.as_ref().is_some_and(|reduced| reduced.training().is_some())
+    }
+
+    /// Whether models, where there are any to be trained, are so by the march along its own inputs.
     pub fn trains_on_itself(&self) -> bool {
         self.trainings.is_empty() && self.training_loads.is_empty()
     }

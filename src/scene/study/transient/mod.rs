@@ -8,9 +8,10 @@ mod marches;
 mod models;
 mod published;
 mod timed_march;
+mod train;
 
 pub use data::{Drive, LinearisedTransient, ReducedTransient, TransientStudy};
-pub use march::{By, March, MarchedBy};
+pub use march::{By, March, MarchedBy, series};
 pub use models::{Kind, Model};
 pub use published::PublishedMarch;
 pub(crate) use timed_march::{Listener, Timed, timed_march};
@@ -23,6 +24,7 @@ use crate::scene::study::question::{
 };
 use crate::solver::discrete::grid::{ContactGrid, ReferenceGrid};
 use crate::solver::full::transient::{Frame, FullMarch, Keep, Moment, State, Trajectory, Transient};
+use crate::solver::reduced::transient::TrajectoryModel;
 use std::sync::Arc;
 
 /// Said of inputs that a linearised model cannot carry.
@@ -78,6 +80,8 @@ pub enum Row {
 struct Runner<'a, 'b> {
     study: &'a TransientStudy,
     grid: Arc<ReferenceGrid>,
+    /// The reduced model that the study names, where it trains none.
+    saved: Option<Arc<TrajectoryModel>>,
     setting: &'a Setting<'b>,
     tell: &'a Tell<'a, Row>,
 }
@@ -102,7 +106,8 @@ impl Question for TransientStudy {
         let ContactGrid::Line(grid) = setting.bench.grid(&request, setting.observer)? else {
             return Err(RunError::Study("a contact in time needs the grid of a line contact".to_owned()));
         };
-        let runner = Runner { study: &study, grid, setting, tell };
+        let saved = study.saved_model(setting)?;
+        let runner = Runner { study: &study, grid, saved, setting, tell };
         let drives = study.drives();
         for &frame in &study.frames {
             let mut models = Vec::new();
@@ -134,7 +139,8 @@ impl Question for TransientStudy {
     ///
     /// A reduced model's stand behind `fixed.rnsa`, a linearised one's behind `fixed.tpwl` (with several rules behind `fixed.tpwl.step_0.001`
     /// and the like, and its marches behind that and `dual_taylor` or `dissertation`): its size, differences from the full
-    /// march, costs, and `speed_up` (medians of the steps); `reach_median` and `reach_max` of a linearised one: how far steps lie from the trained
+    /// march, costs, and `speed_up` (medians of the steps); `trained` of a reduced one, 1 or 0: whether it was trained
+    /// for what the march led it to; `reach_median` and `reach_max` of a linearised one: how far steps lie from the trained
     /// trajectories, in distances between operating points. `training_s` are the seconds of the trainings' full marches, where the study's own is
     /// not the training.
     ///
@@ -214,7 +220,7 @@ impl TransientStudy {
         }
         let ContactGrid::Line(grid) = bench.grid(&request, observer)? else { return Ok(()) };
         let setting = Setting { experiment, bench, observer, wants_states: observer.wants_states() };
-        let runner = Runner { study: &study, grid, setting: &setting, tell: &tell };
+        let runner = Runner { study: &study, grid, saved: None, setting: &setting, tell: &tell };
         let drive = Drive { name: String::new(), inputs: study.inputs.clone(), duration: study.duration };
         for model in models {
             let transient = study.own_march(request.point, request.lubricant, model.frame);

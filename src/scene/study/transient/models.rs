@@ -58,6 +58,11 @@ fn train_linearised(linearised: &LinearisedTransient, trajectories: &[&Trajector
     }
 }
 
+/// What the values of a reduced model of a frame begin with.
+fn reduced_name(frame: Frame) -> String {
+    format!("{}.rnsa", frame.name())
+}
+
 impl Model {
     /// Pressure modes.
     pub fn modes(&self) -> usize {
@@ -133,7 +138,13 @@ impl Runner<'_, '_> {
         let frame = own.transient.frame;
         let linearised = linearised.as_ref().filter(|_| frame == Frame::Fixed);
         let mut models = Vec::new();
-        if reduced.is_none() && linearised.is_none() {
+        if let Some(saved) = self.saved.as_ref().filter(|saved| saved.frame == frame) {
+            let model = Model { name: reduced_name(frame), frame, kind: Kind::Reduced(Arc::clone(saved)), wall_s: 0.0 };
+            (self.tell)(Row::Model(model.clone()));
+            models.push(model);
+        }
+        let training = reduced.as_ref().and_then(ReducedTransient::training);
+        if training.is_none() && linearised.is_none() {
             return Ok(models);
         }
         let trained = self.trainings(&own)?;
@@ -142,14 +153,14 @@ impl Runner<'_, '_> {
         if let Some(linearised) = linearised {
             self.linearised(linearised, frame, &trainings, &mut models)?;
         }
-        if let Some(reduced) = reduced {
-            models.push(self.reduced(reduced, frame, &trainings)?);
+        if let Some(training) = training {
+            models.push(self.reduced(&training, frame, &trainings)?);
         }
         Ok(models)
     }
 
     /// Full marches that models are trained by, where it is not the study's own.
-    fn trainings(&self, own: &Trajectory) -> Result<Vec<Trajectory>, RunError> {
+    pub(super) fn trainings(&self, own: &Trajectory) -> Result<Vec<Trajectory>, RunError> {
         let (frame, begun) = (own.transient.frame.name(), Instant::now());
         let transients = self.study.training_marches(&own.transient);
         let mut trained = Vec::with_capacity(transients.len());
@@ -172,13 +183,16 @@ impl Runner<'_, '_> {
         Ok(trained)
     }
 
-    fn reduced(&self, reduced: &ReducedTransient, frame: Frame, trainings: &[Trajectory]) -> Result<Model, RunError> {
+    fn reduced(
+        &self,
+        training: &TrajectoryTraining,
+        frame: Frame,
+        trainings: &[Trajectory],
+    ) -> Result<Model, RunError> {
         let begun = Instant::now();
-        let ReducedTransient { loss, rows_per_mode, seed } = *reduced;
-        let settings = TrajectoryTraining { loss, rows_per_mode, seed, ..TrajectoryTraining::default() };
-        let model = Arc::new(train_trajectories(&self.grid, trainings, &settings, self.setting.observer)?);
-        let name = format!("{}.rnsa", frame.name());
-        let model = Model { name, frame, kind: Kind::Reduced(model), wall_s: begun.elapsed().as_secs_f64() };
+        let model = Arc::new(train_trajectories(&self.grid, trainings, training, self.setting.observer)?);
+        let (name, wall_s) = (reduced_name(frame), begun.elapsed().as_secs_f64());
+        let model = Model { name, frame, kind: Kind::Reduced(model), wall_s };
         (self.tell)(Row::Model(model.clone()));
         Ok(model)
     }
@@ -233,7 +247,8 @@ impl Runner<'_, '_> {
             Kind::Reduced(reduced) => {
                 let name = drive.result(&model.name);
                 let timed = march(&name, MarchedBy::Reduced, &mut ReducedMarch::new(reduced, &transient)?)?;
-                (self.tell)(Row::Marched(Arc::new(March::new(&name, by("rnsa"), timed))));
+                let outside = reduced.domain.left_by(&timed.trajectory);
+                (self.tell)(Row::Marched(Arc::new(March { outside, ..March::new(&name, by("rnsa"), timed) })));
             }
             Kind::Linearised { model: linearised, weightings, .. } => {
                 for &weighting in weightings {

@@ -56,14 +56,55 @@ pub fn rectangle_kernel(x: f64, y: f64, hx: f64, hy: f64) -> f64 {
 
 /// `factor` times the integral of 1/r over the strip of width `hx` around x and from 0 to v across; odd in v.
 fn strip(x: f64, v: f64, hx: f64, factor: f64) -> f64 {
-    // u asinh(v/|u|) + v asinh(u/|v|) differs from the usual u ln(v + r) + v ln(u + r) by terms that cancel between the
-    // corners.
-    let corner = |u: f64| {
-        let along = if u == 0.0 { 0.0 } else { u * (v / u.abs()).asinh() };
-        let across = if v == 0.0 { 0.0 } else { v * (u / v.abs()).asinh() };
-        along + across
-    };
-    factor * (corner(x + 0.5 * hx) - corner(x - 0.5 * hx))
+    factor * (corner(x + 0.5 * hx, v) - corner(x - 0.5 * hx, v))
+}
+
+/// The integral of 1/r from (0, 0) to (u, v); odd in both. u asinh(v/|u|) + v asinh(u/|v|) differs from the usual
+/// u ln(v + r) + v ln(u + r) by terms that cancel between the corners of a rectangle.
+fn corner(u: f64, v: f64) -> f64 {
+    let along = if u == 0.0 { 0.0 } else { u * (v / u.abs()).asinh() };
+    let across = if v == 0.0 { 0.0 } else { v * (u / v.abs()).asinh() };
+    along + across
+}
+
+/// All strips that the kernel is made of, each integrated once: equidistant ordinates need the same ones again and
+/// again.
+struct Strips {
+    /// Their heights v ≥ 0, ascending.
+    heights: Vec<f64>,
+    /// Of each height the integrals around x = 0, hx, 2hx …
+    columns: usize,
+    values: Vec<f64>,
+}
+
+impl Strips {
+    /// Heights that differ by less are the same but for rounding.
+    const SAME: f64 = 1e-13;
+
+    fn new(PointFlexibility { nx, hx, factor, y, edges, .. }: &PointFlexibility) -> Self {
+        let columns = nx - 1;
+        let both = |&y: &f64| edges.iter().flat_map(move |edge| [(y - edge).abs(), (y + edge).abs()]);
+        let mut heights: Vec<f64> = y.iter().flat_map(both).collect();
+        heights.sort_unstable_by(f64::total_cmp);
+        heights.dedup_by(|next, kept| *next - *kept <= Self::SAME);
+        let mut values = vec![0.0; heights.len() * columns];
+        values.par_chunks_exact_mut(columns).zip(&heights).for_each(|(values, &v)| {
+            // The corner before the first strip is that behind it, mirrored.
+            let mut before = -corner(0.5 * hx, v);
+            for (d, value) in values.iter_mut().enumerate() {
+                let behind = corner((d as f64 + 0.5) * hx, v);
+                *value = factor * (behind - before);
+                before = behind;
+            }
+        });
+        Self { heights, columns, values }
+    }
+
+    /// The sign and the integrals of the strip up to v.
+    fn up_to(&self, v: f64) -> (f64, &[f64]) {
+        let place = self.heights.partition_point(|height| *height < v.abs() - Self::SAME);
+        (v.signum(), &self.values[place * self.columns..(place + 1) * self.columns])
+    }
 }
 
 impl PointFlexibility {
@@ -79,18 +120,23 @@ impl PointFlexibility {
         let (length, frequencies) = (convolution.len(), convolution.frequencies());
         let (y, edges, spectrum) = (y.to_vec(), edges.to_vec(), Vec::new());
         let mut kernel = Self { nx, ny, hx, factor, y, edges, spectrum, convolution };
+        let strips = Strips::new(&kernel);
         // Spectra of the kernels of one ordinate j against all cells, in parallel over j.
         let rows = (0..ny)
             .into_par_iter()
             .map(|j| {
                 let mut out = vec![0.0; frequencies * m];
                 let mut circular = vec![0.0; length * m];
-                for d in 0..nx - 1 {
-                    let upper = (length - d) % length;
-                    kernel.row_entries(d, j, |cell, value| {
-                        let signal = &mut circular[cell * length..(cell + 1) * length];
-                        (signal[d], signal[upper]) = (value, value);
-                    });
+                let at = |v: f64| strips.up_to(v);
+                let y = kernel.y[j];
+                for (signal, edges) in circular.chunks_exact_mut(length).zip(kernel.edges.windows(2)) {
+                    let (lower, upper) = (at(y - edges[0]), at(y - edges[1]));
+                    let (mirror_lower, mirror_upper) = (at(y + edges[0]), at(y + edges[1]));
+                    for d in 0..nx - 1 {
+                        let near = lower.0 * lower.1[d] - upper.0 * upper.1[d];
+                        let value = near + (mirror_upper.0 * mirror_upper.1[d] - mirror_lower.0 * mirror_lower.1[d]);
+                        (signal[d], signal[(length - d) % length]) = (value, value);
+                    }
                 }
                 for (cell, signal) in circular.chunks_exact_mut(length).enumerate() {
                     for (k, value) in kernel.convolution.kernel(signal)?.into_iter().enumerate() {

@@ -11,12 +11,14 @@ mod tests;
 pub use accuracy::{Accuracy, Estimate, resolution_warning, second_grid, side_lobe_curvature};
 
 use super::newton_space::{NewtonSpace, ScaledRows, StepControl, Taken};
-use super::solution::{Mesh, Problem, SolveError};
+use super::solution::{Mesh, Problem, Solution, SolveError};
+use super::solver::{Solver, Start};
 use super::system::{SolveOptions, System};
 use crate::solver::discrete::grid::{GridSpec, PointGrid, PointGridSpec};
 use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::discrete::reynolds::generalized::FilmTreatment;
 use crate::solver::discrete::space::PlaneSpace;
+use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{ContactKind, Ellipse};
 pub use preconditioner::PlaneMatrix;
 use std::sync::Arc;
@@ -157,6 +159,16 @@ impl NewtonSpace for PlaneSpace {
         }
         system.set_h_0(system.h_0 + factor * shift);
         Taken { size, shift, residual: system.evaluate(problem, options.penalty) }
+    }
+
+    fn solve_with_heat(
+        solver: &mut Solver<Self>,
+        problem: Problem,
+        start: Start<'_>,
+        observer: &dyn Observer,
+    ) -> Result<Solution, SolveError> {
+        // No problem of a point contact has heat.
+        solver.solve_problem(problem.isothermal(), start, observer)
     }
 
     fn assemble(

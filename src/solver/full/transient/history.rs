@@ -4,16 +4,18 @@ use super::difference::extrapolated;
 use super::frame::Frame;
 use super::march::Step;
 use super::spline::{Interpolated, Interpolation};
+use serde::{Deserialize, Serialize};
 
 /// The former states, the nearer one first, and their ρ̄H where the rows' nodes are now.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct History {
     former: [Past; 2],
+    #[serde(skip)]
     carried: [Vec<f64>; 2],
 }
 
 /// A former state.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Past {
     /// Pressures or coefficients.
     state: Vec<f64>,
@@ -35,6 +37,27 @@ impl History {
         }
         past.state.extend_from_slice(state);
         past.flow.extend(flow);
+    }
+
+    /// Takes over the states of another one, in the room there is.
+    pub fn copy_from(&mut self, other: &Self) {
+        for (own, other) in self.former.iter_mut().zip(&other.former) {
+            own.state.clone_from(&other.state);
+            own.flow.clone_from(&other.flow);
+            own.h_0 = other.h_0;
+            own.between.copy_from(&other.between);
+        }
+    }
+
+    /// Whether both states have so many entries, so many rows, and so many nodes between which they are carried; all of
+    /// them finite.
+    pub fn is_of(&self, entries: usize, rows: usize, nodes: usize) -> bool {
+        let finite = |values: &[f64], length: usize| values.len() == length && values.iter().all(|v| v.is_finite());
+        let fits = |past: &Past| {
+            let own = finite(&past.state, entries) && finite(&past.flow, rows) && past.h_0.is_finite();
+            own && past.between.is_of(nodes)
+        };
+        self.former.iter().all(fits)
     }
 
     /// Adds the ρ̄H of the nearer state at all nodes `x`, from which a remeshed frame carries it on.

@@ -25,6 +25,7 @@ pub use history::History;
 pub use march::{Keep, MarchProgress, Marching, Step, Transient, TransientError, TransientObserver, march};
 pub use mass::MassBalance;
 pub use pace::TimeStep;
+pub(crate) use pace::{GREATEST_RATIO, MOST_PARTS, ROUNDING};
 pub use signal::{Input, InputError, Inputs, Signal};
 pub use spline::{Interpolated, Interpolation};
 pub use system::{FullMarch, solve};

@@ -60,7 +60,7 @@ pub struct Inputs {
 }
 
 /// The three inputs at one time.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Input {
     /// R̄.
     pub radius: f64,
@@ -148,6 +148,21 @@ impl Signal {
                 }
                 Ok(())
             }
+        }
+    }
+}
+
+impl Input {
+    /// What rests at its reference.
+    pub const REFERENCE: Self = Self { radius: 1.0, speed: 1.0, load: 1.0 };
+
+    /// The inputs on the straight line to others, at a share of the way.
+    pub fn towards(self, other: Self, share: f64) -> Self {
+        let between = |own: f64, other: f64| if share < 1.0 { own + share * (other - own) } else { other };
+        Self {
+            radius: between(self.radius, other.radius),
+            speed: between(self.speed, other.speed),
+            load: between(self.load, other.load),
         }
     }
 }

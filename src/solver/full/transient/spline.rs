@@ -13,14 +13,26 @@ pub enum Interpolation {
 }
 
 /// A nodal field as a function between its nodes; keeps its work space.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Interpolated {
     values: Vec<f64>,
     curvature: Vec<f64>,
+    #[serde(skip)]
     work: Vec<f64>,
 }
 
 impl Interpolated {
+    /// Takes over another one, in the room there is.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.values.clone_from(&other.values);
+        self.curvature.clone_from(&other.curvature);
+    }
+
+    /// Whether it is a field of so many finite values.
+    pub fn is_of(&self, nodes: usize) -> bool {
+        [&self.values, &self.curvature].iter().all(|own| own.len() == nodes && own.iter().all(|v| v.is_finite()))
+    }
+
     /// Takes another field's values at the increasing nodes `x`.
     pub fn set(&mut self, interpolation: Interpolation, x: &[f64], values: impl Iterator<Item = f64>) {
         self.values.clear();

@@ -5,9 +5,10 @@ use super::march::Transient;
 use super::signal::Input;
 use crate::solver::discrete::grid::LineGrid;
 use crate::solver::full::{Mesh, Problem, Scalars, SolveError, Termination, scalars_of};
+use serde::{Deserialize, Serialize};
 
 /// Work of one step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Effort {
     /// Newton steps.
     pub newton_iterations: usize,
@@ -17,7 +18,7 @@ pub struct Effort {
 
 impl Effort {
     /// The work of this and another step.
-    pub(super) fn and(self, other: Self) -> Self {
+    pub(crate) fn and(self, other: Self) -> Self {
         Self {
             newton_iterations: self.newton_iterations + other.newton_iterations,
             linear_iterations: self.linear_iterations + other.linear_iterations,
@@ -26,7 +27,7 @@ impl Effort {
 }
 
 /// The contact at one time: scalars in the scales of the reference contact, (2.22).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Moment {
     /// T.
     pub time: f64,

@@ -167,7 +167,7 @@ fn accept(quantity: &'static str, value: f64, unit: &'static str, (min, max): (f
 
 impl Moes {
     /// Refuses numbers outside any sense.
-    fn check(self) -> Result<(), ContactError> {
+    pub fn check(self) -> Result<(), ContactError> {
         accept("Moes number M", self.m, "", Quantity::M.range())?;
         accept("Moes number L", self.l, "", Quantity::L.range())
     }

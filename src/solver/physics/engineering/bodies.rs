@@ -1,10 +1,11 @@
 //! The two bodies: materials, radii, surface speeds and roughness, and what they amount to together.
 
 use crate::solver::physics::contact::{ContactError, reduced_modulus};
+use crate::solver::physics::lubricant::BodyHeat;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// An elastic material.
+/// A material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     /// Its name for people.
@@ -13,20 +14,27 @@ pub struct Material {
     pub modulus_pa: f64,
     /// Poisson's ratio ν.
     pub poisson: f64,
+    /// Its thermal constants.
+    pub heat: BodyHeat,
 }
 
-const STEEL: Material = Material { name: "Steel", modulus_pa: 210e9, poisson: 0.3 };
+const STEEL: Material = Material { name: "Steel", modulus_pa: 210e9, poisson: 0.3, heat: BodyHeat::STEEL };
 
 /// Materials by name, with usual values of handbooks. Two bodies of this steel have E′ = 230.8 GPa, the program's
 /// default.
 pub const MATERIALS: [Material; 6] = [
     STEEL,
-    Material { name: "Silicon nitride", modulus_pa: 310e9, poisson: 0.27 },
-    Material { name: "Bronze", modulus_pa: 110e9, poisson: 0.34 },
-    Material { name: "Cast iron", modulus_pa: 120e9, poisson: 0.26 },
-    Material { name: "Glass", modulus_pa: 81e9, poisson: 0.21 },
-    Material { name: "Tungsten carbide", modulus_pa: 630e9, poisson: 0.22 },
+    Material { name: "Silicon nitride", modulus_pa: 310e9, poisson: 0.27, heat: heat(25.0, 700.0, 3230.0) },
+    Material { name: "Bronze", modulus_pa: 110e9, poisson: 0.34, heat: heat(60.0, 377.0, 8800.0) },
+    Material { name: "Cast iron", modulus_pa: 120e9, poisson: 0.26, heat: heat(50.0, 500.0, 7200.0) },
+    Material { name: "Glass", modulus_pa: 81e9, poisson: 0.21, heat: heat(1.1, 840.0, 2500.0) },
+    Material { name: "Tungsten carbide", modulus_pa: 630e9, poisson: 0.22, heat: heat(85.0, 210.0, 14900.0) },
 ];
+
+/// Thermal conductivity \[W/(m K)\], heat capacity \[J/(kg K)\] and density \[kg/m³\].
+const fn heat(conductivity: f64, heat_capacity: f64, density: f64) -> BodyHeat {
+    BodyHeat { conductivity, heat_capacity, density }
+}
 
 /// Why two bodies make no contact.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -17,6 +17,14 @@ pub(super) fn raise(values: &mut [f64], exponent: f64) {
     }
 }
 
+/// Raises e to every x.
+#[inline(never)]
+pub(super) fn exponentials(values: &mut [f64]) {
+    for x in values {
+        *x = exp(*x);
+    }
+}
+
 const LN_2_HIGH: f64 = 6.931_471_803_691_238e-1;
 const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 

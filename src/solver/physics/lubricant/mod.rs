@@ -8,17 +8,23 @@
 mod cavitation;
 mod elementary;
 mod free_volume;
+mod heat;
+mod heat_reduction;
 mod pressure_coefficient;
 mod shear_thinning;
+mod warm;
 mod words;
 
 pub use super::contact::Sliding;
 pub use cavitation::Cavitation;
 pub use free_volume::{Doolittle, Tait};
+pub use heat::{BodyHeat, FreeVolumeHeat, Heat, LARGEST_HEATED_SRR, OilHeat, ScaledHeat};
+pub use heat_reduction::HeatReduction;
 pub use pressure_coefficient::GAUSS_6;
 pub use shear_thinning::{Fluidity, LimitingStress, ScaledShear, ShearLaw};
+pub use warm::{Across, WarmFluid};
 
-use super::contact::OperatingPoint;
+use super::contact::{ContactKind, OperatingPoint};
 use crate::solver::limits::Number;
 use serde::{Deserialize, Serialize};
 
@@ -75,6 +81,10 @@ pub struct Lubricant {
     /// How its film ruptures. Scenes say it in a field of their own, and models answer for what they were trained with.
     #[serde(skip)]
     pub cavitation: Cavitation,
+    /// How its film warms itself; none where everything has the inlet's temperature. Scenes say it in a field of their
+    /// own.
+    #[serde(skip)]
+    pub heat: Option<Heat>,
 }
 
 /// Why a lubricant cannot be used at an operating point: a sentence.
@@ -116,13 +126,23 @@ pub struct ScaledFluid {
     roelands_exponent: f64,
 }
 
+/// ln η₀ + 9.67 of (2.12).
+fn roelands_log(viscosity_pa_s: f64) -> f64 {
+    viscosity_pa_s.ln() + 9.67
+}
+
+/// Roelands' exponent z of (2.12), which makes α the slope of ln η at ambient pressure; of mineral oils 0.4…0.8.
+pub fn roelands_exponent(point: &OperatingPoint) -> f64 {
+    point.alpha_per_pa * ROELANDS_PRESSURE_PA / roelands_log(point.viscosity_pa_s)
+}
+
 impl Lubricant {
     /// Fixes the laws' constants at an operating point.
     ///
     /// # Errors
     /// When a law is not defined for the point's constants.
     pub fn scaled(self, point: &OperatingPoint) -> Result<ScaledFluid, LubricantError> {
-        let roelands_log = point.viscosity_pa_s.ln() + 9.67;
+        let roelands_log = roelands_log(point.viscosity_pa_s);
         if self.viscosity == ViscosityLaw::Roelands && roelands_log <= 0.05 {
             let (viscosity, minimum) = (point.viscosity_pa_s, (0.05f64 - 9.67).exp());
             return Err(LubricantError(format!(
@@ -138,7 +158,7 @@ impl Lubricant {
             hertz_pressure_pa: pressure,
             alpha_hertz: point.alpha_hertz(),
             roelands_log,
-            roelands_exponent: point.alpha_per_pa * ROELANDS_PRESSURE_PA / roelands_log,
+            roelands_exponent: roelands_exponent(point),
         })
     }
 
@@ -157,6 +177,24 @@ impl Lubricant {
         }
     }
 
+    /// What heat adds at an operating point that the laws accept; none without heat.
+    ///
+    /// # Errors
+    /// When its contact is no line contact, or a body stands still or runs backwards.
+    pub fn scaled_heat(
+        self,
+        fluid: &ScaledFluid,
+        point: &OperatingPoint,
+    ) -> Result<Option<ScaledHeat>, LubricantError> {
+        let Some(heat) = self.heat else { return Ok(None) };
+        if point.kind != ContactKind::Line {
+            let sentence = "heat is computed in line contacts only; leave it out, or take a line contact";
+            return Err(LubricantError(sentence.to_owned()));
+        }
+        Heat::check_sliding(point.sliding.slide_to_roll_ratio)?;
+        Ok(Some(ScaledHeat::new(heat, fluid, point)))
+    }
+
     /// Refuses constants for which a law is not defined, naming them.
     ///
     /// # Errors
@@ -170,6 +208,9 @@ impl Lubricant {
         }
         self.shear.check()?;
         self.cavitation.check()?;
+        if let Some(heat) = self.heat {
+            heat.check(self.viscosity, matches!(self.density, DensityLaw::Tait(_)))?;
+        }
         if self.shear != ShearLaw::Newtonian && self.limiting_stress.is_some_and(|limit| limit.eyring.is_some()) {
             let twice = "the film thins under shear by its own law, so its traction takes no Eyring stress beside; leave one of \
                 both out";
@@ -200,6 +241,11 @@ impl Lubricant {
 }
 
 impl ScaledFluid {
+    /// p_H \[Pa\].
+    pub fn hertz_pressure_pa(&self) -> f64 {
+        self.hertz_pressure_pa
+    }
+
     /// The pressure P at which a law ends; infinite where none does.
     pub fn largest_pressure(&self) -> f64 {
         match self.laws.viscosity {

@@ -1,13 +1,15 @@
 //! What is known of a reduced solution, and what was measured of it.
 
 use crate::solver::physics::contact::{Moes, OperatingPoint};
+use crate::solver::physics::lubricant::roelands_exponent;
 use crate::solver::reduced::ReducedSolution;
 use crate::solver::reduced::model::{CIRCLES, Domain};
 
 /// Features of a contact without sliding: ln M, L, ln α, ln e_f^I, and the logarithm of the last modes' share.
 pub(super) const FEATURES: usize = 5;
-/// Those of one in a model that knows ellipses: ln(R_y/R) as well.
-pub(super) const SHAPED_FEATURES: usize = FEATURES + 1;
+/// Those of one in a model that knows ellipses: ln(R_y/R) as well; or many oils: Roelands' exponent; or heat: ln(|SRR| +
+/// 0.01).
+pub(super) const ONE_MORE: usize = FEATURES + 1;
 /// Those of one in a model that knows sliding: ln(|SRR| + 0.01) and NPR as well.
 pub(super) const SLIDING_FEATURES: usize = FEATURES + 2;
 /// The two features among them that are no place but a sign of the error.
@@ -39,13 +41,15 @@ pub struct Measured {
     /// Of the traction coefficient; not where nothing slides, the traction has no meaning, or the model has no rule for
     /// it.
     pub traction: Option<f64>,
+    /// Of the rise of temperature at mid-film, X = 0, of contacts with heat.
+    pub rise: Option<f64>,
 }
 
 impl Measured {
-    /// H_c, H_min, state and, of evidence about sliding, traction.
-    pub(super) fn values(&self, sliding: bool) -> impl Iterator<Item = f64> {
-        let traction = sliding.then_some(self.traction.unwrap_or(f64::NAN));
-        [self.h_c, self.h_min, self.state].into_iter().chain(traction)
+    /// H_c, H_min, state, of evidence about sliding and heat traction, and of that about heat the rise.
+    pub(super) fn values(&self, beside: Beside) -> impl Iterator<Item = f64> {
+        let known = |value: Option<f64>| value.unwrap_or(f64::NAN);
+        [self.h_c, self.h_min, self.state, known(self.traction), known(self.rise)].into_iter().take(beside.quantities())
     }
 }
 
@@ -56,15 +60,24 @@ pub enum Beside {
     Nothing,
     /// R_y/R.
     Shape,
+    /// Roelands' exponent.
+    Oil,
     /// SRR and NPR.
     Sliding,
+    /// SRR, and heat.
+    Heat,
 }
 
 impl Beside {
+    /// All of them.
+    pub(super) const ALL: [Self; 5] = [Self::Nothing, Self::Shape, Self::Oil, Self::Sliding, Self::Heat];
+
     /// Those of a model's domain.
     pub fn of(domain: &Domain) -> Self {
         match domain.sliding {
+            _ if domain.heat.is_some() => Self::Heat,
             Some(_) => Self::Sliding,
+            None if domain.oils.is_some() => Self::Oil,
             None if domain.radius_ratio == CIRCLES => Self::Nothing,
             None => Self::Shape,
         }
@@ -74,8 +87,17 @@ impl Beside {
     pub(super) fn features(self) -> usize {
         match self {
             Self::Nothing => FEATURES,
-            Self::Shape => SHAPED_FEATURES,
+            Self::Shape | Self::Oil | Self::Heat => ONE_MORE,
             Self::Sliding => SLIDING_FEATURES,
+        }
+    }
+
+    /// The number of errors that are told: of H_c, H_min, state, then traction, then the rise of temperature.
+    pub(super) fn quantities(self) -> usize {
+        match self {
+            Self::Nothing | Self::Shape | Self::Oil => 3,
+            Self::Sliding => 4,
+            Self::Heat => 5,
         }
     }
 }
@@ -85,7 +107,7 @@ impl Beside {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Features {
     pub(super) values: [f64; SLIDING_FEATURES],
-    pub(super) count: usize,
+    pub(super) beside: Beside,
 }
 
 impl Features {
@@ -108,13 +130,14 @@ impl Features {
         let (residual, last) = (residual.max(1e-300).ln(), last.max(1e-300).ln());
         let [first, second] = match beside {
             Beside::Shape => [point.radius_ratio().ln(), 0.0],
-            Beside::Nothing | Beside::Sliding => [srr, npr],
+            Beside::Oil => [roelands_exponent(point), 0.0],
+            Beside::Nothing | Beside::Sliding | Beside::Heat => [srr, npr],
         };
-        Self { values: [m.ln(), l, point.alpha_per_pa.ln(), residual, last, first, second], count: beside.features() }
+        Self { values: [m.ln(), l, point.alpha_per_pa.ln(), residual, last, first, second], beside }
     }
 
     pub(super) fn used(&self) -> &[f64] {
-        &self.values[..self.count]
+        &self.values[..self.beside.features()]
     }
 
     pub(super) fn finite(&self) -> bool {

@@ -19,12 +19,13 @@ fn synthetic(count: usize, seed: u64) -> Vec<Evidence> {
             let error = residual - 2.0 + (6.0 * a).cos() * b + (0.3 + b) * n;
             let values = [place[0], place[1], place[2], residual, -12.0, 0.0, 0.0];
             Evidence {
-                features: Features { values, count: Beside::Nothing.features() },
+                features: Features { values, beside: Beside::Nothing },
                 errors: Measured {
                     h_c: error.exp(),
                     h_min: (error - 1.0).exp(),
                     state: (error + 1.0).exp(),
                     traction: None,
+                    rise: None,
                 },
             }
         })
@@ -97,8 +98,7 @@ fn sliding(count: usize, seed: u64) -> Vec<Evidence> {
     let mut cases = synthetic(count, seed);
     for case in &mut cases {
         let srr = if rng.f64() < 0.1 { 0.0 } else { rng.f64() };
-        (case.features.values[5], case.features.values[6], case.features.count) =
-            (srr, rng.f64(), Beside::Sliding.features());
+        (case.features.values[5], case.features.values[6], case.features.beside) = (srr, rng.f64(), Beside::Sliding);
         case.errors.traction = (srr > 0.0).then(|| case.errors.h_c * (2.0 - 3.0 * srr + rng.f64()).exp());
     }
     cases
@@ -107,7 +107,7 @@ fn sliding(count: usize, seed: u64) -> Vec<Evidence> {
 #[test]
 fn traction_has_a_bound_of_its_own_where_a_model_knows_sliding() {
     let calibration = Calibration::fit(&sliding(1000, 4)).unwrap();
-    assert!(calibration.beside() == Some(Beside::Sliding) && calibration.sound() && calibration.evidence() == 1000);
+    assert!(calibration.is_of(Beside::Sliding) && calibration.sound() && calibration.evidence() == 1000);
     let fresh = sliding(4000, 5);
     let slides: Vec<&Evidence> = fresh.iter().filter(|case| case.errors.traction.is_some()).collect();
     let ratio = |case: &&Evidence| {
@@ -119,6 +119,20 @@ fn traction_has_a_bound_of_its_own_where_a_model_knows_sliding() {
     assert!(covered * 100 >= 99 * ratios.len(), "{covered} of {}", ratios.len());
     ratios.sort_by(f64::total_cmp);
     assert!(ratios[ratios.len() / 2] < 12.0, "{}", ratios[ratios.len() / 2]);
+}
+
+#[test]
+fn the_rise_has_a_bound_of_its_own_where_a_model_knows_heat() {
+    let mut cases = sliding(400, 8);
+    for case in &mut cases {
+        case.features.beside = Beside::Heat;
+        case.errors.rise = Some(3.0 * case.errors.h_c);
+    }
+    let calibration = Calibration::fit(&cases).unwrap();
+    assert!(calibration.is_of(Beside::Heat) && calibration.sound() && calibration.by_full_solutions());
+    let estimate = calibration.estimate(&cases[7].features);
+    assert!((estimate.rise.unwrap().bound / estimate.h_c.bound / 3.0 - 1.0).abs() < 0.1, "{estimate:?}");
+    assert!(estimate.traction.is_some());
 }
 
 #[test]

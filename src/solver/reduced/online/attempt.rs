@@ -2,11 +2,12 @@
 
 use super::{ReducedError, ReducedOptions};
 use crate::solver::discrete::grid::dot;
+use crate::solver::discrete::heat::Profile;
 use crate::solver::full::Problem;
 use crate::solver::physics::contact::{OperatingPoint, Quantity};
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::model::{Snapshot, Window};
-use crate::solver::reduced::operators::{Case, OnlineOutcome, Operators, RowObserver, Stop};
+use crate::solver::reduced::operators::{Case, OnlineOutcome, Operators, RowObserver, Stop, Warmth};
 use crate::solver::reduced::start::{Guess, film_number};
 
 /// A converged online iteration.
@@ -18,6 +19,25 @@ pub(super) struct Found {
     pub residual: f64,
     pub traction: Option<f64>,
     pub fronts: Vec<usize>,
+    pub heat: Option<Warmth>,
+}
+
+impl Found {
+    /// θ at the stations; empty without heat.
+    pub fn theta(&self) -> &[Profile] {
+        self.heat.as_ref().map_or(&[], |heat| &heat.theta)
+    }
+}
+
+/// Accuracy of the isothermal solution from which a contact with heat begins.
+const ISOTHERMAL: f64 = 1e-2;
+
+/// Turns of pressure and temperatures that a contact with heat may take per Newton step of one without.
+const TURNS_PER_STEP: usize = 4;
+
+/// The observer for one iteration.
+fn watched<'a>(observer: &'a mut Option<RowObserver<'_>>) -> Option<RowObserver<'a>> {
+    observer.as_mut().map(|observer| &mut **observer as RowObserver<'_>)
 }
 
 /// Newton from a guess, within `limit` steps and the options' own limit.
@@ -40,7 +60,6 @@ pub(super) fn attempt(
     let lift = operators.lift(window, &zero, scale);
     let offset = -0.5 * scale.ln();
     let mut h_0 = start.h_c - (dot(&lift, &coefficients) + offset);
-    let watch = observer.as_mut().map(|o| &mut **o as RowObserver<'_>);
     // The boundary alone ruptures the film.
     let penalty = match window.cavitation {
         Cavitation::Penalty => options.penalty.unwrap_or(window.penalty),
@@ -48,13 +67,31 @@ pub(super) fn attempt(
     };
     let case = Case { problem, scale, curvature: 1.0, penalty, lift: &lift };
     let stop = Stop { tolerance: options.tolerance, max_newton: options.max_newton.min(limit) };
-    let outcome = operators.newton(&case, &mut coefficients, &mut h_0, stop, watch);
+    let outcome = if problem.heat.is_some() {
+        let mut spent = 0;
+        if start.theta.is_empty() {
+            let stop = Stop { tolerance: ISOTHERMAL, ..stop };
+            let isothermal = problem.isothermal();
+            let cold = Case { problem: &isothermal, ..case };
+            let cold = operators.newton(&cold, &mut coefficients, &mut h_0, stop, watched(observer));
+            if !cold.converged {
+                return Err(ReducedError::NotConverged { iterations: cold.iterations, step: cold.step });
+            }
+            spent = cold.iterations;
+        }
+        let stop = Stop { max_newton: TURNS_PER_STEP * stop.max_newton, ..stop };
+        let warm = operators.turns(&case, (&mut coefficients, &mut h_0), &start.theta, stop, watched(observer));
+        OnlineOutcome { iterations: spent + warm.iterations, ..warm }
+    } else {
+        operators.newton(&case, &mut coefficients, &mut h_0, stop, watched(observer))
+    };
     let h_c = h_0 + (operators.lifted(&lift, &coefficients) + offset);
     if outcome.converged && h_c > 0.0 {
         let OnlineOutcome { iterations, residual, .. } = outcome;
         let traction = operators.traction(problem, scale);
         let fronts = operators.fronts().collect();
-        Ok(Found { coefficients, h_0, h_c, iterations, residual, traction, fronts })
+        let heat = operators.warmth(problem);
+        Ok(Found { coefficients, h_0, h_c, iterations, residual, traction, fronts, heat })
     } else {
         Err(ReducedError::NotConverged { iterations: outcome.iterations, step: outcome.step })
     }
@@ -82,7 +119,7 @@ pub(super) fn walk(
     };
     let (mut t, mut stride) = (0.0, 0.25);
     let (coefficients, fronts) = (snapshot.coefficients.clone(), snapshot.fronts.clone());
-    let mut guess = Guess { coefficients, h_c: snapshot.h_c, fronts };
+    let mut guess = Guess { coefficients, h_c: snapshot.h_c, fronts, theta: Vec::new() };
     let mut from_point = snapshot.point;
     let mut iterations = 0;
     while stride > 0.01 {
@@ -97,7 +134,8 @@ pub(super) fn walk(
                     return Some(Found { iterations, ..found });
                 }
                 (t, stride) = (next, 1.5 * stride);
-                guess = Guess { coefficients: found.coefficients, h_c: found.h_c, fronts: found.fronts };
+                let theta = found.theta().to_vec();
+                guess = Guess { coefficients: found.coefficients, h_c: found.h_c, fronts: found.fronts, theta };
                 from_point = problem.point;
             }
             Err(_) => stride *= 0.4,

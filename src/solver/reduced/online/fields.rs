@@ -1,12 +1,16 @@
 //! From a reduced solution back to fields: the only large-scale work online, on request.
 
 use super::{Online, ReducedError, ReducedSolution, operators_of};
-use crate::solver::discrete::grid::ContactGrid;
+use crate::solver::discrete::grid::{ContactGrid, INLET};
+use crate::solver::discrete::heat::{March, Profile, WarmFilm};
 use crate::solver::discrete::nodes::Nodes;
+use crate::solver::discrete::reynolds::generalized::{NodalGradient, NodeState};
+use crate::solver::full::heat::{NodeArrays, Temperatures, one_sided};
 use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, Termination, scalars_of};
-use crate::solver::reduced::operators::cut_off;
+use crate::solver::reduced::operators::{cut_off, station_nodes};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Mat, Par};
+use std::sync::Arc;
 
 impl Online {
     /// Fields and scalars of a reduced solution, on the window's grid; `report.newton_iterations` holds the online
@@ -17,8 +21,9 @@ impl Online {
     pub fn reconstruct(&self, solution: &ReducedSolution) -> Result<Solution, ReducedError> {
         let fields = self.fields(solution)?;
         let scalars = fields.scalars(solution.h_0);
-        let multiplier = fields.multiplier(&solution.fronts);
-        let Fields { problem, grid, scale, pressure, film } = fields;
+        let multiplier = fields.multiplier();
+        let heat = solution.heat.as_ref().and_then(|warmth| fields.temperatures(&warmth.theta)).map(Arc::new);
+        let Fields { problem, grid, scale, pressure, film, .. } = fields;
         let (x, y) = match &grid {
             ContactGrid::Line(grid) => (grid.scaled(scale).x, vec![0.0]),
             ContactGrid::Point(grid) => (grid.x.clone(), grid.y.clone()),
@@ -44,6 +49,7 @@ impl Online {
                 cautious_front: false,
             },
             grid_cost: None,
+            heat,
         })
     }
 
@@ -61,7 +67,27 @@ impl Online {
         Ok(self.fields(solution)?.film.iter().fold(f64::INFINITY, lower))
     }
 
+    /// Fields of a solution, blended with those beside it.
     fn fields(&self, solution: &ReducedSolution) -> Result<Fields, ReducedError> {
+        let mut blend = self.fields_of_window(solution, solution.own_h_0())?;
+        let own = solution.own_share();
+        if !solution.beside.is_empty() {
+            blend.pressure.iter_mut().chain(&mut blend.film).for_each(|value| *value *= own);
+        }
+        for (share, other) in &solution.beside {
+            let part = self.fields_of_window(other, other.h_0)?;
+            if part.pressure.len() != blend.pressure.len() {
+                return Err(ReducedError::Empty);
+            }
+            let add = |sum: &mut [f64], part: &[f64]| sum.iter_mut().zip(part).for_each(|(sum, p)| *sum += share * p);
+            add(&mut blend.pressure, &part.pressure);
+            add(&mut blend.film, &part.film);
+            blend.fronts.iter_mut().zip(part.fronts).for_each(|(front, other)| *front = (*front).max(other));
+        }
+        Ok(blend)
+    }
+
+    fn fields_of_window(&self, solution: &ReducedSolution, h_0: f64) -> Result<Fields, ReducedError> {
         let problem = Problem::new(&solution.point, solution.lubricant)?;
         let (Some(window), Some(cell)) = (self.model.windows.get(solution.window), self.windows.get(solution.window))
         else {
@@ -91,10 +117,7 @@ impl Online {
             None => multiply(operators.deformation(window)),
             Some(shapes) => {
                 let mut film = vec![0.0; pressure.len()];
-                for (weight, flexed) in shapes.weights(&ellipse).into_iter().zip(&shapes.flexed) {
-                    let part = multiply(flexed.get(.., ..modes));
-                    film.iter_mut().zip(part).for_each(|(film, part)| *film += weight * part);
-                }
+                shapes.add_deformation(&ellipse, &solution.coefficients, &mut film);
                 film
             }
         };
@@ -107,15 +130,19 @@ impl Online {
             // What modes leave before B.
             pressure.iter_mut().for_each(|p| *p = p.max(0.0));
         }
-        let (offset, curvature) = (solution.h_0 - 0.5 * scale.ln(), ellipse.gap_curvature());
+        let (offset, curvature) = (h_0 - 0.5 * scale.ln(), ellipse.gap_curvature());
         for (node, h) in film.iter_mut().enumerate() {
             let (xi, y) = window.grid.place(node);
             let x = -1.0 + (xi + 1.0) * scale;
             *h = offset + 0.5 * (x * x + curvature * y * y) + scale * *h;
         }
-        Ok(Fields { problem, grid: window.grid.clone(), scale, pressure, film })
+        let fronts = solution.fronts.clone();
+        Ok(Fields { problem, grid: window.grid.clone(), scale, pressure, film, fronts })
     }
 }
+
+/// Accuracy of the march that tells where heat goes.
+const MARCHED: f64 = 1e-7;
 
 /// Reconstructed node arrays.
 struct Fields {
@@ -124,12 +151,14 @@ struct Fields {
     scale: f64,
     pressure: Vec<f64>,
     film: Vec<f64>,
+    /// The first ruptured column of each line along X; empty under a penalty.
+    fronts: Vec<usize>,
 }
 
 impl Fields {
     /// λ behind the rupture boundary, node array; empty where there is none.
-    fn multiplier(&self, fronts: &[usize]) -> Vec<f64> {
-        let Self { problem, grid, scale, pressure, film } = self;
+    fn multiplier(&self) -> Vec<f64> {
+        let Self { problem, grid, scale, pressure, film, fronts } = self;
         if fronts.is_empty() {
             return Vec::new();
         }
@@ -145,8 +174,37 @@ impl Fields {
         multiplier
     }
 
+    /// Temperatures by those at the stations of the march; none without heat.
+    fn temperatures(&self, theta: &[Profile]) -> Option<Temperatures> {
+        let Self { problem, grid: ContactGrid::Line(grid), scale, pressure, film, .. } = self else { return None };
+        let (heat, laws) = (problem.heat.as_ref()?, problem.warm_laws()?);
+        let x = grid.scaled(*scale).x;
+        let gradient = NodalGradient::new(&x);
+        let state = |node: usize| {
+            let inlet = node == INLET;
+            let slope = if inlet { one_sided(&x[node..], &pressure[node..]) } else { gradient.at(pressure, node) };
+            NodeState { pressure: pressure[node], gradient: [slope, 0.0], film: film[node] }
+        };
+        let nodes = station_nodes(&self.grid);
+        if theta.len() != nodes.len() {
+            return None;
+        }
+        let states: Vec<NodeState> = nodes.iter().map(|&node| state(node)).collect();
+        let mut march = March::new(nodes.iter().map(|&node| x[node]).collect());
+        march.stations.iter_mut().zip(theta).for_each(|(station, theta)| station.theta = *theta);
+        // What flows and where the heat goes, at the temperatures as they are.
+        march.run(&problem.course(&states)?, 0.0, MARCHED);
+        let mut warm = WarmFilm::default();
+        warm.spread(&x, &march.x, |i| theta[i]);
+        for (node, (theta, stress)) in warm.theta.iter().zip(&mut warm.stress).enumerate().skip(INLET) {
+            laws.node(state(node), theta, stress);
+        }
+        let arrays = NodeArrays { x: &x, pressure, film, stress: &warm.stress };
+        Some(Temperatures::marched(&march, &states, &arrays, (problem, heat)))
+    }
+
     fn scalars(&self, h_0: f64) -> Scalars {
-        let Self { problem, grid, scale, pressure, film } = self;
+        let Self { problem, grid, scale, pressure, film, .. } = self;
         match grid {
             ContactGrid::Line(grid) => scalars_of(&grid.scaled(*scale), problem, pressure, film, h_0),
             ContactGrid::Point(grid) => scalars_of(&**grid, problem, pressure, film, h_0),

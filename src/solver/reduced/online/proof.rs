@@ -1,27 +1,38 @@
 //! Whether the parts of a window belong together: at its own snapshots it must give what they hold.
 
 use super::attempt::attempt;
+use super::operators_of;
 use super::settings::ReducedOptions;
 use crate::solver::full::Problem;
-use crate::solver::physics::lubricant::Lubricant;
-use crate::solver::reduced::model::Window;
-use crate::solver::reduced::operators::Operators;
-use crate::solver::reduced::start;
+use crate::solver::reduced::kriging::Kriging;
+use crate::solver::reduced::model::{ReducedModel, Snapshot};
+use crate::solver::reduced::start::{self, Guess};
+use std::cell::OnceCell;
 
 /// How far H_c of a snapshot may lie from the one it was trained from, relative to it. Models differ there by less than
 /// one in a hundred; a window with parts of another one does not come near.
 const WITHIN: f64 = 0.1;
 
-impl Window {
-    /// Solves the contacts of its first and its last snapshot from these; `sliding` for lubricants that thin under shear.
-    pub fn reproduces_snapshots(&self, lubricant: Lubricant, sliding: bool) -> bool {
+impl ReducedModel {
+    /// Solves the contacts of a window's first and last snapshot from these; of a window around an anchor those that it
+    /// serves: others may lie far outside.
+    pub fn reproduces_snapshots(&self, window: usize) -> bool {
+        let Some(served) = self.windows.get(window) else { return false };
+        let own = |snapshot: &&Snapshot| served.anchor.is_none() || self.window_for(&snapshot.point) == window;
+        let snapshots: Vec<&Snapshot> = served.snapshots.iter().filter(own).collect();
         let options = ReducedOptions::default();
-        let mut operators = Operators::new(self, usize::MAX, options.deformation_modes, sliding);
-        self.snapshots.iter().take(1).chain(self.snapshots.iter().skip(1).last()).all(|snapshot| {
-            let Ok(problem) = Problem::new(&snapshot.point, lubricant) else { return false };
-            let guess = start::carried(snapshot, &problem.point);
-            attempt(self, &mut operators, &problem, &guess, usize::MAX, &options, &mut None)
-                .is_ok_and(|found| (found.h_c - snapshot.h_c).abs() <= WITHIN * snapshot.h_c.abs())
+        let mut operators = operators_of(self, served, &options);
+        // Kriging takes as long as all the rest, and hardly any window needs it.
+        let kriging = OnceCell::new();
+        let kriged = |problem: &Problem| kriging.get_or_init(|| Kriging::of(served)).as_ref()?.start(&problem.point);
+        snapshots.iter().take(1).chain(snapshots.iter().skip(1).last()).all(|snapshot| {
+            let Ok(problem) = Problem::new(&snapshot.point, self.domain.lubricant) else { return false };
+            let mut gives = |guess: Guess| {
+                attempt(served, &mut operators, &problem, &guess, usize::MAX, &options, &mut None)
+                    .is_ok_and(|found| (found.h_c - snapshot.h_c).abs() <= WITHIN * snapshot.h_c.abs())
+            };
+            gives(start::carried(snapshot, &problem.point))
+                || served.anchor.is_some() && kriged(&problem).is_some_and(gives)
         })
     }
 }

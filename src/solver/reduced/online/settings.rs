@@ -16,6 +16,9 @@ pub enum ReducedError {
         "the reduced model was trained for a lubricant that does not thin under shear; use the full solver, or a model of this lubricant"
     )]
     ShearThinning,
+    /// The contact is one with heat, of which the model knows nothing.
+    #[error("the reduced model knows no heat; leave heat out, solve in full, or train a model with heat and name it")]
+    Heat,
     /// The model is of the other kind of contact.
     #[error("the reduced model is of {} contacts, but the operating point is that of a {} contact", model.name(), given.name())]
     OtherContact {

@@ -14,7 +14,8 @@ use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::model::{Snapshot, Window};
 use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatMut, Par};
+use faer::reborrow::ReborrowMut;
+use faer::{Accum, Mat, MatMut, MatRef, Par};
 
 /// Nodes before B at which pressures are looked at: k of (D.17).
 const BEFORE: usize = 5;
@@ -45,6 +46,8 @@ pub(super) struct Front {
     kept: Vec<Kept>,
     /// Whether B may pass several nodes at once, and looks for negative pressures among all that it may pass.
     pub strides: bool,
+    /// Whether modes are held at zero behind B: in windows of many oils it lies at places far apart.
+    restrains: bool,
     /// Whether B is out of force: a penalty holds all pressures, as far as there are modes.
     idle: bool,
     /// Which of them is in the Jacobian.
@@ -195,6 +198,7 @@ impl Front {
             modes: nodes.iter().flat_map(|p| state_rows[p.place * modes..][..modes].iter().copied()).collect(),
             kept: Vec::new(),
             strides: false,
+            restrains: window.anchor.is_some(),
             idle: false,
             loaded: None,
             lift: vec![0.0; modes],
@@ -310,6 +314,25 @@ impl Front {
         }
     }
 
+    /// Adds to the equations, by a factor, that modes are zero behind B: of modes that differ there alone nothing else
+    /// tells the coefficients, and Newton's steps would go astray. Solutions are zero there, so that this changes them by
+    /// no more than the basis misses.
+    pub fn restrain(&self, factor: f64, coefficients: &[f64], mut matrix: MatMut<'_, f64>, rhs: &mut [f64]) {
+        if self.idle || !self.restrains {
+            return;
+        }
+        let modes = self.lift.len();
+        for line in &self.lines {
+            let own = &self.modes[(line.first + line.front) * modes..(line.first + line.count) * modes];
+            let behind = MatRef::from_row_major_slice(own, line.count - line.front, modes);
+            matmul(matrix.rb_mut(), Accum::Add, behind.transpose(), behind, factor, Par::Seq);
+            for own in own.chunks_exact(modes) {
+                let value = factor * dot(own, coefficients);
+                rhs.iter_mut().zip(own).for_each(|(rhs, v)| *rhs -= value * v);
+            }
+        }
+    }
+
     /// Adds to K P, of coefficients, what nodes between B and its place in K V bend.
     pub fn correct(&self, coefficients: &[f64], deformation: &mut [f64]) {
         let (modes, s) = (self.lift.len(), deformation.len());
@@ -319,6 +342,30 @@ impl Front {
                 let value = sign * dot(&self.modes[k * modes..][..modes], coefficients);
                 let bends = &self.bends[k * s..][..s];
                 deformation.iter_mut().zip(bends).for_each(|(out, bend)| *out += value * bend);
+            }
+        }
+    }
+
+    /// Adds to a row of the Jacobian, by its derivatives with respect to the films, what nodes between B and its place in
+    /// K V bend. Of one line always: there few nodes decide the film, and at a high M Newton's steps grow without them.
+    /// Of many lines it costs more than the steps that it mostly saves, and waits until an iteration turns out `slow`.
+    pub fn bend(
+        &self,
+        (stencil, d_h): (&[usize; STENCIL], [f64; STENCIL]),
+        slow: bool,
+        scale: f64,
+        target: &mut [f64],
+    ) {
+        if self.idle || !(slow || self.lines.len() == 1) {
+            return;
+        }
+        let (modes, s) = (self.lift.len(), self.bends.len() / self.nodes.len());
+        for line in self.lines.iter().filter(|line| line.front != line.kept) {
+            let sign = if line.front > line.kept { scale } else { -scale };
+            for k in line.first + line.front.min(line.kept)..line.first + line.front.max(line.kept) {
+                let bends = &self.bends[k * s..][..s];
+                let bent = sign * stencil.iter().zip(d_h).map(|(&place, slope)| slope * bends[place]).sum::<f64>();
+                target.iter_mut().zip(&self.modes[k * modes..][..modes]).for_each(|(out, v)| *out += bent * v);
             }
         }
     }

@@ -15,6 +15,21 @@ use faer::{Accum, ColMut, ColRef, MatRef, Par};
 /// The nodes of a row by twos: a row of the Jacobian is read and written half as often.
 const PAIRS: [(usize, usize); STENCIL / 2] = [(0, 1), (2, 3), (4, 5)];
 
+/// Steps after which an iteration is slow: most take three to five.
+const SWIFT: usize = 6;
+
+/// How much modes are held at zero behind the rupture boundary, relative to the equations' own size.
+const RESTRAINED: f64 = 1e-6;
+
+/// How exact the derivatives of rows are.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Slopes {
+    /// With K V of a place of the rupture boundary nearby, where there are many lines.
+    Usual,
+    /// With K V of its own place.
+    Exact,
+}
+
 /// How an online Newton iteration ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct OnlineOutcome {
@@ -85,35 +100,17 @@ impl Operators {
         // The films of another contact are no start.
         self.scratch.nodes.forget();
         for iteration in 1..=stop.max_newton {
-            self.evaluate(case, coefficients, *h_0, true);
+            let slopes = if iteration > SWIFT { Slopes::Exact } else { Slopes::Usual };
+            self.evaluate(case, coefficients, *h_0, Some(slopes));
             if !self.linear_step(case.problem, case.scale, coefficients, observer.is_some()) {
                 return outcome;
             }
             outcome.iterations = iteration;
             if let Some(observer) = observer.as_mut() {
-                self.jacobian_times_step();
-                let s = &self.scratch;
-                observer(&Iterate {
-                    residual: &s.values,
-                    jacobian_step: &s.product,
-                    jacobian: s.jacobian.as_ref(),
-                    step: &s.system.rhs,
-                    coefficients,
-                    lift: self.front.as_ref().map_or(case.lift, |front| &front.lift),
-                    h_c: *h_0 - 0.5 * case.scale.ln() + self.lifted(case.lift, coefficients),
-                });
+                self.show(case, (coefficients, *h_0), observer);
             }
             let omega = self.damping(case.scale);
-            let s = &mut self.scratch;
-            s.fields.iter_mut().zip(&s.step_fields).for_each(|(field, step)| *field += omega * step);
-            let (mut change, mut size) = (0.0, 0.0);
-            for (c, d) in coefficients.iter_mut().zip(&self.scratch.system.rhs) {
-                *c += omega * d;
-                change += d * d;
-                size += *c * *c;
-            }
-            *h_0 += omega * self.scratch.system.rhs[self.modes];
-            outcome.step = (change / size).sqrt();
+            outcome.step = self.take_step(omega, coefficients, h_0);
             if !outcome.step.is_finite() {
                 return outcome;
             }
@@ -123,10 +120,39 @@ impl Operators {
                 break;
             }
         }
-        outcome.residual = self.evaluate(case, coefficients, *h_0, false);
+        outcome.residual = self.evaluate(case, coefficients, *h_0, None);
         // A converged iteration with an absurd residual has found garbage.
         outcome.converged &= outcome.residual.is_finite() && outcome.residual < 1e3;
         outcome
+    }
+
+    /// Shows an iterate and the step that was solved for there.
+    pub(super) fn show(&mut self, case: &Case<'_>, (coefficients, h_0): (&[f64], f64), observer: &mut RowObserver<'_>) {
+        self.jacobian_times_step();
+        let s = &self.scratch;
+        observer(&Iterate {
+            residual: &s.values,
+            jacobian_step: &s.product,
+            jacobian: s.jacobian.as_ref(),
+            step: &s.system.rhs,
+            coefficients,
+            lift: self.front.as_ref().map_or(case.lift, |front| &front.lift),
+            h_c: h_0 - 0.5 * case.scale.ln() + self.lifted(case.lift, coefficients),
+        });
+    }
+
+    /// Takes a share of the step that was solved for, and of its fields; returns its size, relative.
+    pub(super) fn take_step(&mut self, omega: f64, coefficients: &mut [f64], h_0: &mut f64) -> f64 {
+        let s = &mut self.scratch;
+        s.fields.iter_mut().zip(&s.step_fields).for_each(|(field, step)| *field += omega * step);
+        let (mut change, mut size) = (0.0, 0.0);
+        for (c, d) in coefficients.iter_mut().zip(&s.system.rhs) {
+            *c += omega * d;
+            change += d * d;
+            size += *c * *c;
+        }
+        *h_0 += omega * s.system.rhs[self.modes];
+        (change / size).sqrt()
     }
 
     /// Lets the rupture boundary follow a step; whether it is still.
@@ -138,27 +164,40 @@ impl Operators {
         front.follow(&s.nodes, (scale, omega), (&s.step_fields[..count], shift), coefficients, changed)
     }
 
-    /// Evaluates the sampled rows at the fields; returns e_f^I.
-    fn evaluate(&mut self, case: &Case<'_>, coefficients: &[f64], h_0: f64, derivatives: bool) -> f64 {
-        let Case { problem, scale, curvature, penalty, .. } = *case;
+    /// The films of the fields.
+    pub(super) fn lay_films(&mut self, case: &Case<'_>, h_0: f64) {
+        let Case { scale, curvature, .. } = *case;
         let s = &mut self.scratch;
-        let count = self.support.len();
-        let (pressure, rest) = s.fields.split_at(count);
-        let (deformation, gradients) = rest.split_at(count);
+        let deformation = &s.fields[self.support.len()..];
         let offset = h_0 - 0.5 * scale.ln();
         for ((film, place), deformation) in s.films.iter_mut().zip(&self.support).zip(deformation) {
             let x = -1.0 + (place.xi + 1.0) * scale;
             *film = offset + (0.5 * curvature * x * x + place.across) + scale * deformation;
         }
+    }
+
+    /// Evaluates the sampled rows at the fields; returns e_f^I.
+    pub(super) fn evaluate(&mut self, case: &Case<'_>, coefficients: &[f64], h_0: f64, slopes: Option<Slopes>) -> f64 {
+        self.lay_films(case, h_0);
+        let Case { problem, scale, penalty, .. } = *case;
+        let s = &mut self.scratch;
+        let count = self.support.len();
+        let (pressure, rest) = s.fields.split_at(count);
+        let gradients = &rest[count..];
         let shear = problem.shear.as_ref().filter(|_| self.axes > 0);
         let gradient = |k: usize| [gradients[k] / scale, gradients.get(count + k).copied().unwrap_or(0.0)];
-        s.nodes.evaluate(
-            Laws { shear, ..problem.laws() },
-            (pressure, &s.films),
-            gradient,
-            FilmTreatment::default(),
-            Order::BesideTheFormer,
-        );
+        match self.heated.as_mut().zip(problem.warm_laws()) {
+            Some((heated, laws)) => {
+                s.nodes.evaluate_warm(&laws, (pressure, &s.films), |k| gradient(k)[0], heated.film());
+            }
+            None => s.nodes.evaluate(
+                Laws { shear, ..problem.laws() },
+                (pressure, &s.films),
+                gradient,
+                FilmTreatment::default(),
+                Order::BesideTheFormer,
+            ),
+        }
         let (v, d) = self.state_rows.split_at(count * self.modes);
         let (d, g) = d.split_at(count * self.modes);
         let mut sum = 0.0;
@@ -176,7 +215,7 @@ impl Operators {
             let out = s.nodes.row(&geometry, if held { penalty } else { 0.0 }, *stencil);
             s.values[r] = out.value;
             sum += self.row_weights[r] * scale * out.value * out.value;
-            if derivatives {
+            if let Some(slopes) = slopes {
                 let target = &mut s.jacobian_rows[r * self.modes..(r + 1) * self.modes];
                 target.fill(0.0);
                 for (m, n) in PAIRS {
@@ -191,7 +230,7 @@ impl Operators {
                         *t = (*t + (a * v + b * d)) + (e * w + f * g);
                     }
                 }
-                for axis in 0..if shear.is_some() { self.axes } else { 0 } {
+                for axis in 0..if s.nodes.thins() { self.axes } else { 0 } {
                     let per_gradient = if axis == 0 { 1.0 / scale } else { 1.0 };
                     let slopes = s.nodes.slopes(&geometry, *stencil, axis);
                     for (m, n) in PAIRS {
@@ -204,6 +243,9 @@ impl Operators {
                             *t = (*t + a * v) + b * w;
                         }
                     }
+                }
+                if let Some(front) = &self.front {
+                    front.bend((stencil, out.d_h), slopes == Slopes::Exact, scale, target);
                 }
                 s.film_column[r] = out.d_h.iter().sum();
             }
@@ -218,7 +260,7 @@ impl Operators {
 
     /// Solves the reduced linear system; the step is left in `scratch.system.rhs`. False when it is singular.
     /// `keep` keeps a copy of the reduced Jacobian for an observer.
-    fn linear_step(&mut self, problem: &Problem, scale: f64, coefficients: &[f64], keep: bool) -> bool {
+    pub(super) fn linear_step(&mut self, problem: &Problem, scale: f64, coefficients: &[f64], keep: bool) -> bool {
         if self.scratch.minimised.is_some() {
             return self.least_squares_step(problem, scale, coefficients);
         }
@@ -232,6 +274,10 @@ impl Operators {
         matmul(matrix.get_mut(..modes, modes..), Accum::Replace, g, films.as_mat(), 1.0, Par::Seq);
         let reduced = ColMut::from_slice_mut(&mut rhs[..modes]);
         matmul(reduced.as_mat_mut(), Accum::Replace, g, values.as_mat(), -1.0, Par::Seq);
+        if let Some(front) = &self.front {
+            let size = (0..modes).map(|k| matrix[(k, k)]).sum::<f64>() / modes as f64;
+            front.restrain(RESTRAINED * size, coefficients, matrix.get_mut(..modes, ..modes), &mut rhs[..modes]);
+        }
         let mut carried = 0.0;
         for (k, (l, c)) in self.load_row.iter().zip(coefficients).enumerate() {
             matrix[(modes, k)] = scale * l;
@@ -286,7 +332,7 @@ impl Operators {
     }
 
     /// ω = min(1, 0.3/max|ΔP|), and no sampled film loses more than 70 %.
-    fn damping(&mut self, scale: f64) -> f64 {
+    pub(super) fn damping(&mut self, scale: f64) -> f64 {
         let s = &mut self.scratch;
         let (step, count) = (&s.system.rhs[..self.modes], self.support.len());
         product(&self.state_rows, self.modes, step, &mut s.step_fields);
@@ -318,7 +364,7 @@ impl Operators {
 }
 
 /// out = A x for a row-major A.
-fn product(rows: &[f64], columns: usize, x: &[f64], out: &mut [f64]) {
+pub(super) fn product(rows: &[f64], columns: usize, x: &[f64], out: &mut [f64]) {
     matmul(
         ColMut::from_slice_mut(out).as_mat_mut(),
         Accum::Replace,

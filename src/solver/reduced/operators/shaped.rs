@@ -28,8 +28,8 @@ impl Shaped {
         (support, modes): (&[usize], usize),
         (geometry, places, gradients): (&[RowGeometry], &[Place], &[f64]),
     ) -> Self {
-        let rows = |matrix: &faer::Mat<f64>| -> Vec<f64> {
-            support.iter().flat_map(|&node| (0..modes).map(move |k| matrix[(node, k)])).collect()
+        let rows = |matrix: &faer::Mat<f32>| -> Vec<f64> {
+            support.iter().flat_map(|&node| (0..modes).map(move |k| f64::from(matrix[(node, k)]))).collect()
         };
         Self {
             ellipse: None,
@@ -76,7 +76,7 @@ impl Shaped {
 
     /// The deformation by mode k at nodes with weights, of the shape it has.
     pub fn at(&self, shapes: &Shapes, nodes: &[(usize, f64)], k: usize) -> f64 {
-        let of = |matrix: &faer::Mat<f64>| nodes.iter().map(|(node, w)| w * matrix[(*node, k)]).sum::<f64>();
+        let of = |matrix: &faer::Mat<f32>| nodes.iter().map(|(node, w)| w * f64::from(matrix[(*node, k)])).sum::<f64>();
         self.weights.iter().zip(&shapes.flexed).map(|(weight, matrix)| weight * of(matrix)).sum()
     }
 }

@@ -5,8 +5,12 @@
 //! modes and the sampled rows alone. Only a remeshed frame needs ρ̄H at all nodes once per step, for the spline that
 //! carries it to the next grid.
 
+mod coupled;
+mod domain;
 mod model;
 mod steps;
 
+pub use coupled::{CoupledError, CoupledMarch, MOST_PARTS_AT_ONCE, MarchState};
+pub use domain::{Reach, TrajectoryDomain, only_course};
 pub use model::{TrajectoryModel, TrajectoryStart};
 pub use steps::ReducedMarch;

@@ -1,6 +1,6 @@
 //! The online phase in time: Newton on the sampled rows from the extrapolation of the two former steps.
 
-use super::model::TrajectoryModel;
+use super::model::{TrajectoryModel, TrajectoryStart};
 use crate::solver::discrete::elasticity::Scratch;
 use crate::solver::discrete::grid::{FIRST_UNKNOWN, LineGrid, ReferenceGrid, dot};
 use crate::solver::discrete::reynolds::line::Upstream;
@@ -8,7 +8,8 @@ use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
 use crate::solver::full::transient::{Conditions, Effort, Frame, History, Marching, Moment, State, Step, Transient};
 use crate::solver::full::{Scalars, Termination};
 use crate::solver::observer::Observer;
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::contact_rows::ContactRows;
 use crate::solver::reduced::operators::{Case, Iterate, Operators, RowObserver, Stop, cut_off, passed_rows};
 use crate::solver::reduced::{ReducedError, distance};
@@ -29,7 +30,7 @@ pub(crate) type StepObserver<'a> = Box<dyn FnMut(&Iterate<'_>) + 'a>;
 
 /// A reduced model, ready to march.
 pub struct ReducedMarch<'a> {
-    model: &'a TrajectoryModel,
+    model: Arc<TrajectoryModel>,
     grid: LineGrid,
     operators: Operators,
     /// Stencils of the sampled rows, and of those that the rupture boundary may pass, and their coefficients, for a flow
@@ -69,11 +70,19 @@ impl<'a> ReducedMarch<'a> {
     ///
     /// # Errors
     /// When the model is of point contacts, or of films that rupture otherwise.
-    pub fn new(model: &'a TrajectoryModel, transient: &Transient) -> Result<Self, ReducedError> {
+    pub fn new(model: &Arc<TrajectoryModel>, transient: &Transient) -> Result<Self, ReducedError> {
         let (own, given) = (model.window.cavitation, transient.lubricant.cavitation);
         if own != given {
             return Err(ReducedError::OtherRupture { model: own, given });
         }
+        Self::on(model)
+    }
+
+    /// The model on its grid, whatever it is to march along.
+    ///
+    /// # Errors
+    /// When the model is of point contacts.
+    pub(super) fn on(model: &Arc<TrajectoryModel>) -> Result<Self, ReducedError> {
         let reference = line_grid(model)?;
         let grid = reference.scaled(1.0);
         let window = &model.window;
@@ -92,7 +101,6 @@ impl<'a> ReducedMarch<'a> {
         let (first, weights) = grid.interpolation(0.0);
         let at_zero = |k: usize| weights.iter().enumerate().map(|(m, w)| w * window.flexed[(first + m, k)]).sum();
         Ok(Self {
-            model,
             x: rows.iter().map(|row| grid.x[row + FIRST_UNKNOWN]).collect(),
             lift: (0..modes).map(at_zero).collect(),
             sides,
@@ -110,7 +118,38 @@ impl<'a> ReducedMarch<'a> {
             scalars: Scalars::default(),
             grid,
             observer: None,
+            model: Arc::clone(model),
         })
+    }
+
+    /// Writes the present state down, in the room there is.
+    pub(super) fn keep(&self, history: &mut History, fronts: &mut Vec<usize>) {
+        history.copy_from(&self.history);
+        fronts.clone_from(&self.fronts);
+    }
+
+    /// Goes back to a state that [`Self::keep`] wrote down.
+    pub(super) fn restore(&mut self, history: &History, fronts: &[usize]) {
+        self.history.copy_from(history);
+        let (coefficients, h_0) = self.history.nearer();
+        self.coefficients.copy_from_slice(coefficients);
+        self.h_0 = h_0;
+        self.fronts.clear();
+        self.fronts.extend_from_slice(fronts);
+    }
+
+    /// Whether such a state can be one of this model.
+    pub(super) fn knows(&self, history: &History, fronts: &[usize]) -> bool {
+        let between = if matches!(self.model.frame, Frame::Remeshed(_)) { self.grid.len() } else { 0 };
+        let lines = if self.model.window.cavitation == Cavitation::Penalty { 0 } else { 1 };
+        history.is_of(self.operators.modes, self.sides.len(), between)
+            && fronts.len() == lines
+            && fronts.iter().all(|front| *front <= self.grid.len())
+    }
+
+    /// H₀ of the present state.
+    pub(super) fn h_0(&self) -> f64 {
+        self.h_0
     }
 
     /// Shows every iterate to an observer, for a training.
@@ -215,8 +254,11 @@ impl Marching for ReducedMarch<'_> {
 
     fn rest(&mut self, at: &Conditions, _: &dyn Observer) -> Result<Effort, Termination> {
         let moes = at.problem.moes;
-        let far = |point: &OperatingPoint| distance(moes, point.moes());
-        let nearest = self.model.starts.iter().min_by(|a, b| far(&a.point).total_cmp(&far(&b.point)));
+        let far = |start: &TrajectoryStart| {
+            let load = start.inputs.at(0.0).load - at.input.load;
+            distance(moes, start.point.moes()) + load * load
+        };
+        let nearest = self.model.starts.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
         let Some(nearest) = nearest else { return Err(Termination::Diverged) };
         self.start.clone_from(&nearest.coefficients);
         self.front.clone_from(&nearest.fronts);

@@ -1,0 +1,104 @@
+"""Elastohydrodynamic contacts: full solutions, reduced models, scenes.
+
+>>> import ehl_explorer as ehl
+>>> contact = ehl.Contact.moes(40, 10)
+>>> result = ehl.solve(contact, method="reduced")
+>>> result.h_c_m, result.pressure.max()
+
+SI units throughout; X, P and H are dimensionless as in the dissertation (X = x/a, P = p/p_H, H = h R/a**2). What makes no
+sense is refused by an :class:`EhlError` with the sentence of the command line. Work that takes long runs without Python's
+lock, calls ``progress(stage, done, total)``, and is stopped by Ctrl-C.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Callable, Mapping, Optional, Union
+
+import numpy as np
+
+from . import _native
+from ._native import Contact, EhlError, Model, Result, __version__, random_test, solve, transient
+
+__all__ = [
+    "Contact",
+    "EhlError",
+    "Model",
+    "Outcome",
+    "Result",
+    "__version__",
+    "random_test",
+    "run",
+    "solve",
+    "solve_many",
+    "sweep",
+    "transient",
+]
+
+
+def sweep(contact, *varied, method=None, model=None, progress=None):
+    """A contact with one or two options varied, each solved from its neighbour, as ``ehl-explorer sweep`` does.
+
+    Each of ``varied`` is a text as on the command line (``"moes-m=10:160:5:log"``) or a pair of a name and its values
+    (``("moes_m", np.geomspace(10, 160, 5))``); the last one changes fastest. Returns a structured array, a row for each
+    contact: varied options, the contact, its result; NaN where a solve did not converge.
+    """
+    axes = [axis if isinstance(axis, str) else (axis[0], [float(value) for value in axis[1]]) for axis in varied]
+    if not axes:
+        raise EhlError('nothing is varied; write sweep(contact, "moes-m=10:160:5:log")')
+    return _native.sweep(contact, axes, method, model, progress)
+
+
+def solve_many(contact, *, method=None, model=None, progress=None, **options):
+    """Solves a contact with some of its options varied, on all cores: ``solve_many(contact, load=loads, speed=speeds)``.
+
+    Options are those of :class:`Contact` that are numbers; arrays are broadcast against each other. Each contact is solved
+    afresh, so that neither order nor cores matter. Returns a structured array of the broadcast shape: the contact and
+    its result, numbers only; ``converged`` and ``trained`` are 1 or 0, values NaN where a solve did not converge.
+    """
+    if not options:
+        raise EhlError("nothing is varied; write solve_many(contact, load=[...])")
+    arrays = np.broadcast_arrays(*(np.asarray(values, dtype=np.float64) for values in options.values()))
+    columns = [(name, np.ascontiguousarray(values).reshape(-1)) for name, values in zip(options, arrays)]
+    return _native.solve_many(contact, columns, method, model, progress).reshape(arrays[0].shape)
+
+
+class Outcome:
+    """What a scene gave: ``passed``, ``values`` by name, ``expectations``, ``warnings``, and ``tables``.
+
+    ``tables`` are structured arrays by name; ``labels`` and ``remarks`` hold the words of their rows, where there are any.
+    ``object`` is what ``run --json`` prints.
+    """
+
+    def __init__(self, answer: Mapping[str, Any], tables: Mapping[str, Any]):
+        self.object = answer
+        self.title = answer["title"]
+        self.passed = answer["passed"]
+        self.converged = answer["converged"]
+        self.expectations = answer["expectations"]
+        self.warnings = [answer["warning"]] if "warning" in answer else []
+        self.tables = {name: array for name, (array, _, _) in tables.items()}
+        self.labels = {name: labels for name, (_, labels, _) in tables.items() if labels}
+        self.remarks = {name: remarks for name, (_, _, remarks) in tables.items() if remarks}
+
+    def value(self, name: str, method: Optional[str] = None) -> float:
+        """The value of a name: of the method where one is given, else the first of that name."""
+        for value in self.object["values"]:
+            if value["name"] == name and method in (None, value.get("method")):
+                return value["value"]
+        raise KeyError(name)
+
+    def __repr__(self) -> str:
+        return f"Outcome({self.title!r}, {'passed' if self.passed else 'fell short'})"
+
+
+def run(
+    scene: Union[str, "os.PathLike[str]"],
+    model: Union[Model, str, "os.PathLike[str]", None] = None,
+    progress: Optional[Callable[[str, int, int], object]] = None,
+) -> Outcome:
+    """Runs a scene, given by its text or its file, and holds it against its expectations.
+
+    ``model`` stands in place of those of the program. Paths in a scene refer to its file's folder.
+    """
+    return Outcome(*_native.run(scene, model, progress))

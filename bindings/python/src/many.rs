@@ -1,0 +1,117 @@
+//! Many contacts at once, on all cores.
+
+use crate::contact::{Asked, Contact, bench_with};
+use crate::tables::structured;
+use crate::work::{long, refused};
+use ehl_explorer::cli::{Failure, PointOptions};
+use ehl_explorer::engine::{CONTACT_COLUMNS, ContactResult, Workbench, result_columns};
+use ehl_explorer::scene::Bench;
+use ehl_explorer::solver::observer::{Observer, Progress};
+use numpy::PyReadonlyArray1;
+use pyo3::prelude::*;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+/// Contacts for which a reduced solver is taken at a time; its operators cost as much as a few solves.
+const CHUNK: usize = 128;
+
+/// One contact of many, with its own values of the varied options.
+fn varied(
+    options: &PointOptions,
+    columns: &[(String, &[f64])],
+    k: usize,
+) -> std::result::Result<PointOptions, Failure> {
+    let mut own = options.clone();
+    for (name, values) in columns {
+        own.set(name, values.get(k).copied().unwrap_or(f64::NAN))?;
+    }
+    Ok(own)
+}
+
+/// Solves a contact with some of its options varied, a contact for each element of the arrays (float64, shape (n,)),
+/// on all cores. Each is solved afresh, so that neither order nor cores matter.
+///
+/// A structured array of shape (n,): the contact and its result by the names of ``sweep``'s tables, numbers only; NaN
+/// where a solve did not converge, and ``trained`` where a reduced model was trained for the contact. A contact that
+/// makes no sense refuses all of them by its number.
+#[pyfunction]
+#[pyo3(signature = (contact, columns, method=None, model=None, progress=None))]
+pub fn solve_many<'py>(
+    py: Python<'py>,
+    contact: &Contact,
+    columns: Vec<(String, PyReadonlyArray1<'py, f64>)>,
+    method: Option<&str>,
+    model: Option<&Bound<'py, PyAny>>,
+    progress: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let asked = contact.asked(method, model)?;
+    let columns = columns.iter().map(|(name, values)| Ok((name.replace('_', "-"), values.as_slice()?)));
+    let columns = columns.collect::<PyResult<Vec<(String, &[f64])>>>()?;
+    let total = columns.iter().map(|(_, values)| values.len()).max().unwrap_or(0);
+    if let Some((name, values)) = columns.iter().find(|(_, values)| values.len() != total) {
+        return Err(refused(format!("`{name}` has {} values, but another option has {total}", values.len())));
+    }
+    let first = varied(&asked.options, &columns, 0).map_err(refused)?;
+    let heat = total > 0 && first.request().map_err(refused)?.0.lubricant.heat.is_some();
+    let names = [&CONTACT_COLUMNS[..], &result_columns(heat), &["reduced.trained"]].concat();
+    let Asked { options, model } = asked;
+    let width = names.len();
+    let numbers = long(py, progress, |watch| {
+        let mut numbers = vec![f64::NAN; width * total];
+        let done = AtomicUsize::new(0);
+        numbers.par_chunks_mut(width * CHUNK).enumerate().try_for_each(|(chunk, rows)| {
+            let mut bench = bench_with(model.as_ref());
+            for (i, row) in rows.chunks_exact_mut(width).enumerate() {
+                let k = chunk * CHUNK + i;
+                let at = |error: &dyn std::fmt::Display| Failure::Request(format!("contact {k}: {error}"));
+                let (request, method) =
+                    varied(&options, &columns, k).and_then(|options| options.request()).map_err(|error| at(&error))?;
+                bench.forget();
+                let answer = bench.answer(&request, &method, None, watch);
+                let answer = answer.map_err(|e| if e.cancelled() { Failure::Stopped } else { at(&e) })?;
+                let result = ContactResult::from(&answer);
+                row.iter_mut().zip(result.row(&names)).for_each(|(place, value)| *place = value);
+            }
+            let done = done.fetch_add(rows.len() / width, Ordering::Relaxed) + rows.len() / width;
+            watch.progress(Progress { stage: "contacts".to_owned(), done, total });
+            if watch.cancelled() { Err(Failure::Stopped) } else { Ok(()) }
+        })?;
+        Ok(numbers)
+    })?;
+    let titles: Vec<&str> = names.iter().map(|name| name.strip_prefix("reduced.").unwrap_or(name)).collect();
+    structured(py, &titles, numbers)
+}
+
+/// Seconds of `runs` solves of a contact without Python between them, each afresh; where `threads` are given of that
+/// many threads that share them. What the overhead of this module is held against.
+#[pyfunction]
+#[pyo3(signature = (contact, runs, method=None, model=None, threads=1))]
+pub fn measure(
+    py: Python<'_>,
+    contact: &Contact,
+    runs: usize,
+    method: Option<&str>,
+    model: Option<&Bound<'_, PyAny>>,
+    threads: usize,
+) -> PyResult<f64> {
+    let asked = contact.asked(method, model)?;
+    let (request, method) = asked.options.request().map_err(refused)?;
+    let solve = |bench: &mut Workbench, runs: usize| {
+        for _ in 0..runs {
+            bench.forget();
+            bench.answer(&request, &method, None, &()).map_err(|error| error.to_string())?;
+        }
+        Ok::<_, String>(())
+    };
+    let seconds = py.detach(|| {
+        let clock = Instant::now();
+        let done = std::thread::scope(|scope| {
+            let work = || solve(&mut asked.bench(), runs.div_ceil(threads.max(1)));
+            let handles: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+            handles.into_iter().try_for_each(|handle| handle.join().unwrap_or_else(|_| Err("a solve broke".to_owned())))
+        });
+        done.map(|()| clock.elapsed().as_secs_f64())
+    });
+    seconds.map_err(refused)
+}

@@ -1,0 +1,234 @@
+//! One contact solved.
+
+use crate::contact::Contact;
+use crate::tables::{from_row, shaped};
+use crate::work::{long, refused};
+use ehl_explorer::cli::MethodName;
+use ehl_explorer::engine::{Answer, ContactResult};
+use ehl_explorer::scene::answer_or_full;
+use ehl_explorer::solver::full::Solution;
+use ehl_explorer::solver::physics::contact::ContactKind;
+use pyo3::exceptions::{PyAttributeError, PyKeyError};
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::PyDict;
+
+/// One contact solved: scalars by the names of ``solve --json`` (``H_c``, ``h_c_m``, ``traction``, ``converged``, and
+/// those of groups as ``p_h_pa`` or ``trained``), fields as arrays. What does not apply is absent.
+#[pyclass(frozen, module = "ehl_explorer")]
+pub struct Result {
+    result: ContactResult,
+    values: PyOnceLock<Py<PyDict>>,
+    fields: Option<Fields>,
+}
+
+/// Arrays of a solution.
+struct Fields {
+    x: Py<PyAny>,
+    y: Py<PyAny>,
+    pressure: Py<PyAny>,
+    film: Py<PyAny>,
+    further: Vec<(&'static str, Py<PyAny>)>,
+}
+
+impl Fields {
+    /// The fields of a solution, moved out of it.
+    fn of(py: Python<'_>, solution: Solution) -> PyResult<Self> {
+        // A line's node arrays begin with one outside the inlet.
+        let line = solution.problem.point.kind == ContactKind::Line;
+        let skipped = usize::from(line);
+        let (nx, ny) = (solution.x.len(), solution.y.len());
+        let shape = if line { vec![nx] } else { vec![nx, ny] };
+        let field = |values: Vec<f64>| Ok::<_, PyErr>(from_row(shaped(py, values, &shape)?, skipped)?.unbind());
+        let rises = solution.heat.as_deref().map(|heat| heat.rises().collect::<Vec<_>>());
+        let mut further = Vec::new();
+        for (name, values) in [("multiplier", solution.multiplier), ("filled", solution.fraction)] {
+            if !values.is_empty() {
+                further.push((name, field(values)?));
+            }
+        }
+        if let Some(rises) = rises {
+            let columns = [
+                ("mid_film_rise_k", rises.iter().map(|at| at.mid_film_k).collect::<Vec<_>>()),
+                ("surface_1_rise_k", rises.iter().map(|at| at.surfaces_k[0]).collect()),
+                ("surface_2_rise_k", rises.iter().map(|at| at.surfaces_k[1]).collect()),
+            ];
+            for (name, values) in columns {
+                let length = values.len();
+                further.push((name, shaped(py, values, &[length])?.unbind()));
+            }
+        }
+        Ok(Self {
+            x: from_row(shaped(py, solution.x, &[nx])?, skipped)?.unbind(),
+            y: shaped(py, solution.y, &[ny])?.unbind(),
+            pressure: field(solution.pressure)?,
+            film: field(solution.film)?,
+            further,
+        })
+    }
+}
+
+impl Result {
+    fn of(py: Python<'_>, answer: Answer) -> PyResult<Self> {
+        let result = ContactResult::from(&answer);
+        let solution = answer.solution.filter(|_| answer.converged);
+        let fields = solution.map(|solution| Fields::of(py, solution)).transpose()?;
+        Ok(Self { result, values: PyOnceLock::new(), fields })
+    }
+
+    fn values<'py>(&self, py: Python<'py>) -> PyResult<&Bound<'py, PyDict>> {
+        let values = self.values.get_or_try_init(py, || {
+            let text = serde_json::to_string(&self.result).map_err(refused)?;
+            let values = py.import("json")?.call_method1("loads", (text,))?;
+            Ok::<_, PyErr>(values.cast_into::<PyDict>()?.unbind())
+        })?;
+        Ok(values.bind(py))
+    }
+
+    fn field<'py>(&self, py: Python<'py>, get: fn(&Fields) -> &Py<PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let none = || refused("the solve did not converge: there are no fields");
+        Ok(get(self.fields.as_ref().ok_or_else(none)?).bind(py).clone())
+    }
+
+    /// A value by its name, of whatever group.
+    fn find<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let values = self.values(py)?;
+        if let Some(value) = values.get_item(name)? {
+            return Ok(Some(value));
+        }
+        if let Some((group, name)) = name.split_once('.') {
+            let group = values.get_item(group)?.and_then(|group| group.cast_into::<PyDict>().ok());
+            return group.map_or(Ok(None), |group| group.get_item(name));
+        }
+        for (_, group) in values {
+            if let Ok(group) = group.cast::<PyDict>()
+                && let Some(value) = group.get_item(name)?
+            {
+                return Ok(Some(value));
+            }
+        }
+        Ok(None)
+    }
+}
+
+#[pymethods]
+impl Result {
+    /// Abscissae X = x/a of the nodes, shape (n_x,).
+    #[getter]
+    fn x<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.field(py, |fields| &fields.x)
+    }
+
+    /// Ordinates Y = y/b <= 0 of the nodes, shape (n_y,); the last lies on the axis, of a line there is only that.
+    #[getter]
+    fn y<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.field(py, |fields| &fields.y)
+    }
+
+    /// Pressure P = p/p_H at the nodes, shape (n_x,) of a line and (n_x, n_y) of a point contact.
+    #[getter]
+    fn pressure<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.field(py, |fields| &fields.pressure)
+    }
+
+    /// Film H = h R/a^2 at the nodes, shaped as the pressure.
+    #[getter]
+    fn film<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.field(py, |fields| &fields.film)
+    }
+
+    /// Further fields by their names: ``multiplier`` or ``filled`` where a film ruptures by that, rises of temperature
+    /// with heat.
+    #[getter]
+    fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let dict = PyDict::new(py);
+        for (name, array) in self.fields.iter().flat_map(|fields| &fields.further) {
+            dict.set_item(name, array)?;
+        }
+        Ok(dict)
+    }
+
+    /// Whether the solve converged; without that there are no scalars and no fields.
+    #[getter]
+    fn converged(&self) -> bool {
+        self.result.converged
+    }
+
+    /// What a reader must know, one sentence each.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.result.warnings.clone()
+    }
+
+    /// Central film H_c.
+    #[getter(H_c)]
+    fn h_c(&self) -> Option<f64> {
+        self.result.scalars.map(|scalars| scalars.h_c)
+    }
+
+    /// Smallest film H_min.
+    #[getter(H_min)]
+    fn h_min(&self) -> Option<f64> {
+        self.result.scalars.map(|scalars| scalars.h_min)
+    }
+
+    /// Traction coefficient.
+    #[getter]
+    fn traction(&self) -> Option<f64> {
+        self.result.traction
+    }
+
+    /// Everything but the fields, as the object of ``solve --json``.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        Ok(py.import("copy")?.call_method1("deepcopy", (self.values(py)?,))?.cast_into::<PyDict>()?)
+    }
+
+    fn __getattr__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let none = || PyAttributeError::new_err(format!("the result has no `{name}`"));
+        if name.starts_with('_') { Err(none()) } else { self.find(py, name)?.ok_or_else(none) }
+    }
+
+    fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        self.find(py, name)?.ok_or_else(|| PyKeyError::new_err(name.to_owned()))
+    }
+
+    fn __repr__(&self) -> String {
+        let moes = self.result.point.moes();
+        let film = self.result.scalars.map_or("not converged".to_owned(), |scalars| format!("H_c={:.6}", scalars.h_c));
+        format!(
+            "Result({}, {}, M={:.6}, L={:.6}, {film})",
+            self.result.point.kind.name(),
+            self.result.method,
+            moes.m,
+            moes.l
+        )
+    }
+}
+
+/// Solves a contact, as ``ehl-explorer solve`` does.
+///
+/// ``method`` is ``"full"`` or ``"reduced"``; ``model`` a :class:`Model` or the name of a ``.rom`` file, where it is not
+/// one of the program's; ``progress(stage, done, total)`` is called now and then. Where a reduced model has no solution
+/// the full solver takes over and a warning says so.
+#[pyfunction]
+#[pyo3(signature = (contact, method=None, model=None, progress=None))]
+pub fn solve(
+    py: Python<'_>,
+    contact: &Contact,
+    method: Option<&str>,
+    model: Option<&Bound<'_, PyAny>>,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Result> {
+    let asked = contact.asked(method, model)?;
+    let (request, method) = asked.options.request().map_err(refused)?;
+    // A reduced solve is over before a thread has begun, unless the full solver must take over.
+    if asked.options.method == MethodName::Reduced {
+        use ehl_explorer::scene::Bench;
+        let answer = py.detach(|| asked.bench().answer(&request, &method, None, &())).map_err(refused)?;
+        if answer.converged {
+            return Result::of(py, answer);
+        }
+    }
+    let answer = long(py, progress, |watch| Ok(answer_or_full(&mut asked.bench(), &request, &method, watch)?))?;
+    Result::of(py, answer)
+}

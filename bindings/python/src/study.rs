@@ -1,0 +1,222 @@
+//! Sweeps, random tests, contacts in time, scenes.
+
+use crate::contact::Contact;
+use crate::model::{Model, scene_of};
+use crate::tables::array_of;
+use crate::work::{long, refused};
+use ehl_explorer::cli::{Failure, Sweep, Varied};
+use ehl_explorer::engine::{EngineError, SceneOutcome, Workbench, run_scene};
+use ehl_explorer::scene::study::random_test::RandomTest;
+use ehl_explorer::scene::study::transient::series;
+use ehl_explorer::scene::{At, Grid, Method, Scene, Steps, Study, TransientStudy};
+use ehl_explorer::solver::full::transient::{Frame, Inputs, MarchProgress, Signal, TimeStep, Transient, march};
+use ehl_explorer::solver::observer::Observer;
+use ehl_explorer::solver::physics::contact::ContactKind;
+use ehl_explorer::solver::reduced::transient::ReducedMarch;
+use ehl_explorer::solver::training::Range;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A contact with one or two options varied, each solved from its neighbour, as ``ehl-explorer sweep`` does.
+///
+/// ``varied`` is a list of texts as on the command line (``"moes-m=10:160:5:log"``) or of pairs of a name and its
+/// values; the last one changes fastest. A structured array of the table that the command writes.
+#[pyfunction]
+#[pyo3(signature = (contact, varied, method=None, model=None, progress=None))]
+pub fn sweep<'py>(
+    py: Python<'py>,
+    contact: &Contact,
+    varied: Vec<Bound<'py, PyAny>>,
+    method: Option<&str>,
+    model: Option<&Bound<'py, PyAny>>,
+    progress: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let asked = contact.asked(method, model)?;
+    let varied = varied.iter().map(axis).collect::<PyResult<Vec<Varied>>>()?;
+    let swept =
+        long(py, progress, |watch| Sweep::new(&varied, &asked.options)?.solve(&mut asked.bench(), watch, |_| Ok(())))?;
+    array_of(py, swept.table)
+}
+
+fn axis(given: &Bound<'_, PyAny>) -> PyResult<Varied> {
+    if let Ok(text) = given.extract::<String>() {
+        return text.parse().map_err(|sentence: String| refused(sentence));
+    }
+    let (name, values): (String, Vec<f64>) = given.extract()?;
+    Ok(Varied { name: name.replace('_', "-"), steps: Steps::List(values) })
+}
+
+/// Random contacts of a range, each solved alone, and compared with full solutions at the first ``compare`` of them: the
+/// study ``RandomTest`` of scenes. The same seed gives the same contacts everywhere.
+///
+/// ``m`` and ``l`` are (from, to); ``max_hertz_pressure`` in Pa. A structured array of the study's table.
+#[pyfunction]
+#[pyo3(signature = (m, l, tests, seed=1, max_hertz_pressure=3.2e9, contact="line", method="reduced", compare=0, model=None, progress=None))]
+#[expect(clippy::too_many_arguments, reason = "they have names in Python")]
+pub fn random_test<'py>(
+    py: Python<'py>,
+    m: (f64, f64),
+    l: (f64, f64),
+    tests: usize,
+    seed: u64,
+    max_hertz_pressure: f64,
+    contact: &str,
+    method: &str,
+    compare: usize,
+    model: Option<&Bound<'py, PyAny>>,
+    progress: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let kind = match contact {
+        "line" => ContactKind::Line,
+        "point" => ContactKind::Point,
+        _ => return Err(refused(format!("`{contact}` is no contact; accepted are line, point"))),
+    };
+    let method = match method {
+        "full" => Method::Full,
+        "reduced" => Method::EMBEDDED,
+        _ => return Err(refused(format!("`{method}` is no method; accepted are full, reduced"))),
+    };
+    let range = Range::Realisation { m, l, max_hertz_pressure };
+    let study = Study::RandomTest(RandomTest { range, tests, seed, method, compare, worst: 0 });
+    let scene = Scene { contact: kind, study, grid: Grid::Usual, ..Scene::at_moes(40.0, 10.0) };
+    let outcome = outcome(py, &scene, bench_of(model, PathBuf::new())?, progress)?;
+    first_table(py, outcome)
+}
+
+/// A contact in time, in full: the study ``Transient`` of scenes with inputs R, u_m and load that vary around those of
+/// the contact. With ``model``, the ``.rom`` file of a reduced model in time, by that model alone; what it was not trained
+/// for is a warning.
+///
+/// Times are in units of a/u_m. ``radius``, ``speed`` and ``load`` are pairs (T, values) of times and multiples of the
+/// contact's own; what is not given stays. Steps are all of the length ``step``. A structured array of the march: T,
+/// inputs, films, pressures.
+#[pyfunction]
+#[pyo3(signature = (contact, duration, step, radius=None, speed=None, load=None, model=None, progress=None))]
+#[expect(clippy::too_many_arguments, reason = "they have names in Python")]
+pub fn transient<'py>(
+    py: Python<'py>,
+    contact: &Contact,
+    duration: f64,
+    step: f64,
+    radius: Option<(Vec<f64>, Vec<f64>)>,
+    speed: Option<(Vec<f64>, Vec<f64>)>,
+    load: Option<(Vec<f64>, Vec<f64>)>,
+    model: Option<PathBuf>,
+    progress: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let signal = |given: Option<(Vec<f64>, Vec<f64>)>| {
+        given.map_or(Signal::Constant, |(times, values)| Signal::Sampled { times, values })
+    };
+    let inputs = Inputs { radius: signal(radius), speed: signal(speed), load: signal(load) };
+    if let Some(path) = model {
+        let (point, lubricant) = (contact.request.point, contact.request.lubricant);
+        let own = Transient { lubricant, ..Transient::new(point, inputs, duration, step) };
+        return by_model(py, &path, own, progress);
+    }
+    let study = TransientStudy {
+        inputs,
+        sampled: None,
+        duration,
+        further: Vec::new(),
+        time_step: TimeStep::Fixed(step),
+        frames: vec![Frame::Fixed],
+        window: None,
+        trainings: Vec::new(),
+        training_loads: Vec::new(),
+        reduced: None,
+        linearised: None,
+        mass_between: None,
+        published: Vec::new(),
+    };
+    let request = &contact.request;
+    let mut scene = Scene {
+        contact: request.point.kind,
+        at: At::from(request.point),
+        srr: request.point.sliding.slide_to_roll_ratio,
+        npr: request.point.sliding.newtonian_plateau_ratio,
+        grid: request.grid,
+        study: Study::Transient(study),
+        ..Scene::at_moes(40.0, 10.0)
+    };
+    scene.set_laws(request.lubricant);
+    let outcome = outcome(py, &scene, bench_of(None, PathBuf::new())?, progress)?;
+    first_table(py, outcome)
+}
+
+/// The march by the reduced model in time of a file.
+fn by_model<'py>(
+    py: Python<'py>,
+    path: &Path,
+    asked: Transient,
+    progress: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let (trajectory, outside) = long(py, progress, |watch| {
+        let model = crate::STORE.trajectory_model_of_file(path)?;
+        let asked = Transient { frame: model.frame, ..asked };
+        let observer = MarchProgress { observer: watch, stage: "reduced model".to_owned(), duration: asked.duration };
+        let mut reduced = ReducedMarch::new(&model, &asked).map_err(EngineError::from)?;
+        let trajectory = march(&mut reduced, &asked, &observer).map_err(EngineError::from)?;
+        if watch.cancelled() {
+            return Err(EngineError::Cancelled.into());
+        }
+        let outside = model.domain.left_by(&trajectory);
+        Ok((trajectory, outside))
+    })?;
+    if !trajectory.finished() {
+        return Err(refused(format!("the march {}", trajectory.ended.describe())));
+    }
+    for sentence in outside {
+        py.import("warnings")?.call_method1("warn", (sentence,))?;
+    }
+    array_of(py, series("reduced", &trajectory.moments))
+}
+
+/// Runs a scene, given by its text or its file, and holds it against its expectations: an :class:`Outcome`.
+///
+/// ``model`` stands in place of those of the program. Paths in a scene refer to its file's folder.
+#[pyfunction]
+#[pyo3(signature = (scene, model=None, progress=None))]
+pub fn run<'py>(
+    py: Python<'py>,
+    scene: &Bound<'py, PyAny>,
+    model: Option<&Bound<'py, PyAny>>,
+    progress: Option<&Bound<'py, PyAny>>,
+) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>)> {
+    let (scene, base) = scene_of(scene)?;
+    let bench = bench_of(model, base)?;
+    bench.check_models(&scene).map_err(refused)?;
+    let mut outcome = outcome(py, &scene, bench, progress)?;
+    let tables = PyDict::new(py);
+    for table in std::mem::take(&mut outcome.tables) {
+        let (name, labels, remarks) = (table.name.clone(), table.labels.clone(), table.remarks.clone());
+        tables.set_item(name, (array_of(py, table)?, labels, remarks))?;
+    }
+    let text = outcome.to_json().to_string();
+    Ok((py.import("json")?.call_method1("loads", (text,))?, tables))
+}
+
+/// What a study is solved on: with a model in place of those of the program, paths referring to the folder `base`.
+fn bench_of(model: Option<&Bound<'_, PyAny>>, base: PathBuf) -> PyResult<Workbench> {
+    let bench = Workbench::on(&crate::STORE, base);
+    let Some(model) = model else { return Ok(bench) };
+    Ok(bench.with_model(&match model.cast::<Model>() {
+        Ok(model) => Arc::clone(&model.get().0),
+        Err(_) => crate::STORE.model_of_file(&model.extract::<PathBuf>()?).map_err(refused)?,
+    }))
+}
+
+fn outcome(
+    py: Python<'_>,
+    scene: &Scene,
+    mut bench: Workbench,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<SceneOutcome> {
+    long(py, progress, |watch| run_scene(scene, &mut bench, watch).map_err(Failure::from))
+}
+
+fn first_table(py: Python<'_>, outcome: SceneOutcome) -> PyResult<Bound<'_, PyAny>> {
+    let none = || refused("the study gave no table");
+    array_of(py, outcome.tables.into_iter().next().ok_or_else(none)?)
+}

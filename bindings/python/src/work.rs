@@ -1,0 +1,101 @@
+//! Work that takes long: without Python's lock, with progress, and stopped by Ctrl-C.
+
+use ehl_explorer::cli::Failure;
+use ehl_explorer::engine::job::guarded;
+use ehl_explorer::scene::StudyObserver;
+use ehl_explorer::solver::observer::{Observer, Progress};
+use ehl_explorer::solver::training::TrainingObserver;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
+use pyo3::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
+
+pyo3::create_exception!(ehl_explorer, EhlError, PyValueError, "A request that is refused, in one sentence.");
+
+/// How often Python is asked for signals, and told how far work is.
+const LOOK_EVERY: Duration = Duration::from_millis(50);
+
+/// The exception of a sentence.
+pub fn refused(sentence: impl ToString) -> PyErr {
+    EhlError::new_err(sentence.to_string())
+}
+
+/// What work under way knows of its caller.
+#[derive(Default)]
+pub struct Watch {
+    stop: AtomicBool,
+    latest: Mutex<Option<Progress>>,
+}
+
+impl Watch {
+    fn news(&self) -> Option<Progress> {
+        self.latest.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+}
+
+impl Observer for Watch {
+    fn progress(&self, progress: Progress) {
+        *self.latest.lock().unwrap_or_else(PoisonError::into_inner) = Some(progress);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+}
+
+impl TrainingObserver for Watch {}
+
+impl StudyObserver for Watch {}
+
+/// Does work on a thread of its own; meanwhile calls `progress(stage, done, total)` and listens to signals. An exception
+/// of either stops the work and is passed on.
+pub fn long<T: Send>(
+    py: Python<'_>,
+    progress: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce(&Watch) -> Result<T, Failure> + Send,
+) -> PyResult<T> {
+    let watch = Watch::default();
+    let (sender, receiver) = channel();
+    // A receiver alone may not be looked at while the lock is released.
+    let receiver = Mutex::new(receiver);
+    let (result, raised) = std::thread::scope(|scope| {
+        let watch = &watch;
+        scope.spawn(move || {
+            // Nobody but this function receives; it waits for the answer whatever happens.
+            let _ = sender.send(guarded(|| work(watch)));
+        });
+        let mut raised = None;
+        loop {
+            let heard = py.detach(|| receiver.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(LOOK_EVERY));
+            match heard {
+                Ok(result) => return (Some(result), raised),
+                Err(RecvTimeoutError::Disconnected) => return (None, raised),
+                Err(RecvTimeoutError::Timeout) => {}
+            }
+            if raised.is_none() {
+                raised = py.check_signals().and_then(|()| tell(progress, watch.news())).err();
+                watch.stop.store(raised.is_some(), Ordering::Relaxed);
+            }
+        }
+    });
+    if let Some(raised) = raised {
+        return Err(raised);
+    }
+    tell(progress, watch.news())?;
+    match result {
+        Some(Ok(Ok(value))) => Ok(value),
+        Some(Ok(Err(Failure::Stopped))) => Err(PyKeyboardInterrupt::new_err(Failure::Stopped.to_string())),
+        Some(Ok(Err(failure))) => Err(refused(failure)),
+        Some(Err(broken)) => Err(refused(broken)),
+        None => Err(refused("the work ended without an answer")),
+    }
+}
+
+fn tell(progress: Option<&Bound<'_, PyAny>>, news: Option<Progress>) -> PyResult<()> {
+    if let (Some(progress), Some(Progress { stage, done, total })) = (progress, news) {
+        progress.call1((stage, done, total))?;
+    }
+    Ok(())
+}

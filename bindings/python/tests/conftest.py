@@ -1,0 +1,73 @@
+"""What the tests share: the program of the command line, and small scenes."""
+
+import json
+import os
+import pathlib
+import subprocess
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+
+
+@pytest.fixture(scope="session")
+def program():
+    """Runs the program with some arguments; what it prints."""
+    target = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
+    binary = pathlib.Path(os.environ.get("EHL_EXPLORER", target / "release" / "ehl-explorer"))
+    if not binary.exists():
+        pytest.fail(f"{binary} is missing; build it with `cargo build --release`")
+
+    def run(*arguments, code=0):
+        done = subprocess.run([binary, *map(str, arguments)], capture_output=True, text=True)
+        assert done.returncode == code, done.stderr
+        return done.stdout if code == 0 else done.stderr
+
+    return run
+
+
+@pytest.fixture(scope="session")
+def solve_json(program):
+    return lambda *arguments: json.loads(program("solve", *arguments, "--json"))
+
+
+@pytest.fixture(scope="session")
+def in_time_training():
+    """A scene that trains a model in time in a moment: a load that breathes at two paces, on a coarse grid."""
+    return """Scene(
+        version: 1,
+        title: "A load that breathes",
+        at: Si(radius: 0.002, speed: 5.0, load: 2e5, modulus: 2.31e11, viscosity: 0.01, alpha: 1e-8),
+        grid: Uniform(dx: 0.02, domain: (-4.0, 2.0)),
+        study: Transient(
+            inputs: (load: Harmonic(amplitude: 0.1, period: 0.5)),
+            duration: 1.0,
+            time_step: Fixed(0.01),
+            trainings: [
+                (inputs: (load: Harmonic(amplitude: 0.1, period: 0.5)), duration: 1.0),
+                (inputs: (load: Harmonic(amplitude: 0.1, period: 0.3333333333333333)), duration: 1.0),
+            ],
+            reduced: (loss: 1e-5),
+        ),
+    )"""
+
+
+@pytest.fixture(scope="session")
+def small_training():
+    """A training of a moment: a narrow box on a coarse grid."""
+    return """Scene(
+        version: 1,
+        title: "A narrow box",
+        study: Training(
+            title: "A narrow box",
+            range: Moes(m: (35.0, 45.0), l: (9.0, 11.0), alpha: (14.0e-9, 15.5e-9), max_hertz_pressure: 2e9, viscosity: 0.01),
+            lubricant: (viscosity: Roelands, density: DowsonHigginson),
+            plan: FarthestPoint(snapshots: 12),
+            windows: Given([(m: (35.0, 45.0), grid: Uniform(dx: 0.02, domain: (-4.0, 2.0)))]),
+            pressure_loss: 1e-6,
+            deformation_loss: 1e-6,
+            sampling: QDeim,
+            rows_per_mode: 2.0,
+            seed: 1,
+        ),
+    )"""

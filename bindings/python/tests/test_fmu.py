@@ -1,0 +1,313 @@
+"""Models as Functional Mock-up Units, imported by FMPy: what they answer is what ``solve`` answers."""
+
+import pathlib
+import shutil
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import ehl_explorer as ehl
+
+fmpy = pytest.importorskip("fmpy")
+from fmpy.fmi1 import FMICallException  # noqa: E402
+from fmpy.fmi2 import FMU2Slave  # noqa: E402
+from fmpy.validation import validate_fmu  # noqa: E402
+
+from conftest import ROOT  # noqa: E402
+
+KINDS = ["line", "point"]
+
+
+@pytest.fixture(scope="session")
+def units(program, tmp_path_factory):
+    """Units by what they are: files, and folders into which they are unpacked."""
+    folder = tmp_path_factory.mktemp("units")
+
+    def unit(kind, *words):
+        path = folder / f"{kind}{''.join(words)}.fmu"
+        if not path.exists():
+            program("export", "fmu", ROOT / "assets" / f"{kind}.rom", "--out", path, *words)
+            fmpy.extract(path, unzipdir=path.with_suffix(""))
+        return path
+
+    return unit
+
+
+class Unit:
+    """An instance, its variables by name."""
+
+    def __init__(self, path):
+        self.description = fmpy.read_model_description(path)
+        self.references = {v.name: v.valueReference for v in self.description.modelVariables}
+        self.said = []
+        self.slave = FMU2Slave(
+            guid=self.description.guid,
+            unzipDirectory=str(path.with_suffix("")),
+            modelIdentifier=self.description.coSimulation.modelIdentifier,
+            instanceName="contact",
+        )
+
+        def logger(environment, name, status, category, message):
+            self.said.append(message.decode())
+
+        from fmpy.fmi2 import fmi2CallbackFunctions, fmi2CallbackLoggerTYPE, fmi2CallbackAllocateMemoryTYPE
+        from fmpy.fmi2 import fmi2CallbackFreeMemoryTYPE, calloc, free
+
+        self.callbacks = fmi2CallbackFunctions()
+        self.callbacks.logger = fmi2CallbackLoggerTYPE(logger)
+        self.callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
+        self.callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
+        self.slave.instantiate(callbacks=self.callbacks)
+        self.slave.setupExperiment(startTime=0.0)
+        self.slave.enterInitializationMode()
+
+    def start(self):
+        self.slave.exitInitializationMode()
+        self.time = 0.0
+        return self
+
+    def set(self, **values):
+        self.slave.setReal([self.references[name] for name in values], list(values.values()))
+
+    def get(self, *names):
+        return self.slave.getReal([self.references[name] for name in names])
+
+    def truths(self):
+        return self.slave.getBoolean([self.references["trained"], self.references["full"]])
+
+    def step(self, length=0.01):
+        self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=length)
+        self.time += length
+
+    def end(self):
+        self.slave.terminate()
+        self.slave.freeInstance()
+
+
+def starts(unit):
+    return {v.name: float(v.start) for v in unit.description.modelVariables if v.start is not None}
+
+
+def contact_of(kind, given):
+    names = ["radius", "speed", "load", "modulus", "viscosity", "alpha"]
+    return ehl.Contact(contact=kind, srr=given["slide_to_roll_ratio"], **{name: given[name] for name in names})
+
+
+@pytest.mark.parametrize("kind, words", [("line", []), ("point", []), ("point", ["--approach"])])
+def test_validation_has_no_remarks_and_the_unit_is_small(kind, words, units):
+    path = units(kind, *words)
+    assert validate_fmu(path) == []
+    (library,) = (path.with_suffix("") / "binaries").rglob("ehl_contact.*")
+    assert library.stat().st_size < 15e6, library.stat().st_size
+
+
+@pytest.mark.parametrize("kind, steps", [("line", 10_000), ("point", 1_000)])
+def test_many_steps_are_what_solve_answers(kind, steps, units):
+    unit = Unit(units(kind)).start()
+    first = starts(unit)
+    time = np.linspace(0, 1, steps)
+    drive = {
+        "load": first["load"] * (1 + 0.2 * np.sin(7 * time)),
+        "speed": first["speed"] * (1 + 0.3 * np.sin(11 * time)),
+        "radius": first["radius"] * (1 + 0.05 * np.cos(3 * time)),
+        "slide_to_roll_ratio": 0.1 * np.sin(5 * time),
+    }
+    names = ["film_central", "film_minimum", "friction_coefficient", "friction_force", "hertz_pressure"]
+    seen, trained = np.empty((steps, len(names))), np.empty(steps)
+    for k in range(steps):
+        unit.set(**{name: float(values[k]) for name, values in drive.items()})
+        unit.step(1 / steps)
+        seen[k] = unit.get(*names)
+        trained[k] = unit.truths()[0]
+    unit.end()
+    options = {("srr" if name == "slide_to_roll_ratio" else name): values for name, values in drive.items()}
+    solved = ehl.solve_many(contact_of(kind, first), method="reduced", **options)
+    assert solved["converged"].all()
+    np.testing.assert_array_equal(trained, solved["trained"])
+    expected = [solved["h_c_m"], solved["h_min_m"], solved["traction"], solved["traction"] * drive["load"]]
+    for k, column in enumerate([*expected, solved["hertz.p_h_pa"]]):
+        np.testing.assert_allclose(seen[:, k], column, rtol=1e-12, atol=0, err_msg=names[k])
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_fmpy_simulates_it(kind, units):
+    result = fmpy.simulate_fmu(units(kind), stop_time=0.1, step_size=0.01, output=["film_central", "trained"])
+    assert len(result) == 11 and (result["film_central"] > 0).all() and result["trained"].all()
+
+
+@pytest.mark.parametrize("kind, words", [("line", []), ("point", ["--approach"])])
+def test_a_state_is_kept_written_and_set_again(kind, words, units):
+    path = units(kind, *words)
+    unit = Unit(path).start()
+    first = starts(unit)
+    name = "approach" if words else "load"
+    unit.set(**{name: first[name] * 1.1})
+    unit.step()
+    state = unit.slave.getFMUState()
+    written = unit.slave.serializeFMUState(state)
+    outputs = ["film_central", "film_minimum", "load", "hertz_pressure"]
+    kept = unit.get(*outputs)
+
+    def go_on(unit):
+        films = []
+        for k in range(5):
+            unit.set(**{name: first[name] * (1.1 - 0.02 * k)})
+            unit.step()
+            films += unit.get(*outputs)
+        return films
+
+    onwards = go_on(unit)
+    unit.slave.setFMUState(state)
+    assert unit.get(*outputs) == kept
+    assert go_on(unit) == onwards
+    other = Unit(path).start()
+    again = other.slave.deserializeFMUState(written)
+    other.slave.setFMUState(again)
+    np.testing.assert_allclose(other.get(*outputs), kept, rtol=1e-12)
+    np.testing.assert_allclose(go_on(other), onwards, rtol=1e-12)
+    for slave, held in [(unit.slave, state), (other.slave, again)]:
+        slave.freeFMUState(held)
+    with pytest.raises(FMICallException):
+        other.slave.deserializeFMUState(written[:-1])
+    assert "no state of this unit" in other.said[-1]
+    unit.end()
+    other.end()
+
+
+def test_reset_begins_anew(units):
+    unit = Unit(units("line")).start()
+    before = unit.get("film_central")
+    unit.set(load=2 * unit.get("load")[0])
+    unit.step()
+    assert unit.get("film_central") != before
+    unit.slave.reset()
+    unit.slave.setupExperiment(startTime=0.0)
+    unit.slave.enterInitializationMode()
+    unit.start()
+    assert unit.get("film_central") == before
+    unit.end()
+
+
+def test_many_instances_work_at_once(units):
+    path = units("line")
+    films = {}
+
+    def work(k):
+        unit = Unit(path).start()
+        first = starts(unit)
+        films[k] = []
+        for step in range(200):
+            unit.set(load=first["load"] * (1 + 0.001 * step))
+            unit.step()
+            films[k].append(unit.get("film_central")[0])
+        unit.end()
+
+    threads = [threading.Thread(target=work, args=(k,)) for k in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(films) == 8 and all(len(own) == 200 and own == films[0] for own in films.values())
+
+
+def test_what_makes_no_sense_is_refused_in_a_sentence_and_changes_nothing(units):
+    unit = Unit(units("line")).start()
+    before = unit.get("film_central", "load")
+    for name, value in [("load", float("nan")), ("speed", float("inf")), ("film_central", 1.0)]:
+        with pytest.raises(FMICallException):
+            unit.set(**{name: value})
+        assert f"`{name}`" in unit.said[-1], unit.said
+    assert unit.get("film_central", "load") == before
+    unit.set(load=-5.0)
+    with pytest.raises(FMICallException):
+        unit.step()
+    assert "load" in unit.said[-1]
+    unit.set(load=before[1])
+    unit.step()
+    assert unit.get("film_central", "load") == before
+    with pytest.raises(FMICallException):
+        unit.slave.getReal([99])
+    unit.end()
+
+
+def test_beyond_the_trained_range_it_says_so_once_and_sets_the_flag(units):
+    unit = Unit(units("line")).start()
+    first = starts(unit)
+    assert unit.truths()[0]
+    for _ in range(5):
+        unit.set(load=40 * first["load"])
+        unit.step()
+        trained, full = unit.truths()
+        assert not trained
+    assert len(unit.said) == 1 and "at time" in unit.said[0], unit.said
+    assert np.isnan(unit.get("film_central_bound")[0])
+    film = unit.get("film_central")[0]
+    solved = ehl.solve(contact_of("line", {**first, "load": 40 * first["load"]}), method="reduced")
+    np.testing.assert_allclose(film, solved.h_c_m, rtol=1e-12)
+    unit.set(load=first["load"])
+    unit.step()
+    assert unit.truths() == [True, False]
+    unit.end()
+
+
+def test_an_approach_gives_the_film_of_its_load(units):
+    unit = Unit(units("point", "--approach")).start()
+    first = starts(unit)
+    for share in [0.95, 1.0, 1.1]:
+        unit.set(approach=share * first["approach"])
+        unit.step()
+        load, film = unit.get("load", "film_central")
+        solved = ehl.solve(contact_of("point", {**first, "load": load}), method="reduced")
+        np.testing.assert_allclose(film, solved.h_c_m, rtol=1e-11)
+        np.testing.assert_allclose(-solved.H_0 * solved.a_m**2 / first["radius"], share * first["approach"], rtol=1e-10)
+    unit.end()
+
+
+def test_a_unit_with_another_model_is_refused(units, tmp_path):
+    path = units("line")
+    folder = tmp_path / "other"
+    shutil.copytree(path.with_suffix(""), folder)
+    shutil.copy(ROOT / "assets" / "point.rom", folder / "resources" / "model.rom")
+    shutil.copy(path, tmp_path / "other.fmu")
+    with pytest.raises(Exception):
+        Unit(tmp_path / "other.fmu")
+
+
+def test_exports_that_make_no_sense_are_refused(program, tmp_path):
+    line, out = ROOT / "assets" / "line.rom", tmp_path / "unit.fmu"
+    for words, part in [
+        (["fmu", "no_such.rom"], "no_such.rom"),
+        (["fmu", line, "--approach"], "give its load instead"),
+        (["fmu", line, "--lubricant", "squalane-pip"], "another lubricant"),
+        (["fmu", line, "--lubricant", "butter"], "accepted are"),
+        (["fmu", line, "--library", "no_such.so"], "cargo build"),
+    ]:
+        said = program("export", *words, "--out", out, code=2)
+        assert part in said and said.count("\n") == 1, said
+    assert not out.exists()
+    program("export", "fmu", line, "--out", tmp_path / "no" / "folder.fmu", code=2)
+
+
+def test_a_step_costs_little_more_than_the_solve(units):
+    unit = Unit(units("line")).start()
+    first = starts(unit)
+    contact, runs = contact_of("line", first), 300
+    references, get = [unit.references["load"]], [unit.references["film_central"]]
+
+    def steps():
+        begun = time.perf_counter()
+        for k in range(runs):
+            unit.slave.setReal(references, [first["load"] * (1 + 1e-6 * k)])
+            unit.slave.doStep(currentCommunicationPoint=0.0, communicationStepSize=0.01)
+            unit.slave.getReal(get)
+        return time.perf_counter() - begun
+
+    from ehl_explorer import _native
+
+    times = [(steps(), _native.measure(contact, runs, "reduced")) for _ in range(5)]
+    ratio = min(own for own, _ in times) / min(other for _, other in times)
+    print(f"a step takes {ratio:.2f} of the library's call")
+    unit.end()
+    assert ratio < 2

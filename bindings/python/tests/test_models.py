@@ -1,0 +1,40 @@
+"""Reduced models: loaded, trained, saved, looked into."""
+
+import numpy as np
+
+import ehl_explorer as ehl
+
+
+def test_a_model_is_the_same_in_memory_in_a_file_and_in_the_program(tmp_path):
+    model = ehl.Model.embedded("line")
+    model.save(tmp_path / "line.rom")
+    contact = ehl.Contact.moes(40, 10)
+    own = ehl.solve(contact, method="reduced").H_c
+    for given in [model, ehl.Model.load(tmp_path / "line.rom"), tmp_path / "line.rom", str(tmp_path / "line.rom")]:
+        assert ehl.solve(contact, model=given).H_c == own
+    assert model.contact == "line" and model.domain["m"][0] < 40 < model.domain["m"][1]
+    assert str(model).startswith(model.title)
+
+
+def test_arrays_are_those_of_info(program, tmp_path):
+    model = ehl.Model.embedded("line")
+    model.save(tmp_path / "line.rom")
+    program("info", tmp_path / "line.rom", "--arrays", tmp_path / "line.npz")
+    own = model.arrays()
+    with np.load(tmp_path / "line.npz") as arrays:
+        assert sorted(arrays) == sorted(own)
+        for name in arrays:
+            np.testing.assert_array_equal(arrays[name], own[name])
+
+
+def test_training_tells_how_far_it_is_and_gives_the_model_of_the_command_line(small_training, program, tmp_path):
+    told = []
+    model = ehl.Model.train(small_training, progress=lambda *news: told.append(news))
+    assert told and all(done <= total for _, done, total in told if total)
+    (tmp_path / "scene.ron").write_text(small_training)
+    program("train", tmp_path / "scene.ron", "--out", tmp_path / "own.rom")
+    # A file keeps what the model needs to be proven, not every last digit of it.
+    model.save(tmp_path / "saved.rom")
+    contact = ehl.Contact.moes(40, 10)
+    saved, own = (ehl.solve(contact, model=tmp_path / name).H_c for name in ["saved.rom", "own.rom"])
+    assert saved == own and abs(ehl.solve(contact, model=model).H_c / own - 1) < 1e-10

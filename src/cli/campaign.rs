@@ -1,0 +1,220 @@
+//! `campaign`: a scene's work in shards.
+
+use super::Verdict;
+use super::failure::Failure;
+use super::output::{self, ProgressLine};
+use super::run::describe;
+use crate::engine::campaign::merge::{Merged, Whole, merge};
+use crate::engine::campaign::plan::plan;
+use crate::engine::campaign::shard::{Done, compute};
+use crate::engine::campaign::{CampaignError, Folder, local};
+use clap::{Args, Subcommand, ValueEnum};
+use serde::Serialize;
+use std::num::NonZero;
+use std::path::{Path, PathBuf};
+
+/// What is done with a campaign.
+#[derive(Debug, Subcommand)]
+pub enum CampaignCommand {
+    /// Plan a campaign into a folder: its scene, its shards, a hash of all they depend on, a script for Slurm
+    Plan(PlanArgs),
+    /// Compute one shard, unless it is there already
+    Shard(ShardArgs),
+    /// Put everything together, or open the next round; refuses gaps and what was computed by another program
+    Merge(Where),
+    /// Compute all that is open on this machine, and merge
+    Run(RunArgs),
+    /// Say how far it is
+    Status(StatusArgs),
+}
+
+/// Options of `campaign plan`.
+#[derive(Debug, Args)]
+pub struct PlanArgs {
+    /// The campaign: its scene, and how large a shard is
+    #[arg(value_name = "CAMPAIGN.ron")]
+    campaign: PathBuf,
+    /// The folder of the campaign
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+/// Where a campaign is.
+#[derive(Debug, Args)]
+pub struct Where {
+    /// The folder of the campaign
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+}
+
+/// Options of `campaign shard`.
+#[derive(Debug, Args)]
+pub struct ShardArgs {
+    #[command(flatten)]
+    campaign: Where,
+    /// Number of the shard, from 0
+    #[arg(value_name = "K")]
+    shard: usize,
+    /// Threads that it may use; a scheduler gives each shard its own processor
+    #[arg(long, value_name = "N", default_value = "1")]
+    threads: NonZero<u16>,
+}
+
+/// Where shards are computed by `campaign run`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Place {
+    /// On this machine.
+    Local,
+}
+
+/// Options of `campaign run`.
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    #[command(flatten)]
+    campaign: Where,
+    /// Where its shards are computed; for clusters see slurm.sh in the folder, and the Python package for Dask
+    #[arg(long, value_enum)]
+    on: Place,
+    /// Processes at a time (default: one for each processor)
+    #[arg(long, value_name = "N")]
+    workers: Option<NonZero<u16>>,
+}
+
+/// Options of `campaign status`.
+#[derive(Debug, Args)]
+pub struct StatusArgs {
+    #[command(flatten)]
+    campaign: Where,
+    /// Print the numbers of the shards that are to be computed, and nothing else
+    #[arg(long)]
+    open: bool,
+    /// Print one JSON object
+    #[arg(long, conflicts_with = "open")]
+    json: bool,
+}
+
+impl From<CampaignError> for Failure {
+    fn from(error: CampaignError) -> Self {
+        match error {
+            CampaignError::Run(reason) => reason.into(),
+            CampaignError::Write(reason) => reason.into(),
+            other => Self::Request(other.to_string()),
+        }
+    }
+}
+
+/// Runs the command.
+pub fn run(command: &CampaignCommand) -> Result<Verdict, Failure> {
+    match command {
+        CampaignCommand::Plan(args) => planned(args),
+        CampaignCommand::Shard(args) => computed(args),
+        CampaignCommand::Merge(args) => merged(&args.folder),
+        CampaignCommand::Run(args) => run_here(args),
+        CampaignCommand::Status(args) => status(args),
+    }
+}
+
+fn planned(args: &PlanArgs) -> Result<Verdict, Failure> {
+    let progress = ProgressLine::new(true);
+    let folder = plan(&args.campaign, &args.out, &progress);
+    progress.finish();
+    let folder = folder?;
+    let pieces = folder.rounds.iter().map(|(round, _)| round.pieces.len()).sum::<usize>();
+    let each = folder
+        .plan
+        .seconds_per_piece
+        .map(|each| format!(" of about {:.0} s each ({:.2} s a piece)", each * folder.plan.per_shard as f64, each));
+    let (title, shards) = (&folder.plan.title, folder.shards());
+    output::print(&format!("{title}: {pieces} pieces in {shards} shards{}\n", each.unwrap_or_default()))?;
+    Ok(Verdict::Done)
+}
+
+fn computed(args: &ShardArgs) -> Result<Verdict, Failure> {
+    let folder = Folder::open(&args.campaign.folder)?;
+    let progress = ProgressLine::new(false);
+    let number = args.shard;
+    let waiting = || output::complain(&format!("shard {number} is being computed by another process; waiting for it"));
+    let done = compute(&folder, number, usize::from(args.threads.get()), &progress, &waiting);
+    progress.finish();
+    let word = match done? {
+        Done::Computed => "done",
+        Done::There => "there already",
+    };
+    output::print(&format!("shard {number}: {word}\n"))?;
+    Ok(Verdict::Done)
+}
+
+fn merged(path: &Path) -> Result<Verdict, Failure> {
+    let folder = Folder::open(path)?;
+    let progress = ProgressLine::new(false);
+    let merged = merge(&folder, &progress);
+    progress.finish();
+    match merged? {
+        Merged::Result(whole) => tell(&folder, &whole),
+        Merged::Round(shards) => {
+            let (number, first, last) = (folder.rounds.len() + 1, shards.start, shards.end - 1);
+            output::print(&format!(
+                "round {number} is open: shards {first} to {last} are to be computed; then merge again\n"
+            ))?;
+            Ok(Verdict::Done)
+        }
+    }
+}
+
+fn run_here(args: &RunArgs) -> Result<Verdict, Failure> {
+    let Place::Local = args.on;
+    let cores = || std::thread::available_parallelism().map_or(1, NonZero::get);
+    let workers = args.workers.map_or_else(cores, |workers| usize::from(workers.get()));
+    let program = std::env::current_exe()
+        .map_err(|reason| Failure::Request(format!("the program's own file cannot be found: {reason}")))?;
+    let progress = ProgressLine::new(false);
+    let whole = local::run(&args.campaign.folder, &program, workers, &progress);
+    progress.finish();
+    tell(&Folder::open(&args.campaign.folder)?, &whole?)
+}
+
+/// Says what came of it, and where it is.
+fn tell(folder: &Folder, whole: &Whole) -> Result<Verdict, Failure> {
+    output::print(&describe(&whole.outcome))?;
+    if whole.processors.len() > 1 {
+        let kinds: Vec<&str> = whole.processors.iter().map(String::as_str).collect();
+        output::complain(&format!(
+            "shards were computed on processors of several kinds ({}): the last bits of sums may differ between them",
+            kinds.join("; ")
+        ));
+    }
+    let (seconds, path) = (whole.seconds, folder.result_path());
+    output::print(&format!("{seconds:.1} s of one processor in all; the result is in {}\n", path.display()))?;
+    Ok(if whole.outcome.passed() { Verdict::Done } else { Verdict::FellShort })
+}
+
+/// How far a campaign is, as JSON.
+#[derive(Serialize)]
+struct Told<'a> {
+    #[serde(flatten)]
+    status: &'a crate::engine::campaign::Status,
+    program: &'a str,
+}
+
+fn status(args: &StatusArgs) -> Result<Verdict, Failure> {
+    let folder = Folder::open(&args.campaign.folder)?;
+    let status = folder.status();
+    if args.open {
+        let numbers: String = status.open.iter().map(|shard| format!("{shard}\n")).collect();
+        output::print(&numbers)?;
+    } else if args.json {
+        output::print_json(&Told { status: &status, program: &folder.plan.program_hash })?;
+    } else {
+        let mut text =
+            format!("{}: {} of {} shards are done, round {}", status.title, status.done, status.shards, status.rounds);
+        if let Some(left) = status.left_s.filter(|_| !status.open.is_empty()) {
+            text += &format!("; about {left:.0} s of one processor are left in it");
+        }
+        text += if status.merged { "; merged\n" } else { "\n" };
+        for (shard, reason) in &status.failed {
+            text += &format!("  shard {shard} failed: {reason}\n");
+        }
+        output::print(&text)?;
+    }
+    Ok(Verdict::Done)
+}

@@ -1,0 +1,207 @@
+//! The folder of a campaign: reading it, and how far it is.
+
+use super::plan::Plan;
+use super::program::{hash_of, own_hash, read};
+use super::round::Round;
+use super::shard::Shard;
+use super::{CampaignError, VERSION};
+use crate::engine::EngineError;
+use crate::scene::{Scene, SceneFileError};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+/// What was planned.
+pub const PLAN: &str = "campaign.ron";
+/// The scene.
+pub const SCENE: &str = "scene.ron";
+/// The rounds.
+pub const ROUNDS: &str = "rounds";
+/// The shards.
+pub const SHARDS: &str = "shards";
+/// What came of it.
+pub const RESULT: &str = "result";
+
+/// A campaign.
+#[derive(Clone, Debug)]
+pub struct Folder {
+    /// Where it is.
+    pub path: PathBuf,
+    /// What was planned.
+    pub plan: Plan,
+    /// Its scene, which refers to files of the folder only.
+    pub scene: Scene,
+    /// Its rounds so far, each with what its shards are known by.
+    pub rounds: Vec<(Round, String)>,
+}
+
+/// How far a campaign is.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Status {
+    /// The scene's title.
+    pub title: String,
+    /// Rounds so far.
+    pub rounds: usize,
+    /// Shards so far.
+    pub shards: usize,
+    /// Shards that are done.
+    pub done: usize,
+    /// Shards that are to be computed.
+    pub open: Vec<usize>,
+    /// Shards whose last attempt failed, with the reason.
+    pub failed: Vec<(usize, String)>,
+    /// Seconds of one processor that the open shards will take, where some pieces were tried.
+    pub left_s: Option<f64>,
+    /// Whether everything is merged.
+    pub merged: bool,
+}
+
+impl Folder {
+    /// Reads what a folder holds. The program may be another one: whoever looks only may look.
+    ///
+    /// # Errors
+    /// When it holds no campaign, or one that makes no sense.
+    pub fn open(path: &Path) -> Result<Self, CampaignError> {
+        let place = path.join(PLAN);
+        if !place.is_file() {
+            return Err(CampaignError::None { path: path.to_owned() });
+        }
+        let refused = |reason: String| CampaignError::Document { path: place.clone(), reason };
+        let bytes = read(&place)?;
+        let plan: Plan = ron::de::from_bytes(&bytes).map_err(|error| refused(error.to_string()))?;
+        if plan.version != VERSION {
+            return Err(refused(format!("its version is {}, this program reads {VERSION}", plan.version)));
+        }
+        for (name, hash) in &plan.files {
+            let file = path.join(name);
+            if Path::new(name).components().count() != 1 || hash_of(&read(&file)?) != *hash {
+                return Err(CampaignError::Changed { path: file });
+            }
+        }
+        let (own, scene_path) = (hash_of(&bytes), path.join(SCENE));
+        let text = String::from_utf8(read(&scene_path)?).map_err(|_| refused("its scene is no text".to_owned()))?;
+        let scene = Scene::from_ron(&text)
+            .map_err(|reason| EngineError::from(SceneFileError::Scene { path: scene_path, reason }))?;
+        let mut rounds: Vec<(Round, String)> = Vec::new();
+        loop {
+            let file = path.join(ROUNDS).join(format!("{:03}.ron", rounds.len()));
+            if !file.exists() {
+                break;
+            }
+            let text = String::from_utf8_lossy(&read(&file)?).into_owned();
+            let round = Round::from_text(&text, &file)?;
+            let first = rounds.last().map_or(0, |(round, _)| round.first + round.shards());
+            if round.first != first {
+                let reason = format!("its first shard is {}, but must be {first}", round.first);
+                return Err(CampaignError::Document { path: file, reason });
+            }
+            let hash = Round::hash(&own, &text);
+            rounds.push((round, hash));
+        }
+        if rounds.is_empty() {
+            return Err(refused("its first round is missing; plan it anew".to_owned()));
+        }
+        Ok(Self { path: path.to_owned(), plan, scene, rounds })
+    }
+
+    /// The folder that a path means: itself, or the one of its `campaign.ron`; none where that is no campaign.
+    pub fn meant(path: &Path) -> Option<PathBuf> {
+        let own = path.file_name().is_some_and(|name| name == PLAN).then(|| path.parent().unwrap_or(Path::new(".")));
+        let folder = own.unwrap_or(path);
+        folder.join(PLAN).is_file().then(|| folder.to_owned())
+    }
+
+    /// Where its scene lies.
+    pub fn scene_path(&self) -> PathBuf {
+        self.path.join(SCENE)
+    }
+
+    /// Refuses another build of the program.
+    ///
+    /// # Errors
+    /// Naming both.
+    pub fn check_program(&self) -> Result<(), CampaignError> {
+        let own = own_hash()?;
+        if own == self.plan.program_hash {
+            return Ok(());
+        }
+        let (version, planned) = (self.plan.program.clone(), self.plan.program_hash.clone());
+        Err(CampaignError::OtherProgram { version, planned, own: own.to_owned() })
+    }
+
+    /// Shards so far.
+    pub fn shards(&self) -> usize {
+        self.rounds.last().map_or(0, |(round, _)| round.first + round.shards())
+    }
+
+    /// The number and content of the round of a shard, and what the shard is known by.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub fn round_of(&self, shard: usize) -> Result<(usize, &Round, &str), CampaignError> {
+        let holds =
+            |(_, (round, _)): &(usize, &(Round, String))| (round.first..round.first + round.shards()).contains(&shard);
+        let found = self.rounds.iter().enumerate().find(holds);
+        let found = found.map(|(number, (round, hash))| (number, round, hash.as_str()));
+        found.ok_or(CampaignError::NoShard { shard, shards: self.shards() })
+    }
+
+    /// The file of a shard.
+    pub fn shard_path(&self, shard: usize) -> PathBuf {
+        self.path.join(SHARDS).join(format!("{shard:06}.shard"))
+    }
+
+    /// Where it is said why a shard failed.
+    pub fn failure_path(&self, shard: usize) -> PathBuf {
+        self.shard_path(shard).with_extension("failed")
+    }
+
+    /// The folder of what came of it.
+    pub fn result_path(&self) -> PathBuf {
+        self.path.join(RESULT)
+    }
+
+    /// Where the state of a training is kept between rounds.
+    pub fn state_path(&self, round: usize) -> PathBuf {
+        self.path.join(ROUNDS).join(format!("{round:03}.training"))
+    }
+
+    /// A finished shard.
+    ///
+    /// # Errors
+    /// When it cannot be read, is damaged, or belongs to another program, scene, model or campaign.
+    pub fn shard(&self, shard: usize) -> Result<Shard, CampaignError> {
+        let (_, round, hash) = self.round_of(shard)?;
+        let path = self.shard_path(shard);
+        Shard::read(&path, shard, (&self.plan, hash), round.part(shard).len())
+    }
+
+    /// Numbers of the shards whose files are there, whole or not.
+    pub fn done(&self) -> BTreeSet<usize> {
+        let number = |entry: std::io::Result<std::fs::DirEntry>| {
+            let name = entry.ok()?.file_name();
+            name.to_str()?.strip_suffix(".shard")?.parse().ok().filter(|shard| *shard < self.shards())
+        };
+        std::fs::read_dir(self.path.join(SHARDS)).map(|all| all.filter_map(number).collect()).unwrap_or_default()
+    }
+
+    /// How far it is.
+    pub fn status(&self) -> Status {
+        let done = self.done();
+        let open: Vec<usize> = (0..self.shards()).filter(|shard| !done.contains(shard)).collect();
+        let failed = open.iter().filter_map(|shard| {
+            Some((*shard, std::fs::read_to_string(self.failure_path(*shard)).ok()?.trim().to_owned()))
+        });
+        let pieces = |shard: &usize| self.round_of(*shard).map_or(0, |(_, round, _)| round.part(*shard).len());
+        let left_s = self.plan.seconds_per_piece.map(|each| each * open.iter().map(pieces).sum::<usize>() as f64);
+        Status {
+            title: self.plan.title.clone(),
+            rounds: self.rounds.len(),
+            shards: self.shards(),
+            done: done.len(),
+            failed: failed.collect(),
+            open,
+            left_s,
+            merged: self.result_path().is_dir(),
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! Watching a campaign: its rows as its shards come, whoever computes them.
+
+use super::folder::{Folder, Status};
+use super::{CampaignError, shard};
+use crate::engine::job::{Job, Wake};
+use crate::scene::StudyRow;
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// How long nobody looks into the folder.
+const LOOK_EVERY: Duration = Duration::from_millis(500);
+/// How long a stop waits at most.
+const HEARD_WITHIN: Duration = Duration::from_millis(50);
+
+/// News of a campaign.
+#[derive(Clone, Debug)]
+pub enum News {
+    /// Rows of a shard, by its number.
+    Rows(usize, Vec<StudyRow>),
+    /// How far it is.
+    Status(Box<Status>),
+}
+
+/// Watches a folder until everything in it is merged. Rows of shards come in the order in which these are finished.
+pub fn watch(path: PathBuf, wake: Wake) -> Job<News> {
+    Job::start("Watching the campaign", wake, move |reporter| {
+        let (mut read, mut told): (BTreeSet<usize>, Option<Status>) = Default::default();
+        let mut there = None;
+        loop {
+            let folder = Folder::open(&path).map_err(|reason| reason.to_string())?;
+            let status = folder.status();
+            let new: Vec<usize> = folder.done().into_iter().filter(|shard| !read.contains(shard)).collect();
+            for shard in new {
+                if reporter.cancelled() {
+                    return Ok(());
+                }
+                if shard::holds_rows(&folder) {
+                    match folder.shard(shard) {
+                        Ok(found) => reporter.send(News::Rows(shard, found.rows())),
+                        // One that cannot be read now may be replaced.
+                        Err(CampaignError::Read { .. }) => continue,
+                        Err(refused) => return Err(refused.to_string()),
+                    }
+                }
+                read.insert(shard);
+            }
+            // Of those that were there before nobody knows how long they took.
+            let before = status.done.min(*there.get_or_insert(status.done));
+            reporter.stage("new shards", status.done - before, status.shards - before);
+            let merged = status.merged && status.open.is_empty();
+            if told.as_ref() != Some(&status) {
+                reporter.send(News::Status(Box::new(status.clone())));
+                told = Some(status);
+            }
+            let mut waited = Duration::ZERO;
+            while waited < LOOK_EVERY && !merged {
+                if reporter.cancelled() {
+                    return Ok(());
+                }
+                std::thread::sleep(HEARD_WITHIN);
+                waited += HEARD_WITHIN;
+            }
+            if merged {
+                return Ok(());
+            }
+        }
+    })
+}

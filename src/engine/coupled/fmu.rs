@@ -1,0 +1,431 @@
+//! A contact as a Functional Mock-up Unit for co-simulation, FMI 2.0: its variables, its description, its archive.
+//!
+//! The archive holds `modelDescription.xml`, the model, and a library that knows neither: what it is to be it learns from
+//! the identity that the description repeats to it.
+
+use super::{Coupled, InTime, Inputs, Outputs, Pressed};
+use crate::engine::SavedModel;
+use crate::engine::archive::zip;
+use crate::solver::physics::contact::ContactKind;
+use std::fmt::Write;
+use std::sync::Arc;
+use xxhash_rust::xxh3::xxh3_64;
+
+/// What the library's file is called in the archive, and what simulations call it.
+pub const IDENTIFIER: &str = "ehl_contact";
+/// Where the model is in the archive.
+pub const MODEL: &str = "resources/model.rom";
+
+/// What a variable is to a simulation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Given from outside at every step.
+    Input,
+    /// Given once, or changed now and then.
+    Parameter,
+    /// What follows.
+    Output,
+}
+
+/// A real variable; its place in [`REALS`] is its value reference.
+pub struct Real {
+    /// Its name.
+    pub name: &'static str,
+    /// Its unit in line contacts and in point contacts; empty where it has none.
+    pub unit: [&'static str; 2],
+    /// What it is.
+    pub about: &'static str,
+    role: Role,
+    /// Its place among the inputs.
+    input: Option<fn(&mut Inputs) -> &mut f64>,
+    output: Option<fn(&Outputs) -> f64>,
+}
+
+const fn given(
+    name: &'static str,
+    unit: &'static str,
+    role: Role,
+    input: fn(&mut Inputs) -> &mut f64,
+    about: &'static str,
+) -> Real {
+    Real { name, unit: [unit, unit], about, role, input: Some(input), output: None }
+}
+
+const fn follows(
+    name: &'static str,
+    unit: [&'static str; 2],
+    output: fn(&Outputs) -> f64,
+    about: &'static str,
+) -> Real {
+    Real { name, unit, about, role: Role::Output, input: None, output: Some(output) }
+}
+
+/// All real variables.
+pub const REALS: [Real; 17] = [
+    given("radius", "m", Role::Input, |i| &mut i.radius_m, "reduced radius R in the rolling direction"),
+    given("speed", "m/s", Role::Input, |i| &mut i.speed_m_per_s, "mean entrainment speed"),
+    given("slide_to_roll_ratio", "", Role::Input, |i| &mut i.slide_to_roll_ratio, "sliding speed over mean speed"),
+    Real {
+        unit: ["N/m", "N"],
+        output: Some(|o| o.load),
+        ..given("load", "", Role::Input, |i| &mut i.load, "load; of a line contact by its length")
+    },
+    Real {
+        output: Some(|o| o.approach_m),
+        ..given("approach", "m", Role::Input, |i| &mut i.approach_m, "approach of points far inside both bodies")
+    },
+    given("modulus", "Pa", Role::Parameter, |i| &mut i.modulus_pa, "reduced modulus E'"),
+    given("viscosity", "Pa.s", Role::Parameter, |i| &mut i.viscosity_pa_s, "viscosity at ambient pressure"),
+    given("alpha", "1/Pa", Role::Parameter, |i| &mut i.alpha_per_pa, "pressure-viscosity coefficient"),
+    given(
+        "radius_ratio",
+        "",
+        Role::Parameter,
+        |i| &mut i.radius_ratio,
+        "radius across over radius; 1 of a circle or a line",
+    ),
+    follows("film_central", ["m"; 2], |o| o.h_c_m, "central film"),
+    follows("film_minimum", ["m"; 2], |o| o.h_min_m, "smallest film"),
+    follows("friction_coefficient", [""; 2], |o| o.friction_coefficient, "friction over load"),
+    follows("friction_force", ["N/m", "N"], |o| o.friction_force, "friction; of a line contact by its length"),
+    follows("hertz_pressure", ["Pa"; 2], |o| o.hertz_pressure_pa, "largest pressure of the dry contact"),
+    follows(
+        "film_central_bound",
+        [""; 2],
+        |o| o.error_bounds[0],
+        "relative error of film_central in 99 of 100 contacts at most; NaN where unknown",
+    ),
+    follows(
+        "film_minimum_bound",
+        [""; 2],
+        |o| o.error_bounds[1],
+        "relative error of film_minimum in 99 of 100 contacts at most; NaN where unknown",
+    ),
+    follows(
+        "friction_bound",
+        [""; 2],
+        |o| o.error_bounds[2],
+        "relative error of friction_coefficient in 99 of 100 contacts at most; NaN where unknown",
+    ),
+];
+
+/// A truth that follows: name, what it is, and where it is found.
+pub type Truth = (&'static str, &'static str, fn(&Outputs) -> bool);
+
+/// All of them; the place is the value reference.
+pub const TRUTHS: [Truth; 2] = [
+    ("trained", "whether the model was trained for the contact", |outputs| outputs.trained),
+    ("full", "whether the full solver took over where the model has no solution", |outputs| outputs.full),
+];
+
+impl Real {
+    /// Its unit in contacts of a kind.
+    fn unit_in(&self, kind: ContactKind) -> &'static str {
+        let [line, point] = self.unit;
+        match kind {
+            ContactKind::Line => line,
+            ContactKind::Point => point,
+        }
+    }
+
+    /// What it is to a simulation in the unit of a model; none where the unit has no such variable.
+    pub fn role(&self, model: &SavedModel, pressed: Pressed) -> Option<Role> {
+        match (self.name, model) {
+            // A model in time is of one contact, of which it lets vary what its trainings did.
+            ("load" | "slide_to_roll_ratio", SavedModel::InTime(_)) => Some(Role::Input),
+            ("speed", SavedModel::InTime(model)) => model.domain.speed.varies().then_some(Role::Input),
+            ("radius", SavedModel::InTime(model)) => model.domain.radius.varies().then_some(Role::Input),
+            ("approach", SavedModel::InTime(_)) => Some(Role::Output),
+            (_, SavedModel::InTime(_)) => (self.role == Role::Output).then_some(Role::Output),
+            // Nobody knows the approach of a stationary line contact.
+            ("approach", SavedModel::Stationary(model)) if model.contact() == ContactKind::Line => None,
+            ("load", _) if pressed == Pressed::Approach => Some(Role::Output),
+            ("approach", _) if pressed == Pressed::Load => Some(Role::Output),
+            _ => Some(self.role),
+        }
+    }
+
+    /// Its value as what it is.
+    pub fn value(&self, role: Role, inputs: &Inputs, outputs: Option<&Outputs>) -> Option<f64> {
+        match (role, self.input, self.output) {
+            (Role::Output, _, Some(output)) => outputs.map(output),
+            (_, Some(input), _) => Some(*input(&mut inputs.clone())),
+            _ => None,
+        }
+    }
+
+    /// Takes a value, which is judged with the others when the contact is solved.
+    ///
+    /// # Errors
+    /// With a sentence where it is no number, or nothing to be given.
+    pub fn set(&self, role: Role, inputs: &mut Inputs, value: f64) -> Result<(), String> {
+        let (Some(input), true) = (self.input, role != Role::Output) else {
+            return Err(format!("`{}` follows from the inputs and cannot be set", self.name));
+        };
+        if !value.is_finite() {
+            return Err(format!("`{}` is {value}, but must be a finite number", self.name));
+        }
+        *input(inputs) = value;
+        Ok(())
+    }
+}
+
+/// What tells a library and a description that they belong together: the model's content and what presses its bodies.
+pub fn identity(model: &[u8], pressed: Pressed) -> String {
+    let word = match pressed {
+        Pressed::Load => "load",
+        Pressed::Approach => "approach",
+    };
+    format!("{word}-{:016x}", xxh3_64(model))
+}
+
+/// What presses the bodies of a unit of this identity, if it is that of the model.
+pub fn pressed_of(identity_given: &str, model: &[u8]) -> Option<Pressed> {
+    [Pressed::Load, Pressed::Approach].into_iter().find(|pressed| identity(model, *pressed) == identity_given)
+}
+
+/// Where the library of this system lies in an archive.
+pub fn library_place() -> String {
+    let (platform, ending) = match std::env::consts::OS {
+        "windows" => ("win", "dll"),
+        "macos" => ("darwin", "dylib"),
+        _ => ("linux", "so"),
+    };
+    format!("binaries/{platform}{}/{IDENTIFIER}.{ending}", usize::BITS)
+}
+
+/// What the file of the library is called where cargo leaves it.
+pub fn library_file() -> String {
+    format!("{}{IDENTIFIER}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX)
+}
+
+/// A unit of a model, given by the content of its file, with the library that solves it.
+///
+/// # Errors
+/// With a sentence where the model is refused or has no contact to begin with.
+pub fn archive(model: Vec<u8>, pressed: Pressed, library: Vec<u8>) -> Result<Vec<u8>, String> {
+    let description = description(&model, pressed)?;
+    let files = [
+        ("modelDescription.xml".to_owned(), description.into_bytes()),
+        (MODEL.to_owned(), model),
+        (library_place(), library),
+    ];
+    Ok(zip(files))
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// Inputs from which the unit of a model begins.
+///
+/// # Errors
+/// With a sentence where the model has no contact to begin with, or cannot be driven so.
+pub fn first_inputs(model: &SavedModel, pressed: Pressed) -> Result<Inputs, String> {
+    let none = || format!("the reduced model `{}` solves none of its own training points", model.title());
+    match model {
+        SavedModel::Stationary(model) => {
+            Coupled::new(Arc::clone(model), pressed)?;
+            Coupled::first_inputs(model).ok_or_else(none)
+        }
+        SavedModel::InTime(_) if pressed == Pressed::Approach => {
+            Err("a model in time is driven by its load; leave out --approach".to_owned())
+        }
+        SavedModel::InTime(model) => InTime::first_inputs(model).ok_or_else(none),
+    }
+}
+
+/// `modelDescription.xml`.
+fn description(bytes: &[u8], pressed: Pressed) -> Result<String, String> {
+    let model = SavedModel::from_bytes(bytes).map_err(|error| error.to_string())?;
+    let inputs = first_inputs(&model, pressed)?;
+    let mut text = String::new();
+    let (title, version) = (escaped(model.title()), env!("CARGO_PKG_VERSION"));
+    let guid = identity(bytes, pressed);
+    let (kind, about, experiment) = match &model {
+        SavedModel::Stationary(model) => {
+            let kind = model.contact();
+            (kind, format!("Lubricated {} contact by a reduced model", kind.name()), (1.0, 0.01))
+        }
+        SavedModel::InTime(model) => {
+            let seconds = model.starts.first().map_or(1.0, |start| InTime::seconds_per_time(&start.point));
+            let step = model.domain.step * seconds;
+            let about = format!(
+                "Lubricated line contact in time by a reduced model: its state advances with the communication step, \
+                 which is divided evenly into steps of {step:.3e} s at most"
+            );
+            let duration = model.starts.first().map_or(1.0, |start| start.duration) * seconds;
+            (ContactKind::Line, about, (duration, step))
+        }
+    };
+    // Writing to a string cannot fail.
+    let _ = write!(
+        text,
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
+         <fmiModelDescription fmiVersion=\"2.0\" modelName=\"{title}\" guid=\"{guid}\" description=\"{about}\" \
+         generationTool=\"EHL Explorer {version}\" variableNamingConvention=\"flat\">\n\
+         \x20 <CoSimulation modelIdentifier=\"{IDENTIFIER}\" canHandleVariableCommunicationStepSize=\"true\" \
+         canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\"/>\n\
+         \x20 <UnitDefinitions>\n"
+    );
+    for (name, base) in [
+        ("m", "m=\"1\""),
+        ("m/s", "m=\"1\" s=\"-1\""),
+        ("N/m", "kg=\"1\" s=\"-2\""),
+        ("N", "kg=\"1\" m=\"1\" s=\"-2\""),
+        ("Pa", "kg=\"1\" m=\"-1\" s=\"-2\""),
+        ("Pa.s", "kg=\"1\" m=\"-1\" s=\"-1\""),
+        ("1/Pa", "kg=\"-1\" m=\"1\" s=\"2\""),
+    ] {
+        let _ = writeln!(text, "    <Unit name=\"{name}\"><BaseUnit {base}/></Unit>");
+    }
+    text.push_str("  </UnitDefinitions>\n  <LogCategories>\n");
+    text.push_str("    <Category name=\"logStatusWarning\" description=\"what a reader must know\"/>\n");
+    text.push_str("    <Category name=\"logStatusError\" description=\"what is refused\"/>\n");
+    let (stop, step) = experiment;
+    let _ = writeln!(
+        text,
+        "  </LogCategories>\n  <DefaultExperiment startTime=\"0\" stopTime=\"{stop}\" stepSize=\"{step}\"/>"
+    );
+    text.push_str("  <ModelVariables>\n");
+    let (mut index, mut outputs) = (0, Vec::new());
+    for (reference, real) in REALS.iter().enumerate() {
+        let Some(role) = real.role(&model, pressed) else { continue };
+        index += 1;
+        let how = match role {
+            Role::Input => "causality=\"input\" variability=\"continuous\"",
+            Role::Parameter => "causality=\"parameter\" variability=\"tunable\" initial=\"exact\"",
+            Role::Output => "causality=\"output\" variability=\"continuous\" initial=\"calculated\"",
+        };
+        if role == Role::Output {
+            outputs.push(index);
+        }
+        let start = match role {
+            Role::Output => String::new(),
+            _ => real.value(role, &inputs, None).map_or(String::new(), |value| format!(" start=\"{value:e}\"")),
+        };
+        let unit = match real.unit_in(kind) {
+            "" => String::new(),
+            unit => format!(" unit=\"{unit}\""),
+        };
+        let (name, about) = (real.name, escaped(real.about));
+        let _ = writeln!(
+            text,
+            "    <ScalarVariable name=\"{name}\" valueReference=\"{reference}\" description=\"{about}\" {how}>\
+             <Real{unit}{start}/></ScalarVariable>"
+        );
+    }
+    for (reference, (name, about, _)) in TRUTHS.iter().enumerate() {
+        index += 1;
+        outputs.push(index);
+        let _ = writeln!(
+            text,
+            "    <ScalarVariable name=\"{name}\" valueReference=\"{reference}\" description=\"{about}\" \
+             causality=\"output\" variability=\"discrete\" initial=\"calculated\"><Boolean/></ScalarVariable>"
+        );
+    }
+    text.push_str("  </ModelVariables>\n  <ModelStructure>\n");
+    for list in ["Outputs", "InitialUnknowns"] {
+        let _ = writeln!(text, "    <{list}>");
+        for index in &outputs {
+            let _ = writeln!(text, "      <Unknown index=\"{index}\"/>");
+        }
+        let _ = writeln!(text, "    </{list}>");
+    }
+    text.push_str("  </ModelStructure>\n</fmiModelDescription>\n");
+    Ok(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::{ContactResult, Embedded, Request, Workbench};
+    use crate::scene::{Bench, Grid, Method, ModelSource};
+    use crate::solver::physics::contact::{OperatingPoint, Quantity};
+
+    fn first(which: Embedded) -> (Coupled, Inputs) {
+        let model = which.model().unwrap();
+        let inputs = Coupled::first_inputs(&model).unwrap();
+        (Coupled::new(model, Pressed::Load).unwrap(), inputs)
+    }
+
+    #[test]
+    fn outputs_are_what_solve_answers_to_the_last_bit() {
+        for which in [Embedded::Line, Embedded::ThinningLine, Embedded::Circle] {
+            let (mut coupled, inputs) = first(which);
+            let inputs = Inputs { slide_to_roll_ratio: 0.1, ..inputs };
+            let own = coupled.solve(&inputs).unwrap();
+            let point = coupled.point(&inputs, inputs.load).unwrap();
+            let lubricant = coupled.lubricant;
+            let request = Request { point, lubricant, grid: Grid::Model, grid_model: ModelSource::Embedded };
+            let answer = Workbench::new("").answer(&request, &Method::EMBEDDED, None, &()).unwrap();
+            let result = ContactResult::from(&answer);
+            let named = [
+                ("h_c_m", own.h_c_m),
+                ("h_min_m", own.h_min_m),
+                ("traction", own.friction_coefficient),
+                ("hertz.p_h_pa", own.hertz_pressure_pa),
+                ("reduced.h_c_error_bound", own.error_bounds[0]),
+            ];
+            for (name, value) in named {
+                assert_eq!(result.value(name), Some(value), "{name}");
+            }
+            assert_eq!((own.trained, own.full, &own.warnings), (!result.untrained(), false, &result.warnings));
+        }
+    }
+
+    #[test]
+    fn an_approach_gives_the_load_that_gives_it() {
+        let model = Embedded::Circle.model().unwrap();
+        let inputs = Coupled::first_inputs(&model).unwrap();
+        let mut by_approach = Coupled::new(model, Pressed::Approach).unwrap();
+        for share in [0.9, 1.0, 1.3] {
+            let wanted = Inputs { approach_m: share * inputs.approach_m, load: 0.7 * inputs.load, ..inputs };
+            let found = by_approach.solve(&wanted).unwrap();
+            assert!((found.approach_m / wanted.approach_m - 1.0).abs() < 1e-11, "{share}: {found:?}");
+            assert!((found.load > inputs.load) == (share > 1.0 + 1e-9) || share == 1.0);
+        }
+        let refused = by_approach.solve(&Inputs { approach_m: -1e-6, ..inputs }).unwrap_err();
+        assert!(refused.contains("above zero"), "{refused}");
+        let line = Embedded::Line.model().unwrap();
+        assert!(Coupled::new(line, Pressed::Approach).is_err_and(|why| why.contains("load instead")));
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_refused_and_what_is_unknown_is_told() {
+        let (mut coupled, inputs) = first(Embedded::Line);
+        for wrong in [
+            Inputs { load: -1.0, ..inputs },
+            Inputs { radius_m: 0.0, ..inputs },
+            Inputs { slide_to_roll_ratio: 11.0, ..inputs },
+            Inputs { speed_m_per_s: 1e30, ..inputs },
+        ] {
+            assert!(coupled.solve(&wrong).is_err(), "{wrong:?}");
+        }
+        let beyond = coupled.solve(&Inputs { load: 30.0 * inputs.load, ..inputs }).unwrap();
+        assert!(!beyond.trained && !beyond.warnings.is_empty(), "{beyond:?}");
+        let mut inputs = inputs;
+        assert!(REALS[0].set(Role::Input, &mut inputs, f64::NAN).is_err_and(|why| why.contains("radius")));
+        let follows = REALS.iter().find(|real| real.name == "film_central").unwrap();
+        assert!(follows.set(Role::Output, &mut inputs, 1.0).is_err());
+    }
+
+    #[test]
+    fn a_description_names_every_variable_and_its_identity() {
+        let bytes = Embedded::Circle.bytes();
+        for pressed in [Pressed::Load, Pressed::Approach] {
+            let text = description(bytes, pressed).unwrap();
+            assert_eq!(text.matches("<ScalarVariable ").count(), REALS.len() + TRUTHS.len());
+            assert_eq!(pressed_of(&identity(bytes, pressed), bytes), Some(pressed));
+        }
+        assert_eq!(pressed_of("load-0000000000000000", bytes), None);
+        assert!(description(Embedded::Line.bytes(), Pressed::Approach).is_err());
+    }
+
+    #[test]
+    fn an_ellipse_keeps_its_ratio_of_radii() {
+        let (coupled, inputs) = first(Embedded::Ellipse);
+        let point: OperatingPoint = coupled.point(&Inputs { radius_ratio: 2.0, ..inputs }, inputs.load).unwrap();
+        assert!((Quantity::RadiusRatio.of(&point).unwrap() - 2.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,438 @@
+//! A contact in time as a part of another program's simulation: one reduced model whose state advances with its steps.
+//!
+//! Inputs go on a straight line from what they were to what they are told to be at the end of a step, which is divided
+//! evenly into steps no longer than those of the model's training ([`CoupledMarch`]).
+
+use super::{Inputs, Outputs};
+use crate::solver::full::transient::{Frame, Input, point_at};
+use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, Termination};
+use crate::solver::limits::Number;
+use crate::solver::physics::contact::{OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
+use crate::solver::physics::lubricant::Sliding;
+use crate::solver::reduced::Trust;
+use crate::solver::reduced::transient::{CoupledError, CoupledMarch, MarchState, TrajectoryModel};
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Inputs that do not change.
+const AT_REST: Input = Input { radius: 0.0, speed: 0.0, load: 0.0 };
+
+/// A model in time with all work space; one for each thread.
+pub struct InTime {
+    model: Arc<TrajectoryModel>,
+    march: Option<CoupledMarch>,
+    /// How fast its inputs changed in its last step, per unit of T.
+    rate: Input,
+}
+
+/// All that a contact in time needs to go on.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct InTimeState {
+    /// Reference load \[N/m\]; the rest of the reference contact follows from the model.
+    load: f64,
+    rate: Input,
+    march: MarchState,
+}
+
+impl InTimeState {
+    /// Its bytes.
+    ///
+    /// # Errors
+    /// With a sentence where it cannot be written.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, String> {
+        postcard::to_allocvec(self).map_err(|_| "the state cannot be written".to_owned())
+    }
+
+    /// A state of its bytes, which is judged when it is set.
+    ///
+    /// # Errors
+    /// With a sentence where these are no such bytes.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
+        let none = || "this is no state of this unit".to_owned();
+        let (state, rest) = postcard::take_from_bytes(bytes).map_err(|_| none())?;
+        if rest.is_empty() { Ok(state) } else { Err(none()) }
+    }
+}
+
+impl InTime {
+    /// A contact by a model that has not begun.
+    pub fn new(model: Arc<TrajectoryModel>) -> Self {
+        Self { model, march: None, rate: AT_REST }
+    }
+
+    /// Inputs under which the first training began.
+    pub fn first_inputs(model: &TrajectoryModel) -> Option<Inputs> {
+        let start = model.starts.first()?;
+        let point = point_at(&start.point, start.inputs.at(0.0));
+        Some(Inputs {
+            radius_m: point.radius_m,
+            radius_ratio: 1.0,
+            speed_m_per_s: point.speed_m_per_s,
+            slide_to_roll_ratio: 0.0,
+            load: point.load,
+            approach_m: 0.0,
+            modulus_pa: point.modulus_pa,
+            viscosity_pa_s: point.viscosity_pa_s,
+            alpha_per_pa: point.alpha_per_pa,
+        })
+    }
+
+    /// Seconds of one unit of T, of the reference contact.
+    pub fn seconds_per_time(point: &OperatingPoint) -> f64 {
+        point.hertz().half_width_m / point.speed_m_per_s
+    }
+
+    /// Whether it has begun.
+    pub fn has_begun(&self) -> bool {
+        self.march.is_some()
+    }
+
+    /// Forgets that it has begun.
+    pub fn reset(&mut self) {
+        (self.march, self.rate) = (None, AT_REST);
+    }
+
+    /// Begins where the contact has rested for ever under some inputs. Its reference contact, whose scales it has, is the
+    /// trained one nearest to their load.
+    ///
+    /// # Errors
+    /// With a sentence where an input makes no sense or the model finds no such contact; nothing has changed then.
+    pub fn begin(&mut self, inputs: &Inputs) -> Result<Outputs, String> {
+        check(inputs)?;
+        let reference = self.reference(self.reference_load(inputs.load)?)?;
+        let input = over(inputs, &reference.point);
+        let march = CoupledMarch::begin(&self.model, reference, input).map_err(told)?;
+        (self.march, self.rate) = (Some(march), AT_REST);
+        self.outputs(inputs)
+    }
+
+    /// Goes on by some seconds, at whose end the inputs are those.
+    ///
+    /// # Errors
+    /// With a sentence where an input makes no sense or a step cannot be taken; nothing has changed then.
+    pub fn advance(&mut self, seconds: f64, inputs: &Inputs) -> Result<Outputs, String> {
+        check(inputs)?;
+        let march = self.march.as_mut().ok_or("the contact in time has not begun")?;
+        let point = march.reference().point;
+        let (span, from) = (seconds / Self::seconds_per_time(&point), march.conditions().input);
+        let to = over(inputs, &point);
+        march.advance(span, to).map_err(told)?;
+        self.rate = Input {
+            radius: (to.radius - from.radius) / span,
+            speed: (to.speed - from.speed) / span,
+            load: (to.load - from.load) / span,
+        };
+        self.outputs(inputs)
+    }
+
+    /// The outputs of the present state; of the inputs only the sliding counts, which moves no film.
+    ///
+    /// # Errors
+    /// With a sentence where it has not begun.
+    pub fn outputs(&self, inputs: &Inputs) -> Result<Outputs, String> {
+        let march = self.march.as_ref().ok_or("the contact in time has not begun")?;
+        let (moment, domain) = (march.moment(), &self.model.domain);
+        let reference = march.reference();
+        let mut warnings = Vec::new();
+        if let Trust::Outside(why) = domain.reference.trust(reference) {
+            warnings.push(why);
+        }
+        warnings.extend(domain.outside(moment.time, moment.input, self.rate));
+        let trained = warnings.is_empty();
+        let point = point_at(&reference.point, moment.input);
+        let hertz_pressure_pa = point.hertz().pressure_pa;
+        if hertz_pressure_pa > PLAUSIBLE_HERTZ_PRESSURE_PA {
+            let pressure = hertz_pressure_pa / 1e9;
+            warnings.push(format!("the Hertzian pressure of {pressure:.3} GPa exceeds 3.2 GPa: no real contact"));
+        }
+        let friction_coefficient = self.friction(march, inputs.slide_to_roll_ratio, &mut warnings)?;
+        let scale = reference.point.film_scale_m();
+        Ok(Outputs {
+            load: point.load,
+            approach_m: march.approach() * scale,
+            h_c_m: moment.h_c * scale,
+            h_min_m: moment.h_min * scale,
+            friction_coefficient,
+            friction_force: friction_coefficient * point.load,
+            hertz_pressure_pa,
+            error_bounds: [f64::NAN; 3],
+            trained,
+            full: false,
+            warnings,
+        })
+    }
+
+    /// What it needs to go on; none before it has begun.
+    pub fn state(&self) -> Option<InTimeState> {
+        let march = self.march.as_ref()?;
+        let load = march.reference().point.load;
+        Some(InTimeState { load, rate: self.rate, march: march.state().clone() })
+    }
+
+    /// Goes back, or on, to a state.
+    ///
+    /// # Errors
+    /// With a sentence where it is none of this model; nothing has changed then.
+    pub fn restore(&mut self, state: &InTimeState) -> Result<(), String> {
+        let InTimeState { load, rate, march: kept } = state;
+        let finite = [*load, rate.radius, rate.speed, rate.load].iter().all(|value| value.is_finite());
+        if !finite || self.reference_load(*load)? != *load {
+            return Err(told(CoupledError::Foreign));
+        }
+        let reference = self.reference(*load)?;
+        match &mut self.march {
+            Some(march) => march.restore(reference, kept).map_err(told)?,
+            None => self.march = Some(CoupledMarch::resume(&self.model, reference, kept).map_err(told)?),
+        }
+        self.rate = *rate;
+        Ok(())
+    }
+
+    /// The load of the reference contact where a march begins under a load.
+    fn reference_load(&self, load: f64) -> Result<f64, String> {
+        let reference = self.model.reference_for(load);
+        reference.map(|point| point.load).ok_or_else(|| format!("the model `{}` knows no contact", self.model.title))
+    }
+
+    /// The reference problem of a load.
+    fn reference(&self, load: f64) -> Result<Problem, String> {
+        let point = self.model.reference_for(load).ok_or("the model knows no contact")?;
+        Problem::new(&point, self.model.domain.reference.lubricant).map_err(|refused| refused.to_string())
+    }
+
+    /// Friction over load at a slide-to-roll ratio, and what must be said of it.
+    fn friction(&self, march: &CoupledMarch, sliding: f64, warnings: &mut Vec<String>) -> Result<f64, String> {
+        let (at, moment, reference) = (march.conditions(), march.moment(), march.reference());
+        // The surfaces slide by this over the speed of the reference contact; it may roll the other way.
+        let slide_to_roll_ratio = sliding * at.input.speed;
+        if slide_to_roll_ratio == 0.0 {
+            return Ok(0.0);
+        }
+        let sliding = Sliding { slide_to_roll_ratio, newtonian_plateau_ratio: None };
+        // Fields have the scales of this contact.
+        let own = match self.model.frame {
+            Frame::Fixed => reference.point,
+            Frame::ArbitraryLagrangianEulerian | Frame::Remeshed(_) => {
+                let speed_m_per_s = reference.point.speed_m_per_s;
+                OperatingPoint { speed_m_per_s, ..point_at(&reference.point, at.input) }
+            }
+        };
+        let problem = Problem::new(&OperatingPoint { sliding, ..own }, reference.lubricant);
+        let problem = problem.map_err(|refused| refused.to_string())?;
+        let fields = march.fields();
+        let scalars = Scalars {
+            h_c: moment.h_c / at.scales.film,
+            p_max: moment.p_max / at.scales.pressure,
+            ..Scalars::default()
+        };
+        let solution = Solution {
+            problem,
+            mesh: Mesh { spec: self.model.window.grid.spec(), scale: 1.0 },
+            x: march.abscissae().to_vec(),
+            y: vec![0.0],
+            pressure: fields.pressure,
+            film: fields.film,
+            multiplier: Vec::new(),
+            fraction: Vec::new(),
+            scalars,
+            report: Report { termination: Termination::Converged, ..Report::empty() },
+            grid_cost: None,
+            heat: None,
+        };
+        // Over the load of the moment, not of the contact that lends its scales.
+        let coefficient = solution.traction_coefficient() * own.load / (reference.point.load * at.input.load);
+        warnings.extend(problem.doubts_traction(coefficient, &scalars).map(|doubt| doubt.to_string()));
+        Ok(coefficient)
+    }
+}
+
+/// Inputs over those of a reference contact.
+fn over(inputs: &Inputs, reference: &OperatingPoint) -> Input {
+    Input {
+        radius: inputs.radius_m / reference.radius_m,
+        speed: inputs.speed_m_per_s / reference.speed_m_per_s,
+        load: inputs.load / reference.load,
+    }
+}
+
+/// Refuses inputs that make no sense; the rest is judged where the contact is.
+fn check(inputs: &Inputs) -> Result<(), String> {
+    let Inputs { radius_m, speed_m_per_s, load, slide_to_roll_ratio: sliding, .. } = *inputs;
+    for (name, value) in [("radius", radius_m), ("load", load)] {
+        if !(value.is_finite() && value > 0.0) {
+            return Err(format!("the {name} is {}, but must be a finite number above zero", Number(value)));
+        }
+    }
+    if !speed_m_per_s.is_finite() {
+        return Err(format!("the speed is {speed_m_per_s}, but must be a finite number"));
+    }
+    if !(sliding.is_finite() && sliding.abs() <= 10.0) {
+        let sliding = Number(sliding);
+        return Err(format!("the slide-to-roll ratio is {sliding}, but must be a finite number between -10 and 10"));
+    }
+    Ok(())
+}
+
+fn told(refused: CoupledError) -> String {
+    refused.to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::trajectory_file;
+    use crate::solver::discrete::grid::GridSpec;
+    use crate::solver::full::transient::{Frame, Inputs as Driven, Keep, Signal, Transient, march, solve};
+    use crate::solver::full::{FullSolver, Start};
+    use crate::solver::reduced::transient::ReducedMarch;
+    use crate::solver::training::{TrajectoryTraining, train_trajectories};
+
+    const GRID_STEP: f64 = 0.02;
+    const GRID: GridSpec = GridSpec::Uniform { dx: GRID_STEP, domain: (-4.0, 2.0) };
+
+    fn driven(load: Signal) -> Transient {
+        let own = Transient::new(OperatingPoint::TABLE_4_2, Driven::load(load), 0.6, 0.01);
+        Transient { keep: Keep::Every(1), ..own }
+    }
+
+    /// A model of two sines of the load.
+    fn trained_at(point: OperatingPoint, frame: Frame) -> Arc<TrajectoryModel> {
+        let sine = |period: f64| {
+            let sine = driven(Signal::Harmonic { amplitude: 0.1, period });
+            solve(GRID, &Transient { point, frame, ..sine }, &()).unwrap()
+        };
+        let settings = TrajectoryTraining { loss: 1e-5, ..TrajectoryTraining::default() };
+        let trainings = [0.5, 1.0 / 3.0].map(sine);
+        Arc::new(train_trajectories(&GRID.line().unwrap(), &trainings, &settings, &()).unwrap())
+    }
+
+    fn trained(frame: Frame) -> Arc<TrajectoryModel> {
+        trained_at(OperatingPoint::TABLE_4_2, frame)
+    }
+
+    #[test]
+    fn in_seconds_and_newtons_it_is_the_march_of_the_library() {
+        let model = trained(Frame::Fixed);
+        let read = trajectory_file::from_bytes(&trajectory_file::to_bytes(&model).unwrap()).unwrap();
+        let loads: Vec<f64> = (0..=50).map(|k| 1.0 + 0.05 * (0.2 * f64::from(k)).sin()).collect();
+        let times = (0..loads.len()).map(|k| 0.01 * k as f64).collect();
+        let asked = Transient { duration: 0.5, ..driven(Signal::Sampled { times, values: loads.clone() }) };
+        let wanted = march(&mut ReducedMarch::new(&model, &asked).unwrap(), &asked, &()).unwrap();
+        let (mut own, first) = (InTime::new(read), InTime::first_inputs(&model).unwrap());
+        let point = OperatingPoint::TABLE_4_2;
+        let step = 0.01 * InTime::seconds_per_time(&point);
+        let mut seen = vec![own.begin(&first).unwrap()];
+        seen.extend(loads[1..].iter().map(|load| {
+            let inputs = Inputs { load: load * point.load, ..first };
+            own.advance(step, &inputs).unwrap()
+        }));
+        for (own, moment) in seen.iter().zip(&wanted.moments) {
+            for (own, other) in [(own.h_c_m, moment.h_c), (own.h_min_m, moment.h_min)] {
+                assert!((own / (other * point.film_scale_m()) - 1.0).abs() < 1e-12, "{own} against {other}");
+            }
+            assert!(own.trained && own.warnings.is_empty() && !own.full, "{:?}", own.warnings);
+            assert!((own.load / (moment.input.load * point.load) - 1.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn friction_and_pressure_at_rest_are_those_of_the_full_contact_in_every_frame() {
+        let (point, sliding) = (OperatingPoint { alpha_per_pa: 7e-9, load: 1e5, ..OperatingPoint::TABLE_4_2 }, 0.02);
+        for frame in [Frame::Fixed, Frame::ArbitraryLagrangianEulerian] {
+            let model = trained_at(point, frame);
+            let first = InTime::first_inputs(&model).unwrap();
+            let inputs = Inputs { load: 1.05 * point.load, slide_to_roll_ratio: sliding, ..first };
+            let own = InTime::new(Arc::clone(&model)).begin(&inputs).unwrap();
+
+            // The full contact on the same grid, and the force on its film added up in SI units.
+            let heavier = Signal::Sampled { times: vec![0.0], values: vec![1.05] };
+            let asked = Transient { point, frame, duration: 0.01, ..driven(heavier) };
+            let full = solve(GRID, &asked, &()).unwrap();
+            let (state, at_rest) = (&full.states[0], OperatingPoint { load: inputs.load, ..point });
+            let scales = if frame == Frame::Fixed { point } else { at_rest };
+            let fluid = full.transient.lubricant.scaled(&scales).unwrap();
+            let stress = |k: usize| {
+                let (p, h) = (state.pressure[k], state.film[k] * scales.film_scale_m());
+                scales.viscosity_pa_s * fluid.at(p.max(0.0)).viscosity * sliding * point.speed_m_per_s / h
+            };
+            let dx = GRID_STEP * scales.hertz().half_width_m;
+            let force: f64 = (1..full.x.len() - 1).map(|k| 0.5 * dx * (stress(k) + stress(k + 1))).sum();
+            let pairs = [
+                (own.friction_force, force),
+                (own.friction_coefficient, force / inputs.load),
+                (own.h_c_m, full.moments[0].h_c * point.film_scale_m()),
+            ];
+            for (own, wanted) in pairs {
+                assert!((own / wanted - 1.0).abs() < 2e-3, "{frame:?}: {own} against {wanted}");
+            }
+            assert!((own.hertz_pressure_pa / at_rest.hertz().pressure_pa - 1.0).abs() < 1e-12);
+            // That is the stationary contact where the grid has the contact's own scales.
+            let solution = FullSolver::on(GRID.line().unwrap()).solve(
+                &OperatingPoint {
+                    sliding: Sliding { slide_to_roll_ratio: sliding, newtonian_plateau_ratio: None },
+                    ..at_rest
+                },
+                Default::default(),
+                Start::Cold,
+                &(),
+            );
+            let stationary = solution.unwrap().traction_coefficient() * inputs.load;
+            let within = if frame == Frame::Fixed { 0.1 } else { 2e-3 };
+            assert!((own.friction_force / stationary - 1.0).abs() < within, "{frame:?}: {stationary}");
+        }
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_refused_and_what_was_not_trained_is_told() {
+        let model = trained(Frame::Fixed);
+        let (mut own, first) = (InTime::new(Arc::clone(&model)), InTime::first_inputs(&model).unwrap());
+        let step = model.domain.step * InTime::seconds_per_time(&model.starts[0].point);
+        assert!(own.advance(step, &first).unwrap_err().contains("has not begun"));
+        own.begin(&first).unwrap();
+        let kept = own.outputs(&first).unwrap();
+        for wrong in [
+            Inputs { load: -1.0, ..first },
+            Inputs { radius_m: 0.0, ..first },
+            Inputs { speed_m_per_s: f64::NAN, ..first },
+            Inputs { slide_to_roll_ratio: 11.0, ..first },
+        ] {
+            assert!(!own.advance(step, &wrong).unwrap_err().is_empty());
+            assert_eq!(own.outputs(&first).unwrap().h_c_m, kept.h_c_m);
+        }
+        assert!(own.advance(1e9, &first).unwrap_err().contains("steps"));
+        let fast = own.advance(step, &Inputs { load: 1.05 * first.load, ..first }).unwrap();
+        assert!(!fast.trained && fast.warnings.iter().any(|said| said.contains("faster")), "{:?}", fast.warnings);
+        let rested = own.advance(step, &Inputs { load: 1.05 * first.load, ..first }).unwrap();
+        assert!(rested.trained && rested.warnings.is_empty(), "{:?}", rested.warnings);
+        let quick =
+            own.advance(step, &Inputs { load: 1.05 * first.load, speed_m_per_s: 1.1 * first.speed_m_per_s, ..first });
+        assert!(quick.unwrap().warnings.iter().any(|said| said.contains("speed") && said.contains("rested")));
+    }
+
+    #[test]
+    fn a_state_is_written_read_and_gone_on_from() {
+        let model = trained(Frame::Fixed);
+        let first = InTime::first_inputs(&model).unwrap();
+        let step = 1.7 * model.domain.step * InTime::seconds_per_time(&model.starts[0].point);
+        let go = |own: &mut InTime| -> Vec<Outputs> {
+            let inputs = |k: i32| Inputs { load: first.load * (1.0 + 0.01 * f64::from(k)), ..first };
+            (0..5).map(|k| own.advance(step, &inputs(k)).unwrap()).collect()
+        };
+        let mut own = InTime::new(Arc::clone(&model));
+        own.begin(&first).unwrap();
+        go(&mut own);
+        let (state, present) = (own.state().unwrap(), own.outputs(&first).unwrap());
+        let bytes = state.to_bytes().unwrap();
+        let films = |all: Vec<Outputs>| -> Vec<u64> { all.iter().map(|own| own.h_c_m.to_bits()).collect() };
+        let onwards = films(go(&mut own));
+        let mut other = InTime::new(Arc::clone(&model));
+        other.restore(&InTimeState::from_bytes(&bytes).unwrap()).unwrap();
+        assert_eq!(other.outputs(&first).unwrap().h_c_m.to_bits(), present.h_c_m.to_bits());
+        assert_eq!(films(go(&mut other)), onwards);
+        assert!(InTimeState::from_bytes(&bytes[..bytes.len() - 1]).is_err());
+        let mut foreign = InTime::new(trained(Frame::ArbitraryLagrangianEulerian));
+        let mut spoiled = state.clone();
+        spoiled.load *= 2.0;
+        assert!(foreign.restore(&spoiled).is_err() && !foreign.has_begun());
+    }
+}

@@ -1,0 +1,84 @@
+//! The reduced models that are part of the program.
+
+use super::model_file::{self, ModelFileError};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
+use crate::solver::reduced::ReducedModel;
+use std::sync::Arc;
+
+/// One of them, by what it is for. Each is trained by a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Embedded {
+    /// Line contacts of Newtonian lubricants: `scenes/training/line_oils.ron`.
+    Line,
+    /// Line contacts of lubricants that thin under shear: `scenes/training/embedded_shear_model.ron`.
+    ThinningLine,
+    /// Circular contacts: `scenes/training/table_3_4_model.ron`.
+    Circle,
+    /// Circular contacts of lubricants that thin under shear: `scenes/training/embedded_point_shear_model.ron`.
+    ThinningCircle,
+    /// Elliptical contacts: `scenes/training/embedded_ellipse_model.ron`.
+    Ellipse,
+}
+
+impl Embedded {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Line, Self::ThinningLine, Self::Circle, Self::ThinningCircle, Self::Ellipse];
+
+    /// The one of a kind of contact, circular where it is one of points, and of a lubricant that thins under shear or
+    /// not.
+    pub fn of_kind(kind: ContactKind, thins: bool) -> Self {
+        match (kind, thins) {
+            (ContactKind::Line, false) => Self::Line,
+            (ContactKind::Line, true) => Self::ThinningLine,
+            (ContactKind::Point, false) => Self::Circle,
+            (ContactKind::Point, true) => Self::ThinningCircle,
+        }
+    }
+
+    /// The one that serves a contact. Ellipses of lubricants that thin under shear have none: they get that of circles,
+    /// which says so.
+    pub fn of(point: &OperatingPoint, lubricant: &Lubricant) -> Self {
+        let thins = lubricant.shear != ShearLaw::Newtonian;
+        if point.radius_ratio() != 1.0 && !thins { Self::Ellipse } else { Self::of_kind(point.kind, thins) }
+    }
+
+    /// The content of its file.
+    pub fn bytes(self) -> &'static [u8] {
+        match self {
+            Self::Line => include_bytes!("../../assets/line.rom"),
+            Self::ThinningLine => include_bytes!("../../assets/line_shear.rom"),
+            Self::Circle => include_bytes!("../../assets/point.rom"),
+            Self::ThinningCircle => include_bytes!("../../assets/point_shear.rom"),
+            Self::Ellipse => include_bytes!("../../assets/ellipse.rom"),
+        }
+    }
+
+    /// The model; its operators are computed as it is read.
+    ///
+    /// # Errors
+    /// When the program was built with a damaged asset.
+    pub fn model(self) -> Result<Arc<ReducedModel>, ModelFileError> {
+        model_file::from_bytes(self.bytes()).map(Arc::new)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::named_lubricant::SQUALANE_PIP;
+    use crate::solver::physics::contact::{MoesRequest, Quantity, si_from_moes};
+
+    #[test]
+    fn a_contact_is_served_by_the_model_of_its_shape_and_fluid() {
+        let circle = si_from_moes(&MoesRequest::new(ContactKind::Point, 50.0, 5.0)).unwrap();
+        let ellipse = Quantity::RadiusRatio.at(&circle, 2.0);
+        let oil = Lubricant::default();
+        assert_eq!([circle, ellipse].map(|point| Embedded::of(&point, &oil)), [Embedded::Circle, Embedded::Ellipse]);
+        let equal = Quantity::RadiusRatio.at(&circle, 1.0);
+        assert_eq!(Embedded::of(&equal, &oil), Embedded::Circle);
+        assert_eq!(Embedded::of(&ellipse, &SQUALANE_PIP), Embedded::ThinningCircle);
+        let line = si_from_moes(&MoesRequest::new(ContactKind::Line, 50.0, 5.0)).unwrap();
+        assert_eq!(Embedded::of(&line, &SQUALANE_PIP), Embedded::ThinningLine);
+    }
+}

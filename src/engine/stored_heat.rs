@@ -1,0 +1,75 @@
+//! Thermal constants in postcard's encoding, which leaves nothing out as scenes do.
+
+use crate::solver::physics::lubricant::{BodyHeat, FreeVolumeHeat, Heat, OilHeat};
+use serde::{Deserialize, Serialize};
+
+/// What a film that warms itself needs to be computed.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(super) struct StoredHeat {
+    /// T₀ \[K\].
+    inlet_temperature: f64,
+    /// Heat capacity, conductivity, density and both coefficients of the oil.
+    oil: [f64; 5],
+    /// What Tait's and Doolittle's laws need.
+    free_volume: Option<[f64; 3]>,
+    /// Conductivity, heat capacity and density of both bodies.
+    bodies: [[f64; 3]; 2],
+}
+
+impl From<Heat> for StoredHeat {
+    fn from(Heat { inlet_temperature, oil, bodies }: Heat) -> Self {
+        let OilHeat { heat_capacity, conductivity, density, viscosity_temperature, density_temperature, free_volume } =
+            oil;
+        Self {
+            inlet_temperature,
+            oil: [heat_capacity, conductivity, density, viscosity_temperature, density_temperature],
+            free_volume: free_volume.map(
+                |FreeVolumeHeat { bulk_modulus_temperature, expansion, occupied_expansion }| {
+                    [bulk_modulus_temperature, expansion, occupied_expansion]
+                },
+            ),
+            bodies: bodies
+                .map(|BodyHeat { conductivity, heat_capacity, density }| [conductivity, heat_capacity, density]),
+        }
+    }
+}
+
+impl From<StoredHeat> for Heat {
+    fn from(StoredHeat { inlet_temperature, oil, free_volume, bodies }: StoredHeat) -> Self {
+        let [heat_capacity, conductivity, density, viscosity_temperature, density_temperature] = oil;
+        let free_volume = free_volume.map(|[bulk_modulus_temperature, expansion, occupied_expansion]| FreeVolumeHeat {
+            bulk_modulus_temperature,
+            expansion,
+            occupied_expansion,
+        });
+        let body = |[conductivity, heat_capacity, density]: [f64; 3]| BodyHeat { conductivity, heat_capacity, density };
+        Self {
+            inlet_temperature,
+            oil: OilHeat {
+                heat_capacity,
+                conductivity,
+                density,
+                viscosity_temperature,
+                density_temperature,
+                free_volume,
+            },
+            bodies: bodies.map(body),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::named_lubricant::NAMED;
+
+    #[test]
+    fn every_constant_survives() {
+        for named in &NAMED {
+            let bodies = [BodyHeat::STEEL, BodyHeat { conductivity: 1.1, heat_capacity: 840.0, density: 2500.0 }];
+            let heat = Heat { oil: named.heat, bodies, inlet_temperature: 353.15 };
+            let bytes = postcard::to_allocvec(&StoredHeat::from(heat)).unwrap();
+            assert_eq!(Heat::from(postcard::from_bytes::<StoredHeat>(&bytes).unwrap()), heat, "{}", named.name);
+        }
+    }
+}

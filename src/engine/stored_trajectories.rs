@@ -1,0 +1,223 @@
+//! What the file of a model in time holds: frame, grid, bases, sampled rows, the beginnings of its trainings with their
+//! inputs, what it was trained for, and the training scene, in postcard's encoding.
+//!
+//! Everything is kept to the last digit, so that a march by what was read is that by what was written. K V_p is
+//! recomputed.
+
+use super::model_file::ModelFileError;
+use super::stored_matrix::{StoredBasis, StoredMatrix};
+use super::stored_model::{StoredRows, entries, sound_domain};
+use crate::solver::discrete::grid::{ContactGrid, GridSpec};
+use crate::solver::full::Problem;
+use crate::solver::full::transient::{Frame, Inputs};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::lubricant::{Cavitation, Sliding};
+use crate::solver::reduced::transient::{
+    CoupledMarch, Reach, TrajectoryDomain, TrajectoryModel, TrajectoryStart, only_course,
+};
+use crate::solver::reduced::{Domain, Sampling, Snapshot, Window};
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Entries of a basis at most: real ones have some 10⁵.
+const MOST_ENTRIES: usize = 5_000_000;
+/// How far, over their own size, the coefficients of a stationary contact may lie from those of the training.
+const PROVEN: f64 = 0.1;
+
+#[derive(Serialize, Deserialize)]
+struct StoredTrajectories {
+    title: String,
+    frame: Frame,
+    domain: StoredDomain,
+    grid: GridSpec,
+    penalty: f64,
+    pressure: StoredBasis,
+    deformation: StoredBasis,
+    sampling: Sampling,
+    rows: StoredRows,
+    /// A state for each place that the rupture boundary had, and its first ruptured columns.
+    boundaries: Vec<(Snapshot, Vec<usize>)>,
+    starts: Vec<StoredStart>,
+    scene: String,
+    log: Vec<String>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct StoredDomain {
+    reference: Domain,
+    cavitation: Cavitation,
+    radius: Reach,
+    speed: Reach,
+    load: Reach,
+    step: f64,
+}
+
+#[derive(Serialize, Deserialize)]
+struct StoredStart {
+    /// Radius, speed, load, modulus, viscosity and coefficient of a line contact.
+    point: [f64; 6],
+    sliding: Sliding,
+    inputs: Inputs,
+    duration: f64,
+    coefficients: Vec<f64>,
+    h_0: f64,
+    fronts: Vec<usize>,
+}
+
+/// The payload of a file; none where the model cannot be encoded.
+pub(super) fn encode(model: &TrajectoryModel) -> Option<Vec<u8>> {
+    let (window, domain) = (&model.window, &model.domain);
+    let start = |start: &TrajectoryStart| StoredStart {
+        point: start.point.quantities(),
+        sliding: start.point.sliding,
+        inputs: start.inputs.clone(),
+        duration: start.duration,
+        coefficients: start.coefficients.clone(),
+        h_0: start.h_0,
+        fronts: start.fronts.clone(),
+    };
+    let stored = StoredTrajectories {
+        title: model.title.clone(),
+        frame: model.frame,
+        domain: StoredDomain {
+            reference: domain.reference.clone(),
+            cavitation: window.cavitation,
+            radius: domain.radius,
+            speed: domain.speed,
+            load: domain.load,
+            step: domain.step,
+        },
+        grid: window.grid.spec(),
+        penalty: window.penalty,
+        pressure: StoredBasis::exact(&window.pressure),
+        deformation: StoredBasis::exact(&window.deformation),
+        sampling: window.sampling,
+        rows: StoredRows {
+            rows: window.sampled_rows.clone(),
+            reconstruction: StoredMatrix::exact(&window.reconstruction),
+            scheme: window.scheme,
+            residual: window.residual_reconstruction.as_ref().map(StoredMatrix::exact),
+        },
+        boundaries: window.snapshots.iter().map(|snapshot| (snapshot.clone(), snapshot.fronts.clone())).collect(),
+        starts: model.starts.iter().map(start).collect(),
+        scene: model.scene.clone(),
+        log: model.log.clone(),
+    };
+    postcard::to_allocvec(&stored).ok()
+}
+
+/// Lets the model rest where its first and its last training began.
+///
+/// # Errors
+/// When it does not find these contacts.
+pub(super) fn prove(model: &Arc<TrajectoryModel>) -> Result<(), ModelFileError> {
+    let proven = |start: &TrajectoryStart| {
+        let problem = Problem::new(&start.point, model.domain.reference.lubricant).ok()?;
+        let found = CoupledMarch::begin(model, problem, start.inputs.at(0.0)).ok()?;
+        let square = |values: &mut dyn Iterator<Item = f64>| values.map(|value| value * value).sum::<f64>();
+        let off = square(&mut found.coefficients().iter().zip(&start.coefficients).map(|(own, other)| own - other));
+        Some(off <= PROVEN * PROVEN * square(&mut start.coefficients.iter().copied()))
+    };
+    let all =
+        [model.starts.first(), model.starts.last()].into_iter().flatten().all(|start| proven(start) == Some(true));
+    if all { Ok(()) } else { Err(ModelFileError::UnprovenInTime) }
+}
+
+/// The model of a payload.
+///
+/// # Errors
+/// When its parts do not fit each other.
+pub(super) fn decode(payload: &[u8]) -> Result<Arc<TrajectoryModel>, ModelFileError> {
+    let damaged = |what| ModelFileError::Damaged { what };
+    let (stored, rest): (StoredTrajectories, &[u8]) =
+        postcard::take_from_bytes(payload).map_err(|_| damaged("its content cannot be decoded"))?;
+    if !rest.is_empty() {
+        return Err(damaged("something follows its content"));
+    }
+    let StoredTrajectories { mut title, frame, grid, penalty, sampling, scene, mut log, .. } = stored;
+    // They are shown on terminals.
+    log.iter_mut().chain([&mut title]).for_each(|text| text.retain(|letter| !letter.is_control()));
+    let only = only_course(stored.starts.iter().map(|start| &start.inputs));
+    let domain = domain_of(stored.domain, only).ok_or(damaged("its domain"))?;
+    let cavitation = domain.reference.lubricant.cavitation;
+
+    // Nothing is built that is larger than what the file can hold.
+    let nodes = match grid {
+        GridSpec::Graded { registered: true, .. } | GridSpec::Plane(_) => return Err(damaged("grid")),
+        GridSpec::Uniform { .. } | GridSpec::Graded { .. } => entries(&grid)?,
+    };
+    let fits = |basis: &StoredBasis| {
+        let entries = nodes.checked_mul(basis.columns());
+        basis.rows() == nodes && basis.columns() > 0 && entries.is_some_and(|entries| entries <= MOST_ENTRIES)
+    };
+    if nodes > payload.len() {
+        return Err(damaged("grid"));
+    }
+    if !(fits(&stored.pressure) && fits(&stored.deformation)) {
+        return Err(damaged("bases"));
+    }
+    let grid = ContactGrid::Line(grid.line()?);
+    let (Some(pressure), Some(deformation)) =
+        (stored.pressure.into_basis(grid.len()), stored.deformation.into_basis(grid.len()))
+    else {
+        return Err(damaged("bases"));
+    };
+    let modes = pressure.modes.ncols();
+    let rows = stored.rows.into_rows(modes, &grid)?;
+    if !(penalty.is_finite() && penalty > 0.0) {
+        return Err(damaged("penalty"));
+    }
+    let boundaries = boundaries_of(stored.boundaries, cavitation, modes, &grid).ok_or(damaged("rupture"))?;
+    let starts: Option<Vec<TrajectoryStart>> =
+        stored.starts.into_iter().map(|start| start_of(start, cavitation, modes, &grid)).collect();
+    let starts = starts.filter(|starts| !starts.is_empty()).ok_or(damaged("beginnings of its trainings"))?;
+    let mut window = Window::new((0.0, f64::INFINITY), grid, pressure, deformation, boundaries, sampling, rows);
+    (window.penalty, window.cavitation) = (penalty, cavitation);
+    let model = Arc::new(TrajectoryModel { title, frame, window, starts, domain, scene, log });
+    prove(&model)?;
+    Ok(model)
+}
+
+/// What a model was trained for; `None` where that makes no sense.
+fn domain_of(stored: StoredDomain, only: Option<Inputs>) -> Option<TrajectoryDomain> {
+    let StoredDomain { mut reference, cavitation, radius, speed, load, step } = stored;
+    if matches!(cavitation, Cavitation::MassConserving { .. }) || reference.sliding.is_some() {
+        return None;
+    }
+    reference.lubricant.cavitation = cavitation;
+    let domain = TrajectoryDomain { reference, radius, speed, load, only, step };
+    (sound_domain(&domain.reference) && domain.is_sound()).then_some(domain)
+}
+
+/// Whether these can be first ruptured columns on a grid.
+fn sound_fronts(fronts: &[usize], cavitation: Cavitation, grid: &ContactGrid) -> bool {
+    let lines = if cavitation == Cavitation::Penalty { 0 } else { grid.lines() };
+    fronts.len() == lines && fronts.iter().all(|front| *front <= grid.nodes().0)
+}
+
+fn boundaries_of(
+    stored: Vec<(Snapshot, Vec<usize>)>,
+    cavitation: Cavitation,
+    modes: usize,
+    grid: &ContactGrid,
+) -> Option<Vec<Snapshot>> {
+    if stored.is_empty() != (cavitation == Cavitation::Penalty) {
+        return None;
+    }
+    let sound = |(snapshot, fronts): (Snapshot, Vec<usize>)| {
+        let finite = snapshot.coefficients.iter().chain([&snapshot.h_0, &snapshot.h_c]).all(|value| value.is_finite());
+        let fits = snapshot.coefficients.len() == modes && sound_fronts(&fronts, cavitation, grid);
+        (finite && fits && snapshot.point.check().is_ok()).then_some(Snapshot { fronts, ..snapshot })
+    };
+    stored.into_iter().map(sound).collect()
+}
+
+fn start_of(stored: StoredStart, cavitation: Cavitation, modes: usize, grid: &ContactGrid) -> Option<TrajectoryStart> {
+    let StoredStart { point, sliding, inputs, duration, coefficients, h_0, fronts } = stored;
+    let point = OperatingPoint::from_quantities(ContactKind::Line, point, sliding);
+    let finite = coefficients.iter().chain([&h_0, &sliding.slide_to_roll_ratio]).all(|value| value.is_finite());
+    let fits = coefficients.len() == modes && sound_fronts(&fronts, cavitation, grid);
+    let driven = duration.is_finite() && duration >= 0.0 && inputs.check(duration).is_ok();
+    let sound = finite && fits && driven && point.check().is_ok();
+    sound.then_some(TrajectoryStart { point, inputs, duration, coefficients, h_0, fronts })
+}

@@ -1,0 +1,197 @@
+//! Files of reduced models in time (`.rom`): the header of [`super::model_file`] with versions of their own, then what
+//! `stored_trajectories` makes of a model.
+
+use super::checked_file::{Flaw, Format, Unreadable};
+use super::model_file::{MAGIC, MAX_PAYLOAD, ModelFileError};
+use super::stored_trajectories;
+use crate::scene::atomic_file;
+use crate::solver::reduced::transient::TrajectoryModel;
+use std::path::Path;
+use std::sync::Arc;
+
+/// What the versions of models in time count on from: programs that know none of them say that the file is newer.
+const KIND: u32 = 1 << 16;
+const VERSION: u32 = 1;
+const FORMAT: Format =
+    Format { magic: MAGIC, version: KIND + VERSION, oldest: KIND + 1, whole_hash: 0, max_payload: MAX_PAYLOAD };
+
+/// Whether a version is that of a model in time.
+pub(super) fn in_time(version: u32) -> bool {
+    version / KIND == 1
+}
+
+fn refused(flaw: Flaw) -> ModelFileError {
+    match flaw {
+        Flaw::Newer { found } if in_time(found) => ModelFileError::NewerInTime { found: found - KIND, read: VERSION },
+        Flaw::Older { found } if !in_time(found) => ModelFileError::Stationary,
+        Flaw::Newer { found } => ModelFileError::Newer { found },
+        other => other.into(),
+    }
+}
+
+/// Reads the file of a model in time. Its announced size is checked before anything is allocated.
+///
+/// # Errors
+/// When the file cannot be read, is foreign, newer, cut off or damaged, or a model of stationary contacts.
+pub fn read(path: &Path) -> Result<Arc<TrajectoryModel>, ModelFileError> {
+    let bytes = FORMAT.read(path).map_err(|reason| match reason {
+        Unreadable::Io(source) => ModelFileError::Io { path: path.to_owned(), source },
+        Unreadable::Flaw(flaw) => refused(flaw),
+    })?;
+    from_bytes(&bytes)
+}
+
+/// Writes the file of a model in time as a whole or not at all.
+///
+/// # Errors
+/// When the file cannot be written, or would be refused by [`read`].
+pub fn write(model: &Arc<TrajectoryModel>, path: &Path) -> Result<(), ModelFileError> {
+    let bytes = to_bytes(model)?;
+    stored_trajectories::prove(model)?;
+    Ok(atomic_file::replace(path, &bytes)?)
+}
+
+/// The content of its file.
+///
+/// # Errors
+/// When the model cannot be encoded.
+pub fn to_bytes(model: &TrajectoryModel) -> Result<Vec<u8>, ModelFileError> {
+    let payload = stored_trajectories::encode(model).ok_or(ModelFileError::Damaged { what: "encoding" })?;
+    Ok(FORMAT.seal(&payload))
+}
+
+/// A model from the content of a file.
+///
+/// # Errors
+/// As [`read`].
+pub fn from_bytes(bytes: &[u8]) -> Result<Arc<TrajectoryModel>, ModelFileError> {
+    stored_trajectories::decode(FORMAT.open(bytes).map_err(refused)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::{Embedded, SavedModel, model_file};
+    use crate::solver::discrete::grid::GridSpec;
+    use crate::solver::full::transient::{
+        Frame, Inputs, Interpolation, Keep, Signal, Trajectory, Transient, march, solve,
+    };
+    use crate::solver::physics::contact::OperatingPoint;
+    use crate::solver::physics::lubricant::{Cavitation, Lubricant};
+    use crate::solver::reduced::transient::ReducedMarch;
+    use crate::solver::reduced::{Sampling, Scheme};
+    use crate::solver::training::{TrajectoryTraining, train_trajectories};
+
+    /// A training of a moment on a coarse grid.
+    fn training(frame: Frame, cavitation: Cavitation) -> Transient {
+        let load = Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 0.5 });
+        let lubricant = Lubricant { cavitation, ..Lubricant::default() };
+        let own = Transient::new(OperatingPoint::TABLE_4_2, load, 0.3, 0.01);
+        Transient { frame, lubricant, keep: Keep::Every(1), ..own }
+    }
+
+    fn trained(transient: &Transient, settings: TrajectoryTraining) -> Arc<TrajectoryModel> {
+        let spec = GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) };
+        let trajectory = solve(spec, transient, &()).unwrap();
+        let mut model = train_trajectories(&spec.line().unwrap(), &[trajectory], &settings, &()).unwrap();
+        model.title = "A load that breathes".to_owned();
+        model.scene = "Scene(…)".to_owned();
+        model.log = vec!["one".to_owned()];
+        Arc::new(model)
+    }
+
+    fn small() -> Arc<TrajectoryModel> {
+        trained(&training(Frame::Fixed, Cavitation::Penalty), TrajectoryTraining::default())
+    }
+
+    fn marched(model: &Arc<TrajectoryModel>, transient: &Transient) -> Trajectory {
+        march(&mut ReducedMarch::new(model, transient).unwrap(), transient, &()).unwrap()
+    }
+
+    #[test]
+    fn what_is_read_is_what_was_written_and_marches_alike_to_the_last_bit() {
+        let galerkin = TrajectoryTraining { loss: 1e-5, ..TrajectoryTraining::default() };
+        let gnat =
+            TrajectoryTraining { scheme: Scheme::Gnat { weighted: true }, sampling: Sampling::QDeim, ..galerkin };
+        let least = TrajectoryTraining { scheme: Scheme::LeastSquares { weighted: true }, ..gnat };
+        for (frame, cavitation, settings) in [
+            (Frame::Fixed, Cavitation::Penalty, galerkin),
+            (Frame::Fixed, Cavitation::Complementarity, galerkin),
+            (Frame::Fixed, Cavitation::Complementarity, gnat),
+            (Frame::Fixed, Cavitation::Complementarity, least),
+            (Frame::ArbitraryLagrangianEulerian, Cavitation::Complementarity, galerkin),
+            (Frame::Remeshed(Interpolation::CubicSpline), Cavitation::Penalty, galerkin),
+        ] {
+            let transient = training(frame, cavitation);
+            let model = trained(&transient, settings);
+            let bytes = to_bytes(&model).unwrap();
+            let read = from_bytes(&bytes).unwrap();
+            assert!(to_bytes(&read).unwrap() == bytes, "{frame:?}, {cavitation:?}");
+            assert_eq!((&read.title, &read.scene, &read.log), (&model.title, &model.scene, &model.log));
+            assert_eq!((read.frame, &read.domain, &read.starts), (model.frame, &model.domain, &model.starts));
+            let [own, other] = [&model, &read].map(|model| marched(model, &transient));
+            assert!(own.finished() && own.moments == other.moments && own.states == other.states, "{frame:?}");
+        }
+    }
+
+    #[test]
+    fn damage_and_other_kinds_are_named() {
+        let whole = to_bytes(&small()).unwrap();
+        assert!(matches!(from_bytes(&whole[..10]), Err(ModelFileError::Truncated { .. })));
+        assert!(matches!(from_bytes(&whole[..whole.len() - 9]), Err(ModelFileError::Truncated { .. })));
+        assert!(matches!(from_bytes(b"PNG"), Err(ModelFileError::Foreign)));
+        for place in [whole.len() / 2, 20, whole.len() - 1] {
+            let mut flipped = whole.clone();
+            flipped[place] ^= 0x10;
+            assert!(matches!(from_bytes(&flipped), Err(ModelFileError::Damaged { .. })), "byte {place}");
+        }
+        let mut newer = whole.clone();
+        newer[8] = 9;
+        let refused = from_bytes(&newer).map(|_| ()).unwrap_err();
+        assert!(matches!(refused, ModelFileError::NewerInTime { found: 9, read: VERSION }), "{refused}");
+        assert!(matches!(from_bytes(Embedded::Line.bytes()), Err(ModelFileError::Stationary)));
+        assert!(matches!(model_file::from_bytes(&whole), Err(ModelFileError::InTime)));
+        assert!(matches!(SavedModel::from_bytes(&whole), Ok(SavedModel::InTime(_))));
+        assert!(matches!(SavedModel::from_bytes(Embedded::Line.bytes()), Ok(SavedModel::Stationary(_))));
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("model.rom");
+        write(&small(), &path).unwrap();
+        assert!(std::fs::read(&path).unwrap() == whole && read(&path).is_ok());
+        assert!(matches!(model_file::read(&path), Err(ModelFileError::InTime)));
+        assert!(matches!(SavedModel::read(&path), Ok(SavedModel::InTime(_))));
+    }
+
+    #[test]
+    fn parts_that_contradict_each_other_are_refused_even_with_a_right_hash() {
+        let model = small();
+        let refused = |spoil: &dyn Fn(&mut TrajectoryModel)| {
+            let mut wrong = (*model).clone();
+            spoil(&mut wrong);
+            from_bytes(&to_bytes(&wrong).unwrap()).err()
+        };
+        let lies: [&dyn Fn(&mut TrajectoryModel); 14] = [
+            &|m| *m.window.sampled_rows.last_mut().unwrap() = 1_000_000,
+            &|m| m.window.penalty = -1.0,
+            &|m| m.window.cavitation = Cavitation::Complementarity,
+            &|m| m.window.cavitation = Cavitation::MassConserving { supply_film_m: None },
+            &|m| m.starts.clear(),
+            &|m| m.starts[0].h_0 = f64::NAN,
+            &|m| m.starts[0].coefficients.truncate(3),
+            &|m| m.starts[0].fronts.push(7),
+            &|m| m.starts[0].inputs.load = Signal::Harmonic { amplitude: 2.0, period: 0.1 },
+            &|m| m.starts[0].point.load = -1.0,
+            &|m| m.domain.step = 0.0,
+            &|m| m.domain.load.range = (1.2, 0.8),
+            &|m| m.domain.reference.m.0 = f64::NAN,
+            &|m| m.domain.speed.rate = f64::INFINITY,
+        ];
+        for (k, lie) in lies.iter().enumerate() {
+            assert!(matches!(refused(lie), Some(ModelFileError::Damaged { .. })), "lie {k}: {:?}", refused(lie));
+        }
+        let foreign = refused(&|m| m.starts.iter_mut().for_each(|start| start.coefficients.reverse()));
+        assert!(matches!(foreign, Some(ModelFileError::UnprovenInTime)), "{foreign:?}");
+        let mut loud = (*model).clone();
+        loud.title.push_str("\u{1b}[2J");
+        assert!(!from_bytes(&to_bytes(&loud).unwrap()).unwrap().title.contains('\u{1b}'));
+    }
+}

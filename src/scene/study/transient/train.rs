@@ -1,0 +1,87 @@
+//! Training a reduced model in time to be kept, without the marches that a study compares, and taking one that was kept.
+
+use super::data::ReducedTransient;
+use super::timed_march::timed_march;
+use super::{MarchedBy, Runner, TransientStudy};
+use crate::scene::bench::Bench;
+use crate::scene::error::RunError;
+use crate::scene::sampled;
+use crate::scene::study::Study;
+use crate::scene::study::question::Setting;
+use crate::scene::{Scene, SceneError};
+use crate::solver::discrete::grid::ContactGrid;
+use crate::solver::full::transient::{FullMarch, Trajectory};
+use crate::solver::reduced::transient::TrajectoryModel;
+use crate::solver::training::{TrainingObserver, TrajectoryTraining, train_trajectories};
+use std::sync::Arc;
+
+impl TransientStudy {
+    /// What it trains a reduced model by; none where it trains none.
+    pub fn training(&self) -> Option<TrajectoryTraining> {
+        self.reduced.as_ref().and_then(ReducedTransient::training)
+    }
+
+    /// The reduced model that it names; none where it trains one, or has none.
+    pub(super) fn saved_model(&self, setting: &mut Setting<'_>) -> Result<Option<Arc<TrajectoryModel>>, RunError> {
+        let Some(source) = self.reduced.as_ref().and_then(|reduced| reduced.model.as_ref()) else { return Ok(None) };
+        let model = setting.bench.trajectory_model(source, setting.observer)?;
+        if !self.frames.contains(&model.frame) {
+            return Err(RunError::Study(format!(
+                "the reduced model lives in another frame than the study marches in: write `frames: [{:?}]`, or name it \
+                 besides",
+                model.frame
+            )));
+        }
+        Ok(Some(model))
+    }
+}
+
+impl Scene {
+    /// Whether it asks for a contact in time and trains a reduced model for it.
+    pub fn trains_in_time(&self) -> bool {
+        matches!(&self.study, Study::Transient(study) if study.training().is_some())
+    }
+
+    /// The reduced model in time that it trains, of the first of its frames; its full marches are those that the model
+    /// is trained by.
+    ///
+    /// # Errors
+    /// When the scene is refused, trains no such model, the training gives none, or the observer cancels.
+    pub fn train_in_time(
+        &self,
+        bench: &mut dyn Bench,
+        observer: &dyn TrainingObserver,
+    ) -> Result<TrajectoryModel, RunError> {
+        self.check()?;
+        let none = || RunError::Study("the scene trains no reduced model in time".to_owned());
+        let Study::Transient(study) = &self.study else { return Err(none()) };
+        let (training, mut study) = (study.training().ok_or_else(none)?, study.clone());
+        if let Some(path) = &study.sampled {
+            sampled::read_into(&mut study.inputs, &bench.resolve(path))?;
+        }
+        // Linearised models want more states than bases do.
+        study.linearised = None;
+        let experiment = self.experiment();
+        let request = experiment.request()?;
+        let ContactGrid::Line(grid) = bench.grid(&request, observer)? else { return Err(none()) };
+        let frame = study.frames.first().copied().unwrap_or_default();
+        let own = study.own_march(request.point, request.lubricant, frame);
+        let setting = Setting { experiment: &experiment, bench, observer, wants_states: false };
+        let runner = Runner { study: &study, grid: Arc::clone(&grid), saved: None, setting: &setting, tell: &|_| {} };
+        let mut trainings = runner.trainings(&Trajectory::begun(&own, &grid.scaled(1.0))?)?;
+        if trainings.is_empty() {
+            let mut model = FullMarch::new(Arc::clone(&grid), &own)?;
+            trainings.push(timed_march(&mut model, &own, MarchedBy::Full.stage(frame), observer, None)?.trajectory);
+        }
+        let mut model = train_trajectories(&grid, &trainings, &training, observer)?;
+        let told = |(k, trajectory): (usize, &Trajectory)| {
+            let (steps, states) = (trajectory.moments.len().saturating_sub(1), trajectory.states.len());
+            let ended = trajectory.ended.describe();
+            format!("training {}: {steps} steps, {states} states kept; the march {ended}", k + 1)
+        };
+        model.log = trainings.iter().enumerate().map(told).collect();
+        model.title.clone_from(&self.title);
+        model.scene = self.to_ron().map_err(|refused: SceneError| RunError::Scene(refused))?;
+        Ok(model)
+    }
+}

@@ -1,0 +1,370 @@
+//! Temperatures across the film at one abscissa: collocation of the energy equation, solved by Newton's method.
+//!
+//! Hρ̄ūθ_X − Ψ_Xθ_ζ = (C₁/H)θ_ζζ + HC₂τ̄²f + HC₃β̄(1 + θ)ūP_X between the surfaces, whose temperatures are those of moving
+//! sources.
+
+use super::across::{ACROSS, POINTS, Profile, apply, inner};
+use super::film::{Sheared, StressLaw, WarmLaws};
+use crate::solver::discrete::reynolds::generalized::NodeState;
+use crate::solver::physics::lubricant::{Across, LimitingStress};
+
+/// Bounds of the factor by which the pressure gradient follows a changed viscosity, such that the flow it drives stays.
+const GRADIENT_FACTOR: (f64, f64) = (0.2, 5.0);
+
+/// Largest change of θ in one step.
+const LARGEST_STEP: f64 = 0.1;
+
+/// Steps at most.
+const MOST_STEPS: usize = 30;
+
+/// A step over the square of the one before it, at most.
+const BEND: f64 = 30.0;
+
+/// A film at one abscissa: its temperatures, and what flows under them.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Station {
+    /// θ.
+    pub theta: Profile,
+    /// What flows, within a last step of Newton's method.
+    pub flowing: Flowing,
+    /// Fluxes q̄ into both bodies.
+    pub flux: [f64; 2],
+    /// Steps of Newton's method that it took last.
+    pub steps: usize,
+}
+
+/// The two stations next to one side of a station, for points at which the film flows here from there.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Side {
+    /// Weights w_k of the quotient: (Gθ)_X − G_Xθ is ±Σ w_k G_k (θ − θ_k), where G = Hρ̄ū.
+    pub weights: [Profile; 2],
+    /// θ there.
+    pub theta: [Profile; 2],
+    /// G there.
+    pub flow: [Profile; 2],
+}
+
+impl Side {
+    /// What the film carries here at a point, and its derivative by θ. Where the film turns between the stations its own
+    /// flow stands for the other.
+    #[inline]
+    fn carried(&self, j: usize, flow: f64, theta: f64) -> (f64, f64) {
+        let (mut sum, mut slope) = (0.0, 0.0);
+        for k in 0..2 {
+            let there = self.flow[k][j];
+            let weight = self.weights[k][j] * if there * flow > 0.0 { there } else { flow };
+            sum += weight * (theta - self.theta[k][j]);
+            slope += weight;
+        }
+        (sum, slope)
+    }
+}
+
+/// What a station has from its neighbours along the film.
+#[derive(Clone, Copy, Debug)]
+pub struct Neighbours {
+    /// Upstream and downstream.
+    pub sides: [Side; 2],
+    /// −Ψ_X at the faces between the points.
+    pub across: [f64; POINTS - 1],
+    /// What warms either surface but for the flux here, and how much that warms it.
+    pub surfaces: [(f64, f64); 2],
+}
+
+/// What a film carries at most, and p_H \[Pa\].
+pub type Limit = (LimitingStress, f64);
+
+/// What stays while a station is solved.
+#[derive(Clone, Copy, Debug)]
+pub struct Place<'a> {
+    /// Heat and shear in the contact.
+    pub laws: WarmLaws<'a>,
+    /// What limits the stress.
+    pub limit: Option<Limit>,
+    /// P, P_X and H.
+    pub state: NodeState,
+    /// The mobility by which P was found; 0 where that is the film's own.
+    pub mobility: f64,
+}
+
+/// What a film at given temperatures does.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Flowing {
+    /// ū.
+    pub velocity: Profile,
+    /// G = Hρ̄ū.
+    pub flow: Profile,
+    /// τ̄_m.
+    pub stress: f64,
+    /// (s₀g₁/g₀ − s₁) κH³, the mobility.
+    pub mobility: f64,
+    fluid: Across<POINTS>,
+    film: Sheared<POINTS>,
+}
+
+/// Heat made at every point of a film.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Made {
+    /// By shear, HC₂τ̄²f, cut where the stress is limited.
+    pub sheared: Profile,
+    /// By compression, HC₃β̄(1 + θ)ūP_X.
+    pub compressed: Profile,
+}
+
+impl Place<'_> {
+    /// The film at temperatures. The pressure gradient in it is such that the flow which it drives stays: where the
+    /// viscosity does not hang on stress that is told by the temperatures alone, elsewhere `factor` times P_X.
+    fn flowing(&self, theta: &Profile, stress: f64, factor: f64) -> Flowing {
+        let across = &*ACROSS;
+        let NodeState { pressure, gradient: [gradient, _], film } = self.state;
+        let heat = self.laws.heat;
+        let fluid = heat.fluid.at(pressure, theta);
+        let offsets = across.points.map(|zeta| zeta - 0.5);
+        let rest = apply(&across.rest, &fluid.density);
+        let mobility = |fluidity: &Profile| {
+            let [mut g_0, mut g_1, mut s_0, mut s_1] = [0.0; 4];
+            for i in 0..POINTS {
+                let weighted = across.weights[i] * fluidity[i];
+                g_0 += weighted;
+                g_1 += offsets[i] * weighted;
+                s_0 += weighted * rest[i];
+                s_1 += offsets[i] * weighted * rest[i];
+            }
+            heat.gradient * film.powi(3) * (s_0 * g_1 / g_0 - s_1)
+        };
+        let law: Option<&StressLaw> = self.laws.shear.as_ref();
+        let factor = if law.is_none() { self.factor(mobility(&fluid.fluidity)) } else { factor };
+        let (a, rate) = (heat.gradient * film * gradient * factor, self.laws.slip() / film);
+        let (stress, sheared) = Sheared::sliding(law, &fluid.fluidity, (&offsets, &across.weights), (a, rate), stress);
+        let rates: Profile = std::array::from_fn(|i| film * sheared.stress[i] * sheared.fluidity[i]);
+        let velocity = apply(&across.primitive, &rates).map(|v| heat.speeds[0] + v);
+        let flow = std::array::from_fn(|i| film * fluid.density[i] * velocity[i]);
+        Flowing { velocity, flow, stress, mobility: mobility(&sheared.fluidity), fluid, film: sheared }
+    }
+
+    /// What the gradient is multiplied with so that the flow it drives stays under another mobility; of a film that
+    /// thins, which answers to the gradient itself, half of the way.
+    fn factor(&self, mobility: f64) -> f64 {
+        if self.mobility == 0.0 {
+            return 1.0;
+        }
+        let ratio = (self.mobility / mobility).clamp(GRADIENT_FACTOR.0, GRADIENT_FACTOR.1);
+        if self.laws.shear.is_some() { ratio.sqrt() } else { ratio }
+    }
+
+    /// Fills a station with what its temperatures make of the film.
+    pub fn evaluate(&self, station: &mut Station) {
+        station.flowing = self.flowing(&station.theta, station.flowing.stress, 1.0);
+    }
+
+    /// The heat that is made at a station.
+    pub fn made(&self, station: &Station) -> Made {
+        let flowing = self.flowing(&station.theta, station.flowing.stress, 1.0);
+        Made {
+            sheared: std::array::from_fn(|j| self.shear_heat(&flowing, j).0),
+            compressed: std::array::from_fn(|j| self.compression_heat(&flowing, j) * (1.0 + station.theta[j])),
+        }
+    }
+
+    /// Heat by shear at a point, and its derivatives by ln f at a constant stress and by τ̄.
+    fn shear_heat(&self, flowing: &Flowing, j: usize) -> (f64, f64, f64) {
+        let film = &flowing.film;
+        let (stress, fluidity) = (film.stress[j], film.fluidity[j]);
+        let scale = self.state.film * self.laws.heat.shear;
+        let whole = scale * stress * stress * fluidity;
+        let free = (whole, whole, scale * stress * (2.0 * fluidity + stress * film.slope[j]));
+        let Some((limit, hertz_pressure)) = &self.limit else { return free };
+        let pascal = self.laws.heat.stress_scale_pa;
+        let felt = stress.abs() * pascal;
+        let carried = limit.carried(felt, self.state.pressure * hertz_pressure);
+        if carried >= felt {
+            return free;
+        }
+        // What slips or yields carries the limit over the whole rate.
+        let cut = carried / pascal;
+        let value = scale * cut * stress.abs() * fluidity;
+        (value, value, scale * cut * (fluidity + stress * film.slope[j]).copysign(stress))
+    }
+
+    /// Heat by compression at a point over 1 + θ.
+    fn compression_heat(&self, Flowing { fluid, velocity, .. }: &Flowing, j: usize) -> f64 {
+        let expansion = -fluid.density_t[j] / fluid.density[j];
+        let [gradient, _] = self.state.gradient;
+        self.state.film * self.laws.heat.compression * expansion * velocity[j] * gradient
+    }
+
+    /// Solves the station from what it has, until θ is within `tolerance`.
+    pub fn solve(&self, station: &mut Station, from: &Neighbours, tolerance: f64) {
+        let across = &*ACROSS;
+        let (heat, film) = (self.laws.heat, self.state.film);
+        let conduction = heat.conduction / film;
+        let mut factor = 1.0;
+        station.steps = 0;
+        let mut flowing = station.flowing;
+        loop {
+            let theta = station.theta;
+            let (curved, sloped) = (apply(&across.curvature, &theta), apply(&across.slope, &theta));
+            let mut matrix = [[0.0; POINTS]; POINTS];
+            let mut right = [0.0; POINTS];
+            let mut fluxes = [[0.0; POINTS]; 2];
+            // ∂τ̄_m/∂θ.
+            let sheared = &flowing.film;
+            let mut stiffness = 0.0;
+            let mut answer = across.weights;
+            for (k, answer) in answer.iter_mut().enumerate() {
+                stiffness += *answer * (sheared.fluidity[k] + sheared.stress[k] * sheared.slope[k]);
+                *answer *= sheared.stress[k] * sheared.fluidity[k] * flowing.fluid.log_viscosity_t[k];
+            }
+            let answer = answer.map(|a| a / stiffness);
+            for j in 0..POINTS {
+                let flow = flowing.flow[j];
+                let (carried, carried_by_own) = from.sides[usize::from(flow < 0.0)].carried(j, flow, theta[j]);
+                let (shear, shear_by_log, shear_by_stress) = self.shear_heat(&flowing, j);
+                let compression = self.compression_heat(&flowing, j);
+                let row = &mut matrix[j];
+                for k in 0..POINTS {
+                    row[k] = -conduction * across.curvature[j][k] - shear_by_stress * answer[k];
+                }
+                row[j] += carried_by_own - compression + shear_by_log * flowing.fluid.log_viscosity_t[j];
+                right[j] = conduction * curved[j] + shear + compression * (1.0 + theta[j]) - carried;
+                let per = 1.0 / across.weights[j];
+                if j > 0 {
+                    let below = per * from.across[j - 1].max(0.0);
+                    row[j] += below;
+                    row[j - 1] -= below;
+                    right[j] -= below * (theta[j] - theta[j - 1]);
+                }
+                if j + 1 < POINTS {
+                    let above = per * from.across[j].min(0.0);
+                    row[j] -= above;
+                    row[j + 1] += above;
+                    right[j] -= above * (theta[j + 1] - theta[j]);
+                }
+            }
+            // Into a body goes what is conducted to its surface and what is left of the heat in the cell beside it.
+            for (wall, sign, side) in [(0, 1.0, 0), (POINTS - 1, -1.0, 1)] {
+                let (before, own) = from.surfaces[side];
+                let cell = across.weights[wall] / heat.conduction;
+                station.flux[side] = sign * sloped[wall] / film + cell * right[wall];
+                let per_flux = heat.surfaces[side];
+                for k in 0..POINTS {
+                    let answer = sign * across.slope[wall][k] / film - cell * matrix[wall][k];
+                    matrix[wall][k] = -per_flux * own * answer;
+                    fluxes[side][k] = answer;
+                }
+                matrix[wall][wall] += 1.0;
+                right[wall] = per_flux * (before + own * station.flux[side]) - theta[wall];
+            }
+            eliminate(&mut matrix, &mut right);
+            let largest = right.iter().fold(0.0f64, |largest, step| largest.max(step.abs()));
+            let share = if largest > LARGEST_STEP { LARGEST_STEP / largest } else { 1.0 };
+            for (theta, step) in station.theta.iter_mut().zip(&right) {
+                *theta += share * step;
+            }
+            for (flux, answer) in station.flux.iter_mut().zip(&fluxes) {
+                *flux += share * inner(answer, &right);
+            }
+            station.steps += 1;
+            if largest < tolerance || !largest.is_finite() {
+                break;
+            }
+            let stress = flowing.stress + share * inner(&answer, &right);
+            flowing = self.flowing(&station.theta, stress, factor);
+            let former = std::mem::replace(&mut factor, self.factor(flowing.mobility));
+            let moved = (factor / former - 1.0).abs();
+            // The next step is the square of this one.
+            let done = BEND * largest * largest < tolerance && moved < tolerance.max(1e-3);
+            if done || station.steps >= MOST_STEPS {
+                break;
+            }
+        }
+        station.flowing = flowing;
+    }
+}
+
+/// Solves a small dense system in place, with row pivoting.
+fn eliminate(matrix: &mut [Profile; POINTS], right: &mut Profile) {
+    for k in 0..POINTS {
+        let pivot = (k..POINTS).max_by(|&i, &j| matrix[i][k].abs().total_cmp(&matrix[j][k].abs())).unwrap_or(k);
+        matrix.swap(k, pivot);
+        right.swap(k, pivot);
+        let head = matrix[k];
+        let inverse = 1.0 / head[k];
+        for i in k + 1..POINTS {
+            let factor = matrix[i][k] * inverse;
+            if factor != 0.0 {
+                for j in k + 1..POINTS {
+                    matrix[i][j] -= factor * head[j];
+                }
+                right[i] -= factor * right[k];
+            }
+        }
+    }
+    for k in (0..POINTS).rev() {
+        let sum: f64 = (k + 1..POINTS).map(|j| matrix[k][j] * right[j]).sum();
+        right[k] = (right[k] - sum) / matrix[k][k];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::full::Problem;
+    use crate::solver::physics::contact::{OperatingPoint, Sliding};
+    use crate::solver::physics::lubricant::{Heat, Lubricant, OilHeat};
+
+    /// A film without gradients whose viscosity does not hang on temperature, between surfaces that stay cold or warm.
+    fn conducted(lower: f64, upper: f64) -> (Station, Made, f64) {
+        let sliding = Sliding { slide_to_roll_ratio: 0.4, newtonian_plateau_ratio: None };
+        let point = OperatingPoint { sliding, viscosity_pa_s: 0.02, ..OperatingPoint::TABLE_2_1 };
+        let oil = OilHeat { viscosity_temperature: 0.0, density_temperature: 0.0, ..OilHeat::default() };
+        let lubricant = Lubricant { heat: Some(Heat { oil, ..Heat::default() }), ..Lubricant::default() };
+        let problem = Problem::new(&point, lubricant).unwrap();
+        let laws = problem.warm_laws().unwrap();
+        let state = NodeState { pressure: 0.2, gradient: [0.0; 2], film: 0.1 };
+        let place = Place { laws, limit: None, state, mobility: 0.0 };
+        let [d_1, d_2] = laws.heat.surfaces;
+        let neighbours = Neighbours {
+            sides: [Side::default(); 2],
+            across: [0.0; POINTS - 1],
+            surfaces: [(lower / d_1, 0.0), (upper / d_2, 0.0)],
+        };
+        let mut station = Station::default();
+        place.evaluate(&mut station);
+        place.solve(&mut station, &neighbours, 1e-12);
+        // θ″ = −C₂τ̄²f H²/C₁ with τ̄ = (ū₂ − ū₁)/(H f).
+        let fluid = laws.heat.fluid.at(0.2, &[0.0]);
+        let bend = laws.heat.shear * 0.4 * 0.4 / (fluid.fluidity[0] * laws.heat.conduction);
+        (station, place.made(&station), bend)
+    }
+
+    #[test]
+    fn heat_that_is_only_conducted_makes_a_parabola() {
+        for (lower, upper) in [(0.0, 0.0), (0.01, 0.04)] {
+            let (station, made, bend) = conducted(lower, upper);
+            for (theta, zeta) in station.theta.iter().zip(ACROSS.points) {
+                let wanted = lower + (upper - lower) * zeta + 0.5 * bend * zeta * (1.0 - zeta);
+                assert!((theta - wanted).abs() < 1e-10 * bend, "{theta} {wanted}");
+            }
+            assert!(inner(&ACROSS.weights, &made.sheared) > 0.0 && made.compressed == [0.0; POINTS]);
+        }
+    }
+
+    #[test]
+    fn into_the_bodies_goes_what_shear_makes() {
+        let (station, _, bend) = conducted(0.01, 0.04);
+        // In units of C₁: bend/H.
+        assert!(((station.flux[0] + station.flux[1]) * 0.1 / bend - 1.0).abs() < 1e-10);
+    }
+
+    #[test]
+    fn small_systems_are_solved_exactly() {
+        let matrix: [Profile; POINTS] = std::array::from_fn(|i| {
+            std::array::from_fn(|j| ((3 * i + 7 * j) % 11) as f64 - if i == j { 0.0 } else { 4.0 })
+        });
+        let x: Profile = std::array::from_fn(|i| (i as f64).cos());
+        let (mut rows, mut right) = (matrix, apply(&matrix, &x));
+        eliminate(&mut rows, &mut right);
+        assert!(right.iter().zip(&x).all(|(a, b)| (a - b).abs() < 1e-9), "{right:?}");
+    }
+}

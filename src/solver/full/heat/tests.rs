@@ -1,0 +1,142 @@
+use crate::solver::discrete::grid::GridSpec;
+use crate::solver::full::{FullSolver, Problem, Solution, Start};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
+use crate::solver::physics::lubricant::{BodyHeat, Cavitation, Heat, LimitingStress, Lubricant, OilHeat, ShearLaw};
+
+const GRID: GridSpec = GridSpec::Graded { nodes: 695, domain: (-10.0, 2.0), registered: false };
+
+fn sliding(slide_to_roll_ratio: f64) -> Sliding {
+    Sliding { slide_to_roll_ratio, newtonian_plateau_ratio: None }
+}
+
+/// A rolling and sliding contact of steel bodies, M = 22, L = 10.
+fn point(slide_to_roll_ratio: f64) -> OperatingPoint {
+    OperatingPoint {
+        kind: ContactKind::Line,
+        radius_m: 0.01,
+        speed_m_per_s: 2.0,
+        load: 3e5,
+        modulus_pa: 231e9,
+        viscosity_pa_s: 0.02,
+        alpha_per_pa: 1.8e-8,
+        sliding: sliding(slide_to_roll_ratio),
+        radius_y_m: None,
+    }
+}
+
+const EYRING: ShearLaw = ShearLaw::Eyring { critical_stress: 6e6, npr: 0.0 };
+
+fn warm(shear: ShearLaw, heat: Heat) -> Lubricant {
+    Lubricant { shear, heat: Some(heat), ..Lubricant::default() }
+}
+
+fn solved(solver: &mut FullSolver, point: &OperatingPoint, lubricant: Lubricant) -> Solution {
+    let solution = solver.solve(point, lubricant, Start::Cold, &()).unwrap();
+    assert!(solution.converged(), "{:?}", solution.report);
+    solution
+}
+
+/// What an independent solver finds by extrapolation to vanishing spacings, along the film and across it.
+#[test]
+fn independent_solutions_are_met() {
+    let mut solver = FullSolver::new(GRID).unwrap();
+    let rolling = OperatingPoint {
+        radius_m: 0.02,
+        speed_m_per_s: 10.0,
+        load: 5e5,
+        alpha_per_pa: 1.5e-8,
+        sliding: sliding(0.0),
+        ..point(0.0)
+    };
+    for (point, shear, film, traction, mid, surfaces) in [
+        (point(0.5), EYRING, [0.0744185, 0.0587922], 0.0327481, 22.7812, [12.4927, 14.7274]),
+        (rolling, ShearLaw::Newtonian, [0.133433, 0.120432], 0.0, 1.49126, [1.34621, 1.34621]),
+    ] {
+        let found = solved(&mut solver, &point, warm(shear, Heat::default()));
+        let heat = found.heat.as_ref().unwrap();
+        let close = |value: f64, wanted: f64, relative: f64, absolute: f64| {
+            assert!((value - wanted).abs() < (relative * wanted.abs()).max(absolute), "{value} {wanted}");
+        };
+        close(found.scalars.h_c, film[0], 1e-3, 0.0);
+        close(found.scalars.h_min, film[1], 2e-3, 0.0);
+        close(found.traction_coefficient(), traction, 2e-3, 1e-6);
+        close(heat.central.mid_film_k, mid, 1e-3, 0.02);
+        for (value, wanted) in heat.central.surfaces_k.into_iter().zip(surfaces) {
+            close(value, wanted, 1e-3, 0.02);
+        }
+        assert!(heat.balance.residual().abs() < 1.5e-3, "{:?} {}", heat.balance, heat.balance.residual());
+    }
+}
+
+#[test]
+fn where_nothing_hangs_on_temperature_the_film_is_the_one_without_heat() {
+    let mut solver = FullSolver::new(GRID).unwrap();
+    let oil = OilHeat { viscosity_temperature: 0.0, density_temperature: 0.0, ..OilHeat::default() };
+    for shear in [ShearLaw::Newtonian, EYRING] {
+        for cavitation in [Cavitation::Penalty, Cavitation::Complementarity] {
+            let lubricant = Lubricant { cavitation, ..warm(shear, Heat { oil, ..Heat::default() }) };
+            let warm = solved(&mut solver, &point(0.3), lubricant);
+            let cold = solved(&mut solver, &point(0.3), Lubricant { heat: None, ..lubricant });
+            assert!((warm.scalars.h_c / cold.scalars.h_c - 1.0).abs() < 1e-12, "{shear:?} {cavitation:?}");
+            let difference = warm.pressure.iter().zip(&cold.pressure).fold(0.0f64, |d, (a, b)| d.max((a - b).abs()));
+            assert!(difference < 1e-10, "{shear:?} {cavitation:?}: {difference}");
+        }
+    }
+}
+
+#[test]
+fn a_contact_is_the_same_from_wherever_it_is_begun_and_whichever_body_is_faster() {
+    let mut solver = FullSolver::new(GRID).unwrap();
+    let glass = BodyHeat { conductivity: 1.1, heat_capacity: 840.0, density: 2500.0 };
+    let pair = |bodies| warm(EYRING, Heat { bodies, ..Heat::default() });
+    let cold = solved(&mut solver, &point(0.3), pair([glass, BodyHeat::STEEL]));
+    let other = solved(&mut solver, &point(-0.3), pair([BodyHeat::STEEL, glass]));
+    let next = solver.solve(&point(0.33), pair([glass, BodyHeat::STEEL]), Start::From(&cold), &()).unwrap();
+    let back = solver.solve(&point(0.3), pair([glass, BodyHeat::STEEL]), Start::From(&next), &()).unwrap();
+    let [a, b, c] = [&cold, &other, &back].map(|solution| solution.heat.clone().unwrap());
+    assert!((a.central.surfaces_k[0] - c.central.surfaces_k[0]).abs() < 1e-3);
+    assert!((cold.scalars.h_c / back.scalars.h_c - 1.0).abs() < 1e-6);
+    assert!((a.central.surfaces_k[0] - b.central.surfaces_k[1]).abs() < 1e-3);
+    assert!((a.central.mid_film_k - b.central.mid_film_k).abs() < 1e-3);
+    assert!((cold.traction_coefficient() + other.traction_coefficient()).abs() < 1e-6);
+    // Glass keeps the heat.
+    assert!(a.central.surfaces_k[0] > 2.0 * a.central.surfaces_k[1]);
+}
+
+#[test]
+fn a_limiting_stress_bounds_the_traction_and_the_heat_it_makes() {
+    let mut solver = FullSolver::new(GRID).unwrap();
+    let free = warm(ShearLaw::Newtonian, Heat::default());
+    let limit = LimitingStress { ambient: 2e6, slope: 0.01, eyring: None };
+    let [free, limited] = [free, Lubricant { limiting_stress: Some(limit), ..free }]
+        .map(|lubricant| solved(&mut solver, &point(0.2), lubricant));
+    let hertz = free.problem.point.hertz().pressure_pa;
+    let stress = limited.mid_film_stress();
+    assert!(stress.iter().zip(&limited.pressure).all(|(stress, p)| *stress <= limit.at(p * hertz) * 1.0001));
+    assert!(limited.traction_coefficient() < 0.8 * free.traction_coefficient());
+    let [free, limited] = [free, limited].map(|solution| solution.heat.unwrap().central.mid_film_k);
+    assert!(limited < 0.8 * free, "{limited} {free}");
+}
+
+/// Where oil flows back out of the inlet as well.
+#[test]
+fn what_is_made_leaves_through_bodies_and_with_the_oil() {
+    let mut solver = FullSolver::new(GRID).unwrap();
+    for (speed, shear, bar) in [(0.5, ShearLaw::Newtonian, 2e-5), (2.0, EYRING, 2e-5), (8.0, EYRING, 1e-3)] {
+        let point = OperatingPoint { speed_m_per_s: speed, ..point(0.3) };
+        let found = solved(&mut solver, &point, warm(shear, Heat::default()));
+        let heat = found.heat.as_ref().unwrap();
+        assert!(heat.balance.residual().abs() < bar, "{speed} m/s: {:?} {}", heat.balance, heat.balance.residual());
+        assert_eq!(heat.warnings().count(), 0);
+    }
+}
+
+#[test]
+fn what_cannot_be_computed_is_refused_in_a_sentence() {
+    let refused = |point: OperatingPoint| {
+        Problem::new(&point, warm(ShearLaw::Newtonian, Heat::default())).unwrap_err().to_string()
+    };
+    assert!(refused(point(2.0)).contains("moving heat sources"));
+    let ball = OperatingPoint { kind: ContactKind::Point, load: 50.0, ..point(0.1) };
+    assert!(refused(ball).contains("line contact"));
+}

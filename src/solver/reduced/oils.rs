@@ -1,0 +1,101 @@
+//! Contacts of many oils: the four numbers that tell their solutions apart, and windows around anchors.
+//!
+//! Under Roelands' and Dowson and Higginson's laws a contact is four numbers: M, L, p_H and Roelands' exponent z =
+//! α p_Roe/(ln η₀ + 9.67). Registered pressures vary most with ln M and ln L, three times less over the range of oils with
+//! ln p_H, and little with z; a window narrow in one of the latter needs hardly fewer modes than a wide one. So windows
+//! are the cells of anchors in (ln M, ln L), whatever the oil.
+
+use super::calibration::{ErrorEstimate, Estimated};
+use super::model::{ReducedModel, Window};
+use super::online::ReducedSolution;
+use crate::solver::physics::contact::{Moes, OperatingPoint};
+use crate::solver::physics::lubricant::roelands_exponent;
+
+/// How much farther than the nearest anchor, in ln M and ln L, another one may be to be blended in.
+pub(crate) const BLENDED: f64 = 0.1;
+
+/// ln M, ln L, ln p_H and z in lengths that add up to the distance of registered pressures.
+pub(crate) fn oil_place(point: &OperatingPoint) -> [f64; 4] {
+    let Moes { m, l } = point.moes();
+    [0.27 * m.ln(), 0.29 * l.ln(), 0.18 * point.hertz().pressure_pa.ln(), 0.34 * roelands_exponent(point)]
+}
+
+/// The squared distance of two places.
+pub(crate) fn apart(a: [f64; 4], b: [f64; 4]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum()
+}
+
+/// How far a contact lies from an anchor, in ln M and ln L.
+pub(crate) fn from_anchor(moes: Moes, anchor: Moes) -> f64 {
+    (moes.m / anchor.m).ln().hypot((moes.l / anchor.l).ln())
+}
+
+impl ReducedModel {
+    /// Windows beside the one with the nearest anchor that share in a contact, with their shares; none but near borders.
+    /// Shares begin with zero where an anchor comes near enough, so that nothing jumps.
+    pub(super) fn blended(&self, moes: Moes) -> Vec<(f64, usize)> {
+        let Some(nearest) = self.nearest_anchor(moes) else { return Vec::new() };
+        let far = |k: usize| self.windows[k].anchor.map_or(f64::INFINITY, |anchor| from_anchor(moes, anchor));
+        let least = far(nearest);
+        let share = |k: usize| (1.0 - (far(k) - least) / BLENDED).max(0.0).powi(2);
+        let others = (0..self.windows.len()).filter(|k| *k != nearest).map(|k| (share(k), k));
+        let others: Vec<(f64, usize)> = others.filter(|(share, _)| *share > 0.0).collect();
+        let all = 1.0 + others.iter().map(|(share, _)| share).sum::<f64>();
+        others.into_iter().map(|(share, k)| (share / all, k)).collect()
+    }
+
+    /// The window with the nearest anchor; none of a model without anchors.
+    pub(super) fn nearest_anchor(&self, moes: Moes) -> Option<usize> {
+        self.next_anchor(moes, usize::MAX)
+    }
+
+    /// The same but for one window.
+    pub(super) fn next_anchor(&self, moes: Moes, except: usize) -> Option<usize> {
+        let far = |(k, window): (usize, &Window)| window.anchor.map(|anchor| (k, from_anchor(moes, anchor)));
+        let others = self.windows.iter().enumerate().filter(|(k, _)| *k != except);
+        others.filter_map(far).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k)
+    }
+}
+
+impl ReducedSolution {
+    /// The share of its own window in it.
+    pub(super) fn own_share(&self) -> f64 {
+        1.0 - self.beside.iter().map(|(share, _)| share).sum::<f64>()
+    }
+
+    /// H₀ of its own window.
+    pub(super) fn own_h_0(&self) -> f64 {
+        let others = self.beside.iter().map(|(share, other)| share * other.h_0).sum::<f64>();
+        (self.h_0 - others) / self.own_share()
+    }
+
+    /// Makes its numbers those of the blend with the solutions beside it.
+    pub(super) fn blend(&mut self) {
+        if self.beside.is_empty() {
+            return;
+        }
+        let (own, beside) = (self.own_share(), std::mem::take(&mut self.beside));
+        let mix = |mine: f64, of: &dyn Fn(&Self) -> f64| {
+            own * mine + beside.iter().map(|(share, other)| share * of(other)).sum::<f64>()
+        };
+        (self.h_0, self.h_c) = (mix(self.h_0, &|other| other.h_0), mix(self.h_c, &|other| other.h_c));
+        self.residual_estimate = mix(self.residual_estimate, &|other| other.residual_estimate);
+        self.iterations += beside.iter().map(|(_, other)| other.iterations).sum::<usize>();
+        // The error of a blend is the blend of the errors, at most.
+        self.error = self.error.and_then(|mine| {
+            let errors: Option<Vec<ErrorEstimate>> = beside.iter().map(|(_, other)| other.error).collect();
+            let errors = errors?;
+            let quantity = |of: &dyn Fn(&ErrorEstimate) -> Estimated| {
+                let parts =
+                    || std::iter::once((own, of(&mine))).chain(beside.iter().map(|b| b.0).zip(errors.iter().map(of)));
+                Estimated {
+                    likely: parts().map(|(share, part)| share * part.likely).sum(),
+                    bound: parts().map(|(share, part)| share * part.bound).sum(),
+                }
+            };
+            let (h_c, h_min, state) = (quantity(&|e| e.h_c), quantity(&|e| e.h_min), quantity(&|e| e.state));
+            Some(ErrorEstimate { h_c, h_min, state, traction: None, rise: None })
+        });
+        self.beside = beside;
+    }
+}

@@ -1,0 +1,233 @@
+//! What a reduced model in time was trained for, and in what a march leaves it.
+
+use crate::solver::full::Problem;
+use crate::solver::full::transient::{Input, Inputs, Moment, Trajectory};
+use crate::solver::reduced::model::digits;
+use crate::solver::reduced::{CIRCLES, Domain, Trust};
+use serde::{Deserialize, Serialize};
+
+/// How far an input may leave its trained range, in widths of it, and how much faster than trained it may change: what
+/// differences over steps of other lengths make of the same input.
+const ROOM: (f64, f64) = (0.01, 1.05);
+/// What rounding makes of an input that rests.
+const ROUNDING: f64 = 1e-6;
+
+/// Range and fastest change of one input, over its reference.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Reach {
+    /// Smallest and largest value.
+    pub range: (f64, f64),
+    /// Largest change per unit of T, of differences over the steps.
+    pub rate: f64,
+}
+
+/// What a reduced model in time was trained for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TrajectoryDomain {
+    /// The reference contacts, and the lubricant.
+    pub reference: Domain,
+    /// R̄.
+    pub radius: Reach,
+    /// ū.
+    pub speed: Reach,
+    /// w̄.
+    pub load: Reach,
+    /// The inputs, where all trainings had the same. Bases of a single course hold the states along it and no others: of
+    /// the film at rest under a load that the course passes through they may miss a fifth.
+    pub only: Option<Inputs>,
+    /// Length of its steps \[T\]: the mean of the training whose steps are shortest.
+    pub step: f64,
+}
+
+/// An input: its name, what was trained of it, and where it is found.
+type Named = (&'static str, Reach, fn(&Input) -> f64);
+
+/// In what, and how far, a march has left its training.
+struct Excess {
+    far: f64,
+    sentence: String,
+}
+
+impl Reach {
+    /// Whether it was let change.
+    pub fn varies(&self) -> bool {
+        self.rate > 0.0
+    }
+
+    fn of(trajectories: &[Trajectory], get: fn(&Input) -> f64) -> Self {
+        let mut reach = Self { range: (f64::INFINITY, f64::NEG_INFINITY), rate: 0.0 };
+        for moment in trajectories.iter().flat_map(|t| &t.moments) {
+            let value = get(&moment.input);
+            reach.range = (reach.range.0.min(value), reach.range.1.max(value));
+        }
+        for pair in trajectories.iter().flat_map(|t| t.moments.windows(2)) {
+            reach.rate = reach.rate.max(get(&rate(&pair[0], &pair[1])).abs());
+        }
+        reach
+    }
+
+    /// Whether it can be that of some trajectories.
+    pub fn is_sound(&self) -> bool {
+        let (low, high) = self.range;
+        low.is_finite() && high.is_finite() && low <= high && self.rate.is_finite() && self.rate >= 0.0
+    }
+
+    fn value_outside(&self, name: &str, value: f64) -> Option<Excess> {
+        let (low, high) = self.range;
+        let beyond = (low - value).max(value - high);
+        if beyond <= ROOM.0 * (high - low) + ROUNDING {
+            return None;
+        }
+        let (value, [least, most]) = (digits(value), [low, high].map(digits));
+        let sentence = if least == most {
+            format!("the {name} is {value} times its reference, but rested at {least} in training")
+        } else {
+            format!("the {name} is {value} times its reference, outside the trained {least}…{most}")
+        };
+        Some(Excess { far: beyond, sentence })
+    }
+
+    /// Whether it leaves the only course that it learned.
+    fn elsewhere(&self, name: &str, value: f64, learned: f64) -> Option<Excess> {
+        let (low, high) = self.range;
+        let far = (value - learned).abs();
+        if far <= ROOM.0 * (high - low) + ROUNDING {
+            return None;
+        }
+        let [value, learned] = [value, learned].map(digits);
+        let sentence = format!(
+            "the {name} is {value} times its reference, where the only training had {learned}: of other courses the model \
+             knows nothing"
+        );
+        Some(Excess { far, sentence })
+    }
+
+    fn rate_outside(&self, name: &str, rate: f64) -> Option<Excess> {
+        let rate = rate.abs();
+        if rate <= ROOM.1 * self.rate + ROUNDING {
+            return None;
+        }
+        let own = digits(rate);
+        let sentence = if self.varies() {
+            let trained = digits(self.rate);
+            format!("the {name} changes by {own} times its reference per unit of T, faster than the trained {trained}")
+        } else {
+            format!("the {name} changes, but rested in training")
+        };
+        Some(Excess { far: rate, sentence })
+    }
+}
+
+/// Changes of the inputs between two moments, per unit of T.
+fn rate(before: &Moment, now: &Moment) -> Input {
+    let (step, from, to) = (now.time - before.time, before.input, now.input);
+    Input {
+        radius: (to.radius - from.radius) / step,
+        speed: (to.speed - from.speed) / step,
+        load: (to.load - from.load) / step,
+    }
+}
+
+/// The inputs of all trainings, where these are the same.
+pub fn only_course<'a>(mut courses: impl Iterator<Item = &'a Inputs>) -> Option<Inputs> {
+    let first = courses.next()?;
+    courses.all(|other| other == first).then(|| first.clone())
+}
+
+/// Whichever is farther outside.
+fn worse(one: Option<Excess>, other: Option<Excess>) -> Option<Excess> {
+    match (one, other) {
+        (Some(one), Some(other)) => Some(if other.far > one.far { other } else { one }),
+        (one, other) => one.or(other),
+    }
+}
+
+impl TrajectoryDomain {
+    /// What trajectories of one lubricant teach; `None` where there are none.
+    pub fn of(trajectories: &[Trajectory]) -> Option<Self> {
+        let problem = &trajectories.first()?.problem;
+        let range = |get: fn(&Problem) -> f64| {
+            let all = trajectories.iter().map(|t| get(&t.problem));
+            all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
+        };
+        let step = |t: &Trajectory| {
+            let steps = t.moments.len().checked_sub(1).filter(|steps| *steps > 0)?;
+            Some(t.moments.last()?.time / steps as f64)
+        };
+        let steps = trajectories.iter().filter_map(step);
+        Some(Self {
+            reference: Domain {
+                m: range(|problem| problem.moes.m),
+                l: range(|problem| problem.moes.l),
+                alpha_per_pa: range(|problem| problem.point.alpha_per_pa),
+                max_hertz_pressure_pa: range(|problem| problem.point.hertz().pressure_pa).1,
+                viscosity_pa_s: problem.point.viscosity_pa_s,
+                lubricant: problem.lubricant,
+                sliding: None,
+                radius_ratio: CIRCLES,
+                oils: None,
+                heat: None,
+            },
+            radius: Reach::of(trajectories, |input| input.radius),
+            speed: Reach::of(trajectories, |input| input.speed),
+            load: Reach::of(trajectories, |input| input.load),
+            only: only_course(trajectories.iter().map(|t| &t.transient.inputs)),
+            step: steps.min_by(f64::total_cmp)?,
+        })
+    }
+
+    /// The inputs by name.
+    fn reaches(&self) -> [Named; 3] {
+        [
+            ("load", self.load, |input| input.load),
+            ("speed", self.speed, |input| input.speed),
+            ("radius", self.radius, |input| input.radius),
+        ]
+    }
+
+    /// How far an input leaves its range, or the only course that was learned.
+    fn value_outside(&self, (name, reach, get): Named, time: f64, input: &Input) -> Option<Excess> {
+        let other = |only: &Inputs| reach.elsewhere(name, get(input), get(&only.at(time)));
+        reach.value_outside(name, get(input)).or_else(|| self.only.as_ref().and_then(other))
+    }
+
+    /// Sentences on what inputs at T, and their changes per unit of T, leave of what was trained.
+    pub fn outside(&self, time: f64, input: Input, rate: Input) -> Vec<String> {
+        let of = |(name, reach, get): Named| {
+            let value = self.value_outside((name, reach, get), time, &input);
+            [value, reach.rate_outside(name, get(&rate))]
+        };
+        self.reaches().into_iter().flat_map(of).flatten().map(|excess| excess.sentence).collect()
+    }
+
+    /// Sentences on what a march has left of what was trained: the reference contact, and the farthest value and the
+    /// fastest change of each input.
+    pub fn left_by(&self, trajectory: &Trajectory) -> Vec<String> {
+        let mut said = Vec::new();
+        if let Trust::Outside(why) = self.reference.trust(&trajectory.problem) {
+            said.push(why);
+        }
+        let moments = &trajectory.moments;
+        for (name, reach, get) in self.reaches() {
+            let at = |time: f64, excess: Option<Excess>| {
+                excess.map(|Excess { far, sentence }| Excess { far, sentence: format!("{sentence} (T = {time:.4})") })
+            };
+            let values = moments
+                .iter()
+                .map(|moment| at(moment.time, self.value_outside((name, reach, get), moment.time, &moment.input)));
+            let rates = moments
+                .windows(2)
+                .map(|pair| at(pair[1].time, reach.rate_outside(name, get(&rate(&pair[0], &pair[1])))));
+            let farthest = [values.fold(None, worse), rates.fold(None, worse)];
+            said.extend(farthest.into_iter().flatten().map(|excess| excess.sentence));
+        }
+        said
+    }
+
+    /// Whether its numbers can be those of a training.
+    pub fn is_sound(&self) -> bool {
+        let reaches = [self.radius, self.speed, self.load];
+        let positive = self.radius.range.0 > 0.0 && self.load.range.0 > 0.0;
+        reaches.iter().all(Reach::is_sound) && positive && self.step.is_finite() && self.step > 0.0
+    }
+}

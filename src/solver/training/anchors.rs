@@ -1,0 +1,240 @@
+//! Windows around anchors: one pool of full solutions over the whole range, and the cells in (ln M, ln L) that it falls
+//! into.
+//!
+//! All windows share one grid and the pool, half of all solutions that the plan asks for, so that a full solution serves
+//! every window near it; a window with fewer than its number takes further ones of its own. A contact that the full
+//! solver gives no solution for is left out, and named.
+
+use super::build::{WindowTraining, domain};
+use super::layout::outward;
+use super::one_thread::on_one_thread;
+use super::state::{FEWEST, Part, Solved, TrainingState, WindowState};
+use super::{TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows};
+use crate::solver::discrete::grid::ContactGrid;
+use crate::solver::full::SolveError;
+use crate::solver::physics::contact::Moes;
+use crate::solver::reduced::{BLENDED, PodBasis, ReducedModel, deformation_weights, from_anchor};
+use faer::Mat;
+use fastrand::Rng;
+use std::sync::Arc;
+
+/// Rounds in which anchors move to the middle of their cells.
+const ROUNDS: usize = 30;
+/// Solutions by which a cell is judged, at most.
+const MOST_JUDGED: usize = 300;
+/// The film above which pressures count more than what they do to it.
+const THIN: f64 = 0.1;
+
+/// The contacts around one of several anchors.
+#[derive(Clone, Debug)]
+pub(super) struct Cell {
+    anchors: Arc<[Moes]>,
+    own: usize,
+}
+
+impl Cell {
+    /// That of a window; none where windows have no anchors.
+    pub fn of(anchors: impl IntoIterator<Item = Option<Moes>>, own: usize) -> Option<Self> {
+        let anchors: Option<Arc<[Moes]>> = anchors.into_iter().collect();
+        anchors.filter(|anchors| own < anchors.len()).map(|anchors| Self { anchors, own })
+    }
+
+    /// That of a window of a model.
+    pub fn of_model(model: &ReducedModel, own: usize) -> Option<Self> {
+        Self::of(model.windows.iter().map(|window| window.anchor), own)
+    }
+
+    /// Whether a contact is nearer to the own anchor than to the others, or farther by no more than so much.
+    pub fn holds(&self, moes: Moes, beyond: f64) -> bool {
+        let nearest = self.anchors.iter().map(|anchor| from_anchor(moes, *anchor)).fold(f64::INFINITY, f64::min);
+        from_anchor(moes, self.anchors[self.own]) <= nearest + beyond
+    }
+}
+
+/// M and L of a window's anchor.
+pub(super) fn anchor(window: &WindowSpec) -> Option<Moes> {
+    window.anchor.map(|(m, l)| Moes { m, l })
+}
+
+/// Solves the pool and begins with the windows that it is divided into.
+///
+/// # Errors
+/// When the range holds too few points, or the observer cancels.
+pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver) -> Result<(), TrainingError> {
+    let spec = state.spec.clone();
+    let (Windows::Anchored { count, modes, grid }, Some(each)) = (&spec.windows, spec.plan.first_solutions()) else {
+        return Ok(());
+    };
+    let (count, modes, grid) = (*count, *modes, *grid);
+    let whole = WindowSpec::new(domain(&spec).m, grid);
+    if state.trials.is_empty() {
+        state.trials.push(WindowState::new(whole, spec.seed, []));
+    }
+    let mut work = WindowTraining::new(&spec, whole, (0.0, f64::INFINITY), None, observer)?;
+    if !state.trials[0].planned {
+        let (within, mut random) = (work.within(), Rng::with_seed(spec.seed));
+        let points = on_one_thread(observer, move || within.farthest_points(&[], each * count / 2, &mut random))?;
+        state.trials[0].decide(points);
+        state.trials[0].planned = true;
+    }
+    work.named = true;
+    work.solve_pending(state, Part::Trial(0))?;
+    // The state keeps its own until the windows have begun: whoever stops here goes on from there.
+    let pool = Arc::new(state.trials[0].solved.clone());
+    if pool.len() < FEWEST * count {
+        return Err(work.too_few(pool.len()));
+    }
+    let places: Vec<Moes> = pool.iter().map(|solved| solved.point.moes()).collect();
+    let (grid, shared) = (work.grid.clone(), Arc::clone(&pool));
+    let anchors = on_one_thread(observer, move || choose_anchors(&shared, &grid, (count, modes)))?;
+    let mut seeds = Rng::with_seed(spec.seed);
+    for (own, anchor) in anchors.iter().enumerate() {
+        let Some(cell) = Cell::of(anchors.iter().map(|anchor| Some(*anchor)), own) else { continue };
+        let inside: Vec<f64> = places.iter().filter(|moes| cell.holds(**moes, 0.0)).map(|moes| moes.m).collect();
+        let ends = inside.iter().fold((f64::INFINITY, 0.0f64), |(low, high), m| (low.min(*m), high.max(*m)));
+        let m = outward((ends.0.max(whole.m.0), ends.1.min(whole.m.1)));
+        // Beyond where it is blended, so that nothing is extrapolated.
+        let near = pool.iter().zip(&places).filter(|(_, moes)| cell.holds(**moes, 2.0 * BLENDED));
+        let own: Vec<Solved> = near.map(|(solved, _)| solved.clone()).collect();
+        let window = WindowSpec { m, anchor: Some((anchor.m, anchor.l)), ..whole };
+        state.windows.push(WindowState::new(window, seeds.u64(..), own));
+    }
+    state.trials.clear();
+    Ok(())
+}
+
+/// The deformation basis of all windows around anchors, from the solutions that each has within its own cell as it
+/// begins: deformations are smooth, and one basis serves them all.
+///
+/// # Errors
+/// When the decomposition fails, or the observer cancels.
+pub(super) fn shared_deformation(
+    spec: &TrainingSpec,
+    windows: &[WindowState],
+    observer: &dyn TrainingObserver,
+) -> Result<Option<PodBasis>, TrainingError> {
+    let (Windows::Anchored { grid, .. }, Some(first)) = (spec.windows.clone(), windows.first()) else {
+        return Ok(None);
+    };
+    let mut pressures = Vec::new();
+    for (k, window) in windows.iter().enumerate() {
+        let Some(cell) = Cell::of(windows.iter().map(|window| anchor(&window.window)), k) else { return Ok(None) };
+        let own = window.solved.iter().take(window.inherited);
+        pressures
+            .extend(own.filter(|solved| cell.holds(solved.point.moes(), 0.0)).map(|solved| solved.pressure.clone()));
+    }
+    let (wanted, loss, (from, to)) = (grid, spec.deformation_loss, first.window.m);
+    let basis = on_one_thread(observer, move || {
+        let grid = wanted.build().map_err(SolveError::from)?;
+        let pressures = Mat::from_fn(grid.len(), pressures.len(), |i, j| pressures[j][i]);
+        let basis = PodBasis::new(grid.flex(&pressures).as_ref(), &deformation_weights(&grid), loss);
+        basis.ok_or(TrainingError::Decomposition { from, to })
+    })?;
+    basis.map(Some)
+}
+
+/// Chooses so many anchors, by ascending M: the cell whose pressures so many modes miss most, for its films, is divided
+/// until there are enough.
+fn choose_anchors(pool: &[Solved], grid: &ContactGrid, (count, modes): (usize, usize)) -> Vec<Moes> {
+    let places: Vec<Moes> = pool.iter().map(|solved| solved.point.moes()).collect();
+    let mut anchors = middles(&places, 1);
+    let mut missed: Vec<Option<f64>> = vec![None];
+    while anchors.len() < count {
+        let cells = cells(&places, &anchors);
+        for (missed, cell) in missed.iter_mut().zip(&cells).filter(|(missed, _)| missed.is_none()) {
+            *missed = Some(missing(pool, cell, grid, modes));
+        }
+        let worst = (0..anchors.len()).max_by(|&a, &b| missed[a].unwrap_or(0.0).total_cmp(&missed[b].unwrap_or(0.0)));
+        let Some(worst) = worst.filter(|&worst| cells[worst].len() >= 2 * FEWEST) else { break };
+        let inside: Vec<Moes> = cells[worst].iter().map(|k| places[*k]).collect();
+        let halves = middles(&inside, 2);
+        anchors.splice(worst..=worst, halves);
+        missed.splice(worst..=worst, [None, None]);
+        // Borders of others may have moved: they are told apart by their contacts.
+        let after = self::cells(&places, &anchors);
+        let mut before: Vec<&[usize]> = cells.iter().map(Vec::as_slice).collect();
+        before.splice(worst..=worst, [[].as_slice(), [].as_slice()]);
+        for (missed, (before, after)) in missed.iter_mut().zip(before.iter().zip(&after)) {
+            if *before != after.as_slice() {
+                *missed = None;
+            }
+        }
+    }
+    anchors.sort_by(|a, b| a.m.total_cmp(&b.m));
+    anchors
+}
+
+/// Of each anchor the places nearest to it.
+fn cells(places: &[Moes], anchors: &[Moes]) -> Vec<Vec<usize>> {
+    let mut cells = vec![Vec::new(); anchors.len()];
+    for (k, moes) in places.iter().enumerate() {
+        cells[nearest(anchors, *moes)].push(k);
+    }
+    cells
+}
+
+fn nearest(anchors: &[Moes], moes: Moes) -> usize {
+    let far = |k: &usize| from_anchor(moes, anchors[*k]);
+    (0..anchors.len()).min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0)
+}
+
+/// How much so many modes miss of the pressures of a cell, root mean square, over their films as far as these are thin:
+/// what is missing in P bends a film by as much, whatever its thickness. Nothing, of no more solutions than modes. What
+/// the modes miss of solutions that did not make them is no better judge: it divides the corners of the range only, until
+/// they hold no solutions.
+fn missing(pool: &[Solved], cell: &[usize], grid: &ContactGrid, modes: usize) -> f64 {
+    let every = cell.len().div_ceil(MOST_JUDGED).max(1);
+    let chosen: Vec<&Solved> = cell.iter().step_by(every).map(|k| &pool[*k]).collect();
+    if chosen.len() <= modes {
+        return 0.0;
+    }
+    let pressures = Mat::from_fn(grid.len(), chosen.len(), |i, j| chosen[j].pressure[i] / chosen[j].h_c.min(THIN));
+    let Some(basis) = PodBasis::new(pressures.as_ref(), grid.weights(), 0.5) else { return f64::INFINITY };
+    let rest = basis.singular_values.iter().skip(modes).map(|sigma| sigma * sigma).sum::<f64>();
+    (rest / chosen.len() as f64).sqrt()
+}
+
+/// Places in the middle of so many cells of (ln M, ln L).
+fn middles(places: &[Moes], count: usize) -> Vec<Moes> {
+    let mut anchors: Vec<Moes> = places.first().copied().into_iter().collect();
+    while anchors.len() < count.min(places.len()) {
+        let far = |moes: &&Moes| from_anchor(**moes, anchors[nearest(&anchors, **moes)]);
+        let farthest = places.iter().max_by(|a, b| far(a).total_cmp(&far(b)));
+        anchors.extend(farthest.copied());
+    }
+    for _ in 0..ROUNDS {
+        let mut sums = vec![(0.0, 0.0, 0.0); anchors.len()];
+        for moes in places {
+            let sum = &mut sums[nearest(&anchors, *moes)];
+            *sum = (sum.0 + 1.0, sum.1 + moes.m.ln(), sum.2 + moes.l.ln());
+        }
+        for (anchor, (count, m, l)) in anchors.iter_mut().zip(sums) {
+            if count > 0.0 {
+                *anchor = Moes { m: f64::exp(m / count), l: f64::exp(l / count) };
+            }
+        }
+    }
+    anchors
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_place_lies_in_one_cell_and_beside_it_in_the_next() {
+        let places: Vec<Moes> =
+            (0..400).map(|k| Moes { m: 2.0 * 1.3f64.powi(k % 20), l: 0.5 * 1.2f64.powi(k / 20) }).collect();
+        let anchors = middles(&places, 9);
+        assert_eq!(anchors.len(), 9);
+        let cells: Vec<Cell> = (0..9).map(|own| Cell::of(anchors.iter().map(|a| Some(*a)), own).unwrap()).collect();
+        for moes in &places {
+            let held = |beyond| cells.iter().filter(|cell| cell.holds(*moes, beyond)).count();
+            assert!(held(0.0) == 1 && held(10.0) == 9);
+        }
+        for cell in &cells {
+            let own = places.iter().filter(|moes| cell.holds(**moes, 0.0)).count();
+            assert!((20..90).contains(&own), "{own}");
+        }
+    }
+}

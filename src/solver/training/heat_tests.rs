@@ -1,0 +1,160 @@
+//! Reduced models of line contacts with heat.
+
+use super::small::heated;
+use super::{HeatedRange, QuantityBox, Range, TrainingSpec, random_points, train};
+use crate::solver::full::{ContactSolver, Problem, Solution, Start};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity, Sliding};
+use crate::solver::physics::lubricant::{BodyHeat, Cavitation, Heat, Lubricant};
+use crate::solver::reduced::{
+    Online, ReducedError, ReducedModel, ReducedOptions, ReducedSolution, Sampling, Trust, traction_curve,
+};
+use std::sync::Arc;
+
+fn online(model: &Arc<ReducedModel>) -> Online {
+    Online::new(Arc::clone(model), ReducedOptions::default())
+}
+
+/// Errors of H_c, H_min, traction and the rise at mid-film against the full solution on the model's grid.
+fn errors(online: &Online, solved: &ReducedSolution, full: &Solution) -> [f64; 4] {
+    let own = online.reconstruct(solved).unwrap();
+    let [rise, true_rise] = [&own, full].map(|solution| solution.heat.as_ref().unwrap().central);
+    let relative = |a: f64, b: f64| (a / b - 1.0).abs();
+    [
+        relative(own.scalars.h_c, full.scalars.h_c),
+        relative(own.scalars.h_min, full.scalars.h_min),
+        relative(own.traction_coefficient(), full.traction_coefficient()),
+        rise.difference(&true_rise),
+    ]
+}
+
+#[test]
+fn reduced_contacts_with_heat_are_the_full_ones() {
+    // What is wanted of a model with heat at worst.
+    let bars = [5e-3, 1e-2, 1e-2, 3e-2];
+    for sampling in [Sampling::All, Sampling::Cubature] {
+        let spec = heated(sampling, 30);
+        let model = Arc::new(train(&spec, &()).unwrap());
+        let mut online = online(&model);
+        let mut full = ContactSolver::on(&model.windows[0].grid);
+        for point in random_points(&spec.range, ContactKind::Line, 6, 11) {
+            online.forget();
+            let solved = online.solve(&point, spec.lubricant).unwrap();
+            assert_eq!(solved.trust, Trust::Trained);
+            let truth = full.solve(&point, spec.lubricant, Start::Cold, &()).unwrap();
+            let found = errors(&online, &solved, &truth);
+            for (error, bar) in found.into_iter().zip(bars) {
+                assert!(error < bar, "{sampling:?} at {point:?}: {found:?}");
+            }
+            // What is known without fields is what the fields say.
+            let fields = online.reconstruct(&solved).unwrap();
+            let (warmth, heat) = (solved.heat.as_ref().unwrap(), fields.heat.as_ref().unwrap());
+            assert!((warmth.central.mid_film_k - heat.central.mid_film_k).abs() < 1e-6);
+            if let Some(own) = solved.traction {
+                assert!((own - fields.traction_coefficient()).abs() < 3e-3 * own.abs().max(1e-3), "{own}");
+            }
+        }
+    }
+}
+
+#[test]
+fn along_a_curve_contacts_are_those_found_alone_and_take_few_turns() {
+    let spec = heated(Sampling::Cubature, 30);
+    let model = Arc::new(train(&spec, &()).unwrap());
+    let mut online = online(&model);
+    let point = random_points(&spec.range, ContactKind::Line, 1, 3)[0];
+    let values: Vec<f64> = (0..=20).map(|k| 0.03 * f64::from(k)).collect();
+    let curve: Vec<ReducedSolution> =
+        traction_curve(&mut online, &point, spec.lubricant, Quantity::SlideToRollRatio, &values)
+            .map(|contact| contact.solution.unwrap())
+            .collect();
+    for solved in [&curve[4], &curve[20]] {
+        online.forget();
+        let alone = online.solve(&solved.point, spec.lubricant).unwrap();
+        assert!(solved.iterations < alone.iterations, "{} {}", solved.iterations, alone.iterations);
+        assert!((solved.h_c / alone.h_c - 1.0).abs() < 1e-4);
+        let [rise, other] = [solved, &alone].map(|solution| solution.heat.as_ref().unwrap().central);
+        assert!(rise.difference(&other) < 1e-3, "{rise:?} {other:?}");
+        let [own, other] = [solved, &alone].map(|solution| solution.traction.unwrap());
+        assert!((own / other - 1.0).abs() < 1e-3, "{own} {other}");
+    }
+    assert!(curve[0].traction.unwrap().abs() < 1e-6);
+    let rises: Vec<f64> = curve.iter().map(|solved| solved.heat.as_ref().unwrap().central.mid_film_k).collect();
+    assert!(rises.is_sorted(), "{rises:?}");
+}
+
+#[test]
+fn what_a_model_does_not_know_is_told() {
+    let spec = heated(Sampling::All, 8);
+    let model = Arc::new(train(&spec, &()).unwrap());
+    let point = random_points(&spec.range, ContactKind::Line, 1, 3)[0];
+    let outside = |point: OperatingPoint, lubricant: Lubricant| {
+        let problem = Problem::new(&point, lubricant).unwrap();
+        match model.trust(&problem) {
+            Trust::Outside(why) => why,
+            Trust::Trained => String::new(),
+        }
+    };
+    let laws = spec.lubricant;
+    let with = |heat: Heat| Lubricant { heat: Some(heat), ..laws };
+    assert_eq!(outside(point, laws), "");
+    assert!(outside(point, Lubricant { heat: None, ..laws }).contains("trained with heat"));
+    assert!(outside(point, Lubricant { limiting_stress: None, ..laws }).contains("limiting stress"));
+    assert!(outside(point, with(Heat { inlet_temperature: 353.15, ..Heat::default() })).contains("thermal constants"));
+    let wide = Sliding { slide_to_roll_ratio: 0.9, newtonian_plateau_ratio: None };
+    assert!(outside(OperatingPoint { sliding: wide, ..point }, laws).contains("SRR"));
+    let mirrored = Sliding { slide_to_roll_ratio: -0.5, newtonian_plateau_ratio: None };
+    assert_eq!(outside(OperatingPoint { sliding: mirrored, ..point }, laws), "");
+    // At equal M and L.
+    let other = 2.0;
+    let larger = OperatingPoint {
+        radius_m: other * point.radius_m,
+        speed_m_per_s: other * point.speed_m_per_s,
+        load: other * point.load,
+        ..point
+    };
+    assert!(outside(larger, laws).contains("radius of 10 mm, not 20 mm"));
+    // A model that knows no heat refuses.
+    let box_of = Range::Box(QuantityBox { load: (2e5, 4e5), speed: (2.0, 4.0), ..QuantityBox::TABLE_3_1 });
+    let cold = TrainingSpec { range: box_of, ..heated(Sampling::All, 8) }.heated(None);
+    let cold = TrainingSpec { lubricant: Lubricant::default(), ..cold };
+    let cold =
+        Arc::new(train(&TrainingSpec { windows: super::small::line(Sampling::All, 8).windows, ..cold }, &()).unwrap());
+    let refused = online(&cold).solve(&point, laws).unwrap_err();
+    assert!(refused == ReducedError::Heat && refused.to_string().contains("knows no heat"));
+}
+
+#[test]
+fn trainings_with_heat_are_of_ranges_with_heat() {
+    let good = heated(Sampling::All, 8);
+    good.check().unwrap();
+    let refused = |spec: TrainingSpec| spec.check().unwrap_err().to_string();
+    assert!(refused(good.clone().heated(None)).contains("no field `heat`"));
+    let box_of = TrainingSpec { range: Range::Box(QuantityBox::TABLE_3_1), ..good.clone() };
+    assert!(refused(box_of).contains("Heated"));
+    assert!(refused(good.clone().under(Cavitation::Complementarity)).contains("penalty"));
+    let Range::Heated(range) = good.range else { panic!() };
+    let with = |range: HeatedRange| TrainingSpec { range: Range::Heated(range), ..good.clone() };
+    assert!(refused(with(HeatedRange { srr: (0.0, 2.0), ..range })).contains("srr"));
+    assert!(refused(with(HeatedRange { radius: -1.0, ..range })).to_lowercase().contains("radius"));
+    let cold = BodyHeat { conductivity: 0.0, ..BodyHeat::STEEL };
+    let heat = Heat { bodies: [cold; 2], ..Heat::default() };
+    assert!(refused(good.clone().heated(Some(heat))).contains("conductivity"));
+    // What a model declares gives the range back.
+    assert_eq!(Range::from(&good.domain()), good.range);
+}
+
+#[test]
+fn errors_with_heat_are_bounded_and_rises_among_them() {
+    let spec = TrainingSpec { evidence: 110, ..heated(Sampling::Cubature, 30) };
+    let model = Arc::new(train(&spec, &()).unwrap());
+    let mut online = online(&model);
+    let point = random_points(&spec.range, ContactKind::Line, 3, 21)[2];
+    let solved = online.solve(&point, spec.lubricant).unwrap();
+    let estimate = solved.error.unwrap();
+    let truth = ContactSolver::on(&model.windows[0].grid).solve(&point, spec.lubricant, Start::Cold, &()).unwrap();
+    let [film, smallest, traction, rise] = errors(&online, &solved, &truth);
+    let bounds = [(film, Some(estimate.h_c)), (smallest, Some(estimate.h_min)), (traction, estimate.traction)];
+    for (error, estimated) in bounds.into_iter().chain([(rise, estimate.rise)]) {
+        assert!(error < 2.0 * estimated.unwrap().bound, "{error} {estimate:?}");
+    }
+}

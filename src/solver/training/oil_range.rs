@@ -1,0 +1,85 @@
+//! Contacts of many oils.
+
+use super::range::{between, logarithmic};
+use crate::solver::limits::{Refused, interval};
+use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, si_from_moes};
+use crate::solver::physics::lubricant::roelands_exponent;
+use crate::solver::reduced::OilDomain;
+use serde::{Deserialize, Serialize};
+
+/// By how much training reaches beyond the ends of a range.
+const BEYOND: f64 = 1.04;
+
+/// All contacts with M, L and p_H in these intervals of the oils with η₀, α and Roelands' exponent in these; by ln M,
+/// ln L, ln α and ln η₀. R and E′ are free: what they change is in M, L and p_H.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OilRange {
+    /// Load number.
+    pub m: (f64, f64),
+    /// Lubricant number.
+    pub l: (f64, f64),
+    /// α \[1/Pa\].
+    pub alpha: (f64, f64),
+    /// η₀ \[Pa·s\].
+    pub viscosity: (f64, f64),
+    /// Roelands' exponent z, which leaves out α and η₀ that no oil has together.
+    pub exponent: (f64, f64),
+    /// p_H \[Pa\].
+    pub hertz_pressure: (f64, f64),
+}
+
+impl OilRange {
+    /// Refuses what is empty, inverted or beyond any sense.
+    ///
+    /// # Errors
+    /// Naming the interval.
+    pub fn check(&self) -> Result<(), Refused> {
+        between(Quantity::M, self.m)?;
+        between(Quantity::L, self.l)?;
+        between(Quantity::Alpha, self.alpha)?;
+        between(Quantity::Viscosity, self.viscosity)?;
+        interval("exponent", self.exponent, 0.05, 2.0)?;
+        interval("hertz_pressure", self.hertz_pressure, 1e5, 1e12)
+    }
+
+    /// The operating point at coordinates in the unit cube; `None` where p_H or the exponent exclude it.
+    pub fn at(&self, kind: ContactKind, unit: [f64; 4]) -> Option<OperatingPoint> {
+        let request = MoesRequest {
+            alpha_per_pa: Some(logarithmic(self.alpha, unit[2])),
+            viscosity_pa_s: Some(logarithmic(self.viscosity, unit[3])),
+            ..MoesRequest::new(kind, logarithmic(self.m, unit[0]), logarithmic(self.l, unit[1]))
+        };
+        let inside = |value: f64, (low, high): (f64, f64)| (low..=high).contains(&value);
+        si_from_moes(&request).ok().filter(|point| {
+            inside(point.hertz().pressure_pa, self.hertz_pressure) && inside(roelands_exponent(point), self.exponent)
+        })
+    }
+
+    /// A little more on all sides: solutions there keep a model from ending at its last ones.
+    pub(super) fn beyond(&self) -> Self {
+        let more = |(low, high): (f64, f64)| (low / BEYOND, high * BEYOND);
+        Self {
+            m: more(self.m),
+            l: more(self.l),
+            alpha: more(self.alpha),
+            viscosity: more(self.viscosity),
+            exponent: more(self.exponent),
+            hertz_pressure: more(self.hertz_pressure),
+        }
+    }
+
+    /// What a model of it declares beside M, L, α and the largest p_H.
+    pub(super) fn declared(&self) -> OilDomain {
+        OilDomain {
+            viscosity_pa_s: self.viscosity,
+            exponent: self.exponent,
+            lowest_hertz_pressure_pa: self.hertz_pressure.0,
+        }
+    }
+
+    /// The viscosity in the middle \[Pa·s\].
+    pub(super) fn middle_viscosity(&self) -> f64 {
+        logarithmic(self.viscosity, 0.5)
+    }
+}

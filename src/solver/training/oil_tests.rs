@@ -1,0 +1,168 @@
+//! Models of many oils: near full solutions of every oil, without a jump between windows, and told where they end.
+
+use super::small::oils;
+use super::*;
+use crate::solver::discrete::grid::GridSpec;
+use crate::solver::full::{ContactSolver, Problem, Start};
+use crate::solver::physics::contact::{MoesRequest, OperatingPoint, si_from_moes};
+use crate::solver::physics::lubricant::{Cavitation, ViscosityLaw, roelands_exponent};
+use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Sampling, Trust, Window};
+use std::sync::Arc;
+
+fn trained(spec: &TrainingSpec) -> (Arc<ReducedModel>, Online) {
+    let model = Arc::new(train(spec, &()).unwrap());
+    (Arc::clone(&model), Online::new(model, ReducedOptions::default()))
+}
+
+fn contact(m: f64, l: f64, alpha: f64, viscosity: f64) -> OperatingPoint {
+    let (alpha_per_pa, viscosity_pa_s) = (Some(alpha), Some(viscosity));
+    si_from_moes(&MoesRequest { alpha_per_pa, viscosity_pa_s, ..MoesRequest::new(ContactKind::Line, m, l) }).unwrap()
+}
+
+#[test]
+fn models_of_oils_are_near_full_solutions_of_every_oil() {
+    for (sampling, cavitation) in [
+        (Sampling::QDeim, Cavitation::Complementarity),
+        (Sampling::QDeim, Cavitation::Penalty),
+        (Sampling::Cubature, Cavitation::Complementarity),
+    ] {
+        let spec = oils(sampling, 60).under(cavitation);
+        let (model, mut online) = trained(&spec);
+        assert!(model.windows.len() == 3 && model.windows.iter().all(|window| window.snapshots.len() >= 60));
+        let mut full = ContactSolver::on(&model.windows[0].grid);
+        let mut steps = 0;
+        for point in random_points(&spec.range, spec.contact(), 40, 77) {
+            online.forget();
+            let solved = online.solve(&point, spec.lubricant).unwrap();
+            assert_eq!(solved.trust, Trust::Trained);
+            let fields = online.reconstruct(&solved).unwrap();
+            let truth = full.solve(&point, spec.lubricant, Start::Cold, &()).unwrap().scalars;
+            let off = [solved.h_c / truth.h_c - 1.0, fields.scalars.h_min / truth.h_min - 1.0];
+            assert!(off.iter().all(|off| off.abs() < 3e-3), "{sampling:?}, {cavitation:?}: {off:?}");
+            assert!(
+                (fields.scalars.h_c / solved.h_c - 1.0).abs() < 1e-8,
+                "the film of the fields is that of the solve"
+            );
+            let carried = fields.scalars.load_residual;
+            assert!(carried < 1e-5, "{sampling:?}, {cavitation:?}: {carried:.1e} of the load");
+            assert!(solved.error.is_none_or(|error| error.h_c.bound > 0.0));
+            steps += solved.iterations / (1 + solved.beside.len());
+        }
+        assert!(steps <= 40 * 4, "{sampling:?}, {cavitation:?}: {steps} steps from kriged starts");
+    }
+}
+
+#[test]
+fn where_boundaries_lie_far_apart_every_window_still_solves_what_it_serves() {
+    // Thick films rupture late: behind some contacts' boundaries others have a third of their outlet.
+    let Range::Oils(range) = oils(Sampling::QDeim, 80).range else { panic!() };
+    let thick =
+        OilRange { m: (2.0, 9.0), l: (0.5, 2.6), alpha: (5e-9, 30e-9), hertz_pressure: (0.1e9, 3.2e9), ..range };
+    let grid = GridSpec::Graded { nodes: 632, domain: (-20.0, 3.2), registered: true };
+    let spec = TrainingSpec {
+        range: Range::Oils(thick),
+        windows: Windows::Anchored { count: 2, modes: 50, grid },
+        evidence: 0,
+        ..oils(Sampling::QDeim, 120).under(Cavitation::Complementarity)
+    };
+    let (model, mut online) = trained(&spec);
+    let ends = |window: &Window| {
+        let fronts = || window.snapshots.iter().map(|snapshot| snapshot.fronts[0]);
+        fronts().max().unwrap() - fronts().min().unwrap()
+    };
+    assert!(model.windows.iter().map(ends).max().unwrap() > 24);
+    let mut steps = 0;
+    for point in random_points(&spec.range, spec.contact(), 300, 5) {
+        online.forget();
+        let solved = online.solve(&point, spec.lubricant).unwrap();
+        assert_eq!(solved.window, model.window_for(&point), "{:?}", point.moes());
+        steps += solved.iterations / (1 + solved.beside.len());
+    }
+    assert!(steps <= 300 * 3, "{steps} steps");
+}
+
+#[test]
+fn nothing_jumps_on_the_way_from_one_anchor_to_the_next() {
+    let spec = oils(Sampling::QDeim, 60);
+    let (model, mut online) = trained(&spec);
+    let (mut blended, steps) = (0, 400);
+    for pair in model.windows.windows(2) {
+        let [from, to] = [pair[0].anchor.unwrap(), pair[1].anchor.unwrap()];
+        let at = |t: f64| contact(from.m * (to.m / from.m).powf(t), from.l * (to.l / from.l).powf(t), 16e-9, 0.03);
+        let mut films = Vec::new();
+        for step in 0..=steps {
+            let solved = online.solve(&at(f64::from(step) / f64::from(steps)), spec.lubricant).unwrap();
+            blended += usize::from(!solved.beside.is_empty());
+            assert!(solved.beside.iter().map(|(share, _)| share).sum::<f64>() < 0.7);
+            films.push(solved.h_c.ln());
+        }
+        for three in films.windows(3) {
+            let bend = three[0] - 2.0 * three[1] + three[2];
+            assert!(bend.abs() < 2e-5, "{bend:.1e}");
+        }
+    }
+    assert!((10..steps as usize).contains(&blended), "{blended}");
+}
+
+#[test]
+fn oils_beyond_the_table_are_told() {
+    let spec = oils(Sampling::QDeim, 60);
+    let domain = spec.domain();
+    assert_eq!(Range::from(&domain), spec.range);
+    let told = |m, l, alpha, viscosity| {
+        let problem = Problem::new(&contact(m, l, alpha, viscosity), spec.lubricant).unwrap();
+        match domain.trust(&problem) {
+            Trust::Trained => String::new(),
+            Trust::Outside(why) => why,
+        }
+    };
+    assert_eq!(told(30.0, 7.0, 16e-9, 0.03), "");
+    assert_eq!(told(30.0, 7.0, 16e-9, 0.2), "η₀ = 200 mPa·s lies outside the trained range 10…100 mPa·s");
+    assert!(told(30.0, 7.0, 13e-9, 0.099).starts_with("Roelands’ z = 0.346"));
+    assert!(told(60.0, 7.0, 12e-9, 0.011).starts_with("p_H = 1.8"));
+    assert!(told(70.0, 7.0, 20e-9, 0.03).starts_with("M = 70"));
+    assert!(told(30.0, 7.0, 40e-9, 0.03).contains("z = "));
+}
+
+#[test]
+fn ranges_of_oils_are_refused_with_their_field() {
+    let good = oils(Sampling::QDeim, 60);
+    assert!(good.check().is_ok() && good.contact() == ContactKind::Line);
+    let Range::Oils(range) = good.range else { panic!() };
+    let refused = |spec: TrainingSpec| spec.check().unwrap_err().to_string();
+    let with = |range: OilRange| TrainingSpec { range: Range::Oils(range), ..good.clone() };
+    for (range, field) in [
+        (OilRange { viscosity: (0.1, 0.01), ..range }, "viscosity"),
+        (OilRange { exponent: (0.0, 0.8), ..range }, "exponent"),
+        (OilRange { hertz_pressure: (f64::NAN, 1e9), ..range }, "hertz_pressure"),
+        (OilRange { alpha: (0.0, 1e-8), ..range }, "alpha"),
+        (OilRange { l: (5.0, f64::INFINITY), ..range }, "l"),
+    ] {
+        assert!(refused(with(range)).contains(field), "{field}: {}", refused(with(range)));
+    }
+    let windows = |count, modes| TrainingSpec {
+        windows: Windows::Anchored { count, modes, grid: super::small::line_grid(240) },
+        ..good.clone()
+    };
+    assert!(refused(windows(0, 20)).contains("windows.count") && refused(windows(3, 2)).contains("windows.modes"));
+    assert!(refused(TrainingSpec { windows: Windows::Automatic { modes: 20 }, ..good.clone() }).contains("Anchored"));
+    let plain = TrainingSpec { range: super::small::moes((5.0, 50.0), (5.0, 8.0), 4e9), ..good.clone() };
+    assert!(refused(plain).contains("Oils"));
+    let mut barus = good.clone();
+    barus.lubricant.viscosity = ViscosityLaw::Barus;
+    assert!(refused(barus).contains("another law"));
+}
+
+#[test]
+fn oils_are_those_of_the_range() {
+    let Range::Oils(range) = oils(Sampling::QDeim, 60).range else { panic!() };
+    let points = random_points(&Range::Oils(range), ContactKind::Line, 200, 3);
+    assert_eq!(points.len(), 200);
+    let inside = |value: f64, (low, high): (f64, f64)| (low * (1.0 - 1e-9)..=high * (1.0 + 1e-9)).contains(&value);
+    for point in points {
+        let moes = point.moes();
+        assert!(inside(moes.m, range.m) && inside(moes.l, range.l) && inside(point.alpha_per_pa, range.alpha));
+        assert!(inside(point.viscosity_pa_s, range.viscosity) && inside(roelands_exponent(&point), range.exponent));
+        assert!(inside(point.hertz().pressure_pa, range.hertz_pressure));
+    }
+}

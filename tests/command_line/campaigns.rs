@@ -1,0 +1,174 @@
+//! Campaigns as schedulers call them: shards that are killed, run twice, or have no room.
+
+use crate::commands::{assert_refused, json, program};
+use crate::common::scratch::Scratch;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// Cold full point contacts on a grid of few nodes, of some hundredths of a second each.
+const SCENE: &str = "Scene(version: 1, title: \"balls\", contact: Point, \
+    grid: Plane(dx: 0.04, dy: 0.1, domain: (-3.0, 1.5, -1.5)), \
+    study: RandomTest(range: Box(radius: (10e-3, 12e-3), speed: (1.0, 3.0), load: (20.0, 60.0), alpha: (8e-9, 11e-9), \
+    modulus: 231e9, viscosity: 0.01), tests: 60, seed: 3, method: Full), \
+    expect: [(name: \"tests\", value: 60, within: Absolute(0), from: \"as many as are asked for\")])";
+
+fn planned(scratch: &Scratch, folder: &str, pieces: usize) -> PathBuf {
+    scratch.write("balls.ron", SCENE);
+    let document = format!("(version: 1, scene: \"balls.ron\", shard: Pieces({pieces}))");
+    let document = scratch.write("campaign.txt", &document);
+    let folder = scratch.join(folder);
+    let output = program(&["campaign", "plan", text(&document), "--out", text(&folder)]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    folder
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+/// Every file of a result, byte for byte.
+fn result(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let files = std::fs::read_dir(folder.join("result")).unwrap().map(|entry| entry.unwrap());
+    files.map(|file| (file.file_name().into_string().unwrap(), std::fs::read(file.path()).unwrap())).collect()
+}
+
+fn shards(folder: &Path) -> usize {
+    let files = std::fs::read_dir(folder.join("shards")).unwrap().map(|entry| entry.unwrap().path());
+    files.filter(|path| path.extension().is_some_and(|extension| extension == "shard")).count()
+}
+
+/// One process, shard after shard.
+fn one_machine(scratch: &Scratch) -> BTreeMap<String, Vec<u8>> {
+    let folder = planned(scratch, "one", 60);
+    let output = program(&["campaign", "run", text(&folder), "--on", "local", "--workers", "1"]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    result(&folder)
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_worker_that_is_killed_in_the_middle_changes_no_byte() {
+    let scratch = Scratch::new("killed-worker");
+    let folder = planned(&scratch, "many", 6);
+    let mut run = Command::new(env!("CARGO_BIN_EXE_ehl-explorer"))
+        .args(["campaign", "run", text(&folder), "--on", "local", "--workers", "2"])
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
+    let children = format!("/proc/{0}/task/{0}/children", run.id());
+    let (begun, mut killed) = (Instant::now(), 0);
+    while run.try_wait().unwrap().is_none() {
+        let worker = std::fs::read_to_string(&children).unwrap_or_default();
+        // Not before something is done, so that it is in the middle.
+        if let (Some(worker), true) = (worker.split_whitespace().next(), killed < 2 && shards(&folder) > killed) {
+            Command::new("kill").args(["-KILL", worker]).status().unwrap();
+            killed += 1;
+        }
+        assert!(begun.elapsed() < Duration::from_secs(300), "it does not end");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    assert!(run.wait().unwrap().success() && killed > 0);
+    assert!(result(&folder) == one_machine(&scratch), "another result");
+}
+
+#[test]
+fn two_processes_on_the_same_shard_do_no_harm_and_status_says_how_far_it_is() {
+    let scratch = Scratch::new("twice");
+    let folder = planned(&scratch, "dir", 30);
+    let shard = |k: &str| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_ehl-explorer"));
+        command.args(["campaign", "shard", text(&folder), k]).stdout(Stdio::piped()).stderr(Stdio::piped());
+        command.spawn().unwrap()
+    };
+    let both = [shard("0"), shard("0")].map(|child| child.wait_with_output().unwrap());
+    for output in &both {
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+    assert_eq!(shards(&folder), 1);
+    let open = program(&["campaign", "status", text(&folder), "--open"]);
+    assert_eq!(String::from_utf8_lossy(&open.stdout), "1\n");
+    let status = json(&program(&["campaign", "status", text(&folder), "--json"]));
+    assert_eq!((&status["done"], &status["shards"], &status["merged"]), (&1.into(), &2.into(), &false.into()));
+    assert_refused(&["campaign", "merge", text(&folder)], "1 of 2 shards are missing, the first of them is shard 1");
+    assert_refused(&["campaign", "shard", text(&folder), "2"], "there is no shard 2");
+    assert_refused(&["campaign", "status", text(&scratch)], "holds no campaign");
+    assert!(!folder.join("result").exists());
+    assert!(shard("1").wait().unwrap().success());
+    assert_eq!(program(&["campaign", "merge", text(&folder)]).status.code(), Some(0));
+    assert!(result(&folder) == one_machine(&scratch), "another result");
+    // Merged again it is the same again.
+    assert_eq!(program(&["campaign", "merge", text(&folder)]).status.code(), Some(0));
+    assert!(result(&folder) == result(&scratch.join("one")));
+}
+
+#[test]
+fn a_campaign_of_another_build_is_refused_by_shard_and_merge() {
+    let scratch = Scratch::new("build");
+    let folder = planned(&scratch, "dir", 30);
+    let plan = folder.join("campaign.ron");
+    let own = std::fs::read_to_string(&plan).unwrap();
+    let at = own.find("program_hash: \"").unwrap() + "program_hash: \"".len();
+    let other = format!("{}0123456789abcdef{}", &own[..at], &own[at + 16..]);
+    std::fs::write(&plan, other).unwrap();
+    let words = "planned by another build of the program (version";
+    assert_refused(&["campaign", "shard", text(&folder), "0"], words);
+    assert_refused(&["campaign", "merge", text(&folder)], words);
+    assert_eq!(program(&["campaign", "status", text(&folder)]).status.code(), Some(0), "whoever looks may look");
+}
+
+/// A disk of some pages, where this user may have one.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_a_sentence_and_what_was_there_stays() {
+    let scratch = Scratch::new("full");
+    let folder = planned(&scratch, "dir", 30);
+    assert_eq!(program(&["campaign", "shard", text(&folder), "0"]).status.code(), Some(0));
+    let script = "mount -t tmpfs -o size=64k none \"$2/shards\" && cp \"$3\" \"$2/shards/\" && \
+                  head -c 1m /dev/zero > \"$2/shards/fill\"; \"$1\" campaign shard \"$2\" 1; code=$?; \
+                  ls \"$2/shards\"; exit $code";
+    let kept = scratch.join("kept.shard");
+    std::fs::copy(folder.join("shards/000000.shard"), &kept).unwrap();
+    let output = Command::new("unshare")
+        .args(["-rm", "sh", "-c", script, "sh", env!("CARGO_BIN_EXE_ehl-explorer"), text(&folder), text(&kept)])
+        .output();
+    let Ok(output) = output else { return };
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    if said.contains("unshare") || said.contains("mount") {
+        return;
+    }
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("cannot write") && said.contains("000001.shard"), "{said}");
+    let listed = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(listed.contains("kept.shard") && !listed.contains("000001.shard") && !listed.contains(".part"), "{listed}");
+}
+
+/// Slurm is not asked: the script is run as a job of its array would be.
+#[cfg(unix)]
+#[test]
+fn the_script_for_slurm_takes_every_open_shard_once() {
+    let scratch = Scratch::new("slurm");
+    let folder = planned(&scratch, "dir", 20);
+    // Instead of queuing, jobs are run at once: of an array two tasks, then what depends on it.
+    let bin = scratch.join("bin");
+    std::fs::create_dir(&bin).unwrap();
+    let sbatch = "#!/bin/bash\narray=\nwhile [[ \"$1\" == --* ]]; do [[ \"$1\" == --array=* ]] && array=${1#--array=0-}; \
+                  shift; done\nif [ -n \"$array\" ]; then for ((t = 0; t <= array; t++)); do \
+                  SLURM_ARRAY_TASK_ID=$t bash \"$@\" >&2; done; echo 7; else bash \"$@\" >&2; fi\n";
+    let stand_in = bin.join("sbatch");
+    std::fs::write(&stand_in, sbatch).unwrap();
+    Command::new("chmod").arg("+x").arg(&stand_in).status().unwrap();
+    let path = format!("{}:{}", bin.display(), std::env::var("PATH").unwrap());
+    let output = Command::new("bash")
+        .arg(folder.join("slurm.sh"))
+        .env("PATH", path)
+        .env("EHL_TASKS", "2")
+        .env("EHL_EXPLORER", env!("CARGO_BIN_EXE_ehl-explorer"))
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    assert_eq!((shards(&folder), said.matches(": done").count()), (3, 3), "{said}");
+    assert!(result(&folder) == one_machine(&scratch), "another result");
+}

@@ -1,0 +1,130 @@
+//! Heat by the command line.
+
+use crate::commands::{assert_refused, json, program};
+
+const CONTACT: [&str; 13] = [
+    "solve",
+    "--radius",
+    "0.01",
+    "--speed",
+    "2",
+    "--load",
+    "3e5",
+    "--modulus",
+    "231e9",
+    "--viscosity",
+    "0.02",
+    "--alpha",
+    "1.8e-8",
+];
+const SLIDING: [&str; 7] = ["--srr", "0.5", "--grid", "graded", "--domain=-10,2", "--heat", "--json"];
+
+#[test]
+fn a_contact_with_heat_tells_its_temperatures_and_writes_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let profiles = folder.path().join("profiles.csv");
+    let eyring = ["--shear", "eyring", "--shear-stress", "6e6", "--profiles", profiles.to_str().unwrap()];
+    let warm = json(&program(&[&CONTACT[..], &SLIDING, &eyring].concat()));
+    let heat = |name: &str| warm["heat"][name].as_f64().unwrap();
+    // An independent solver, extrapolated to vanishing spacings.
+    for (found, wanted, within) in [
+        (warm["H_c"].as_f64().unwrap(), 0.0744185, 3e-3),
+        (warm["traction"].as_f64().unwrap(), 0.0327481, 1e-2),
+        (heat("mid_film_rise_k"), 22.7812, 1e-2),
+        (heat("surface_1_rise_k"), 12.4927, 1e-2),
+        (heat("surface_2_rise_k"), 14.7274, 1e-2),
+    ] {
+        assert!((found / wanted - 1.0).abs() < within, "{found} {wanted}");
+    }
+    assert!(heat("energy_balance").abs() < 1e-3 && heat("into_bodies") > 0.99);
+    let text = std::fs::read_to_string(profiles).unwrap();
+    let mut lines = text.lines();
+    assert!(lines.next().unwrap().ends_with("mid_film_rise_k,surface_1_rise_k,surface_2_rise_k"));
+    let hottest = lines.map(|line| line.rsplit(',').nth(2).unwrap().parse::<f64>().unwrap()).fold(0.0, f64::max);
+    assert!((hottest / heat("mid_film_rise_max_k") - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn glass_keeps_the_heat_and_a_limit_makes_less_of_it() {
+    let of = |more: &[&str]| json(&program(&[&CONTACT[..], &SLIDING, more].concat()));
+    let rise = |object: &serde_json::Value, name: &str| object["heat"][name].as_f64().unwrap();
+    let steel = of(&["--limiting-stress", "2e6,0.02"]);
+    let glass = of(&["--limiting-stress", "2e6,0.02", "--body2", "glass"]);
+    assert!(rise(&glass, "surface_2_rise_k") > 2.0 * rise(&steel, "surface_2_rise_k"));
+    assert!(steel["traction"].as_f64().unwrap() < 0.025);
+}
+
+/// A small training with heat around the contact.
+const TRAINING: &str = "Scene(
+    version: 1,
+    title: \"heat\",
+    heat: (inlet_temperature: 313.15),
+    study: Training(
+        title: \"Line contacts with heat\",
+        range: Heated(m: (18.0, 26.0), l: (9.0, 11.0), srr: (0.0, 0.5), radius: 0.01, modulus: 231e9, viscosity: 0.02,
+            alpha: 1.8e-8, max_hertz_pressure: 1.6e9),
+        lubricant: (limiting_stress: (ambient: 5e6, slope: 0.05, eyring: 5e6)),
+        plan: FarthestPoint(snapshots: 40),
+        windows: Given([(m: (18.0, 26.0), grid: Graded(nodes: 280, domain: (-10.0, 2.0), registered: true))]),
+        pressure_loss: 1e-7,
+        deformation_loss: 0.1,
+        sampling: All,
+        rows_per_mode: 2.5,
+        penalty: 1e5,
+        positive_modes: true,
+        evidence: 0,
+        seed: 1,
+    ),
+)";
+
+#[test]
+fn a_model_that_was_trained_with_heat_answers_and_says_what_it_does_not_know() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (scene, rom) = (path("heat.ron"), path("heat.rom"));
+    std::fs::write(&scene, TRAINING).unwrap();
+    assert!(program(&["train", &scene, "--out", &rom]).status.success());
+    let oil = ["--lubricant", "mineral-oil", "--heat", "--srr", "0.3", "--json"];
+    let solve = |more: &[&str]| json(&program(&[&CONTACT[..], &oil, more].concat()));
+    let reduced = ["--method", "reduced", "--rom", &rom];
+    let own = solve(&reduced);
+    let full = solve(&["--grid", "model", "--rom", &rom]);
+    assert_eq!((own["method"].as_str(), own["reduced"]["trained"].as_bool()), (Some("reduced"), Some(true)));
+    for name in ["H_c", "H_min", "traction"] {
+        let [a, b] = [&own, &full].map(|object| object[name].as_f64().unwrap());
+        assert!((a / b - 1.0).abs() < 5e-3, "{name}: {a} {b}");
+    }
+    let [a, b] = [&own, &full].map(|object| object["heat"]["mid_film_rise_k"].as_f64().unwrap());
+    assert!((a / b - 1.0).abs() < 1e-2 && a > 1.0, "{a} {b}");
+    // Another oil is solved, and told; a model without heat refuses.
+    let other = solve(&[&reduced[..], &["--inlet-temperature", "353.15"]].concat());
+    assert!(other["warning"].as_str().unwrap().contains("other thermal constants"));
+    let cold = json(&program(&[&CONTACT[..], &["--lubricant", "mineral-oil", "--json"], &reduced].concat()));
+    assert!(cold["warning"].as_str().unwrap().contains("trained with heat"));
+    let info = String::from_utf8(program(&["info", &rom]).stdout).unwrap();
+    assert!(info.contains("heat: SRR 0…0.5, R 10.000 mm"), "{info}");
+}
+
+#[test]
+fn what_heat_cannot_be_computed_for_is_refused_in_one_sentence() {
+    for (more, words) in [
+        (&["--body1", "glass"][..], "no effect without --heat"),
+        (&["--inlet-temperature", "313"], "no effect without --heat"),
+        (&["--heat", "--method", "reduced"], "knows no heat"),
+        (&["--heat", "--srr", "2"], "moving heat sources"),
+        (&["--heat", "--inlet-temperature", "20"], "inlet temperature in kelvin is 20"),
+        (&["--heat", "--body2", "0,1,2"], "body 2's thermal conductivity"),
+        (&["--heat", "--body2", "wood"], "silicon-nitride"),
+        (&["--heat", "--oil-thermal", "2000,0.14"], "three numbers"),
+        (&["--heat", "--viscosity-temperature", "NaN"], "temperature coefficient"),
+        (&["--shear", "eyring"], "needs --shear-stress"),
+        (&["--shear", "carreau", "--shear-stress", "1e4"], "needs --shear-n"),
+        (&["--shear-stress", "1e4"], "belongs to --shear"),
+        (&["--shear-n", "0.5"], "belong to --shear carreau"),
+        (&["--limiting-stress", "5e6"], "two numbers"),
+    ] {
+        assert_refused(&[&CONTACT[..], more].concat(), words);
+    }
+    let point = ["solve", "--contact", "point", "--moes-m", "50", "--moes-l", "8", "--heat"];
+    assert_refused(&point, "line contact");
+}

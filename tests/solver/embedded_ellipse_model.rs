@@ -1,0 +1,48 @@
+//! The embedded reduced model of elliptical contacts against full solutions on its own grids.
+
+use ehl_explorer::engine::Embedded;
+use ehl_explorer::solver::full::{ContactSolver, Start};
+use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, si_from_moes};
+use ehl_explorer::solver::physics::lubricant::Lubricant;
+use ehl_explorer::solver::reduced::{Online, ReducedOptions, Trust};
+use ehl_explorer::solver::training::{Range, random_points};
+
+fn points(count: usize, seed: u64) -> Vec<OperatingPoint> {
+    let range =
+        Range::Ellipses { m: (10.0, 300.0), l: (2.0, 12.0), radius_ratio: (0.5, 8.0), max_hertz_pressure: 3.2e9 };
+    random_points(&range, ContactKind::Point, count, seed)
+}
+
+/// One model for all of this: its operators take a second.
+#[test]
+fn random_ellipses_of_its_range_are_solved_near_full_solutions_and_pass_from_shape_to_shape() {
+    let mut online = Online::new(Embedded::Ellipse.model().unwrap(), ReducedOptions::default());
+    for point in points(300, 51) {
+        online.forget();
+        let solved = online.solve(&point, Lubricant::default()).unwrap_or_else(|e| panic!("{:?}: {e}", point.moes()));
+        assert_eq!(solved.trust, Trust::Trained);
+        assert!(solved.error.is_some_and(|error| error.h_c.bound > 0.0 && error.h_min.bound > 0.0));
+    }
+    for point in points(12, 52) {
+        let solved = online.solve(&point, Lubricant::default()).unwrap();
+        let fields = online.reconstruct(&solved).unwrap();
+        let grid = &online.model.window_at(&point).grid;
+        let full = ContactSolver::on(grid).solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
+        assert!(full.converged() && fields.x == full.x && fields.y == full.y);
+        let errors =
+            [fields.scalars.h_c / full.scalars.h_c - 1.0, 0.3 * (fields.scalars.h_min / full.scalars.h_min - 1.0)];
+        assert!(errors.iter().all(|error| error.abs() < 1e-2), "{errors:?} at {:?}", point.moes());
+        assert!((fields.scalars.h_c / solved.h_c - 1.0).abs() < 1e-6);
+        assert!(fields.scalars.load_residual < 1e-9);
+    }
+    // Along the slider, through both windows of shapes: the film grows as the contact widens.
+    let circle = si_from_moes(&MoesRequest::new(ContactKind::Point, 60.0, 8.0)).unwrap();
+    let films: Vec<f64> = (0..40)
+        .map(|k| {
+            let point = Quantity::RadiusRatio.at(&circle, 0.5 * 16f64.powf(f64::from(k) / 39.0));
+            let solved = online.solve(&point, Lubricant::default()).unwrap();
+            online.scalars(&solved).unwrap().h_c * point.hertz().half_width_m.powi(2)
+        })
+        .collect();
+    assert!(films.is_sorted_by(|a, b| a < b), "{films:?}");
+}

@@ -1,0 +1,95 @@
+//! A campaign in the window: how far it is, what failed, and its map as it fills, while others work on it.
+
+use crate::common::scratch::Scratch;
+use crate::driver::{Window, click, shows, wait_until, wait_within, window};
+use crate::results_tab::timeless;
+use egui_kittest::kittest::Queryable as _;
+use ehl_explorer::app::Explorer;
+use ehl_explorer::engine::campaign::merge::{Merged, merge};
+use ehl_explorer::engine::campaign::plan::plan;
+use ehl_explorer::engine::campaign::shard::{Done, compute};
+use ehl_explorer::engine::campaign::{Folder, local};
+use ehl_explorer::engine::{Workbench, run_scene};
+use ehl_explorer::scene::Scene;
+use std::path::Path;
+use std::time::Duration;
+
+const PATIENCE: Duration = Duration::from_secs(60);
+
+const SCENE: &str = "Scene(version: 1, title: \"Balls in pieces\", contact: Point, \
+    grid: Plane(dx: 0.04, dy: 0.1, domain: (-3.0, 1.5, -1.5)), \
+    study: RandomTest(range: Box(radius: (10e-3, 11e-3), speed: (2.0, 3.0), load: (30.0, 45.0), alpha: (8e-9, 11e-9), \
+    modulus: 231e9, viscosity: 0.01), tests: 12, seed: 3, method: Full), \
+    expect: [(name: \"tests\", value: 12, within: Absolute(0), from: \"as many as are asked for\")])";
+
+fn planned(scratch: &Scratch) -> Folder {
+    scratch.write("balls.ron", SCENE);
+    let document = scratch.write("campaign.txt", "(version: 1, scene: \"balls.ron\", shard: Pieces(4))");
+    plan(&document, &scratch.join("dir"), &()).unwrap()
+}
+
+fn shard(folder: &Folder, number: usize) {
+    assert_eq!(compute(folder, number, 1, &(), &|| ()).unwrap(), Done::Computed);
+}
+
+fn shows_part(harness: &Window, text: &str) -> bool {
+    harness.query_all_by_label_contains(text).next().is_some()
+}
+
+#[test]
+fn a_campaign_fills_while_it_is_watched_and_ends_as_one_run_does() {
+    let scratch = Scratch::new("watched-campaign");
+    let folder = planned(&scratch);
+    // The last one first: what is shown stands in the order of the study all the same.
+    shard(&folder, 2);
+    std::fs::write(folder.path.join("shards/000001.failed"), "no room").unwrap();
+    let mut harness = window(Explorer::with_embedded_models(), [1280.0, 800.0]);
+    harness.state_mut().open_scene(&folder.path.join("campaign.ron")).unwrap();
+    harness.run_steps(2);
+    assert_eq!(harness.state().front(), Some("Results"));
+    let rows = |app: &Explorer| app.result_table("random").map_or(0, |csv| csv.lines().count() - 1);
+    wait_within(PATIENCE, &mut harness, "the first shard", |app| rows(app) == 4);
+    wait_until(PATIENCE, &mut harness, "how far it is", |harness| shows_part(harness, "Campaign: 1 of 3 shards"));
+    assert!(shows_part(&harness, "Shard 1 failed: no room") && shows(&harness, "Balls in pieces"));
+    assert!(harness.state().verdict().is_none() && harness.state().running_study());
+    shard(&folder, 1);
+    wait_within(PATIENCE, &mut harness, "the second shard", |app| rows(app) == 8);
+    wait_until(PATIENCE, &mut harness, "no failure", |harness| !shows_part(harness, "Shard 1 failed"));
+    shard(&folder, 0);
+    assert!(matches!(merge(&folder, &()).unwrap(), Merged::Result(_)));
+    wait_within(PATIENCE, &mut harness, "the end", |app| app.verdict().is_some());
+    assert_eq!(harness.state().verdict(), Some(true));
+    wait_until(PATIENCE, &mut harness, "the merge", |harness| shows_part(harness, "round 1; merged"));
+    let one = run_scene(&Scene::from_ron(SCENE).unwrap(), &mut Workbench::new(""), &()).unwrap();
+    let shown = harness.state().result_table("random").unwrap();
+    assert_eq!(timeless(&shown), timeless(&one.tables[0].to_csv()));
+}
+
+#[test]
+fn watching_is_stopped_and_a_folder_without_a_campaign_is_refused() {
+    let scratch = Scratch::new("stopped-campaign");
+    let folder = planned(&scratch);
+    shard(&folder, 0);
+    let mut harness = window(Explorer::with_embedded_models(), [1280.0, 800.0]);
+    assert!(harness.state_mut().open_scene(&scratch).unwrap_err().contains("it is a folder"));
+    harness.state_mut().open_scene(&folder.path).unwrap();
+    wait_within(PATIENCE, &mut harness, "the first shard", |app| app.result_table("random").is_some());
+    click(&mut harness, "Stop watching");
+    wait_within(PATIENCE, &mut harness, "the stop", |app| !app.running_study());
+    assert!(harness.state().verdict().is_none(), "what was stopped is not judged");
+    // Damage ends it with a sentence; what was shown stays.
+    std::fs::write(folder.path.join("shards/000001.shard"), "nonsense").unwrap();
+    harness.state_mut().open_scene(&folder.path).unwrap();
+    wait_within(PATIENCE, &mut harness, "the refusal", |app| !app.running_study());
+    harness.run_steps(2);
+    assert!(shows_part(&harness, "another kind of file"));
+    assert!(harness.state().result_table("random").is_some());
+}
+
+#[test]
+fn a_program_that_is_not_there_is_named() {
+    let scratch = Scratch::new("no-program");
+    let folder = planned(&scratch);
+    let refused = local::run(&folder.path, Path::new("no/such/program"), 2, &()).unwrap_err().to_string();
+    assert!(refused.contains("cannot start no/such/program"), "{refused}");
+}
