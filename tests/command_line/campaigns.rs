@@ -14,9 +14,21 @@ const SCENE: &str = "Scene(version: 1, title: \"balls\", contact: Point, \
     modulus: 231e9, viscosity: 0.01), tests: 60, seed: 3, method: Full), \
     expect: [(name: \"tests\", value: 60, within: Absolute(0), from: \"as many as are asked for\")])";
 
+/// Five full solutions, then a round for each that the search adds.
+const ADAPTIVE: &str = "Scene(version: 1, title: \"adaptive\", study: Training(title: \"t\", \
+    range: Box(radius: (3e-3, 4e-3), speed: (2.0, 4.0), load: (2e5, 4e5), alpha: (8e-9, 12e-9), modulus: 231e9, \
+    viscosity: 0.01), plan: Adaptive(start: 5, indicator: Correction, tolerances: [1e-7], successes: 16, \
+    local_sigma: 0.2, local_successes: 0, vicinity: 2, limit: 8), windows: Given([(m: (1.0, 500.0), \
+    grid: Graded(nodes: 240, domain: (-6.0, 1.9), registered: true))]), pressure_loss: 1e-6, deformation_loss: 1e-6, \
+    rows_per_mode: 2.0, evidence: 0, seed: 5))";
+
 fn planned(scratch: &Scratch, folder: &str, pieces: usize) -> PathBuf {
-    scratch.write("balls.ron", SCENE);
-    let document = format!("(version: 1, scene: \"balls.ron\", shard: Pieces({pieces}))");
+    planned_of(scratch, SCENE, folder, pieces)
+}
+
+fn planned_of(scratch: &Scratch, scene: &str, folder: &str, pieces: usize) -> PathBuf {
+    scratch.write("scene.ron", scene);
+    let document = format!("(version: 1, scene: \"scene.ron\", shard: Pieces({pieces}))");
     let document = scratch.write("campaign.txt", &document);
     let folder = scratch.join(folder);
     let output = program(&["campaign", "plan", text(&document), "--out", text(&folder)]);
@@ -150,6 +162,40 @@ fn a_full_disk_is_a_sentence_and_what_was_there_stays() {
 fn the_script_for_slurm_takes_every_open_shard_once() {
     let scratch = Scratch::new("slurm");
     let folder = planned(&scratch, "dir", 20);
+    let output = under_a_stand_in_for_slurm(&scratch, &folder, Path::new(env!("CARGO_BIN_EXE_ehl-explorer")));
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    assert_eq!((shards(&folder), said.matches(": done").count()), (3, 3), "{said}");
+    assert!(result(&folder) == one_machine(&scratch), "another result");
+}
+
+/// A process of the first round and one of a round that the training decided on are killed, and submitted again.
+#[cfg(unix)]
+#[test]
+fn an_adaptive_training_by_the_script_for_slurm_survives_killed_jobs() {
+    let scratch = Scratch::new("slurm-training");
+    let folder = planned_of(&scratch, ADAPTIVE, "dir", 2);
+    let killed = "#!/bin/bash\nif [ \"$2\" = shard ] && [[ $4 = [14] ]] && mkdir \"$3/killed$4\" 2>/dev/null; then \
+                  kill -KILL $$; fi\n";
+    let program = scratch.write("killed.sh", &format!("{killed}exec {} \"$@\"\n", env!("CARGO_BIN_EXE_ehl-explorer")));
+    Command::new("chmod").arg("+x").arg(&program).status().unwrap();
+    let output = under_a_stand_in_for_slurm(&scratch, &folder, &program);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    assert!(["killed1", "killed4"].iter().all(|name| folder.join(name).is_dir()), "{said}");
+    let one = planned_of(&scratch, ADAPTIVE, "one", 5);
+    let alone = self::program(&["campaign", "run", text(&one), "--on", "local", "--workers", "1"]);
+    assert_eq!(alone.status.code(), Some(0), "{}", String::from_utf8_lossy(&alone.stderr));
+    assert!(shards(&folder) == shards(&one) + 2 && shards(&one) > 2, "{said}");
+    assert!(result(&folder) == result(&one), "another result");
+    let model = scratch.join("plain.rom");
+    let trained = self::program(&["train", text(&scratch.join("scene.ron")), "--out", text(&model)]);
+    assert_eq!(trained.status.code(), Some(0), "{}", String::from_utf8_lossy(&trained.stderr));
+    assert!(result(&folder)["scene.rom"] == std::fs::read(&model).unwrap(), "another model");
+}
+
+#[cfg(unix)]
+fn under_a_stand_in_for_slurm(scratch: &Scratch, folder: &Path, program: &Path) -> std::process::Output {
     // Instead of queuing, jobs are run at once: of an array two tasks, then what depends on it.
     let bin = scratch.join("bin");
     std::fs::create_dir(&bin).unwrap();
@@ -160,15 +206,11 @@ fn the_script_for_slurm_takes_every_open_shard_once() {
     std::fs::write(&stand_in, sbatch).unwrap();
     Command::new("chmod").arg("+x").arg(&stand_in).status().unwrap();
     let path = format!("{}:{}", bin.display(), std::env::var("PATH").unwrap());
-    let output = Command::new("bash")
+    Command::new("bash")
         .arg(folder.join("slurm.sh"))
         .env("PATH", path)
         .env("EHL_TASKS", "2")
-        .env("EHL_EXPLORER", env!("CARGO_BIN_EXE_ehl-explorer"))
+        .env("EHL_EXPLORER", program)
         .output()
-        .unwrap();
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{said}");
-    assert_eq!((shards(&folder), said.matches(": done").count()), (3, 3), "{said}");
-    assert!(result(&folder) == one_machine(&scratch), "another result");
+        .unwrap()
 }

@@ -17,40 +17,78 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 TARGET = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
 PROGRAM = os.environ.get("EHL_EXPLORER", str(TARGET / "release" / "ehl-explorer"))
 
-SCENE = """Scene(version: 1, title: "balls", contact: Point,
+BALLS = """Scene(version: 1, title: "balls", contact: Point,
     grid: Plane(dx: 0.04, dy: 0.1, domain: (-3.0, 1.5, -1.5)),
     study: RandomTest(range: Box(radius: (10e-3, 12e-3), speed: (1.0, 3.0), load: (20.0, 60.0), alpha: (8e-9, 11e-9),
     modulus: 231e9, viscosity: 0.01), tests: 80, seed: 3, method: Full))"""
 
+# Five full solutions in three shards, then a round for each that the search adds.
+ADAPTIVE = """Scene(version: 1, title: "adaptive", study: Training(title: "t",
+    range: Box(radius: (3e-3, 4e-3), speed: (2.0, 4.0), load: (2e5, 4e5), alpha: (8e-9, 12e-9), modulus: 231e9,
+    viscosity: 0.01), plan: Adaptive(start: 5, indicator: Correction, tolerances: [1e-7], successes: 16,
+    local_sigma: 0.2, local_successes: 0, vicinity: 2, limit: 9),
+    windows: Given([(m: (1.0, 500.0), grid: Graded(nodes: 240, domain: (-6.0, 1.9), registered: true))]),
+    pressure_loss: 1e-6, deformation_loss: 1e-6, rows_per_mode: 2.0, evidence: 0, seed: 5))"""
 
-def planned(folder, name):
-    (folder / "balls.ron").write_text(SCENE)
-    (folder / "campaign.ron").write_text('(version: 1, scene: "balls.ron", shard: Pieces(5))')
+
+def planned(folder, name, scene, pieces):
+    (folder / "scene.ron").write_text(scene)
+    (folder / "campaign.ron").write_text(f'(version: 1, scene: "scene.ron", shard: Pieces({pieces}))')
     command = [PROGRAM, "campaign", "plan", folder / "campaign.ron", "--out", folder / name]
     subprocess.run(command, check=True, capture_output=True)
     return folder / name
 
 
+def one_machine(folder):
+    subprocess.run(
+        [PROGRAM, "campaign", "run", folder, "--on", "local", "--workers", "1"], check=True, capture_output=True
+    )
+
+
+def with_a_worker_lost(folder, after):
+    """Takes a campaign through two workers, one of which is killed once so many shards are there."""
+    cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
+    with cluster, distributed.Client(cluster) as client:
+        workers = list(client.run(os.getpid).values())
+        seen = []
+
+        def kill():
+            while len(seen) < after:
+                time.sleep(0.01)
+            os.kill(workers[0], signal.SIGKILL)
+
+        killer = threading.Thread(target=kill, daemon=True)
+        killer.start()
+        outcome = campaign.run(folder, client, PROGRAM, progress=lambda done, total: seen.append(total))
+        killer.join(timeout=60)
+        assert not killer.is_alive() and workers[0] not in client.run(os.getpid).values(), "no worker was lost"
+    return outcome, seen
+
+
+def assert_same_result(one, other):
+    names = sorted(path.name for path in (one / "result").iterdir())
+    assert names == sorted(path.name for path in (other / "result").iterdir())
+    assert filecmp.cmpfiles(one / "result", other / "result", names, shallow=False)[0] == names
+
+
 def test_a_lost_worker_changes_no_byte_and_a_gap_is_a_sentence(tmp_path):
-    one, many = planned(tmp_path, "one"), planned(tmp_path, "many")
-    subprocess.run([PROGRAM, "campaign", "run", one, "--on", "local", "--workers", "1"], check=True, capture_output=True)
+    one, many = (planned(tmp_path, name, BALLS, 5) for name in ("one", "many"))
+    one_machine(one)
     with pytest.raises(campaign.CampaignError, match="16 of 16 shards are missing"):
         campaign._call(PROGRAM, "merge", many)
     with pytest.raises(campaign.CampaignError, match="cannot start no-such-program"):
         campaign._call("no-such-program", "merge", many)
-    cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
-    with cluster, distributed.Client(cluster) as client:
-        seen = []
-
-        def kill():
-            while len(seen) < 2:
-                time.sleep(0.01)
-            os.kill(next(iter(client.run(os.getpid).values())), signal.SIGKILL)
-
-        killer = threading.Thread(target=kill, daemon=True)
-        killer.start()
-        outcome = campaign.run(many, client, PROGRAM, progress=lambda done, total: seen.append(done))
-        killer.join()
+    outcome, _ = with_a_worker_lost(many, 2)
     assert outcome["title"] == "balls" and outcome["wall_s"] is None
-    names = sorted(path.name for path in (one / "result").iterdir())
-    assert filecmp.cmpfiles(one / "result", many / "result", names, shallow=False)[0] == names
+    assert_same_result(one, many)
+
+
+def test_an_adaptive_training_that_loses_a_worker_gives_the_model_of_one_machine(tmp_path):
+    one, many = planned(tmp_path, "one", ADAPTIVE, 1), planned(tmp_path, "many", ADAPTIVE, 2)
+    one_machine(one)
+    # Lost after the first round, whose three shards begin it, and before the last one.
+    outcome, seen = with_a_worker_lost(many, 4)
+    assert outcome["title"] == "adaptive" and seen[-1] > 4, f"{seen}"
+    assert_same_result(one, many)
+    subprocess.run([PROGRAM, "train", tmp_path / "scene.ron", "--out", tmp_path / "plain.rom"], check=True)
+    assert (many / "result" / "scene.rom").read_bytes() == (tmp_path / "plain.rom").read_bytes()
