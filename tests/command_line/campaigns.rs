@@ -130,6 +130,25 @@ fn a_campaign_of_another_build_is_refused_by_shard_and_merge() {
     assert_eq!(program(&["campaign", "status", text(&folder)]).status.code(), Some(0), "whoever looks may look");
 }
 
+#[test]
+fn a_model_of_another_version_is_refused_by_its_own_name_before_anything_is_written() {
+    let scratch = Scratch::new("version");
+    let mut model = std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/line.rom")).unwrap();
+    model[8] = 3;
+    std::fs::write(scratch.join("former.rom"), model).unwrap();
+    scratch.write(
+        "scene.ron",
+        "Scene(version: 1, title: \"lines\", study: RandomTest(range: Box(radius: (2e-3, 4e-3), speed: (1.0, 10.0), \
+         load: (1e5, 5e5), alpha: (5e-9, 20e-9), modulus: 231e9, viscosity: 0.01), tests: 4, seed: 3, \
+         method: Reduced(model: File(\"former.rom\"))))",
+    );
+    let document = scratch.write("campaign.txt", "(version: 1, scene: \"scene.ron\", shard: Pieces(2))");
+    let folder = scratch.join("dir");
+    let arguments = ["campaign", "plan", text(&document), "--out", text(&folder)];
+    assert_refused(&arguments, "former.rom cannot be used: the model file has version 3");
+    assert!(!folder.exists());
+}
+
 /// A disk of some pages, where this user may have one.
 #[cfg(target_os = "linux")]
 #[test]

@@ -116,7 +116,10 @@ pub fn plan(document: &Path, folder: &Path, observer: &dyn Observer) -> Result<F
     let beside = document.parent().unwrap_or(Path::new(""));
     let source = beside.join(&campaign.scene);
     let mut scene = Scene::read(&source).map_err(EngineError::from)?;
-    let files = self_contained(&mut scene, source.parent().unwrap_or(Path::new("")))?;
+    let base = source.parent().unwrap_or(Path::new(""));
+    // Refused by their own names, before anything is written.
+    Workbench::on(&Store::default(), base).check_models(&scene)?;
+    let files = self_contained(&mut scene, base)?;
     let name = source.file_stem().unwrap_or(source.as_os_str()).to_string_lossy().into_owned();
     let mut plan = Plan {
         version: VERSION,
@@ -142,7 +145,6 @@ pub fn plan(document: &Path, folder: &Path, observer: &dyn Observer) -> Result<F
         atomic_file::replace(&folder.join(name), bytes)?;
     }
     let mut bench = Workbench::on(&Store::default(), folder);
-    bench.check_models(&scene)?;
     let pieces = match scene.training() {
         Some(spec) => merge::first_contacts(folder, &scene, spec)?,
         None => {

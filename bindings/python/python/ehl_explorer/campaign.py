@@ -203,7 +203,8 @@ def main(arguments=None):
         return 2
 
     # What the cluster says of its own trouble is said by one sentence below.
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    for name in ("distributed", "distributed.client"):
+        logging.getLogger(name).setLevel(logging.CRITICAL)
 
     def progress(done, total):
         print(f"{done} of {total} shards are there", file=sys.stderr)
