@@ -45,7 +45,7 @@ pub struct FmuArgs {
 pub fn run(command: &ExportCommand) -> Result<Verdict, Failure> {
     let ExportCommand::Fmu(args) = command;
     let refused = |reason| EngineError::Model { path: args.model.clone(), reason };
-    let model = SavedModel::read(&args.model).map_err(|reason| refused(reason.into()))?;
+    let (model, content) = SavedModel::read_with_content(&args.model).map_err(|reason| refused(reason.into()))?;
     let same = |laws: Lubricant| match &model {
         SavedModel::Stationary(model) => laws == model.domain.lubricant,
         // It says itself how its films rupture.
@@ -62,12 +62,7 @@ pub fn run(command: &ExportCommand) -> Result<Verdict, Failure> {
     }
     let library = library(args.library.as_deref())?;
     let pressed = if args.approach { Pressed::Approach } else { Pressed::Load };
-    // The file as it is: one of a former version would be kept a little differently now. What it holds is read again from
-    // these bytes, for it may have changed meanwhile.
-    let content = std::fs::read(&args.model).map_err(|error| {
-        Failure::Request(format!("cannot read {}: {}", args.model.display(), atomic_file::said(&error)))
-    })?;
-    let archive = fmu::archive(content, pressed, library).map_err(Failure::Request)?;
+    let archive = fmu::archive(&model, content, pressed, library).map_err(Failure::Request)?;
     atomic_file::replace(&args.out, &archive)?;
     let megabytes = archive.len() as f64 / 1e6;
     output::print(&format!("{}: {megabytes:.1} MB, for {}\n", args.out.display(), fmu::library_place()))?;

@@ -13,7 +13,7 @@ pub enum Embedded {
     Line,
     /// Line contacts of lubricants that thin under shear: `scenes/training/embedded_shear_model.ron`.
     ThinningLine,
-    /// Circular contacts: `scenes/training/table_3_4_model.ron`.
+    /// Circular contacts: `scenes/training/point_oils.ron`.
     Circle,
     /// Circular contacts of lubricants that thin under shear: `scenes/training/embedded_point_shear_model.ron`.
     ThinningCircle,
@@ -54,12 +54,12 @@ impl Embedded {
         }
     }
 
-    /// The model; its operators are computed as it is read.
+    /// The model. That its parts belong together was proved when it was tested, and is not proved anew.
     ///
     /// # Errors
     /// When the program was built with a damaged asset.
     pub fn model(self) -> Result<Arc<ReducedModel>, ModelFileError> {
-        model_file::from_bytes(self.bytes()).map(Arc::new)
+        model_file::from_own_bytes(self.bytes()).map(Arc::new)
     }
 }
 
@@ -68,6 +68,14 @@ mod tests {
     use super::*;
     use crate::scene::named_lubricant::SQUALANE_PIP;
     use crate::solver::physics::contact::{MoesRequest, Quantity, si_from_moes};
+
+    #[test]
+    fn the_parts_of_every_model_belong_together() {
+        for embedded in Embedded::ALL {
+            let read = model_file::from_bytes(embedded.bytes()).unwrap_or_else(|why| panic!("{embedded:?}: {why}"));
+            assert!(!read.windows.is_empty() && read.contact() == embedded.model().unwrap().contact());
+        }
+    }
 
     #[test]
     fn a_contact_is_served_by_the_model_of_its_shape_and_fluid() {

@@ -29,7 +29,7 @@ fn of_window(prefix: &str, window: &Window) -> Vec<Array> {
         Array::list(name("y"), places.iter().map(|place| place.1).collect()),
         Array::list(name("weights"), grid.weights().to_vec()),
     ];
-    arrays.extend(basis(&name("pressure"), &window.pressure));
+    arrays.extend(basis(&name("pressure"), window.pressure.basis()));
     arrays.extend(basis(&name("deformation"), &window.deformation));
     arrays.push(Array::list(name("sampled_nodes"), sampled));
     arrays.push(matrix(name("reconstruction"), &window.reconstruction));

@@ -22,10 +22,20 @@ impl SavedModel {
     /// # Errors
     /// When it cannot be read, is foreign, newer, cut off or damaged.
     pub fn read(path: &Path) -> Result<Self, ModelFileError> {
-        match trajectory_file::read(path) {
-            Err(ModelFileError::Stationary) => Ok(Self::Stationary(Arc::new(model_file::read(path)?))),
-            model => Ok(Self::InTime(model?)),
-        }
+        Self::read_with_content(path).map(|(model, _)| model)
+    }
+
+    /// Reads a file of either kind, and gives its content besides, byte for byte: that of a former version would be kept
+    /// a little differently now.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn read_with_content(path: &Path) -> Result<(Self, Vec<u8>), ModelFileError> {
+        let content = match trajectory_file::content(path) {
+            Err(ModelFileError::Stationary) => model_file::content(path)?,
+            content => content?,
+        };
+        Ok((Self::from_bytes(&content)?, content))
     }
 
     /// A model from the content of a file.

@@ -344,6 +344,16 @@ impl StoredBasis {
         Self { modes: StoredMatrix { rows, ..StoredMatrix::default() }, singular_values: Vec::new() }
     }
 
+    /// The singular values of a basis over so many rows whose modes are kept elsewhere.
+    pub fn without_modes(singular_values: &[f64], rows: usize) -> Self {
+        Self { singular_values: singular_values.to_vec(), ..Self::elsewhere(rows) }
+    }
+
+    /// The singular values, if they are sound.
+    pub fn into_singular_values(self) -> Option<Vec<f64>> {
+        Some(self.singular_values).filter(|values| values.iter().all(|value| value.is_finite()))
+    }
+
     /// The basis, if it has `rows` rows and is sound.
     pub fn into_basis(self, rows: usize) -> Option<PodBasis> {
         let sound =

@@ -7,15 +7,17 @@ use super::model_file::ModelFileError;
 use super::stored_heat::StoredHeat;
 use super::stored_matrix::{StoredBasis, StoredMatrix};
 use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec};
+use crate::solver::full::GridCost;
 use crate::solver::physics::contact::{ContactKind, Ellipse, Moes};
 use crate::solver::physics::lubricant::{Cavitation, LARGEST_HEATED_SRR, ShearLaw, Sliding};
 use crate::solver::reduced::{
-    Beside, CIRCLES, Calibration, Domain, HeatDomain, OilDomain, PodBasis, ReducedModel, SampledRows, Sampling, Scheme,
-    Shapes, SlidingDomain, Snapshot, TractionRule, Window,
+    Beside, CIRCLES, Calibration, Combined, Domain, HeatDomain, OilDomain, PodBasis, PressureModes, ReducedModel,
+    SampledRows, Sampling, Scheme, Shapes, SharedBasis, SlidingDomain, Snapshot, TractionRule, Window,
 };
 use faer::Mat;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// Relative accuracy of pressures and deformations at every node to which the bases of a window are kept.
 fn accuracy(window: &Window) -> f64 {
@@ -23,6 +25,8 @@ fn accuracy(window: &Window) -> f64 {
         // These have dozens of windows; at 1e-8 they lost more than their modes miss, at 1e-11 nothing of it.
         (ContactKind::Line, _) if window.anchor.is_some() => 1e-11,
         (ContactKind::Line, _) => 1e-13,
+        // Their modes miss a thousand times more.
+        (ContactKind::Point, None) if window.anchor.is_some() => 1e-8,
         (ContactKind::Point, None) => 2e-10,
         // These have many windows, and K V is interpolated over the shapes.
         (ContactKind::Point, Some(_)) => 2e-9,
@@ -72,6 +76,17 @@ struct StoredHeated {
     domain: HeatDomain,
 }
 
+/// What follows the oils of a model whose pressure modes are made of one basis, or that leaves thin films out; others
+/// end without it.
+#[derive(Serialize, Deserialize)]
+struct StoredInCommon {
+    thinnest_film: f64,
+    /// The basis, and of every window what its modes are in it.
+    pressure: Option<(StoredBasis, Vec<StoredMatrix>)>,
+    /// Of every window what the grid costs H_c of each of its snapshots: by its ends, and by its spacing.
+    grid_costs: Vec<Vec<(f32, f32)>>,
+}
+
 /// A window around an anchor.
 #[derive(Serialize, Deserialize)]
 struct StoredAnchor {
@@ -83,6 +98,9 @@ struct StoredAnchor {
 
 /// Accuracy of the coefficients of snapshots from which a model of many oils starts, relative to each one's own size.
 const START_ACCURACY: f64 = 1e-5;
+
+/// Accuracy of the share of each mode of a shared basis in the pressures of a window.
+const FACTOR_ACCURACY: f64 = 1e-7;
 
 #[derive(Serialize, Deserialize)]
 struct StoredWindow {
@@ -209,16 +227,18 @@ impl StoredWindow {
         self,
         grid: ContactGrid,
         domain: &Domain,
-        (scheme, residual): (Scheme, Option<StoredMatrix>),
+        deformation: Arc<PodBasis>,
+        ((scheme, residual), combined): ((Scheme, Option<StoredMatrix>), Option<Combined>),
     ) -> Result<Window, ModelFileError> {
         let nodes = grid.len();
         let damaged = |what| Err(ModelFileError::Damaged { what });
-        let (Some(pressure), Some(deformation)) = (self.pressure.into_basis(nodes), self.deformation.into_basis(nodes))
-        else {
-            return damaged("bases");
+        let pressure = match combined {
+            Some(combined) => self.pressure.into_singular_values().map(|values| combined.into_modes(values)),
+            None => self.pressure.into_basis(nodes).map(|basis| PressureModes::own(basis, &grid)),
         };
-        let modes = pressure.modes.ncols();
-        if modes == 0 || deformation.modes.ncols() == 0 {
+        let Some(pressure) = pressure else { return damaged("bases") };
+        let modes = pressure.count();
+        if modes == 0 {
             return damaged("bases");
         }
         let stored = StoredRows { rows: self.sampled_rows, reconstruction: self.reconstruction, scheme, residual };
@@ -267,6 +287,7 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
         Some(first) if k > 0 && shares_deformation(window, first) => StoredBasis::elsewhere(window.grid.len()),
         _ => basis(&window.deformation, window),
     };
+    let shared = model.windows.iter().all(|window| window.pressure.combined().is_some());
     let stored = StoredModel {
         title: model.title.clone(),
         domain: model.domain.clone(),
@@ -278,7 +299,10 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
                 m: w.m,
                 grid: w.grid.spec(),
                 penalty: w.penalty,
-                pressure: basis(&w.pressure, w),
+                pressure: match w.pressure.combined() {
+                    Some(_) if shared => StoredBasis::without_modes(w.pressure.singular_values(), w.grid.len()),
+                    _ => basis(w.pressure.basis(), w),
+                },
                 deformation: deformation(k, w),
                 sampling: w.sampling,
                 sampled_rows: w.sampled_rows.clone(),
@@ -309,7 +333,13 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
     let circles = || StoredShapes { radius_ratio: CIRCLES, windows: Vec::new() };
     match (shapes, oils, heated) {
         (Some(shapes), ..) => postcard::to_extend(&shapes, payload).ok(),
-        (None, Some(oils), _) => postcard::to_extend(&oils, postcard::to_extend(&circles(), payload).ok()?).ok(),
+        (None, Some(oils), _) => {
+            let payload = postcard::to_extend(&oils, postcard::to_extend(&circles(), payload).ok()?).ok()?;
+            match stored_in_common(model) {
+                Some(in_common) => postcard::to_extend(&in_common, payload).ok(),
+                None => Some(payload),
+            }
+        }
         (None, None, Some(heated)) => {
             let payload = postcard::to_extend(&circles(), payload).ok()?;
             postcard::to_extend(&heated, postcard::to_extend(&StoredOils::none(), payload).ok()?).ok()
@@ -320,8 +350,9 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
 
 /// Whether a window around an anchor has the very deformation basis of another one.
 fn shares_deformation(window: &Window, other: &Window) -> bool {
-    let same = || window.grid.spec() == other.grid.spec() && window.deformation.modes == other.deformation.modes;
-    window.anchor.is_some() && same()
+    let equal = || window.deformation.modes == other.deformation.modes;
+    let same = || Arc::ptr_eq(&window.deformation, &other.deformation) || equal();
+    window.anchor.is_some() && window.grid.spec() == other.grid.spec() && same()
 }
 
 impl StoredOils {
@@ -329,7 +360,7 @@ impl StoredOils {
     fn none() -> Self {
         let none = (0.0, 0.0);
         Self {
-            oils: OilDomain { viscosity_pa_s: none, exponent: none, lowest_hertz_pressure_pa: 0.0 },
+            oils: OilDomain { viscosity_pa_s: none, exponent: none, lowest_hertz_pressure_pa: 0.0, thinnest_film: 0.0 },
             windows: Vec::new(),
         }
     }
@@ -352,7 +383,7 @@ fn without_coefficients(snapshot: &Snapshot, window: &Window) -> Snapshot {
 fn stored_oils(model: &ReducedModel) -> Option<StoredOils> {
     let stored = |window: &Window| {
         let Moes { m, l } = window.anchor?;
-        let (snapshots, modes) = (&window.snapshots, window.pressure.modes.ncols());
+        let (snapshots, modes) = (&window.snapshots, window.pressure.count());
         let of = |i: usize, k: usize| snapshots.get(i)?.coefficients.get(k).copied();
         let coefficients = Mat::from_fn(snapshots.len(), modes, |i, k| of(i, k).unwrap_or_default());
         let size = |k: usize| (coefficients.col(k).squared_norm_l2() / snapshots.len() as f64).sqrt();
@@ -363,12 +394,87 @@ fn stored_oils(model: &ReducedModel) -> Option<StoredOils> {
     Some(StoredOils { oils: model.domain.oils?, windows: model.windows.iter().map(stored).collect::<Option<_>>()? })
 }
 
-/// Gives the windows of a model around anchors the deformation basis that the first one has for all.
-fn give_deformation(windows: &mut [StoredWindow]) {
-    if let Some((first, others)) = windows.split_first_mut() {
-        let elsewhere = |window: &&mut StoredWindow| window.deformation.columns() == 0;
-        others.iter_mut().filter(elsewhere).for_each(|window| window.deformation = first.deformation.clone());
+/// What the windows of a model of many oils share beside the deformation basis, and which films it leaves out; none where
+/// that is nothing.
+fn stored_in_common(model: &ReducedModel) -> Option<StoredInCommon> {
+    let thinnest_film = model.domain.oils?.thinnest_film;
+    let combined: Option<Vec<&Combined>> = model.windows.iter().map(|window| window.pressure.combined()).collect();
+    let pressure = combined.filter(|all| !all.is_empty()).and_then(|all| {
+        let (window, shared) = (model.windows.first()?, &all.first()?.shared);
+        let basis = StoredBasis::new(&shared.basis, window.grid.nodes().1, accuracy(window));
+        Some((basis, model.windows.iter().zip(all).map(|(window, own)| stored_factors(window, own)).collect()))
+    });
+    let cost = |snapshot: &Snapshot| snapshot.grid_cost.map(|cost| (cost.truncation as f32, cost.resolution as f32));
+    let costs: Option<Vec<Vec<_>>> =
+        model.windows.iter().map(|window| window.snapshots.iter().map(cost).collect()).collect();
+    let any = thinnest_film > 0.0 || pressure.is_some() || costs.is_some();
+    any.then(|| StoredInCommon { thinnest_film, pressure, grid_costs: costs.unwrap_or_default() })
+}
+
+/// What a window's modes are in the shared basis: of each mode of that as exactly as it appears in the window.
+fn stored_factors(window: &Window, combined: &Combined) -> StoredMatrix {
+    let (factors, count) = (&combined.factors, window.pressure.singular_values().len() as f64);
+    let sizes = window.pressure.singular_values().iter().take(factors.ncols());
+    let scales: Vec<f64> = sizes.map(|sigma| (sigma / count.sqrt()).max(f64::MIN_POSITIVE)).collect();
+    StoredMatrix::stepped(factors, 1, &scales, FACTOR_ACCURACY)
+}
+
+/// Gives the snapshots of a model's windows what their grid costs them; `None` where that does not fit them.
+fn give_grid_costs(windows: &mut [StoredWindow], costs: &[Vec<(f32, f32)>]) -> Option<()> {
+    if costs.is_empty() {
+        return Some(());
     }
+    let fits = |(window, costs): (&StoredWindow, &Vec<_>)| window.snapshots.len() == costs.len();
+    if costs.len() != windows.len() || !windows.iter().zip(costs).all(fits) {
+        return None;
+    }
+    for (window, costs) in windows.iter_mut().zip(costs) {
+        for (snapshot, (truncation, resolution)) in window.snapshots.iter_mut().zip(costs) {
+            let (truncation, resolution) = (f64::from(*truncation), f64::from(*resolution));
+            snapshot.grid_cost = Some(GridCost { truncation, resolution });
+        }
+    }
+    Some(())
+}
+
+/// Of each window what its pressure modes are made of; none where they are its own. `None` where that does not fit them.
+fn combined(
+    windows: &[StoredWindow],
+    grids: &[ContactGrid],
+    in_common: Option<StoredInCommon>,
+) -> Option<Vec<Option<Combined>>> {
+    let Some((basis, factors)) = in_common.and_then(|in_common| in_common.pressure) else {
+        return Some(vec![None; windows.len()]);
+    };
+    let grid = grids.first()?;
+    let alike = grids.iter().all(|other| other.spec() == grid.spec());
+    if !alike || factors.len() != windows.len() || basis.rows() != grid.len() {
+        return None;
+    }
+    let basis = basis.into_basis(grid.len())?;
+    let modes = basis.modes.ncols();
+    let shared = Arc::new(SharedBasis::new(basis, grid));
+    let of_window = |(factors, window): (StoredMatrix, &StoredWindow)| {
+        let factors = factors.into_mat(modes).filter(|factors| factors.ncols() <= window.snapshots.len())?;
+        Some(Some(Combined { shared: Arc::clone(&shared), factors }))
+    };
+    factors.into_iter().zip(windows).map(of_window).collect()
+}
+
+/// The deformation basis of each window; of windows around anchors those without one share that of the first. `None` where
+/// one is damaged, or has no modes.
+fn deformations(windows: &mut [StoredWindow], grids: &[ContactGrid], anchored: bool) -> Option<Vec<Arc<PodBasis>>> {
+    let own = windows.par_iter_mut().zip(grids).map(|(window, grid)| {
+        let stored = std::mem::replace(&mut window.deformation, StoredBasis::elsewhere(grid.len()));
+        if anchored && stored.columns() == 0 {
+            return Some(None);
+        }
+        let basis = stored.into_basis(grid.len()).filter(|basis| basis.modes.ncols() > 0)?;
+        Some(Some(Arc::new(basis)))
+    });
+    let own: Vec<Option<Arc<PodBasis>>> = own.collect::<Option<_>>()?;
+    let first = own.first().cloned().flatten();
+    own.into_iter().map(|own| own.or_else(|| first.clone())).collect()
 }
 
 /// Gives the snapshots of a model's windows their coefficients; `None` where they do not fit.
@@ -388,10 +494,11 @@ fn give_coefficients(windows: &mut [StoredWindow], oils: &mut StoredOils) -> Opt
 /// Gives a model its oils and the anchors of its windows; `None` where these do not fit it.
 fn anchor(model: &mut ReducedModel, StoredOils { oils, windows }: StoredOils) -> Option<()> {
     let anchors: Vec<(f64, f64)> = windows.iter().map(|window| window.moes).collect();
-    let OilDomain { viscosity_pa_s, exponent, lowest_hertz_pressure_pa: lowest } = oils;
+    let OilDomain { viscosity_pa_s, exponent, lowest_hertz_pressure_pa: lowest, .. } = oils;
     let sound = [viscosity_pa_s, exponent, (lowest, model.domain.max_hertz_pressure_pa)]
         .into_iter()
-        .all(|interval| sound_interval(interval, f64::MAX));
+        .all(|interval| sound_interval(interval, f64::MAX))
+        && sound_interval((0.0, oils.thinnest_film), f64::MAX);
     let placed = |&(m, l): &(f64, f64)| Moes { m, l }.check().is_ok();
     let grid = model.windows.first()?.grid.spec();
     let shared = model.windows.iter().all(|window| window.grid.spec() == grid);
@@ -430,7 +537,7 @@ fn shape(model: &mut ReducedModel, StoredShapes { radius_ratio, windows }: Store
         if !sound(ratios) || radii.len() != window.snapshots.len() || window.cavitation != Cavitation::Penalty {
             return None;
         }
-        window.shapes = Some(Shapes::new(grid, &window.pressure.modes, ratios).ok()?);
+        window.shapes = Some(Shapes::new(grid, &window.pressure.basis().modes, ratios).ok()?);
         for (snapshot, radius_y) in window.snapshots.iter_mut().zip(radii) {
             snapshot.point.radius_y_m = Some(radius_y);
             snapshot.point.check().ok()?;
@@ -445,12 +552,13 @@ struct Further {
     further: StoredFurther,
     shapes: Option<StoredShapes>,
     oils: Option<StoredOils>,
+    in_common: Option<StoredInCommon>,
     heated: Option<StoredHeated>,
 }
 
 /// What follows the model in a payload; `None` where it cannot be understood.
 fn further(rest: &[u8], windows: usize) -> Option<Further> {
-    let Further { mut further, mut shapes, mut oils, mut heated } = Further::default();
+    let Further { mut further, mut shapes, mut oils, mut in_common, mut heated } = Further::default();
     if !rest.is_empty() {
         let (known, rest) = postcard::take_from_bytes::<StoredFurther>(rest).ok()?;
         if known.schemes.len() != windows {
@@ -466,16 +574,20 @@ fn further(rest: &[u8], windows: usize) -> Option<Further> {
                 let of_circles = known.windows.is_empty() && known.radius_ratio == CIRCLES;
                 if rest.is_empty() {
                     oils = of_circles.then_some(Some(known_oils))?;
+                } else if !known_oils.windows.is_empty() {
+                    let (known, rest) = postcard::take_from_bytes::<StoredInCommon>(rest).ok()?;
+                    in_common = (rest.is_empty() && of_circles).then_some(Some(known))?;
+                    oils = Some(known_oils);
                 } else {
                     let (known, rest) = postcard::take_from_bytes::<StoredHeated>(rest).ok()?;
-                    let alone = rest.is_empty() && of_circles && known_oils.windows.is_empty();
+                    let alone = rest.is_empty() && of_circles;
                     heated = alone.then_some(Some(known))?;
                 }
             }
         }
     }
     further.schemes.resize_with(windows, Default::default);
-    Some(Further { further, shapes, oils, heated })
+    Some(Further { further, shapes, oils, in_common, heated })
 }
 
 /// Gives the windows of a model their law of rupture; `None` where it does not fit them.
@@ -513,7 +625,7 @@ pub(super) fn decode(payload: &[u8]) -> Result<ReducedModel, ModelFileError> {
         .map_err(|_| ModelFileError::Damaged { what: "its content cannot be decoded" })?;
     let StoredModel { mut title, mut domain, mut windows, scene, mut log } = stored;
     let damaged = |what| ModelFileError::Damaged { what };
-    let Further { further, shapes, mut oils, heated } =
+    let Further { further, shapes, mut oils, in_common, heated } =
         further(rest, windows.len()).ok_or(damaged("rupture and schemes"))?;
     if let Some(StoredHeated { heat, domain: of_heat }) = heated {
         (domain.lubricant.heat, domain.heat) = (Some(heat.into()), Some(of_heat));
@@ -528,15 +640,20 @@ pub(super) fn decode(payload: &[u8]) -> Result<ReducedModel, ModelFileError> {
     }
     check_counts(&windows, payload.len())?;
     if let Some(oils) = &mut oils {
+        oils.oils.thinnest_film = in_common.as_ref().map_or(0.0, |in_common| in_common.thinnest_film);
+        let costs = in_common.as_ref().map_or(&[][..], |in_common| &in_common.grid_costs);
+        give_grid_costs(&mut windows, costs).ok_or(damaged("costs of its grid"))?;
         give_coefficients(&mut windows, oils).ok_or(damaged("oils"))?;
-        give_deformation(&mut windows);
     }
     // They are shown on terminals.
     log.iter_mut().chain([&mut title]).for_each(|text| text.retain(|letter| !letter.is_control()));
     let grids = grids(&windows)?;
-    let parts = windows.into_par_iter().zip(grids).zip(further.schemes);
-    let windows: Vec<Window> =
-        parts.map(|((w, grid), scheme)| w.into_window(grid, &domain, scheme)).collect::<Result<_, _>>()?;
+    let combined = combined(&windows, &grids, in_common).ok_or(damaged("shared bases"))?;
+    let deformations = deformations(&mut windows, &grids, oils.is_some()).ok_or(damaged("bases"))?;
+    let parts = windows.into_par_iter().zip(grids).zip(deformations).zip(further.schemes.into_par_iter().zip(combined));
+    let windows: Vec<Window> = parts
+        .map(|(((w, grid), deformation), further)| w.into_window(grid, &domain, deformation, further))
+        .collect::<Result<_, _>>()?;
     let Some(kind) = windows.first().map(|window| window.grid.kind()) else {
         return Err(ModelFileError::Damaged { what: "no windows" });
     };
@@ -551,7 +668,6 @@ pub(super) fn decode(payload: &[u8]) -> Result<ReducedModel, ModelFileError> {
     if let Some(oils) = oils {
         anchor(&mut model, oils).ok_or(damaged("oils"))?;
     }
-    prove(&model)?;
     Ok(model)
 }
 

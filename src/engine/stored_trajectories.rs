@@ -15,7 +15,7 @@ use crate::solver::physics::lubricant::{Cavitation, Sliding};
 use crate::solver::reduced::transient::{
     CoupledMarch, Reach, TrajectoryDomain, TrajectoryModel, TrajectoryStart, only_course,
 };
-use crate::solver::reduced::{Domain, Sampling, Snapshot, Window};
+use crate::solver::reduced::{Domain, PressureModes, Sampling, Snapshot, Window};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -89,7 +89,7 @@ pub(super) fn encode(model: &TrajectoryModel) -> Option<Vec<u8>> {
         },
         grid: window.grid.spec(),
         penalty: window.penalty,
-        pressure: StoredBasis::exact(&window.pressure),
+        pressure: StoredBasis::exact(window.pressure.basis()),
         deformation: StoredBasis::exact(&window.deformation),
         sampling: window.sampling,
         rows: StoredRows {
@@ -171,6 +171,7 @@ pub(super) fn decode(payload: &[u8]) -> Result<Arc<TrajectoryModel>, ModelFileEr
     let starts: Option<Vec<TrajectoryStart>> =
         stored.starts.into_iter().map(|start| start_of(start, cavitation, modes, &grid)).collect();
     let starts = starts.filter(|starts| !starts.is_empty()).ok_or(damaged("beginnings of its trainings"))?;
+    let pressure = PressureModes::own(pressure, &grid);
     let mut window = Window::new((0.0, f64::INFINITY), grid, pressure, deformation, boundaries, sampling, rows);
     (window.penalty, window.cavitation) = (penalty, cavitation);
     let model = Arc::new(TrajectoryModel { title, frame, window, starts, domain, scene, log });

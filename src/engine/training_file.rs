@@ -336,7 +336,7 @@ mod tests {
         let (grid, plan) = (GridSpec::EXPLORER, Plan::FarthestPoint { snapshots: 8 });
         let spec = TrainingSpec { title: "kept".to_owned(), ..TrainingSpec::new(range, (10.0, 20.0), grid, plan) };
         let point = OperatingPoint::TABLE_2_1;
-        let solved = Solved { place: 0, point, pressure: vec![0.5; 633], h_0: -0.1, h_c: 0.04 };
+        let solved = Solved { place: 0, point, pressure: vec![0.5; 633], h_0: -0.1, h_c: 0.04, grid_cost: None };
         let window = WindowState {
             window: WindowSpec::new((10.0, 20.0), GridSpec::EXPLORER),
             seed: 1,

@@ -34,11 +34,15 @@ fn refused(flaw: Flaw) -> ModelFileError {
 /// # Errors
 /// When the file cannot be read, is foreign, newer, cut off or damaged, or a model of stationary contacts.
 pub fn read(path: &Path) -> Result<Arc<TrajectoryModel>, ModelFileError> {
-    let bytes = FORMAT.read(path).map_err(|reason| match reason {
+    from_bytes(&content(path)?)
+}
+
+/// The content of such a file, of no more than its announced size.
+pub(super) fn content(path: &Path) -> Result<Vec<u8>, ModelFileError> {
+    FORMAT.read(path).map_err(|reason| match reason {
         Unreadable::Io(source) => ModelFileError::Io { path: path.to_owned(), source },
         Unreadable::Flaw(flaw) => refused(flaw),
-    })?;
-    from_bytes(&bytes)
+    })
 }
 
 /// Writes the file of a model in time as a whole or not at all.

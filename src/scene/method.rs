@@ -67,7 +67,7 @@ impl Method {
     pub fn options(&self, window: &Window) -> ReducedOptions {
         let Self::Reduced { pressure_loss, deformation_loss, .. } = self else { return ReducedOptions::default() };
         ReducedOptions {
-            pressure_modes: pressure_loss.map(|loss| window.pressure.modes_for(loss)),
+            pressure_modes: pressure_loss.map(|loss| window.pressure.basis().modes_for(loss)),
             deformation_modes: deformation_loss.map(|loss| window.deformation.modes_for(loss)),
             ..ReducedOptions::default()
         }

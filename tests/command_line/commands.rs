@@ -64,16 +64,18 @@ fn complementarity_is_asked_for_by_its_name_and_its_multiplier_is_written() {
         ruptured += usize::from(multiplier > 0.0);
     }
     assert!(ruptured > 50);
-    // The model of lines was trained by it and serves the penalty's contacts too, that of points by the penalty.
+    // The models of lines and circles were trained by it and serve the penalty's contacts too, that of ellipses by the
+    // penalty.
     let reduced = |of: &[&str]| json(&program(&[of, &["--method", "reduced"]].concat()));
-    for of in [&asked[..], &asked[..6]] {
-        let line = reduced(of);
-        assert_eq!((&line["cavitation"], line.get("warning")), (&"complementarity".into(), None));
-    }
     let point = ["solve", "--json", "--contact", "point", "--moes-m", "50", "--moes-l", "6"];
-    let point = reduced(&[&point[..], &["--cavitation", "complementarity"]].concat());
-    assert_eq!(point["cavitation"], "penalty");
-    assert!(point["warning"].as_str().unwrap().contains("complementarity"));
+    let held = [&point[..], &["--cavitation", "complementarity"]].concat();
+    for of in [&asked[..], &asked[..6], &point, &held] {
+        let answer = reduced(of);
+        assert_eq!((&answer["cavitation"], answer.get("warning")), (&"complementarity".into(), None));
+    }
+    let ellipse = reduced(&[&held[..], &["--radius-y", "0.02"]].concat());
+    assert_eq!(ellipse["cavitation"], "penalty");
+    assert!(ellipse["warning"].as_str().unwrap().contains("complementarity"));
 }
 
 #[test]

@@ -125,7 +125,7 @@ fn training() -> TrainingState {
         window: WindowSpec::new((10.0, 20.0), grid),
         seed: 1,
         inherited: 0,
-        solved: vec![Solved { place: 0, point, pressure: vec![0.5; 633], h_0: -0.1, h_c: 0.04 }],
+        solved: vec![Solved { place: 0, point, pressure: vec![0.5; 633], h_0: -0.1, h_c: 0.04, grid_cost: None }],
         pending: vec![(1, point)],
         planned: true,
         search: Search::default(),

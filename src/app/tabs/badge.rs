@@ -8,6 +8,7 @@ use crate::app::controls::{described, named, sentence};
 use crate::app::display::Thresholds;
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
+use crate::solver::full::GridCost;
 use crate::solver::reduced::ErrorEstimate;
 use egui::{Align, Color32, CornerRadius, Frame, Label, Layout, Margin, RichText, Stroke, Ui, vec2};
 
@@ -126,12 +127,18 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
                              (3.15) says whether the reduced equations are met, not how large the error of the film is",
                         ),
                     };
+                    let grid = picture.solution.grid_cost.map(GridCost::total).filter(|cost| cost.is_finite());
+                    let detail = grid.map_or(detail.clone(), |cost| {
+                        format!("{detail}; the grid costs {{H_c}} {}", numbers::error_percent(cost))
+                    });
                     let next = match &answers.verify_failure {
                         Some(failure) => failure.message.trim_end_matches('.'),
                         None => "True errors follow with the full solve",
                     };
-                    let kind = if answers.verify_failure.is_some() { Kind::Warning } else { Kind::Neutral };
-                    make("Reduced model", detail, format!("{meaning}. {next}. {how}"), kind)
+                    let doubtful = answers.verify_failure.is_some() || picture.costly_grid;
+                    let kind = if doubtful { Kind::Warning } else { Kind::Neutral };
+                    let of_grid = picture.unresolved.as_ref().map_or_else(String::new, |why| format!("{}. ", sentence(why)));
+                    make("Reduced model", detail, format!("{meaning}. {of_grid}{next}. {how}"), kind)
                 }
             }
         }

@@ -15,7 +15,7 @@ pub fn of_kind(kind: ContactKind) -> Vec<(&'static str, &'static TrainingSpec)> 
     all.into_iter().filter_map(|(name, spec)| Some((name, spec?))).collect()
 }
 
-/// Table 3.4's box, corrected: the embedded model of point contacts.
+/// Table 3.4's box, corrected, of one oil.
 fn table_3_4() -> Option<&'static TrainingSpec> {
     static SPEC: LazyLock<Option<TrainingSpec>> =
         LazyLock::new(|| spec_of(include_str!("../../../scenes/training/table_3_4_model.ron")));
@@ -29,7 +29,7 @@ fn table_3_1() -> Option<&'static TrainingSpec> {
     SPEC.as_ref()
 }
 
-/// The embedded model's range: what the sliders reach.
+/// What the sliders reach, of one oil.
 fn slider_range() -> Option<&'static TrainingSpec> {
     static SPEC: LazyLock<Option<TrainingSpec>> =
         LazyLock::new(|| spec_of(include_str!("../../../scenes/training/slider_range_model.ron")));

@@ -33,7 +33,7 @@ impl FieldErrors {
                 continue;
             }
             while own.next_if(|other| other.time < state.time - ROUNDING).is_some() {}
-            let coefficients = window.pressure.coefficients(weights, |i| state.pressure[i]);
+            let coefficients = window.pressure.basis().coefficients(weights, |i| state.pressure[i]);
             let whole = norm(&|i| state.pressure[i]);
             // What the modes hold is orthogonal to what they miss.
             let missed = (whole * whole - dot(&coefficients, &coefficients)).max(0.0).sqrt();

@@ -186,16 +186,17 @@ pub(super) fn work(
             Ok(Content::Rows(rows))
         }
         Part::Training(grid, points) => {
-            let lubricant = scene.training().map(|spec| spec.lubricant).unwrap_or_default();
-            Ok(Content::Contacts(solve_all(*grid, lubricant, points, observer)?))
+            let spec = scene.training();
+            let how = spec.map_or_else(Default::default, |spec| (spec.lubricant, spec.tells_grid_costs()));
+            Ok(Content::Contacts(solve_all(*grid, how, points, observer)?))
         }
     }
 }
 
-/// Full solutions of a training's contacts, as it computes them itself.
+/// Full solutions of a training's contacts, as it computes them itself, `judged` by what the grid costs them or not.
 fn solve_all(
     grid: GridSpec,
-    lubricant: Lubricant,
+    (lubricant, judged): (Lubricant, bool),
     points: &[(usize, OperatingPoint)],
     observer: &dyn Observer,
 ) -> Result<Vec<(usize, OperatingPoint, Option<Solved>)>, EngineError> {
@@ -205,6 +206,7 @@ fn solve_all(
         if observer.cancelled() {
             return Err(EngineError::from(TrainingError::Cancelled));
         }
+        let solution = if judged { solver.judged(solution) } else { solution };
         let solved = if solution.converged() { Some(Solved::new(*place, solution)) } else { None };
         Ok((*place, *point, solved))
     };

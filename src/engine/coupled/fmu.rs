@@ -199,15 +199,15 @@ pub fn library_file() -> String {
     format!("{}{IDENTIFIER}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX)
 }
 
-/// A unit of a model, given by the content of its file, with the library that solves it.
+/// A unit of a model and the content of its file, with the library that solves it.
 ///
 /// # Errors
-/// With a sentence where the model is refused or has no contact to begin with.
-pub fn archive(model: Vec<u8>, pressed: Pressed, library: Vec<u8>) -> Result<Vec<u8>, String> {
-    let description = description(&model, pressed)?;
+/// With a sentence where the model has no contact to begin with, or cannot be driven so.
+pub fn archive(model: &SavedModel, content: Vec<u8>, pressed: Pressed, library: Vec<u8>) -> Result<Vec<u8>, String> {
+    let description = description(model, &content, pressed)?;
     let files = [
         ("modelDescription.xml".to_owned(), description.into_bytes()),
-        (MODEL.to_owned(), model),
+        (MODEL.to_owned(), content),
         (library_place(), library),
     ];
     Ok(zip(files))
@@ -235,14 +235,13 @@ pub fn first_inputs(model: &SavedModel, pressed: Pressed) -> Result<Inputs, Stri
     }
 }
 
-/// `modelDescription.xml`.
-fn description(bytes: &[u8], pressed: Pressed) -> Result<String, String> {
-    let model = SavedModel::from_bytes(bytes).map_err(|error| error.to_string())?;
-    let inputs = first_inputs(&model, pressed)?;
+/// `modelDescription.xml` of a model and the content of its file.
+fn description(model: &SavedModel, content: &[u8], pressed: Pressed) -> Result<String, String> {
+    let inputs = first_inputs(model, pressed)?;
     let mut text = String::new();
     let (title, version) = (escaped(model.title()), env!("CARGO_PKG_VERSION"));
-    let guid = identity(bytes, pressed);
-    let (kind, about, experiment) = match &model {
+    let guid = identity(content, pressed);
+    let (kind, about, experiment) = match model {
         SavedModel::Stationary(model) => {
             let kind = model.contact();
             (kind, format!("Lubricated {} contact by a reduced model", kind.name()), (1.0, 0.01))
@@ -290,7 +289,7 @@ fn description(bytes: &[u8], pressed: Pressed) -> Result<String, String> {
     text.push_str("  <ModelVariables>\n");
     let (mut index, mut outputs) = (0, Vec::new());
     for (reference, real) in REALS.iter().enumerate() {
-        let Some(role) = real.role(&model, pressed) else { continue };
+        let Some(role) = real.role(model, pressed) else { continue };
         index += 1;
         let how = match role {
             Role::Input => "causality=\"input\" variability=\"continuous\"",
@@ -413,13 +412,15 @@ mod tests {
     #[test]
     fn a_description_names_every_variable_and_its_identity() {
         let bytes = Embedded::Circle.bytes();
+        let model = SavedModel::from_bytes(bytes).unwrap();
         for pressed in [Pressed::Load, Pressed::Approach] {
-            let text = description(bytes, pressed).unwrap();
+            let text = description(&model, bytes, pressed).unwrap();
             assert_eq!(text.matches("<ScalarVariable ").count(), REALS.len() + TRUTHS.len());
             assert_eq!(pressed_of(&identity(bytes, pressed), bytes), Some(pressed));
         }
         assert_eq!(pressed_of("load-0000000000000000", bytes), None);
-        assert!(description(Embedded::Line.bytes(), Pressed::Approach).is_err());
+        let line = SavedModel::from_bytes(Embedded::Line.bytes()).unwrap();
+        assert!(description(&line, Embedded::Line.bytes(), Pressed::Approach).is_err());
     }
 
     #[test]

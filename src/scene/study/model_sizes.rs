@@ -190,7 +190,7 @@ impl Question for ModelSizes {
         let lubricant = experiment.lubricant;
         let full = full_solutions(|_| window.grid.clone(), &points, lubricant, observer)?;
         let truth = Truth { points: &points, full, lubricant };
-        let own = (window.pressure.modes.ncols(), window.sampled_rows.len());
+        let own = (window.pressure.count(), window.sampled_rows.len());
         let sizes = ladder(FEWEST_MODES, own.0, self.modes);
         let total = sizes.len() + self.rows_per_mode.len();
         for (i, modes) in sizes.into_iter().enumerate() {

@@ -147,7 +147,7 @@ impl Trained {
     }
 
     fn bases(&self) -> [(&'static str, &PodBasis); 2] {
-        [("p", &self.window().pressure), ("delta", &self.window().deformation)]
+        [("p", self.window().pressure.basis()), ("delta", &self.window().deformation)]
     }
 }
 
@@ -165,7 +165,7 @@ struct Truth {
 
 /// Modes of the smallest pressure basis.
 fn common_modes(plans: &[&Trained]) -> usize {
-    plans.iter().map(|plan| plan.window().pressure.modes.ncols()).min().unwrap_or(0)
+    plans.iter().map(|plan| plan.window().pressure.count()).min().unwrap_or(0)
 }
 
 impl PlanComparison {
@@ -308,7 +308,7 @@ impl Question for PlanComparison {
         for plan in &plans {
             let points = plan.window().snapshots.iter().map(|s| s.point.moes()).map(|moes| [moes.m, moes.l]);
             places.add(plan.plan.name.as_str(), Marks::Dots, points);
-            let losses = losses(&plan.window().pressure).into_iter().enumerate();
+            let losses = losses(plan.window().pressure.basis()).into_iter().enumerate();
             decay.add(plan.plan.name.as_str(), Marks::Line, losses.map(|(k, loss)| [k as f64, loss]));
         }
         let y = ChartAxis::log("Relative error of H_c");
@@ -414,7 +414,7 @@ fn trajectory_table(tested: &[&Tested]) -> Table {
 
 /// ‖P − V_k V_kᵀ W P‖/‖P‖ of full pressures under the grid's weights, with the first k modes.
 fn unseen(window: &Window, modes: usize, truth: &[Option<Solution>]) -> Vec<f64> {
-    let (basis, weights) = (&window.pressure.modes, window.grid.weights());
+    let (basis, weights) = (&window.pressure.basis().modes, window.grid.weights());
     let size = |p: &[f64]| weights.iter().zip(p).map(|(w, p)| w * p * p).sum::<f64>();
     let left = |full: &Solution| {
         let mut rest = full.pressure.clone();

@@ -151,7 +151,7 @@ impl Question for SamplingComparison {
         let mut state = TrainingState::new(TrainingSpec { evidence: 0, ..training });
         let trained = train_resumable(&mut state, observer)?;
         let window = &trained.windows[0];
-        tell(Row::Trained { snapshots: state.solutions(), modes: window.pressure.modes.ncols() });
+        tell(Row::Trained { snapshots: state.solutions(), modes: window.pressure.count() });
         let truth = full_solutions(|_| window.grid.clone(), &points[..self.compare], experiment.lubricant, observer)?;
         for way in &self.samplings {
             (state.spec.sampling, state.spec.rows_per_mode) = (way.sampling, way.rows_per_mode);

@@ -195,7 +195,7 @@ impl Question for SchemesInTime {
             let ComparedScheme { scheme, sampling, rows_per_mode, .. } = *way;
             let training = TrajectoryTraining { loss: self.loss, rows_per_mode, seed: 1, scheme, sampling };
             let model = Arc::new(train_trajectories(line, &full.trainings, &training, observer)?);
-            let size = [model.window.pressure.modes.ncols(), model.window.sampled_rows.len()];
+            let size = [model.window.pressure.count(), model.window.sampled_rows.len()];
             for (drive, full) in self.tests.iter().zip(&full.tests) {
                 let transient = self.march(drive, (own.clone(), Keep::Scalars));
                 let mut march = ReducedMarch::new(&model, &transient)?;

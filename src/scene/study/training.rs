@@ -79,7 +79,7 @@ impl Question for TrainingSpec {
         let Some(Row { model, .. }) = rows.first() else { return Vec::new() };
         let decay = |(k, window): (usize, &Window)| {
             let mut decay = Table::new(format!("singular_values_{k}"), &["k", "pressure", "deformation"]);
-            let (p, d) = (&window.pressure.singular_values, &window.deformation.singular_values);
+            let (p, d) = (&window.pressure.singular_values(), &window.deformation.singular_values);
             decay.rows.extend((0..p.len().max(d.len())).map(|i| {
                 let value = |of: &[f64]| of.get(i).copied().unwrap_or(f64::NAN);
                 vec![(i + 1) as f64, value(p), value(d)]
@@ -95,7 +95,7 @@ impl Question for TrainingSpec {
         let windows = rows.iter().flat_map(|row| &row.model.windows);
         for window in windows {
             let (from, to) = window.m;
-            for (name, basis) in [("pressure", &window.pressure), ("deformation", &window.deformation)] {
+            for (name, basis) in [("pressure", window.pressure.basis()), ("deformation", &*window.deformation)] {
                 let values = &basis.singular_values;
                 let first = values.first().copied().unwrap_or(1.0);
                 let points = values.iter().enumerate().map(|(i, value)| [(i + 1) as f64, value / first]);

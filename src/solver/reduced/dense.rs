@@ -4,6 +4,7 @@
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::linalg::matmul::matmul;
+use faer::perm::PermRef;
 use faer::{Accum, Mat, MatMut, MatRef, Par, Spec};
 
 /// A B.
@@ -63,6 +64,14 @@ impl SmallSystem {
         let (matrix, perms) = (self.matrix.as_mut(), (&mut self.perm, &mut self.perm_inverse));
         let (_, perm) = factor::lu_in_place(matrix, perms.0, perms.1, Par::Seq, stack, Spec::default());
         let lu = self.matrix.as_ref();
+        let rhs = MatMut::from_column_major_slice_mut(&mut self.rhs, lu.nrows(), 1);
+        solve::solve_in_place(lu, lu, perm, rhs, Par::Seq, stack);
+    }
+
+    /// Solves it for another right-hand side, by the factors of the last [`Self::solve`].
+    pub fn solve_again(&mut self) {
+        let (lu, stack) = (self.matrix.as_ref(), MemStack::new(&mut self.memory));
+        let perm = PermRef::new_checked(&self.perm, &self.perm_inverse, lu.nrows());
         let rhs = MatMut::from_column_major_slice_mut(&mut self.rhs, lu.nrows(), 1);
         solve::solve_in_place(lu, lu, perm, rhs, Par::Seq, stack);
     }

@@ -57,9 +57,9 @@ pub struct ErrorMeasures {
 impl ErrorMeasures {
     /// Precomputes E_δ for a window and the truncation of the options.
     pub fn new(window: &Window, options: &ReducedOptions, norm: Norm) -> Self {
-        let modes = options.pressure_modes.unwrap_or(usize::MAX).clamp(1, window.pressure.modes.ncols());
+        let modes = options.pressure_modes.unwrap_or(usize::MAX).clamp(1, window.pressure.count());
         let kept = options.deformation_modes.map_or(0, |k| k.clamp(1, window.deformation.modes.ncols()));
-        let flexed = window.flexed.get(.., ..modes);
+        let flexed = window.pressure.flexed().get(.., ..modes);
         let basis = window.deformation.modes.get(.., ..kept);
         let cells = deformation_weights(&window.grid);
         let weighted = Mat::from_fn(basis.nrows(), kept, |i, j| cells[i] * basis[(i, j)]);
@@ -196,7 +196,7 @@ mod tests {
                 let cells = deformation_weights(&window.grid);
                 let direct: f64 = (0..cells.len())
                     .map(|i| {
-                        let bent: f64 = (0..modes).map(|k| window.flexed[(i, k)] * state[k]).sum();
+                        let bent: f64 = (0..modes).map(|k| window.pressure.flexed()[(i, k)] * state[k]).sum();
                         let kept: f64 =
                             (0..kept_modes).map(|k| window.deformation.modes[(i, k)] * state[modes + k]).sum();
                         let weight = if norm == Norm::Euclidean { 1.0 } else { cells[i] * fields.mesh.scale };

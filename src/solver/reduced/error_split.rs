@@ -213,7 +213,7 @@ impl References {
             ContactGrid::Point(grid) => ContactSolver::Point(PointSolver::on(second_grid(grid.spec).build()?)),
         };
         let mut exact = window.clone();
-        exact.set_rows(Sampling::All, all_rows(&TestSpace::new(&window.pressure, &window.grid)));
+        exact.set_rows(Sampling::All, all_rows(&TestSpace::new(window.pressure.basis(), &window.grid)));
         let exact = ReducedModel { windows: vec![exact], ..model.clone() };
         Ok(Self { all_rows: Online::new(Arc::new(exact), *options), full: ContactSolver::on(&window.grid), second })
     }
@@ -230,8 +230,8 @@ fn converged(solution: Solution, grid: &str) -> Result<Solution, SplitError> {
 /// The projection of a full state onto the trial space of a reduced solution, among pressures that carry the load.
 fn best_approximation(window: &Window, full: &Solution, reduced: &ReducedSolution) -> ReducedSolution {
     let weights = window.grid.weights();
-    let mut coefficients = window.pressure.coefficients(weights, |i| full.pressure[i]);
-    let mut load = window.pressure.coefficients(weights, |_| 1.0);
+    let mut coefficients = window.pressure.basis().coefficients(weights, |i| full.pressure[i]);
+    let mut load = window.pressure.basis().coefficients(weights, |_| 1.0);
     coefficients.truncate(reduced.coefficients.len());
     load.truncate(reduced.coefficients.len());
     // The modes are orthonormal, so the shortest way to the right load runs along its own coefficients.

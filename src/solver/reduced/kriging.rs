@@ -35,7 +35,7 @@ impl Kriging {
     /// Of the snapshots of a window; `None` where they are too few or do not differ enough.
     pub fn of(window: &Window) -> Option<Self> {
         let snapshots = &window.snapshots;
-        let (count, modes) = (snapshots.len(), window.pressure.modes.ncols());
+        let (count, modes) = (snapshots.len(), window.pressure.count());
         let lines = snapshots.first()?.fronts.len();
         if count < FEWEST {
             return None;

@@ -6,6 +6,7 @@
 //! ([`crate::solver::discrete::grid::ContactGrid`]) and in the penalty of a window.
 
 mod calibration;
+mod combined;
 mod contact_rows;
 mod cubature;
 pub(crate) mod dense;
@@ -30,6 +31,7 @@ mod traction_curve;
 pub mod transient;
 
 pub use calibration::{Beside, Calibration, ErrorEstimate, Estimated, Evidence, Features, LEAST_EVIDENCE, Measured};
+pub use combined::{Combined, PressureModes, SharedBasis};
 pub use cubature::{GoalEquations, cubature};
 pub use error_measures::{ErrorMeasures, Norm, Residuals};
 pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
@@ -39,6 +41,7 @@ pub use model::{
     CIRCLES, Domain, HeatDomain, ModelSize, OilDomain, ReducedModel, SHAPE_WEIGHT, SlidingDomain, Snapshot, Trust,
     Window, deformation_weights, distance, separation,
 };
+pub use oils::expected_film;
 pub(crate) use oils::{BLENDED, apart, from_anchor, oil_place};
 pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution, Starts};
 pub use operators::Warmth;

@@ -1,19 +1,21 @@
 //! What a reduced model is made of.
 
 use super::calibration::Calibration;
+use super::combined::PressureModes;
 use super::minimisation::Scheme;
-use super::oils::{apart, oil_place};
+use super::oils::{apart, expected_film, oil_place};
 use super::pod::PodBasis;
 use super::sampling::{SampledRows, Sampling};
 use super::shapes::Shapes;
 use super::traction::TractionRule;
 use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN};
 use crate::solver::discrete::reynolds::PENALTY;
-use crate::solver::full::Problem;
+use crate::solver::full::{GridCost, Problem};
 use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint};
 use crate::solver::physics::lubricant::{Cavitation, Lubricant, roelands_exponent};
 use faer::Mat;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// The range a model declares to be trained for: an interval each of M, L, α and p_H at its η₀, for its lubricant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -65,6 +67,9 @@ pub struct OilDomain {
     pub exponent: (f64, f64),
     /// Smallest p_H \[Pa\].
     pub lowest_hertz_pressure_pa: f64,
+    /// Thinnest H_c, by [`expected_film`]; 0 where there is no limit. Files keep it in a place of its own.
+    #[serde(skip)]
+    pub thinnest_film: f64,
 }
 
 fn circles() -> (f64, f64) {
@@ -110,6 +115,9 @@ pub struct Snapshot {
     /// Files keep them in a place of their own.
     #[serde(skip)]
     pub fronts: Vec<usize>,
+    /// What the grid costs H_c, where the training asked. Files keep it in a place of its own.
+    #[serde(skip)]
+    pub grid_cost: Option<GridCost>,
 }
 
 /// An operating point as model files have it, without a radius across.
@@ -143,13 +151,11 @@ pub struct Window {
     pub penalty: f64,
     /// How its films rupture: of complementarity it has the solutions, the boundary that moves, and no penalty.
     pub cavitation: Cavitation,
-    /// Pressure basis.
-    pub pressure: PodBasis,
-    /// Deformation basis (of K P in the reference coordinate ξ).
-    pub deformation: PodBasis,
-    /// K V_p in ξ over the node array: the exact deformation operator, of a circle.
-    pub flexed: Mat<f64>,
-    /// The same of ellipses, where the window knows them.
+    /// Pressure basis, with K V_p: the exact deformation operator, of a circle.
+    pub pressure: PressureModes,
+    /// Deformation basis (of K P in the reference coordinate ξ); windows around anchors share one.
+    pub deformation: Arc<PodBasis>,
+    /// K V_p of ellipses, where the window knows them.
     pub shapes: Option<Shapes>,
     /// How rows were sampled.
     pub sampling: Sampling,
@@ -240,18 +246,17 @@ pub fn deformation_weights(grid: &ContactGrid) -> Vec<f64> {
 const FAR_RESIDUAL: f64 = 10.0;
 
 impl Window {
-    /// Assembles a window from its bases, with the penalty of the full system; K V_p is computed here, so that it need
-    /// not be stored.
+    /// Assembles a window from its bases, with the penalty of the full system.
     pub fn new(
         m: (f64, f64),
         grid: ContactGrid,
-        pressure: PodBasis,
-        deformation: PodBasis,
+        pressure: PressureModes,
+        deformation: impl Into<Arc<PodBasis>>,
         snapshots: Vec<Snapshot>,
         sampling: Sampling,
         rows: SampledRows,
     ) -> Self {
-        let flexed = grid.flex(&pressure.modes);
+        let deformation = deformation.into();
         let SampledRows { rows: sampled_rows, reconstruction, scheme, residual } = rows;
         Self {
             m,
@@ -261,7 +266,6 @@ impl Window {
             cavitation: Cavitation::Penalty,
             pressure,
             deformation,
-            flexed,
             shapes: None,
             sampling,
             sampled_rows,
@@ -291,7 +295,7 @@ impl Window {
 
     /// How large it is with all its modes.
     pub fn size(&self) -> ModelSize {
-        let (pressure, deformation) = (self.pressure.modes.ncols(), self.deformation.modes.ncols());
+        let (pressure, deformation) = (self.pressure.count(), self.deformation.modes.ncols());
         ModelSize { pressure, deformation, rows: self.sampled_rows.len() }
     }
 
@@ -389,7 +393,7 @@ impl Domain {
             return Trust::Outside(why);
         }
         if let Some(oils) = &self.oils {
-            if let Some(outside) = oils.outside(point) {
+            if let Some(outside) = oils.outside(point).or_else(|| self.thinner_film(problem)) {
                 return Trust::Outside(outside);
             }
         } else if (point.viscosity_pa_s / self.viscosity_pa_s - 1.0).abs() > 1e-6 {
@@ -431,7 +435,19 @@ impl Domain {
     /// such shapes were never trained. Of another fluid inside, the bases still know the shapes, and the reduced
     /// equations are its own.
     pub fn strange_shape(&self, problem: &Problem) -> Option<String> {
-        self.no_circle(&problem.point).or_else(|| self.shapes(problem).iter().find_map(Bounded::outside))
+        let outside = || self.shapes(problem).iter().find_map(Bounded::outside);
+        self.no_circle(&problem.point).or_else(outside).or_else(|| self.thinner_film(problem))
+    }
+
+    /// A sentence where a film is thinner than the model's grid was made for.
+    fn thinner_film(&self, problem: &Problem) -> Option<String> {
+        let (least, film) = (self.oils?.thinnest_film, expected_film(problem.point.kind, problem.moes));
+        (film < least * (1.0 - 1e-6)).then(|| {
+            let [film, least] = [film, least].map(digits);
+            format!(
+                "by Moes’ formula its film is H_c = {film}, thinner than {least}, the thinnest that the model was trained for"
+            )
+        })
     }
 
     /// A sentence where a contact is an ellipse, and the model knows circles only.

@@ -8,7 +8,8 @@
 use super::calibration::{ErrorEstimate, Estimated};
 use super::model::{ReducedModel, Window};
 use super::online::ReducedSolution;
-use crate::solver::physics::contact::{Moes, OperatingPoint};
+use crate::solver::full::GridCost;
+use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint, moes_film};
 use crate::solver::physics::lubricant::roelands_exponent;
 
 /// How much farther than the nearest anchor, in ln M and ln L, another one may be to be blended in.
@@ -18,6 +19,16 @@ pub(crate) const BLENDED: f64 = 0.1;
 pub(crate) fn oil_place(point: &OperatingPoint) -> [f64; 4] {
     let Moes { m, l } = point.moes();
     [0.27 * m.ln(), 0.29 * l.ln(), 0.18 * point.hertz().pressure_pa.ln(), 0.34 * roelands_exponent(point)]
+}
+
+/// H_c in units of a²/R that Moes' formula expects of M and L.
+pub fn expected_film(kind: ContactKind, moes: Moes) -> f64 {
+    let film = moes_film(kind, moes);
+    match kind {
+        // (a/R)² = (8/π) M √(2U) of a line, (3M/2)^⅔ √(2U) of a circle, and h/R = Ĥ √(2U).
+        ContactKind::Line => film * std::f64::consts::PI / (8.0 * moes.m),
+        ContactKind::Point => film * (1.5 * moes.m).powf(-2.0 / 3.0),
+    }
 }
 
 /// The squared distance of two places.
@@ -54,6 +65,31 @@ impl ReducedModel {
         let far = |(k, window): (usize, &Window)| window.anchor.map(|anchor| (k, from_anchor(moes, anchor)));
         let others = self.windows.iter().enumerate().filter(|(k, _)| *k != except);
         others.filter_map(far).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k)
+    }
+}
+
+/// Training solutions between which the cost of the grid is interpolated.
+const NEIGHBOURS: usize = 8;
+
+impl Window {
+    /// What the grid costs H_c of a contact, by those of the training solutions around it; none where these do not say.
+    pub fn grid_cost(&self, point: &OperatingPoint) -> Option<GridCost> {
+        let place = oil_place(point);
+        let known = self.snapshots.iter().filter_map(|snapshot| {
+            let cost = snapshot.grid_cost.filter(|cost| cost.total().is_finite())?;
+            Some((apart(place, oil_place(&snapshot.point)), cost))
+        });
+        let mut near: Vec<(f64, GridCost)> = known.collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0));
+        near.truncate(NEIGHBOURS);
+        // Shepard's weights fall with the fourth power of the distance.
+        let weights: Vec<f64> = near.iter().map(|(apart, _)| 1.0 / (apart * apart).max(f64::MIN_POSITIVE)).collect();
+        let all: f64 = weights.iter().sum();
+        let mean = |of: &dyn Fn(&GridCost) -> f64| {
+            near.iter().zip(&weights).map(|((_, cost), weight)| of(cost) * (weight / all)).sum::<f64>()
+        };
+        let [truncation, resolution] = [mean(&|cost| cost.truncation), mean(&|cost| cost.resolution)];
+        (!near.is_empty()).then_some(GridCost { truncation, resolution })
     }
 }
 

@@ -55,6 +55,9 @@ pub(crate) struct Operators {
     /// E_δ of (3.13) with δ̃ condensed: what V_δ cannot represent of K V_p, as a quadratic form; empty for the exact
     /// operator.
     deformation_error: Option<Mat<f64>>,
+    /// The film at X = 0 (and Y = 0) per unit of each coefficient without a boundary, and the scale it was found for; not
+    /// of ellipses.
+    at_zero: Option<(f64, Vec<f64>)>,
     /// Where the film ruptures; none where a penalty holds the pressures.
     front: Option<Front>,
     /// What follows the shape of an ellipse; none of a window that knows circles or lines.
@@ -85,6 +88,8 @@ struct Scratch {
     film_column: Vec<f64>,
     /// The reduced Jacobian, load row included, and the step.
     system: SmallSystem,
+    /// By how much modes are held at zero behind the rupture boundary in it.
+    restraint: f64,
     /// The equations whose squares are least, of a scheme of residual minimisation.
     minimised: Option<LeastSquares>,
     /// What observers see of the former before it is factorised.
@@ -115,13 +120,12 @@ impl Operators {
         thinning: bool,
         further: &[usize],
     ) -> Self {
-        let modes = modes.clamp(1, window.pressure.modes.ncols());
+        let modes = modes.clamp(1, window.pressure.count());
         let reference = &window.grid;
-        let basis = window.pressure.modes.get(.., ..modes);
-        let exact = window.flexed.get(.., ..modes);
         let (projected, deformation_error) = match deformation_modes {
             None => (None, None),
             Some(k) => {
+                let exact = window.pressure.flexed().get(.., ..modes);
                 let k = k.clamp(1, window.deformation.modes.ncols());
                 let weights = deformation_weights(reference);
                 let v = window.deformation.modes.get(.., ..k);
@@ -143,21 +147,23 @@ impl Operators {
         support.sort_unstable();
         support.dedup();
         let stencil = stencils.iter().map(|nodes| nodes.map(|node| support.partition_point(|&s| s < node))).collect();
-        let deformation = projected.as_ref().map_or(exact, Mat::as_ref);
+        let own = window.pressure.at(&support, modes);
+        let deformation = match &projected {
+            Some(projected) => Mat::from_fn(support.len(), modes, |i, k| projected[(support[i], k)]),
+            None => window.pressure.flexed_at(&support, modes),
+        };
         let axes = match reference.kind() {
             _ if !thinning => 0,
             ContactKind::Line => 1,
             ContactKind::Point => 2,
         };
         let mut state_rows = Vec::with_capacity((2 + axes) * support.len() * modes);
-        for &node in &support {
-            state_rows.extend((0..modes).map(|k| basis[(node, k)]));
-        }
-        for &node in &support {
-            state_rows.extend((0..modes).map(|k| deformation[(node, k)]));
+        for values in [&own, &deformation] {
+            state_rows.extend(values.row_iter().flat_map(|row| row.iter().copied()));
         }
         if axes > 0 {
             let (gradient, (_, ny)) = (reference.gradient(), reference.nodes());
+            let basis = &window.pressure.basis().modes;
             let columns: Vec<Vec<f64>> = (0..modes).map(|k| basis.col(k).iter().copied().collect()).collect();
             for axis in 0..axes {
                 for &node in &support {
@@ -169,8 +175,7 @@ impl Operators {
         let traction = window.traction.iter().flat_map(|rule| rule.nodes.iter().zip(&rule.weights));
         let traction = traction.map(|(&node, &weight)| (support.partition_point(|&s| s < node), weight)).collect();
         let weights = reference.weights();
-        let load_row: Vec<f64> =
-            (0..modes).map(|k| weights.iter().enumerate().map(|(i, w)| w * basis[(i, k)]).sum()).collect();
+        let load_row = window.pressure.carried(weights, modes);
         let front = ruptures.then(|| Front::new(window, &support, &state_rows, &load_row));
         let place = |node: &usize| {
             let (xi, y) = reference.place(*node);
@@ -199,6 +204,7 @@ impl Operators {
             traction,
             projected,
             deformation_error,
+            at_zero: None,
             front,
             shaped,
             heated: None,
@@ -211,6 +217,7 @@ impl Operators {
                 jacobian_rows: vec![0.0; n * modes],
                 film_column: vec![0.0; n],
                 system: SmallSystem::new(size),
+                restraint: 0.0,
                 minimised: match window.scheme {
                     Scheme::Galerkin => None,
                     Scheme::LeastSquares { .. } => Some(LeastSquares::new(n + 1, size)),
@@ -278,7 +285,7 @@ impl Operators {
     pub fn deformation<'a>(&'a self, window: &'a Window) -> MatRef<'a, f64> {
         match &self.projected {
             Some(projected) => projected.as_ref(),
-            None => window.flexed.get(.., ..self.modes),
+            None => window.pressure.flexed().get(.., ..self.modes),
         }
     }
 
@@ -312,11 +319,21 @@ impl Operators {
     /// The film at X = 0 (and Y = 0) over what H₀ gives it, by these nodes and weights of an interpolation there:
     /// per unit of each coefficient, with the rupture boundary where it is.
     pub fn lift(&mut self, window: &Window, zero: &[(usize, f64)], scale: f64) -> Vec<f64> {
-        let deformation = self.deformation(window);
-        let at_zero = |k: usize| scale * zero.iter().map(|(node, w)| w * deformation[(*node, k)]).sum::<f64>();
         let whole: Vec<f64> = match (&self.shaped, &window.shapes) {
             (Some(shaped), Some(shapes)) => (0..self.modes).map(|k| shaped.at(shapes, zero, k)).collect(),
-            _ => (0..self.modes).map(at_zero).collect(),
+            _ => {
+                if self.at_zero.as_ref().is_none_or(|(of, _)| *of != scale) {
+                    let nodes: Vec<usize> = zero.iter().map(|(node, _)| *node).collect();
+                    let deformation = match &self.projected {
+                        Some(whole) => Mat::from_fn(nodes.len(), self.modes, |i, k| whole[(nodes[i], k)]),
+                        None => window.pressure.flexed_at(&nodes, self.modes),
+                    };
+                    let sum =
+                        |k: usize| zero.iter().enumerate().map(|(i, (_, w))| w * deformation[(i, k)]).sum::<f64>();
+                    self.at_zero = Some((scale, (0..self.modes).map(|k| scale * sum(k)).collect()));
+                }
+                self.at_zero.as_ref().map(|(_, whole)| whole.clone()).unwrap_or_default()
+            }
         };
         match &mut self.front {
             Some(front) => {

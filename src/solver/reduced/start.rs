@@ -205,7 +205,7 @@ pub(super) fn interpolated(window: &Window, point: &OperatingPoint, thinning: bo
     if weights.iter().any(|w| !w.is_finite() || w.abs() > 3.0) {
         return None;
     }
-    let modes = window.pressure.modes.ncols();
+    let modes = window.pressure.count();
     let mut coefficients = vec![0.0; modes];
     let mut log_film = 0.0;
     let mut fronts = vec![0.5; window.snapshots.first().map_or(0, |snapshot| snapshot.fronts.len())];

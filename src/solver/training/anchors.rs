@@ -13,7 +13,7 @@ use super::{TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows};
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::SolveError;
 use crate::solver::physics::contact::Moes;
-use crate::solver::reduced::{BLENDED, PodBasis, ReducedModel, deformation_weights, from_anchor};
+use crate::solver::reduced::{BLENDED, PodBasis, ReducedModel, SharedBasis, deformation_weights, from_anchor};
 use faer::Mat;
 use fastrand::Rng;
 use std::sync::Arc;
@@ -62,7 +62,8 @@ pub(super) fn anchor(window: &WindowSpec) -> Option<Moes> {
 /// When the range holds too few points, or the observer cancels.
 pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver) -> Result<(), TrainingError> {
     let spec = state.spec.clone();
-    let (Windows::Anchored { count, modes, grid }, Some(each)) = (&spec.windows, spec.plan.first_solutions()) else {
+    let (Windows::Anchored { count, modes, grid, .. }, Some(each)) = (&spec.windows, spec.plan.first_solutions())
+    else {
         return Ok(());
     };
     let (count, modes, grid) = (*count, *modes, *grid);
@@ -103,34 +104,49 @@ pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver)
     Ok(())
 }
 
-/// The deformation basis of all windows around anchors, from the solutions that each has within its own cell as it
-/// begins: deformations are smooth, and one basis serves them all.
+/// What all windows around anchors have in common.
+#[derive(Clone)]
+pub(super) struct InCommon {
+    /// Their deformation basis: deformations are smooth, and one serves them all.
+    pub deformation: Arc<PodBasis>,
+    /// What their pressure modes are made of, where they share a basis.
+    pub pressure: Option<Arc<SharedBasis>>,
+}
+
+/// The bases of all windows around anchors, from the solutions that each has within its own cell as it begins.
 ///
 /// # Errors
-/// When the decomposition fails, or the observer cancels.
-pub(super) fn shared_deformation(
+/// When a decomposition fails, or the observer cancels.
+pub(super) fn in_common(
     spec: &TrainingSpec,
     windows: &[WindowState],
     observer: &dyn TrainingObserver,
-) -> Result<Option<PodBasis>, TrainingError> {
-    let (Windows::Anchored { grid, .. }, Some(first)) = (spec.windows.clone(), windows.first()) else {
+) -> Result<Option<InCommon>, TrainingError> {
+    let (Windows::Anchored { grid, shared, .. }, Some(first)) = (spec.windows.clone(), windows.first()) else {
         return Ok(None);
     };
-    let mut pressures = Vec::new();
+    let mut pool = Vec::new();
     for (k, window) in windows.iter().enumerate() {
         let Some(cell) = Cell::of(windows.iter().map(|window| anchor(&window.window)), k) else { return Ok(None) };
         let own = window.solved.iter().take(window.inherited);
-        pressures
-            .extend(own.filter(|solved| cell.holds(solved.point.moes(), 0.0)).map(|solved| solved.pressure.clone()));
+        pool.extend(own.filter(|solved| cell.holds(solved.point.moes(), 0.0)).cloned());
     }
-    let (wanted, loss, (from, to)) = (grid, spec.deformation_loss, first.window.m);
-    let basis = on_one_thread(observer, move || {
+    let (wanted, loss, (from, to), positive) = (grid, spec.deformation_loss, first.window.m, spec.positive_modes);
+    let bases = on_one_thread(observer, move || {
         let grid = wanted.build().map_err(SolveError::from)?;
-        let pressures = Mat::from_fn(grid.len(), pressures.len(), |i, j| pressures[j][i]);
-        let basis = PodBasis::new(grid.flex(&pressures).as_ref(), &deformation_weights(&grid), loss);
-        basis.ok_or(TrainingError::Decomposition { from, to })
+        let value = |p: f64| if positive { p.max(0.0) } else { p };
+        let failed = || TrainingError::Decomposition { from, to };
+        let pressures = Mat::from_fn(grid.len(), pool.len(), |i, j| pool[j].pressure[i]);
+        let deformation = PodBasis::new(grid.flex(&pressures).as_ref(), &deformation_weights(&grid), loss);
+        let deformation = Arc::new(deformation.ok_or_else(failed)?);
+        if shared == 0 {
+            return Ok(InCommon { deformation, pressure: None });
+        }
+        let counted = Mat::from_fn(grid.len(), pool.len(), |i, j| value(pressures[(i, j)]) / pool[j].h_c.min(THIN));
+        let basis = PodBasis::new(counted.as_ref(), grid.weights(), 0.0).ok_or_else(failed)?.cut(shared);
+        Ok(InCommon { deformation, pressure: Some(Arc::new(SharedBasis::new(basis, &grid))) })
     })?;
-    basis.map(Some)
+    bases.map(Some)
 }
 
 /// Chooses so many anchors, by ascending M: the cell whose pressures so many modes miss most, for its films, is divided

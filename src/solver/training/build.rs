@@ -1,6 +1,6 @@
 //! From a specification to a model: snapshots, bases, row snapshots, sampled rows.
 
-use super::anchors::{Cell, anchor};
+use super::anchors::{Cell, InCommon, anchor};
 use super::one_thread::on_one_thread;
 use super::plan::{Within, grid_points};
 use super::rows::sample_rows;
@@ -14,8 +14,8 @@ use crate::solver::full::{ContactSolver, Start};
 use crate::solver::physics::contact::{DEFAULT_VISCOSITY_PA_S, MoesRequest, OperatingPoint};
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{
-    CIRCLES, Domain, HeatDomain, PodBasis, ReducedModel, RowSnapshots, Sampling, Scheme, Shapes, SlidingDomain,
-    Snapshot, TestSpace, Window, all_rows, deformation_weights, fronts, minimised_rows,
+    CIRCLES, Combined, Domain, HeatDomain, PodBasis, PressureModes, ReducedModel, RowSnapshots, Sampling, Scheme,
+    Shapes, SlidingDomain, Snapshot, TestSpace, Window, all_rows, deformation_weights, fronts, minimised_rows,
 };
 use faer::Mat;
 use fastrand::Rng;
@@ -96,8 +96,8 @@ pub(super) struct WindowTraining<'a> {
     pub most_modes: Option<usize>,
     /// The cell of its anchor, where it has one.
     pub cell: Option<Cell>,
-    /// The deformation basis that it shares with the other windows, where it does.
-    pub deformation: Option<PodBasis>,
+    /// The bases that it shares with the other windows, where it does.
+    pub in_common: Option<InCommon>,
     /// Whether contacts without a full solution are left out and named.
     pub named: bool,
     pub observer: &'a dyn TrainingObserver,
@@ -116,7 +116,7 @@ impl<'a> WindowTraining<'a> {
     ) -> Result<Self, TrainingError> {
         let wanted = window.grid;
         let grid = on_one_thread(observer, move || wanted.build())?.map_err(crate::solver::full::SolveError::from)?;
-        Ok(Self { spec, window, grid, reach, most_modes, cell: None, deformation: None, named: false, observer })
+        Ok(Self { spec, window, grid, reach, most_modes, cell: None, in_common: None, named: false, observer })
     }
 
     /// The contacts that it is trained from.
@@ -195,6 +195,7 @@ impl<'a> WindowTraining<'a> {
                     let done = done.fetch_add(1, Ordering::Relaxed) + 1;
                     observer.progress(Progress { stage: stage.clone(), done, total });
                     if solution.converged() {
+                        let solution = if spec.tells_grid_costs() { solver.judged(solution) } else { solution };
                         Ok(Solved::new(*place, solution))
                     } else if observer.cancelled() {
                         Err(TrainingError::Cancelled)
@@ -221,7 +222,7 @@ impl<'a> WindowTraining<'a> {
             Windows::Anchored { modes, .. } => modes,
             Windows::Given(_) | Windows::Automatic { .. } => usize::MAX,
         };
-        let (grid, solutions, shared) = (grid.clone(), solutions.to_vec(), self.deformation.clone());
+        let (grid, solutions, shared) = (grid.clone(), solutions.to_vec(), self.in_common.clone());
         let cavitation = spec.lubricant.cavitation;
         let ratio = window.radius_ratio.unwrap_or(spec.domain().radius_ratio);
         let mut model = on_one_thread(*observer, move || {
@@ -232,16 +233,16 @@ impl<'a> WindowTraining<'a> {
                 }
             }
             let shapes = match (&grid, ratio == CIRCLES) {
-                (ContactGrid::Point(plane), false) => Some(Shapes::new(plane, &pressure.modes, ratio).ok()?),
+                (ContactGrid::Point(plane), false) => Some(Shapes::new(plane, &pressure.basis().modes, ratio).ok()?),
                 _ => None,
             };
-            let rows = all_rows(&TestSpace::new(&pressure, &grid));
+            let rows = all_rows(&TestSpace::new(pressure.basis(), &grid));
             let window = Window::new((from, to), grid, pressure, deformation, snapshots, Sampling::All, rows);
             Some(Window { shapes, ..window })
         })?
         .ok_or_else(failed)?;
         (model.penalty, model.cavitation, model.anchor) = (spec.penalty, cavitation, anchor(window));
-        if most_modes.is_some_and(|most| model.pressure.modes.ncols() > most) {
+        if most_modes.is_some_and(|most| model.pressure.count() > most) {
             return Ok(None);
         }
         Ok(Some(model))
@@ -251,7 +252,7 @@ impl<'a> WindowTraining<'a> {
     pub fn sample(&self, mut window: Window, rng: &mut Rng) -> Result<Window, TrainingError> {
         let Self { spec, observer, .. } = self;
         if spec.sampling == Sampling::All && spec.scheme != Scheme::Galerkin {
-            let test = TestSpace::new(&window.pressure, &window.grid);
+            let test = TestSpace::new(window.pressure.basis(), &window.grid);
             let (of, count) = ((spec.scheme, spec.sampling), test.weights.len());
             let (from, to) = window.m;
             let rows = minimised_rows(&test, of, &RowSnapshots::default(), count);
@@ -281,33 +282,38 @@ fn without_solution(point: &OperatingPoint) -> String {
 }
 
 /// POD of pressures, of max(P, 0) where modes are to be `positive`, and of deformations, each up to a loss of
-/// information and a number of modes, unless that of deformations is `shared`; and the snapshots in the pressure basis.
+/// information and a number of modes, unless they are `in_common` with other windows; and the snapshots in the pressure basis.
 fn bases(
     ([pressure_loss, deformation_loss], most): ([f64; 2], usize),
     positive: bool,
     grid: &ContactGrid,
     solutions: &[Solved],
-    shared: Option<PodBasis>,
-) -> Option<(PodBasis, PodBasis, Vec<Snapshot>)> {
+    in_common: Option<InCommon>,
+) -> Option<(PressureModes, Arc<PodBasis>, Vec<Snapshot>)> {
     let (nodes, weights) = (grid.len(), grid.weights());
     let pressures = Mat::from_fn(nodes, solutions.len(), |i, j| {
         let pressure = solutions[j].pressure[i];
         if positive { pressure.max(0.0) } else { pressure }
     });
-    let pressure = PodBasis::new(pressures.as_ref(), weights, pressure_loss)?.cut(most);
-    let deformation = match shared {
-        Some(shared) => shared,
-        None => PodBasis::new(grid.flex(&pressures).as_ref(), &deformation_weights(grid), deformation_loss)?,
+    let (shared, deformation) = in_common.map_or((None, None), |own| (own.pressure, Some(own.deformation)));
+    let pressure = match shared {
+        Some(shared) => Combined::of(&shared, &pressures, weights, (pressure_loss, most))?,
+        None => PressureModes::own(PodBasis::new(pressures.as_ref(), weights, pressure_loss)?.cut(most), grid),
+    };
+    let deformation = match deformation {
+        Some(deformation) => deformation,
+        None => Arc::new(PodBasis::new(grid.flex(&pressures).as_ref(), &deformation_weights(grid), deformation_loss)?),
     };
     let snapshots = solutions
         .iter()
         .zip(pressures.col_iter())
         .map(|(s, p)| Snapshot {
             point: s.point,
-            coefficients: pressure.coefficients(weights, |i| p[i]),
+            coefficients: pressure.basis().coefficients(weights, |i| p[i]),
             h_0: s.h_0,
             h_c: s.h_c,
             fronts: Vec::new(),
+            grid_cost: s.grid_cost,
         })
         .collect();
     Some((pressure, deformation, snapshots))

@@ -197,9 +197,12 @@ fn windows(spec: &TrainingSpec) -> Result<(), Refused> {
     match &spec.windows {
         Windows::Given(windows) => given(spec, windows),
         Windows::Automatic { modes } => count("windows.modes", *modes, 8, 1000),
-        Windows::Anchored { count: windows, modes, grid } => {
+        Windows::Anchored { count: windows, modes, grid, shared } => {
             count("windows.count", *windows, 1, MOST_ANCHORS)?;
             count("windows.modes", *modes, 8, 1000)?;
+            if *shared > 0 {
+                count("windows.shared", *shared, *modes, 1000)?;
+            }
             grid.check().map_err(|problem| Refused::new("windows.grid", format!("makes no sense: {problem}")))?;
             if !matches!(spec.range, Range::Oils(_)) {
                 return Err(Refused::new("windows", "are anchored in M and L, which needs a range of oils: `Oils(…)`"));

@@ -240,6 +240,11 @@ impl TrainingSpec {
         }
     }
 
+    /// Whether its model tells what the grid costs: over the range of many oils that differs much.
+    pub fn tells_grid_costs(&self) -> bool {
+        matches!(self.range, Range::Oils(_))
+    }
+
     /// Its contacts with M in an interval.
     fn within(&self, m: (f64, f64)) -> Within {
         Within { m, ..Within::all(self.range, self.contact()) }
@@ -272,6 +277,10 @@ pub enum Windows {
         modes: usize,
         /// The grid of all.
         grid: GridSpec,
+        /// Modes of a basis that the pressure modes of all are combinations of, which keeps files of point contacts
+        /// small; 0 where each window has modes of its own.
+        #[serde(default)]
+        shared: usize,
     },
 }
 

@@ -1,10 +1,10 @@
 //! Contacts of many oils.
 
 use super::range::{between, logarithmic};
-use crate::solver::limits::{Refused, interval};
+use crate::solver::limits::{Refused, interval, number};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, si_from_moes};
 use crate::solver::physics::lubricant::roelands_exponent;
-use crate::solver::reduced::OilDomain;
+use crate::solver::reduced::{OilDomain, expected_film};
 use serde::{Deserialize, Serialize};
 
 /// By how much training reaches beyond the ends of a range.
@@ -27,6 +27,10 @@ pub struct OilRange {
     pub exponent: (f64, f64),
     /// p_H \[Pa\].
     pub hertz_pressure: (f64, f64),
+    /// The thinnest central film, H_c in units of a²/R by [`expected_film`]: heavy contacts of light oils have films that
+    /// no grid of a model resolves. 0 leaves none of them out.
+    #[serde(default)]
+    pub thinnest_film: f64,
 }
 
 impl OilRange {
@@ -40,7 +44,8 @@ impl OilRange {
         between(Quantity::Alpha, self.alpha)?;
         between(Quantity::Viscosity, self.viscosity)?;
         interval("exponent", self.exponent, 0.05, 2.0)?;
-        interval("hertz_pressure", self.hertz_pressure, 1e5, 1e12)
+        interval("hertz_pressure", self.hertz_pressure, 1e5, 1e12)?;
+        number("thinnest_film", self.thinnest_film, 0.0, 1.0)
     }
 
     /// The operating point at coordinates in the unit cube; `None` where p_H or the exponent exclude it.
@@ -52,7 +57,9 @@ impl OilRange {
         };
         let inside = |value: f64, (low, high): (f64, f64)| (low..=high).contains(&value);
         si_from_moes(&request).ok().filter(|point| {
-            inside(point.hertz().pressure_pa, self.hertz_pressure) && inside(roelands_exponent(point), self.exponent)
+            inside(point.hertz().pressure_pa, self.hertz_pressure)
+                && inside(roelands_exponent(point), self.exponent)
+                && expected_film(kind, point.moes()) >= self.thinnest_film
         })
     }
 
@@ -66,6 +73,7 @@ impl OilRange {
             viscosity: more(self.viscosity),
             exponent: more(self.exponent),
             hertz_pressure: more(self.hertz_pressure),
+            thinnest_film: self.thinnest_film / BEYOND,
         }
     }
 
@@ -75,6 +83,7 @@ impl OilRange {
             viscosity_pa_s: self.viscosity,
             exponent: self.exponent,
             lowest_hertz_pressure_pa: self.hertz_pressure.0,
+            thinnest_film: self.thinnest_film,
         }
     }
 

@@ -1,12 +1,12 @@
 //! Models of many oils: near full solutions of every oil, without a jump between windows, and told where they end.
 
-use super::small::oils;
+use super::small::{oils, oils_of_points};
 use super::*;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::{ContactSolver, Problem, Start};
-use crate::solver::physics::contact::{MoesRequest, OperatingPoint, si_from_moes};
+use crate::solver::physics::contact::{MoesRequest, OperatingPoint, moes_film, si_from_moes};
 use crate::solver::physics::lubricant::{Cavitation, ViscosityLaw, roelands_exponent};
-use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Sampling, Trust, Window};
+use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Sampling, Trust, Window, expected_film};
 use std::sync::Arc;
 
 fn trained(spec: &TrainingSpec) -> (Arc<ReducedModel>, Online) {
@@ -53,6 +53,53 @@ fn models_of_oils_are_near_full_solutions_of_every_oil() {
 }
 
 #[test]
+fn the_expected_film_is_moes_formula_in_the_solvers_units() {
+    for (kind, m, l) in [(ContactKind::Line, 40.0, 10.0), (ContactKind::Point, 100.0, 6.0)] {
+        let point = si_from_moes(&MoesRequest::new(kind, m, l)).unwrap();
+        let two_u = 2.0 * point.viscosity_pa_s * point.speed_m_per_s / (point.modulus_pa * point.radius_m);
+        let film_m = moes_film(kind, point.moes()) * point.radius_m * two_u.sqrt();
+        let expected = expected_film(kind, point.moes()) * point.film_scale_m();
+        assert!((expected / film_m - 1.0).abs() < 1e-9, "{kind:?}: {expected:e} {film_m:e}");
+    }
+}
+
+#[test]
+fn models_of_points_share_a_basis_leave_thin_films_out_and_tell_what_their_grid_costs() {
+    let spec = oils_of_points(50);
+    let (model, mut online) = trained(&spec);
+    let shared: Vec<_> = model.windows.iter().map(|window| &window.pressure.combined().unwrap().shared).collect();
+    assert!(shared.len() == 2 && Arc::ptr_eq(shared[0], shared[1]) && shared[0].basis.modes.ncols() == 50);
+    let mut full = ContactSolver::on(&model.windows[0].grid);
+    for point in random_points(&spec.range, spec.contact(), 20, 77) {
+        assert!(expected_film(ContactKind::Point, point.moes()) >= 0.16);
+        online.forget();
+        let solved = online.solve(&point, spec.lubricant).unwrap();
+        assert_eq!(solved.trust, Trust::Trained);
+        let fields = online.reconstruct(&solved).unwrap();
+        let truth = full.solve(&point, spec.lubricant, Start::Cold, &()).unwrap();
+        let truth = full.judged(truth);
+        let off = [fields.scalars.h_c / truth.scalars.h_c - 1.0, fields.scalars.h_min / truth.scalars.h_min - 1.0];
+        assert!(off.iter().all(|off| off.abs() < 1e-2), "{:?}: {off:?}", point.moes());
+        let (told, wanted) = (fields.grid_cost.unwrap(), truth.grid_cost.unwrap());
+        assert!(
+            (told.truncation - wanted.truncation).abs() < 0.2 * wanted.truncation.abs() + 2e-3,
+            "{told:?} {wanted:?}"
+        );
+        assert!(
+            (told.resolution - wanted.resolution).abs() < 0.2 * wanted.resolution.abs() + 1e-2,
+            "{told:?} {wanted:?}"
+        );
+    }
+    let thin = si_from_moes(&MoesRequest {
+        alpha_per_pa: Some(16e-9),
+        viscosity_pa_s: Some(0.05),
+        ..MoesRequest::new(ContactKind::Point, 59.0, 4.1)
+    });
+    let Trust::Outside(why) = model.trust(&Problem::new(&thin.unwrap(), spec.lubricant).unwrap()) else { panic!() };
+    assert!(why.contains("thinner than 0.16"), "{why}");
+}
+
+#[test]
 fn where_boundaries_lie_far_apart_every_window_still_solves_what_it_serves() {
     // Thick films rupture late: behind some contacts' boundaries others have a third of their outlet.
     let Range::Oils(range) = oils(Sampling::QDeim, 80).range else { panic!() };
@@ -61,7 +108,7 @@ fn where_boundaries_lie_far_apart_every_window_still_solves_what_it_serves() {
     let grid = GridSpec::Graded { nodes: 632, domain: (-20.0, 3.2), registered: true };
     let spec = TrainingSpec {
         range: Range::Oils(thick),
-        windows: Windows::Anchored { count: 2, modes: 50, grid },
+        windows: Windows::Anchored { count: 2, modes: 50, grid, shared: 0 },
         evidence: 0,
         ..oils(Sampling::QDeim, 120).under(Cavitation::Complementarity)
     };
@@ -141,7 +188,7 @@ fn ranges_of_oils_are_refused_with_their_field() {
         assert!(refused(with(range)).contains(field), "{field}: {}", refused(with(range)));
     }
     let windows = |count, modes| TrainingSpec {
-        windows: Windows::Anchored { count, modes, grid: super::small::line_grid(240) },
+        windows: Windows::Anchored { count, modes, grid: super::small::line_grid(240), shared: 0 },
         ..good.clone()
     };
     assert!(refused(windows(0, 20)).contains("windows.count") && refused(windows(3, 2)).contains("windows.modes"));
@@ -151,6 +198,9 @@ fn ranges_of_oils_are_refused_with_their_field() {
     let mut barus = good.clone();
     barus.lubricant.viscosity = ViscosityLaw::Barus;
     assert!(refused(barus).contains("another law"));
+    assert!(refused(with(OilRange { thinnest_film: -1.0, ..range })).contains("thinnest_film"));
+    let few = Windows::Anchored { count: 3, modes: 32, grid: super::small::line_grid(240), shared: 20 };
+    assert!(refused(TrainingSpec { windows: few, ..good.clone() }).contains("windows.shared"));
 }
 
 #[test]

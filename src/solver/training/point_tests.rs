@@ -30,7 +30,7 @@ fn worst(films: &[(f64, f64)]) -> f64 {
 fn a_point_model_solves_fresh_points_with_all_rows_and_with_few() {
     let all = Arc::new(train(&point(Sampling::All, 24), &()).unwrap());
     let few = Arc::new(train(&point(Sampling::Cubature, 24), &()).unwrap());
-    let (modes, rows) = (few.windows[0].pressure.modes.ncols(), few.windows[0].sampled_rows.len());
+    let (modes, rows) = (few.windows[0].pressure.count(), few.windows[0].sampled_rows.len());
     assert!(rows <= 3 * modes && 8 * rows < all.windows[0].sampled_rows.len(), "{rows} rows, {modes} modes");
     assert_eq!((few.windows[0].penalty, few.contact()), (1e5, ContactKind::Point));
     let (all, few) = (worst(&films(&all)), worst(&films(&few)));

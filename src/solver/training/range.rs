@@ -86,6 +86,7 @@ impl From<&Domain> for Range {
                 viscosity: oils.viscosity_pa_s,
                 exponent: oils.exponent,
                 hertz_pressure: (oils.lowest_hertz_pressure_pa, domain.max_hertz_pressure_pa),
+                thinnest_film: oils.thinnest_film,
             });
         }
         Self::Moes {

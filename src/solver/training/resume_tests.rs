@@ -67,7 +67,7 @@ impl Observer for StopAt {
 /// Everything of a model that its results depend on.
 fn essence(model: &ReducedModel) -> Vec<String> {
     let window = |w: &Window| {
-        let bases = format!("{:?} {:?}", w.snapshots, w.pressure.modes);
+        let bases = format!("{:?} {:?}", w.snapshots, w.pressure.basis().modes);
         format!("{bases} {:?} {:?} {:?}", w.sampled_rows, w.reconstruction, w.calibration)
     };
     model.windows.iter().map(window).chain(model.log.iter().cloned()).collect()

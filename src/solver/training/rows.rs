@@ -90,7 +90,7 @@ pub fn with_rows(
 ) -> Result<Vec<Option<ReducedModel>>, TrainingError> {
     let Some(own) = model.windows.get(window) else { return Ok(Vec::new()) };
     let mut exact = own.clone();
-    exact.set_rows(Sampling::All, all_rows(&TestSpace::new(&own.pressure, &own.grid)));
+    exact.set_rows(Sampling::All, all_rows(&TestSpace::new(own.pressure.basis(), &own.grid)));
     let exact = Arc::new(alone(spec, &exact));
     let mut rng = Rng::with_seed(spec.seed);
     let (radius_ratio, cell) = (own.served_ratios(), Cell::of_model(model, window));
@@ -123,7 +123,7 @@ fn sample(
     if spec.sampling == Sampling::Cubature {
         tasks.extend((0..window.snapshots.len()).filter_map(|k| Task::beside(window, k)));
     }
-    let test = Arc::new(TestSpace::new(&window.pressure, &window.grid));
+    let test = Arc::new(TestSpace::new(window.pressure.basis(), &window.grid));
     let none = GoalEquations::over(&test);
     let stage = format!("Row snapshots, M {}…{}", window.m.0, window.m.1);
     let online = || Online::new(Arc::clone(exact), ReducedOptions::default());

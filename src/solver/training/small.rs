@@ -2,7 +2,7 @@
 
 use super::{HeatedRange, OilRange, Plan, QuantityBox, Range, TrainingSpec, WindowSpec, Windows};
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
-use crate::solver::physics::lubricant::{Heat, LimitingStress, Lubricant};
+use crate::solver::physics::lubricant::{Cavitation, Heat, LimitingStress, Lubricant};
 use crate::solver::reduced::Sampling;
 
 /// A grid of point contacts on which a full solve takes milliseconds.
@@ -76,11 +76,38 @@ pub(crate) fn oils(sampling: Sampling, snapshots: usize) -> TrainingSpec {
         viscosity: (0.01, 0.1),
         exponent: (0.4, 0.8),
         hertz_pressure: (0.4e9, 1.6e9),
+        thinnest_film: 0.0,
     };
     let plan = Plan::FarthestPoint { snapshots };
-    let windows = Windows::Anchored { count: 3, modes: 32, grid: line_grid(240) };
+    let windows = Windows::Anchored { count: 3, modes: 32, grid: line_grid(240), shared: 0 };
     let spec = TrainingSpec::new(Range::Oils(range), range.m, line_grid(240), plan);
     TrainingSpec { windows, pressure_loss: 1e-9, deformation_loss: 0.1, sampling, evidence: 0, seed: 5, ..spec }
+}
+
+/// Circular contacts of oils, in two windows whose modes are made of one basis.
+pub(crate) fn oils_of_points(snapshots: usize) -> TrainingSpec {
+    let range = OilRange {
+        m: (20.0, 60.0),
+        l: (4.0, 8.0),
+        alpha: (12e-9, 24e-9),
+        viscosity: (0.01, 0.1),
+        exponent: (0.4, 0.8),
+        hertz_pressure: (0.3e9, 1.6e9),
+        thinnest_film: 0.16,
+    };
+    let grid = GridSpec::Plane(PointGridSpec { refinement: 2.0, ..POINT_GRID });
+    let windows = Windows::Anchored { count: 2, modes: 24, grid, shared: 60 };
+    let spec = TrainingSpec::new(Range::Oils(range), range.m, grid, Plan::FarthestPoint { snapshots });
+    TrainingSpec {
+        windows,
+        pressure_loss: 1e-9,
+        deformation_loss: 0.1,
+        sampling: Sampling::Cubature,
+        rows_per_mode: 3.0,
+        evidence: 0,
+        seed: 4,
+        ..spec.under(Cavitation::Complementarity)
+    }
 }
 
 /// Line contacts with heat of an oil whose stress is limited, between steel bodies.

@@ -1,7 +1,7 @@
 //! What a training has done so far: enough to stop after any full solution, go on later, and arrive at the same model.
 
 use super::adaptive::Search;
-use super::anchors::{self, Cell, anchor};
+use super::anchors::{self, Cell, InCommon, anchor};
 use super::build::{WindowTraining, alone, domain};
 use super::calibrate::calibrate;
 use super::check::check;
@@ -11,9 +11,9 @@ use super::split::{may_split, split};
 use super::traction::traction_rule;
 use super::{Plan, TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows, layout};
 use crate::solver::discrete::grid::GridSpec;
-use crate::solver::full::Solution;
+use crate::solver::full::{GridCost, Solution};
 use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::reduced::{PodBasis, ReducedModel, Snapshot, Window};
+use crate::solver::reduced::{ModelSize, ReducedModel, Snapshot, Window};
 use fastrand::Rng;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -78,13 +78,15 @@ pub struct Solved {
     pub h_0: f64,
     /// Central film.
     pub h_c: f64,
+    /// What the grid costs it, where that was asked for.
+    pub grid_cost: Option<GridCost>,
 }
 
 impl Solved {
     /// Keeps what a training needs of a solution.
     pub fn new(place: usize, solution: Solution) -> Self {
-        let Solution { problem, pressure, scalars, .. } = solution;
-        Self { place, point: problem.point, pressure, h_0: scalars.h_0, h_c: scalars.h_c }
+        let Solution { problem, pressure, scalars, grid_cost, .. } = solution;
+        Self { place, point: problem.point, pressure, h_0: scalars.h_0, h_c: scalars.h_c, grid_cost }
     }
 }
 
@@ -207,10 +209,10 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
     let spec = state.spec.clone();
     let mut windows = Vec::with_capacity(state.windows.len());
     let mut log = Vec::new();
-    let deformation = anchors::shared_deformation(&spec, &state.windows, observer)?;
+    let in_common = anchors::in_common(&spec, &state.windows, observer)?;
     while windows.len() < state.windows.len() {
         let k = windows.len();
-        let Some(mut trained) = train_window(&spec, k, (ended, &deformation), state, observer)? else {
+        let Some(mut trained) = train_window(&spec, k, (ended, &in_common), state, observer)? else {
             split(state, k, observer)?;
             continue;
         };
@@ -224,7 +226,7 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
             trained.calibration = calibrate(&spec, &Arc::new(alone(&spec, &trained)), (k, ends, cell), observer)?;
         }
         let ((from, to), solutions, rows) = (trained.m, trained.snapshots.len(), trained.sampled_rows.len());
-        let [pressure, deformation] = [&trained.pressure, &trained.deformation].map(|basis| basis.modes.ncols());
+        let ModelSize { pressure, deformation, .. } = trained.size();
         log.push(format!(
             "M {from}…{to}: {solutions} full solutions, {pressure} pressure and {deformation} deformation modes, \
              {rows} of {} rows",
@@ -285,7 +287,7 @@ fn ends(windows: &[WindowState], k: usize) -> (bool, bool) {
 fn train_window(
     spec: &TrainingSpec,
     k: usize,
-    (ended, deformation): (bool, &Option<PodBasis>),
+    (ended, in_common): (bool, &Option<InCommon>),
     state: &mut TrainingState,
     observer: &dyn TrainingObserver,
 ) -> Result<Option<Window>, TrainingError> {
@@ -298,7 +300,7 @@ fn train_window(
     let own = &mut state.windows[k];
     let mut rng = Rng::with_seed(own.seed);
     let mut work = WindowTraining::new(spec, own.window, reach, most_modes, observer)?;
-    (work.named, work.cell, work.deformation) = (cell.is_some(), cell, deformation.clone());
+    (work.named, work.cell, work.in_common) = (cell.is_some(), cell, in_common.clone());
     let known: Vec<OperatingPoint> = own.solved.iter().take(own.inherited).map(|s| s.point).collect();
     if own.solved.iter().any(|s| s.pressure.len() != work.grid.len()) {
         return Err(TrainingError::Specification("the stored full solutions belong to another grid".to_owned()));

@@ -29,7 +29,7 @@ fn every_sampling_reproduces_the_training_solutions() {
         let model = Arc::new(train(&small(sampling), &()).unwrap());
         let window = &model.windows[0];
         if sampling != Sampling::All {
-            assert!(window.sampled_rows.len() <= 2 * window.pressure.modes.ncols() + 1);
+            assert!(window.sampled_rows.len() <= 2 * window.pressure.count() + 1);
         }
         let mut online = Online::new(Arc::clone(&model), ReducedOptions::default());
         for snapshot in &window.snapshots {
@@ -112,7 +112,7 @@ fn the_calibrated_bound_holds_against_full_solutions_and_is_not_idle() {
     ratios.sort_by(f64::total_cmp);
     assert!(ratios[100] < 10.0, "{}", ratios[100]);
     // A truncated model is another one: nothing is known of its errors.
-    let fewer = model.windows[0].pressure.modes.ncols() - 2;
+    let fewer = model.windows[0].pressure.count() - 2;
     let options = ReducedOptions { pressure_modes: Some(fewer), ..ReducedOptions::default() };
     let truncated = Online::new(model, options).solve(&points[0], Lubricant::default()).unwrap();
     assert!(truncated.error.is_none());

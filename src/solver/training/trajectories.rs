@@ -11,7 +11,8 @@ use crate::solver::full::transient::{Frame, Trajectory, Transient};
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::transient::{TrajectoryDomain, TrajectoryModel, TrajectoryStart};
 use crate::solver::reduced::{
-    PodBasis, Sampling, Scheme, Snapshot, TestSpace, Window, all_rows, deformation_weights, fronts, mean_diagonals,
+    PodBasis, PressureModes, Sampling, Scheme, Snapshot, TestSpace, Window, all_rows, deformation_weights, fronts,
+    mean_diagonals,
 };
 use faer::Mat;
 use std::sync::Arc;
@@ -163,6 +164,7 @@ fn bases(
         .collect();
     let rows = all_rows(&test_space(&pressure, &contact, sizes, Scheme::Galerkin));
     let boundaries = if ruptures { boundaries(trajectories, &contact, &pressure) } else { Vec::new() };
+    let pressure = PressureModes::own(pressure, &contact);
     let mut window = Window::new((0.0, f64::INFINITY), contact, pressure, deformation, boundaries, Sampling::All, rows);
     (window.penalty, window.cavitation) = (PENALTY, cavitation);
     let domain = TrajectoryDomain::of(trajectories).ok_or(TrainingError::Trajectories(NONE))?;
@@ -176,7 +178,14 @@ fn boundaries(trajectories: &[Trajectory], grid: &ContactGrid, basis: &PodBasis)
         let fronts = fronts(grid, |node| state.pressure[node]);
         if seen.iter().all(|other| other.fronts != fronts) {
             let coefficients = basis.coefficients(grid.weights(), |i| state.pressure[i]);
-            seen.push(Snapshot { point: t.transient.point, coefficients, h_0: state.h_0, h_c: state.h_0, fronts });
+            seen.push(Snapshot {
+                point: t.transient.point,
+                coefficients,
+                h_0: state.h_0,
+                h_c: state.h_0,
+                fronts,
+                grid_cost: None,
+            });
         }
     }
     seen

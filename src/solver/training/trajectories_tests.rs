@@ -52,7 +52,7 @@ fn off(seen: &Trajectory, wanted: &Trajectory) -> f64 {
 fn a_model_reproduces_its_training_in_every_frame_and_follows_an_unseen_load() {
     for frame in [Frame::Fixed, Frame::ArbitraryLagrangianEulerian, Frame::Remeshed(Interpolation::CubicSpline)] {
         let (trainings, model) = trained(Cavitation::Penalty, frame);
-        let (rows, modes) = (model.window.sampled_rows.len(), model.window.pressure.modes.ncols());
+        let (rows, modes) = (model.window.sampled_rows.len(), model.window.pressure.count());
         assert!(rows < model.window.grid.unknowns() && rows <= 2 * modes, "{frame:?}: {rows} rows of {modes} modes");
         for training in &trainings {
             assert!(off(&reduced(&model, &training.transient), training) < 1e-4, "{frame:?}");
@@ -67,7 +67,7 @@ fn a_model_reproduces_its_training_in_every_frame_and_follows_an_unseen_load() {
 fn under_complementarity_it_follows_full_complementarity_with_the_boundary_where_it_is() {
     for frame in [Frame::Fixed, Frame::ArbitraryLagrangianEulerian, Frame::Remeshed(Interpolation::CubicSpline)] {
         let (trainings, model) = trained(Cavitation::Complementarity, frame);
-        assert!(model.window.sampled_rows.len() <= 2 * model.window.pressure.modes.ncols());
+        assert!(model.window.sampled_rows.len() <= 2 * model.window.pressure.count());
         let unseen = transient(frame, Signal::TriangleToSquare { amplitude: 0.1, period: 0.5, s: 0.0 });
         let unseen = full(&under(Cavitation::Complementarity, unseen));
         // 5e-6 seen, of H_min 7e-6.

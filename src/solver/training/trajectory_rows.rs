@@ -36,7 +36,7 @@ pub(super) fn sampled_rows(
     observer: &dyn Observer,
 ) -> Result<Option<SampledRows>, TrainingError> {
     let TrajectoryTraining { scheme, sampling, rows_per_mode, .. } = *training;
-    let test = test_space(&exact.window.pressure, &exact.window.grid, sizes, scheme);
+    let test = test_space(exact.window.pressure.basis(), &exact.window.grid, sizes, scheme);
     if sampling == Sampling::All && scheme == Scheme::Galerkin {
         return Ok(Some(all_rows(&test)));
     }
@@ -58,7 +58,7 @@ pub(super) fn sampled_rows(
 
 /// Equations with candidate rows: those where something happens, whatever they count.
 fn candidates(exact: &TrajectoryModel) -> GoalEquations {
-    GoalEquations::over(&TestSpace::new(&exact.window.pressure, &exact.window.grid))
+    GoalEquations::over(&TestSpace::new(exact.window.pressure.basis(), &exact.window.grid))
 }
 
 /// Marches the all-rows model along the trainings and collects what its iterates demand of a rule, or what they are.

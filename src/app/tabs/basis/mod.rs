@@ -47,7 +47,7 @@ impl Field {
 
     fn of(self, window: &Window) -> &PodBasis {
         match self {
-            Self::Pressure => &window.pressure,
+            Self::Pressure => window.pressure.basis(),
             Self::Deformation => &window.deformation,
         }
     }
@@ -136,8 +136,8 @@ impl Curves {
         Self {
             window: at,
             model: Arc::clone(model),
-            singular: [singular(&window.pressure), singular(&window.deformation)],
-            loss: [loss(&window.pressure), loss(&window.deformation)],
+            singular: [singular(window.pressure.basis()), singular(&window.deformation)],
+            loss: [loss(window.pressure.basis()), loss(&window.deformation)],
             modes: Vec::new(),
             plane: plane::ModeMap::default(),
             rows: rows.flat_map(mirrored).collect(),
@@ -215,8 +215,8 @@ fn toolbar(
             model.windows.len(),
             numbers::digits(window.m.0, 3),
             numbers::digits(window.m.1, 3),
-            options.pressure_modes.unwrap_or(window.pressure.modes.ncols()),
-            window.pressure.modes.ncols()
+            options.pressure_modes.unwrap_or(window.pressure.count()),
+            window.pressure.count()
         ));
         ui.weak(format!("Films rupture by {}", model.domain.lubricant.cavitation.name()));
         if window.scheme != Scheme::Galerkin {
@@ -242,14 +242,14 @@ pub fn offers<'a>(context: &Context<'a>) -> Vec<Offer<'a>> {
 }
 
 fn csv(window: &Window) -> String {
-    let count = window.pressure.singular_values.len().max(window.deformation.singular_values.len());
+    let count = window.pressure.singular_values().len().max(window.deformation.singular_values.len());
     let row = |k: usize| {
         let of = |basis: &PodBasis| {
             let value = basis.singular_values.get(k).copied();
             [value, value.map(|_| basis.loss(k + 1))]
         };
         let mut row = vec![Some(k as f64 + 1.0)];
-        row.extend(of(&window.pressure));
+        row.extend(of(window.pressure.basis()));
         row.extend(of(&window.deformation));
         row
     };

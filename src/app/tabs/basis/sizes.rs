@@ -123,7 +123,7 @@ pub fn ui(
     (model, at, window): (&Arc<ReducedModel>, usize, &Window),
 ) {
     own.follow(ui, context, model, at);
-    let modes = context.answers.options(context.document).pressure_modes.unwrap_or(window.pressure.modes.ncols());
+    let modes = context.answers.options(context.document).pressure_modes.unwrap_or(window.pressure.count());
     ui.horizontal_wrapped(|ui| {
         let label =
             ui.label("Median (line) and largest (dots) of random contacts of this window. Drag the upright lines");
@@ -168,10 +168,10 @@ pub fn ui(
             let Some(to) = moved.inner else { continue };
             match column.varied {
                 Varied::Modes => {
-                    let most = window.pressure.modes.ncols();
+                    let most = window.pressure.count();
                     let wanted = (to.round().max(1.0) as usize).min(most);
                     // A little more, so that rounding keeps this many.
-                    let loss = (wanted < most).then(|| window.pressure.loss(wanted) * (1.0 + 1e-6));
+                    let loss = (wanted < most).then(|| window.pressure.basis().loss(wanted) * (1.0 + 1e-6));
                     let view = View { pressure_loss: loss, ..context.document.view };
                     if view != context.document.view {
                         commands.edit(Edit::View(view.into()), TRUNCATION);

@@ -41,7 +41,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         ("Full solutions", "All windows", |s| {
             s.model.windows.iter().map(|window| window.snapshots.len()).sum::<usize>().to_string()
         }),
-        ("Pressure modes", "Largest window", |s| s.largest(|window| window.pressure.modes.ncols()).to_string()),
+        ("Pressure modes", "Largest window", |s| s.largest(|window| window.pressure.count()).to_string()),
         ("Sampled rows", "Largest window", |s| s.largest(|window| window.sampled_rows.len()).to_string()),
         ("Online median", "Time of a reduced solve, beside whatever else runs", |s| {
             numbers::duration(s.value("median_s"))

@@ -115,7 +115,7 @@ fn range_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
             form.interval(ui, "Ratio of radii {R_y}/{R}", PLAIN, radius_ratio, "1 is a circle");
             form.row(ui, "Highest {p_H}", GIGAPASCAL, max_hertz_pressure, "Contacts beyond it are left out");
         }
-        Range::Oils(OilRange { m, l, alpha, viscosity, exponent, hertz_pressure }) => {
+        Range::Oils(OilRange { m, l, alpha, viscosity, exponent, hertz_pressure, .. }) => {
             form.interval(ui, "Load number {M}", PLAIN, m, "Moes’ load number (3.19)");
             form.interval(ui, "Lubricant {L}", PLAIN, l, "Moes’ lubricant number (3.19)");
             form.interval(ui, "Coefficient {α}", ALPHA, alpha, "Pressure–viscosity coefficient");

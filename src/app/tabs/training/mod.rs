@@ -169,7 +169,7 @@ fn status(ui: &mut Ui, context: &Context<'_>) {
         let text = format!(
             "{}, {} pressure modes, {} rows, {} MB",
             if windows == 1 { "One window".to_owned() } else { format!("{windows} windows") },
-            largest(|w| w.pressure.modes.ncols()),
+            largest(|w| w.pressure.count()),
             largest(|w| w.sampled_rows.len()),
             numbers::digits(made.bytes.len() as f64 / 1e6, 2)
         );

@@ -67,7 +67,7 @@ impl Model {
     /// Pressure modes.
     pub fn modes(&self) -> usize {
         match &self.kind {
-            Kind::Reduced(model) => model.window.pressure.modes.ncols(),
+            Kind::Reduced(model) => model.window.pressure.count(),
             Kind::Linearised { model, .. } => model.space.modes(),
         }
     }
@@ -108,8 +108,8 @@ impl Model {
                 let name = format!("loss_{}", self.frame.name());
                 let mut table = Table::new(name, &["modes", "pressure_loss", "deformation_loss"]);
                 let window = &model.window;
-                let most = window.pressure.singular_values.len().min(MOST_LOSSES);
-                let row = |k| vec![k as f64, window.pressure.loss(k), window.deformation.loss(k)];
+                let most = window.pressure.singular_values().len().min(MOST_LOSSES);
+                let row = |k| vec![k as f64, window.pressure.basis().loss(k), window.deformation.loss(k)];
                 table.rows.extend((0..=most).map(row));
                 table
             }

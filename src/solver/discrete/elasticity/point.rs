@@ -9,6 +9,7 @@ use super::convolution::{Convolution, KernelError};
 use crate::solver::physics::contact::Ellipse;
 use rayon::prelude::*;
 use realfft::num_complex::Complex64;
+use std::sync::OnceLock;
 
 /// The kernel of a half domain: deformation of every node by the pressure of every cell and of its mirror image.
 #[derive(Clone)]
@@ -26,6 +27,8 @@ pub struct PointFlexibility {
     /// in X.
     spectrum: Vec<f64>,
     convolution: Convolution,
+    /// [`Self::column_block`] of every distance, once it was asked for.
+    blocks: OnceLock<Vec<Vec<f64>>>,
 }
 
 impl std::fmt::Debug for PointFlexibility {
@@ -119,7 +122,8 @@ impl PointFlexibility {
         let convolution = Convolution::new(2 * nx - 3);
         let (length, frequencies) = (convolution.len(), convolution.frequencies());
         let (y, edges, spectrum) = (y.to_vec(), edges.to_vec(), Vec::new());
-        let mut kernel = Self { nx, ny, hx, factor, y, edges, spectrum, convolution };
+        let blocks = OnceLock::new();
+        let mut kernel = Self { nx, ny, hx, factor, y, edges, spectrum, convolution, blocks };
         let strips = Strips::new(&kernel);
         // Spectra of the kernels of one ordinate j against all cells, in parallel over j.
         let rows = (0..ny)
@@ -180,6 +184,11 @@ impl PointFlexibility {
             self.row_entries(d, j, |cell, value| block[cell * self.ny + j] = value);
         }
         block
+    }
+
+    /// The former of every distance; computed once, as many entries take more than they.
+    pub fn column_blocks(&self) -> &[Vec<f64>] {
+        self.blocks.get_or_init(|| (0..self.nx).into_par_iter().map(|d| self.column_block(d)).collect())
     }
 
     /// One entry of K: deformation of a node by unit pressure at another; both are indices of node arrays.

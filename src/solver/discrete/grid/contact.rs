@@ -167,9 +167,7 @@ impl ContactGrid {
             Self::Line(grid) => entries.map(|(node, other)| grid.flexibility.entry(node, other)).collect(),
             Self::Point(grid) => {
                 // Equal distances along X are equal entries.
-                let ny = grid.ny();
-                let blocks: Vec<Vec<f64>> =
-                    (0..grid.nx()).into_par_iter().map(|d| grid.flexibility.column_block(d)).collect();
+                let (ny, blocks) = (grid.ny(), grid.flexibility.column_blocks());
                 let entry = |(node, other): (usize, usize)| {
                     blocks[(node / ny).abs_diff(other / ny)][(other % ny - 1) * ny + node % ny]
                 };

@@ -15,6 +15,9 @@ const COMMON: f64 = 0.1;
 /// Part of the evidence that must lie below the bound; more than the 99 % promised, since fresh points scatter.
 const QUANTILE: f64 = 0.996;
 
+/// Leverage of the law beyond which no more is made of it.
+const MOST_LEVERAGE: f64 = 0.5;
+
 /// How one relative error depends on the features.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Quantity {
@@ -48,12 +51,17 @@ impl Quantity {
     /// What a bound needs beside the law, from the surpluses. Errors change their sign over the range and are tiny
     /// beside the places where they do: logarithms scatter much there and say nothing about how large an error can be.
     /// So the bound counts in the root mean square of the errors around, relative to the law.
+    ///
+    /// The law was fitted to the very errors that it is held against, as if its freedom were evidence. Each would be missed
+    /// by 1/(1 − h) as much had the law not seen it, h being its leverage, on average terms over evidence (generalised
+    /// cross-validation).
     pub fn measure(&mut self, neighbours: &[Neighbours]) {
         self.squares = self.surplus.iter().map(|surplus| (2.0 * surplus).exp()).collect();
         let known: Vec<usize> = (0..self.surplus.len()).filter(|&i| self.surplus[i].is_finite()).collect();
         let squares = known.iter().map(|&i| f64::from(self.squares[i]));
         self.mean_square = squares.sum::<f64>() / known.len().max(1) as f64;
-        let score = |&i: &usize| f64::from(self.surplus[i]).exp() / self.size(&neighbours[i]);
+        let unseen = 1.0 / (1.0 - (self.law.len() as f64 / known.len().max(1) as f64).min(MOST_LEVERAGE));
+        let score = |&i: &usize| (unseen * f64::from(self.surplus[i])).exp() / self.size(&neighbours[i]);
         let mut scores: Vec<f64> = known.iter().map(score).collect();
         scores.sort_by(f64::total_cmp);
         let place = ((QUANTILE * (known.len() + 1) as f64).ceil() as usize).clamp(1, known.len().max(1));

@@ -48,7 +48,7 @@ impl Online {
                 residual_norm: solution.residual_estimate,
                 cautious_front: false,
             },
-            grid_cost: None,
+            grid_cost: self.model.windows.get(solution.window).and_then(|window| window.grid_cost(&solution.point)),
             heat,
         })
     }
@@ -95,7 +95,7 @@ impl Online {
         };
         let operators = cell.get_or_init(|| operators_of(&self.model, window, &self.options));
         let modes = solution.coefficients.len();
-        if modes > window.pressure.modes.ncols() || modes != operators.modes {
+        if modes > window.pressure.count() || modes != operators.modes {
             return Err(ReducedError::Empty);
         }
         let scale = window.grid.scale(problem.moes);
@@ -111,7 +111,7 @@ impl Online {
             );
             out
         };
-        let mut pressure = multiply(window.pressure.modes.get(.., ..modes));
+        let mut pressure = multiply(window.pressure.basis().modes.get(.., ..modes));
         let ellipse = problem.point.ellipse();
         let mut film = match &window.shapes {
             None => multiply(operators.deformation(window)),

@@ -48,6 +48,8 @@ pub(super) struct Front {
     pub strides: bool,
     /// Whether modes are held at zero behind B: in windows of many oils it lies at places far apart.
     restrains: bool,
+    /// Σ v vᵀ over the nodes behind B, modes × modes, where they are.
+    behind: Mat<f64>,
     /// Whether B is out of force: a penalty holds all pressures, as far as there are modes.
     idle: bool,
     /// Which of them is in the Jacobian.
@@ -74,6 +76,8 @@ struct Line {
     front: usize,
     /// How many do in K V.
     kept: usize,
+    /// How many lie before those that are held at zero.
+    restrained: usize,
     /// Which way B moved last, and how often it turned.
     down: Option<bool>,
     turns: u8,
@@ -100,6 +104,8 @@ struct Kept {
     /// Of each line how many nodes carry pressure.
     fronts: Vec<usize>,
     deformation: Vec<f64>,
+    /// Σ v vᵀ over the nodes behind it, where modes are held at zero there.
+    behind: Mat<f64>,
 }
 
 /// What the boundary changes of the operators.
@@ -188,7 +194,17 @@ impl Front {
             let first = owners.partition_point(|&owner| owner < line);
             // The last one is never passed: its row says whether B must move on to where no training has been.
             let count = highest - column;
-            Line { column, first, count, front: count, kept: count, down: None, turns: 0, stride: STRIDE }
+            Line {
+                column,
+                first,
+                count,
+                front: count,
+                kept: count,
+                restrained: count,
+                down: None,
+                turns: 0,
+                stride: STRIDE,
+            }
         };
         let lines: Vec<Line> = passed(window).into_iter().enumerate().map(line).collect();
         let passed: Vec<usize> = nodes.iter().map(|passed| passed.node).collect();
@@ -199,6 +215,7 @@ impl Front {
             kept: Vec::new(),
             strides: false,
             restrains: window.anchor.is_some(),
+            behind: Mat::zeros(modes, modes),
             idle: false,
             loaded: None,
             lift: vec![0.0; modes],
@@ -240,7 +257,11 @@ impl Front {
             let mut deformation = whole.to_vec();
             let out = MatMut::from_row_major_slice_mut(&mut deformation, s, modes);
             matmul(out, Accum::Add, bent.transpose(), own.as_ref(), -1.0, Par::Seq);
-            self.kept.push(Kept { fronts, deformation });
+            let mut behind = Mat::zeros(modes, modes);
+            if self.restrains {
+                matmul(behind.as_mut(), Accum::Replace, own.transpose(), own.as_ref(), 1.0, Par::Seq);
+            }
+            self.kept.push(Kept { fronts, deformation, behind });
         }
     }
 
@@ -284,7 +305,7 @@ impl Front {
     /// Puts B somewhere before an iteration begins; without a place it is behind all modes, and out of force.
     pub fn begin(&mut self, fronts: Option<&[usize]>, changed: Changed<'_>) {
         self.idle = fronts.is_none();
-        let Self { lines, nodes, modes: basis, kept, whole_load, loaded, .. } = self;
+        let Self { lines, nodes, modes: basis, kept, whole_load, loaded, behind, .. } = self;
         for (number, line) in lines.iter_mut().enumerate() {
             let place = fronts.map_or(Some(line.count), |fronts| fronts.get(number).map(|front| line.place_of(*front)));
             (line.front, line.down, line.turns, line.stride) = (place.unwrap_or(line.front), None, 0, STRIDE);
@@ -299,8 +320,9 @@ impl Front {
             *loaded = Some(index);
         }
         changed.load_row.copy_from_slice(whole_load);
+        behind.copy_from(&nearest.behind);
         for (line, kept) in lines.iter_mut().zip(&nearest.fronts) {
-            line.kept = *kept;
+            (line.kept, line.restrained) = (*kept, *kept);
             for k in line.first..line.first + line.count {
                 let row = &mut changed.state_rows[nodes[k].place * modes..][..modes];
                 let own = &basis[k * modes..][..modes];
@@ -317,19 +339,33 @@ impl Front {
     /// Adds to the equations, by a factor, that modes are zero behind B: of modes that differ there alone nothing else
     /// tells the coefficients, and Newton's steps would go astray. Solutions are zero there, so that this changes them by
     /// no more than the basis misses.
-    pub fn restrain(&self, factor: f64, coefficients: &[f64], mut matrix: MatMut<'_, f64>, rhs: &mut [f64]) {
+    pub fn restrain(&mut self, factor: f64, mut matrix: MatMut<'_, f64>) {
         if self.idle || !self.restrains {
             return;
         }
-        let modes = self.lift.len();
-        for line in &self.lines {
-            let own = &self.modes[(line.first + line.front) * modes..(line.first + line.count) * modes];
-            let behind = MatRef::from_row_major_slice(own, line.count - line.front, modes);
-            matmul(matrix.rb_mut(), Accum::Add, behind.transpose(), behind, factor, Par::Seq);
-            for own in own.chunks_exact(modes) {
-                let value = factor * dot(own, coefficients);
-                rhs.iter_mut().zip(own).for_each(|(rhs, v)| *rhs -= value * v);
-            }
+        let Self { lines, modes: basis, behind, .. } = self;
+        let modes = matrix.ncols();
+        for line in lines.iter_mut().filter(|line| line.front != line.restrained) {
+            let sign = if line.front < line.restrained { 1.0 } else { -1.0 };
+            let (from, to) = (line.front.min(line.restrained), line.front.max(line.restrained));
+            let own = &basis[(line.first + from) * modes..(line.first + to) * modes];
+            let passed = MatRef::from_row_major_slice(own, to - from, modes);
+            matmul(behind.as_mut(), Accum::Add, passed.transpose(), passed, sign, Par::Seq);
+            line.restrained = line.front;
+        }
+        for (column, own) in matrix.rb_mut().col_iter_mut().zip(behind.col_iter()) {
+            column.iter_mut().zip(own.iter()).for_each(|(entry, own)| *entry += factor * own);
+        }
+    }
+
+    /// What [`Self::restrain`] adds to the right-hand side.
+    pub fn pull(&self, factor: f64, coefficients: &[f64], rhs: &mut [f64]) {
+        if self.idle || !self.restrains {
+            return;
+        }
+        for (own, coefficient) in self.behind.col_iter().zip(coefficients) {
+            let value = factor * coefficient;
+            rhs.iter_mut().zip(own.iter()).for_each(|(rhs, own)| *rhs -= value * own);
         }
     }
 

@@ -86,7 +86,7 @@ impl<'a> ReducedMarch<'a> {
         let reference = line_grid(model)?;
         let grid = reference.scaled(1.0);
         let window = &model.window;
-        let modes = window.pressure.modes.ncols();
+        let modes = window.pressure.count();
         let (unknowns, last) = (grid.unknowns(), grid.len() - 1);
         let rows: Vec<usize> = window.sampled_rows.iter().copied().chain(passed_rows(window)).collect();
         let further: Vec<usize> = rows.iter().map(|row| (row + 4).min(last)).collect();
@@ -99,7 +99,8 @@ impl<'a> ReducedMarch<'a> {
         };
         let sides: Vec<[Side; 2]> = rows.iter().map(|&row| [side(row, 1.0), side(row, -1.0)]).collect();
         let (first, weights) = grid.interpolation(0.0);
-        let at_zero = |k: usize| weights.iter().enumerate().map(|(m, w)| w * window.flexed[(first + m, k)]).sum();
+        let at_zero =
+            |k: usize| weights.iter().enumerate().map(|(m, w)| w * window.pressure.flexed()[(first + m, k)]).sum();
         Ok(Self {
             x: rows.iter().map(|row| grid.x[row + FIRST_UNKNOWN]).collect(),
             lift: (0..modes).map(at_zero).collect(),
@@ -114,7 +115,7 @@ impl<'a> ReducedMarch<'a> {
             cut: Vec::with_capacity(rows.len()),
             fields: [vec![0.0; grid.len()], vec![0.0; grid.len()]],
             fft: Scratch::default(),
-            contact: ContactRows::new(&grid, window.pressure.modes.as_ref(), window.flexed.as_ref()),
+            contact: ContactRows::new(&grid, window.pressure.basis().modes.as_ref(), window.pressure.flexed().as_ref()),
             scalars: Scalars::default(),
             grid,
             observer: None,
@@ -229,9 +230,9 @@ impl<'a> ReducedMarch<'a> {
             let (out, coefficients) = (ColMut::from_slice_mut(out), ColRef::from_slice(&self.coefficients));
             matmul(out.as_mat_mut(), Accum::Replace, basis, coefficients.as_mat(), 1.0, Par::Seq);
         };
-        product(pressure, &window.pressure.modes);
+        product(pressure, &window.pressure.basis().modes);
         if self.fronts.is_empty() {
-            product(film, &window.flexed);
+            product(film, window.pressure.flexed());
         } else {
             cut_off(&window.grid, &self.fronts, pressure);
             self.grid.deform(pressure, film, fft);

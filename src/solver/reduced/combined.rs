@@ -1,0 +1,203 @@
+//! Pressure modes that are combinations of one basis which several windows share.
+//!
+//! Windows around anchors know pressures that look alike: a few hundred modes make those of all, and a window's own few
+//! dozen are combinations of them. So a file holds one basis, and what it deforms is computed once.
+
+use super::dense;
+use super::pod::PodBasis;
+use crate::solver::discrete::grid::ContactGrid;
+use faer::{Mat, MatRef};
+use std::sync::{Arc, OnceLock};
+
+/// A basis of the pressures of several windows.
+#[derive(Debug)]
+pub struct SharedBasis {
+    /// Its modes over the node array.
+    pub basis: PodBasis,
+    /// K V in ξ over the node array.
+    flexed: Mat<f64>,
+    /// wᵀ V: what each mode carries.
+    carried: Vec<f64>,
+}
+
+/// A window's modes, made of a shared basis.
+#[derive(Clone, Debug)]
+pub struct Combined {
+    /// The basis.
+    pub shared: Arc<SharedBasis>,
+    /// What the modes are, in this basis: modes of the basis × modes of the window.
+    pub factors: Mat<f64>,
+}
+
+/// The pressure modes of a window, and what they deform. Combinations of a shared basis are made over all nodes once
+/// they are asked for there: a solve wants few nodes only.
+#[derive(Clone, Debug)]
+pub struct PressureModes {
+    count: usize,
+    singular_values: Vec<f64>,
+    combined: Option<Combined>,
+    basis: OnceLock<PodBasis>,
+    flexed: OnceLock<Mat<f64>>,
+}
+
+/// wᵀ V.
+fn carried(weights: &[f64], modes: MatRef<'_, f64>) -> Vec<f64> {
+    modes.col_iter().map(|mode| weights.iter().zip(mode.iter()).map(|(w, v)| w * v).sum()).collect()
+}
+
+/// Rows of the first columns of a matrix.
+fn rows(matrix: &Mat<f64>, nodes: &[usize], columns: usize) -> Mat<f64> {
+    Mat::from_fn(nodes.len(), columns, |i, k| matrix[(nodes[i], k)])
+}
+
+impl SharedBasis {
+    /// A basis on a grid.
+    pub fn new(basis: PodBasis, grid: &ContactGrid) -> Self {
+        let (flexed, carried) = (grid.flex(&basis.modes), carried(grid.weights(), basis.modes.as_ref()));
+        Self { basis, flexed, carried }
+    }
+}
+
+impl Combined {
+    /// The best combinations for pressures, one per column over the node array: their POD within the shared basis, up to
+    /// a loss of information and a number of modes. `None` when the decomposition fails.
+    pub fn of(
+        shared: &Arc<SharedBasis>,
+        pressures: &Mat<f64>,
+        weights: &[f64],
+        (loss, most): (f64, usize),
+    ) -> Option<PressureModes> {
+        let modes = shared.basis.modes.as_ref();
+        let weighted = Mat::from_fn(pressures.nrows(), pressures.ncols(), |i, j| weights[i] * pressures[(i, j)]);
+        let coefficients = dense::product(modes.transpose(), weighted.as_ref());
+        let PodBasis { modes: factors, singular_values } =
+            PodBasis::new(coefficients.as_ref(), &vec![1.0; modes.ncols()], loss)?.cut(most);
+        Some(Self { shared: Arc::clone(shared), factors }.into_modes(singular_values))
+    }
+
+    /// The modes that it makes, with their singular values.
+    pub fn into_modes(self, singular_values: Vec<f64>) -> PressureModes {
+        let (basis, flexed) = (OnceLock::new(), OnceLock::new());
+        PressureModes { count: self.factors.ncols(), singular_values, combined: Some(self), basis, flexed }
+    }
+
+    /// The first of its columns over some nodes, of the shared modes or of what these deform.
+    fn over(&self, whole: &Mat<f64>, nodes: &[usize], columns: usize) -> Mat<f64> {
+        let factors = self.factors.get(.., ..columns);
+        dense::product(rows(whole, nodes, whole.ncols()).as_ref(), factors)
+    }
+}
+
+impl PressureModes {
+    /// Modes of their own.
+    pub fn own(basis: PodBasis, grid: &ContactGrid) -> Self {
+        let flexed = grid.flex(&basis.modes);
+        Self {
+            count: basis.modes.ncols(),
+            singular_values: basis.singular_values.clone(),
+            combined: None,
+            basis: OnceLock::from(basis),
+            flexed: OnceLock::from(flexed),
+        }
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// All singular values of the pressures that they are of.
+    pub fn singular_values(&self) -> &[f64] {
+        &self.singular_values
+    }
+
+    /// What they are made of, where they are of a shared basis.
+    pub fn combined(&self) -> Option<&Combined> {
+        self.combined.as_ref()
+    }
+
+    /// The modes over all nodes.
+    pub fn basis(&self) -> &PodBasis {
+        self.basis.get_or_init(|| PodBasis {
+            modes: self.whole(|shared| &shared.basis.modes),
+            singular_values: self.singular_values.clone(),
+        })
+    }
+
+    /// K V in ξ over the node array.
+    pub fn flexed(&self) -> &Mat<f64> {
+        self.flexed.get_or_init(|| self.whole(|shared| &shared.flexed))
+    }
+
+    /// Combinations over all nodes.
+    fn whole(&self, of: impl Fn(&SharedBasis) -> &Mat<f64>) -> Mat<f64> {
+        let made = |own: &Combined| dense::product(of(&own.shared).as_ref(), own.factors.as_ref());
+        self.combined.as_ref().map_or_else(Mat::new, made)
+    }
+
+    /// The first modes at some nodes.
+    pub(super) fn at(&self, nodes: &[usize], modes: usize) -> Mat<f64> {
+        match &self.combined {
+            Some(own) => own.over(&own.shared.basis.modes, nodes, modes),
+            None => rows(&self.basis().modes, nodes, modes),
+        }
+    }
+
+    /// K V of the first modes at some nodes.
+    pub(super) fn flexed_at(&self, nodes: &[usize], modes: usize) -> Mat<f64> {
+        match &self.combined {
+            Some(own) => own.over(&own.shared.flexed, nodes, modes),
+            None => rows(self.flexed(), nodes, modes),
+        }
+    }
+
+    /// wᵀ V of the first modes, under the weights of their grid.
+    pub(super) fn carried(&self, weights: &[f64], modes: usize) -> Vec<f64> {
+        match &self.combined {
+            Some(own) => {
+                let of = |k: usize| own.shared.carried.iter().zip(own.factors.col(k).iter()).map(|(w, f)| w * f).sum();
+                (0..modes).map(of).collect()
+            }
+            None => carried(weights, self.basis().modes.get(.., ..modes)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
+
+    #[test]
+    fn combinations_are_the_modes_of_pressures_within_the_shared_basis() {
+        let grid = GridSpec::Plane(PointGridSpec::uniform(0.1, 0.2, (-4.0, 2.0, -2.0))).build().unwrap();
+        let weights = grid.weights();
+        let bump = |k: usize, i: usize| {
+            let (x, y) = grid.place(i);
+            (1.0 - (x - 0.02 * k as f64).powi(2) - y * y).max(0.0).powf(0.5 + 0.05 * k as f64)
+        };
+        let pressures = Mat::from_fn(grid.len(), 12, |i, k| if weights[i] > 0.0 { bump(k, i) } else { 0.0 });
+        let shared = Arc::new(SharedBasis::new(PodBasis::new(pressures.as_ref(), weights, 0.0).unwrap(), &grid));
+        let own = pressures.get(.., ..5).to_owned();
+        let made = Combined::of(&shared, &own, weights, (0.0, 4)).unwrap();
+        let plain = PodBasis::new(own.as_ref(), weights, 0.0).unwrap().cut(4);
+        let (deformed, basis) = (made.flexed(), made.basis());
+        let directly = grid.flex(&basis.modes);
+        let nodes = [3, 17, grid.len() / 2];
+        let (few, few_deformed) = (made.at(&nodes, 3), made.flexed_at(&nodes, 3));
+        let load = made.carried(weights, 4);
+        for k in 0..4 {
+            let carried: f64 = (0..grid.len()).map(|i| weights[i] * basis.modes[(i, k)]).sum();
+            assert!((carried - load[k]).abs() < 1e-12, "{carried} {}", load[k]);
+            for (i, &node) in nodes.iter().enumerate().filter(|_| k < 3) {
+                assert!((few[(i, k)] - basis.modes[(node, k)]).abs() < 1e-12);
+                assert!((few_deformed[(i, k)] - deformed[(node, k)]).abs() < 1e-12);
+            }
+            assert!((made.singular_values()[k] / plain.singular_values[k] - 1.0).abs() < 1e-9);
+            let inner: f64 = (0..grid.len()).map(|i| weights[i] * basis.modes[(i, k)] * plain.modes[(i, k)]).sum();
+            assert!((inner.abs() - 1.0).abs() < 1e-7, "mode {k}: {inner}");
+            let off = (0..grid.len()).map(|i| (deformed[(i, k)] - directly[(i, k)]).abs()).fold(0.0, f64::max);
+            assert!(off < 1e-12, "{off:e}");
+        }
+    }
+}
