@@ -54,7 +54,7 @@ impl GridCost {
     }
 }
 
-/// What the grids cost those of some full solutions that they do not do for: how many these are, of how many, and the
+/// What the grids cost those of some solutions that they do not do for: how many these are, of how many, and the
 /// worst of them with its contact.
 pub fn grid_doubts(judged: impl IntoIterator<Item = (OperatingPoint, GridCost)>) -> Option<String> {
     let (mut all, mut doubtful) = (0, 0);
@@ -72,9 +72,7 @@ pub fn grid_doubts(judged: impl IntoIterator<Item = (OperatingPoint, GridCost)>)
     let (point, cost) = worst?;
     let Moes { m, l } = point.moes();
     let why = cost.warning()?;
-    Some(format!(
-        "the grid does not do for {doubtful} of {all} full solutions; the worst, at M = {m:.4}, L = {l:.4}: {why}"
-    ))
+    Some(format!("the grid does not do for {doubtful} of {all} solutions; the worst, at M = {m:.4}, L = {l:.4}: {why}"))
 }
 
 impl Solution {

@@ -13,7 +13,7 @@ const BELIEF: f64 = 0.8;
 /// Share of the overall mean square in the local one.
 const COMMON: f64 = 0.1;
 /// Part of the evidence that must lie below the bound; more than the 99 % promised, since fresh points scatter.
-const QUANTILE: f64 = 0.996;
+const QUANTILE: f64 = 0.995;
 
 /// Leverage of the law beyond which no more is made of it.
 const MOST_LEVERAGE: f64 = 0.5;
