@@ -1,6 +1,7 @@
 //! The reduced models that are part of the program.
 
 use super::model_file::{self, ModelFileError};
+use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use crate::solver::reduced::ReducedModel;
@@ -59,7 +60,15 @@ impl Embedded {
     /// # Errors
     /// When the program was built with a damaged asset.
     pub fn model(self) -> Result<Arc<ReducedModel>, ModelFileError> {
-        model_file::from_own_bytes(self.bytes()).map(Arc::new)
+        self.model_watched(&())
+    }
+
+    /// The same while an observer watches.
+    ///
+    /// # Errors
+    /// As [`Self::model`], and when the observer cancels.
+    pub(super) fn model_watched(self, observer: &dyn Observer) -> Result<Arc<ReducedModel>, ModelFileError> {
+        model_file::from_own_bytes(self.bytes(), observer).map(Arc::new)
     }
 }
 

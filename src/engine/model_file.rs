@@ -6,6 +6,7 @@ use super::stored_model;
 use super::trajectory_file::in_time;
 use crate::scene::atomic_file::{self, WriteError};
 use crate::solver::discrete::grid::GridError;
+use crate::solver::observer::Observer;
 use crate::solver::reduced::ReducedModel;
 use std::path::{Path, PathBuf};
 
@@ -102,6 +103,9 @@ pub enum ModelFileError {
     /// A model in time does not rest where its trainings began.
     #[error("the model in time does not find the contacts that its trainings began with; train it again")]
     UnprovenInTime,
+    /// It is no longer wanted.
+    #[error("cancelled")]
+    Cancelled,
     /// Its grid is refused.
     #[error("the model file's grid is refused: {0}")]
     Grid(#[from] GridError),
@@ -126,7 +130,15 @@ impl From<Flaw> for ModelFileError {
 /// # Errors
 /// When the file cannot be read, is foreign, newer, cut off or damaged.
 pub fn read(path: &Path) -> Result<ReducedModel, ModelFileError> {
-    from_bytes(&content(path)?)
+    read_watched(path, &())
+}
+
+/// The same while an observer watches.
+///
+/// # Errors
+/// As [`read`], and when the observer cancels.
+pub(super) fn read_watched(path: &Path, observer: &dyn Observer) -> Result<ReducedModel, ModelFileError> {
+    proven(&content(path)?, observer)
 }
 
 /// The content of a model file, of no more than its announced size.
@@ -143,7 +155,7 @@ pub(super) fn content(path: &Path) -> Result<Vec<u8>, ModelFileError> {
 /// When the file cannot be written, or would be refused by [`read`].
 pub fn write(model: &ReducedModel, path: &Path) -> Result<(), ModelFileError> {
     let bytes = to_bytes(model)?;
-    stored_model::prove(model)?;
+    stored_model::prove(model, &())?;
     Ok(atomic_file::replace(path, &bytes)?)
 }
 
@@ -161,14 +173,18 @@ pub fn to_bytes(model: &ReducedModel) -> Result<Vec<u8>, ModelFileError> {
 /// # Errors
 /// As [`read`].
 pub fn from_bytes(bytes: &[u8]) -> Result<ReducedModel, ModelFileError> {
-    let model = from_own_bytes(bytes)?;
-    stored_model::prove(&model)?;
+    proven(bytes, &())
+}
+
+fn proven(bytes: &[u8], observer: &dyn Observer) -> Result<ReducedModel, ModelFileError> {
+    let model = from_own_bytes(bytes, observer)?;
+    stored_model::prove(&model, observer)?;
     Ok(model)
 }
 
 /// The same of bytes that belong to the program, whose parts are known to belong together.
-pub(super) fn from_own_bytes(bytes: &[u8]) -> Result<ReducedModel, ModelFileError> {
-    stored_model::decode(FORMAT.open(bytes)?)
+pub(super) fn from_own_bytes(bytes: &[u8], observer: &dyn Observer) -> Result<ReducedModel, ModelFileError> {
+    stored_model::decode(FORMAT.open(bytes)?, observer)
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use super::{Embedded, EngineError, trajectory_file};
 use crate::scene::Scene;
 use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec};
 use crate::solver::full::ContactSolver;
+use crate::solver::observer::Observer;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::transient::TrajectoryModel;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions};
@@ -92,7 +93,16 @@ impl Store {
     /// # Errors
     /// When the program was built with a damaged one.
     pub fn embedded(&self, which: Embedded) -> Result<Arc<ReducedModel>, ModelFileError> {
-        made_once(&self.0.models, Origin::Embedded(which), || which.model())
+        self.embedded_watched(which, &())
+    }
+
+    /// The same while an observer watches: reading takes a tenth of a second and more.
+    pub(super) fn embedded_watched(
+        &self,
+        which: Embedded,
+        observer: &dyn Observer,
+    ) -> Result<Arc<ReducedModel>, ModelFileError> {
+        made_once(&self.0.models, Origin::Embedded(which), || which.model_watched(observer))
     }
 
     /// The reduced model of a file; read again where the file was changed.
@@ -100,7 +110,16 @@ impl Store {
     /// # Errors
     /// When it cannot be read.
     pub fn model_of_file(&self, path: &Path) -> Result<Arc<ReducedModel>, EngineError> {
-        let read = || model_file::read(path).map(Arc::new);
+        self.model_of_file_watched(path, &())
+    }
+
+    /// The same while an observer watches.
+    pub(super) fn model_of_file_watched(
+        &self,
+        path: &Path,
+        observer: &dyn Observer,
+    ) -> Result<Arc<ReducedModel>, EngineError> {
+        let read = || model_file::read_watched(path, observer).map(Arc::new);
         made_once(&self.0.models, Origin::of_file(path), read).map_err(|reason| unreadable(path, reason))
     }
 
@@ -149,7 +168,10 @@ impl Origin {
 }
 
 fn unreadable(path: &Path, reason: ModelFileError) -> EngineError {
-    EngineError::Model { path: path.to_owned(), reason: reason.into() }
+    match reason {
+        ModelFileError::Cancelled => EngineError::Cancelled,
+        reason => EngineError::Model { path: path.to_owned(), reason: reason.into() },
+    }
 }
 
 /// The model of an origin from its shelf, made where it is not there.

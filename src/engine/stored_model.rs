@@ -8,6 +8,7 @@ use super::stored_heat::StoredHeat;
 use super::stored_matrix::{StoredBasis, StoredMatrix};
 use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec};
 use crate::solver::full::GridCost;
+use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{ContactKind, Ellipse, Moes};
 use crate::solver::physics::lubricant::{Cavitation, LARGEST_HEATED_SRR, ShearLaw, Sliding};
 use crate::solver::reduced::{
@@ -213,13 +214,20 @@ fn check_counts(windows: &[StoredWindow], bytes: usize) -> Result<(), ModelFileE
 /// Solves each window at two of its own snapshots, the first and the last.
 ///
 /// # Errors
-/// When a window does not give the H_c that it was trained from.
-pub(super) fn prove(model: &ReducedModel) -> Result<(), ModelFileError> {
+/// When a window does not give the H_c that it was trained from, or when the observer cancels.
+pub(super) fn prove(model: &ReducedModel, observer: &dyn Observer) -> Result<(), ModelFileError> {
     let windows = model.windows.par_iter().enumerate();
-    match windows.filter(|(k, _)| !model.reproduces_snapshots(*k)).map(|(_, window)| window).find_first(|_| true) {
-        Some(window) => Err(ModelFileError::Unproven { m: window.m }),
-        None => Ok(()),
-    }
+    let proved = windows.map(|(k, window)| {
+        wanted(observer)?;
+        if model.reproduces_snapshots(k) { Ok(()) } else { Err(ModelFileError::Unproven { m: window.m }) }
+    });
+    proved.collect::<Vec<_>>().into_iter().collect()
+}
+
+/// # Errors
+/// When the observer cancels.
+fn wanted(observer: &dyn Observer) -> Result<(), ModelFileError> {
+    if observer.cancelled() { Err(ModelFileError::Cancelled) } else { Ok(()) }
 }
 
 impl StoredWindow {
@@ -619,8 +627,8 @@ fn rupture(model: &mut ReducedModel, cavitation: Cavitation, fronts: Vec<Vec<Vec
 /// The model of a payload.
 ///
 /// # Errors
-/// When its parts do not fit each other.
-pub(super) fn decode(payload: &[u8]) -> Result<ReducedModel, ModelFileError> {
+/// When its parts do not fit each other, or when the observer cancels.
+pub(super) fn decode(payload: &[u8], observer: &dyn Observer) -> Result<ReducedModel, ModelFileError> {
     let (stored, rest): (StoredModel, &[u8]) = postcard::take_from_bytes(payload)
         .map_err(|_| ModelFileError::Damaged { what: "its content cannot be decoded" })?;
     let StoredModel { mut title, mut domain, mut windows, scene, mut log } = stored;
@@ -648,11 +656,15 @@ pub(super) fn decode(payload: &[u8]) -> Result<ReducedModel, ModelFileError> {
     // They are shown on terminals.
     log.iter_mut().chain([&mut title]).for_each(|text| text.retain(|letter| !letter.is_control()));
     let grids = grids(&windows)?;
+    wanted(observer)?;
     let combined = combined(&windows, &grids, in_common).ok_or(damaged("shared bases"))?;
     let deformations = deformations(&mut windows, &grids, oils.is_some()).ok_or(damaged("bases"))?;
     let parts = windows.into_par_iter().zip(grids).zip(deformations).zip(further.schemes.into_par_iter().zip(combined));
     let windows: Vec<Window> = parts
-        .map(|(((w, grid), deformation), further)| w.into_window(grid, &domain, deformation, further))
+        .map(|(((w, grid), deformation), further)| {
+            wanted(observer)?;
+            w.into_window(grid, &domain, deformation, further)
+        })
         .collect::<Result<_, _>>()?;
     let Some(kind) = windows.first().map(|window| window.grid.kind()) else {
         return Err(ModelFileError::Damaged { what: "no windows" });

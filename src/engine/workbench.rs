@@ -1,5 +1,6 @@
 //! Solving single contacts by any method, with everything that can be kept between solves.
 
+use super::model_file::ModelFileError;
 use super::store::Store;
 use super::{Answer, Embedded, EngineError, ReducedFacts, Request};
 use crate::scene::{Bench, Grid, Method, ModelSource, Scene, Study};
@@ -245,11 +246,13 @@ impl Bench for Workbench {
             return Ok(Arc::clone(model));
         }
         match source {
-            ModelSource::Embedded => self
-                .store
-                .embedded(Embedded::of(point, lubricant))
-                .map_err(|reason| EngineError::Embedded(reason.into())),
-            ModelSource::File(path) => self.store.model_of_file(&self.base.join(path)),
+            ModelSource::Embedded => {
+                self.store.embedded_watched(Embedded::of(point, lubricant), observer).map_err(|reason| match reason {
+                    ModelFileError::Cancelled => EngineError::Cancelled,
+                    reason => EngineError::Embedded(reason.into()),
+                })
+            }
+            ModelSource::File(path) => self.store.model_of_file_watched(&self.base.join(path), observer),
             ModelSource::Trained(path) => self.store.trained(&self.training(path)?, observer),
         }
     }

@@ -1,21 +1,26 @@
 //! Random operating points, (3.17), for studies.
 
 use super::error::RunError;
+use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-use crate::solver::training::{Range, random_points};
+use crate::solver::training::{Range, random_points_while};
 
 /// Exactly `n` random points of a range for one kind of contact, the same ones for the same seed.
 ///
 /// # Errors
-/// When the range holds hardly any admissible point.
+/// When the range holds hardly any admissible point, or the observer cancels.
 pub(super) fn all_random_points(
     range: &Range,
     kind: ContactKind,
     n: usize,
     seed: u64,
+    observer: &dyn Observer,
 ) -> Result<Vec<OperatingPoint>, RunError> {
-    let points = random_points(range, kind, n, seed);
+    let points = random_points_while(range, kind, n, seed, || !observer.cancelled());
     let found = points.len();
+    if observer.cancelled() {
+        return Err(RunError::Cancelled);
+    }
     if found < n {
         return Err(RunError::Study(format!(
             "`study.range` holds hardly any point below its largest Hertzian pressure; only {found} of {n} were found"
@@ -31,7 +36,7 @@ mod tests {
     #[test]
     fn a_range_with_hardly_any_point_is_refused_in_a_sentence() {
         let none = Range::Realisation { m: (500.0, 500.0), l: (20.0, 20.0), max_hertz_pressure: 1e6 };
-        let sentence = all_random_points(&none, ContactKind::Line, 3, 1).unwrap_err().to_string();
+        let sentence = all_random_points(&none, ContactKind::Line, 3, 1, &()).unwrap_err().to_string();
         assert!(sentence.contains("only 0 of 3"), "{sentence}");
     }
 }

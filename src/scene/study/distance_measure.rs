@@ -75,7 +75,7 @@ impl Question for DistanceMeasure {
 
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
         let Setting { experiment, observer, .. } = *setting;
-        let drawn = all_random_points(&self.range, experiment.contact, self.points, self.seed)?;
+        let drawn = all_random_points(&self.range, experiment.contact, self.points, self.seed, observer)?;
         let grid = setting.bench.grid(&experiment.request()?, observer)?;
         let solutions = full_solutions(|_| grid.clone(), &drawn, experiment.lubricant, observer)?;
         let (mut kept, mut states) = (Vec::new(), Vec::new());

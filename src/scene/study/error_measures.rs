@@ -112,7 +112,7 @@ impl Question for ErrorMeasureStudy {
 
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
         let Setting { experiment, observer, .. } = *setting;
-        let points = all_random_points(&self.range, experiment.contact, self.points, self.seed)?;
+        let points = all_random_points(&self.range, experiment.contact, self.points, self.seed, observer)?;
         let Some(first) = points.first() else { return Ok(()) };
         let model = setting.bench.model_for(&self.model, first, &experiment.lubricant, observer)?;
         let options = self.online.options();

@@ -206,7 +206,7 @@ impl Question for PlanComparison {
         let plans = self.train(setting)?;
         plans.iter().for_each(|plan| tell(Row::Trained(plan.clone())));
         let common = common_modes(&plans.iter().collect::<Vec<_>>());
-        let points = all_random_points(&Range::Box(self.range), experiment.contact, self.tests, self.seed)?;
+        let points = all_random_points(&Range::Box(self.range), experiment.contact, self.tests, self.seed, observer)?;
         let path = trajectory_points(&self.range, experiment, self.trajectory)?;
         let along: Vec<OperatingPoint> = path.iter().map(|(_, point)| *point).collect();
         let options = self.online.options();

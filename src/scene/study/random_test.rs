@@ -139,8 +139,9 @@ impl Film {
 
 impl RandomTest {
     /// The points, in the order they are drawn in.
-    fn points(&self, experiment: &Experiment) -> Result<Vec<OperatingPoint>, RunError> {
-        let mut points = all_random_points(&self.range, experiment.contact, self.tests, self.seed)?;
+    fn points(&self, setting: &Setting<'_>) -> Result<Vec<OperatingPoint>, RunError> {
+        let Setting { experiment, observer, .. } = *setting;
+        let mut points = all_random_points(&self.range, experiment.contact, self.tests, self.seed, observer)?;
         if !self.range.slides() {
             points.iter_mut().for_each(|point| point.sliding = experiment.sliding);
         }
@@ -234,7 +235,7 @@ impl Divisible for RandomTest {
         pieces: &[usize],
         tell: &Tell<'_, Row>,
     ) -> Result<(), RunError> {
-        let points = self.points(setting.experiment)?;
+        let points = self.points(setting)?;
         match round {
             0 => self.test(&points, pieces, setting, tell),
             _ => self.compare(&points, pieces, setting, tell),
@@ -308,7 +309,7 @@ impl Question for RandomTest {
 
     /// Times are those of single solves, one after the other.
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
-        let points = self.points(setting.experiment)?;
+        let points = self.points(setting)?;
         let all: Vec<usize> = (0..points.len()).collect();
         let rows = Mutex::new(Vec::with_capacity(points.len()));
         self.test(&points, &all, setting, &|row| {

@@ -145,7 +145,7 @@ impl Question for SamplingComparison {
             let sentence = "a comparison of samplings needs a training with one given window";
             return Err(RunError::Study(sentence.to_owned()));
         }
-        let points = all_random_points(&Range::Box(self.range), experiment.contact, self.tests, self.seed)?;
+        let points = all_random_points(&Range::Box(self.range), experiment.contact, self.tests, self.seed, observer)?;
         let own_law = training.lubricant.cavitation;
         // Errors are measured here, against full solutions.
         let mut state = TrainingState::new(TrainingSpec { evidence: 0, ..training });

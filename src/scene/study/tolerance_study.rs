@@ -126,7 +126,7 @@ impl Question for ToleranceStudy {
         let truth = full_solutions(|_| grid.clone(), &along, experiment.lubricant, observer)?;
         let full_failures = truth.iter().filter(|full| full.is_none()).count();
         tell(Row::Trained { log: model.log, full_failures });
-        let points = all_random_points(&Range::Box(self.range), experiment.contact, self.tests, self.seed)?;
+        let points = all_random_points(&Range::Box(self.range), experiment.contact, self.tests, self.seed, observer)?;
         let options = self.online.options();
         let rungs = state.windows[0].search.rungs.clone();
         for (tolerance, solutions) in tolerances.iter().zip(rungs) {

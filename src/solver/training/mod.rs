@@ -49,7 +49,7 @@ pub use calibrate::EVIDENCE;
 pub use indicator::Indicator;
 pub use oil_range::OilRange;
 pub use one_thread::on_one_thread;
-pub use plan::random_points;
+pub use plan::{random_points, random_points_while};
 pub use range::{HeatedRange, QuantityBox, Range, SlidingRange};
 pub use rows::with_rows;
 pub use state::{Solved, TrainingState, WindowState, train_resumable};

@@ -43,7 +43,32 @@ pub(super) struct Within {
 /// Random points of a range by (3.17), which pushes towards its boundary: the same ones for the same seed, whoever
 /// asks. Fewer than `count` where hardly any contact of the range is admissible.
 pub fn random_points(range: &Range, kind: ContactKind, count: usize, seed: u64) -> Vec<OperatingPoint> {
-    Within::all(*range, kind).random_points(count, &mut Rng::with_seed(seed))
+    random_points_while(range, kind, count, seed, || true)
+}
+
+/// Points between two questions whether more are wanted.
+const UNASKED: usize = 1000;
+
+/// The same as long as they are wanted: a hundred thousand take a tenth of a second.
+pub fn random_points_while(
+    range: &Range,
+    kind: ContactKind,
+    count: usize,
+    seed: u64,
+    wanted: impl Fn() -> bool,
+) -> Vec<OperatingPoint> {
+    let (within, mut rng) = (Within::all(*range, kind), Rng::with_seed(seed));
+    let mut points = Vec::with_capacity(count);
+    while points.len() < count && wanted() {
+        let share = UNASKED.min(count - points.len());
+        let more = within.random_points(share, &mut rng);
+        let exhausted = more.len() < share;
+        points.extend(more);
+        if exhausted {
+            break;
+        }
+    }
+    points
 }
 
 impl Within {
