@@ -331,9 +331,9 @@ impl Document {
             scene.expect.clear();
             scene.source.clear();
         }
-        if self.lubricant.heat.is_some() && scene.study.check_heat().is_err() {
-            // No embedded model knows heat, and few studies do.
-            scene.study = Study::Point(Point { methods: vec![Method::Full] });
+        if self.lubricant.heat.is_some() && scene.study.check_heat(self.point.kind).is_err() {
+            // Few studies know heat, and no model of point contacts.
+            scene.study = Study::Point(Point { methods: methods_of(self.point.kind) });
             scene.expect.clear();
         }
         scene.grid = self.grid;

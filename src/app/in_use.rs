@@ -89,16 +89,31 @@ pub fn question(title: &str, key: &Key, grid: Grid, study: Study) -> Scene {
     let point = &key.point;
     let Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: npr } = point.sliding;
     let moes = point.moes();
-    Scene {
+    let mut scene = Scene {
         title: title.to_owned(),
         contact: point.kind,
-        lubricant: key.lubricant,
-        heat: key.lubricant.heat,
         at: At::from(*point),
         srr,
         npr,
         grid,
         study,
         ..Scene::at_moes(moes.m, moes.l)
+    };
+    scene.set_laws(key.lubricant);
+    scene
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::document::Document;
+    use crate::solver::physics::lubricant::{Cavitation, Heat, Lubricant};
+
+    #[test]
+    fn a_question_has_all_laws_of_the_contact_it_is_about() {
+        let Document { point, lubricant, .. } = Document::default();
+        let laws = Lubricant { cavitation: Cavitation::Complementarity, heat: Some(Heat::default()), ..lubricant };
+        let asked = question("", &Key { point, lubricant: laws }, Grid::Graded, Scene::at_moes(40.0, 10.0).study);
+        assert_eq!(asked.laws(), laws);
     }
 }

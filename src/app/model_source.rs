@@ -7,35 +7,36 @@ use crate::solver::reduced::ReducedModel;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// The model that is read when it is first asked for.
-const LATE: Embedded = Embedded::Ellipse;
+/// The models that are read when they are first asked for: not everybody has ellipses or heat.
+const LATE: [Embedded; 2] = [Embedded::Ellipse, Embedded::HeatedLine];
 
 /// The reduced models in use. Where there is none for a contact and its fluid, the full solver draws the pictures.
 #[derive(Clone, Default)]
 pub struct Models {
     models: Vec<Arc<ReducedModel>>,
-    /// One of the program that is read only when it is first asked for: its operators take seconds.
-    late: Option<Embedded>,
+    /// Those of the program that are read only when they are first asked for.
+    late: Vec<Embedded>,
 }
 
 impl Models {
-    /// The models embedded in the program, that of ellipses later. Without them (a damaged build) the full solver draws
+    /// The models embedded in the program, some of them later. Without them (a damaged build) the full solver draws
     /// the pictures.
     pub fn embedded(store: &Store) -> Self {
-        let (first, late) = (Embedded::ALL.into_iter().filter(|which| *which != LATE), Some(LATE));
+        let (late, first): (Vec<_>, Vec<_>) = Embedded::ALL.into_iter().partition(|which| LATE.contains(which));
         // Operators are computed as a model is read: all of them at once, for the window waits.
-        let first: Vec<Embedded> = first.collect();
         Self { models: first.par_iter().filter_map(|&which| store.embedded(which).ok()).collect(), late }
     }
 
     /// The model that has to be read before a contact can be served; only once.
     pub fn late_for(&mut self, point: &OperatingPoint, lubricant: &Lubricant) -> Option<Embedded> {
-        self.late.take_if(|late| *late == Embedded::of(point, lubricant))
+        let wanted = Embedded::of(point, lubricant);
+        let place = self.late.iter().position(|late| *late == wanted)?;
+        Some(self.late.swap_remove(place))
     }
 
     /// Only this model, or none.
     pub fn only(model: Option<Arc<ReducedModel>>) -> Self {
-        Self { models: model.into_iter().collect(), late: None }
+        Self { models: model.into_iter().collect(), late: Vec::new() }
     }
 
     /// The model that serves a contact with a fluid: one of its shape and of this very fluid, else one of another fluid
@@ -74,6 +75,15 @@ impl Models {
         self.models.retain(|other| !Arc::ptr_eq(other, model));
     }
 
+    /// Whether contacts of a model's kind, with a fluid like its own, have one.
+    pub fn serves(&self, model: &ReducedModel) -> bool {
+        let kind = |model: &ReducedModel| {
+            let Lubricant { shear, heat, .. } = model.domain.lubricant;
+            (model.contact(), model.of_ellipses(), shear == ShearLaw::Newtonian, heat.is_some())
+        };
+        self.models.iter().any(|known| kind(known) == kind(model))
+    }
+
     /// Whether a model is among them.
     pub fn contains(&self, model: &Arc<ReducedModel>) -> bool {
         self.models.iter().any(|other| Arc::ptr_eq(other, model))
@@ -90,9 +100,12 @@ impl Models {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::document::Document;
     use crate::scene::named_lubricant::{SQUALANE_PIP, by_name};
-    use crate::solver::physics::contact::{MoesRequest, Quantity, si_from_moes};
-    use crate::solver::physics::lubricant::{LimitingStress, ViscosityLaw};
+    use crate::solver::full::Problem;
+    use crate::solver::physics::contact::{MoesRequest, Quantity, Sliding, si_from_moes};
+    use crate::solver::physics::lubricant::{Heat, LimitingStress, ViscosityLaw};
+    use crate::solver::reduced::Trust;
 
     fn line() -> OperatingPoint {
         si_from_moes(&MoesRequest::new(ContactKind::Line, 40.0, 10.0)).unwrap()
@@ -145,5 +158,27 @@ mod tests {
             models.of(&ellipse, &oil).unwrap().of_ellipses() && Arc::ptr_eq(models.of(&circle, &oil).unwrap(), &round)
         );
         assert_eq!(Models::only(None).late_for(&ellipse, &oil), None);
+    }
+
+    #[test]
+    fn the_model_with_heat_is_read_late_and_draws_what_has_heat_only() {
+        let store = Store::default();
+        let mut models = Models::embedded(&store);
+        let cold = Document::default().lubricant;
+        let warm = Lubricant { heat: Some(Heat::default()), ..cold };
+        assert_eq!(models.late_for(&line(), &cold), None);
+        assert_eq!(models.late_for(&line(), &warm), Some(Embedded::HeatedLine));
+        let heated = store.embedded(Embedded::HeatedLine).unwrap();
+        let isothermal = Arc::clone(models.of(&line(), &warm).unwrap());
+        assert!(!models.serves(&heated) && models.serves(&isothermal));
+        assert!(models.put(Arc::clone(&heated)).is_none() && models.serves(&heated));
+        assert!(Arc::ptr_eq(models.of(&line(), &warm).unwrap(), &heated));
+        assert!(Arc::ptr_eq(models.of(&line(), &cold).unwrap(), &isothermal));
+        // The contact that the explorer opens with is one of those it was trained for.
+        for srr in [0.0, 0.1, 1.0] {
+            let sliding = Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: None };
+            let point = OperatingPoint { sliding, ..Document::default().point };
+            assert_eq!(heated.trust(&Problem::new(&point, warm).unwrap()), Trust::Trained, "SRR {srr}");
+        }
     }
 }

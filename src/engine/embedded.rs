@@ -20,11 +20,14 @@ pub enum Embedded {
     ThinningCircle,
     /// Elliptical contacts: `scenes/training/embedded_ellipse_model.ron`.
     Ellipse,
+    /// Line contacts with heat: `scenes/training/line_heat.ron`.
+    HeatedLine,
 }
 
 impl Embedded {
     /// All of them.
-    pub const ALL: [Self; 5] = [Self::Line, Self::ThinningLine, Self::Circle, Self::ThinningCircle, Self::Ellipse];
+    pub const ALL: [Self; 6] =
+        [Self::Line, Self::ThinningLine, Self::Circle, Self::ThinningCircle, Self::Ellipse, Self::HeatedLine];
 
     /// The one of a kind of contact, circular where it is one of points, and of a lubricant that thins under shear or
     /// not.
@@ -38,9 +41,12 @@ impl Embedded {
     }
 
     /// The one that serves a contact. Ellipses of lubricants that thin under shear have none: they get that of circles,
-    /// which says so.
+    /// which says so; as do points with heat, and lines with heat whose lubricants thin.
     pub fn of(point: &OperatingPoint, lubricant: &Lubricant) -> Self {
         let thins = lubricant.shear != ShearLaw::Newtonian;
+        if point.kind == ContactKind::Line && lubricant.heat.is_some() {
+            return Self::HeatedLine;
+        }
         if point.radius_ratio() != 1.0 && !thins { Self::Ellipse } else { Self::of_kind(point.kind, thins) }
     }
 
@@ -52,6 +58,7 @@ impl Embedded {
             Self::Circle => include_bytes!("../../assets/point.rom"),
             Self::ThinningCircle => include_bytes!("../../assets/point_shear.rom"),
             Self::Ellipse => include_bytes!("../../assets/ellipse.rom"),
+            Self::HeatedLine => include_bytes!("../../assets/line_heat.rom"),
         }
     }
 
@@ -77,6 +84,7 @@ mod tests {
     use super::*;
     use crate::scene::named_lubricant::SQUALANE_PIP;
     use crate::solver::physics::contact::{MoesRequest, Quantity, si_from_moes};
+    use crate::solver::physics::lubricant::Heat;
 
     #[test]
     fn the_parts_of_every_model_belong_together() {
@@ -97,5 +105,7 @@ mod tests {
         assert_eq!(Embedded::of(&ellipse, &SQUALANE_PIP), Embedded::ThinningCircle);
         let line = si_from_moes(&MoesRequest::new(ContactKind::Line, 50.0, 5.0)).unwrap();
         assert_eq!(Embedded::of(&line, &SQUALANE_PIP), Embedded::ThinningLine);
+        let warm = Lubricant { heat: Some(Heat::default()), ..oil };
+        assert_eq!([line, circle].map(|point| Embedded::of(&point, &warm)), [Embedded::HeatedLine, Embedded::Circle]);
     }
 }

@@ -21,6 +21,10 @@ const EXPONENTS: std::ops::RangeInclusive<i16> = -400..=400;
 const MOST_ALONG: u8 = 5;
 const MOST_BESIDE: u8 = 2;
 
+/// How far, relative to itself, a row of a cubature may lie from a multiple of the modes at its node: as rare modes do that
+/// were kept once.
+const ITS_OWN: f64 = 1e-3;
+
 /// A matrix on its way to or from a file.
 #[derive(Clone, Default, Serialize, Deserialize)]
 pub(super) struct StoredMatrix {
@@ -36,6 +40,8 @@ enum Values {
     Single(Vec<f32>),
     Steps(Steps),
     Curves(Curves),
+    /// Of each column the multiple that it is of what another matrix has there.
+    Weights(Vec<f32>),
 }
 
 impl Default for Values {
@@ -95,6 +101,34 @@ impl StoredMatrix {
         Self { rows: matrix.nrows(), columns: matrix.ncols(), values: Values::Single(values) }
     }
 
+    /// A cubature by its weights, to seven digits: column r is a multiple of what all modes are at the node of row r, rows ×
+    /// modes. `None` where it is not.
+    pub fn weights(matrix: &Mat<f64>, modes: &Mat<f64>) -> Option<Self> {
+        if (matrix.nrows(), matrix.ncols()) != (modes.ncols(), modes.nrows()) {
+            return None;
+        }
+        let weight = |r: usize| {
+            let (column, node) = (matrix.col(r), modes.row(r).transpose());
+            let square = node.squared_norm_l2();
+            let weight = if square > 0.0 { node.transpose() * column / square } else { 0.0 };
+            let off = (column - node * faer::Scale(weight)).norm_l2();
+            (off <= ITS_OWN * column.norm_l2()).then_some(weight as f32)
+        };
+        let weights = (0..matrix.ncols()).map(weight).collect::<Option<_>>()?;
+        Some(Self { rows: matrix.nrows(), columns: matrix.ncols(), values: Values::Weights(weights) })
+    }
+
+    /// The same with the columns of a cubature that was kept as its weights, given what so many modes are at the nodes of
+    /// its rows. `None` where these do not fit it.
+    pub fn of_modes(self, modes: impl FnOnce() -> Mat<f64>) -> Option<Self> {
+        let Values::Weights(weights) = &self.values else { return Some(self) };
+        let modes = modes();
+        let fits = (self.rows, self.columns) == (modes.ncols(), modes.nrows()) && weights.len() == self.columns;
+        let columns = modes.row_iter().zip(weights);
+        let values = || columns.flat_map(|(node, &weight)| node.iter().map(move |value| f64::from(weight) * value));
+        fits.then(|| Self { values: Values::Double(values().collect()), ..self })
+    }
+
     /// Columns over a grid with so many nodes across, kept to `accuracy` relative to the size Σ_k (scale_k V_ik)² of
     /// each row.
     pub fn stepped(matrix: &Mat<f64>, across: usize, scales: &[f64], accuracy: f64) -> Self {
@@ -132,6 +166,7 @@ impl StoredMatrix {
             Values::Single(values) => values.into_iter().map(f64::from).collect(),
             Values::Steps(steps) => steps.values(rows, columns)?,
             Values::Curves(curves) => curves.values(rows, columns)?,
+            Values::Weights(_) => return None,
         };
         let sound = values.len() == count && values.iter().all(|v| v.is_finite());
         sound.then(|| Mat::from_fn(rows, columns, |i, j| values.get(j * rows + i).copied().unwrap_or_default()))
@@ -419,6 +454,30 @@ mod tests {
             Steps { across, runs, row_exponents, column_exponents: vec![-2, -3], steps: vec![2, 1, 1, 0, 0, 4] };
         let former = stored(Values::Steps(steps)).into_mat(3).unwrap();
         assert_eq!(former, Mat::from_fn(3, 2, |i, j| [[0.5, 1.25, 2.5], [0.0, 0.0, 1.0]][j][i]));
+    }
+
+    #[test]
+    fn a_cubature_is_kept_as_its_weights() {
+        let modes = Mat::from_fn(9, 4, |r, k| ((r + 2) as f64 * (0.3 + k as f64)).sin());
+        let weight = |r: usize| 0.1 + (r as f64).sqrt();
+        let rule = Mat::from_fn(4, 9, |k, r| weight(r) * modes[(r, k)]);
+        let stored = StoredMatrix::weights(&rule, &modes).unwrap();
+        let bytes = postcard::to_allocvec(&stored).unwrap();
+        assert!(bytes.len() < 9 * 4 + 8, "{} bytes", bytes.len());
+        let read = || postcard::from_bytes::<StoredMatrix>(&bytes).unwrap();
+        let again = read().of_modes(|| modes.clone()).unwrap().into_mat(4).unwrap();
+        assert!((&again - &rule).norm_max() < 1e-6 * rule.norm_max());
+        // Once kept it is kept as it is.
+        let twice = StoredMatrix::weights(&again, &modes).unwrap();
+        assert_eq!(postcard::to_allocvec(&twice).unwrap(), bytes);
+        // Rows that only their own nodes do not make are none.
+        let mut other = rule.clone();
+        other[(2, 5)] += 1e-2 * rule.norm_max();
+        assert!(StoredMatrix::weights(&other, &modes).is_none());
+        assert!(StoredMatrix::weights(&rule.transpose().to_owned(), &modes).is_none());
+        assert!(read().into_mat(4).is_none(), "weights alone are no matrix");
+        assert!(read().of_modes(|| modes.get(..8, ..).to_owned()).is_none());
+        assert!(StoredMatrix::exact(&rule).of_modes(Mat::new).unwrap().into_mat(4).unwrap() == rule);
     }
 
     #[test]

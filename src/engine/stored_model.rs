@@ -249,7 +249,12 @@ impl StoredWindow {
         if modes == 0 {
             return damaged("bases");
         }
-        let stored = StoredRows { rows: self.sampled_rows, reconstruction: self.reconstruction, scheme, residual };
+        if self.sampled_rows.iter().any(|&row| row >= grid.unknowns()) {
+            return damaged("sampled rows");
+        }
+        let of_rows = || modes_at(&grid, &pressure, &self.sampled_rows);
+        let Some(reconstruction) = self.reconstruction.of_modes(of_rows) else { return damaged("sampled rows") };
+        let stored = StoredRows { rows: self.sampled_rows, reconstruction, scheme, residual };
         let rows = stored.into_rows(modes, &grid)?;
         let snapshots_fit = self.snapshots.iter().all(|s| {
             let Sliding { slide_to_roll_ratio, newtonian_plateau_ratio } = s.point.sliding;
@@ -314,10 +319,7 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
                 deformation: deformation(k, w),
                 sampling: w.sampling,
                 sampled_rows: w.sampled_rows.clone(),
-                reconstruction: match (w.anchor, &w.shapes) {
-                    (None, None) => StoredMatrix::exact(&w.reconstruction),
-                    _ => StoredMatrix::single(&w.reconstruction),
-                },
+                reconstruction: stored_reconstruction(w, model.domain.heat.is_some()),
                 snapshots: w.snapshots.iter().map(|snapshot| without_coefficients(snapshot, w)).collect(),
                 traction: w.traction.clone(),
                 calibration: w.calibration.clone(),
@@ -354,6 +356,24 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
         }
         (None, None, None) => Some(payload),
     }
+}
+
+/// What a window makes of its rows' values. Windows that come by the dozen, and those with heat, keep what a cubature makes
+/// as its weights, and what others make to seven digits.
+fn stored_reconstruction(window: &Window, heat: bool) -> StoredMatrix {
+    let exact = &window.reconstruction;
+    if window.anchor.is_none() && window.shapes.is_none() && !heat {
+        return StoredMatrix::exact(exact);
+    }
+    let rule = || StoredMatrix::weights(exact, &modes_at(&window.grid, &window.pressure, &window.sampled_rows));
+    let rule = if window.sampling == Sampling::Cubature { rule() } else { None };
+    rule.unwrap_or_else(|| StoredMatrix::single(exact))
+}
+
+/// What all modes are at the nodes of sampled rows.
+fn modes_at(grid: &ContactGrid, pressure: &PressureModes, rows: &[usize]) -> Mat<f64> {
+    let nodes: Vec<usize> = rows.iter().map(|&row| grid.node(row)).collect();
+    pressure.at(&nodes, pressure.count())
 }
 
 /// Whether a window around an anchor has the very deformation basis of another one.

@@ -49,9 +49,11 @@ fn exported(harness: &mut Window, item: &str, name: &str) -> Vec<String> {
     text.lines().map(str::to_owned).collect()
 }
 
-/// What a headless run answers to a question about the contact that the window begins with.
+/// What a headless run answers to a question about the contact that the window begins with, of films that rupture as the
+/// model's do.
 fn headless(study: &str) -> SceneOutcome {
-    let text = format!("Scene(version: 1, title: \"t\", at: Moes(m: 40.0, l: 10.0), study: {study})");
+    let of = "at: Moes(m: 40.0, l: 10.0), cavitation: Complementarity";
+    let text = format!("Scene(version: 1, title: \"t\", {of}, study: {study})");
     let scene = Scene { grid: Grid::Model, ..Scene::from_ron(&text).unwrap() };
     run_scene(&scene, &mut Workbench::new(""), &()).unwrap()
 }

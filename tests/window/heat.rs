@@ -1,24 +1,27 @@
-//! Heat, switched on beside the lubricant: full solutions with temperatures draw the contact on the screen.
+//! Heat, switched on beside the lubricant: the program's model with heat draws the contact on the screen, where it knows it,
+//! and full solutions elsewhere.
 
 use crate::common::scratch::Scratch;
-use crate::driver::{Window, choose, click, export, press, shows, undo, wait, wait_until, write};
+use crate::driver::{choose, click, export, press, set, shows, undo, wait, wait_until, write};
+use egui::accesskit::Role;
 use egui::{Key, Modifiers};
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
 use std::time::{Duration, Instant};
 
 const PATIENCE: Duration = Duration::from_secs(300);
 
 #[test]
-fn a_contact_with_heat_is_drawn_by_the_full_solver_and_its_temperatures_stand_in_results() {
+fn a_contact_with_heat_is_drawn_at_once_and_its_temperatures_stand_in_results() {
     let explorer = Explorer::with_embedded_models().without_system_dialogs();
     let mut harness = crate::driver::window(explorer, [1280.0, 1900.0]);
     wait(&mut harness, "verification", |app| app.badge() == "Verified");
     let cold = harness.state().central_film().expect("a picture");
     click(&mut harness, "Heat");
-    let outside = |app: &Explorer| app.badge() == "Outside the reduced model" && !app.busy();
-    wait(&mut harness, "the full solver", outside);
-    assert!(harness.state().badge_detail().contains("heat"), "{}", harness.state().badge_detail());
+    // The model is read, draws, and is verified by a full solution with heat.
+    let warmer = |app: &Explorer| app.central_film().is_some_and(|film| film < cold);
+    wait(&mut harness, "verification", |app| warmer(app) && app.badge() == "Verified" && !app.busy());
+    assert!(harness.query_by_label_contains("reduced model").is_some(), "by the model");
     let warm = harness.state().central_film().expect("a picture");
     assert!(warm < cold, "{warm} {cold}");
     for plot in ["Rises of temperature", "Temperatures of the film"] {
@@ -32,7 +35,9 @@ fn a_contact_with_heat_is_drawn_by_the_full_solver_and_its_temperatures_stand_in
     assert!(shows(&harness, "Murch–Wilson") && shows(&harness, "Gupta"));
     click(&mut harness, "Profiles");
     choose(&mut harness, "Body 2", "Glass");
+    let outside = |app: &Explorer| app.badge() == "Outside the reduced model" && !app.busy();
     wait(&mut harness, "the full solver", outside);
+    assert!(harness.state().badge_detail().contains("thermal constants"), "{}", harness.state().badge_detail());
     click(&mut harness, "Results");
     wait(&mut harness, "rest", |app| !app.busy());
     assert!(shows(&harness, "Rise at mid-film") && shows(&harness, "Heat into body 2"));
@@ -55,9 +60,7 @@ fn a_traction_curve_with_heat_lies_below_the_one_without() {
     click(&mut harness, "Heat");
     click(&mut harness, "Traction");
     let folder = Scratch::new("traction-with-heat");
-    let stops = |window: &Window| window.query_by_label("Stop").is_some();
-    wait_until(PATIENCE, &mut harness, "the first full solutions", stops);
-    wait_until(PATIENCE, &mut harness, "the last one", |window| !stops(window));
+    wait_until(PATIENCE, &mut harness, "the curve", |window| shows(window, "41 contacts in"));
     let (begin, mut count) = (Instant::now(), 0);
     let (warm, cold) = loop {
         harness.run_steps(5);
@@ -69,13 +72,42 @@ fn a_traction_curve_with_heat_lies_below_the_one_without() {
         let names: Vec<&str> = lines[0].split(',').collect();
         let column = |name: &str| -> Vec<f64> {
             let at = names.iter().position(|own| *own == name).unwrap_or_else(|| panic!("{name}: {names:?}"));
-            lines[1..].iter().filter_map(|line| line.split(',').nth(at)?.parse().ok()).collect()
+            // Full solutions beside it are told apart by the first column.
+            let own = lines[1..].iter().filter(|line| line.starts_with("0,"));
+            own.filter_map(|line| line.split(',').nth(at)?.parse().ok()).collect()
         };
         let curves = (column("traction"), column("isothermal_traction"));
-        if curves.0.len() == 21 && curves.1.len() == 21 {
+        if curves.0.len() == 41 && curves.1.len() == 41 {
             break curves;
         }
         assert!(begin.elapsed() < PATIENCE, "{table}");
     };
-    assert!(warm[20] < 0.95 * cold[20] && (warm[1] / cold[1] - 1.0).abs() < 0.1, "{warm:?} {cold:?}");
+    assert!(warm[40] < 0.97 * cold[40] && (warm[1] / cold[1] - 1.0).abs() < 0.1, "{warm:?} {cold:?}");
+}
+
+#[test]
+fn a_ball_with_heat_has_a_map_of_its_temperatures() {
+    let explorer = Explorer::with_embedded_models().without_system_dialogs();
+    let mut harness = crate::driver::window(explorer, [1280.0, 1900.0]);
+    wait(&mut harness, "verification", |app| app.badge() == "Verified");
+    click(&mut harness, "Ball");
+    wait(&mut harness, "verification", |app| app.badge() == "Verified" && !app.busy());
+    click(&mut harness, "Contact map");
+    assert!(harness.query_by_label("Temperature map").is_none(), "there is none without heat");
+    let cold = harness.state().central_film().expect("a picture");
+    set(&mut harness, Role::Slider, "Slide-to-roll ratio SRR", 0.3);
+    click(&mut harness, "Heat");
+    let warm = |app: &Explorer| app.central_film().is_some_and(|film| film < 0.999 * cold);
+    wait(&mut harness, "the full solver", |app| warm(app) && !app.busy());
+    assert!(harness.state().badge_detail().contains("without heat"), "{}", harness.state().badge_detail());
+    click(&mut harness, "Temperature map");
+    harness.run_steps(3);
+    let said = harness.get_by_label("Map of the contact").accesskit_node().description().unwrap_or_default();
+    assert!(said.contains("Temperature map") && said.contains("warms by"), "{said}");
+    click(&mut harness, "Profiles");
+    assert!(harness.query_by_label("Temperatures of the film").is_some());
+    click(&mut harness, "Contact map");
+    click(&mut harness, "Heat");
+    wait(&mut harness, "verification", |app| app.badge() == "Verified" && !app.busy());
+    assert!(harness.query_by_label("Temperature map").is_none(), "the map of the film is back");
 }

@@ -40,16 +40,21 @@ impl Model {
     }
 
     /// A model of the program: for ``"line"`` or ``"point"`` contacts (circles), of lubricants that thin under shear or
-    /// not.
+    /// not; of line contacts also with heat.
     #[staticmethod]
-    #[pyo3(signature = (contact="line", thinning=false))]
-    fn embedded(py: Python<'_>, contact: &str, thinning: bool) -> PyResult<Self> {
+    #[pyo3(signature = (contact="line", thinning=false, heat=false))]
+    fn embedded(py: Python<'_>, contact: &str, thinning: bool, heat: bool) -> PyResult<Self> {
         let kind = match contact {
             "line" => ContactKind::Line,
             "point" => ContactKind::Point,
             _ => return Err(refused(format!("`{contact}` is no contact; accepted are line, point"))),
         };
-        Ok(Self(py.detach(|| Embedded::of_kind(kind, thinning).model()).map_err(refused)?))
+        let which = match (kind, thinning, heat) {
+            (_, _, false) => Embedded::of_kind(kind, thinning),
+            (ContactKind::Line, false, true) => Embedded::HeatedLine,
+            _ => return Err(refused("heat is known to the model of line contacts without thinning only".to_owned())),
+        };
+        Ok(Self(py.detach(|| which.model()).map_err(refused)?))
     }
 
     /// Trains a model as a scene describes, given by its text or its file; ``progress(stage, done, total)`` is called

@@ -1,6 +1,7 @@
 """Reduced models: loaded, trained, saved, looked into."""
 
 import numpy as np
+import pytest
 
 import ehl_explorer as ehl
 
@@ -38,3 +39,14 @@ def test_training_tells_how_far_it_is_and_gives_the_model_of_the_command_line(sm
     contact = ehl.Contact.moes(40, 10)
     saved, own = (ehl.solve(contact, model=tmp_path / name).H_c for name in ["saved.rom", "own.rom"])
     assert saved == own and abs(ehl.solve(contact, model=model).H_c / own - 1) < 1e-10
+
+
+def test_the_model_with_heat_is_one_of_the_program():
+    model = ehl.Model.embedded("line", heat=True)
+    options = dict(modulus=231e9, viscosity=0.01, alpha=1.4520113272322256e-8, lubricant="mineral-oil", srr=0.2, heat=True)
+    contact = ehl.Contact.si(3e-3, 2.0, 2e5, **options)
+    found = ehl.solve(contact, method="reduced")
+    assert found.H_c == ehl.solve(contact, model=model).H_c
+    assert abs(found.H_c / ehl.solve(contact).H_c - 1) < 3e-3
+    with pytest.raises(ValueError, match="line contacts"):
+        ehl.Model.embedded("point", heat=True)

@@ -6,7 +6,7 @@ use super::picture::{Cuts, Origin, Picture};
 use super::{Answers, Ask, PassedOver, REST_S};
 use crate::app::document::{Document, Key};
 use crate::solver::discrete::grid::PointGridSpec;
-use crate::solver::reduced::{ReducedOptions, Trust};
+use crate::solver::reduced::{ReducedModel, ReducedOptions, Trust};
 use egui::Context;
 use std::sync::Arc;
 use std::time::Instant;
@@ -15,7 +15,9 @@ impl Answers {
     /// Answers a changed document: at once by the reduced model, else by the full solver in the worker. Called after
     /// the panels.
     pub fn refresh(&mut self, ctx: &Context, document: &Document) {
-        if let Some(which) = self.models.late_for(&document.point, &document.lubricant) {
+        if self.reading.is_none()
+            && let Some(which) = self.models.late_for(&document.point, &document.lubricant)
+        {
             self.read(ctx, which);
         }
         let ask = Ask::of(document, &self.models);
@@ -88,7 +90,9 @@ impl Answers {
 
     /// Why the reduced model is not even tried; `None` where it is.
     fn untried(&self, document: &Document) -> Option<PassedOver> {
-        let shapes = self.model(document).is_some_and(|model| model.is_of(&document.point));
+        let heat = document.lubricant.heat.is_some();
+        let own = |model: &Arc<ReducedModel>| model.is_of(&document.point) && model.domain.heat.is_some() == heat;
+        let shapes = self.model(document).is_some_and(own);
         match self.trust(document) {
             _ if self.reading.is_some() && !shapes => Some(PassedOver::Reading),
             None => Some(PassedOver::NoModel),

@@ -33,9 +33,7 @@ impl Answers {
         // Who has put one of his own in use meanwhile keeps it; where the build is damaged there is none.
         self.reading = None;
         match read {
-            Some(model)
-                if self.models.shaped(model.contact(), model.of_ellipses(), &model.domain.lubricant).is_none() =>
-            {
+            Some(model) if !self.models.serves(&model) => {
                 self.use_model(model);
             }
             _ => self.models_have_changed(),

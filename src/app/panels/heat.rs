@@ -5,13 +5,12 @@ use crate::app::context::Commands;
 use crate::app::controls::{Entries, NAME_WIDTH, choice};
 use crate::app::document::{Document, Edit};
 use crate::scene::named_lubricant;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::{MATERIALS, Material};
 use crate::solver::physics::lubricant::{Heat, Lubricant};
 use egui::{Checkbox, Grid, Ui};
 
-const TIP: &str = "Temperatures across and along the film and of both bodies, and what they do to film and traction. Line \
-    contacts: full solutions, or a reduced model that was trained with heat";
+const TIP: &str = "Temperatures across and along the film and of both bodies, and what they do to film and traction: by \
+    full solutions, of line contacts also by a reduced model that was trained with heat";
 
 const INLET_TIP: &str = "Temperature of the oil and of both bodies in front of the contact; η₀ and α are those at it";
 const VISCOSITY_TIP: &str = "β = −d ln η/dT at ambient pressure; Doolittle’s law has constants of its own";
@@ -45,9 +44,6 @@ pub(super) const CONSTANTS: [Constant; 6] = [
 /// The switch, and below it the constants where it is on.
 pub(super) fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
     let before = document.lubricant;
-    if document.point.kind != ContactKind::Line && before.heat.is_none() {
-        return;
-    }
     let mut wanted = before;
     let mut on = wanted.heat.is_some();
     if ui.add(Checkbox::new(&mut on, "Heat")).on_hover_text(TIP).changed() {

@@ -71,7 +71,7 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
         (_, Some(PassedOver::Reading)) => make(
             "Reading the reduced model",
             full.to_owned(),
-            "The reduced model of ellipses is being read; until it is there the full solver draws the picture".to_owned(),
+            "The reduced model of such contacts is being read; until it is there the full solver draws the picture".to_owned(),
             Kind::Neutral,
         ),
         (Origin::Full, _) if !answers.picture_is_current() => make(

@@ -230,8 +230,12 @@ impl Training {
         let kind = spec.contact();
         let (ellipses, thins) =
             (matches!(spec.range, Range::Ellipses { .. }), spec.lubricant.shear != ShearLaw::Newtonian);
-        // That of ellipses takes seconds to be read: it stands here once it is in use.
-        let round = (!ellipses).then(|| Embedded::of_kind(kind, thins));
+        // That of ellipses is large: it stands here once it is in use.
+        let of_kind = match spec.range {
+            Range::Heated { .. } => Embedded::HeatedLine,
+            _ => Embedded::of_kind(kind, thins),
+        };
+        let round = (!ellipses).then_some(of_kind);
         let embedded = round.and_then(|which| answers.store.embedded(which).ok());
         let in_use = answers.models.shaped(kind, ellipses, &spec.lubricant).cloned();
         let known = [("in the program", embedded), ("in use", in_use), ("before", self.former.clone())];

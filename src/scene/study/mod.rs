@@ -69,6 +69,7 @@ use super::experiment::Experiment;
 use super::method::{Method, ModelSource};
 use super::outcome::Findings;
 use super::table::Table;
+use crate::solver::physics::contact::ContactKind;
 use crate::solver::training::{TrainingObserver, TrainingSpec};
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::AtomicBool;
@@ -209,18 +210,18 @@ impl Study {
     ///
     /// # Errors
     /// Naming the field `heat`.
-    pub fn check_heat(&self) -> Checked {
+    pub fn check_heat(&self, contact: ContactKind) -> Checked {
         if !matches!(self, Self::Point(_) | Self::Sweep(_) | Self::RandomTest(_) | Self::Training(_)) {
             return Err(refuse(
                 "heat",
                 "is computed by the studies Point, Sweep, RandomTest and Training only; leave it out, or ask one of them",
             ));
         }
-        if self.methods().iter().any(|method| method.model() == Some(&ModelSource::Embedded)) {
+        let embedded = || self.methods().iter().any(|method| method.model() == Some(&ModelSource::Embedded));
+        if contact == ContactKind::Point && embedded() {
             return Err(refuse(
                 "heat",
-                "is known to no embedded model; leave it out, ask for the method Full alone, or for a model that is \
-                 trained with heat: `Reduced(model: Trained(…))` or `File(…)`",
+                "is known to no model of point contacts; leave it out, or ask for the method Full alone",
             ));
         }
         Ok(())

@@ -1,7 +1,7 @@
 //! The nodes of a contact at one state, Newtonian or generalized: the one place where they are evaluated, for the full
 //! system, reduced and linearised models, error measures and balances alike.
 
-use super::heat::{WarmFilm, WarmLaws};
+use super::heat::{RULE, WarmFilm, WarmLaws};
 use super::reynolds::film_integrals::KnownFilm;
 use super::reynolds::generalized::{FilmTreatment, NodeState, PlaneGradient, ShearNode, gradient_slopes};
 use super::reynolds::{Node, Row, RowGeometry, STENCIL, row};
@@ -128,22 +128,32 @@ impl Nodes {
         }
     }
 
-    /// Evaluates all nodes of (P, H) at the temperatures of a film; `gradient` gives P_X of each.
+    /// Evaluates all nodes of (P, H) at the temperatures of a film; `gradient` gives (P_X, P_Y) of each.
     pub fn evaluate_warm(
         &mut self,
         laws: &WarmLaws<'_>,
         (pressure, film): (&[f64], &[f64]),
-        gradient: impl Fn(usize) -> f64,
+        gradient: impl Fn(usize) -> [f64; 2] + Sync,
         warm: &mut WarmFilm,
+        order: Order,
     ) {
         self.thinning.resize(self.nodes.len(), ShearNode::default());
-        let temperatures = warm.theta.iter().zip(&mut warm.stress);
-        for (k, ((own, node), (theta, stress))) in
-            self.thinning.iter_mut().zip(&mut self.nodes).zip(temperatures).enumerate()
-        {
-            let state = NodeState { pressure: pressure[k], gradient: [gradient(k), 0.0], film: film[k] };
+        let one = |k: usize, (own, node): (&mut ShearNode, &mut Node), (theta, stress): (&[f64; RULE], &mut f64)| {
+            let state = NodeState { pressure: pressure[k], gradient: gradient(k), film: film[k] };
             *own = laws.node(state, theta, stress);
             *node = own.node;
+        };
+        match order {
+            Order::Parallel => {
+                let temperatures = warm.theta.par_iter().zip(&mut warm.stress);
+                let all = self.thinning.par_iter_mut().zip(&mut self.nodes).zip(temperatures).enumerate();
+                all.with_min_len(SHARE[1]).for_each(|(k, (node, film))| one(k, node, film));
+            }
+            Order::Alone | Order::BesideTheFormer => {
+                let temperatures = warm.theta.iter().zip(&mut warm.stress);
+                let all = self.thinning.iter_mut().zip(&mut self.nodes).zip(temperatures).enumerate();
+                all.for_each(|(k, (node, film))| one(k, node, film));
+            }
         }
     }
 

@@ -37,13 +37,16 @@ impl Solution {
     /// P and H at a place of a point contact, bilinearly between the nodes of either half; `None` outside and for a
     /// line contact.
     pub fn at(&self, x: f64, y: f64) -> Option<(f64, f64)> {
+        Some((self.value_at(&self.pressure, x, y)?, self.value_at(&self.film, x, y)?))
+    }
+
+    /// The same of any node array that is even in Y.
+    pub fn value_at(&self, values: &[f64], x: f64, y: f64) -> Option<f64> {
         let ny = self.y.len();
         let ((i, s), (j, t)) = (cell(&self.x, x)?, cell(&self.y, -y.abs())?);
-        let value = |values: &[f64]| {
-            let column = |i: usize| (1.0 - t) * values[i * ny + j - 1] + t * values[i * ny + j];
-            (1.0 - s) * column(i - 1) + s * column(i)
-        };
-        Some((value(&self.pressure), value(&self.film)))
+        let at = |i: usize, j: usize| values.get(i * ny + j).copied();
+        let column = |i: usize| Some((1.0 - t) * at(i, j - 1)? + t * at(i, j)?);
+        Some((1.0 - s) * column(i - 1)? + s * column(i)?)
     }
 }
 

@@ -3,15 +3,14 @@
 
 mod preconditioner;
 
+use super::heat::Turn;
 use super::newton_space::{NewtonSpace, ScaledRows, StepControl, Taken};
-use super::solution::{Mesh, Problem, Solution, SolveError};
-use super::solver::{Solver, Start};
+use super::solution::{Mesh, Problem, SolveError};
 use super::system::{SolveOptions, System};
-use crate::solver::discrete::grid::{GridSpec, ReferenceGrid, dot};
+use crate::solver::discrete::grid::{GridSpec, INLET, ReferenceGrid, dot};
 use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::discrete::reynolds::generalized::FilmTreatment;
 use crate::solver::discrete::space::LineSpace;
-use crate::solver::observer::Observer;
 use crate::solver::physics::contact::ContactKind;
 pub use preconditioner::BandMatrix;
 use std::sync::Arc;
@@ -91,6 +90,7 @@ impl NewtonSpace for LineSpace {
     const CLIPS: bool = false;
     // In units of Moes' formula.
     const COLD_FILMS: [f64; 3] = [2.0, 1.2, 4.0];
+    const FIRST_COLUMN: usize = INLET;
     const EASY_M: (f64, f64) = (15.0, 60.0);
     const EASY_L: (f64, f64) = (2.0, 8.0);
 
@@ -135,13 +135,10 @@ impl NewtonSpace for LineSpace {
         Taken { size, shift: 0.0, residual }
     }
 
-    fn solve_with_heat(
-        solver: &mut Solver<Self>,
-        problem: Problem,
-        start: Start<'_>,
-        observer: &dyn Observer,
-    ) -> Result<Solution, SolveError> {
-        super::heat::solve(solver, problem, start, observer)
+    fn beside_heat(control: Backtracking, turn: Turn) -> Backtracking {
+        let Turn { largest_step, film_loss, shortest_step, looks_back, last } = turn;
+        let forcing = if last { 1e-9 } else { 1e-3 };
+        Backtracking { shortest_step, largest_step, film_loss, looks_back, forcing: (forcing, forcing), ..control }
     }
 
     fn assemble(

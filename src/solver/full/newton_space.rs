@@ -1,14 +1,13 @@
 //! What a space brings to Newton's method: its step control and its preconditioner, because those really differ, and
 //! where it starts.
 
-use super::solution::{Mesh, Problem, Solution, SolveError};
-use super::solver::{Solver, Start};
+use super::heat::Turn;
+use super::solution::{Mesh, Problem, SolveError};
 use super::system::{SolveOptions, System};
 use super::thinning::Thinning;
 use crate::solver::discrete::grid::dot;
 use crate::solver::discrete::reynolds::Row;
 use crate::solver::discrete::space::{Grid, Space};
-use crate::solver::observer::Observer;
 use crate::solver::physics::contact::ContactKind;
 
 /// Settings of a step control, with the settings of all else that go with it.
@@ -75,6 +74,8 @@ pub trait NewtonSpace: Space + Sized {
     const CLIPS: bool;
     /// Films tried by a cold start, in units of the contact's film formula.
     const COLD_FILMS: [f64; 3];
+    /// The first column of nodes along X that has a film.
+    const FIRST_COLUMN: usize;
     /// Range of M in which cold starts converge.
     const EASY_M: (f64, f64);
     /// Range of L in which they do.
@@ -113,16 +114,8 @@ pub trait NewtonSpace: Space + Sized {
         before: f64,
     ) -> Taken;
 
-    /// Solves a problem with heat.
-    ///
-    /// # Errors
-    /// As [`Solver::solve_problem`].
-    fn solve_with_heat(
-        solver: &mut Solver<Self>,
-        problem: Problem,
-        start: Start<'_>,
-        observer: &dyn Observer,
-    ) -> Result<Solution, SolveError>;
+    /// The control of steps that take turns with the temperatures.
+    fn beside_heat(control: Self::Control, turn: Turn) -> Self::Control;
 
     /// Assembles and factorises a matrix near the Jacobian of the scaled rows; `false` when `go_on` ended it half way.
     fn assemble(

@@ -2,6 +2,7 @@
 //! other films, then continuation from an easier contact.
 
 use super::cut::cell;
+use super::heat;
 use super::newton_space::NewtonSpace;
 use super::solution::{Problem, Report, Solution, SolveError, Termination, expect_kind, scalars_of};
 use super::system::{SolveOptions, System};
@@ -111,7 +112,7 @@ impl<S: NewtonSpace> Solver<S> {
     ) -> Result<Solution, SolveError> {
         expect_kind(S::KIND, &problem.point)?;
         if problem.heat.is_some() {
-            return S::solve_with_heat(self, problem, start, observer);
+            return heat::solve(self, problem, start, observer);
         }
         let former = match start {
             Start::From(former) if former.problem.point.kind == S::KIND => Some(former),

@@ -166,7 +166,7 @@ impl<S: NewtonSpace> System<S> {
             (Some(gradient), _) => gradient.at_node(pressure, k),
         };
         match warm {
-            Some((warm, laws)) => nodes.evaluate_warm(&laws, (pressure, film), |k| at(k)[0], warm),
+            Some((warm, laws)) => nodes.evaluate_warm(&laws, (pressure, film), at, warm, order),
             None => nodes.evaluate(laws, (pressure, film), at, self.treatment, order),
         }
         if self.active.fills() {
@@ -219,12 +219,37 @@ impl<S: NewtonSpace> System<S> {
         observer: &dyn Observer,
         report: &mut Report,
     ) {
+        self.begin(problem, options);
+        self.go_on(problem, options, &mut S::Memory::default(), observer, report);
+    }
+
+    /// Prepares Newton's method from the current state.
+    pub(super) fn begin(&mut self, problem: &Problem, options: &SolveOptions<S::Control>) {
         self.treatment = options.film;
         self.nodes.forget();
         self.begin_rupture(problem);
+    }
+
+    /// Makes the pressures of a node array zero where the film is ruptured, and those below zero.
+    pub(super) fn keep_ruptured(&self, pressure: &mut [f64]) {
+        let grid = self.space.grid();
+        for (k, &ruptured) in self.active.ruptured.iter().enumerate() {
+            let p = &mut pressure[grid.node(k)];
+            *p = if ruptured { 0.0 } else { p.max(0.0) };
+        }
+    }
+
+    /// Goes on with Newton's method from where it was left, with the ruptured set that it has.
+    pub(super) fn go_on(
+        &mut self,
+        problem: &Problem,
+        options: &SolveOptions<S::Control>,
+        memory: &mut S::Memory,
+        observer: &dyn Observer,
+        report: &mut Report,
+    ) {
         let exact_load = S::CLIPS || self.active.holds();
         let mut residual = self.evaluate(problem, options.penalty);
-        let mut memory = S::Memory::default();
         report.termination = Termination::IterationLimit;
         for _ in 0..options.max_newton {
             if observer.cancelled() {
@@ -232,7 +257,7 @@ impl<S: NewtonSpace> System<S> {
                 break;
             }
             report.residuals.push(residual);
-            let forcing = S::forcing(&options.control, &mut memory, residual);
+            let forcing = S::forcing(&options.control, memory, residual);
             let load = if exact_load { problem.load - dot(self.space.grid().weights(), &self.pressure) } else { 0.0 };
             let linear = self.solve_linear(options, forcing, load, observer);
             report.linear_iterations += linear.iterations;
@@ -242,7 +267,7 @@ impl<S: NewtonSpace> System<S> {
             }
             report.newton_iterations += 1;
             let before = residual;
-            let Taken { size, shift, residual: after } = S::step(self, problem, options, &mut memory, before);
+            let Taken { size, shift, residual: after } = S::step(self, problem, options, memory, before);
             let (still, after) = self.renew_rupture(problem, options.penalty, after);
             residual = after;
             report.steps.push(size);

@@ -97,8 +97,9 @@ impl Solution {
         let gradient = self.gradient();
         let scale = laws.heat.stress_scale_pa;
         let mut field = Vec::new();
-        for (k, rise_k) in (self.first()..self.x.len()).zip(&heat.rise_k) {
-            let state = self.state(&gradient, k, 0);
+        let axis = self.y.len() - 1;
+        for (i, rise_k) in (self.first()..self.x.len()).zip(heat.along_axis()) {
+            let (state, k) = (self.state(&gradient, i, axis), i * self.y.len() + axis);
             for &height in heights {
                 let stress =
                     heat.shear_stress[k] + laws.heat.gradient * state.film * state.gradient[0] * (height - 0.5);

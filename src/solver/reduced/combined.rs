@@ -136,7 +136,7 @@ impl PressureModes {
     }
 
     /// The first modes at some nodes.
-    pub(super) fn at(&self, nodes: &[usize], modes: usize) -> Mat<f64> {
+    pub fn at(&self, nodes: &[usize], modes: usize) -> Mat<f64> {
         match &self.combined {
             Some(own) => own.over(&own.shared.basis.modes, nodes, modes),
             None => rows(&self.basis().modes, nodes, modes),

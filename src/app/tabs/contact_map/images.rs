@@ -1,7 +1,7 @@
 //! The map as a texture and its contour lines, made anew only when the solution or what is shown of it changes.
 
 use super::contours::Field;
-use super::{MapView, Shown};
+use super::{MapView, Shown, mid_film_rises};
 use crate::app::answers::picture::Picture;
 use crate::app::color_map;
 use crate::app::figure::{Texture, pixels};
@@ -12,6 +12,7 @@ use crate::scene::drawing::encode;
 use crate::solver::full::Solution;
 use egui::{Color32, ColorImage, Context, TextureId};
 use egui_plot::PlotPoint;
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// A contour line, with its name and where that stands on the longest of its level.
@@ -26,6 +27,9 @@ pub struct Images {
     domain: (f64, f64, f64),
     made_of: Option<(Arc<Solution>, MapView)>,
 }
+
+/// The upper end of a scale of temperatures at least \[K\].
+const LEAST_K: f64 = 0.1;
 
 /// Contour lines wanted between both ends of the scale.
 const LINES: f64 = 8.0;
@@ -80,12 +84,25 @@ fn range(solution: &Solution, shown: Shown) -> (f64, f64) {
         }
         Shown::Interferogram => (0.0, numbers::round_up(2.5 * solution.scalars.h_c)),
         Shown::Pressure => (0.0, numbers::round_up(solution.scalars.p_max)),
+        Shown::Temperature => {
+            let largest = solution.heat.as_deref().map_or(0.0, |heat| heat.largest.mid_film_k);
+            (0.0, numbers::round_up(largest.max(LEAST_K)))
+        }
     }
 }
 
 /// The colours of a field's scale: film is bright where it is thin, pressure where it is high.
 pub fn table(shown: Shown) -> Vec<Color32> {
     color_map::table(shown == Shown::Film)
+}
+
+/// What a map shows, node array.
+fn values(solution: &Solution, shown: Shown) -> Cow<'_, [f64]> {
+    match (shown, solution.heat.as_deref()) {
+        (Shown::Temperature, Some(heat)) => Cow::Owned(mid_film_rises(heat)),
+        (Shown::Pressure, _) => Cow::Borrowed(&solution.pressure),
+        _ => Cow::Borrowed(&solution.film),
+    }
 }
 
 fn draw(picture: &Picture, view: &MapView, range: (f64, f64)) -> ColorImage {
@@ -96,7 +113,9 @@ fn draw(picture: &Picture, view: &MapView, range: (f64, f64)) -> ColorImage {
     };
     match view.shown {
         Shown::Film => raster(&solution.film, 1.0).colored(&table(view.shown), range),
-        Shown::Pressure => raster(&solution.pressure, 1.0).colored(&table(view.shown), range),
+        Shown::Pressure | Shown::Temperature => {
+            raster(&values(solution, view.shown), 1.0).colored(&table(view.shown), range)
+        }
         Shown::Interferogram => {
             let films = raster(&solution.film, picture.key.point.film_scale_m());
             films.interferogram(&view.rig, view.three_colors)
@@ -106,8 +125,8 @@ fn draw(picture: &Picture, view: &MapView, range: (f64, f64)) -> ColorImage {
 
 /// Contours at round levels in units of a, each with its mirror image.
 fn contours(solution: &Solution, kappa: f64, shown: Shown, (low, high): (f64, f64)) -> Vec<Contour> {
-    let values = if shown == Shown::Pressure { &solution.pressure } else { &solution.film };
-    let field = Field { x: &solution.x, y: &solution.y, values };
+    let values = values(solution, shown);
+    let field = Field { x: &solution.x, y: &solution.y, values: &values };
     let step = numbers::round_up((high - low) / LINES);
     let levels = (1..=(high / step).floor() as usize).filter(|&k| step * k as f64 > low);
     let mut all = Vec::new();

@@ -26,6 +26,7 @@ use crate::app::tabs::{axes, badge, color_bar, in_time, space_time};
 use crate::app::theme::{Palette, faded};
 use crate::app::transient::InTimeCommand;
 use crate::app::units::Scales;
+use crate::solver::full::heat::Temperatures;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::optics::Interferometer;
 use egui::{Align, Color32, CursorIcon, Layout, Response, RichText, Ui, Vec2, vec2};
@@ -54,16 +55,19 @@ pub enum Shown {
     Pressure,
     /// Interference of light in the film.
     Interferogram,
+    /// Rise of temperature at mid-film, where heat was computed.
+    Temperature,
 }
 
 impl Shown {
-    const ALL: [Self; 3] = [Self::Film, Self::Pressure, Self::Interferogram];
+    const ALL: [Self; 4] = [Self::Film, Self::Pressure, Self::Interferogram, Self::Temperature];
 
     fn name(self) -> &'static str {
         match self {
             Self::Film => "Film map",
             Self::Pressure => "Pressure map",
             Self::Interferogram => "Interferogram",
+            Self::Temperature => "Temperature map",
         }
     }
 
@@ -74,6 +78,7 @@ impl Shown {
             Self::Interferogram => {
                 "What an optical rig shows: a glass disc in place of one body, light reflected at both sides of the film"
             }
+            Self::Temperature => "The rise of temperature at mid-film over the plane",
         }
     }
 }
@@ -118,6 +123,9 @@ impl ContactMap {
             return;
         }
         badge::ui(ui, context);
+        if self.view.shown == Shown::Temperature && context.document.lubricant.heat.is_none() {
+            self.view.shown = Shown::Film;
+        }
         self.toolbar(ui, context, commands);
         if self.view.shown == Shown::Interferogram && !context.presenting {
             optics::ui(ui, &mut self.view);
@@ -127,17 +135,15 @@ impl ContactMap {
             return;
         };
         let stale = drawn::is_grey(ui.ctx(), "map", Owner::Contact(picture.key), context);
-        self.images.follow(ui.ctx(), picture, &self.view);
-        let framed = self.framed.replace(picture.kappa()).unwrap_or(1.0) == picture.kappa();
-        let drawing = Drawing {
-            picture,
-            images: &self.images,
-            view: self.view,
-            cuts: context.cuts,
-            fit: context.fit,
-            framed,
-            stale,
+        let view = match (self.view.shown, &picture.solution.heat) {
+            // The last picture without heat, until the first one with it is there.
+            (Shown::Temperature, None) => MapView { shown: Shown::Film, ..self.view },
+            _ => self.view,
         };
+        self.images.follow(ui.ctx(), picture, &view);
+        let framed = self.framed.replace(picture.kappa()).unwrap_or(1.0) == picture.kappa();
+        let drawing =
+            Drawing { picture, images: &self.images, view, cuts: context.cuts, fit: context.fit, framed, stale };
         let height = ui.available_height();
         let whole = ui.horizontal_top(|ui| {
             let width = (ui.available_width() - color_bar::WIDTH - 8.0).max(200.0);
@@ -182,7 +188,8 @@ impl ContactMap {
 
     fn toolbar(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         ui.horizontal_wrapped(|ui| {
-            for shown in Shown::ALL {
+            let heat = context.document.lubricant.heat.is_some();
+            for shown in Shown::ALL.into_iter().filter(|shown| heat || *shown != Shown::Temperature) {
                 ui.selectable_value(&mut self.view.shown, shown, shown.name()).on_hover_text(shown.tip());
             }
             if context.presenting {
@@ -332,16 +339,22 @@ fn image(plot: &mut Canvas<'_, '_>, images: &Images, stale: bool) {
 fn hover(picture: &Picture, view: &MapView, at: &HoverPosition<'_>) -> Option<String> {
     let (HoverPosition::NearDataPoint { position, .. } | HoverPosition::Elsewhere { position }) = at;
     let y = position.y / picture.kappa();
-    let (p, h) = picture.solution.at(position.x, y)?;
+    let solution = &picture.solution;
+    let (p, h) = solution.at(position.x, y)?;
     let (hertz, scale) = (picture.key.point.hertz(), picture.key.point.film_scale_m());
-    let order = match view.shown {
+    let more = match view.shown {
         Shown::Interferogram if !view.three_colors => {
             format!("\norder {}", numbers::digits(view.rig.order(h * scale, view.rig.wavelength_m), 3))
         }
+        Shown::Temperature => solution
+            .heat
+            .as_deref()
+            .and_then(|heat| solution.value_at(&mid_film_rises(heat), position.x, y))
+            .map_or_else(String::new, |rise| format!("\nrise {}", numbers::quantity(rise, "K"))),
         _ => String::new(),
     };
     Some(format!(
-        "X = {}   ({})\nY = {}   ({})\nP = {}   ({})\nH = {}   ({}){order}",
+        "X = {}   ({})\nY = {}   ({})\nP = {}   ({})\nH = {}   ({}){more}",
         numbers::digits(position.x, 3),
         numbers::length(position.x * hertz.half_width_m),
         numbers::digits(y, 3),
@@ -353,11 +366,20 @@ fn hover(picture: &Picture, view: &MapView, at: &HoverPosition<'_>) -> Option<St
     ))
 }
 
+/// Rises at mid-film \[K\] of all nodes.
+fn mid_film_rises(heat: &Temperatures) -> Vec<f64> {
+    heat.rises().map(|rises| rises.mid_film_k).collect()
+}
+
 /// The map in words.
 fn spoken(picture: &Picture, view: &MapView) -> String {
     let (s, scale) = (picture.solution.scalars, picture.key.point.film_scale_m());
+    let heat = picture.solution.heat.as_deref();
+    let warms = heat.map_or_else(String::new, |heat| {
+        format!(", the film warms by {} at most", numbers::quantity(heat.largest.mid_film_k, "K"))
+    });
     format!(
-        "{} of {}: central film {}, smallest {} at X {}, Y ±{}",
+        "{} of {}: central film {}, smallest {} at X {}, Y ±{}{warms}",
         view.shown.name(),
         numbers::contact(&picture.key.point),
         numbers::length(s.h_c * scale),

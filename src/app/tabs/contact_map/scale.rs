@@ -13,6 +13,7 @@ pub fn ui(ui: &mut Ui, images: &Images, picture: &Picture, view: &MapView, heigh
     let scales = Scales::of(&picture.key.point);
     let (title, name, in_si) = match view.shown {
         Shown::Pressure => ("{P}", "Pressure {P}", (scales.pressure_gpa, "Pressure {p} / GPa")),
+        Shown::Temperature => ("K", "Rise at mid-film / K", (1.0, "Rise at mid-film / K")),
         _ => ("{H}", "Film {H}", (scales.film_um, "Film {h} / µm")),
     };
     let colors = colors(picture, view, images.range());
@@ -25,6 +26,8 @@ pub fn si(picture: &Picture, view: &MapView, value: f64) -> String {
     let point = &picture.key.point;
     match view.shown {
         Shown::Pressure => in_gigapascals(value * point.hertz().pressure_pa),
+        // The numbers of the scale are kelvins.
+        Shown::Temperature => String::new(),
         _ => in_nanometres(value * point.film_scale_m()),
     }
 }

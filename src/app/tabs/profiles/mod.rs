@@ -86,7 +86,7 @@ impl Profiles {
             cuts: context.cuts,
         };
         // The room is there from the moment on at which heat is asked for.
-        let warm = self.choices.temperatures && context.document.lubricant.heat.is_some() && !picture.has_plane();
+        let warm = self.choices.temperatures && context.document.lubricant.heat.is_some();
         let gap = 8.0;
         let half = 0.5 * (ui.available_width() - gap);
         ui.horizontal_top(|ui| {

@@ -15,7 +15,7 @@ use crate::app::theme::{LIVE_WIDTH, Palette, THIN_WIDTH};
 use crate::app::units::Scales;
 use crate::solver::discrete::heat::{HeatBalance, interpolated_across};
 use crate::solver::full::Solution;
-use crate::solver::full::heat::Temperatures;
+use crate::solver::full::heat::{Rises, Temperatures};
 use egui::{Color32, ColorImage, Rect, Sense, Stroke, StrokeKind, Ui, vec2};
 use egui_plot::{HoverPosition, PlotPoint, PlotPoints};
 use std::sync::Arc;
@@ -59,9 +59,10 @@ fn rise_at(heat: &Temperatures, x: f64, height: f64) -> Option<f64> {
     let left = right.checked_sub(1)?;
     let t = (x - heat.x[left]) / (heat.x.get(right)? - heat.x[left]);
     let between = |a: f64, b: f64| (1.0 - t) * a + t * b;
-    let film = between(heat.thickness[left], heat.thickness[right]);
+    let film = between(heat.film_along_axis().nth(left)?, heat.film_along_axis().nth(right)?);
     let zeta = height / film;
-    let [a, b] = [left, right].map(|node| interpolated_across(&heat.rise_k[node], zeta));
+    let at = |node: usize| heat.along_axis().nth(node).map(|profile| interpolated_across(profile, zeta));
+    let (a, b) = (at(left)?, at(right)?);
     (0.0..=1.0).contains(&zeta).then(|| between(a, b))
 }
 
@@ -72,14 +73,14 @@ impl TemperatureImage {
         if self.made_of.as_ref().is_some_and(|of| Arc::ptr_eq(of, solution)) {
             return;
         }
-        let rises: Vec<_> = heat.x.iter().zip(heat.rises()).collect();
+        let rises: Vec<_> = heat.x.iter().zip(heat.along_axis().map(Rises::of)).collect();
         self.rises = [0, 1, 2].map(|k| {
-            let of = |(x, rises): &(&f64, crate::solver::full::heat::Rises)| {
+            let of = |(x, rises): &(&f64, Rises)| {
                 PlotPoint::new(**x, [rises.mid_film_k, rises.surfaces_k[0], rises.surfaces_k[1]][k])
             };
             rises.iter().map(of).collect()
         });
-        self.film = heat.x.iter().zip(&heat.thickness).map(|(x, h)| PlotPoint::new(*x, *h)).collect();
+        self.film = heat.x.iter().zip(heat.film_along_axis()).map(|(x, h)| PlotPoint::new(*x, h)).collect();
         self.top = numbers::round_up(TOP * solution.scalars.h_c);
         let (from, to) = Direction::Along.range();
         let place = |k: usize, count: usize| (k as f64 + 0.5) / count as f64;

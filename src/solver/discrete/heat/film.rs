@@ -23,18 +23,33 @@ pub struct StressLaw {
 /// Fluidities at points across the film under stress.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sheared<const N: usize> {
-    /// τ̄.
+    /// τ̄ along X, the direction of rolling.
     pub stress: [f64; N],
+    /// τ̄ along Y.
+    pub aside: [f64; N],
     /// f.
     pub fluidity: [f64; N],
-    /// ∂f/∂τ̄.
+    /// ∂f/∂τ̄ along X.
     pub slope: [f64; N],
+    /// The same along Y.
+    pub slope_aside: [f64; N],
 }
 
 impl<const N: usize> Default for Sheared<N> {
     fn default() -> Self {
-        Self { stress: [0.0; N], fluidity: [0.0; N], slope: [0.0; N] }
+        Self { stress: [0.0; N], aside: [0.0; N], fluidity: [0.0; N], slope: [0.0; N], slope_aside: [0.0; N] }
     }
+}
+
+/// What drives a film: κH(P_X, P_Y), by which its stress changes across, and (ū₂ − ū₁)/H.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drive {
+    /// κH P_X.
+    pub along: f64,
+    /// κH P_Y.
+    pub aside: f64,
+    /// (ū₂ − ū₁)/H.
+    pub rate: f64,
 }
 
 /// Iterations for the stress at mid-film at most.
@@ -51,27 +66,58 @@ impl StressLaw {
 }
 
 impl<const N: usize> Sheared<N> {
-    /// Fluidities at rest under the stress τ̄_m + a c.
-    fn at(law: Option<&StressLaw>, rest: &[f64; N], offsets: &[f64; N], (mid, a): (f64, f64)) -> Self {
-        let mut out = Self { stress: offsets.map(|c| mid + a * c), fluidity: *rest, slope: [0.0; N] };
-        if let Some(StressLaw { law, per_scale }) = law {
-            let (g, slope) = law.at_all(&out.stress.map(|stress| (stress * per_scale).abs()));
-            for i in 0..N {
-                out.fluidity[i] = rest[i] * g[i];
-                let stress = out.stress[i];
-                out.slope[i] = if stress == 0.0 { 0.0 } else { rest[i] * slope[i] / stress };
+    /// Fluidities at rest under the stresses τ̄_m + a c along X and b (c − c₀) along Y.
+    fn at(
+        law: Option<&StressLaw>,
+        rest: &[f64; N],
+        offsets: &[f64; N],
+        (mid, a): (f64, f64),
+        (centre, b): (f64, f64),
+    ) -> Self {
+        let stress = offsets.map(|c| mid + a * c);
+        let mut out = Self { stress, fluidity: *rest, ..Self::default() };
+        if b != 0.0 {
+            out.aside = offsets.map(|c| b * (c - centre));
+        }
+        let Some(StressLaw { law, per_scale }) = law else { return out };
+        let sizes: [f64; N] = std::array::from_fn(|i| out.size(i));
+        let (g, slope) = law.at_all(&sizes.map(|size| size * per_scale));
+        for i in 0..N {
+            out.fluidity[i] = rest[i] * g[i];
+            let (along, aside) = (out.stress[i], out.aside[i]);
+            if aside != 0.0 {
+                let bend = rest[i] * slope[i] / (sizes[i] * sizes[i]);
+                (out.slope[i], out.slope_aside[i]) = (bend * along, bend * aside);
+            } else if along != 0.0 {
+                out.slope[i] = rest[i] * slope[i] / along;
             }
         }
         out
     }
 
-    /// The film under the gradient a that slides by `rate`, (ū₂ − ū₁)/H; `near` is a stress at mid-film to begin with.
-    /// Returns the stress at mid-film beside it.
+    /// |τ̄| at a point.
+    #[inline]
+    pub fn size(&self, i: usize) -> f64 {
+        let (along, aside) = (self.stress[i], self.aside[i]);
+        if aside == 0.0 { along.abs() } else { along.hypot(aside) }
+    }
+
+    /// c₀ = ∫cf/∫f, where the stress along Y vanishes: nothing slides that way.
+    fn centre(&self, (offsets, weights): (&[f64; N], &[f64; N])) -> f64 {
+        let (mut g_0, mut g_1) = (0.0, 0.0);
+        for i in 0..N {
+            g_0 += weights[i] * self.fluidity[i];
+            g_1 += weights[i] * offsets[i] * self.fluidity[i];
+        }
+        g_1 / g_0
+    }
+
+    /// The film that is driven so; `near` is a stress at mid-film to begin with. Returns the stress at mid-film beside it.
     pub fn sliding(
         law: Option<&StressLaw>,
         rest: &[f64; N],
         (offsets, weights): (&[f64; N], &[f64; N]),
-        (a, rate): (f64, f64),
+        Drive { along: a, aside: b, rate }: Drive,
         near: f64,
     ) -> (f64, Self) {
         let sums = |film: &Self| {
@@ -83,9 +129,11 @@ impl<const N: usize> Sheared<N> {
             (excess, stiffness)
         };
         let Some(thinning) = law else {
-            let (excess, stiffness) = sums(&Self::at(None, rest, offsets, (0.0, a)));
+            let resting = Self::at(None, rest, offsets, (0.0, a), (0.0, 0.0));
+            let (excess, stiffness) = sums(&resting);
             let mid = -excess / stiffness;
-            return (mid, Self::at(None, rest, offsets, (mid, a)));
+            let centre = if b == 0.0 { 0.0 } else { resting.centre((offsets, weights)) };
+            return (mid, Self::at(None, rest, offsets, (mid, a), (centre, b)));
         };
         let mut mid = if near.is_finite() && near != 0.0 {
             near
@@ -94,14 +142,18 @@ impl<const N: usize> Sheared<N> {
             let mean: f64 = rest.iter().zip(weights).map(|(f, w)| f * w).sum();
             (thinning.law.stress_near(thinning.per_scale * rate.abs() / mean) / thinning.per_scale).copysign(rate)
         };
-        let mut film = Self::at(law, rest, offsets, (mid, a));
+        let mut centre = 0.0;
+        let mut film = Self::at(law, rest, offsets, (mid, a), (centre, b));
         for _ in 0..MOST_ITERATIONS {
             let (excess, stiffness) = sums(&film);
             let longest = (3.0 / thinning.per_scale).max(0.5 * mid.abs());
             let step = (-excess / stiffness).clamp(-longest, longest);
             mid += step;
-            film = Self::at(law, rest, offsets, (mid, a));
-            if step.abs() <= LAST_STEP * (mid.abs() + a.abs()) {
+            // Along Y the stress hardly moves: its centre follows the film that was found last.
+            let moved = if b == 0.0 { 0.0 } else { film.centre((offsets, weights)) - centre };
+            centre += moved;
+            film = Self::at(law, rest, offsets, (mid, a), (centre, b));
+            if step.abs() + (b * moved).abs() <= LAST_STEP * (mid.abs() + a.abs() + b.abs()) {
                 break;
             }
         }
@@ -132,12 +184,12 @@ impl WarmLaws<'_> {
     /// η₀/η at P, θ and τ̄.
     pub fn fluidity(&self, pressure: f64, theta: f64, stress: f64) -> f64 {
         let rest = self.heat.fluid.at(pressure, &[theta]).fluidity;
-        Sheared::at(self.shear.as_ref(), &rest, &[0.0], (stress, 0.0)).fluidity[0]
+        Sheared::at(self.shear.as_ref(), &rest, &[0.0], (stress, 0.0), (0.0, 0.0)).fluidity[0]
     }
 
     /// The node at θ, given at the points of the rule. `stress` is the stress at mid-film, to begin with and found.
     pub fn node(&self, state: NodeState, theta: &[f64; RULE], stress: &mut f64) -> ShearNode {
-        let NodeState { pressure, gradient: [gradient, _], film } = state;
+        let NodeState { pressure, gradient: [gradient, gradient_y], film } = state;
         let kappa = self.heat.gradient;
         let fluid = self.heat.fluid.at(pressure, theta);
         if film <= 0.0 {
@@ -145,9 +197,10 @@ impl WarmLaws<'_> {
             return ShearNode { node: overlapping(&fluid, kappa / 12.0, pressure, film), ..ShearNode::default() };
         }
         let (offsets, weights) = rule();
-        let (a, rate) = (kappa * film * gradient, self.slip() / film);
+        let rate = self.slip() / film;
+        let drive = Drive { along: kappa * film * gradient, aside: kappa * film * gradient_y, rate };
         let (mid, sheared) =
-            Sheared::sliding(self.shear.as_ref(), &fluid.fluidity, (&offsets, &weights), (a, rate), *stress);
+            Sheared::sliding(self.shear.as_ref(), &fluid.fluidity, (&offsets, &weights), drive, *stress);
         *stress = mid;
         let (rest, rest_p) =
             (apply(&ACROSS.rest_on_rule, &fluid.density), apply(&ACROSS.rest_on_rule, &fluid.density_p));
@@ -155,6 +208,9 @@ impl WarmLaws<'_> {
         let (mut value, mut by_stress, mut by_a, mut by_p) = ([0.0; 4], [0.0; 4], [0.0; 4], [0.0; 4]);
         let (mut density, mut density_p) = (0.0, 0.0);
         let (mut stiffness, mut across, mut excess_p) = (0.0, 0.0, 0.0);
+        // The same by b, where c₀ stays, and what that adds to the sliding.
+        let (mut by_b, mut excess_b) = ([0.0; 4], 0.0);
+        let aside = if gradient_y == 0.0 { 0.0 } else { sheared.centre((&offsets, &weights)) };
         for i in 0..RULE {
             let (w, c, f, slope) = (weights[i], offsets[i], sheared.fluidity[i], sheared.slope[i]);
             let f_p = -f * fluid.log_viscosity_p[i];
@@ -172,6 +228,11 @@ impl WarmLaws<'_> {
                 by_a[k] += w * c * slope * kinds[k];
                 by_p[k] += w * (f_p * kinds[k] + f * kinds_p[k]);
             }
+            if gradient_y != 0.0 {
+                let answer = w * (c - aside) * sheared.slope_aside[i];
+                excess_b += sheared.stress[i] * answer;
+                by_b.iter_mut().zip(kinds).for_each(|(sum, kind)| *sum += answer * kind);
+            }
         }
         // Through the stress at mid-film as well.
         let (stress_a, stress_p, stress_rate) = (-across / stiffness, -excess_p / stiffness, 1.0 / stiffness);
@@ -185,8 +246,9 @@ impl WarmLaws<'_> {
         let total = |direct: [f64; 2], through: f64| [0, 1].map(|k| direct[k] + through * of_stress[k]);
         let by_a = total(of_a, stress_a);
         let by_p = total(of_p, stress_p);
-        let (a_h, a_x) = (kappa * gradient, kappa * film);
-        let by_h = [0, 1].map(|k| by_a[k] * a_h - stress_rate * of_stress[k] * rate / film);
+        let by_b = if gradient_y == 0.0 { [0.0; 2] } else { total(chain(by_b), -excess_b / stiffness) };
+        let (a_h, a_x, b_h) = (kappa * gradient, kappa * film, kappa * gradient_y);
+        let by_h = [0, 1].map(|k| by_a[k] * a_h + by_b[k] * b_h - stress_rate * of_stress[k] * rate / film);
         let (slip, square) = (self.slip(), kappa * film * film);
         let flow = density * self.heat.speeds[0] + slip * carried;
         ShearNode {
@@ -199,8 +261,8 @@ impl WarmLaws<'_> {
                 mobility_p: square * film * by_p[0],
                 mobility_h: square * (3.0 * moment + film * by_h[0]),
             },
-            flow_gradient: [film * slip * by_a[1] * a_x, 0.0],
-            mobility_gradient: [square * film * by_a[0] * a_x, 0.0],
+            flow_gradient: [by_a, by_b].map(|by| film * slip * by[1] * a_x),
+            mobility_gradient: [by_a, by_b].map(|by| square * film * by[0] * a_x),
             ..ShearNode::default()
         }
     }
@@ -235,18 +297,31 @@ pub struct WarmFilm {
 impl WarmFilm {
     /// Takes over θ from stations at increasing abscissae, cubic between them, at nodes.
     pub fn spread(&mut self, nodes: &[f64], stations: &[f64], theta: impl Fn(usize) -> Profile) {
+        self.spread_lines(nodes, stations, 1, |_, station| theta(station));
+    }
+
+    /// The same of several lines along X, whose nodes lie beside each other; `theta` is told the line and the station.
+    pub fn spread_lines(
+        &mut self,
+        nodes: &[f64],
+        stations: &[f64],
+        lines: usize,
+        theta: impl Fn(usize, usize) -> Profile,
+    ) {
         self.theta.clear();
-        self.theta.extend(nodes.iter().map(|x| {
+        for x in nodes {
             let (first, weights) = cubic(stations, x.max(stations[0]));
-            let mut here = [0.0; POINTS];
-            for (k, weight) in weights.into_iter().enumerate() {
-                for (sum, own) in here.iter_mut().zip(theta(first + k)) {
-                    *sum += weight * own;
+            self.theta.extend((0..lines).map(|line| {
+                let mut here = [0.0; POINTS];
+                for (k, weight) in weights.into_iter().enumerate() {
+                    for (sum, own) in here.iter_mut().zip(theta(line, first + k)) {
+                        *sum += weight * own;
+                    }
                 }
-            }
-            apply(&ACROSS.to_rule, &here)
-        }));
-        self.stress.resize(nodes.len(), 0.0);
+                apply(&ACROSS.to_rule, &here)
+            }));
+        }
+        self.stress.resize(self.theta.len(), 0.0);
     }
 }
 

@@ -28,9 +28,77 @@ pub struct March {
     mobility: Vec<f64>,
     /// Ψ at the faces between the points, and at the upper surface.
     flow: Vec<Profile>,
+    /// What flows along Y; empty on a line.
+    aside: Aside,
     /// −Ψ_X there.
     across: Vec<[f64; POINTS - 1]>,
     former: Vec<Profile>,
+}
+
+/// What flows along Y at the stations of one line along X, at the temperatures before a march.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Aside {
+    /// θ.
+    theta: Vec<Profile>,
+    /// Hρ̄v̄.
+    flow: Vec<Profile>,
+    /// The same between body 1 and the faces between the points, and the upper surface.
+    total: Vec<Profile>,
+}
+
+/// The lines beside a line along X in a plane.
+#[derive(Clone, Copy, Debug)]
+pub struct Beside<'a> {
+    /// All lines, from the edge to the axis of symmetry.
+    pub lines: &'a [Aside],
+    /// Their ordinates in units of a.
+    pub y: &'a [f64],
+    /// Which one it is.
+    pub own: usize,
+}
+
+impl Beside<'_> {
+    /// What station i has from the lines farther from the axis and nearer to it; none on the axis, across which nothing
+    /// flows.
+    fn sides(&self, i: usize) -> Option<[Side; 2]> {
+        let axis = self.lines.len().checked_sub(1)?;
+        if self.own == axis {
+            return None;
+        }
+        let side = |near: Option<usize>, far: Option<usize>, leaves: &dyn Fn(f64) -> bool| {
+            let Some(near) = near else { return Side::default() };
+            let from = [near, far.unwrap_or(near)];
+            let theta = from.map(|line| self.lines[line].theta[i]);
+            let flow = from.map(|line| self.lines[line].flow[i]);
+            Side::of(from.map(|line| self.y[self.own] - self.y[line]), theta, flow, |k, j| leaves(flow[k][j]))
+        };
+        Some([
+            side(self.own.checked_sub(1), self.own.checked_sub(2), &|v| v < 0.0),
+            side(Some(self.own + 1), Some(self.own + 2).filter(|line| *line <= axis), &|v| v >= 0.0),
+        ])
+    }
+
+    /// ∂/∂Y of a value at station i that is odd about the axis.
+    fn slope(&self, value: impl Fn(&Aside) -> f64) -> f64 {
+        let axis = self.lines.len() - 1;
+        let at = |line: usize| value(&self.lines[line]);
+        match self.own {
+            own if own == axis => {
+                if own == 0 {
+                    0.0
+                } else {
+                    -at(own - 1) / (self.y[own] - self.y[own - 1])
+                }
+            }
+            0 => (at(1) - at(0)) / (self.y[1] - self.y[0]),
+            own => {
+                let (south, north) = (self.y[own] - self.y[own - 1], self.y[own + 1] - self.y[own]);
+                let sum = south + north;
+                let weights = [-north / (south * sum), (north - south) / (south * north), south / (north * sum)];
+                weights[0] * at(own - 1) + weights[1] * at(own) + weights[2] * at(own + 1)
+            }
+        }
+    }
 }
 
 /// Largest change of θ in one march.
@@ -61,6 +129,16 @@ pub struct HeatBalance {
 }
 
 impl HeatBalance {
+    /// With so many times another one.
+    pub fn plus(self, times: f64, other: &Self) -> Self {
+        Self {
+            sheared: self.sheared + times * other.sheared,
+            compressed: self.compressed + times * other.compressed,
+            into_bodies: [0, 1].map(|side| self.into_bodies[side] + times * other.into_bodies[side]),
+            carried: self.carried + times * other.carried,
+        }
+    }
+
     /// What is made and goes nowhere, over what shear and compression make.
     pub fn residual(&self) -> f64 {
         let made = self.sheared + self.compressed;
@@ -87,6 +165,7 @@ impl March {
             flux: [vec![0.0; n], vec![0.0; n]],
             mobility: vec![0.0; n],
             flow: vec![[0.0; POINTS]; n],
+            aside: Aside::default(),
             across: vec![[0.0; POINTS - 1]; n],
             former: vec![[0.0; POINTS]; n],
             x,
@@ -106,11 +185,19 @@ impl March {
     /// Marches once through a state of pressure and film, and takes a share of the change of θ that comes of it. Returns
     /// the largest change.
     pub fn run(&mut self, course: &Course<'_>, share: f64, tolerance: f64) -> f64 {
+        self.prepare(course);
+        self.go(course, None, share, tolerance)
+    }
+
+    /// Marches through a state that it was [prepared](Self::prepare) for, in a plane beside other lines, and takes a share
+    /// of the change of θ. Returns the largest change.
+    pub fn go(&mut self, course: &Course<'_>, beside: Option<Beside<'_>>, share: f64, tolerance: f64) -> f64 {
         for (former, station) in self.former.iter_mut().zip(&self.stations) {
             *former = station.theta;
         }
-        self.prepare(course);
+        self.cross(course, beside);
         let n = self.x.len();
+        let course = (course, beside);
         for i in 0..n {
             self.solve(course, i, tolerance);
         }
@@ -135,19 +222,55 @@ impl March {
         largest
     }
 
-    /// Films at the former temperatures: the mobilities by which the pressure was found, and what crosses the film.
-    fn prepare(&mut self, course: &Course<'_>) {
-        let n = self.x.len();
-        for i in 0..n {
-            let station = &mut self.stations[i];
+    /// Films at the former temperatures: the mobilities by which the pressure was found, and what flows.
+    pub fn prepare(&mut self, course: &Course<'_>) {
+        let up_to = |profile: &Profile| {
+            let mut sum = 0.0;
+            std::array::from_fn(|j| {
+                sum += ACROSS.weights[j] * profile[j];
+                sum
+            })
+        };
+        let plane = course.states.iter().any(|state| state.gradient[1] != 0.0);
+        let Aside { theta, flow, total } = &mut self.aside;
+        for list in [&mut *theta, &mut *flow, &mut *total] {
+            list.clear();
+        }
+        for (i, station) in self.stations.iter_mut().enumerate() {
             course.place(i, 0.0).evaluate(station);
             self.mobility[i] = station.flowing.mobility;
-            let mut flow = 0.0;
-            for j in 0..POINTS {
-                flow += ACROSS.weights[j] * station.flowing.flow[j];
-                self.flow[i][j] = flow;
+            self.flow[i] = up_to(&station.flowing.flow);
+            if plane {
+                theta.push(station.theta);
+                flow.push(station.flowing.aside);
+                total.push(up_to(&station.flowing.aside));
             }
         }
+    }
+
+    /// What flows along Y at the temperatures that the march was prepared with, for the lines beside it.
+    pub fn hand_over(&mut self, out: &mut Aside) {
+        let n = self.stations.len();
+        std::mem::swap(out, &mut self.aside);
+        if out.theta.len() != n {
+            // Nothing does, but there are temperatures.
+            out.theta.clear();
+            out.theta.extend(self.stations.iter().map(|station| station.theta));
+            for list in [&mut out.flow, &mut out.total] {
+                list.clear();
+                list.resize(n, [0.0; POINTS]);
+            }
+        }
+    }
+
+    /// Tells the lines beside it its new temperatures.
+    pub fn tell(&self, out: &mut Aside) {
+        out.theta.iter_mut().zip(&self.stations).for_each(|(theta, station)| *theta = station.theta);
+    }
+
+    /// What crosses the film from one of its points to the next.
+    fn cross(&mut self, course: &Course<'_>, beside: Option<Beside<'_>>) {
+        let n = self.x.len();
         for i in 0..n {
             let ruptured = self.x[i] > 0.0 && course.states[i].pressure <= 0.0;
             let [from, to] = [i.saturating_sub(1), (i + 1).min(n - 1)];
@@ -158,7 +281,9 @@ impl March {
                 let sum = west + east;
                 let weights = [-east / (west * sum), (east - west) / (west * east), west / (east * sum)];
                 let slope = |j: usize| {
-                    weights[0] * self.flow[from][j] + weights[1] * self.flow[i][j] + weights[2] * self.flow[to][j]
+                    let along =
+                        weights[0] * self.flow[from][j] + weights[1] * self.flow[i][j] + weights[2] * self.flow[to][j];
+                    beside.map_or(along, |beside| along + beside.slope(|line| line.total[i][j]))
                 };
                 // No flow is lost: what the discrete one lacks is lacking everywhere across alike.
                 let lost = slope(POINTS - 1);
@@ -172,7 +297,7 @@ impl March {
     }
 
     /// Solves one station beside its neighbours.
-    fn solve(&mut self, course: &Course<'_>, i: usize, tolerance: f64) {
+    fn solve(&mut self, (course, beside): (&Course<'_>, Option<Beside<'_>>), i: usize, tolerance: f64) {
         let n = self.x.len();
         if i == 0 {
             // What enters has the inlet's temperature, what leaves its own.
@@ -192,6 +317,7 @@ impl March {
                 self.side(i, [i - 1, i.saturating_sub(2)], |u| u < 0.0),
                 self.side(i, [(i + 1).min(n - 1), (i + 2).min(n - 1)], |u| u >= 0.0),
             ],
+            beside: beside.and_then(|beside| beside.sides(i)),
             across: self.across[i],
             surfaces: [0, 1].map(|side| {
                 let (before, own) = self.source.before(i, &self.flux[side]);
@@ -213,23 +339,10 @@ impl March {
     /// What a station has from the two next to one side, for points that flow here from there; the film `leaves` for
     /// there where its velocity says so, and then the quotient is of first order.
     fn side(&self, i: usize, from: [usize; 2], leaves: impl Fn(f64) -> bool) -> Side {
-        let mut out = Side { theta: from.map(|k| self.stations[k].theta), ..Side::default() };
-        let [near, far] = from.map(|k| self.x[i] - self.x[k]);
-        if near == 0.0 {
-            return out;
-        }
-        let r = near / (far - near);
-        let second = [(1.0 + r) / near, -r * r / (1.0 + r) / near];
-        let beside = from.map(|k| &self.stations[k]);
-        for j in 0..POINTS {
-            let turns = far == near || beside.iter().any(|station| leaves(station.flowing.velocity[j]));
-            let weights = if turns { [1.0 / near, 0.0] } else { second };
-            for k in 0..2 {
-                out.weights[k][j] = weights[k];
-                out.flow[k][j] = beside[k].flowing.flow[j];
-            }
-        }
-        out
+        let there = from.map(|k| &self.stations[k]);
+        let (theta, flow) = (there.map(|station| station.theta), there.map(|station| station.flowing.flow));
+        let away = from.map(|k| self.x[i] - self.x[k]);
+        Side::of(away, theta, flow, |k, j| leaves(there[k].flowing.velocity[j]))
     }
 
     /// Takes over temperatures at other abscissae, at least two, between which they are linear, times a factor.
@@ -242,8 +355,8 @@ impl March {
         }
     }
 
-    /// Where the heat comes from and goes to.
-    pub fn balance(&self, course: &Course<'_>) -> HeatBalance {
+    /// Where the heat comes from and goes to, in a plane beside other lines.
+    pub fn balance(&self, course: &Course<'_>, beside: Option<Beside<'_>>) -> HeatBalance {
         let last = course.states.iter().rposition(|state| state.pressure > 0.0).unwrap_or(0);
         let mut out = HeatBalance::default();
         let conduction = course.laws.heat.conduction;
@@ -253,10 +366,17 @@ impl March {
                 (inner(&ACROSS.weights, &sheared), inner(&ACROSS.weights, &compressed))
             })
             .collect();
+        let carried_aside = |line: &Aside, i: usize| {
+            let product: Profile = std::array::from_fn(|j| line.flow[i][j] * line.theta[i][j]);
+            inner(&ACROSS.weights, &product)
+        };
         // The first cell has no balance: what flows back leaves it as it comes.
         for i in 2..=last {
             let half = 0.5 * (self.x[i] - self.x[i - 1]);
             for k in [i - 1, i] {
+                if let Some(beside) = beside {
+                    out.carried += half * beside.slope(|line| carried_aside(line, k));
+                }
                 out.sheared += half * made[k].0;
                 out.compressed += half * made[k].1;
                 for (sum, flux) in out.into_bodies.iter_mut().zip(&self.flux) {
@@ -269,7 +389,7 @@ impl March {
             let product: Profile = std::array::from_fn(|j| flowing.flow[j] * theta[j]);
             inner(&ACROSS.weights, &product)
         };
-        out.carried = carried(last) - carried(1.min(last));
+        out.carried += carried(last) - carried(1.min(last));
         out
     }
 }
@@ -277,5 +397,52 @@ impl March {
 impl<'a> Course<'a> {
     fn place(&self, i: usize, mobility: f64) -> Place<'a> {
         Place { laws: self.laws, limit: self.limit, state: self.states[i], mobility }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three lines up to an axis, with one station whose temperatures and flows are given.
+    fn lines(theta: [f64; 3], flow: [f64; 3]) -> Vec<Aside> {
+        let line = |k: usize| Aside {
+            theta: vec![[theta[k]; POINTS]],
+            flow: vec![[flow[k]; POINTS]],
+            total: vec![[flow[k]; POINTS]],
+        };
+        (0..3).map(line).collect()
+    }
+
+    const Y: [f64; 3] = [-0.5, -0.2, 0.0];
+
+    #[test]
+    fn what_flows_aside_is_differentiated_exactly_where_it_is_a_parabola_or_odd() {
+        // 3y + 2y³ has no exact quotient, y and y² have.
+        let all = lines([0.0; 3], Y.map(|y| 3.0 * y));
+        for own in 0..3 {
+            let slope = Beside { lines: &all, y: &Y, own }.slope(|line| line.total[0][0]);
+            assert!((slope - 3.0).abs() < 1e-12, "{own}: {slope}");
+        }
+        let all = lines([0.0; 3], Y.map(|y| y * y));
+        let slope = Beside { lines: &all, y: &Y, own: 1 }.slope(|line| line.total[0][0]);
+        assert!((slope + 0.4).abs() < 1e-12, "{slope}");
+    }
+
+    #[test]
+    fn a_line_has_its_temperatures_from_where_the_oil_comes() {
+        // Away from the axis: ρ̄v̄θ_Y of a linear θ, of second order from the two lines nearer to it.
+        let theta = Y.map(|y| 1.0 + 2.0 * y);
+        let outwards = lines(theta, [-0.7; 3]);
+        let [farther, nearer] = Beside { lines: &outwards, y: &Y, own: 0 }.sides(0).unwrap();
+        assert_eq!(farther, Side::default(), "nothing lies beyond the edge");
+        let (carried, _) = nearer.carried(4, -0.7, theta[0]);
+        assert!((carried + 0.7 * 2.0).abs() < 1e-12, "{carried}");
+        // Towards the axis: the line at the edge is all that lies there.
+        let inwards = lines(theta, [0.7; 3]);
+        let [farther, _] = Beside { lines: &inwards, y: &Y, own: 1 }.sides(0).unwrap();
+        let (carried, slope) = farther.carried(4, 0.7, theta[1]);
+        assert!((carried - 0.7 * 2.0).abs() < 1e-12 && slope > 0.0, "{carried}");
+        assert!(Beside { lines: &inwards, y: &Y, own: 2 }.sides(0).is_none(), "nothing crosses the axis");
     }
 }

@@ -1,4 +1,4 @@
-//! Temperature across and along the film of a line contact: films with temperatures as nodes of the Reynolds equation,
+//! Temperature across and along the film: films with temperatures as nodes of the Reynolds equation,
 //! and the march of the energy equation that makes the temperatures.
 
 mod across;
@@ -9,6 +9,6 @@ mod surfaces;
 
 pub use across::{ACROSS, POINTS, Profile, RULE, interpolated_across};
 pub use film::{StressLaw, WarmFilm, WarmLaws};
-pub use march::{Course, HeatBalance, March};
+pub use march::{Aside, Beside, Course, HeatBalance, March};
 pub use station::{Limit, Station};
 pub use surfaces::MovingSource;

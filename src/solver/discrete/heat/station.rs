@@ -4,7 +4,7 @@
 //! sources.
 
 use super::across::{ACROSS, POINTS, Profile, apply, inner};
-use super::film::{Sheared, StressLaw, WarmLaws};
+use super::film::{Drive, Sheared, StressLaw, WarmLaws};
 use crate::solver::discrete::reynolds::generalized::NodeState;
 use crate::solver::physics::lubricant::{Across, LimitingStress};
 
@@ -34,7 +34,7 @@ pub struct Station {
 }
 
 /// The two stations next to one side of a station, for points at which the film flows here from there.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Side {
     /// Weights w_k of the quotient: (Gθ)_X − G_Xθ is ±Σ w_k G_k (θ − θ_k), where G = Hρ̄ū.
     pub weights: [Profile; 2],
@@ -45,10 +45,33 @@ pub struct Side {
 }
 
 impl Side {
+    /// Of two places so far away in front of it, the second farther or the same; of first order where the film `leaves` for
+    /// one of them. Nothing where the first one is the place itself.
+    pub fn of(
+        [near, far]: [f64; 2],
+        theta: [Profile; 2],
+        flow: [Profile; 2],
+        leaves: impl Fn(usize, usize) -> bool,
+    ) -> Self {
+        let mut out = Self { theta, ..Self::default() };
+        if near == 0.0 {
+            return out;
+        }
+        let r = near / (far - near);
+        let second = [(1.0 + r) / near, -r * r / (1.0 + r) / near];
+        out.flow = flow;
+        for j in 0..POINTS {
+            let turns = far == near || (0..2).any(|k| leaves(k, j));
+            let weights = if turns { [1.0 / near, 0.0] } else { second };
+            (out.weights[0][j], out.weights[1][j]) = (weights[0], weights[1]);
+        }
+        out
+    }
+
     /// What the film carries here at a point, and its derivative by θ. Where the film turns between the stations its own
     /// flow stands for the other.
     #[inline]
-    fn carried(&self, j: usize, flow: f64, theta: f64) -> (f64, f64) {
+    pub(super) fn carried(&self, j: usize, flow: f64, theta: f64) -> (f64, f64) {
         let (mut sum, mut slope) = (0.0, 0.0);
         for k in 0..2 {
             let there = self.flow[k][j];
@@ -65,7 +88,9 @@ impl Side {
 pub struct Neighbours {
     /// Upstream and downstream.
     pub sides: [Side; 2],
-    /// −Ψ_X at the faces between the points.
+    /// Farther from the axis and nearer to it, in a plane: for flow that goes towards the axis and away from it.
+    pub beside: Option<[Side; 2]>,
+    /// −Ψ_X at the faces between the points, in a plane with what flows along Y there.
     pub across: [f64; POINTS - 1],
     /// What warms either surface but for the flux here, and how much that warms it.
     pub surfaces: [(f64, f64); 2],
@@ -94,6 +119,8 @@ pub struct Flowing {
     pub velocity: Profile,
     /// G = Hρ̄ū.
     pub flow: Profile,
+    /// Hρ̄v̄, with the velocity along Y.
+    pub aside: Profile,
     /// τ̄_m.
     pub stress: f64,
     /// (s₀g₁/g₀ − s₁) κH³, the mobility.
@@ -116,7 +143,7 @@ impl Place<'_> {
     /// viscosity does not hang on stress that is told by the temperatures alone, elsewhere `factor` times P_X.
     fn flowing(&self, theta: &Profile, stress: f64, factor: f64) -> Flowing {
         let across = &*ACROSS;
-        let NodeState { pressure, gradient: [gradient, _], film } = self.state;
+        let NodeState { pressure, gradient: [gradient, gradient_y], film } = self.state;
         let heat = self.laws.heat;
         let fluid = heat.fluid.at(pressure, theta);
         let offsets = across.points.map(|zeta| zeta - 0.5);
@@ -134,12 +161,19 @@ impl Place<'_> {
         };
         let law: Option<&StressLaw> = self.laws.shear.as_ref();
         let factor = if law.is_none() { self.factor(mobility(&fluid.fluidity)) } else { factor };
-        let (a, rate) = (heat.gradient * film * gradient * factor, self.laws.slip() / film);
-        let (stress, sheared) = Sheared::sliding(law, &fluid.fluidity, (&offsets, &across.weights), (a, rate), stress);
+        let per = |gradient: f64| heat.gradient * film * gradient * factor;
+        let drive = Drive { along: per(gradient), aside: per(gradient_y), rate: self.laws.slip() / film };
+        let (stress, sheared) = Sheared::sliding(law, &fluid.fluidity, (&offsets, &across.weights), drive, stress);
         let rates: Profile = std::array::from_fn(|i| film * sheared.stress[i] * sheared.fluidity[i]);
         let velocity = apply(&across.primitive, &rates).map(|v| heat.speeds[0] + v);
         let flow = std::array::from_fn(|i| film * fluid.density[i] * velocity[i]);
-        Flowing { velocity, flow, stress, mobility: mobility(&sheared.fluidity), fluid, film: sheared }
+        let mut aside = [0.0; POINTS];
+        if gradient_y != 0.0 {
+            let rates: Profile = std::array::from_fn(|i| film * sheared.aside[i] * sheared.fluidity[i]);
+            aside = apply(&across.primitive, &rates);
+            aside.iter_mut().zip(&fluid.density).for_each(|(v, density)| *v *= film * density);
+        }
+        Flowing { velocity, flow, aside, stress, mobility: mobility(&sheared.fluidity), fluid, film: sheared }
     }
 
     /// What the gradient is multiplied with so that the flow it drives stays under another mobility; of a film that
@@ -166,31 +200,43 @@ impl Place<'_> {
         }
     }
 
-    /// Heat by shear at a point, and its derivatives by ln f at a constant stress and by τ̄.
+    /// Heat by shear at a point, and its derivatives by ln f at a constant stress and by τ̄ along X.
     fn shear_heat(&self, flowing: &Flowing, j: usize) -> (f64, f64, f64) {
         let film = &flowing.film;
-        let (stress, fluidity) = (film.stress[j], film.fluidity[j]);
+        let (stress, fluidity, slope) = (film.stress[j], film.fluidity[j], film.slope[j]);
         let scale = self.state.film * self.laws.heat.shear;
-        let whole = scale * stress * stress * fluidity;
-        let free = (whole, whole, scale * stress * (2.0 * fluidity + stress * film.slope[j]));
+        let (size, aside) = (film.size(j), film.aside[j]);
+        let whole = scale * size * size * fluidity;
+        let by_size = if aside == 0.0 { stress * slope } else { size * size / stress * slope };
+        let by_stress = if stress == 0.0 { 0.0 } else { scale * stress * (2.0 * fluidity + by_size) };
+        let free = (whole, whole, by_stress);
         let Some((limit, hertz_pressure)) = &self.limit else { return free };
         let pascal = self.laws.heat.stress_scale_pa;
-        let felt = stress.abs() * pascal;
+        let felt = size * pascal;
         let carried = limit.carried(felt, self.state.pressure * hertz_pressure);
         if carried >= felt {
             return free;
         }
         // What slips or yields carries the limit over the whole rate.
         let cut = carried / pascal;
-        let value = scale * cut * stress.abs() * fluidity;
-        (value, value, scale * cut * (fluidity + stress * film.slope[j]).copysign(stress))
+        let value = scale * cut * size * fluidity;
+        let by_stress = if aside == 0.0 {
+            (fluidity + stress * slope).copysign(stress)
+        } else {
+            fluidity * stress / size + size * slope
+        };
+        (value, value, scale * cut * by_stress)
     }
 
     /// Heat by compression at a point over 1 + θ.
-    fn compression_heat(&self, Flowing { fluid, velocity, .. }: &Flowing, j: usize) -> f64 {
+    fn compression_heat(&self, Flowing { fluid, velocity, aside, .. }: &Flowing, j: usize) -> f64 {
         let expansion = -fluid.density_t[j] / fluid.density[j];
-        let [gradient, _] = self.state.gradient;
-        self.state.film * self.laws.heat.compression * expansion * velocity[j] * gradient
+        let [gradient, gradient_y] = self.state.gradient;
+        let along = self.state.film * self.laws.heat.compression * expansion * velocity[j] * gradient;
+        if gradient_y == 0.0 {
+            return along;
+        }
+        along + self.laws.heat.compression * expansion * aside[j] / fluid.density[j] * gradient_y
     }
 
     /// Solves the station from what it has, until θ is within `tolerance`.
@@ -219,6 +265,11 @@ impl Place<'_> {
             for j in 0..POINTS {
                 let flow = flowing.flow[j];
                 let (carried, carried_by_own) = from.sides[usize::from(flow < 0.0)].carried(j, flow, theta[j]);
+                let beside = from.beside.as_ref().map_or((0.0, 0.0), |beside| {
+                    let aside = flowing.aside[j];
+                    beside[usize::from(aside < 0.0)].carried(j, aside, theta[j])
+                });
+                let (carried, carried_by_own) = (carried + beside.0, carried_by_own + beside.1);
                 let (shear, shear_by_log, shear_by_stress) = self.shear_heat(&flowing, j);
                 let compression = self.compression_heat(&flowing, j);
                 let row = &mut matrix[j];
@@ -326,6 +377,7 @@ mod tests {
         let [d_1, d_2] = laws.heat.surfaces;
         let neighbours = Neighbours {
             sides: [Side::default(); 2],
+            beside: None,
             across: [0.0; POINTS - 1],
             surfaces: [(lower / d_1, 0.0), (upper / d_2, 0.0)],
         };

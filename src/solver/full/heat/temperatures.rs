@@ -1,10 +1,11 @@
 //! The temperatures of a solved contact.
 
-use super::Coupled;
-use crate::solver::discrete::grid::{INLET, cubic};
-use crate::solver::discrete::heat::{HeatBalance, March, MovingSource, POINTS, Profile, WarmFilm};
+use super::coupled::Coupled;
+use crate::solver::discrete::grid::cubic;
+use crate::solver::discrete::heat::{Aside, Beside, HeatBalance, March, MovingSource, POINTS, Profile, WarmFilm};
 use crate::solver::discrete::reynolds::generalized::NodeState;
-use crate::solver::discrete::space::LineSpace;
+use crate::solver::discrete::space::Grid;
+use crate::solver::full::newton_space::NewtonSpace;
 use crate::solver::full::solution::Problem;
 use crate::solver::full::system::System;
 use crate::solver::physics::lubricant::{LimitingStress, ScaledHeat};
@@ -23,14 +24,16 @@ pub struct Rises {
 /// Temperature \[K\] above which lubricants decompose: 300 °C.
 const ENDURED_K: f64 = 573.0;
 
-/// Heat that is lost without a word, relative.
-const LARGEST_RESIDUAL: f64 = 3e-3;
+/// Heat that is lost without a word, relative: on a line, and in a plane, whose cells are larger.
+const LARGEST_RESIDUAL: [f64; 2] = [3e-3, 1e-2];
 
-/// The temperatures of a contact with heat.
+/// The temperatures of a contact with heat. Arrays run as those of the solution, over X and, fastest, over Y.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Temperatures {
     /// Abscissae X, those of the nodes of the solution.
     pub x: Vec<f64>,
+    /// Ordinates in units of a, the last of them on the axis; only 0 on a line.
+    pub y: Vec<f64>,
     /// T − T₀ there \[K\], from body 1 to body 2 at [Lobatto's points](crate::solver::discrete::heat::ACROSS).
     pub rise_k: Vec<Profile>,
     /// H there.
@@ -66,9 +69,15 @@ pub(in crate::solver) fn mid_stress_pa(problem: &Problem, heat: &ScaledHeat, str
     carried.min(felt.abs()).copysign(felt)
 }
 
-/// Node arrays of a contact with heat: X, P, H and τ̄_m.
+/// A line along X that was marched: its march, and the states that this went through.
+pub(in crate::solver) type Marched<'a> = (&'a March, &'a [NodeState]);
+
+/// Node arrays of a contact with heat: X, Y in units of a, P, H and τ̄_m.
 pub(in crate::solver) struct NodeArrays<'a> {
     pub x: &'a [f64],
+    pub y: &'a [f64],
+    /// The first column of nodes that has a film.
+    pub first: usize,
     pub pressure: &'a [f64],
     pub film: &'a [f64],
     pub stress: &'a [f64],
@@ -76,7 +85,7 @@ pub(in crate::solver) struct NodeArrays<'a> {
 
 impl Rises {
     /// Those of a profile.
-    pub(in crate::solver) fn of(rise_k: &Profile) -> Self {
+    pub fn of(rise_k: &Profile) -> Self {
         Self { mid_film_k: rise_k[POINTS / 2], surfaces_k: [rise_k[0], rise_k[POINTS - 1]] }
     }
 
@@ -97,8 +106,30 @@ impl Temperatures {
     /// The film that has them at given nodes.
     pub(in crate::solver::full) fn film(&self, nodes: &[f64]) -> WarmFilm {
         let mut film = WarmFilm::default();
-        film.spread(nodes, &self.x, |i| self.rise_k[i].map(|rise| rise / self.inlet_k));
+        let lines = self.y.len();
+        let theta = |line: usize, i: usize| self.rise_k[i * lines + line].map(|rise| rise / self.inlet_k);
+        film.spread_lines(nodes, &self.x, lines, theta);
         film
+    }
+
+    /// T − T₀ along the line nearest to an ordinate in units of a.
+    pub(super) fn line_at(&self, y: f64) -> impl Iterator<Item = Profile> + '_ {
+        let lines = self.y.len();
+        let apart = |line: &usize| (self.y[*line] - y).abs();
+        let nearest = (0..lines).min_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap_or(0);
+        self.rise_k.iter().skip(nearest).step_by(lines).copied()
+    }
+
+    /// The rises along the axis Y = 0, in the order of `x`.
+    pub fn along_axis(&self) -> impl Iterator<Item = &Profile> {
+        let lines = self.y.len();
+        self.rise_k.iter().skip(lines - 1).step_by(lines)
+    }
+
+    /// H along the axis Y = 0, in the order of `x`.
+    pub fn film_along_axis(&self) -> impl Iterator<Item = f64> + '_ {
+        let lines = self.y.len();
+        self.thickness.iter().skip(lines - 1).step_by(lines).copied()
     }
 
     /// The rises at the nodes, in their order.
@@ -120,7 +151,8 @@ impl Temperatures {
     /// That sentence, and one where heat is lost between the stations.
     pub fn warnings(&self) -> impl Iterator<Item = String> {
         let residual = self.balance.residual().abs();
-        let lossy = (residual > LARGEST_RESIDUAL).then(|| {
+        let most = LARGEST_RESIDUAL[usize::from(self.y.len() > 1)];
+        let lossy = (residual > most).then(|| {
             format!(
                 "{:.1} % of the heat that is made goes nowhere: the grid is too coarse for this film's temperatures",
                 100.0 * residual
@@ -130,32 +162,57 @@ impl Temperatures {
     }
 
     /// Those of a state.
-    pub(super) fn of(coupled: &Coupled, system: &System<LineSpace>, problem: &Problem, heat: &ScaledHeat) -> Self {
-        let Coupled { march, states, .. } = coupled;
-        let stress = system.warm.as_ref().map_or(&[][..], |warm| &warm.stress);
-        let fields = NodeArrays { x: &system.space.grid.x, pressure: &system.pressure, film: &system.film, stress };
-        Self::marched(march, states, &fields, (problem, heat))
+    pub(super) fn of<S: NewtonSpace>(
+        coupled: &Coupled,
+        system: &System<S>,
+        problem: &Problem,
+        heat: &ScaledHeat,
+    ) -> Self {
+        let grid = system.space.grid();
+        let fields = NodeArrays {
+            x: grid.abscissae().0,
+            y: grid.across(),
+            first: S::FIRST_COLUMN,
+            pressure: &system.pressure,
+            film: &system.film,
+            stress: system.warm.as_ref().map_or(&[][..], |warm| &warm.stress),
+        };
+        let lines: Vec<Marched<'_>> = coupled.lines.iter().map(|line| (&line.march, &line.states[..])).collect();
+        Self::marched(&lines, &coupled.asides, &fields, (problem, heat))
     }
 
-    /// Those of a march through given states at its stations, at the nodes of a contact.
+    /// Those of lines, at least one, that were marched through given states at their stations, at the nodes of a contact;
+    /// in a plane with what flows from line to line.
     pub(in crate::solver) fn marched(
-        march: &March,
-        states: &[NodeState],
+        lines: &[Marched<'_>],
+        asides: &[Aside],
         fields: &NodeArrays<'_>,
         (problem, heat): (&Problem, &ScaledHeat),
     ) -> Self {
         let inlet_k = heat.heat.inlet_temperature;
-        let x = fields.x[INLET..].to_vec();
-        let at = |x: f64| -> Profile {
-            let (first, weights) = cubic(&march.x, x);
+        let x = fields.x[fields.first..].to_vec();
+        let axis = lines[lines.len() - 1].0;
+        let at = |march: &March, (first, weights): (usize, [f64; 4])| -> Profile {
             let near = &march.stations[first..];
             std::array::from_fn(|j| inlet_k * weights.iter().zip(near).map(|(w, own)| w * own.theta[j]).sum::<f64>())
         };
-        let rise_k: Vec<Profile> = x.iter().map(|x| at(*x)).collect();
-        let loaded = march.stations.iter().zip(states).filter(|(_, state)| state.pressure > 0.0);
-        let largest = loaded.fold(Rises::default(), |largest, (own, _)| {
-            largest.or_larger(Rises::of(&own.theta.map(|theta| inlet_k * theta)))
-        });
+        let mut rise_k: Vec<Profile> = Vec::with_capacity(x.len() * lines.len());
+        for x in &x {
+            let place = cubic(&axis.x, *x);
+            rise_k.extend(lines.iter().map(|(march, _)| at(march, place)));
+        }
+        let mut largest = Rises::default();
+        let mut balance = HeatBalance::default();
+        for (own, (march, states)) in lines.iter().enumerate() {
+            let loaded = march.stations.iter().zip(*states).filter(|(_, state)| state.pressure > 0.0);
+            largest = loaded.fold(largest, |largest, (own, _)| {
+                largest.or_larger(Rises::of(&own.theta.map(|theta| inlet_k * theta)))
+            });
+            let beside = (lines.len() > 1).then_some(Beside { lines: asides, y: fields.y, own });
+            if let Some(course) = problem.course(states) {
+                balance = balance.plus(width(fields.y, own), &march.balance(&course, beside));
+            }
+        }
         let mid_stress_pa = fields
             .stress
             .iter()
@@ -163,16 +220,26 @@ impl Temperatures {
             .map(|(stress, &pressure)| mid_stress_pa(problem, heat, *stress, pressure));
         Self {
             x,
-            thickness: fields.film[INLET..].to_vec(),
+            y: fields.y.to_vec(),
+            thickness: fields.film[fields.first * lines.len()..].to_vec(),
             mid_stress_pa: mid_stress_pa.collect(),
             shear_stress: fields.stress.to_vec(),
-            central: Rises::of(&at(0.0)),
+            central: Rises::of(&at(axis, cubic(&axis.x, 0.0))),
             largest,
-            balance: problem.course(states).map_or_else(HeatBalance::default, |course| march.balance(&course)),
+            balance,
             inlet_k,
-            stations: march.x.clone(),
-            source: Arc::clone(&march.source),
+            stations: axis.x.clone(),
+            source: Arc::clone(&axis.source),
             rise_k,
         }
+    }
+}
+
+/// The width of the strip around a line, by the trapezoidal rule; 1 where there is but one line.
+fn width(y: &[f64], own: usize) -> f64 {
+    let at = |line: usize| y.get(line).copied().unwrap_or_default();
+    match y.len() {
+        1 => 1.0,
+        n => 0.5 * (at((own + 1).min(n - 1)) - at(own.saturating_sub(1))),
     }
 }

@@ -10,15 +10,14 @@ mod tests;
 
 pub use accuracy::{Accuracy, Estimate, resolution_warning, second_grid, side_lobe_curvature};
 
+use super::heat::Turn;
 use super::newton_space::{NewtonSpace, ScaledRows, StepControl, Taken};
-use super::solution::{Mesh, Problem, Solution, SolveError};
-use super::solver::{Solver, Start};
+use super::solution::{Mesh, Problem, SolveError};
 use super::system::{SolveOptions, System};
 use crate::solver::discrete::grid::{GridSpec, PointGrid, PointGridSpec};
 use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::discrete::reynolds::generalized::FilmTreatment;
 use crate::solver::discrete::space::PlaneSpace;
-use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{ContactKind, Ellipse};
 pub use preconditioner::PlaneMatrix;
 use std::sync::Arc;
@@ -91,6 +90,7 @@ impl NewtonSpace for PlaneSpace {
     const KIND: ContactKind = ContactKind::Point;
     const WORST_RESIDUAL: f64 = f64::INFINITY;
     const CLIPS: bool = true;
+    const FIRST_COLUMN: usize = 0;
     // In units of Hamrock and Dowson's formula.
     const COLD_FILMS: [f64; 3] = [1.2, 0.8, 2.0];
     const EASY_M: (f64, f64) = (60.0, 200.0);
@@ -161,14 +161,9 @@ impl NewtonSpace for PlaneSpace {
         Taken { size, shift, residual: system.evaluate(problem, options.penalty) }
     }
 
-    fn solve_with_heat(
-        solver: &mut Solver<Self>,
-        problem: Problem,
-        start: Start<'_>,
-        observer: &dyn Observer,
-    ) -> Result<Solution, SolveError> {
-        // No problem of a point contact has heat.
-        solver.solve_problem(problem.isothermal(), start, observer)
+    fn beside_heat(_: LimitedSteps, turn: Turn) -> LimitedSteps {
+        let Turn { largest_step, film_loss, last, .. } = turn;
+        LimitedSteps { largest_step, film_loss, forcing: if last { 1e-6 } else { 1e-3 } }
     }
 
     fn assemble(

@@ -24,7 +24,7 @@ pub use pressure_coefficient::GAUSS_6;
 pub use shear_thinning::{Fluidity, LimitingStress, ScaledShear, ShearLaw};
 pub use warm::{Across, WarmFluid};
 
-use super::contact::{ContactKind, OperatingPoint};
+use super::contact::OperatingPoint;
 use crate::solver::limits::Number;
 use serde::{Deserialize, Serialize};
 
@@ -187,10 +187,6 @@ impl Lubricant {
         point: &OperatingPoint,
     ) -> Result<Option<ScaledHeat>, LubricantError> {
         let Some(heat) = self.heat else { return Ok(None) };
-        if point.kind != ContactKind::Line {
-            let sentence = "heat is computed in line contacts only; leave it out, or take a line contact";
-            return Err(LubricantError(sentence.to_owned()));
-        }
         Heat::check_sliding(point.sliding.slide_to_roll_ratio)?;
         Ok(Some(ScaledHeat::new(heat, fluid, point)))
     }

@@ -182,7 +182,8 @@ impl Fields {
         let gradient = NodalGradient::new(&x);
         let state = |node: usize| {
             let inlet = node == INLET;
-            let slope = if inlet { one_sided(&x[node..], &pressure[node..]) } else { gradient.at(pressure, node) };
+            let ahead = || one_sided(&x[node..], [0, 1, 2].map(|k| pressure[node + k]));
+            let slope = if inlet { ahead() } else { gradient.at(pressure, node) };
             NodeState { pressure: pressure[node], gradient: [slope, 0.0], film: film[node] }
         };
         let nodes = station_nodes(&self.grid);
@@ -199,8 +200,8 @@ impl Fields {
         for (node, (theta, stress)) in warm.theta.iter().zip(&mut warm.stress).enumerate().skip(INLET) {
             laws.node(state(node), theta, stress);
         }
-        let arrays = NodeArrays { x: &x, pressure, film, stress: &warm.stress };
-        Some(Temperatures::marched(&march, &states, &arrays, (problem, heat)))
+        let arrays = NodeArrays { x: &x, y: &[0.0], first: INLET, pressure, film, stress: &warm.stress };
+        Some(Temperatures::marched(&[(&march, &states)], &[], &arrays, (problem, heat)))
     }
 
     fn scalars(&self, h_0: f64) -> Scalars {

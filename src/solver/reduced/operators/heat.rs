@@ -113,7 +113,7 @@ impl Heated {
         let [x, pressure] = [&self.x, fields].map(|values| self.inlet.map(|k| values[k]));
         if let Some(first) = self.states.first_mut() {
             // At the inlet the node outside knows nothing of the pressure.
-            first.gradient[0] = one_sided(&x, &pressure);
+            first.gradient[0] = one_sided(&x, pressure);
         }
     }
 

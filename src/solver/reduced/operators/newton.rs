@@ -199,7 +199,7 @@ impl Operators {
         let gradient = |k: usize| [gradients[k] / scale, gradients.get(count + k).copied().unwrap_or(0.0)];
         match self.heated.as_mut().zip(problem.warm_laws()) {
             Some((heated, laws)) => {
-                s.nodes.evaluate_warm(&laws, (pressure, &s.films), |k| gradient(k)[0], heated.film());
+                s.nodes.evaluate_warm(&laws, (pressure, &s.films), gradient, heated.film(), Order::Alone);
             }
             None => s.nodes.evaluate(
                 Laws { shear, ..problem.laws() },

@@ -1,0 +1,254 @@
+//! Pressure, film and temperatures in turns: on a line, or on all lines along X of a plane.
+
+use super::mixing::Mixing;
+use super::temperatures::Temperatures;
+use crate::solver::discrete::heat::{Aside, Beside, March, MovingSource, POINTS, Profile, WarmFilm};
+use crate::solver::discrete::reynolds::generalized::{NodeState, PlaneGradient};
+use crate::solver::discrete::space::Grid;
+use crate::solver::full::newton_space::NewtonSpace;
+use crate::solver::full::solution::{Problem, Report, Termination};
+use crate::solver::full::system::{SolveOptions, System};
+use crate::solver::observer::Observer;
+use crate::solver::physics::lubricant::Cavitation;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// How turns go on.
+#[derive(Clone, Copy)]
+pub(super) struct Pace {
+    /// Turns at most.
+    turns: usize,
+    /// Least share of a change of temperatures that is taken.
+    least_share: f64,
+    /// Backtracking of the steps of pressure and film ends at this share of them.
+    shortest_step: f64,
+}
+
+impl Pace {
+    pub const QUICK: Self = Self { turns: 120, least_share: 0.25, shortest_step: 1.0 };
+    /// Where that does not settle.
+    pub const SLOW: Self = Self { turns: 120, least_share: 0.06, shortest_step: 1.0 / 16.0 };
+}
+
+/// What a step of pressure and film has to keep to between two marches.
+#[derive(Clone, Copy, Debug)]
+pub struct Turn {
+    /// Largest change of P.
+    pub largest_step: f64,
+    /// Largest share of the film that it may take away.
+    pub film_loss: f64,
+    /// Backtracking ends at this share of it.
+    pub shortest_step: f64,
+    /// Whether there is backtracking at all.
+    pub looks_back: bool,
+    /// Whether it is the last one, solved for all but to rounding.
+    pub last: bool,
+}
+
+/// A step of pressure and film, relative, and a change of θ that end the turns.
+const LAST: (f64, f64) = (1e-6, 3e-6);
+
+/// Turns after which ten times of that will do: where the film ruptures or flows back a node may come and go.
+const LATE: usize = 60;
+
+/// A step of pressure and film and a change of θ below which states are mixed.
+const NEAR: f64 = 0.1;
+
+/// Least distance of stations in front of X = ½; farther than X = −1 it grows with the distance.
+const SPACING: f64 = 0.02;
+
+/// Largest change of P in one step.
+const LARGEST_STEP: f64 = 0.3;
+
+/// Largest share of the film that one step may take away.
+const FILM_LOSS: f64 = 0.7;
+
+/// Pressure, film and temperatures in turns.
+pub(super) struct Coupled {
+    /// The column of nodes of each station.
+    columns: Vec<usize>,
+    /// From the edge of a plane to its axis.
+    pub lines: Vec<Line>,
+    /// What flows from line to line, at the temperatures before the last march; empty where there is one line only.
+    pub asides: Vec<Aside>,
+    /// The lines' ordinates in units of a.
+    pub y: Vec<f64>,
+    gradient: PlaneGradient,
+}
+
+/// A line along X.
+pub(super) struct Line {
+    pub march: March,
+    pub states: Vec<NodeState>,
+}
+
+impl Coupled {
+    /// At the nodes of a system, as warm as a former contact was.
+    pub fn new<S: NewtonSpace>(system: &System<S>, former: Option<&Temperatures>) -> Self {
+        let grid = system.space.grid();
+        let ((x, ordinates), y) = (grid.abscissae(), grid.across().to_vec());
+        let columns = station_columns(x, S::FIRST_COLUMN);
+        let stations: Vec<f64> = columns.iter().map(|&column| x[column]).collect();
+        let known = former.filter(|former| former.stations == stations).map(|former| Arc::clone(&former.source));
+        let source = known.unwrap_or_else(|| Arc::new(MovingSource::new(&stations)));
+        let line = |y: &f64| {
+            let mut march = March::with(stations.clone(), Arc::clone(&source));
+            if let Some(former) = former {
+                let profiles: Vec<Profile> = former.line_at(*y).collect();
+                march.warm(&former.x, &profiles, 1.0 / former.inlet_k);
+            }
+            Line { march, states: vec![NodeState::default(); columns.len()] }
+        };
+        let lines: Vec<Line> = ordinates.iter().map(line).collect();
+        let asides = if lines.len() > 1 { vec![Aside::default(); lines.len()] } else { Vec::new() };
+        Self { gradient: PlaneGradient::new(x, &y), lines, asides, columns, y }
+    }
+
+    /// P, its gradient and H at the stations.
+    pub fn look<S: NewtonSpace>(&mut self, system: &System<S>) {
+        let (x, _) = system.space.grid().abscissae();
+        let (pressure, ny) = (&system.pressure, self.y.len());
+        let Self { columns, lines, gradient, .. } = self;
+        for (j, line) in lines.iter_mut().enumerate() {
+            for (i, (state, &column)) in line.states.iter_mut().zip(&*columns).enumerate() {
+                let node = column * ny + j;
+                let mut slopes = gradient.at(pressure, column, j);
+                if i == 0 {
+                    // At the inlet the node outside knows nothing of the pressure.
+                    slopes[0] = one_sided(&x[column..], [0, 1, 2].map(|k| pressure[node + k * ny]));
+                }
+                *state = NodeState { pressure: pressure[node], gradient: slopes, film: system.film[node] };
+            }
+        }
+    }
+
+    /// Marches once along every line. Returns the largest change of θ.
+    fn march(&mut self, problem: &Problem, share: f64, tolerance: f64) -> Option<f64> {
+        let Self { lines, asides, y, .. } = self;
+        if let [line] = &mut lines[..] {
+            return Some(line.march.run(&problem.course(&line.states)?, share, tolerance));
+        }
+        lines.par_iter_mut().zip(&mut *asides).try_for_each(|(line, aside)| {
+            line.march.prepare(&problem.course(&line.states)?);
+            line.march.hand_over(aside);
+            Some(())
+        })?;
+        // From the axis to the edge, as what the pressure drives flows aside: in front of the contact, where the film turns
+        // and hardly moves along X, it comes from there.
+        let mut changed = 0.0f64;
+        for (own, line) in lines.iter_mut().enumerate().rev() {
+            let beside = Beside { lines: asides, y, own };
+            changed = changed.max(line.march.go(&problem.course(&line.states)?, Some(beside), share, tolerance));
+            line.march.tell(&mut asides[own]);
+        }
+        Some(changed)
+    }
+
+    /// Takes turns until they change nothing any more.
+    pub fn turn<S: NewtonSpace>(
+        &mut self,
+        system: &mut System<S>,
+        problem: &Problem,
+        (options, pace): (&SolveOptions<S::Control>, Pace),
+        observer: &dyn Observer,
+        report: &mut Report,
+    ) {
+        let turn = Turn {
+            largest_step: LARGEST_STEP,
+            film_loss: FILM_LOSS,
+            shortest_step: pace.shortest_step,
+            // The temperatures move on before the next step in any case.
+            looks_back: pace.shortest_step < 1.0 || problem.lubricant.cavitation != Cavitation::Penalty,
+            last: false,
+        };
+        let control = S::beside_heat(options.control, turn);
+        let options = SolveOptions { max_newton: 1, control, tolerance: LAST.0, ..*options };
+        let mut changed: f64 = 1e-3;
+        let mut mixing = Mixing::default();
+        let (mut share, mut before) = (1.0f64, f64::INFINITY);
+        let (mut from, mut image) = (Vec::new(), Vec::new());
+        system.begin(problem, &options);
+        let mut memory = S::Memory::default();
+        for number in 0..pace.turns {
+            self.look(system);
+            self.state(system, &mut from);
+            changed = self.march(problem, share, (1e-3 * changed).clamp(1e-10, 1e-4)).unwrap_or(changed);
+            let warm = system.warm.get_or_insert_with(WarmFilm::default);
+            let (x, _) = system.space.grid().abscissae();
+            let theta = |line: usize, i: usize| self.lines[line].march.stations[i].theta;
+            warm.spread_lines(x, &self.lines[0].march.x, self.lines.len(), theta);
+            system.go_on(problem, &options, &mut memory, observer, report);
+            let size = report.steps.last().copied().unwrap_or(f64::NAN);
+            if matches!(report.termination, Termination::Cancelled | Termination::Diverged) {
+                return;
+            }
+            report.termination = Termination::IterationLimit;
+            let patience = if number > LATE { 10.0 } else { 1.0 };
+            if size < patience * LAST.0 && changed < patience * LAST.1 {
+                // One more step.
+                let control = S::beside_heat(control, Turn { looks_back: true, last: true, ..turn });
+                let options = SolveOptions { control, ..options };
+                system.go_on(problem, &options, &mut memory, observer, report);
+                if !matches!(report.termination, Termination::Cancelled | Termination::Diverged) {
+                    report.termination = Termination::Converged;
+                }
+                return;
+            }
+            let now = size.max(changed);
+            if now < NEAR {
+                self.state(system, &mut image);
+                mixing.improve(&from, &mut image);
+                self.put(system, problem, &mut image);
+            } else {
+                // Temperatures that swing with the pressure come to rest when they follow it by halves.
+                share = if now > 0.8 * before { (0.75 * share).max(pace.least_share) } else { (1.1 * share).min(1.0) };
+                mixing.forget();
+            }
+            before = now;
+        }
+    }
+
+    /// P, H₀ and θ in one.
+    fn state<S: NewtonSpace>(&self, system: &System<S>, out: &mut Vec<f64>) {
+        out.clear();
+        out.extend_from_slice(&system.pressure);
+        out.push(system.h_0);
+        for line in &self.lines {
+            out.extend(line.march.stations.iter().flat_map(|station| station.theta));
+        }
+    }
+
+    /// Takes over such a state; where the film is ruptured no pressure is.
+    fn put<S: NewtonSpace>(&mut self, system: &mut System<S>, problem: &Problem, state: &mut [f64]) {
+        let (pressure, rest) = state.split_at_mut(system.pressure.len());
+        system.keep_ruptured(pressure);
+        system.set_pressure(problem, pressure);
+        system.set_h_0(rest[0]);
+        let stations = self.lines.iter_mut().flat_map(|line| &mut line.march.stations);
+        for (station, theta) in stations.zip(rest[1..].chunks_exact(POINTS)) {
+            station.theta.copy_from_slice(theta);
+        }
+    }
+}
+
+/// The columns of nodes that are stations: in front of X = ½, where nodes crowd because the viscosity rises steeply, and
+/// where no spike of pressure heats the film, those that are some distance apart.
+fn station_columns(x: &[f64], first: usize) -> Vec<usize> {
+    let mut out = vec![first];
+    let mut last = x[first];
+    for (column, &x) in x.iter().enumerate().skip(first + 1) {
+        let apart = if x < 0.5 { SPACING * (-x).max(1.0) } else { 0.0 };
+        if x - last >= apart {
+            out.push(column);
+            last = x;
+        }
+    }
+    out
+}
+
+/// The slope at the first of three nodes, of second order.
+pub(in crate::solver) fn one_sided(x: &[f64], values: [f64; 3]) -> f64 {
+    let (near, far) = (x[1] - x[0], x[2] - x[0]);
+    let [to_near, to_far] = [(values[1] - values[0]) / near, (values[2] - values[0]) / far];
+    (far * to_near - near * to_far) / (far - near)
+}
