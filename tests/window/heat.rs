@@ -82,7 +82,7 @@ fn a_traction_curve_with_heat_lies_below_the_one_without() {
         }
         assert!(begin.elapsed() < PATIENCE, "{table}");
     };
-    assert!(warm[40] < 0.97 * cold[40] && (warm[1] / cold[1] - 1.0).abs() < 0.1, "{warm:?} {cold:?}");
+    assert!(warm[40] < 0.95 * cold[40] && (warm[1] / cold[1] - 1.0).abs() < 0.1, "{warm:?} {cold:?}");
 }
 
 #[test]

@@ -16,6 +16,7 @@ use crate::engine::job::Background;
 use crate::scene::study::error_split::{ErrorSplitStudy, Row};
 use crate::scene::{Contacts, Grid as SceneGrid, Study, StudyRow};
 use crate::solver::full::Problem;
+use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{ErrorSplit, Parts, Trust};
 use egui::{Align2, Grid, Ui, Vec2b};
 use egui_plot::{Bar, BarChart, PlotPoint, Text};
@@ -107,7 +108,12 @@ impl Split {
     fn start(&mut self, ctx: &egui::Context, store: &Store, asked: SplitOf, unasked: bool) {
         self.unasked = unasked;
         let study = ErrorSplitStudy { contacts: Contacts::Here, method: asked.in_use.method() };
-        let question = question("Splitting the error", &asked.key, SceneGrid::Model, Study::ErrorSplit(study));
+        // A film that ruptures by another law than the model's would count as an error of its basis.
+        let mut key = asked.key;
+        if !matches!(key.lubricant.cavitation, Cavitation::MassConserving { .. }) {
+            key.lubricant.cavitation = asked.in_use.model.domain.lubricant.cavitation;
+        }
+        let question = question("Splitting the error", &key, SceneGrid::Model, Study::ErrorSplit(study));
         self.work.run(asked.in_use.ask(ctx, store, question));
         self.asked = Some(asked);
     }

@@ -28,8 +28,6 @@ pub struct March {
     mobility: Vec<f64>,
     /// Ψ at the faces between the points, and at the upper surface.
     flow: Vec<Profile>,
-    /// What flows along Y; empty on a line.
-    aside: Aside,
     /// −Ψ_X there.
     across: Vec<[f64; POINTS - 1]>,
     former: Vec<Profile>,
@@ -92,10 +90,8 @@ impl Beside<'_> {
             }
             0 => (at(1) - at(0)) / (self.y[1] - self.y[0]),
             own => {
-                let (south, north) = (self.y[own] - self.y[own - 1], self.y[own + 1] - self.y[own]);
-                let sum = south + north;
-                let weights = [-north / (south * sum), (north - south) / (south * north), south / (north * sum)];
-                weights[0] * at(own - 1) + weights[1] * at(own) + weights[2] * at(own + 1)
+                let [a, b, c] = central(self.y[own] - self.y[own - 1], self.y[own + 1] - self.y[own]);
+                a * at(own - 1) + b * at(own) + c * at(own + 1)
             }
         }
     }
@@ -165,7 +161,6 @@ impl March {
             flux: [vec![0.0; n], vec![0.0; n]],
             mobility: vec![0.0; n],
             flow: vec![[0.0; POINTS]; n],
-            aside: Aside::default(),
             across: vec![[0.0; POINTS - 1]; n],
             former: vec![[0.0; POINTS]; n],
             x,
@@ -185,7 +180,7 @@ impl March {
     /// Marches once through a state of pressure and film, and takes a share of the change of θ that comes of it. Returns
     /// the largest change.
     pub fn run(&mut self, course: &Course<'_>, share: f64, tolerance: f64) -> f64 {
-        self.prepare(course);
+        self.prepare(course, None);
         self.go(course, None, share, tolerance)
     }
 
@@ -222,8 +217,9 @@ impl March {
         largest
     }
 
-    /// Films at the former temperatures: the mobilities by which the pressure was found, and what flows.
-    pub fn prepare(&mut self, course: &Course<'_>) {
+    /// Films at the former temperatures: the mobilities by which the pressure was found, and what flows; along Y for the
+    /// lines beside it.
+    pub fn prepare(&mut self, course: &Course<'_>, mut aside: Option<&mut Aside>) {
         let up_to = |profile: &Profile| {
             let mut sum = 0.0;
             std::array::from_fn(|j| {
@@ -231,34 +227,17 @@ impl March {
                 sum
             })
         };
-        let plane = course.states.iter().any(|state| state.gradient[1] != 0.0);
-        let Aside { theta, flow, total } = &mut self.aside;
-        for list in [&mut *theta, &mut *flow, &mut *total] {
-            list.clear();
+        if let Some(Aside { theta, flow, total }) = &mut aside {
+            [theta, flow, total].into_iter().for_each(|list| list.clear());
         }
         for (i, station) in self.stations.iter_mut().enumerate() {
             course.place(i, 0.0).evaluate(station);
             self.mobility[i] = station.flowing.mobility;
             self.flow[i] = up_to(&station.flowing.flow);
-            if plane {
-                theta.push(station.theta);
-                flow.push(station.flowing.aside);
-                total.push(up_to(&station.flowing.aside));
-            }
-        }
-    }
-
-    /// What flows along Y at the temperatures that the march was prepared with, for the lines beside it.
-    pub fn hand_over(&mut self, out: &mut Aside) {
-        let n = self.stations.len();
-        std::mem::swap(out, &mut self.aside);
-        if out.theta.len() != n {
-            // Nothing does, but there are temperatures.
-            out.theta.clear();
-            out.theta.extend(self.stations.iter().map(|station| station.theta));
-            for list in [&mut out.flow, &mut out.total] {
-                list.clear();
-                list.resize(n, [0.0; POINTS]);
+            if let Some(aside) = &mut aside {
+                aside.theta.push(station.theta);
+                aside.flow.push(station.flowing.aside);
+                aside.total.push(up_to(&station.flowing.aside));
             }
         }
     }
@@ -277,12 +256,9 @@ impl March {
             self.across[i] = if ruptured || from + 1 >= to {
                 [0.0; POINTS - 1]
             } else {
-                let (west, east) = (self.x[i] - self.x[from], self.x[to] - self.x[i]);
-                let sum = west + east;
-                let weights = [-east / (west * sum), (east - west) / (west * east), west / (east * sum)];
+                let [a, b, c] = central(self.x[i] - self.x[from], self.x[to] - self.x[i]);
                 let slope = |j: usize| {
-                    let along =
-                        weights[0] * self.flow[from][j] + weights[1] * self.flow[i][j] + weights[2] * self.flow[to][j];
+                    let along = a * self.flow[from][j] + b * self.flow[i][j] + c * self.flow[to][j];
                     beside.map_or(along, |beside| along + beside.slope(|line| line.total[i][j]))
                 };
                 // No flow is lost: what the discrete one lacks is lacking everywhere across alike.
@@ -392,6 +368,12 @@ impl March {
         out.carried += carried(last) - carried(1.min(last));
         out
     }
+}
+
+/// What the values before, at and behind a point count in the slope there, of second order.
+fn central(before: f64, behind: f64) -> [f64; 3] {
+    let sum = before + behind;
+    [-behind / (before * sum), (behind - before) / (before * behind), before / (behind * sum)]
 }
 
 impl<'a> Course<'a> {

@@ -129,8 +129,7 @@ impl Coupled {
             return Some(line.march.run(&problem.course(&line.states)?, share, tolerance));
         }
         lines.par_iter_mut().zip(&mut *asides).try_for_each(|(line, aside)| {
-            line.march.prepare(&problem.course(&line.states)?);
-            line.march.hand_over(aside);
+            line.march.prepare(&problem.course(&line.states)?, Some(aside));
             Some(())
         })?;
         // From the axis to the edge, as what the pressure drives flows aside: in front of the contact, where the film turns
