@@ -26,8 +26,11 @@ impl Answers {
 
     /// Puts the model in use that has been read.
     fn receive_model(&mut self) {
+        let Some(job) = &mut self.reading else { return };
+        // The model may come a while before the word that this was all.
         let mut read = None;
-        if self.reading.as_mut().is_none_or(|job| job.poll(|model| read = Some(model)).is_none()) {
+        let ended = job.poll(|model| read = Some(model)).is_some();
+        if read.is_none() && !ended {
             return;
         }
         // Who has put one of his own in use meanwhile keeps it; where the build is damaged there is none.
