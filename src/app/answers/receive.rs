@@ -171,3 +171,29 @@ fn failure_of(key: Key, outcome: Outcome, last_report: &mut Option<(Key, Report)
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::model_source::Models;
+    use crate::engine::Store;
+    use std::sync::mpsc::channel;
+
+    #[test]
+    fn a_model_is_in_use_as_soon_as_it_is_there_however_long_its_reader_takes_to_end() {
+        let mut answers = Answers::new(Models::only(None), Store::default());
+        let model = Embedded::Line.model().unwrap();
+        let (own, (sent, arrived), (end, ended)) = (Arc::clone(&model), channel(), channel::<()>());
+        answers.reading = Some(Job::start("Reading", Wake::default(), move |reporter| {
+            reporter.send(own);
+            let _ = (sent.send(()), ended.recv());
+            Ok(())
+        }));
+        arrived.recv().unwrap();
+        answers.receive();
+        assert!(answers.models.contains(&model));
+        drop(end);
+        answers.receive();
+        assert!(answers.models.contains(&model));
+    }
+}
