@@ -144,11 +144,17 @@ pub fn describe(model: &ReducedModel) -> String {
         let _ = writeln!(text, "  SRR {srr}…{most}, NPR {npr}…{full}, E′ {modulus:.3} GPa, {:?}", d.lubricant.shear);
     }
     if let Some((heat, laws)) = d.heat.zip(d.lubricant.heat) {
-        let (srr, most) = heat.srr;
-        let (radius, modulus, inlet) = (heat.radius_m * 1e3, heat.modulus_pa / 1e9, laws.inlet_temperature);
+        let ((srr, most), (smallest, largest)) = (heat.srr, heat.radius_m);
+        let (modulus, inlet) = (heat.modulus_pa / 1e9, laws.inlet_temperature);
+        let radius = if smallest == largest {
+            format!("{:.3} mm", smallest * 1e3)
+        } else {
+            let (slowest, fastest) = heat.speed_m_per_s;
+            format!("{}…{} mm, u_m {slowest}…{fastest} m/s", smallest * 1e3, largest * 1e3)
+        };
         let _ = writeln!(
             text,
-            "  heat: SRR {srr}…{most}, R {radius:.3} mm, E′ {modulus:.3} GPa, inlet {inlet} K, {:?}",
+            "  heat: SRR {srr}…{most}, R {radius} at E′ {modulus:.3} GPa, inlet {inlet} K, {:?}",
             d.lubricant.shear
         );
     }

@@ -196,7 +196,7 @@ mod tests {
     use crate::solver::physics::contact::Moes;
     use crate::solver::physics::lubricant::Cavitation;
     use crate::solver::reduced::{HeatDomain, PressureModes, Sampling, Scheme, Window};
-    use crate::solver::training::small::{ellipses, heated, line, oils, oils_of_points};
+    use crate::solver::training::small::{ellipses, heated, heated_oils, line, oils, oils_of_points};
     use crate::solver::training::{TrainingSpec, WindowSpec, Windows, train};
     use faer::Mat;
 
@@ -354,13 +354,34 @@ mod tests {
         let of_heat = |m: &mut ReducedModel, spoil: fn(&mut HeatDomain)| m.domain.heat.iter_mut().for_each(spoil);
         let lies: [&dyn Fn(&mut ReducedModel); 4] = [
             &|m| of_heat(m, |heat| heat.srr = (0.5, 2.5)),
-            &|m| of_heat(m, |heat| heat.radius_m = f64::NAN),
+            &|m| of_heat(m, |heat| heat.radius_m.0 = f64::NAN),
             &|m| m.domain.lubricant.heat.iter_mut().for_each(|heat| heat.inlet_temperature = -1.0),
             &|m| m.domain.lubricant.heat.iter_mut().for_each(|heat| heat.oil.conductivity = f64::INFINITY),
         ];
         for lie in lies {
             let mut wrong = model.clone();
             lie(&mut wrong);
+            let refused = from_bytes(&to_bytes(&wrong).unwrap()).err();
+            assert!(matches!(refused, Some(ModelFileError::Damaged { what: "its domain" })), "{refused:?}");
+        }
+    }
+
+    #[test]
+    fn heat_of_many_oils_survives_a_round_trip_too() {
+        let model = train(&heated_oils(Sampling::Cubature, 24), &()).unwrap();
+        let bytes = to_bytes(&model).unwrap();
+        let read = from_bytes(&bytes).unwrap();
+        assert!(read.domain == model.domain && read.domain.heat.is_some() && read.domain.oils.is_some());
+        assert!(read.windows.iter().map(|w| w.anchor).eq(model.windows.iter().map(|w| w.anchor)));
+        assert_eq!(to_bytes(&read).unwrap(), bytes);
+        let lies: [fn(&mut HeatDomain); 3] = [
+            |heat| heat.radius_m = (0.2, 0.1),
+            |heat| heat.speed_m_per_s = (f64::NAN, 3.0),
+            |heat| heat.modulus_pa = 0.0,
+        ];
+        for lie in lies {
+            let mut wrong = model.clone();
+            wrong.domain.heat.iter_mut().for_each(lie);
             let refused = from_bytes(&to_bytes(&wrong).unwrap()).err();
             assert!(matches!(refused, Some(ModelFileError::Damaged { what: "its domain" })), "{refused:?}");
         }

@@ -21,8 +21,10 @@ use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Relative accuracy of pressures and deformations at every node to which the bases of a window are kept.
-fn accuracy(window: &Window) -> f64 {
+fn accuracy(window: &Window, heat: bool) -> f64 {
     match (window.grid.kind(), &window.shapes) {
+        // Temperatures are not known to more.
+        (ContactKind::Line, _) if window.anchor.is_some() && heat => 1e-10,
         // These have dozens of windows; at 1e-8 they lost more than their modes miss, at 1e-11 nothing of it.
         (ContactKind::Line, _) if window.anchor.is_some() => 1e-11,
         (ContactKind::Line, _) => 1e-13,
@@ -70,16 +72,27 @@ struct StoredOils {
     windows: Vec<StoredAnchor>,
 }
 
-/// What follows that, with words for no ellipses and no oils, in a model of contacts with heat; others end without it.
+/// What follows that, with words for no ellipses and no oils, in a model of contacts with heat, or what oils have in
+/// common in one of many oils with heat; others end without it.
 #[derive(Serialize, Deserialize)]
 struct StoredHeated {
     heat: StoredHeat,
-    domain: HeatDomain,
+    srr: (f64, f64),
+    /// The smallest R, and E′.
+    radius_m: f64,
+    modulus_pa: f64,
 }
 
-/// What follows the oils of a model whose pressure modes are made of one basis, or that leaves thin films out; others
-/// end without it.
+/// What follows that in a model of many oils.
 #[derive(Serialize, Deserialize)]
+struct StoredHeatedOils {
+    largest_radius_m: f64,
+    speed_m_per_s: (f64, f64),
+}
+
+/// What follows the oils of a model whose pressure modes are made of one basis, or that leaves thin films out, or has heat;
+/// others end without it.
+#[derive(Default, Serialize, Deserialize)]
 struct StoredInCommon {
     thinnest_film: f64,
     /// The basis, and of every window what its modes are in it.
@@ -176,7 +189,10 @@ pub(super) fn sound_domain(domain: &Domain) -> bool {
     };
     let heat_is_sound = |heat: &HeatDomain| {
         let kind = sliding.is_none() && lubricant.heat.is_some();
-        kind && sound_interval(heat.srr, LARGEST_HEATED_SRR) && positive(heat.radius_m) && positive(heat.modulus_pa)
+        let intervals =
+            [(heat.srr, LARGEST_HEATED_SRR), (heat.radius_m, f64::MAX), (heat.speed_m_per_s, f64::INFINITY)];
+        let sound = |(interval, most)| sound_interval(interval, most);
+        kind && intervals.into_iter().all(sound) && positive(heat.radius_m.0) && positive(heat.modulus_pa)
     };
     (heat.is_some() || thins == sliding.is_some())
         && heat.as_ref().is_none_or(heat_is_sound)
@@ -273,8 +289,10 @@ impl StoredWindow {
         }
         let (sliding, heat) = (domain.sliding.is_some(), domain.heat.is_some());
         let slides = sliding || heat;
-        let of_kind =
-            |known: &Calibration| known.is_of(Beside::Sliding) == sliding && known.is_of(Beside::Heat) == heat;
+        let of_kind = |known: &Calibration| {
+            let sliding_too = known.is_of(Beside::Sliding) == sliding;
+            sliding_too && (!heat || known.is_of(Beside::of(domain)))
+        };
         if heat && (grid.kind() != ContactKind::Line || scheme != Scheme::Galerkin) {
             return damaged("heat");
         }
@@ -292,9 +310,9 @@ impl StoredWindow {
 
 /// The payload of a model file; none where the model cannot be encoded.
 pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
-    fn basis(basis: &PodBasis, window: &Window) -> StoredBasis {
-        StoredBasis::new(basis, window.grid.nodes().1, accuracy(window))
-    }
+    let heat = model.domain.heat.is_some();
+    let basis =
+        |basis: &PodBasis, window: &Window| StoredBasis::new(basis, window.grid.nodes().1, accuracy(window, heat));
     let first = model.windows.first();
     let deformation = |k: usize, window: &Window| match first {
         Some(first) if k > 0 && shares_deformation(window, first) => StoredBasis::elsewhere(window.grid.len()),
@@ -319,7 +337,7 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
                 deformation: deformation(k, w),
                 sampling: w.sampling,
                 sampled_rows: w.sampled_rows.clone(),
-                reconstruction: stored_reconstruction(w, model.domain.heat.is_some()),
+                reconstruction: stored_reconstruction(w, heat),
                 snapshots: w.snapshots.iter().map(|snapshot| without_coefficients(snapshot, w)).collect(),
                 traction: w.traction.clone(),
                 calibration: w.calibration.clone(),
@@ -343,14 +361,18 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
     let circles = || StoredShapes { radius_ratio: CIRCLES, windows: Vec::new() };
     match (shapes, oils, heated) {
         (Some(shapes), ..) => postcard::to_extend(&shapes, payload).ok(),
-        (None, Some(oils), _) => {
+        (None, Some(oils), heated) => {
             let payload = postcard::to_extend(&oils, postcard::to_extend(&circles(), payload).ok()?).ok()?;
-            match stored_in_common(model) {
-                Some(in_common) => postcard::to_extend(&in_common, payload).ok(),
-                None => Some(payload),
+            match (stored_in_common(model), heated) {
+                (in_common, Some(heated)) => {
+                    let in_common = in_common.unwrap_or_default();
+                    postcard::to_extend(&heated, postcard::to_extend(&in_common, payload).ok()?).ok()
+                }
+                (Some(in_common), None) => postcard::to_extend(&in_common, payload).ok(),
+                (None, None) => Some(payload),
             }
         }
-        (None, None, Some(heated)) => {
+        (None, None, Some((heated, _))) => {
             let payload = postcard::to_extend(&circles(), payload).ok()?;
             postcard::to_extend(&heated, postcard::to_extend(&StoredOils::none(), payload).ok()?).ok()
         }
@@ -383,6 +405,13 @@ fn shares_deformation(window: &Window, other: &Window) -> bool {
     window.anchor.is_some() && window.grid.spec() == other.grid.spec() && same()
 }
 
+impl StoredHeatedOils {
+    /// Of bodies of one radius, at any speed.
+    fn of_one_radius(radius_m: f64) -> Self {
+        Self { largest_radius_m: radius_m, speed_m_per_s: (0.0, f64::INFINITY) }
+    }
+}
+
 impl StoredOils {
     /// The word for no oils.
     fn none() -> Self {
@@ -395,8 +424,10 @@ impl StoredOils {
 }
 
 /// What only a model of contacts with heat has.
-fn stored_heat(model: &ReducedModel) -> Option<StoredHeated> {
-    Some(StoredHeated { heat: model.domain.lubricant.heat?.into(), domain: model.domain.heat? })
+fn stored_heat(model: &ReducedModel) -> Option<(StoredHeated, StoredHeatedOils)> {
+    let HeatDomain { srr, radius_m: (radius_m, largest_radius_m), modulus_pa, speed_m_per_s } = model.domain.heat?;
+    let heat = model.domain.lubricant.heat?.into();
+    Some((StoredHeated { heat, srr, radius_m, modulus_pa }, StoredHeatedOils { largest_radius_m, speed_m_per_s }))
 }
 
 /// A snapshot as its window keeps it: coefficients of windows around anchors have a place of their own.
@@ -429,7 +460,8 @@ fn stored_in_common(model: &ReducedModel) -> Option<StoredInCommon> {
     let combined: Option<Vec<&Combined>> = model.windows.iter().map(|window| window.pressure.combined()).collect();
     let pressure = combined.filter(|all| !all.is_empty()).and_then(|all| {
         let (window, shared) = (model.windows.first()?, &all.first()?.shared);
-        let basis = StoredBasis::new(&shared.basis, window.grid.nodes().1, accuracy(window));
+        let basis =
+            StoredBasis::new(&shared.basis, window.grid.nodes().1, accuracy(window, model.domain.heat.is_some()));
         Some((basis, model.windows.iter().zip(all).map(|(window, own)| stored_factors(window, own)).collect()))
     });
     let cost = |snapshot: &Snapshot| snapshot.grid_cost.map(|cost| (cost.truncation as f32, cost.resolution as f32));
@@ -581,7 +613,7 @@ struct Further {
     shapes: Option<StoredShapes>,
     oils: Option<StoredOils>,
     in_common: Option<StoredInCommon>,
-    heated: Option<StoredHeated>,
+    heated: Option<(StoredHeated, StoredHeatedOils)>,
 }
 
 /// What follows the model in a payload; `None` where it cannot be understood.
@@ -604,12 +636,17 @@ fn further(rest: &[u8], windows: usize) -> Option<Further> {
                     oils = of_circles.then_some(Some(known_oils))?;
                 } else if !known_oils.windows.is_empty() {
                     let (known, rest) = postcard::take_from_bytes::<StoredInCommon>(rest).ok()?;
-                    in_common = (rest.is_empty() && of_circles).then_some(Some(known))?;
+                    in_common = of_circles.then_some(Some(known))?;
                     oils = Some(known_oils);
+                    if !rest.is_empty() {
+                        let (known, rest) = postcard::take_from_bytes::<(StoredHeated, StoredHeatedOils)>(rest).ok()?;
+                        heated = rest.is_empty().then_some(Some(known))?;
+                    }
                 } else {
                     let (known, rest) = postcard::take_from_bytes::<StoredHeated>(rest).ok()?;
                     let alone = rest.is_empty() && of_circles;
-                    heated = alone.then_some(Some(known))?;
+                    let of_one = StoredHeatedOils::of_one_radius(known.radius_m);
+                    heated = alone.then_some(Some((known, of_one)))?;
                 }
             }
         }
@@ -655,7 +692,9 @@ pub(super) fn decode(payload: &[u8], observer: &dyn Observer) -> Result<ReducedM
     let damaged = |what| ModelFileError::Damaged { what };
     let Further { further, shapes, mut oils, in_common, heated } =
         further(rest, windows.len()).ok_or(damaged("rupture and schemes"))?;
-    if let Some(StoredHeated { heat, domain: of_heat }) = heated {
+    if let Some((StoredHeated { heat, srr, radius_m, modulus_pa }, further)) = heated {
+        let StoredHeatedOils { largest_radius_m, speed_m_per_s } = further;
+        let of_heat = HeatDomain { srr, radius_m: (radius_m, largest_radius_m), modulus_pa, speed_m_per_s };
         (domain.lubricant.heat, domain.heat) = (Some(heat.into()), Some(of_heat));
     }
     if !sound_domain(&domain) {
@@ -676,6 +715,7 @@ pub(super) fn decode(payload: &[u8], observer: &dyn Observer) -> Result<ReducedM
     // They are shown on terminals.
     log.iter_mut().chain([&mut title]).for_each(|text| text.retain(|letter| !letter.is_control()));
     let grids = grids(&windows)?;
+    domain.oils = oils.as_ref().map(|known| known.oils);
     wanted(observer)?;
     let combined = combined(&windows, &grids, in_common).ok_or(damaged("shared bases"))?;
     let deformations = deformations(&mut windows, &grids, oils.is_some()).ok_or(damaged("bases"))?;

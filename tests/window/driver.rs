@@ -43,7 +43,8 @@ pub fn wait_until(patience: Duration, harness: &mut Window, what: &str, done: im
             harness.run_steps(2);
             return;
         }
-        assert!(begin.elapsed() < patience, "waited in vain for {what}: {}", harness.state().badge());
+        let app = harness.state();
+        assert!(begin.elapsed() < patience, "waited in vain for {what}: {}, {}", app.badge(), app.badge_detail());
         std::thread::sleep(Duration::from_millis(5));
     }
 }

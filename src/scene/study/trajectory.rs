@@ -52,7 +52,7 @@ impl Question for Trajectory {
             contacts.extend(points.into_iter().map(|(c, point)| (vec![c], OperatingPoint { sliding, ..point })));
         }
         if let Some(range) = &self.through {
-            let point = |c| Some((vec![c], range.at(contact, QuantityBox::trajectory_place(c))?));
+            let point = |c| Some((vec![c], range.trajectory(contact, c)?));
             contacts.extend(places(self.points).filter_map(point));
         }
         let (line, methods) = (contacts.len().max(1), &self.methods[..]);

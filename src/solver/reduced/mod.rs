@@ -10,6 +10,7 @@ mod combined;
 mod contact_rows;
 mod cubature;
 pub(crate) mod dense;
+mod domain;
 mod error_measures;
 mod error_split;
 #[cfg(test)]
@@ -33,14 +34,12 @@ pub mod transient;
 pub use calibration::{Beside, Calibration, ErrorEstimate, Estimated, Evidence, Features, LEAST_EVIDENCE, Measured};
 pub use combined::{Combined, PressureModes, SharedBasis};
 pub use cubature::{GoalEquations, cubature};
+pub use domain::{CIRCLES, Domain, HeatDomain, OilDomain, STEEL_ON_STEEL_PA, SlidingDomain, Trust};
 pub use error_measures::{ErrorMeasures, Norm, Residuals};
 pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
 pub use minimisation::Scheme;
 pub(crate) use minimisation::minimised_rows;
-pub use model::{
-    CIRCLES, Domain, HeatDomain, ModelSize, OilDomain, ReducedModel, SHAPE_WEIGHT, SlidingDomain, Snapshot, Trust,
-    Window, deformation_weights, distance, separation,
-};
+pub use model::{ModelSize, ReducedModel, SHAPE_WEIGHT, Snapshot, Window, deformation_weights, distance, separation};
 pub use oils::expected_film;
 pub(crate) use oils::{BLENDED, apart, from_anchor, oil_place};
 pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution, Starts};

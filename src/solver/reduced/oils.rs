@@ -32,7 +32,7 @@ pub fn expected_film(kind: ContactKind, moes: Moes) -> f64 {
 }
 
 /// The squared distance of two places.
-pub(crate) fn apart(a: [f64; 4], b: [f64; 4]) -> f64 {
+pub(crate) fn apart<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum()
 }
 
@@ -45,7 +45,8 @@ impl ReducedModel {
     /// Windows beside the one with the nearest anchor that share in a contact, with their shares; none but near borders.
     /// Shares begin with zero where an anchor comes near enough, so that nothing jumps.
     pub(super) fn blended(&self, moes: Moes) -> Vec<(f64, usize)> {
-        let Some(nearest) = self.nearest_anchor(moes) else { return Vec::new() };
+        // Temperatures are not blended.
+        let Some(nearest) = self.nearest_anchor(moes).filter(|_| self.domain.heat.is_none()) else { return Vec::new() };
         let far = |k: usize| self.windows[k].anchor.map_or(f64::INFINITY, |anchor| from_anchor(moes, anchor));
         let least = far(nearest);
         let share = |k: usize| (1.0 - (far(k) - least) / BLENDED).max(0.0).powi(2);

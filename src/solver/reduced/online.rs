@@ -8,8 +8,9 @@ mod settings;
 pub use settings::{ReducedError, ReducedOptions, Starts};
 
 use super::calibration::{Beside, ErrorEstimate, Features};
+use super::domain::Trust;
 use super::kriging::Kriging;
-use super::model::{ReducedModel, Snapshot, Trust, Window};
+use super::model::{ReducedModel, Snapshot, Window};
 use super::operators::{Operators, RowObserver, Warmth};
 use super::start::{self, Former, Guess, Known};
 use crate::solver::full::Problem;
@@ -215,9 +216,10 @@ impl Online {
     }
 
     /// The start by kriging in a window around an anchor. It follows from the contact alone, so that nothing jumps with
-    /// what was solved before.
+    /// what was solved before. With heat contacts begin from others: temperatures that are known save more.
     fn kriged(&self, index: usize, point: &OperatingPoint) -> Option<Guess> {
-        let window = self.model.windows.get(index).filter(|window| window.anchor.is_some())?;
+        let cold = self.model.domain.heat.is_none();
+        let window = self.model.windows.get(index).filter(|window| cold && window.anchor.is_some())?;
         self.krigings.get(index)?.get_or_init(|| Kriging::of(window)).as_ref()?.start(point)
     }
 

@@ -16,6 +16,7 @@
 use super::build::WindowTraining;
 use super::indicator::{Indicator, Judges};
 use super::plan::{Drawn, global_point, local_point};
+use super::range::Unit;
 use super::state::{Part, TrainingState, WindowState};
 use super::{Plan, Progress, TrainingError};
 use crate::solver::physics::contact::OperatingPoint;
@@ -38,7 +39,7 @@ pub struct Search {
     /// Good approximations in a row, of the global search.
     pub successes: usize,
     /// Centre of the local search (unit cube) and its good approximations in a row.
-    pub local: Option<([f64; 4], usize)>,
+    pub local: Option<(Unit, usize)>,
     /// Points judged so far.
     pub judged: usize,
     /// Reduced solves that failed so far.
@@ -153,6 +154,7 @@ fn find_bad(
         return Ok(None);
     };
     let mut judges = Judges::new(*indicator, work.spec, window, work.observer);
+    let coordinates = work.spec.range.coordinates();
     loop {
         let Some(&tolerance) = tolerances.get(own.search.rung).filter(|_| own.solved.len() < *limit) else {
             own.search.finished = true;
@@ -162,8 +164,8 @@ fn find_bad(
         work.observer.progress(Progress { stage, done: own.search.successes, total: *successes });
         let mut rng = Rng::with_seed(own.search.random);
         let drawn = work.within().drawn(BATCH, || match own.search.local {
-            Some((centre, _)) => local_point(centre, *local_sigma, &mut rng),
-            None => global_point(&mut rng),
+            Some((centre, _)) => local_point(centre, *local_sigma, coordinates, &mut rng),
+            None => global_point(coordinates, &mut rng),
         });
         let errors = judge(&mut judges, &drawn, own)?;
         let mut next = own.search.clone();
@@ -173,7 +175,9 @@ fn find_bad(
         if let Some(bad) = bad {
             let centre = drawn[bad].0;
             let mut around = vec![drawn[bad]];
-            around.extend(work.within().drawn(*vicinity, || local_point(centre, 0.5 * local_sigma, &mut rng)));
+            around.extend(
+                work.within().drawn(*vicinity, || local_point(centre, 0.5 * local_sigma, coordinates, &mut rng)),
+            );
             let errors = judge(&mut judges, &around, own)?;
             next.judged += around.len() - 1;
             // The first of equals, so that failures do not wander.
@@ -221,7 +225,7 @@ fn worst_of_pool(
     }
     work.observer.progress(Progress { stage: format!("Worst of {pool}"), done: known, total: *limit });
     let mut rng = Rng::with_seed(own.search.random);
-    let drawn = work.within().drawn(*pool, || global_point(&mut rng));
+    let drawn = work.within().drawn(*pool, || global_point(work.spec.range.coordinates(), &mut rng));
     let errors = judge(&mut Judges::new(*indicator, work.spec, window, work.observer), &drawn, own)?;
     own.search.random = rng.get_seed();
     own.search.judged += drawn.len();

@@ -6,16 +6,16 @@ use super::plan::{Within, grid_points};
 use super::rows::sample_rows;
 use super::state::{FEWEST, OVERLAP, Part, Solved, TrainingState, train_resumable};
 use super::{
-    HeatedRange, OilRange, Progress, QuantityBox, Range, SlidingRange, TrainingError, TrainingObserver, TrainingSpec,
-    WindowSpec, Windows,
+    HeatedOilRange, HeatedRange, OilRange, Progress, QuantityBox, Range, SlidingRange, TrainingError, TrainingObserver,
+    TrainingSpec, WindowSpec, Windows,
 };
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::{ContactSolver, Start};
 use crate::solver::physics::contact::{DEFAULT_VISCOSITY_PA_S, MoesRequest, OperatingPoint};
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{
-    CIRCLES, Combined, Domain, HeatDomain, PodBasis, PressureModes, ReducedModel, RowSnapshots, Sampling, Scheme,
-    Shapes, SlidingDomain, Snapshot, TestSpace, Window, all_rows, deformation_weights, fronts, minimised_rows,
+    CIRCLES, Combined, Domain, PodBasis, PressureModes, ReducedModel, RowSnapshots, Sampling, Scheme, Shapes,
+    SlidingDomain, Snapshot, TestSpace, Window, all_rows, deformation_weights, fronts, minimised_rows,
 };
 use faer::Mat;
 use fastrand::Rng;
@@ -46,7 +46,7 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
             let own = spec.lubricant.own_coefficient().unwrap_or(alpha);
             (m, (l.0 * own / alpha, l.1 * own / alpha), (own, own), max_hertz_pressure, viscosity)
         }
-        Range::Oils(range) => {
+        Range::Oils(range) | Range::HeatedOils(HeatedOilRange { oils: range, .. }) => {
             let OilRange { m, l, alpha, hertz_pressure, .. } = range;
             (m, l, alpha, hertz_pressure.1, range.middle_viscosity())
         }
@@ -72,13 +72,12 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
         _ => CIRCLES,
     };
     let oils = match spec.range {
-        Range::Oils(range) => Some(range.declared()),
+        Range::Oils(range) | Range::HeatedOils(HeatedOilRange { oils: range, .. }) => Some(range.declared()),
         _ => None,
     };
     let heat = match spec.range {
-        Range::Heated(HeatedRange { srr, radius, modulus, .. }) => {
-            Some(HeatDomain { srr, radius_m: radius, modulus_pa: modulus })
-        }
+        Range::Heated(range) => Some(range.declared()),
+        Range::HeatedOils(range) => Some(range.declared()),
         _ => None,
     };
     let lubricant = spec.lubricant;
@@ -126,6 +125,7 @@ impl<'a> WindowTraining<'a> {
         let within = self.spec.within(self.reach);
         let range = match within.range {
             Range::Oils(range) => Range::Oils(range.beyond()),
+            Range::HeatedOils(range) => Range::HeatedOils(range.beyond()),
             other => other,
         };
         Within { radius_ratio, cell, range, ..within }

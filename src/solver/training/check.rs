@@ -127,7 +127,7 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
             return Err(Refused::new("cavitation", "must be the penalty for a reduced model of ellipses"));
         }
     }
-    if matches!(spec.range, Range::Oils(_)) {
+    if of_oils(&spec.range) {
         if spec.lubricant.viscosity != ViscosityLaw::Roelands {
             return Err(Refused::new(
                 "range",
@@ -140,7 +140,7 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
     }
     heat(spec)?;
     match (&spec.range, spec.lubricant.shear == ShearLaw::Newtonian) {
-        (Range::Heated(_), _) => Ok(()),
+        (Range::Heated(_) | Range::HeatedOils(_), _) => Ok(()),
         (Range::Sliding(_), true) => {
             Err(Refused::new("range", "names SRR and NPR, but the lubricant has no shear constants"))
         }
@@ -166,11 +166,14 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
 /// A range with heat belongs to films with heat, and only such a range does.
 fn heat(spec: &TrainingSpec) -> Result<(), Refused> {
     let refuse = |field, problem: &str| Err(Refused::new(field, problem));
-    let Range::Heated(HeatedRange { alpha, .. }) = spec.range else {
-        return match spec.lubricant.heat {
-            Some(_) => refuse("range", "must name R and SRR for films with heat: `Heated(…)`; or leave heat out"),
-            None => Ok(()),
-        };
+    let alpha = match spec.range {
+        Range::Heated(HeatedRange { alpha, .. }) => Some(alpha),
+        Range::HeatedOils(_) => None,
+        _ if spec.lubricant.heat.is_none() => return Ok(()),
+        _ => {
+            let wanted = "must name R and SRR for films with heat: `Heated(…)` or `HeatedOils(…)`; or leave heat out";
+            return refuse("range", wanted);
+        }
     };
     if spec.lubricant.heat.is_none() {
         return refuse("range", "is of films with heat, but the scene has no field `heat`");
@@ -184,13 +187,18 @@ fn heat(spec: &TrainingSpec) -> Result<(), Refused> {
     if spec.scheme != Scheme::Galerkin {
         return refuse("scheme", "must be Galerkin for a reduced model with heat");
     }
-    match spec.lubricant.own_coefficient() {
-        Some(own) if (alpha / own - 1.0).abs() > 1e-3 => Err(Refused::new(
+    match alpha.zip(spec.lubricant.own_coefficient()) {
+        Some((alpha, own)) if (alpha / own - 1.0).abs() > 1e-3 => Err(Refused::new(
             "range.alpha",
             format!("is {alpha:.4e} 1/Pa, but the lubricant's viscosity law determines {own:.4e} 1/Pa; write that"),
         )),
         _ => Ok(()),
     }
+}
+
+/// Whether a range is one of many oils.
+fn of_oils(range: &Range) -> bool {
+    matches!(range, Range::Oils(_) | Range::HeatedOils(_))
 }
 
 fn windows(spec: &TrainingSpec) -> Result<(), Refused> {
@@ -204,7 +212,7 @@ fn windows(spec: &TrainingSpec) -> Result<(), Refused> {
                 count("windows.shared", *shared, *modes, 1000)?;
             }
             grid.check().map_err(|problem| Refused::new("windows.grid", format!("makes no sense: {problem}")))?;
-            if !matches!(spec.range, Range::Oils(_)) {
+            if !of_oils(&spec.range) {
                 return Err(Refused::new("windows", "are anchored in M and L, which needs a range of oils: `Oils(…)`"));
             }
             if matches!(spec.plan, Plan::Grid { .. }) {

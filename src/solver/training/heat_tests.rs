@@ -1,9 +1,9 @@
 //! Reduced models of line contacts with heat.
 
-use super::small::heated;
-use super::{HeatedRange, QuantityBox, Range, TrainingSpec, random_points, train};
+use super::small::{heated, heated_oils};
+use super::{HeatedOilRange, HeatedRange, OilRange, QuantityBox, Range, TrainingSpec, Windows, random_points, train};
 use crate::solver::full::{ContactSolver, Problem, Solution, Start};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity, Sliding};
+use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, Sliding, si_from_moes};
 use crate::solver::physics::lubricant::{BodyHeat, Cavitation, Heat, Lubricant};
 use crate::solver::reduced::{
     Online, ReducedError, ReducedModel, ReducedOptions, ReducedSolution, Sampling, Trust, traction_curve,
@@ -54,6 +54,92 @@ fn reduced_contacts_with_heat_are_the_full_ones() {
             }
         }
     }
+}
+
+/// The contact of equal M, L, α, η₀ and R/E′³ between bodies so many times as stiff.
+fn alike(point: &OperatingPoint, stiffer: f64) -> OperatingPoint {
+    let request = MoesRequest {
+        radius_m: Some(point.radius_m * stiffer.powi(3)),
+        modulus_pa: Some(point.modulus_pa * stiffer),
+        viscosity_pa_s: Some(point.viscosity_pa_s),
+        alpha_per_pa: Some(point.alpha_per_pa),
+        ..MoesRequest::new(ContactKind::Line, point.moes().m, point.moes().l)
+    };
+    OperatingPoint { sliding: point.sliding, ..si_from_moes(&request).unwrap() }
+}
+
+#[test]
+fn contacts_of_equal_radius_over_cubed_modulus_are_alike_temperatures_too() {
+    let spec = heated_oils(Sampling::All, 8);
+    let Windows::Anchored { grid, .. } = spec.windows else { panic!() };
+    let mut solver = ContactSolver::new(grid).unwrap();
+    for point in random_points(&spec.range, ContactKind::Line, 3, 5) {
+        let other = alike(&point, 0.8);
+        assert!((other.speed_m_per_s / point.speed_m_per_s - 1.0).abs() < 1e-9, "it is the speed that counts");
+        let [a, b] = [point, other].map(|at| solver.solve(&at, spec.lubricant, Start::Cold, &()).unwrap());
+        assert!((a.scalars.h_c / b.scalars.h_c - 1.0).abs() < 1e-7, "{} {}", a.scalars.h_c, b.scalars.h_c);
+        let [warm, as_warm] = [&a, &b].map(|solution| solution.heat.as_ref().unwrap().central.mid_film_k);
+        assert!(warm > 0.1 && (warm / as_warm - 1.0).abs() < 1e-5, "{warm} {as_warm}");
+        assert!((a.traction_coefficient() / b.traction_coefficient() - 1.0).abs() < 1e-5);
+    }
+}
+
+#[test]
+fn many_oils_with_heat_are_the_full_ones_and_bounded() {
+    let spec = TrainingSpec { evidence: 120, ..heated_oils(Sampling::Cubature, 60) };
+    let model = Arc::new(train(&spec, &()).unwrap());
+    assert!(model.windows.len() == 2 && model.windows.iter().all(|window| window.anchor.is_some()));
+    let mut online = online(&model);
+    let mut full = ContactSolver::on(&model.windows[0].grid);
+    for point in random_points(&spec.range, ContactKind::Line, 8, 12) {
+        online.forget();
+        let solved = online.solve(&point, spec.lubricant).unwrap();
+        assert!(solved.trust == Trust::Trained && solved.beside.is_empty(), "temperatures are not blended");
+        let truth = full.solve(&point, spec.lubricant, Start::Cold, &()).unwrap();
+        let found = errors(&online, &solved, &truth);
+        for (error, bar) in found.into_iter().zip([5e-3, 1e-2, 1e-2, 3e-2]) {
+            assert!(error < bar, "{point:?}: {found:?}");
+        }
+        let estimate = solved.error.unwrap();
+        let bounds = [Some(estimate.h_c), Some(estimate.h_min), estimate.traction, estimate.rise];
+        for (error, bound) in found.into_iter().zip(bounds) {
+            assert!(error < 3.0 * bound.map_or(f64::INFINITY, |known| known.bound), "{found:?} {estimate:?}");
+        }
+    }
+    let point = random_points(&spec.range, ContactKind::Line, 1, 12)[0];
+    let why = |point: OperatingPoint| match model.trust(&Problem::new(&point, spec.lubricant).unwrap()) {
+        Trust::Outside(why) => why,
+        Trust::Trained => String::new(),
+    };
+    assert_eq!(why(alike(&point, 1.01)), "");
+    assert!(why(alike(&point, 3.0)).contains("radii of 5…20 mm"), "{}", why(alike(&point, 3.0)));
+}
+
+#[test]
+fn ranges_of_many_oils_with_heat_are_refused_with_their_field_and_hold_what_they_say() {
+    let good = heated_oils(Sampling::All, 24);
+    good.check().unwrap();
+    assert_eq!(Range::from(&good.domain()), good.range);
+    let Range::HeatedOils(range) = good.range else { panic!() };
+    let refused = |range: HeatedOilRange| {
+        TrainingSpec { range: Range::HeatedOils(range), ..good.clone() }.check().unwrap_err().to_string()
+    };
+    assert!(refused(HeatedOilRange { srr: (0.0, 2.0), ..range }).contains("srr"));
+    assert!(refused(HeatedOilRange { radius: (0.2, 0.1), ..range }).contains("radius"));
+    assert!(refused(HeatedOilRange { speed: (1.0, f64::NAN), ..range }).contains("speed"));
+    let oils = OilRange { l: (-1.0, 2.0), ..range.oils };
+    assert!(refused(HeatedOilRange { oils, ..range }).contains("oils"));
+    assert!(good.clone().heated(None).check().is_err());
+    let points = random_points(&good.range, ContactKind::Line, 200, 9);
+    assert_eq!(points.len(), 200);
+    let (mut slowest, mut fastest) = (f64::INFINITY, 0.0f64);
+    for point in &points {
+        let srr = point.sliding.slide_to_roll_ratio;
+        assert!((0.2..=10.0).contains(&point.speed_m_per_s) && (0.0..=0.5).contains(&srr));
+        assert!((5e-3 * (1.0 - 1e-9)..=20e-3 * (1.0 + 1e-9)).contains(&point.radius_m));
+        (slowest, fastest) = (slowest.min(point.speed_m_per_s), fastest.max(point.speed_m_per_s));
+    }
+    assert!(fastest > 10.0 * slowest);
 }
 
 #[test]
@@ -112,7 +198,9 @@ fn what_a_model_does_not_know_is_told() {
         load: other * point.load,
         ..point
     };
-    assert!(outside(larger, laws).contains("radius of 10 mm, not 20 mm"));
+    assert!(outside(larger, laws).contains("a radius of 20 mm is another contact"));
+    // Stiffer bodies of a larger radius are the same one.
+    assert_eq!(outside(alike(&point, 1.2), laws), "");
     // A model that knows no heat refuses.
     let box_of = Range::Box(QuantityBox { load: (2e5, 4e5), speed: (2.0, 4.0), ..QuantityBox::TABLE_3_1 });
     let cold = TrainingSpec { range: box_of, ..heated(Sampling::All, 8) }.heated(None);

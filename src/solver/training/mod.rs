@@ -15,6 +15,7 @@ pub mod distance;
 mod ellipse_tests;
 #[cfg(test)]
 mod heat_tests;
+mod heated_range;
 mod indicator;
 mod layout;
 mod oil_range;
@@ -46,11 +47,12 @@ pub use crate::solver::observer::{Observer, Progress};
 pub use adaptive::{BadPoint, Search};
 pub use build::train;
 pub use calibrate::EVIDENCE;
+pub use heated_range::{HeatedOilRange, HeatedRange};
 pub use indicator::Indicator;
 pub use oil_range::OilRange;
 pub use one_thread::on_one_thread;
 pub use plan::{random_points, random_points_while};
-pub use range::{HeatedRange, QuantityBox, Range, SlidingRange};
+pub use range::{QuantityBox, Range, SlidingRange};
 pub use rows::with_rows;
 pub use state::{Solved, TrainingState, WindowState, train_resumable};
 pub use trajectories::{TrajectoryTraining, train_trajectories};
@@ -228,7 +230,7 @@ impl TrainingSpec {
     pub fn is_of(&self, model: &ReducedModel) -> bool {
         model.contact() == self.contact()
             && model.of_ellipses() == matches!(self.range, Range::Ellipses { .. })
-            && model.domain.heat.is_some() == matches!(self.range, Range::Heated(_))
+            && model.domain.heat.is_some() == matches!(self.range, Range::Heated(_) | Range::HeatedOils(_))
     }
 
     /// The kind of contact it is about: that of its grids; windows chosen by the training are of line contacts.

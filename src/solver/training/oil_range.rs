@@ -1,6 +1,6 @@
 //! Contacts of many oils.
 
-use super::range::{between, logarithmic};
+use super::range::{Unit, between, logarithmic};
 use crate::solver::limits::{Refused, interval, number};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, si_from_moes};
 use crate::solver::physics::lubricant::roelands_exponent;
@@ -9,6 +9,11 @@ use serde::{Deserialize, Serialize};
 
 /// By how much training reaches beyond the ends of a range.
 const BEYOND: f64 = 1.04;
+
+/// An interval of positive numbers and a little more.
+pub(super) fn beyond((low, high): (f64, f64)) -> (f64, f64) {
+    (low / BEYOND, high * BEYOND)
+}
 
 /// All contacts with M, L and p_H in these intervals of the oils with η₀, α and Roelands' exponent in these; by ln M,
 /// ln L, ln α and ln η₀. R and E′ are free: what they change is in M, L and p_H.
@@ -49,30 +54,38 @@ impl OilRange {
     }
 
     /// The operating point at coordinates in the unit cube; `None` where p_H or the exponent exclude it.
-    pub fn at(&self, kind: ContactKind, unit: [f64; 4]) -> Option<OperatingPoint> {
-        let request = MoesRequest {
+    pub(super) fn at(&self, kind: ContactKind, unit: Unit) -> Option<OperatingPoint> {
+        self.contact(&self.request(kind, unit))
+    }
+
+    /// M, L, α and η₀ at coordinates in the unit cube.
+    pub(super) fn request(&self, kind: ContactKind, unit: Unit) -> MoesRequest {
+        MoesRequest {
             alpha_per_pa: Some(logarithmic(self.alpha, unit[2])),
             viscosity_pa_s: Some(logarithmic(self.viscosity, unit[3])),
             ..MoesRequest::new(kind, logarithmic(self.m, unit[0]), logarithmic(self.l, unit[1]))
-        };
+        }
+    }
+
+    /// The contact that is asked for, unless p_H, the exponent or the film exclude it.
+    pub(super) fn contact(&self, request: &MoesRequest) -> Option<OperatingPoint> {
         let inside = |value: f64, (low, high): (f64, f64)| (low..=high).contains(&value);
-        si_from_moes(&request).ok().filter(|point| {
+        si_from_moes(request).ok().filter(|point| {
             inside(point.hertz().pressure_pa, self.hertz_pressure)
                 && inside(roelands_exponent(point), self.exponent)
-                && expected_film(kind, point.moes()) >= self.thinnest_film
+                && expected_film(point.kind, point.moes()) >= self.thinnest_film
         })
     }
 
     /// A little more on all sides: solutions there keep a model from ending at its last ones.
     pub(super) fn beyond(&self) -> Self {
-        let more = |(low, high): (f64, f64)| (low / BEYOND, high * BEYOND);
         Self {
-            m: more(self.m),
-            l: more(self.l),
-            alpha: more(self.alpha),
-            viscosity: more(self.viscosity),
-            exponent: more(self.exponent),
-            hertz_pressure: more(self.hertz_pressure),
+            m: beyond(self.m),
+            l: beyond(self.l),
+            alpha: beyond(self.alpha),
+            viscosity: beyond(self.viscosity),
+            exponent: beyond(self.exponent),
+            hertz_pressure: beyond(self.hertz_pressure),
             thinnest_film: self.thinnest_film / BEYOND,
         }
     }

@@ -1,6 +1,7 @@
 //! Sampling plans: which operating points of a range are solved in full, and which are tested.
 
 use super::anchors::Cell;
+use super::range::Unit;
 use super::{QuantityBox, Range};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::reduced::{BLENDED, SHAPE_WEIGHT, apart, distance, oil_place};
@@ -13,21 +14,36 @@ use std::f64::consts::PI;
 const ALPHA_WEIGHT: f64 = 0.02;
 
 /// A random point near another one by (3.18), coordinates in the unit cube: μ = min(max(μ_ref + σN, 0), 1).
-pub(super) fn local_point(reference: [f64; 4], sigma: f64, rng: &mut Rng) -> [f64; 4] {
+pub(super) fn local_point(reference: Unit, sigma: f64, count: usize, rng: &mut Rng) -> Unit {
     let mut normal = || (-2.0 * (1.0 - rng.f64()).ln()).sqrt() * (2.0 * PI * rng.f64()).cos();
-    reference.map(|v| (v + sigma * normal()).clamp(0.0, 1.0))
+    let mut unit = reference;
+    unit.iter_mut().take(count).for_each(|v| *v = (*v + sigma * normal()).clamp(0.0, 1.0));
+    unit
 }
 
-/// Coordinates of (3.17) in the unit cube.
-pub(super) fn global_point(rng: &mut Rng) -> [f64; 4] {
-    std::array::from_fn(|_| 0.5 * (1.0 - (PI * rng.f64()).cos()))
+/// So many coordinates of (3.17) in the unit cube, in the middle of the others.
+pub(super) fn global_point(count: usize, rng: &mut Rng) -> Unit {
+    let mut unit = [0.5; 6];
+    unit.iter_mut().take(count).for_each(|v| *v = 0.5 * (1.0 - (PI * rng.f64()).cos()));
+    unit
 }
 
 /// Draws per wanted point before a range is given up as holding none.
 const MAX_DRAWS: usize = 10_000;
 
 /// A point with its coordinates in the unit cube.
-pub(super) type Drawn = ([f64; 4], OperatingPoint);
+pub(super) type Drawn = (Unit, OperatingPoint);
+
+/// Units of ln u_m, and of SRR, in the lengths of [`oil_place`]: how much heat changes registered pressures.
+const HEAT_LENGTHS: [f64; 2] = [0.06, 0.2];
+
+/// Where a contact of many oils lies among others, with heat or without.
+fn place_of_oil(point: &OperatingPoint, heat: bool) -> Unit {
+    let [m, l, p_h, z] = oil_place(point);
+    let by_heat = [point.speed_m_per_s.ln(), point.sliding.slide_to_roll_ratio];
+    let [u, srr] = if heat { [0, 1].map(|k| HEAT_LENGTHS[k] * by_heat[k]) } else { [0.0; 2] };
+    [m, l, p_h, z, u, srr]
+}
 
 /// The contacts of a range, of one kind and with M in an interval.
 #[derive(Clone, Debug)]
@@ -77,7 +93,7 @@ impl Within {
         Self { range, kind, m: (0.0, f64::INFINITY), radius_ratio: (0.0, f64::INFINITY), cell: None }
     }
 
-    fn at(&self, unit: [f64; 4]) -> Option<OperatingPoint> {
+    fn at(&self, unit: Unit) -> Option<OperatingPoint> {
         let inside = |value: f64, (low, high): (f64, f64)| (low..=high).contains(&value);
         let wanted = |point: &OperatingPoint| {
             let moes = point.moes();
@@ -88,7 +104,7 @@ impl Within {
     }
 
     /// Up to `count` points at the coordinates that `draw` gives; fewer where hardly any is admissible.
-    pub fn drawn(&self, count: usize, mut draw: impl FnMut() -> [f64; 4]) -> Vec<Drawn> {
+    pub fn drawn(&self, count: usize, mut draw: impl FnMut() -> Unit) -> Vec<Drawn> {
         let mut one = || {
             let unit = draw();
             self.at(unit).map(|point| (unit, point))
@@ -98,7 +114,8 @@ impl Within {
 
     /// Random points by (3.17).
     pub fn random_points(&self, count: usize, rng: &mut Rng) -> Vec<OperatingPoint> {
-        self.drawn(count, || global_point(rng)).into_iter().map(|(_, point)| point).collect()
+        let coordinates = self.range.coordinates();
+        self.drawn(count, || global_point(coordinates, rng)).into_iter().map(|(_, point)| point).collect()
     }
 
     /// Farthest-point sampling (3.16) beside points that are known already: every next point of a random pool is the
@@ -106,17 +123,20 @@ impl Within {
     pub fn farthest_points(&self, known: &[OperatingPoint], count: usize, rng: &mut Rng) -> Vec<OperatingPoint> {
         let mut pool = self.random_points((40 * count).max(2000), rng);
         // The corners of the range are its extremes, and a random pool never quite reaches them.
-        let corners = (0..16u8).filter_map(|c| self.at(std::array::from_fn(|k| f64::from(c >> k & 1))));
+        let corners = 0..1u8 << self.range.coordinates();
+        let corners = corners.filter_map(|c| self.at(std::array::from_fn(|k| f64::from(c >> k & 1))));
         pool.extend(corners);
         let place = |p: &OperatingPoint| (p.moes(), p.alpha_per_pa.ln(), p.sliding, p.radius_ratio().ln());
-        let oils = matches!(self.range, Range::Oils(_));
+        let heat = matches!(self.range, Range::HeatedOils(_));
+        let oils = heat || matches!(self.range, Range::Oils(_));
+        let own_place = |point: &OperatingPoint| place_of_oil(point, heat);
         let coordinates: Vec<_> = pool.iter().map(place).collect();
-        let oil_places: Vec<_> = pool.iter().filter(|_| oils).map(oil_place).collect();
+        let oil_places: Vec<_> = pool.iter().filter(|_| oils).map(own_place).collect();
         let alpha_weight = if matches!(self.range, Range::Box(_)) { 0.005 } else { ALPHA_WEIGHT };
         let mut nearest = vec![f64::INFINITY; pool.len()];
         let approach = |nearest: &mut [f64], point: &OperatingPoint| {
             if oils {
-                let own = oil_place(point);
+                let own = own_place(point);
                 nearest.iter_mut().zip(&oil_places).for_each(|(best, other)| *best = best.min(apart(own, *other)));
                 return;
             }
@@ -160,7 +180,14 @@ pub(super) fn grid_points(range: &Range, kind: ContactKind, nodes: [usize; 4]) -
         for u in 0..nodes[1] {
             for w in 0..nodes[2] {
                 for a in 0..nodes[3] {
-                    let at = [unit(r, nodes[0]), unit(u, nodes[1]), log_unit(unit(w, nodes[2])), unit(a, nodes[3])];
+                    let at = [
+                        unit(r, nodes[0]),
+                        unit(u, nodes[1]),
+                        log_unit(unit(w, nodes[2])),
+                        unit(a, nodes[3]),
+                        0.5,
+                        0.5,
+                    ];
                     points.extend(range.at(kind, at));
                 }
             }

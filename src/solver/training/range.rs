@@ -1,10 +1,10 @@
 //! Where contacts lie: what a model is trained for, and where random ones are drawn.
 
+use super::heated_range::{HeatedOilRange, HeatedRange};
 use super::oil_range::OilRange;
 use crate::solver::limits::{Refused, interval, number};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, Sliding, si_from_moes};
-use crate::solver::physics::lubricant::LARGEST_HEATED_SRR;
-use crate::solver::reduced::{CIRCLES, Domain};
+use crate::solver::reduced::{CIRCLES, Domain, HeatDomain};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -57,37 +57,47 @@ pub enum Range {
     Oils(OilRange),
     /// All line contacts of one oil between bodies of one radius, with heat.
     Heated(HeatedRange),
+    /// All line contacts of many oils, with heat.
+    HeatedOils(HeatedOilRange),
 }
+
+/// Coordinates in the unit cube, of which a range uses as many as it has quantities.
+pub(super) type Unit = [f64; 6];
 
 impl From<&Domain> for Range {
     /// The intervals that a model declares; what it knows of sliding is left out.
     fn from(domain: &Domain) -> Self {
-        if let Some(heat) = &domain.heat {
-            return Self::Heated(HeatedRange {
-                m: domain.m,
-                l: domain.l,
-                srr: heat.srr,
-                radius: heat.radius_m,
-                modulus: heat.modulus_pa,
-                viscosity: domain.viscosity_pa_s,
-                alpha: domain.alpha_per_pa.0,
-                max_hertz_pressure: domain.max_hertz_pressure_pa,
-            });
-        }
         if domain.radius_ratio != CIRCLES {
             let Domain { m, l, radius_ratio, max_hertz_pressure_pa: max_hertz_pressure, .. } = *domain;
             return Self::Ellipses { m, l, radius_ratio, max_hertz_pressure };
         }
-        if let Some(oils) = &domain.oils {
-            return Self::Oils(OilRange {
-                m: domain.m,
-                l: domain.l,
-                alpha: domain.alpha_per_pa,
-                viscosity: oils.viscosity_pa_s,
-                exponent: oils.exponent,
-                hertz_pressure: (oils.lowest_hertz_pressure_pa, domain.max_hertz_pressure_pa),
-                thinnest_film: oils.thinnest_film,
-            });
+        let oils = domain.oils.map(|oils| OilRange {
+            m: domain.m,
+            l: domain.l,
+            alpha: domain.alpha_per_pa,
+            viscosity: oils.viscosity_pa_s,
+            exponent: oils.exponent,
+            hertz_pressure: (oils.lowest_hertz_pressure_pa, domain.max_hertz_pressure_pa),
+            thinnest_film: oils.thinnest_film,
+        });
+        match (oils, domain.heat) {
+            (Some(oils), Some(HeatDomain { srr, radius_m: radius, speed_m_per_s: speed, .. })) => {
+                return Self::HeatedOils(HeatedOilRange { oils, srr, radius, speed });
+            }
+            (Some(oils), None) => return Self::Oils(oils),
+            (None, Some(heat)) => {
+                return Self::Heated(HeatedRange {
+                    m: domain.m,
+                    l: domain.l,
+                    srr: heat.srr,
+                    radius: heat.radius_m.0,
+                    modulus: heat.modulus_pa,
+                    viscosity: domain.viscosity_pa_s,
+                    alpha: domain.alpha_per_pa.0,
+                    max_hertz_pressure: domain.max_hertz_pressure_pa,
+                });
+            }
+            (None, None) => {}
         }
         Self::Moes {
             m: domain.m,
@@ -223,7 +233,7 @@ impl SlidingRange {
 
     /// The operating point of a kind at coordinates in the unit cube, by ln M, L, SRR and NPR; `None` where the range
     /// excludes it.
-    pub fn at(&self, kind: ContactKind, unit: [f64; 4]) -> Option<OperatingPoint> {
+    pub(super) fn at(&self, kind: ContactKind, unit: Unit) -> Option<OperatingPoint> {
         let request = MoesRequest {
             radius_m: Some(self.radius),
             modulus_pa: Some(self.modulus),
@@ -242,69 +252,20 @@ impl SlidingRange {
     /// The largest Hertzian pressure \[Pa\] of a kind of contact in it; 0 where M and L make no contact.
     pub fn highest_pressure(&self, kind: ContactKind) -> f64 {
         let unlimited = Self { max_hertz_pressure: None, ..*self };
-        let heaviest = unlimited.at(kind, [1.0; 4]).map_or(0.0, |point| point.hertz().pressure_pa);
+        let heaviest = unlimited.at(kind, [1.0; 6]).map_or(0.0, |point| point.hertz().pressure_pa);
         heaviest.min(self.max_hertz_pressure.unwrap_or(f64::INFINITY))
-    }
-}
-
-/// All line contacts with M, L and SRR in these intervals and p_H up to a limit, with heat: R, E′, η₀ and α make M a load
-/// and L a speed, by which films warm.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct HeatedRange {
-    /// Load number, by the load.
-    pub m: (f64, f64),
-    /// Lubricant number, by the speed.
-    pub l: (f64, f64),
-    /// Slide-to-roll ratio; films hardly tell which body is the faster one where both are of one material.
-    pub srr: (f64, f64),
-    /// R \[m\].
-    pub radius: f64,
-    /// E′ \[Pa\].
-    pub modulus: f64,
-    /// η₀ \[Pa·s\] at the inlet's temperature.
-    pub viscosity: f64,
-    /// α \[1/Pa\]: the lubricant's own, where its viscosity law determines it.
-    pub alpha: f64,
-    /// Largest p_H \[Pa\].
-    pub max_hertz_pressure: f64,
-}
-
-impl HeatedRange {
-    /// Refuses what is empty, inverted or beyond any sense.
-    ///
-    /// # Errors
-    /// Naming the interval.
-    pub fn check(&self) -> Result<(), Refused> {
-        between(Quantity::M, self.m)?;
-        between(Quantity::L, self.l)?;
-        interval("srr", self.srr, 0.0, LARGEST_HEATED_SRR)?;
-        single(Quantity::Radius, self.radius)?;
-        single(Quantity::Modulus, self.modulus)?;
-        single(Quantity::Viscosity, self.viscosity)?;
-        single(Quantity::Alpha, self.alpha)?;
-        hertz_pressure(self.max_hertz_pressure)
-    }
-
-    /// The line contact at coordinates in the unit cube, by ln M, L and SRR; `None` where the range excludes it.
-    pub fn at(&self, unit: [f64; 4]) -> Option<OperatingPoint> {
-        let request = MoesRequest {
-            radius_m: Some(self.radius),
-            modulus_pa: Some(self.modulus),
-            viscosity_pa_s: Some(self.viscosity),
-            alpha_per_pa: Some(self.alpha),
-            ..MoesRequest::new(ContactKind::Line, self.m.0, self.l.0)
-        };
-        let sliding = Sliding { slide_to_roll_ratio: linear(self.srr, unit[2]), newtonian_plateau_ratio: None };
-        let point = up_to(self.max_hertz_pressure, (self.m, self.l), unit, request)?;
-        Some(OperatingPoint { sliding, ..point })
     }
 }
 
 impl Range {
     /// Whether it says how fast its contacts slide.
     pub fn slides(&self) -> bool {
-        matches!(self, Self::Sliding(_) | Self::Heated(_))
+        matches!(self, Self::Sliding(_) | Self::Heated(_) | Self::HeatedOils(_))
+    }
+
+    /// Coordinates that it uses of the unit cube, at least four.
+    pub(super) fn coordinates(&self) -> usize {
+        if matches!(self, Self::HeatedOils(_)) { 6 } else { 4 }
     }
 
     /// Refuses what is empty, inverted or beyond any sense.
@@ -329,6 +290,7 @@ impl Range {
             Self::Sliding(range) => range.check(),
             Self::Oils(range) => range.check(),
             Self::Heated(range) => range.check(),
+            Self::HeatedOils(range) => range.check(),
             Self::Ellipses { m, l, radius_ratio, max_hertz_pressure } => {
                 between(Quantity::M, m)?;
                 between(Quantity::L, l)?;
@@ -338,11 +300,19 @@ impl Range {
         }
     }
 
+    /// The point of the test trajectory (3.21) at the running parameter c, by the first four of its quantities; `None` where
+    /// the range excludes it.
+    pub fn trajectory(&self, kind: ContactKind, c: f64) -> Option<OperatingPoint> {
+        let [r, u, w, alpha] = QuantityBox::trajectory_place(c);
+        self.at(kind, [r, u, w, alpha, 0.5, 0.5])
+    }
+
     /// The operating point of a kind at coordinates in the unit cube, of which as many are used as the range has
     /// quantities; `None` where the range excludes it.
-    pub fn at(&self, kind: ContactKind, unit: [f64; 4]) -> Option<OperatingPoint> {
+    pub(super) fn at(&self, kind: ContactKind, unit: Unit) -> Option<OperatingPoint> {
+        let [a, b, c, d, ..] = unit;
         match *self {
-            Self::Box(range) => Some(range.at(kind, unit)).filter(|point| point.check().is_ok()),
+            Self::Box(range) => Some(range.at(kind, [a, b, c, d])).filter(|point| point.check().is_ok()),
             Self::Realisation { m, l, max_hertz_pressure } => {
                 up_to(max_hertz_pressure, (m, l), unit, MoesRequest::new(kind, m.0, l.0))
             }
@@ -357,6 +327,7 @@ impl Range {
             Self::Sliding(range) => range.at(kind, unit),
             Self::Oils(range) => range.at(kind, unit),
             Self::Heated(range) => range.at(unit).filter(|_| kind == ContactKind::Line),
+            Self::HeatedOils(range) => range.at(unit).filter(|_| kind == ContactKind::Line),
             Self::Ellipses { m, l, radius_ratio, max_hertz_pressure } => {
                 let circle = up_to(f64::INFINITY, (m, l), unit, MoesRequest::new(kind, m.0, l.0))?;
                 let point = Quantity::RadiusRatio.at(&circle, logarithmic(radius_ratio, unit[2]));
@@ -373,17 +344,17 @@ pub(super) fn between(quantity: Quantity, ends: (f64, f64)) -> Result<(), Refuse
 }
 
 /// Refuses a quantity beyond its limits.
-fn single(quantity: Quantity, value: f64) -> Result<(), Refused> {
+pub(super) fn single(quantity: Quantity, value: f64) -> Result<(), Refused> {
     let (low, high) = quantity.range();
     number(quantity.name(), value, low, high)
 }
 
 /// Refuses a limit of p_H \[Pa\] that is none.
-fn hertz_pressure(most: f64) -> Result<(), Refused> {
+pub(super) fn hertz_pressure(most: f64) -> Result<(), Refused> {
     number("max_hertz_pressure", most, 1e5, 1e12)
 }
 
-fn linear((low, high): (f64, f64), t: f64) -> f64 {
+pub(super) fn linear((low, high): (f64, f64), t: f64) -> f64 {
     low + (high - low) * t
 }
 
@@ -392,10 +363,10 @@ pub(super) fn logarithmic((low, high): (f64, f64), t: f64) -> f64 {
 }
 
 /// The contact of a request with M and L at the first two coordinates in their intervals, unless it is pressed harder.
-fn up_to(
+pub(super) fn up_to(
     max_hertz_pressure: f64,
     (m, l): ((f64, f64), (f64, f64)),
-    unit: [f64; 4],
+    unit: Unit,
     request: MoesRequest,
 ) -> Option<OperatingPoint> {
     let request = MoesRequest { m: logarithmic(m, unit[0]), l: linear(l, unit[1]), ..request };
@@ -466,7 +437,7 @@ mod tests {
         let mut inside = 0;
         for i in 0..=10 {
             for j in 0..=10 {
-                let unit = [f64::from(i) / 10.0, f64::from(j) / 10.0, 0.5, 0.25];
+                let unit = [f64::from(i) / 10.0, f64::from(j) / 10.0, 0.5, 0.25, 0.5, 0.5];
                 let Some(point) = SLIDING.at(ContactKind::Point, unit) else { continue };
                 let moes = point.moes();
                 assert!(point.hertz().pressure_pa <= 660e6);

@@ -1,6 +1,6 @@
 //! Small trainings, which tests make of many things.
 
-use super::{HeatedRange, OilRange, Plan, QuantityBox, Range, TrainingSpec, WindowSpec, Windows};
+use super::{HeatedOilRange, HeatedRange, OilRange, Plan, QuantityBox, Range, TrainingSpec, WindowSpec, Windows};
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 use crate::solver::physics::lubricant::{Cavitation, Heat, LimitingStress, Lubricant};
 use crate::solver::reduced::Sampling;
@@ -110,6 +110,8 @@ pub(crate) fn oils_of_points(snapshots: usize) -> TrainingSpec {
     }
 }
 
+const HEATED_GRID: GridSpec = GridSpec::Graded { nodes: 280, domain: (-10.0, 2.0), registered: true };
+
 /// Line contacts with heat of an oil whose stress is limited, between steel bodies.
 pub(crate) fn heated(sampling: Sampling, snapshots: usize) -> TrainingSpec {
     let range = HeatedRange {
@@ -123,11 +125,35 @@ pub(crate) fn heated(sampling: Sampling, snapshots: usize) -> TrainingSpec {
         max_hertz_pressure: 1.6e9,
     };
     let plan = Plan::FarthestPoint { snapshots };
-    let grid = GridSpec::Graded { nodes: 280, domain: (-10.0, 2.0), registered: true };
+    let grid = HEATED_GRID;
     let limiting_stress = Some(LimitingStress { ambient: 5e6, slope: 0.05, eyring: Some(5e6) });
     let lubricant = Lubricant { heat: Some(Heat::default()), limiting_stress, ..Lubricant::default() };
     let spec = TrainingSpec::new(Range::Heated(range), range.m, grid, plan);
     TrainingSpec { lubricant, positive_modes: true, penalty: 1e5, sampling, rows_per_mode: 3.0, evidence: 0, ..spec }
+}
+
+/// Line contacts with heat of many such oils, in two windows.
+pub(crate) fn heated_oils(sampling: Sampling, snapshots: usize) -> TrainingSpec {
+    let oils = OilRange {
+        m: (15.0, 30.0),
+        l: (7.0, 10.0),
+        alpha: (14e-9, 22e-9),
+        viscosity: (0.01, 0.05),
+        exponent: (0.4, 0.8),
+        hertz_pressure: (0.5e9, 1.4e9),
+        thinnest_film: 0.0,
+    };
+    let range = HeatedOilRange { oils, srr: (0.0, 0.5), radius: (5e-3, 20e-3), speed: (0.2, 10.0) };
+    let one = heated(sampling, snapshots);
+    let windows = Windows::Anchored { count: 2, modes: 24, grid: HEATED_GRID, shared: 0 };
+    TrainingSpec {
+        range: Range::HeatedOils(range),
+        windows,
+        pressure_loss: 1e-8,
+        deformation_loss: 0.1,
+        seed: 3,
+        ..one
+    }
 }
 
 /// Contacts with these numbers up to a pressure, at an α of 5…20 1/GPa.

@@ -6,7 +6,7 @@ use super::build::{WindowTraining, alone, domain};
 use super::calibrate::calibrate;
 use super::check::check;
 use super::one_thread::on_one_thread;
-use super::plan::grid_points;
+use super::plan::{Within, grid_points};
 use super::split::{may_split, split};
 use super::traction::traction_rule;
 use super::{Plan, TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows, layout};
@@ -217,8 +217,9 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
             continue;
         };
         if spec.range.slides() {
-            let (alone, reach) = (Arc::new(alone(&spec, &trained)), reach(&state.windows, k));
-            trained.traction = traction_rule(&spec, &alone, reach, state.windows[k].seed, observer)?;
+            let served = Within { cell: cell(&state.windows, k), ..spec.within(reach(&state.windows, k)) };
+            let alone = Arc::new(alone(&spec, &trained));
+            trained.traction = traction_rule(&spec, &alone, served, state.windows[k].seed, observer)?;
         }
         if spec.evidence > 0 {
             let ends = ends(&state.windows, k);

@@ -1,6 +1,7 @@
 //! The rule by which a finished window knows its traction without large-scale work.
 
 use super::one_thread::{in_parallel, on_one_thread};
+use super::plan::Within;
 use super::{TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, TractionRule};
@@ -13,19 +14,19 @@ const SOLUTIONS: usize = 1000;
 /// the contact.
 const SLOWEST: f64 = 1e-3;
 
-/// Fits the rule of a window to reduced solutions, `model` being the model of it alone; `None` where the fit fails.
+/// Fits the rule of a window to reduced solutions of the contacts that it serves, `model` being the model of it alone; `None` where the fit fails.
 ///
 /// # Errors
 /// When the observer cancels.
 pub(super) fn traction_rule(
     spec: &TrainingSpec,
     model: &Arc<ReducedModel>,
-    reach: (f64, f64),
+    served: Within,
     seed: u64,
     observer: &dyn TrainingObserver,
 ) -> Result<Option<TractionRule>, TrainingError> {
     let mut rng = Rng::with_seed(seed ^ 0x7AC7_1041);
-    let mut points: Vec<OperatingPoint> = spec.within(reach).random_points(SOLUTIONS, &mut rng);
+    let mut points: Vec<OperatingPoint> = served.random_points(SOLUTIONS, &mut rng);
     for point in points.iter_mut().step_by(2) {
         point.sliding.slide_to_roll_ratio *= SLOWEST.powf(rng.f64());
     }

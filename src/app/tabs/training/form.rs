@@ -11,7 +11,9 @@ use crate::scene::QuantityBox;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::{Sampling, Scheme};
-use crate::solver::training::{HeatedRange, Indicator, OilRange, Plan, Range, SlidingRange, TrainingSpec, Windows};
+use crate::solver::training::{
+    HeatedOilRange, HeatedRange, Indicator, OilRange, Plan, Range, SlidingRange, TrainingSpec, Windows,
+};
 use egui::{TextEdit, Ui};
 
 /// The form.
@@ -115,13 +117,18 @@ fn range_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
             form.interval(ui, "Ratio of radii {R_y}/{R}", PLAIN, radius_ratio, "1 is a circle");
             form.row(ui, "Highest {p_H}", GIGAPASCAL, max_hertz_pressure, "Contacts beyond it are left out");
         }
-        Range::Oils(OilRange { m, l, alpha, viscosity, exponent, hertz_pressure, .. }) => {
-            form.interval(ui, "Load number {M}", PLAIN, m, "Moes’ load number (3.19)");
-            form.interval(ui, "Lubricant {L}", PLAIN, l, "Moes’ lubricant number (3.19)");
-            form.interval(ui, "Coefficient {α}", ALPHA, alpha, "Pressure–viscosity coefficient");
-            form.interval(ui, "Viscosity {η_0}", VISCOSITY, viscosity, "Viscosity at ambient pressure");
-            form.interval(ui, "Exponent {z}", PLAIN, exponent, "Roelands’ exponent (2.12), which α and η₀ make");
-            form.interval(ui, "Pressure {p_H}", GIGAPASCAL, hertz_pressure, "Hertzian pressure");
+        Range::Oils(range) => oils(ui, form, range),
+        Range::HeatedOils(HeatedOilRange { oils: range, srr, radius, speed }) => {
+            oils(ui, form, range);
+            form.interval(ui, "Slide-to-roll ratio", PLAIN, srr, "Of contacts with heat");
+            form.interval(
+                ui,
+                "Radius {R}",
+                ("mm", 1e-3),
+                radius,
+                "Reduced radius at E′ = 231 GPa; R/E′³ is what counts",
+            );
+            form.interval(ui, "Mean speed {u_m}", ("m/s", 1.0), speed, "Faster and slower contacts are left out");
         }
         Range::Heated(HeatedRange { m, l, srr, max_hertz_pressure, .. }) => {
             form.interval(ui, "Load number {M}", PLAIN, m, "Moes’ load number (3.19), by the load");
@@ -141,6 +148,17 @@ fn range_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
         }
     }
     ui.weak(described_windows(&spec.windows));
+}
+
+/// What a range of oils has with heat and without.
+fn oils(ui: &mut Ui, form: &mut Form<'_>, range: &mut OilRange) {
+    let OilRange { m, l, alpha, viscosity, exponent, hertz_pressure, .. } = range;
+    form.interval(ui, "Load number {M}", PLAIN, m, "Moes’ load number (3.19)");
+    form.interval(ui, "Lubricant {L}", PLAIN, l, "Moes’ lubricant number (3.19)");
+    form.interval(ui, "Coefficient {α}", ALPHA, alpha, "Pressure–viscosity coefficient");
+    form.interval(ui, "Viscosity {η_0}", VISCOSITY, viscosity, "Viscosity at ambient pressure");
+    form.interval(ui, "Exponent {z}", PLAIN, exponent, "Roelands’ exponent (2.12), which α and η₀ make");
+    form.interval(ui, "Pressure {p_H}", GIGAPASCAL, hertz_pressure, "Hertzian pressure");
 }
 
 /// The windows of M in a line.
@@ -177,13 +195,15 @@ fn converted(spec: &TrainingSpec) -> Range {
             let table = QuantityBox::of_tables(spec.contact());
             Range::Box(QuantityBox { alpha: domain.alpha_per_pa, viscosity, ..table })
         }
-        Range::Realisation { .. } | Range::Ellipses { .. } | Range::Oils(_) | Range::Heated(_) => {
-            Range::Box(QuantityBox {
-                alpha: domain.alpha_per_pa,
-                viscosity: domain.viscosity_pa_s,
-                ..QuantityBox::of_tables(spec.contact())
-            })
-        }
+        Range::Realisation { .. }
+        | Range::Ellipses { .. }
+        | Range::Oils(_)
+        | Range::Heated(_)
+        | Range::HeatedOils(_) => Range::Box(QuantityBox {
+            alpha: domain.alpha_per_pa,
+            viscosity: domain.viscosity_pa_s,
+            ..QuantityBox::of_tables(spec.contact())
+        }),
     }
 }
 

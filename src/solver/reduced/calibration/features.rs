@@ -3,14 +3,15 @@
 use crate::solver::physics::contact::{Moes, OperatingPoint};
 use crate::solver::physics::lubricant::roelands_exponent;
 use crate::solver::reduced::ReducedSolution;
-use crate::solver::reduced::model::{CIRCLES, Domain};
+use crate::solver::reduced::domain::{CIRCLES, Domain};
 
 /// Features of a contact without sliding: ln M, L, ln α, ln e_f^I, and the logarithm of the last modes' share.
 pub(super) const FEATURES: usize = 5;
 /// Those of one in a model that knows ellipses: ln(R_y/R) as well; or many oils: Roelands' exponent; or heat: ln(|SRR| +
 /// 0.01).
 pub(super) const ONE_MORE: usize = FEATURES + 1;
-/// Those of one in a model that knows sliding: ln(|SRR| + 0.01) and NPR as well.
+/// Those of one in a model that knows sliding: ln(|SRR| + 0.01) and NPR as well; or heat of many oils: ln(|SRR| + 0.01)
+/// and ln u_m.
 pub(super) const SLIDING_FEATURES: usize = FEATURES + 2;
 /// The two features among them that are no place but a sign of the error.
 pub(super) const SIGNS: std::ops::Range<usize> = 3..5;
@@ -66,16 +67,25 @@ pub enum Beside {
     Sliding,
     /// SRR, and heat.
     Heat,
+    /// SRR and u_m, and heat.
+    HeatOfOils,
 }
 
 impl Beside {
     /// All of them.
-    pub(super) const ALL: [Self; 5] = [Self::Nothing, Self::Shape, Self::Oil, Self::Sliding, Self::Heat];
+    pub(super) const ALL: [Self; 6] =
+        [Self::Nothing, Self::Shape, Self::Oil, Self::Sliding, Self::Heat, Self::HeatOfOils];
 
     /// Those of a model's domain.
     pub fn of(domain: &Domain) -> Self {
         match domain.sliding {
-            _ if domain.heat.is_some() => Self::Heat,
+            _ if domain.heat.is_some() => {
+                if domain.oils.is_some() {
+                    Self::HeatOfOils
+                } else {
+                    Self::Heat
+                }
+            }
             Some(_) => Self::Sliding,
             None if domain.oils.is_some() => Self::Oil,
             None if domain.radius_ratio == CIRCLES => Self::Nothing,
@@ -88,7 +98,7 @@ impl Beside {
         match self {
             Self::Nothing => FEATURES,
             Self::Shape | Self::Oil | Self::Heat => ONE_MORE,
-            Self::Sliding => SLIDING_FEATURES,
+            Self::Sliding | Self::HeatOfOils => SLIDING_FEATURES,
         }
     }
 
@@ -97,7 +107,7 @@ impl Beside {
         match self {
             Self::Nothing | Self::Shape | Self::Oil => 3,
             Self::Sliding => 4,
-            Self::Heat => 5,
+            Self::Heat | Self::HeatOfOils => 5,
         }
     }
 }
@@ -131,6 +141,7 @@ impl Features {
         let [first, second] = match beside {
             Beside::Shape => [point.radius_ratio().ln(), 0.0],
             Beside::Oil => [roelands_exponent(point), 0.0],
+            Beside::HeatOfOils => [srr, point.speed_m_per_s.ln()],
             Beside::Nothing | Beside::Sliding | Beside::Heat => [srr, npr],
         };
         Self { values: [m.ln(), l, point.alpha_per_pa.ln(), residual, last, first, second], beside }

@@ -3,7 +3,7 @@
 use crate::solver::full::SolveError;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Cavitation;
-use crate::solver::reduced::model::CIRCLES;
+use crate::solver::reduced::domain::CIRCLES;
 
 /// Why a reduced solve gives no result.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -2,7 +2,7 @@
 
 use crate::solver::full::Problem;
 use crate::solver::full::transient::{Input, Inputs, Moment, Trajectory};
-use crate::solver::reduced::model::digits;
+use crate::solver::reduced::domain::digits;
 use crate::solver::reduced::{CIRCLES, Domain, Trust};
 use serde::{Deserialize, Serialize};
 

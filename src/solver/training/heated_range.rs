@@ -1,0 +1,130 @@
+//! Contacts with heat: of one oil between bodies of one radius, or of many oils.
+//!
+//! What heat adds to M, L, α and η₀ is one number. With these given λ, p_H and the scaled film are; so is u_m ∝ a (a/R)²,
+//! with a/R = 4 p_H/E′, and Péclet's and Brinkman's numbers of the film and what its bodies take up go with that alone:
+//! contacts of equal M, L, α, η₀ and R/E′³ are alike, temperatures too. Radii are counted at one E′ therefore.
+
+use super::oil_range::{OilRange, beyond};
+use super::range::{Unit, between, hertz_pressure, linear, logarithmic, single, up_to};
+use crate::solver::limits::{Refused, interval};
+use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, Sliding};
+use crate::solver::physics::lubricant::LARGEST_HEATED_SRR;
+use crate::solver::reduced::{HeatDomain, STEEL_ON_STEEL_PA};
+use serde::{Deserialize, Serialize};
+
+/// All line contacts with M, L and SRR in these intervals and p_H up to a limit, with heat: R, E′, η₀ and α make M a load
+/// and L a speed, by which films warm.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HeatedRange {
+    /// Load number, by the load.
+    pub m: (f64, f64),
+    /// Lubricant number, by the speed.
+    pub l: (f64, f64),
+    /// Slide-to-roll ratio; films hardly tell which body is the faster one where both are of one material.
+    pub srr: (f64, f64),
+    /// R \[m\].
+    pub radius: f64,
+    /// E′ \[Pa\].
+    pub modulus: f64,
+    /// η₀ \[Pa·s\] at the inlet's temperature.
+    pub viscosity: f64,
+    /// α \[1/Pa\]: the lubricant's own, where its viscosity law determines it.
+    pub alpha: f64,
+    /// Largest p_H \[Pa\].
+    pub max_hertz_pressure: f64,
+}
+
+impl HeatedRange {
+    /// Refuses what is empty, inverted or beyond any sense.
+    ///
+    /// # Errors
+    /// Naming the interval.
+    pub fn check(&self) -> Result<(), Refused> {
+        between(Quantity::M, self.m)?;
+        between(Quantity::L, self.l)?;
+        interval("srr", self.srr, 0.0, LARGEST_HEATED_SRR)?;
+        single(Quantity::Radius, self.radius)?;
+        single(Quantity::Modulus, self.modulus)?;
+        single(Quantity::Viscosity, self.viscosity)?;
+        single(Quantity::Alpha, self.alpha)?;
+        hertz_pressure(self.max_hertz_pressure)
+    }
+
+    /// The line contact at coordinates in the unit cube, by ln M, L and SRR; `None` where the range excludes it.
+    pub(super) fn at(&self, unit: Unit) -> Option<OperatingPoint> {
+        let request = MoesRequest {
+            radius_m: Some(self.radius),
+            modulus_pa: Some(self.modulus),
+            viscosity_pa_s: Some(self.viscosity),
+            alpha_per_pa: Some(self.alpha),
+            ..MoesRequest::new(ContactKind::Line, self.m.0, self.l.0)
+        };
+        let point = up_to(self.max_hertz_pressure, (self.m, self.l), unit, request)?;
+        Some(sliding(point, linear(self.srr, unit[2])))
+    }
+
+    /// What a model of it declares beside M, L, α, η₀ and p_H.
+    pub(super) fn declared(&self) -> HeatDomain {
+        let Self { srr, radius, modulus, .. } = *self;
+        HeatDomain { srr, radius_m: (radius, radius), modulus_pa: modulus, speed_m_per_s: (0.0, f64::INFINITY) }
+    }
+}
+
+/// All line contacts of many oils with R, u_m and SRR in these intervals, with heat. E′ is free: contacts of equal R/E′³
+/// are alike.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HeatedOilRange {
+    /// The oils, with M, L and p_H.
+    pub oils: OilRange,
+    /// Slide-to-roll ratio; films hardly tell which body is the faster one where both are of one material.
+    pub srr: (f64, f64),
+    /// R \[m\] at E′ = 231 GPa; by its logarithm.
+    pub radius: (f64, f64),
+    /// u_m \[m/s\].
+    pub speed: (f64, f64),
+}
+
+impl HeatedOilRange {
+    /// Refuses what is empty, inverted or beyond any sense.
+    ///
+    /// # Errors
+    /// Naming the interval.
+    pub fn check(&self) -> Result<(), Refused> {
+        self.oils.check().map_err(|refused| refused.within("oils"))?;
+        interval("srr", self.srr, 0.0, LARGEST_HEATED_SRR)?;
+        between(Quantity::Radius, self.radius)?;
+        between(Quantity::Speed, self.speed)
+    }
+
+    /// The line contact at coordinates in the unit cube, by ln M, L, α, η₀, ln R and SRR; `None` where the range excludes
+    /// it.
+    pub(super) fn at(&self, unit: Unit) -> Option<OperatingPoint> {
+        let [.., radius, srr] = unit;
+        let request = MoesRequest {
+            radius_m: Some(logarithmic(self.radius, radius)),
+            modulus_pa: Some(STEEL_ON_STEEL_PA),
+            ..self.oils.request(ContactKind::Line, unit)
+        };
+        let point = self.oils.contact(&request)?;
+        let (slowest, fastest) = self.speed;
+        (slowest..=fastest).contains(&point.speed_m_per_s).then(|| sliding(point, linear(self.srr, srr)))
+    }
+
+    /// A little more on all sides.
+    pub(super) fn beyond(&self) -> Self {
+        let Self { oils, srr, radius, speed } = *self;
+        Self { oils: oils.beyond(), srr, radius: beyond(radius), speed: beyond(speed) }
+    }
+
+    /// What a model of it declares beside the oils, M, L, α and p_H.
+    pub(super) fn declared(&self) -> HeatDomain {
+        let Self { srr, radius: radius_m, speed: speed_m_per_s, .. } = *self;
+        HeatDomain { srr, radius_m, modulus_pa: STEEL_ON_STEEL_PA, speed_m_per_s }
+    }
+}
+
+fn sliding(point: OperatingPoint, slide_to_roll_ratio: f64) -> OperatingPoint {
+    OperatingPoint { sliding: Sliding { slide_to_roll_ratio, newtonian_plateau_ratio: None }, ..point }
+}
