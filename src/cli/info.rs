@@ -150,7 +150,9 @@ pub fn describe(model: &ReducedModel) -> String {
             format!("{:.3} mm", smallest * 1e3)
         } else {
             let (slowest, fastest) = heat.speed_m_per_s;
-            format!("{}…{} mm, u_m {slowest}…{fastest} m/s", smallest * 1e3, largest * 1e3)
+            let sliding = heat.fastest_sliding_m_per_s;
+            let [from, to] = [smallest, largest].map(|radius| radius * 1e3);
+            format!("{from}…{to} mm, u_m {slowest}…{fastest} m/s, SRR u_m up to {sliding} m/s")
         };
         let _ = writeln!(
             text,

@@ -20,7 +20,7 @@ pub enum Embedded {
     ThinningCircle,
     /// Elliptical contacts: `scenes/training/embedded_ellipse_model.ron`.
     Ellipse,
-    /// Line contacts with heat: `scenes/training/line_heat.ron`.
+    /// Line contacts of oils with heat: `scenes/training/line_heat.ron`.
     HeatedLine,
 }
 

@@ -88,6 +88,7 @@ struct StoredHeated {
 struct StoredHeatedOils {
     largest_radius_m: f64,
     speed_m_per_s: (f64, f64),
+    fastest_sliding_m_per_s: f64,
 }
 
 /// What follows the oils of a model whose pressure modes are made of one basis, or that leaves thin films out, or has heat;
@@ -192,7 +193,8 @@ pub(super) fn sound_domain(domain: &Domain) -> bool {
         let intervals =
             [(heat.srr, LARGEST_HEATED_SRR), (heat.radius_m, f64::MAX), (heat.speed_m_per_s, f64::INFINITY)];
         let sound = |(interval, most)| sound_interval(interval, most);
-        kind && intervals.into_iter().all(sound) && positive(heat.radius_m.0) && positive(heat.modulus_pa)
+        let slides = heat.fastest_sliding_m_per_s > 0.0;
+        kind && slides && intervals.into_iter().all(sound) && positive(heat.radius_m.0) && positive(heat.modulus_pa)
     };
     (heat.is_some() || thins == sliding.is_some())
         && heat.as_ref().is_none_or(heat_is_sound)
@@ -408,7 +410,8 @@ fn shares_deformation(window: &Window, other: &Window) -> bool {
 impl StoredHeatedOils {
     /// Of bodies of one radius, at any speed.
     fn of_one_radius(radius_m: f64) -> Self {
-        Self { largest_radius_m: radius_m, speed_m_per_s: (0.0, f64::INFINITY) }
+        let any = f64::INFINITY;
+        Self { largest_radius_m: radius_m, speed_m_per_s: (0.0, any), fastest_sliding_m_per_s: any }
     }
 }
 
@@ -425,9 +428,11 @@ impl StoredOils {
 
 /// What only a model of contacts with heat has.
 fn stored_heat(model: &ReducedModel) -> Option<(StoredHeated, StoredHeatedOils)> {
-    let HeatDomain { srr, radius_m: (radius_m, largest_radius_m), modulus_pa, speed_m_per_s } = model.domain.heat?;
+    let HeatDomain { srr, modulus_pa, speed_m_per_s, fastest_sliding_m_per_s, .. } = model.domain.heat?;
+    let (radius_m, largest_radius_m) = model.domain.heat?.radius_m;
     let heat = model.domain.lubricant.heat?.into();
-    Some((StoredHeated { heat, srr, radius_m, modulus_pa }, StoredHeatedOils { largest_radius_m, speed_m_per_s }))
+    let further = StoredHeatedOils { largest_radius_m, speed_m_per_s, fastest_sliding_m_per_s };
+    Some((StoredHeated { heat, srr, radius_m, modulus_pa }, further))
 }
 
 /// A snapshot as its window keeps it: coefficients of windows around anchors have a place of their own.
@@ -693,8 +698,9 @@ pub(super) fn decode(payload: &[u8], observer: &dyn Observer) -> Result<ReducedM
     let Further { further, shapes, mut oils, in_common, heated } =
         further(rest, windows.len()).ok_or(damaged("rupture and schemes"))?;
     if let Some((StoredHeated { heat, srr, radius_m, modulus_pa }, further)) = heated {
-        let StoredHeatedOils { largest_radius_m, speed_m_per_s } = further;
-        let of_heat = HeatDomain { srr, radius_m: (radius_m, largest_radius_m), modulus_pa, speed_m_per_s };
+        let StoredHeatedOils { largest_radius_m, speed_m_per_s, fastest_sliding_m_per_s } = further;
+        let radius_m = (radius_m, largest_radius_m);
+        let of_heat = HeatDomain { srr, radius_m, modulus_pa, speed_m_per_s, fastest_sliding_m_per_s };
         (domain.lubricant.heat, domain.heat) = (Some(heat.into()), Some(of_heat));
     }
     if !sound_domain(&domain) {

@@ -69,7 +69,9 @@ fn it_is_mirrored_by_the_sliding_and_newtonian_at_a_plateau_of_one() {
 fn what_it_was_not_trained_for_is_said() {
     let base = points(range(), 1, 3)[0];
     // M and L of its range, but more pressure than it was trained for.
-    let heavy = SlidingRange { max_hertz_pressure: None, ..range() }.at(POINT, [0.9, 0.9, 0.5, 0.5]).unwrap();
+    let SlidingRange { m: (_, m), l: (_, l), .. } = range();
+    let heaviest = SlidingRange { m: (0.9 * m, m), l: (0.9 * l, l), max_hertz_pressure: None, ..range() };
+    let heavy = points(heaviest, 1, 3)[0];
     let further = [(OperatingPoint { load: 1e3 * base.load, ..base }, "M ="), (heavy, "p_H")];
     assert_limits_are_said(&online(), base, &further);
 }

@@ -48,6 +48,8 @@ pub struct HeatDomain {
     pub modulus_pa: f64,
     /// u_m \[m/s\].
     pub speed_m_per_s: (f64, f64),
+    /// Largest |SRR| u_m \[m/s\].
+    pub fastest_sliding_m_per_s: f64,
 }
 
 /// E′ \[Pa\] at which radii are counted where films warm: that of steel on steel.
@@ -266,7 +268,10 @@ impl HeatDomain {
         let srr = point.sliding.slide_to_roll_ratio;
         let srr = if alike { srr.abs() } else { srr };
         let srr = Bounded { name: "SRR", value: srr, range: self.srr, scale: 1.0, unit: "" };
-        [speed, srr].iter().find_map(Bounded::outside)
+        let value = (point.sliding.slide_to_roll_ratio * point.speed_m_per_s).abs();
+        let range = (0.0, self.fastest_sliding_m_per_s);
+        let sliding = Bounded { name: "the sliding speed SRR u_m", value, range, scale: 1.0, unit: " m/s" };
+        [speed, srr, sliding].iter().find_map(Bounded::outside)
     }
 
     /// A sentence where a contact with heat is that of another radius.

@@ -72,7 +72,7 @@ fn alike(point: &OperatingPoint, stiffer: f64) -> OperatingPoint {
 fn contacts_of_equal_radius_over_cubed_modulus_are_alike_temperatures_too() {
     let spec = heated_oils(Sampling::All, 8);
     let Windows::Anchored { grid, .. } = spec.windows else { panic!() };
-    let mut solver = ContactSolver::new(grid).unwrap();
+    let mut solver = ContactSolver::on(&grid.build().unwrap());
     for point in random_points(&spec.range, ContactKind::Line, 3, 5) {
         let other = alike(&point, 0.8);
         assert!((other.speed_m_per_s / point.speed_m_per_s - 1.0).abs() < 1e-9, "it is the speed that counts");
@@ -127,6 +127,7 @@ fn ranges_of_many_oils_with_heat_are_refused_with_their_field_and_hold_what_they
     assert!(refused(HeatedOilRange { srr: (0.0, 2.0), ..range }).contains("srr"));
     assert!(refused(HeatedOilRange { radius: (0.2, 0.1), ..range }).contains("radius"));
     assert!(refused(HeatedOilRange { speed: (1.0, f64::NAN), ..range }).contains("speed"));
+    assert!(refused(HeatedOilRange { sliding_speed: 0.0, ..range }).contains("sliding_speed"));
     let oils = OilRange { l: (-1.0, 2.0), ..range.oils };
     assert!(refused(HeatedOilRange { oils, ..range }).contains("oils"));
     assert!(good.clone().heated(None).check().is_err());
@@ -136,6 +137,7 @@ fn ranges_of_many_oils_with_heat_are_refused_with_their_field_and_hold_what_they
     for point in &points {
         let srr = point.sliding.slide_to_roll_ratio;
         assert!((0.2..=10.0).contains(&point.speed_m_per_s) && (0.0..=0.5).contains(&srr));
+        assert!(srr * point.speed_m_per_s <= 3.0);
         assert!((5e-3 * (1.0 - 1e-9)..=20e-3 * (1.0 + 1e-9)).contains(&point.radius_m));
         (slowest, fastest) = (slowest.min(point.speed_m_per_s), fastest.max(point.speed_m_per_s));
     }

@@ -6,7 +6,7 @@
 
 use super::oil_range::{OilRange, beyond};
 use super::range::{Unit, between, hertz_pressure, linear, logarithmic, single, up_to};
-use crate::solver::limits::{Refused, interval};
+use crate::solver::limits::{Refused, interval, number};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, Sliding};
 use crate::solver::physics::lubricant::LARGEST_HEATED_SRR;
 use crate::solver::reduced::{HeatDomain, STEEL_ON_STEEL_PA};
@@ -67,7 +67,13 @@ impl HeatedRange {
     /// What a model of it declares beside M, L, α, η₀ and p_H.
     pub(super) fn declared(&self) -> HeatDomain {
         let Self { srr, radius, modulus, .. } = *self;
-        HeatDomain { srr, radius_m: (radius, radius), modulus_pa: modulus, speed_m_per_s: (0.0, f64::INFINITY) }
+        HeatDomain {
+            srr,
+            radius_m: (radius, radius),
+            modulus_pa: modulus,
+            speed_m_per_s: (0.0, f64::INFINITY),
+            fastest_sliding_m_per_s: f64::INFINITY,
+        }
     }
 }
 
@@ -84,6 +90,8 @@ pub struct HeatedOilRange {
     pub radius: (f64, f64),
     /// u_m \[m/s\].
     pub speed: (f64, f64),
+    /// Largest sliding speed SRR u_m \[m/s\]: heat goes with it.
+    pub sliding_speed: f64,
 }
 
 impl HeatedOilRange {
@@ -95,7 +103,8 @@ impl HeatedOilRange {
         self.oils.check().map_err(|refused| refused.within("oils"))?;
         interval("srr", self.srr, 0.0, LARGEST_HEATED_SRR)?;
         between(Quantity::Radius, self.radius)?;
-        between(Quantity::Speed, self.speed)
+        between(Quantity::Speed, self.speed)?;
+        number("sliding_speed", self.sliding_speed, 1e-3, 1e3)
     }
 
     /// The line contact at coordinates in the unit cube, by ln M, L, α, η₀, ln R and SRR; `None` where the range excludes
@@ -107,21 +116,23 @@ impl HeatedOilRange {
             modulus_pa: Some(STEEL_ON_STEEL_PA),
             ..self.oils.request(ContactKind::Line, unit)
         };
-        let point = self.oils.contact(&request)?;
-        let (slowest, fastest) = self.speed;
-        (slowest..=fastest).contains(&point.speed_m_per_s).then(|| sliding(point, linear(self.srr, srr)))
+        let (point, srr) = (self.oils.contact(&request)?, linear(self.srr, srr));
+        let (speed, (slowest, fastest)) = (point.speed_m_per_s, self.speed);
+        let inside = (slowest..=fastest).contains(&speed) && srr * speed <= self.sliding_speed;
+        inside.then(|| sliding(point, srr))
     }
 
     /// A little more on all sides.
     pub(super) fn beyond(&self) -> Self {
-        let Self { oils, srr, radius, speed } = *self;
-        Self { oils: oils.beyond(), srr, radius: beyond(radius), speed: beyond(speed) }
+        let Self { oils, srr, radius, speed, sliding_speed } = *self;
+        let (radius, speed, (_, sliding_speed)) = (beyond(radius), beyond(speed), beyond((0.0, sliding_speed)));
+        Self { oils: oils.beyond(), srr, radius, speed, sliding_speed }
     }
 
     /// What a model of it declares beside the oils, M, L, α and p_H.
     pub(super) fn declared(&self) -> HeatDomain {
-        let Self { srr, radius: radius_m, speed: speed_m_per_s, .. } = *self;
-        HeatDomain { srr, radius_m, modulus_pa: STEEL_ON_STEEL_PA, speed_m_per_s }
+        let Self { srr, radius: radius_m, speed: speed_m_per_s, sliding_speed: fastest_sliding_m_per_s, .. } = *self;
+        HeatDomain { srr, radius_m, modulus_pa: STEEL_ON_STEEL_PA, speed_m_per_s, fastest_sliding_m_per_s }
     }
 }
 

@@ -35,7 +35,7 @@ const MAX_DRAWS: usize = 10_000;
 pub(super) type Drawn = (Unit, OperatingPoint);
 
 /// Units of ln u_m, and of SRR, in the lengths of [`oil_place`]: how much heat changes registered pressures.
-const HEAT_LENGTHS: [f64; 2] = [0.06, 0.2];
+const HEAT_LENGTHS: [f64; 2] = [0.1, 0.4];
 
 /// Where a contact of many oils lies among others, with heat or without.
 fn place_of_oil(point: &OperatingPoint, heat: bool) -> Unit {

@@ -81,8 +81,10 @@ impl From<&Domain> for Range {
             thinnest_film: oils.thinnest_film,
         });
         match (oils, domain.heat) {
-            (Some(oils), Some(HeatDomain { srr, radius_m: radius, speed_m_per_s: speed, .. })) => {
-                return Self::HeatedOils(HeatedOilRange { oils, srr, radius, speed });
+            (Some(oils), Some(heat)) => {
+                let HeatDomain { srr, radius_m: radius, speed_m_per_s: speed, .. } = heat;
+                let sliding_speed = heat.fastest_sliding_m_per_s;
+                return Self::HeatedOils(HeatedOilRange { oils, srr, radius, speed, sliding_speed });
             }
             (Some(oils), None) => return Self::Oils(oils),
             (None, Some(heat)) => {

@@ -118,7 +118,7 @@ fn range_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
             form.row(ui, "Highest {p_H}", GIGAPASCAL, max_hertz_pressure, "Contacts beyond it are left out");
         }
         Range::Oils(range) => oils(ui, form, range),
-        Range::HeatedOils(HeatedOilRange { oils: range, srr, radius, speed }) => {
+        Range::HeatedOils(HeatedOilRange { oils: range, srr, radius, speed, sliding_speed }) => {
             oils(ui, form, range);
             form.interval(ui, "Slide-to-roll ratio", PLAIN, srr, "Of contacts with heat");
             form.interval(
@@ -129,6 +129,7 @@ fn range_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
                 "Reduced radius at E′ = 231 GPa; R/E′³ is what counts",
             );
             form.interval(ui, "Mean speed {u_m}", ("m/s", 1.0), speed, "Faster and slower contacts are left out");
+            form.row(ui, "Highest SRR {u_m}", ("m/s", 1.0), sliding_speed, "Contacts that slide faster are left out");
         }
         Range::Heated(HeatedRange { m, l, srr, max_hertz_pressure, .. }) => {
             form.interval(ui, "Load number {M}", PLAIN, m, "Moes’ load number (3.19), by the load");
