@@ -144,20 +144,19 @@ pub fn describe(model: &ReducedModel) -> String {
         let _ = writeln!(text, "  SRR {srr}…{most}, NPR {npr}…{full}, E′ {modulus:.3} GPa, {:?}", d.lubricant.shear);
     }
     if let Some((heat, laws)) = d.heat.zip(d.lubricant.heat) {
-        let ((srr, most), (smallest, largest)) = (heat.srr, heat.radius_m);
-        let (modulus, inlet) = (heat.modulus_pa / 1e9, laws.inlet_temperature);
-        let radius = if smallest == largest {
-            format!("{:.3} mm", smallest * 1e3)
-        } else {
-            let (slowest, fastest) = heat.speed_m_per_s;
-            let sliding = heat.fastest_sliding_m_per_s;
-            let [from, to] = [smallest, largest].map(|radius| radius * 1e3);
-            format!("{from}…{to} mm, u_m {slowest}…{fastest} m/s, SRR u_m up to {sliding} m/s")
+        let ((srr, most), inlet) = (heat.srr, laws.inlet_temperature);
+        let interval = |(low, high): (f64, f64), scale: f64| {
+            if low == high { format!("{:.3}", low * scale) } else { format!("{}…{}", low * scale, high * scale) }
         };
+        let (radius, modulus) = (interval(heat.radius_m, 1e3), interval(heat.modulus_pa, 1e-9));
+        let speeds = d.oils.map_or_else(String::new, |_| {
+            let ((slowest, fastest), sliding) = (heat.speed_m_per_s, heat.fastest_sliding_m_per_s);
+            format!(", u_m {slowest}…{fastest} m/s, SRR u_m up to {sliding} m/s")
+        });
+        let shear = d.lubricant.shear;
         let _ = writeln!(
             text,
-            "  heat: SRR {srr}…{most}, R {radius} at E′ {modulus:.3} GPa, inlet {inlet} K, {:?}",
-            d.lubricant.shear
+            "  heat: SRR {srr}…{most}, R {radius} mm, E′ {modulus} GPa{speeds}, inlet {inlet} K, {shear:?}"
         );
     }
     if d.radius_ratio != CIRCLES {

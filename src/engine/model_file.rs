@@ -377,7 +377,7 @@ mod tests {
         let lies: [fn(&mut HeatDomain); 3] = [
             |heat| heat.radius_m = (0.2, 0.1),
             |heat| heat.speed_m_per_s = (f64::NAN, 3.0),
-            |heat| heat.modulus_pa = 0.0,
+            |heat| heat.modulus_pa = (0.0, 2e11),
         ];
         for lie in lies {
             let mut wrong = model.clone();

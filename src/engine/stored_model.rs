@@ -78,7 +78,7 @@ struct StoredOils {
 struct StoredHeated {
     heat: StoredHeat,
     srr: (f64, f64),
-    /// The smallest R, and E′.
+    /// The smallest R and E′.
     radius_m: f64,
     modulus_pa: f64,
 }
@@ -87,6 +87,7 @@ struct StoredHeated {
 #[derive(Serialize, Deserialize)]
 struct StoredHeatedOils {
     largest_radius_m: f64,
+    largest_modulus_pa: f64,
     speed_m_per_s: (f64, f64),
     fastest_sliding_m_per_s: f64,
 }
@@ -190,11 +191,11 @@ pub(super) fn sound_domain(domain: &Domain) -> bool {
     };
     let heat_is_sound = |heat: &HeatDomain| {
         let kind = sliding.is_none() && lubricant.heat.is_some();
-        let intervals =
-            [(heat.srr, LARGEST_HEATED_SRR), (heat.radius_m, f64::MAX), (heat.speed_m_per_s, f64::INFINITY)];
+        let (radius, modulus) = ((heat.radius_m, f64::MAX), (heat.modulus_pa, f64::MAX));
+        let intervals = [(heat.srr, LARGEST_HEATED_SRR), radius, modulus, (heat.speed_m_per_s, f64::INFINITY)];
+        let lowest = [heat.radius_m.0, heat.modulus_pa.0].into_iter().all(positive);
         let sound = |(interval, most)| sound_interval(interval, most);
-        let slides = heat.fastest_sliding_m_per_s > 0.0;
-        kind && slides && intervals.into_iter().all(sound) && positive(heat.radius_m.0) && positive(heat.modulus_pa)
+        kind && lowest && heat.fastest_sliding_m_per_s > 0.0 && intervals.into_iter().all(sound)
     };
     (heat.is_some() || thins == sliding.is_some())
         && heat.as_ref().is_none_or(heat_is_sound)
@@ -409,9 +410,13 @@ fn shares_deformation(window: &Window, other: &Window) -> bool {
 
 impl StoredHeatedOils {
     /// Of bodies of one radius, at any speed.
-    fn of_one_radius(radius_m: f64) -> Self {
-        let any = f64::INFINITY;
-        Self { largest_radius_m: radius_m, speed_m_per_s: (0.0, any), fastest_sliding_m_per_s: any }
+    fn of_one_radius(known: &StoredHeated) -> Self {
+        Self {
+            largest_radius_m: known.radius_m,
+            largest_modulus_pa: known.modulus_pa,
+            speed_m_per_s: (0.0, f64::INFINITY),
+            fastest_sliding_m_per_s: f64::INFINITY,
+        }
     }
 }
 
@@ -428,10 +433,10 @@ impl StoredOils {
 
 /// What only a model of contacts with heat has.
 fn stored_heat(model: &ReducedModel) -> Option<(StoredHeated, StoredHeatedOils)> {
-    let HeatDomain { srr, modulus_pa, speed_m_per_s, fastest_sliding_m_per_s, .. } = model.domain.heat?;
-    let (radius_m, largest_radius_m) = model.domain.heat?.radius_m;
+    let HeatDomain { srr, radius_m, modulus_pa, speed_m_per_s, fastest_sliding_m_per_s } = model.domain.heat?;
+    let ((radius_m, largest_radius_m), (modulus_pa, largest_modulus_pa)) = (radius_m, modulus_pa);
     let heat = model.domain.lubricant.heat?.into();
-    let further = StoredHeatedOils { largest_radius_m, speed_m_per_s, fastest_sliding_m_per_s };
+    let further = StoredHeatedOils { largest_radius_m, largest_modulus_pa, speed_m_per_s, fastest_sliding_m_per_s };
     Some((StoredHeated { heat, srr, radius_m, modulus_pa }, further))
 }
 
@@ -650,7 +655,7 @@ fn further(rest: &[u8], windows: usize) -> Option<Further> {
                 } else {
                     let (known, rest) = postcard::take_from_bytes::<StoredHeated>(rest).ok()?;
                     let alone = rest.is_empty() && of_circles;
-                    let of_one = StoredHeatedOils::of_one_radius(known.radius_m);
+                    let of_one = StoredHeatedOils::of_one_radius(&known);
                     heated = alone.then_some(Some((known, of_one)))?;
                 }
             }
@@ -698,8 +703,8 @@ pub(super) fn decode(payload: &[u8], observer: &dyn Observer) -> Result<ReducedM
     let Further { further, shapes, mut oils, in_common, heated } =
         further(rest, windows.len()).ok_or(damaged("rupture and schemes"))?;
     if let Some((StoredHeated { heat, srr, radius_m, modulus_pa }, further)) = heated {
-        let StoredHeatedOils { largest_radius_m, speed_m_per_s, fastest_sliding_m_per_s } = further;
-        let radius_m = (radius_m, largest_radius_m);
+        let StoredHeatedOils { largest_radius_m, largest_modulus_pa, speed_m_per_s, fastest_sliding_m_per_s } = further;
+        let (radius_m, modulus_pa) = ((radius_m, largest_radius_m), (modulus_pa, largest_modulus_pa));
         let of_heat = HeatDomain { srr, radius_m, modulus_pa, speed_m_per_s, fastest_sliding_m_per_s };
         (domain.lubricant.heat, domain.heat) = (Some(heat.into()), Some(of_heat));
     }

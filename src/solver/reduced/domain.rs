@@ -36,24 +36,20 @@ pub struct Domain {
     pub heat: Option<HeatDomain>,
 }
 
-/// What a model of contacts with heat is trained for beside M, L, α, η₀ and p_H. Contacts of equal M, L, α, η₀ and R/E′³
-/// are alike.
+/// What a model of contacts with heat is trained for beside M, L, α, η₀ and p_H.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeatDomain {
     /// |SRR|.
     pub srr: (f64, f64),
-    /// R \[m\] at its E′.
+    /// R \[m\].
     pub radius_m: (f64, f64),
     /// E′ \[Pa\].
-    pub modulus_pa: f64,
+    pub modulus_pa: (f64, f64),
     /// u_m \[m/s\].
     pub speed_m_per_s: (f64, f64),
     /// Largest |SRR| u_m \[m/s\].
     pub fastest_sliding_m_per_s: f64,
 }
-
-/// E′ \[Pa\] at which radii are counted where films warm: that of steel on steel.
-pub const STEEL_ON_STEEL_PA: f64 = 231e9;
 
 /// What a model of many oils was trained for beside M, L, α and the largest p_H; its η₀ is one in the middle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -246,15 +242,17 @@ fn other_modulus(trained: f64, given: f64) -> Option<String> {
     Some(format!("the model was trained with a reduced modulus of {own} GPa, not {given} GPa"))
 }
 
-/// How far from a radius it counts as that one.
+/// How far from a radius or a modulus it counts as that one.
 const ROUNDED: f64 = 1e-3;
 
 impl HeatDomain {
     /// A sentence that says in what a contact lies outside.
     fn outside(&self, problem: &Problem) -> Option<String> {
         let point = &problem.point;
-        if let Some(outside) = self.other_radius(point) {
-            return Some(outside);
+        let [radius, modulus] = [(point.radius_m, self.radius_m), (point.modulus_pa, self.modulus_pa)];
+        let outside = single("radius", radius, 1e3, "mm").or_else(|| single("reduced modulus", modulus, 1e-9, "GPa"));
+        if let Some(outside) = outside {
+            return Some(format!("{outside}; with heat that is another contact at equal M and L"));
         }
         let (speed, range) = (point.speed_m_per_s, self.speed_m_per_s);
         let speed = Bounded { name: "u_m", value: speed, range, scale: 1.0, unit: " m/s" };
@@ -273,22 +271,16 @@ impl HeatDomain {
         let sliding = Bounded { name: "the sliding speed SRR u_m", value, range, scale: 1.0, unit: " m/s" };
         [speed, srr, sliding].iter().find_map(Bounded::outside)
     }
+}
 
-    /// A sentence where a contact with heat is that of another radius.
-    fn other_radius(&self, point: &OperatingPoint) -> Option<String> {
-        let alike = point.radius_m * (self.modulus_pa / point.modulus_pa).powi(3);
-        let (low, high) = self.radius_m;
-        if (1.0 - ROUNDED..=1.0 + ROUNDED).contains(&(alike / alike.clamp(low, high))) {
-            return None;
-        }
-        let [low, high, radius, alike] = [low, high, point.radius_m, alike].map(|radius| digits(radius * 1e3));
-        let trained = if low == high { format!("a radius of {low} mm") } else { format!("radii of {low}…{high} mm") };
-        let modulus = digits(self.modulus_pa * 1e-9);
-        Some(format!(
-            "the model was trained with {trained} at E′ = {modulus} GPa; with heat a radius of {radius} mm is another \
-             contact at equal M and L, here that of {alike} mm"
-        ))
+/// A sentence where a value lies outside the one value, or the interval, that was trained, in so many shown units of SI.
+fn single(name: &str, (given, (low, high)): (f64, (f64, f64)), scale: f64, unit: &str) -> Option<String> {
+    if given >= low * (1.0 - ROUNDED) && given <= high * (1.0 + ROUNDED) {
+        return None;
     }
+    let trained = digits(low * scale);
+    let trained = if low == high { trained } else { format!("{trained}…{}", digits(high * scale)) };
+    Some(format!("the model was trained with a {name} of {trained} {unit}, not {} {unit}", digits(given * scale)))
 }
 
 impl SlidingDomain {

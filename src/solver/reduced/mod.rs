@@ -34,7 +34,7 @@ pub mod transient;
 pub use calibration::{Beside, Calibration, ErrorEstimate, Estimated, Evidence, Features, LEAST_EVIDENCE, Measured};
 pub use combined::{Combined, PressureModes, SharedBasis};
 pub use cubature::{GoalEquations, cubature};
-pub use domain::{CIRCLES, Domain, HeatDomain, OilDomain, STEEL_ON_STEEL_PA, SlidingDomain, Trust};
+pub use domain::{CIRCLES, Domain, HeatDomain, OilDomain, SlidingDomain, Trust};
 pub use error_measures::{ErrorMeasures, Norm, Residuals};
 pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
 pub use minimisation::Scheme;

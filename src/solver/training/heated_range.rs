@@ -1,15 +1,15 @@
 //! Contacts with heat: of one oil between bodies of one radius, or of many oils.
 //!
-//! What heat adds to M, L, α and η₀ is one number. With these given λ, p_H and the scaled film are; so is u_m ∝ a (a/R)²,
-//! with a/R = 4 p_H/E′, and Péclet's and Brinkman's numbers of the film and what its bodies take up go with that alone:
-//! contacts of equal M, L, α, η₀ and R/E′³ are alike, temperatures too. Radii are counted at one E′ therefore.
+//! With M, L, α and η₀ given λ, p_H and the scaled film are; so is u_m ∝ a (a/R)², with a/R = 4 p_H/E′, and Péclet's and
+//! Brinkman's numbers of the film and what its bodies take up go with that alone. A stress that is limited goes with a/R
+//! besides: so R and E′ are two further numbers.
 
 use super::oil_range::{OilRange, beyond};
 use super::range::{Unit, between, hertz_pressure, linear, logarithmic, single, up_to};
 use crate::solver::limits::{Refused, interval, number};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, Sliding};
 use crate::solver::physics::lubricant::LARGEST_HEATED_SRR;
-use crate::solver::reduced::{HeatDomain, STEEL_ON_STEEL_PA};
+use crate::solver::reduced::HeatDomain;
 use serde::{Deserialize, Serialize};
 
 /// All line contacts with M, L and SRR in these intervals and p_H up to a limit, with heat: R, E′, η₀ and α make M a load
@@ -70,15 +70,14 @@ impl HeatedRange {
         HeatDomain {
             srr,
             radius_m: (radius, radius),
-            modulus_pa: modulus,
+            modulus_pa: (modulus, modulus),
             speed_m_per_s: (0.0, f64::INFINITY),
             fastest_sliding_m_per_s: f64::INFINITY,
         }
     }
 }
 
-/// All line contacts of many oils with R, u_m and SRR in these intervals, with heat. E′ is free: contacts of equal R/E′³
-/// are alike.
+/// All line contacts of many oils with R, E′, u_m and SRR in these intervals, with heat.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HeatedOilRange {
@@ -86,8 +85,10 @@ pub struct HeatedOilRange {
     pub oils: OilRange,
     /// Slide-to-roll ratio; films hardly tell which body is the faster one where both are of one material.
     pub srr: (f64, f64),
-    /// R \[m\] at E′ = 231 GPa; by its logarithm.
+    /// R \[m\]; by its logarithm.
     pub radius: (f64, f64),
+    /// E′ \[Pa\]; by its logarithm.
+    pub modulus: (f64, f64),
     /// u_m \[m/s\].
     pub speed: (f64, f64),
     /// Largest sliding speed SRR u_m \[m/s\]: heat goes with it.
@@ -103,17 +104,18 @@ impl HeatedOilRange {
         self.oils.check().map_err(|refused| refused.within("oils"))?;
         interval("srr", self.srr, 0.0, LARGEST_HEATED_SRR)?;
         between(Quantity::Radius, self.radius)?;
+        between(Quantity::Modulus, self.modulus)?;
         between(Quantity::Speed, self.speed)?;
         number("sliding_speed", self.sliding_speed, 1e-3, 1e3)
     }
 
-    /// The line contact at coordinates in the unit cube, by ln M, L, α, η₀, ln R and SRR; `None` where the range excludes
+    /// The line contact at coordinates in the unit cube, by ln M, L, α, η₀, R, SRR and E′; `None` where the range excludes
     /// it.
     pub(super) fn at(&self, unit: Unit) -> Option<OperatingPoint> {
-        let [.., radius, srr] = unit;
+        let [.., radius, srr, modulus] = unit;
         let request = MoesRequest {
             radius_m: Some(logarithmic(self.radius, radius)),
-            modulus_pa: Some(STEEL_ON_STEEL_PA),
+            modulus_pa: Some(logarithmic(self.modulus, modulus)),
             ..self.oils.request(ContactKind::Line, unit)
         };
         let (point, srr) = (self.oils.contact(&request)?, linear(self.srr, srr));
@@ -124,15 +126,16 @@ impl HeatedOilRange {
 
     /// A little more on all sides.
     pub(super) fn beyond(&self) -> Self {
-        let Self { oils, srr, radius, speed, sliding_speed } = *self;
-        let (radius, speed, (_, sliding_speed)) = (beyond(radius), beyond(speed), beyond((0.0, sliding_speed)));
-        Self { oils: oils.beyond(), srr, radius, speed, sliding_speed }
+        let Self { oils, srr, radius, modulus, speed, sliding_speed } = *self;
+        let (_, sliding_speed) = beyond((0.0, sliding_speed));
+        let [radius, modulus, speed] = [radius, modulus, speed].map(beyond);
+        Self { oils: oils.beyond(), srr, radius, modulus, speed, sliding_speed }
     }
 
     /// What a model of it declares beside the oils, M, L, α and p_H.
     pub(super) fn declared(&self) -> HeatDomain {
-        let Self { srr, radius: radius_m, speed: speed_m_per_s, sliding_speed: fastest_sliding_m_per_s, .. } = *self;
-        HeatDomain { srr, radius_m, modulus_pa: STEEL_ON_STEEL_PA, speed_m_per_s, fastest_sliding_m_per_s }
+        let Self { srr, radius: radius_m, modulus: modulus_pa, speed: speed_m_per_s, sliding_speed, .. } = *self;
+        HeatDomain { srr, radius_m, modulus_pa, speed_m_per_s, fastest_sliding_m_per_s: sliding_speed }
     }
 }
 

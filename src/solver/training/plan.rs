@@ -23,7 +23,7 @@ pub(super) fn local_point(reference: Unit, sigma: f64, count: usize, rng: &mut R
 
 /// So many coordinates of (3.17) in the unit cube, in the middle of the others.
 pub(super) fn global_point(count: usize, rng: &mut Rng) -> Unit {
-    let mut unit = [0.5; 6];
+    let mut unit = [0.5; 7];
     unit.iter_mut().take(count).for_each(|v| *v = 0.5 * (1.0 - (PI * rng.f64()).cos()));
     unit
 }
@@ -38,7 +38,7 @@ pub(super) type Drawn = (Unit, OperatingPoint);
 const HEAT_LENGTHS: [f64; 2] = [0.1, 0.4];
 
 /// Where a contact of many oils lies among others, with heat or without.
-fn place_of_oil(point: &OperatingPoint, heat: bool) -> Unit {
+fn place_of_oil(point: &OperatingPoint, heat: bool) -> [f64; 6] {
     let [m, l, p_h, z] = oil_place(point);
     let by_heat = [point.speed_m_per_s.ln(), point.sliding.slide_to_roll_ratio];
     let [u, srr] = if heat { [0, 1].map(|k| HEAT_LENGTHS[k] * by_heat[k]) } else { [0.0; 2] };
@@ -185,6 +185,7 @@ pub(super) fn grid_points(range: &Range, kind: ContactKind, nodes: [usize; 4]) -
                         unit(u, nodes[1]),
                         log_unit(unit(w, nodes[2])),
                         unit(a, nodes[3]),
+                        0.5,
                         0.5,
                         0.5,
                     ];

@@ -62,7 +62,7 @@ pub enum Range {
 }
 
 /// Coordinates in the unit cube, of which a range uses as many as it has quantities.
-pub(super) type Unit = [f64; 6];
+pub(super) type Unit = [f64; 7];
 
 impl From<&Domain> for Range {
     /// The intervals that a model declares; what it knows of sliding is left out.
@@ -82,9 +82,9 @@ impl From<&Domain> for Range {
         });
         match (oils, domain.heat) {
             (Some(oils), Some(heat)) => {
-                let HeatDomain { srr, radius_m: radius, speed_m_per_s: speed, .. } = heat;
+                let HeatDomain { srr, radius_m: radius, modulus_pa: modulus, speed_m_per_s: speed, .. } = heat;
                 let sliding_speed = heat.fastest_sliding_m_per_s;
-                return Self::HeatedOils(HeatedOilRange { oils, srr, radius, speed, sliding_speed });
+                return Self::HeatedOils(HeatedOilRange { oils, srr, radius, modulus, speed, sliding_speed });
             }
             (Some(oils), None) => return Self::Oils(oils),
             (None, Some(heat)) => {
@@ -93,7 +93,7 @@ impl From<&Domain> for Range {
                     l: domain.l,
                     srr: heat.srr,
                     radius: heat.radius_m.0,
-                    modulus: heat.modulus_pa,
+                    modulus: heat.modulus_pa.0,
                     viscosity: domain.viscosity_pa_s,
                     alpha: domain.alpha_per_pa.0,
                     max_hertz_pressure: domain.max_hertz_pressure_pa,
@@ -254,7 +254,7 @@ impl SlidingRange {
     /// The largest Hertzian pressure \[Pa\] of a kind of contact in it; 0 where M and L make no contact.
     pub fn highest_pressure(&self, kind: ContactKind) -> f64 {
         let unlimited = Self { max_hertz_pressure: None, ..*self };
-        let heaviest = unlimited.at(kind, [1.0; 6]).map_or(0.0, |point| point.hertz().pressure_pa);
+        let heaviest = unlimited.at(kind, [1.0; 7]).map_or(0.0, |point| point.hertz().pressure_pa);
         heaviest.min(self.max_hertz_pressure.unwrap_or(f64::INFINITY))
     }
 }
@@ -267,7 +267,7 @@ impl Range {
 
     /// Coordinates that it uses of the unit cube, at least four.
     pub(super) fn coordinates(&self) -> usize {
-        if matches!(self, Self::HeatedOils(_)) { 6 } else { 4 }
+        if matches!(self, Self::HeatedOils(_)) { 7 } else { 4 }
     }
 
     /// Refuses what is empty, inverted or beyond any sense.
@@ -306,7 +306,7 @@ impl Range {
     /// the range excludes it.
     pub fn trajectory(&self, kind: ContactKind, c: f64) -> Option<OperatingPoint> {
         let [r, u, w, alpha] = QuantityBox::trajectory_place(c);
-        self.at(kind, [r, u, w, alpha, 0.5, 0.5])
+        self.at(kind, [r, u, w, alpha, 0.5, 0.5, 0.5])
     }
 
     /// The operating point of a kind at coordinates in the unit cube, of which as many are used as the range has
@@ -439,7 +439,7 @@ mod tests {
         let mut inside = 0;
         for i in 0..=10 {
             for j in 0..=10 {
-                let unit = [f64::from(i) / 10.0, f64::from(j) / 10.0, 0.5, 0.25, 0.5, 0.5];
+                let unit = [f64::from(i) / 10.0, f64::from(j) / 10.0, 0.5, 0.25, 0.5, 0.5, 0.5];
                 let Some(point) = SLIDING.at(ContactKind::Point, unit) else { continue };
                 let moes = point.moes();
                 assert!(point.hertz().pressure_pa <= 660e6);

@@ -143,9 +143,16 @@ pub(crate) fn heated_oils(sampling: Sampling, snapshots: usize) -> TrainingSpec 
         hertz_pressure: (0.5e9, 1.4e9),
         thinnest_film: 0.0,
     };
-    let range = HeatedOilRange { oils, srr: (0.0, 0.5), radius: (5e-3, 20e-3), speed: (0.2, 10.0), sliding_speed: 3.0 };
+    let range = HeatedOilRange {
+        oils,
+        srr: (0.0, 0.5),
+        radius: (5e-3, 20e-3),
+        modulus: (200e9, 240e9),
+        speed: (0.2, 10.0),
+        sliding_speed: 3.0,
+    };
     let one = heated(sampling, snapshots);
-    let windows = Windows::Anchored { count: 2, modes: 24, grid: HEATED_GRID, shared: 0 };
+    let windows = Windows::Anchored { count: 2, modes: 40, grid: HEATED_GRID, shared: 0 };
     TrainingSpec {
         range: Range::HeatedOils(range),
         windows,

@@ -118,16 +118,11 @@ fn range_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
             form.row(ui, "Highest {p_H}", GIGAPASCAL, max_hertz_pressure, "Contacts beyond it are left out");
         }
         Range::Oils(range) => oils(ui, form, range),
-        Range::HeatedOils(HeatedOilRange { oils: range, srr, radius, speed, sliding_speed }) => {
+        Range::HeatedOils(HeatedOilRange { oils: range, srr, radius, modulus, speed, sliding_speed }) => {
             oils(ui, form, range);
             form.interval(ui, "Slide-to-roll ratio", PLAIN, srr, "Of contacts with heat");
-            form.interval(
-                ui,
-                "Radius {R}",
-                ("mm", 1e-3),
-                radius,
-                "Reduced radius at E′ = 231 GPa; R/E′³ is what counts",
-            );
+            form.interval(ui, "Radius {R}", ("mm", 1e-3), radius, "Reduced radius of curvature (2.3)");
+            form.interval(ui, "Modulus {E'}", GIGAPASCAL, modulus, "Reduced modulus (2.5)");
             form.interval(ui, "Mean speed {u_m}", ("m/s", 1.0), speed, "Faster and slower contacts are left out");
             form.row(ui, "Highest SRR {u_m}", ("m/s", 1.0), sliding_speed, "Contacts that slide faster are left out");
         }
