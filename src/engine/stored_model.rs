@@ -165,14 +165,16 @@ impl StoredRows {
         if !enough || gnat != residual.is_some() || !residual.iter().all(fits) {
             return damaged("scheme");
         }
-        let fit = rows.is_sorted_by(|a, b| a < b)
-            && rows.last().is_some_and(|&row| row < grid.unknowns())
-            && reconstruction.ncols() == rows.len();
-        if !fit {
+        if !are_rows(&rows, grid) || reconstruction.ncols() != rows.len() {
             return damaged("sampled rows");
         }
         Ok(SampledRows { rows, reconstruction, scheme, residual: residual.flatten() })
     }
+}
+
+/// Whether a grid has these rows, at least one, in ascending order.
+fn are_rows(rows: &[usize], grid: &ContactGrid) -> bool {
+    rows.is_sorted_by(|a, b| a < b) && rows.last().is_some_and(|&row| row < grid.unknowns())
 }
 
 /// Whether two numbers are the ends of an interval within 0…`most`.
@@ -268,7 +270,8 @@ impl StoredWindow {
         if modes == 0 {
             return damaged("bases");
         }
-        if self.sampled_rows.iter().any(|&row| row >= grid.unknowns()) {
+        // What they make may have to be told by the modes there.
+        if !are_rows(&self.sampled_rows, &grid) {
             return damaged("sampled rows");
         }
         let of_rows = || modes_at(&grid, &pressure, &self.sampled_rows);
@@ -576,7 +579,6 @@ fn anchor(model: &mut ReducedModel, StoredOils { oils, windows }: StoredOils) ->
     if !(sound && fits) || model.domain.sliding.is_some() {
         return None;
     }
-    model.domain.oils = Some(oils);
     for (window, (m, l)) in model.windows.iter_mut().zip(anchors) {
         window.anchor = Some(Moes { m, l });
     }

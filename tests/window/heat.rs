@@ -2,7 +2,7 @@
 //! and full solutions elsewhere.
 
 use crate::common::scratch::Scratch;
-use crate::driver::{choose, click, export, press, set, shows, undo, wait, wait_until, write};
+use crate::driver::{Window, choose, click, export, press, set, shows, undo, wait, wait_until, write};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -11,11 +11,17 @@ use std::time::{Duration, Instant};
 
 const PATIENCE: Duration = Duration::from_secs(300);
 
-#[test]
-fn a_contact_with_heat_is_drawn_at_once_and_its_temperatures_stand_in_results() {
+/// The window with the program's models, at rest on its first contact.
+fn verified() -> Window {
     let explorer = Explorer::with_embedded_models().without_system_dialogs();
     let mut harness = crate::driver::window(explorer, [1280.0, 1900.0]);
     wait(&mut harness, "verification", |app| app.badge() == "Verified");
+    harness
+}
+
+#[test]
+fn a_contact_with_heat_is_drawn_at_once_and_its_temperatures_stand_in_results() {
+    let mut harness = verified();
     let cold = harness.state().central_film().expect("a picture");
     click(&mut harness, "Heat");
     // The model is read, draws, and is verified by a full solution with heat.
@@ -54,9 +60,7 @@ fn a_contact_with_heat_is_drawn_at_once_and_its_temperatures_stand_in_results() 
 
 #[test]
 fn a_traction_curve_with_heat_lies_below_the_one_without() {
-    let explorer = Explorer::with_embedded_models().without_system_dialogs();
-    let mut harness = crate::driver::window(explorer, [1280.0, 1900.0]);
-    wait(&mut harness, "verification", |app| app.badge() == "Verified");
+    let mut harness = verified();
     click(&mut harness, "Heat");
     click(&mut harness, "Traction");
     let folder = Scratch::new("traction-with-heat");
@@ -87,9 +91,7 @@ fn a_traction_curve_with_heat_lies_below_the_one_without() {
 
 #[test]
 fn a_ball_with_heat_has_a_map_of_its_temperatures() {
-    let explorer = Explorer::with_embedded_models().without_system_dialogs();
-    let mut harness = crate::driver::window(explorer, [1280.0, 1900.0]);
-    wait(&mut harness, "verification", |app| app.badge() == "Verified");
+    let mut harness = verified();
     click(&mut harness, "Ball");
     wait(&mut harness, "verification", |app| app.badge() == "Verified" && !app.busy());
     click(&mut harness, "Contact map");

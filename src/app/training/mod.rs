@@ -161,7 +161,7 @@ impl Training {
     pub fn start(&mut self, ctx: &Context, document: &Document) {
         let Some(spec) = document.training_spec().cloned() else { return };
         // Its films rupture as those of the contact do, and warm themselves where it is about heat.
-        let heat = document.lubricant.heat.filter(|_| matches!(spec.range, Range::Heated(_) | Range::HeatedOils(_)));
+        let heat = document.lubricant.heat.filter(|_| spec.range.heats());
         let spec = spec.under(document.lubricant.cavitation).heated(heat);
         match spec.check() {
             Ok(()) => self.run(ctx, TrainingState::new(spec)),
@@ -231,10 +231,7 @@ impl Training {
         let (ellipses, thins) =
             (matches!(spec.range, Range::Ellipses { .. }), spec.lubricant.shear != ShearLaw::Newtonian);
         // That of ellipses is large: it stands here once it is in use.
-        let of_kind = match spec.range {
-            Range::Heated(_) | Range::HeatedOils(_) => Embedded::HeatedLine,
-            _ => Embedded::of_kind(kind, thins),
-        };
+        let of_kind = if spec.range.heats() { Embedded::HeatedLine } else { Embedded::of_kind(kind, thins) };
         let round = (!ellipses).then_some(of_kind);
         let embedded = round.and_then(|which| answers.store.embedded(which).ok());
         let in_use = answers.models.shaped(kind, ellipses, &spec.lubricant).cloned();

@@ -37,14 +37,15 @@ impl Solution {
     /// P and H at a place of a point contact, bilinearly between the nodes of either half; `None` outside and for a
     /// line contact.
     pub fn at(&self, x: f64, y: f64) -> Option<(f64, f64)> {
-        Some((self.value_at(&self.pressure, x, y)?, self.value_at(&self.film, x, y)?))
+        let at = |values: &[f64]| self.value_at(|node| values.get(node).copied(), x, y);
+        Some((at(&self.pressure)?, at(&self.film)?))
     }
 
-    /// The same of any node array that is even in Y.
-    pub fn value_at(&self, values: &[f64], x: f64, y: f64) -> Option<f64> {
+    /// The same of any value that nodes have and that is even in Y.
+    pub fn value_at(&self, value: impl Fn(usize) -> Option<f64>, x: f64, y: f64) -> Option<f64> {
         let ny = self.y.len();
         let ((i, s), (j, t)) = (cell(&self.x, x)?, cell(&self.y, -y.abs())?);
-        let at = |i: usize, j: usize| values.get(i * ny + j).copied();
+        let at = |i: usize, j: usize| value(i * ny + j);
         let column = |i: usize| Some((1.0 - t) * at(i, j - 1)? + t * at(i, j)?);
         Some((1.0 - s) * column(i - 1)? + s * column(i)?)
     }

@@ -233,15 +233,6 @@ impl OilDomain {
     }
 }
 
-/// A sentence where a contact has another reduced modulus \[Pa\].
-fn other_modulus(trained: f64, given: f64) -> Option<String> {
-    if (given / trained - 1.0).abs() <= 1e-3 {
-        return None;
-    }
-    let [own, given] = [trained, given].map(|modulus| digits(modulus * 1e-9));
-    Some(format!("the model was trained with a reduced modulus of {own} GPa, not {given} GPa"))
-}
-
 /// How far from a radius or a modulus it counts as that one.
 const ROUNDED: f64 = 1e-3;
 
@@ -249,9 +240,8 @@ impl HeatDomain {
     /// A sentence that says in what a contact lies outside.
     fn outside(&self, problem: &Problem) -> Option<String> {
         let point = &problem.point;
-        let [radius, modulus] = [(point.radius_m, self.radius_m), (point.modulus_pa, self.modulus_pa)];
-        let outside = single("radius", radius, 1e3, "mm").or_else(|| single("reduced modulus", modulus, 1e-9, "GPa"));
-        if let Some(outside) = outside {
+        let radius = other("radius", (point.radius_m, self.radius_m), 1e3, "mm");
+        if let Some(outside) = radius.or_else(|| other_modulus(point, self.modulus_pa)) {
             return Some(format!("{outside}; with heat that is another contact at equal M and L"));
         }
         let (speed, range) = (point.speed_m_per_s, self.speed_m_per_s);
@@ -273,8 +263,13 @@ impl HeatDomain {
     }
 }
 
+/// That sentence of a contact's reduced modulus \[Pa\].
+fn other_modulus(point: &OperatingPoint, trained: (f64, f64)) -> Option<String> {
+    other("reduced modulus", (point.modulus_pa, trained), 1e-9, "GPa")
+}
+
 /// A sentence where a value lies outside the one value, or the interval, that was trained, in so many shown units of SI.
-fn single(name: &str, (given, (low, high)): (f64, (f64, f64)), scale: f64, unit: &str) -> Option<String> {
+fn other(name: &str, (given, (low, high)): (f64, (f64, f64)), scale: f64, unit: &str) -> Option<String> {
     if given >= low * (1.0 - ROUNDED) && given <= high * (1.0 + ROUNDED) {
         return None;
     }
@@ -286,7 +281,7 @@ fn single(name: &str, (given, (low, high)): (f64, (f64, f64)), scale: f64, unit:
 impl SlidingDomain {
     /// A sentence that says in what a point lies outside.
     fn outside(&self, point: &OperatingPoint) -> Option<String> {
-        if let Some(other) = other_modulus(self.modulus_pa, point.modulus_pa) {
+        if let Some(other) = other_modulus(point, (self.modulus_pa, self.modulus_pa)) {
             return Some(other);
         }
         let npr = point.sliding.newtonian_plateau_ratio.unwrap_or(1.0);

@@ -127,7 +127,7 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
             return Err(Refused::new("cavitation", "must be the penalty for a reduced model of ellipses"));
         }
     }
-    if of_oils(&spec.range) {
+    if spec.range.of_oils() {
         if spec.lubricant.viscosity != ViscosityLaw::Roelands {
             return Err(Refused::new(
                 "range",
@@ -196,11 +196,6 @@ fn heat(spec: &TrainingSpec) -> Result<(), Refused> {
     }
 }
 
-/// Whether a range is one of many oils.
-fn of_oils(range: &Range) -> bool {
-    matches!(range, Range::Oils(_) | Range::HeatedOils(_))
-}
-
 fn windows(spec: &TrainingSpec) -> Result<(), Refused> {
     match &spec.windows {
         Windows::Given(windows) => given(spec, windows),
@@ -212,7 +207,7 @@ fn windows(spec: &TrainingSpec) -> Result<(), Refused> {
                 count("windows.shared", *shared, *modes, 1000)?;
             }
             grid.check().map_err(|problem| Refused::new("windows.grid", format!("makes no sense: {problem}")))?;
-            if !of_oils(&spec.range) {
+            if !spec.range.of_oils() {
                 return Err(Refused::new("windows", "are anchored in M and L, which needs a range of oils: `Oils(…)`"));
             }
             if matches!(spec.plan, Plan::Grid { .. }) {

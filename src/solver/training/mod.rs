@@ -230,7 +230,7 @@ impl TrainingSpec {
     pub fn is_of(&self, model: &ReducedModel) -> bool {
         model.contact() == self.contact()
             && model.of_ellipses() == matches!(self.range, Range::Ellipses { .. })
-            && model.domain.heat.is_some() == matches!(self.range, Range::Heated(_) | Range::HeatedOils(_))
+            && model.domain.heat.is_some() == self.range.heats()
     }
 
     /// The kind of contact it is about: that of its grids; windows chosen by the training are of line contacts.

@@ -1,7 +1,7 @@
 //! Sampling plans: which operating points of a range are solved in full, and which are tested.
 
 use super::anchors::Cell;
-use super::range::Unit;
+use super::range::{Unit, in_the_middle_but};
 use super::{QuantityBox, Range};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::reduced::{BLENDED, SHAPE_WEIGHT, apart, distance, oil_place};
@@ -14,16 +14,15 @@ use std::f64::consts::PI;
 const ALPHA_WEIGHT: f64 = 0.02;
 
 /// A random point near another one by (3.18), coordinates in the unit cube: μ = min(max(μ_ref + σN, 0), 1).
-pub(super) fn local_point(reference: Unit, sigma: f64, count: usize, rng: &mut Rng) -> Unit {
+pub(super) fn local_point(mut unit: Unit, sigma: f64, count: usize, rng: &mut Rng) -> Unit {
     let mut normal = || (-2.0 * (1.0 - rng.f64()).ln()).sqrt() * (2.0 * PI * rng.f64()).cos();
-    let mut unit = reference;
     unit.iter_mut().take(count).for_each(|v| *v = (*v + sigma * normal()).clamp(0.0, 1.0));
     unit
 }
 
 /// So many coordinates of (3.17) in the unit cube, in the middle of the others.
 pub(super) fn global_point(count: usize, rng: &mut Rng) -> Unit {
-    let mut unit = [0.5; 7];
+    let mut unit = in_the_middle_but([0.5; 4]);
     unit.iter_mut().take(count).for_each(|v| *v = 0.5 * (1.0 - (PI * rng.f64()).cos()));
     unit
 }
@@ -128,7 +127,7 @@ impl Within {
         pool.extend(corners);
         let place = |p: &OperatingPoint| (p.moes(), p.alpha_per_pa.ln(), p.sliding, p.radius_ratio().ln());
         let heat = matches!(self.range, Range::HeatedOils(_));
-        let oils = heat || matches!(self.range, Range::Oils(_));
+        let oils = self.range.of_oils();
         let own_place = |point: &OperatingPoint| place_of_oil(point, heat);
         let coordinates: Vec<_> = pool.iter().map(place).collect();
         let oil_places: Vec<_> = pool.iter().filter(|_| oils).map(own_place).collect();
@@ -180,16 +179,8 @@ pub(super) fn grid_points(range: &Range, kind: ContactKind, nodes: [usize; 4]) -
         for u in 0..nodes[1] {
             for w in 0..nodes[2] {
                 for a in 0..nodes[3] {
-                    let at = [
-                        unit(r, nodes[0]),
-                        unit(u, nodes[1]),
-                        log_unit(unit(w, nodes[2])),
-                        unit(a, nodes[3]),
-                        0.5,
-                        0.5,
-                        0.5,
-                    ];
-                    points.extend(range.at(kind, at));
+                    let at = [unit(r, nodes[0]), unit(u, nodes[1]), log_unit(unit(w, nodes[2])), unit(a, nodes[3])];
+                    points.extend(range.at(kind, in_the_middle_but(at)));
                 }
             }
         }

@@ -64,6 +64,11 @@ pub enum Range {
 /// Coordinates in the unit cube, of which a range uses as many as it has quantities.
 pub(super) type Unit = [f64; 7];
 
+/// Four coordinates, and the middle for all others.
+pub(super) fn in_the_middle_but([a, b, c, d]: [f64; 4]) -> Unit {
+    [a, b, c, d, 0.5, 0.5, 0.5]
+}
+
 impl From<&Domain> for Range {
     /// The intervals that a model declares; what it knows of sliding is left out.
     fn from(domain: &Domain) -> Self {
@@ -262,7 +267,17 @@ impl SlidingRange {
 impl Range {
     /// Whether it says how fast its contacts slide.
     pub fn slides(&self) -> bool {
-        matches!(self, Self::Sliding(_) | Self::Heated(_) | Self::HeatedOils(_))
+        matches!(self, Self::Sliding(_)) || self.heats()
+    }
+
+    /// Whether it is one of films with heat.
+    pub fn heats(&self) -> bool {
+        matches!(self, Self::Heated(_) | Self::HeatedOils(_))
+    }
+
+    /// Whether it is one of many oils.
+    pub(super) fn of_oils(&self) -> bool {
+        matches!(self, Self::Oils(_) | Self::HeatedOils(_))
     }
 
     /// Coordinates that it uses of the unit cube, at least four.
@@ -305,8 +320,7 @@ impl Range {
     /// The point of the test trajectory (3.21) at the running parameter c, by the first four of its quantities; `None` where
     /// the range excludes it.
     pub fn trajectory(&self, kind: ContactKind, c: f64) -> Option<OperatingPoint> {
-        let [r, u, w, alpha] = QuantityBox::trajectory_place(c);
-        self.at(kind, [r, u, w, alpha, 0.5, 0.5, 0.5])
+        self.at(kind, in_the_middle_but(QuantityBox::trajectory_place(c)))
     }
 
     /// The operating point of a kind at coordinates in the unit cube, of which as many are used as the range has
@@ -439,7 +453,7 @@ mod tests {
         let mut inside = 0;
         for i in 0..=10 {
             for j in 0..=10 {
-                let unit = [f64::from(i) / 10.0, f64::from(j) / 10.0, 0.5, 0.25, 0.5, 0.5, 0.5];
+                let unit = in_the_middle_but([f64::from(i) / 10.0, f64::from(j) / 10.0, 0.5, 0.25]);
                 let Some(point) = SLIDING.at(ContactKind::Point, unit) else { continue };
                 let moes = point.moes();
                 assert!(point.hertz().pressure_pa <= 660e6);

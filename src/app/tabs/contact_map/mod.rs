@@ -26,7 +26,7 @@ use crate::app::tabs::{axes, badge, color_bar, in_time, space_time};
 use crate::app::theme::{Palette, faded};
 use crate::app::transient::InTimeCommand;
 use crate::app::units::Scales;
-use crate::solver::full::heat::Temperatures;
+use crate::solver::full::heat::{Rises, Temperatures};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::optics::Interferometer;
 use egui::{Align, Color32, CursorIcon, Layout, Response, RichText, Ui, Vec2, vec2};
@@ -349,7 +349,10 @@ fn hover(picture: &Picture, view: &MapView, at: &HoverPosition<'_>) -> Option<St
         Shown::Temperature => solution
             .heat
             .as_deref()
-            .and_then(|heat| solution.value_at(&mid_film_rises(heat), position.x, y))
+            .and_then(|heat| {
+                let rise = |node: usize| Some(Rises::of(heat.rise_k.get(node)?).mid_film_k);
+                solution.value_at(rise, position.x, y)
+            })
             .map_or_else(String::new, |rise| format!("\nrise {}", numbers::quantity(rise, "K"))),
         _ => String::new(),
     };

@@ -342,8 +342,8 @@ impl March {
                 (inner(&ACROSS.weights, &sheared), inner(&ACROSS.weights, &compressed))
             })
             .collect();
-        let carried_aside = |line: &Aside, i: usize| {
-            let product: Profile = std::array::from_fn(|j| line.flow[i][j] * line.theta[i][j]);
+        let carried = |flow: &Profile, theta: &Profile| {
+            let product: Profile = std::array::from_fn(|j| flow[j] * theta[j]);
             inner(&ACROSS.weights, &product)
         };
         // The first cell has no balance: what flows back leaves it as it comes.
@@ -351,7 +351,7 @@ impl March {
             let half = 0.5 * (self.x[i] - self.x[i - 1]);
             for k in [i - 1, i] {
                 if let Some(beside) = beside {
-                    out.carried += half * beside.slope(|line| carried_aside(line, k));
+                    out.carried += half * beside.slope(|line| carried(&line.flow[k], &line.theta[k]));
                 }
                 out.sheared += half * made[k].0;
                 out.compressed += half * made[k].1;
@@ -360,12 +360,11 @@ impl March {
                 }
             }
         }
-        let carried = |i: usize| {
+        let [enters, leaves] = [1.min(last), last].map(|i| {
             let Station { theta, flowing, .. } = &self.stations[i];
-            let product: Profile = std::array::from_fn(|j| flowing.flow[j] * theta[j]);
-            inner(&ACROSS.weights, &product)
-        };
-        out.carried += carried(last) - carried(1.min(last));
+            carried(&flowing.flow, theta)
+        });
+        out.carried += leaves - enters;
         out
     }
 }

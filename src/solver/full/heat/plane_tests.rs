@@ -1,37 +1,16 @@
 //! Heat in point contacts: circles and ellipses.
 
+use super::tests::{EYRING, point, solved, warm};
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 use crate::solver::full::{FullSolver, PointSolver, Solution, Start};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{BodyHeat, Cavitation, Heat, Lubricant, OilHeat, ShearLaw};
 
 const COARSE: PointGridSpec = PointGridSpec::uniform(0.05, 0.1, (-3.0, 1.8, -1.6));
 
-const EYRING: ShearLaw = ShearLaw::Eyring { critical_stress: 6e6, npr: 0.0 };
-
 /// A steel ball with M = 62, L = 8.9.
 fn ball(srr: f64) -> OperatingPoint {
-    OperatingPoint {
-        kind: ContactKind::Point,
-        radius_m: 0.01,
-        speed_m_per_s: 2.0,
-        load: 30.0,
-        modulus_pa: 231e9,
-        viscosity_pa_s: 0.02,
-        alpha_per_pa: 1.8e-8,
-        sliding: Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: None },
-        radius_y_m: None,
-    }
-}
-
-fn warm(shear: ShearLaw, heat: Heat) -> Lubricant {
-    Lubricant { shear, heat: Some(heat), ..Lubricant::default() }
-}
-
-fn solved(solver: &mut PointSolver, point: &OperatingPoint, lubricant: Lubricant) -> Solution {
-    let solution = solver.solve(point, lubricant, Start::Cold, &()).unwrap();
-    assert!(solution.converged(), "{:?}", solution.report);
-    solution
+    OperatingPoint { kind: ContactKind::Point, load: 30.0, ..point(srr) }
 }
 
 #[test]

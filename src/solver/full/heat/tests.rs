@@ -1,4 +1,6 @@
 use crate::solver::discrete::grid::GridSpec;
+use crate::solver::full::newton_space::NewtonSpace;
+use crate::solver::full::solver::Solver;
 use crate::solver::full::{FullSolver, Problem, Solution, Start};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use crate::solver::physics::lubricant::{BodyHeat, Cavitation, Heat, LimitingStress, Lubricant, OilHeat, ShearLaw};
@@ -10,7 +12,7 @@ fn sliding(slide_to_roll_ratio: f64) -> Sliding {
 }
 
 /// A rolling and sliding contact of steel bodies, M = 22, L = 10.
-fn point(slide_to_roll_ratio: f64) -> OperatingPoint {
+pub(super) fn point(slide_to_roll_ratio: f64) -> OperatingPoint {
     OperatingPoint {
         kind: ContactKind::Line,
         radius_m: 0.01,
@@ -24,13 +26,13 @@ fn point(slide_to_roll_ratio: f64) -> OperatingPoint {
     }
 }
 
-const EYRING: ShearLaw = ShearLaw::Eyring { critical_stress: 6e6, npr: 0.0 };
+pub(super) const EYRING: ShearLaw = ShearLaw::Eyring { critical_stress: 6e6, npr: 0.0 };
 
-fn warm(shear: ShearLaw, heat: Heat) -> Lubricant {
+pub(super) fn warm(shear: ShearLaw, heat: Heat) -> Lubricant {
     Lubricant { shear, heat: Some(heat), ..Lubricant::default() }
 }
 
-fn solved(solver: &mut FullSolver, point: &OperatingPoint, lubricant: Lubricant) -> Solution {
+pub(super) fn solved<S: NewtonSpace>(solver: &mut Solver<S>, point: &OperatingPoint, lubricant: Lubricant) -> Solution {
     let solution = solver.solve(point, lubricant, Start::Cold, &()).unwrap();
     assert!(solution.converged(), "{:?}", solution.report);
     solution

@@ -78,18 +78,13 @@ impl Beside {
 
     /// Those of a model's domain.
     pub fn of(domain: &Domain) -> Self {
-        match domain.sliding {
-            _ if domain.heat.is_some() => {
-                if domain.oils.is_some() {
-                    Self::HeatOfOils
-                } else {
-                    Self::Heat
-                }
-            }
-            Some(_) => Self::Sliding,
-            None if domain.oils.is_some() => Self::Oil,
-            None if domain.radius_ratio == CIRCLES => Self::Nothing,
-            None => Self::Shape,
+        match (domain.heat, domain.sliding, domain.oils) {
+            (Some(_), _, Some(_)) => Self::HeatOfOils,
+            (Some(_), _, None) => Self::Heat,
+            (None, Some(_), _) => Self::Sliding,
+            (None, None, Some(_)) => Self::Oil,
+            (None, None, None) if domain.radius_ratio == CIRCLES => Self::Nothing,
+            (None, None, None) => Self::Shape,
         }
     }
 

@@ -9,16 +9,12 @@ use crate::solver::reduced::model::{ReducedModel, Snapshot};
 use crate::solver::reduced::start::{self, Guess};
 use std::cell::OnceCell;
 
-/// Snapshots at either end of a window of which one must be reproduced: at the edge of a wide range a contact may have no
-/// reduced solution, and parts of another window give none of them.
-const TRIED: usize = 3;
-
 /// How far H_c of a snapshot may lie from the one it was trained from, relative to it. Models differ there by less than
 /// one in a hundred; a window with parts of another one does not come near.
 const WITHIN: f64 = 0.1;
 
 impl ReducedModel {
-    /// Solves the contacts of a window's first and last snapshots from these; of a window around an anchor those that it
+    /// Solves the contacts of a window's first and last snapshot from these; of a window around an anchor those that it
     /// serves: others may lie far outside.
     pub fn reproduces_snapshots(&self, window: usize) -> bool {
         let Some(served) = self.windows.get(window) else { return false };
@@ -29,17 +25,14 @@ impl ReducedModel {
         // Kriging takes as long as all the rest, and hardly any window needs it.
         let kriging = OnceCell::new();
         let kriged = |problem: &Problem| kriging.get_or_init(|| Kriging::of(served)).as_ref()?.start(&problem.point);
-        let mut reproduced = |snapshot: &Snapshot| {
+        snapshots.iter().take(1).chain(snapshots.iter().skip(1).last()).all(|snapshot| {
             let Ok(problem) = Problem::new(&snapshot.point, self.domain.lubricant) else { return false };
             let mut gives = |guess: Guess| {
                 attempt(served, &mut operators, &problem, &guess, usize::MAX, &options, &mut None)
                     .is_ok_and(|found| (found.h_c - snapshot.h_c).abs() <= WITHIN * snapshot.h_c.abs())
             };
             gives(start::carried(snapshot, &problem.point))
-                || served.anchor.is_some() && self.domain.heat.is_none() && kriged(&problem).is_some_and(gives)
-        };
-        let tried = if served.anchor.is_some() { TRIED } else { 1 };
-        let first = snapshots.iter().take(tried).any(|snapshot| reproduced(snapshot));
-        first && snapshots.iter().rev().take(tried).any(|snapshot| reproduced(snapshot))
+                || served.anchor.is_some() && kriged(&problem).is_some_and(gives)
+        })
     }
 }
