@@ -7,7 +7,7 @@ use super::reynolds::generalized::{FilmTreatment, NodeState, PlaneGradient, Shea
 use super::reynolds::{Node, Row, RowGeometry, STENCIL, row};
 use crate::solver::physics::lubricant::{ScaledFluid, ScaledShear};
 use rayon::prelude::*;
-use std::ops::Deref;
+use std::ops::{Deref, Range};
 
 /// What pressure, gradient and film are made into a node by, in one contact.
 #[derive(Clone, Copy, Debug)]
@@ -125,6 +125,16 @@ impl Nodes {
                     }
                 }
             }
+        }
+    }
+
+    /// Evaluates a part of the nodes of (P, H), of a Newtonian lubricant.
+    pub fn evaluate_part(&mut self, laws: &Laws<'_>, part: Range<usize>, (pressure, film): (&[f64], &[f64])) {
+        let states = pressure[part.clone()].iter().zip(&film[part.clone()]);
+        let ruptured = laws.fluid.at(0.0);
+        for (node, (&p, &h)) in self.nodes[part].iter_mut().zip(states) {
+            let state = if p == 0.0 { ruptured } else { laws.fluid.at(p) };
+            *node = Node::of_state(&state, laws.inverse_lambda, p, h);
         }
     }
 

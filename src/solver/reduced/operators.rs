@@ -5,16 +5,18 @@ mod heat;
 mod least_squares;
 mod newton;
 mod shaped;
+mod support;
 
 pub(crate) use front::{cut_off, fronts, passed_rows};
 pub use heat::Warmth;
 pub(crate) use heat::station_nodes;
 pub(crate) use newton::{Case, Iterate, OnlineOutcome, RowObserver, Stop};
 
-use self::front::{Changed, Front};
+use self::front::Front;
 use self::heat::Heated;
 use self::least_squares::LeastSquares;
 use self::shaped::Shaped;
+use self::support::{StateRows, Support};
 use super::dense::{self, SmallSystem};
 use super::minimisation::Scheme;
 use super::model::{Window, deformation_weights};
@@ -31,15 +33,14 @@ use faer::{Mat, MatRef};
 /// What Newton's iteration needs of a window, and its work space.
 pub(crate) struct Operators {
     pub modes: usize,
-    /// The nodes the sampled rows depend on.
-    support: Vec<Place>,
+    /// The nodes that the rows depend on.
+    support: Support,
     /// Six of them per sampled row; those that a row lacks have weight zero.
     stencil: Vec<[usize; STENCIL]>,
     geometry: Vec<RowGeometry>,
     row_weights: Vec<f64>,
-    /// V_p on the support, then K V_p on it, then, of a shear-thinning model, its gradients by ξ and, of a point
-    /// contact, by Y: row-major, (2 + axes)·support × modes.
-    state_rows: Vec<f64>,
+    /// The modes on the support.
+    state: StateRows,
     /// Axes along which the rows need gradients: none of a Newtonian model.
     axes: usize,
     /// What is made of the rows' values, see the window's.
@@ -67,18 +68,9 @@ pub(crate) struct Operators {
     scratch: Scratch,
 }
 
-/// Where a node lies.
-#[derive(Clone, Copy)]
-struct Place {
-    node: usize,
-    xi: f64,
-    /// Y²/2: what the undeformed gap has across.
-    across: f64,
-}
-
 struct Scratch {
     /// P and K P on the support, and the gradients where there are any. They follow the steps, so that each iteration
-    /// multiplies once by the large `state_rows`.
+    /// multiplies once by the large `state`.
     fields: Vec<f64>,
     step_fields: Vec<f64>,
     films: Vec<f64>,
@@ -108,7 +100,7 @@ impl Operators {
     pub fn with_heat(window: &Window, modes: usize, deformation_modes: Option<usize>) -> Self {
         let further = heat::further_nodes(&window.grid);
         let mut out = Self::with_support(window, modes, deformation_modes, true, &further);
-        out.heated = Some(Box::new(Heated::new(&window.grid, &out.support)));
+        out.heated = Some(Box::new(Heated::new(&window.grid, &out.support.places)));
         out
     }
 
@@ -142,49 +134,46 @@ impl Operators {
         let rule = window.traction.iter().flat_map(|rule| &rule.nodes);
         let ruptures = window.cavitation == Cavitation::Complementarity;
         let passed = if ruptures { front::support(window) } else { Vec::new() };
-        let mut support: Vec<usize> =
-            stencils.iter().flatten().chain(further).chain(rule).chain(&passed).copied().collect();
-        support.sort_unstable();
-        support.dedup();
-        let stencil = stencils.iter().map(|nodes| nodes.map(|node| support.partition_point(|&s| s < node))).collect();
-        let own = window.pressure.at(&support, modes);
+        let own: Vec<usize> = stencils.iter().flatten().chain(further).chain(rule).copied().collect();
+        let support = Support::new(reference, own, passed);
+        let nodes = support.nodes();
+        let stencil = stencils.iter().map(|stencil| stencil.map(|node| support.place(node))).collect();
+        let own = window.pressure.at(&nodes, modes);
         let deformation = match &projected {
-            Some(projected) => Mat::from_fn(support.len(), modes, |i, k| projected[(support[i], k)]),
-            None => window.pressure.flexed_at(&support, modes),
+            Some(projected) => Mat::from_fn(nodes.len(), modes, |i, k| projected[(nodes[i], k)]),
+            None => window.pressure.flexed_at(&nodes, modes),
         };
         let axes = match reference.kind() {
             _ if !thinning => 0,
             ContactKind::Line => 1,
             ContactKind::Point => 2,
         };
-        let mut state_rows = Vec::with_capacity((2 + axes) * support.len() * modes);
-        for values in [&own, &deformation] {
-            state_rows.extend(values.row_iter().flat_map(|row| row.iter().copied()));
-        }
+        let rows_of =
+            |values: &Mat<f64>| -> Vec<f64> { values.row_iter().flat_map(|row| row.iter().copied()).collect() };
+        let mut state =
+            StateRows { modes, values: rows_of(&own), deformations: rows_of(&deformation), gradients: Vec::new() };
         if axes > 0 {
             let (gradient, (_, ny)) = (reference.gradient(), reference.nodes());
             let basis = &window.pressure.basis().modes;
             let columns: Vec<Vec<f64>> = (0..modes).map(|k| basis.col(k).iter().copied().collect()).collect();
             for axis in 0..axes {
-                for &node in &support {
+                for &node in &nodes {
                     let at = |column: &Vec<f64>| gradient.at(column, node / ny, node % ny)[axis];
-                    state_rows.extend(columns.iter().map(at));
+                    state.gradients.extend(columns.iter().map(at));
                 }
             }
         }
         let traction = window.traction.iter().flat_map(|rule| rule.nodes.iter().zip(&rule.weights));
-        let traction = traction.map(|(&node, &weight)| (support.partition_point(|&s| s < node), weight)).collect();
+        let traction = traction.map(|(&node, &weight)| (support.place(node), weight)).collect();
         let weights = reference.weights();
         let load_row = window.pressure.carried(weights, modes);
-        let front = ruptures.then(|| Front::new(window, &support, &state_rows, &load_row));
-        let place = |node: &usize| {
-            let (xi, y) = reference.place(*node);
-            Place { node: *node, xi, across: 0.5 * y * y }
-        };
-        let places: Vec<Place> = support.iter().map(place).collect();
+        let front = ruptures.then(|| {
+            let whole = std::mem::take(&mut state.deformations);
+            Front::new(window, &support, (&state.values, whole), &load_row)
+        });
         let shaped = window.shapes.as_ref().map(|shapes| {
-            let across = state_rows.get(3 * support.len() * modes..).unwrap_or_default();
-            Shaped::new(shapes, (&support, modes), (&geometry, &places, across))
+            let across = state.gradients.get(support.len() * modes..).unwrap_or_default();
+            Shaped::new(shapes, (&nodes, modes), (&geometry, &support.places, across))
         });
         let (n, s) = (rows.len(), support.len());
         let size = modes + 1;
@@ -193,7 +182,7 @@ impl Operators {
             stencil,
             geometry,
             row_weights: rows.iter().map(|&row| weights[reference.node(row)]).collect(),
-            state_rows,
+            state,
             axes,
             reconstruction: match window.scheme {
                 Scheme::Galerkin => window.reconstruction.get(..modes, ..).to_owned(),
@@ -226,7 +215,7 @@ impl Operators {
                 jacobian: Mat::zeros(size, size),
                 product: vec![0.0; n],
             },
-            support: places,
+            support,
         }
     }
 
@@ -237,7 +226,7 @@ impl Operators {
 
     /// The place of a node in the support.
     pub fn place(&self, node: usize) -> usize {
-        self.support.partition_point(|place| place.node < node)
+        self.support.place(node)
     }
 
     /// Gives row `r` of the sampled ones, and behind them of those that the rupture boundary may pass, other
@@ -291,18 +280,17 @@ impl Operators {
 
     /// Turns to the shape of a contact; nothing where the window knows one only.
     pub fn take_shape(&mut self, window: &Window, problem: &Problem) {
-        let Self { shaped, state_rows, geometry, support, modes, .. } = self;
+        let Self { shaped, state, geometry, support, .. } = self;
         let (Some(shaped), Some(shapes)) = (shaped, &window.shapes) else { return };
-        shaped.turn_to(shapes, &problem.point.ellipse(), (state_rows, *modes), geometry, support);
+        shaped.turn_to(shapes, &problem.point.ellipse(), state, geometry, &mut support.places);
     }
 
     /// Puts the rupture boundary at these columns, one per line along X, before an iteration begins, or out of force, so
     /// that the penalty holds all pressures; nothing where there is no boundary.
     pub fn rupture_at(&mut self, fronts: Option<&[usize]>) {
-        let Self { front, state_rows, load_row, scratch, .. } = self;
+        let Self { front, load_row, .. } = self;
         if let Some(front) = front {
-            let count = 2 * self.support.len();
-            front.begin(fronts, Changed { state_rows, load_row, fields: &mut scratch.fields[..count] });
+            front.begin(fronts, load_row);
         }
     }
 

@@ -160,16 +160,26 @@ impl ContactGrid {
         }
     }
 
+    /// K of one node array, in ξ.
+    pub fn deformation(&self, pressure: &[f64]) -> Vec<f64> {
+        let mut out = vec![0.0; pressure.len()];
+        match self {
+            Self::Line(grid) => grid.flexibility.apply(pressure, &mut out, &mut Scratch::default()),
+            Self::Point(grid) => grid.deform(pressure, &mut out, &mut PointScratch::default()),
+        }
+        out
+    }
+
     /// Deformations of nodes by unit pressure at each of others, one after the other, in ξ.
-    pub fn kernel_columns(&self, nodes: &[usize], others: &[usize]) -> Vec<f64> {
+    pub fn kernel_columns(&self, nodes: &[usize], others: &[usize]) -> Vec<f32> {
         let entries = others.iter().flat_map(|&other| nodes.iter().map(move |&node| (node, other)));
         match self {
-            Self::Line(grid) => entries.map(|(node, other)| grid.flexibility.entry(node, other)).collect(),
+            Self::Line(grid) => entries.map(|(node, other)| grid.flexibility.entry(node, other) as f32).collect(),
             Self::Point(grid) => {
                 // Equal distances along X are equal entries.
                 let (ny, blocks) = (grid.ny(), grid.flexibility.column_blocks());
                 let entry = |(node, other): (usize, usize)| {
-                    blocks[(node / ny).abs_diff(other / ny)][(other % ny - 1) * ny + node % ny]
+                    blocks[(node / ny).abs_diff(other / ny)][(other % ny - 1) * ny + node % ny] as f32
                 };
                 entries.map(entry).collect()
             }

@@ -9,7 +9,7 @@ use crate::solver::full::heat::{NodeArrays, Temperatures, one_sided};
 use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, Termination, scalars_of};
 use crate::solver::reduced::operators::{cut_off, station_nodes};
 use faer::linalg::matmul::matmul;
-use faer::{Accum, ColMut, ColRef, Mat, Par};
+use faer::{Accum, ColMut, ColRef, Par};
 use std::sync::Arc;
 
 impl Online {
@@ -113,20 +113,26 @@ impl Online {
         };
         let mut pressure = multiply(window.pressure.basis().modes.get(.., ..modes));
         let ellipse = problem.point.ellipse();
+        let ruptures = !solution.fronts.is_empty();
         let mut film = match &window.shapes {
-            None => multiply(operators.deformation(window)),
             Some(shapes) => {
                 let mut film = vec![0.0; pressure.len()];
                 shapes.add_deformation(&ellipse, &solution.coefficients, &mut film);
                 film
             }
+            // What is cut off makes K P another one than that of the modes.
+            None if ruptures && self.options.deformation_modes.is_none() => Vec::new(),
+            None => multiply(operators.deformation(window)),
         };
-        if !solution.fronts.is_empty() {
-            let whole = pressure.clone();
+        if ruptures {
+            let whole = if film.is_empty() { Vec::new() } else { pressure.clone() };
             cut_off(&window.grid, &solution.fronts, &mut pressure);
-            let missing = Mat::from_fn(whole.len(), 1, |i, _| whole[i] - pressure[i]);
-            let bent = window.grid.flex(&missing);
-            film.iter_mut().zip(bent.col(0).iter()).for_each(|(film, bent)| *film -= bent);
+            if film.is_empty() {
+                film = window.grid.deformation(&pressure);
+            } else {
+                let missing: Vec<f64> = whole.iter().zip(&pressure).map(|(whole, kept)| whole - kept).collect();
+                film.iter_mut().zip(window.grid.deformation(&missing)).for_each(|(film, bent)| *film -= bent);
+            }
             // What modes leave before B.
             pressure.iter_mut().for_each(|p| *p = p.max(0.0));
         }

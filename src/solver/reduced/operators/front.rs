@@ -3,11 +3,13 @@
 //!
 //! A state is the sum of the modes, cut off at B. V, the load's row, P and K P change by single nodes when B moves,
 //! (D.21) and (D.22), so nothing is of large scale. K V of the Jacobian stays that of a place of B nearby: what the few
-//! nodes between bend is in the fields, and its derivative is too small to slow Newton's method.
+//! nodes between bend is in the fields, and its derivative is too small to slow Newton's method. Of the nodes that B may
+//! pass only those near it are looked at.
 //!
 //! B moves up along a line where one of the nodes before it has a negative pressure, (D.17), else down where λ is
 //! negative at its first ruptured node. (D.18) as printed has the opposite sign: B would go back and forth.
 
+use super::support::{Support, row_times};
 use crate::solver::discrete::grid::{ContactGrid, dot};
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
@@ -16,6 +18,7 @@ use crate::solver::reduced::model::{Snapshot, Window};
 use faer::linalg::matmul::matmul;
 use faer::reborrow::ReborrowMut;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
+use std::ops::Range;
 
 /// Nodes before B at which pressures are looked at: k of (D.17).
 const BEFORE: usize = 5;
@@ -41,8 +44,16 @@ pub(super) struct Front {
     nodes: Vec<Passed>,
     /// V at these nodes, row-major nodes × modes.
     modes: Vec<f64>,
-    /// Deformation of the support by unit pressure at each of these nodes, row-major nodes × support.
-    bends: Vec<f64>,
+    /// Deformation of the support by unit pressure at each of these nodes, row-major nodes × support. It is multiplied by
+    /// small pressures only.
+    bends: Vec<f32>,
+    /// Which places of the support lie behind B.
+    cut: Vec<bool>,
+    /// How many places of the support the sampled rows ask for themselves, and of each further one the line of nodes.
+    own: usize,
+    asked: Vec<usize>,
+    /// Of each line of nodes the further places on which rows behind B depend.
+    near: Vec<Range<usize>>,
     kept: Vec<Kept>,
     /// Whether B may pass several nodes at once, and looks for negative pressures among all that it may pass.
     pub strides: bool,
@@ -53,9 +64,7 @@ pub(super) struct Front {
     /// Whether B is out of force: a penalty holds all pressures, as far as there are modes.
     idle: bool,
     /// Which of them is in the Jacobian.
-    loaded: Option<usize>,
-    /// wᵀ V without a boundary.
-    whole_load: Vec<f64>,
+    loaded: usize,
     /// Line and column of each sampled row.
     rows: Vec<(usize, usize)>,
     /// What the film at X = 0 (and Y = 0) gains per unit of each coefficient.
@@ -64,6 +73,8 @@ pub(super) struct Front {
     aimed: Option<f64>,
     /// Work space: nodes that pass, and whether they carry pressure again.
     passing: Vec<(usize, bool)>,
+    /// Work space: nodes between B and its place in K V, and the pressures there that K V does not know.
+    bending: Vec<(usize, f64)>,
 }
 
 /// A line of unknowns along X with its part of B.
@@ -106,12 +117,14 @@ struct Kept {
     deformation: Vec<f64>,
     /// Σ v vᵀ over the nodes behind it, where modes are held at zero there.
     behind: Mat<f64>,
+    /// wᵀ V.
+    load: Vec<f64>,
+    /// What the film at X = 0 (and Y = 0) gains, and the scale it was found for.
+    lift: (Option<f64>, Vec<f64>),
 }
 
 /// What the boundary changes of the operators.
 pub(super) struct Changed<'a> {
-    /// V at the support, then K V, row-major.
-    pub state_rows: &'a mut [f64],
     pub load_row: &'a mut [f64],
     /// P at the support, then K P.
     pub fields: &'a mut [f64],
@@ -179,16 +192,22 @@ fn each_passed(window: &Window, mut tell: impl FnMut(usize, usize)) {
 }
 
 impl Front {
-    /// The boundary of a window, for operators over a support with so many modes.
-    pub fn new(window: &Window, support: &[usize], state_rows: &[f64], load_row: &[f64]) -> Self {
+    /// The boundary of a window, for operators over a support, with V and the whole K V there, row-major.
+    pub fn new(window: &Window, support: &Support, (values, whole): (&[f64], Vec<f64>), load_row: &[f64]) -> Self {
         let (grid, weights, modes) = (&window.grid, window.grid.weights(), load_row.len());
-        let place = |node: usize| support.partition_point(|&s| s < node);
         let (mut nodes, mut owners): (Vec<Passed>, Vec<usize>) = (Vec::new(), Vec::new());
         each_passed(window, |line, unknown| {
             let (node, (stencil, geometry)) = (grid.node(unknown), grid.row(unknown));
             owners.push(line);
-            let stencil = stencil.map(place);
-            nodes.push(Passed { place: place(node), node, weight: weights[node], stencil, geometry, zero: 0.0 });
+            let stencil = stencil.map(|node| support.place(node));
+            nodes.push(Passed {
+                place: support.place(node),
+                node,
+                weight: weights[node],
+                stencil,
+                geometry,
+                zero: 0.0,
+            });
         });
         let line = |(line, (column, highest)): (usize, (usize, usize))| {
             let first = owners.partition_point(|&owner| owner < line);
@@ -210,27 +229,31 @@ impl Front {
         let passed: Vec<usize> = nodes.iter().map(|passed| passed.node).collect();
         let mut front = Self {
             rows: window.sampled_rows.iter().map(|&row| grid.line_and_column(grid.node(row))).collect(),
-            bends: grid.kernel_columns(support, &passed),
-            modes: nodes.iter().flat_map(|p| state_rows[p.place * modes..][..modes].iter().copied()).collect(),
+            bends: grid.kernel_columns(&support.nodes(), &passed),
+            modes: nodes.iter().flat_map(|p| values[p.place * modes..][..modes].iter().copied()).collect(),
+            cut: vec![false; support.len()],
+            own: support.own,
+            asked: support.places[support.own..].iter().map(|place| place.node % support.across).collect(),
+            near: vec![support.own..support.own; support.across],
             kept: Vec::new(),
             strides: false,
             restrains: window.anchor.is_some(),
             behind: Mat::zeros(modes, modes),
             idle: false,
-            loaded: None,
+            loaded: 0,
             lift: vec![0.0; modes],
             aimed: None,
-            whole_load: load_row.to_vec(),
             passing: Vec::with_capacity(nodes.len()),
+            bending: Vec::with_capacity(nodes.len()),
             lines,
             nodes,
         };
-        front.keep(window, &state_rows[support.len() * modes..2 * support.len() * modes]);
+        front.keep(window, &whole, load_row);
         front
     }
 
     /// Keeps K V, given whole, at places of B that are far from each other.
-    fn keep(&mut self, window: &Window, whole: &[f64]) {
+    fn keep(&mut self, window: &Window, whole: &[f64], whole_load: &[f64]) {
         let modes = self.lift.len();
         let s = whole.len() / modes;
         let most = (KEPT_BYTES / (8 * whole.len())).clamp(1, KEPT);
@@ -239,8 +262,8 @@ impl Front {
         };
         let known: Vec<Vec<usize>> = window.snapshots.iter().map(fronts).collect();
         let from_all = |own: &Vec<usize>| known.iter().map(|other| apart(own, other)).sum::<usize>();
-        let Some(middle) = known.iter().min_by_key(|own| from_all(own)) else { return };
-        let mut chosen = vec![middle.clone()];
+        let middle = known.iter().min_by_key(|own| from_all(own)).cloned();
+        let mut chosen = vec![middle.unwrap_or_else(|| self.lines.iter().map(|line| line.count).collect())];
         while chosen.len() < most {
             let near = |own: &Vec<usize>| chosen.iter().map(|other| apart(own, other)).min().unwrap_or(0);
             let Some(next) = known.iter().max_by_key(|own| near(own)).filter(|own| near(own) > self.lines.len()) else {
@@ -252,7 +275,7 @@ impl Front {
             let cut =
                 self.lines.iter().zip(&fronts).flat_map(|(line, front)| line.first + front..line.first + line.count);
             let cut: Vec<usize> = cut.collect();
-            let bent = Mat::from_fn(cut.len(), s, |k, place| self.bends[cut[k] * s + place]);
+            let bent = Mat::from_fn(cut.len(), s, |k, place| f64::from(self.bends[cut[k] * s + place]));
             let own = Mat::from_fn(cut.len(), modes, |k, mode| self.modes[cut[k] * modes + mode]);
             let mut deformation = whole.to_vec();
             let out = MatMut::from_row_major_slice_mut(&mut deformation, s, modes);
@@ -261,7 +284,13 @@ impl Front {
             if self.restrains {
                 matmul(behind.as_mut(), Accum::Replace, own.transpose(), own.as_ref(), 1.0, Par::Seq);
             }
-            self.kept.push(Kept { fronts, deformation, behind });
+            let mut load = whole_load.to_vec();
+            for k in cut {
+                let own = &self.modes[k * modes..][..modes];
+                load.iter_mut().zip(own).for_each(|(load, v)| *load -= self.nodes[k].weight * v);
+            }
+            let lift = (None, vec![0.0; modes]);
+            self.kept.push(Kept { fronts, deformation, behind, load, lift });
         }
     }
 
@@ -302,37 +331,120 @@ impl Front {
         !self.idle
     }
 
+    /// K V at the support, row-major, of a place of B nearby.
+    pub fn deformations(&self) -> &[f64] {
+        &self.kept[self.loaded].deformation
+    }
+
+    /// Whether a place of the support lies behind B.
+    pub fn is_cut(&self, place: usize) -> bool {
+        self.cut[place]
+    }
+
+    /// Places that no sampled row asks for and that are near B.
+    pub fn near(&self) -> impl Iterator<Item = Range<usize>> + '_ {
+        self.near.iter().filter(|places| !places.is_empty()).cloned()
+    }
+
+    /// Nodes between B and its place in K V, and whether they carry pressure that K V does not know, 1, or the other way
+    /// about, −1.
+    fn between(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.lines.iter().flat_map(|line| {
+            let sign = if line.front > line.kept { 1.0 } else { -1.0 };
+            let both = line.front.min(line.kept)..line.front.max(line.kept);
+            both.map(move |k| (line.first + k, sign))
+        })
+    }
+
     /// Puts B somewhere before an iteration begins; without a place it is behind all modes, and out of force.
-    pub fn begin(&mut self, fronts: Option<&[usize]>, changed: Changed<'_>) {
+    pub fn begin(&mut self, fronts: Option<&[usize]>, load_row: &mut [f64]) {
         self.idle = fronts.is_none();
-        let Self { lines, nodes, modes: basis, kept, whole_load, loaded, behind, .. } = self;
-        for (number, line) in lines.iter_mut().enumerate() {
+        for (number, line) in self.lines.iter_mut().enumerate() {
             let place = fronts.map_or(Some(line.count), |fronts| fronts.get(number).map(|front| line.place_of(*front)));
             (line.front, line.down, line.turns, line.stride) = (place.unwrap_or(line.front), None, 0, STRIDE);
-        }
-        let far =
-            |kept: &Kept| lines.iter().zip(&kept.fronts).map(|(line, own)| line.front.abs_diff(*own)).sum::<usize>();
-        let Some((index, nearest)) = kept.iter().enumerate().min_by_key(|(_, kept)| far(kept)) else { return };
-        let modes = whole_load.len();
-        if *loaded != Some(index) {
-            let from = nearest.deformation.len();
-            changed.state_rows[from..2 * from].copy_from_slice(&nearest.deformation);
-            *loaded = Some(index);
-        }
-        changed.load_row.copy_from_slice(whole_load);
-        behind.copy_from(&nearest.behind);
-        for (line, kept) in lines.iter_mut().zip(&nearest.fronts) {
-            (line.kept, line.restrained) = (*kept, *kept);
-            for k in line.first..line.first + line.count {
-                let row = &mut changed.state_rows[nodes[k].place * modes..][..modes];
-                let own = &basis[k * modes..][..modes];
-                if k < line.first + line.front {
-                    row.copy_from_slice(own);
-                } else {
-                    row.fill(0.0);
-                    changed.load_row.iter_mut().zip(own).for_each(|(load, v)| *load -= nodes[k].weight * v);
-                }
+            for (k, passed) in self.nodes[line.first..line.first + line.count].iter().enumerate() {
+                self.cut[passed.place] = k >= line.front;
             }
+        }
+        let apart = |line: (&Line, &usize)| line.0.front.abs_diff(*line.1);
+        let far = |kept: &Kept| self.lines.iter().zip(&kept.fronts).map(apart).sum::<usize>();
+        self.loaded = (0..self.kept.len()).min_by_key(|k| far(&self.kept[*k])).unwrap_or(0);
+        let nearest = &self.kept[self.loaded];
+        for (line, kept) in self.lines.iter_mut().zip(&nearest.fronts) {
+            (line.kept, line.restrained) = (*kept, *kept);
+        }
+        load_row.copy_from_slice(&nearest.load);
+        self.behind.copy_from(&nearest.behind);
+        let modes = load_row.len();
+        for (k, sign) in self.between() {
+            let (own, weight) = (&self.modes[k * modes..][..modes], sign * self.nodes[k].weight);
+            load_row.iter_mut().zip(own).for_each(|(load, v)| *load += weight * v);
+        }
+        self.look_near();
+    }
+
+    /// Finds the places that are near B: those of the rows behind it.
+    fn look_near(&mut self) {
+        let (own, end) = (self.own, self.cut.len());
+        self.near.fill(own..own);
+        if self.strides || self.idle {
+            // All are.
+            self.near.first_mut().into_iter().for_each(|near| *near = own..end);
+            return;
+        }
+        let Self { lines, nodes, asked, near, .. } = self;
+        let mut see = |place: usize| {
+            let Some(line) = place.checked_sub(own).map(|k| asked[k]) else { return };
+            let seen = &mut near[line];
+            *seen =
+                if seen.start == seen.end { place..place + 1 } else { seen.start.min(place)..seen.end.max(place + 1) };
+        };
+        for line in lines {
+            let behind = &nodes[line.first + line.front.min(line.count)];
+            behind.stencil.iter().for_each(|place| see(*place));
+        }
+    }
+
+    /// P and K P of coefficients: cuts off what lies behind B, adds to K P of the rows' own places what nodes between B
+    /// and its place in K V bend, and finds both near B.
+    pub fn spread(&mut self, values: &[f64], coefficients: &[f64], (pressure, deformation): (&mut [f64], &mut [f64])) {
+        for line in &self.lines {
+            for passed in &self.nodes[line.first + line.front..line.first + line.count] {
+                pressure[passed.place] = 0.0;
+            }
+        }
+        self.find_bending(coefficients);
+        self.bend_part(0..self.own, deformation);
+        self.spread_near(values, coefficients, (pressure, deformation));
+    }
+
+    /// P and K P of coefficients near B, where what bends is known.
+    fn spread_near(&self, values: &[f64], coefficients: &[f64], (pressure, deformation): (&mut [f64], &mut [f64])) {
+        let rows = self.deformations();
+        for near in self.near() {
+            for place in near.clone() {
+                pressure[place] = if self.cut[place] { 0.0 } else { row_times(values, place, coefficients) };
+                deformation[place] = row_times(rows, place, coefficients);
+            }
+            self.bend_part(near, deformation);
+        }
+    }
+
+    /// Finds the pressures, of coefficients, that K V does not know.
+    fn find_bending(&mut self, coefficients: &[f64]) {
+        let mut bending = std::mem::take(&mut self.bending);
+        bending.clear();
+        bending.extend(self.between().map(|(k, sign)| (k, sign * row_times(&self.modes, k, coefficients))));
+        self.bending = bending;
+    }
+
+    /// Adds what they bend to K P at a part of the support.
+    fn bend_part(&self, part: Range<usize>, deformation: &mut [f64]) {
+        let s = self.cut.len();
+        let out = &mut deformation[part.clone()];
+        for (k, value) in &self.bending {
+            let bends = &self.bends[k * s..][part.clone()];
+            out.iter_mut().zip(bends).for_each(|(out, bend)| *out += value * f64::from(*bend));
         }
     }
 
@@ -369,19 +481,6 @@ impl Front {
         }
     }
 
-    /// Adds to K P, of coefficients, what nodes between B and its place in K V bend.
-    pub fn correct(&self, coefficients: &[f64], deformation: &mut [f64]) {
-        let (modes, s) = (self.lift.len(), deformation.len());
-        for line in &self.lines {
-            let sign = if line.front > line.kept { 1.0 } else { -1.0 };
-            for k in line.first + line.front.min(line.kept)..line.first + line.front.max(line.kept) {
-                let value = sign * dot(&self.modes[k * modes..][..modes], coefficients);
-                let bends = &self.bends[k * s..][..s];
-                deformation.iter_mut().zip(bends).for_each(|(out, bend)| *out += value * bend);
-            }
-        }
-    }
-
     /// Adds to a row of the Jacobian, by its derivatives with respect to the films, what nodes between B and its place in
     /// K V bend. Of one line always: there few nodes decide the film, and at a high M Newton's steps grow without them.
     /// Of many lines it costs more than the steps that it mostly saves, and waits until an iteration turns out `slow`.
@@ -396,20 +495,18 @@ impl Front {
             return;
         }
         let (modes, s) = (self.lift.len(), self.bends.len() / self.nodes.len());
-        for line in self.lines.iter().filter(|line| line.front != line.kept) {
-            let sign = if line.front > line.kept { scale } else { -scale };
-            for k in line.first + line.front.min(line.kept)..line.first + line.front.max(line.kept) {
-                let bends = &self.bends[k * s..][..s];
-                let bent = sign * stencil.iter().zip(d_h).map(|(&place, slope)| slope * bends[place]).sum::<f64>();
-                target.iter_mut().zip(&self.modes[k * modes..][..modes]).for_each(|(out, v)| *out += bent * v);
-            }
+        for (k, sign) in self.between() {
+            let bends = &self.bends[k * s..][..s];
+            let bent = scale
+                * sign
+                * stencil.iter().zip(d_h).map(|(&place, slope)| slope * f64::from(bends[place])).sum::<f64>();
+            target.iter_mut().zip(&self.modes[k * modes..][..modes]).for_each(|(out, v)| *out += bent * v);
         }
     }
 
     /// What the film at X = 0 (and Y = 0) gains, given by nodes and weights of an interpolation there and by what whole
     /// modes give it.
     pub fn aim(&mut self, grid: &ContactGrid, zero: &[(usize, f64)], scale: f64, whole: &[f64]) {
-        self.lift.copy_from_slice(whole);
         let modes = whole.len();
         if self.aimed != Some(scale) {
             self.aimed = Some(scale);
@@ -418,20 +515,32 @@ impl Front {
                 own.zero = scale * weights().map(|(at, weight)| weight * grid.kernel_entry(*at, own.node)).sum::<f64>();
             }
         }
-        for line in &self.lines {
-            for k in line.first + line.front..line.first + line.count {
-                let zero = self.nodes[k].zero;
-                let own = &self.modes[k * modes..][..modes];
-                self.lift.iter_mut().zip(own).for_each(|(lift, v)| *lift -= zero * v);
+        let Self { kept, lines, nodes, modes: basis, .. } = self;
+        let kept = &mut kept[self.loaded];
+        if kept.lift.0 != Some(scale) {
+            kept.lift.0 = Some(scale);
+            kept.lift.1.copy_from_slice(whole);
+            for k in
+                lines.iter().zip(&kept.fronts).flat_map(|(line, front)| line.first + front..line.first + line.count)
+            {
+                let own = &basis[k * modes..][..modes];
+                kept.lift.1.iter_mut().zip(own).for_each(|(lift, v)| *lift -= nodes[k].zero * v);
             }
         }
+        let mut lift = std::mem::take(&mut self.lift);
+        lift.copy_from_slice(&self.kept[self.loaded].lift.1);
+        for (k, sign) in self.between() {
+            let zero = sign * self.nodes[k].zero;
+            lift.iter_mut().zip(&self.modes[k * modes..][..modes]).for_each(|(lift, v)| *lift += zero * v);
+        }
+        self.lift = lift;
     }
 
-    /// Lets B follow a step: `nodes` are those before it, `step` what it added to the fields, by the factor `omega`,
+    /// Lets B follow a step: `nodes` are those before it, `values` V at the support, `step` what it added to the fields, by the factor `omega`,
     /// and `shift` to H₀; `changed` has the fields behind it. Whether B is still.
     pub fn follow(
         &mut self,
-        nodes: &Nodes,
+        (nodes, values): (&Nodes, &[f64]),
         (scale, omega): (f64, f64),
         (step, shift): (&[f64], f64),
         coefficients: &[f64],
@@ -440,7 +549,7 @@ impl Front {
         if self.idle {
             return true;
         }
-        let Changed { state_rows, load_row, fields } = changed;
+        let Changed { load_row, fields } = changed;
         let s = fields.len() / 2;
         self.passing.clear();
         for line in &mut self.lines {
@@ -456,7 +565,11 @@ impl Front {
                 (1, line.front.saturating_sub(BEFORE), line.front)
             };
             let least = if self.strides { -LITTLE } else { NEGATIVE };
-            let negative = (first..end).find(|&k| fields[at(k).place] < least).filter(|_| line.front > 1);
+            let pressure = |k: usize| {
+                let looked_at = self.strides || at(k).place < self.own;
+                if looked_at { fields[at(k).place] } else { row_times(&self.modes, line.first + k, coefficients) }
+            };
+            let negative = (first..end).find(|&k| pressure(k) < least).filter(|_| line.front > 1);
             // (D.16): λ after the step.
             let multiplier = |k: usize| {
                 let boundary = at(k);
@@ -502,15 +615,17 @@ impl Front {
             let (passed, own) = (&self.nodes[k], &self.modes[k * modes..][..modes]);
             let (value, sign) = (dot(own, coefficients), if carries { 1.0 } else { -1.0 });
             pressure[passed.place] = if carries { value } else { 0.0 };
-            let bends = &self.bends[k * s..][..s];
-            deformation.iter_mut().zip(bends).for_each(|(out, bend)| *out += sign * value * bend);
+            self.cut[passed.place] = !carries;
+            let bends = &self.bends[k * s..][..self.own];
+            deformation.iter_mut().zip(bends).for_each(|(out, bend)| *out += sign * value * f64::from(*bend));
             for ((lift, load), v) in self.lift.iter_mut().zip(&mut *load_row).zip(own) {
                 *lift += sign * passed.zero * v;
                 *load += sign * passed.weight * v;
             }
-            let row = &mut state_rows[passed.place * modes..][..modes];
-            if carries { row.copy_from_slice(own) } else { row.fill(0.0) }
         }
+        self.look_near();
+        self.find_bending(coefficients);
+        self.spread_near(values, coefficients, (pressure, deformation));
         false
     }
 }

@@ -1,8 +1,9 @@
 //! Contacts with heat on reduced operators: Newton's steps for (p̃, H₀) with the temperatures held, and marches of the
 //! temperatures along every few nodes with pressure and film held, in turns. Temperatures need no basis.
 
-use super::newton::{Case, OnlineOutcome, RowObserver, Slopes, Stop, product};
-use super::{Operators, Place};
+use super::Operators;
+use super::newton::{Case, OnlineOutcome, RowObserver, Slopes, Stop};
+use super::support::Place;
 use crate::solver::discrete::grid::{ContactGrid, INLET, cubic};
 use crate::solver::discrete::heat::{March, POINTS, Profile, WarmFilm};
 use crate::solver::discrete::reynolds::generalized::NodeState;
@@ -173,8 +174,8 @@ impl Operators {
     ) -> OnlineOutcome {
         let mut outcome = OnlineOutcome { converged: false, iterations: 0, step: f64::NAN, residual: f64::NAN };
         let Some(heated) = self.heated.as_mut() else { return outcome };
-        heated.begin(&self.support, case.scale, theta);
-        product(&self.state_rows, self.modes, coefficients, &mut self.scratch.fields);
+        heated.begin(&self.support.places, case.scale, theta);
+        self.state.spread(&self.support, None, coefficients, &mut self.scratch.fields);
         self.scratch.nodes.forget();
         let (mut changed, mut share, mut before) = (1e-3f64, 1.0f64, f64::INFINITY);
         for turn in 1..=stop.max_newton {
@@ -205,7 +206,7 @@ impl Operators {
             if now < NEAR && omega == 1.0 && changed > outcome.step {
                 // Newton's steps need no help; where these are small it is the temperatures that take their time.
                 heated.mix(coefficients, h_0);
-                product(&self.state_rows, self.modes, coefficients, &mut self.scratch.fields);
+                self.state.spread(&self.support, None, coefficients, &mut self.scratch.fields);
             } else {
                 // Temperatures that swing with the pressure come to rest when they follow it by less.
                 share = if now > 0.8 * before { (0.75 * share).max(LEAST_SHARE) } else { (1.1 * share).min(1.0) };

@@ -4,6 +4,7 @@
 use super::Operators;
 use super::front::{Changed, Front};
 use super::least_squares::LeastSquares;
+use super::support::seen;
 use crate::solver::discrete::nodes::{Laws, Order};
 use crate::solver::discrete::reynolds::generalized::FilmTreatment;
 use crate::solver::discrete::reynolds::{CENTER, STENCIL};
@@ -96,10 +97,7 @@ impl Operators {
         mut observer: Option<RowObserver<'_>>,
     ) -> OnlineOutcome {
         let mut outcome = OnlineOutcome { converged: false, iterations: 0, step: f64::NAN, residual: f64::NAN };
-        product(&self.state_rows, self.modes, coefficients, &mut self.scratch.fields);
-        if let Some(front) = &self.front {
-            front.correct(coefficients, &mut self.scratch.fields[self.support.len()..2 * self.support.len()]);
-        }
+        self.state.spread(&self.support, self.front.as_mut(), coefficients, &mut self.scratch.fields);
         // The films of another contact are no start.
         self.scratch.nodes.forget();
         // Whether the last derivatives are those of a place so near that their factors serve again.
@@ -154,8 +152,15 @@ impl Operators {
 
     /// Takes a share of the step that was solved for, and of its fields; returns its size, relative.
     pub(super) fn take_step(&mut self, omega: f64, coefficients: &mut [f64], h_0: &mut f64) -> f64 {
-        let s = &mut self.scratch;
-        s.fields.iter_mut().zip(&s.step_fields).for_each(|(field, step)| *field += omega * step);
+        let (s, count) = (&mut self.scratch, self.support.len());
+        let (fields, gradients) = s.fields.split_at_mut(2 * count);
+        let (steps, slopes) = s.step_fields.split_at(2 * count);
+        for part in seen(self.support.own, self.front.as_ref()) {
+            for part in [part.clone(), count + part.start..count + part.end] {
+                fields[part.clone()].iter_mut().zip(&steps[part]).for_each(|(field, step)| *field += omega * step);
+            }
+        }
+        gradients.iter_mut().zip(slopes).for_each(|(field, step)| *field += omega * step);
         let (mut change, mut size) = (0.0, 0.0);
         for (c, d) in coefficients.iter_mut().zip(&s.system.rhs) {
             *c += omega * d;
@@ -168,11 +173,12 @@ impl Operators {
 
     /// Lets the rupture boundary follow a step; whether it is still.
     fn follow(&mut self, scale: f64, omega: f64, coefficients: &[f64]) -> bool {
-        let Self { front, state_rows, load_row, scratch: s, modes, .. } = self;
+        let Self { front, state, load_row, scratch: s, support, .. } = self;
         let Some(front) = front else { return true };
-        let (count, shift) = (2 * self.support.len(), s.system.rhs[*modes]);
-        let changed = Changed { state_rows, load_row, fields: &mut s.fields[..count] };
-        front.follow(&s.nodes, (scale, omega), (&s.step_fields[..count], shift), coefficients, changed)
+        let (count, shift) = (2 * support.len(), s.system.rhs[state.modes]);
+        let changed = Changed { load_row, fields: &mut s.fields[..count] };
+        let steps = (&s.step_fields[..count], shift);
+        front.follow((&s.nodes, &state.values), (scale, omega), steps, coefficients, changed)
     }
 
     /// The films of the fields.
@@ -181,16 +187,25 @@ impl Operators {
         let s = &mut self.scratch;
         let deformation = &s.fields[self.support.len()..];
         let offset = h_0 - 0.5 * scale.ln();
-        for ((film, place), deformation) in s.films.iter_mut().zip(&self.support).zip(deformation) {
-            let x = -1.0 + (place.xi + 1.0) * scale;
-            *film = offset + (0.5 * curvature * x * x + place.across) + scale * deformation;
+        for part in seen(self.support.own, self.front.as_ref()) {
+            let places = self.support.places[part.clone()].iter().zip(&deformation[part.clone()]);
+            for (film, (place, deformation)) in s.films[part].iter_mut().zip(places) {
+                let x = -1.0 + (place.xi + 1.0) * scale;
+                *film = offset + (0.5 * curvature * x * x + place.across) + scale * deformation;
+            }
         }
     }
 
     /// Evaluates the sampled rows at the fields; returns e_f^I.
     pub(super) fn evaluate(&mut self, case: &Case<'_>, coefficients: &[f64], h_0: f64, slopes: Option<Slopes>) -> f64 {
         self.lay_films(case, h_0);
-        let Case { problem, scale, penalty, .. } = *case;
+        self.evaluate_nodes(case);
+        self.evaluate_rows(case, coefficients, slopes)
+    }
+
+    /// The nodes of the fields.
+    fn evaluate_nodes(&mut self, case: &Case<'_>) {
+        let Case { problem, scale, .. } = *case;
         let s = &mut self.scratch;
         let count = self.support.len();
         let (pressure, rest) = s.fields.split_at(count);
@@ -201,6 +216,12 @@ impl Operators {
             Some((heated, laws)) => {
                 s.nodes.evaluate_warm(&laws, (pressure, &s.films), gradient, heated.film(), Order::Alone);
             }
+            None if self.front.is_some() => {
+                // Models that know a rupture boundary are Newtonian.
+                for part in seen(self.support.own, self.front.as_ref()) {
+                    s.nodes.evaluate_part(&problem.laws(), part, (pressure, &s.films));
+                }
+            }
             None => s.nodes.evaluate(
                 Laws { shear, ..problem.laws() },
                 (pressure, &s.films),
@@ -209,8 +230,19 @@ impl Operators {
                 Order::BesideTheFormer,
             ),
         }
-        let (v, d) = self.state_rows.split_at(count * self.modes);
-        let (d, g) = d.split_at(count * self.modes);
+    }
+
+    /// The sampled rows of these nodes.
+    fn evaluate_rows(&mut self, case: &Case<'_>, coefficients: &[f64], slopes: Option<Slopes>) -> f64 {
+        let Case { problem, scale, penalty, .. } = *case;
+        let (s, count) = (&mut self.scratch, self.support.len());
+        let (v, g) = (&self.state.values, &self.state.gradients);
+        let d = self.state.deformations(self.front.as_ref());
+        // Behind the boundary modes are no part of P.
+        let ahead = |node: usize, slope: f64| match &self.front {
+            Some(front) if front.is_cut(node) => 0.0,
+            _ => slope,
+        };
         let mut sum = 0.0;
         for (r, (stencil, geometry)) in self.stencil.iter().zip(&self.geometry).enumerate() {
             if self.front.as_ref().is_some_and(|front| front.is_ruptured(r)) {
@@ -222,7 +254,7 @@ impl Operators {
             let geometry = geometry.scaled(scale);
             // Before the centre there is no boundary: where the inlet ruptures, in time, a penalty holds it.
             let ruptures = self.front.as_ref().is_some_and(Front::in_force);
-            let held = !ruptures || self.support[stencil[CENTER]].xi < 0.0;
+            let held = !ruptures || self.support.places[stencil[CENTER]].xi < 0.0;
             let out = s.nodes.row(&geometry, if held { penalty } else { 0.0 }, *stencil);
             s.values[r] = out.value;
             sum += self.row_weights[r] * scale * out.value * out.value;
@@ -230,7 +262,8 @@ impl Operators {
                 let target = &mut s.jacobian_rows[r * self.modes..(r + 1) * self.modes];
                 target.fill(0.0);
                 for (m, n) in PAIRS {
-                    let [(one, a, b), (other, e, f)] = [m, n].map(|m| (stencil[m], out.d_p[m], scale * out.d_h[m]));
+                    let [(one, a, b), (other, e, f)] =
+                        [m, n].map(|m| (stencil[m], ahead(stencil[m], out.d_p[m]), scale * out.d_h[m]));
                     if [a, b, e, f] == [0.0; 4] {
                         continue;
                     }
@@ -368,22 +401,20 @@ impl Operators {
     /// ω = min(1, 0.3/max|ΔP|), and no sampled film loses more than 70 %.
     pub(super) fn damping(&mut self, scale: f64) -> f64 {
         let s = &mut self.scratch;
-        let (step, count) = (&s.system.rhs[..self.modes], self.support.len());
-        product(&self.state_rows, self.modes, step, &mut s.step_fields);
-        if let Some(front) = &self.front {
-            front.correct(step, &mut s.step_fields[count..2 * count]);
-        }
+        let (step, dh_0) = s.system.rhs.split_at(self.modes);
+        self.state.spread(&self.support, self.front.as_mut(), step, &mut s.step_fields);
         let (pressure, deformation) = s.step_fields.split_at(self.support.len());
-        let largest = pressure.iter().fold(0.0f64, |a, b| a.max(b.abs()));
-        let mut omega = if largest > 0.3 { 0.3 / largest } else { 1.0 };
-        let dh_0 = s.system.rhs[self.modes];
-        for (&film, d) in s.films.iter().zip(deformation) {
-            let change = dh_0 + scale * d;
-            if change < -0.7 * film && film > 0.0 {
-                omega = omega.min(-0.7 * film / change);
+        let (mut largest, mut omega, dh_0) = (0.0f64, 1.0f64, dh_0[0]);
+        for part in seen(self.support.own, self.front.as_ref()) {
+            largest = pressure[part.clone()].iter().fold(largest, |a, b| a.max(b.abs()));
+            for (&film, d) in s.films[part.clone()].iter().zip(&deformation[part]) {
+                let change = dh_0 + scale * d;
+                if change < -0.7 * film && film > 0.0 {
+                    omega = omega.min(-0.7 * film / change);
+                }
             }
         }
-        omega
+        if largest > 0.3 { omega.min(0.3 / largest) } else { omega }
     }
 
     /// J V Δz̃ on the sampled rows, for the row snapshots.
@@ -395,16 +426,4 @@ impl Operators {
             *out = s.film_column[r] * dh_0 + row.iter().zip(&s.system.rhs).map(|(a, b)| a * b).sum::<f64>();
         }
     }
-}
-
-/// out = A x for a row-major A.
-pub(super) fn product(rows: &[f64], columns: usize, x: &[f64], out: &mut [f64]) {
-    matmul(
-        ColMut::from_slice_mut(out).as_mat_mut(),
-        Accum::Replace,
-        MatRef::from_row_major_slice(rows, rows.len() / columns, columns),
-        ColRef::from_slice(x).as_mat(),
-        1.0,
-        Par::Seq,
-    );
 }

@@ -1,7 +1,7 @@
 //! What in the operators of a window follows the shape of an ellipse: the deformation of the modes at the support, the
 //! distances across in rows and gradients, and the undeformed gap.
 
-use super::Place;
+use super::support::{Place, StateRows};
 use crate::solver::discrete::reynolds::RowGeometry;
 use crate::solver::physics::contact::Ellipse;
 use crate::solver::reduced::shapes::Shapes;
@@ -46,7 +46,7 @@ impl Shaped {
         &mut self,
         shapes: &Shapes,
         ellipse: &Ellipse,
-        (state_rows, modes): (&mut [f64], usize),
+        state: &mut StateRows,
         geometry: &mut [RowGeometry],
         support: &mut [Place],
     ) {
@@ -55,11 +55,10 @@ impl Shaped {
         }
         self.ellipse = Some(*ellipse);
         self.weights = shapes.weights(ellipse);
-        let size = support.len() * modes;
-        let (deformation, gradients) = state_rows[size..].split_at_mut(size);
-        deformation.fill(0.0);
+        let size = support.len() * state.modes;
+        state.deformations.fill(0.0);
         for (weight, rows) in self.weights.iter().zip(&self.flexed) {
-            for (sum, value) in deformation.iter_mut().zip(rows) {
+            for (sum, value) in state.deformations.iter_mut().zip(rows) {
                 *sum += weight * value;
             }
         }
@@ -69,7 +68,7 @@ impl Shaped {
         for (place, across) in support.iter_mut().zip(&self.across) {
             place.across = ellipse.gap_curvature() * across;
         }
-        for (own, circle) in gradients.iter_mut().skip(size).zip(&self.gradients) {
+        for (own, circle) in state.gradients.iter_mut().skip(size).zip(&self.gradients) {
             *own = circle / ellipse.kappa;
         }
     }
