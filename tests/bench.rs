@@ -8,6 +8,7 @@ const FIELDS: [&str; 6] = ["baseline", "median_s", "name", "p99_s", "ratio", "ru
 const BASELINE: &str = "line/dense-newton";
 const POINT_BASELINE: &str = "point/full/cold";
 const TRANSIENT_BASELINE: &str = "line/transient/full-step";
+const HEAT_BASELINE: &str = "line/heat/full/cold";
 
 #[test]
 #[cfg_attr(debug_assertions, ignore = "times mean nothing without optimisation")]
@@ -36,6 +37,7 @@ fn the_quick_speed_table_keeps_its_contract() {
         let baseline = match name {
             _ if name.starts_with("point/") => POINT_BASELINE,
             _ if name.starts_with("line/transient/") => TRANSIENT_BASELINE,
+            _ if name.starts_with("line/heat/") => HEAT_BASELINE,
             _ => BASELINE,
         };
         assert_eq!(row["baseline"], baseline, "{name}");
@@ -46,6 +48,7 @@ fn the_quick_speed_table_keeps_its_contract() {
     assert!((ratio(BASELINE) - 1.0).abs() < 1e-12);
     assert!((ratio(POINT_BASELINE) - 1.0).abs() < 1e-12 && ratio("point/full/warm") > 1.0);
     assert!(row(TRANSIENT_BASELINE)["median_s"].as_f64().unwrap() < row(BASELINE)["median_s"].as_f64().unwrap());
+    assert!(ratio("line/heat/reduced") > 2.0);
     assert!(ratio("line/transient/rnsa-step") > 3.0);
     assert!(ratio("line/transient/tpwl-step") > 3.0);
     for (name, least) in [("line/full/cold", 10.0), ("line/full/warm", 10.0), ("line/reduced", 100.0)] {

@@ -1,6 +1,10 @@
 //! The speed table: full and reduced side by side, against a dense Newton measured in the same run.
 #![allow(clippy::indexing_slicing, reason = "the table's own sizes and points")]
 
+mod heat;
+
+pub use heat::HEAT_BASELINE;
+
 use super::model_file::ModelFileError;
 use super::store::Store;
 use super::{Embedded, EngineError, median, percentile};
@@ -121,6 +125,8 @@ pub fn run(quick: bool) -> Result<Bench, EngineError> {
     rows.extend(bench.reduced_shear_rows(names, ContactKind::Line, size)?);
     bench.add(rows, BASELINE);
     bench.add(transient_rows(size)?, TRANSIENT_BASELINE);
+    let rows = heat::rows(&mut bench, size)?;
+    bench.add(rows, HEAT_BASELINE);
     let shear = shear_problems(ContactKind::Point, POINT_POINTS[size])?;
     let mut rows = point_rows(size, &shear)?;
     if let Some(mut online) = bench.online("point/reduced", ContactKind::Point, false) {
@@ -129,6 +135,11 @@ pub fn run(quick: bool) -> Result<Bench, EngineError> {
         for (name, fields) in [("point/reduced", false), ("point/reduced/fields", true)] {
             rows.push(reduced_row(name, &mut online, (&points, lubricant), fields, POINT_BUDGET[size])?);
         }
+        // What stops at a thousandth is as far from the full solution.
+        let options = ReducedOptions { tolerance: 1e-3, ..ReducedOptions::default() };
+        let mut online = Online::new(Arc::clone(&online.model), options);
+        let points = (points.as_slice(), lubricant);
+        rows.push(reduced_row("point/reduced/1e-3", &mut online, points, false, POINT_BUDGET[size])?);
     }
     let names = ["point/shear/reduced", "point/shear/traction-curve"];
     rows.extend(bench.reduced_shear_rows(names, ContactKind::Point, size)?);
