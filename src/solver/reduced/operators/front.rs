@@ -9,12 +9,19 @@
 //! B moves up along a line where one of the nodes before it has a negative pressure, (D.17), else down where λ is
 //! negative at its first ruptured node. (D.18) as printed has the opposite sign: B would go back and forth.
 
+mod bending;
+mod reach;
+
+pub(super) use reach::support;
+pub(crate) use reach::{cut_off, fronts, passed_rows};
+
+use self::bending::Kept;
+use self::reach::{each_passed, passed};
 use super::support::{Support, row_times};
-use crate::solver::discrete::grid::{ContactGrid, dot};
+use crate::solver::discrete::grid::dot;
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
-use crate::solver::physics::lubricant::Cavitation;
-use crate::solver::reduced::model::{Snapshot, Window};
+use crate::solver::reduced::model::Window;
 use faer::linalg::matmul::matmul;
 use faer::reborrow::ReborrowMut;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
@@ -27,15 +34,10 @@ const NEGATIVE: f64 = -1e-4;
 /// The same in time, and what is none worth the name: there the bases are of fewer contacts, and pressures behind the
 /// contact that matter are smaller.
 const LITTLE: f64 = 1e-5;
-/// Nodes that B may move beyond where it was in any of the trainings.
-const MARGIN: usize = 4;
 /// So many turns between up and down leave B of a line where it is: its place is known to one node.
 const TURNS: u8 = 4;
 /// Nodes that B may pass at once where it strides, at first.
 const STRIDE: usize = 4;
-/// Places of B at which K V is kept: a solve takes the nearest of them. As many as these, and as take this many bytes.
-const KEPT: usize = 8;
-const KEPT_BYTES: usize = 16 << 20;
 
 /// The boundary, with what it changes.
 pub(super) struct Front {
@@ -110,85 +112,11 @@ struct Passed {
     zero: f64,
 }
 
-/// K V at one place of B.
-struct Kept {
-    /// Of each line how many nodes carry pressure.
-    fronts: Vec<usize>,
-    deformation: Vec<f64>,
-    /// Σ v vᵀ over the nodes behind it, where modes are held at zero there.
-    behind: Mat<f64>,
-    /// wᵀ V.
-    load: Vec<f64>,
-    /// What the film at X = 0 (and Y = 0) gains, and the scale it was found for.
-    lift: (Option<f64>, Vec<f64>),
-}
-
 /// What the boundary changes of the operators.
 pub(super) struct Changed<'a> {
     pub load_row: &'a mut [f64],
     /// P at the support, then K P.
     pub fields: &'a mut [f64],
-}
-
-/// Of each line along X the first column of a node array behind which no pressure is positive.
-pub(crate) fn fronts(grid: &ContactGrid, pressure: impl Fn(usize) -> f64) -> Vec<usize> {
-    let mut fronts = vec![0; grid.lines()];
-    for node in (0..grid.unknowns()).map(|k| grid.node(k)) {
-        let (line, column) = grid.line_and_column(node);
-        if fronts[line] == 0 || pressure(node) > 0.0 {
-            fronts[line] = column + 1;
-        }
-    }
-    fronts
-}
-
-/// Sets pressures behind B to zero.
-pub(crate) fn cut_off(grid: &ContactGrid, fronts: &[usize], pressure: &mut [f64]) {
-    for node in (0..grid.unknowns()).map(|k| grid.node(k)) {
-        let (line, column) = grid.line_and_column(node);
-        if column >= fronts[line] {
-            pressure[node] = 0.0;
-        }
-    }
-}
-
-/// The nodes that B may pass, line after line, as ranges of columns.
-fn passed(window: &Window) -> Vec<(usize, usize)> {
-    let grid = &window.grid;
-    let last = (0..grid.unknowns()).map(|k| grid.line_and_column(grid.node(k)).1).max().unwrap_or(0);
-    let first = grid.line_and_column(grid.node(0)).1;
-    let of_line = |line: usize| {
-        let own = || window.snapshots.iter().filter_map(move |snapshot| snapshot.fronts.get(line).copied());
-        let lowest = own().min().unwrap_or(last).saturating_sub(BEFORE + MARGIN).max(first);
-        let highest = (own().max().unwrap_or(last) + 1).min(last);
-        (lowest, highest.max(lowest))
-    };
-    (0..grid.lines()).map(of_line).collect()
-}
-
-/// The rows, as unknowns, that the boundary may pass, line after line; none where a penalty holds the pressures.
-pub(crate) fn passed_rows(window: &Window) -> Vec<usize> {
-    let mut rows = Vec::new();
-    if window.cavitation == Cavitation::Complementarity {
-        each_passed(window, |_, unknown| rows.push(unknown));
-    }
-    rows
-}
-
-/// Nodes of the support that the boundary asks for.
-pub(super) fn support(window: &Window) -> Vec<usize> {
-    let mut nodes = Vec::new();
-    each_passed(window, |_, unknown| nodes.extend(window.grid.row(unknown).0));
-    nodes
-}
-
-/// Tells line and unknown of every node that B may pass, line after line.
-fn each_passed(window: &Window, mut tell: impl FnMut(usize, usize)) {
-    let (grid, lines) = (&window.grid, window.grid.lines());
-    let first = grid.line_and_column(grid.node(0)).1;
-    for (line, (lowest, highest)) in passed(window).into_iter().enumerate() {
-        (lowest..=highest).for_each(|column| tell(line, (column - first) * lines + line));
-    }
 }
 
 impl Front {
@@ -252,48 +180,6 @@ impl Front {
         front
     }
 
-    /// Keeps K V, given whole, at places of B that are far from each other.
-    fn keep(&mut self, window: &Window, whole: &[f64], whole_load: &[f64]) {
-        let modes = self.lift.len();
-        let s = whole.len() / modes;
-        let most = (KEPT_BYTES / (8 * whole.len())).clamp(1, KEPT);
-        let fronts = |snapshot: &Snapshot| -> Vec<usize> {
-            self.lines.iter().zip(&snapshot.fronts).map(|(line, front)| line.place_of(*front)).collect()
-        };
-        let known: Vec<Vec<usize>> = window.snapshots.iter().map(fronts).collect();
-        let from_all = |own: &Vec<usize>| known.iter().map(|other| apart(own, other)).sum::<usize>();
-        let middle = known.iter().min_by_key(|own| from_all(own)).cloned();
-        let mut chosen = vec![middle.unwrap_or_else(|| self.lines.iter().map(|line| line.count).collect())];
-        while chosen.len() < most {
-            let near = |own: &Vec<usize>| chosen.iter().map(|other| apart(own, other)).min().unwrap_or(0);
-            let Some(next) = known.iter().max_by_key(|own| near(own)).filter(|own| near(own) > self.lines.len()) else {
-                break;
-            };
-            chosen.push(next.clone());
-        }
-        for fronts in chosen {
-            let cut =
-                self.lines.iter().zip(&fronts).flat_map(|(line, front)| line.first + front..line.first + line.count);
-            let cut: Vec<usize> = cut.collect();
-            let bent = Mat::from_fn(cut.len(), s, |k, place| f64::from(self.bends[cut[k] * s + place]));
-            let own = Mat::from_fn(cut.len(), modes, |k, mode| self.modes[cut[k] * modes + mode]);
-            let mut deformation = whole.to_vec();
-            let out = MatMut::from_row_major_slice_mut(&mut deformation, s, modes);
-            matmul(out, Accum::Add, bent.transpose(), own.as_ref(), -1.0, Par::Seq);
-            let mut behind = Mat::zeros(modes, modes);
-            if self.restrains {
-                matmul(behind.as_mut(), Accum::Replace, own.transpose(), own.as_ref(), 1.0, Par::Seq);
-            }
-            let mut load = whole_load.to_vec();
-            for k in cut {
-                let own = &self.modes[k * modes..][..modes];
-                load.iter_mut().zip(own).for_each(|(load, v)| *load -= self.nodes[k].weight * v);
-            }
-            let lift = (None, vec![0.0; modes]);
-            self.kept.push(Kept { fronts, deformation, behind, load, lift });
-        }
-    }
-
     /// The first ruptured column of each line; where B is out of force, the first one behind the pressures.
     pub fn fronts<'a>(&'a self, pressure: &'a [f64]) -> impl Iterator<Item = usize> + 'a {
         self.lines.iter().map(move |line| {
@@ -331,31 +217,6 @@ impl Front {
         !self.idle
     }
 
-    /// K V at the support, row-major, of a place of B nearby.
-    pub fn deformations(&self) -> &[f64] {
-        &self.kept[self.loaded].deformation
-    }
-
-    /// Whether a place of the support lies behind B.
-    pub fn is_cut(&self, place: usize) -> bool {
-        self.cut[place]
-    }
-
-    /// Places that no sampled row asks for and that are near B.
-    pub fn near(&self) -> impl Iterator<Item = Range<usize>> + '_ {
-        self.near.iter().filter(|places| !places.is_empty()).cloned()
-    }
-
-    /// Nodes between B and its place in K V, and whether they carry pressure that K V does not know, 1, or the other way
-    /// about, −1.
-    fn between(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
-        self.lines.iter().flat_map(|line| {
-            let sign = if line.front > line.kept { 1.0 } else { -1.0 };
-            let both = line.front.min(line.kept)..line.front.max(line.kept);
-            both.map(move |k| (line.first + k, sign))
-        })
-    }
-
     /// Puts B somewhere before an iteration begins; without a place it is behind all modes, and out of force.
     pub fn begin(&mut self, fronts: Option<&[usize]>, load_row: &mut [f64]) {
         self.idle = fronts.is_none();
@@ -381,71 +242,6 @@ impl Front {
             load_row.iter_mut().zip(own).for_each(|(load, v)| *load += weight * v);
         }
         self.look_near();
-    }
-
-    /// Finds the places that are near B: those of the rows behind it.
-    fn look_near(&mut self) {
-        let (own, end) = (self.own, self.cut.len());
-        self.near.fill(own..own);
-        if self.strides || self.idle {
-            // All are.
-            self.near.first_mut().into_iter().for_each(|near| *near = own..end);
-            return;
-        }
-        let Self { lines, nodes, asked, near, .. } = self;
-        let mut see = |place: usize| {
-            let Some(line) = place.checked_sub(own).map(|k| asked[k]) else { return };
-            let seen = &mut near[line];
-            *seen =
-                if seen.start == seen.end { place..place + 1 } else { seen.start.min(place)..seen.end.max(place + 1) };
-        };
-        for line in lines {
-            let behind = &nodes[line.first + line.front.min(line.count)];
-            behind.stencil.iter().for_each(|place| see(*place));
-        }
-    }
-
-    /// P and K P of coefficients: cuts off what lies behind B, adds to K P of the rows' own places what nodes between B
-    /// and its place in K V bend, and finds both near B.
-    pub fn spread(&mut self, values: &[f64], coefficients: &[f64], (pressure, deformation): (&mut [f64], &mut [f64])) {
-        for line in &self.lines {
-            for passed in &self.nodes[line.first + line.front..line.first + line.count] {
-                pressure[passed.place] = 0.0;
-            }
-        }
-        self.find_bending(coefficients);
-        self.bend_part(0..self.own, deformation);
-        self.spread_near(values, coefficients, (pressure, deformation));
-    }
-
-    /// P and K P of coefficients near B, where what bends is known.
-    fn spread_near(&self, values: &[f64], coefficients: &[f64], (pressure, deformation): (&mut [f64], &mut [f64])) {
-        let rows = self.deformations();
-        for near in self.near() {
-            for place in near.clone() {
-                pressure[place] = if self.cut[place] { 0.0 } else { row_times(values, place, coefficients) };
-                deformation[place] = row_times(rows, place, coefficients);
-            }
-            self.bend_part(near, deformation);
-        }
-    }
-
-    /// Finds the pressures, of coefficients, that K V does not know.
-    fn find_bending(&mut self, coefficients: &[f64]) {
-        let mut bending = std::mem::take(&mut self.bending);
-        bending.clear();
-        bending.extend(self.between().map(|(k, sign)| (k, sign * row_times(&self.modes, k, coefficients))));
-        self.bending = bending;
-    }
-
-    /// Adds what they bend to K P at a part of the support.
-    fn bend_part(&self, part: Range<usize>, deformation: &mut [f64]) {
-        let s = self.cut.len();
-        let out = &mut deformation[part.clone()];
-        for (k, value) in &self.bending {
-            let bends = &self.bends[k * s..][part.clone()];
-            out.iter_mut().zip(bends).for_each(|(out, bend)| *out += value * f64::from(*bend));
-        }
     }
 
     /// Adds to the equations, by a factor, that modes are zero behind B: of modes that differ there alone nothing else
@@ -479,61 +275,6 @@ impl Front {
             let value = factor * coefficient;
             rhs.iter_mut().zip(own.iter()).for_each(|(rhs, own)| *rhs -= value * own);
         }
-    }
-
-    /// Adds to a row of the Jacobian, by its derivatives with respect to the films, what nodes between B and its place in
-    /// K V bend. Of one line always: there few nodes decide the film, and at a high M Newton's steps grow without them.
-    /// Of many lines it costs more than the steps that it mostly saves, and waits until an iteration turns out `slow`.
-    pub fn bend(
-        &self,
-        (stencil, d_h): (&[usize; STENCIL], [f64; STENCIL]),
-        slow: bool,
-        scale: f64,
-        target: &mut [f64],
-    ) {
-        if self.idle || !(slow || self.lines.len() == 1) {
-            return;
-        }
-        let (modes, s) = (self.lift.len(), self.bends.len() / self.nodes.len());
-        for (k, sign) in self.between() {
-            let bends = &self.bends[k * s..][..s];
-            let bent = scale
-                * sign
-                * stencil.iter().zip(d_h).map(|(&place, slope)| slope * f64::from(bends[place])).sum::<f64>();
-            target.iter_mut().zip(&self.modes[k * modes..][..modes]).for_each(|(out, v)| *out += bent * v);
-        }
-    }
-
-    /// What the film at X = 0 (and Y = 0) gains, given by nodes and weights of an interpolation there and by what whole
-    /// modes give it.
-    pub fn aim(&mut self, grid: &ContactGrid, zero: &[(usize, f64)], scale: f64, whole: &[f64]) {
-        let modes = whole.len();
-        if self.aimed != Some(scale) {
-            self.aimed = Some(scale);
-            let weights = || zero.iter().filter(|(_, weight)| *weight != 0.0);
-            for own in &mut self.nodes {
-                own.zero = scale * weights().map(|(at, weight)| weight * grid.kernel_entry(*at, own.node)).sum::<f64>();
-            }
-        }
-        let Self { kept, lines, nodes, modes: basis, .. } = self;
-        let kept = &mut kept[self.loaded];
-        if kept.lift.0 != Some(scale) {
-            kept.lift.0 = Some(scale);
-            kept.lift.1.copy_from_slice(whole);
-            for k in
-                lines.iter().zip(&kept.fronts).flat_map(|(line, front)| line.first + front..line.first + line.count)
-            {
-                let own = &basis[k * modes..][..modes];
-                kept.lift.1.iter_mut().zip(own).for_each(|(lift, v)| *lift -= nodes[k].zero * v);
-            }
-        }
-        let mut lift = std::mem::take(&mut self.lift);
-        lift.copy_from_slice(&self.kept[self.loaded].lift.1);
-        for (k, sign) in self.between() {
-            let zero = sign * self.nodes[k].zero;
-            lift.iter_mut().zip(&self.modes[k * modes..][..modes]).for_each(|(lift, v)| *lift += zero * v);
-        }
-        self.lift = lift;
     }
 
     /// Lets B follow a step: `nodes` are those before it, `values` V at the support, `step` what it added to the fields, by the factor `omega`,
@@ -635,9 +376,4 @@ impl Line {
     fn place_of(&self, front: usize) -> usize {
         front.saturating_sub(self.column).clamp(1, self.count.max(1))
     }
-}
-
-/// How far two places of B are from each other.
-fn apart(a: &[usize], b: &[usize]) -> usize {
-    a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).sum()
 }

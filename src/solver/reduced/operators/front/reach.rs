@@ -1,0 +1,70 @@
+//! Where the boundary is in a node array, and where it may come.
+
+use super::BEFORE;
+use crate::solver::discrete::grid::ContactGrid;
+use crate::solver::physics::lubricant::Cavitation;
+use crate::solver::reduced::model::Window;
+
+/// Nodes that B may move beyond where it was in any of the trainings.
+const MARGIN: usize = 4;
+
+/// Of each line along X the first column of a node array behind which no pressure is positive.
+pub(crate) fn fronts(grid: &ContactGrid, pressure: impl Fn(usize) -> f64) -> Vec<usize> {
+    let mut fronts = vec![0; grid.lines()];
+    for node in (0..grid.unknowns()).map(|k| grid.node(k)) {
+        let (line, column) = grid.line_and_column(node);
+        if fronts[line] == 0 || pressure(node) > 0.0 {
+            fronts[line] = column + 1;
+        }
+    }
+    fronts
+}
+
+/// Sets pressures behind B to zero.
+pub(crate) fn cut_off(grid: &ContactGrid, fronts: &[usize], pressure: &mut [f64]) {
+    for node in (0..grid.unknowns()).map(|k| grid.node(k)) {
+        let (line, column) = grid.line_and_column(node);
+        if column >= fronts[line] {
+            pressure[node] = 0.0;
+        }
+    }
+}
+
+/// The nodes that B may pass, line after line, as ranges of columns.
+pub(super) fn passed(window: &Window) -> Vec<(usize, usize)> {
+    let grid = &window.grid;
+    let last = (0..grid.unknowns()).map(|k| grid.line_and_column(grid.node(k)).1).max().unwrap_or(0);
+    let first = grid.line_and_column(grid.node(0)).1;
+    let of_line = |line: usize| {
+        let own = || window.snapshots.iter().filter_map(move |snapshot| snapshot.fronts.get(line).copied());
+        let lowest = own().min().unwrap_or(last).saturating_sub(BEFORE + MARGIN).max(first);
+        let highest = (own().max().unwrap_or(last) + 1).min(last);
+        (lowest, highest.max(lowest))
+    };
+    (0..grid.lines()).map(of_line).collect()
+}
+
+/// The rows, as unknowns, that the boundary may pass, line after line; none where a penalty holds the pressures.
+pub(crate) fn passed_rows(window: &Window) -> Vec<usize> {
+    let mut rows = Vec::new();
+    if window.cavitation == Cavitation::Complementarity {
+        each_passed(window, |_, unknown| rows.push(unknown));
+    }
+    rows
+}
+
+/// Nodes of the support that the boundary asks for.
+pub(in crate::solver::reduced::operators) fn support(window: &Window) -> Vec<usize> {
+    let mut nodes = Vec::new();
+    each_passed(window, |_, unknown| nodes.extend(window.grid.row(unknown).0));
+    nodes
+}
+
+/// Tells line and unknown of every node that B may pass, line after line.
+pub(super) fn each_passed(window: &Window, mut tell: impl FnMut(usize, usize)) {
+    let (grid, lines) = (&window.grid, window.grid.lines());
+    let first = grid.line_and_column(grid.node(0)).1;
+    for (line, (lowest, highest)) in passed(window).into_iter().enumerate() {
+        (lowest..=highest).for_each(|column| tell(line, (column - first) * lines + line));
+    }
+}
