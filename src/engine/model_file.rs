@@ -10,7 +10,7 @@ use crate::solver::observer::Observer;
 use crate::solver::reduced::ReducedModel;
 use std::path::{Path, PathBuf};
 
-const VERSION: u32 = 12;
+const VERSION: u32 = 13;
 /// Before it no model said how its films rupture: by the penalty.
 const OLDEST: u32 = 6;
 /// What every reduced model file begins with.

@@ -4,10 +4,12 @@
 //! a mode that hardly appears in any solution needs few digits, and a node where pressures are small as many as any
 //! other, since the mobility of thick films multiplies what is lost there. Each value is a multiple of a power of two,
 //! and what is kept is by how many of them it misses the polynomial through the nodes before it: of fields that are
-//! smooth small integers, which take one or two bytes. Nodes where no mode has a value are left out.
+//! smooth small integers, which are packed by how often each of them comes. Nodes where no mode has a value are left out.
 
 use crate::solver::reduced::PodBasis;
 use faer::Mat;
+use pco::standalone::{simple_compress, simple_decompress_into};
+use pco::{ChunkConfig, DeltaSpec, ModeSpec};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -20,6 +22,8 @@ const EXPONENTS: std::ops::RangeInclusive<i16> = -400..=400;
 /// Highest orders of the polynomials that are continued along X and across.
 const MOST_ALONG: u8 = 5;
 const MOST_BESIDE: u8 = 2;
+/// So many packed misses take a byte at most: what is read takes no more memory than its bytes may ask for.
+const MOST_PACKED: usize = 4;
 
 /// How far, relative to itself, a row of a cubature may lie from a multiple of the modes at its node: as rare modes do that
 /// were kept once.
@@ -42,6 +46,8 @@ enum Values {
     Curves(Curves),
     /// Of each column the multiple that it is of what another matrix has there.
     Weights(Vec<f32>),
+    /// Curves without their misses, and these packed.
+    Packed(Curves, Vec<u8>),
 }
 
 impl Default for Values {
@@ -149,7 +155,7 @@ impl StoredMatrix {
         let (orders, misses): (Vec<_>, Vec<_>) = kept.collect::<Vec<_>>().into_iter().unzip();
         let (runs, misses) = (runs(&used), misses.concat());
         let curves = Curves { across, runs, row_exponents, column_exponents, orders, misses };
-        Self { rows, columns, values: Values::Curves(curves) }
+        Self { rows, columns, values: curves.packed() }
     }
 
     /// Rows that it says it has.
@@ -166,6 +172,7 @@ impl StoredMatrix {
             Values::Single(values) => values.into_iter().map(f64::from).collect(),
             Values::Steps(steps) => steps.values(rows, columns)?,
             Values::Curves(curves) => curves.values(rows, columns)?,
+            Values::Packed(curves, misses) => curves.with_misses(&misses)?.values(rows, columns)?,
             Values::Weights(_) => return None,
         };
         let sound = values.len() == count && values.iter().all(|v| v.is_finite());
@@ -174,6 +181,30 @@ impl StoredMatrix {
 }
 
 impl Curves {
+    /// With the misses packed, unless they are so few bytes that reading them would make much of little.
+    fn packed(mut self) -> Values {
+        let settings = ChunkConfig::default().with_mode_spec(ModeSpec::Classic).with_delta_spec(DeltaSpec::NoOp);
+        match simple_compress(&self.misses, &settings) {
+            Ok(packed) if self.misses.len() <= MOST_PACKED * packed.len() => {
+                self.misses.clear();
+                Values::Packed(self, packed)
+            }
+            _ => Values::Curves(self),
+        }
+    }
+
+    /// With the misses that were packed; `None` when these are not as many as the rest says, or more than so many bytes
+    /// can be.
+    fn with_misses(mut self, packed: &[u8]) -> Option<Self> {
+        let count = self.row_exponents.len().checked_mul(self.column_exponents.len())?;
+        if count > MOST_PACKED * packed.len() {
+            return None;
+        }
+        self.misses = vec![0; count];
+        let read = simple_decompress_into(packed, &mut self.misses).ok()?;
+        (read.finished && read.n_processed == count).then_some(self)
+    }
+
     /// Column after column; `None` when its parts do not fit each other.
     fn values(self, rows: usize, columns: usize) -> Option<Vec<f64>> {
         let Self { across, runs, row_exponents, column_exponents, orders, misses } = self;
@@ -215,7 +246,7 @@ impl<'a> Lattice<'a> {
         Self { used, across, row_steps: row_exponents.iter().map(|exponent| f64::from(*exponent).exp2()).collect() }
     }
 
-    /// The orders whose continuation takes the fewest bytes to correct, and by how much it misses each row.
+    /// The orders whose continuation takes the fewest bits to correct, and by how much it misses each row.
     fn shortest(&self, column: &[f64], exponent: i16) -> ((u8, u8), Vec<i64>) {
         let most_beside = if self.across > 1 { MOST_BESIDE } else { 0 };
         let candidates = (1..=MOST_ALONG).flat_map(|along| (0..=most_beside).map(move |beside| (along, beside)));
@@ -228,8 +259,8 @@ impl<'a> Lattice<'a> {
             });
             (orders, misses)
         });
-        let bytes = |(_, misses): &(_, Vec<i64>)| misses.iter().map(|miss| encoded_bytes(*miss)).sum::<u32>();
-        missed.min_by_key(bytes).unwrap_or_default()
+        let size = |(_, misses): &(_, Vec<i64>)| misses.iter().map(|miss| bits(*miss)).sum::<u32>();
+        missed.min_by_key(size).unwrap_or_default()
     }
 
     /// Goes through a column, whose values are found as it goes: `count` says which multiple the value of a row is,
@@ -274,10 +305,9 @@ fn signed_binomials(order: u8) -> Vec<f64> {
     std::iter::once(1.0).chain(rest).collect()
 }
 
-/// Bytes that an integer takes in a file: seven bits each, the sign among them.
-fn encoded_bytes(value: i64) -> u32 {
-    let bits = i64::BITS - ((value << 1) ^ (value >> 63)).leading_zeros();
-    bits.div_ceil(7).max(1)
+/// Bits of an integer, the sign among them.
+fn bits(value: i64) -> u32 {
+    i64::BITS - ((value << 1) ^ (value >> 63)).leading_zeros()
 }
 
 fn sane(exponents: &[i16]) -> bool {
@@ -498,11 +528,12 @@ mod tests {
         });
         let within = |k: usize| k / across >= 4 && k % across >= 2;
         assert!(missed.iter().enumerate().filter(|(k, _)| within(*k)).all(|(_, miss)| *miss == 0));
-        let bytes = |misses: &[i64]| misses.iter().map(|miss| encoded_bytes(*miss)).sum::<u32>();
-        assert!(bytes(&misses) <= bytes(&missed));
-        for (value, bytes) in [(0, 1), (63, 1), (-64, 1), (64, 2), (-65, 2), (8191, 2), (8192, 3), (i64::MIN, 10)] {
-            assert_eq!(postcard::to_allocvec(&value).unwrap().len() as u32, bytes);
-            assert_eq!(encoded_bytes(value), bytes);
+        let size = |misses: &[i64]| misses.iter().map(|miss| bits(*miss)).sum::<u32>();
+        assert!(size(&misses) <= size(&missed));
+        for (value, size) in
+            [(0, 0), (-1, 1), (1, 2), (-2, 2), (2, 3), (63, 7), (-64, 7), (i64::MAX, 64), (i64::MIN, 64)]
+        {
+            assert_eq!(bits(value), size);
         }
     }
 
@@ -510,21 +541,39 @@ mod tests {
     fn parts_that_do_not_fit_each_other_are_refused() {
         let stored = || StoredBasis::new(&basis(), 5, 1e-6);
         assert!(stored().into_basis(149).is_none() && stored().into_basis(usize::MAX).is_none());
-        let spoiled = |spoil: &dyn Fn(&mut Curves)| {
+        let spoiled = |spoil: &dyn Fn(&mut Curves, &mut Vec<u8>)| {
             let mut stored = stored();
-            if let Values::Curves(curves) = &mut stored.modes.values {
-                spoil(curves);
-            }
+            let Values::Packed(curves, packed) = &mut stored.modes.values else { panic!("misses are packed") };
+            spoil(curves, packed);
             stored.into_basis(150).is_none()
         };
-        assert!(!spoiled(&|_| {}));
-        assert!(spoiled(&|curves| curves.runs.push(usize::MAX)));
-        assert!(spoiled(&|curves| curves.runs[0] += 1));
-        assert!(spoiled(&|curves| curves.across = 0));
-        assert!(spoiled(&|curves| curves.row_exponents[0] = i16::MAX));
-        assert!(spoiled(&|curves| curves.column_exponents.truncate(1)));
-        assert!(spoiled(&|curves| curves.orders[2].0 = 200));
-        assert!(spoiled(&|curves| curves.orders.truncate(1)));
-        assert!(spoiled(&|curves| curves.misses.truncate(1)));
+        assert!(!spoiled(&|_, _| {}));
+        assert!(spoiled(&|curves, _| curves.runs.push(usize::MAX)));
+        assert!(spoiled(&|curves, _| curves.runs[0] += 1));
+        assert!(spoiled(&|curves, _| curves.across = 0));
+        assert!(spoiled(&|curves, _| curves.row_exponents[0] = i16::MAX));
+        assert!(spoiled(&|curves, _| curves.row_exponents.resize(1 << 20, 0)));
+        assert!(spoiled(&|curves, _| curves.column_exponents.truncate(1)));
+        assert!(spoiled(&|curves, _| curves.orders[2].0 = 200));
+        assert!(spoiled(&|curves, _| curves.orders.truncate(1)));
+        assert!(spoiled(&|_, packed| packed.truncate(packed.len() / 2)));
+        assert!(spoiled(&|_, packed| packed.fill(0x55)));
+        assert!(spoiled(&|_, packed| *packed = simple_compress(&[7i64; 571], &ChunkConfig::default()).unwrap()));
+    }
+
+    #[test]
+    fn misses_are_kept_packed_or_as_they_are() {
+        let mut stored = StoredBasis::new(&basis(), 5, 1e-6);
+        let modes = stored.clone().into_basis(150).unwrap().modes;
+        let Values::Packed(curves, packed) = stored.modes.values else { panic!("misses are packed") };
+        // As version 12 has them.
+        let plain = curves.with_misses(&packed).unwrap();
+        let bytes: u32 = plain.misses.iter().map(|miss| bits(*miss).div_ceil(7).max(1)).sum();
+        assert!(packed.len() < bytes as usize, "{} packed into {}", bytes, packed.len());
+        stored.modes.values = Values::Curves(plain.clone());
+        assert!(stored.into_basis(150).unwrap().modes == modes);
+        // What packs so well that a few bytes would ask for much is not packed.
+        let still = Curves { misses: vec![0; plain.misses.len()], ..plain };
+        assert!(matches!(still.packed(), Values::Curves(_)));
     }
 }
