@@ -299,7 +299,7 @@ impl StoredWindow {
             let sliding_too = known.is_of(Beside::Sliding) == sliding;
             sliding_too && (!heat || known.is_of(Beside::of(domain)))
         };
-        if heat && (grid.kind() != ContactKind::Line || scheme != Scheme::Galerkin) {
+        if heat && scheme != Scheme::Galerkin {
             return damaged("heat");
         }
         if !self.traction.as_ref().is_none_or(|rule| slides && rule.sound(&grid)) {

@@ -167,6 +167,23 @@ impl Nodes {
         }
     }
 
+    /// Evaluates some of the nodes of (P, H) so, one after the other.
+    pub fn evaluate_warm_at(
+        &mut self,
+        wanted: &[usize],
+        laws: &WarmLaws<'_>,
+        (pressure, film): (&[f64], &[f64]),
+        gradient: impl Fn(usize) -> [f64; 2],
+        warm: &mut WarmFilm,
+    ) {
+        self.thinning.resize(self.nodes.len(), ShearNode::default());
+        for &k in wanted {
+            let state = NodeState { pressure: pressure[k], gradient: gradient(k), film: film[k] };
+            self.thinning[k] = laws.node(state, &warm.theta[k], &mut warm.stress[k]);
+            self.nodes[k] = self.thinning[k].node;
+        }
+    }
+
     /// Makes a node one that is filled to a fraction θ: its unknown is θ, at P = 0.
     pub fn fill(&mut self, node: usize, fraction: f64) {
         let Node { pressure, flow, flow_p, flow_h, mobility_p, .. } = &mut self.nodes[node];

@@ -9,7 +9,7 @@ mod support;
 
 pub(crate) use front::{cut_off, fronts, passed_rows};
 pub use heat::Warmth;
-pub(crate) use heat::station_nodes;
+pub(crate) use heat::{Stations, carried};
 pub(crate) use newton::{Case, Iterate, OnlineOutcome, RowObserver, Stop};
 
 use self::front::Front;
@@ -96,11 +96,15 @@ impl Operators {
         Self::with_support(window, modes, deformation_modes, thinning, &[])
     }
 
-    /// Operators of line contacts with heat.
+    /// Operators of contacts with heat.
     pub fn with_heat(window: &Window, modes: usize, deformation_modes: Option<usize>) -> Self {
         let further = heat::further_nodes(&window.grid);
         let mut out = Self::with_support(window, modes, deformation_modes, true, &further);
-        out.heated = Some(Box::new(Heated::new(&window.grid, &out.support.places)));
+        let rule = out.traction.iter().map(|(place, _)| *place);
+        let mut films: Vec<usize> = out.stencil.iter().flatten().copied().chain(rule).collect();
+        films.sort_unstable();
+        films.dedup();
+        out.heated = Some(Box::new(Heated::new(&window.grid, &out.support.places, films)));
         out
     }
 
@@ -255,7 +259,9 @@ impl Operators {
         let (s, count) = (&self.scratch, self.support.len());
         if let Some((heated, heat)) = self.heated.as_ref().zip(problem.heat.as_ref()) {
             let stress = heated.stress();
-            let of = |&(k, weight): &(usize, f64)| weight * mid_stress_pa(problem, heat, stress[k], s.fields[k]);
+            let (kind, places) = (problem.point.kind, &self.support.places);
+            let pressure = |k: usize| carried(kind, -1.0 + (places[k].xi + 1.0) * scale, s.fields[k]);
+            let of = |&(k, weight): &(usize, f64)| weight * mid_stress_pa(problem, heat, stress[k], pressure(k));
             return Some(scale * self.traction.iter().map(of).sum::<f64>() * problem.point.area_per_load());
         }
         if problem.lubricant.limiting_stress.is_some() {

@@ -178,9 +178,6 @@ fn heat(spec: &TrainingSpec) -> Result<(), Refused> {
     if spec.lubricant.heat.is_none() {
         return refuse("range", "is of films with heat, but the scene has no field `heat`");
     }
-    if spec.contact() != ContactKind::Line {
-        return refuse("range", "is of films with heat, which are computed in line contacts only");
-    }
     if spec.lubricant.cavitation != Cavitation::Penalty {
         return refuse("cavitation", "must be the penalty for a reduced model with heat");
     }

@@ -1,6 +1,6 @@
-//! Reduced models of line contacts with heat.
+//! Reduced models of contacts with heat.
 
-use super::small::{heated, heated_oils};
+use super::small::{heated, heated_balls, heated_oils};
 use super::{HeatedOilRange, HeatedRange, OilRange, QuantityBox, Range, TrainingSpec, Windows, random_points, train};
 use crate::solver::full::{ContactSolver, Problem, Solution, Start};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, Sliding, si_from_moes};
@@ -54,6 +54,37 @@ fn reduced_contacts_with_heat_are_the_full_ones() {
             }
         }
     }
+}
+
+#[test]
+fn reduced_balls_with_heat_are_the_full_ones() {
+    let spec = heated_balls(Sampling::Cubature, 24);
+    let model = Arc::new(train(&spec, &()).unwrap());
+    let mut online = online(&model);
+    let mut full = ContactSolver::on(&model.windows[0].grid);
+    let mut warmest = 0.0f64;
+    for point in random_points(&spec.range, ContactKind::Point, 5, 13) {
+        online.forget();
+        let solved = online.solve(&point, spec.lubricant).unwrap();
+        assert_eq!(solved.trust, Trust::Trained);
+        let truth = full.solve(&point, spec.lubricant, Start::Cold, &()).unwrap();
+        let found = errors(&online, &solved, &truth);
+        for (error, bar) in found.into_iter().zip([1e-2, 2e-2, 2e-2, 3e-2]) {
+            assert!(error < bar, "{point:?}: {found:?}");
+        }
+        // Temperatures are drawn at every node of the plane, between the lines that were marched.
+        let fields = online.reconstruct(&solved).unwrap();
+        let (own, heat) = (fields.heat.as_ref().unwrap(), truth.heat.as_ref().unwrap());
+        assert!(own.y == heat.y && own.rise_k.len() == heat.rise_k.len());
+        let hottest = heat.largest.mid_film_k;
+        let off = own.rises().zip(heat.rises()).map(|(a, b)| (a.mid_film_k - b.mid_film_k).abs()).fold(0.0, f64::max);
+        assert!(off < 0.1 * hottest.max(1.0), "{off} K of {hottest} K");
+        assert!(own.balance.residual().abs() < 3e-2, "{:?}", own.balance);
+        let traction = fields.traction_coefficient();
+        assert!((solved.traction.unwrap() - traction).abs() < 3e-3 * traction.abs().max(1e-3));
+        warmest = warmest.max(hottest);
+    }
+    assert!(warmest > 3.0, "{warmest} K");
 }
 
 /// The contact of equal M, L, α and η₀ with so many times R and E′.

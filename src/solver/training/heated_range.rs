@@ -12,7 +12,7 @@ use crate::solver::physics::lubricant::LARGEST_HEATED_SRR;
 use crate::solver::reduced::HeatDomain;
 use serde::{Deserialize, Serialize};
 
-/// All line contacts with M, L and SRR in these intervals and p_H up to a limit, with heat: R, E′, η₀ and α make M a load
+/// All contacts, lines or circles, with M, L and SRR in these intervals and p_H up to a limit, with heat: R, E′, η₀ and α make M a load
 /// and L a speed, by which films warm.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -51,14 +51,14 @@ impl HeatedRange {
         hertz_pressure(self.max_hertz_pressure)
     }
 
-    /// The line contact at coordinates in the unit cube, by ln M, L and SRR; `None` where the range excludes it.
-    pub(super) fn at(&self, unit: Unit) -> Option<OperatingPoint> {
+    /// The contact of a kind at coordinates in the unit cube, by ln M, L and SRR; `None` where the range excludes it.
+    pub(super) fn at(&self, kind: ContactKind, unit: Unit) -> Option<OperatingPoint> {
         let request = MoesRequest {
             radius_m: Some(self.radius),
             modulus_pa: Some(self.modulus),
             viscosity_pa_s: Some(self.viscosity),
             alpha_per_pa: Some(self.alpha),
-            ..MoesRequest::new(ContactKind::Line, self.m.0, self.l.0)
+            ..MoesRequest::new(kind, self.m.0, self.l.0)
         };
         let point = up_to(self.max_hertz_pressure, (self.m, self.l), unit, request)?;
         Some(sliding(point, linear(self.srr, unit[2])))
@@ -77,7 +77,7 @@ impl HeatedRange {
     }
 }
 
-/// All line contacts of many oils with R, E′, u_m and SRR in these intervals, with heat.
+/// All contacts, lines or circles, of many oils with R, E′, u_m and SRR in these intervals, with heat.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HeatedOilRange {
@@ -109,14 +109,14 @@ impl HeatedOilRange {
         number("sliding_speed", self.sliding_speed, 1e-3, 1e3)
     }
 
-    /// The line contact at coordinates in the unit cube, by ln M, L, α, η₀, R, SRR and E′; `None` where the range excludes
-    /// it.
-    pub(super) fn at(&self, unit: Unit) -> Option<OperatingPoint> {
+    /// The contact of a kind at coordinates in the unit cube, by ln M, L, α, η₀, R, SRR and E′; `None` where the range
+    /// excludes it.
+    pub(super) fn at(&self, kind: ContactKind, unit: Unit) -> Option<OperatingPoint> {
         let [.., radius, srr, modulus] = unit;
         let request = MoesRequest {
             radius_m: Some(logarithmic(self.radius, radius)),
             modulus_pa: Some(logarithmic(self.modulus, modulus)),
-            ..self.oils.request(ContactKind::Line, unit)
+            ..self.oils.request(kind, unit)
         };
         let (point, srr) = (self.oils.contact(&request)?, linear(self.srr, srr));
         let (speed, (slowest, fastest)) = (point.speed_m_per_s, self.speed);

@@ -55,9 +55,9 @@ pub enum Range {
     },
     /// All contacts of many oils.
     Oils(OilRange),
-    /// All line contacts of one oil between bodies of one radius, with heat.
+    /// All contacts of one oil between bodies of one radius, with heat.
     Heated(HeatedRange),
-    /// All line contacts of many oils, with heat.
+    /// All contacts of many oils, with heat.
     HeatedOils(HeatedOilRange),
 }
 
@@ -342,8 +342,8 @@ impl Range {
             }
             Self::Sliding(range) => range.at(kind, unit),
             Self::Oils(range) => range.at(kind, unit),
-            Self::Heated(range) => range.at(unit).filter(|_| kind == ContactKind::Line),
-            Self::HeatedOils(range) => range.at(unit).filter(|_| kind == ContactKind::Line),
+            Self::Heated(range) => range.at(kind, unit),
+            Self::HeatedOils(range) => range.at(kind, unit),
             Self::Ellipses { m, l, radius_ratio, max_hertz_pressure } => {
                 let circle = up_to(f64::INFINITY, (m, l), unit, MoesRequest::new(kind, m.0, l.0))?;
                 let point = Quantity::RadiusRatio.at(&circle, logarithmic(radius_ratio, unit[2]));

@@ -6,7 +6,7 @@ use super::build::alone;
 use super::one_thread::{in_parallel, on_one_thread};
 use super::plan::Within;
 use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
-use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::reduced::{
     GoalEquations, Iterate, Online, ReducedModel, ReducedOptions, RowSnapshots, SampledRows, Sampling, Scheme,
     Snapshot, TestSpace, Window, all_rows, cubature, dense, greedy, is_finite, minimised_rows, q_deim, separation,
@@ -17,8 +17,10 @@ use fastrand::Rng;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Random parameters at which iterates are collected (reduced solves only).
+/// Random parameters at which iterates are collected (reduced solves only), and of contacts with heat in a plane, where
+/// one of all rows takes a second; of these no more trainings show theirs.
 const ROW_SNAPSHOT_SOLVES: usize = 160;
+const ROW_SNAPSHOT_SOLVES_IN_A_HEATED_PLANE: usize = 60;
 /// Steps smaller than this are demanded to be right absolutely, larger ones relatively.
 const STEP_FLOOR: f64 = 0.03;
 /// Random functionals of Δp̃ per iterate, beside the one of ΔH_c, on a grid of few and of many rows.
@@ -72,7 +74,7 @@ pub(super) fn sample_rows(
     observer: &dyn TrainingObserver,
 ) -> Result<Option<SampledRows>, TrainingError> {
     let per_mode = [spec.rows_per_mode];
-    let mut sampled = sample(spec, exact, served, (ROW_SNAPSHOT_SOLVES, &per_mode), rng, observer)?;
+    let mut sampled = sample(spec, exact, served, &per_mode, rng, observer)?;
     Ok(sampled.pop().flatten())
 }
 
@@ -96,7 +98,7 @@ pub fn with_rows(
     let (radius_ratio, cell) = (own.served_ratios(), Cell::of_model(model, window));
     let m = if cell.is_some() { (0.0, f64::INFINITY) } else { own.m };
     let served = Within { radius_ratio, cell, ..spec.within(m) };
-    let sampled = sample(spec, &exact, &served, (ROW_SNAPSHOT_SOLVES, rows_per_mode), &mut rng, observer)?;
+    let sampled = sample(spec, &exact, &served, rows_per_mode, &mut rng, observer)?;
     let with = |rows: SampledRows| {
         let mut other = model.clone();
         if let Some(place) = other.windows.get_mut(window) {
@@ -108,20 +110,26 @@ pub fn with_rows(
     Ok(sampled.into_iter().map(|rows| rows.map(with)).collect())
 }
 
-/// Rows for each number of them per mode, by what so many reduced solves show.
+/// Rows for each number of them per mode, by what reduced solves show.
 fn sample(
     spec: &TrainingSpec,
     exact: &Arc<ReducedModel>,
     served: &Within,
-    (solves, rows_per_mode): (usize, &[f64]),
+    rows_per_mode: &[f64],
     rng: &mut Rng,
     observer: &dyn TrainingObserver,
 ) -> Result<Vec<Option<SampledRows>>, TrainingError> {
     let Some(window) = exact.windows.first() else { return Ok(Vec::new()) };
+    let in_a_heated_plane = spec.range.heats() && spec.contact() == ContactKind::Point;
+    let (solves, trainings) = match in_a_heated_plane {
+        true => (ROW_SNAPSHOT_SOLVES_IN_A_HEATED_PLANE, ROW_SNAPSHOT_SOLVES_IN_A_HEATED_PLANE),
+        false => (ROW_SNAPSHOT_SOLVES, usize::MAX),
+    };
     let points = served.random_points(solves, rng);
     let mut tasks: Vec<Task<'_>> = points.into_iter().map(Task::At).collect();
     if spec.sampling == Sampling::Cubature {
-        tasks.extend((0..window.snapshots.len()).filter_map(|k| Task::beside(window, k)));
+        let every = window.snapshots.len().div_ceil(trainings).max(1);
+        tasks.extend((0..window.snapshots.len()).step_by(every).filter_map(|k| Task::beside(window, k)));
     }
     let test = Arc::new(TestSpace::new(window.pressure.basis(), &window.grid));
     let none = GoalEquations::over(&test);

@@ -163,6 +163,15 @@ pub(crate) fn heated_oils(sampling: Sampling, snapshots: usize) -> TrainingSpec 
     }
 }
 
+/// Circular contacts with heat of one such oil.
+pub(crate) fn heated_balls(sampling: Sampling, snapshots: usize) -> TrainingSpec {
+    let one = heated(sampling, snapshots);
+    let Range::Heated(range) = one.range else { return one };
+    let range = HeatedRange { m: (25.0, 40.0), l: (6.0, 8.0), srr: (0.0, 0.5), ..range };
+    let windows = Windows::Given(vec![WindowSpec::new(range.m, GridSpec::Plane(POINT_GRID))]);
+    TrainingSpec { range: Range::Heated(range), windows, pressure_loss: 1e-7, deformation_loss: 0.1, ..one }
+}
+
 /// Contacts with these numbers up to a pressure, at an α of 5…20 1/GPa.
 pub(crate) fn moes(m: (f64, f64), l: (f64, f64), max_hertz_pressure: f64) -> Range {
     moes_with(m, l, (5e-9, 20e-9), max_hertz_pressure)

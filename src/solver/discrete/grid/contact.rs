@@ -5,7 +5,7 @@
 //! K P: the scale s registers line contacts by their spike. A point contact is the case s = 1.
 
 use super::GridError;
-use super::line::{FIRST_UNKNOWN, ReferenceGrid};
+use super::line::{FIRST_UNKNOWN, INLET, ReferenceGrid};
 use super::point::{PointGrid, PointGridSpec};
 use crate::solver::discrete::elasticity::{Flexibility, PointScratch, Scratch};
 use crate::solver::discrete::reynolds::generalized::PlaneGradient;
@@ -117,6 +117,14 @@ impl ContactGrid {
             // Its node arrays have one node outside the inlet.
             Self::Line(grid) => (grid.xi.len() - 1, 1),
             Self::Point(grid) => (grid.nx(), grid.ny()),
+        }
+    }
+
+    /// The first column of nodes that has a film: those of a line contact begin with one outside the inlet.
+    pub fn first_column(&self) -> usize {
+        match self {
+            Self::Line(_) => INLET,
+            Self::Point(_) => 0,
         }
     }
 

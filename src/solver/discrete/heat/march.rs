@@ -376,6 +376,14 @@ fn central(before: f64, behind: f64) -> [f64; 3] {
 }
 
 impl<'a> Course<'a> {
+    /// The same through other states.
+    pub fn through<'b>(&self, states: &'b [NodeState]) -> Course<'b>
+    where
+        'a: 'b,
+    {
+        Course { states, ..*self }
+    }
+
     fn place(&self, i: usize, mobility: f64) -> Place<'a> {
         Place { laws: self.laws, limit: self.limit, state: self.states[i], mobility }
     }

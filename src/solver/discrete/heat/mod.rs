@@ -3,12 +3,14 @@
 
 mod across;
 mod film;
+mod lines;
 mod march;
 mod station;
 mod surfaces;
 
-pub use across::{ACROSS, POINTS, Profile, RULE, interpolated_across};
+pub use across::{ACROSS, POINTS, Profile, RULE, apply, interpolated_across};
 pub use film::{StressLaw, WarmFilm, WarmLaws};
-pub use march::{Aside, Beside, Course, HeatBalance, March};
+pub use lines::{Line, Lines, Spread};
+pub use march::{Course, HeatBalance, March};
 pub use station::{Limit, Station};
 pub use surfaces::MovingSource;

@@ -2,7 +2,7 @@
 
 use super::mixing::Mixing;
 use super::temperatures::Temperatures;
-use crate::solver::discrete::heat::{Aside, Beside, March, MovingSource, POINTS, Profile, WarmFilm};
+use crate::solver::discrete::heat::{Lines, MovingSource, Profile, WarmFilm};
 use crate::solver::discrete::reynolds::generalized::{NodeState, PlaneGradient};
 use crate::solver::discrete::space::Grid;
 use crate::solver::full::newton_space::NewtonSpace;
@@ -10,7 +10,6 @@ use crate::solver::full::solution::{Problem, Report, Termination};
 use crate::solver::full::system::{SolveOptions, System};
 use crate::solver::observer::Observer;
 use crate::solver::physics::lubricant::Cavitation;
-use rayon::prelude::*;
 use std::sync::Arc;
 
 /// How turns go on.
@@ -67,49 +66,36 @@ const FILM_LOSS: f64 = 0.7;
 pub(super) struct Coupled {
     /// The column of nodes of each station.
     columns: Vec<usize>,
-    /// From the edge of a plane to its axis.
-    pub lines: Vec<Line>,
-    /// What flows from line to line, at the temperatures before the last march; empty where there is one line only.
-    pub asides: Vec<Aside>,
-    /// The lines' ordinates in units of a.
-    pub y: Vec<f64>,
+    /// All lines of the grid along X.
+    pub lines: Lines,
     gradient: PlaneGradient,
-}
-
-/// A line along X.
-pub(super) struct Line {
-    pub march: March,
-    pub states: Vec<NodeState>,
 }
 
 impl Coupled {
     /// At the nodes of a system, as warm as a former contact was.
     pub fn new<S: NewtonSpace>(system: &System<S>, former: Option<&Temperatures>) -> Self {
         let grid = system.space.grid();
-        let ((x, ordinates), y) = (grid.abscissae(), grid.across().to_vec());
+        let (x, ordinates) = (grid.abscissae().0, grid.across());
         let columns = station_columns(x, S::FIRST_COLUMN);
         let stations: Vec<f64> = columns.iter().map(|&column| x[column]).collect();
         let known = former.filter(|former| former.stations == stations).map(|former| Arc::clone(&former.source));
         let source = known.unwrap_or_else(|| Arc::new(MovingSource::new(&stations)));
-        let line = |y: &f64| {
-            let mut march = March::with(stations.clone(), Arc::clone(&source));
-            if let Some(former) = former {
+        let mut lines = Lines::new(ordinates.to_vec(), &stations, &source);
+        if let Some(former) = former {
+            for (line, y) in lines.lines.iter_mut().zip(ordinates) {
                 let profiles: Vec<Profile> = former.line_at(*y).collect();
-                march.warm(&former.x, &profiles, 1.0 / former.inlet_k);
+                line.march.warm(&former.x, &profiles, 1.0 / former.inlet_k);
             }
-            Line { march, states: vec![NodeState::default(); columns.len()] }
-        };
-        let lines: Vec<Line> = ordinates.iter().map(line).collect();
-        let asides = if lines.len() > 1 { vec![Aside::default(); lines.len()] } else { Vec::new() };
-        Self { gradient: PlaneGradient::new(x, &y), lines, asides, columns, y }
+        }
+        Self { gradient: PlaneGradient::new(x, ordinates), lines, columns }
     }
 
     /// P, its gradient and H at the stations.
     pub fn look<S: NewtonSpace>(&mut self, system: &System<S>) {
         let (x, _) = system.space.grid().abscissae();
-        let (pressure, ny) = (&system.pressure, self.y.len());
-        let Self { columns, lines, gradient, .. } = self;
-        for (j, line) in lines.iter_mut().enumerate() {
+        let Self { columns, lines, gradient } = self;
+        let (pressure, ny) = (&system.pressure, lines.lines.len());
+        for (j, line) in lines.lines.iter_mut().enumerate() {
             for (i, (state, &column)) in line.states.iter_mut().zip(&*columns).enumerate() {
                 let node = column * ny + j;
                 let mut slopes = gradient.at(pressure, column, j);
@@ -120,27 +106,6 @@ impl Coupled {
                 *state = NodeState { pressure: pressure[node], gradient: slopes, film: system.film[node] };
             }
         }
-    }
-
-    /// Marches once along every line. Returns the largest change of θ.
-    fn march(&mut self, problem: &Problem, share: f64, tolerance: f64) -> Option<f64> {
-        let Self { lines, asides, y, .. } = self;
-        if let [line] = &mut lines[..] {
-            return Some(line.march.run(&problem.course(&line.states)?, share, tolerance));
-        }
-        lines.par_iter_mut().zip(&mut *asides).try_for_each(|(line, aside)| {
-            line.march.prepare(&problem.course(&line.states)?, Some(aside));
-            Some(())
-        })?;
-        // From the axis to the edge, as what the pressure drives flows aside: in front of the contact, where the film turns
-        // and hardly moves along X, it comes from there.
-        let mut changed = 0.0f64;
-        for (own, line) in lines.iter_mut().enumerate().rev() {
-            let beside = Beside { lines: asides, y, own };
-            changed = changed.max(line.march.go(&problem.course(&line.states)?, Some(beside), share, tolerance));
-            line.march.tell(&mut asides[own]);
-        }
-        Some(changed)
     }
 
     /// Takes turns until they change nothing any more.
@@ -171,11 +136,14 @@ impl Coupled {
         for number in 0..pace.turns {
             self.look(system);
             self.state(system, &mut from);
-            changed = self.march(problem, share, (1e-3 * changed).clamp(1e-10, 1e-4)).unwrap_or(changed);
+            if let Some(course) = problem.course(&[]) {
+                changed = self.lines.march(&course, (share, (1e-3 * changed).clamp(1e-10, 1e-4)), true);
+            }
             let warm = system.warm.get_or_insert_with(WarmFilm::default);
             let (x, _) = system.space.grid().abscissae();
-            let theta = |line: usize, i: usize| self.lines[line].march.stations[i].theta;
-            warm.spread_lines(x, &self.lines[0].march.x, self.lines.len(), theta);
+            let lines = &self.lines.lines;
+            let theta = |line: usize, i: usize| lines[line].march.stations[i].theta;
+            warm.spread_lines(x, self.lines.x(), lines.len(), theta);
             system.go_on(problem, &options, &mut memory, observer, report);
             let size = report.steps.last().copied().unwrap_or(f64::NAN);
             if matches!(report.termination, Termination::Cancelled | Termination::Diverged) {
@@ -212,9 +180,7 @@ impl Coupled {
         out.clear();
         out.extend_from_slice(&system.pressure);
         out.push(system.h_0);
-        for line in &self.lines {
-            out.extend(line.march.stations.iter().flat_map(|station| station.theta));
-        }
+        out.extend(self.lines.stations().flat_map(|station| station.theta));
     }
 
     /// Takes over such a state; where the film is ruptured no pressure is.
@@ -223,10 +189,7 @@ impl Coupled {
         system.keep_ruptured(pressure);
         system.set_pressure(problem, pressure);
         system.set_h_0(rest[0]);
-        let stations = self.lines.iter_mut().flat_map(|line| &mut line.march.stations);
-        for (station, theta) in stations.zip(rest[1..].chunks_exact(POINTS)) {
-            station.theta.copy_from_slice(theta);
-        }
+        self.lines.put(&rest[1..]);
     }
 }
 

@@ -1,9 +1,7 @@
 //! The temperatures of a solved contact.
 
 use super::coupled::Coupled;
-use crate::solver::discrete::grid::cubic;
-use crate::solver::discrete::heat::{Aside, Beside, HeatBalance, March, MovingSource, POINTS, Profile, WarmFilm};
-use crate::solver::discrete::reynolds::generalized::NodeState;
+use crate::solver::discrete::heat::{HeatBalance, Lines, MovingSource, POINTS, Profile, Spread, WarmFilm};
 use crate::solver::discrete::space::Grid;
 use crate::solver::full::newton_space::NewtonSpace;
 use crate::solver::full::solution::Problem;
@@ -69,9 +67,6 @@ pub(in crate::solver) fn mid_stress_pa(problem: &Problem, heat: &ScaledHeat, str
     carried.min(felt.abs()).copysign(felt)
 }
 
-/// A line along X that was marched: its march, and the states that this went through.
-pub(in crate::solver) type Marched<'a> = (&'a March, &'a [NodeState]);
-
 /// Node arrays of a contact with heat: X, Y in units of a, P, H and τ̄_m.
 pub(in crate::solver) struct NodeArrays<'a> {
     pub x: &'a [f64],
@@ -87,6 +82,13 @@ impl Rises {
     /// Those of a profile.
     pub fn of(rise_k: &Profile) -> Self {
         Self { mid_film_k: rise_k[POINTS / 2], surfaces_k: [rise_k[0], rise_k[POINTS - 1]] }
+    }
+
+    /// Those at X = 0 (and Y = 0) of lines that were marched.
+    pub(in crate::solver) fn central(lines: &Lines, inlet_k: f64) -> Self {
+        let centre = Spread::new(lines.x(), &lines.y, std::iter::once((0.0, 0.0)));
+        let rise_k = centre.profiles(lines).next().map(|theta| theta.map(|theta| inlet_k * theta));
+        rise_k.as_ref().map(Self::of).unwrap_or_default()
     }
 
     /// How far another rise at mid-film is from this one, relative to that; to a kelvin where that is less.
@@ -177,42 +179,28 @@ impl Temperatures {
             film: &system.film,
             stress: system.warm.as_ref().map_or(&[][..], |warm| &warm.stress),
         };
-        let lines: Vec<Marched<'_>> = coupled.lines.iter().map(|line| (&line.march, &line.states[..])).collect();
-        Self::marched(&lines, &coupled.asides, &fields, (problem, heat))
+        let places = fields.x[fields.first..].iter().flat_map(|x| fields.y.iter().map(|y| (*x, *y)));
+        let spread = Spread::new(coupled.lines.x(), &coupled.lines.y, places);
+        let theta: Vec<Profile> = spread.profiles(&coupled.lines).collect();
+        Self::marched(&coupled.lines, &theta, &fields, (problem, heat))
     }
 
-    /// Those of lines, at least one, that were marched through given states at their stations, at the nodes of a contact;
-    /// in a plane with what flows from line to line.
+    /// Those of lines that were marched through given states at their stations, and of the nodes of a contact between
+    /// them, θ of which is given.
     pub(in crate::solver) fn marched(
-        lines: &[Marched<'_>],
-        asides: &[Aside],
+        lines: &Lines,
+        theta: &[Profile],
         fields: &NodeArrays<'_>,
         (problem, heat): (&Problem, &ScaledHeat),
     ) -> Self {
         let inlet_k = heat.heat.inlet_temperature;
         let x = fields.x[fields.first..].to_vec();
-        let axis = lines[lines.len() - 1].0;
-        let at = |march: &March, (first, weights): (usize, [f64; 4])| -> Profile {
-            let near = &march.stations[first..];
-            std::array::from_fn(|j| inlet_k * weights.iter().zip(near).map(|(w, own)| w * own.theta[j]).sum::<f64>())
-        };
-        let mut rise_k: Vec<Profile> = Vec::with_capacity(x.len() * lines.len());
-        for x in &x {
-            let place = cubic(&axis.x, *x);
-            rise_k.extend(lines.iter().map(|(march, _)| at(march, place)));
-        }
-        let mut largest = Rises::default();
-        let mut balance = HeatBalance::default();
-        for (own, (march, states)) in lines.iter().enumerate() {
-            let loaded = march.stations.iter().zip(*states).filter(|(_, state)| state.pressure > 0.0);
-            largest = loaded.fold(largest, |largest, (own, _)| {
-                largest.or_larger(Rises::of(&own.theta.map(|theta| inlet_k * theta)))
-            });
-            let beside = (lines.len() > 1).then_some(Beside { lines: asides, y: fields.y, own });
-            if let Some(course) = problem.course(states) {
-                balance = balance.plus(width(fields.y, own), &march.balance(&course, beside));
-            }
-        }
+        let kelvin = |theta: Profile| theta.map(|theta| inlet_k * theta);
+        let states = lines.lines.iter().flat_map(|line| &line.states);
+        let loaded = lines.stations().zip(states).filter(|(_, state)| state.pressure > 0.0);
+        let largest =
+            loaded.fold(Rises::default(), |largest, (station, _)| largest.or_larger(Rises::of(&kelvin(station.theta))));
+        let balance = problem.course(&[]).map(|course| lines.balance(&course)).unwrap_or_default();
         let mid_stress_pa = fields
             .stress
             .iter()
@@ -221,25 +209,16 @@ impl Temperatures {
         Self {
             x,
             y: fields.y.to_vec(),
-            thickness: fields.film[fields.first * lines.len()..].to_vec(),
+            thickness: fields.film[fields.first * fields.y.len()..].to_vec(),
             mid_stress_pa: mid_stress_pa.collect(),
             shear_stress: fields.stress.to_vec(),
-            central: Rises::of(&at(axis, cubic(&axis.x, 0.0))),
+            central: Rises::central(lines, inlet_k),
             largest,
             balance,
             inlet_k,
-            stations: axis.x.clone(),
-            source: Arc::clone(&axis.source),
-            rise_k,
+            stations: lines.x().to_vec(),
+            source: lines.source(),
+            rise_k: theta.iter().copied().map(kelvin).collect(),
         }
-    }
-}
-
-/// The width of the strip around a line, by the trapezoidal rule; 1 where there is but one line.
-fn width(y: &[f64], own: usize) -> f64 {
-    let at = |line: usize| y.get(line).copied().unwrap_or_default();
-    match y.len() {
-        1 => 1.0,
-        n => 0.5 * (at((own + 1).min(n - 1)) - at(own.saturating_sub(1))),
     }
 }

@@ -1,15 +1,16 @@
 //! From a reduced solution back to fields: the only large-scale work online, on request.
 
 use super::{Online, ReducedError, ReducedSolution, operators_of};
-use crate::solver::discrete::grid::{ContactGrid, INLET};
-use crate::solver::discrete::heat::{March, Profile, WarmFilm};
+use crate::solver::discrete::grid::ContactGrid;
+use crate::solver::discrete::heat::{ACROSS, Lines, MovingSource, Profile, Spread, apply};
 use crate::solver::discrete::nodes::Nodes;
-use crate::solver::discrete::reynolds::generalized::{NodalGradient, NodeState};
+use crate::solver::discrete::reynolds::generalized::{NodeState, PlaneGradient};
 use crate::solver::full::heat::{NodeArrays, Temperatures, one_sided};
 use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, Termination, scalars_of};
-use crate::solver::reduced::operators::{cut_off, station_nodes};
+use crate::solver::reduced::operators::{Stations, carried, cut_off};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Par};
+use rayon::prelude::*;
 use std::sync::Arc;
 
 impl Online {
@@ -150,6 +151,9 @@ impl Online {
 /// Accuracy of the march that tells where heat goes.
 const MARCHED: f64 = 1e-7;
 
+/// Nodes whose stress is found by one task.
+const SHARE: usize = 256;
+
 /// Reconstructed node arrays.
 struct Fields {
     problem: Problem,
@@ -182,32 +186,44 @@ impl Fields {
 
     /// Temperatures by those at the stations of the march; none without heat.
     fn temperatures(&self, theta: &[Profile]) -> Option<Temperatures> {
-        let Self { problem, grid: ContactGrid::Line(grid), scale, pressure, film, .. } = self else { return None };
+        let Self { problem, grid, scale, pressure, film, .. } = self;
         let (heat, laws) = (problem.heat.as_ref()?, problem.warm_laws()?);
-        let x = grid.scaled(*scale).x;
-        let gradient = NodalGradient::new(&x);
+        let ((xi, y), across, first) = (grid.abscissae(), grid.nodes().1, grid.first_column());
+        let x: Vec<f64> = xi.iter().map(|xi| -1.0 + (xi + 1.0) * scale).collect();
+        let gradient = PlaneGradient::new(&x, y);
         let state = |node: usize| {
-            let inlet = node == INLET;
-            let ahead = || one_sided(&x[node..], [0, 1, 2].map(|k| pressure[node + k]));
-            let slope = if inlet { ahead() } else { gradient.at(pressure, node) };
-            NodeState { pressure: pressure[node], gradient: [slope, 0.0], film: film[node] }
+            let mut slopes = gradient.at_node(pressure, node);
+            if node / across == first {
+                // At the inlet the node outside knows nothing of the pressure.
+                slopes[0] = one_sided(&x[first..], [0, 1, 2].map(|k| pressure[node + k * across]));
+            }
+            NodeState { pressure: pressure[node], gradient: slopes, film: film[node] }
         };
-        let nodes = station_nodes(&self.grid);
-        if theta.len() != nodes.len() {
+        let stations = Stations::of(grid);
+        let at: Vec<f64> = stations.xi(grid).iter().map(|xi| -1.0 + (xi + 1.0) * scale).collect();
+        let mut lines = Lines::new(stations.y(grid), &at, &Arc::new(MovingSource::new(&at)));
+        if theta.len() != lines.stations().count() {
             return None;
         }
-        let states: Vec<NodeState> = nodes.iter().map(|&node| state(node)).collect();
-        let mut march = March::new(nodes.iter().map(|&node| x[node]).collect());
-        march.stations.iter_mut().zip(theta).for_each(|(station, theta)| station.theta = *theta);
-        // What flows and where the heat goes, at the temperatures as they are.
-        march.run(&problem.course(&states)?, 0.0, MARCHED);
-        let mut warm = WarmFilm::default();
-        warm.spread(&x, &march.x, |i| theta[i]);
-        for (node, (theta, stress)) in warm.theta.iter().zip(&mut warm.stress).enumerate().skip(INLET) {
-            laws.node(state(node), theta, stress);
+        for (line, nodes) in lines.lines.iter_mut().zip(stations.nodes()) {
+            line.states.iter_mut().zip(nodes).for_each(|(known, node)| *known = state(node));
         }
-        let arrays = NodeArrays { x: &x, y: &[0.0], first: INLET, pressure, film, stress: &warm.stress };
-        Some(Temperatures::marched(&[(&march, &states)], &[], &arrays, (problem, heat)))
+        lines.stations_mut().zip(theta).for_each(|(station, theta)| station.theta = *theta);
+        // What flows and where the heat goes, at the temperatures as they are.
+        lines.march(&problem.course(&[])?, (0.0, MARCHED), true);
+        let places = x.iter().flat_map(|x| y.iter().map(|y| (*x, *y)));
+        let profiles = Spread::new(&at, &lines.y, places).profiles(&lines).collect::<Vec<Profile>>();
+        let skipped = first * across;
+        let mut stress = vec![0.0; pressure.len()];
+        stress.par_iter_mut().zip(&profiles).enumerate().skip(skipped).with_min_len(SHARE).for_each(
+            |(node, (stress, theta))| {
+                laws.node(state(node), &apply(&ACROSS.to_rule, theta), stress);
+            },
+        );
+        let counted = |(node, p): (usize, &f64)| carried(grid.kind(), x[node / across], *p);
+        let pressure: Vec<f64> = pressure.iter().enumerate().map(counted).collect();
+        let arrays = NodeArrays { x: &x, y, first, pressure: &pressure, film, stress: &stress };
+        Some(Temperatures::marched(&lines, &profiles[skipped..], &arrays, (problem, heat)))
     }
 
     fn scalars(&self, h_0: f64) -> Scalars {

@@ -214,7 +214,8 @@ impl Operators {
         let gradient = |k: usize| [gradients[k] / scale, gradients.get(count + k).copied().unwrap_or(0.0)];
         match self.heated.as_mut().zip(problem.warm_laws()) {
             Some((heated, laws)) => {
-                s.nodes.evaluate_warm(&laws, (pressure, &s.films), gradient, heated.film(), Order::Alone);
+                let (warm, wanted) = heated.film();
+                s.nodes.evaluate_warm_at(wanted, &laws, (pressure, &s.films), gradient, warm);
             }
             None if self.front.is_some() => {
                 // Models that know a rupture boundary are Newtonian.
