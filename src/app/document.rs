@@ -331,8 +331,8 @@ impl Document {
             scene.expect.clear();
             scene.source.clear();
         }
-        if self.lubricant.heat.is_some() && scene.study.check_heat(self.point.kind).is_err() {
-            // Few studies know heat, and no model of point contacts.
+        if self.lubricant.heat.is_some() && scene.study.check_heat().is_err() {
+            // Few studies know heat.
             scene.study = Study::Point(Point { methods: methods_of(self.point.kind) });
             scene.expect.clear();
         }

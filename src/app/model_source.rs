@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use std::sync::Arc;
 
 /// The models that are read when they are first asked for: not everybody has ellipses or heat.
-const LATE: [Embedded; 2] = [Embedded::Ellipse, Embedded::HeatedLine];
+const LATE: [Embedded; 3] = [Embedded::Ellipse, Embedded::HeatedLine, Embedded::HeatedCircle];
 
 /// The reduced models in use. Where there is none for a contact and its fluid, the full solver draws the pictures.
 #[derive(Clone, Default)]
@@ -100,7 +100,7 @@ impl Models {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::document::Document;
+    use crate::app::document::{Document, Shape};
     use crate::scene::named_lubricant::{SQUALANE_PIP, by_name};
     use crate::solver::full::Problem;
     use crate::solver::physics::contact::{MoesRequest, Quantity, Sliding, si_from_moes};
@@ -174,11 +174,17 @@ mod tests {
         assert!(models.put(Arc::clone(&heated)).is_none() && models.serves(&heated));
         assert!(Arc::ptr_eq(models.of(&line(), &warm).unwrap(), &heated));
         assert!(Arc::ptr_eq(models.of(&line(), &cold).unwrap(), &isothermal));
-        // The contact that the explorer opens with is one of those it was trained for.
-        for srr in [0.0, 0.1, 1.0] {
-            let sliding = Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: None };
-            let point = OperatingPoint { sliding, ..Document::default().point };
-            assert_eq!(heated.trust(&Problem::new(&point, warm).unwrap()), Trust::Trained, "SRR {srr}");
+        // The contacts that the explorer opens with are among those they were trained for.
+        let mut ball = Document::default();
+        ball.set_shape(Shape::Ball).unwrap();
+        assert_eq!(models.late_for(&ball.point, &warm), Some(Embedded::HeatedCircle));
+        let of_balls = store.embedded(Embedded::HeatedCircle).unwrap();
+        for (model, home) in [(&heated, Document::default().point), (&of_balls, ball.point)] {
+            for srr in [0.0, 0.1, 1.0] {
+                let sliding = Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: None };
+                let point = OperatingPoint { sliding, ..home };
+                assert_eq!(model.trust(&Problem::new(&point, warm).unwrap()), Trust::Trained, "SRR {srr}");
+            }
         }
     }
 }

@@ -8,8 +8,8 @@ use clap::Args;
 /// Heat in the film. SI units throughout.
 #[derive(Clone, Debug, Args)]
 pub struct HeatOptions {
-    /// Compute temperatures of film and bodies, and what they do to film and traction (with --method reduced, of line
-    /// contacts, by the program's model with heat, or by another one, --rom FILE)
+    /// Compute temperatures of film and bodies, and what they do to film and traction (with --method reduced, of lines
+    /// and circles, by the program's models with heat, or by another one, --rom FILE)
     #[arg(long)]
     heat: bool,
     /// Temperature of oil and bodies in front of the contact in K; viscosity and α are those at it (default: 313.15)

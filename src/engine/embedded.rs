@@ -22,12 +22,21 @@ pub enum Embedded {
     Ellipse,
     /// Line contacts of oils with heat: `scenes/training/line_heat.ron`.
     HeatedLine,
+    /// Circular contacts of oils with heat: `scenes/training/point_heat.ron`.
+    HeatedCircle,
 }
 
 impl Embedded {
     /// All of them.
-    pub const ALL: [Self; 6] =
-        [Self::Line, Self::ThinningLine, Self::Circle, Self::ThinningCircle, Self::Ellipse, Self::HeatedLine];
+    pub const ALL: [Self; 7] = [
+        Self::Line,
+        Self::ThinningLine,
+        Self::Circle,
+        Self::ThinningCircle,
+        Self::Ellipse,
+        Self::HeatedLine,
+        Self::HeatedCircle,
+    ];
 
     /// The one of a kind of contact, circular where it is one of points, and of a lubricant that thins under shear or
     /// not.
@@ -40,12 +49,20 @@ impl Embedded {
         }
     }
 
-    /// The one that serves a contact. Ellipses of lubricants that thin under shear have none: they get that of circles,
-    /// which says so; as do points with heat, and lines with heat whose lubricants thin.
+    /// The one of films with heat of a kind of contact, circular where it is one of points.
+    pub fn with_heat(kind: ContactKind) -> Self {
+        match kind {
+            ContactKind::Line => Self::HeatedLine,
+            ContactKind::Point => Self::HeatedCircle,
+        }
+    }
+
+    /// The one that serves a contact. Ellipses of lubricants that thin under shear have none, nor have ellipses with heat:
+    /// they get that of circles, which says so; as do contacts with heat whose lubricants thin.
     pub fn of(point: &OperatingPoint, lubricant: &Lubricant) -> Self {
         let thins = lubricant.shear != ShearLaw::Newtonian;
-        if point.kind == ContactKind::Line && lubricant.heat.is_some() {
-            return Self::HeatedLine;
+        if lubricant.heat.is_some() {
+            return Self::with_heat(point.kind);
         }
         if point.radius_ratio() != 1.0 && !thins { Self::Ellipse } else { Self::of_kind(point.kind, thins) }
     }
@@ -59,6 +76,7 @@ impl Embedded {
             Self::ThinningCircle => include_bytes!("../../assets/point_shear.rom"),
             Self::Ellipse => include_bytes!("../../assets/ellipse.rom"),
             Self::HeatedLine => include_bytes!("../../assets/line_heat.rom"),
+            Self::HeatedCircle => include_bytes!("../../assets/point_heat.rom"),
         }
     }
 
@@ -106,6 +124,8 @@ mod tests {
         let line = si_from_moes(&MoesRequest::new(ContactKind::Line, 50.0, 5.0)).unwrap();
         assert_eq!(Embedded::of(&line, &SQUALANE_PIP), Embedded::ThinningLine);
         let warm = Lubricant { heat: Some(Heat::default()), ..oil };
-        assert_eq!([line, circle].map(|point| Embedded::of(&point, &warm)), [Embedded::HeatedLine, Embedded::Circle]);
+        let [of_line, of_circle, of_ellipse] = [line, circle, ellipse].map(|point| Embedded::of(&point, &warm));
+        assert_eq!([of_line, of_circle], [Embedded::HeatedLine, Embedded::HeatedCircle]);
+        assert_eq!(of_ellipse, of_circle, "it says that it knows circles only");
     }
 }

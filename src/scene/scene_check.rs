@@ -23,7 +23,7 @@ impl Scene {
             self.laws().check().map_err(refused)?;
             let sliding = OperatingPoint { sliding: self.sliding(), ..point };
             self.laws().scaled_heat(&fluid, &sliding).map_err(refused)?;
-            self.study.check_heat(self.contact)?;
+            self.study.check_heat()?;
         }
         ScaledShear::new(self.lubricant.shear, self.sliding(), &point)
             .map_err(|problem| refuse("srr, npr", format!("are refused: {problem}")))?;
@@ -72,7 +72,6 @@ mod tests {
     use super::*;
     use crate::scene::study::{error_split, grid_study, point, sweep, trajectory};
     use crate::scene::{At, Axis, Contacts, Grid, Method, QuantityBox, Steps, Study};
-    use crate::solver::physics::contact::ContactKind;
     use crate::solver::physics::lubricant::{Cavitation, Heat};
 
     #[test]
@@ -90,9 +89,6 @@ mod tests {
                 .contains("methods")
         );
         let heat = |scene: Scene| message(Scene { heat: Some(Heat::default()), ..scene });
-        let ball = Scene { contact: ContactKind::Point, ..good.clone() };
-        let reduced = Study::Point(point::Point { methods: vec![Method::EMBEDDED] });
-        assert!(heat(Scene { study: reduced, ..ball }).contains("no model of point contacts"));
         Scene { heat: Some(Heat::default()), ..good.clone() }.check().unwrap();
         let march = Study::GridStudy(grid_study::GridStudy { dx: vec![0.02, 0.01] });
         assert!(heat(Scene { study: march, ..good.clone() }).contains("Point, Sweep, RandomTest and Training only"));

@@ -106,6 +106,22 @@ fn a_model_that_was_trained_with_heat_answers_and_says_what_it_does_not_know() {
 }
 
 #[test]
+fn the_programs_model_answers_for_a_ball_with_heat() {
+    let ball = ["solve", "--contact", "point", "--moes-m", "60", "--moes-l", "7", "--srr", "0.2", "--grid", "model"];
+    let oil = ["--lubricant", "mineral-oil", "--heat", "--json"];
+    let solved = |method: &str| json(&program(&[&ball[..], &oil, &["--method", method]].concat()));
+    let [own, full] = ["reduced", "full"].map(solved);
+    assert_eq!(own["reduced"]["trained"], true, "{own}");
+    for name in ["H_c", "traction"] {
+        let [a, b] = [&own, &full].map(|object| object[name].as_f64().unwrap());
+        assert!((a / b - 1.0).abs() < 1e-2, "{name}: {a} {b}");
+    }
+    let [a, b] = [&own, &full].map(|object| object["heat"]["mid_film_rise_k"].as_f64().unwrap());
+    assert!(b > 1.0 && (a / b - 1.0).abs() < 3e-2, "{a} {b}");
+    assert!(own["heat"]["energy_balance"].as_f64().unwrap().abs() < 3e-2);
+}
+
+#[test]
 fn what_heat_cannot_be_computed_for_is_refused_in_one_sentence() {
     for (more, words) in [
         (&["--body1", "glass"][..], "no effect without --heat"),
@@ -124,6 +140,7 @@ fn what_heat_cannot_be_computed_for_is_refused_in_one_sentence() {
     ] {
         assert_refused(&[&CONTACT[..], more].concat(), words);
     }
-    let point = ["solve", "--contact", "point", "--moes-m", "50", "--moes-l", "8", "--heat", "--method", "reduced"];
-    assert_refused(&point, "knows no heat");
+    let ellipse = ["--radius-y", "0.03", "--heat", "--method", "reduced"];
+    let point = ["solve", "--contact", "point", "--moes-m", "50", "--moes-l", "8"];
+    assert_refused(&[&point[..], &ellipse].concat(), "circular contacts only");
 }

@@ -40,7 +40,7 @@ impl Model {
     }
 
     /// A model of the program: for ``"line"`` or ``"point"`` contacts (circles), of lubricants that thin under shear or
-    /// not; of line contacts also with heat.
+    /// not; of those that do not also with heat.
     #[staticmethod]
     #[pyo3(signature = (contact="line", thinning=false, heat=false))]
     fn embedded(py: Python<'_>, contact: &str, thinning: bool, heat: bool) -> PyResult<Self> {
@@ -51,8 +51,8 @@ impl Model {
         };
         let which = match (kind, thinning, heat) {
             (_, _, false) => Embedded::of_kind(kind, thinning),
-            (ContactKind::Line, false, true) => Embedded::HeatedLine,
-            _ => return Err(refused("heat is known to the model of line contacts without thinning only".to_owned())),
+            (_, false, true) => Embedded::with_heat(kind),
+            (_, true, true) => return Err(refused("heat is known to the models without thinning only".to_owned())),
         };
         Ok(Self(py.detach(|| which.model()).map_err(refused)?))
     }

@@ -48,5 +48,6 @@ def test_the_model_with_heat_is_one_of_the_program():
     found = ehl.solve(contact, method="reduced")
     assert found.H_c == ehl.solve(contact, model=model).H_c
     assert abs(found.H_c / ehl.solve(contact).H_c - 1) < 3e-3
-    with pytest.raises(ValueError, match="line contacts"):
-        ehl.Model.embedded("point", heat=True)
+    assert ehl.Model.embedded("point", heat=True)
+    with pytest.raises(ValueError, match="without thinning"):
+        ehl.Model.embedded("point", thinning=True, heat=True)

@@ -231,7 +231,8 @@ impl Training {
         let (ellipses, thins) =
             (matches!(spec.range, Range::Ellipses { .. }), spec.lubricant.shear != ShearLaw::Newtonian);
         // That of ellipses is large: it stands here once it is in use.
-        let of_kind = if spec.range.heats() { Embedded::HeatedLine } else { Embedded::of_kind(kind, thins) };
+        let heats = spec.range.heats();
+        let of_kind = if heats { Embedded::with_heat(kind) } else { Embedded::of_kind(kind, thins) };
         let round = (!ellipses).then_some(of_kind);
         let embedded = round.and_then(|which| answers.store.embedded(which).ok());
         let in_use = answers.models.shaped(kind, ellipses, &spec.lubricant).cloned();

@@ -69,7 +69,6 @@ use super::experiment::Experiment;
 use super::method::{Method, ModelSource};
 use super::outcome::Findings;
 use super::table::Table;
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::training::{TrainingObserver, TrainingSpec};
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::AtomicBool;
@@ -206,22 +205,15 @@ studies! {
 }
 
 impl Study {
-    /// Refuses heat where a study or a method knows none.
+    /// Refuses heat where a study knows none.
     ///
     /// # Errors
     /// Naming the field `heat`.
-    pub fn check_heat(&self, contact: ContactKind) -> Checked {
+    pub fn check_heat(&self) -> Checked {
         if !matches!(self, Self::Point(_) | Self::Sweep(_) | Self::RandomTest(_) | Self::Training(_)) {
             return Err(refuse(
                 "heat",
                 "is computed by the studies Point, Sweep, RandomTest and Training only; leave it out, or ask one of them",
-            ));
-        }
-        let embedded = || self.methods().iter().any(|method| method.model() == Some(&ModelSource::Embedded));
-        if contact == ContactKind::Point && embedded() {
-            return Err(refuse(
-                "heat",
-                "is known to no model of point contacts; leave it out, or ask for the method Full alone",
             ));
         }
         Ok(())
