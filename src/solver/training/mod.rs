@@ -247,6 +247,12 @@ impl TrainingSpec {
         matches!(self.range, Range::Oils(_))
     }
 
+    /// Whether reduced solutions have temperatures along the lines of a plane, of which all rows take as long as a hundred
+    /// others, and fields as long as ten.
+    fn warms_a_plane(&self) -> bool {
+        self.range.heats() && self.contact() == ContactKind::Point
+    }
+
     /// Its contacts with M in an interval.
     fn within(&self, m: (f64, f64)) -> Within {
         Within { m, ..Within::all(self.range, self.contact()) }

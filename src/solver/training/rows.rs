@@ -6,7 +6,7 @@ use super::build::alone;
 use super::one_thread::{in_parallel, on_one_thread};
 use super::plan::Within;
 use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{
     GoalEquations, Iterate, Online, ReducedModel, ReducedOptions, RowSnapshots, SampledRows, Sampling, Scheme,
     Snapshot, TestSpace, Window, all_rows, cubature, dense, greedy, is_finite, minimised_rows, q_deim, separation,
@@ -20,7 +20,7 @@ use std::sync::Arc;
 /// Random parameters at which iterates are collected (reduced solves only), and of contacts with heat in a plane, where
 /// one of all rows takes a second; of these no more trainings show theirs.
 const ROW_SNAPSHOT_SOLVES: usize = 160;
-const ROW_SNAPSHOT_SOLVES_IN_A_HEATED_PLANE: usize = 60;
+const ROW_SNAPSHOT_SOLVES_OF_WARM_PLANES: usize = 60;
 /// Steps smaller than this are demanded to be right absolutely, larger ones relatively.
 const STEP_FLOOR: f64 = 0.03;
 /// Random functionals of Δp̃ per iterate, beside the one of ΔH_c, on a grid of few and of many rows.
@@ -120,9 +120,8 @@ fn sample(
     observer: &dyn TrainingObserver,
 ) -> Result<Vec<Option<SampledRows>>, TrainingError> {
     let Some(window) = exact.windows.first() else { return Ok(Vec::new()) };
-    let in_a_heated_plane = spec.range.heats() && spec.contact() == ContactKind::Point;
-    let (solves, trainings) = match in_a_heated_plane {
-        true => (ROW_SNAPSHOT_SOLVES_IN_A_HEATED_PLANE, ROW_SNAPSHOT_SOLVES_IN_A_HEATED_PLANE),
+    let (solves, trainings) = match spec.warms_a_plane() {
+        true => (ROW_SNAPSHOT_SOLVES_OF_WARM_PLANES, ROW_SNAPSHOT_SOLVES_OF_WARM_PLANES),
         false => (ROW_SNAPSHOT_SOLVES, usize::MAX),
     };
     let points = served.random_points(solves, rng);

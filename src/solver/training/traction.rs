@@ -3,7 +3,7 @@
 use super::one_thread::{in_parallel, on_one_thread};
 use super::plan::Within;
 use super::{TrainingError, TrainingObserver, TrainingSpec};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, TractionRule};
 use fastrand::Rng;
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use std::sync::Arc;
 /// Reduced solutions that a rule is fitted to, several per node; of a plane with heat two per node, whose fields take as
 /// long as ten of the others.
 const SOLUTIONS: usize = 1000;
-const SOLUTIONS_IN_A_HEATED_PLANE: usize = 360;
+const SOLUTIONS_OF_WARM_PLANES: usize = 360;
 /// Every second of them slides more slowly, down to this share of its SRR: there the stress gathers in the middle of
 /// the contact.
 const SLOWEST: f64 = 1e-3;
@@ -28,8 +28,7 @@ pub(super) fn traction_rule(
     observer: &dyn TrainingObserver,
 ) -> Result<Option<TractionRule>, TrainingError> {
     let mut rng = Rng::with_seed(seed ^ 0x7AC7_1041);
-    let in_a_heated_plane = spec.range.heats() && spec.contact() == ContactKind::Point;
-    let solutions = if in_a_heated_plane { SOLUTIONS_IN_A_HEATED_PLANE } else { SOLUTIONS };
+    let solutions = if spec.warms_a_plane() { SOLUTIONS_OF_WARM_PLANES } else { SOLUTIONS };
     let mut points: Vec<OperatingPoint> = served.random_points(solutions, &mut rng);
     for point in points.iter_mut().step_by(2) {
         point.sliding.slide_to_roll_ratio *= SLOWEST.powf(rng.f64());
