@@ -144,7 +144,12 @@ impl Varied {
     /// The values for which a model was trained; speeds at the load, the radius and the fluid of a contact. `None` where there are none.
     pub(super) fn trained(self, domain: &Domain, point: &OperatingPoint) -> Option<(f64, f64)> {
         match self {
-            Self::SlideToRoll => Some(domain.srr().unwrap_or(SRR)),
+            Self::SlideToRoll => {
+                let (from, to) = domain.srr().unwrap_or(SRR);
+                // With heat it is trained up to a speed of sliding as well.
+                let fastest = domain.heat.map_or(f64::INFINITY, |heat| heat.fastest_sliding_m_per_s);
+                Some((from, to.min(fastest / point.speed_m_per_s)))
+            }
             Self::Plateau => domain.sliding.map(|sliding| sliding.npr),
             Self::RadiusRatio => None,
             Self::Speed => {
@@ -416,6 +421,8 @@ mod tests {
         let point = key(ContactKind::Line).point;
         assert_eq!(Varied::SlideToRoll.trained(&model.domain, &point), Some((0.0, 1.0)));
         assert_eq!(Varied::Plateau.trained(&model.domain, &point), Some((0.2, 1.0)));
+        let (heated, fast) = (Embedded::HeatedLine.model().unwrap(), OperatingPoint { speed_m_per_s: 10.0, ..point });
+        assert_eq!(Varied::SlideToRoll.trained(&heated.domain, &fast), Some((0.0, 0.5)), "5 m/s of sliding");
     }
 
     #[test]
