@@ -144,23 +144,32 @@ impl Across {
     }
 }
 
+/// Where a value between stations of lines comes from.
+#[derive(Clone, Copy, Debug)]
+struct Between {
+    /// The first of four stations, and their weights.
+    along: (usize, [f64; 4]),
+    /// Lines and their weights.
+    across: [(usize, f64); 4],
+}
+
 /// Where values at stations of lines are wanted: cubic along X, and across.
 #[derive(Clone, Debug, Default)]
 pub struct Spread {
-    places: Vec<((usize, [f64; 4]), [(usize, f64); 4])>,
+    places: Vec<Between>,
 }
 
 impl Spread {
     /// At places (ξ, Y), between stations at increasing ξ; before the first one it is that.
     pub fn new(stations: &[f64], y: &[f64], places: impl Iterator<Item = (f64, f64)>) -> Self {
-        let across = Across::new(y);
-        let of = |(xi, at): (f64, f64)| (cubic(stations, xi.max(stations[0])), across.at(at));
+        let lines = Across::new(y);
+        let of = |(xi, at): (f64, f64)| Between { along: cubic(stations, xi.max(stations[0])), across: lines.at(at) };
         Self { places: places.map(of).collect() }
     }
 
     /// The profiles at its places.
     pub fn profiles<'a>(&'a self, lines: &'a Lines) -> impl Iterator<Item = Profile> + 'a {
-        self.places.iter().map(move |((first, along), across)| {
+        self.places.iter().map(move |Between { along: (first, along), across }| {
             let mut here = [0.0; POINTS];
             for &(line, share) in across.iter().filter(|(_, share)| *share != 0.0) {
                 for (station, weight) in lines.lines[line].march.stations[*first..].iter().zip(along) {
