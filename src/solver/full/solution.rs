@@ -464,13 +464,19 @@ pub fn scalars_of(grid: &impl Grid, problem: &Problem, pressure: &[f64], film: &
         ..Scalars::default()
     };
     let (abscissae, ordinates) = grid.abscissae();
-    for node in (0..grid.unknowns()).map(|unknown| grid.node(unknown)) {
-        let (x, y) = (abscissae[node / ordinates.len()], ordinates[node % ordinates.len()]);
-        if film[node] < out.h_min && under_contact(x) {
-            (out.h_min, out.x_h_min, out.y_h_min) = (film[node], x, y);
-        }
-        if pressure[node] > out.p_max {
-            (out.p_max, out.x_p_max) = (pressure[node], x);
+    // The unknowns are all nodes between two corners.
+    let across = ordinates.len();
+    let (first, last) = (grid.node(0), grid.node(grid.unknowns() - 1));
+    for (i, &x) in abscissae.iter().enumerate().take(last / across + 1).skip(first / across) {
+        let under = under_contact(x);
+        for (j, &y) in ordinates.iter().enumerate().skip(first % across) {
+            let node = i * across + j;
+            if film[node] < out.h_min && under {
+                (out.h_min, out.x_h_min, out.y_h_min) = (film[node], x, y);
+            }
+            if pressure[node] > out.p_max {
+                (out.p_max, out.x_p_max) = (pressure[node], x);
+            }
         }
     }
     out

@@ -100,19 +100,27 @@ impl Online {
             return Err(ReducedError::Empty);
         }
         let scale = window.grid.scale(problem.moes);
-        let multiply = |matrix: faer::MatRef<'_, f64>| {
+        let multiply = |matrix: faer::MatRef<'_, f64>, rows: usize| {
             let mut out = vec![0.0; matrix.nrows()];
             matmul(
-                ColMut::from_slice_mut(&mut out).as_mat_mut(),
+                ColMut::from_slice_mut(&mut out[..rows]).as_mat_mut(),
                 Accum::Replace,
-                matrix,
+                matrix.get(..rows, ..),
                 ColRef::from_slice(&solution.coefficients).as_mat(),
                 1.0,
                 Par::Seq,
             );
             out
         };
-        let mut pressure = multiply(window.pressure.basis().modes.get(.., ..modes));
+        let (nodes, across) = (window.grid.len(), window.grid.nodes().1);
+        // What lies behind all of B is cut off.
+        let ahead = match solution.fronts.iter().max() {
+            Some(last) if self.options.deformation_modes.is_none() && window.shapes.is_none() => {
+                (last * across).min(nodes)
+            }
+            _ => nodes,
+        };
+        let mut pressure = multiply(window.pressure.basis().modes.get(.., ..modes), ahead);
         let ellipse = problem.point.ellipse();
         let ruptures = !solution.fronts.is_empty();
         let mut film = match &window.shapes {
@@ -123,7 +131,7 @@ impl Online {
             }
             // What is cut off makes K P another one than that of the modes.
             None if ruptures && self.options.deformation_modes.is_none() => Vec::new(),
-            None => multiply(operators.deformation(window)),
+            None => multiply(operators.deformation(window), nodes),
         };
         if ruptures {
             let whole = if film.is_empty() { Vec::new() } else { pressure.clone() };
@@ -138,10 +146,12 @@ impl Online {
             pressure.iter_mut().for_each(|p| *p = p.max(0.0));
         }
         let (offset, curvature) = (h_0 - 0.5 * scale.ln(), ellipse.gap_curvature());
-        for (node, h) in film.iter_mut().enumerate() {
-            let (xi, y) = window.grid.place(node);
-            let x = -1.0 + (xi + 1.0) * scale;
-            *h = offset + 0.5 * (x * x + curvature * y * y) + scale * *h;
+        let across: Vec<f64> = (0..across).map(|j| window.grid.place(j).1).map(|y| curvature * y * y).collect();
+        for (i, column) in film.chunks_exact_mut(across.len()).enumerate() {
+            let x = -1.0 + (window.grid.place(i * across.len()).0 + 1.0) * scale;
+            for (h, across) in column.iter_mut().zip(&across) {
+                *h = offset + 0.5 * (x * x + across) + scale * *h;
+            }
         }
         let fronts = solution.fronts.clone();
         Ok(Fields { problem, grid: window.grid.clone(), scale, pressure, film, fronts })

@@ -158,9 +158,18 @@ impl Front {
     fn bend_part(&self, part: Range<usize>, deformation: &mut [f64]) {
         let s = self.cut.len();
         let out = &mut deformation[part.clone()];
-        for (k, value) in &self.bending {
-            let bends = &self.bends[k * s..][part.clone()];
-            out.iter_mut().zip(bends).for_each(|(out, bend)| *out += value * f64::from(*bend));
+        let bends = |k: usize| &self.bends[k * s..][part.clone()];
+        // Four nodes at once: sums are read and written a quarter as often.
+        let mut fours = self.bending.chunks_exact(4);
+        for four in fours.by_ref() {
+            let &[(k, a), (l, b), (m, c), (n, d)] = four else { continue };
+            let nodes = bends(k).iter().zip(bends(l)).zip(bends(m)).zip(bends(n));
+            for (out, (((k, l), m), n)) in out.iter_mut().zip(nodes) {
+                *out = *out + a * f64::from(*k) + b * f64::from(*l) + c * f64::from(*m) + d * f64::from(*n);
+            }
+        }
+        for (k, value) in fours.remainder() {
+            out.iter_mut().zip(bends(*k)).for_each(|(out, bend)| *out += value * f64::from(*bend));
         }
     }
 

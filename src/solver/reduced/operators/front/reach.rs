@@ -22,10 +22,13 @@ pub(crate) fn fronts(grid: &ContactGrid, pressure: impl Fn(usize) -> f64) -> Vec
 
 /// Sets pressures behind B to zero.
 pub(crate) fn cut_off(grid: &ContactGrid, fronts: &[usize], pressure: &mut [f64]) {
-    for node in (0..grid.unknowns()).map(|k| grid.node(k)) {
-        let (line, column) = grid.line_and_column(node);
-        if column >= fronts[line] {
-            pressure[node] = 0.0;
+    let across = grid.nodes().1;
+    let before = across - grid.lines();
+    for (column, nodes) in pressure.chunks_exact_mut(across).enumerate() {
+        for (p, front) in nodes[before..].iter_mut().zip(fronts) {
+            if column >= *front {
+                *p = 0.0;
+            }
         }
     }
 }
