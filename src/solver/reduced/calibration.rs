@@ -7,6 +7,10 @@
 //! taken leaving one out (split-free conformal prediction), so that it holds for fresh points drawn like the evidence,
 //! whatever the law misses.
 //!
+//! Windows around anchors are too many for hundreds of measured errors each, and the errors of one model follow one law:
+//! law and quantile are those of all evidence together, and how large errors are around a place each window's own
+//! evidence says.
+//!
 //! What the quantile counts in decides how loose a bound is. Of errors that are normally distributed, with a size known
 //! everywhere, no bound that holds for 99.6 % is less than 4.3 times the true error in the median; counted in the local
 //! root mean square, which follows how large errors are around a place, it comes near that.
@@ -30,6 +34,8 @@ const AROUND: usize = 48;
 const FLOOR: f64 = 1e-8;
 /// Evidence without which nothing is said.
 pub const LEAST_EVIDENCE: usize = 100;
+/// Evidence of a window's own without which nothing is said there, where several learn together.
+pub const LEAST_OF_WINDOW: usize = 32;
 
 /// An error that was not measured.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -71,28 +77,45 @@ pub struct Calibration {
 impl Calibration {
     /// Learns from evidence of one kind; `None` when there is too little, or it is degenerate.
     pub fn fit(evidence: &[Evidence]) -> Option<Self> {
-        let beside = evidence.first()?.features.beside;
-        let count = beside.features();
+        Self::fit_together(&[evidence]).pop().flatten()
+    }
+
+    /// Learns from the evidence of several windows of one model; `None` for windows with too little of their own, and for
+    /// all when there is too little together, or it is degenerate.
+    pub fn fit_together(evidence: &[&[Evidence]]) -> Vec<Option<Self>> {
+        let fitted = Self::fitted(evidence);
+        fitted.unwrap_or_else(|| vec![None; evidence.len()])
+    }
+
+    fn fitted(evidence: &[&[Evidence]]) -> Option<Vec<Option<Self>>> {
+        let beside = evidence.iter().find_map(|own| own.first())?.features.beside;
         let sound = |e: &&Evidence| e.features.finite() && e.errors.values(Beside::Nothing).all(f64::is_finite);
-        let usable: Vec<&Evidence> = evidence.iter().filter(sound).collect();
-        if usable.len() < LEAST_EVIDENCE {
+        let usable: Vec<Vec<&Evidence>> = evidence.iter().map(|own| own.iter().filter(sound).collect()).collect();
+        if usable.iter().map(Vec::len).sum::<usize>() < LEAST_EVIDENCE {
             return None;
         }
         let range = |k: usize| {
-            let values = usable.iter().map(|e| e.features.values[k]);
+            let values = usable.iter().flatten().map(|e| e.features.values[k]);
             (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max))
         };
-        let ranges = (0..count).map(range).collect();
-        let mut out = Self { ranges, places: Vec::new(), quantities: Vec::new() };
-        let scaled: Vec<Vec<f64>> = usable.iter().map(|e| out.scaled(&e.features).0).collect();
-        out.places = scaled.iter().flat_map(|scaled| place(scaled)).collect();
-        let terms: Vec<Vec<f64>> = scaled.iter().map(|scaled| quadratic(scaled)).collect();
-        let neighbours = out.left_out();
+        let ranges: Vec<(f64, f64)> = (0..beside.features()).map(range).collect();
+        let mut windows = Vec::with_capacity(usable.len());
+        let mut terms = Vec::with_capacity(usable.len());
+        for own in &usable {
+            let mut window = Self { ranges: ranges.clone(), places: Vec::new(), quantities: Vec::new() };
+            let scaled: Vec<Vec<f64>> = own.iter().map(|e| window.scaled(&e.features).0).collect();
+            window.places = scaled.iter().flat_map(|scaled| place(scaled)).collect();
+            terms.push(scaled.iter().map(|scaled| quadratic(scaled)).collect::<Vec<_>>());
+            windows.push(window);
+        }
+        let neighbours: Vec<Vec<Neighbours>> = windows.iter().map(Self::left_out).collect();
         for q in 0..beside.quantities() {
             let log = |e: &&Evidence| e.errors.values(beside).nth(q).map_or(f64::NAN, |v| (v + FLOOR).ln());
-            out.quantities.push(Quantity::fit(&terms, &usable.iter().map(log).collect::<Vec<f64>>(), &neighbours)?);
+            let logs: Vec<Vec<f64>> = usable.iter().map(|own| own.iter().map(log).collect()).collect();
+            let fitted = Quantity::fit(&terms, &logs, &neighbours)?;
+            windows.iter_mut().zip(fitted).for_each(|(window, quantity)| window.quantities.push(quantity));
         }
-        out.sound().then_some(out)
+        Some(windows.into_iter().map(|window| Some(window).filter(Self::sound)).collect())
     }
 
     /// What the errors of a reduced solution are likely to be.
@@ -138,7 +161,7 @@ impl Calibration {
         }
         let (evidence, terms) = (self.evidence(), 1 + features + features * (features + 1) / 2);
         self.places.len() == evidence * (features - SIGNS.len())
-            && evidence >= LEAST_EVIDENCE
+            && evidence >= LEAST_OF_WINDOW
             && self.ranges.iter().all(|(low, high)| low.is_finite() && high.is_finite() && low <= high)
             && self.places.iter().all(|v| v.is_finite())
             && self.quantities.iter().all(|quantity| quantity.sound(terms, evidence))

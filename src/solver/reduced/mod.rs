@@ -31,7 +31,9 @@ mod traction;
 mod traction_curve;
 pub mod transient;
 
-pub use calibration::{Beside, Calibration, ErrorEstimate, Estimated, Evidence, Features, LEAST_EVIDENCE, Measured};
+pub use calibration::{
+    Beside, Calibration, ErrorEstimate, Estimated, Evidence, Features, LEAST_EVIDENCE, LEAST_OF_WINDOW, Measured,
+};
 pub use combined::{Combined, PressureModes, SharedBasis};
 pub use cubature::{GoalEquations, cubature};
 pub use domain::{CIRCLES, Domain, HeatDomain, OilDomain, SlidingDomain, Trust};

@@ -16,18 +16,18 @@ use std::sync::Arc;
 /// Measured points of a window unless a specification says otherwise.
 pub const EVIDENCE: usize = 1000;
 
-/// Measures window `k`, `model` being the model of it alone. Points where the reduced model fails are no evidence:
-/// there nothing is shown.
+/// Measures the errors of window `k`, `model` being the model of it alone. Points where the reduced model fails are no
+/// evidence: there nothing is shown.
 ///
 /// # Errors
 /// When the observer cancels.
-pub(super) fn calibrate(
+pub(super) fn measured(
     spec: &TrainingSpec,
     model: &Arc<ReducedModel>,
     (k, ends, cell): (usize, (bool, bool), Option<Cell>),
     observer: &dyn TrainingObserver,
-) -> Result<Option<Calibration>, TrainingError> {
-    let Some(window) = model.windows.first() else { return Ok(None) };
+) -> Result<Vec<Evidence>, TrainingError> {
+    let Some(window) = model.windows.first() else { return Ok(Vec::new()) };
     let seed = spec.seed ^ 0x9E37_79B9_7F4A_7C15_u64.wrapping_mul(k as u64 + 1);
     let m = if cell.is_some() { (0.0, f64::INFINITY) } else { served(ends, window) };
     let served = Within { radius_ratio: window.served_ratios(), cell, ..spec.within(m) };
@@ -41,8 +41,26 @@ pub(super) fn calibrate(
         let errors = corrector.errors(online, &solved)?;
         Some(Evidence { features: Features::of(&solved, beside), errors })
     })?;
-    let evidence: Vec<Evidence> = measured.into_iter().flatten().collect();
-    on_one_thread(observer, move || Calibration::fit(&evidence))
+    Ok(measured.into_iter().flatten().collect())
+}
+
+/// Tells the windows of a model their errors by the evidence of each: windows around anchors learn together.
+///
+/// # Errors
+/// When the observer cancels.
+pub(super) fn calibrate(
+    windows: &mut [Window],
+    evidence: Vec<Vec<Evidence>>,
+    observer: &dyn TrainingObserver,
+) -> Result<(), TrainingError> {
+    let together = windows.iter().all(|window| window.anchor.is_some());
+    let calibrations = on_one_thread(observer, move || {
+        let evidence: Vec<&[Evidence]> = evidence.iter().map(Vec::as_slice).collect();
+        let alone = |own: &[Evidence]| Calibration::fit(own);
+        if together { Calibration::fit_together(&evidence) } else { evidence.into_iter().map(alone).collect() }
+    })?;
+    windows.iter_mut().zip(calibrations).for_each(|(window, calibration)| window.calibration = calibration);
+    Ok(())
 }
 
 /// The range of M in which a window serves: the first and the last one also serve what lies beyond.

@@ -4,7 +4,7 @@ use super::{HeatedRange, Plan, Range, SlidingRange, TrainingSpec, WindowSpec, Wi
 use crate::solver::limits::{Refused, count, interval, number, plain};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw, ViscosityLaw};
-use crate::solver::reduced::{LEAST_EVIDENCE, Sampling, Scheme};
+use crate::solver::reduced::{LEAST_EVIDENCE, LEAST_OF_WINDOW, Sampling, Scheme};
 
 /// Most points of a plan, or judged in one go.
 const MOST_POINTS: usize = 100_000;
@@ -28,11 +28,16 @@ pub(super) fn check(spec: &TrainingSpec) -> Result<(), Refused> {
     number("rows_per_mode", spec.rows_per_mode, 1.0, 20.0)?;
     scheme(spec.scheme, spec.sampling, spec.rows_per_mode)?;
     number("penalty", spec.penalty, 1e2, 1e9)?;
-    if spec.evidence > 0 && !(LEAST_EVIDENCE..=MOST_POINTS).contains(&spec.evidence) {
+    // Windows around anchors learn together.
+    let least = match spec.windows {
+        Windows::Anchored { count, .. } => LEAST_OF_WINDOW.max(LEAST_EVIDENCE.div_ceil(count.max(1))),
+        Windows::Given(_) | Windows::Automatic { .. } => LEAST_EVIDENCE,
+    };
+    if spec.evidence > 0 && !(least..=MOST_POINTS).contains(&spec.evidence) {
         return Err(Refused::new(
             "evidence",
             format!(
-                "is {}, but must lie between {LEAST_EVIDENCE} and {MOST_POINTS}, or be 0 for a model without an error bound",
+                "is {}, but must lie between {least} and {MOST_POINTS}, or be 0 for a model without an error bound",
                 spec.evidence
             ),
         ));

@@ -3,7 +3,7 @@
 use super::adaptive::Search;
 use super::anchors::{self, Cell, InCommon, anchor};
 use super::build::{WindowTraining, alone, domain};
-use super::calibrate::calibrate;
+use super::calibrate::{calibrate, measured};
 use super::check::check;
 use super::one_thread::on_one_thread;
 use super::plan::{Within, grid_points};
@@ -208,7 +208,7 @@ const TOO_COSTLY: f64 = 0.1;
 fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -> Result<ReducedModel, TrainingError> {
     let spec = state.spec.clone();
     let mut windows = Vec::with_capacity(state.windows.len());
-    let mut log = Vec::new();
+    let (mut logs, mut evidence) = (Vec::new(), Vec::new());
     let in_common = anchors::in_common(&spec, &state.windows, observer)?;
     while windows.len() < state.windows.len() {
         let k = windows.len();
@@ -224,15 +224,15 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
         if spec.evidence > 0 {
             let ends = ends(&state.windows, k);
             let cell = cell(&state.windows, k);
-            trained.calibration = calibrate(&spec, &Arc::new(alone(&spec, &trained)), (k, ends, cell), observer)?;
+            evidence.push(measured(&spec, &Arc::new(alone(&spec, &trained)), (k, ends, cell), observer)?);
         }
         let ((from, to), solutions, rows) = (trained.m, trained.snapshots.len(), trained.sampled_rows.len());
         let ModelSize { pressure, deformation, .. } = trained.size();
-        log.push(format!(
+        let mut log = vec![format!(
             "M {from}…{to}: {solutions} full solutions, {pressure} pressure and {deformation} deformation modes, \
              {rows} of {} rows",
             trained.grid.unknowns()
-        ));
+        )];
         let cost = |snapshot: &Snapshot| trained.grid.spec().expected_cost(&snapshot.point);
         let worst = trained.snapshots.iter().map(cost).fold(0.0, f64::max);
         if worst > TOO_COSTLY {
@@ -242,17 +242,22 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
         if let Some(rule) = &trained.traction {
             log.push(format!("traction from the stress at {} nodes", rule.nodes.len()));
         }
-        log.push(match &trained.calibration {
+        logs.push(log);
+        windows.push(trained);
+    }
+    let mut domain = domain(&spec);
+    calibrate(&mut windows, evidence, observer)?;
+    let mut log = state.decisions.clone();
+    for (own, window) in logs.into_iter().zip(&windows) {
+        log.extend(own);
+        log.push(match &window.calibration {
             Some(c) => {
-                let by = if domain(&spec).measured_in_full() { "a full solution" } else { "three full Newton steps" };
+                let by = if domain.measured_in_full() { "a full solution" } else { "three full Newton steps" };
                 format!("errors measured at {} random points by {by} each", c.evidence())
             }
             None => "no error bound: errors were measured at too few points".to_owned(),
         });
-        windows.push(trained);
     }
-    log.splice(0..0, state.decisions.iter().cloned());
-    let mut domain = domain(&spec);
     let anchored = matches!(spec.windows, Windows::Anchored { .. });
     if !windows.is_empty() && !anchored {
         let lowest = windows.iter().map(|window| window.m.0).fold(f64::INFINITY, f64::min);

@@ -35,37 +35,23 @@ pub(super) struct Quantity {
 }
 
 impl Quantity {
-    /// Learns the law from the logarithms of errors, not a number where none was measured; `None` where too few were.
-    pub fn fit(terms: &[Vec<f64>], logs: &[f64], neighbours: &[Neighbours]) -> Option<Self> {
-        let known: Vec<usize> = (0..logs.len()).filter(|&i| logs[i].is_finite()).collect();
+    /// Learns the law of several windows from the logarithms of errors, not a number where none was measured, and what
+    /// each of them needs beside it; `None` where too few were.
+    pub fn fit(terms: &[Vec<Vec<f64>>], logs: &[Vec<f64>], neighbours: &[Vec<Neighbours>]) -> Option<Vec<Self>> {
+        let all = terms.iter().flatten().zip(logs.iter().flatten().copied());
+        let known: Vec<(&[f64], f64)> =
+            all.filter(|(_, log)| log.is_finite()).map(|(terms, log)| (terms.as_slice(), log)).collect();
         if known.len() < LEAST_EVIDENCE {
             return None;
         }
-        let law = least_squares(terms, logs, &known)?;
-        let surplus = terms.iter().zip(logs).map(|(terms, log)| (log - dot(&law, terms)) as f32).collect();
-        let mut out = Self { law, surplus, ..Self::default() };
-        out.measure(neighbours);
-        Some(out)
-    }
-
-    /// What a bound needs beside the law, from the surpluses. Errors change their sign over the range and are tiny
-    /// beside the places where they do: logarithms scatter much there and say nothing about how large an error can be.
-    /// So the bound counts in the root mean square of the errors around, relative to the law.
-    ///
-    /// The law was fitted to the very errors that it is held against, as if its freedom were evidence. Each would be missed
-    /// by 1/(1 − h) as much had the law not seen it, h being its leverage, on average terms over evidence (generalised
-    /// cross-validation).
-    pub fn measure(&mut self, neighbours: &[Neighbours]) {
-        self.squares = self.surplus.iter().map(|surplus| (2.0 * surplus).exp()).collect();
-        let known: Vec<usize> = (0..self.surplus.len()).filter(|&i| self.surplus[i].is_finite()).collect();
-        let squares = known.iter().map(|&i| f64::from(self.squares[i]));
-        self.mean_square = squares.sum::<f64>() / known.len().max(1) as f64;
-        let unseen = 1.0 / (1.0 - (self.law.len() as f64 / known.len().max(1) as f64).min(MOST_LEVERAGE));
-        let score = |&i: &usize| (unseen * f64::from(self.surplus[i])).exp() / self.size(&neighbours[i]);
-        let mut scores: Vec<f64> = known.iter().map(score).collect();
-        scores.sort_by(f64::total_cmp);
-        let place = ((QUANTILE * (known.len() + 1) as f64).ceil() as usize).clamp(1, known.len().max(1));
-        self.quantile = scores.get(place - 1).copied().unwrap_or(0.0);
+        let law = least_squares(&known)?;
+        let windows = terms.iter().zip(logs).map(|(terms, logs)| {
+            let surplus = terms.iter().zip(logs).map(|(terms, log)| (log - dot(&law, terms)) as f32).collect();
+            Self { law: law.clone(), surplus, ..Self::default() }
+        });
+        let mut windows: Vec<Self> = windows.collect();
+        measure(&mut windows, neighbours);
+        Some(windows)
     }
 
     /// Whether every number in it makes sense.
@@ -100,13 +86,42 @@ pub(super) fn quadratic(x: &[f64]) -> Vec<f64> {
     [1.0].into_iter().chain(x.iter().copied()).chain(products).collect()
 }
 
+/// What bounds need beside the law, from the surpluses of several windows. Errors change their sign over the range and
+/// are tiny beside the places where they do: logarithms scatter much there and say nothing about how large an error can
+/// be. So the bound counts in the root mean square of the errors around, relative to the law.
+///
+/// The law was fitted to the very errors that it is held against, as if its freedom were evidence. Each would be missed
+/// by 1/(1 − h) as much had the law not seen it, h being its leverage, on average terms over evidence (generalised
+/// cross-validation).
+fn measure(windows: &mut [Quantity], neighbours: &[Vec<Neighbours>]) {
+    let (mut freedom, mut evidence) = (0, 0);
+    for own in &mut *windows {
+        own.squares = own.surplus.iter().map(|surplus| (2.0 * surplus).exp()).collect();
+        let squares = own.squares.iter().filter(|square| square.is_finite());
+        let count = squares.clone().count();
+        own.mean_square = squares.map(|square| f64::from(*square)).sum::<f64>() / count.max(1) as f64;
+        (freedom, evidence) = (own.law.len(), evidence + count);
+    }
+    let unseen = 1.0 / (1.0 - (freedom as f64 / evidence.max(1) as f64).min(MOST_LEVERAGE));
+    let scores_of = |(own, neighbours): (&Quantity, &Vec<Neighbours>)| {
+        let known = own.surplus.iter().zip(neighbours).filter(|(surplus, _)| surplus.is_finite());
+        let score = |(surplus, near): (&f32, &Neighbours)| (unseen * f64::from(*surplus)).exp() / own.size(near);
+        known.map(score).collect::<Vec<f64>>()
+    };
+    let mut scores: Vec<f64> = windows.iter().zip(neighbours).flat_map(scores_of).collect();
+    scores.sort_by(f64::total_cmp);
+    let place = ((QUANTILE * (scores.len() + 1) as f64).ceil() as usize).clamp(1, scores.len().max(1));
+    let quantile = scores.get(place - 1).copied().unwrap_or(0.0);
+    windows.iter_mut().for_each(|own| own.quantile = quantile);
+}
+
 /// Coefficients that fit the known logarithms, with a slight ridge for features that do not vary.
-fn least_squares(terms: &[Vec<f64>], logs: &[f64], known: &[usize]) -> Option<Vec<f64>> {
-    let count = terms.first()?.len();
+fn least_squares(known: &[(&[f64], f64)]) -> Option<Vec<f64>> {
+    let count = known.first()?.0.len();
     let normal = Mat::from_fn(count, count, |r, c| {
-        known.iter().map(|&i| terms[i][r] * terms[i][c]).sum::<f64>() + if r == c { 1e-3 } else { 0.0 }
+        known.iter().map(|(terms, _)| terms[r] * terms[c]).sum::<f64>() + if r == c { 1e-3 } else { 0.0 }
     });
-    let rhs = Mat::from_fn(count, 1, |r, _| known.iter().map(|&i| terms[i][r] * logs[i]).sum::<f64>());
+    let rhs = Mat::from_fn(count, 1, |r, _| known.iter().map(|(terms, log)| terms[r] * log).sum::<f64>());
     let solved = dense::solved(normal.as_ref(), rhs);
     let law: Vec<f64> = solved.col(0).iter().copied().collect();
     law.iter().all(|v| v.is_finite()).then_some(law)

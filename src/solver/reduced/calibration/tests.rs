@@ -51,19 +51,21 @@ fn the_bound_covers_fresh_cases_and_is_not_idle() {
     assert!((1800..2200).contains(&medians), "the likely error is the median: {medians} of 4000 below");
 }
 
+/// Errors of H_c that change their sign, normally distributed with a size that follows the place: the logarithm scatters
+/// by 1.1 everywhere.
+fn signed(count: usize, seed: u64) -> Vec<Evidence> {
+    let mut rng = Rng::with_seed(seed);
+    let mut cases = synthetic(count, seed);
+    for case in &mut cases {
+        let (a, b) = (rng.f64(), rng.f64());
+        let normal = (-2.0 * (1.0 - a).ln()).sqrt() * (2.0 * std::f64::consts::PI * b).cos();
+        case.errors.h_c = normal.abs() * (case.features.values[0] - 12.0).exp();
+    }
+    cases
+}
+
 #[test]
 fn errors_that_change_their_sign_do_not_loosen_the_bound() {
-    let signed = |count: usize, seed: u64| -> Vec<Evidence> {
-        let mut rng = Rng::with_seed(seed);
-        let mut cases = synthetic(count, seed);
-        for case in &mut cases {
-            // Normally distributed with a size that follows the place: the logarithm scatters by 1.1 everywhere.
-            let (a, b) = (rng.f64(), rng.f64());
-            let normal = (-2.0 * (1.0 - a).ln()).sqrt() * (2.0 * std::f64::consts::PI * b).cos();
-            case.errors.h_c = normal.abs() * (case.features.values[0] - 12.0).exp();
-        }
-        cases
-    };
     let calibration = Calibration::fit(&signed(1000, 8)).unwrap();
     let ratio = |case: &Evidence| calibration.estimate(&case.features).h_c.bound / case.errors.h_c;
     let mut ratios: Vec<f64> = signed(4000, 9).iter().map(ratio).collect();
@@ -71,6 +73,33 @@ fn errors_that_change_their_sign_do_not_loosen_the_bound() {
     assert!(ratios[40] >= 1.0, "the bound covers 99 %: {}", ratios[40]);
     // The best there is has 4.3.
     assert!(ratios[2000] < 5.2, "{}", ratios[2000]);
+}
+
+#[test]
+fn windows_with_little_evidence_each_learn_together() {
+    // Windows are unlike in how large their errors are.
+    let window = |k: usize, count: usize, seed: u64| -> Vec<Evidence> {
+        let mut cases = signed(count, seed);
+        cases.iter_mut().for_each(|case| case.errors.h_c *= [1.0, 2.0, 4.0][k % 3]);
+        cases
+    };
+    let evidence: Vec<Vec<Evidence>> = (0..24).map(|k| window(k, if k == 7 { 10 } else { 40 }, k as u64)).collect();
+    let slices: Vec<&[Evidence]> = evidence.iter().map(Vec::as_slice).collect();
+    assert!(Calibration::fit(slices[0]).is_none(), "alone they would not learn");
+    let together = Calibration::fit_together(&slices);
+    assert!(together[7].is_none(), "what was hardly measured says nothing");
+    let mut ratios = Vec::new();
+    for (k, calibration) in together.iter().enumerate().filter_map(|(k, known)| Some((k, known.as_ref()?))) {
+        assert_eq!(calibration.evidence(), 40);
+        let ratio = |case: &Evidence| calibration.estimate(&case.features).h_c.bound / case.errors.h_c;
+        ratios.extend(window(k, 100, 100 + k as u64).iter().map(ratio));
+    }
+    assert_eq!(ratios.len(), 2300);
+    ratios.sort_by(f64::total_cmp);
+    assert!(ratios[23] >= 1.0, "the bound covers 99 %: {}", ratios[23]);
+    // The best there is has 4.3.
+    assert!(ratios[1150] < 6.0, "{}", ratios[1150]);
+    assert!(Calibration::fit_together(&slices[..2]).iter().all(Option::is_none), "80 are too few together");
 }
 
 #[test]
